@@ -1,0 +1,28 @@
+# Everything comes from Debian packages (scripts/setup.sh). Used by the build and by the installed
+# package's configuration, so that both name the same targets.
+set(THREADS_PREFER_PTHREAD_FLAG ON)
+find_package(Threads REQUIRED)
+find_package(Eigen3 3.4 REQUIRED NO_MODULE)
+find_package(fmt 9 REQUIRED)
+find_package(spdlog REQUIRED)
+find_package(nlohmann_json 3 REQUIRED)
+find_package(tomlplusplus REQUIRED)
+find_package(CLI11 REQUIRED)
+find_package(OpenMP REQUIRED COMPONENTS CXX)
+find_package(HDF5 REQUIRED COMPONENTS C)
+
+if(NOT TARGET rondo_cholmod)
+  find_library(CHOLMOD_LIBRARY cholmod REQUIRED)
+  find_path(CHOLMOD_INCLUDE_DIR cholmod.h PATH_SUFFIXES suitesparse REQUIRED)
+  add_library(rondo_cholmod INTERFACE IMPORTED)
+  target_link_libraries(rondo_cholmod INTERFACE ${CHOLMOD_LIBRARY})
+  target_include_directories(rondo_cholmod SYSTEM INTERFACE ${CHOLMOD_INCLUDE_DIR})
+
+  find_path(SPECTRA_INCLUDE_DIR Spectra/SymEigsSolver.h REQUIRED)
+  add_library(rondo_spectra INTERFACE IMPORTED)
+  target_include_directories(rondo_spectra SYSTEM INTERFACE ${SPECTRA_INCLUDE_DIR})
+
+  add_library(rondo_hdf5 INTERFACE IMPORTED)
+  target_link_libraries(rondo_hdf5 INTERFACE ${HDF5_C_LIBRARIES})
+  target_include_directories(rondo_hdf5 SYSTEM INTERFACE ${HDF5_C_INCLUDE_DIRS})
+endif()

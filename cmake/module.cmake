@@ -1,0 +1,26 @@
+# rondo_module(NAME SOURCES a.cpp ... [PUBLIC libs] [PRIVATE libs])
+# One static library per folder of src/rondo; rondo::NAME is its alias, inside and after install.
+function(rondo_compile_options target)
+  # No contraction: the same source gives the same bits at every optimisation level.
+  target_compile_options(${target} PRIVATE -Wall -Wextra -Wconversion -Wshadow -Wpedantic
+                                           -ffp-contract=off
+                                           $<$<BOOL:${RONDO_WERROR}>:-Werror>)
+  if(RONDO_SANITIZE)
+    target_compile_options(${target} PRIVATE -fsanitize=${RONDO_SANITIZE} -fno-omit-frame-pointer)
+    target_link_options(${target} PUBLIC -fsanitize=${RONDO_SANITIZE})
+  endif()
+endfunction()
+
+function(rondo_module name)
+  cmake_parse_arguments(ARG "" "" "SOURCES;PUBLIC;PRIVATE" ${ARGN})
+  set(target rondo_${name})
+  add_library(${target} STATIC ${ARG_SOURCES})
+  add_library(rondo::${name} ALIAS ${target})
+  set_target_properties(${target} PROPERTIES EXPORT_NAME ${name})
+  target_include_directories(${target} PUBLIC $<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}/src>
+                                              $<INSTALL_INTERFACE:include>)
+  target_compile_features(${target} PUBLIC cxx_std_20)
+  target_link_libraries(${target} PUBLIC ${ARG_PUBLIC} PRIVATE ${ARG_PRIVATE})
+  rondo_compile_options(${target})
+  set_property(GLOBAL APPEND PROPERTY RONDO_MODULES ${target})
+endfunction()

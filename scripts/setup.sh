@@ -1,0 +1,38 @@
+#!/usr/bin/env bash
+# Installs what rondo needs to build, run and test, from Debian packages (Debian 12 or later).
+# Works as root, or with sudo. Installs only what is missing.
+set -euo pipefail
+
+packages=(
+  build-essential cmake ninja-build ccache git       # build
+  libeigen3-dev libsuitesparse-dev libspectra-dev    # linear algebra, sparse Cholesky, eigenvalues
+  libhdf5-dev nlohmann-json3-dev libtomlplusplus-dev # files
+  libcli11-dev libfmt-dev libspdlog-dev              # command line, text, log
+  libgtest-dev clang-format clang-tidy               # tests
+  libbenchmark-dev                                   # bench/
+  python3 python3-numpy python3-h5py python3-matplotlib # pictures; a second reader of the results
+)
+
+missing=()
+for package in "${packages[@]}"; do
+  dpkg-query -W -f='${db:Status-Status}' "$package" 2>/dev/null | grep -qx installed ||
+    missing+=("$package")
+done
+if [ ${#missing[@]} -eq 0 ]; then
+  echo "setup: all ${#packages[@]} packages are installed"
+  exit 0
+fi
+
+as_root=()
+if [ "$(id -u)" -ne 0 ]; then
+  command -v sudo >/dev/null || {
+    echo "setup: these packages are missing and neither root nor sudo is at hand: ${missing[*]}" >&2
+    exit 1
+  }
+  as_root=(sudo)
+fi
+echo "setup: installing ${missing[*]}"
+"${as_root[@]}" apt-get update -qq
+"${as_root[@]}" env DEBIAN_FRONTEND=noninteractive \
+  apt-get install -y -qq --no-install-recommends "${missing[@]}"
+echo "setup: done"

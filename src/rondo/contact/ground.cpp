@@ -1,0 +1,177 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "rondo/contact/ground.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "rondo/core/contract.hpp"
+
+namespace rondo::contact {
+namespace {
+
+constexpr double infinity = std::numeric_limits<double>::infinity();
+constexpr double straight = 1e-12;  ///< turns below this angle are no corners [rad]
+
+Vec2 direction(const std::vector<Vec2>& p, std::size_t i) {
+  const Vec2 d = p[i + 1] - p[i];
+  return d / norm(d);
+}
+
+/// Angle by which the profile turns at its interior point i: > 0 to the left, a concave corner.
+double turn_at(const std::vector<Vec2>& p, std::size_t i) {
+  const Vec2 a = direction(p, i - 1), b = direction(p, i);
+  return std::atan2(cross(a, b), dot(a, b));
+}
+
+/// Length that the fillet at point i takes from each of the segments beside it.
+double fillet_reach(const GroundShape& shape, std::size_t i) {
+  if (i == 0 || i + 1 == shape.profile.size()) return 0.0;
+  const double turn = turn_at(shape.profile, i);
+  return turn < -straight ? shape.fillet * std::tan(-0.5 * turn) : 0.0;
+}
+
+std::vector<ShapeFault> point_faults(const std::vector<Vec2>& p) {
+  std::vector<ShapeFault> faults;
+  for (std::size_t i = 0; i + 1 < p.size(); ++i) {
+    const int point = static_cast<int>(i) + 1;
+    if (p[i] == p[i + 1])
+      faults.push_back({point, false, "coincides with the point before it"});
+    else if (p[i + 1].x < p[i].x)
+      faults.push_back({point, false,
+                        "the profile goes back to the left; it is walked from left to right with "
+                        "the solid on its right-hand side"});
+  }
+  if (!faults.empty()) return faults;
+  for (std::size_t i = 1; i + 1 < p.size(); ++i)
+    if (std::abs(turn_at(p, i)) > 3.1)
+      faults.push_back({static_cast<int>(i), false, "the profile turns back on itself here"});
+  return faults;
+}
+
+std::vector<ShapeFault> fillet_faults(const GroundShape& shape) {
+  std::vector<ShapeFault> faults;
+  const auto& p = shape.profile;
+  for (std::size_t i = 1; i + 1 < p.size(); ++i)
+    if (turn_at(p, i) < -straight && shape.fillet <= 0.0)
+      faults.push_back({static_cast<int>(i), false,
+                        "a convex corner needs a fillet in this version (a sharp corner would pass "
+                        "between two nodes): set ground.fillet > 0"});
+  // The end segments go on for ever, so a fillet always fits beside its outer end.
+  for (std::size_t i = 1; i + 2 < p.size(); ++i) {
+    const double length = norm(p[i + 1] - p[i]);
+    const double needed = fillet_reach(shape, i) + fillet_reach(shape, i + 1);
+    if (needed > length * (1.0 + 1e-12))
+      faults.push_back({static_cast<int>(i), true,
+                        fmt::format("the fillet does not fit: it needs {:.6g} m of the {:.6g} m "
+                                    "between points {} and {} of the profile",
+                                    needed, length, i, i + 1)});
+  }
+  return faults;
+}
+
+}  // namespace
+
+std::vector<ShapeFault> shape_faults(const GroundShape& shape) {
+  if (shape.profile.size() < 2) return {{-1, false, "needs at least two points"}};
+  std::vector<ShapeFault> faults = point_faults(shape.profile);
+  return faults.empty() ? fillet_faults(shape) : faults;
+}
+
+Ground::Ground(const GroundShape& shape) {
+  RONDO_DEMAND(shape_faults(shape).empty(), shape.profile.size(), shape.fillet);
+  const auto& p = shape.profile;
+  const std::size_t n = p.size() - 1;
+  double length = 0.0;
+  for (std::size_t i = 0; i < n; ++i) {
+    const Vec2 t = direction(p, i);
+    const double lead = fillet_reach(shape, i), trail = fillet_reach(shape, i + 1);
+    const double to = norm(p[i + 1] - p[i]) - lead - trail;
+    Facet segment{.begin = p[i] + lead * t, .tangent = t, .normal = turn90(t), .center = {}};
+    segment.from = i == 0 ? -infinity : 0.0;
+    segment.to = i + 1 == n ? infinity : to;
+    segment.start_length = length;
+    segment.concave_end = i + 1 < n && turn_at(p, i + 1) > straight;
+    facets_.push_back(segment);
+    length += to;
+    if (trail > 0.0) {
+      Facet arc{.begin = p[i + 1] - trail * t, .tangent = t, .normal = turn90(t), .center = {}};
+      arc.radius = shape.fillet;
+      arc.center = arc.begin - arc.radius * arc.normal;
+      arc.to = -turn_at(p, i + 1) * arc.radius;
+      arc.start_length = length;
+      facets_.push_back(arc);
+      length += arc.to;
+    }
+  }
+  if (direction(p, 0).y >= 0.0 && direction(p, n - 1).y <= 0.0)
+    top_ = std::max_element(p.begin(), p.end(), [](Vec2 a, Vec2 b) { return a.y < b.y; })->y;
+}
+
+Ground::Projection Ground::project(const Facet& f, Vec2 x) noexcept {
+  Projection out;
+  if (f.radius > 0.0) {
+    const Vec2 offset = x - f.center;
+    const double r = norm(offset);
+    const double angle = std::atan2(-cross(f.normal, offset), dot(f.normal, offset));  // clockwise
+    out.along = std::clamp(f.radius * angle, f.from, f.to);
+    out.gap = r - f.radius;
+    out.normal = r > 0.0 ? offset / r : f.normal;
+    out.distance = norm(x - (f.center + f.radius * (rotation(-out.along / f.radius) * f.normal)));
+    return out;
+  }
+  const Vec2 offset = x - f.begin;
+  out.along = std::clamp(dot(f.tangent, offset), f.from, f.to);
+  out.gap = dot(f.normal, offset);
+  out.normal = f.normal;
+  out.distance = norm(offset - out.along * f.tangent);
+  return out;
+}
+
+std::size_t Ground::nearest(Vec2 x, Projection& projection) const noexcept {
+  std::size_t best = 0;
+  projection = project(facets_[0], x);
+  for (std::size_t k = 1; k < facets_.size(); ++k) {
+    const Projection candidate = project(facets_[k], x);
+    if (candidate.distance < projection.distance) {
+      projection = candidate;
+      best = k;
+    }
+  }
+  return best;
+}
+
+Touches Ground::touches(Vec2 x) const noexcept {
+  Touches out;
+  if (x.y > top_) return out;
+  Projection p;
+  const std::size_t k = nearest(x, p);
+  if (p.gap > 0.0) return out;
+  out.at[0] = {p.gap, p.normal};
+  out.count = 1;
+  // Behind a concave corner the facet beside the nearest one holds the point back as well.
+  const auto also = [&](const Facet& facet) {
+    const Projection q = project(facet, x);
+    if (q.gap > 0.0 || (out.count == 2 && q.gap > out.at[1].gap)) return;
+    out.at[1] = {q.gap, q.normal};
+    out.count = 2;
+  };
+  if (facets_[k].concave_end) also(facets_[k + 1]);
+  if (k > 0 && facets_[k - 1].concave_end) also(facets_[k - 1]);
+  if (out.count == 2 && out.at[1].gap < out.at[0].gap) std::swap(out.at[0], out.at[1]);
+  return out;
+}
+
+double Ground::distance(Vec2 x) const noexcept {
+  Projection p;
+  static_cast<void>(nearest(x, p));
+  return p.gap > 0.0 ? p.distance : -p.distance;
+}
+
+double Ground::abscissa(Vec2 x) const noexcept {
+  Projection p;
+  return facets_[nearest(x, p)].start_length + p.along;
+}
+
+}  // namespace rondo::contact

@@ -1,0 +1,81 @@
+// SPDX-License-Identifier: BSD-3-Clause
+/// @file  Rigid ground: the solid on the right-hand side of a polyline walked from left to right
+/// (so: below it), its convex corners rounded by a fillet (docs/theory.md, section 4.1).
+#pragma once
+#include <array>
+#include <cstddef>
+#include <limits>
+#include <string>
+#include <vector>
+
+#include "rondo/core/vec2.hpp"
+
+namespace rondo::contact {
+
+/// What the user gives. The end segments go on for ever.
+struct GroundShape {
+  std::vector<Vec2> profile{{-1.0, 0.0}, {1.0, 0.0}};  ///< (>= 2) corners, left to right    [m]
+  double fillet = 0.0;                                 ///< radius at convex corners, >= 0   [m]
+};
+
+/// Something wrong with a shape; `point` is the index of the profile's point it is about, or -1.
+struct ShapeFault {
+  int point = -1;
+  bool about_fillet = false;
+  std::string message;
+};
+
+/// All that is wrong with a shape: under two points, coincident points, a profile that goes back to
+/// the left or turns back on itself, a convex corner without a fillet, a fillet that does not fit.
+std::vector<ShapeFault> shape_faults(const GroundShape& shape);
+
+/// A place where a point touches the ground.
+struct Touch {
+  double gap = 0.0;  ///< signed distance to the facet, > 0 outside                          [m]
+  Vec2 normal;       ///< unit, out of the solid; the tangent is J n
+};
+
+/// At most two facets at once (concave corner), the deepest first.
+struct Touches {
+  int count = 0;
+  std::array<Touch, 2> at;
+};
+
+class Ground {
+ public:
+  /// @pre shape_faults(shape) is empty.
+  explicit Ground(const GroundShape& shape);
+
+  /// Facets with gap <= 0 at x. O(facets); one comparison where x is above the whole ground.
+  [[nodiscard]] Touches touches(Vec2 x) const noexcept;
+  /// Signed distance to the surface, > 0 outside                                           [m]
+  [[nodiscard]] double distance(Vec2 x) const noexcept;
+  /// Length along the surface, from the first point of the profile, of the point nearest to x [m]
+  [[nodiscard]] double abscissa(Vec2 x) const noexcept;
+
+ private:
+  /// A straight facet, or a fillet's arc (radius > 0).
+  struct Facet {
+    Vec2 begin;            ///< [m]
+    Vec2 tangent, normal;  ///< segments: unit vectors; arcs: normal at `begin`
+    Vec2 center;           ///< arcs [m]
+    double radius = 0.0;   ///< arcs [m]
+    double from = 0.0;     ///< abscissa of its ends along the facet; the first segment's from is
+    double to = 0.0;       ///<   -inf, the last one's to is +inf                          [m]
+    double start_length = 0.0;  ///< length of the surface before abscissa 0                [m]
+    bool concave_end = false;   ///< a concave corner between this facet and the next
+  };
+  struct Projection {
+    double gap = 0.0;       ///< signed distance to the facet's line or circle              [m]
+    double along = 0.0;     ///< abscissa of the foot, on the facet                          [m]
+    double distance = 0.0;  ///< to the facet's nearest point, >= 0                          [m]
+    Vec2 normal;
+  };
+  [[nodiscard]] static Projection project(const Facet& facet, Vec2 x) noexcept;
+  [[nodiscard]] std::size_t nearest(Vec2 x, Projection& projection) const noexcept;
+
+  std::vector<Facet> facets_;
+  double top_ = std::numeric_limits<double>::infinity();  ///< no ground above this height   [m]
+};
+
+}  // namespace rondo::contact

@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: BSD-3-Clause
+/// @file  Signorini–Coulomb impact law of one contact, solved in closed form (docs/theory.md, 4.3).
+/// Contact frame: x is normal (> 0 separates), y is tangential (t = J n); r acts on the node.
+/// Method: Moreau, CMAME 177 (1999) 329; Fekak et al., Comput. Mech. 60 (2017) 1.
+#pragma once
+#include "rondo/core/vec2.hpp"
+
+namespace rondo::contact {
+
+struct Law {
+  double friction = 0.0;     ///< μ >= 0 [-]
+  double restitution = 0.0;  ///< e in [0, 1] [-]
+};
+
+enum class Status { open, stick, slip };
+
+/// One contact of one step.
+struct LocalProblem {
+  Vec2 free;            ///< relative velocity without this contact's impulse            [m/s]
+  Vec2 delassus;        ///< W as a complex number: w = free + W r                        [1/kg·m]
+  double bounce = 0.0;  ///< e min(w_n⁻, 0) <= 0: added to w_n in the law           [m/s]
+};
+
+struct LocalSolution {
+  Vec2 impulse;  ///< r = (r_n, r_t) of the ground on the node                      [N·s/m]
+  Status status = Status::open;
+};
+
+/// 0 <= r_n ⊥ w_n + bounce >= 0; |r_t| <= μ r_n, r_t = -μ r_n w_t/|w_t| where w_t ≠ 0   (4.5)
+/// @pre Re W > μ |Im W|: one solution.   @post r_n >= 0, |r_t| <= μ r_n (to round-off).
+LocalSolution solve_local(const LocalProblem& problem, double friction) noexcept;
+
+}  // namespace rondo::contact

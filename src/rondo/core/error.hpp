@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: BSD-3-Clause
+/// @file  The user's faults and the machine's, as typed exceptions caught in apps/ only.
+/// Outcomes of the numerics are never exceptions: they are reports the caller reads.
+#pragma once
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+namespace rondo {
+
+/// One thing that is wrong in what the user gave.
+struct Fault {
+  std::string file;     ///< case file, or "--set"; empty: not tied to a file
+  int line = 0;         ///< from 1; 0: unknown
+  int column = 0;       ///< from 1; 0: unknown
+  std::string key;      ///< dotted key, e.g. "disk.inner_radius"; may be empty
+  std::string found;    ///< the value found, as written; may be empty
+  std::string message;  ///< what is wrong
+  std::string allowed;  ///< what is allowed, or what to do; may be empty
+
+  /// "case.toml:12:3: disk.inner_radius = 0.4: must be ... (allowed: ...)"
+  [[nodiscard]] std::string text() const;
+};
+
+/// Wrong input or usage (exit code 2): all faults found, never only the first.
+class InputError : public std::runtime_error {
+ public:
+  explicit InputError(std::vector<Fault> faults);
+  explicit InputError(Fault fault);
+  [[nodiscard]] const std::vector<Fault>& faults() const { return faults_; }
+
+ private:
+  std::vector<Fault> faults_;
+};
+
+/// A file that cannot be written or read, or is damaged (exit code 4).
+class FileError : public std::runtime_error {
+ public:
+  FileError(const std::string& path, const std::string& what)
+      : std::runtime_error(path + ": " + what) {}
+};
+
+}  // namespace rondo

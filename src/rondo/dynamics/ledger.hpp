@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: BSD-3-Clause
+/// @file  Energy ledger of a run: closes to round-off at every step (docs/theory.md, section 5).
+/// Computed from the states before and after a step, outside the stepper.
+#pragma once
+#include "rondo/core/sum.hpp"
+#include "rondo/core/threads.hpp"
+#include "rondo/dynamics/model.hpp"
+
+namespace rondo::dynamics {
+
+/// Works since the start, to the half step n+1/2 [J/m].
+struct Works {
+  double frame = 0.0;    ///< inertia of the frame and gravity
+  double contact = 0.0;  ///< = rim - friction - impact
+  double dissipation_friction = 0.0;
+  double loss_impact = 0.0;
+  double rim = 0.0;  ///< done by the rim against the ground's impulses
+  double dissipation_mass = 0.0;
+  double dissipation_stiffness = 0.0;
+  double scheme = 0.0;  ///< 0 for symplectic; what the scheme as printed creates
+};
+
+/// The balance at half step n+1/2.
+struct Balance {
+  double kinetic = 0.0;  ///< ½ v_{n+1/2}ᵀ M v_{n+1/2}                               [J/m]
+  double strain = 0.0;   ///< ½ u_{n+1}ᵀ K u_n                                       [J/m]
+  Works works;
+  double residual = 0.0;   ///< E - E_{1/2} - works                                    [J/m]
+  double exchanged = 0.0;  ///< largest so far of |E| + Σ |works|, work_scheme left out [J/m]
+  double relative = 0.0;   ///< largest so far of |residual| / (exchanged, with |work_scheme|)
+};
+
+class Ledger {
+ public:
+  explicit Ledger(const Model& model);
+
+  /// Call when u_{n+1} is known and state.force_before = K u_n: E_{n+1/2} against the works so far.
+  void balance(const Model& model, const State& state) noexcept;
+  /// Call when v_{n+3/2}, K u_{n+1} and the contacts are known: adds the works of the step.
+  void add_works(const Model& model, const State& state) noexcept;
+
+  [[nodiscard]] const Balance& last() const noexcept { return balance_; }
+
+ private:
+  void add_contact(const Model& model, const State& state) noexcept;
+
+  BlockSums<2> energy_sums_;
+  BlockSums<4> work_sums_;
+  CompensatedSum frame_, contact_, friction_, impact_, rim_, mass_, stiffness_, scheme_;
+  double start_ = 0.0;
+  double exchanged_all_ = 0.0;
+  bool started_ = false;
+  Balance balance_;
+};
+
+}  // namespace rondo::dynamics

@@ -1,0 +1,75 @@
+// SPDX-License-Identifier: BSD-3-Clause
+/// @file  Model and state of a run. The model is fixed while the run goes on; the state is sized
+/// once.
+#pragma once
+#include <cstddef>
+#include <optional>
+#include <vector>
+
+#include "rondo/contact/ground.hpp"
+#include "rondo/contact/law.hpp"
+#include "rondo/dynamics/motion.hpp"
+#include "rondo/dynamics/scheme.hpp"
+#include "rondo/fem/assembly.hpp"
+
+namespace rondo::dynamics {
+
+/// Contact candidates and what they may touch.
+struct ContactModel {
+  contact::Ground ground;
+  contact::Law law;
+  std::vector<int> nodes;         ///< (nb) candidates; none is clamped
+  std::vector<double> tributary;  ///< (nb) length of boundary each stands for [m]
+};
+
+struct Model {
+  std::vector<Vec2> reference;     ///< (n) X                        [m]
+  std::vector<double> mass;        ///< (n) lumped, > 0              [kg/m]
+  std::vector<int> free;           ///< nodes that move, ascending
+  fem::BlockCsr stiffness;         ///< K on the free nodes          [N/m²]
+  double mass_damping = 0.0;       ///< α                            [1/s]
+  double stiffness_damping = 0.0;  ///< β                            [s]
+  Motion motion;
+  std::optional<ContactModel> contact;
+  Scheme scheme = Scheme::symplectic;
+  double dt = 0.0;  ///< Δt                           [s]
+  int threads = 1;
+
+  [[nodiscard]] std::size_t n_nodes() const noexcept { return reference.size(); }
+};
+
+/// A contact of the step just done, in its frame (normal, tangential).
+struct ActiveContact {
+  std::size_t candidate = 0;  ///< place in ContactModel::nodes
+  Vec2 normal;                ///< out of the ground, fixed frame
+  double gap = 0.0;           ///< at t_{n+1}, <= 0                             [m]
+  Vec2 before;                ///< w⁻: relative velocity of the step that came  [m/s]
+  Vec2 free;                  ///< w without impulse                            [m/s]
+  Vec2 after;                 ///< w⁺: of the step to come                      [m/s]
+  Vec2 impulse;               ///< r of the ground on the node                  [N·s/m]
+  double bounce = 0.0;        ///< e min(w_n⁻, 0)                               [m/s]
+  contact::Status status = contact::Status::open;
+};
+
+/// After step n: displacement and forces at t_{n+1}, velocities half a step before and after.
+struct State {
+  State() = default;
+  explicit State(const Model& model);
+
+  long long step = 0;                     ///< n + 1: number of the displacement
+  FrameStep frame;                        ///< of t_{n+1}
+  std::vector<Vec2> u;                    ///< (n) u_{n+1}, turning frame                [m]
+  std::vector<Vec2> v;                    ///< (n) v_{n+1/2} (at step 0: v_0)            [m/s]
+  std::vector<Vec2> v_next;               ///< (n) v_{n+3/2}                             [m/s]
+  std::vector<Vec2> force;                ///< (n) K u_{n+1}                             [N/m]
+  std::vector<Vec2> force_before;         ///< (n) K u_n                               [N/m]
+  std::vector<ActiveContact> active;      ///< capacity for every candidate twice
+  std::vector<std::array<Vec2, 2>> warm;  ///< (nb) last impulses of a candidate's two facets
+};
+
+/// Position of a node in the fixed frame at t_{n+1} [m].
+inline Vec2 position(const Model& model, const State& state, std::size_t node) noexcept {
+  return state.frame.center + state.frame.rotation * (model.reference[node] + state.u[node]);
+}
+
+}  // namespace rondo::dynamics

@@ -1,0 +1,74 @@
+// SPDX-License-Identifier: BSD-3-Clause
+/// @file  Motion of the rim: angle and centre, integrated exactly (docs/theory.md, section 1).
+#pragma once
+#include <array>
+#include <vector>
+
+#include "rondo/core/vec2.hpp"
+
+namespace rondo::dynamics {
+
+/// A piecewise-linear function of time; constant before its first and after its last point.
+class Table {
+ public:
+  Table() = default;
+  explicit Table(double constant) : points_{{{0.0, constant}}} {}
+  /// @pre at least one point, times strictly increasing, all finite.
+  explicit Table(std::vector<std::array<double, 2>> points);
+
+  [[nodiscard]] double at(double t) const noexcept;
+  /// Slope just after t: piecewise constant.
+  [[nodiscard]] double slope(double t) const noexcept;
+  /// ∫ over [from, from + length], exact: the same at every step where the table is constant.
+  [[nodiscard]] double integral(double from, double length) const noexcept;
+  /// Change over [from, from + length], without cancellation of the value.
+  [[nodiscard]] double change(double from, double length) const noexcept;
+  /// Largest |value| at the points.
+  [[nodiscard]] double largest() const noexcept;
+  [[nodiscard]] const std::vector<std::array<double, 2>>& points() const noexcept {
+    return points_;
+  }
+
+ private:
+  std::vector<std::array<double, 2>> points_{{{0.0, 0.0}}};
+};
+
+struct Motion {
+  Table angular_velocity;  ///< ω > 0 rolls towards +x; counter-clockwise rate s = -ω  [rad/s]
+  Table speed;             ///< V, of the centre along x                               [m/s]
+  Table height;            ///< h, of the centre above y = 0                           [m]
+  double start_x = 0.0;    ///< x of the centre at t = 0                               [m]
+  double gravity = 0.0;    ///< downwards                                              [m/s2]
+
+  [[nodiscard]] double angle(double t) const noexcept { return turn(0.0, t); }
+  /// θ(from + length) - θ(from)                                                         [rad]
+  [[nodiscard]] double turn(double from, double length) const noexcept {
+    return -angular_velocity.integral(from, length);
+  }
+  [[nodiscard]] Vec2 center(double t) const noexcept {
+    return {start_x + speed.integral(0, t), height.at(t)};
+  }
+  /// c(from + length) - c(from), without cancellation of the position. Before t = 0 the centre is
+  /// taken to have moved with its initial velocity and acceleration: the start is no kink.
+  [[nodiscard]] Vec2 advance(double from, double length) const noexcept;
+};
+
+/// All that a step at t_{n+1} needs to know of the frame.
+struct FrameStep {
+  double time = 0.0;         ///< t_{n+1}                                               [s]
+  double spin = 0.0;         ///< s = θ̇, counter-clockwise                              [rad/s]
+  double spin_rate = 0.0;    ///< ṡ                                                     [rad/s2]
+  double angle = 0.0;        ///< θ_{n+1}                                               [rad]
+  double turn = 0.0;         ///< θ_{n+2} - θ_{n+1}                                     [rad]
+  double turn_before = 0.0;  ///< θ_{n+1} - θ_n                                         [rad]
+  Vec2 rotation;             ///< e^{iθ_{n+1}}
+  Vec2 center;               ///< c_{n+1}                                               [m]
+  Vec2 advance;              ///< c_{n+2} - c_{n+1}                                     [m]
+  Vec2 advance_before;       ///< c_{n+1} - c_n                                         [m]
+  Vec2 pull;                 ///< Rᵀ (c̈ - g) in the turning frame                       [m/s2]
+};
+
+/// The frame at t = n dt.
+FrameStep frame_step(const Motion& motion, long long n, double dt) noexcept;
+
+}  // namespace rondo::dynamics

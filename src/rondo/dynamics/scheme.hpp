@@ -1,0 +1,25 @@
+// SPDX-License-Identifier: BSD-3-Clause
+/// @file  How the velocity terms are taken in the step (docs/theory.md, 3.3 and 3.4).
+#pragma once
+#include "rondo/core/vec2.hpp"
+
+namespace rondo::dynamics {
+
+enum class Scheme {
+  symplectic,  ///< at the mean of the two half steps: keeps energy
+  as_printed,  ///< at the old half step, as printed by Adam et al. 2017: feeds one family of waves
+};
+
+/// The velocity update of a node, v⁺ = v⁻ + [F - drag v⁻] / a, with F = (Δt f + i_c)/m.
+struct VelocityUpdate {
+  Vec2 a;     ///< symplectic: 1 + Δt α/2 + iΔt s   (3.5); as printed: 1
+  Vec2 drag;  ///< symplectic: 2 (a - 1);                  as printed: Δt (α + 2is)
+};
+
+constexpr VelocityUpdate velocity_update(Scheme scheme, double dt, double alpha,
+                                         double spin) noexcept {
+  if (scheme == Scheme::as_printed) return {{1.0, 0.0}, {dt * alpha, 2.0 * dt * spin}};
+  return {{1.0 + 0.5 * dt * alpha, dt * spin}, {dt * alpha, 2.0 * dt * spin}};
+}
+
+}  // namespace rondo::dynamics

@@ -1,0 +1,143 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "rondo/fem/assembly.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "rondo/core/contract.hpp"
+#include "rondo/fem/element.hpp"
+
+namespace rondo::fem {
+namespace {
+
+struct Corners {
+  std::array<Vec2, 4> x;
+  std::size_t n;
+  [[nodiscard]] std::span<const Vec2> span() const { return {x.data(), n}; }
+};
+
+Corners corners_of(const mesh::Mesh& mesh, const mesh::Cell& cell) {
+  Corners c{{}, static_cast<std::size_t>(mesh::n_corners(cell))};
+  for (std::size_t a = 0; a < c.n; ++a)
+    c.x[a] = mesh.coordinates[static_cast<std::size_t>(cell[a])];
+  return c;
+}
+
+/// Columns of each row: the free nodes that share a cell with it.
+BlockCsr pattern(const mesh::Mesh& mesh) {
+  const std::vector<char> clamped = clamped_flags(mesh);
+  const auto free = [&](int node) { return !clamped[static_cast<std::size_t>(node)]; };
+  std::vector<std::vector<std::int32_t>> rows(mesh.n_nodes());
+  for (const mesh::Cell& cell : mesh.cells)
+    for (int a = 0; a < mesh::n_corners(cell); ++a)
+      for (int b = 0; b < mesh::n_corners(cell); ++b) {
+        const int row = cell[static_cast<std::size_t>(a)],
+                  column = cell[static_cast<std::size_t>(b)];
+        if (free(row) && free(column)) rows[static_cast<std::size_t>(row)].push_back(column);
+      }
+  BlockCsr k;
+  k.row_start.push_back(0);
+  for (auto& row : rows) {
+    std::sort(row.begin(), row.end());
+    row.erase(std::unique(row.begin(), row.end()), row.end());
+    k.column.insert(k.column.end(), row.begin(), row.end());
+    k.row_start.push_back(static_cast<std::int64_t>(k.column.size()));
+    row = {};
+  }
+  k.values.assign(k.column.size(), BlockCsr::Block{});
+  return k;
+}
+
+BlockCsr::Block* find_block(BlockCsr& k, int row, int column) {
+  const auto begin = k.column.begin() + k.row_start[static_cast<std::size_t>(row)];
+  const auto end = k.column.begin() + k.row_start[static_cast<std::size_t>(row) + 1];
+  const auto it = std::lower_bound(begin, end, column);
+  return it != end && *it == column ? &k.values[static_cast<std::size_t>(it - k.column.begin())]
+                                    : nullptr;
+}
+
+void add_element(BlockCsr& k, const mesh::Cell& cell, const ElementMatrix& e) {
+  const int n = mesh::n_corners(cell);
+  for (int a = 0; a < n; ++a)
+    for (int b = 0; b < n; ++b) {
+      BlockCsr::Block* block =
+          find_block(k, cell[static_cast<std::size_t>(a)], cell[static_cast<std::size_t>(b)]);
+      if (!block) continue;
+      // Both triangles take the same entry of e, so that K is symmetric to the last bit.
+      const auto entry = [&](int i, int j) { return e(std::min(i, j), std::max(i, j)); };
+      (*block)[0] += entry(2 * a, 2 * b);
+      (*block)[1] += entry(2 * a + 1, 2 * b);
+      (*block)[2] += entry(2 * a, 2 * b + 1);
+      (*block)[3] += entry(2 * a + 1, 2 * b + 1);
+    }
+}
+
+}  // namespace
+
+BlockCsr assemble_stiffness(const mesh::Mesh& mesh, const Material& material) {
+  const Hooke d = hooke(material);
+  BlockCsr k = pattern(mesh);
+  for (const mesh::Cell& cell : mesh.cells) {
+    const Corners corners = corners_of(mesh, cell);
+    RONDO_DEMAND(smallest_jacobian(corners.span()) > 0.0, cell[0], cell[1], cell[2], cell[3]);
+    add_element(k, cell, element_stiffness(corners.span(), d));
+  }
+  return k;
+}
+
+std::vector<double> lumped_mass(const mesh::Mesh& mesh, double density) {
+  std::vector<double> mass(mesh.n_nodes(), 0.0);
+  for (const mesh::Cell& cell : mesh.cells) {
+    const Corners corners = corners_of(mesh, cell);
+    const std::array<double, 4> m = element_masses(corners.span(), density);
+    for (std::size_t a = 0; a < corners.n; ++a) mass[static_cast<std::size_t>(cell[a])] += m[a];
+  }
+  return mass;
+}
+
+double element_eigenvalue_bound(const mesh::Mesh& mesh, const Material& material) {
+  const Hooke d = hooke(material);
+  double bound = 0.0;
+  for (const mesh::Cell& cell : mesh.cells) {
+    const Corners corners = corners_of(mesh, cell);
+    ElementMatrix k = element_stiffness(corners.span(), d);
+    const std::array<double, 4> m = element_masses(corners.span(), material.density);
+    for (Eigen::Index i = 0; i < k.rows(); ++i)
+      for (Eigen::Index j = 0; j < k.cols(); ++j)
+        k(i, j) /=
+            std::sqrt(m[static_cast<std::size_t>(i / 2)] * m[static_cast<std::size_t>(j / 2)]);
+    const Eigen::SelfAdjointEigenSolver<ElementMatrix> solver(k, Eigen::EigenvaluesOnly);
+    bound = std::max(bound, solver.eigenvalues().maxCoeff());
+  }
+  return bound;
+}
+
+std::vector<int> free_nodes(const mesh::Mesh& mesh) {
+  const std::vector<char> clamped = clamped_flags(mesh);
+  std::vector<int> free;
+  for (std::size_t i = 0; i < mesh.n_nodes(); ++i)
+    if (!clamped[i]) free.push_back(static_cast<int>(i));
+  return free;
+}
+
+Eigen::SparseMatrix<double> free_matrix(const BlockCsr& k, std::span<const int> free) {
+  std::vector<int> place(k.n_rows(), -1);
+  for (std::size_t i = 0; i < free.size(); ++i)
+    place[static_cast<std::size_t>(free[i])] = static_cast<int>(i);
+  std::vector<Eigen::Triplet<double>> entries;
+  entries.reserve(4 * k.values.size());
+  for (std::size_t row = 0; row < k.n_rows(); ++row)
+    for (auto at = k.row_start[row]; at < k.row_start[row + 1]; ++at) {
+      const auto b = static_cast<std::size_t>(at);
+      const int i = place[row], j = place[static_cast<std::size_t>(k.column[b])];
+      for (int c = 0; c < 4; ++c)
+        entries.emplace_back(2 * i + c % 2, 2 * j + c / 2,
+                             k.values[b][static_cast<std::size_t>(c)]);
+    }
+  const auto n = static_cast<Eigen::Index>(2 * free.size());
+  Eigen::SparseMatrix<double> matrix(n, n);
+  matrix.setFromTriplets(entries.begin(), entries.end());
+  return matrix;
+}
+
+}  // namespace rondo::fem

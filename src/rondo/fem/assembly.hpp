@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: BSD-3-Clause
+/// @file  Global matrices: lumped mass and the stiffness in 2×2 blocks (docs/theory.md, 2.3–2.5).
+#pragma once
+#include <Eigen/SparseCore>
+#include <array>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "rondo/fem/elasticity.hpp"
+#include "rondo/mesh/mesh.hpp"
+
+namespace rondo::fem {
+
+/// Compressed sparse rows of 2×2 blocks, one row a node. Rows and columns of clamped nodes are
+/// empty: what is stored acts on free nodes.
+struct BlockCsr {
+  /// Stored column-major, [k_xx, k_yx, k_xy, k_yy]: a product adds column 0 times u_x, column 1
+  /// times u_y, which is what two-wide SIMD does.
+  using Block = std::array<double, 4>;
+
+  std::vector<std::int64_t> row_start;  ///< (n + 1) first block of a row
+  std::vector<std::int32_t> column;     ///< (blocks) node, ascending in a row
+  std::vector<Block> values;            ///< (blocks)                                     [N/m²]
+
+  [[nodiscard]] std::size_t n_rows() const noexcept { return row_start.size() - 1; }
+};
+
+/// Stiffness of the free nodes. Symmetric to the last bit. @pre no inverted element.
+BlockCsr assemble_stiffness(const mesh::Mesh& mesh, const Material& material);
+
+/// (n) Lumped mass of every node, clamped ones included: sums to ρ × area of the polygons [kg/m].
+std::vector<double> lumped_mass(const mesh::Mesh& mesh, double density);
+
+/// Upper bound of the largest eigenvalue of M⁻¹K by elements: max over elements of the largest
+/// eigenvalue of the element's own M_e⁻¹ K_e [1/s²] (Irons and Treharne 1972).
+double element_eigenvalue_bound(const mesh::Mesh& mesh, const Material& material);
+
+/// K of the free nodes as a symmetric scalar matrix, numbered 2·(place in `free`) + component.
+Eigen::SparseMatrix<double> free_matrix(const BlockCsr& k, std::span<const int> free);
+
+/// Nodes that are not clamped, ascending.
+std::vector<int> free_nodes(const mesh::Mesh& mesh);
+
+}  // namespace rondo::fem

@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: BSD-3-Clause
+/// @file  Isotropic linear elasticity in the plane (docs/theory.md, section 2.2).
+#pragma once
+
+namespace rondo::fem {
+
+enum class Plane { strain, stress };
+
+struct Material {
+  double youngs_modulus = 0.0;  ///< E > 0                                            [Pa]
+  double poissons_ratio = 0.0;  ///< -1 < ν < 1/2                                     [-]
+  double density = 0.0;         ///< ρ > 0                                            [kg/m3]
+  Plane plane = Plane::strain;
+};
+
+/// σ = D ε with ε = (ε_xx, ε_yy, γ_xy), D = [[d11, d12, 0], [d12, d11, 0], [0, 0, d33]].
+struct Hooke {
+  double d11 = 0.0;  ///< λ + 2μ (plane strain), E/(1-ν²) (plane stress)               [Pa]
+  double d12 = 0.0;  ///< [Pa]
+  double d33 = 0.0;  ///< shear modulus                                                [Pa]
+  double zz = 0.0;   ///< σ_zz = zz (σ_xx + σ_yy): ν in plane strain, 0 in plane stress [-]
+};
+
+Hooke hooke(const Material& material) noexcept;
+
+struct WaveSpeeds {
+  double pressure = 0.0;  ///< √(d11/ρ) [m/s]
+  double shear = 0.0;     ///< √(d33/ρ) [m/s]
+};
+
+WaveSpeeds wave_speeds(const Material& material) noexcept;
+
+}  // namespace rondo::fem

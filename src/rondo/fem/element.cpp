@@ -1,0 +1,135 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "rondo/fem/element.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "rondo/core/contract.hpp"
+
+namespace rondo::fem {
+namespace {
+
+using Strain = Eigen::Matrix<double, 3, Eigen::Dynamic, 0, 3, 8>;  ///< B: corner u -> (ε, γ)
+
+constexpr std::array<Vec2, 4> corner_xi{{{-1, -1}, {1, -1}, {1, 1}, {-1, 1}}};
+
+/// Gradients of the shape functions with respect to x, and det(∂x/∂ξ).
+struct Gradients {
+  std::array<Vec2, 4> n;
+  double jacobian;
+};
+
+Gradients quadrilateral_gradients(std::span<const Vec2> x, Vec2 xi) {
+  std::array<Vec2, 4> local;  // ∂N_a/∂ξ, N_a = (1 + ξ_a ξ)(1 + η_a η)/4   (2.2)
+  Vec2 dx_dxi, dx_deta;
+  for (std::size_t a = 0; a < 4; ++a) {
+    const Vec2 c = corner_xi[a];
+    local[a] = {0.25 * c.x * (1 + c.y * xi.y), 0.25 * c.y * (1 + c.x * xi.x)};
+    dx_dxi += local[a].x * x[a];
+    dx_deta += local[a].y * x[a];
+  }
+  Gradients g{{}, cross(dx_dxi, dx_deta)};
+  for (std::size_t a = 0; a < 4; ++a)
+    g.n[a] = Vec2{dx_deta.y * local[a].x - dx_dxi.y * local[a].y,
+                  dx_dxi.x * local[a].y - dx_deta.x * local[a].x} /
+             g.jacobian;
+  return g;
+}
+
+Gradients triangle_gradients(std::span<const Vec2> x) {
+  Gradients g{{}, cross(x[1] - x[0], x[2] - x[0])};
+  for (std::size_t a = 0; a < 3; ++a) g.n[a] = turn90(x[(a + 2) % 3] - x[(a + 1) % 3]) / g.jacobian;
+  return g;
+}
+
+Strain strain_matrix(const Gradients& g, std::size_t n) {
+  Strain b = Strain::Zero(3, static_cast<Eigen::Index>(2 * n));
+  for (std::size_t a = 0; a < n; ++a) {
+    const auto column = static_cast<Eigen::Index>(2 * a);
+    b(0, column) = b(2, column + 1) = g.n[a].x;
+    b(1, column + 1) = b(2, column) = g.n[a].y;
+  }
+  return b;
+}
+
+Eigen::Matrix3d matrix(const Hooke& d) {
+  Eigen::Matrix3d m = Eigen::Matrix3d::Zero();
+  m(0, 0) = m(1, 1) = d.d11;
+  m(0, 1) = m(1, 0) = d.d12;
+  m(2, 2) = d.d33;
+  return m;
+}
+
+const double gauss = 1.0 / std::sqrt(3.0);
+
+Stress stress_of(const Gradients& g, std::span<const Vec2> u, const Hooke& d) {
+  double exx = 0.0, eyy = 0.0, gxy = 0.0;
+  for (std::size_t a = 0; a < u.size(); ++a) {
+    exx += g.n[a].x * u[a].x;
+    eyy += g.n[a].y * u[a].y;
+    gxy += g.n[a].y * u[a].x + g.n[a].x * u[a].y;
+  }
+  const double xx = d.d11 * exx + d.d12 * eyy, yy = d.d12 * exx + d.d11 * eyy;
+  return {xx, yy, d.zz * (xx + yy), d.d33 * gxy};
+}
+
+}  // namespace
+
+ElementMatrix element_stiffness(std::span<const Vec2> corners, const Hooke& d) {
+  RONDO_DEMAND(corners.size() == 3 || corners.size() == 4, corners.size());
+  const Eigen::Matrix3d material = matrix(d);
+  if (corners.size() == 3) {
+    const Gradients g = triangle_gradients(corners);
+    const Strain b = strain_matrix(g, 3);
+    return 0.5 * g.jacobian * b.transpose() * material * b;
+  }
+  ElementMatrix k = ElementMatrix::Zero(8, 8);
+  for (const Vec2 corner : corner_xi) {
+    const Gradients g = quadrilateral_gradients(corners, gauss * corner);
+    const Strain b = strain_matrix(g, 4);
+    k += g.jacobian * b.transpose() * material * b;
+  }
+  return k;
+}
+
+std::array<double, 4> element_masses(std::span<const Vec2> corners, double density) {
+  if (corners.size() == 3) {
+    const double third = density * triangle_gradients(corners).jacobian / 6.0;
+    return {third, third, third, 0.0};
+  }
+  std::array<double, 4> masses{};
+  for (std::size_t a = 0; a < 4; ++a)
+    masses[a] = density * quadrilateral_gradients(corners, corner_xi[a]).jacobian;
+  return masses;
+}
+
+std::array<Stress, 4> element_stress(std::span<const Vec2> corners, std::span<const Vec2> u,
+                                     const Hooke& d) {
+  std::array<Stress, 4> out{};
+  if (corners.size() == 3) {
+    out.fill(stress_of(triangle_gradients(corners), u, d));
+    return out;
+  }
+  std::array<Stress, 4> at_gauss;
+  for (std::size_t q = 0; q < 4; ++q)
+    at_gauss[q] = stress_of(quadrilateral_gradients(corners, gauss * corner_xi[q]), u, d);
+  // The bilinear field through the Gauss points, at the corners: weights (1 ± √3 ξ_a ξ_q)/2.
+  const double reach = std::sqrt(3.0);
+  for (std::size_t a = 0; a < 4; ++a)
+    for (std::size_t q = 0; q < 4; ++q) {
+      const double weight = 0.25 * (1 + reach * corner_xi[a].x * corner_xi[q].x) *
+                            (1 + reach * corner_xi[a].y * corner_xi[q].y);
+      for (std::size_t k = 0; k < 4; ++k) out[a][k] += weight * at_gauss[q][k];
+    }
+  return out;
+}
+
+double smallest_jacobian(std::span<const Vec2> corners) noexcept {
+  if (corners.size() == 3) return triangle_gradients(corners).jacobian;
+  double smallest = quadrilateral_gradients(corners, corner_xi[0]).jacobian;
+  for (const Vec2 xi : corner_xi)
+    smallest = std::min(smallest, quadrilateral_gradients(corners, xi).jacobian);
+  return smallest;
+}
+
+}  // namespace rondo::fem

@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: BSD-3-Clause
+/// @file  Plane elements: 4-node quadrilateral (2×2 Gauss) and 3-node triangle (one point);
+/// docs/theory.md, section 2.2–2.4.
+#pragma once
+#include <Eigen/Dense>
+#include <array>
+#include <span>
+
+#include "rondo/core/vec2.hpp"
+#include "rondo/fem/elasticity.hpp"
+
+namespace rondo::fem {
+
+/// Up to four corners: 8×8 at most, no heap. Degrees of freedom 2a (x) and 2a+1 (y) of corner a.
+using ElementMatrix = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, 8, 8>;
+/// Stress at a corner: xx, yy, zz, xy [Pa].
+using Stress = std::array<double, 4>;
+
+/// ∫ Bᵀ D B (2.3), per unit thickness [N/m²]. @pre 3 or 4 corners, counter-clockwise, convex.
+ElementMatrix element_stiffness(std::span<const Vec2> corners, const Hooke& d);
+
+/// Lumped masses (2.5): quadrature at the corners, ρ det(∂x/∂ξ); triangles a third each [kg/m].
+/// Entries past the corners are 0.
+std::array<double, 4> element_masses(std::span<const Vec2> corners, double density);
+
+/// Stress at the corners: Gauss-point stress extrapolated bilinearly (quadrilateral), constant
+/// (triangle); exact for a linear displacement. `u`: one displacement a corner [m].
+std::array<Stress, 4> element_stress(std::span<const Vec2> corners, std::span<const Vec2> u,
+                                     const Hooke& d);
+
+/// Smallest det(∂x/∂ξ) over the corners [m²]: positive for an element that is not inverted
+/// (quadrilateral: a quarter of a parallelogram's area; triangle: twice its area).
+double smallest_jacobian(std::span<const Vec2> corners) noexcept;
+
+}  // namespace rondo::fem

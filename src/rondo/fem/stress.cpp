@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "rondo/fem/stress.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "rondo/fem/assembly.hpp"
+
+namespace rondo::fem {
+
+StressRecovery::StressRecovery(const mesh::Mesh& mesh, const Material& material)
+    : mesh_(mesh), hooke_(hooke(material)), nodal_(mesh.n_nodes()) {
+  const std::vector<double> total = lumped_mass(mesh, 1.0);
+  for (const mesh::Cell& cell : mesh.cells) {
+    std::array<Vec2, 4> x;
+    const auto n = static_cast<std::size_t>(mesh::n_corners(cell));
+    for (std::size_t a = 0; a < n; ++a) x[a] = mesh.coordinates[static_cast<std::size_t>(cell[a])];
+    std::array<double, 4> weight = element_masses({x.data(), n}, 1.0);
+    for (std::size_t a = 0; a < n; ++a) weight[a] /= total[static_cast<std::size_t>(cell[a])];
+    weight_.push_back(weight);
+  }
+}
+
+std::span<const Stress> StressRecovery::operator()(std::span<const Vec2> u) {
+  std::fill(nodal_.begin(), nodal_.end(), Stress{});
+  std::array<Vec2, 4> x, displacement;
+  for (std::size_t e = 0; e < mesh_.cells.size(); ++e) {
+    const mesh::Cell& cell = mesh_.cells[e];
+    const auto n = static_cast<std::size_t>(mesh::n_corners(cell));
+    for (std::size_t a = 0; a < n; ++a) {
+      x[a] = mesh_.coordinates[static_cast<std::size_t>(cell[a])];
+      displacement[a] = u[static_cast<std::size_t>(cell[a])];
+    }
+    const auto stress = element_stress({x.data(), n}, {displacement.data(), n}, hooke_);
+    for (std::size_t a = 0; a < n; ++a)
+      for (std::size_t k = 0; k < 4; ++k)
+        nodal_[static_cast<std::size_t>(cell[a])][k] += weight_[e][a] * stress[a][k];
+  }
+  return nodal_;
+}
+
+double von_mises(const Stress& s) noexcept {
+  const double a = s[0] - s[1], b = s[1] - s[2], c = s[2] - s[0];
+  return std::sqrt(0.5 * (a * a + b * b + c * c) + 3.0 * s[3] * s[3]);
+}
+
+}  // namespace rondo::fem

@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: BSD-3-Clause
+/// @file  Generated disks: rings of quadrilaterals between a rigid rim and a smooth or treaded top.
+/// Radii of the layers: r_k = ri + (rb - ri) (1 - (1 - k/n)^p), docs/theory.md (2.1).
+#pragma once
+#include <cstddef>
+#include <optional>
+
+#include "rondo/mesh/mesh.hpp"
+
+namespace rondo::mesh {
+
+/// Sculpture: equal pitches, each a land then a groove, counter-clockwise.
+struct Tread {
+  int pitches = 60;      ///< equal sectors of the disk, >= 3
+  double depth = 0.012;  ///< height of the lands                      [m], 0 < depth < ro - ri
+  int land_columns = 3;  ///< columns of quadrilaterals in a land, >= 1
+  int groove_columns =
+      1;           ///< columns of a groove, >= 1; all columns of a pitch have the same angle
+  int layers = 2;  ///< layers of quadrilaterals over the depth, >= 1
+};
+
+struct Disk {
+  double outer_radius = 0.30;  ///< to the top of the tread             [m]
+  double inner_radius = 0.15;  ///< bonded to the rim                   [m], 0 < ri < ro
+  int radial = 12;             ///< layers between the radii (with a tread: below the grooves), >= 1
+  int circumferential = 180;   ///< columns of a smooth disk, >= 3; unused with a tread
+  double grading = 1.0;        ///< p >= 1: finer near the tread
+  std::optional<Tread> tread;
+};
+
+/// Column 0 (the first land) starts at -90°, straight down; columns counter-clockwise. Nodes are
+/// numbered sector after sector, from the rim outwards. @pre the bounds above.
+Mesh make_disk(const Disk& disk);
+
+/// Number of nodes that make_disk would make, without making them (no overflow: 64 bits).
+std::size_t n_disk_nodes(const Disk& disk) noexcept;
+
+}  // namespace rondo::mesh

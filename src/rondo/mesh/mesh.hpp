@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: BSD-3-Clause
+/// @file  The mesh record: plain arrays, fixed in a run.
+#pragma once
+#include <array>
+#include <cstddef>
+#include <vector>
+
+#include "rondo/core/vec2.hpp"
+
+namespace rondo::mesh {
+
+/// Corner nodes, counter-clockwise; a triangle has -1 in the last place.
+using Cell = std::array<int, 4>;
+
+inline int n_corners(const Cell& cell) noexcept {
+  return cell[3] < 0 ? 3 : 4;
+}
+
+struct Mesh {
+  std::vector<Vec2> coordinates;  ///< (n) reference position X                                 [m]
+  std::vector<Cell> cells;        ///< (e) corner nodes
+  std::vector<int> clamped;       ///< nodes held in the turning frame (u = 0), ascending
+  std::vector<int> boundary;      ///< (nb) contact candidates, in order along the contact boundary
+  std::vector<double>
+      tributary;      ///< (nb) length of contact boundary that a candidate stands for [m]
+  int n_sectors = 0;  ///< equal sectors of a cyclic mesh; 0: not cyclic
+  std::vector<int>
+      sector;  ///< (n) sector of a node, counter-clockwise from -90°; empty: not cyclic
+  std::vector<int> sector_node;  ///< (n) number of a node within its sector; empty: not cyclic
+
+  [[nodiscard]] std::size_t n_nodes() const noexcept { return coordinates.size(); }
+};
+
+/// (n) 1 where a node is clamped.
+std::vector<char> clamped_flags(const Mesh& mesh);
+
+}  // namespace rondo::mesh

@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: BSD-3-Clause
+/// @file  Equilibrium of a body in stationary spin: (K - s²M) u = s² M X (docs/theory.md, 6.1).
+#pragma once
+#include <span>
+#include <vector>
+
+#include "rondo/fem/assembly.hpp"
+
+namespace rondo::statics {
+
+enum class SpinStatus {
+  solved,
+  unstable,  ///< K - s²M is not positive definite: the spin is beyond the softening limit
+};
+
+struct StationarySpin {
+  SpinStatus status = SpinStatus::unstable;
+  std::vector<Vec2> u;    ///< (n) turning frame, 0 on clamped nodes                [m]
+  double residual = 0.0;  ///< ‖K u - s²M(X + u)‖ / ‖s² M X‖ after the solve         [-]
+};
+
+/// Sparse Cholesky (CHOLMOD). @param spin s [rad/s]; others (n).
+[[nodiscard]] StationarySpin stationary_spin(const fem::BlockCsr& k, std::span<const double> mass,
+                                             std::span<const Vec2> reference,
+                                             std::span<const int> free, double spin);
+
+/// True where K - shift M is positive definite on the free nodes: every eigenvalue of M⁻¹K is above
+/// `shift` [1/s²]. By the same Cholesky factorisation.
+[[nodiscard]] bool eigenvalues_above(const fem::BlockCsr& k, std::span<const double> mass,
+                                     std::span<const int> free, double shift);
+
+}  // namespace rondo::statics

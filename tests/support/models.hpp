@@ -1,0 +1,85 @@
+// SPDX-License-Identifier: BSD-3-Clause
+/// @file  Small models that several tests share.
+#pragma once
+#include "rondo/dynamics/critical_step.hpp"
+#include "rondo/dynamics/stepper.hpp"
+#include "rondo/mesh/disk.hpp"
+
+namespace rondo::test {
+
+/// The smooth disk of cases/ledge-smooth.toml, with its damping.
+struct DiskCase {
+  mesh::Disk disk;
+  fem::Material material{2.0e7, 0.3, 1100.0, fem::Plane::strain};
+  double alpha = 200.0;
+  double beta = 2.0e-5;
+  dynamics::Motion motion;
+  dynamics::Scheme scheme = dynamics::Scheme::symplectic;
+  double safety = 0.8;
+};
+
+/// The disk of the validation against closed forms: annulus of soft rubber, rim fixed.
+inline DiskCase rubber_annulus(int radial, int circumferential) {
+  DiskCase c;
+  c.disk = {.outer_radius = 0.3,
+            .inner_radius = 0.2,
+            .radial = radial,
+            .circumferential = circumferential,
+            .grading = 1.0,
+            .tread = {}};
+  c.material = {5.0e6, 0.45, 1100.0, fem::Plane::strain};
+  c.alpha = c.beta = 0.0;
+  c.motion.angular_velocity = dynamics::Table(50.0);
+  return c;
+}
+
+/// Rolling at 10 m/s, the centre 0.29 m above y = 0.
+inline DiskCase rolling_disk(int radial, int circumferential) {
+  DiskCase c;
+  c.disk.radial = radial;
+  c.disk.circumferential = circumferential;
+  c.motion.angular_velocity = dynamics::Table(33.333333);
+  c.motion.speed = dynamics::Table(10.0);
+  c.motion.height = dynamics::Table(0.29);
+  c.motion.start_x = -0.35;
+  return c;
+}
+
+inline contact::GroundShape ledge() {
+  return {.profile = {{-10, -0.1}, {0, -0.1}, {0, 0}, {10, 0}}, .fillet = 0.02};
+}
+
+struct Built {
+  mesh::Mesh mesh;
+  dynamics::Model model;
+  dynamics::CriticalStep critical;
+};
+
+inline Built build(const DiskCase& c) {
+  Built b;
+  b.mesh = mesh::make_disk(c.disk);
+  b.model.reference = b.mesh.coordinates;
+  b.model.mass = fem::lumped_mass(b.mesh, c.material.density);
+  b.model.free = fem::free_nodes(b.mesh);
+  b.model.stiffness = fem::assemble_stiffness(b.mesh, c.material);
+  b.model.mass_damping = c.alpha;
+  b.model.stiffness_damping = c.beta;
+  b.model.motion = c.motion;
+  b.model.scheme = c.scheme;
+  b.critical = dynamics::critical_step(b.model.stiffness, b.model.mass, b.model.free, c.beta,
+                                       fem::element_eigenvalue_bound(b.mesh, c.material));
+  b.model.dt = c.safety * b.critical.step;
+  return b;
+}
+
+inline void add_ground(Built& b, const contact::GroundShape& shape, contact::Law law) {
+  b.model.contact.emplace(
+      dynamics::ContactModel{contact::Ground(shape), law, b.mesh.boundary, b.mesh.tributary});
+}
+
+inline dynamics::State start_at_rest(const dynamics::Model& model) {
+  const std::vector<Vec2> zero(model.n_nodes());
+  return dynamics::start(model, zero, zero);
+}
+
+}  // namespace rondo::test

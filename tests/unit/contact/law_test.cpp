@@ -1,0 +1,133 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "rondo/contact/law.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <random>
+
+#include "rondo/contact/pair.hpp"
+#include "rondo/contact/residual.hpp"
+
+using namespace rondo;
+using namespace rondo::contact;
+
+TEST(Law, OpenStickAndSlipByHand) {
+  const Vec2 w{1.0 / 2.0, 0.0};  // a mass of 2
+  const auto open = solve_local({{0.1, 3.0}, w, 0.0}, 0.5);
+  EXPECT_EQ(open.status, Status::open);
+  EXPECT_EQ(open.impulse, Vec2{});
+  const auto stick = solve_local({{-1.0, 0.4}, w, 0.0}, 0.5);
+  EXPECT_EQ(stick.status, Status::stick);
+  EXPECT_NEAR(stick.impulse.x, 2.0, 1e-15);
+  EXPECT_NEAR(stick.impulse.y, -0.8, 1e-15);
+  const auto slip = solve_local({{-1.0, 3.0}, w, 0.0}, 0.5);
+  EXPECT_EQ(slip.status, Status::slip);
+  EXPECT_NEAR(slip.impulse.x, 2.0, 1e-15);
+  EXPECT_NEAR(slip.impulse.y, -1.0, 1e-15);  // against the slip
+  const auto bounce = solve_local({{-1.0, 0.0}, w, -0.5}, 0.0);
+  EXPECT_NEAR(-1.0 + bounce.impulse.x / 2.0, 0.5, 1e-15);  // leaves at half the speed
+}
+
+/// The law itself, row by row, on random problems with a gyroscopic part in W.
+TEST(Law, HoldsOnRandomProblems) {
+  std::mt19937 random(1);
+  std::uniform_real_distribution<double> velocity(-1.0, 1.0), unit(0.0, 1.0);
+  for (int i = 0; i < 100000; ++i) {
+    const double mu = unit(random);
+    const double scale = std::pow(10.0, 4.0 * velocity(random));
+    const LocalProblem p{{velocity(random), velocity(random)},
+                         {scale, 0.2 * scale * velocity(random)},
+                         -0.5 * unit(random)};
+    const LocalSolution s = solve_local(p, mu);
+    const Vec2 w = p.free + p.delassus * s.impulse;
+    const double m = 1.0 / norm(p.delassus);
+    ASSERT_GE(s.impulse.x, 0.0);
+    ASSERT_GE(w.x + p.bounce, -1e-14);
+    ASSERT_NEAR(s.impulse.x * (w.x + p.bounce), 0.0, 1e-13 * m);
+    ASSERT_LE(std::abs(s.impulse.y), mu * s.impulse.x * (1 + 1e-15) + 1e-300);
+    if (s.status == Status::stick) {
+      ASSERT_NEAR(w.y, 0.0, 1e-14);
+    }
+    if (s.status == Status::slip) {
+      ASSERT_LE(s.impulse.y * w.y, 1e-15 * m);
+    }
+    ASSERT_LT(law_residual(s.impulse, w, p.bounce, mu, m), 1e-14 * m);
+  }
+}
+
+TEST(Residual, SeesEachBrokenRow) {
+  const double m = 3.0, mu = 0.3;
+  const auto residual = [&](Vec2 r, Vec2 w) { return law_residual(r, w, 0.0, mu, m) / m; };
+  EXPECT_EQ(residual({0.0, 0.0}, {1.0, 5.0}), 0.0);            // open
+  EXPECT_EQ(residual({2.0, 0.6}, {0.0, 0.0}), 0.0);            // stick on the cone's edge
+  EXPECT_NEAR(residual({2.0, -0.6}, {0.0, 0.7}), 0.0, 1e-16);  // slip
+  EXPECT_GT(residual({0.0, 0.0}, {-0.1, 0.0}), 0.05);          // penetrates
+  EXPECT_GT(residual({1.0, 0.0}, {0.1, 0.0}), 0.05);           // pulls while it separates
+  EXPECT_GT(residual({2.0, 0.6}, {0.0, 0.7}), 0.1);            // slips along its friction
+  EXPECT_GT(residual({2.0, 0.3}, {0.0, -0.7}), 0.05);          // slips inside the cone
+  EXPECT_GT(residual({2.0, 0.9}, {0.0, 0.0}), 0.05);           // outside the cone
+  EXPECT_GT(residual({-1.0, 0.0}, {0.0, 0.0}), 0.2);           // adhesion
+}
+
+TEST(Residual, ProjectionIsTheNearestPointOfTheCone) {
+  std::mt19937 random(3);
+  std::uniform_real_distribution<double> x(-1.0, 1.0);
+  for (int i = 0; i < 2000; ++i) {
+    const double mu = std::abs(x(random));
+    const Vec2 r{x(random), x(random)}, p = project_on_cone(r, mu);
+    ASSERT_LE(std::abs(p.y), mu * p.x + 1e-15);
+    for (int j = 0; j < 50; ++j) {
+      const double n = 2.0 * std::abs(x(random));
+      const Vec2 q{n, mu * n * x(random)};
+      ASSERT_LE(norm(r - p), norm(r - q) + 1e-12);
+    }
+  }
+}
+
+TEST(Pair, CornerOfARightAngleWithoutFriction) {
+  // Floor (normal up) and wall (normal left): each stops its own component.
+  PairProblem p;
+  p.delassus = {0.5, 0.0};
+  const Vec2 v{2.0, -3.0}, floor{0.0, 1.0}, wall{-1.0, 0.0};
+  p.free = {conj(floor) * v, conj(wall) * v};
+  p.turn = conj(floor) * wall;
+  const PairSolution s = solve_pair(p, 0.0, {});
+  ASSERT_TRUE(s.converged);
+  EXPECT_NEAR(s.contact[0].impulse.x, 6.0, 1e-14);
+  EXPECT_NEAR(s.contact[1].impulse.x, 4.0, 1e-14);
+}
+
+TEST(Pair, RandomCornersConvergeAndAreJudgedIndependently) {
+  std::mt19937 random(5);
+  std::uniform_real_distribution<double> x(-1.0, 1.0), angle(0.2, 2.9);
+  int both = 0;
+  for (int i = 0; i < 20000; ++i) {
+    PairProblem p;
+    p.delassus = {1.0, 1e-3 * x(random)};
+    p.turn = rotation(angle(random));  // a concave corner: 0 < angle between the normals < π
+    const Vec2 v{x(random), x(random)};
+    p.free = {v, conj(p.turn) * v};
+    const double mu = 0.6 * std::abs(x(random));
+    const PairSolution s = solve_pair(p, mu, {});
+    ASSERT_TRUE(s.converged) << s.residual << " mu " << mu;
+    const std::array<Vec2, 2> r{s.contact[0].impulse, s.contact[1].impulse};
+    const auto w = pair_velocities(p, r);
+    for (std::size_t k = 0; k < 2; ++k)
+      ASSERT_LT(law_residual(r[k], w[k], 0.0, mu, 1.0), 2e-12 * norm(v));
+    both += r[0].x > 0.0 && r[1].x > 0.0 ? 1 : 0;
+  }
+  EXPECT_GT(both, 1000);
+}
+
+TEST(Pair, SaysWhenItDoesNotConverge) {
+  PairProblem p;
+  p.delassus = {1.0, 0.0};
+  p.turn = rotation(2.5);
+  const Vec2 v{-1.0, -2.0};  // into both facets
+  p.free = {v, conj(p.turn) * v};
+  const PairSolution s = solve_pair(p, 0.3, {}, 0.0, 2);
+  EXPECT_FALSE(s.converged);
+  EXPECT_EQ(s.iterations, 2);
+  EXPECT_GT(s.residual, 0.0);
+}

@@ -1,0 +1,80 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+
+#include "rondo/core/contract.hpp"
+#include "rondo/core/error.hpp"
+#include "rondo/core/threads.hpp"
+#include "rondo/core/vec2.hpp"
+
+using namespace rondo;
+
+TEST(Vec2, IsAComplexNumber) {
+  const Vec2 a{1.0, 2.0}, b{-3.0, 0.5};
+  EXPECT_EQ(a * b, (Vec2{-4.0, -5.5}));
+  EXPECT_EQ(turn90(a), (Vec2{0.0, 1.0} * a));
+  EXPECT_EQ(dot(a, b), (conj(a) * b).x);
+  EXPECT_EQ(cross(a, b), (conj(a) * b).y);
+  const Vec2 quotient = (a * b) / b;
+  EXPECT_NEAR(quotient.x, a.x, 1e-15);
+  EXPECT_NEAR(quotient.y, a.y, 1e-15);
+}
+
+TEST(Vec2, SmallRotationKeepsItsDigits) {
+  // e^{iθ} - 1 = iθ - θ²/2: by subtraction the real part would be lost altogether.
+  const Vec2 z = rotation_minus_one(1e-9);
+  EXPECT_NEAR(z.x, -5e-19, 1e-33);
+  EXPECT_NEAR(z.y, 1e-9, 1e-24);
+  const Vec2 big = rotation_minus_one(2.0), direct = rotation(2.0) - Vec2{1.0, 0.0};
+  EXPECT_NEAR(big.x, direct.x, 1e-15);
+  EXPECT_NEAR(big.y, direct.y, 1e-15);
+}
+
+TEST(CompensatedSum, KeepsWhatPlainSumsLose) {
+  CompensatedSum sum;
+  sum.add(1.0);
+  for (int i = 0; i < 1000000; ++i) sum.add(1e-17);
+  EXPECT_NEAR(sum.value(), 1.0 + 1e-11, 1e-16);
+  CompensatedSum large;
+  for (const double x : {1.0, 1e100, 1.0, -1e100}) large.add(x);
+  EXPECT_EQ(large.value(), 2.0);
+}
+
+TEST(BlockSums, SameBitsForAnyNumberOfThreads) {
+  const std::size_t n = 10007;
+  BlockSums<2> sums(n);
+  const auto term = [](std::size_t i) {
+    const auto x = static_cast<double>(i);
+    return std::array<double, 2>{std::sin(x), 1.0 / (1.0 + x)};
+  };
+  const auto one = sums.sum(1, term);
+  for (const int threads : {2, 3, 7}) EXPECT_EQ(sums.sum(threads, term), one) << threads;
+  double direct = 0.0;
+  for (std::size_t i = 0; i < n; ++i) direct += 1.0 / (1.0 + static_cast<double>(i));
+  EXPECT_NEAR(one[1], direct, 1e-13);  // 1e4 terms of order 1 and below, summed plainly
+}
+
+TEST(Fault, NamesPlaceKeyFoundAndAllowed) {
+  const Fault fault{"a.toml",
+                    3,
+                    7,
+                    "disk.inner_radius",
+                    "0.4",
+                    "must be below the outer radius",
+                    "0 < inner_radius < 0.3"};
+  EXPECT_EQ(fault.text(),
+            "a.toml:3:7: disk.inner_radius = 0.4: must be below the outer radius (allowed: 0 < "
+            "inner_radius < 0.3)");
+  Fault second;
+  second.message = "second";
+  const InputError error({fault, second});
+  EXPECT_EQ(error.faults().size(), 2U);
+  EXPECT_NE(std::string(error.what()).find("second"), std::string::npos);
+}
+
+TEST(Contract, PrintsTheValues) {
+  const int n = 3;
+  EXPECT_DEATH(RONDO_DEMAND(n == 4, n, 2.5), "broken contract `n == 4`.*values: 3 2.5");
+}

@@ -1,0 +1,150 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "rondo/dynamics/stepper.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <random>
+
+#include "support/models.hpp"
+
+using namespace rondo;
+using namespace rondo::dynamics;
+
+namespace {
+
+/// One particle without stiffness, held by nothing.
+Model particle(const Motion& motion, Vec2 place, double dt) {
+  Model m;
+  m.reference = {place};
+  m.mass = {2.0};
+  m.free = {0};
+  m.stiffness.row_start = {0, 0};
+  m.motion = motion;
+  m.dt = dt;
+  return m;
+}
+
+double distance_after(const Motion& motion, double end, int steps) {
+  const Vec2 place{0.3, -0.1};
+  const Model model = particle(motion, place, end / steps);
+  const std::vector<Vec2> u0{{0.01, 0.02}}, v0{{0.5, -0.3}};
+  State state = start(model, u0, v0);
+  Ledger ledger(model);
+  for (int n = 0; n < steps; ++n) static_cast<void>(advance(model, state, ledger));
+  // In the fixed frame: a parabola, whatever the frame does.
+  const FrameStep f = frame_step(motion, 0, model.dt);
+  const Vec2 x0 = f.center + place + u0[0];
+  const Vec2 speed = f.advance / model.dt;
+  const Vec2 v = Vec2{motion.speed.at(0.0), speed.y} + turn90(f.spin * (place + u0[0])) + v0[0];
+  const Vec2 expected = x0 + end * v + 0.5 * end * end * Vec2{0.0, -motion.gravity};
+  return norm(position(model, state, 0) - expected);
+}
+
+}  // namespace
+
+/// Centrifugal, Coriolis, Euler and translation terms and gravity in one: second order in Δt.
+TEST(Stepper, AFreeParticleFallsOnAParabolaInAnyFrame) {
+  Motion motion;
+  motion.angular_velocity = Table({{0.0, 3.0}, {1.0, 9.0}});
+  motion.speed = Table({{0.0, 2.0}, {1.0, 5.0}});
+  motion.height = Table({{0.0, 1.0}, {1.0, 0.4}});
+  motion.gravity = 9.81;
+  const double coarse = distance_after(motion, 0.8, 8000), fine = distance_after(motion, 0.8, 16000);
+  EXPECT_LT(coarse, 2e-6);  // of some 3 m
+  EXPECT_NEAR(std::log2(coarse / fine), 2.0, 0.05);
+}
+
+TEST(Stepper, MassDampingIsTheMidpointDecay) {
+  Model model = particle({}, {0.0, 0.0}, 1e-3);
+  model.mass_damping = 50.0;
+  const std::vector<Vec2> u0{{0.0, 0.0}}, v0{{1.0, 0.0}};
+  State state = start(model, u0, v0);
+  Ledger ledger(model);
+  for (int n = 0; n < 100; ++n) static_cast<void>(advance(model, state, ledger));
+  const double x = 0.5 * 1e-3 * 50.0;
+  const double expected = (1 - x / 2) / (1 + x / 2) * std::pow((1 - x) / (1 + x), 100);
+  EXPECT_NEAR(state.v_next[0].x, expected, 1e-15);
+}
+
+/// What the law sees is what the body does: w⁺ Δt is the increment of the position in the next
+/// step.
+TEST(Stepper, LawVelocityIsTheDiscreteMotion) {
+  auto b = test::build(test::rolling_disk(4, 40));
+  test::add_ground(b, test::ledge(), {0.3, 0.0});
+  State state = test::start_at_rest(b.model);
+  Ledger ledger(b.model);
+  int seen = 0, stuck = 0;
+  for (int n = 0; n < 600; ++n) {
+    static_cast<void>(advance(b.model, state, ledger));
+    const auto active = state.active;
+    std::vector<Vec2> before;
+    for (const auto& c : active)
+      before.push_back(
+          position(b.model, state, static_cast<std::size_t>(b.model.contact->nodes[c.candidate])));
+    static_cast<void>(advance(b.model, state, ledger));
+    for (std::size_t i = 0; i < active.size(); ++i) {
+      const auto node = static_cast<std::size_t>(b.model.contact->nodes[active[i].candidate]);
+      const Vec2 move = position(b.model, state, node) - before[i];
+      // Two positions of about 0.5 m, each the sum of three products: some 16 roundings of 6e-17.
+      ASSERT_LT(norm(conj(active[i].normal) * move - b.model.dt * active[i].after), 2e-15);
+      ++seen;
+      if (active[i].status != contact::Status::stick) continue;
+      ASSERT_LT(norm(move), 2e-15);  // it sticks: it does not creep
+      ++stuck;
+    }
+  }
+  EXPECT_GT(seen, 500);
+  EXPECT_GT(stuck, 100);
+}
+
+TEST(Stepper, ABallBouncesWithItsRestitution) {
+  Motion motion;
+  motion.gravity = 9.81;
+  Model model = particle(motion, {0.0, 1.0}, 1e-5);
+  model.contact.emplace(
+      ContactModel{contact::Ground(contact::GroundShape{}), {0.0, 0.5}, {0}, {1.0}});
+  const std::vector<Vec2> zero(1);
+  State state = start(model, zero, zero);
+  Ledger ledger(model);
+  double impact = 0.0, apex = 0.0;
+  for (int n = 0; n < 90000; ++n) {
+    const ContactReport r = advance(model, state, ledger);
+    if (r.nodes > 0 && impact == 0.0) impact = state.frame.time;
+    if (impact > 0.0 && state.frame.time < impact + 0.45)
+      apex = std::max(apex, position(model, state, 0).y);
+  }
+  EXPECT_NEAR(impact, 0.451524, 2e-5);  // √(2h/g), seen at the next step
+  EXPECT_NEAR(apex, 0.25, 1e-4);        // e² h; the impact is late by up to a step: v Δt
+}
+
+TEST(Stepper, SameBitsForAnyNumberOfThreadsAndFromRunToRun) {
+  auto c = test::rolling_disk(6, 240);
+  c.motion.height = Table(0.2995);  // in contact from the first step
+  auto b = test::build(c);
+  test::add_ground(b, {}, {0.3, 0.0});
+  const auto final_state = [&](int threads) {
+    b.model.threads = threads;
+    State state = test::start_at_rest(b.model);
+    Ledger ledger(b.model);
+    for (int n = 0; n < 150; ++n) static_cast<void>(advance(b.model, state, ledger));
+    EXPECT_FALSE(state.active.empty());
+    return std::tuple{state.u, state.v_next, ledger.last().works.frame, ledger.last().kinetic};
+  };
+  const auto one = final_state(1);
+  EXPECT_EQ(final_state(1), one);
+  for (const int threads : {2, 3, 7}) EXPECT_EQ(final_state(threads), one) << threads;
+}
+
+TEST(Stepper, ClampedNodesStayClamped) {
+  auto b = test::build(test::rolling_disk(3, 30));
+  test::add_ground(b, test::ledge(), {0.6, 0.0});
+  const std::vector<Vec2> ones(b.model.n_nodes(), Vec2{1.0, 1.0});
+  State state = start(b.model, std::vector<Vec2>(b.model.n_nodes()), ones);
+  Ledger ledger(b.model);
+  for (int n = 0; n < 500; ++n) static_cast<void>(advance(b.model, state, ledger));
+  for (const int node : b.mesh.clamped) {
+    EXPECT_EQ(state.u[static_cast<std::size_t>(node)], Vec2{});
+    EXPECT_EQ(state.v_next[static_cast<std::size_t>(node)], Vec2{});
+  }
+}
