@@ -28,12 +28,11 @@ void Ledger::balance(const Model& model, const State& state) noexcept {
                             w.dissipation_stiffness, -w.scheme})
     rest.add(term);
   b.residual = rest.value();
-  const double exchanged = std::abs(b.kinetic + b.strain) + std::abs(w.frame) +
-                           std::abs(w.contact) + std::abs(w.dissipation_mass) +
-                           std::abs(w.dissipation_stiffness);
-  b.exchanged = std::max(b.exchanged, exchanged);
-  exchanged_all_ = std::max(exchanged_all_, exchanged + std::abs(w.scheme));
-  if (b.residual != 0.0) b.relative = std::max(b.relative, std::abs(b.residual) / exchanged_all_);
+  const double works = std::abs(w.frame) + std::abs(w.contact) + std::abs(w.dissipation_mass) +
+                       std::abs(w.dissipation_stiffness);
+  b.exchanged = std::max(b.exchanged, std::abs(b.kinetic + b.strain) + works + std::abs(w.scheme));
+  b.otherwise = std::max(b.otherwise, std::abs(start_) + works);
+  if (b.residual != 0.0) b.relative = std::max(b.relative, std::abs(b.residual) / b.exchanged);
 }
 
 void Ledger::add_works(const Model& model, const State& state) noexcept {

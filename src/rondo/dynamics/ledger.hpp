@@ -26,8 +26,10 @@ struct Balance {
   double strain = 0.0;   ///< ½ u_{n+1}ᵀ K u_n                                       [J/m]
   Works works;
   double residual = 0.0;   ///< E - E_{1/2} - works                                    [J/m]
-  double exchanged = 0.0;  ///< largest so far of |E| + Σ |works|, work_scheme left out [J/m]
-  double relative = 0.0;   ///< largest so far of |residual| / (exchanged, with |work_scheme|)
+  double exchanged = 0.0;  ///< largest so far of |E| + Σ |works|                      [J/m]
+  double otherwise = 0.0;  ///< largest so far of |E_{1/2}| + Σ |works| without the scheme's: what
+                           ///< the run exchanges by itself, created energy left out      [J/m]
+  double relative = 0.0;  ///< largest so far of |residual| / exchanged
 };
 
 class Ledger {
@@ -48,7 +50,6 @@ class Ledger {
   BlockSums<4> work_sums_;
   CompensatedSum frame_, contact_, friction_, impact_, rim_, mass_, stiffness_, scheme_;
   double start_ = 0.0;
-  double exchanged_all_ = 0.0;
   bool started_ = false;
   Balance balance_;
 };

@@ -1,0 +1,82 @@
+// SPDX-License-Identifier: BSD-3-Clause
+/// V1: the energy ledger closes to round-off at every step, in contact, with friction, damping,
+/// spin tables and restitution, for both schemes.
+#include <gtest/gtest.h>
+
+#include "support/models.hpp"
+
+using namespace rondo;
+using namespace rondo::dynamics;
+
+namespace {
+
+struct Variant {
+  const char* name;
+  Scheme scheme;
+  double friction, restitution;
+  bool tables;
+};
+
+class Ledgers : public testing::TestWithParam<Variant> {};
+
+}  // namespace
+
+TEST_P(Ledgers, CloseToRoundOff) {
+  const Variant v = GetParam();
+  auto c = test::rolling_disk(4, 60);
+  c.scheme = v.scheme;
+  if (v.tables) {
+    c.motion.angular_velocity = Table({{0.0, 20.0}, {0.05, 60.0}, {0.1, 10.0}});
+    c.motion.speed = Table({{0.0, 12.0}, {0.1, 5.0}});
+    c.motion.height = Table({{0.0, 0.295}, {0.03, 0.28}, {0.06, 0.31}});
+    c.motion.gravity = 9.81;
+  }
+  auto b = test::build(c);
+  test::add_ground(b, test::ledge(), {v.friction, v.restitution});
+  State state = test::start_at_rest(b.model);
+  Ledger ledger(b.model);
+  long contacts = 0;
+  double split = 0.0;
+  for (int n = 0; n < 4000; ++n) {
+    contacts += advance(b.model, state, ledger).nodes;
+    const Works& w = ledger.last().works;
+    split = std::max(split, std::abs(w.contact - (w.rim - w.dissipation_friction - w.loss_impact)));
+  }
+  const Balance& last = ledger.last();
+  EXPECT_GT(contacts, 500);
+  EXPECT_GT(last.exchanged, 10.0);
+  // 4,000 steps of some 20 roundings each, random in sign: √(8e4) × 1e-16 = 3e-14 at worst.
+  EXPECT_LT(last.relative, 3e-14);
+  EXPECT_LT(split, 1e-12 * last.exchanged);
+  // Each part has its sign or its place.
+  EXPECT_GE(last.works.dissipation_friction, -1e-9 * last.exchanged);
+  EXPECT_GT(last.works.dissipation_mass, 0.0);
+  EXPECT_GT(last.works.dissipation_stiffness, 0.0);
+  EXPECT_EQ(last.works.scheme == 0.0, v.scheme == Scheme::symplectic);
+  if (v.friction > 0.0) {
+    EXPECT_GT(last.works.dissipation_friction, 1.0);
+  }
+  if (v.restitution == 0.0) {
+    EXPECT_GT(last.works.loss_impact, 0.0);
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(All, Ledgers,
+                         testing::Values(Variant{"plain", Scheme::symplectic, 0.0, 0.0, false},
+                                         Variant{"friction", Scheme::symplectic, 0.6, 0.0, false},
+                                         Variant{"tables", Scheme::symplectic, 0.3, 0.0, true},
+                                         Variant{"restitution", Scheme::symplectic, 0.3, 0.5, true},
+                                         Variant{"as_printed", Scheme::as_printed, 0.3, 0.0, true}),
+                         [](const auto& p) { return std::string(p.param.name); });
+
+/// The ledger is no tautology: a velocity changed behind its back opens it.
+TEST(LedgerCheck, SeesAVelocityChangedBehindItsBack) {
+  auto b = test::build(test::rolling_disk(4, 60));
+  State state = test::start_at_rest(b.model);
+  Ledger ledger(b.model);
+  for (int n = 0; n < 200; ++n) static_cast<void>(advance(b.model, state, ledger));
+  EXPECT_LT(ledger.last().relative, 1e-14);
+  state.v_next[41] += Vec2{1e-5, 0.0};
+  for (int n = 0; n < 2; ++n) static_cast<void>(advance(b.model, state, ledger));
+  EXPECT_GT(ledger.last().relative, 1e-9);
+}

@@ -1,0 +1,92 @@
+// SPDX-License-Identifier: BSD-3-Clause
+/// V13: stable at 0.99 of the critical step and divergent at 1.01, with and without contact, spin
+/// and stiffness damping.
+#include <gtest/gtest.h>
+
+#include <Eigen/Eigenvalues>
+
+#include <cmath>
+#include <random>
+
+#include "rondo/fem/assembly.hpp"
+#include "support/models.hpp"
+
+using namespace rondo;
+using namespace rondo::dynamics;
+
+namespace {
+
+struct Variant {
+  const char* name;
+  double beta, spin;
+  bool contact;
+};
+
+class Limit : public testing::TestWithParam<Variant> {};
+
+/// Largest energy over the run, of a start with random velocities (which hold every mode).
+double largest_energy(const Variant& v, double safety, int steps) {
+  auto c = test::rubber_annulus(3, 36);
+  c.beta = v.beta;
+  c.safety = safety;
+  c.motion.angular_velocity = Table(v.spin);
+  c.motion.speed = Table(0.3 * v.spin);
+  c.motion.height = Table(0.298);
+  auto b = test::build(c);
+  if (v.contact) test::add_ground(b, {}, {0.3, 0.0});
+  std::mt19937 random(11);
+  std::uniform_real_distribution<double> x(-1.0, 1.0);
+  std::vector<Vec2> u0(b.model.n_nodes()), v0(b.model.n_nodes());
+  for (Vec2& velocity : v0) velocity = {x(random), x(random)};
+  State state = start(b.model, u0, v0);
+  Ledger ledger(b.model);
+  double largest = 0.0;
+  for (int n = 0; n < steps && std::isfinite(largest) && largest < 1e30; ++n) {
+    static_cast<void>(advance(b.model, state, ledger));
+    largest = std::max(largest, ledger.last().kinetic);
+  }
+  return largest;
+}
+
+}  // namespace
+
+TEST_P(Limit, StableBelowDivergentAbove) {
+  const double reference = largest_energy(GetParam(), 0.5, 20000);
+  // Below the limit the energy keeps the size that it has at half the step.
+  EXPECT_LT(largest_energy(GetParam(), 0.99, 20000), 10.0 * reference);
+  // Above, the fastest mode alone grows by |z| >= 1.01 a step at the least.
+  EXPECT_GT(largest_energy(GetParam(), 1.01, 20000), 1e9 * reference);
+}
+
+INSTANTIATE_TEST_SUITE_P(All, Limit,
+                         testing::Values(Variant{"plain", 0.0, 0.0, false},
+                                         Variant{"damped", 1e-5, 0.0, false},
+                                         Variant{"strongly_damped", 2e-4, 0.0, false},
+                                         Variant{"spinning", 0.0, 50.0, false},
+                                         Variant{"contact", 0.0, 50.0, true},
+                                         Variant{"all", 2e-5, 50.0, true}),
+                         [](const auto& p) { return std::string(p.param.name); });
+
+TEST(CriticalStep, FrequencyIsTheLargestOfTheMeshAndBelowTheElementBound) {
+  for (const int radial : {3, 6}) {
+    const auto b = test::build(test::rubber_annulus(radial, 24));
+    Eigen::MatrixXd a = fem::free_matrix(b.model.stiffness, b.model.free);
+    const auto mass = [&](Eigen::Index i) {
+      return b.model.mass[static_cast<std::size_t>(b.model.free[static_cast<std::size_t>(i / 2)])];
+    };
+    for (Eigen::Index i = 0; i < a.rows(); ++i)
+      for (Eigen::Index j = 0; j < a.cols(); ++j) a(i, j) /= std::sqrt(mass(i) * mass(j));
+    const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> dense(a, Eigen::EigenvaluesOnly);
+    const double omega = std::sqrt(dense.eigenvalues().maxCoeff());
+    EXPECT_TRUE(b.critical.converged);
+    EXPECT_GE(b.critical.omega, omega * (1.0 - 1e-13));  // on the safe side
+    EXPECT_LT(b.critical.omega, omega * (1.0 + 1e-6));
+    EXPECT_GE(b.critical.element_bound, omega);
+  }
+}
+
+TEST(CriticalStep, FormulaWithStiffnessDamping) {
+  const double omega = 3e4, beta = 2e-5, xi = 0.5 * beta * omega;
+  EXPECT_NEAR(critical_step_of(omega, beta), 2.0 / omega * (std::sqrt(1 + xi * xi) - xi), 1e-18);
+  EXPECT_EQ(critical_step_of(omega, 0.0), 2.0 / omega);
+}
