@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: BSD-3-Clause
+/// @file  A CSV file written row by row; each row reaches the operating system before row()
+/// returns, so that a killed run keeps its rows. Numbers are the shortest text that reads back the
+/// same bits.
+#pragma once
+#include <cstdio>
+#include <filesystem>
+#include <memory>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace rondo::io {
+
+class Csv {
+ public:
+  /// Creates the file and writes the header. @throws FileError
+  Csv(const std::filesystem::path& file, const std::vector<std::string>& columns);
+  /// @pre as many values as columns. @throws FileError
+  void row(std::span<const double> values);
+  /// Rows put together by the caller are flushed at once. @throws FileError
+  void rows(std::span<const double> values);
+  void close();
+
+ private:
+  struct Closer {
+    void operator()(std::FILE* file) const noexcept { std::fclose(file); }
+  };
+  std::filesystem::path path_;
+  std::size_t n_columns_ = 0;
+  std::unique_ptr<std::FILE, Closer> file_;
+  std::string text_;  ///< reused
+};
+
+}  // namespace rondo::io

@@ -1,0 +1,122 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "rondo/io/files.hpp"
+
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <array>
+#include <cerrno>
+#include <system_error>
+
+#include "rondo/core/error.hpp"
+
+namespace rondo::io {
+namespace fs = std::filesystem;
+namespace {
+
+/// Any of these: the directory holds a run.
+constexpr std::array run_marks = {"run.json", "results.h5", "history.csv"};
+constexpr std::array run_files = {"case.toml",  "run.json",    "history.csv",  "contact.csv",
+                                  "results.h5", "fields.xdmf", "checkpoint.h5"};
+
+std::string message(int code) {
+  return std::generic_category().message(code);
+}
+
+/// There is something of that name, be it a link to nowhere.
+bool is_there(const fs::path& path) {
+  std::error_code error;
+  return fs::exists(fs::symlink_status(path, error));
+}
+
+void refuse(const fs::path& directory, const std::string& what, const std::string& to_do) {
+  Fault fault;
+  fault.key = "-o";
+  fault.found = directory.string();
+  fault.message = what;
+  fault.allowed = to_do;
+  throw InputError(fault);
+}
+
+void remove_run(const fs::path& directory) {
+  for (const char* name : run_files) {
+    std::error_code error;
+    fs::remove(directory / name, error);
+    if (error)
+      throw FileError((directory / name).string(), "cannot remove: " + message(error.value()));
+  }
+}
+
+/// Descriptor of a file being written; removes it unless kept.
+class Beside {
+ public:
+  explicit Beside(const fs::path& target)
+      : target_(target), path_(target.string() + fmt::format(".{}.tmp", ::getpid())) {
+    descriptor_ = ::open(path_.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666);
+    if (descriptor_ < 0) fail("create");
+  }
+  ~Beside() {
+    if (descriptor_ >= 0) ::close(descriptor_);
+    if (!kept_) ::unlink(path_.c_str());
+  }
+  Beside(const Beside&) = delete;
+  Beside& operator=(const Beside&) = delete;
+
+  void write(const std::string& text) const {
+    for (std::size_t done = 0; done < text.size();) {
+      const ssize_t n = ::write(descriptor_, text.data() + done, text.size() - done);
+      if (n < 0 && errno == EINTR) continue;
+      if (n < 0) fail("write");
+      done += static_cast<std::size_t>(n);
+    }
+  }
+  void keep() {
+    if (::fsync(descriptor_) != 0) fail("write");
+    const int descriptor = descriptor_;
+    descriptor_ = -1;
+    if (::close(descriptor) != 0) fail("write");
+    if (::rename(path_.c_str(), target_.c_str()) != 0) fail("replace");
+    kept_ = true;
+  }
+
+ private:
+  [[noreturn]] void fail(const char* doing) const {
+    const int code = errno;
+    throw FileError(target_.string(), fmt::format("cannot {}: {}", doing, message(code)));
+  }
+  fs::path target_, path_;
+  int descriptor_ = -1;
+  bool kept_ = false;
+};
+
+}  // namespace
+
+void prepare_results_directory(const fs::path& directory, bool overwrite) {
+  const std::string elsewhere = "choose another -o";
+  std::error_code error;
+  if (is_there(directory) && !fs::is_directory(directory, error))
+    refuse(directory, "is there and is not a directory", elsewhere);
+  fs::create_directories(directory, error);
+  if (error)
+    throw FileError(directory.string(), "cannot create directory: " + message(error.value()));
+  if (overwrite) return remove_run(directory);
+  for (const char* name : run_marks)
+    if (is_there(directory / name))
+      refuse(directory, fmt::format("holds another run ({} is there)", name),
+             elsewhere + ", or give --overwrite");
+}
+
+void write_file(const fs::path& file, const std::string& text) {
+  Beside beside(file);
+  beside.write(text);
+  beside.keep();
+}
+
+void write_json(const fs::path& file, const nlohmann::ordered_json& json) {
+  constexpr int indent = 2;
+  const auto replace = nlohmann::ordered_json::error_handler_t::replace;
+  write_file(file, json.dump(indent, ' ', false, replace) + "\n");
+}
+
+}  // namespace rondo::io

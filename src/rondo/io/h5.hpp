@@ -1,0 +1,194 @@
+// SPDX-License-Identifier: BSD-3-Clause
+/// @file  HDF5 files: what this program needs of the C library, with ownership and errors.
+///
+/// No header of HDF5 is included here. Every dataset has the attributes `units` and `description`.
+/// Files are written in the oldest layout (readable by HDF5 1.8 and later), without time stamps, so
+/// that the same values give the same bytes; they are never locked, so that a run can be watched.
+#pragma once
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <filesystem>
+#include <span>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "rondo/core/vec2.hpp"
+
+namespace rondo::io::h5 {
+
+enum class Type { float64, float32, int32, int64 };
+
+using Shape = std::vector<std::size_t>;
+
+struct Label {
+  std::string units;  ///< "1" for pure numbers
+  std::string description;
+};
+
+/// How a C++ value lies in a dataset: `count` numbers of `type`.
+template <class T>
+struct Element;
+template <>
+struct Element<double> {
+  static constexpr Type type = Type::float64;
+  static constexpr std::size_t count = 1;
+};
+template <>
+struct Element<float> {
+  static constexpr Type type = Type::float32;
+  static constexpr std::size_t count = 1;
+};
+template <>
+struct Element<std::int32_t> {
+  static constexpr Type type = Type::int32;
+  static constexpr std::size_t count = 1;
+};
+template <>
+struct Element<std::int64_t> {
+  static constexpr Type type = Type::int64;
+  static constexpr std::size_t count = 1;
+};
+template <>
+struct Element<Vec2> {
+  static constexpr Type type = Type::float64;
+  static constexpr std::size_t count = 2;
+};
+template <class T, std::size_t N>
+struct Element<std::array<T, N>> {
+  static constexpr Type type = Element<T>::type;
+  static constexpr std::size_t count = N * Element<T>::count;
+};
+
+/// Owns one identifier of the HDF5 library (its hid_t).
+class Handle {
+ public:
+  Handle() = default;
+  explicit Handle(std::int64_t id) noexcept : id_(id) {}
+  Handle(Handle&& other) noexcept : id_(std::exchange(other.id_, -1)) {}
+  Handle& operator=(Handle&& other) noexcept {
+    std::swap(id_, other.id_);
+    return *this;
+  }
+  Handle(const Handle&) = delete;
+  Handle& operator=(const Handle&) = delete;
+  ~Handle();
+  [[nodiscard]] std::int64_t get() const noexcept { return id_; }
+  [[nodiscard]] std::int64_t release() noexcept { return std::exchange(id_, -1); }
+
+ private:
+  std::int64_t id_ = -1;
+};
+
+class Dataset {
+ public:
+  Dataset() = default;  ///< none: false
+
+  explicit operator bool() const noexcept { return id_.get() >= 0; }
+  [[nodiscard]] const Shape& shape() const noexcept { return shape_; }
+
+  /// The whole dataset. @pre as many numbers as the shape has. @throws FileError
+  template <class T>
+  void write(std::span<const T> values) {
+    write_all(values.data(), Element<T>::type, values.size() * Element<T>::count);
+  }
+  /// Row `row` of the first dimension. @pre as many numbers as a row has. @throws FileError
+  template <class T>
+  void write_row(std::size_t row, std::span<const T> values) {
+    write_one(row, values.data(), Element<T>::type, values.size() * Element<T>::count);
+  }
+  /// Numbers are converted to T. @pre T divides the dataset or its row. @throws FileError
+  template <class T>
+  [[nodiscard]] std::vector<T> read() const {
+    std::vector<T> values(n_numbers() / Element<T>::count);
+    read_all(values.data(), Element<T>::type, values.size() * Element<T>::count);
+    return values;
+  }
+  template <class T>
+  [[nodiscard]] std::vector<T> read_row(std::size_t row) const {
+    std::vector<T> values(n_in_row() / Element<T>::count);
+    read_one(row, values.data(), Element<T>::type, values.size() * Element<T>::count);
+    return values;
+  }
+  /// Makes room in the file for rows, or gives up those from `rows` on. @pre made by
+  /// File::create_rows, at most the rows given there. @throws FileError
+  void resize(std::size_t rows);
+
+  [[nodiscard]] Label label() const;  ///< @throws FileError
+
+ private:
+  friend class File;
+  [[nodiscard]] std::size_t n_numbers() const noexcept;
+  [[nodiscard]] std::size_t n_in_row() const noexcept;
+  void find_spaces();
+  void select(std::size_t row) const;
+  void write_all(const void* values, Type type, std::size_t n);
+  void write_one(std::size_t row, const void* values, Type type, std::size_t n);
+  void read_all(void* values, Type type, std::size_t n) const;
+  void read_one(std::size_t row, void* values, Type type, std::size_t n) const;
+  [[noreturn]] void fail(const char* doing) const;
+
+  std::string file_, name_;
+  Shape shape_;
+  Handle id_, file_space_, row_space_;
+};
+
+class File {
+ public:
+  File() = default;
+  /// Replaces what was there. The first `index_bytes` are kept for the file's own index, of which a
+  /// row of create_rows() takes about `bytes_of_entry`: with room for all, rows given up at the end
+  /// leave nothing behind them and the file becomes shorter. @throws FileError
+  static File create(const std::filesystem::path& path, std::size_t index_bytes = 0);
+  static constexpr std::size_t bytes_of_entry = 100;
+  /// To read only. @throws FileError: missing, not HDF5, truncated
+  static File open(const std::filesystem::path& path);
+
+  explicit operator bool() const noexcept { return id_.get() >= 0; }
+
+  /// Group and its parents; datasets make theirs themselves. @throws FileError
+  void create_group(const std::string& name);
+  /// Of fixed size. @throws FileError
+  Dataset create(const std::string& name, Type type, const Shape& shape, const Label& label);
+  /// To be written row by row, for at most shape[0] rows; has none until resize(), which gives all
+  /// of them their place in the file. What is written to a row goes straight to the operating
+  /// system and changes nothing else in the file. @pre shape without zeros. @throws FileError
+  Dataset create_rows(const std::string& name, Type type, const Shape& shape, const Label& label);
+  /// create() and Dataset::write() at once. @throws FileError
+  template <class T>
+  void write(const std::string& name, const Shape& shape, std::span<const T> values,
+             const Label& label) {
+    create(name, Element<T>::type, shape, label).write(values);
+  }
+
+  [[nodiscard]] bool contains(const std::string& name) const;
+  [[nodiscard]] Dataset dataset(const std::string& name) const;  ///< @throws FileError: none such
+  template <class T>
+  [[nodiscard]] std::vector<T> read(const std::string& name) const {
+    return dataset(name).read<T>();
+  }
+
+  /// Text attribute of a group or dataset, "/" for the file. @throws FileError
+  void set_attribute(const std::string& object, const std::string& name, const std::string& text);
+  [[nodiscard]] std::string attribute(const std::string& object, const std::string& name) const;
+
+  void flush();  ///< everything to the operating system. @throws FileError
+  void close();  ///< @pre no Dataset of it is alive. @throws FileError
+
+ private:
+  Dataset make(const std::string& name, Type type, const Shape& shape, const Label& label,
+               bool rows);
+  [[noreturn]] void fail(const std::string& doing) const;
+
+  std::string path_;
+  Handle id_;
+};
+
+/// Chunk of a dataset written by rows: one row, or a part of it where a row is longer than `limit`
+/// bytes, or some where it is tiny.
+Shape chunk_shape(const Shape& shape, std::size_t bytes_per_number, std::size_t limit = 1U << 30U);
+
+std::size_t bytes_of(Type type) noexcept;
+
+}  // namespace rondo::io::h5

@@ -1,0 +1,395 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "rondo/io/results.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <string>
+#include <system_error>
+#include <vector>
+
+#include "rondo/core/contract.hpp"
+#include "rondo/core/error.hpp"
+#include "rondo/io/h5.hpp"
+#include "rondo/io/xdmf.hpp"
+
+namespace rondo::io {
+namespace {
+
+using h5::Type;
+
+struct Counts {
+  std::size_t nodes, cells, corners, triangles, candidates, times;
+  bool contact, stress, cyclic;
+  [[nodiscard]] bool mixed() const { return triangles > 0 && triangles < cells; }
+};
+
+Counts counts_of(const ResultsLayout& layout) noexcept {
+  const mesh::Mesh& m = *layout.mesh;
+  Counts c{};
+  c.nodes = m.n_nodes();
+  c.cells = m.cells.size();
+  for (const mesh::Cell& cell : m.cells) c.triangles += mesh::n_corners(cell) == 3 ? 1 : 0;
+  c.corners = c.cells > 0 && c.triangles == c.cells ? 3 : 4;
+  c.candidates = m.boundary.size();
+  c.times = layout.n_snapshots;
+  c.contact = layout.contact && c.candidates > 0;
+  c.stress = layout.stress;
+  c.cyclic = m.n_sectors > 0;
+  return c;
+}
+
+/// Entries of the list that XDMF wants of a mixed mesh: type, then corners.
+std::size_t n_mixed(const Counts& c) noexcept {
+  return 5 * c.cells - c.triangles;
+}
+
+/// Of results.h5: what describes the datasets, and an entry for each row.
+std::size_t index_bytes(const Counts& c) noexcept {
+  constexpr std::size_t datasets = 13, description = 4096;
+  return datasets * (description + c.times * h5::File::bytes_of_entry);
+}
+
+std::vector<int> cell_table(const mesh::Mesh& m, std::size_t corners) {
+  std::vector<int> table;
+  table.reserve(m.cells.size() * corners);
+  for (const mesh::Cell& cell : m.cells)
+    table.insert(table.end(), cell.begin(), cell.begin() + static_cast<std::ptrdiff_t>(corners));
+  return table;
+}
+
+std::vector<int> mixed_list(const mesh::Mesh& m) {
+  constexpr int triangle = 4, quadrilateral = 5;  // numbers of XDMF
+  std::vector<int> list;
+  for (const mesh::Cell& cell : m.cells) {
+    const int corners = mesh::n_corners(cell);
+    list.push_back(corners == 3 ? triangle : quadrilateral);
+    list.insert(list.end(), cell.begin(), cell.begin() + corners);
+  }
+  return list;
+}
+
+template <class T>
+std::span<const T> view(const std::vector<T>& values) {
+  return values;
+}
+
+void write_cells(h5::File& file, const mesh::Mesh& m, const Counts& c) {
+  file.write("/mesh/cells", {c.cells, c.corners}, view(cell_table(m, c.corners)),
+             {"1", "corner nodes of each cell, counter-clockwise, from 0; -1: no such corner"});
+  if (c.mixed())
+    file.write("/mesh/cells_mixed", {n_mixed(c)}, view(mixed_list(m)),
+               {"1", "the cells as a list for XDMF: 4 (triangle) or 5 (quadrilateral), its nodes"});
+}
+
+void write_mesh(h5::File& file, const ResultsLayout& layout, const Counts& c) {
+  const mesh::Mesh& m = *layout.mesh;
+  file.write("/mesh/coordinates", {c.nodes, 2}, view(m.coordinates),
+             {"m", "reference position X of each node, turning frame, from the centre"});
+  write_cells(file, m, c);
+  file.write("/mesh/boundary", {c.candidates}, view(m.boundary),
+             {"1", "nodes that may touch the ground, in order along the boundary"});
+  file.write("/mesh/tributary", {c.candidates}, view(m.tributary),
+             {"m", "length of boundary that each node of /mesh/boundary stands for"});
+  file.write("/mesh/mass", {c.nodes}, layout.mass,
+             {"kg/m", "lumped mass of each node, per unit thickness"});
+  if (!c.cyclic) return;
+  file.write("/mesh/sector", {c.nodes}, view(m.sector),
+             {"1", "sector of each node, counter-clockwise from straight down, from 0"});
+  file.write("/mesh/sector_node", {c.nodes}, view(m.sector_node),
+             {"1", "number of each node within its sector: the same in all sectors"});
+}
+
+XdmfSeries series_of(const Counts& c) {
+  XdmfSeries s;
+  s.data_file = "results.h5";
+  if (c.mixed())
+    s.topology = {"Mixed", c.cells, "/mesh/cells_mixed", {n_mixed(c)}};
+  else
+    s.topology = {c.corners == 3 ? "Triangle" : "Quadrilateral",
+                  c.cells,
+                  "/mesh/cells",
+                  {c.cells, c.corners}};
+  s.reference = "/mesh/coordinates";
+  s.position = "/fields/position";
+  s.n_nodes = c.nodes;
+  s.n_times = c.times;
+  s.fields.push_back({"displacement", "Vector", "/fields/displacement", 3, 0, 3});
+  if (c.contact) s.fields.push_back({"contact_force", "Vector", "/fields/contact_force", 3, 0, 3});
+  if (!c.stress) return s;
+  s.fields.push_back({"von_mises", "Scalar", "/fields/von_mises"});
+  const std::string stress = "/fields/cauchy_stress";
+  s.fields.push_back({"cauchy_stress", "Tensor6", stress, 6, 0, 6});
+  // Alone as well: ParaView's XDMF 3 readers take the six numbers for xx, yy, zz, xy, yz, xz.
+  s.fields.push_back({"stress_xx", "Scalar", stress, 6, 0, 1});
+  s.fields.push_back({"stress_xy", "Scalar", stress, 6, 1, 1});
+  s.fields.push_back({"stress_yy", "Scalar", stress, 6, 3, 1});
+  s.fields.push_back({"stress_zz", "Scalar", stress, 6, 5, 1});
+  return s;
+}
+
+/// σ_zz counts: plane strain has one.
+double von_mises(const NodalStress& s) noexcept {
+  const double a = s[0] - s[1], b = s[1] - s[2], c = s[2] - s[0];
+  return std::sqrt(0.5 * (a * a + b * b + c * c) + 3.0 * s[3] * s[3]);
+}
+
+/// R σ R^T as xx, xy, xz, yy, yz, zz; r = e^{iθ}.
+std::array<float, 6> turned(const NodalStress& s, Vec2 r) noexcept {
+  const double cc = r.x * r.x, ss = r.y * r.y, cs = r.x * r.y;
+  const double xx = cc * s[0] - 2.0 * cs * s[3] + ss * s[1];
+  const double yy = ss * s[0] + 2.0 * cs * s[3] + cc * s[1];
+  const double xy = cs * (s[0] - s[1]) + (cc - ss) * s[3];
+  return {static_cast<float>(xx),  static_cast<float>(xy), 0.0F, static_cast<float>(yy), 0.0F,
+          static_cast<float>(s[2])};
+}
+
+std::array<float, 3> in_space(Vec2 a) noexcept {
+  return {static_cast<float>(a.x), static_cast<float>(a.y), 0.0F};
+}
+
+/// Better now than after hours; file systems that do not say are believed to have room.
+void demand_room(const std::filesystem::path& directory, std::size_t bytes) {
+  std::error_code error;
+  const auto space = std::filesystem::space(directory, error);
+  if (error || space.capacity == 0 || space.available >= bytes) return;
+  constexpr double mega = 1e6;
+  throw FileError(
+      (directory / "results.h5").string(),
+      fmt::format("disk full: {:.1f} MB needed, {:.1f} MB free", static_cast<double>(bytes) / mega,
+                  static_cast<double>(space.available) / mega));
+}
+
+}  // namespace
+
+struct Results::Impl {
+  Impl(const std::filesystem::path& directory, const ResultsLayout& layout);
+  void create_frame();
+  void create_snapshots();
+  void create_fields();
+  void reserve();
+  void resize(std::size_t rows);
+  void check(const Snapshot& s) const;
+  void write_fields(const Snapshot& s);
+  void write_stress(const Snapshot& s, Vec2 turn);
+  void write_contact(const Snapshot& s);
+  void write_snapshot(const Snapshot& s);
+  void close();
+
+  template <class T>
+  void row(h5::Dataset& dataset, const std::vector<T>& values) {
+    dataset.write_row(written, view(values));
+  }
+  void row(h5::Dataset& dataset, double value) {
+    dataset.write_row(written, std::span<const double>(&value, 1));
+  }
+
+  Counts c;
+  std::vector<Vec2> coordinates;
+  std::vector<int> boundary;
+  std::vector<double> tributary;
+  std::size_t written = 0;
+  std::vector<std::array<float, 3>> vectors, forces;
+  std::vector<std::array<float, 6>> tensors;
+  std::vector<float> scalars;
+  std::vector<Vec2> traction;
+  h5::File file;
+  struct {
+    h5::Dataset time, time_velocity, angle, center, displacement, velocity, force, traction,
+        position, field_displacement, field_force, von_mises, stress;
+  } d;
+  std::unique_ptr<Xdmf> xdmf;
+};
+
+Results::Impl::Impl(const std::filesystem::path& directory, const ResultsLayout& layout)
+    : c(counts_of(layout)),
+      coordinates(layout.mesh->coordinates),
+      boundary(layout.mesh->boundary),
+      tributary(layout.mesh->tributary),
+      vectors(c.nodes),
+      forces(c.contact ? c.nodes : 0),
+      tensors(c.stress ? c.nodes : 0),
+      scalars(c.stress ? c.nodes : 0),
+      traction(c.contact ? c.candidates : 0) {
+  RONDO_DEMAND(c.nodes > 0 && layout.mass.size() == c.nodes, c.nodes, layout.mass.size());
+  RONDO_DEMAND(tributary.size() == c.candidates, tributary.size(), c.candidates);
+  demand_room(directory, bytes(layout));
+  file = h5::File::create(directory / "results.h5", index_bytes(c));
+  file.set_attribute("/", "format", "rondo results 1");
+  write_mesh(file, layout, c);
+  if (c.times > 0) {
+    create_frame();
+    create_snapshots();
+    create_fields();
+    reserve();
+  }
+  file.flush();
+  xdmf = std::make_unique<Xdmf>(directory / "fields.xdmf", series_of(c));
+}
+
+void Results::Impl::create_frame() {
+  const h5::Shape times = {c.times};
+  d.time = file.create_rows("/frame/time", Type::float64, times,
+                            {"s",
+                             "of displacement, angle, centre, contact and fields; "
+                             "NaN: snapshot not written"});
+  d.time_velocity = file.create_rows("/frame/time_velocity", Type::float64, times,
+                                     {"s", "of velocity: half a step before /frame/time"});
+  d.angle = file.create_rows("/frame/angle", Type::float64, times,
+                             {"rad", "angle of the turning frame, counter-clockwise"});
+  d.center = file.create_rows("/frame/center", Type::float64, {c.times, 2},
+                              {"m", "centre of the turning frame, x, y in the fixed frame"});
+}
+
+void Results::Impl::create_snapshots() {
+  d.displacement = file.create_rows("/snapshots/displacement", Type::float64, {c.times, c.nodes, 2},
+                                    {"m", "displacement u of each node, turning frame"});
+  d.velocity = file.create_rows("/snapshots/velocity", Type::float64, {c.times, c.nodes, 2},
+                                {"m/s",
+                                 "velocity du/dt of each node in the turning frame, at "
+                                 "/frame/time_velocity"});
+  if (!c.contact) return;
+  const h5::Shape shape = {c.times, c.candidates, 2};
+  d.force = file.create_rows("/contact/force", Type::float64, shape,
+                             {"N/m",
+                              "contact force on each node of /mesh/boundary: normal, "
+                              "tangential; impulse of the step over its length"});
+  d.traction = file.create_rows("/contact/traction", Type::float64, shape,
+                                {"Pa", "/contact/force over /mesh/tributary: pressure, shear"});
+}
+
+void Results::Impl::create_fields() {
+  const h5::Shape vector = {c.times, c.nodes, 3};
+  d.position = file.create_rows("/fields/position", Type::float32, vector,
+                                {"m", "current position of each node, fixed frame"});
+  d.field_displacement =
+      file.create_rows("/fields/displacement", Type::float32, vector,
+                       {"m", "displacement u of each node along the fixed axes"});
+  if (c.contact)
+    d.field_force = file.create_rows("/fields/contact_force", Type::float32, vector,
+                                     {"N/m", "contact force on each node along the fixed axes"});
+  if (!c.stress) return;
+  d.von_mises = file.create_rows("/fields/von_mises", Type::float32, {c.times, c.nodes},
+                                 {"Pa", "von Mises stress at each node, with zz"});
+  d.stress = file.create_rows("/fields/cauchy_stress", Type::float32, {c.times, c.nodes, 6},
+                              {"Pa",
+                               "Cauchy stress at each node along the fixed axes: "
+                               "xx, xy, xz, yy, yz, zz"});
+}
+
+void Results::Impl::resize(std::size_t rows) {
+  for (h5::Dataset* dataset :
+       {&d.time, &d.time_velocity, &d.angle, &d.center, &d.displacement, &d.velocity, &d.force,
+        &d.traction, &d.position, &d.field_displacement, &d.field_force, &d.von_mises, &d.stress})
+    if (*dataset) dataset->resize(rows);
+}
+
+/// Room for all snapshots, in parts: what a run stopped early gives back then lies at the end of
+/// the file, which becomes shorter.
+void Results::Impl::reserve() {
+  constexpr std::size_t parts = 64;
+  const std::size_t part = (c.times + parts - 1) / parts;
+  for (std::size_t rows = part; rows < c.times; rows += part) resize(rows);
+  resize(c.times);
+  const std::vector<double> never(c.times, std::numeric_limits<double>::quiet_NaN());
+  d.time.write(view(never));
+}
+
+void Results::Impl::check(const Snapshot& s) const {
+  RONDO_DEMAND(file && written < c.times, written, c.times);
+  RONDO_DEMAND(s.displacement.size() == c.nodes && s.velocity.size() == c.nodes,
+               s.displacement.size(), s.velocity.size(), c.nodes);
+  const std::size_t nb = c.contact ? c.candidates : 0;
+  RONDO_DEMAND(!c.contact || (s.contact_force.size() == nb && s.contact_force_fixed.size() == nb),
+               s.contact_force.size(), s.contact_force_fixed.size(), nb);
+  RONDO_DEMAND(!c.stress || s.stress.size() == c.nodes, s.stress.size(), c.nodes);
+}
+
+void Results::Impl::write_fields(const Snapshot& s) {
+  const Vec2 turn = rotation(s.angle);
+  for (std::size_t i = 0; i < c.nodes; ++i)
+    vectors[i] = in_space(s.center + turn * (coordinates[i] + s.displacement[i]));
+  row(d.position, vectors);
+  for (std::size_t i = 0; i < c.nodes; ++i) vectors[i] = in_space(turn * s.displacement[i]);
+  row(d.field_displacement, vectors);
+  if (c.stress) write_stress(s, turn);
+  if (c.contact) write_contact(s);
+}
+
+void Results::Impl::write_stress(const Snapshot& s, Vec2 turn) {
+  for (std::size_t i = 0; i < c.nodes; ++i) {
+    scalars[i] = static_cast<float>(von_mises(s.stress[i]));
+    tensors[i] = turned(s.stress[i], turn);
+  }
+  row(d.von_mises, scalars);
+  row(d.stress, tensors);
+}
+
+void Results::Impl::write_contact(const Snapshot& s) {
+  for (std::size_t k = 0; k < c.candidates; ++k) {
+    forces[static_cast<std::size_t>(boundary[k])] = in_space(s.contact_force_fixed[k]);
+    traction[k] = s.contact_force[k] / tributary[k];
+  }
+  row(d.field_force, forces);
+  d.force.write_row(written, s.contact_force);
+  row(d.traction, traction);
+}
+
+/// The time comes last: where it is a number, the snapshot is complete.
+void Results::Impl::write_snapshot(const Snapshot& s) {
+  check(s);
+  write_fields(s);
+  d.displacement.write_row(written, s.displacement);
+  d.velocity.write_row(written, s.velocity);
+  d.center.write_row(written, std::span<const Vec2>(&s.center, 1));
+  row(d.angle, s.angle);
+  row(d.time_velocity, s.time_velocity);
+  row(d.time, s.time);
+  ++written;
+  xdmf->add(s.time);
+}
+
+void Results::Impl::close() {
+  if (!file) return;
+  resize(written);
+  d = {};
+  file.close();
+  xdmf->close();
+}
+
+Results::Results(const std::filesystem::path& directory, const ResultsLayout& layout) {
+  RONDO_DEMAND(layout.mesh != nullptr, layout.n_snapshots);
+  impl_ = std::make_unique<Impl>(directory, layout);
+}
+
+Results::~Results() {
+  try {
+    close();
+  } catch (const std::exception&) {  // reported where close() is called
+  }
+}
+
+void Results::write(const Snapshot& snapshot) {
+  impl_->write_snapshot(snapshot);
+}
+void Results::close() {
+  impl_->close();
+}
+std::size_t Results::written() const noexcept {
+  return impl_->written;
+}
+
+std::size_t Results::bytes(const ResultsLayout& layout) noexcept {
+  const Counts c = counts_of(layout);
+  const std::size_t mesh = c.nodes * (2 * 8 + 8 + (c.cyclic ? 2 * 4 : 0)) +
+                           c.cells * c.corners * 4 + (c.mixed() ? n_mixed(c) * 4 : 0) +
+                           c.candidates * (4 + 8);
+  const std::size_t node = 2 * 2 * 8 + 2 * 3 * 4 + (c.contact ? 3 * 4 : 0) + (c.stress ? 7 * 4 : 0);
+  const std::size_t candidate = c.contact ? 2 * 2 * 8 : 0;
+  constexpr std::size_t frame = 5 * 8;
+  return index_bytes(c) + mesh + c.times * (frame + c.nodes * node + c.candidates * candidate);
+}
+
+}  // namespace rondo::io

@@ -1,0 +1,67 @@
+// SPDX-License-Identifier: BSD-3-Clause
+/// @file  results.h5 and fields.xdmf of a run, readable at any moment of it (docs/results.md).
+///
+/// Every dataset is created at full size with its storage reserved, then the file's metadata is
+/// flushed once and never changes while the run goes on: a run killed at any moment leaves a file
+/// that opens. /frame/time is NaN where a snapshot was not reached. close() cuts the datasets to
+/// the snapshots written. fields.xdmf lists only snapshots written.
+#pragma once
+#include <array>
+#include <cstddef>
+#include <filesystem>
+#include <memory>
+#include <span>
+
+#include "rondo/core/vec2.hpp"
+#include "rondo/mesh/mesh.hpp"
+
+namespace rondo::io {
+
+/// σ at a node in the turning frame: xx, yy, zz, xy [Pa].
+using NodalStress = std::array<double, 4>;
+
+struct ResultsLayout {
+  const mesh::Mesh* mesh = nullptr;
+  std::span<const double> mass;  ///< (n) lumped mass per unit thickness [kg/m]
+  std::size_t n_snapshots = 0;   ///< planned
+  bool contact = false;          ///< a ground is there: /contact is written
+  bool stress = false;           ///< stress goes into the fields
+};
+
+/// One snapshot, as the stepper leaves it; spans are only read during the call.
+struct Snapshot {
+  double time = 0.0;           ///< of displacement and contact                        [s]
+  double time_velocity = 0.0;  ///< of velocity: half a step before `time`             [s]
+  double angle = 0.0;          ///< θ, counter-clockwise                               [rad]
+  Vec2 center;                 ///< fixed frame                                        [m]
+  std::span<const Vec2> displacement;         ///< (n) turning frame                         [m]
+  std::span<const Vec2> velocity;             ///< (n) turning frame                         [m/s]
+  std::span<const Vec2> contact_force;        ///< (nb) normal, tangential; empty: no ground [N/m]
+  std::span<const Vec2> contact_force_fixed;  ///< (nb) x, y in the fixed frame        [N/m]
+  std::span<const NodalStress> stress;        ///< (n) turning frame; empty: not asked for   [Pa]
+};
+
+class Results {
+ public:
+  /// Creates directory/results.h5 and directory/fields.xdmf. @throws FileError
+  Results(const std::filesystem::path& directory, const ResultsLayout& layout);
+  ~Results();
+  Results(const Results&) = delete;
+  Results& operator=(const Results&) = delete;
+
+  /// Writes the next snapshot and flushes it. @pre fewer than n_snapshots written. @throws
+  /// FileError
+  void write(const Snapshot& snapshot);
+  /// Cuts to what was written and closes. @throws FileError
+  void close();
+  [[nodiscard]] std::size_t written() const noexcept;
+
+  /// Bytes that results.h5 will take, for `rondo check`.
+  [[nodiscard]] static std::size_t bytes(const ResultsLayout& layout) noexcept;
+
+ private:
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace rondo::io

@@ -1,0 +1,142 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "rondo/io/xdmf.hpp"
+
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <iterator>
+#include <system_error>
+#include <utility>
+
+#include "rondo/core/error.hpp"
+#include "rondo/io/files.hpp"
+
+namespace rondo::io {
+namespace {
+
+constexpr const char* head =
+    "<?xml version=\"1.0\" ?>\n"
+    "<Xdmf Version=\"3.0\">\n"
+    "<Domain>\n"
+    "<Grid Name=\"rondo\" GridType=\"Collection\" CollectionType=\"Temporal\">\n";
+constexpr const char* tail = "</Grid>\n</Domain>\n</Xdmf>\n";
+
+[[noreturn]] void fail(const std::filesystem::path& path, const char* doing) {
+  const int code = errno;
+  throw FileError(path.string(),
+                  std::string("cannot ") + doing + ": " + std::generic_category().message(code));
+}
+
+}  // namespace
+
+Xdmf::Xdmf(std::filesystem::path file, XdmfSeries series)
+    : path_(std::move(file)), series_(std::move(series)) {
+  times_.reserve(series_.n_times);
+  descriptor_ = ::open(path_.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666);
+  if (descriptor_ < 0) fail(path_, "create");
+  text_ = head;
+  const std::size_t end = text_.size();
+  append_reference_grid();
+  put(end);
+}
+
+Xdmf::~Xdmf() {
+  if (descriptor_ >= 0) ::close(descriptor_);
+}
+
+void Xdmf::append_topology() {
+  const XdmfTopology& t = series_.topology;
+  fmt::format_to(std::back_inserter(text_),
+                 "<Topology TopologyType=\"{}\" NumberOfElements=\"{}\"><DataItem Format=\"HDF\" "
+                 "NumberType=\"Int\" Precision=\"4\" Dimensions=\"{}\">{}:{}</DataItem>"
+                 "</Topology>\n",
+                 t.type, t.n_cells, fmt::join(t.shape, " "), series_.data_file, t.dataset);
+}
+
+/// ParaView crashes on a collection of nothing. The first grid, which is longer, replaces this one.
+void Xdmf::append_reference_grid() {
+  text_ += "<Grid Name=\"reference\" GridType=\"Uniform\"><Time Value=\"0\"/>\n";
+  append_topology();
+  fmt::format_to(std::back_inserter(text_),
+                 "<Geometry GeometryType=\"XY\"><DataItem Format=\"HDF\" NumberType=\"Float\" "
+                 "Precision=\"8\" Dimensions=\"{} 2\">{}:{}</DataItem></Geometry>\n</Grid>\n",
+                 series_.n_nodes, series_.data_file, series_.reference);
+}
+
+/// Row `row` of a dataset (t, n) or (t, n, width), said twice, as ParaView's two families of
+/// readers cannot read each other's way. XDMF 3 takes the first text:
+/// dataset|start:stride:count:of. XDMF 2 takes the two items within, for the sake of Type; and it
+/// takes that first text for the name of the array: different at each time, it is never mistaken
+/// for what was read before.
+void Xdmf::append_array(std::size_t row, const XdmfField& f) {
+  const bool deep = f.width > 1;
+  const auto in_dataset = [&](const std::string& time, auto node, std::size_t number) {
+    return deep ? fmt::format("{} {} {}", time, node, number) : fmt::format("{} {}", time, node);
+  };
+  const std::string start = in_dataset(fmt::to_string(row), 0, f.first);
+  const std::string stride = in_dataset("1", 1, 1);
+  const std::string count = in_dataset("1", series_.n_nodes, f.components);
+  const std::string of = in_dataset(fmt::to_string(series_.n_times), series_.n_nodes, f.width);
+  const std::string shape = f.components > 1 ? fmt::format("{} {}", series_.n_nodes, f.components)
+                                             : fmt::to_string(series_.n_nodes);
+  const std::string name = series_.data_file + ":" + f.dataset;
+  const std::string kind = "Format=\"HDF\" NumberType=\"Float\" Precision=\"4\"";
+  fmt::format_to(std::back_inserter(text_),
+                 "<DataItem Type=\"HyperSlab\" {0} Dimensions=\"{1}\">{2}|{3}:{4}:{5}:{6}"
+                 "<DataItem Format=\"XML\" Dimensions=\"3 {7}\">{3} {4} {5}</DataItem>"
+                 "<DataItem {0} Dimensions=\"{6}\">{2}</DataItem></DataItem>",
+                 kind, shape, name, start, stride, count, of, deep ? 3 : 2);
+}
+
+void Xdmf::append_grid(std::size_t row) {
+  fmt::format_to(std::back_inserter(text_),
+                 "<Grid Name=\"{}\" GridType=\"Uniform\"><Time Value=\"{}\"/>\n", row, times_[row]);
+  append_topology();
+  text_ += "<Geometry GeometryType=\"XYZ\">";
+  append_array(row, {"position", "Vector", series_.position, 3, 0, 3});
+  text_ += "</Geometry>\n";
+  for (const XdmfField& field : series_.fields) {
+    fmt::format_to(std::back_inserter(text_),
+                   "<Attribute Name=\"{}\" AttributeType=\"{}\" Center=\"Node\">", field.name,
+                   field.type);
+    append_array(row, field);
+    text_ += "</Attribute>\n";
+  }
+  text_ += "</Grid>\n";
+}
+
+/// Writes text_ and the closing tags over what follows the grids, which then end at `end`.
+void Xdmf::put(std::size_t end) {
+  text_ += tail;
+  for (std::size_t done = 0; done < text_.size();) {
+    const ssize_t n = ::pwrite(descriptor_, text_.data() + done, text_.size() - done,
+                               static_cast<off_t>(end_ + done));
+    if (n < 0 && errno == EINTR) continue;
+    if (n < 0) fail(path_, "write");
+    done += static_cast<std::size_t>(n);
+  }
+  end_ = end;
+}
+
+void Xdmf::add(double time) {
+  times_.push_back(time);
+  text_.clear();
+  append_grid(times_.size() - 1);
+  put(end_ + text_.size());
+}
+
+void Xdmf::close() {
+  if (descriptor_ < 0) return;
+  if (::close(std::exchange(descriptor_, -1)) != 0) fail(path_, "close");
+  if (times_.size() == series_.n_times) return;
+  series_.n_times = times_.size();
+  text_ = head;
+  if (times_.empty()) append_reference_grid();
+  for (std::size_t row = 0; row < times_.size(); ++row) append_grid(row);
+  text_ += tail;
+  write_file(path_, text_);
+}
+
+}  // namespace rondo::io

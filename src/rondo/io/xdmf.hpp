@@ -1,0 +1,70 @@
+// SPDX-License-Identifier: BSD-3-Clause
+/// @file  XDMF: the text beside an HDF5 file that tells ParaView how its datasets make an
+/// animation. A collection of grids in time over one mesh; the file is valid after every call.
+#pragma once
+#include <cstddef>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace rondo::io {
+
+/// Cells of the mesh, a dataset of int32.
+struct XdmfTopology {
+  std::string type;         ///< "Triangle" (e, 3), "Quadrilateral" (e, 4), "Mixed" (k)
+  std::size_t n_cells = 0;  ///< e
+  std::string dataset;      ///< e.g. "/mesh/cells"
+  std::vector<std::size_t> shape;
+};
+
+/// A nodal field in time, or some components of it: a dataset (t, n) or (t, n, width) of float32.
+struct XdmfField {
+  std::string name;
+  std::string type;  ///< "Scalar", "Vector" or "Tensor6"
+  std::string dataset;
+  std::size_t width = 1;       ///< numbers of a node in the dataset
+  std::size_t first = 0;       ///< the first of the numbers shown
+  std::size_t components = 1;  ///< how many are shown
+};
+
+struct XdmfSeries {
+  std::string data_file;  ///< name of the HDF5 file, in the same directory
+  XdmfTopology topology;
+  std::string reference;  ///< dataset (n, 2) of float64, shown as long as there is no grid  [m]
+  std::string position;   ///< dataset (t, n, 3) of float32                                  [m]
+  std::size_t n_nodes = 0;
+  std::size_t n_times = 0;  ///< t
+  std::vector<XdmfField> fields;
+};
+
+class Xdmf {
+ public:
+  /// Creates the file, with the reference mesh alone. @throws FileError
+  Xdmf(std::filesystem::path file, XdmfSeries series);
+  ~Xdmf();
+  Xdmf(const Xdmf&) = delete;
+  Xdmf& operator=(const Xdmf&) = delete;
+
+  /// Adds the grid of the next row of the datasets, in a single write. @throws FileError
+  void add(double time);
+  /// The datasets were cut to the grids added: written anew with that length, then closed.
+  /// @throws FileError
+  void close();
+  [[nodiscard]] std::size_t size() const noexcept { return times_.size(); }
+
+ private:
+  void append_grid(std::size_t row);
+  void append_topology();
+  void append_reference_grid();
+  void append_array(std::size_t row, const XdmfField& field);
+  void put(std::size_t end);
+
+  std::filesystem::path path_;
+  XdmfSeries series_;
+  std::vector<double> times_;  ///< of the grids                                       [s]
+  std::string text_;           ///< reused
+  std::size_t end_ = 0;        ///< of the grids in the file: the next one goes there
+  int descriptor_ = -1;
+};
+
+}  // namespace rondo::io

@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "rondo/io/csv.hpp"
+
+#include <limits>
+#include <sstream>
+
+#include "unit/io/support.hpp"
+
+namespace rondo::io::test {
+namespace {
+
+TEST(Csv, NumbersReadBackTheSameBits) {
+  const Folder folder;
+  const double third = 1.0 / 3.0, tiny = std::numeric_limits<double>::denorm_min();
+  const std::vector<double> values = {third, -tiny, std::numeric_limits<double>::max(), -0.0};
+  Csv csv(folder / "a.csv", {"a", "b", "c", "d"});
+  csv.row(values);
+  csv.close();
+  std::istringstream in(text_of(folder / "a.csv"));
+  std::string header, row, cell;
+  std::getline(in, header);
+  std::getline(in, row);
+  EXPECT_EQ(header, "a,b,c,d");
+  std::istringstream cells(row);
+  for (const double value : values) {
+    ASSERT_TRUE(std::getline(cells, cell, ','));
+    const double again = std::strtod(cell.c_str(), nullptr);
+    EXPECT_EQ(again, value);
+    EXPECT_EQ(std::signbit(again), std::signbit(value));
+  }
+}
+
+TEST(Csv, NumbersAreShort) {
+  const Folder folder;
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  Csv csv(folder / "a.csv", {"a", "b", "c"});
+  csv.rows(std::vector<double>{0.1, 3.0, 1e-12, -nan, 0.0, 1e300});
+  csv.rows({});
+  EXPECT_EQ(text_of(folder / "a.csv"), "a,b,c\n0.1,3,1e-12\nnan,0,1e+300\n");
+}
+
+TEST(Csv, RowsReachTheFileAtOnce) {
+  const Folder folder;
+  const int status = in_child([&] {
+    Csv csv(folder / "a.csv", {"a"});
+    for (int i = 0; i < 100; ++i) csv.row(std::vector<double>{static_cast<double>(i)});
+    std::raise(SIGKILL);
+  });
+  EXPECT_TRUE(WIFSIGNALED(status));
+  const std::string text = text_of(folder / "a.csv");
+  EXPECT_EQ(std::count(text.begin(), text.end(), '\n'), 101);
+  EXPECT_TRUE(text.ends_with("\n99\n"));
+}
+
+TEST(Csv, ErrorsNameTheFileAndTheReason) {
+  const Folder folder;
+  const std::string none = error_of<FileError>([&] { const Csv csv(folder / "no/a.csv", {"a"}); });
+  EXPECT_NE(none.find("no/a.csv: cannot create: No such file"), std::string::npos) << none;
+  const std::string full = error_of<FileError>([] { const Csv csv("/dev/full", {"a"}); });
+  EXPECT_EQ(full, "/dev/full: cannot write: No space left on device");
+}
+
+}  // namespace
+}  // namespace rondo::io::test

@@ -1,0 +1,139 @@
+// SPDX-License-Identifier: BSD-3-Clause
+/// @file  A directory for a test, removed at its end; a child process; a small run to write.
+#pragma once
+#include <gtest/gtest.h>
+#include <sys/resource.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <cmath>
+#include <csignal>
+#include <cstdio>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <string>
+#include <vector>
+
+#include "rondo/core/error.hpp"
+#include "rondo/io/results.hpp"
+#include "rondo/mesh/disk.hpp"
+
+namespace rondo::io::test {
+
+class Folder {
+ public:
+  Folder() {
+    std::string name = (std::filesystem::temp_directory_path() / "rondo-io-XXXXXX").string();
+    if (::mkdtemp(name.data()) == nullptr) throw FileError(name, "cannot create");
+    path_ = name;
+  }
+  ~Folder() {
+    std::error_code ignored;
+    std::filesystem::remove_all(path_, ignored);
+  }
+  Folder(const Folder&) = delete;
+  Folder& operator=(const Folder&) = delete;
+  [[nodiscard]] const std::filesystem::path& path() const { return path_; }
+  std::filesystem::path operator/(const std::string& name) const { return path_ / name; }
+
+ private:
+  std::filesystem::path path_;
+};
+
+inline std::string text_of(const std::filesystem::path& file) {
+  std::ifstream in(file, std::ios::binary);
+  return {std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()};
+}
+
+inline void put_text(const std::filesystem::path& file, const std::string& text) {
+  std::ofstream(file, std::ios::binary) << text;
+}
+
+/// Runs body in a child process, which ends there; its wait status.
+template <class Body>
+int in_child(Body&& body) {
+  std::fflush(nullptr);
+  const pid_t child = ::fork();
+  if (child == 0) {
+    try {
+      body();
+    } catch (const std::exception& error) {
+      std::fprintf(stderr, "child: %s\n", error.what());
+      std::_Exit(1);
+    }
+    std::_Exit(0);
+  }
+  int status = -1;
+  ::waitpid(child, &status, 0);
+  return status;
+}
+
+inline bool went_well(int status) {
+  return WIFEXITED(status) && WEXITSTATUS(status) == 0;
+}
+
+/// From here on a write beyond `bytes` of a file fails, as on a full disk. For child processes.
+inline void limit_files(std::size_t bytes) {
+  std::signal(SIGXFSZ, SIG_IGN);
+  const rlimit limit{bytes, bytes};
+  if (::setrlimit(RLIMIT_FSIZE, &limit) != 0) std::_Exit(2);
+}
+
+/// What body throws, as text; empty if it throws nothing.
+template <class Error, class Body>
+std::string error_of(Body&& body) {
+  try {
+    body();
+  } catch (const Error& error) {
+    return error.what();
+  }
+  return {};
+}
+
+/// A small disk with values that depend on the snapshot and the node in a way easy to check.
+class SmallRun {
+ public:
+  explicit SmallRun(int columns = 8, int radial = 2) {
+    mesh::Disk disk;
+    disk.radial = radial;
+    disk.circumferential = columns;
+    mesh = mesh::make_disk(disk);
+    mass.assign(n(), 0.0);
+    for (std::size_t i = 0; i < n(); ++i) mass[i] = 1.0 + static_cast<double>(i);
+  }
+  [[nodiscard]] std::size_t n() const { return mesh.n_nodes(); }
+  [[nodiscard]] std::size_t nb() const { return mesh.boundary.size(); }
+  [[nodiscard]] ResultsLayout layout(std::size_t snapshots) const {
+    return {&mesh, mass, snapshots, true, true};
+  }
+  /// Valid until the next call.
+  const Snapshot& snapshot(std::size_t k) {
+    const double t = static_cast<double>(k);
+    u_.clear(), v_.clear(), s_.clear(), force_.clear(), fixed_.clear();
+    for (std::size_t i = 0; i < n(); ++i) {
+      const double x = 1e-3 * static_cast<double>(i);
+      u_.push_back({x + t, x - t});
+      v_.push_back({2.0 * x, -t});
+      s_.push_back({1e5 + t, 2e5 - x, 0.3e5, 4e4 + x});
+    }
+    for (std::size_t b = 0; b < nb(); ++b) {
+      const double x = static_cast<double>(b);
+      force_.push_back({100.0 + x, t});
+      fixed_.push_back({-t, 100.0 + x});
+    }
+    snapshot_ = {0.1 * t, 0.1 * t - 0.05, 0.7 * t, {3.0 * t, 0.28}, u_, v_, force_, fixed_, s_};
+    return snapshot_;
+  }
+
+  mesh::Mesh mesh;
+  std::vector<double> mass;
+
+ private:
+  std::vector<Vec2> u_, v_, force_, fixed_;
+  std::vector<NodalStress> s_;
+  Snapshot snapshot_;
+};
+
+}  // namespace rondo::io::test
