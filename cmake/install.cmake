@@ -14,3 +14,5 @@ install(FILES ${PROJECT_BINARY_DIR}/rondo-config.cmake
               ${PROJECT_BINARY_DIR}/rondo-config-version.cmake cmake/dependencies.cmake
         DESTINATION ${CMAKE_INSTALL_LIBDIR}/cmake/rondo)
 install(DIRECTORY cases DESTINATION ${CMAKE_INSTALL_DATADIR}/rondo)
+install(FILES ${PROJECT_BINARY_DIR}/generated/rondo/study/version.hpp
+        DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/rondo/study)

@@ -1,0 +1,106 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "commands.hpp"
+
+#include <fmt/format.h>
+#include <spdlog/spdlog.h>
+
+#include <atomic>
+#include <csignal>
+#include <filesystem>
+#include <limits>
+
+#include "exit_codes.hpp"
+#include "progress.hpp"
+#include "rondo/study/check.hpp"
+#include "rondo/study/run.hpp"
+
+namespace rondo::app {
+namespace {
+
+std::atomic<bool> stop_requested{false};
+static_assert(std::atomic<bool>::is_always_lock_free, "set from a signal handler");
+
+extern "C" void request_stop(int) {
+  stop_requested.store(true);
+}
+
+void catch_signals() {
+  std::signal(SIGINT, request_stop);
+  std::signal(SIGTERM, request_stop);
+}
+
+/// cases/ledge.toml -> cases/ledge
+std::filesystem::path default_directory(const std::filesystem::path& case_file) {
+  return case_file.parent_path() / case_file.stem();
+}
+
+std::string readable_bytes(std::size_t bytes) {
+  const auto value = static_cast<double>(bytes);
+  if (value < 1e6) return fmt::format("{:.0f} kB", value / 1e3);
+  return value < 1e9 ? fmt::format("{:.1f} MB", value / 1e6)
+                     : fmt::format("{:.1f} GB", value / 1e9);
+}
+
+int finish(const study::RunReport& r, const std::filesystem::path& directory) {
+  switch (r.status) {
+    case study::RunStatus::failed:
+      spdlog::error("{}; the results so far are in {}", r.message, directory.string());
+      return exit_numerical;
+    case study::RunStatus::interrupted:
+      spdlog::warn("interrupted after {} steps, t = {:.6g} s; the results so far are in {}",
+                   r.steps, r.end_time, directory.string());
+      return exit_interrupted;
+    case study::RunStatus::done:
+      break;
+  }
+  spdlog::info("{} steps to t = {:.6g} s in {:.2f} s ({:.1f} ns per dof and step)", r.steps,
+               r.end_time, r.loop_wall_s, r.ns_per_dof_step);
+  spdlog::info(
+      "energy ledger closes to {:.1e}, contact law to {:.1e}, largest penetration {:.2g} m",
+      r.energy_residual_relative, r.contact_residual_max, r.penetration_max_m);
+  spdlog::info("{} snapshots in {}", r.snapshots, directory.string());
+  return exit_done;
+}
+
+}  // namespace
+
+int run(const RunArguments& arguments) {
+  if (arguments.quiet) spdlog::set_level(spdlog::level::warn);
+  const study::Case c = study::read_case(arguments.case_file, arguments.settings);
+  study::RunOptions options;
+  options.directory = arguments.directory.empty() ? default_directory(arguments.case_file)
+                                                  : std::filesystem::path(arguments.directory);
+  options.threads = arguments.threads;
+  options.overwrite = arguments.overwrite;
+  options.stop = &stop_requested;
+  options.warn = [](const std::string& text) { spdlog::warn(text); };
+  if (!arguments.quiet) options.progress = Progress();
+  catch_signals();
+  return finish(study::run_case(c, options), options.directory);
+}
+
+int check(const CommonArguments& arguments) {
+  const study::Case c = study::read_case(arguments.case_file, arguments.settings);
+  const study::CheckReport r = study::check_case(c, arguments.threads);
+  for (const std::string& warning : r.warnings) spdlog::warn(warning);
+  fmt::print("title              {}\n", c.title);
+  fmt::print("nodes              {} ({} elements, {} free dofs, {} contact candidates)\n", r.nodes,
+             r.elements, r.dofs, r.candidates);
+  fmt::print("wave speeds        {:.6g} m/s pressure, {:.6g} m/s shear\n", r.wave_speeds.pressure,
+             r.wave_speeds.shear);
+  fmt::print("largest frequency  {:.6g} rad/s (element bound {:.6g})\n", r.largest_frequency,
+             r.element_bound);
+  fmt::print("critical step      {:.6g} s\n", r.critical_step);
+  fmt::print("step               {:.6g} s ({:.3g} of critical)\n", r.step,
+             r.step / r.critical_step);
+  fmt::print("steps              {} to t = {:.6g} s\n", r.steps,
+             static_cast<double>(r.steps) * r.step);
+  fmt::print("snapshots          {}\n", r.snapshots);
+  fmt::print("memory             about {}\n", readable_bytes(r.memory_bytes));
+  fmt::print("disk               about {}\n", readable_bytes(r.disk_bytes));
+  fmt::print("time               about {:.2g} s of stepping on {} thread{}\n", r.seconds, r.threads,
+             r.threads == 1 ? "" : "s");
+  return exit_done;
+}
+
+}  // namespace rondo::app

@@ -1,0 +1,94 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <fmt/format.h>
+#include <spdlog/sinks/stdout_color_sinks.h>
+#include <spdlog/spdlog.h>
+
+#include <CLI/CLI.hpp>
+#include <exception>
+
+#include "commands.hpp"
+#include "exit_codes.hpp"
+#include "rondo/core/error.hpp"
+#include "rondo/study/version.hpp"
+
+namespace {
+
+using namespace rondo;
+
+void add_common(CLI::App& command, app::CommonArguments& arguments) {
+  command.add_option("case", arguments.case_file, "case file (TOML, docs/cases.md)")->required();
+  command
+      .add_option("--set", arguments.settings,
+                  "KEY=VALUE: overrides a key of the case, e.g. ground.friction=0.6; repeatable")
+      ->take_all()
+      ->expected(1);
+  command.add_option("--threads", arguments.threads, "threads; chosen by size if left out")
+      ->check(CLI::Range(1, 1024));
+}
+
+CLI::App* add_run(CLI::App& program, app::RunArguments& arguments) {
+  CLI::App* run = program.add_subcommand("run", "runs a case into a results directory");
+  add_common(*run, arguments);
+  run->add_option("-o,--output", arguments.directory,
+                  "results directory; the case's name beside it if left out");
+  run->add_flag("--overwrite", arguments.overwrite, "replaces another run's results there");
+  run->add_flag("--quiet", arguments.quiet, "prints warnings and errors only");
+  run->footer(
+      "Example:\n  rondo run cases/ledge-smooth.toml -o results/mu06 --set ground.friction=0.6\n"
+      "Exit codes: 0 done, 2 wrong input, 3 numerical failure, 4 files, 130 interrupted.");
+  return run;
+}
+
+CLI::App* add_check(CLI::App& program, app::CommonArguments& arguments) {
+  CLI::App* check = program.add_subcommand(
+      "check", "validates a case and says what it would cost; runs nothing, writes nothing");
+  add_common(*check, arguments);
+  check->footer("Example:\n  rondo check cases/ledge-smooth.toml --set disk.mesh.radial=24");
+  return check;
+}
+
+int report_input_error(const InputError& error) {
+  for (const Fault& fault : error.faults()) spdlog::error("{}", fault.text());
+  if (error.faults().size() > 1) spdlog::error("{} faults; nothing was run", error.faults().size());
+  return app::exit_input;
+}
+
+int dispatch_command(CLI::App& program, int argc, char** argv) {
+  app::RunArguments run_arguments;
+  app::CommonArguments check_arguments;
+  const CLI::App* run = add_run(program, run_arguments);
+  const CLI::App* check = add_check(program, check_arguments);
+  try {
+    program.parse(argc, argv);
+  } catch (const CLI::ParseError& error) {
+    return program.exit(error) == 0 ? app::exit_done : app::exit_input;
+  }
+  if (run->parsed()) return app::run(run_arguments);
+  if (check->parsed()) return app::check(check_arguments);
+  return app::exit_input;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  spdlog::set_default_logger(spdlog::stderr_color_st("rondo"));
+  spdlog::set_pattern("rondo: %^%l%$: %v");
+  CLI::App program{"rondo: explicit non-smooth dynamics of rolling bodies", "rondo"};
+  program.set_version_flag(
+      "--version", fmt::format("rondo {} ({}; kernels {})", version, build_options, dispatch));
+  program.require_subcommand(1);
+  program.footer(
+      "Example:\n  rondo run cases/ledge-smooth.toml -o results/ledge\n"
+      "Each command has its own help: rondo run --help");
+  try {
+    return dispatch_command(program, argc, argv);
+  } catch (const InputError& error) {
+    return report_input_error(error);
+  } catch (const FileError& error) {
+    spdlog::error("{}", error.what());
+    return app::exit_files;
+  } catch (const std::bad_alloc&) {
+    spdlog::error("not enough memory");
+    return app::exit_files;
+  }
+}

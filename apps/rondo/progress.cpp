@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "progress.hpp"
+
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <cstdio>
+#include <string>
+
+namespace rondo::app {
+
+Progress::Progress() : terminal_(isatty(STDERR_FILENO) != 0) {}
+
+void Progress::operator()(long long done, long long total) {
+  const auto now = Clock::now();
+  const double seconds = std::chrono::duration<double>(now - start_).count();
+  const bool last = done == total;
+  if (terminal_) {
+    if (!last && now - drawn_ < std::chrono::milliseconds(100)) return;
+    drawn_ = now;
+    draw_bar(done, total, seconds);
+    return;
+  }
+  const int decade = static_cast<int>(10 * done / total);
+  if (decade <= decade_) return;
+  decade_ = decade;
+  fmt::print(stderr, "{:3d} %  step {} of {}, {:.1f} s\n", 10 * decade, done, total, seconds);
+}
+
+void Progress::draw_bar(long long done, long long total, double seconds) const {
+  constexpr int width = 30;
+  const double share = static_cast<double>(done) / static_cast<double>(total);
+  const auto filled = static_cast<std::size_t>(share * width);
+  const double speed = seconds > 0.0 ? static_cast<double>(done) / seconds : 0.0;
+  const double left = speed > 0.0 ? static_cast<double>(total - done) / speed : 0.0;
+  fmt::print(stderr, "\r[{:<{}}] {:3.0f} %  {:.0f} steps/s  {:.1f} s left \033[K{}",
+             std::string(filled, '#'), width, 100.0 * share, speed, left,
+             done == total ? "\n" : "");
+  std::fflush(stderr);
+}
+
+}  // namespace rondo::app

@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: BSD-3-Clause
+/// @file  Progress on stderr: a bar with speed and time left on a terminal; elsewhere one line a
+/// decade of progress.
+#pragma once
+#include <chrono>
+
+namespace rondo::app {
+
+class Progress {
+ public:
+  Progress();
+  void operator()(long long done, long long total);
+
+ private:
+  using Clock = std::chrono::steady_clock;
+  void draw_bar(long long done, long long total, double seconds) const;
+
+  bool terminal_;
+  Clock::time_point start_ = Clock::now();
+  Clock::time_point drawn_ = start_;
+  int decade_ = 0;
+};
+
+}  // namespace rondo::app

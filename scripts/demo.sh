@@ -1,0 +1,22 @@
+#!/usr/bin/env bash
+# From nothing to a disk rolling over a ledge: installs, builds, runs, says where the results are.
+set -euo pipefail
+cd "$(dirname "$0")/.."
+
+bash scripts/setup.sh
+cmake --preset release
+cmake --build --preset release --target rondo
+out=results/ledge-smooth
+build/release/rondo run cases/ledge-smooth.toml -o "$out" --overwrite
+/usr/bin/python3 python/draw_ledge.py "$out" "$out/ledge.png"
+
+cat <<EOT
+
+The results are in $out:
+  ledge.png     a picture of the run
+  history.csv   contact forces and the energy ledger over time (any spreadsheet, pandas)
+  fields.xdmf   the rolling disk: open it in ParaView and press play
+  results.h5    every array (HDF5: h5py, MATLAB, Julia), described in docs/results.md
+  run.json      the figures of the run: steps, speed, largest imbalance of the ledger
+Next: build/release/rondo run --help, the other files in cases/, and docs/cases.md.
+EOT

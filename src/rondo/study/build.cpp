@@ -1,0 +1,181 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "rondo/study/build.hpp"
+
+#include <fmt/format.h>
+#include <omp.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "rondo/core/error.hpp"
+#include "rondo/statics/stationary_spin.hpp"
+
+namespace rondo::study {
+namespace {
+
+/// Above this size the check of spin softening would cost more than a short run.
+constexpr std::size_t softening_check_dofs = 500000;
+
+/// A fault that shows only once the case is put together, at the place where its key stands.
+InputError case_error(const Case& c, const std::string& key, const std::string& message,
+                      const std::string& allowed) {
+  Fault fault;
+  fault.file = c.file.string();
+  fault.key = key;
+  fault.message = message;
+  fault.allowed = allowed;
+  const auto place = c.places.find(key);
+  if (place != c.places.end()) {
+    fault.file = place->second.file;
+    fault.line = place->second.line;
+    fault.column = place->second.column;
+    fault.found = place->second.written;
+  }
+  return InputError(fault);
+}
+
+dynamics::Model make_model(const Case& c, const mesh::Mesh& mesh) {
+  dynamics::Model model;
+  model.reference = mesh.coordinates;
+  model.mass = fem::lumped_mass(mesh, c.material.density);
+  model.free = fem::free_nodes(mesh);
+  model.stiffness = fem::assemble_stiffness(mesh, c.material);
+  model.mass_damping = c.damping.mass;
+  model.stiffness_damping = c.damping.stiffness;
+  model.motion = c.motion;
+  model.scheme = c.time.scheme;
+  if (c.ground)
+    model.contact.emplace(dynamics::ContactModel{contact::Ground(c.ground->shape),
+                                                 {c.ground->friction, c.ground->restitution},
+                                                 mesh.boundary,
+                                                 mesh.tributary});
+  return model;
+}
+
+double choose_step(const Case& c, const dynamics::CriticalStep& critical) {
+  if (!c.time.step) return c.time.safety * critical.step;
+  if (*c.time.step > critical.step * (1.0 + 1e-12))
+    throw case_error(
+        c, "time.step",
+        fmt::format(
+            "the step {:.6g} s is above the critical step {:.6g} s of this mesh and material",
+            *c.time.step, critical.step),
+        fmt::format("0 < step <= {:.6g}, or leave it out and give time.safety", critical.step));
+  return *c.time.step;
+}
+
+long long count_steps(const Case& c, double dt) {
+  const double steps = c.time.end / dt;
+  if (steps > 1e12)
+    throw case_error(c, "time.safety", fmt::format("the run would take {:.3g} steps", steps),
+                     "at most 1e+12 steps");
+  const double nearest = std::round(steps);  // 0.1 / 1e-5 is 10000, whatever its last bit says
+  return static_cast<long long>(std::abs(steps - nearest) < 1e-9 * nearest ? nearest
+                                                                           : std::ceil(steps));
+}
+
+void set_initial_fields(const Case& c, Setup& s) {
+  const dynamics::Model& model = s.model;
+  s.displacement.assign(model.n_nodes(), Vec2{});
+  s.velocity.assign(model.n_nodes(), Vec2{});
+  if (c.initial.state == InitialState::stationary) {
+    const double spin = -c.motion.angular_velocity.at(0.0);
+    auto stationary =
+        statics::stationary_spin(model.stiffness, model.mass, model.reference, model.free, spin);
+    if (stationary.status != statics::SpinStatus::solved)
+      throw case_error(c, "motion.angular_velocity",
+                       "no stationary state: at this spin the centrifugal softening "
+                       "exceeds the stiffness",
+                       "a lower spin, or a stiffer material");
+    s.displacement = std::move(stationary.u);
+  }
+  const auto& g = c.initial.displacement_gradient;
+  for (const int node : model.free) {
+    const auto k = static_cast<std::size_t>(node);
+    const Vec2 x = model.reference[k];
+    s.displacement[k] += Vec2{g[0][0] * x.x + g[0][1] * x.y, g[1][0] * x.x + g[1][1] * x.y};
+    s.velocity[k] = c.initial.velocity;  // θ(0) = 0: both frames have the same axes
+  }
+}
+
+/// Shortest edge of the cells around each node [m].
+std::vector<double> element_sizes(const mesh::Mesh& mesh) {
+  std::vector<double> size(mesh.n_nodes(), std::numeric_limits<double>::infinity());
+  for (const mesh::Cell& cell : mesh.cells) {
+    const int n = mesh::n_corners(cell);
+    double shortest = std::numeric_limits<double>::infinity();
+    const auto at = [&](int a) {
+      return mesh.coordinates[static_cast<std::size_t>(cell[static_cast<std::size_t>(a % n)])];
+    };
+    for (int a = 0; a < n; ++a) shortest = std::min(shortest, norm(at(a + 1) - at(a)));
+    for (int a = 0; a < n; ++a) {
+      double& s = size[static_cast<std::size_t>(cell[static_cast<std::size_t>(a)])];
+      s = std::min(s, shortest);
+    }
+  }
+  return size;
+}
+
+/// An impulse that throws a node out of the ground in one step would mean nothing.
+void refuse_start_inside(const Case& c, const Setup& s) {
+  if (!s.model.contact) return;
+  const std::vector<double> size = element_sizes(s.mesh);
+  const Vec2 center = s.model.motion.center(0.0);
+  double deepest = 0.0, allowed = 0.0;
+  for (const int node : s.model.contact->nodes) {
+    const auto k = static_cast<std::size_t>(node);
+    const Vec2 x = center + s.model.reference[k] + s.displacement[k];
+    const double depth = -s.model.contact->ground.distance(x);
+    if (depth <= 0.5 * size[k] || depth <= deepest) continue;
+    deepest = depth;
+    allowed = 0.5 * size[k];
+  }
+  if (deepest > 0.0)
+    throw case_error(
+        c, "motion.height",
+        fmt::format("the body starts {:.4g} m deep inside the ground, more than half an element "
+                    "({:.4g} m)",
+                    deepest, allowed),
+        "start above the ground (motion.height, motion.start_x) and come down by a table");
+}
+
+void warn_of_softening(const Case& c, Setup& s) {
+  const double spin = c.motion.angular_velocity.largest();
+  if (spin == 0.0) return;
+  if (2 * s.model.free.size() > softening_check_dofs) {
+    s.warnings.push_back(
+        fmt::format("the check of spin softening is left out above {} degrees of "
+                    "freedom",
+                    softening_check_dofs));
+    return;
+  }
+  if (!statics::eigenvalues_above(s.model.stiffness, s.model.mass, s.model.free, 4.0 * spin * spin))
+    s.warnings.push_back(fmt::format(
+        "at {:.6g} rad/s the centrifugal softening takes more than a quarter of the lowest "
+        "stiffness (s² > ω₁²/4): a small-strain model without stress stiffening is soft there",
+        spin));
+}
+
+}  // namespace
+
+Setup build(const Case& c, int threads) {
+  Setup s;
+  s.mesh = mesh::make_disk(c.disk);
+  s.model = make_model(c, s.mesh);
+  s.critical =
+      dynamics::critical_step(s.model.stiffness, s.model.mass, s.model.free, c.damping.stiffness,
+                              fem::element_eigenvalue_bound(s.mesh, c.material));
+  s.model.dt = choose_step(c, s.critical);
+  s.n_steps = count_steps(c, s.model.dt);
+  if (threads > 0)
+    s.model.threads = threads;
+  else if (2 * s.model.free.size() >= single_thread_dofs)
+    s.model.threads = omp_get_num_procs();
+  set_initial_fields(c, s);
+  refuse_start_inside(c, s);
+  warn_of_softening(c, s);
+  return s;
+}
+
+}  // namespace rondo::study

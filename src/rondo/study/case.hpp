@@ -1,0 +1,85 @@
+// SPDX-License-Identifier: BSD-3-Clause
+/// @file  A case: what the user's file says, validated, as plain structs (docs/cases.md).
+#pragma once
+#include <array>
+#include <filesystem>
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "rondo/contact/ground.hpp"
+#include "rondo/dynamics/motion.hpp"
+#include "rondo/dynamics/scheme.hpp"
+#include "rondo/fem/elasticity.hpp"
+#include "rondo/mesh/disk.hpp"
+
+namespace rondo::study {
+
+struct Damping {
+  double mass = 0.0;       ///< α >= 0 [1/s]
+  double stiffness = 0.0;  ///< β >= 0 [s]
+};
+
+struct GroundCase {
+  contact::GroundShape shape;
+  double friction = 0.0;     ///< μ >= 0
+  double restitution = 0.0;  ///< e in [0, 1]
+};
+
+enum class InitialState { rest, stationary };
+
+struct Initial {
+  InitialState state = InitialState::rest;
+  Vec2 velocity;  ///< added to every free node, fixed frame [m/s]
+  std::array<std::array<double, 2>, 2> displacement_gradient{};  ///< u0 += G X on free nodes [-]
+};
+
+using dynamics::Scheme;
+
+struct Time {
+  double end = 0.0;            ///< > 0 [s]
+  double safety = 0.8;         ///< step / critical step, 0 < safety <= 1
+  std::optional<double> step;  ///< given step [s]; excludes safety
+  Scheme scheme = Scheme::symplectic;
+};
+
+struct Output {
+  double history_interval = 1.0e-4;  ///< [s]; 0: every step
+  int snapshots = 400;               ///< >= 0
+  double snapshots_from = 0.0;       ///< [s], in [0, end]
+  bool stress = true;
+  double checkpoint_interval = 60.0;  ///< [s of wall time]
+};
+
+/// Where a key stands that was given; line 0: by --set.
+struct KeyPlace {
+  std::string file;
+  int line = 0, column = 0;
+  std::string written;  ///< the value, as written
+};
+
+struct Case {
+  std::filesystem::path file;
+  std::map<std::string, KeyPlace> places;  ///< of the keys given, by dotted key
+  std::string title;
+  mesh::Disk disk;
+  fem::Material material;
+  Damping damping;
+  dynamics::Motion motion;
+  std::optional<GroundCase> ground;  ///< absent: no contact
+  Initial initial;
+  Time time;
+  std::string solver_operator = "auto";  ///< "auto" | "sparse"
+  Output output;
+  std::vector<std::string> warnings;  ///< said while reading; the caller prints them
+};
+
+/// Reads and validates. `settings` are the "a.b=value" of --set, applied before validation; a value
+/// that is not TOML is taken as a string. @throws InputError with every fault, in the file's order.
+Case read_case(const std::filesystem::path& file, const std::vector<std::string>& settings = {});
+
+/// The case as TOML with all defaults written out; reading it again gives the same case to the bit.
+std::string write_case(const Case& c);
+
+}  // namespace rondo::study

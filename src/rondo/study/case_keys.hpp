@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: BSD-3-Clause
+/// @file  The keys of a case file: one table for the reader, its messages and docs/cases.md.
+#pragma once
+#include <array>
+#include <limits>
+#include <span>
+#include <string>
+#include <string_view>
+
+namespace rondo::study {
+
+enum class KeyType { integer, number, boolean, text, choice, history, profile, vector, matrix };
+
+/// Bounds of a number; infinite: none on that side.
+struct Range {
+  double low = -std::numeric_limits<double>::infinity();
+  double high = std::numeric_limits<double>::infinity();
+  bool low_open = false;   ///< low itself is out
+  bool high_open = false;  ///< high itself is out
+
+  /// False for NaN.
+  [[nodiscard]] bool contains(double value) const noexcept;
+};
+
+struct CaseKey {
+  std::string_view path;      ///< dotted, e.g. "disk.tread.depth"
+  KeyType type;               ///< what kind of value
+  std::string_view unit;      ///< "-": none
+  Range range;                ///< of numbers
+  std::string_view also;      ///< a bound that involves other keys, or none
+  std::string_view standard;  ///< the default; "required"; "later": refused by this version
+  std::string_view meaning;
+  std::array<std::string_view, 2> choices{};  ///< in the order of the enum they stand for
+  std::string_view later{};                   ///< a choice which this version refuses
+
+  [[nodiscard]] bool required() const noexcept { return standard == "required"; }
+  [[nodiscard]] bool refused() const noexcept { return standard == "later"; }
+};
+
+/// All keys, in the order in which a case is written.
+std::span<const CaseKey> case_keys() noexcept;
+
+/// Null where there is no such key.
+const CaseKey* find_case_key(std::string_view path) noexcept;
+
+/// A table of a case file, e.g. "disk.tread".
+bool is_case_table(std::string_view path) noexcept;
+
+/// "float", "integer", ...: TOML's words, for the manual.
+std::string_view type_text(const CaseKey& key) noexcept;
+
+/// What may stand there, e.g. "> 0 and < disk.outer_radius".
+std::string allowed_text(const CaseKey& key);
+
+/// The keys of a table as one list; "": the tables and keys at the top.
+std::string keys_text(std::string_view table);
+
+/// The table a dotted key stands in ("" at the top), and the part after it.
+std::string_view table_of(std::string_view path) noexcept;
+std::string_view leaf_of(std::string_view path) noexcept;
+
+/// The key or table that was probably meant; empty: nothing is near. A key of the right name in the
+/// wrong table counts as near.
+std::string_view nearest_key(std::string_view path);
+
+/// Damerau-Levenshtein distance (insert, delete, replace, swap two neighbours), ignoring case.
+std::size_t edit_distance(std::string_view a, std::string_view b);
+
+}  // namespace rondo::study

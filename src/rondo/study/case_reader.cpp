@@ -1,0 +1,199 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cstdint>
+
+#include "rondo/core/contract.hpp"
+#include "rondo/study/case.hpp"
+#include "rondo/study/case_values.hpp"
+#include "rondo/study/estimate.hpp"
+
+namespace rondo::study {
+namespace {
+
+constexpr int schema_read = 1;
+constexpr double most_steps = 1e12;  ///< years of computing
+
+/// A later schema may mean other things by the same keys, so nothing else is said of such a file.
+void read_schema(CaseSource& source) {
+  const auto found = source.values.find("schema");
+  if (found == source.values.end() || found->second.type != ValueType::integer) return;
+  const CaseValue& value = found->second;
+  if (value.integer <= schema_read) return;
+  const bool in_file = value.place.source == 0;
+  throw InputError(
+      Fault{source.sources[static_cast<std::size_t>(value.place.source)].name,
+            in_file ? value.place.line : 0, in_file ? value.place.column : 0, "schema",
+            source.written(value.place),
+            fmt::format("schema {} is from a later version of rondo; this one reads {}",
+                        value.integer, schema_read),
+            fmt::format("{}", schema_read)});
+}
+
+void read_tread(CaseValues& in, mesh::Disk& disk) {
+  mesh::Tread& tread = disk.tread.emplace();
+  in.read("disk.tread.pitches", tread.pitches);
+  in.read("disk.tread.depth", tread.depth);
+  in.read("disk.tread.land_columns", tread.land_columns);
+  in.read("disk.tread.groove_columns", tread.groove_columns);
+  in.read("disk.tread.layers", tread.layers);
+  const double thickness = disk.outer_radius - disk.inner_radius;
+  if (in.good({"disk.outer_radius", "disk.inner_radius", "disk.tread.depth"}) &&
+      !(tread.depth < thickness))
+    in.fault("disk.tread.depth", "the grooves would reach the rim",
+             fmt::format("> 0 and < outer_radius - inner_radius = {:.6g}", thickness));
+}
+
+void read_columns(CaseValues& in, mesh::Disk& disk) {
+  constexpr std::string_view columns = "disk.mesh.circumferential";
+  if (!in.has_table("disk.tread")) {
+    if (!in.has(columns)) in.missing(columns);
+    return in.read(columns, disk.circumferential);
+  }
+  if (in.has(columns))
+    in.fault(columns, "stands beside a [disk.tread], whose pitches give the columns",
+             "one of disk.mesh.circumferential and [disk.tread]");
+  read_tread(in, disk);
+}
+
+/// The mesh must be numbered by int and fit into the machine.
+void check_size(CaseValues& in, const Case& c) {
+  if (!in.good({"disk.mesh.radial", "disk.mesh.circumferential", "disk.tread.pitches",
+                "disk.tread.land_columns", "disk.tread.groove_columns", "disk.tread.layers"}))
+    return;
+  const mesh::Disk& disk = c.disk;
+  const int columns = disk.tread ? disk.tread->pitches : disk.circumferential;
+  const std::string_view key = disk.radial > columns ? "disk.mesh.radial"
+                               : disk.tread          ? "disk.tread.pitches"
+                                                     : "disk.mesh.circumferential";
+  const std::size_t n_nodes = mesh::n_disk_nodes(disk);
+  constexpr std::size_t most_nodes = std::size_t{1} << 31;
+  if (n_nodes >= most_nodes)
+    return in.fault(key, fmt::format("the mesh would have {} nodes", n_nodes),
+                    fmt::format("fewer than {} nodes", most_nodes));
+  const std::size_t needed = estimated_memory(c), there = physical_memory();
+  if (there > 0 && needed > there)
+    in.fault(key,
+             fmt::format("the mesh of {} nodes needs about {} of memory, and this machine has {}",
+                         n_nodes, readable_bytes(needed), readable_bytes(there)),
+             "a coarser mesh");
+}
+
+void read_disk(CaseValues& in, Case& c) {
+  if (in.has_table("mesh") && !in.has_table("disk")) return;  // said to be refused
+  mesh::Disk& disk = c.disk;
+  in.read("disk.outer_radius", disk.outer_radius);
+  in.read("disk.inner_radius", disk.inner_radius);
+  if (in.good({"disk.outer_radius", "disk.inner_radius"}) &&
+      !(disk.inner_radius < disk.outer_radius))
+    in.fault("disk.inner_radius", "must be smaller than outer_radius",
+             fmt::format("> 0 and < outer_radius = {:.6g}", disk.outer_radius));
+  in.read("disk.mesh.radial", disk.radial);
+  in.read("disk.mesh.grading", disk.grading);
+  read_columns(in, disk);
+  check_size(in, c);
+}
+
+void read_material(CaseValues& in, Case& c) {
+  in.read("material.youngs_modulus", c.material.youngs_modulus);
+  in.read("material.poissons_ratio", c.material.poissons_ratio);
+  in.read("material.density", c.material.density);
+  c.material.plane = static_cast<fem::Plane>(in.choice("material.plane"));
+  in.choice("material.integration");
+  in.choice("material.stress_stiffening");
+  if (c.material.plane == fem::Plane::strain && c.material.poissons_ratio > 0.49)
+    c.warnings.push_back(
+        fmt::format("material.poissons_ratio = {}: in plane strain, full integration is far too "
+                    "stiff this near to 0.5",
+                    c.material.poissons_ratio));
+  in.read("damping.mass", c.damping.mass);
+  in.read("damping.stiffness", c.damping.stiffness);
+}
+
+void read_motion(CaseValues& in, dynamics::Motion& motion) {
+  in.read("motion.angular_velocity", motion.angular_velocity);
+  in.read("motion.speed", motion.speed);
+  in.read("motion.height", motion.height);
+  in.read("motion.start_x", motion.start_x);
+  in.read("motion.gravity", motion.gravity);
+}
+
+void read_ground(CaseValues& in, Case& c) {
+  if (!in.has_table("ground")) return;
+  GroundCase& ground = c.ground.emplace();
+  in.read_profile("ground.profile", ground.shape.profile);
+  in.read("ground.fillet", ground.shape.fillet);
+  in.read("ground.friction", ground.friction);
+  in.read("ground.restitution", ground.restitution);
+  if (!in.good({"ground", "ground.profile", "ground.fillet"})) return;
+  for (const contact::ShapeFault& fault : contact::shape_faults(ground.shape)) {
+    if (fault.about_fillet && in.has("ground.fillet"))
+      in.fault("ground.fillet", fault.message);
+    else
+      in.fault_at_item("ground.profile", fault.point, fault.message);
+  }
+}
+
+void read_initial(CaseValues& in, Initial& initial) {
+  initial.state = static_cast<InitialState>(in.choice("initial.state"));
+  in.read("initial.velocity", initial.velocity);
+  in.read("initial.displacement_gradient", initial.displacement_gradient);
+}
+
+void read_time(CaseValues& in, Time& time) {
+  in.choice("analysis.kind");
+  if (in.good({"analysis.kind"}) || in.has("time.end")) in.read("time.end", time.end);
+  in.read("time.safety", time.safety);
+  if (in.has("time.step")) in.read("time.step", time.step.emplace());
+  if (in.has("time.step") && in.has("time.safety"))
+    in.fault("time.step", "stands beside time.safety: give one of them",
+             "time.step or time.safety");
+  if (time.step && in.good({"time.end", "time.step"}) && time.end / *time.step > most_steps)
+    in.fault("time.step", fmt::format("the run would take {:.3g} steps", time.end / *time.step),
+             fmt::format("at most {:.0e} steps", most_steps));
+  time.scheme = static_cast<Scheme>(in.choice("time.scheme"));
+}
+
+void read_output(CaseValues& in, Case& c) {
+  Output& output = c.output;
+  in.read("output.history_interval", output.history_interval);
+  in.read("output.snapshots", output.snapshots);
+  in.read("output.snapshots_from", output.snapshots_from);
+  if (in.good({"output.snapshots_from", "time.end"}) && output.snapshots_from > c.time.end)
+    in.fault("output.snapshots_from", "must not be after the end of the run",
+             fmt::format("0 to time.end = {:.6g}", c.time.end));
+  in.read("output.stress", output.stress);
+  in.read("output.checkpoint_interval", output.checkpoint_interval);
+  if (output.checkpoint_interval != Output{}.checkpoint_interval)
+    c.warnings.emplace_back(
+        "output.checkpoint_interval has no effect yet: this version writes no checkpoints");
+}
+
+}  // namespace
+
+Case read_case(const std::filesystem::path& file, const std::vector<std::string>& settings) {
+  CaseSource source = load_case(file, settings);
+  read_schema(source);
+  CaseValues in(std::move(source));
+  Case c;
+  c.file = file;
+  c.title = as_utf8(file.stem().string());
+  int schema = schema_read;
+  in.read("schema", schema);
+  in.read("title", c.title);
+  read_disk(in, c);
+  read_material(in, c);
+  read_motion(in, c.motion);
+  read_ground(in, c);
+  read_initial(in, c.initial);
+  read_time(in, c.time);
+  const std::array<std::string, 2> operators{"auto", "sparse"};
+  c.solver_operator = operators[in.choice("solver.operator")];
+  read_output(in, c);
+  in.finish();
+  c.places = in.places();
+  return c;
+}
+
+}  // namespace rondo::study

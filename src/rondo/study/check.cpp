@@ -1,0 +1,67 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "rondo/study/check.hpp"
+
+#include <algorithm>
+#include <chrono>
+
+#include "rondo/io/results.hpp"
+#include "rondo/study/build.hpp"
+#include "rondo/study/estimate.hpp"
+#include "rondo/study/observers.hpp"
+
+namespace rondo::study {
+namespace {
+
+constexpr double trial_seconds = 0.2;  ///< of steps, to estimate the time of the whole
+constexpr std::size_t history_row_bytes = 350;
+
+double seconds_per_step(const Setup& setup) {
+  using Clock = std::chrono::steady_clock;
+  dynamics::State state = start(setup.model, setup.displacement, setup.velocity);
+  dynamics::Ledger ledger(setup.model);
+  const auto begin = Clock::now();
+  double seconds = 0.0;
+  long long steps = 0;
+  while (steps < setup.n_steps && seconds < trial_seconds) {
+    static_cast<void>(advance(setup.model, state, ledger));  // only its time is of interest
+    ++steps;
+    seconds = std::chrono::duration<double>(Clock::now() - begin).count();
+  }
+  return steps > 0 ? seconds / static_cast<double>(steps) : 0.0;
+}
+
+std::size_t history_rows(const Case& c, const Setup& setup) {
+  const double interval = std::max(c.output.history_interval, setup.model.dt);
+  return static_cast<std::size_t>(c.time.end / interval) + 1;
+}
+
+}  // namespace
+
+CheckReport check_case(const Case& c, int threads) {
+  const Setup setup = build(c, threads);
+  CheckReport r;
+  r.nodes = setup.mesh.n_nodes();
+  r.elements = setup.mesh.cells.size();
+  r.dofs = 2 * setup.model.free.size();
+  r.candidates = setup.mesh.boundary.size();
+  r.wave_speeds = fem::wave_speeds(c.material);
+  r.largest_frequency = setup.critical.omega;
+  r.element_bound = setup.critical.element_bound;
+  r.critical_step = setup.critical.step;
+  r.step = setup.model.dt;
+  r.steps = setup.n_steps;
+  r.threads = setup.model.threads;
+  r.snapshots =
+      snapshot_steps(c.output.snapshots, c.output.snapshots_from, setup.model.dt, setup.n_steps)
+          .size();
+  r.memory_bytes = estimated_memory(c);
+  r.disk_bytes = io::Results::bytes({&setup.mesh, setup.model.mass, r.snapshots,
+                                     setup.model.contact.has_value(), c.output.stress}) +
+                 history_rows(c, setup) * history_row_bytes;
+  r.seconds = seconds_per_step(setup) * static_cast<double>(setup.n_steps);
+  r.warnings = c.warnings;
+  r.warnings.insert(r.warnings.end(), setup.warnings.begin(), setup.warnings.end());
+  return r;
+}
+
+}  // namespace rondo::study

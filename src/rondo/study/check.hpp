@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: BSD-3-Clause
+/// @file  What a case would cost and whether it can run, without running it.
+#pragma once
+#include <cstddef>
+#include <string>
+#include <vector>
+
+#include "rondo/study/case.hpp"
+
+namespace rondo::study {
+
+struct CheckReport {
+  std::size_t nodes = 0, elements = 0, dofs = 0, candidates = 0;
+  fem::WaveSpeeds wave_speeds;     ///< [m/s]
+  double largest_frequency = 0.0;  ///< ω_max                                           [rad/s]
+  double element_bound = 0.0;      ///< of ω_max, by elements                           [rad/s]
+  double critical_step = 0.0;      ///< [s]
+  double step = 0.0;               ///< [s]
+  long long steps = 0;
+  std::size_t snapshots = 0;
+  int threads = 1;
+  std::size_t memory_bytes = 0;  ///< estimated
+  std::size_t disk_bytes = 0;    ///< estimated
+  double seconds = 0.0;          ///< estimated from some steps made here (no files written)  [s]
+  std::vector<std::string> warnings;
+};
+
+/// @throws InputError as a run would.
+CheckReport check_case(const Case& c, int threads);
+
+}  // namespace rondo::study

@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "rondo/study/estimate.hpp"
+
+#include <fmt/format.h>
+#include <unistd.h>
+
+namespace rondo::study {
+
+std::size_t n_disk_cells(const mesh::Disk& disk) noexcept {
+  const auto count = [](int n) { return static_cast<std::size_t>(n); };
+  const std::size_t radial = count(disk.radial);
+  if (!disk.tread) return radial * count(disk.circumferential);
+  const mesh::Tread& t = *disk.tread;
+  const std::size_t land = count(t.land_columns), groove = count(t.groove_columns);
+  return count(t.pitches) * (radial * (land + groove) + land * count(t.layers));
+}
+
+std::size_t estimated_memory(const Case& c) noexcept {
+  // A node of a grid of quadrilaterals couples with 9 nodes: 2 x 2 blocks of doubles and an index
+  // each, held twice while the stiffness is assembled; state and fields are some 30 doubles.
+  constexpr std::size_t blocks = 9;
+  constexpr std::size_t stiffness = 2 * blocks * (4 * sizeof(double) + sizeof(int));
+  constexpr std::size_t fields = 30 * sizeof(double);
+  return mesh::n_disk_nodes(c.disk) * (stiffness + fields) +
+         n_disk_cells(c.disk) * sizeof(mesh::Cell);
+}
+
+std::size_t physical_memory() noexcept {
+  const long pages = sysconf(_SC_PHYS_PAGES), page = sysconf(_SC_PAGESIZE);
+  return pages > 0 && page > 0 ? static_cast<std::size_t>(pages) * static_cast<std::size_t>(page)
+                               : 0;
+}
+
+std::string readable_bytes(std::size_t bytes) {
+  double amount = static_cast<double>(bytes);
+  if (amount < 1e3) return fmt::format("{} B", bytes);
+  const char* unit = "kB";
+  amount /= 1e3;
+  for (const char* larger : {"MB", "GB", "TB", "PB", "EB"}) {
+    if (amount < 1e3) break;
+    amount /= 1e3;
+    unit = larger;
+  }
+  return fmt::format("{:.3g} {}", amount, unit);
+}
+
+}  // namespace rondo::study

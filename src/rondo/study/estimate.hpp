@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: BSD-3-Clause
+/// @file  What a case needs of the machine, told before anything is built.
+#pragma once
+#include <cstddef>
+#include <string>
+
+#include "rondo/study/case.hpp"
+
+namespace rondo::study {
+
+/// Cells that mesh::make_disk would make, without making them.
+std::size_t n_disk_cells(const mesh::Disk& disk) noexcept;
+
+/// Memory of a run at its largest, while the stiffness is assembled; an estimate [B].
+std::size_t estimated_memory(const Case& c) noexcept;
+
+/// Physical memory of this machine [B]; 0: unknown.
+std::size_t physical_memory() noexcept;
+
+/// "512 MB", "1.8 TB".
+std::string readable_bytes(std::size_t bytes);
+
+}  // namespace rondo::study

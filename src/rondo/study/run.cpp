@@ -1,0 +1,212 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "rondo/study/run.hpp"
+
+#include <fmt/format.h>
+#include <sys/resource.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <array>
+#include <chrono>
+#include <cmath>
+#include <ctime>
+#include <nlohmann/json.hpp>
+
+#include "rondo/io/files.hpp"
+#include "rondo/study/build.hpp"
+#include "rondo/study/observers.hpp"
+#include "rondo/study/version.hpp"
+
+namespace rondo::study {
+namespace {
+
+using Json = nlohmann::ordered_json;
+using Clock = std::chrono::steady_clock;
+
+/// Largest and total figures of the contact over a run.
+struct ContactStatistics {
+  double residual = 0.0;       ///< largest law residual over the largest |w_free| so far
+  double free_velocity = 0.0;  ///< largest |w_free| so far                            [m/s]
+  double penetration = 0.0;    ///< [m]
+  long long contact_steps = 0;
+  int nodes_max = 0;
+  long long pairs = 0;
+  int pair_iterations_max = 0;
+  long long pairs_not_converged = 0;
+
+  void add(const dynamics::ContactReport& r) {
+    free_velocity = std::max(free_velocity, r.free_velocity);
+    if (r.residual > 0.0) residual = std::max(residual, r.residual / free_velocity);
+    penetration = std::max(penetration, r.penetration);
+    contact_steps += r.nodes > 0 ? 1 : 0;
+    nodes_max = std::max(nodes_max, r.nodes);
+    pairs += r.pairs;
+    pair_iterations_max = std::max(pair_iterations_max, r.pair_iterations);
+    pairs_not_converged += r.pairs_not_converged;
+  }
+};
+
+struct Loop {
+  RunStatus status = RunStatus::done;
+  std::string message;
+  ContactStatistics contact;
+  dynamics::Balance balance;
+  long long steps = 0;
+  double wall_s = 0.0;
+  double cpu_s = 0.0;
+};
+
+/// Empty while all is well; otherwise what is out of bound.
+std::string trouble(const dynamics::Balance& b, const ContactStatistics& contact) {
+  const double energy = b.kinetic + b.strain;
+  if (!std::isfinite(energy) || !std::isfinite(b.residual))
+    return fmt::format("the energy is not finite ({})", energy);
+  if (std::abs(b.works.scheme) > 10.0 * b.otherwise)
+    return fmt::format(
+        "work_scheme = {:.6g} J/m, more than ten times the energy exchanged "
+        "otherwise ({:.6g} J/m): the scheme as printed has blown up",
+        b.works.scheme, b.otherwise);
+  if (b.relative > residual_bound)
+    return fmt::format("the energy ledger does not close: relative residual {:.3g}, bound {:.0e}",
+                       b.relative, residual_bound);
+  if (!(contact.residual <= residual_bound))
+    return fmt::format("contact residual {:.3g}, bound {:.0e}", contact.residual, residual_bound);
+  return {};
+}
+
+/// Steps between two looks at the clock for the progress: cheap against the step.
+constexpr long long progress_stride = 64;
+
+Loop run_loop(const Setup& setup, const RunOptions& options, History& history,
+              Snapshots& snapshots) {
+  Loop loop;
+  dynamics::State state = start(setup.model, setup.displacement, setup.velocity);
+  dynamics::Ledger ledger(setup.model);
+  const auto wall = Clock::now();
+  const std::clock_t cpu = std::clock();
+  snapshots.observe(state);
+  while (loop.steps < setup.n_steps && loop.status == RunStatus::done) {
+    const dynamics::ContactReport report = advance(setup.model, state, ledger);
+    ++loop.steps;
+    loop.contact.add(report);
+    loop.message = trouble(ledger.last(), loop.contact);
+    if (!loop.message.empty())
+      loop.status = RunStatus::failed;
+    else if (options.stop && options.stop->load(std::memory_order_relaxed))
+      loop.status = RunStatus::interrupted;
+    const bool last = loop.steps == setup.n_steps || loop.status != RunStatus::done;
+    history.observe(state, report, ledger, last);
+    snapshots.observe(state);
+    if (options.progress && (last || loop.steps % progress_stride == 0))
+      options.progress(loop.steps, setup.n_steps);
+  }
+  if (loop.status == RunStatus::failed)
+    loop.message = fmt::format("step {} of {}, t = {:.9g} s: {}", loop.steps, setup.n_steps,
+                               state.frame.time, loop.message);
+  loop.balance = ledger.last();
+  loop.wall_s = std::chrono::duration<double>(Clock::now() - wall).count();
+  loop.cpu_s = static_cast<double>(std::clock() - cpu) / CLOCKS_PER_SEC;
+  return loop;
+}
+
+std::string host_name() {
+  std::array<char, 256> name{};
+  return gethostname(name.data(), name.size() - 1) == 0 ? name.data() : "unknown";
+}
+
+long long peak_memory_bytes() {
+  rusage usage{};
+  getrusage(RUSAGE_SELF, &usage);
+  return usage.ru_maxrss * 1024LL;
+}
+
+Json describe(const Case& c, const Setup& setup) {
+  Json j;
+  j["status"] = "running";
+  j["title"] = c.title;
+  j["version"] = version;
+  j["build"] = build_options;
+  j["host"] = host_name();
+  j["nodes"] = setup.model.n_nodes();
+  j["dofs"] = 2 * setup.model.free.size();
+  j["operator"] = "sparse";
+  j["threads"] = setup.model.threads;
+  j["critical_step"] = setup.critical.step;
+  j["largest_frequency"] = setup.critical.omega;
+  j["step"] = setup.model.dt;
+  j["steps"] = setup.n_steps;
+  j["dispatch"] = dispatch;
+  return j;
+}
+
+double per_dof_step(const Setup& setup, const Loop& loop) {
+  const double work =
+      2.0 * static_cast<double>(setup.model.free.size() * std::max(1LL, loop.steps));
+  return 1e9 * loop.wall_s / work;
+}
+
+/// Finite numbers as they are, others as text: JSON has no NaN.
+Json number(double value) {
+  return std::isfinite(value) ? Json(value) : Json(fmt::format("{}", value));
+}
+
+void add_outcome(Json& j, const Setup& setup, const Loop& loop) {
+  static constexpr std::array<const char*, 3> names{"done", "interrupted", "failed"};
+  j["status"] = names[static_cast<std::size_t>(loop.status)];
+  if (!loop.message.empty()) j["message"] = loop.message;
+  j["steps_done"] = loop.steps;
+  j["end_time"] = static_cast<double>(loop.steps) * setup.model.dt;
+  j["loop_wall_s"] = loop.wall_s;
+  j["loop_cpu_s"] = loop.cpu_s;
+  j["ns_per_dof_step"] = per_dof_step(setup, loop);
+  j["energy_residual_relative"] = number(loop.balance.relative);
+  j["energy_exchanged"] = number(loop.balance.exchanged);
+  j["contact_residual_max"] = number(loop.contact.residual);
+  j["penetration_max_m"] = loop.contact.penetration;
+  j["contact"] = {{"steps_in_contact", loop.contact.contact_steps},
+                  {"nodes_max", loop.contact.nodes_max},
+                  {"free_velocity_max", number(loop.contact.free_velocity)},
+                  {"pairs_solved", loop.contact.pairs},
+                  {"pair_iterations_max", loop.contact.pair_iterations_max},
+                  {"pairs_not_converged", loop.contact.pairs_not_converged}};
+  j["peak_memory_bytes"] = peak_memory_bytes();
+}
+
+RunReport report_of(const Setup& setup, const Loop& loop, std::size_t snapshots) {
+  RunReport r;
+  r.status = loop.status;
+  r.message = loop.message;
+  r.steps = loop.steps;
+  r.end_time = static_cast<double>(loop.steps) * setup.model.dt;
+  r.loop_wall_s = loop.wall_s;
+  r.ns_per_dof_step = per_dof_step(setup, loop);
+  r.energy_residual_relative = loop.balance.relative;
+  r.contact_residual_max = loop.contact.residual;
+  r.penetration_max_m = loop.contact.penetration;
+  r.snapshots = snapshots;
+  return r;
+}
+
+}  // namespace
+
+RunReport run_case(const Case& c, const RunOptions& options) {
+  const Setup setup = build(c, options.threads);
+  if (options.warn)
+    for (const auto* list : {&c.warnings, &setup.warnings})
+      for (const std::string& warning : *list) options.warn(warning);
+  io::prepare_results_directory(options.directory, options.overwrite);
+  io::write_file(options.directory / "case.toml", write_case(c));
+  Json json = describe(c, setup);
+  io::write_json(options.directory / "run.json", json);
+
+  History history(options.directory / "history.csv", c, setup);
+  Snapshots snapshots(options.directory, c, setup);
+  const Loop loop = run_loop(setup, options, history, snapshots);
+  snapshots.close();
+  add_outcome(json, setup, loop);
+  json["snapshots"] = snapshots.written();
+  io::write_json(options.directory / "run.json", json);
+  return report_of(setup, loop, snapshots.written());
+}
+
+}  // namespace rondo::study

@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: BSD-3-Clause
+/// @file  One run: from a case to a results directory (docs/results.md).
+#pragma once
+#include <atomic>
+#include <filesystem>
+#include <functional>
+#include <string>
+
+#include "rondo/study/case.hpp"
+
+namespace rondo::study {
+
+enum class RunStatus { done, interrupted, failed };
+
+struct RunOptions {
+  std::filesystem::path directory;
+  int threads = 0;                          ///< 0: chosen by size
+  bool overwrite = false;                   ///< replace another run's results in the directory
+  const std::atomic<bool>* stop = nullptr;  ///< set: end cleanly after the step in hand
+  /// Called now and then with steps done and steps in all; may be empty.
+  std::function<void(long long, long long)> progress;
+  std::function<void(const std::string&)> warn;  ///< takes warnings; may be empty
+};
+
+/// How a run ended. `failed` is an outcome of the numerics: not finite, or a residual out of bound.
+struct RunReport {
+  RunStatus status = RunStatus::failed;
+  std::string message;    ///< of a failure: quantity, value, bound, step and time
+  long long steps = 0;    ///< done
+  double end_time = 0.0;  ///< reached [s]
+  double loop_wall_s = 0.0;
+  double ns_per_dof_step = 0.0;
+  double energy_residual_relative = 0.0;
+  double contact_residual_max = 0.0;
+  double penetration_max_m = 0.0;
+  std::size_t snapshots = 0;
+};
+
+/// Bound of both residuals: beyond it a run stops.
+inline constexpr double residual_bound = 1e-9;
+
+/// @throws InputError (the case cannot run; nothing is left behind), FileError.
+[[nodiscard]] RunReport run_case(const Case& c, const RunOptions& options);
+
+}  // namespace rondo::study

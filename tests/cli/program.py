@@ -1,0 +1,76 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""What the command-line tests share: the program under test and small edits of a case file."""
+import os
+import pathlib
+import subprocess
+import tempfile
+import unittest
+
+PROGRAM = os.environ["RONDO"]
+ROOT = pathlib.Path(__file__).resolve().parents[2]
+LEDGE = (ROOT / "cases" / "ledge-smooth.toml").read_text()
+
+# A small fast case with everything in it: 3×40, 0.02 s, already on the ground.
+SMALL = """schema = 1
+title = "small"
+[disk]
+outer_radius = 0.30
+inner_radius = 0.15
+[disk.mesh]
+radial = 3
+circumferential = 40
+[material]
+youngs_modulus = 2.0e7
+poissons_ratio = 0.3
+density = 1100.0
+[damping]
+mass = 200.0
+stiffness = 2.0e-5
+[motion]
+angular_velocity = 33.333333
+speed = 10.0
+height = 0.296
+[ground]
+profile = "flat"
+friction = 0.3
+[time]
+end = 0.02
+[output]
+snapshots = 11
+"""
+
+
+def run(*arguments, timeout=120, **options):
+    """Runs the program; returns its CompletedProcess with text output."""
+    return subprocess.run([PROGRAM, *map(str, arguments)], capture_output=True, text=True,
+                          errors="replace", timeout=timeout, **options)
+
+
+def line_of(text, beginning):
+    """Number of the line that begins with `beginning`, from 1."""
+    for number, line in enumerate(text.splitlines(), start=1):
+        if line.startswith(beginning):
+            return number
+    raise AssertionError(f"no line begins with {beginning!r}")
+
+
+def replaced(text, beginning, line):
+    """`text` with the line that begins with `beginning` replaced (None: removed)."""
+    lines = text.splitlines()
+    place = line_of(text, beginning) - 1
+    lines[place : place + 1] = [] if line is None else line.split("\n")
+    return "\n".join(lines) + "\n"
+
+
+class ProgramTest(unittest.TestCase):
+    """A test with a folder of its own."""
+
+    def setUp(self):
+        folder = tempfile.TemporaryDirectory()
+        self.addCleanup(folder.cleanup)
+        self.folder = pathlib.Path(folder.name)
+
+    def case(self, text=SMALL, name="case.toml"):
+        path = self.folder / name
+        path.write_text(text)
+        return path

@@ -1,0 +1,319 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""rondo run and rondo check on real cases: files, their contents, exit codes, interruption."""
+import csv
+import json
+import os
+import signal
+import subprocess
+import time
+import unittest
+
+import h5py
+import numpy as np
+
+from program import PROGRAM, ROOT, SMALL, ProgramTest, replaced, run
+
+
+def history(directory):
+    with open(directory / "history.csv", newline="") as file:
+        rows = list(csv.DictReader(file))
+    return {name: np.array([float(row[name]) for row in rows]) for name in rows[0]}
+
+
+def summary(directory):
+    return json.loads((directory / "run.json").read_text())
+
+
+class Run(ProgramTest):
+    def setUp(self):
+        super().setUp()
+        self.out = self.folder / "out"
+
+    def run_ok(self, text=SMALL, *extra):
+        done = run("run", self.case(text), "-o", self.out, *extra)
+        self.assertEqual(done.returncode, 0, done.stderr)
+        self.assertEqual(done.stdout, "")
+        return done
+
+    def test_results_directory(self):
+        self.run_ok()
+        self.assertEqual(sorted(p.name for p in self.out.iterdir()),
+                         ["case.toml", "contact.csv", "fields.xdmf", "history.csv", "results.h5",
+                          "run.json"])
+        s = summary(self.out)
+        for key in ("status title version build host nodes dofs operator threads critical_step step "
+                    "steps loop_wall_s loop_cpu_s ns_per_dof_step energy_residual_relative "
+                    "contact_residual_max penetration_max_m peak_memory_bytes dispatch").split():
+            self.assertIn(key, s)
+        self.assertEqual((s["status"], s["title"], s["nodes"], s["dofs"]), ("done", "small", 160, 240))
+        self.assertLess(s["energy_residual_relative"], 1e-13)
+        self.assertLess(s["contact_residual_max"], 1e-13)
+        self.assertAlmostEqual(s["step"], 0.8 * s["critical_step"], delta=1e-15)
+
+    def test_history_closes_row_by_row(self):
+        self.run_ok()
+        h = history(self.out)
+        self.assertEqual(
+            list(h), "time_s angle_rad center_x_m center_y_m force_x force_y torque contact_nodes "
+            "sticking_nodes contact_length_m penetration_max_m slip_ratio kinetic strain work_frame "
+            "work_contact dissipation_friction loss_impact work_rim dissipation_mass "
+            "dissipation_stiffness work_scheme energy_residual".split())
+        energy = h["kinetic"] + h["strain"]
+        works = (h["work_frame"] + h["work_contact"] - h["dissipation_mass"]
+                 - h["dissipation_stiffness"] + h["work_scheme"])
+        start = energy - works - h["energy_residual"]
+        self.assertLess(np.ptp(start), 1e-12 * energy.max())  # E at the first half step, in every row
+        split = h["work_rim"] - h["dissipation_friction"] - h["loss_impact"]
+        np.testing.assert_allclose(split, h["work_contact"], atol=1e-12 * energy.max())
+        self.assertGreater(h["force_y"].max(), 1e4)
+        self.assertGreater(h["dissipation_friction"][-1], 0)
+        np.testing.assert_allclose(h["angle_rad"], -33.333333 * h["time_s"], rtol=1e-12)
+        np.testing.assert_allclose(h["center_x_m"], 10.0 * h["time_s"], rtol=1e-12)
+        np.testing.assert_allclose(h["slip_ratio"], -1e-8, atol=1e-12)
+
+    def test_history_is_the_mean_of_every_step(self):
+        self.run_ok()
+        coarse = history(self.out)
+        run("run", self.folder / "case.toml", "-o", self.folder / "fine",
+            "--set", "output.history_interval=0")
+        fine = history(self.folder / "fine")
+        self.assertEqual(len(fine["time_s"]), summary(self.out)["steps"])
+        inside = fine["time_s"] <= coarse["time_s"][49]
+        first = coarse["time_s"][:50]
+        spans = np.diff(np.concatenate([[0.0], first]))
+        self.assertAlmostEqual(np.sum(coarse["force_y"][:50] * spans),
+                               np.sum(fine["force_y"][inside]) * summary(self.out)["step"], places=7)
+        self.assertEqual(fine["penetration_max_m"].max(), coarse["penetration_max_m"].max())
+
+    def test_snapshots(self):
+        self.run_ok()
+        h = history(self.out)
+        s = summary(self.out)
+        with h5py.File(self.out / "results.h5") as f:
+            t = f["/frame/time"][:]
+            self.assertEqual(len(t), 11)
+            self.assertEqual(t[0], 0.0)
+            self.assertEqual(t[-1], h["time_s"][-1])
+            self.assertLess(np.ptp(np.diff(t)), 2.1 * s["step"])
+            u, v = f["/snapshots/displacement"][:], f["/snapshots/velocity"][:]
+            self.assertEqual(u.shape, (11, 160, 2))
+            mass, force = f["/mesh/mass"][:], f["/contact/force"][:]
+            kinetic = 0.5 * np.einsum("n,nc,nc->", mass, v[-1], v[-1])
+            self.assertAlmostEqual(kinetic / h["kinetic"][-1], 1.0, places=12)
+            np.testing.assert_allclose(f["/frame/time_velocity"][1:], t[1:] - 0.5 * s["step"])
+            boundary = f["/mesh/boundary"][:]
+            self.assertEqual(force.shape, (11, len(boundary), 2))
+            self.assertGreaterEqual(force[..., 0].min(), 0.0)
+            self.assertLessEqual(np.max(np.abs(force[..., 1]) - 0.3 * force[..., 0]), 1e-9)
+            np.testing.assert_allclose(
+                f["/contact/traction"][:] * f["/mesh/tributary"][:][None, :, None], force, rtol=1e-14)
+            # Positions in the fixed frame: c + R(θ)(X + u).
+            theta, c = f["/frame/angle"][-1], f["/frame/center"][-1]
+            arm = f["/mesh/coordinates"][:] + u[-1]
+            x = c[0] + np.cos(theta) * arm[:, 0] - np.sin(theta) * arm[:, 1]
+            np.testing.assert_allclose(f["/fields/position"][-1, :, 0], x, atol=1e-7)
+            for name in ("/frame/time", "/snapshots/displacement", "/contact/force", "/mesh/mass"):
+                self.assertIn("units", f[name].attrs)
+                self.assertIn("description", f[name].attrs)
+
+    def test_contact_csv_agrees_with_results(self):
+        self.run_ok()
+        rows = np.genfromtxt(self.out / "contact.csv", delimiter=",", names=True)
+        with h5py.File(self.out / "results.h5") as f:
+            last = rows[rows["time_s"] == f["/frame/time"][-1]]
+            traction = f["/contact/traction"][-1]
+            self.assertEqual(len(last), np.count_nonzero(traction[:, 0] > 0))
+            self.assertGreater(len(last), 0)
+            place = {node: k for k, node in enumerate(f["/mesh/boundary"][:])}
+            for row in last:
+                k = place[int(row["node"])]
+                self.assertEqual(row["pressure_pa"], traction[k, 0])
+                self.assertEqual(row["shear_pa"], traction[k, 1])
+                self.assertAlmostEqual(row["abscissa_m"], row["x_m"] + 1.0, places=12)
+
+    def test_same_bits_from_run_to_run_and_from_case_toml(self):
+        self.run_ok()
+        again = self.folder / "again"
+        done = run("run", self.out / "case.toml", "-o", again, "--threads", 2)
+        self.assertEqual(done.returncode, 0, done.stderr)
+        self.assertEqual((self.out / "case.toml").read_text(), (again / "case.toml").read_text())
+        for name in ("history.csv", "contact.csv"):
+            self.assertEqual((self.out / name).read_bytes(), (again / name).read_bytes(), name)
+        with h5py.File(self.out / "results.h5") as a, h5py.File(again / "results.h5") as b:
+            for name in ("/snapshots/displacement", "/snapshots/velocity", "/contact/force"):
+                self.assertEqual(a[name][:].tobytes(), b[name][:].tobytes(), name)
+
+    def test_set_and_default_directory(self):
+        done = run("run", self.case(), "--set", "ground.friction=0.0", "--set", "time.end=0.005",
+                   "--quiet")
+        self.assertEqual((done.returncode, done.stderr, done.stdout), (0, "", ""))
+        h = history(self.folder / "case")
+        self.assertEqual(np.abs(h["force_x"]).max(), 0.0)
+        self.assertIn("friction = 0.0", (self.folder / "case" / "case.toml").read_text())
+
+    def test_another_run_is_not_overwritten(self):
+        self.run_ok()
+        before = (self.out / "history.csv").read_bytes()
+        (self.out / "notes.txt").write_text("mine")
+        done = run("run", self.case(), "-o", self.out, "--set", "time.end=0.001")
+        self.assertEqual(done.returncode, 2)
+        self.assertIn("--overwrite", done.stderr)
+        self.assertEqual((self.out / "history.csv").read_bytes(), before)
+        done = run("run", self.case(), "-o", self.out, "--set", "time.end=0.001", "--overwrite")
+        self.assertEqual(done.returncode, 0, done.stderr)
+        self.assertLess(len((self.out / "history.csv").read_bytes()), len(before))
+        self.assertEqual((self.out / "notes.txt").read_text(), "mine")
+
+    def test_every_field_off(self):
+        text = replaced(SMALL, "snapshots", "snapshots = 0\nstress = false")
+        text = text.replace('[ground]\nprofile = "flat"\nfriction = 0.3\n', "")
+        self.run_ok(text)
+        with h5py.File(self.out / "results.h5") as f:
+            self.assertNotIn("contact", f)
+        self.assertEqual(summary(self.out)["contact_residual_max"], 0.0)
+
+    def test_cannot_write(self):
+        (self.folder / "file").write_text("in the way")
+        done = run("run", self.case(), "-o", self.folder / "file" / "out")
+        self.assertEqual(done.returncode, 4, done.stderr)
+        self.assertIn("file", done.stderr)
+
+    def test_blow_up_of_the_scheme_as_printed_is_exit_3(self):
+        text = SMALL.replace("mass = 200.0", "mass = 0.0").replace("stiffness = 2.0e-5",
+                                                                   "stiffness = 0.0")
+        text = text.replace("angular_velocity = 33.333333", "angular_velocity = 200.0")
+        text = replaced(text, "end", 'end = 2.0\nscheme = "as-printed"')
+        text = text.replace('[ground]\nprofile = "flat"\nfriction = 0.3\n', "")
+        done = run("run", self.case(text), "-o", self.out)
+        self.assertEqual(done.returncode, 3, done.stderr)
+        self.assertIn("work_scheme", done.stderr)
+        self.assertRegex(done.stderr, r"step \d+ of \d+, t = ")
+        s = summary(self.out)
+        self.assertEqual(s["status"], "failed")
+        self.assertLess(s["steps_done"], s["steps"])
+        self.assertLess(s["energy_residual_relative"], 1e-12)  # the ledger closes all the same
+        h = history(self.out)
+        self.assertGreater(h["work_scheme"][-1], 0)
+        with h5py.File(self.out / "results.h5") as f:
+            self.assertEqual(len(f["/frame/time"]), s["snapshots"])
+
+    def test_concave_corner_pairs(self):
+        # Driven against the sharp foot of a wall: nodes held by two facets at once.
+        text = SMALL.replace('profile = "flat"',
+                             "profile = [[-1, 0], [0.33, 0], [0.33, 0.1], [1, 0.1]]\nfillet = 0.05")
+        text = text.replace("height = 0.296", "height = 0.297").replace("end = 0.02", "end = 0.05")
+        text = text.replace("circumferential = 40", "circumferential = 120").replace("speed = 10.0",
+                                                                                    "speed = 1.0")
+        self.run_ok(text)
+        self.assertEqual(summary(self.out)["contact"]["pairs_not_converged"], 0)
+
+
+class Interrupt(ProgramTest):
+    LONG = replaced(SMALL, "end", "end = 500.0").replace("snapshots = 11", "snapshots = 100000")
+
+    def started(self):
+        out = self.folder / "out"
+        process = subprocess.Popen([PROGRAM, "run", str(self.case(self.LONG)), "-o", str(out)],
+                                   stderr=subprocess.PIPE, text=True)
+        self.addCleanup(process.stderr.close)
+        deadline = time.time() + 60
+        while time.time() < deadline:  # until rows come
+            path = out / "history.csv"
+            if path.exists() and path.stat().st_size > 20000:
+                return process, out
+            time.sleep(0.05)
+        process.kill()
+        self.fail("the run did not start")
+
+    def test_sigint_and_sigterm_end_cleanly(self):
+        for number in (signal.SIGINT, signal.SIGTERM):
+            with self.subTest(number):
+                process, out = self.started()
+                process.send_signal(number)
+                self.assertEqual(process.wait(timeout=60), 130)
+                s = summary(out)
+                self.assertEqual(s["status"], "interrupted")
+                with h5py.File(out / "results.h5") as f:
+                    self.assertEqual(len(f["/frame/time"]), s["snapshots"])
+                    self.assertFalse(np.isnan(f["/frame/time"][:]).any())
+                self.assertGreater(len(history(out)["time_s"]), 10)
+                for path in out.iterdir():
+                    path.unlink()
+
+    def test_sigkill_leaves_readable_files(self):
+        process, out = self.started()
+        process.kill()
+        process.wait()
+        self.assertEqual(summary(out)["status"], "running")
+        with h5py.File(out / "results.h5") as f:
+            t = f["/frame/time"][:]
+            written = np.count_nonzero(~np.isnan(t))
+            self.assertGreater(written, 1)
+            self.assertTrue(np.all(np.diff(t[:written]) > 0))
+            u = f["/snapshots/displacement"][written - 1]
+            self.assertTrue(np.isfinite(u).all())
+            self.assertGreater(np.abs(u).max(), 0)
+        lines = (out / "history.csv").read_text().splitlines()
+        self.assertGreater(len(lines), 10)
+
+
+class Check(ProgramTest):
+    def test_check_says_what_a_run_would_cost_and_writes_nothing(self):
+        done = run("check", self.case())
+        self.assertEqual(done.returncode, 0, done.stderr)
+        for word in ("nodes", "160", "critical step", "steps", "wave speeds", "156.447", "memory",
+                     "disk", "time"):
+            self.assertIn(word, done.stdout)
+        self.assertEqual([p.name for p in self.folder.iterdir()], ["case.toml"])
+
+    def test_disk_estimate_is_what_a_run_takes(self):
+        run("run", self.case(), "-o", self.folder / "out")
+        size = sum(p.stat().st_size for p in (self.folder / "out").iterdir())
+        said = run("check", self.folder / "case.toml").stdout
+        number, unit = [line.split()[2:4] for line in said.splitlines() if line.startswith("disk")][0]
+        estimate = float(number) * {"kB": 1e3, "MB": 1e6, "GB": 1e9}[unit]
+        self.assertLess(abs(estimate - size), 0.35 * size)
+
+    def test_every_case_of_the_project_is_right(self):
+        cases = sorted((ROOT / "cases").glob("*.toml"))
+        self.assertGreaterEqual(len(cases), 5)
+        for path in cases:
+            with self.subTest(path.name):
+                self.assertTrue(path.read_text().startswith("#"))  # says what it shows
+                done = run("check", path)
+                self.assertEqual((done.returncode, done.stderr), (0, ""))
+
+
+class Program(ProgramTest):
+    def test_version_and_help(self):
+        self.assertRegex(run("--version").stdout, r"^rondo \d+\.\d+\.\d+ ")
+        for arguments in (["--help"], ["run", "--help"], ["check", "--help"]):
+            done = run(*arguments)
+            self.assertEqual(done.returncode, 0)
+            self.assertIn("Example:", done.stdout)
+
+    def test_no_progress_bar_where_there_is_no_terminal(self):
+        done = run("run", self.case(), "-o", self.folder / "out")
+        self.assertNotIn("\r", done.stderr)
+        self.assertIn("100 %", done.stderr)
+
+    def test_progress_bar_on_a_terminal(self):
+        import pty
+        main, other = pty.openpty()
+        process = subprocess.Popen([PROGRAM, "run", str(self.case()), "-o", str(self.folder / "out")],
+                                   stderr=other)
+        os.close(other)
+        said = b""
+        try:
+            while chunk := os.read(main, 4096):
+                said += chunk
+        except OSError:
+            pass  # the terminal closes with the program
+        os.close(main)
+        self.assertEqual(process.wait(), 0)
+        self.assertIn(b"steps/s", said)
+        self.assertIn(b"100 %", said)
+
+
+if __name__ == "__main__":
+    unittest.main()

@@ -1,0 +1,148 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Wrong cases: exit code 2, file and place named, the value and what is allowed, nothing left behind."""
+import unittest
+
+from program import LEDGE, ProgramTest, line_of, replaced, run
+
+# (what, line of cases/ledge-smooth.toml to replace, replacement, fragments expected in the message)
+EDITS = [
+    ("unknown key", "friction", "frictoin = 0.3", ["ground.frictoin", "ground.friction"]),
+    ("unknown table", "[ground]", "[grund]", ["grund", "ground"]),
+    ("wrong type", "youngs_modulus", 'youngs_modulus = "soft"', ["material.youngs_modulus", "string"]),
+    ("boolean for number", "density", "density = true", ["material.density", "boolean"]),
+    ("float for integer", "radial", "radial = 12.5", ["disk.mesh.radial", "12.5", "integer"]),
+    ("NaN", "poissons_ratio", "poissons_ratio = nan", ["material.poissons_ratio", "nan"]),
+    ("infinite", "speed", "speed = inf", ["motion.speed", "inf"]),
+    ("inner > outer", "inner_radius", "inner_radius = 0.4", ["disk.inner_radius", "0.4", "0.3"]),
+    ("inner = outer", "inner_radius", "inner_radius = 0.30", ["disk.inner_radius"]),
+    ("negative radius", "outer_radius", "outer_radius = -0.3", ["disk.outer_radius", "> 0"]),
+    ("zero layers", "radial", "radial = 0", ["disk.mesh.radial", "1 to 100000"]),
+    ("two columns", "circumferential", "circumferential = 2", ["disk.mesh.circumferential", "3"]),
+    ("grading below 1", "radial", "radial = 12\ngrading = 0.5", ["disk.mesh.grading", "1"]),
+    ("mesh beyond memory", "circumferential", "circumferential = 9000000",
+     ["disk.mesh.circumferential", "memory", "GB"]),
+    ("incompressible", "poissons_ratio", "poissons_ratio = 0.5", ["material.poissons_ratio", "0.5"]),
+    ("no stiffness", "youngs_modulus", "youngs_modulus = 0", ["material.youngs_modulus", "> 0"]),
+    ("unknown plane", "plane", 'plane = "shell"', ["material.plane", "shell", "strain"]),
+    ("negative damping", "mass", "mass = -1.0", ["damping.mass", ">= 0"]),
+    ("step too large", "safety", "step = 1.0e-3", ["time.step", "0.001", "2.49162e-05"]),
+    ("both step and safety", "safety", "safety = 0.8\nstep = 1e-5", ["time.step", "time.safety"]),
+    ("safety above 1", "safety", "safety = 1.1", ["time.safety", "1.1", "1"]),
+    ("end in the past", "end", "end = -0.1", ["time.end", "> 0"]),
+    ("unsorted table", "speed", "speed = [[0, 10], [0.2, 5], [0.1, 3]]", ["motion.speed", "increas"]),
+    ("empty table", "height", "height = []", ["motion.height"]),
+    ("table of triples", "height", "height = [[0, 1, 2]]", ["motion.height"]),
+    ("one-point profile", "profile", "profile = [[0, 0]]", ["ground.profile", "two points"]),
+    ("profile that goes back", "profile", "profile = [[0, 0], [1, 0], [0.5, 0]]",
+     ["ground.profile", "left"]),
+    ("fillet that does not fit", "fillet", "fillet = 0.2", ["ground.fillet", "does not fit"]),
+    ("sharp convex corner", "fillet", "fillet = 0.0", ["ground.profile", "fillet"]),
+    ("negative friction", "friction", "friction = -0.3", ["ground.friction", ">= 0"]),
+    ("restitution above 1", "restitution", "restitution = 1.5", ["ground.restitution", "1"]),
+    ("schema from the future", "schema", "schema = 2", ["schema", "later version"]),
+    ("no schema", "schema", None, ["schema"]),
+    ("unknown scheme", "safety", 'safety = 0.8\nscheme = "rk4"', ["time.scheme", "rk4", "symplectic"]),
+    ("unknown state", "state", 'state = "spinning"', ["initial.state", "stationary"]),
+    ("negative snapshots", "snapshots = ", "snapshots = -1", ["output.snapshots", "-1"]),
+    ("duplicate key", "friction", "friction = 0.3\nfriction = 0.4", ["friction"]),
+    ("unclosed string", "title", 'title = "no end', ["case.toml:"]),
+    ("later version's key", "plane", 'plane = "strain"\nintegration = "b-bar"',
+     ["material.integration", "not in this version"]),
+]
+
+
+class WrongCases(ProgramTest):
+    def refused(self, case, fragments, line=None, extra=()):
+        """Exit 2, every fragment said, the place named, no results directory."""
+        before = sorted(p.name for p in self.folder.iterdir())
+        for command in ("run", "check"):
+            done = run(command, case, *extra)
+            said = done.stderr
+            self.assertEqual(done.returncode, 2, said)
+            self.assertEqual(done.stdout, "")
+            for fragment in fragments:
+                self.assertIn(fragment, said)
+            if line is not None:
+                self.assertIn(f"{case}:{line}:", said)
+            self.assertEqual(sorted(p.name for p in self.folder.iterdir()), before)
+
+    def place(self, what, text, line):
+        """The line that is named: that of the edit, unless the fault shows elsewhere."""
+        if line is None or what == "unclosed string":
+            return None
+        if what == "sharp convex corner":
+            return line_of(text, "profile")
+        if what == "duplicate key":
+            return line_of(text, "friction") + 1
+        return line_of(text, line.split("\n")[-1].split(" ")[0])
+
+    def test_edits(self):
+        self.assertGreaterEqual(len(EDITS), 30)
+        for what, key, line, fragments in EDITS:
+            with self.subTest(what):
+                text = replaced(LEDGE, key, line)
+                self.refused(self.case(text), fragments, self.place(what, text, line))
+
+    def test_start_inside_the_ground(self):
+        text = replaced(replaced(LEDGE, "start_x", "start_x = 0.5"), "height", "height = 0.25")
+        self.refused(self.case(text), ["motion.height", "inside the ground", "half an element"],
+                     line_of(text, "height"))
+
+    def test_no_stationary_state_beyond_the_softening_limit(self):
+        text = replaced(LEDGE, "state", 'state = "stationary"')
+        text = replaced(text, "angular_velocity", "angular_velocity = 5000.0")
+        self.refused(self.case(text), ["motion.angular_velocity", "softening"],
+                     line_of(text, "angular_velocity"))
+
+    def test_all_faults_at_once(self):
+        text = LEDGE
+        for key, line in [("friction", "friction = -1"), ("inner_radius", "inner_radius = 9"),
+                          ("density", "densty = 1100"), ("end", "end = 0")]:
+            text = replaced(text, key, line)
+        self.refused(self.case(text),
+                     ["ground.friction", "disk.inner_radius", "material.densty", "material.density",
+                      "time.end"])
+
+    def test_missing_table(self):
+        cut = LEDGE[: LEDGE.index("[material]")]
+        self.refused(self.case(cut), ["material", "motion", "time"])
+
+    def test_file_cut_in_the_middle_of_a_line(self):
+        self.refused(self.case(LEDGE[: LEDGE.index("profile") + 12]), ["case.toml:"])
+
+    def test_binary_rubbish(self):
+        path = self.folder / "case.toml"
+        path.write_bytes(bytes(range(256)) * 40)
+        self.refused(path, [str(path)])
+
+    def test_empty_file(self):
+        self.refused(self.case(""), ["case.toml", "empty"])
+
+    def test_missing_file_and_directory(self):
+        self.refused(self.folder / "nowhere.toml", ["nowhere.toml"])
+        self.refused(self.folder, [str(self.folder)])
+
+    def test_wrong_set(self):
+        case = self.case(LEDGE)
+        self.refused(case, ["--set", "ground.fricton", "ground.friction"],
+                     extra=["--set", "ground.fricton=0.5"])
+        self.refused(case, ["ground.friction", "-1"], extra=["--set", "ground.friction=-1"])
+        self.refused(case, ["--set"], extra=["--set", "nonsense"])
+        self.refused(case, ["disk.mesh.radial", "string"], extra=["--set", "disk.mesh.radial=many"])
+
+
+class WrongUsage(ProgramTest):
+    def test_usage(self):
+        case = self.case()
+        for arguments in ([], ["roll"], ["run"], ["run", case, "--nonsense"],
+                          ["run", case, "--threads", "0"], ["run", case, "--threads", "two"],
+                          ["check", case, case]):
+            with self.subTest(arguments):
+                done = run(*arguments)
+                self.assertEqual(done.returncode, 2)
+                self.assertNotEqual(done.stderr, "")
+        self.assertEqual([p.name for p in self.folder.iterdir()], ["case.toml"])
+
+
+if __name__ == "__main__":
+    unittest.main()

@@ -1,0 +1,88 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "rondo/study/case_keys.hpp"
+
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include "rondo/study/estimate.hpp"
+#include "unit/study/case_fixture.hpp"
+
+namespace rondo::study {
+namespace {
+
+using namespace test;
+
+TEST(CaseKeys, NearestKey) {
+  EXPECT_EQ(nearest_key("ground.frction"), "ground.friction");
+  EXPECT_EQ(nearest_key("friction"), "ground.friction");
+  EXPECT_EQ(nearest_key("damping.friction"), "ground.friction");
+  EXPECT_EQ(nearest_key("disk.radial"), "disk.mesh.radial");
+  EXPECT_EQ(nearest_key("material.young_modulus"), "material.youngs_modulus");
+  EXPECT_EQ(nearest_key("material.Density"), "material.density");
+  EXPECT_EQ(nearest_key("motion.hieght"), "motion.height");
+  EXPECT_EQ(nearest_key("outer_radus"), "disk.outer_radius");
+  EXPECT_EQ(nearest_key("grond"), "ground");
+  EXPECT_EQ(nearest_key("tread"), "disk.tread");
+  EXPECT_EQ(nearest_key("velocity"), "initial.velocity");
+  EXPECT_EQ(nearest_key("time.dt"), "");
+  EXPECT_EQ(nearest_key("ground.colour"), "");
+  EXPECT_EQ(nearest_key(std::string(100000, 'a')), "");
+}
+
+TEST(CaseKeys, EditDistance) {
+  EXPECT_EQ(edit_distance("", ""), 0U);
+  EXPECT_EQ(edit_distance("abc", ""), 3U);
+  EXPECT_EQ(edit_distance("", "ab"), 2U);
+  EXPECT_EQ(edit_distance("height", "HEIGHT"), 0U);
+  EXPECT_EQ(edit_distance("height", "hieght"), 1U);
+  EXPECT_EQ(edit_distance("height", "heigt"), 1U);
+  EXPECT_EQ(edit_distance("kitten", "sitting"), 3U);
+}
+
+TEST(CaseKeys, ManualHasEveryKey) {
+  const std::string manual = file_text(source_folder() / "docs" / "cases.md");
+  ASSERT_FALSE(manual.empty());
+  for (const CaseKey& key : case_keys()) {
+    const auto standard = key.refused() ? "not in this version" : std::string(key.standard);
+    const auto row = fmt::format("\n| `{}` | {} | {} | {} | {} | ", key.path, type_text(key),
+                                 key.unit, allowed_text(key), standard);
+    EXPECT_NE(manual.find(row), std::string::npos) << row;
+    if (!key.later.empty()) {
+      EXPECT_NE(manual.find(fmt::format("`{} = \"{}\"`", key.path, key.later)), std::string::npos);
+    }
+  }
+}
+
+/// The examples of the manual are good cases; the fragments are too short to be one.
+TEST(CaseKeys, ExamplesOfTheManualAreCases) {
+  const std::string manual = file_text(source_folder() / "docs" / "cases.md");
+  int count = 0;
+  for (auto at = manual.find("```toml\nschema"); at != std::string::npos;
+       at = manual.find("```toml\nschema", at + 1)) {
+    const auto begin = at + 8;
+    const std::string text = manual.substr(begin, manual.find("```", begin) - begin);
+    SCOPED_TRACE(text);
+    EXPECT_NO_THROW(read_text(text));
+    ++count;
+  }
+  EXPECT_EQ(count, 2);
+}
+
+TEST(Estimate, CountsNodesAndCells) {
+  Case c = read_text(base);
+  EXPECT_EQ(n_disk_cells(c.disk), 12U * 180U);
+  EXPECT_EQ(estimated_memory(c), 13U * 180U * (2 * 9 * 36 + 240) + 12U * 180U * 16U);
+  c = read_text(treaded());
+  EXPECT_EQ(n_disk_cells(c.disk), mesh::make_disk(c.disk).cells.size());
+}
+
+TEST(Estimate, ReadableBytes) {
+  EXPECT_EQ(readable_bytes(0), "0 B");
+  EXPECT_EQ(readable_bytes(999), "999 B");
+  EXPECT_EQ(readable_bytes(512'000'000), "512 MB");
+  EXPECT_EQ(readable_bytes(1'840'000'000'000), "1.84 TB");
+  EXPECT_GT(physical_memory(), 0U);
+}
+
+}  // namespace
+}  // namespace rondo::study

@@ -1,0 +1,340 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include <bit>
+#include <cmath>
+#include <cstdint>
+#include <random>
+
+#include "rondo/study/case_keys.hpp"
+#include "rondo/study/toml_text.hpp"
+#include "unit/study/case_fixture.hpp"
+
+namespace rondo::study {
+namespace {
+
+using namespace test;
+
+std::vector<std::uint64_t> bits_of(const Case& c) {
+  std::vector<double> numbers{c.disk.outer_radius,
+                              c.disk.inner_radius,
+                              c.disk.grading,
+                              c.material.youngs_modulus,
+                              c.material.poissons_ratio,
+                              c.material.density,
+                              c.damping.mass,
+                              c.damping.stiffness,
+                              c.motion.start_x,
+                              c.motion.gravity,
+                              c.initial.velocity.x,
+                              c.initial.velocity.y,
+                              c.time.end,
+                              c.time.step ? *c.time.step : c.time.safety,
+                              c.output.history_interval,
+                              c.output.snapshots_from,
+                              c.output.checkpoint_interval};
+  for (const auto* table : {&c.motion.angular_velocity, &c.motion.speed, &c.motion.height})
+    for (const auto& point : table->points())
+      numbers.insert(numbers.end(), point.begin(), point.end());
+  for (const auto& row : c.initial.displacement_gradient)
+    numbers.insert(numbers.end(), row.begin(), row.end());
+  if (c.disk.tread) numbers.push_back(c.disk.tread->depth);
+  if (c.ground) {
+    for (const Vec2 p : c.ground->shape.profile) numbers.insert(numbers.end(), {p.x, p.y});
+    numbers.insert(numbers.end(),
+                   {c.ground->shape.fillet, c.ground->friction, c.ground->restitution});
+  }
+  std::vector<std::uint64_t> bits;
+  for (const double x : numbers) bits.push_back(std::bit_cast<std::uint64_t>(x));
+  return bits;
+}
+
+/// All but numbers: counts, choices, texts, and what is there at all.
+std::string words_of(const Case& c) {
+  const mesh::Tread t = c.disk.tread.value_or(mesh::Tread{});
+  return fmt::format("{}|{} {} {}|{} {} {} {}|{} {} {} {}|{} {}|{} {}", c.title, c.disk.radial,
+                     c.disk.tread ? 0 : c.disk.circumferential, c.disk.tread.has_value(), t.pitches,
+                     t.land_columns, t.groove_columns, t.layers, static_cast<int>(c.material.plane),
+                     static_cast<int>(c.initial.state), static_cast<int>(c.time.scheme),
+                     c.solver_operator, c.ground.has_value(), c.time.step.has_value(),
+                     c.output.snapshots, c.output.stress);
+}
+
+void expect_round_trip(const Case& c) {
+  const std::string text = write_case(c);
+  SCOPED_TRACE(text);
+  const Case again = read_text(text);
+  EXPECT_EQ(bits_of(c), bits_of(again));
+  EXPECT_EQ(words_of(c), words_of(again));
+  EXPECT_EQ(text, write_case(again));
+}
+
+/// A case with a value of its own, unlike the default, for each key.
+const std::string everything = R"(schema = 1
+title = "All \"keys\" of C:\\rondo, \u00e4 日本\nsecond line"
+[disk]
+outer_radius = 0.31
+inner_radius = 0.16
+[disk.mesh]
+radial = 9
+grading = 1.25
+[disk.tread]
+pitches = 50
+depth = 0.02
+land_columns = 4
+groove_columns = 2
+layers = 3
+[material]
+youngs_modulus = 2.1e7
+poissons_ratio = 0.31
+density = 1150
+plane = "stress"
+integration = "full"
+stress_stiffening = "none"
+[damping]
+mass = 201.5
+stiffness = 2.0e-5
+[motion]
+angular_velocity = [[0, 0], [0.01, 33.3], [1, -5e-3]]
+speed = [[0.5, 10]]
+height = 0.29
+start_x = -0.35
+gravity = 9.81
+[ground]
+profile = [[-10, -0.1], [0, -0.1], [0, 0], [10, 0]]
+fillet = 0.02
+friction = 0.3
+restitution = 0.5
+[initial]
+state = "stationary"
+velocity = [1.5, -0.0]
+displacement_gradient = [[0.001, 2], [-3.5, 1e-300]]
+[analysis]
+kind = "dynamic"
+[time]
+end = 0.12
+step = 1.0e-6
+scheme = "as-printed"
+[solver]
+operator = "sparse"
+[output]
+history_interval = 0
+snapshots = 17
+snapshots_from = 0.07
+stress = false
+checkpoint_interval = 30
+)";
+
+TEST(ReadCase, TakesEveryKey) {
+  const Case c = read_text(everything);
+  EXPECT_EQ(c.title, "All \"keys\" of C:\\rondo, \u00e4 日本\nsecond line");
+  EXPECT_EQ(c.disk.outer_radius, 0.31);
+  EXPECT_EQ(c.disk.inner_radius, 0.16);
+  EXPECT_EQ(c.disk.radial, 9);
+  EXPECT_EQ(c.disk.grading, 1.25);
+  ASSERT_TRUE(c.disk.tread);
+  EXPECT_EQ(c.disk.tread->pitches, 50);
+  EXPECT_EQ(c.disk.tread->depth, 0.02);
+  EXPECT_EQ(c.disk.tread->land_columns, 4);
+  EXPECT_EQ(c.disk.tread->groove_columns, 2);
+  EXPECT_EQ(c.disk.tread->layers, 3);
+  EXPECT_EQ(c.material.youngs_modulus, 2.1e7);
+  EXPECT_EQ(c.material.poissons_ratio, 0.31);
+  EXPECT_EQ(c.material.density, 1150.0);
+  EXPECT_EQ(c.material.plane, fem::Plane::stress);
+  EXPECT_EQ(c.damping.mass, 201.5);
+  EXPECT_EQ(c.damping.stiffness, 2.0e-5);
+  const std::vector<std::array<double, 2>> spin{{0, 0}, {0.01, 33.3}, {1, -5e-3}};
+  EXPECT_EQ(c.motion.angular_velocity.points(), spin);
+  EXPECT_EQ(c.motion.speed.at(0.0), 10.0);
+  EXPECT_EQ(c.motion.height.at(3.0), 0.29);
+  EXPECT_EQ(c.motion.start_x, -0.35);
+  EXPECT_EQ(c.motion.gravity, 9.81);
+}
+
+TEST(ReadCase, TakesEveryKeyOfTheRun) {
+  const Case c = read_text(everything);
+  ASSERT_TRUE(c.ground);
+  const std::vector<Vec2> profile{{-10, -0.1}, {0, -0.1}, {0, 0}, {10, 0}};
+  EXPECT_EQ(c.ground->shape.profile, profile);
+  EXPECT_EQ(c.ground->shape.fillet, 0.02);
+  EXPECT_EQ(c.ground->friction, 0.3);
+  EXPECT_EQ(c.ground->restitution, 0.5);
+  EXPECT_EQ(c.initial.state, InitialState::stationary);
+  EXPECT_EQ(c.initial.velocity, (Vec2{1.5, 0.0}));
+  EXPECT_EQ(c.initial.displacement_gradient[0][1], 2.0);
+  EXPECT_EQ(c.initial.displacement_gradient[1][0], -3.5);
+  EXPECT_EQ(c.time.end, 0.12);
+  EXPECT_EQ(c.time.step, 1.0e-6);
+  EXPECT_EQ(c.time.scheme, Scheme::as_printed);
+  EXPECT_EQ(c.solver_operator, "sparse");
+  EXPECT_EQ(c.output.history_interval, 0.0);
+  EXPECT_EQ(c.output.snapshots, 17);
+  EXPECT_EQ(c.output.snapshots_from, 0.07);
+  EXPECT_FALSE(c.output.stress);
+  EXPECT_EQ(c.output.checkpoint_interval, 30.0);
+  ASSERT_EQ(c.warnings.size(), 1U);
+  EXPECT_NE(c.warnings[0].find("output.checkpoint_interval"), std::string::npos);
+}
+
+const std::string least = R"(schema = 1
+disk = {outer_radius = 3, inner_radius = 1, mesh = {radial = 2, circumferential = 8}}
+material = {youngs_modulus = 1, poissons_ratio = 0, density = 1}
+motion = {angular_velocity = 0, speed = 0, height = 5}
+time.end = 1
+)";
+
+TEST(ReadCase, FillsInDefaults) {
+  const CaseFile file(least, "my-disk");
+  const Case c = read_case(file.path());
+  EXPECT_EQ(c.file, file.path());
+  EXPECT_EQ(c.title, "my-disk");
+  EXPECT_FALSE(c.disk.tread);
+  EXPECT_FALSE(c.ground);
+  EXPECT_EQ(c.time.safety, 0.8);
+  EXPECT_FALSE(c.time.step);
+  EXPECT_EQ(c.solver_operator, "auto");
+  EXPECT_TRUE(c.warnings.empty());
+  expect_round_trip(c);
+}
+
+/// The table of keys tells the defaults; the structs have them.
+TEST(ReadCase, DefaultsAreThoseOfTheTableOfKeys) {
+  const std::string text = "\n" + write_case(read_text(least + "[ground]\nprofile = 'flat'\n"));
+  for (const CaseKey& key : case_keys()) {
+    const bool written = !key.required() && !key.refused() && key.path != "title" &&
+                         key.path != "time.step" && key.path != "disk.mesh.circumferential";
+    if (!written) continue;
+    const auto table = table_of(key.path);
+    const auto begin = text.find(fmt::format("\n[{}]\n", table));
+    ASSERT_NE(begin, std::string::npos) << key.path;
+    const std::string part = text.substr(begin, text.find("\n\n", begin) - begin) + "\n";
+    EXPECT_NE(part.find(fmt::format("\n{} = {}\n", leaf_of(key.path), key.standard)),
+              std::string::npos)
+        << key.path << " in" << part;
+  }
+}
+
+TEST(ReadCase, WarnsOfLocking) {
+  EXPECT_TRUE(read_text(with_line(12, "poissons_ratio = 0.49")).warnings.empty());
+  EXPECT_EQ(read_text(with_line(12, "poissons_ratio = 0.495")).warnings.size(), 1U);
+}
+
+TEST(ReadCase, TakesTheCasesOfTheRepository) {
+  int count = 0;
+  for (const auto& entry : std::filesystem::directory_iterator(source_folder() / "cases")) {
+    if (entry.path().extension() != ".toml") continue;
+    SCOPED_TRACE(entry.path());
+    const Case c = read_case(entry.path());
+    EXPECT_TRUE(c.warnings.empty());
+    expect_round_trip(c);
+    EXPECT_TRUE(file_text(entry.path()).starts_with("# "));
+    ++count;
+  }
+  EXPECT_GE(count, 5);
+}
+
+TEST(WriteCase, RoundTrips) {
+  expect_round_trip(read_text(base));
+  expect_round_trip(read_text(treaded()));
+  expect_round_trip(read_text(everything));
+}
+
+using Points = std::vector<std::array<double, 2>>;
+
+TEST(WriteCase, RoundTripsAwkwardNumbers) {
+  Case c = read_text(base);
+  c.title = "tab\t, bell\x07, delete\x7f, \"\"\", '\\', return\r, é";
+  c.motion.start_x = -0.0;
+  c.motion.gravity = 5e-324;
+  c.material.youngs_modulus = 1.7976931348623157e308;
+  c.damping.mass = 1e22;
+  c.damping.stiffness = 0.1 + 0.2;
+  c.motion.speed = dynamics::Table(Points{{-0.0, 1.0}});
+  c.motion.height = dynamics::Table(Points{{2.0, 0.3}});
+  expect_round_trip(c);
+}
+
+TEST(WriteCase, NumbersReadBackToTheBit) {
+  std::mt19937_64 random(7);
+  std::string text;
+  std::vector<double> numbers;
+  while (numbers.size() < 5000) {
+    const auto x = std::bit_cast<double>(random());
+    if (!std::isfinite(x)) continue;
+    text += fmt::format("{}[{}, {}]", numbers.empty() ? "" : ",", numbers.size(), toml_number(x));
+    numbers.push_back(x);
+  }
+  const Case c = read_text(with_line(20, "speed = [" + text + "]"));
+  const auto& points = c.motion.speed.points();
+  ASSERT_EQ(points.size(), numbers.size());
+  for (std::size_t i = 0; i < numbers.size(); ++i)
+    EXPECT_EQ(std::bit_cast<std::uint64_t>(points[i][1]), std::bit_cast<std::uint64_t>(numbers[i]));
+}
+
+TEST(Settings, ReplaceAndAdd) {
+  const Case c = read_text(
+      treaded(), {"ground.friction=0.6", "disk.tread.depth = 0.015", "material.plane=stress",
+                  "motion.angular_velocity=[[0,0],[0.01,30]]", "title=Plane stress, μ = \"0.6\"",
+                  "output.stress=false", "initial.velocity=[1, 2]", "solver.operator='sparse'"});
+  EXPECT_EQ(c.ground->friction, 0.6);
+  EXPECT_EQ(c.disk.tread->depth, 0.015);
+  EXPECT_EQ(c.material.plane, fem::Plane::stress);
+  EXPECT_EQ(c.motion.angular_velocity.at(0.005), 15.0);
+  EXPECT_EQ(c.title, "Plane stress, μ = \"0.6\"");
+  EXPECT_FALSE(c.output.stress);
+  EXPECT_EQ(c.initial.velocity, (Vec2{1, 2}));
+  EXPECT_EQ(c.solver_operator, "sparse");
+}
+
+TEST(Settings, MakeTables) {
+  EXPECT_EQ(read_text(least, {"ground.profile=flat", "ground.friction=1"}).ground->friction, 1.0);
+  const Case c = read_text(treaded(), {"disk.tread={pitches=7, depth=0.01, land_columns=1, "
+                                       "groove_columns=1, layers=1}"});
+  EXPECT_EQ(c.disk.tread->pitches, 7);
+}
+
+TEST(Settings, LastOneCounts) {
+  EXPECT_EQ(read_text(base, {"time.end=1", "time.end=2"}).time.end, 2.0);
+}
+
+TEST(Settings, StepTakesThePlaceOfTheFilesSafety) {
+  const Case c = read_text(base, {"time.step=1e-6"});
+  EXPECT_EQ(c.time.step, 1e-6);
+  EXPECT_FALSE(read_text(everything, {"time.safety=0.5"}).time.step);
+  EXPECT_EQ(faults_of(base, {"time.step=1e-6", "time.safety=0.5"}).size(), 1U);
+}
+
+TEST(Settings, FaultsNameTheSetting) {
+  const auto faults = faults_of(base, {"ground.frction=0.6", "disk.outer_radius=wide", "nonsense",
+                                       "grond.friction=1", "disk=5", "mesh.file=a.msh", "a b=1"});
+  ASSERT_EQ(faults.size(), 6U);
+  EXPECT_EQ(faults[0].file, "--set ground.frction=0.6");
+  EXPECT_EQ(faults[0].line, 0);
+  EXPECT_EQ(faults[0].key, "ground.frction");
+  EXPECT_EQ(faults[0].found, "0.6");
+  EXPECT_NE(faults[0].message.find("did you mean ground.friction?"), std::string::npos);
+  EXPECT_EQ(faults[1].key, "grond.friction");
+  EXPECT_NE(faults[1].message.find("did you mean ground.friction?"), std::string::npos);
+  EXPECT_EQ(faults[2].file, "--set disk=5");  // which took all of [disk] away
+  EXPECT_NE(faults[2].message.find("must be a table"), std::string::npos);
+  EXPECT_EQ(faults[3].key, "mesh");
+  EXPECT_NE(faults[3].message.find("not in this version"), std::string::npos);
+  EXPECT_EQ(faults[4].file, "--set nonsense");
+  EXPECT_EQ(faults[5].file, "--set a b=1");
+}
+
+TEST(Settings, TextThatIsNotToml) {
+  EXPECT_EQ(read_text(base, {"title="}).title, "");
+  EXPECT_EQ(read_text(base, {"title=a\nb = 2"}).title, "a\nb = 2");
+  EXPECT_EQ(read_text(base, {"title=1\nb = 2"}).title, "1\nb = 2");
+  EXPECT_EQ(read_text(base, {"title=\xff\xfe."}).title, "??.");
+  const auto faults = faults_of(base, {"time.end=0,2"});
+  ASSERT_EQ(faults.size(), 1U);
+  EXPECT_EQ(faults[0].found, "0,2");
+  EXPECT_EQ(faults[0].message, "must be a float, not a string");
+}
+
+}  // namespace
+}  // namespace rondo::study

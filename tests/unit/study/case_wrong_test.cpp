@@ -1,0 +1,333 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "unit/study/case_fixture.hpp"
+
+namespace rondo::study {
+namespace {
+
+using namespace test;
+
+/// A wrong case: a line of the base replaced, and the one fault that this must bring.
+struct Wrong {
+  const char* name;
+  int line;  ///< replaced
+  std::string replacement;
+  std::string key;
+  int fault_line;
+  std::vector<std::string> fragments;  ///< of the fault's text
+};
+
+std::ostream& operator<<(std::ostream& out, const Wrong& wrong) {
+  return out << wrong.name;
+}
+
+const std::string later = "not in this version of rondo";
+
+const std::vector<Wrong> wrongs{
+    {"SchemaMissing", 1, "", "schema", 0, {"is missing", "(allowed: 1)"}},
+    {"SchemaLater",
+     1,
+     "schema = 2",
+     "schema",
+     1,
+     {"schema 2 is from a later version of rondo; this one reads 1"}},
+    {"SchemaZero", 1, "schema = 0", "schema", 1, {"out of bounds", "(allowed: 1)"}},
+    {"SchemaFloat", 1, "schema = 1.0", "schema", 1, {"must be an integer, not a float"}},
+    {"TitleInteger", 2, "title = 5", "title", 2, {"must be a string, not an integer"}},
+    {"UnknownTop",
+     2,
+     "friction = 0.3",
+     "friction",
+     2,
+     {"unknown key", "did you mean ground.friction?", "= 0.3"}},
+    {"UnknownInnermost",
+     9,
+     "colour = 'red'",
+     "disk.mesh.colour",
+     9,
+     {"unknown key", "in [disk.mesh]: radial, circumferential, grading"}},
+    {"UnknownQuoted", 2, "\"disk.mesh\" = 1", "\"disk.mesh\"", 2, {"unknown key"}},
+    {"UnknownInTable",
+     27,
+     "frction = 0.3",
+     "ground.frction",
+     27,
+     {"did you mean ground.friction?", "in [ground]: profile, fillet, friction, restitution"}},
+    {"UnknownTable",
+     15,
+     "[dampng]",
+     "dampng",
+     15,
+     {"unknown table", "did you mean damping?", "[disk]"}},
+    {"TableAsArray", 29, "[[initial]]", "initial", 29, {"must be a table, not an array"}},
+    {"KeyAsTable",
+     37,
+     "[time.step]\nx = 1\n[time.scheme]",
+     "time.step",
+     37,
+     {"must be a float, not a table"}},
+    {"OuterNegative",
+     4,
+     "outer_radius = -0.3",
+     "disk.outer_radius",
+     4,
+     {"-0.3", "out of bounds", "(allowed: > 0)"}},
+    {"OuterNan", 4, "outer_radius = nan", "disk.outer_radius", 4, {"must be a finite number"}},
+    {"OuterInf",
+     4,
+     "outer_radius = +inf",
+     "disk.outer_radius",
+     4,
+     {"must be a finite number", "+inf"}},
+    {"OuterText",
+     4,
+     "outer_radius = \"0.3\"",
+     "disk.outer_radius",
+     4,
+     {"must be a float, not a string", "\"0.3\""}},
+    {"OuterDate",
+     4,
+     "outer_radius = 2020-01-01",
+     "disk.outer_radius",
+     4,
+     {"must be a float, not a date"}},
+    {"InnerMissing", 5, "", "disk.inner_radius", 3, {"is missing", "> 0 and < disk.outer_radius"}},
+    {"InnerEqual",
+     5,
+     "inner_radius = 0.30",
+     "disk.inner_radius",
+     5,
+     {"must be smaller than outer_radius", "0.3"}},
+    {"InnerZero", 5, "inner_radius = 0", "disk.inner_radius", 5, {"out of bounds"}},
+    {"RadialZero", 7, "radial = 0", "disk.mesh.radial", 7, {"1 to 100000"}},
+    {"RadialFloat", 7, "radial = 12.0", "disk.mesh.radial", 7, {"must be an integer, not a float"}},
+    {"RadialHuge", 7, "radial = 9223372036854775807", "disk.mesh.radial", 7, {"out of bounds"}},
+    {"ColumnsTwo", 8, "circumferential = 2", "disk.mesh.circumferential", 8, {"3 to 10000000"}},
+    {"ColumnsMissing", 8, "", "disk.mesh.circumferential", 6, {"is missing"}},
+    {"ColumnsAndTread",
+     9,
+     "[disk.tread]\npitches = 60\ndepth = 0.01\nland_columns = 3\ngroove_columns = 1\nlayers = 2",
+     "disk.mesh.circumferential",
+     8,
+     {"[disk.tread]"}},
+    {"GradingBelowOne", 9, "grading = 0.99", "disk.mesh.grading", 9, {"1 to 10"}},
+    {"YoungZero", 11, "youngs_modulus = 0.0", "material.youngs_modulus", 11, {"> 0"}},
+    {"YoungBoolean",
+     11,
+     "youngs_modulus = true",
+     "material.youngs_modulus",
+     11,
+     {"must be a float, not a boolean"}},
+    {"PoissonHalf", 12, "poissons_ratio = 0.5", "material.poissons_ratio", 12, {"> -1 and < 0.5"}},
+    {"PoissonMinusOne",
+     12,
+     "poissons_ratio = -1",
+     "material.poissons_ratio",
+     12,
+     {"> -1 and < 0.5"}},
+    {"DensityMissing", 13, "", "material.density", 10, {"is missing"}},
+    {"PlaneUnknown",
+     14,
+     "plane = \"shell\"",
+     "material.plane",
+     14,
+     {"\"shell\"", "\"strain\" or \"stress\""}},
+    {"PlaneEmpty", 14, "plane = ''", "material.plane", 14, {"not one of the choices"}},
+    {"BBar", 14, "integration = \"b-bar\"", "material.integration", 14, {later, "\"full\""}},
+    {"Centrifugal",
+     14,
+     "stress_stiffening = \"centrifugal\"",
+     "material.stress_stiffening",
+     14,
+     {later}},
+    {"DampingNegative", 16, "mass = -1", "damping.mass", 16, {">= 0"}},
+    {"StiffnessNan", 17, "stiffness = nan", "damping.stiffness", 17, {"finite"}},
+    {"DampingTypo",
+     17,
+     "stifness = 0",
+     "damping.stifness",
+     17,
+     {"did you mean damping.stiffness?"}},
+    {"SpinMissing",
+     19,
+     "",
+     "motion.angular_velocity",
+     18,
+     {"is missing", "a finite number or [[t, value], ...]"}},
+    {"SpinText",
+     19,
+     "angular_velocity = 'fast'",
+     "motion.angular_velocity",
+     19,
+     {"must be a float or an array of pairs, not a string"}},
+    {"SpinEmpty",
+     19,
+     "angular_velocity = []",
+     "motion.angular_velocity",
+     19,
+     {"at least one point"}},
+    {"SpinNotPairs",
+     19,
+     "angular_velocity = [[0, 1], 2]",
+     "motion.angular_velocity",
+     19,
+     {"must be a pair of floats, not an integer"}},
+    {"SpinTriple",
+     19,
+     "angular_velocity = [[0, 1],\n[1, 2, 3]]",
+     "motion.angular_velocity",
+     20,
+     {"must have 2 items, not 3", "[1, 2, 3]"}},
+    {"SpinTimesEqual",
+     19,
+     "angular_velocity = [[0, 1],\n  [0.0, 2]]",
+     "motion.angular_velocity",
+     20,
+     {"times must increase"}},
+    {"SpeedInf", 20, "speed = -inf", "motion.speed", 20, {"finite"}},
+    {"SpeedTableNan", 20, "speed = [[0, 1], [1, nan]]", "motion.speed", 20, {"finite", "nan"}},
+    {"GravityTable",
+     23,
+     "gravity = [[0, 0], [1, 9.81]]",
+     "motion.gravity",
+     23,
+     {"must be a float, not an array"}},
+    {"ProfileMissing", 25, "", "ground.profile", 24, {"is missing", "\"flat\" or"}},
+    {"ProfileRough",
+     25,
+     "profile = \"rough\"",
+     "ground.profile",
+     25,
+     {"\"flat\" or [[x, y], ...]"}},
+    {"ProfilePoint", 25, "profile = [[0, 0]]", "ground.profile", 25, {"at least two points"}},
+    {"ProfileNumber",
+     25,
+     "profile = 0.0",
+     "ground.profile",
+     25,
+     {"\"flat\" or an array of pairs, not a float"}},
+    {"ProfileCoincident",
+     25,
+     "profile = [[0, 0],\n [1, 0],\n [1, 0]]",
+     "ground.profile",
+     27,
+     {"coincides", "[1, 0]"}},
+    {"ProfileBack", 25, "profile = [[0, 0],\n [1, 0],\n [0.5, 1]]", "ground.profile", 27, {"left"}},
+    {"SharpCorner", 26, "", "ground.profile", 25, {"convex corner", "fillet", "[0, 0]"}},
+    {"FilletTooLarge",
+     25,
+     "profile = [[-1, 0], [0, 0.1], [0.001, 0.1], [1, -1]]",
+     "ground.fillet",
+     26,
+     {"does not fit", "= 0.02"}},
+    {"FilletNegative", 26, "fillet = -0.02", "ground.fillet", 26, {">= 0"}},
+    {"FrictionNegative", 27, "friction = -0.3", "ground.friction", 27, {">= 0"}},
+    {"RestitutionAboveOne", 28, "restitution = 1.01", "ground.restitution", 28, {"0 to 1"}},
+    {"StateUnknown", 30, "state = \"moving\"", "initial.state", 30, {"\"rest\" or \"stationary\""}},
+    {"VelocityNumber",
+     31,
+     "velocity = 3",
+     "initial.velocity",
+     31,
+     {"must be an array, not an integer"}},
+    {"VelocityTriple",
+     31,
+     "velocity = [1, 2, 3]",
+     "initial.velocity",
+     31,
+     {"must have 2 items, not 3"}},
+    {"GradientRows",
+     31,
+     "displacement_gradient = [[1, 2]]",
+     "initial.displacement_gradient",
+     31,
+     {"must have 2 rows, not 1"}},
+    {"GradientText",
+     31,
+     "displacement_gradient = [[1, 2], [3, 'x']]",
+     "initial.displacement_gradient",
+     31,
+     {"must be a float, not a string", "'x'"}},
+    {"EndMissing", 33, "", "time.end", 32, {"is missing"}},
+    {"EndZero", 33, "end = 0.0", "time.end", 33, {"> 0"}},
+    {"SafetyAboveOne", 34, "safety = 1.1", "time.safety", 34, {"> 0 and <= 1"}},
+    {"SafetyZero", 34, "safety = 0", "time.safety", 34, {"> 0 and <= 1"}},
+    {"StepAndSafety", 34, "safety = 0.8\nstep = 1e-6", "time.step", 35, {"give one of them"}},
+    {"StepNegative", 34, "step = -1e-6", "time.step", 34, {"> 0"}},
+    {"StepTiny", 34, "step = 1e-300", "time.step", 34, {"steps"}},
+    {"SchemeUnknown",
+     34,
+     "scheme = \"implicit\"",
+     "time.scheme",
+     34,
+     {"\"symplectic\" or \"as-printed\""}},
+    {"SnapshotsNegative", 36, "snapshots = -1", "output.snapshots", 36, {"0 to 1000000"}},
+    {"SnapshotsText",
+     36,
+     "snapshots = 'all'",
+     "output.snapshots",
+     36,
+     {"must be an integer, not a string"}},
+    {"SnapshotsAfterEnd", 37, "snapshots_from = 0.13", "output.snapshots_from", 37, {"0.12"}},
+    {"StressText",
+     37,
+     "stress = \"yes\"",
+     "output.stress",
+     37,
+     {"must be a boolean, not a string", "true or false"}},
+    {"HistoryNegative", 37, "history_interval = -1", "output.history_interval", 37, {">= 0"}},
+    {"CheckpointZero", 37, "checkpoint_interval = 0", "output.checkpoint_interval", 37, {"> 0"}},
+    {"Mesh", 37, "[mesh]\nfile = 'a.msh'\nclamped = 'rim'", "mesh", 37, {later, "[disk]"}},
+    {"Crush", 37, "[analysis]\nkind = \"crush\"", "analysis.kind", 38, {later, "\"dynamic\""}},
+    {"CrushDepth", 37, "[analysis]\ndepth = 0.02", "analysis.depth", 38, {later}},
+    {"Cyclic",
+     37,
+     "[solver]\noperator = \"cyclic\"",
+     "solver.operator",
+     38,
+     {later, "\"auto\" or \"sparse\""}},
+    {"Syntax", 20, "speed = 10,0", "", 20, {"is not TOML"}},
+    {"SyntaxTwice", 20, "height = 10", "", 21, {"is not TOML", "redefine"}},
+    {"SyntaxOverflow", 20, "speed = 1e999", "", 20, {"is not TOML"}},
+    {"Utf8", 2, "title = \"\xff\"", "", 2, {"is not TOML"}},
+};
+
+class WrongCase : public testing::TestWithParam<Wrong> {};
+
+TEST_P(WrongCase, IsToldWithItsPlace) {
+  const Wrong& wrong = GetParam();
+  const CaseFile file(with_line(wrong.line, wrong.replacement));
+  std::vector<Fault> faults;
+  try {
+    read_case(file.path());
+  } catch (const InputError& error) {
+    faults = error.faults();
+  }
+  const auto told = std::find_if(faults.begin(), faults.end(),
+                                 [&](const Fault& fault) { return fault.key == wrong.key; });
+  std::string all;
+  for (const Fault& fault : faults) all += fault.text() + "\n";
+  ASSERT_NE(told, faults.end()) << all;
+  EXPECT_EQ(told->line, wrong.fault_line) << all;
+  EXPECT_EQ(told->file, file.path().string());
+  EXPECT_EQ(told->column > 0, told->line > 0);
+  for (const std::string& fragment : wrong.fragments)
+    EXPECT_NE(told->text().find(fragment), std::string::npos) << fragment << "\nnot in\n" << all;
+}
+
+/// One mistake, one fault; but for those that leave the keys below them to another table.
+TEST_P(WrongCase, IsToldOnce) {
+  const Wrong& wrong = GetParam();
+  const std::vector<std::string> several{"UnknownTable", "TableAsArray", "KeyAsTable"};
+  if (std::find(several.begin(), several.end(), wrong.name) != several.end()) return;
+  EXPECT_EQ(faults_of(with_line(wrong.line, wrong.replacement)).size(), 1U);
+}
+
+INSTANTIATE_TEST_SUITE_P(ReadCase, WrongCase, testing::ValuesIn(wrongs),
+                         [](const auto& wrong) { return std::string(wrong.param.name); });
+
+}  // namespace
+}  // namespace rondo::study
