@@ -3,9 +3,13 @@
 
 #include <cmath>
 
+#include "rondo/core/contract.hpp"
+
 namespace rondo::contact {
 
 LocalSolution solve_local(const LocalProblem& problem, double friction) noexcept {
+  RONDO_ASSERT(problem.delassus.x > friction * std::abs(problem.delassus.y), problem.delassus.x,
+               problem.delassus.y, friction);
   const Vec2 w = {problem.free.x + problem.bounce, problem.free.y};
   if (w.x >= 0.0) return {};
   const Vec2 stick = -(w / problem.delassus);  // w + W r = 0

@@ -17,7 +17,7 @@ enum class Status { open, stick, slip };
 /// One contact of one step.
 struct LocalProblem {
   Vec2 free;            ///< relative velocity without this contact's impulse            [m/s]
-  Vec2 delassus;        ///< W as a complex number: w = free + W r                        [1/kg·m]
+  Vec2 delassus;        ///< W as a complex number: w = free + W r (4.3a)               [m/kg]
   double bounce = 0.0;  ///< e min(w_n⁻, 0) <= 0: added to w_n in the law           [m/s]
 };
 
@@ -26,7 +26,7 @@ struct LocalSolution {
   Status status = Status::open;
 };
 
-/// 0 <= r_n ⊥ w_n + bounce >= 0; |r_t| <= μ r_n, r_t = -μ r_n w_t/|w_t| where w_t ≠ 0   (4.5)
+/// 0 <= r_n ⊥ w_n + bounce >= 0; |r_t| <= μ r_n, r_t = -μ r_n w_t/|w_t| where w_t ≠ 0   (4.3)
 /// @pre Re W > μ |Im W|: one solution.   @post r_n >= 0, |r_t| <= μ r_n (to round-off).
 LocalSolution solve_local(const LocalProblem& problem, double friction) noexcept;
 

@@ -62,7 +62,7 @@ void set_velocities(const Model& model, const State& state, NodeContact& c) noex
   }
 }
 
-void solve(const Model& model, State& state, NodeContact& c, ContactReport& report) noexcept {
+void solve(const Model& model, NodeContact& c, ContactReport& report) noexcept {
   const double friction = model.contact->law.friction;
   if (c.contacts.size() == 1) {
     ActiveContact& a = c.contacts[0];
@@ -72,16 +72,13 @@ void solve(const Model& model, State& state, NodeContact& c, ContactReport& repo
     return;
   }
   ActiveContact &a = c.contacts[0], &b = c.contacts[1];
-  std::array<Vec2, 2>& warm = state.warm[a.candidate];
   const auto solution = contact::solve_pair(
-      {{a.free, b.free}, {a.bounce, b.bounce}, c.delassus, conj(a.normal) * b.normal}, friction,
-      warm);
+      {{a.free, b.free}, {a.bounce, b.bounce}, c.delassus, conj(a.normal) * b.normal}, friction);
   for (std::size_t i = 0; i < 2; ++i) {
-    c.contacts[i].impulse = warm[i] = solution.contact[i].impulse;
+    c.contacts[i].impulse = solution.contact[i].impulse;
     c.contacts[i].status = solution.contact[i].status;
   }
   ++report.pairs;
-  report.pair_iterations = std::max(report.pair_iterations, solution.iterations);
   report.pairs_not_converged += solution.converged ? 0 : 1;
 }
 
@@ -89,18 +86,16 @@ void solve(const Model& model, State& state, NodeContact& c, ContactReport& repo
 /// so that sticking is exact (4.6).
 void correct_velocity(const Model& model, State& state, const NodeContact& c, Vec2 a) noexcept {
   Vec2 impulse;
-  bool sticks = true;
   for (const ActiveContact& contact : c.contacts) {
+    if (contact.status == Status::stick) {
+      state.v_next[c.node] =
+          conj(c.turn_next) * (contact.normal * Vec2{-contact.bounce, 0.0} - c.motion.drive);
+      return;
+    }
     impulse += contact.normal * contact.impulse;
-    sticks = sticks && contact.status == Status::stick;
   }
   if (impulse == Vec2{}) return;
-  const ActiveContact& first = c.contacts[0];
-  if (sticks && (c.contacts.size() == 1 || (first.bounce == 0.0 && c.contacts[1].bounce == 0.0)))
-    state.v_next[c.node] =
-        conj(c.turn_next) * (first.normal * Vec2{-first.bounce, 0.0} - c.motion.drive);
-  else
-    state.v_next[c.node] += conj(state.frame.rotation) * impulse / (model.mass[c.node] * a);
+  state.v_next[c.node] += conj(state.frame.rotation) * impulse / (model.mass[c.node] * a);
 }
 
 void report_node(const Model& model, const State& state, const NodeContact& c,
@@ -146,7 +141,7 @@ ContactReport contact_phase(const Model& model, State& state,
     c.turn_next = f.rotation * turn;
     c.delassus = turn / (model.mass[c.node] * update.a);
     set_velocities(model, state, c);
-    solve(model, state, c, report);
+    solve(model, c, report);
     correct_velocity(model, state, c, update.a);
     report_node(model, state, c, report);
     i += c.contacts.size();

@@ -13,12 +13,11 @@ struct ContactReport {
   int nodes = 0;                 ///< candidates with r_n > 0
   int sticking = 0;              ///< of these, those that stick
   int pairs = 0;                 ///< nodes held by two facets
-  int pair_iterations = 0;       ///< most iterations of a pair
-  int pairs_not_converged = 0;
-  double length = 0.0;         ///< Σ tributary lengths of nodes with r_n > 0           [m]
-  double penetration = 0.0;    ///< largest -gap of an active contact, >= 0             [m]
-  double free_velocity = 0.0;  ///< largest |w_free|                                    [m/s]
-  double residual = 0.0;       ///< largest law residual over the node's mass           [m/s]
+  int pairs_not_converged = 0;   ///< of these, no case met the law to 1e-12
+  double length = 0.0;           ///< Σ tributary lengths of nodes with r_n > 0           [m]
+  double penetration = 0.0;      ///< largest -gap of an active contact, >= 0             [m]
+  double free_velocity = 0.0;    ///< largest |w_free|                                    [m/s]
+  double residual = 0.0;         ///< largest law residual over the node's mass           [m/s]
 };
 
 /// Finds the active contacts of state.u, solves them, and corrects state.v_next, which holds the

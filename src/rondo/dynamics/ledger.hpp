@@ -29,7 +29,7 @@ struct Balance {
   double exchanged = 0.0;  ///< largest so far of |E| + Σ |works|                      [J/m]
   double otherwise = 0.0;  ///< largest so far of |E_{1/2}| + Σ |works| without the scheme's: what
                            ///< the run exchanges by itself, created energy left out      [J/m]
-  double relative = 0.0;  ///< largest so far of |residual| / exchanged
+  double relative = 0.0;   ///< largest so far of |residual| / exchanged
 };
 
 class Ledger {

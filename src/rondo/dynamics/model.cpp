@@ -9,10 +9,7 @@ State::State(const Model& model)
       v_next(model.n_nodes()),
       force(model.n_nodes()),
       force_before(model.n_nodes()) {
-  if (model.contact) {
-    active.reserve(2 * model.contact->nodes.size());
-    warm.resize(model.contact->nodes.size());
-  }
+  if (model.contact) active.reserve(2 * model.contact->nodes.size());
 }
 
 }  // namespace rondo::dynamics

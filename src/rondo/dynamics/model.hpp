@@ -56,15 +56,14 @@ struct State {
   State() = default;
   explicit State(const Model& model);
 
-  long long step = 0;                     ///< n + 1: number of the displacement
-  FrameStep frame;                        ///< of t_{n+1}
-  std::vector<Vec2> u;                    ///< (n) u_{n+1}, turning frame                [m]
-  std::vector<Vec2> v;                    ///< (n) v_{n+1/2} (at step 0: v_0)            [m/s]
-  std::vector<Vec2> v_next;               ///< (n) v_{n+3/2}                             [m/s]
-  std::vector<Vec2> force;                ///< (n) K u_{n+1}                             [N/m]
-  std::vector<Vec2> force_before;         ///< (n) K u_n                               [N/m]
-  std::vector<ActiveContact> active;      ///< capacity for every candidate twice
-  std::vector<std::array<Vec2, 2>> warm;  ///< (nb) last impulses of a candidate's two facets
+  long long step = 0;                 ///< n + 1: number of the displacement
+  FrameStep frame;                    ///< of t_{n+1}
+  std::vector<Vec2> u;                ///< (n) u_{n+1}, turning frame                [m]
+  std::vector<Vec2> v;                ///< (n) v_{n+1/2} (at step 0: v_0)            [m/s]
+  std::vector<Vec2> v_next;           ///< (n) v_{n+3/2}                             [m/s]
+  std::vector<Vec2> force;            ///< (n) K u_{n+1}                             [N/m]
+  std::vector<Vec2> force_before;     ///< (n) K u_n                               [N/m]
+  std::vector<ActiveContact> active;  ///< capacity for every candidate twice
 };
 
 /// Position of a node in the fixed frame at t_{n+1} [m].

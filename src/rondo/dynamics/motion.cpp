@@ -76,11 +76,22 @@ double Table::largest() const noexcept {
   return largest;
 }
 
+namespace {
+
+/// ∫ of a table that is prolonged before t = 0 by its first slope, from `from` < 0.
+double prolonged_integral(const Table& table, double from, double length) noexcept {
+  return length * (table.at(0.0) + (from + 0.5 * length) * table.slope(0.0));
+}
+
+}  // namespace
+
+double Motion::turn(double from, double length) const noexcept {
+  return from < 0.0 ? -prolonged_integral(angular_velocity, from, length)
+                    : -angular_velocity.integral(from, length);
+}
+
 Vec2 Motion::advance(double from, double length) const noexcept {
-  if (from < 0.0) {
-    const double middle = from + 0.5 * length;
-    return length * Vec2{speed.at(0.0) + middle * speed.slope(0.0), height.slope(0.0)};
-  }
+  if (from < 0.0) return {prolonged_integral(speed, from, length), length * height.slope(0.0)};
   return {speed.integral(from, length), height.change(from, length)};
 }
 
@@ -90,10 +101,10 @@ FrameStep frame_step(const Motion& motion, long long n, double dt) noexcept {
   FrameStep f;
   f.time = t;
   f.spin = -motion.angular_velocity.at(t);
-  f.spin_rate = -motion.angular_velocity.slope(t);
   f.angle = motion.angle(t);
   f.turn = motion.turn(t, dt);
   f.turn_before = motion.turn(before, dt);
+  f.spin_rate = (f.turn - f.turn_before) / (dt * dt);
   f.rotation = rotation(f.angle);
   f.center = motion.center(t);
   f.advance = motion.advance(t, dt);

@@ -41,10 +41,8 @@ struct Motion {
   double gravity = 0.0;    ///< downwards                                              [m/s2]
 
   [[nodiscard]] double angle(double t) const noexcept { return turn(0.0, t); }
-  /// θ(from + length) - θ(from)                                                         [rad]
-  [[nodiscard]] double turn(double from, double length) const noexcept {
-    return -angular_velocity.integral(from, length);
-  }
+  /// θ(from + length) - θ(from); before t = 0 as for the centre                        [rad]
+  [[nodiscard]] double turn(double from, double length) const noexcept;
   [[nodiscard]] Vec2 center(double t) const noexcept {
     return {start_x + speed.integral(0, t), height.at(t)};
   }
@@ -55,11 +53,11 @@ struct Motion {
 
 /// All that a step at t_{n+1} needs to know of the frame.
 struct FrameStep {
-  double time = 0.0;         ///< t_{n+1}                                               [s]
-  double spin = 0.0;         ///< s = θ̇, counter-clockwise                              [rad/s]
-  double spin_rate = 0.0;    ///< ṡ                                                     [rad/s2]
-  double angle = 0.0;        ///< θ_{n+1}                                               [rad]
-  double turn = 0.0;         ///< θ_{n+2} - θ_{n+1}                                     [rad]
+  double time = 0.0;       ///< t_{n+1}                                               [s]
+  double spin = 0.0;       ///< s = θ̇, counter-clockwise                              [rad/s]
+  double spin_rate = 0.0;  ///< ṡ = (θ_{n+2} - 2θ_{n+1} + θ_n)/Δt²                     [rad/s2]
+  double angle = 0.0;      ///< θ_{n+1}                                               [rad]
+  double turn = 0.0;       ///< θ_{n+2} - θ_{n+1}                                     [rad]
   double turn_before = 0.0;  ///< θ_{n+1} - θ_n                                         [rad]
   Vec2 rotation;             ///< e^{iθ_{n+1}}
   Vec2 center;               ///< c_{n+1}                                               [m]

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-/// @file  How the velocity terms are taken in the step (docs/theory.md, 3.3 and 3.4).
+/// @file  How the velocity terms are taken in the step (docs/theory.md, 3.3 to 3.6).
 #pragma once
 #include "rondo/core/vec2.hpp"
 
@@ -12,7 +12,7 @@ enum class Scheme {
 
 /// The velocity update of a node, v⁺ = v⁻ + [F - drag v⁻] / a, with F = (Δt f + i_c)/m.
 struct VelocityUpdate {
-  Vec2 a;     ///< symplectic: 1 + Δt α/2 + iΔt s   (3.5); as printed: 1
+  Vec2 a;     ///< symplectic: 1 + Δt α/2 + iΔt s   (3.5); as printed: 1            (3.6)
   Vec2 drag;  ///< symplectic: 2 (a - 1);                  as printed: Δt (α + 2is)
 };
 

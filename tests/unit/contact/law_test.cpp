@@ -92,42 +92,56 @@ TEST(Pair, CornerOfARightAngleWithoutFriction) {
   const Vec2 v{2.0, -3.0}, floor{0.0, 1.0}, wall{-1.0, 0.0};
   p.free = {conj(floor) * v, conj(wall) * v};
   p.turn = conj(floor) * wall;
-  const PairSolution s = solve_pair(p, 0.0, {});
+  const PairSolution s = solve_pair(p, 0.0);
   ASSERT_TRUE(s.converged);
   EXPECT_NEAR(s.contact[0].impulse.x, 6.0, 1e-14);
   EXPECT_NEAR(s.contact[1].impulse.x, 4.0, 1e-14);
 }
 
-TEST(Pair, RandomCornersConvergeAndAreJudgedIndependently) {
+/// Every angle from nearly flat to nearly closed, every friction, with restitution in half of them.
+TEST(Pair, RandomCornersAreSolvedAndJudgedIndependently) {
   std::mt19937 random(5);
-  std::uniform_real_distribution<double> x(-1.0, 1.0), angle(0.2, 2.9);
-  int both = 0;
-  for (int i = 0; i < 20000; ++i) {
+  std::uniform_real_distribution<double> x(-1.0, 1.0), unit(0.0, 1.0);
+  std::array<int, 3> pressing{};
+  int unsolved = 0;
+  for (int i = 0; i < 200000; ++i) {
     PairProblem p;
     p.delassus = {1.0, 1e-3 * x(random)};
-    p.turn = rotation(angle(random));  // a concave corner: 0 < angle between the normals < π
+    // A concave corner: the normals turn by 1e-3 … π - 1e-3.
+    const double turn = 3.14 * std::pow(unit(random), 3.0) + 1e-3;
+    p.turn = rotation(i % 3 == 0 ? -turn : turn);
     const Vec2 v{x(random), x(random)};
     p.free = {v, conj(p.turn) * v};
-    const double mu = 0.6 * std::abs(x(random));
-    const PairSolution s = solve_pair(p, mu, {});
-    ASSERT_TRUE(s.converged) << s.residual << " mu " << mu;
+    const double e = i % 2 == 0 ? 0.0 : unit(random);
+    const Vec2 before{x(random), x(random)};
+    p.bounce = {e * std::min(0.0, before.x), e * std::min(0.0, (conj(p.turn) * before).x)};
+    const double mu = i % 5 == 0 ? 0.0 : unit(random);
+    const PairSolution s = solve_pair(p, mu);
+    if (e == 0.0 || mu == 0.0) {
+      // Nearly closed, shares and velocities carry round-off over the sine of 1e-3 at the least.
+      ASSERT_TRUE(s.converged || s.residual < 1e-10)
+          << s.residual << " μ " << mu << " turn " << turn << " e " << e;
+    }
+    // With restitution and friction at once a closed corner may have no solution
+    // (docs/theory.md, 4.4).
+    unsolved += s.converged ? 0 : 1;
     const std::array<Vec2, 2> r{s.contact[0].impulse, s.contact[1].impulse};
     const auto w = pair_velocities(p, r);
-    for (std::size_t k = 0; k < 2; ++k)
-      ASSERT_LT(law_residual(r[k], w[k], 0.0, mu, 1.0), 2e-12 * norm(v));
-    both += r[0].x > 0.0 && r[1].x > 0.0 ? 1 : 0;
+    for (std::size_t k = 0; k < 2 && s.converged; ++k)
+      ASSERT_LT(law_residual(r[k], w[k], p.bounce[k], mu, 1.0), 2e-12 * norm(v));
+    ++pressing[(r[0].x > 0.0 ? 1 : 0) + (r[1].x > 0.0 ? 1 : 0)];
   }
-  EXPECT_GT(both, 1000);
+  for (const int n : pressing) EXPECT_GT(n, 10000);
+  EXPECT_LT(unsolved, 8000);
 }
 
-TEST(Pair, SaysWhenItDoesNotConverge) {
+TEST(Pair, SaysWhenNoCaseMeetsTheLaw) {
   PairProblem p;
   p.delassus = {1.0, 0.0};
   p.turn = rotation(2.5);
-  const Vec2 v{-1.0, -2.0};  // into both facets
+  const Vec2 v{-1.0, -2.0};
   p.free = {v, conj(p.turn) * v};
-  const PairSolution s = solve_pair(p, 0.3, {}, 0.0, 2);
+  const PairSolution s = solve_pair(p, 0.3, -1.0);  // a tolerance that nothing meets
   EXPECT_FALSE(s.converged);
-  EXPECT_EQ(s.iterations, 2);
-  EXPECT_GT(s.residual, 0.0);
+  EXPECT_LT(s.residual, 1e-14);  // the best case is returned all the same
 }
