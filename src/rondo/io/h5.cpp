@@ -80,25 +80,30 @@ bool set_rows_layout(hid_t properties, const Shape& shape, Type type) {
          H5Pset_fill_time(properties, H5D_FILL_TIME_NEVER) >= 0;
 }
 
-bool write_text(hid_t object, const std::string& name, const std::string& text) {
-  const Handle type(H5Tcopy(H5T_C_S1));
-  H5Tset_size(type.get(), std::max<std::size_t>(text.size(), 1));
-  H5Tset_strpad(type.get(), H5T_STR_NULLPAD);
+/// Of any length, UTF-8: what h5py reads as str.
+Handle text_type() {
+  Handle type(H5Tcopy(H5T_C_S1));
+  H5Tset_size(type.get(), H5T_VARIABLE);
   H5Tset_cset(type.get(), H5T_CSET_UTF8);
-  const Handle space(H5Screate(H5S_SCALAR));
+  return type;
+}
+
+bool write_text(hid_t object, const std::string& name, const std::string& text) {
+  const Handle type = text_type(), space(H5Screate(H5S_SCALAR));
   const Handle attribute(
       H5Acreate2(object, name.c_str(), type.get(), space.get(), H5P_DEFAULT, H5P_DEFAULT));
-  return attribute.get() >= 0 && H5Awrite(attribute.get(), type.get(), text.c_str()) >= 0;
+  const char* const value = text.c_str();
+  return attribute.get() >= 0 && H5Awrite(attribute.get(), type.get(), &value) >= 0;
 }
 
 bool read_text(hid_t object, const std::string& name, std::string& text) {
   const Handle attribute(H5Aopen(object, name.c_str(), H5P_DEFAULT));
   if (attribute.get() < 0) return false;
-  const Handle type(H5Aget_type(attribute.get()));
-  if (H5Tis_variable_str(type.get()) != 0) return false;
-  text.assign(H5Tget_size(type.get()), '\0');
-  if (H5Aread(attribute.get(), type.get(), text.data()) < 0) return false;
-  text.resize(std::min(text.size(), text.find('\0')));
+  const Handle type = text_type();
+  char* value = nullptr;
+  if (H5Aread(attribute.get(), type.get(), static_cast<void*>(&value)) < 0) return false;
+  if (value != nullptr) text = value;
+  H5free_memory(value);
   return true;
 }
 

@@ -383,12 +383,12 @@ std::size_t Results::written() const noexcept {
 
 std::size_t Results::bytes(const ResultsLayout& layout) noexcept {
   const Counts c = counts_of(layout);
-  const std::size_t mesh = c.nodes * (2 * 8 + 8 + (c.cyclic ? 2 * 4 : 0)) +
-                           c.cells * c.corners * 4 + (c.mixed() ? n_mixed(c) * 4 : 0) +
-                           c.candidates * (4 + 8);
-  const std::size_t node = 2 * 2 * 8 + 2 * 3 * 4 + (c.contact ? 3 * 4 : 0) + (c.stress ? 7 * 4 : 0);
-  const std::size_t candidate = c.contact ? 2 * 2 * 8 : 0;
-  constexpr std::size_t frame = 5 * 8;
+  constexpr std::size_t real = 8, single = 4, whole = 4;
+  const std::size_t cells = c.cells * c.corners + (c.mixed() ? n_mixed(c) : 0);
+  const std::size_t mesh = c.nodes * (3 * real + (c.cyclic ? 2 * whole : 0)) + cells * whole +
+                           c.candidates * (whole + real);
+  const std::size_t node = 4 * real + (6U + (c.contact ? 3U : 0U) + (c.stress ? 7U : 0U)) * single;
+  const std::size_t candidate = c.contact ? 4 * real : 0, frame = 5 * real;
   return index_bytes(c) + mesh + c.times * (frame + c.nodes * node + c.candidates * candidate);
 }
 
