@@ -90,7 +90,8 @@ def describe(reader, times):
         print("time {:.9g}: {} points, {} cells, bounds {}".format(time, points, cells,
                                                                  " ".join(rounded(bounds))))
     for name, (n, ranges) in sorted(arrays.items()):
-        print("{} ({}): {}".format(name, n, " ".join("[{:.6g}, {:.6g}]".format(*r) for r in ranges)))
+        text = " ".join("[{:.6g}, {:.6g}]".format(*pair) for pair in ranges)
+        print("{} ({}): {}".format(name, n, text))
     return arrays
 
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-/// @file  Global matrices: lumped mass and the stiffness in 2×2 blocks (docs/theory.md, 2.3–2.5).
+/// @file  Global matrices: lumped mass and the stiffness in 2×2 blocks (docs/theory.md, 2.4, 2.5).
 #pragma once
 #include <Eigen/SparseCore>
 #include <array>
@@ -33,7 +33,7 @@ BlockCsr assemble_stiffness(const mesh::Mesh& mesh, const Material& material);
 std::vector<double> lumped_mass(const mesh::Mesh& mesh, double density);
 
 /// Upper bound of the largest eigenvalue of M⁻¹K by elements: max over elements of the largest
-/// eigenvalue of the element's own M_e⁻¹ K_e [1/s²] (Irons and Treharne 1972).
+/// eigenvalue of the element's own M_e⁻¹ K_e [1/s²] (Irons and Treharne 1972), (3.8a).
 double element_eigenvalue_bound(const mesh::Mesh& mesh, const Material& material);
 
 /// K of the free nodes as a symmetric scalar matrix, numbered 2·(place in `free`) + component.

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// @file  Plane elements: 4-node quadrilateral (2×2 Gauss) and 3-node triangle (one point);
-/// docs/theory.md, section 2.2–2.4.
+/// docs/theory.md, sections 2.2, 2.3, 2.5 and 2.6.
 #pragma once
 #include <Eigen/Dense>
 #include <array>

@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: BSD-3-Clause
+/// Drives the solver from another program: a spinning disk, without a file.
+#include <rondo/dynamics/critical_step.hpp>
+#include <rondo/dynamics/stepper.hpp>
+#include <rondo/mesh/disk.hpp>
+#include <rondo/study/case.hpp>
+
+int main() {
+  using namespace rondo;
+  const mesh::Mesh mesh = mesh::make_disk({});
+  const fem::Material material{2e7, 0.3, 1100.0, fem::Plane::strain};
+  dynamics::Model model;
+  model.reference = mesh.coordinates;
+  model.mass = fem::lumped_mass(mesh, material.density);
+  model.free = fem::free_nodes(mesh);
+  model.stiffness = fem::assemble_stiffness(mesh, material);
+  model.motion.angular_velocity = dynamics::Table(50.0);
+  const auto critical = dynamics::critical_step(model.stiffness, model.mass, model.free, 0.0,
+                                                fem::element_eigenvalue_bound(mesh, material));
+  model.dt = 0.8 * critical.step;
+  const std::vector<Vec2> zero(model.n_nodes());
+  dynamics::State state = dynamics::start(model, zero, zero);
+  dynamics::Ledger ledger(model);
+  for (int n = 0; n < 100; ++n) static_cast<void>(dynamics::advance(model, state, ledger));
+  return ledger.last().relative < 1e-13 && !study::write_case({}).empty() ? 0 : 1;
+}

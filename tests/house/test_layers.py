@@ -1,0 +1,35 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""The layer check holds on the project, and sees a back edge when there is one."""
+import pathlib
+import tempfile
+import unittest
+
+import check_layers
+
+ROOT = pathlib.Path(__file__).resolve().parents[2]
+
+
+class Layers(unittest.TestCase):
+    def test_project(self):
+        self.assertEqual(list(check_layers.faults(ROOT)), [])
+
+    def test_a_back_edge_is_seen(self):
+        with tempfile.TemporaryDirectory() as folder:
+            root = pathlib.Path(folder)
+            for module, text in [("core", '#include "rondo/mesh/mesh.hpp"\n'),
+                                 ("contact", "#include <hdf5.h>\n"),
+                                 ("mesh", '#include "rondo/core/vec2.hpp"\n')]:
+                path = root / "src/rondo" / module
+                path.mkdir(parents=True)
+                (path / "a.hpp").write_text(text)
+            found = list(check_layers.faults(root))
+            self.assertEqual(len(found), 2, found)
+            self.assertIn("core may not see mesh", found[1])
+
+    def test_no_sources_is_a_fault(self):
+        with tempfile.TemporaryDirectory() as folder:
+            self.assertEqual(len(list(check_layers.faults(pathlib.Path(folder)))), 1)
+
+
+if __name__ == "__main__":
+    unittest.main()
