@@ -12,6 +12,7 @@
 #include <ctime>
 #include <nlohmann/json.hpp>
 
+#include "rondo/core/error.hpp"
 #include "rondo/io/files.hpp"
 #include "rondo/study/build.hpp"
 #include "rondo/study/observers.hpp"
@@ -52,6 +53,7 @@ struct Loop {
   long long steps = 0;
   double wall_s = 0.0;
   double cpu_s = 0.0;
+  std::size_t snapshots = 0;
 };
 
 /// Empty while all is well; otherwise what is out of bound.
@@ -177,9 +179,10 @@ void add_outcome(Json& j, const Setup& setup, const Loop& loop) {
                   {"pairs_solved", loop.contact.pairs},
                   {"pairs_not_converged", loop.contact.pairs_not_converged}};
   j["peak_memory_bytes"] = peak_memory_bytes();
+  j["snapshots"] = loop.snapshots;
 }
 
-RunReport report_of(const Setup& setup, const Loop& loop, std::size_t snapshots) {
+RunReport report_of(const Setup& setup, const Loop& loop) {
   RunReport r;
   r.status = loop.status;
   r.message = loop.message;
@@ -190,8 +193,29 @@ RunReport report_of(const Setup& setup, const Loop& loop, std::size_t snapshots)
   r.energy_residual_relative = loop.balance.relative;
   r.contact_residual_max = loop.contact.residual;
   r.penetration_max_m = loop.contact.penetration;
-  r.snapshots = snapshots;
+  r.snapshots = loop.snapshots;
   return r;
+}
+
+/// The loop with its observers. A file that cannot be written ends the run: run.json says so, where
+/// it can still be written itself.
+Loop record(const Case& c, const Setup& setup, const RunOptions& options, Json json) {
+  try {
+    History history(options.directory / "history.csv", c, setup);
+    Snapshots snapshots(options.directory, c, setup);
+    Loop loop = run_loop(setup, options, history, snapshots);
+    snapshots.close();
+    loop.snapshots = snapshots.written();
+    return loop;
+  } catch (const FileError& error) {
+    json["status"] = "failed";
+    json["message"] = error.what();
+    try {
+      io::write_json(options.directory / "run.json", json);
+    } catch (const FileError&) {  // the first fault is the one to tell
+    }
+    throw;
+  }
 }
 
 }  // namespace
@@ -206,14 +230,10 @@ RunReport run_case(const Case& c, const RunOptions& options) {
   Json json = describe(c, setup);
   io::write_json(options.directory / "run.json", json);
 
-  History history(options.directory / "history.csv", c, setup);
-  Snapshots snapshots(options.directory, c, setup);
-  const Loop loop = run_loop(setup, options, history, snapshots);
-  snapshots.close();
+  const Loop loop = record(c, setup, options, json);
   add_outcome(json, setup, loop);
-  json["snapshots"] = snapshots.written();
   io::write_json(options.directory / "run.json", json);
-  return report_of(setup, loop, snapshots.written());
+  return report_of(setup, loop);
 }
 
 }  // namespace rondo::study
