@@ -4,7 +4,6 @@ frame, and the force of the ground over time. The times are those of the paper's
 
     /usr/bin/python3 python/draw_ledge.py RESULTS PICTURE.png
 """
-import csv
 import pathlib
 import sys
 import tomllib
@@ -17,13 +16,9 @@ import matplotlib.pyplot as plt
 import numpy as np
 from matplotlib.collections import PolyCollection
 
+from history import read_history
+
 TIMES = (0.0125, 0.0625, 0.1)  # s
-
-
-def read_history(directory):
-    with open(directory / "history.csv", newline="") as file:
-        rows = list(csv.DictReader(file))
-    return {name: np.array([float(row[name]) for row in rows]) for name in rows[0]}
 
 
 def ground_profile(directory):

@@ -3,8 +3,6 @@
 
     /usr/bin/python3 python/draw_scheme.py SYMPLECTIC AS_PRINTED PICTURE.png
 """
-import csv
-import pathlib
 import sys
 
 import matplotlib
@@ -13,11 +11,7 @@ matplotlib.use("Agg")
 import matplotlib.pyplot as plt
 import numpy as np
 
-
-def read_history(directory):
-    with open(pathlib.Path(directory) / "history.csv", newline="") as file:
-        rows = list(csv.DictReader(file))
-    return {name: np.array([float(row[name]) for row in rows]) for name in rows[0]}
+from history import read_history
 
 
 def draw(symplectic, printed, picture):

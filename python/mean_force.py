@@ -3,22 +3,22 @@
 
     /usr/bin/python3 python/mean_force.py FROM_SECONDS RESULTS...
 """
-import csv
-import pathlib
 import sys
+
+import numpy as np
+
+from history import read_history
 
 
 def means(directory, start):
     """(mean force_x, mean force_y) in N/m over the rows after `start`, weighted by their intervals."""
-    with open(pathlib.Path(directory) / "history.csv", newline="") as file:
-        rows = [{name: float(row[name]) for name in ("time_s", "force_x", "force_y")}
-                for row in csv.DictReader(file)]
-    chosen = [(b["time_s"] - a["time_s"], b) for a, b in zip(rows, rows[1:])
-              if a["time_s"] >= start]
-    if not chosen:
+    history = read_history(directory)
+    spans = np.diff(history["time_s"], prepend=0.0)
+    chosen = history["time_s"] - spans >= start
+    if not chosen.any():
         sys.exit(f"{directory}: no rows after {start} s")
-    time = sum(span for span, _ in chosen)
-    return [sum(span * row[name] for span, row in chosen) / time for name in ("force_x", "force_y")]
+    return [np.average(history[name][chosen], weights=spans[chosen])
+            for name in ("force_x", "force_y")]
 
 
 if __name__ == "__main__":

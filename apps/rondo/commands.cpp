@@ -7,11 +7,11 @@
 #include <atomic>
 #include <csignal>
 #include <filesystem>
-#include <limits>
 
 #include "exit_codes.hpp"
 #include "progress.hpp"
 #include "rondo/study/check.hpp"
+#include "rondo/study/estimate.hpp"
 #include "rondo/study/run.hpp"
 
 namespace rondo::app {
@@ -32,13 +32,6 @@ void catch_signals() {
 /// cases/ledge.toml -> cases/ledge
 std::filesystem::path default_directory(const std::filesystem::path& case_file) {
   return case_file.parent_path() / case_file.stem();
-}
-
-std::string readable_bytes(std::size_t bytes) {
-  const auto value = static_cast<double>(bytes);
-  if (value < 1e6) return fmt::format("{:.0f} kB", value / 1e3);
-  return value < 1e9 ? fmt::format("{:.1f} MB", value / 1e6)
-                     : fmt::format("{:.1f} GB", value / 1e9);
 }
 
 int finish(const study::RunReport& r, const std::filesystem::path& directory) {
@@ -96,8 +89,8 @@ int check(const CommonArguments& arguments) {
   fmt::print("steps              {} to t = {:.6g} s\n", r.steps,
              static_cast<double>(r.steps) * r.step);
   fmt::print("snapshots          {}\n", r.snapshots);
-  fmt::print("memory             about {}\n", readable_bytes(r.memory_bytes));
-  fmt::print("disk               about {}\n", readable_bytes(r.disk_bytes));
+  fmt::print("memory             about {}\n", study::readable_bytes(r.memory_bytes));
+  fmt::print("disk               about {}\n", study::readable_bytes(r.disk_bytes));
   fmt::print("time               about {:.2g} s of stepping on {} thread{}\n", r.seconds, r.threads,
              r.threads == 1 ? "" : "s");
   return exit_done;

@@ -2,11 +2,11 @@
 #include "rondo/study/build.hpp"
 
 #include <fmt/format.h>
-#include <omp.h>
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <thread>
 
 #include "rondo/core/error.hpp"
 #include "rondo/statics/stationary_spin.hpp"
@@ -171,7 +171,7 @@ Setup build(const Case& c, int threads) {
   if (threads > 0)
     s.model.threads = threads;
   else if (2 * s.model.free.size() >= single_thread_dofs)
-    s.model.threads = omp_get_num_procs();
+    s.model.threads = static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
   set_initial_fields(c, s);
   refuse_start_inside(c, s);
   warn_of_softening(c, s);

@@ -150,9 +150,8 @@ Json describe(const Case& c, const Setup& setup) {
 }
 
 double per_dof_step(const Setup& setup, const Loop& loop) {
-  const double work =
-      2.0 * static_cast<double>(setup.model.free.size() * std::max(1LL, loop.steps));
-  return 1e9 * loop.wall_s / work;
+  const double dofs = 2.0 * static_cast<double>(setup.model.free.size());
+  return 1e9 * loop.wall_s / (dofs * static_cast<double>(std::max(1LL, loop.steps)));
 }
 
 /// Finite numbers as they are, others as text: JSON has no NaN.
