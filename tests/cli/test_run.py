@@ -72,16 +72,17 @@ class Run(ProgramTest):
         np.testing.assert_allclose(h["slip_ratio"], -1e-8, atol=1e-12)
 
     def test_history_is_the_mean_of_every_step(self):
-        self.run_ok()
+        self.run_ok(SMALL.replace("[output]", "[output]\nhistory_interval = 1e-3"))
         coarse = history(self.out)
         run("run", self.folder / "case.toml", "-o", self.folder / "fine",
             "--set", "output.history_interval=0")
         fine = history(self.folder / "fine")
         self.assertEqual(len(fine["time_s"]), summary(self.out)["steps"])
-        inside = fine["time_s"] <= coarse["time_s"][49]
-        first = coarse["time_s"][:50]
+        self.assertLess(4 * len(coarse["time_s"]), len(fine["time_s"]))  # a row is many steps
+        inside = fine["time_s"] <= coarse["time_s"][9]
+        first = coarse["time_s"][:10]
         spans = np.diff(np.concatenate([[0.0], first]))
-        self.assertAlmostEqual(np.sum(coarse["force_y"][:50] * spans),
+        self.assertAlmostEqual(np.sum(coarse["force_y"][:10] * spans),
                                np.sum(fine["force_y"][inside]) * summary(self.out)["step"], places=7)
         self.assertEqual(fine["penetration_max_m"].max(), coarse["penetration_max_m"].max())
 
@@ -198,13 +199,10 @@ class Run(ProgramTest):
             self.assertEqual(len(f["/frame/time"]), s["snapshots"])
 
     def test_concave_corner_pairs(self):
-        # Driven against the sharp foot of a wall: nodes held by two facets at once.
-        text = SMALL.replace('profile = "flat"',
-                             "profile = [[-1, 0], [0.33, 0], [0.33, 0.1], [1, 0.1]]\nfillet = 0.05")
-        text = text.replace("height = 0.296", "height = 0.297").replace("end = 0.02", "end = 0.05")
-        text = text.replace("circumferential = 40", "circumferential = 120").replace("speed = 10.0",
-                                                                                    "speed = 1.0")
-        self.run_ok(text)
+        # Rolled through a flat valley: nodes held by two facets at once.
+        text = SMALL.replace('"flat"', "[[-1, 0], [0.05, 0], [1, 0.02]]")
+        self.run_ok(text.replace("circumferential = 40", "circumferential = 120"))
+        self.assertGreater(summary(self.out)["contact"]["pairs_solved"], 100)
         self.assertEqual(summary(self.out)["contact"]["pairs_not_converged"], 0)
 
 

@@ -48,7 +48,7 @@ double sign(double x) noexcept {
   return x > 0.0 ? 1.0 : x < 0.0 ? -1.0 : 0.0;
 }
 
-bool both_press(const PairProblem& p, Choice& choice) noexcept {
+void both_press(const PairProblem& p, Choice& choice) noexcept {
   // n_0·w = -bounce_0 and n_1·w = -bounce_1 give w, in frame 0.
   const double wt = (p.turn.x * p.bounce[0] - p.bounce[1]) / p.turn.y;
   const Vec2 w0 = {-p.bounce[0], wt};
@@ -56,16 +56,12 @@ bool both_press(const PairProblem& p, Choice& choice) noexcept {
   const double mu = choice.friction;
   if (p.bounce[0] != 0.0 || p.bounce[1] != 0.0) {  // w_t ≠ 0: both slip
     const Vec2 w1 = conj(p.turn) * w0;
-    return choice.accepts(
-        share(p, total, {1.0, -mu * sign(w0.y)}, {1.0, -mu * sign(w1.y)}, Status::slip));
+    choice.accepts(share(p, total, {1.0, -mu * sign(w0.y)}, {1.0, -mu * sign(w1.y)}, Status::slip));
+    return;
   }
-  // w = 0: any share within the two cones will do; without friction where that is possible, else
-  // along edges of the cones.
-  if (choice.accepts(share(p, total, {1.0, 0.0}, {1.0, 0.0}, Status::stick))) return true;
-  for (const double a : {mu, -mu})
-    for (const double b : {mu, -mu})
-      if (choice.accepts(share(p, total, {1.0, a}, {1.0, b}, Status::stick))) return true;
-  return false;
+  // w = 0: any share within the two cones will do. Between the normals there is one without
+  // friction; beyond them the total lies in one cone, and that contact alone has been tried.
+  choice.accepts(share(p, total, {1.0, 0.0}, {1.0, 0.0}, Status::stick));
 }
 
 }  // namespace

@@ -58,6 +58,18 @@ TEST(Ground, ConcaveCornerHoldsByTwoFacets) {
   EXPECT_EQ(ground.touches({-1e-6, -0.1 + 1e-6}).count, 0);
 }
 
+TEST(Ground, ValleyHoldsByTwoFacetsFromEitherSide) {
+  const Ground ground{GroundShape{.profile = {{-1, 0.5}, {0, 0}, {1, 0.5}}}};
+  for (const double side : {-1.0, 1.0}) {  // below the one slope, behind the corner for the other
+    const Touches t = ground.touches({0.01 * side, -0.01});
+    ASSERT_EQ(t.count, 2) << side;
+    EXPECT_NEAR(t.at[0].gap, -0.03 / std::sqrt(5.0), 1e-16);
+    EXPECT_NEAR(t.at[1].gap, -0.01 / std::sqrt(5.0), 1e-16);
+    EXPECT_LT(t.at[0].normal.x * side, 0.0);
+    EXPECT_GT(t.at[1].normal.x * side, 0.0);
+  }
+}
+
 TEST(Ground, AFarFacetDoesNotReachPastTheNearestOne) {
   // A valley, then a drop: the valley's first slope, prolonged, would pass above the drop's foot.
   const Ground ground{

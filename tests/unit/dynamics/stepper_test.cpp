@@ -120,6 +120,30 @@ TEST(Stepper, ABallBouncesWithItsRestitution) {
   EXPECT_NEAR(apex, 0.25, 1e-4);        // e² h; the impact is late by up to a step: v Δt
 }
 
+/// Two facets at once, the foot of a wall: the bounce is that of both, with friction it stays.
+TEST(Stepper, AConcaveCornerStopsByBothFacets) {
+  const contact::GroundShape foot{.profile = {{-9, 0}, {0, 0}, {0, 1}, {9, 1}}, .fillet = 0.1};
+  for (const contact::Law law : {contact::Law{0.0, 0.5}, contact::Law{0.3, 0.0}}) {
+    Model model = particle({}, {-0.199, 0.0995}, 1e-3);
+    model.contact.emplace(ContactModel{contact::Ground(foot), law, {0}, {1.0}});
+    const std::vector<Vec2> zero(1), v0{{2.0, -1.0}};
+    State state = start(model, zero, v0);
+    Ledger ledger(model);
+    int pairs = 0;
+    for (int n = 0; n < 150; ++n) {
+      const ContactReport r = advance(model, state, ledger);
+      pairs += r.pairs;
+      EXPECT_EQ(r.pairs_not_converged, 0);
+      if (r.pairs == 0 || pairs > 1) continue;
+      EXPECT_LT(norm(r.impulse - 2.0 * (1.0 + law.restitution) * Vec2{-2.0, 1.0}), 1e-14);
+      EXPECT_LT(norm(state.v_next[0] + law.restitution * v0[0]), 1e-15);
+    }
+    EXPECT_GT(pairs, 0);
+    EXPECT_LT(norm(state.v_next[0] + law.restitution * v0[0]), 1e-15);
+    EXPECT_LT(ledger.last().relative, 1e-14);
+  }
+}
+
 TEST(Stepper, SameBitsForAnyNumberOfThreadsAndFromRunToRun) {
   auto c = test::rolling_disk(6, 240);
   c.motion.height = Table(0.2995);  // in contact from the first step

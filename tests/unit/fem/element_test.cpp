@@ -84,6 +84,27 @@ TEST(Element, StressOfALinearFieldIsExact) {
   }
 }
 
+/// u = (xy, 0) on |x|, |y| <= 1: ε_xx = y and γ_xy = x, which two Gauss points a side integrate
+/// exactly and the bilinear field through them carries exactly to the corners.
+TEST(Element, BendingEnergyAndStressAreExactOnASquare) {
+  const std::vector<Vec2> x{{-1, -1}, {1, -1}, {1, 1}, {-1, 1}};
+  const Hooke d = hooke(rubber);
+  std::vector<Vec2> u;
+  Eigen::VectorXd v(8);
+  for (std::size_t a = 0; a < 4; ++a) {
+    u.push_back({x[a].x * x[a].y, 0.0});
+    v.segment<2>(static_cast<Eigen::Index>(2 * a)) = Eigen::Vector2d(u[a].x, 0.0);
+  }
+  const double expected = 4.0 / 3.0 * (d.d11 + d.d33);  // ∫ d11 y² + d33 x²
+  EXPECT_NEAR(v.dot(element_stiffness(x, d) * v), expected, 1e-14 * expected);
+  const auto s = element_stress(x, u, d);
+  for (std::size_t a = 0; a < 4; ++a) {
+    EXPECT_NEAR(s[a][0], d.d11 * x[a].y, 1e-14 * d.d11);
+    EXPECT_NEAR(s[a][1], d.d12 * x[a].y, 1e-14 * d.d11);
+    EXPECT_NEAR(s[a][3], d.d33 * x[a].x, 1e-14 * d.d11);
+  }
+}
+
 TEST(Assembly, StiffnessIsSymmetricToTheBitAndSkipsClampedNodes) {
   mesh::Disk disk;
   disk.radial = 3;

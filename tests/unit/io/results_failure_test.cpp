@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// @file  Results of runs that are killed, watched, or out of room.
+#include <sys/mman.h>
+
 #include <cstring>
 
 #include "rondo/io/h5.hpp"
@@ -62,6 +64,28 @@ TEST(ResultsOfAKilledRun, OpenAfterExitWithoutClosing) {
   });
   ASSERT_TRUE(went_well(status));
   expect_half(folder, run);
+}
+
+/// A write that breaks off in the middle leaves no time: nobody takes the snapshot for complete.
+TEST(ResultsOfAKilledRun, ASnapshotBrokenOffHasNoTime) {
+  const Folder folder;
+  SmallRun run;
+  static_cast<void>(in_child([&] {
+    Results results(folder.path(), run.layout(planned));
+    results.write(run.snapshot(0));
+    Snapshot s = run.snapshot(1);
+    void* none =
+        ::mmap(nullptr, sizeof(Vec2) * run.n(), PROT_NONE, MAP_PRIVATE | MAP_ANONYMOUS, -1, 0);
+    s.velocity = {static_cast<const Vec2*>(none), run.n()};  // cannot be read
+    try {
+      results.write(s);
+    } catch (const FileError&) {
+    }
+    std::raise(SIGKILL);
+  }));
+  const auto time = h5::File::open(folder / "results.h5").read<double>("/frame/time");
+  EXPECT_EQ(time[0], run.snapshot(0).time);
+  EXPECT_TRUE(std::isnan(time[1]));
 }
 
 /// Bytes of results.h5 that are neither a snapshot's nor its time's do not change in the run.

@@ -1,0 +1,249 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Break the program one term at a time: the tests that check the term must fail.
+
+    python3 tests/mutations.py [--only TEXT] [--build DIR]
+
+Run by hand, not by ctest: a quarter of an hour on one core. Works on the last commit, in a clone in
+a temporary folder, or in DIR, kept for the next time. --only takes the mutations whose name holds
+TEXT. A mutation is seen if of each of its test patterns at least one test fails. Prints a table
+`mutation | tests that failed | verdict`; exit 1 if a mutation survives, 2 if the table no longer
+fits the sources or if tests fail without any mutation.
+"""
+import argparse
+import os
+import pathlib
+import re
+import subprocess
+import sys
+import tempfile
+
+ROOT = pathlib.Path(__file__).resolve().parent.parent
+TIMEOUT = 900  # s for one call of a test program; what hangs has failed
+
+PROGRAMS = {"V": "verification/verification", "W": "verification/verification_slow"}
+PROGRAMS |= {m: f"unit/unit_{m}" for m in ("core", "mesh", "fem", "contact", "dynamics", "statics",
+                                           "io", "study")}
+
+# @file in src/rondo, then of each mutation in it: name | old text => new text | tests.
+# \n is a new line; a line that begins with spaces continues the one above. The tests are
+# program:filter, with the letters of PROGRAMS and gtest's filters, or cli:pattern (unittest's -k).
+TABLE = r"""
+@dynamics/ledger.cpp
+V1 frame work without -s² | {-f.spin * f.spin, f => {0.0, f | V:*Ledgers.*/plain V:SpinUp.Damped*
+V1 frame work without Euler term | f.spin, f.spin_rate} => f.spin, 0.0} | V:*Ledgers.*/tables
+V1 frame work without pull | + f.pull; => ; | V:*Ledgers.*/tables V:FreeFall.*
+V1 contact work with v⁻ only | [k] + state.v_next => [k] + state.v | V:*Ledgers.*/friction
+V1 friction with w⁺ only | c.impulse.y * mean.y => c.impulse.y * c.after.y | V:*Ledgers.*/friction
+V1 sign of D_stiffness | dt * beta * dot => -dt * beta * dot | V:*Ledgers.*/plain
+V1 D_mass with v⁻ only | printed ? v : mean) => v) | V:*Ledgers.*/plain
+V1 no W_scheme | scheme_.add(works[3]); => | V:*Ledgers.*/as_printed V:Scheme.LedgerShows*
+V1 strain at one time | u[k], state.force_before => u[k], state.force | V:*Ledgers.*
+V1 blind ledger | b.residual = rest.value(); => b.residual = 0.0; | V:LedgerCheck.*
+@dynamics/stepper.cpp
+V1 step without increments | v + inverse * (model.dt * f(k, stiffness_rate) - update.drag * v) =>
+  inverse * (model.dt * f(k, stiffness_rate) + (update.a - update.drag) * v) | W:*FreeSpin*
+V1 half of the drag | rate) - update => rate) - 0.5 * update | V:*Ledgers.* W:*Rolling*
+V10 sign of centrifugal term | {-f.spin * f.spin, f => {f.spin * f.spin, f |
+  V:SpinUp.Damped* V:SpinUp.Stationary* W:SpinUpLong.* dynamics:*AFree*
+V18 sign of Euler term | f.spin_rate}}; => -f.spin_rate}}; | V:*Ledgers.*/tables dynamics:*AFree*
+V18 sign of Coriolis term | state.frame.spin);\n  free => -state.frame.spin);\n  free |
+  V:*Rolling.* dynamics:*AFree*
+V10 half of α | model.dt, model.mass => model.dt, 0.5 * model.mass | dynamics:*MassDamping*
+V10 no α | model.dt, model.mass_damping => model.dt, 0.0 | V:SpinUp.Damped* V:*Ledgers.*/plain
+V12 symplectic is as printed | (model.scheme, model.dt => (Scheme::as_printed, model.dt |
+  V:Scheme.Symplectic* V:Scheme.LedgerShows* W:SpinUpLong.*
+V12 as printed is symplectic | (model.scheme, model.dt => (Scheme::symplectic, model.dt |
+  V:Scheme.AsPrintedGrows* V:Scheme.AsPrintedLargest* V:Scheme.Ledger* V:*Ledgers.*/as_printed
+V10 start without u | state.u[k] = u0[k]; => | V:SpinUp.Stationary* dynamics:*AFree*
+start by a whole step | half = 0.5 * model.dt => half = model.dt | dynamics:*AFree*
+clamped nodes move | v + (half => (state.v_next[0] = v) + (half | dynamics:*ClampedNodes*
+@dynamics/scheme.hpp
+V12 as printed with a of symplectic | {{1.0, 0.0}, => {{1.0 + 0.5 * dt * alpha, dt * spin}, |
+  V:Scheme.AsPrintedGrows* V:*Ledgers.*/as_printed
+@dynamics/critical_step.cpp
+V13 no damping in the step | xi * xi) + xi); => xi * 0.0)); | V:*Step.Formula* V:*Limit.*damped
+V13 step 3 % too long | step_of(out.o => step_of(0.97 * out.o | V:*Limit.*/plain V:*Limit.*/all
+V13 step 3 % too short | step_of(out.o => step_of(1.03 * out.o | V:*Limit.*/plain V:*Limit.*/all
+V13 residual subtracted | ritz + residual => ritz - residual | V:*Step.Frequency*
+V13 element bound only | std::sqrt(ritz + => std::sqrt(1e99 + | V:*Step.Frequency*
+@dynamics/motion.cpp
+V17 gravity upwards | Vec2{0.0, motion.gravity} => Vec2{0.0, -motion.gravity} | V:FreeFall.*
+integral without slope | + 0.5 * slope(begin) * std::abs(part) => | dynamics:Table.Integrals*
+height before t = 0 | length * height.slope(0.0) => 0.0 | dynamics:Motion.Kink*
+turn before t = 0 | return from < 0.0 ? -prolonged => return false ? -prolonged | dynamics:*AFree*
+spin rate at knots | (f.turn - f.turn_before) / (dt * dt) => -motion.angular_velocity.slope(t) |
+  dynamics:*AFree*
+sense of the angle | : -angular_velocity.integral => : angular_velocity.integral | dynamics:*Rolls*
+@dynamics/contact_phase.cpp
+V18 i_c by R(θ_{n+2}) | state.frame.rotation) * imp => c.turn_next) * imp | V:*Rolling.*/0
+V18 b without turn | rotation_minus_one(f.turn) * arm => Vec2{} | V:*Rolling.* dynamics:*LawVel*
+V18 b linear in the turn | rotation_minus_one(f.turn) * => Vec2{0.0, f.turn} * | dynamics:*LawVel*
+V18 active at g < 0.01 | state, node)) => state, node) - Vec2{0.0, 0.01}) | V:*Rolling.*
+sign of the bounce | std::min(a.before.x, 0.0) => std::max(-a.before.x, 0.0) | dynamics:*ABall*
+sticking by R(θ_{n+1}) | conj(c.turn_next) * (c => conj(state.frame.rotation) * (c | dynamics:*LawVel*
+normals of a pair swapped | conj(a.normal) * b.normal => conj(b.normal) * a.normal |
+  dynamics:Stepper.* cli:*concave*
+step allocates | state.active.clear(); => state.active = State(model).active; | dynamics:Allocation.*
+@contact/law.cpp
+V18 sign of friction | {{rn, side => {{rn, -side | V:*Rolling.*/1 V:*Rolling.*/3 contact:Law.*
+bounce in the law | problem.free.x + problem => problem.free.x - problem | contact:Law.*
+slip without Im W | - side * friction * problem.delassus.y => | contact:Law.Holds*
+@contact/residual.cpp
+residual without its shift | + friction * std::abs(w.y), w.y} => , w.y} | contact:Residual.Sees*
+projection off the cone's edge | / (1.0 + friction * friction) => | contact:Residual.Projection*
+@contact/pair.cpp
+pair without a single case | i = 0; i < 2; ++i) { => i = 1; i < 2; ++i) { | contact:Pair.Random*
+pair without both pressing | both_press(p, choice); => | contact:Pair.Corner* contact:Pair.Random*
+pair without bounce | p.turn.x * p.bounce[0] - p.bounce[1] => -p.bounce[1] | contact:Pair.Random*
+pair always converged | residual <= tolerance} => true} | contact:Pair.Says*
+@contact/ground.cpp
+normal of the arc | r > 0.0 ? offset / r : f.normal => f.normal | contact:Ground.LedgeDistances
+facet after a concave corner | if (facets_[k].concave_end) => if (false) | contact:Ground.*
+facet before a concave corner | if (k > 0 && facets => if (false && facets | contact:Ground.*
+touching before the ground | if (p.gap > 0.0) => if (p.gap > 0.01) | contact:Ground.Distance*
+@statics/stationary_spin.cpp
+V9 load without mass | m.array(); => m.mean(); | V:*Mesh.Displacement* V:*Mesh.NodalStress*
+V9 no softening | m, free, spin * spin) => m, free, 0.0) | V:*Mesh.Displacement* statics:*Beyond*
+eigenvalues_above: sign | (i, i) -= shift => (i, i) += shift | statics:*Beyond*
+@fem/elasticity.cpp
+V9 d12 of plane strain | factor * nu, => factor * nu * nu, | V:*ClosedForm.* fem:Hooke.*
+@fem/element.cpp
+V17 weight of a Gauss point | k += g => k += (corner.x + corner.y > 1.0 ? 1.1 : 1.0) * g |
+  V:*Patch.*/0 V:*Patch.*/4 V:*Mesh.Displacement*
+V17 place of Gauss points | gauss = 1.0 / => gauss = 0.9 / | fem:Element.* V:*Rolling.*
+V17 stiffness of triangles | 0.5 * g.jacobian => g.jacobian | V:*Patch.*/4
+V17 mass of triangles | / 6.0 => / 3.0 | V:Mass.* fem:Element.Masses*
+V17 mass of corners | (corners, corner_xi[a]) => (corners, 0.0 * corner_xi[a]) | fem:Element.Masses*
+V17 stress at corners | reach = std::sqrt(3.0) => reach = 1.0 | fem:Element.*
+V17 shear strain | g.n[a].y * u[a].x + => g.n[a].y * u[a].x - | V:*Patch.* fem:Element.Stress*
+@fem/assembly.cpp
+V13 element bound too low | bound, solver => bound, 0.5 * solver | V:*.Frequency* fem:*ElementBound*
+@fem/stress.cpp
+V17 nodal stress no mean | weight[a] /= total => weight[a] *= 1.1 / total | V:*Patch.* fem:Stress*
+@mesh/disk.cpp
+tributary at the edges of lands | land_before ? 0.5 * => true ? 0.5 * | mesh:Disk.Tributary*
+grading | , d.grading) => , 1.0) | mesh:Disk.Grading*
+sector numbering | sector.push_back(pitch) => sector.push_back(line) | mesh:Disk.Sectors*
+column 0 to the right | - 0.5 * std::numbers::pi; => ; | mesh:Disk.ColumnZero*
+@core/threads.hpp
+sum by the threads | t = term(i); => t = term(threads > 1 ? begin + end - 1 - i : i); |
+  core:BlockSums.* dynamics:*SameBits*
+@io/results.cpp
+time written first | check(s);\n => check(s);\n  row(d.time, s.time);\n | io:ResultsOfAKilledRun.*
+times not NaN at first | d.time.write(view(never)); => | io:ResultsOfAKilledRun.*
+stress turned backwards | cs * (s[0] - s[1]) + => cs * (s[1] - s[0]) + | io:Results.StressTurns*
+traction not over length | / tributary[k]; => ; | io:Results.ContactForce*
+@study/toml_text.cpp
+case writer drops a digit | ("{}", value) => ("{:.16g}", value) | study:WriteCase.Numbers*
+@study/case_values.cpp
+unknown keys let through |
+  add(value.key_place, path, found, unknown => static_cast<void>(unknown | study:*WrongCase.*
+@study/observers.cpp
+history of the last step | impulse_ += report.i => impulse_ = report.i | cli:*history_is*
+"""
+
+
+def table(tree, only):
+    """[(name, path, old, new, [(program, filter)])]; each old text must be there exactly once."""
+    rows, faults, path = [], [], None
+    for line in TABLE.strip().replace("\n  ", " ").splitlines():
+        if line.startswith("@"):
+            path = tree / "src/rondo" / line[1:]
+            continue
+        name, change, tests = line.split(" | ")
+        old, new = (part.strip().replace("\\n", "\n") for part in change.split("=>"))
+        found = path.read_text().count(old)
+        if found != 1:
+            faults.append(f"{name}: found {found} times in {path.name}: {old!r}")
+        if only in name:
+            rows.append((name, path, old, new, [tuple(t.split(":", 1)) for t in tests.split()]))
+    if faults or not rows:
+        print(*faults or ["no mutation of that name"], sep="\n")
+        sys.exit(2)
+    return rows
+
+
+def run(command, **options):
+    done = subprocess.run(command, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True,
+                          errors="replace", **options)
+    return done.returncode, done.stdout
+
+
+def make(build, tests):
+    targets = {pathlib.Path(PROGRAMS.get(program, "rondo")).name for program, _ in tests}
+    return run(["cmake", "--build", build, "-j1", "--target", *sorted(targets)])
+
+
+def failures(tree, build, program, pattern):
+    """Names of the tests that fail, sorted."""
+    command = [build / "tests" / PROGRAMS.get(program, ""), f"--gtest_filter={pattern}"]
+    if program == "cli":
+        command = ["/usr/bin/python3", tree / "tests/cli/test_run.py", "-k", pattern]
+    try:
+        code, said = run(command, timeout=TIMEOUT,
+                         env={**os.environ, "RONDO": str(build / "rondo")})
+    except subprocess.TimeoutExpired:
+        return [f"{program}:{pattern} (out of time)"]
+    if re.search(r"Ran 0 tests|Running 0 tests", said):
+        sys.exit(f"no test is called {program}:{pattern}")
+    names = set(re.findall(r"^\[  FAILED  \] (\w\S*\.[^\s,]+)|^(?:FAIL|ERROR): (\w+)", said, re.M))
+    names = sorted("".join(name) for name in names)
+    return names or ([f"{program}:{pattern} (crash)"] if code else [])
+
+
+def mutate(tree, build, row):
+    """(tests that failed, verdict) of one mutation."""
+    _, path, old, new, tests = row
+    text = path.read_text()
+    path.write_text(text.replace(old, new))
+    try:
+        if make(build, tests)[0]:
+            return [], "DOES NOT BUILD"
+        red = [failures(tree, build, *test) for test in tests]
+    finally:
+        path.write_text(text)
+    unseen = [":".join(test) for test, names in zip(tests, red) if not names]
+    return sum(red, []), "SURVIVES " + " ".join(unseen) if unseen else "seen"
+
+
+def clone(folder):
+    tree, build = folder / "source", folder / "build"
+    if not tree.exists():
+        subprocess.run(["git", "clone", "-q", ROOT, tree], check=True)
+    subprocess.run(["git", "-C", tree, "fetch", "-q", "origin", "HEAD"], check=True)
+    subprocess.run(["git", "-C", tree, "reset", "-q", "--hard", "FETCH_HEAD"], check=True)
+    subprocess.run(["cmake", "-S", tree, "-B", build, "-G", "Ninja", "-DCMAKE_BUILD_TYPE=Release"],
+                   check=True, stdout=subprocess.DEVNULL)
+    return tree, build
+
+
+def unmutated(tree, build, tests):
+    """What is wrong without any mutation."""
+    code, said = make(build, tests)
+    return said if code else [name for test in tests for name in failures(tree, build, *test)]
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__.partition("\n")[0])
+    parser.add_argument("--only", default="", metavar="TEXT")
+    parser.add_argument("--build", type=pathlib.Path, metavar="DIR")
+    given = parser.parse_args()
+    with tempfile.TemporaryDirectory() as temporary:
+        tree, build = clone((given.build or pathlib.Path(temporary)).resolve())
+        rows = table(tree, given.only)
+        wrong = unmutated(tree, build, sorted({test for row in rows for test in row[4]}))
+        if wrong:
+            print("without any mutation:", wrong)
+            return 2
+        print("mutation | tests that failed | verdict", flush=True)
+        seen = 0
+        for row in rows:
+            red, verdict = mutate(tree, build, row)
+            print(f"{row[0]} | {', '.join(red)} | {verdict}", flush=True)
+            seen += verdict == "seen"
+    print(f"{seen} of {len(rows)} mutations seen")
+    return 0 if seen == len(rows) else 1
+
+
+if __name__ == "__main__":
+    sys.exit(main())
