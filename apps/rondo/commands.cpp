@@ -7,6 +7,7 @@
 #include <atomic>
 #include <csignal>
 #include <filesystem>
+#include <functional>
 
 #include "exit_codes.hpp"
 #include "progress.hpp"
@@ -24,13 +25,25 @@ extern "C" void request_stop(int) {
   stop_requested.store(true);
 }
 
-void catch_signals() {
-  std::signal(SIGINT, request_stop);
-  std::signal(SIGTERM, request_stop);
+/// While a case is built, a signal ends the program at once: nothing is there to be saved. From the
+/// loop on it asks for a clean end. A reader of our output that goes away ends nothing.
+void catch_signals(study::RunOptions& options) {
+  std::signal(SIGPIPE, SIG_IGN);
+  options.stop = &stop_requested;
+  options.before_loop = [] {
+    for (const int number : {SIGINT, SIGTERM, SIGHUP}) std::signal(number, request_stop);
+  };
 }
 
-/// cases/ledge.toml -> cases/ledge
+study::RunReport run_with_progress(const study::Case& c, study::RunOptions& options, bool quiet) {
+  Progress progress;
+  if (!quiet) options.progress = std::ref(progress);
+  return study::run_case(c, options);
+}
+
+/// cases/ledge.toml -> cases/ledge; a case without an extension gets one: ledge -> ledge.results
 std::filesystem::path default_directory(const std::filesystem::path& case_file) {
+  if (!case_file.has_extension()) return case_file.string() + ".results";
   return case_file.parent_path() / case_file.stem();
 }
 
@@ -65,11 +78,9 @@ int run(const RunArguments& arguments) {
                                                   : std::filesystem::path(arguments.directory);
   options.threads = arguments.threads;
   options.overwrite = arguments.overwrite;
-  options.stop = &stop_requested;
   options.warn = [](const std::string& text) { spdlog::warn(text); };
-  if (!arguments.quiet) options.progress = Progress();
-  catch_signals();
-  return finish(study::run_case(c, options), options.directory);
+  catch_signals(options);
+  return finish(run_with_progress(c, options, arguments.quiet), options.directory);
 }
 
 int check(const CommonArguments& arguments) {

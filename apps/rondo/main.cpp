@@ -90,5 +90,8 @@ int main(int argc, char** argv) {
   } catch (const std::bad_alloc&) {
     spdlog::error("not enough memory");
     return app::exit_files;
+  } catch (const std::exception& error) {
+    spdlog::error("unexpected failure, a bug of rondo's: {}", error.what());
+    return app::exit_numerical;
   }
 }

@@ -11,6 +11,10 @@ namespace rondo::app {
 
 Progress::Progress() : terminal_(isatty(STDERR_FILENO) != 0) {}
 
+Progress::~Progress() {
+  if (open_) fmt::print(stderr, "\n");
+}
+
 void Progress::operator()(long long done, long long total) {
   const auto now = Clock::now();
   const double seconds = std::chrono::duration<double>(now - start_).count();
@@ -18,6 +22,7 @@ void Progress::operator()(long long done, long long total) {
   if (terminal_) {
     if (!last && now - drawn_ < std::chrono::milliseconds(100)) return;
     drawn_ = now;
+    open_ = !last;
     draw_bar(done, total, seconds);
     return;
   }

@@ -9,6 +9,9 @@ namespace rondo::app {
 class Progress {
  public:
   Progress();
+  ~Progress();  ///< a bar that did not reach its end gets its new line
+  Progress(const Progress&) = delete;
+  Progress& operator=(const Progress&) = delete;
   void operator()(long long done, long long total);
 
  private:
@@ -19,6 +22,7 @@ class Progress {
   Clock::time_point start_ = Clock::now();
   Clock::time_point drawn_ = start_;
   int decade_ = 0;
+  bool open_ = false;  ///< a bar stands on the line
 };
 
 }  // namespace rondo::app

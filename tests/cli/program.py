@@ -29,7 +29,7 @@ stiffness = 2.0e-5
 [motion]
 angular_velocity = 33.333333
 speed = 10.0
-height = 0.296
+height = [[0, 0.3], [0.004, 0.296]]
 [ground]
 profile = "flat"
 friction = 0.3

@@ -18,6 +18,16 @@ EDITS = [
     ("negative radius", "outer_radius", "outer_radius = -0.3", ["disk.outer_radius", "> 0"]),
     ("zero layers", "radial", "radial = 0", ["disk.mesh.radial", "1 to 100000"]),
     ("two columns", "circumferential", "circumferential = 2", ["disk.mesh.circumferential", "3"]),
+    ("layers that coincide", "radial", "radial = 100\ngrading = 10",
+     ["disk.mesh.grading", "shortest edge"]),
+    ("a film of rubber", "inner_radius", "inner_radius = 0.2999999999999999",
+     ["disk.inner_radius", "shortest edge"]),
+    ("no density to speak of", "density", "density = 1e-300",
+     ["material.youngs_modulus", "frequency"]),
+    ("stiffer than numbers", "youngs_modulus", "youngs_modulus = 1e300",
+     ["material.youngs_modulus", "frequency"]),
+    ("too many steps", "safety", "safety = 1e-20", ["time.end", "steps"]),
+    ("absurd friction", "friction", "friction = 1e15", ["ground.friction", "0 to 100"]),
     ("grading below 1", "radial", "radial = 12\ngrading = 0.5", ["disk.mesh.grading", "1"]),
     ("mesh beyond memory", "circumferential", "circumferential = 9000000",
      ["disk.mesh.circumferential", "memory", "GB"]),
@@ -37,7 +47,7 @@ EDITS = [
      ["ground.profile", "left"]),
     ("fillet that does not fit", "fillet", "fillet = 0.2", ["ground.fillet", "does not fit"]),
     ("sharp convex corner", "fillet", "fillet = 0.0", ["ground.profile", "fillet"]),
-    ("negative friction", "friction", "friction = -0.3", ["ground.friction", ">= 0"]),
+    ("negative friction", "friction", "friction = -0.3", ["ground.friction", "0 to 100"]),
     ("restitution above 1", "restitution", "restitution = 1.5", ["ground.restitution", "1"]),
     ("schema from the future", "schema", "schema = 2", ["schema", "later version"]),
     ("no schema", "schema", None, ["schema"]),
@@ -72,6 +82,10 @@ class WrongCases(ProgramTest):
             return None
         if what == "sharp convex corner":
             return line_of(text, "profile")
+        if what == "no density to speak of":
+            return line_of(text, "youngs_modulus")
+        if what == "too many steps":
+            return line_of(text, "end")
         if what == "duplicate key":
             return line_of(text, "friction") + 1
         return line_of(text, line.split("\n")[-1].split(" ")[0])

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "support/models.hpp"
+#include "support/traps.hpp"
 
 using namespace rondo;
 using namespace rondo::dynamics;
@@ -35,6 +36,7 @@ TEST_P(Ledgers, CloseToRoundOff) {
   test::add_ground(b, test::ledge(), {v.friction, v.restitution});
   State state = test::start_at_rest(b.model);
   Ledger ledger(b.model);
+  const test::FloatingPointTraps traps;
   long contacts = 0;
   double split = 0.0;
   for (int n = 0; n < 4000; ++n) {

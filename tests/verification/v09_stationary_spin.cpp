@@ -52,7 +52,7 @@ TEST(StationarySpinMesh, DisplacementIsSecondOrder) {
     }
     before = error;
   }
-  EXPECT_LT(before, 2e-4);
+  EXPECT_LT(before, 2e-4);  // 1.2e-2 at 4 layers, quartered three times
 }
 
 TEST(StationarySpinMesh, NodalStressConvergesAtLeastFirstOrder) {

@@ -5,6 +5,7 @@
 
 #include "rondo/statics/stationary_spin.hpp"
 #include "support/models.hpp"
+#include "support/traps.hpp"
 
 using namespace rondo;
 using namespace rondo::dynamics;
@@ -16,6 +17,7 @@ TEST(SpinUp, DampedSettlesOnTheStationarySpin) {
   auto b = test::build(c);
   State state = test::start_at_rest(b.model);
   Ledger ledger(b.model);
+  const test::FloatingPointTraps traps;
   while (state.frame.time < 0.3) static_cast<void>(advance(b.model, state, ledger));
   const auto exact = statics::stationary_spin(b.model.stiffness, b.model.mass, b.model.reference,
                                               b.model.free, -50.0);

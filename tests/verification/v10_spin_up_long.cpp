@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// V10, long times: a million steps without damping.
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -36,6 +37,10 @@ TEST(SpinUpLong, OscillatesAboutTheStationarySpinForEver) {
   }
   // The mean over 200 periods leaves at most 1/(2π 200) = 0.08 % of the amplitude, which is about
   // the mean itself.
+  RecordProperty("first_mean", fmt::format("{:.6f}", first_sum / window / stationary));
+  RecordProperty("last_mean", fmt::format("{:.6f}", last_sum / window / stationary));
+  RecordProperty("maxima", fmt::format("{:.6f}", largest_late / largest_early));
+  RecordProperty("relative", fmt::format("{:.2g}", ledger.last().relative));
   EXPECT_NEAR(first_sum / window / stationary, 1.0, 2e-3);
   EXPECT_NEAR(last_sum / window / stationary, 1.0, 2e-3);
   EXPECT_GT(largest_early, 1.9 * stationary);  // it swings to about twice the mean

@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include "support/models.hpp"
+#include "support/traps.hpp"
 
 using namespace rondo;
 using namespace rondo::dynamics;
@@ -25,6 +26,7 @@ TEST_P(Rolling, MeanForces) {
   test::add_ground(b, test::ledge(), {row.friction, 0.0});
   State state = test::start_at_rest(b.model);
   Ledger ledger(b.model);
+  const test::FloatingPointTraps traps;
   Vec2 impulse;
   double time = 0.0, scale = 0.0, residual = 0.0;
   while (state.frame.time < 0.12) {

@@ -106,7 +106,7 @@ void report_node(const Model& model, const State& state, const NodeContact& c,
     const double mass = model.mass[c.node];
     const double residual =
         contact::law_residual(a.impulse, a.after, a.bounce, model.contact->law.friction, mass);
-    report.residual = std::max(report.residual, residual / mass);
+    if (!(residual / mass <= report.residual)) report.residual = residual / mass;  // NaN too
     report.penetration = std::max(report.penetration, -a.gap);
     report.free_velocity = std::max(report.free_velocity, norm(a.free));
     const Vec2 impulse = a.normal * a.impulse;

@@ -6,6 +6,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <exception>
+#include <optional>
 #include <vector>
 
 #include "rondo/dynamics/operator.hpp"
@@ -17,8 +19,9 @@ namespace {
 class ScaledStiffness {
  public:
   using Scalar = double;
-  ScaledStiffness(const fem::BlockCsr& k, std::span<const double> mass, std::span<const int> free)
-      : k_(k), free_(free), scale_(free.size()), u_(k.n_rows()), p_(k.n_rows()) {
+  ScaledStiffness(const fem::BlockCsr& k, std::span<const double> mass, std::span<const int> free,
+                  int threads)
+      : k_(k), free_(free), threads_(threads), scale_(free.size()), u_(k.n_rows()), p_(k.n_rows()) {
     for (std::size_t i = 0; i < free.size(); ++i)
       scale_[i] = 1.0 / std::sqrt(mass[static_cast<std::size_t>(free[i])]);
   }
@@ -27,7 +30,7 @@ class ScaledStiffness {
   void perform_op(const double* x, double* y) const {
     for (std::size_t i = 0; i < free_.size(); ++i)
       u_[static_cast<std::size_t>(free_[i])] = scale_[i] * Vec2{x[2 * i], x[2 * i + 1]};
-    apply(k_, u_, p_, 1);
+    apply(k_, u_, p_, threads_);
     for (std::size_t i = 0; i < free_.size(); ++i) {
       const Vec2 p = scale_[i] * p_[static_cast<std::size_t>(free_[i])];
       y[2 * i] = p.x;
@@ -38,38 +41,61 @@ class ScaledStiffness {
  private:
   const fem::BlockCsr& k_;
   std::span<const int> free_;
+  int threads_;
   std::vector<double> scale_;
   mutable std::vector<Vec2> u_, p_;
 };
 
 }  // namespace
 
-double critical_step_of(double omega, double beta) noexcept {
-  const double xi = 0.5 * beta * omega;
+double critical_step_of(double omega, LaggedDamping damping) noexcept {
+  const double xi = 0.5 * (damping.stiffness * omega + damping.mass / omega);
   return 2.0 / omega / (std::sqrt(1.0 + xi * xi) + xi);  // = (2/ω)(√(1+ξ²) - ξ), no cancellation
 }
 
+namespace {
+
+/// Relative residual at which Lanczos stops. It only shortens the step: by half of it at the most.
+constexpr double lanczos_tolerance = 1e-5;
+
+struct RitzPair {
+  double value = 0.0;     ///< [1/s²]
+  double residual = 0.0;  ///< ‖A x - value x‖ [1/s²]
+};
+
+/// Largest eigenvalue; nothing where Lanczos does not converge, or the numbers are out of range.
+std::optional<RitzPair> largest_ritz_pair(const ScaledStiffness& a) {
+  ScaledStiffness op = a;
+  Spectra::SymEigsSolver<ScaledStiffness> lanczos(op, 1, std::min<Eigen::Index>(40, op.rows()));
+  try {
+    lanczos.init();
+    lanczos.compute(Spectra::SortRule::LargestAlge, 300, lanczos_tolerance);
+  } catch (const std::exception&) {  // Spectra throws on numbers that it cannot work with
+    return std::nullopt;
+  }
+  if (lanczos.info() != Spectra::CompInfo::Successful) return std::nullopt;
+  const double ritz = lanczos.eigenvalues()[0];
+  const Eigen::VectorXd x = lanczos.eigenvectors().col(0);
+  Eigen::VectorXd ax(x.size());
+  op.perform_op(x.data(), ax.data());
+  const RitzPair pair{ritz, (ax - ritz * x).norm()};
+  return std::isfinite(pair.value + pair.residual) ? std::optional(pair) : std::nullopt;
+}
+
+}  // namespace
+
 CriticalStep critical_step(const fem::BlockCsr& k, std::span<const double> mass,
-                           std::span<const int> free, double beta,
-                           double element_eigenvalue_bound) {
+                           std::span<const int> free, LaggedDamping damping,
+                           double element_eigenvalue_bound, int threads) {
   CriticalStep out;
   out.element_bound = std::sqrt(element_eigenvalue_bound);
   out.omega = out.element_bound;
-  ScaledStiffness a(k, mass, free);
-  Spectra::SymEigsSolver<ScaledStiffness> lanczos(a, 1, std::min<Eigen::Index>(40, a.rows()));
-  lanczos.init();
-  lanczos.compute(Spectra::SortRule::LargestAlge, 300, 1e-7);
-  if (lanczos.info() == Spectra::CompInfo::Successful) {
-    const double ritz = lanczos.eigenvalues()[0];
-    const Eigen::VectorXd x = lanczos.eigenvectors().col(0);
-    Eigen::VectorXd ax(x.size());
-    a.perform_op(x.data(), ax.data());
-    const double residual = (ax - ritz * x).norm();
-    out.residual = residual / ritz;
-    out.omega = std::min(out.element_bound, std::sqrt(ritz + residual));
+  if (const auto pair = largest_ritz_pair(ScaledStiffness(k, mass, free, threads))) {
+    out.residual = pair->residual / pair->value;
+    out.omega = std::min(out.element_bound, std::sqrt(pair->value + pair->residual));
     out.converged = true;
   }
-  out.step = critical_step_of(out.omega, beta);
+  out.step = critical_step_of(out.omega, damping);
   return out;
 }
 

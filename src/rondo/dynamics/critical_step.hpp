@@ -8,18 +8,25 @@
 namespace rondo::dynamics {
 
 struct CriticalStep {
-  double step = 0.0;   ///< Δt_c = (2/ω)(√(1+ξ²) - ξ), ξ = βω/2                        [s]
+  double step = 0.0;   ///< Δt_c = (2/ω)(√(1+ξ²) - ξ), ξ = (βω + α_l/ω)/2  [s]
   double omega = 0.0;  ///< ω: √(Ritz value + residual norm), at most the element bound [rad/s]
   double residual = 0.0;  ///< ‖A x - λ x‖ / λ of the Ritz pair, A = M^-½ K M^-½           [-]
   double element_bound = 0.0;  ///< upper bound of ω by elements [rad/s]
   bool converged = false;      ///< false: ω is the element bound
 };
 
-/// @param mass (n); `free` the free nodes; `beta` the stiffness damping [s].
+/// Damping that acts at the old half step and so shortens the step.
+struct LaggedDamping {
+  double stiffness = 0.0;  ///< β                                                       [s]
+  double mass = 0.0;       ///< α_l: α where the scheme lags it (as printed), else 0    [1/s]
+};
+
+/// @param mass (n); `free` the free nodes; `threads` for the products with K.
 CriticalStep critical_step(const fem::BlockCsr& k, std::span<const double> mass,
-                           std::span<const int> free, double beta, double element_eigenvalue_bound);
+                           std::span<const int> free, LaggedDamping damping,
+                           double element_eigenvalue_bound, int threads = 1);
 
 /// Δt_c for a given largest frequency.
-double critical_step_of(double omega, double beta) noexcept;
+double critical_step_of(double omega, LaggedDamping damping) noexcept;
 
 }  // namespace rondo::dynamics

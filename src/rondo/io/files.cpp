@@ -7,6 +7,7 @@
 
 #include <array>
 #include <cerrno>
+#include <fstream>
 #include <system_error>
 
 #include "rondo/core/error.hpp"
@@ -117,6 +118,20 @@ void write_json(const fs::path& file, const nlohmann::ordered_json& json) {
   constexpr int indent = 2;
   const auto replace = nlohmann::ordered_json::error_handler_t::replace;
   write_file(file, json.dump(indent, ' ', false, replace) + "\n");
+}
+
+bool overwrite_json(const fs::path& file, const nlohmann::ordered_json& json) noexcept {
+  try {
+    const std::string text = json.dump(2) + "\n";
+    std::fstream stream(file, std::ios::in | std::ios::out | std::ios::binary);
+    stream.write(text.data(), static_cast<std::streamsize>(text.size()));
+    stream.close();
+    if (!stream) return false;
+    fs::resize_file(file, text.size());
+    return true;
+  } catch (const std::exception&) {
+    return false;
+  }
 }
 
 }  // namespace rondo::io

@@ -17,5 +17,8 @@ void prepare_results_directory(const std::filesystem::path& directory, bool over
 /// Written beside, then renamed: readers never see half a file. @throws FileError
 void write_file(const std::filesystem::path& file, const std::string& text);
 void write_json(const std::filesystem::path& file, const nlohmann::ordered_json& json);
+/// For a full disk: over the old text of a small file, in place, which asks for no new room.
+/// False where that cannot be done either.
+bool overwrite_json(const std::filesystem::path& file, const nlohmann::ordered_json& json) noexcept;
 
 }  // namespace rondo::io

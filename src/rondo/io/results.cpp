@@ -12,6 +12,7 @@
 
 #include "rondo/core/contract.hpp"
 #include "rondo/core/error.hpp"
+#include "rondo/fem/stress.hpp"
 #include "rondo/io/h5.hpp"
 #include "rondo/io/xdmf.hpp"
 
@@ -48,7 +49,7 @@ std::size_t n_mixed(const Counts& c) noexcept {
 
 /// Of results.h5: what describes the datasets, and an entry for each row.
 std::size_t index_bytes(const Counts& c) noexcept {
-  constexpr std::size_t datasets = 13, description = 4096;
+  constexpr std::size_t datasets = 14, description = 4096;
   return datasets * (description + c.times * h5::File::bytes_of_entry);
 }
 
@@ -117,6 +118,7 @@ XdmfSeries series_of(const Counts& c) {
   s.n_nodes = c.nodes;
   s.n_times = c.times;
   s.fields.push_back({"displacement", "Vector", "/fields/displacement", 3, 0, 3});
+  s.fields.push_back({"velocity", "Vector", "/fields/velocity", 3, 0, 3});
   if (c.contact) s.fields.push_back({"contact_force", "Vector", "/fields/contact_force", 3, 0, 3});
   if (!c.stress) return s;
   s.fields.push_back({"von_mises", "Scalar", "/fields/von_mises"});
@@ -128,12 +130,6 @@ XdmfSeries series_of(const Counts& c) {
   s.fields.push_back({"stress_yy", "Scalar", stress, 6, 3, 1});
   s.fields.push_back({"stress_zz", "Scalar", stress, 6, 5, 1});
   return s;
-}
-
-/// σ_zz counts: plane strain has one.
-double von_mises(const NodalStress& s) noexcept {
-  const double a = s[0] - s[1], b = s[1] - s[2], c = s[2] - s[0];
-  return std::sqrt(0.5 * (a * a + b * b + c * c) + 3.0 * s[3] * s[3]);
 }
 
 /// R σ R^T as xx, xy, xz, yy, yz, zz; r = e^{iθ}.
@@ -198,7 +194,7 @@ struct Results::Impl {
   h5::File file;
   struct {
     h5::Dataset time, time_velocity, angle, center, displacement, velocity, force, traction,
-        position, field_displacement, field_force, von_mises, stress;
+        position, field_displacement, field_velocity, field_force, von_mises, stress;
   } d;
   std::unique_ptr<Xdmf> xdmf;
 };
@@ -267,6 +263,11 @@ void Results::Impl::create_fields() {
   d.field_displacement =
       file.create_rows("/fields/displacement", Type::float32, vector,
                        {"m", "displacement u of each node along the fixed axes"});
+  d.field_velocity = file.create_rows(
+      "/fields/velocity", Type::float32, vector,
+      {"m/s",
+       "velocity du/dt in the turning frame of each node, along the fixed axes, at "
+       "/frame/time_velocity"});
   if (c.contact)
     d.field_force = file.create_rows("/fields/contact_force", Type::float32, vector,
                                      {"N/m", "contact force on each node along the fixed axes"});
@@ -282,7 +283,8 @@ void Results::Impl::create_fields() {
 void Results::Impl::resize(std::size_t rows) {
   for (h5::Dataset* dataset :
        {&d.time, &d.time_velocity, &d.angle, &d.center, &d.displacement, &d.velocity, &d.force,
-        &d.traction, &d.position, &d.field_displacement, &d.field_force, &d.von_mises, &d.stress})
+        &d.traction, &d.position, &d.field_displacement, &d.field_velocity, &d.field_force,
+        &d.von_mises, &d.stress})
     if (*dataset) dataset->resize(rows);
 }
 
@@ -314,13 +316,15 @@ void Results::Impl::write_fields(const Snapshot& s) {
   row(d.position, vectors);
   for (std::size_t i = 0; i < c.nodes; ++i) vectors[i] = in_space(turn * s.displacement[i]);
   row(d.field_displacement, vectors);
+  for (std::size_t i = 0; i < c.nodes; ++i) vectors[i] = in_space(turn * s.velocity[i]);
+  row(d.field_velocity, vectors);
   if (c.stress) write_stress(s, turn);
   if (c.contact) write_contact(s);
 }
 
 void Results::Impl::write_stress(const Snapshot& s, Vec2 turn) {
   for (std::size_t i = 0; i < c.nodes; ++i) {
-    scalars[i] = static_cast<float>(von_mises(s.stress[i]));
+    scalars[i] = static_cast<float>(fem::von_mises(s.stress[i]));
     tensors[i] = turned(s.stress[i], turn);
   }
   row(d.von_mises, scalars);
@@ -387,7 +391,7 @@ std::size_t Results::bytes(const ResultsLayout& layout) noexcept {
   const std::size_t cells = c.cells * c.corners + (c.mixed() ? n_mixed(c) : 0);
   const std::size_t mesh = c.nodes * (3 * real + (c.cyclic ? 2 * whole : 0)) + cells * whole +
                            c.candidates * (whole + real);
-  const std::size_t node = 4 * real + (6U + (c.contact ? 3U : 0U) + (c.stress ? 7U : 0U)) * single;
+  const std::size_t node = 4 * real + (9U + (c.contact ? 3U : 0U) + (c.stress ? 7U : 0U)) * single;
   const std::size_t candidate = c.contact ? 4 * real : 0, frame = 5 * real;
   return index_bytes(c) + mesh + c.times * (frame + c.nodes * node + c.candidates * candidate);
 }

@@ -53,7 +53,19 @@ dynamics::Model make_model(const Case& c, const mesh::Mesh& mesh) {
   return model;
 }
 
+int choose_threads(const dynamics::Model& model, int asked) {
+  if (asked > 0) return asked;
+  if (2 * model.free.size() < single_thread_dofs) return 1;
+  return static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
+}
+
 double choose_step(const Case& c, const dynamics::CriticalStep& critical) {
+  if (!(critical.omega > 0.0) || !std::isfinite(critical.omega) || !(critical.step > 0.0))
+    throw case_error(c, "material.youngs_modulus",
+                     fmt::format("with this density and mesh the largest frequency is {} rad/s, "
+                                 "out of the range of the numbers",
+                                 critical.omega),
+                     "a modulus and a density in SI units");
   if (!c.time.step) return c.time.safety * critical.step;
   if (*c.time.step > critical.step * (1.0 + 1e-12))
     throw case_error(
@@ -68,7 +80,7 @@ double choose_step(const Case& c, const dynamics::CriticalStep& critical) {
 long long count_steps(const Case& c, double dt) {
   const double steps = c.time.end / dt;
   if (steps > 1e12)
-    throw case_error(c, "time.safety", fmt::format("the run would take {:.3g} steps", steps),
+    throw case_error(c, "time.end", fmt::format("the run would take {:.3g} steps", steps),
                      "at most 1e+12 steps");
   const double nearest = std::round(steps);  // 0.1 / 1e-5 is 10000, whatever its last bit says
   return static_cast<long long>(std::abs(steps - nearest) < 1e-9 * nearest ? nearest
@@ -117,27 +129,42 @@ std::vector<double> element_sizes(const mesh::Mesh& mesh) {
   return size;
 }
 
-/// An impulse that throws a node out of the ground in one step would mean nothing.
-void refuse_start_inside(const Case& c, const Setup& s) {
+/// Layers that coincide in round-off, by grading or by radii that are nearly the same.
+void refuse_flat_elements(const Case& c, const std::vector<double>& size) {
+  const double shortest = *std::min_element(size.begin(), size.end());
+  if (shortest > 1e-9 * c.disk.outer_radius) return;
+  throw case_error(c, c.disk.grading > 1.0 ? "disk.mesh.grading" : "disk.inner_radius",
+                   fmt::format("the shortest edge of the mesh would be {:.3g} m", shortest),
+                   "a milder grading, fewer layers or columns, a thicker disk");
+}
+
+/// A node deeper than half an element would get an impulse that means nothing: refused. One less
+/// deep is held where it is, for the law acts on velocities: said.
+void check_start_inside(const Case& c, const std::vector<double>& size, Setup& s) {
   if (!s.model.contact) return;
-  const std::vector<double> size = element_sizes(s.mesh);
   const Vec2 center = s.model.motion.center(0.0);
-  double deepest = 0.0, allowed = 0.0;
+  double deepest = 0.0, worst = 0.0, allowed = 0.0;
   for (const int node : s.model.contact->nodes) {
     const auto k = static_cast<std::size_t>(node);
     const Vec2 x = center + s.model.reference[k] + s.displacement[k];
     const double depth = -s.model.contact->ground.distance(x);
-    if (depth <= 0.5 * size[k] || depth <= deepest) continue;
-    deepest = depth;
+    deepest = std::max(deepest, depth);
+    if (depth / size[k] <= worst) continue;
+    worst = depth / size[k];
     allowed = 0.5 * size[k];
   }
-  if (deepest > 0.0)
+  if (worst > 0.5)
     throw case_error(
         c, "motion.height",
         fmt::format("the body starts {:.4g} m deep inside the ground, more than half an element "
                     "({:.4g} m)",
                     deepest, allowed),
         "start above the ground (motion.height, motion.start_x) and come down by a table");
+  if (deepest > 1e-9 * c.disk.outer_radius)
+    s.warnings.push_back(
+        fmt::format("the body starts {:.4g} m inside the ground: contact keeps it "
+                    "from going deeper, but does not push it out",
+                    deepest));
 }
 
 void warn_of_softening(const Case& c, Setup& s) {
@@ -162,18 +189,19 @@ void warn_of_softening(const Case& c, Setup& s) {
 Setup build(const Case& c, int threads) {
   Setup s;
   s.mesh = mesh::make_disk(c.disk);
+  const std::vector<double> size = element_sizes(s.mesh);
+  refuse_flat_elements(c, size);
   s.model = make_model(c, s.mesh);
+  s.model.threads = choose_threads(s.model, threads);
+  set_initial_fields(c, s);
+  check_start_inside(c, size, s);
+  const bool lagged = c.time.scheme == Scheme::as_printed;
   s.critical =
-      dynamics::critical_step(s.model.stiffness, s.model.mass, s.model.free, c.damping.stiffness,
-                              fem::element_eigenvalue_bound(s.mesh, c.material));
+      dynamics::critical_step(s.model.stiffness, s.model.mass, s.model.free,
+                              {c.damping.stiffness, lagged ? c.damping.mass : 0.0},
+                              fem::element_eigenvalue_bound(s.mesh, c.material), s.model.threads);
   s.model.dt = choose_step(c, s.critical);
   s.n_steps = count_steps(c, s.model.dt);
-  if (threads > 0)
-    s.model.threads = threads;
-  else if (2 * s.model.free.size() >= single_thread_dofs)
-    s.model.threads = static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
-  set_initial_fields(c, s);
-  refuse_start_inside(c, s);
   warn_of_softening(c, s);
   return s;
 }

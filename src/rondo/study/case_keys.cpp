@@ -100,7 +100,7 @@ constexpr CaseKey keys[] = {
      "surface of the ground, solid on its right-hand side; only where there is a [ground]"},
     {"ground.fillet", number, "m", not_negative, "", "0.0",
      "radius that rounds the convex corners"},
-    {"ground.friction", number, "-", not_negative, "", "0.0",
+    {"ground.friction", number, "-", between(0, 100), "", "0.0",
      "Coulomb's coefficient of friction μ"},
     {"ground.restitution", number, "-", between(0, 1), "", "0.0",
      "Newton's coefficient of restitution e"},

@@ -11,6 +11,7 @@
 #include <cmath>
 #include <ctime>
 #include <nlohmann/json.hpp>
+#include <system_error>
 
 #include "rondo/core/error.hpp"
 #include "rondo/io/files.hpp"
@@ -36,7 +37,8 @@ struct ContactStatistics {
 
   void add(const dynamics::ContactReport& r) {
     free_velocity = std::max(free_velocity, r.free_velocity);
-    if (r.residual > 0.0) residual = std::max(residual, r.residual / free_velocity);
+    const double relative = r.residual / free_velocity;
+    if (r.residual != 0.0 && !(relative <= residual)) residual = relative;  // NaN comes through
     penetration = std::max(penetration, r.penetration);
     contact_steps += r.nodes > 0 ? 1 : 0;
     nodes_max = std::max(nodes_max, r.nodes);
@@ -56,22 +58,60 @@ struct Loop {
   std::size_t snapshots = 0;
 };
 
-/// Empty while all is well; otherwise what is out of bound.
-std::string trouble(const dynamics::Balance& b, const ContactStatistics& contact) {
-  const double energy = b.kinetic + b.strain;
-  if (!std::isfinite(energy) || !std::isfinite(b.residual))
-    return fmt::format("the energy is not finite ({})", energy);
+/// What is out of bound, and when: a half step (velocities, ledger) comes before its step's
+/// contact.
+struct Trouble {
+  std::string what;  ///< empty while all is well
+  bool at_half_step = false;
+};
+
+/// Name of the first quantity of the state that is not finite; empty if all are.
+std::string not_finite(const dynamics::State& state) {
+  const auto first = [](const std::vector<Vec2>& field, const char* name) -> std::string {
+    for (std::size_t i = 0; i < field.size(); ++i)
+      if (!std::isfinite(field[i].x) || !std::isfinite(field[i].y))
+        return fmt::format("the {} of node {} is not finite", name, i);
+    return {};
+  };
+  const std::string velocity = first(state.v, "velocity");
+  return velocity.empty() ? first(state.u, "displacement") : velocity;
+}
+
+Trouble find_trouble(const dynamics::State& state, const dynamics::Balance& b,
+                     const ContactStatistics& contact) {
+  if (!std::isfinite(b.kinetic + b.strain) || !std::isfinite(b.residual)) {
+    const std::string what = not_finite(state);
+    return {what.empty() ? fmt::format("the energy is out of range (kinetic {:.3g}, strain {:.3g})",
+                                       b.kinetic, b.strain)
+                         : what,
+            true};
+  }
   if (std::abs(b.works.scheme) > 10.0 * b.otherwise)
-    return fmt::format(
-        "work_scheme = {:.6g} J/m, more than ten times the energy exchanged "
-        "otherwise ({:.6g} J/m): the scheme as printed has blown up",
-        b.works.scheme, b.otherwise);
+    return {fmt::format("work_scheme = {:.6g} J/m, more than ten times the energy exchanged "
+                        "otherwise ({:.6g} J/m): the scheme as printed has blown up",
+                        b.works.scheme, b.otherwise),
+            true};
   if (b.relative > residual_bound)
-    return fmt::format("the energy ledger does not close: relative residual {:.3g}, bound {:.0e}",
-                       b.relative, residual_bound);
+    return {fmt::format("the energy ledger does not close: relative residual {:.3g}, bound {:.0e}",
+                        b.relative, residual_bound),
+            true};
   if (!(contact.residual <= residual_bound))
-    return fmt::format("contact residual {:.3g}, bound {:.0e}", contact.residual, residual_bound);
+    return {fmt::format("contact residual {:.3g}, bound {:.0e}", contact.residual, residual_bound),
+            false};
   return {};
+}
+
+/// The message names the step that made the trouble: what a half step shows came from the step
+/// before.
+void judge(const Setup& setup, const dynamics::State& state, const dynamics::Ledger& ledger,
+           Loop& loop) {
+  const Trouble trouble = find_trouble(state, ledger.last(), loop.contact);
+  if (trouble.what.empty()) return;
+  loop.status = RunStatus::failed;
+  const double half = trouble.at_half_step ? 0.5 * setup.model.dt : 0.0;
+  loop.message =
+      fmt::format("step {} of {}, t = {:.9g} s: {}", state.step - (trouble.at_half_step ? 1 : 0),
+                  setup.n_steps, state.frame.time - half, trouble.what);
 }
 
 /// Steps between two looks at the clock for the progress: cheap against the step.
@@ -82,8 +122,7 @@ constexpr long long progress_stride = 64;
 void close_ledger(const Setup& setup, dynamics::State& state, dynamics::Ledger& ledger,
                   Loop& loop) {
   static_cast<void>(advance(setup.model, state, ledger));
-  loop.message = trouble(ledger.last(), loop.contact);
-  if (!loop.message.empty()) loop.status = RunStatus::failed;
+  judge(setup, state, ledger, loop);
 }
 
 Loop run_loop(const Setup& setup, const RunOptions& options, History& history,
@@ -98,10 +137,9 @@ Loop run_loop(const Setup& setup, const RunOptions& options, History& history,
     const dynamics::ContactReport report = advance(setup.model, state, ledger);
     ++loop.steps;
     loop.contact.add(report);
-    loop.message = trouble(ledger.last(), loop.contact);
-    if (!loop.message.empty())
-      loop.status = RunStatus::failed;
-    else if (options.stop && options.stop->load(std::memory_order_relaxed))
+    judge(setup, state, ledger, loop);
+    if (loop.status == RunStatus::done && options.stop &&
+        options.stop->load(std::memory_order_relaxed))
       loop.status = RunStatus::interrupted;
     const bool last = loop.steps == setup.n_steps || loop.status != RunStatus::done;
     history.observe(state, report, ledger, last);
@@ -110,9 +148,6 @@ Loop run_loop(const Setup& setup, const RunOptions& options, History& history,
       options.progress(loop.steps, setup.n_steps);
   }
   if (loop.status == RunStatus::done) close_ledger(setup, state, ledger, loop);
-  if (loop.status == RunStatus::failed)
-    loop.message = fmt::format("step {} of {}, t = {:.9g} s: {}", loop.steps, setup.n_steps,
-                               state.frame.time, loop.message);
   loop.balance = ledger.last();
   loop.wall_s = std::chrono::duration<double>(Clock::now() - wall).count();
   loop.cpu_s = static_cast<double>(std::clock() - cpu) / CLOCKS_PER_SEC;
@@ -154,11 +189,6 @@ double per_dof_step(const Setup& setup, const Loop& loop) {
   return 1e9 * loop.wall_s / (dofs * static_cast<double>(std::max(1LL, loop.steps)));
 }
 
-/// Finite numbers as they are, others as text: JSON has no NaN.
-Json number(double value) {
-  return std::isfinite(value) ? Json(value) : Json(fmt::format("{}", value));
-}
-
 void add_outcome(Json& j, const Setup& setup, const Loop& loop) {
   static constexpr std::array<const char*, 3> names{"done", "interrupted", "failed"};
   j["status"] = names[static_cast<std::size_t>(loop.status)];
@@ -168,13 +198,13 @@ void add_outcome(Json& j, const Setup& setup, const Loop& loop) {
   j["loop_wall_s"] = loop.wall_s;
   j["loop_cpu_s"] = loop.cpu_s;
   j["ns_per_dof_step"] = per_dof_step(setup, loop);
-  j["energy_residual_relative"] = number(loop.balance.relative);
-  j["energy_exchanged"] = number(loop.balance.exchanged);
-  j["contact_residual_max"] = number(loop.contact.residual);
+  j["energy_residual_relative"] = loop.balance.relative;
+  j["energy_exchanged"] = loop.balance.exchanged;
+  j["contact_residual_max"] = loop.contact.residual;
   j["penetration_max_m"] = loop.contact.penetration;
   j["contact"] = {{"steps_in_contact", loop.contact.contact_steps},
                   {"nodes_max", loop.contact.nodes_max},
-                  {"free_velocity_max", number(loop.contact.free_velocity)},
+                  {"free_velocity_max", loop.contact.free_velocity},
                   {"pairs_solved", loop.contact.pairs},
                   {"pairs_not_converged", loop.contact.pairs_not_converged}};
   j["peak_memory_bytes"] = peak_memory_bytes();
@@ -196,6 +226,30 @@ RunReport report_of(const Setup& setup, const Loop& loop) {
   return r;
 }
 
+void warn_of_fewer_snapshots(const Case& c, const Setup& setup, const RunOptions& options) {
+  const std::size_t there =
+      snapshot_steps(c.output.snapshots, c.output.snapshots_from, setup.model.dt, setup.n_steps)
+          .size();
+  if (there < static_cast<std::size_t>(c.output.snapshots))
+    options.warn(
+        fmt::format("{} snapshots instead of {}: the run has {} steps, and each gives one "
+                    "at the most",
+                    there, c.output.snapshots, setup.n_steps));
+}
+
+/// The case as run is written into the directory as case.toml: it must not replace the user's file.
+void keep_the_users_case(const Case& c, const std::filesystem::path& directory) {
+  std::error_code error;
+  if (!std::filesystem::equivalent(c.file, directory / "case.toml", error) || error) return;
+  Fault fault;
+  fault.key = "-o";
+  fault.found = directory.string();
+  fault.message =
+      "the case file is this directory's own case.toml, which a run there would replace";
+  fault.allowed = "choose another -o";
+  throw InputError(fault);
+}
+
 /// The loop with its observers. A file that cannot be written ends the run: run.json says so, where
 /// it can still be written itself.
 Loop record(const Case& c, const Setup& setup, const RunOptions& options, Json json) {
@@ -209,10 +263,7 @@ Loop record(const Case& c, const Setup& setup, const RunOptions& options, Json j
   } catch (const FileError& error) {
     json["status"] = "failed";
     json["message"] = error.what();
-    try {
-      io::write_json(options.directory / "run.json", json);
-    } catch (const FileError&) {  // the first fault is the one to tell
-    }
+    io::overwrite_json(options.directory / "run.json", json);  // the disk may be full
     throw;
   }
 }
@@ -224,6 +275,9 @@ RunReport run_case(const Case& c, const RunOptions& options) {
   if (options.warn)
     for (const auto* list : {&c.warnings, &setup.warnings})
       for (const std::string& warning : *list) options.warn(warning);
+  if (options.warn) warn_of_fewer_snapshots(c, setup, options);
+  if (options.before_loop) options.before_loop();
+  keep_the_users_case(c, options.directory);
   io::prepare_results_directory(options.directory, options.overwrite);
   io::write_file(options.directory / "case.toml", write_case(c));
   Json json = describe(c, setup);

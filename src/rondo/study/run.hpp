@@ -19,6 +19,7 @@ struct RunOptions {
   const std::atomic<bool>* stop = nullptr;  ///< set: end cleanly after the step in hand
   /// Called now and then with steps done and steps in all; may be empty.
   std::function<void(long long, long long)> progress;
+  std::function<void()> before_loop;  ///< called once, before anything is written; may be empty
   std::function<void(const std::string&)> warn;  ///< takes warnings; may be empty
 };
 

@@ -15,7 +15,7 @@ int main() {
   model.free = fem::free_nodes(mesh);
   model.stiffness = fem::assemble_stiffness(mesh, material);
   model.motion.angular_velocity = dynamics::Table(50.0);
-  const auto critical = dynamics::critical_step(model.stiffness, model.mass, model.free, 0.0,
+  const auto critical = dynamics::critical_step(model.stiffness, model.mass, model.free, {},
                                                 fem::element_eigenvalue_bound(mesh, material));
   model.dt = 0.8 * critical.step;
   const std::vector<Vec2> zero(model.n_nodes());

@@ -17,6 +17,18 @@ void* operator new(std::size_t size) {
   if (void* memory = std::malloc(size)) return memory;
   throw std::bad_alloc();
 }
+void* operator new(std::size_t size, std::align_val_t alignment) {
+  ++allocations;
+  const auto align = static_cast<std::size_t>(alignment);
+  if (void* memory = std::aligned_alloc(align, (size + align - 1) / align * align)) return memory;
+  throw std::bad_alloc();
+}
+void operator delete(void* memory, std::align_val_t) noexcept {
+  std::free(memory);
+}
+void operator delete(void* memory, std::size_t, std::align_val_t) noexcept {
+  std::free(memory);
+}
 void operator delete(void* memory) noexcept {
   std::free(memory);
 }
@@ -28,7 +40,10 @@ using namespace rondo;
 
 TEST(Allocation, NoneInTheStep) {
   auto b = test::build(test::rolling_disk(6, 90));
-  test::add_ground(b, test::ledge(), {0.3, 0.0});
+  // A valley on top of the ledge: pairs of facets too.
+  test::add_ground(
+      b, {.profile = {{-10, -0.1}, {0, -0.1}, {0, 0}, {0.1, -0.01}, {10, 0}}, .fillet = 0.02},
+      {0.3, 0.0});
   dynamics::State state = test::start_at_rest(b.model);
   dynamics::Ledger ledger(b.model);
   long in_contact = 0;

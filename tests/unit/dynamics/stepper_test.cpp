@@ -7,6 +7,7 @@
 #include <random>
 
 #include "support/models.hpp"
+#include "support/traps.hpp"
 
 using namespace rondo;
 using namespace rondo::dynamics;
@@ -76,6 +77,7 @@ TEST(Stepper, LawVelocityIsTheDiscreteMotion) {
   test::add_ground(b, test::ledge(), {0.3, 0.0});
   State state = test::start_at_rest(b.model);
   Ledger ledger(b.model);
+  const test::FloatingPointTraps traps;
   int seen = 0, stuck = 0;
   for (int n = 0; n < 600; ++n) {
     static_cast<void>(advance(b.model, state, ledger));
