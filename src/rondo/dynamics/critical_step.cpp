@@ -55,8 +55,10 @@ double critical_step_of(double omega, LaggedDamping damping) noexcept {
 
 namespace {
 
-/// Relative residual at which Lanczos stops. It only shortens the step: by half of it at the most.
-constexpr double lanczos_tolerance = 1e-5;
+/// Relative residual at which Lanczos stops. It only shortens the step, by half of it at the most,
+/// and the eigenvalue's own error is of its second order: the sum of both is on the safe side.
+constexpr double lanczos_tolerance = 1e-3;
+constexpr Eigen::Index lanczos_vectors = 20;
 
 struct RitzPair {
   double value = 0.0;     ///< [1/s²]
@@ -66,7 +68,7 @@ struct RitzPair {
 /// Largest eigenvalue; nothing where Lanczos does not converge, or the numbers are out of range.
 std::optional<RitzPair> largest_ritz_pair(const ScaledStiffness& a) {
   ScaledStiffness op = a;
-  Spectra::SymEigsSolver<ScaledStiffness> lanczos(op, 1, std::min<Eigen::Index>(40, op.rows()));
+  Spectra::SymEigsSolver<ScaledStiffness> lanczos(op, 1, std::min(lanczos_vectors, op.rows()));
   try {
     lanczos.init();
     lanczos.compute(Spectra::SortRule::LargestAlge, 300, lanczos_tolerance);
