@@ -10,12 +10,10 @@
 
 #include "rondo/core/error.hpp"
 #include "rondo/statics/stationary_spin.hpp"
+#include "rondo/study/estimate.hpp"
 
 namespace rondo::study {
 namespace {
-
-/// Above this size the check of spin softening would cost more than a short run.
-constexpr std::size_t softening_check_dofs = 500000;
 
 /// A fault that shows only once the case is put together, at the place where its key stands.
 InputError case_error(const Case& c, const std::string& key, const std::string& message,

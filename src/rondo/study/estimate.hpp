@@ -11,7 +11,10 @@ namespace rondo::study {
 /// Cells that mesh::make_disk would make, without making them.
 std::size_t n_disk_cells(const mesh::Disk& disk) noexcept;
 
-/// Memory of a run at its largest, while the stiffness is assembled; an estimate [B].
+/// Above this size the check of spin softening, a Cholesky factorisation, is left out.
+inline constexpr std::size_t softening_check_dofs = 500000;
+
+/// Memory of a run at its largest, while K is assembled or factorised; an estimate [B].
 std::size_t estimated_memory(const Case& c) noexcept;
 
 /// Physical memory of this machine [B]; 0: unknown.
