@@ -69,9 +69,12 @@ TEST(CaseKeys, ExamplesOfTheManualAreCases) {
 }
 
 TEST(Estimate, CountsNodesAndCells) {
-  Case c = read_text(base);
+  Case c = read_text(base, {"motion.angular_velocity=0.0"});
   EXPECT_EQ(n_disk_cells(c.disk), 12U * 180U);
   EXPECT_EQ(estimated_memory(c), 13U * 180U * (2 * 9 * 36 + 240) + 12U * 180U * 16U);
+  const std::size_t still = estimated_memory(c);
+  c.initial.state = InitialState::stationary;  // needs the factors of K
+  EXPECT_GT(estimated_memory(c), 2 * still);
   c = read_text(treaded());
   EXPECT_EQ(n_disk_cells(c.disk), mesh::make_disk(c.disk).cells.size());
 }
