@@ -8,7 +8,7 @@ packages=(
   libeigen3-dev libsuitesparse-dev libspectra-dev    # linear algebra, sparse Cholesky, eigenvalues
   libhdf5-dev nlohmann-json3-dev libtomlplusplus-dev # files
   libcli11-dev libfmt-dev libspdlog-dev              # command line, text, log
-  libgtest-dev clang-format clang-tidy               # tests
+  libgtest-dev clang-format clang-tidy libomp-dev    # tests (omp.h as clang-tidy wants it)
   libbenchmark-dev                                   # bench/
   python3 python3-numpy python3-h5py python3-matplotlib # pictures; a second reader of the results
 )
