@@ -55,8 +55,8 @@ double critical_step_of(double omega, LaggedDamping damping) noexcept {
 
 namespace {
 
-/// Relative residual at which Lanczos stops. It only shortens the step, by half of it at the most,
-/// and the eigenvalue's own error is of its second order: the sum of both is on the safe side.
+/// Relative residual at which Lanczos stops. It is added to the eigenvalue, whose own error is
+/// smaller, so it only shortens the step, by half of it at the most (docs/decisions/008).
 constexpr double lanczos_tolerance = 1e-3;
 constexpr Eigen::Index lanczos_vectors = 20;
 
@@ -66,8 +66,7 @@ struct RitzPair {
 };
 
 /// Largest eigenvalue; nothing where Lanczos does not converge, or the numbers are out of range.
-std::optional<RitzPair> largest_ritz_pair(const ScaledStiffness& a) {
-  ScaledStiffness op = a;
+std::optional<RitzPair> largest_ritz_pair(ScaledStiffness op) {
   Spectra::SymEigsSolver<ScaledStiffness> lanczos(op, 1, std::min(lanczos_vectors, op.rows()));
   try {
     lanczos.init();

@@ -226,7 +226,9 @@ RunReport report_of(const Setup& setup, const Loop& loop) {
   return r;
 }
 
-void warn_of_fewer_snapshots(const Case& c, const Setup& setup, const RunOptions& options) {
+void give_warnings(const Case& c, const Setup& setup, const RunOptions& options) {
+  for (const auto* list : {&c.warnings, &setup.warnings})
+    for (const std::string& warning : *list) options.warn(warning);
   const std::size_t there =
       snapshot_steps(c.output.snapshots, c.output.snapshots_from, setup.model.dt, setup.n_steps)
           .size();
@@ -272,10 +274,7 @@ Loop record(const Case& c, const Setup& setup, const RunOptions& options, Json j
 
 RunReport run_case(const Case& c, const RunOptions& options) {
   const Setup setup = build(c, options.threads);
-  if (options.warn)
-    for (const auto* list : {&c.warnings, &setup.warnings})
-      for (const std::string& warning : *list) options.warn(warning);
-  if (options.warn) warn_of_fewer_snapshots(c, setup, options);
+  if (options.warn) give_warnings(c, setup, options);
   if (options.before_loop) options.before_loop();
   keep_the_users_case(c, options.directory);
   io::prepare_results_directory(options.directory, options.overwrite);
