@@ -22,6 +22,22 @@ if(NOT TARGET rondo_cholmod)
   add_library(rondo_spectra INTERFACE IMPORTED)
   target_include_directories(rondo_spectra SYSTEM INTERFACE ${SPECTRA_INCLUDE_DIR})
 
+  # OpenBLAS holds LAPACK too; LAPACKE is its C interface.
+  find_library(LAPACKE_LIBRARY lapacke REQUIRED)
+  find_path(LAPACKE_INCLUDE_DIR lapacke.h PATH_SUFFIXES lapacke REQUIRED)
+  find_library(OPENBLAS_LIBRARY openblas REQUIRED)
+  find_path(OPENBLAS_INCLUDE_DIR cblas.h PATH_SUFFIXES openblas-pthread openblas REQUIRED)
+  add_library(rondo_lapack INTERFACE IMPORTED)
+  target_link_libraries(rondo_lapack INTERFACE ${LAPACKE_LIBRARY} ${OPENBLAS_LIBRARY})
+  target_include_directories(rondo_lapack SYSTEM INTERFACE ${LAPACKE_INCLUDE_DIR}
+                                                           ${OPENBLAS_INCLUDE_DIR})
+
+  find_library(FFTW_LIBRARY fftw3 REQUIRED)
+  find_path(FFTW_INCLUDE_DIR fftw3.h REQUIRED)
+  add_library(rondo_fftw INTERFACE IMPORTED)
+  target_link_libraries(rondo_fftw INTERFACE ${FFTW_LIBRARY})
+  target_include_directories(rondo_fftw SYSTEM INTERFACE ${FFTW_INCLUDE_DIR})
+
   add_library(rondo_hdf5 INTERFACE IMPORTED)
   target_link_libraries(rondo_hdf5 INTERFACE ${HDF5_C_LIBRARIES})
   target_include_directories(rondo_hdf5 SYSTEM INTERFACE ${HDF5_C_INCLUDE_DIRS})
