@@ -19,7 +19,8 @@ enum class Method {
 struct DecomposeOptions {
   Method method = Method::automatic;
   std::size_t memory = 2'000'000'000;  ///< allowed [B]
-  Index modes = -1;         ///< asked for; -1: as many as leave `default_discarded` of the energy
+  Index modes = -1;         ///< asked for; -1: as many as leave `default_discarded` of the energy,
+                            ///<     if they fit in the memory (DecomposePlan::modes)
   double tolerance = 1e-8;  ///< incremental: bound aimed at, over the norm of A
   std::function<void(long long, long long)> progress;  ///< done, of all; may be empty
 };
@@ -30,9 +31,11 @@ inline constexpr double default_discarded = 1e-6;
 /// What a decomposition would take.
 struct DecomposePlan {
   Method method = Method::direct;  ///< chosen
-  Index block = 0;                 ///< rows (or columns) read at once
-  std::size_t memory = 0;          ///< estimated [B]
-  double flops = 0.0;              ///< estimated
+  Index block = 0;         ///< rows (tsqr of more rows than columns) or columns read at once
+  Index modes = 0;         ///< most that are kept: asked for, or what fits
+  std::size_t memory = 0;  ///< estimated, of the arrays [B]; above what is allowed: no
+                           ///<     method fits, this one would take the least
+  double flops = 0.0;      ///< estimated
 };
 
 [[nodiscard]] DecomposePlan plan(Index rows, Index columns, Index row_grain,
@@ -42,8 +45,10 @@ struct Decomposition {
   Method method = Method::direct;
   Eigen::VectorXd sigma;     ///< (k) singular values, falling
   Eigen::MatrixXd modes;     ///< (rows, r) U: orthonormal columns, r <= rank
-  Eigen::MatrixXd temporal;  ///< (columns, k) V: orthonormal columns where sigma is not 0
-  double energy = 0.0;       ///< ‖A‖² (Frobenius)
+  Eigen::MatrixXd temporal;  ///< (columns, k) V: orthonormal columns. After tsqr of fewer rows than
+                             ///<     columns only those that fit in memory, of at most `rank`
+  Eigen::VectorXd snapshot_energy;  ///< (columns) ‖a_j‖²
+  double energy = 0.0;              ///< ‖A‖² (Frobenius)
   double lost_energy = 0.0;  ///< ‖A‖² - Σσ² of what was truncated; 0 unless incremental
   double sigma_bound = 0.0;  ///< 0 <= true σ_i - sigma[i] <= this, beside round-off
   Index rank = 0;            ///< σ above max(rows, columns) ε σ_1
