@@ -48,7 +48,9 @@ DecomposePlan plan_tsqr(const Sizes& s) {
   const double grain = tall ? s.grain : 1.0, n = s.shorter();
   // Blocks of columns stand beside a transposed copy of themselves.
   const double copies = tall ? 1.0 : 2.0;
-  const double room = std::min(block_numbers, 0.5 * (s.allowed - s.small_svd())) / (copies * n);
+  // The second pass is the narrower one; without a number of modes, half of it is theirs.
+  const double beside = s.allowed - 2.0 * n * n - s.longer() * s.modes_at_least();
+  const double room = std::min(block_numbers, s.asked < 0.0 ? 0.5 * beside : beside) / (copies * n);
   const double fewest = std::min(grain, s.longer());
   const double block =
       std::clamp(grain * std::floor(room / grain), fewest, std::max(fewest, s.longer()));

@@ -144,7 +144,9 @@ StackedQr::StackedQr(Index columns)
     : r_(Eigen::MatrixXd::Zero(columns, columns)), t_(std::min<Index>(32, columns), columns) {}
 
 void StackedQr::add(Out rows) {
-  constexpr Index most = 2048;  // rows at once: a panel of them stays in the cache
+  // Even parts of about as many rows as keep a panel of them in the cache.
+  const Index parts = std::max<Index>(1, rows.rows() / 2048);
+  const Index most = (rows.rows() + parts - 1) / parts;
   const int n = length(r_.cols()), panel = length(t_.rows());
   RONDO_DEMAND(rows.cols() == r_.cols(), rows.cols(), n);
   for (Index first = 0; first < rows.rows(); first += most) {
