@@ -110,7 +110,10 @@ struct Rectifier::Impl {
 
   void apply(double theta, std::span<Vec2> values) {
     RONDO_DEMAND(values.size() == n * n_rings, values.size(), n, n_rings);
-    const double angle = std::remainder(theta, turn);
+    // In (-π, π] by way of the direction: a remainder by the rounded 2π is wrong by 1e-16 each
+    // turn.
+    const Vec2 direction = rotation(theta);
+    const double angle = std::atan2(direction.y, direction.x);
     const long pitches = std::lround(angle / turn * static_cast<double>(n));
     const auto sectors =
         static_cast<std::size_t>(pitches + (pitches < 0 ? static_cast<long>(n) : 0));

@@ -25,6 +25,7 @@ struct Spectrum {
 [[nodiscard]] std::vector<double> squared_errors(const Decomposition& d, Index modes);
 
 /// The error identity ‖A - U_r U_rᵀ A‖² = Σ_{i>r} σ_i², its left side from the snapshots read anew.
+/// The right side holds what was truncated; the left is then the smaller one, by at most that.
 struct Identity {
   Index modes = 0;                      ///< r
   double residual = 0.0;                ///< left side, share of the energy
