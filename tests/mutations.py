@@ -22,7 +22,7 @@ TIMEOUT = 900  # s for one call of a test program; what hangs has failed
 
 PROGRAMS = {"V": "verification/verification", "W": "verification/verification_slow"}
 PROGRAMS |= {m: f"unit/unit_{m}" for m in ("core", "mesh", "fem", "contact", "dynamics", "statics",
-                                           "io", "study")}
+                                           "reduction", "io", "study")}
 
 # @file in src/rondo, then of each mutation in it: name | old text => new text | tests.
 # \n is a new line; a line that begins with spaces continues the one above. The tests are
@@ -133,6 +133,29 @@ time written first | check(s);\n => check(s);\n  row(d.time, s.time);\n | io:Res
 times not NaN at first | d.time.write(view(never)); => | io:ResultsOfAKilledRun.*
 stress turned backwards | cs * (s[0] - s[1]) + => cs * (s[1] - s[0]) + | io:Results.StressTurns*
 traction not over length | / tributary[k]; => ; | io:Results.ContactForce*
+@reduction/rectify.cpp
+rectified backwards | rotation(-harmonic * theta) => rotation(harmonic * theta) |
+  reduction:Rectifier.OneSector* reduction:Rectifier.ATrans* reduction:Travelling.Vectors*
+factors by 2 pi rounded | std::atan2(direction.y, direction.x) => std::remainder(theta, turn) |
+  reduction:Rectifier.ATrans*
+polar frames one sector off | rotation(-turn * static_cast<double>(k) => rotation(-turn * (1.0 + k) |
+  reduction:Rectifier.*
+@reduction/tsqr.cpp
+modes not made orthonormal | orthonormalise(d.modes); => | reduction:Tsqr.*
+second pass forgets a block | first, 0, n, kept), d.modes, 1.0, 1.0 =>
+  first, 0, n, kept), d.modes, 1.0, 0.0 | reduction:Tsqr.Agrees*
+@reduction/incremental.cpp
+one projection only | multiply(u, again, b, -1.0, 1.0); => | reduction:Incremental.Stays*
+bound forgets a block | f.bound_squared += svd => f.bound_squared = svd |
+  reduction:Incremental.Truncated*
+V of the new snapshots | svd.v.block(k, 0, n, kept) => svd.v.block(0, 0, n, kept) |
+  reduction:Incremental.*
+@reduction/spectrum.cpp
+discarded is 1 minus a sum | s.discarded[i] = tail.value() => s.discarded[i] = 1 - s.cumulative[i] |
+  reduction:Spectrum.Discarded*
+@reduction/decompose.cpp
+round-off gives modes | (d.sigma.array() > least) => (d.sigma.array() >= 0.0 * least) |
+  reduction:Tsqr.MakesNo* reduction:EveryMethod.Degenerate*
 @study/toml_text.cpp
 case writer drops a digit | ("{}", value) => ("{:.16g}", value) | study:WriteCase.Numbers*
 @study/case_values.cpp

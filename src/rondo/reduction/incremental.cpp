@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// One pass over blocks of snapshots: A ≈ U Σ Vᵀ so far, and what was cut off
-/// (docs/theory.md, 7.2). After Brand (2002), with blocks.
+/// (docs/theory.md, 7.2). After Brand (2006).
 #include <algorithm>
 #include <cmath>
 
