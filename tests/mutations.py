@@ -134,27 +134,27 @@ times not NaN at first | d.time.write(view(never)); => | io:ResultsOfAKilledRun.
 stress turned backwards | cs * (s[0] - s[1]) + => cs * (s[1] - s[0]) + | io:Results.StressTurns*
 traction not over length | / tributary[k]; => ; | io:Results.ContactForce*
 @reduction/rectify.cpp
-rectified backwards | rotation(-harmonic * theta) => rotation(harmonic * theta) |
+7.3 rectified backwards | rotation(-harmonic * theta) => rotation(harmonic * theta) |
   reduction:Rectifier.OneSector* reduction:Rectifier.ATrans* reduction:Travelling.Vectors*
-factors by 2 pi rounded | std::atan2(direction.y, direction.x) => std::remainder(theta, turn) |
+7.3 factors by 2 pi rounded | std::atan2(direction.y, direction.x) => std::remainder(theta, turn) |
   reduction:Rectifier.ATrans*
-polar frames one sector off | rotation(-turn * static_cast<double>(k) => rotation(-turn * (1.0 + k) |
-  reduction:Rectifier.*
+7.3 polar frames backwards | rotation(-turn * static_cast<double>(k) =>
+  rotation(turn * static_cast<double>(k) | reduction:Rectifier.Commutes* reduction:Rectifier.ATrans*
 @reduction/tsqr.cpp
-modes not made orthonormal | orthonormalise(d.modes); => | reduction:Tsqr.*
-second pass forgets a block | first, 0, n, kept), d.modes, 1.0, 1.0 =>
+7.2 modes not made orthonormal | orthonormalise(d.modes); => | reduction:Tsqr.*
+7.2 second pass forgets a block | first, 0, n, kept), d.modes, 1.0, 1.0 =>
   first, 0, n, kept), d.modes, 1.0, 0.0 | reduction:Tsqr.Agrees*
 @reduction/incremental.cpp
-one projection only | multiply(u, again, b, -1.0, 1.0); => | reduction:Incremental.Stays*
-bound forgets a block | f.bound_squared += svd => f.bound_squared = svd |
+7.2 one projection only | multiply(u, again, b, -1.0, 1.0); => | reduction:Incremental.Stays*
+7.2 bound forgets a block | f.bound_squared += svd => f.bound_squared = svd |
   reduction:Incremental.Truncated*
-V of the new snapshots | svd.v.block(k, 0, n, kept) => svd.v.block(0, 0, n, kept) |
+7.2 V of the new snapshots | svd.v.block(k, 0, n, kept) => svd.v.block(0, 0, n, kept) |
   reduction:Incremental.*
 @reduction/spectrum.cpp
-discarded is 1 minus a sum | s.discarded[i] = tail.value() => s.discarded[i] = 1 - s.cumulative[i] |
+7.2 discarded is 1 minus a sum | s.discarded[i] = tail.value() => s.discarded[i] = 1 - s.cumulative[i] |
   reduction:Spectrum.Discarded*
 @reduction/decompose.cpp
-round-off gives modes | (d.sigma.array() > least) => (d.sigma.array() >= 0.0 * least) |
+7.2 round-off gives modes | (d.sigma.array() > least) => (d.sigma.array() >= 0.0 * least) |
   reduction:Tsqr.MakesNo* reduction:EveryMethod.Degenerate*
 @study/toml_text.cpp
 case writer drops a digit | ("{}", value) => ("{:.16g}", value) | study:WriteCase.Numbers*
