@@ -1,0 +1,147 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "rondo/statics/condensed_contact.hpp"
+
+#include <Eigen/LU>
+#include <algorithm>
+#include <cmath>
+
+#include "rondo/contact/residual.hpp"
+#include "rondo/core/contract.hpp"
+
+namespace rondo::statics {
+namespace {
+
+using contact::Status;
+using Eigen::Index;
+
+// A look costs a direct solve, so it waits for other findings, though not for ever.
+constexpr int sweeps_between_looks = 4, sweeps_without_news = 100;
+
+Vec2 at(const Eigen::VectorXd& v, Index j) {
+  return {v[2 * j], v[2 * j + 1]};
+}
+
+/// What a sweep finds of a candidate; `side` is that of a slipping one's tangential force.
+struct Finding {
+  Status status = Status::open;
+  double side = 1.0;
+  bool operator==(const Finding&) const = default;
+};
+using Findings = std::vector<Finding>;
+
+void sweep(const CondensedProblem& p, Eigen::VectorXd& r, Findings& found) {
+  const Eigen::MatrixXd& g = p.compliance;
+  for (Index j = 0; j < r.size() / 2; ++j) {
+    const Index n = 2 * j, t = n + 1;
+    const BlockProblem block{{p.free[n] + g.col(n).dot(r) - g(n, n) * r[n] - g(n, t) * r[t],
+                              p.free[t] + g.col(t).dot(r) - g(t, n) * r[n] - g(t, t) * r[t]},
+                             g(n, n),
+                             g(n, t),
+                             g(t, t)};
+    const contact::LocalSolution local = solve_block(block, p.friction);
+    r[n] = local.impulse.x;
+    r[t] = local.impulse.y;
+    const bool slips = local.status == Status::slip;
+    found[static_cast<std::size_t>(j)] = {local.status, slips && r[t] < 0.0 ? -1.0 : 1.0};
+  }
+}
+
+/// The forces that go with the findings: w = 0 where a candidate sticks, w_n = 0 and
+/// r_t = ± μ r_n where it slips. Not finite where those equations are singular.
+Eigen::VectorXd solve_directly(const CondensedProblem& p, const Findings& found) {
+  std::vector<Index> rows;
+  for (std::size_t j = 0; j < found.size(); ++j) {
+    if (found[j].status == Status::open) continue;
+    rows.push_back(static_cast<Index>(2 * j));
+    if (found[j].status == Status::stick) rows.push_back(static_cast<Index>(2 * j + 1));
+  }
+  Eigen::VectorXd r = Eigen::VectorXd::Zero(p.free.size());
+  if (rows.empty()) return r;
+  const auto edge = [&](Index row) {  // μ with its sign where the row's candidate slips
+    const Finding& f = found[static_cast<std::size_t>(row / 2)];
+    return f.status == Status::slip ? f.side * p.friction : 0.0;
+  };
+  const auto size = static_cast<Index>(rows.size());
+  Eigen::MatrixXd a(size, size);
+  for (Index k = 0; k < size; ++k) {
+    const Index column = rows[static_cast<std::size_t>(k)];
+    a.col(k) = p.compliance.col(column)(rows);
+    if (edge(column) != 0.0) a.col(k) += edge(column) * p.compliance.col(column + 1)(rows);
+  }
+  const Eigen::VectorXd part = a.partialPivLu().solve(-p.free(rows));
+  for (Index k = 0; k < size; ++k) {
+    const Index row = rows[static_cast<std::size_t>(k)];
+    r[row] = part[k];
+    if (edge(row) != 0.0) r[row + 1] = edge(row) * part[k];
+  }
+  return r;
+}
+
+double residual_of(const CondensedProblem& p, const Eigen::VectorXd& r) {
+  return condensed_residual(p, r, p.free + p.compliance * r);
+}
+
+/// Looks whether the findings, or the forces as swept, are the solution; keeps the better ones.
+void look(const CondensedProblem& p, const Findings& found, Eigen::VectorXd& r,
+          CondensedReport& report) {
+  report.residual = residual_of(p, r);
+  Eigen::VectorXd direct = solve_directly(p, found);
+  ++report.direct_solves;
+  const double residual = direct.allFinite() ? residual_of(p, direct) : report.residual;
+  if (!(residual < report.residual)) return;
+  report.residual = residual;
+  r = std::move(direct);
+}
+
+}  // namespace
+
+contact::LocalSolution solve_block(const BlockProblem& p, double friction) noexcept {
+  if (p.free.x >= 0.0) return {};
+  const double det = p.normal * p.shear - p.mixed * p.mixed;
+  const Vec2 stick = {-(p.shear * p.free.x - p.mixed * p.free.y) / det,
+                      -(p.normal * p.free.y - p.mixed * p.free.x) / det};
+  if (friction > 0.0 && std::abs(stick.y) <= friction * stick.x) return {stick, Status::stick};
+  // The sense is that of the force which sticking would need, as in contact::solve_local.
+  const double edge = stick.y > 0.0 ? friction : -friction;
+  const double compliance = p.normal + edge * p.mixed;
+  if (!(compliance > 0.0)) return {};
+  const double rn = -p.free.x / compliance;
+  return {{rn, edge * rn}, Status::slip};
+}
+
+double condensed_residual(const CondensedProblem& p, const Eigen::VectorXd& r,
+                          const Eigen::VectorXd& w) {
+  double largest = 0.0, force = 0.0, free = 0.0;
+  for (Index j = 0; j < r.size() / 2; ++j) {
+    const double stiffness = 1.0 / p.compliance(2 * j, 2 * j);
+    const double residual = contact::law_residual(at(r, j), at(w, j), 0.0, p.friction, stiffness);
+    if (!(residual <= largest)) largest = residual;  // NaN comes through
+    force = std::max(force, norm(at(r, j)));
+    free = std::max(free, stiffness * norm(at(p.free, j)));
+  }
+  return largest == 0.0 ? 0.0 : largest / (force > 0.0 ? force : free);
+}
+
+CondensedReport solve_condensed(const CondensedProblem& p, const CondensedLimits& limits,
+                                CondensedSolution& solution) {
+  const Index size = p.free.size();
+  RONDO_DEMAND(p.compliance.rows() == size && p.compliance.cols() == size &&
+                   solution.force.size() == size && size % 2 == 0,
+               p.compliance.rows(), p.compliance.cols(), solution.force.size(), size);
+  CondensedReport report;
+  Findings found(static_cast<std::size_t>(size / 2)), looked_at;
+  while (!report.converged && report.sweeps < limits.sweeps) {
+    sweep(p, solution.force, found);
+    ++report.sweeps;
+    const int wait = found == looked_at ? sweeps_without_news : sweeps_between_looks;
+    if (report.sweeps % wait != 0 && report.sweeps != limits.sweeps) continue;
+    looked_at = found;
+    look(p, found, solution.force, report);
+    report.converged = report.residual <= limits.tolerance;
+  }
+  solution.status.clear();
+  for (const Finding& f : found) solution.status.push_back(f.status);
+  return report;
+}
+
+}  // namespace rondo::statics

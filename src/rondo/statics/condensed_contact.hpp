@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: BSD-3-Clause
+/// @file  Signorini–Coulomb contact of a linear elastic body, condensed on its candidates: all of
+/// them coupled by a dense compliance (docs/theory.md, 6.4). Contact frames: in each pair of rows
+/// the first is normal (> 0 separates), the second tangential.
+/// Method: block Gauss–Seidel (Jourdan, Alart, Jean, CMAME 155 (1998) 31) to find who is open, who
+/// sticks and who slips; a direct solve of those that press then gives the forces to round-off.
+#pragma once
+#include <Eigen/Core>
+#include <vector>
+
+#include "rondo/contact/law.hpp"
+#include "rondo/core/vec2.hpp"
+
+namespace rondo::statics {
+
+/// Rows 2j, 2j + 1 of a vector are candidate j of m.
+struct CondensedProblem {
+  const Eigen::MatrixXd& compliance;  ///< (2m, 2m) G = H K⁻¹ Hᵀ, symmetric and positive [m²/N]
+  Eigen::VectorXd free;               ///< (2m) gap and slip without any force           [m]
+  double friction = 0.0;              ///< μ >= 0                                        [-]
+};
+
+struct CondensedSolution {
+  Eigen::VectorXd force;                ///< (2m) in: where to start; out: r            [N/m]
+  std::vector<contact::Status> status;  ///< (m)
+};
+
+struct CondensedLimits {
+  double tolerance = 1e-12;  ///< of the relative residual (6.4d)                        [-]
+  int sweeps = 5000;
+};
+
+struct CondensedReport {
+  bool converged = false;
+  int sweeps = 0;
+  int direct_solves = 0;
+  double residual = 0.0;  ///< relative (6.4d)                                           [-]
+};
+
+/// A single candidate: w = free + block r with a symmetric positive block.
+struct BlockProblem {
+  Vec2 free;  ///< [m]
+  double normal = 0.0, mixed = 0.0,
+         shear = 0.0;  ///< block [[normal, mixed], [mixed, shear]] [m²/N]
+};
+
+/// The law (6.4b) of one candidate in closed form. Where normal <= μ |mixed| there may be no
+/// solution; then the force is zero and the residual tells.
+contact::LocalSolution solve_block(const BlockProblem& problem, double friction) noexcept;
+
+/// Largest law residual, each candidate's own with 1/G_nn as the mass, over the largest |r|; where
+/// there is no force, over the largest |free|/G_nn (6.4d).                                   [-]
+/// @param w (2m) gap and slip under r [m]
+double condensed_residual(const CondensedProblem& problem, const Eigen::VectorXd& r,
+                          const Eigen::VectorXd& w);
+
+[[nodiscard]] CondensedReport solve_condensed(const CondensedProblem& problem,
+                                              const CondensedLimits& limits,
+                                              CondensedSolution& solution);
+
+}  // namespace rondo::statics

@@ -1,0 +1,183 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "rondo/statics/crush.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "rondo/core/contract.hpp"
+
+namespace rondo::statics {
+namespace {
+
+using contact::Status;
+using Eigen::Index;
+
+/// H u of a node.
+Vec2 in_contact_frame(Vec2 u) {
+  return {u.y, -u.x};
+}
+
+Vec2 displaced(const CrushModel& model, std::size_t candidate, const std::vector<Vec2>& u) {
+  return in_contact_frame(u[static_cast<std::size_t>(model.nodes[candidate])]);
+}
+
+/// What an increment is solved from and to, before it becomes the state.
+struct Trial {
+  double depth = 0.0;  ///< [m]
+  CondensedSolution solution;
+  CondensedField field;
+  std::vector<Vec2> slip;  ///< (nb) gap, increment of slip [m]
+};
+
+CondensedProblem make_problem(const CrushModel& model, double depth, const Condensation& body,
+                              const CrushState& state) {
+  const auto& set = body.set();
+  CondensedProblem p{body.compliance(), Eigen::VectorXd(static_cast<Index>(2 * set.size())),
+                     model.friction};
+  for (std::size_t j = 0; j < set.size(); ++j) {
+    p.free[static_cast<Index>(2 * j)] = model.clearance[set[j]] - depth;
+    p.free[static_cast<Index>(2 * j + 1)] = -displaced(model, set[j], state.u).y;
+  }
+  return p;
+}
+
+/// The last increment's forces, for a warm start.
+Eigen::VectorXd last_force(const Condensation& body, const CrushState& state) {
+  const auto& set = body.set();
+  Eigen::VectorXd r(static_cast<Index>(2 * set.size()));
+  for (std::size_t j = 0; j < set.size(); ++j)
+    r.segment<2>(static_cast<Index>(2 * j)) << state.force[set[j]].x, state.force[set[j]].y;
+  return r;
+}
+
+/// The field under the forces found, and what it does at every candidate.
+void find_field(const CrushModel& model, const Condensation& body, const CrushState& state,
+                Trial& trial) {
+  trial.field = body.field(trial.solution.force);
+  trial.slip.resize(model.nodes.size());
+  for (std::size_t k = 0; k < model.nodes.size(); ++k) {
+    const Vec2 now = displaced(model, k, trial.field.u), before = displaced(model, k, state.u);
+    trial.slip[k] = {model.clearance[k] - trial.depth + now.x, now.y - before.y};
+  }
+}
+
+std::vector<std::size_t> penetrating_outside(const Condensation& body, const Trial& trial) {
+  std::vector<char> inside(trial.slip.size(), 0);
+  for (const std::size_t k : body.set()) inside[k] = 1;
+  std::vector<std::size_t> found;
+  for (std::size_t k = 0; k < trial.slip.size(); ++k)
+    if (!inside[k] && trial.slip[k].x < 0.0) found.push_back(k);
+  return found;
+}
+
+/// The law's residual with gaps and slips of the whole field, which the solver never saw.
+double field_residual(const CondensedProblem& problem, const Condensation& body,
+                      const Trial& trial) {
+  Eigen::VectorXd w(trial.solution.force.size());
+  for (std::size_t j = 0; j < body.set().size(); ++j)
+    w.segment<2>(static_cast<Index>(2 * j)) << trial.slip[body.set()[j]].x,
+        trial.slip[body.set()[j]].y;
+  return condensed_residual(problem, trial.solution.force, w);
+}
+
+/// Works of the increment by mean forces, exact for a linear body (6.4e).
+void add_works(const CrushModel& model, const CrushState& before, CrushState& after) {
+  CompensatedSum contact;
+  const double down = after.depth - before.depth;
+  for (std::size_t k = 0; k < after.force.size(); ++k) {
+    const Vec2 mean = 0.5 * (before.force[k] + after.force[k]);
+    if (mean == Vec2{}) continue;
+    const double opening = after.slip[k].x - before.slip[k].x;
+    after.sums[0].add(mean.x * down);
+    after.sums[1].add(-mean.y * after.slip[k].y);
+    after.sums[2].add(-mean.x * opening);
+    contact.add(dot(mean, displaced(model, k, after.u) - displaced(model, k, before.u)));
+  }
+  CrushWorks& w = after.works;
+  w.contact += contact.value();
+  w.rim = after.sums[0].value();
+  w.friction = after.sums[1].value();
+  w.impact = after.sums[2].value();
+  w.residual = w.strain - w.contact;
+  w.exchanged = std::max(w.exchanged, w.strain + std::abs(w.contact));
+  if (w.residual != 0.0) w.relative = std::max(w.relative, std::abs(w.residual) / w.exchanged);
+}
+
+CrushState accept(const CrushModel& model, const Condensation& body, const CrushState& state,
+                  Trial& trial) {
+  CrushState next = state;
+  next.depth = trial.depth;
+  next.u = std::move(trial.field.u);
+  next.slip = std::move(trial.slip);
+  std::fill(next.force.begin(), next.force.end(), Vec2{});
+  std::fill(next.status.begin(), next.status.end(), Status::open);
+  for (std::size_t j = 0; j < body.set().size(); ++j) {
+    const auto row = static_cast<Index>(2 * j);
+    next.force[body.set()[j]] = {trial.solution.force[row], trial.solution.force[row + 1]};
+    next.status[body.set()[j]] = trial.solution.status[j];
+  }
+  next.works.strain = trial.field.strain;
+  add_works(model, state, next);
+  return next;
+}
+
+}  // namespace
+
+CrushModel make_crush_model(std::span<const Vec2> reference, std::span<const int> nodes,
+                            double friction) {
+  CrushModel model;
+  model.nodes.assign(nodes.begin(), nodes.end());
+  model.friction = friction;
+  double lowest = std::numeric_limits<double>::infinity();
+  for (const int node : nodes)
+    lowest = std::min(lowest, reference[static_cast<std::size_t>(node)].y);
+  for (const int node : nodes)
+    model.clearance.push_back(reference[static_cast<std::size_t>(node)].y - lowest);
+  return model;
+}
+
+CrushState start_crush(const CrushModel& model, std::size_t n_nodes) {
+  CrushState state;
+  state.u.resize(n_nodes);
+  state.force.resize(model.nodes.size());
+  state.status.resize(model.nodes.size(), Status::open);
+  for (const double clearance : model.clearance) state.slip.push_back({clearance, 0.0});
+  return state;
+}
+
+std::size_t append_within(const CrushModel& model, double reach, Condensation& body) {
+  std::vector<char> inside(model.nodes.size(), 0);
+  for (const std::size_t k : body.set()) inside[k] = 1;
+  std::vector<std::size_t> added;
+  for (std::size_t k = 0; k < model.nodes.size(); ++k)
+    if (!inside[k] && model.clearance[k] <= reach) added.push_back(k);
+  body.append(added);
+  return added.size();
+}
+
+CrushReport press(const CrushModel& model, double depth, Condensation& body, CrushState& state) {
+  RONDO_DEMAND(body.factorised() && state.force.size() == model.nodes.size(), state.force.size());
+  CrushReport report;
+  Trial trial;
+  trial.depth = depth;
+  for (;;) {
+    const CondensedProblem problem = make_problem(model, depth, body, state);
+    trial.solution.force = last_force(body, state);
+    const CondensedReport solved = solve_condensed(problem, model.limits, trial.solution);
+    report.sweeps += solved.sweeps;
+    find_field(model, body, state, trial);
+    report.residual = field_residual(problem, body, trial);
+    report.equilibrium = trial.field.residual;
+    report.converged = report.residual <= model.bound;
+    const std::vector<std::size_t> outside = penetrating_outside(body, trial);
+    if (!report.converged || outside.empty()) break;
+    body.append(outside);
+    report.appended += outside.size();
+  }
+  for (const Vec2 w : trial.slip) report.penetration = std::max(report.penetration, -w.x);
+  if (report.converged) state = accept(model, body, state, trial);
+  return report;
+}
+
+}  // namespace rondo::statics

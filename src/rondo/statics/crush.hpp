@@ -1,0 +1,72 @@
+// SPDX-License-Identifier: BSD-3-Clause
+/// @file  A body on a rigid rim, pressed without turning onto flat rigid ground, quasi-static:
+/// K u = Hᵀ r under Signorini's law on gaps and Coulomb's on increments of slip (docs/theory.md,
+/// 6.4). Contact frame: n = (0, 1), t = J n = (-1, 0).
+#pragma once
+#include <array>
+#include <span>
+#include <vector>
+
+#include "rondo/core/sum.hpp"
+#include "rondo/statics/condensation.hpp"
+#include "rondo/statics/condensed_contact.hpp"
+
+namespace rondo::statics {
+
+/// Fixed while the body comes down.
+struct CrushModel {
+  std::vector<int> nodes;         ///< (nb) candidates
+  std::vector<double> clearance;  ///< (nb) gap of the undeformed body at first touch, >= 0  [m]
+  double friction = 0.0;          ///< μ >= 0                                                [-]
+  CondensedLimits limits;
+  double bound = 1e-10;  ///< of the final residual, computed from the whole field          [-]
+};
+
+/// @pre candidates, heights X_y of theirs from `reference` (n)                             [m]
+CrushModel make_crush_model(std::span<const Vec2> reference, std::span<const int> nodes,
+                            double friction);
+
+/// Works since first touch, (6.4e).                                                      [J/m]
+struct CrushWorks {
+  double strain = 0.0;     ///< ½ uᵀ K u, computed apart from the works
+  double contact = 0.0;    ///< of the ground on the body, in u
+  double rim = 0.0;        ///< of the rim by coming down
+  double friction = 0.0;   ///< dissipated
+  double impact = 0.0;     ///< the rest: gaps that close or open within an increment
+  double residual = 0.0;   ///< strain - contact
+  double exchanged = 0.0;  ///< largest strain + |contact| so far
+  double relative = 0.0;   ///< largest |residual| / exchanged so far [-]
+};
+
+/// After an increment.
+struct CrushState {
+  double depth = 0.0;                   ///< of the centre below first touch               [m]
+  std::vector<Vec2> u;                  ///< (n) displacement, fixed axes                  [m]
+  std::vector<Vec2> force;              ///< (nb) normal, tangential                       [N/m]
+  std::vector<Vec2> slip;               ///< (nb) gap, increment of slip                   [m]
+  std::vector<contact::Status> status;  ///< (nb)
+  CrushWorks works;
+  std::array<CompensatedSum, 3> sums;  ///< of rim, friction, impact: for the next increment
+};
+
+/// At first touch: all zero.
+CrushState start_crush(const CrushModel& model, std::size_t n_nodes);
+
+/// Outcome of one increment.
+struct CrushReport {
+  bool converged = false;  ///< residual within the model's bound; else the state is as it was
+  double residual = 0.0;   ///< of the law, from the whole field (6.4d)                   [-]
+  double equilibrium = 0.0;  ///< ‖K u - Hᵀ r‖ / ‖Hᵀ r‖                                      [-]
+  double penetration = 0.0;  ///< largest -gap of all candidates, >= 0                      [m]
+  int sweeps = 0;            ///< of all solves of the increment
+  std::size_t appended = 0;  ///< candidates that had to be added to the set
+};
+
+/// Adds the candidates to the set whose clearance is at most `reach` [m]; how many.
+std::size_t append_within(const CrushModel& model, double reach, Condensation& body);
+
+/// Brings the centre to `depth` [m] below first touch in one increment.
+[[nodiscard]] CrushReport press(const CrushModel& model, double depth, Condensation& body,
+                                CrushState& state);
+
+}  // namespace rondo::statics

@@ -1,0 +1,141 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "rondo/statics/condensed_contact.hpp"
+
+#include <gtest/gtest.h>
+
+#include <Eigen/LU>
+#include <random>
+
+#include "rondo/contact/residual.hpp"
+
+using namespace rondo;
+using contact::Status;
+using Eigen::Index;
+
+namespace {
+
+/// Symmetric, positive, of order 1, its candidates coupled as those of a body are.
+Eigen::MatrixXd random_compliance(Index m, std::mt19937_64& random) {
+  std::uniform_real_distribution<double> uniform(-1.0, 1.0);
+  Eigen::MatrixXd a(2 * m, 2 * m);
+  for (double& x : a.reshaped()) x = 0.3 * uniform(random);
+  return a * a.transpose() + Eigen::MatrixXd::Identity(2 * m, 2 * m);
+}
+
+Eigen::VectorXd random_free(Index m, std::mt19937_64& random) {
+  std::uniform_real_distribution<double> uniform(-1.0, 1.0);
+  Eigen::VectorXd free(2 * m);
+  for (double& x : free) x = uniform(random);
+  return free;
+}
+
+/// Forces of one choice of statuses, 0 open, 1 stick, 2 and 3 slip; a linear system written with a
+/// row for every unknown.
+Eigen::VectorXd of_choice(const statics::CondensedProblem& p, int choice) {
+  const Index size = p.free.size();
+  Eigen::MatrixXd a = Eigen::MatrixXd::Zero(size, size);
+  Eigen::VectorXd b = Eigen::VectorXd::Zero(size);
+  for (Index j = 0; j < size / 2; ++j, choice /= 4) {
+    const Index n = 2 * j, t = n + 1;
+    a(n, n) = a(t, t) = 1.0;
+    const int status = choice % 4;
+    if (status == 0) continue;
+    a.row(n) = p.compliance.row(n);
+    b[n] = -p.free[n];
+    if (status == 1) {
+      a.row(t) = p.compliance.row(t);
+      b[t] = -p.free[t];
+    } else {
+      a(t, n) = status == 2 ? -p.friction : p.friction;
+    }
+  }
+  return a.partialPivLu().solve(b);
+}
+
+}  // namespace
+
+TEST(SolveBlock, HoldsTheLawOnRandomBlocks) {
+  std::mt19937_64 random(1);
+  std::uniform_real_distribution<double> uniform(-1.0, 1.0);
+  std::array<int, 3> seen{};
+  for (int k = 0; k < 20000; ++k) {
+    const double friction = k % 4 == 0 ? 0.0 : 1.5 * std::abs(uniform(random));
+    const double normal = 0.1 + std::abs(uniform(random));
+    const double shear = 0.1 + std::abs(uniform(random));
+    const double most = std::min(std::sqrt(normal * shear), normal / std::max(friction, 1e-9));
+    const statics::BlockProblem p{
+        {uniform(random), uniform(random)}, normal, 0.99 * most * uniform(random), shear};
+    const auto s = statics::solve_block(p, friction);
+    const Vec2 w = {p.free.x + p.normal * s.impulse.x + p.mixed * s.impulse.y,
+                    p.free.y + p.mixed * s.impulse.x + p.shear * s.impulse.y};
+    // Forces are of order |free|/block; near the bound on `mixed` a block is nearly singular.
+    const double scale = 1.0 + norm(s.impulse);
+    EXPECT_LT(contact::law_residual(s.impulse, w, 0.0, friction, 1.0 / normal), 1e-11 * scale);
+    ++seen[static_cast<std::size_t>(s.status)];
+    EXPECT_EQ(s.status == Status::stick, norm(w) < 1e-12 * scale && s.impulse.x > 0.0);
+  }
+  for (const int n : seen) EXPECT_GT(n, 1000);
+}
+
+TEST(SolveCondensed, FindsWhatEnumerationFinds) {
+  std::mt19937_64 random(2);
+  int slipping = 0, sticking = 0;
+  for (int k = 0; k < 300; ++k) {
+    constexpr Index m = 4;
+    const Eigen::MatrixXd g = random_compliance(m, random);
+    const statics::CondensedProblem p{g, random_free(m, random), k % 3 == 0 ? 0.0 : 0.4};
+    statics::CondensedSolution s{Eigen::VectorXd::Zero(2 * m), {}};
+    const auto report = statics::solve_condensed(p, {}, s);
+    ASSERT_TRUE(report.converged) << k;
+    EXPECT_LT(statics::condensed_residual(p, s.force, p.free + g * s.force), 1e-12);
+    int solutions = 0, the_same = 0;
+    for (int choice = 0; choice < 256; ++choice) {
+      const Eigen::VectorXd r = of_choice(p, choice);
+      if (statics::condensed_residual(p, r, p.free + g * r) > 1e-10) continue;
+      ++solutions;
+      the_same += (r - s.force).norm() < 1e-9 ? 1 : 0;  // residual 1e-10 times a condition of 10
+    }
+    EXPECT_GE(solutions, 1) << k;
+    EXPECT_EQ(the_same, solutions) << k;
+    for (const Status status : s.status) {
+      slipping += status == Status::slip ? 1 : 0;
+      sticking += status == Status::stick ? 1 : 0;
+    }
+  }
+  EXPECT_GT(slipping, 100);
+  EXPECT_GT(sticking, 50);
+}
+
+TEST(SolveCondensed, StartsFromTheSolutionInOneLook) {
+  std::mt19937_64 random(3);
+  const Eigen::MatrixXd g = random_compliance(30, random);
+  const statics::CondensedProblem p{g, random_free(30, random), 0.4};
+  statics::CondensedSolution s{Eigen::VectorXd::Zero(60), {}};
+  ASSERT_TRUE(statics::solve_condensed(p, {}, s).converged);
+  const Eigen::VectorXd before = s.force;
+  const auto again = statics::solve_condensed(p, {}, s);
+  EXPECT_TRUE(again.converged);
+  EXPECT_EQ(again.direct_solves, 1);
+  EXPECT_LT((s.force - before).norm(), 1e-12 * before.norm());
+}
+
+TEST(SolveCondensed, SaysThatItDidNotConverge) {
+  std::mt19937_64 random(4);
+  const Eigen::MatrixXd g = random_compliance(40, random);
+  const statics::CondensedProblem p{g, random_free(40, random), 0.4};
+  statics::CondensedSolution s{Eigen::VectorXd::Zero(80), {}};
+  const auto report = statics::solve_condensed(p, {.tolerance = 1e-12, .sweeps = 1}, s);
+  EXPECT_FALSE(report.converged);
+  EXPECT_EQ(report.sweeps, 1);
+  EXPECT_GT(report.residual, 1e-12);
+  EXPECT_EQ(report.residual, statics::condensed_residual(p, s.force, p.free + g * s.force));
+}
+
+TEST(SolveCondensed, NoForceWhereAllIsOpen) {
+  const Eigen::MatrixXd g = Eigen::MatrixXd::Identity(4, 4);
+  const statics::CondensedProblem p{g, Eigen::VectorXd::Constant(4, 1.0), 0.4};
+  statics::CondensedSolution s{Eigen::VectorXd::Constant(4, 7.0), {}};
+  EXPECT_TRUE(statics::solve_condensed(p, {}, s).converged);
+  EXPECT_EQ(s.force.norm(), 0.0);
+  EXPECT_EQ(s.status[1], Status::open);
+}

@@ -1,0 +1,165 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "rondo/statics/crush.hpp"
+
+#include <gtest/gtest.h>
+
+#include <Eigen/Cholesky>
+#include <algorithm>
+
+#include "rondo/contact/residual.hpp"
+#include "rondo/mesh/disk.hpp"
+
+using namespace rondo;
+
+namespace {
+
+struct Pressed {
+  mesh::Mesh mesh;
+  fem::BlockCsr k;
+  std::vector<int> free;
+  statics::CrushModel model;
+};
+
+Pressed make(double friction, bool tread = false) {
+  mesh::Disk disk;
+  disk.radial = 4;
+  disk.circumferential = 60;
+  if (tread) disk.tread = {.pitches = 20, .depth = 0.02, .land_columns = 2};
+  Pressed p{mesh::make_disk(disk), {}, {}, {}};
+  p.k = fem::assemble_stiffness(p.mesh, {2.0e7, 0.3, 1100.0, fem::Plane::strain});
+  p.free = fem::free_nodes(p.mesh);
+  p.model = statics::make_crush_model(p.mesh.coordinates, p.mesh.boundary, friction);
+  return p;
+}
+
+struct Ran {
+  std::vector<statics::CrushState> states;
+  std::vector<statics::CrushReport> reports;
+};
+
+Ran run(const Pressed& p, double depth, int increments, double reach) {
+  statics::Condensation body(p.k, p.free, p.model.nodes);
+  statics::append_within(p.model, reach, body);
+  Ran out{{statics::start_crush(p.model, p.mesh.n_nodes())}, {}};
+  for (int k = 1; k <= increments; ++k) {
+    out.states.push_back(out.states.back());
+    out.reports.push_back(statics::press(p.model, depth * k / increments, body, out.states.back()));
+    EXPECT_TRUE(out.reports.back().converged) << k << ": " << out.reports.back().residual;
+  }
+  return out;
+}
+
+Vec2 total(const statics::CrushState& s) {
+  Vec2 sum;
+  for (const Vec2 r : s.force) sum += r;
+  return sum;
+}
+
+}  // namespace
+
+TEST(Condensation, ComplianceIsThatOfTheDenseInverse) {
+  const Pressed p = make(0.3);
+  statics::Condensation body(p.k, p.free, p.model.nodes);
+  body.append(std::vector<std::size_t>{2, 7});
+  body.append(std::vector<std::size_t>{0});
+  const Eigen::MatrixXd k = fem::free_matrix(p.k, p.free);
+  Eigen::MatrixXd h = Eigen::MatrixXd::Zero(6, k.rows());
+  for (Eigen::Index j = 0; j < 3; ++j) {
+    const int node = p.model.nodes[body.set()[static_cast<std::size_t>(j)]];
+    const auto place = std::find(p.free.begin(), p.free.end(), node) - p.free.begin();
+    h(2 * j, 2 * place + 1) = 1.0;
+    h(2 * j + 1, 2 * place) = -1.0;
+  }
+  const Eigen::MatrixXd dense = h * k.ldlt().solve(h.transpose());
+  EXPECT_LT((body.compliance() - dense).norm(), 1e-11 * dense.norm());  // condition of K: 1e4
+  EXPECT_EQ((body.compliance() - body.compliance().transpose()).norm(), 0.0);
+}
+
+/// One increment against the law on a dense body: Uzawa's fixed point r = P_K(r - ρ w), which
+/// knows nothing of blocks, statuses or condensation.
+TEST(Crush, OneIncrementIsThatOfAFixedPointOnTheDenseBody) {
+  const Pressed p = make(0.3);
+  const Ran ran = run(p, 0.01, 1, 0.02);
+  const Eigen::LLT<Eigen::MatrixXd> k(Eigen::MatrixXd(fem::free_matrix(p.k, p.free)));
+  const std::size_t nb = p.model.nodes.size();
+  std::vector<std::ptrdiff_t> place;
+  for (const int node : p.model.nodes)
+    place.push_back(std::find(p.free.begin(), p.free.end(), node) - p.free.begin());
+  std::vector<Vec2> r(nb), w(nb);
+  const double rho = 5e6;  // below 2 over the largest eigenvalue of G, about 1.5e-7 m²/N
+  double moved = 1.0;
+  for (int i = 0; i < 3000 && moved > 1e-9; ++i) {
+    Eigen::VectorXd load = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(2 * p.free.size()));
+    for (std::size_t c = 0; c < nb; ++c) {
+      load[2 * place[c]] = -r[c].y;
+      load[2 * place[c] + 1] = r[c].x;
+    }
+    const Eigen::VectorXd u = k.solve(load);
+    moved = 0.0;
+    for (std::size_t c = 0; c < nb; ++c) {
+      w[c] = {p.model.clearance[c] - 0.01 + u[2 * place[c] + 1], -u[2 * place[c]]};
+      const Vec2 shifted = {w[c].x + 0.3 * std::abs(w[c].y), w[c].y};
+      const Vec2 next = contact::project_on_cone(r[c] - rho * shifted, 0.3);
+      moved = std::max(moved, norm(next - r[c]));
+      r[c] = next;
+    }
+  }
+  EXPECT_LE(moved, 1e-9);  // N/m, of some 1e4
+  for (std::size_t c = 0; c < nb; ++c)
+    EXPECT_LT(norm(r[c] - ran.states[1].force[c]), 1e-5) << c;  // the fixed point creeps
+}
+
+TEST(Crush, ClosesItsEnergyAndItsLaw) {
+  for (const bool tread : {false, true}) {
+    const Ran ran = run(make(0.05, tread), 0.02, 10, 0.02);
+    for (const auto& report : ran.reports) {
+      EXPECT_LT(report.residual, 1e-12);
+      EXPECT_LT(report.equilibrium, 1e-13);
+      EXPECT_LT(report.penetration, 1e-15);  // m, of 0.3
+    }
+    const statics::CrushWorks& w = ran.states.back().works;
+    EXPECT_GT(w.strain, 1.0);
+    EXPECT_LT(w.relative, 1e-13);  // ten increments of round-off
+    EXPECT_NEAR(w.rim - w.friction - w.impact, w.contact, 1e-13 * w.rim);
+    EXPECT_GT(w.friction, 1e-4 * w.strain);  // little friction: much slips
+    EXPECT_LT(std::abs(w.impact), 0.1 * w.strain);
+  }
+}
+
+TEST(Crush, AnEvenDiskIsPressedEvenly) {
+  const Ran ran = run(make(0.3), 0.02, 10, 0.02);
+  for (const auto& state : ran.states) {
+    EXPECT_LT(std::abs(total(state).y), 1e-12 * std::max(1.0, total(state).x));
+    for (std::size_t k = 1; k < 10; ++k) {  // candidate 0 is straight below
+      const Vec2 a = state.force[k], b = state.force[60 - k];
+      EXPECT_NEAR(a.x, b.x, 1e-8);  // N/m, of some 1e4
+      EXPECT_NEAR(a.y, -b.y, 1e-8);
+    }
+  }
+  EXPECT_GT(total(ran.states.back()).x, 1e4);
+}
+
+TEST(Crush, ASetThatIsTooSmallGrows) {
+  const Pressed p = make(0.3);
+  const Ran wide = run(p, 0.02, 4, 0.04), narrow = run(p, 0.02, 4, 0.0);
+  std::size_t appended = 0;
+  for (const auto& report : narrow.reports) appended += report.appended;
+  EXPECT_EQ(appended, 4U);  // two on either side of the one that touches first
+  for (const auto& report : wide.reports) EXPECT_EQ(report.appended, 0U);
+  for (std::size_t k = 0; k < p.model.nodes.size(); ++k)
+    EXPECT_LT(norm(wide.states[4].force[k] - narrow.states[4].force[k]), 1e-8);  // N/m, of 1e4
+}
+
+TEST(Crush, KeepsTheStateWhereItDoesNotConverge) {
+  Pressed p = make(0.3);
+  p.model.limits.sweeps = 1;
+  statics::Condensation body(p.k, p.free, p.model.nodes);
+  statics::append_within(p.model, 0.04, body);
+  auto state = statics::start_crush(p.model, p.mesh.n_nodes());
+  const auto report = statics::press(p.model, 0.02, body, state);
+  EXPECT_FALSE(report.converged);
+  EXPECT_GT(report.residual, p.model.bound);
+  EXPECT_EQ(report.sweeps, 1);
+  EXPECT_EQ(state.depth, 0.0);
+  EXPECT_EQ(total(state), Vec2{});
+}
