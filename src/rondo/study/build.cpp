@@ -8,14 +8,11 @@
 #include <limits>
 #include <thread>
 
-#include "rondo/core/error.hpp"
 #include "rondo/statics/stationary_spin.hpp"
 #include "rondo/study/estimate.hpp"
 
 namespace rondo::study {
-namespace {
 
-/// A fault that shows only once the case is put together, at the place where its key stands.
 InputError case_error(const Case& c, const std::string& key, const std::string& message,
                       const std::string& allowed) {
   Fault fault;
@@ -31,6 +28,35 @@ InputError case_error(const Case& c, const std::string& key, const std::string& 
     fault.found = place->second.written;
   }
   return InputError(fault);
+}
+
+namespace {
+
+/// Shortest edge of the cells around each node [m].
+std::vector<double> element_sizes(const mesh::Mesh& mesh) {
+  std::vector<double> size(mesh.n_nodes(), std::numeric_limits<double>::infinity());
+  for (const mesh::Cell& cell : mesh.cells) {
+    const int n = mesh::n_corners(cell);
+    double shortest = std::numeric_limits<double>::infinity();
+    const auto at = [&](int a) {
+      return mesh.coordinates[static_cast<std::size_t>(cell[static_cast<std::size_t>(a % n)])];
+    };
+    for (int a = 0; a < n; ++a) shortest = std::min(shortest, norm(at(a + 1) - at(a)));
+    for (int a = 0; a < n; ++a) {
+      double& s = size[static_cast<std::size_t>(cell[static_cast<std::size_t>(a)])];
+      s = std::min(s, shortest);
+    }
+  }
+  return size;
+}
+
+/// Layers that coincide in round-off, by grading or by radii that are nearly the same.
+void refuse_flat_elements(const Case& c, const std::vector<double>& size) {
+  const double shortest = *std::min_element(size.begin(), size.end());
+  if (shortest > 1e-9 * c.disk.outer_radius) return;
+  throw case_error(c, c.disk.grading > 1.0 ? "disk.mesh.grading" : "disk.inner_radius",
+                   fmt::format("the shortest edge of the mesh would be {:.3g} m", shortest),
+                   "a milder grading, fewer layers or columns, a thicker disk");
 }
 
 dynamics::Model make_model(const Case& c, const mesh::Mesh& mesh) {
@@ -109,33 +135,6 @@ void set_initial_fields(const Case& c, Setup& s) {
   }
 }
 
-/// Shortest edge of the cells around each node [m].
-std::vector<double> element_sizes(const mesh::Mesh& mesh) {
-  std::vector<double> size(mesh.n_nodes(), std::numeric_limits<double>::infinity());
-  for (const mesh::Cell& cell : mesh.cells) {
-    const int n = mesh::n_corners(cell);
-    double shortest = std::numeric_limits<double>::infinity();
-    const auto at = [&](int a) {
-      return mesh.coordinates[static_cast<std::size_t>(cell[static_cast<std::size_t>(a % n)])];
-    };
-    for (int a = 0; a < n; ++a) shortest = std::min(shortest, norm(at(a + 1) - at(a)));
-    for (int a = 0; a < n; ++a) {
-      double& s = size[static_cast<std::size_t>(cell[static_cast<std::size_t>(a)])];
-      s = std::min(s, shortest);
-    }
-  }
-  return size;
-}
-
-/// Layers that coincide in round-off, by grading or by radii that are nearly the same.
-void refuse_flat_elements(const Case& c, const std::vector<double>& size) {
-  const double shortest = *std::min_element(size.begin(), size.end());
-  if (shortest > 1e-9 * c.disk.outer_radius) return;
-  throw case_error(c, c.disk.grading > 1.0 ? "disk.mesh.grading" : "disk.inner_radius",
-                   fmt::format("the shortest edge of the mesh would be {:.3g} m", shortest),
-                   "a milder grading, fewer layers or columns, a thicker disk");
-}
-
 /// A node deeper than half an element would get an impulse that means nothing: refused. One less
 /// deep is held where it is, for the law acts on velocities: said.
 void check_start_inside(const Case& c, const std::vector<double>& size, Setup& s) {
@@ -184,15 +183,19 @@ void warn_of_softening(const Case& c, Setup& s) {
 
 }  // namespace
 
+mesh::Mesh build_mesh(const Case& c) {
+  mesh::Mesh mesh = mesh::make_disk(c.disk);
+  refuse_flat_elements(c, element_sizes(mesh));
+  return mesh;
+}
+
 Setup build(const Case& c, int threads) {
   Setup s;
-  s.mesh = mesh::make_disk(c.disk);
-  const std::vector<double> size = element_sizes(s.mesh);
-  refuse_flat_elements(c, size);
+  s.mesh = build_mesh(c);
   s.model = make_model(c, s.mesh);
   s.model.threads = choose_threads(s.model, threads);
   set_initial_fields(c, s);
-  check_start_inside(c, size, s);
+  check_start_inside(c, element_sizes(s.mesh), s);
   const bool lagged = c.time.scheme == Scheme::as_printed;
   s.critical =
       dynamics::critical_step(s.model.stiffness, s.model.mass, s.model.free,

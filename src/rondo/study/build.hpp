@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "rondo/core/error.hpp"
 #include "rondo/dynamics/critical_step.hpp"
 #include "rondo/dynamics/model.hpp"
 #include "rondo/study/case.hpp"
@@ -24,6 +25,13 @@ struct Setup {
 /// Threads used where the user names none: 1 below this many free degrees of freedom, where
 /// starting threads at every step costs more than it brings; all cores above.
 inline constexpr std::size_t single_thread_dofs = 20000;
+
+/// A fault that shows only once the case is put together, at the place where its key stands.
+InputError case_error(const Case& c, const std::string& key, const std::string& message,
+                      const std::string& allowed);
+
+/// @throws InputError: layers that coincide in round-off.
+mesh::Mesh build_mesh(const Case& c);
 
 /// @param threads 0: chosen by size. @throws InputError: step above the critical one, spin beyond
 /// the softening limit with a stationary start, start inside the ground.

@@ -7,30 +7,38 @@
 
 namespace rondo::study {
 
+std::vector<std::string> history_columns() {
+  return {"time_s",
+          "angle_rad",
+          "center_x_m",
+          "center_y_m",
+          "force_x",
+          "force_y",
+          "torque",
+          "contact_nodes",
+          "sticking_nodes",
+          "contact_length_m",
+          "penetration_max_m",
+          "slip_ratio",
+          "kinetic",
+          "strain",
+          "work_frame",
+          "work_contact",
+          "dissipation_friction",
+          "loss_impact",
+          "work_rim",
+          "dissipation_mass",
+          "dissipation_stiffness",
+          "work_scheme",
+          "energy_residual"};
+}
+
+std::vector<std::string> contact_columns() {
+  return {"time_s", "node", "abscissa_m", "x_m", "y_m", "pressure_pa", "shear_pa"};
+}
+
 History::History(const std::filesystem::path& file, const Case& c, const Setup& setup)
-    : csv_(file, {"time_s",
-                  "angle_rad",
-                  "center_x_m",
-                  "center_y_m",
-                  "force_x",
-                  "force_y",
-                  "torque",
-                  "contact_nodes",
-                  "sticking_nodes",
-                  "contact_length_m",
-                  "penetration_max_m",
-                  "slip_ratio",
-                  "kinetic",
-                  "strain",
-                  "work_frame",
-                  "work_contact",
-                  "dissipation_friction",
-                  "loss_impact",
-                  "work_rim",
-                  "dissipation_mass",
-                  "dissipation_stiffness",
-                  "work_scheme",
-                  "energy_residual"}),
+    : csv_(file, history_columns()),
       case_(c),
       dt_(setup.model.dt),
       interval_(c.output.history_interval) {}
@@ -110,8 +118,7 @@ Snapshots::Snapshots(const std::filesystem::path& directory, const Case& c, cons
       steps_(snapshot_steps(c.output.snapshots, c.output.snapshots_from, setup.model.dt,
                             setup.n_steps)),
       results_(directory, layout(c, setup, steps_.size())),
-      contact_csv_(directory / "contact.csv",
-                   {"time_s", "node", "abscissa_m", "x_m", "y_m", "pressure_pa", "shear_pa"}) {
+      contact_csv_(directory / "contact.csv", contact_columns()) {
   if (c.output.stress) stress_.emplace(setup.mesh, c.material);
   const std::size_t nb = setup.model.contact ? setup.mesh.boundary.size() : 0;
   force_.resize(nb);

@@ -12,6 +12,10 @@
 
 namespace rondo::study {
 
+/// Of history.csv and contact.csv, for every kind of analysis.
+std::vector<std::string> history_columns();
+std::vector<std::string> contact_columns();
+
 /// history.csv: forces as means over the interval since the last row, the ledger at half a step
 /// before.
 class History {

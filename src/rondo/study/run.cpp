@@ -2,27 +2,23 @@
 #include "rondo/study/run.hpp"
 
 #include <fmt/format.h>
-#include <sys/resource.h>
-#include <unistd.h>
 
 #include <algorithm>
 #include <array>
 #include <chrono>
 #include <cmath>
 #include <ctime>
-#include <nlohmann/json.hpp>
-#include <system_error>
 
 #include "rondo/core/error.hpp"
 #include "rondo/io/files.hpp"
 #include "rondo/study/build.hpp"
 #include "rondo/study/observers.hpp"
+#include "rondo/study/run_files.hpp"
 #include "rondo/study/version.hpp"
 
 namespace rondo::study {
 namespace {
 
-using Json = nlohmann::ordered_json;
 using Clock = std::chrono::steady_clock;
 
 /// Largest and total figures of the contact over a run.
@@ -154,26 +150,8 @@ Loop run_loop(const Setup& setup, const RunOptions& options, History& history,
   return loop;
 }
 
-std::string host_name() {
-  std::array<char, 256> name{};
-  return gethostname(name.data(), name.size() - 1) == 0 ? name.data() : "unknown";
-}
-
-long long peak_memory_bytes() {
-  rusage usage{};
-  getrusage(RUSAGE_SELF, &usage);
-  return usage.ru_maxrss * 1024LL;
-}
-
 Json describe(const Case& c, const Setup& setup) {
-  Json j;
-  j["status"] = "running";
-  j["title"] = c.title;
-  j["version"] = version;
-  j["build"] = build_options;
-  j["host"] = host_name();
-  j["nodes"] = setup.model.n_nodes();
-  j["dofs"] = 2 * setup.model.free.size();
+  Json j = describe_run(c, "dynamic", setup.model.n_nodes(), 2 * setup.model.free.size());
   j["operator"] = "sparse";
   j["threads"] = setup.model.threads;
   j["critical_step"] = setup.critical.step;
@@ -190,9 +168,7 @@ double per_dof_step(const Setup& setup, const Loop& loop) {
 }
 
 void add_outcome(Json& j, const Setup& setup, const Loop& loop) {
-  static constexpr std::array<const char*, 3> names{"done", "interrupted", "failed"};
-  j["status"] = names[static_cast<std::size_t>(loop.status)];
-  if (!loop.message.empty()) j["message"] = loop.message;
+  add_status(j, loop.status, loop.message);
   j["steps_done"] = loop.steps;
   j["end_time"] = static_cast<double>(loop.steps) * setup.model.dt;
   j["loop_wall_s"] = loop.wall_s;
@@ -226,35 +202,23 @@ RunReport report_of(const Setup& setup, const Loop& loop) {
   return r;
 }
 
-void give_warnings(const Case& c, const Setup& setup, const RunOptions& options) {
-  for (const auto* list : {&c.warnings, &setup.warnings})
-    for (const std::string& warning : *list) options.warn(warning);
+std::vector<std::string> all_warnings(const Case& c, const Setup& setup) {
+  std::vector<std::string> warnings = c.warnings;
+  warnings.insert(warnings.end(), setup.warnings.begin(), setup.warnings.end());
   const std::size_t there =
       snapshot_steps(c.output.snapshots, c.output.snapshots_from, setup.model.dt, setup.n_steps)
           .size();
   if (there < static_cast<std::size_t>(c.output.snapshots))
-    options.warn(
+    warnings.push_back(
         fmt::format("{} snapshots instead of {}: the run has {} steps, and each gives one "
                     "at the most",
                     there, c.output.snapshots, setup.n_steps));
-}
-
-/// The case as run is written into the directory as case.toml: it must not replace the user's file.
-void keep_the_users_case(const Case& c, const std::filesystem::path& directory) {
-  std::error_code error;
-  if (!std::filesystem::equivalent(c.file, directory / "case.toml", error) || error) return;
-  Fault fault;
-  fault.key = "-o";
-  fault.found = directory.string();
-  fault.message =
-      "the case file is this directory's own case.toml, which a run there would replace";
-  fault.allowed = "choose another -o";
-  throw InputError(fault);
+  return warnings;
 }
 
 /// The loop with its observers. A file that cannot be written ends the run: run.json says so, where
 /// it can still be written itself.
-Loop record(const Case& c, const Setup& setup, const RunOptions& options, Json json) {
+Loop record(const Case& c, const Setup& setup, const RunOptions& options, const Json& json) {
   try {
     History history(options.directory / "history.csv", c, setup);
     Snapshots snapshots(options.directory, c, setup);
@@ -263,9 +227,7 @@ Loop record(const Case& c, const Setup& setup, const RunOptions& options, Json j
     loop.snapshots = snapshots.written();
     return loop;
   } catch (const FileError& error) {
-    json["status"] = "failed";
-    json["message"] = error.what();
-    io::overwrite_json(options.directory / "run.json", json);  // the disk may be full
+    note_failure(options, json, error);
     throw;
   }
 }
@@ -274,13 +236,9 @@ Loop record(const Case& c, const Setup& setup, const RunOptions& options, Json j
 
 RunReport run_case(const Case& c, const RunOptions& options) {
   const Setup setup = build(c, options.threads);
-  if (options.warn) give_warnings(c, setup, options);
-  if (options.before_loop) options.before_loop();
-  keep_the_users_case(c, options.directory);
-  io::prepare_results_directory(options.directory, options.overwrite);
-  io::write_file(options.directory / "case.toml", write_case(c));
+  give_warnings(all_warnings(c, setup), options);
   Json json = describe(c, setup);
-  io::write_json(options.directory / "run.json", json);
+  begin_directory(c, options, json);
 
   const Loop loop = record(c, setup, options, json);
   add_outcome(json, setup, loop);

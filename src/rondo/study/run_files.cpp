@@ -1,0 +1,81 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "rondo/study/run_files.hpp"
+
+#include <sys/resource.h>
+#include <unistd.h>
+
+#include <array>
+#include <system_error>
+
+#include "rondo/core/error.hpp"
+#include "rondo/io/files.hpp"
+#include "rondo/study/version.hpp"
+
+namespace rondo::study {
+namespace {
+
+std::string host_name() {
+  std::array<char, 256> name{};
+  return gethostname(name.data(), name.size() - 1) == 0 ? name.data() : "unknown";
+}
+
+/// The case as run is written into the directory as case.toml: it must not replace the user's file.
+void keep_the_users_case(const Case& c, const std::filesystem::path& directory) {
+  std::error_code error;
+  if (!std::filesystem::equivalent(c.file, directory / "case.toml", error) || error) return;
+  Fault fault;
+  fault.key = "-o";
+  fault.found = directory.string();
+  fault.message =
+      "the case file is this directory's own case.toml, which a run there would replace";
+  fault.allowed = "choose another -o";
+  throw InputError(fault);
+}
+
+}  // namespace
+
+Json describe_run(const Case& c, std::string_view analysis, std::size_t nodes, std::size_t dofs) {
+  Json j;
+  j["status"] = "running";
+  j["title"] = c.title;
+  j["version"] = version;
+  j["build"] = build_options;
+  j["host"] = host_name();
+  j["analysis"] = analysis;
+  j["nodes"] = nodes;
+  j["dofs"] = dofs;
+  return j;
+}
+
+void give_warnings(const std::vector<std::string>& warnings, const RunOptions& options) {
+  if (!options.warn) return;
+  for (const std::string& warning : warnings) options.warn(warning);
+}
+
+void begin_directory(const Case& c, const RunOptions& options, const Json& json) {
+  if (options.before_loop) options.before_loop();
+  keep_the_users_case(c, options.directory);
+  io::prepare_results_directory(options.directory, options.overwrite);
+  io::write_file(options.directory / "case.toml", write_case(c));
+  io::write_json(options.directory / "run.json", json);
+}
+
+void note_failure(const RunOptions& options, Json json, const std::exception& error) noexcept {
+  json["status"] = "failed";
+  json["message"] = error.what();
+  io::overwrite_json(options.directory / "run.json", json);  // the disk may be full
+}
+
+void add_status(Json& json, RunStatus status, const std::string& message) {
+  static constexpr std::array<const char*, 3> names{"done", "interrupted", "failed"};
+  json["status"] = names[static_cast<std::size_t>(status)];
+  if (!message.empty()) json["message"] = message;
+}
+
+long long peak_memory_bytes() {
+  rusage usage{};
+  getrusage(RUSAGE_SELF, &usage);
+  return usage.ru_maxrss * 1024LL;
+}
+
+}  // namespace rondo::study

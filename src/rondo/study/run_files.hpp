@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: BSD-3-Clause
+/// @file  What every kind of run does with its results directory: the case as run, run.json.
+#pragma once
+#include <cstddef>
+#include <exception>
+#include <nlohmann/json.hpp>
+#include <string_view>
+
+#include "rondo/study/run.hpp"
+
+namespace rondo::study {
+
+using Json = nlohmann::ordered_json;
+
+/// The first keys of run.json, with the status "running".
+Json describe_run(const Case& c, std::string_view analysis, std::size_t nodes, std::size_t dofs);
+
+/// Gives the warnings, if there is somebody to take them.
+void give_warnings(const std::vector<std::string>& warnings, const RunOptions& options);
+
+/// From here on signals ask for a clean end and files are written: case.toml and run.json.
+/// @throws InputError (the directory holds a run), FileError
+void begin_directory(const Case& c, const RunOptions& options, const Json& json);
+
+/// After an error of files: run.json says so, where it can still be written itself.
+void note_failure(const RunOptions& options, Json json, const std::exception& error) noexcept;
+
+/// Adds how the run ended, for run.json.
+void add_status(Json& json, RunStatus status, const std::string& message);
+
+/// Of this process [B].
+long long peak_memory_bytes();
+
+}  // namespace rondo::study
