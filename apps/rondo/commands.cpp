@@ -36,7 +36,7 @@ void catch_signals(study::RunOptions& options) {
 }
 
 study::RunReport run_with_progress(const study::Case& c, study::RunOptions& options, bool quiet) {
-  Progress progress;
+  Progress progress(c.analysis.kind == study::AnalysisKind::crush ? "increment" : "step");
   if (!quiet) options.progress = std::ref(progress);
   return study::run_case(c, options);
 }
@@ -47,25 +47,40 @@ std::filesystem::path default_directory(const std::filesystem::path& case_file) 
   return case_file.parent_path() / case_file.stem();
 }
 
+std::string reached(const study::RunReport& r) {
+  return r.analysis == study::AnalysisKind::crush
+             ? fmt::format("{} increments to a depth of {:.6g} m", r.steps, r.depth)
+             : fmt::format("{} steps to t = {:.6g} s", r.steps, r.end_time);
+}
+
 int finish(const study::RunReport& r, const std::filesystem::path& directory) {
   switch (r.status) {
     case study::RunStatus::failed:
       spdlog::error("{}; the results so far are in {}", r.message, directory.string());
       return exit_numerical;
     case study::RunStatus::interrupted:
-      spdlog::warn("interrupted after {} steps, t = {:.6g} s; the results so far are in {}",
-                   r.steps, r.end_time, directory.string());
+      spdlog::warn("interrupted after {}; the results so far are in {}", reached(r),
+                   directory.string());
       return exit_interrupted;
     case study::RunStatus::done:
       break;
   }
-  spdlog::info("{} steps to t = {:.6g} s in {:.2f} s ({:.1f} ns per dof and step)", r.steps,
-               r.end_time, r.loop_wall_s, r.ns_per_dof_step);
+  if (r.analysis == study::AnalysisKind::crush)
+    spdlog::info("{} in {:.2f} s", reached(r), r.loop_wall_s);
+  else
+    spdlog::info("{} in {:.2f} s ({:.1f} ns per dof and step)", reached(r), r.loop_wall_s,
+                 r.ns_per_dof_step);
   spdlog::info(
       "energy ledger closes to {:.1e}, contact law to {:.1e}, largest penetration {:.2g} m",
       r.energy_residual_relative, r.contact_residual_max, r.penetration_max_m);
   spdlog::info("{} snapshots in {}", r.snapshots, directory.string());
   return exit_done;
+}
+
+void print_room(const study::CheckReport& r) {
+  fmt::print("snapshots          {}\n", r.snapshots);
+  fmt::print("memory             about {}\n", study::readable_bytes(r.memory_bytes));
+  fmt::print("disk               about {}\n", study::readable_bytes(r.disk_bytes));
 }
 
 }  // namespace
@@ -92,6 +107,12 @@ int check(const CommonArguments& arguments) {
              r.elements, r.dofs, r.candidates);
   fmt::print("wave speeds        {:.6g} m/s pressure, {:.6g} m/s shear\n", r.wave_speeds.pressure,
              r.wave_speeds.shear);
+  if (c.analysis.kind == study::AnalysisKind::crush) {
+    fmt::print("condensed          {} candidates\n", r.condensed);
+    fmt::print("increments         {} to a depth of {:.6g} m\n", r.increments, c.analysis.depth);
+    print_room(r);
+    return exit_done;
+  }
   fmt::print("largest frequency  {:.6g} rad/s (element bound {:.6g})\n", r.largest_frequency,
              r.element_bound);
   fmt::print("critical step      {:.6g} s\n", r.critical_step);
@@ -99,9 +120,7 @@ int check(const CommonArguments& arguments) {
              r.step / r.critical_step);
   fmt::print("steps              {} to t = {:.6g} s\n", r.steps,
              static_cast<double>(r.steps) * r.step);
-  fmt::print("snapshots          {}\n", r.snapshots);
-  fmt::print("memory             about {}\n", study::readable_bytes(r.memory_bytes));
-  fmt::print("disk               about {}\n", study::readable_bytes(r.disk_bytes));
+  print_room(r);
   fmt::print("time               about {:.2g} s of stepping on {} thread{}\n", r.seconds, r.threads,
              r.threads == 1 ? "" : "s");
   return exit_done;

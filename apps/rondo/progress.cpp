@@ -9,7 +9,7 @@
 
 namespace rondo::app {
 
-Progress::Progress() : terminal_(isatty(STDERR_FILENO) != 0) {}
+Progress::Progress(const char* unit) : unit_(unit), terminal_(isatty(STDERR_FILENO) != 0) {}
 
 Progress::~Progress() {
   if (open_) fmt::print(stderr, "\n");
@@ -29,7 +29,7 @@ void Progress::operator()(long long done, long long total) {
   const int decade = static_cast<int>(10 * done / total);
   if (decade <= decade_) return;
   decade_ = decade;
-  fmt::print(stderr, "{:3d} %  step {} of {}, {:.1f} s\n", 10 * decade, done, total, seconds);
+  fmt::print(stderr, "{:3d} %  {} {} of {}, {:.1f} s\n", 10 * decade, unit_, done, total, seconds);
 }
 
 void Progress::draw_bar(long long done, long long total, double seconds) const {
@@ -38,8 +38,8 @@ void Progress::draw_bar(long long done, long long total, double seconds) const {
   const auto filled = static_cast<std::size_t>(share * width);
   const double speed = seconds > 0.0 ? static_cast<double>(done) / seconds : 0.0;
   const double left = speed > 0.0 ? static_cast<double>(total - done) / speed : 0.0;
-  fmt::print(stderr, "\r[{:<{}}] {:3.0f} %  {:.0f} steps/s  {:.1f} s left \033[K{}",
-             std::string(filled, '#'), width, 100.0 * share, speed, left,
+  fmt::print(stderr, "\r[{:<{}}] {:3.0f} %  {:.0f} {}s/s  {:.1f} s left \033[K{}",
+             std::string(filled, '#'), width, 100.0 * share, speed, unit_, left,
              done == total ? "\n" : "");
   std::fflush(stderr);
 }

@@ -8,8 +8,8 @@ namespace rondo::app {
 
 class Progress {
  public:
-  Progress();
-  ~Progress();  ///< a bar that did not reach its end gets its new line
+  explicit Progress(const char* unit);  ///< what is counted: "step"
+  ~Progress();                          ///< a bar that did not reach its end gets its new line
   Progress(const Progress&) = delete;
   Progress& operator=(const Progress&) = delete;
   void operator()(long long done, long long total);
@@ -18,6 +18,7 @@ class Progress {
   using Clock = std::chrono::steady_clock;
   void draw_bar(long long done, long long total, double seconds) const;
 
+  const char* unit_;
   bool terminal_;
   Clock::time_point start_ = Clock::now();
   Clock::time_point drawn_ = start_;

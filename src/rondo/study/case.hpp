@@ -27,6 +27,14 @@ struct GroundCase {
   double restitution = 0.0;  ///< e in [0, 1]
 };
 
+enum class AnalysisKind { dynamic, crush };
+
+struct Analysis {
+  AnalysisKind kind = AnalysisKind::dynamic;
+  double depth = 0.0;  ///< of a crush, below first touch: > 0                          [m]
+  int increments = 0;  ///< of a crush, >= 1
+};
+
 enum class InitialState { rest, stationary };
 
 struct Initial {
@@ -59,6 +67,8 @@ struct KeyPlace {
   std::string written;  ///< the value, as written
 };
 
+/// What means nothing to a crush (damping, motion, initial state, time, restitution, fillet, the
+/// times of the output) has its defaults there, whatever the file says.
 struct Case {
   std::filesystem::path file;
   std::map<std::string, KeyPlace> places;  ///< of the keys given, by dotted key
@@ -69,6 +79,7 @@ struct Case {
   dynamics::Motion motion;
   std::optional<GroundCase> ground;  ///< absent: no contact
   Initial initial;
+  Analysis analysis;
   Time time;
   std::string solver_operator = "auto";  ///< "auto" | "sparse"
   Output output;

@@ -28,7 +28,8 @@ struct CaseKey {
   std::string_view unit;      ///< "-": none
   Range range;                ///< of numbers
   std::string_view also;      ///< a bound that involves other keys, or none
-  std::string_view standard;  ///< the default; "required"; "later": refused by this version
+  std::string_view standard;  ///< the default; "required"; "required if ...": by the
+                              ///< reader; "later": refused by this version
   std::string_view meaning;
   std::array<std::string_view, 2> choices{};  ///< in the order of the enum they stand for
   std::string_view later{};                   ///< a choice which this version refuses

@@ -31,6 +31,36 @@ void read_schema(CaseSource& source) {
             fmt::format("{}", schema_read)});
 }
 
+bool is_crush(const Case& c) {
+  return c.analysis.kind == AnalysisKind::crush;
+}
+
+/// For keys that only one kind of analysis requires; says nothing where the kind is at fault.
+void require(CaseValues& in, std::initializer_list<std::string_view> keys) {
+  for (const std::string_view key : keys)
+    if (in.good({"analysis.kind"}) && !in.has(key)) in.missing(key);
+}
+
+void read_analysis(CaseValues& in, Case& c) {
+  constexpr std::string_view depth = "analysis.depth", increments = "analysis.increments";
+  c.analysis.kind = static_cast<AnalysisKind>(in.choice("analysis.kind"));
+  in.read(depth, c.analysis.depth);
+  in.read(increments, c.analysis.increments);
+  if (is_crush(c)) return require(in, {depth, increments});
+  for (const std::string_view key : {depth, increments})
+    if (in.good({"analysis.kind"}) && in.has(key))
+      in.fault(key, "means nothing to a dynamic analysis", "analysis.kind = \"crush\" beside it");
+}
+
+/// @pre analysis and disk are read
+void check_depth(CaseValues& in, const Case& c) {
+  const double thickness = c.disk.outer_radius - c.disk.inner_radius;
+  if (is_crush(c) && in.good({"disk.outer_radius", "disk.inner_radius", "analysis.depth"}) &&
+      !(c.analysis.depth < thickness))
+    in.fault("analysis.depth", "the rim would reach the ground",
+             fmt::format("> 0 and < outer_radius - inner_radius = {:.6g}", thickness));
+}
+
 void read_tread(CaseValues& in, mesh::Disk& disk) {
   mesh::Tread& tread = disk.tread.emplace();
   in.read("disk.tread.pitches", tread.pitches);
@@ -111,7 +141,9 @@ void read_material(CaseValues& in, Case& c) {
   in.read("damping.stiffness", c.damping.stiffness);
 }
 
-void read_motion(CaseValues& in, dynamics::Motion& motion) {
+void read_motion(CaseValues& in, Case& c) {
+  dynamics::Motion& motion = c.motion;
+  if (!is_crush(c)) require(in, {"motion.angular_velocity", "motion.speed", "motion.height"});
   in.read("motion.angular_velocity", motion.angular_velocity);
   in.read("motion.speed", motion.speed);
   in.read("motion.height", motion.height);
@@ -119,7 +151,18 @@ void read_motion(CaseValues& in, dynamics::Motion& motion) {
   in.read("motion.gravity", motion.gravity);
 }
 
+/// A crush knows no ground but flat: true where it is.
+bool check_flat(CaseValues& in, const std::vector<Vec2>& profile) {
+  const bool flat =
+      std::all_of(profile.begin(), profile.end(), [&](Vec2 p) { return p.y == profile.front().y; });
+  if (!flat)
+    in.fault("ground.profile", "a crush needs flat ground: all points at one height",
+             "ground.profile = \"flat\"");
+  return flat;
+}
+
 void read_ground(CaseValues& in, Case& c) {
+  if (!in.has_table("ground") && is_crush(c)) in.missing("ground.profile");
   if (!in.has_table("ground")) return;
   GroundCase& ground = c.ground.emplace();
   in.read_profile("ground.profile", ground.shape.profile);
@@ -127,6 +170,7 @@ void read_ground(CaseValues& in, Case& c) {
   in.read("ground.friction", ground.friction);
   in.read("ground.restitution", ground.restitution);
   if (!in.good({"ground", "ground.profile", "ground.fillet"})) return;
+  if (is_crush(c) && !check_flat(in, ground.shape.profile)) return;
   for (const contact::ShapeFault& fault : contact::shape_faults(ground.shape)) {
     if (fault.about_fillet && in.has("ground.fillet"))
       in.fault("ground.fillet", fault.message);
@@ -141,9 +185,10 @@ void read_initial(CaseValues& in, Initial& initial) {
   in.read("initial.displacement_gradient", initial.displacement_gradient);
 }
 
-void read_time(CaseValues& in, Time& time) {
-  in.choice("analysis.kind");
-  if (in.good({"analysis.kind"}) || in.has("time.end")) in.read("time.end", time.end);
+void read_time(CaseValues& in, Case& c) {
+  Time& time = c.time;
+  if (!is_crush(c)) require(in, {"time.end"});
+  in.read("time.end", time.end);
   in.read("time.safety", time.safety);
   if (in.has("time.step")) in.read("time.step", time.step.emplace());
   if (in.has("time.step") && in.has("time.safety"))
@@ -160,7 +205,8 @@ void read_output(CaseValues& in, Case& c) {
   in.read("output.history_interval", output.history_interval);
   in.read("output.snapshots", output.snapshots);
   in.read("output.snapshots_from", output.snapshots_from);
-  if (in.good({"output.snapshots_from", "time.end"}) && output.snapshots_from > c.time.end)
+  if (!is_crush(c) && in.good({"output.snapshots_from", "time.end"}) &&
+      output.snapshots_from > c.time.end)
     in.fault("output.snapshots_from", "must not be after the end of the run",
              fmt::format("0 to time.end = {:.6g}", c.time.end));
   in.read("output.stress", output.stress);
@@ -168,6 +214,30 @@ void read_output(CaseValues& in, Case& c) {
   if (output.checkpoint_interval != Output{}.checkpoint_interval)
     c.warnings.emplace_back(
         "output.checkpoint_interval has no effect yet: this version writes no checkpoints");
+}
+
+/// What was given for nothing is named once, and has its default in the case as run.
+void leave_out_dynamics(CaseValues& in, Case& c) {
+  std::string given;
+  const auto add = [&](const std::string& name) { given += (given.empty() ? "" : ", ") + name; };
+  for (const std::string_view table : {"damping", "motion", "initial", "time"})
+    if (in.has_table(table)) add(fmt::format("[{}]", table));
+  for (const std::string_view key : {"ground.restitution", "output.history_interval",
+                                     "output.snapshots", "output.snapshots_from"})
+    if (in.has(key)) add(std::string(key));
+  if (c.solver_operator != Case{}.solver_operator) add("solver.operator");
+  if (!given.empty())
+    c.warnings.push_back("a crush is quasi-static, its ground flat; without effect: " + given);
+  c.damping = {};
+  c.motion = {};
+  c.initial = {};
+  c.time = {};
+  c.solver_operator = Case{}.solver_operator;
+  if (c.ground) c.ground->restitution = c.ground->shape.fillet = 0.0;
+  const Output standard;
+  c.output.history_interval = standard.history_interval;
+  c.output.snapshots = standard.snapshots;
+  c.output.snapshots_from = standard.snapshots_from;
 }
 
 }  // namespace
@@ -182,15 +252,18 @@ Case read_case(const std::filesystem::path& file, const std::vector<std::string>
   int schema = schema_read;
   in.read("schema", schema);
   in.read("title", c.title);
+  read_analysis(in, c);
   read_disk(in, c);
+  check_depth(in, c);
   read_material(in, c);
-  read_motion(in, c.motion);
+  read_motion(in, c);
   read_ground(in, c);
   read_initial(in, c.initial);
-  read_time(in, c.time);
+  read_time(in, c);
   const std::array<std::string, 2> operators{"auto", "sparse"};
   c.solver_operator = operators[in.choice("solver.operator")];
   read_output(in, c);
+  if (is_crush(c)) leave_out_dynamics(in, c);
   in.finish();
   c.places = in.places();
   return c;

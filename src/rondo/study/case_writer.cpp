@@ -50,11 +50,15 @@ std::string disk_text(const mesh::Disk& d) {
 std::string material_text(const Case& c) {
   return fmt::format(
       "\n[material]\nyoungs_modulus = {}\npoissons_ratio = {}\ndensity = {}\nplane = \"{}\"\n"
-      "integration = \"full\"\nstress_stiffening = \"none\"\n"
-      "\n[damping]\nmass = {}\nstiffness = {}\n",
+      "integration = \"full\"\nstress_stiffening = \"none\"\n",
       toml_number(c.material.youngs_modulus), toml_number(c.material.poissons_ratio),
-      toml_number(c.material.density), c.material.plane == fem::Plane::strain ? "strain" : "stress",
-      toml_number(c.damping.mass), toml_number(c.damping.stiffness));
+      toml_number(c.material.density),
+      c.material.plane == fem::Plane::strain ? "strain" : "stress");
+}
+
+std::string damping_text(const Damping& d) {
+  return fmt::format("\n[damping]\nmass = {}\nstiffness = {}\n", toml_number(d.mass),
+                     toml_number(d.stiffness));
 }
 
 std::string motion_text(const dynamics::Motion& m) {
@@ -97,11 +101,24 @@ std::string output_text(const Output& o) {
       toml_number(o.checkpoint_interval));
 }
 
+/// What means nothing to a crush is left out, so that reading it again brings no warning.
+std::string crush_text(const Case& c) {
+  return fmt::format(
+      "\n[ground]\nprofile = {}\nfriction = {}\n"
+      "\n[analysis]\nkind = \"crush\"\ndepth = {}\nincrements = {}\n"
+      "\n[output]\nstress = {}\ncheckpoint_interval = {}\n",
+      profile_text(c.ground->shape.profile), toml_number(c.ground->friction),
+      toml_number(c.analysis.depth), c.analysis.increments, c.output.stress,
+      toml_number(c.output.checkpoint_interval));
+}
+
 }  // namespace
 
 std::string write_case(const Case& c) {
-  return fmt::format("schema = 1\ntitle = {}\n", toml_string(c.title)) + disk_text(c.disk) +
-         material_text(c) + motion_text(c.motion) + ground_text(c.ground) +
+  const std::string body = fmt::format("schema = 1\ntitle = {}\n", toml_string(c.title)) +
+                           disk_text(c.disk) + material_text(c);
+  if (c.analysis.kind == AnalysisKind::crush) return body + crush_text(c);
+  return body + damping_text(c.damping) + motion_text(c.motion) + ground_text(c.ground) +
          initial_text(c.initial) + time_text(c) + output_text(c.output);
 }
 

@@ -6,6 +6,7 @@
 
 #include "rondo/io/results.hpp"
 #include "rondo/study/build.hpp"
+#include "rondo/study/crush_build.hpp"
 #include "rondo/study/estimate.hpp"
 #include "rondo/study/observers.hpp"
 
@@ -35,9 +36,28 @@ std::size_t history_rows(const Case& c, const Setup& setup) {
   return static_cast<std::size_t>(c.time.end / interval) + 1;
 }
 
+CheckReport check_crush(const Case& c) {
+  const CrushSetup setup = build_crush(c);
+  CheckReport r;
+  r.nodes = setup.mesh.n_nodes();
+  r.elements = setup.mesh.cells.size();
+  r.dofs = setup.n_dofs();
+  r.candidates = setup.mesh.boundary.size();
+  r.wave_speeds = fem::wave_speeds(c.material);
+  r.increments = c.analysis.increments;
+  r.condensed = setup.within_reach;
+  r.snapshots = static_cast<std::size_t>(c.analysis.increments);
+  r.memory_bytes = estimated_memory(c);
+  r.disk_bytes = io::Results::bytes({&setup.mesh, setup.mass, r.snapshots, true, c.output.stress}) +
+                 r.snapshots * history_row_bytes;
+  r.warnings = c.warnings;
+  return r;
+}
+
 }  // namespace
 
 CheckReport check_case(const Case& c, int threads) {
+  if (c.analysis.kind == AnalysisKind::crush) return check_crush(c);
   const Setup setup = build(c, threads);
   CheckReport r;
   r.nodes = setup.mesh.n_nodes();

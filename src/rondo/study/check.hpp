@@ -21,7 +21,10 @@ struct CheckReport {
   int threads = 1;
   std::size_t memory_bytes = 0;  ///< estimated
   std::size_t disk_bytes = 0;    ///< estimated
-  double seconds = 0.0;          ///< estimated from some steps made here (no files written)  [s]
+  // Of a crush; what a dynamic run alone has is 0 there.
+  int increments = 0;
+  std::size_t condensed = 0;  ///< candidates condensed at first
+  double seconds = 0.0;       ///< estimated from some steps made here (no files written)  [s]
   std::vector<std::string> warnings;
 };
 

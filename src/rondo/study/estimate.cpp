@@ -4,7 +4,9 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cmath>
+#include <numbers>
 
 namespace rondo::study {
 
@@ -19,16 +21,30 @@ std::size_t n_disk_cells(const mesh::Disk& disk) noexcept {
 
 namespace {
 
-/// Of the Cholesky factors for the stationary start and the check of spin softening. Nested
-/// dissection of a plane grid fills in about n log2 n; the factor is fitted to runs of 10⁴ to 4·10⁵
-/// dofs.
+/// Of the Cholesky factors for a crush, the stationary start and the check of spin softening.
+/// Nested dissection of a plane grid fills in about n log2 n; the factor is fitted to runs of 10⁴
+/// to 4·10⁵ dofs.
 std::size_t factor_memory(const Case& c, std::size_t nodes) noexcept {
   const double dofs = 2.0 * static_cast<double>(nodes);
   const bool checked =
       c.motion.angular_velocity.largest() != 0.0 && 2 * nodes <= softening_check_dofs;
-  if (!checked && c.initial.state != InitialState::stationary) return 0;
+  const bool crush = c.analysis.kind == AnalysisKind::crush;
+  if (!checked && !crush && c.initial.state != InitialState::stationary) return 0;
   constexpr double bytes_per_entry = 60.0;
   return static_cast<std::size_t>(bytes_per_entry * dofs * std::log2(dofs));
+}
+
+/// Of the compliance of a crush and its direct solves; candidates up to twice the depth.
+std::size_t compliance_memory(const Case& c) noexcept {
+  if (c.analysis.kind != AnalysisKind::crush) return 0;
+  const mesh::Disk& d = c.disk;
+  const double columns = d.tread
+                             ? static_cast<double>(d.tread->pitches) * (d.tread->land_columns + 1.0)
+                             : static_cast<double>(d.circumferential);
+  const double share =
+      std::acos(std::max(-1.0, 1.0 - 2.0 * c.analysis.depth / d.outer_radius)) / std::numbers::pi;
+  const double rows = 2.0 * share * columns;
+  return static_cast<std::size_t>(3.0 * rows * rows * sizeof(double));
 }
 
 }  // namespace
@@ -41,7 +57,7 @@ std::size_t estimated_memory(const Case& c) noexcept {
   constexpr std::size_t fields = 30 * sizeof(double);
   const std::size_t nodes = mesh::n_disk_nodes(c.disk);
   return nodes * (stiffness + fields) + n_disk_cells(c.disk) * sizeof(mesh::Cell) +
-         factor_memory(c, nodes);
+         factor_memory(c, nodes) + compliance_memory(c);
 }
 
 std::size_t physical_memory() noexcept {

@@ -12,6 +12,7 @@
 #include "rondo/core/error.hpp"
 #include "rondo/io/files.hpp"
 #include "rondo/study/build.hpp"
+#include "rondo/study/crush_run.hpp"
 #include "rondo/study/observers.hpp"
 #include "rondo/study/run_files.hpp"
 #include "rondo/study/version.hpp"
@@ -235,6 +236,7 @@ Loop record(const Case& c, const Setup& setup, const RunOptions& options, const 
 }  // namespace
 
 RunReport run_case(const Case& c, const RunOptions& options) {
+  if (c.analysis.kind == AnalysisKind::crush) return run_crush(c, options);
   const Setup setup = build(c, options.threads);
   give_warnings(all_warnings(c, setup), options);
   Json json = describe(c, setup);

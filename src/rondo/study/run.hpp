@@ -25,10 +25,12 @@ struct RunOptions {
 
 /// How a run ended. `failed` is an outcome of the numerics: not finite, or a residual out of bound.
 struct RunReport {
+  AnalysisKind analysis = AnalysisKind::dynamic;
   RunStatus status = RunStatus::failed;
   std::string message;    ///< of a failure: quantity, value, bound, step and time
-  long long steps = 0;    ///< done
-  double end_time = 0.0;  ///< reached [s]
+  long long steps = 0;    ///< done; of a crush: increments
+  double end_time = 0.0;  ///< reached [s]; 0 of a crush
+  double depth = 0.0;     ///< reached by a crush [m]
   double loop_wall_s = 0.0;
   double ns_per_dof_step = 0.0;
   double energy_residual_relative = 0.0;

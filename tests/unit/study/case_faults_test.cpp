@@ -65,6 +65,36 @@ TEST(WrongCases, AbsentTablesAreOneFaultEach) {
   EXPECT_NE(faults[3].message.find("time.end"), std::string::npos);
 }
 
+TEST(WrongCases, Crush) {
+  const auto wrong = [](const std::vector<std::string>& more) {
+    std::vector<std::string> settings{"analysis.kind=crush", "ground.profile=flat"};
+    settings.insert(settings.end(), more.begin(), more.end());
+    auto faults = faults_of(base, settings);
+    EXPECT_EQ(faults.size(), 1U) << more.back();
+    return faults.empty() ? std::string() : faults[0].text();
+  };
+  const std::string depth = "analysis.depth=0.02", increments = "analysis.increments=4";
+  EXPECT_NE(wrong({increments}).find("analysis.depth: is missing"), std::string::npos);
+  EXPECT_NE(wrong({depth}).find("analysis.increments: is missing"), std::string::npos);
+  EXPECT_NE(wrong({depth, "analysis.increments=0"}).find("1 to 1000000"), std::string::npos);
+  EXPECT_NE(wrong({increments, "analysis.depth=0.15"}).find("the rim"), std::string::npos);
+  EXPECT_NE(wrong({increments, "analysis.depth=-1"}).find("> 0 and <"), std::string::npos);
+  EXPECT_NE(wrong({increments, depth, "ground.profile=[[0, 0], [1, 0.1]]"}).find("\"flat\""),
+            std::string::npos);
+  EXPECT_NE(wrong({increments, depth, "motion.speed='fast'"}).find("a float"), std::string::npos);
+}
+
+TEST(WrongCases, ACrushNeedsGround) {
+  const auto faults = faults_of(
+      "schema = 1\n"
+      "disk = {outer_radius = 3, inner_radius = 1, mesh = {radial = 2, circumferential = 8}}\n"
+      "material = {youngs_modulus = 1, poissons_ratio = 0, density = 1}\n"
+      "analysis = {kind = 'crush', depth = 0.125, increments = 4}\n");
+  ASSERT_EQ(faults.size(), 1U);
+  EXPECT_EQ(faults[0].key, "ground");
+  EXPECT_NE(faults[0].message.find("ground.profile"), std::string::npos);
+}
+
 TEST(WrongCases, Tread) {
   const auto wrong = [](const std::string& from, const std::string& to) {
     std::string text = treaded();

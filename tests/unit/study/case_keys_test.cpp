@@ -65,7 +65,7 @@ TEST(CaseKeys, ExamplesOfTheManualAreCases) {
     EXPECT_NO_THROW(read_text(text));
     ++count;
   }
-  EXPECT_EQ(count, 2);
+  EXPECT_EQ(count, 3);
 }
 
 TEST(Estimate, CountsNodesAndCells) {
@@ -74,6 +74,9 @@ TEST(Estimate, CountsNodesAndCells) {
   EXPECT_EQ(estimated_memory(c), 13U * 180U * (2 * 9 * 36 + 240) + 12U * 180U * 16U);
   const std::size_t still = estimated_memory(c);
   c.initial.state = InitialState::stationary;  // needs the factors of K
+  EXPECT_GT(estimated_memory(c), 2 * still);
+  c.initial.state = InitialState::rest;
+  c.analysis = {AnalysisKind::crush, 0.02, 10};
   EXPECT_GT(estimated_memory(c), 2 * still);
   c = read_text(treaded());
   EXPECT_EQ(n_disk_cells(c.disk), mesh::make_disk(c.disk).cells.size());

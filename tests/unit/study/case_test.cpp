@@ -25,6 +25,7 @@ std::vector<std::uint64_t> bits_of(const Case& c) {
                               c.material.density,
                               c.damping.mass,
                               c.damping.stiffness,
+                              c.analysis.depth,
                               c.motion.start_x,
                               c.motion.gravity,
                               c.initial.velocity.x,
@@ -53,12 +54,13 @@ std::vector<std::uint64_t> bits_of(const Case& c) {
 /// All but numbers: counts, choices, texts, and what is there at all.
 std::string words_of(const Case& c) {
   const mesh::Tread t = c.disk.tread.value_or(mesh::Tread{});
-  return fmt::format("{}|{} {} {}|{} {} {} {}|{} {} {} {}|{} {}|{} {}", c.title, c.disk.radial,
-                     c.disk.tread ? 0 : c.disk.circumferential, c.disk.tread.has_value(), t.pitches,
-                     t.land_columns, t.groove_columns, t.layers, static_cast<int>(c.material.plane),
-                     static_cast<int>(c.initial.state), static_cast<int>(c.time.scheme),
-                     c.solver_operator, c.ground.has_value(), c.time.step.has_value(),
-                     c.output.snapshots, c.output.stress);
+  return fmt::format(
+      "{}|{} {} {}|{} {} {} {}|{} {} {} {}|{} {}|{} {}|{} {}", c.title, c.disk.radial,
+      c.disk.tread ? 0 : c.disk.circumferential, c.disk.tread.has_value(), t.pitches,
+      t.land_columns, t.groove_columns, t.layers, static_cast<int>(c.material.plane),
+      static_cast<int>(c.initial.state), static_cast<int>(c.time.scheme), c.solver_operator,
+      c.ground.has_value(), c.time.step.has_value(), c.output.snapshots, c.output.stress,
+      static_cast<int>(c.analysis.kind), c.analysis.increments);
 }
 
 void expect_round_trip(const Case& c) {
@@ -203,8 +205,8 @@ TEST(ReadCase, FillsInDefaults) {
 TEST(ReadCase, DefaultsAreThoseOfTheTableOfKeys) {
   const std::string text = "\n" + write_case(read_text(least + "[ground]\nprofile = 'flat'\n"));
   for (const CaseKey& key : case_keys()) {
-    const bool written = !key.required() && !key.refused() && key.path != "title" &&
-                         key.path != "time.step" && key.path != "disk.mesh.circumferential";
+    const bool written = !key.standard.starts_with("required") && !key.refused() &&
+                         key.path != "title" && key.path != "time.step";
     if (!written) continue;
     const auto table = table_of(key.path);
     const auto begin = text.find(fmt::format("\n[{}]\n", table));
@@ -239,6 +241,36 @@ TEST(WriteCase, RoundTrips) {
   expect_round_trip(read_text(base));
   expect_round_trip(read_text(treaded()));
   expect_round_trip(read_text(everything));
+}
+
+const std::string crush = R"(schema = 1
+disk = {outer_radius = 3, inner_radius = 1, mesh = {radial = 2, circumferential = 8}}
+material = {youngs_modulus = 1, poissons_ratio = 0, density = 1}
+ground = {profile = [[-1, 0.25], [0, 0.25], [1, 0.25]], friction = 0.3}
+analysis = {kind = "crush", depth = 0.125, increments = 4}
+)";
+
+TEST(ReadCase, TakesACrushWithoutMotionAndTime) {
+  const Case c = read_text(crush);
+  EXPECT_EQ(c.analysis.kind, AnalysisKind::crush);
+  EXPECT_EQ(c.analysis.depth, 0.125);
+  EXPECT_EQ(c.analysis.increments, 4);
+  EXPECT_TRUE(c.warnings.empty());
+  expect_round_trip(c);
+}
+
+/// One warning names what has no effect; the case as run has none of it, and so no warning.
+TEST(ReadCase, ACrushLeavesOutWhatOnlyMotionHas) {
+  const Case c =
+      read_text(everything, {"analysis.kind=crush", "analysis.depth=0.02", "analysis.increments=40",
+                             "ground.profile=flat", "output.checkpoint_interval=60.0"});
+  ASSERT_EQ(c.warnings.size(), 1U);
+  for (const char* name :
+       {"[damping]", "[motion]", "[initial]", "[time]", "ground.restitution", "solver.operator",
+        "output.history_interval", "output.snapshots,", "output.snapshots_from"})
+    EXPECT_NE((c.warnings[0] + ",").find(name), std::string::npos) << name;
+  expect_round_trip(c);
+  EXPECT_TRUE(read_text(write_case(c)).warnings.empty());
 }
 
 using Points = std::vector<std::array<double, 2>>;

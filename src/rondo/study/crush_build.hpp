@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: BSD-3-Clause
+/// @file  From a crush case to what its run needs (docs/theory.md, 6.4).
+#pragma once
+#include "rondo/statics/crush.hpp"
+#include "rondo/study/case.hpp"
+
+namespace rondo::study {
+
+struct CrushSetup {
+  mesh::Mesh mesh;
+  std::vector<double> mass;  ///< (n) [kg/m]
+  std::vector<int> free;
+  statics::CrushModel model;
+  double ground_height = 0.0;  ///< y of the ground                                      [m]
+  double touch_height = 0.0;   ///< of the centre above the ground at first touch        [m]
+  double reach = 0.0;          ///< largest clearance of the candidates condensed at first [m]
+  std::size_t within_reach = 0;
+
+  [[nodiscard]] std::size_t n_dofs() const noexcept { return 2 * free.size(); }
+  [[nodiscard]] Vec2 center(double depth) const noexcept {
+    return {0.0, ground_height + touch_height - depth};
+  }
+};
+
+/// Mesh and contact, without the stiffness. @throws InputError: layers that coincide in round-off.
+/// @pre c is a crush
+CrushSetup build_crush(const Case& c);
+
+}  // namespace rondo::study

@@ -1,0 +1,168 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "rondo/study/crush_run.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <chrono>
+
+#include "rondo/core/error.hpp"
+#include "rondo/io/files.hpp"
+#include "rondo/study/build.hpp"
+#include "rondo/study/crush_build.hpp"
+#include "rondo/study/crush_observers.hpp"
+#include "rondo/study/run_files.hpp"
+
+namespace rondo::study {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+double seconds_since(Clock::time_point begin) {
+  return std::chrono::duration<double>(Clock::now() - begin).count();
+}
+
+struct Loop {
+  RunStatus status = RunStatus::done;
+  std::string message;
+  int increments = 0;        ///< done, whose results are kept
+  double residual = 0.0;     ///< largest of the law
+  double equilibrium = 0.0;  ///< largest of K u = Hᵀ r
+  double penetration = 0.0;  ///< largest [m]
+  int sweeps = 0;            ///< most of an increment
+  double wall_s = 0.0;
+  std::size_t snapshots = 0;
+  statics::CrushState state;
+
+  void add(const statics::CrushReport& r) {
+    residual = std::max(residual, r.residual);
+    equilibrium = std::max(equilibrium, r.equilibrium);
+    penetration = std::max(penetration, r.penetration);
+    sweeps = std::max(sweeps, r.sweeps);
+  }
+};
+
+/// What is wrong after an increment; empty while all is well.
+std::string find_trouble(const CrushSetup& setup, const statics::CrushReport& report,
+                         const statics::CrushState& state) {
+  if (!report.converged)
+    return fmt::format(
+        "contact residual {:.3g}, bound {:.0e}, after {} sweeps; more increments "
+        "may help",
+        report.residual, setup.model.bound, report.sweeps);
+  if (!(report.equilibrium <= residual_bound))
+    return fmt::format("residual of the equilibrium {:.3g}, bound {:.0e}", report.equilibrium,
+                       residual_bound);
+  if (!(state.works.relative <= residual_bound))
+    return fmt::format("the energy does not balance: relative residual {:.3g}, bound {:.0e}",
+                       state.works.relative, residual_bound);
+  return {};
+}
+
+Loop run_loop(const Case& c, const CrushSetup& setup, statics::Condensation& body,
+              const RunOptions& options, CrushRecord& record) {
+  Loop loop;
+  loop.state = statics::start_crush(setup.model, setup.mesh.n_nodes());
+  const auto wall = Clock::now();
+  const int n = c.analysis.increments;
+  while (loop.increments < n && loop.status == RunStatus::done) {
+    const int k = loop.increments + 1;
+    const double depth = c.analysis.depth * k / n;
+    const std::vector<Vec2> before = loop.state.u;
+    const statics::CrushReport report = statics::press(setup.model, depth, body, loop.state);
+    loop.add(report);
+    const std::string trouble = find_trouble(setup, report, loop.state);
+    if (!trouble.empty()) {
+      loop.status = RunStatus::failed;
+      loop.message = fmt::format("increment {} of {}, depth {:.6g} m: {}", k, n, depth, trouble);
+      break;
+    }
+    record.observe(k, loop.state, before, report);
+    loop.increments = k;
+    if (options.stop && options.stop->load(std::memory_order_relaxed) && k < n)
+      loop.status = RunStatus::interrupted;
+    if (options.progress) options.progress(k, n);
+  }
+  loop.wall_s = seconds_since(wall);
+  return loop;
+}
+
+/// The stiffness condensed on the candidates within reach.
+void condense(const Case& c, const CrushSetup& setup, statics::Condensation& body) {
+  if (body.factorised()) statics::append_within(setup.model, setup.reach, body);
+  if (!body.factorised() || !body.compliance().allFinite())
+    throw case_error(c, "material.youngs_modulus",
+                     "with this mesh the stiffness is not positive definite in numbers",
+                     "a modulus in SI units, a Poisson's ratio farther from 0.5 and -1");
+}
+
+Json describe(const Case& c, const CrushSetup& setup, double factor_s) {
+  Json j = describe_run(c, "crush", setup.mesh.n_nodes(), setup.n_dofs());
+  j["depth"] = c.analysis.depth;
+  j["increments"] = c.analysis.increments;
+  j["factor_wall_s"] = factor_s;
+  return j;
+}
+
+void add_outcome(Json& j, const Loop& loop, const statics::Condensation& body) {
+  add_status(j, loop.status, loop.message);
+  j["increments_done"] = loop.increments;
+  j["candidates_condensed"] = body.set().size();
+  j["contact_residual_max"] = loop.residual;
+  j["equilibrium_residual_max"] = loop.equilibrium;
+  j["energy_residual_relative"] = loop.state.works.relative;
+  j["energy_exchanged"] = loop.state.works.exchanged;
+  j["penetration_max_m"] = loop.penetration;
+  j["sweeps_max"] = loop.sweeps;
+  j["loop_wall_s"] = loop.wall_s;
+  j["peak_memory_bytes"] = peak_memory_bytes();
+  j["snapshots"] = loop.snapshots;
+}
+
+RunReport report_of(const Loop& loop) {
+  RunReport r;
+  r.analysis = AnalysisKind::crush;
+  r.status = loop.status;
+  r.message = loop.message;
+  r.steps = loop.increments;
+  r.depth = loop.state.depth;
+  r.loop_wall_s = loop.wall_s;
+  r.energy_residual_relative = loop.state.works.relative;
+  r.contact_residual_max = loop.residual;
+  r.penetration_max_m = loop.penetration;
+  r.snapshots = loop.snapshots;
+  return r;
+}
+
+Loop record(const Case& c, const CrushSetup& setup, statics::Condensation& body,
+            const RunOptions& options, const Json& json) {
+  try {
+    CrushRecord files(options.directory, c, setup);
+    Loop loop = run_loop(c, setup, body, options, files);
+    files.close();
+    loop.snapshots = files.written();
+    return loop;
+  } catch (const FileError& error) {
+    note_failure(options, json, error);
+    throw;
+  }
+}
+
+}  // namespace
+
+RunReport run_crush(const Case& c, const RunOptions& options) {
+  const CrushSetup setup = build_crush(c);
+  const auto begin = Clock::now();
+  statics::Condensation body(fem::assemble_stiffness(setup.mesh, c.material), setup.free,
+                             setup.model.nodes);
+  condense(c, setup, body);
+  Json json = describe(c, setup, seconds_since(begin));
+  give_warnings(c.warnings, options);
+  begin_directory(c, options, json);
+  const Loop loop = record(c, setup, body, options, json);
+  add_outcome(json, loop, body);
+  io::write_json(options.directory / "run.json", json);
+  return report_of(loop);
+}
+
+}  // namespace rondo::study
