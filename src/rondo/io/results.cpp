@@ -14,6 +14,7 @@
 #include "rondo/core/error.hpp"
 #include "rondo/fem/stress.hpp"
 #include "rondo/io/h5.hpp"
+#include "rondo/io/mesh_files.hpp"
 #include "rondo/io/xdmf.hpp"
 
 namespace rondo::io {
@@ -22,29 +23,14 @@ namespace {
 using h5::Type;
 
 struct Counts {
-  std::size_t nodes, cells, corners, triangles, candidates, times;
-  bool contact, stress, cyclic;
-  [[nodiscard]] bool mixed() const { return triangles > 0 && triangles < cells; }
+  std::size_t nodes, candidates, times;
+  bool contact, stress;
 };
 
 Counts counts_of(const ResultsLayout& layout) noexcept {
   const mesh::Mesh& m = *layout.mesh;
-  Counts c{};
-  c.nodes = m.n_nodes();
-  c.cells = m.cells.size();
-  for (const mesh::Cell& cell : m.cells) c.triangles += mesh::n_corners(cell) == 3 ? 1 : 0;
-  c.corners = c.cells > 0 && c.triangles == c.cells ? 3 : 4;
-  c.candidates = m.boundary.size();
-  c.times = layout.n_snapshots;
-  c.contact = layout.contact && c.candidates > 0;
-  c.stress = layout.stress;
-  c.cyclic = m.n_sectors > 0;
-  return c;
-}
-
-/// Entries of the list that XDMF wants of a mixed mesh: type, then corners.
-std::size_t n_mixed(const Counts& c) noexcept {
-  return 5 * c.cells - c.triangles;
+  const bool contact = layout.contact && !m.boundary.empty();
+  return {m.n_nodes(), m.boundary.size(), layout.n_snapshots, contact, layout.stress};
 }
 
 /// Of results.h5: what describes the datasets, and an entry for each row.
@@ -53,66 +39,15 @@ std::size_t index_bytes(const Counts& c) noexcept {
   return datasets * (description + c.times * h5::File::bytes_of_entry);
 }
 
-std::vector<int> cell_table(const mesh::Mesh& m, std::size_t corners) {
-  std::vector<int> table;
-  table.reserve(m.cells.size() * corners);
-  for (const mesh::Cell& cell : m.cells)
-    table.insert(table.end(), cell.begin(), cell.begin() + static_cast<std::ptrdiff_t>(corners));
-  return table;
-}
-
-std::vector<int> mixed_list(const mesh::Mesh& m) {
-  constexpr int triangle = 4, quadrilateral = 5;  // numbers of XDMF
-  std::vector<int> list;
-  for (const mesh::Cell& cell : m.cells) {
-    const int corners = mesh::n_corners(cell);
-    list.push_back(corners == 3 ? triangle : quadrilateral);
-    list.insert(list.end(), cell.begin(), cell.begin() + corners);
-  }
-  return list;
-}
-
 template <class T>
 std::span<const T> view(const std::vector<T>& values) {
   return values;
 }
 
-void write_cells(h5::File& file, const mesh::Mesh& m, const Counts& c) {
-  file.write("/mesh/cells", {c.cells, c.corners}, view(cell_table(m, c.corners)),
-             {"1", "corner nodes of each cell, counter-clockwise, from 0; -1: no such corner"});
-  if (c.mixed())
-    file.write("/mesh/cells_mixed", {n_mixed(c)}, view(mixed_list(m)),
-               {"1", "the cells as a list for XDMF: 4 (triangle) or 5 (quadrilateral), its nodes"});
-}
-
-void write_mesh(h5::File& file, const ResultsLayout& layout, const Counts& c) {
-  const mesh::Mesh& m = *layout.mesh;
-  file.write("/mesh/coordinates", {c.nodes, 2}, view(m.coordinates),
-             {"m", "reference position X of each node, turning frame, from the centre"});
-  write_cells(file, m, c);
-  file.write("/mesh/boundary", {c.candidates}, view(m.boundary),
-             {"1", "nodes that may touch the ground, in order along the boundary"});
-  file.write("/mesh/tributary", {c.candidates}, view(m.tributary),
-             {"m", "length of boundary that each node of /mesh/boundary stands for"});
-  file.write("/mesh/mass", {c.nodes}, layout.mass,
-             {"kg/m", "lumped mass of each node, per unit thickness"});
-  if (!c.cyclic) return;
-  file.write("/mesh/sector", {c.nodes}, view(m.sector),
-             {"1", "sector of each node, counter-clockwise from straight down, from 0"});
-  file.write("/mesh/sector_node", {c.nodes}, view(m.sector_node),
-             {"1", "number of each node within its sector: the same in all sectors"});
-}
-
-XdmfSeries series_of(const Counts& c) {
+XdmfSeries series_of(const mesh::Mesh& mesh, const Counts& c) {
   XdmfSeries s;
   s.data_file = "results.h5";
-  if (c.mixed())
-    s.topology = {"Mixed", c.cells, "/mesh/cells_mixed", {n_mixed(c)}};
-  else
-    s.topology = {c.corners == 3 ? "Triangle" : "Quadrilateral",
-                  c.cells,
-                  "/mesh/cells",
-                  {c.cells, c.corners}};
+  s.topology = topology_of(mesh);
   s.reference = "/mesh/coordinates";
   s.position = "/fields/position";
   s.n_nodes = c.nodes;
@@ -214,7 +149,7 @@ Results::Impl::Impl(const std::filesystem::path& directory, const ResultsLayout&
   demand_room(directory, bytes(layout));
   file = h5::File::create(directory / "results.h5", index_bytes(c));
   file.set_attribute("/", "format", "rondo results 1");
-  write_mesh(file, layout, c);
+  write_mesh(file, *layout.mesh, layout.mass);
   if (c.times > 0) {
     create_frame();
     create_snapshots();
@@ -222,7 +157,7 @@ Results::Impl::Impl(const std::filesystem::path& directory, const ResultsLayout&
     reserve();
   }
   file.flush();
-  xdmf = std::make_unique<Xdmf>(directory / "fields.xdmf", series_of(c));
+  xdmf = std::make_unique<Xdmf>(directory / "fields.xdmf", series_of(*layout.mesh, c));
 }
 
 void Results::Impl::create_frame() {
@@ -387,13 +322,11 @@ std::size_t Results::written() const noexcept {
 
 std::size_t Results::bytes(const ResultsLayout& layout) noexcept {
   const Counts c = counts_of(layout);
-  constexpr std::size_t real = 8, single = 4, whole = 4;
-  const std::size_t cells = c.cells * c.corners + (c.mixed() ? n_mixed(c) : 0);
-  const std::size_t mesh = c.nodes * (3 * real + (c.cyclic ? 2 * whole : 0)) + cells * whole +
-                           c.candidates * (whole + real);
+  constexpr std::size_t real = 8, single = 4;
   const std::size_t node = 4 * real + (9U + (c.contact ? 3U : 0U) + (c.stress ? 7U : 0U)) * single;
   const std::size_t candidate = c.contact ? 4 * real : 0, frame = 5 * real;
-  return index_bytes(c) + mesh + c.times * (frame + c.nodes * node + c.candidates * candidate);
+  return index_bytes(c) + mesh_bytes(*layout.mesh) +
+         c.times * (frame + c.nodes * node + c.candidates * candidate);
 }
 
 }  // namespace rondo::io

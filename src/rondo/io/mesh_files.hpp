@@ -1,0 +1,22 @@
+// SPDX-License-Identifier: BSD-3-Clause
+/// @file  The group /mesh of an HDF5 file (docs/results.md) and its cells as XDMF wants them.
+#pragma once
+#include <cstddef>
+#include <span>
+
+#include "rondo/io/h5.hpp"
+#include "rondo/io/xdmf.hpp"
+#include "rondo/mesh/mesh.hpp"
+
+namespace rondo::io {
+
+/// @param mass (n) lumped mass per unit thickness [kg/m]. @throws FileError
+void write_mesh(h5::File& file, const mesh::Mesh& mesh, std::span<const double> mass);
+
+/// Bytes of the datasets of write_mesh().
+std::size_t mesh_bytes(const mesh::Mesh& mesh) noexcept;
+
+/// Cells of a mesh written by write_mesh().
+XdmfTopology topology_of(const mesh::Mesh& mesh);
+
+}  // namespace rondo::io
