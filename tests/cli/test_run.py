@@ -103,6 +103,9 @@ class Run(ProgramTest):
             kinetic = 0.5 * np.einsum("n,nc,nc->", mass, v[-1], v[-1])
             self.assertAlmostEqual(kinetic / h["kinetic"][-1], 1.0, places=12)
             np.testing.assert_allclose(f["/frame/time_velocity"][1:], t[1:] - 0.5 * s["step"])
+            # The spin is constant; the first velocity is at t = 0 itself.
+            np.testing.assert_allclose(f["/frame/angle_velocity"][:],
+                                       -33.333333 * f["/frame/time_velocity"][:], rtol=1e-14)
             boundary = f["/mesh/boundary"][:]
             self.assertEqual(force.shape, (11, len(boundary), 2))
             self.assertGreaterEqual(force[..., 0].min(), 0.0)

@@ -35,7 +35,7 @@ Counts counts_of(const ResultsLayout& layout) noexcept {
 
 /// Of results.h5: what describes the datasets, and an entry for each row.
 std::size_t index_bytes(const Counts& c) noexcept {
-  constexpr std::size_t datasets = 14, description = 4096;
+  constexpr std::size_t datasets = 15, description = 4096;
   return datasets * (description + c.times * h5::File::bytes_of_entry);
 }
 
@@ -128,8 +128,8 @@ struct Results::Impl {
   std::vector<Vec2> traction;
   h5::File file;
   struct {
-    h5::Dataset time, time_velocity, angle, center, displacement, velocity, force, traction,
-        position, field_displacement, field_velocity, field_force, von_mises, stress;
+    h5::Dataset time, time_velocity, angle, angle_velocity, center, displacement, velocity, force,
+        traction, position, field_displacement, field_velocity, field_force, von_mises, stress;
   } d;
   std::unique_ptr<Xdmf> xdmf;
 };
@@ -170,6 +170,9 @@ void Results::Impl::create_frame() {
                                      {"s", "of velocity: half a step before /frame/time"});
   d.angle = file.create_rows("/frame/angle", Type::float64, times,
                              {"rad", "angle of the turning frame, counter-clockwise"});
+  d.angle_velocity =
+      file.create_rows("/frame/angle_velocity", Type::float64, times,
+                       {"rad", "angle of the turning frame at /frame/time_velocity"});
   d.center = file.create_rows("/frame/center", Type::float64, {c.times, 2},
                               {"m", "centre of the turning frame, x, y in the fixed frame"});
 }
@@ -217,9 +220,9 @@ void Results::Impl::create_fields() {
 
 void Results::Impl::resize(std::size_t rows) {
   for (h5::Dataset* dataset :
-       {&d.time, &d.time_velocity, &d.angle, &d.center, &d.displacement, &d.velocity, &d.force,
-        &d.traction, &d.position, &d.field_displacement, &d.field_velocity, &d.field_force,
-        &d.von_mises, &d.stress})
+       {&d.time, &d.time_velocity, &d.angle, &d.angle_velocity, &d.center, &d.displacement,
+        &d.velocity, &d.force, &d.traction, &d.position, &d.field_displacement, &d.field_velocity,
+        &d.field_force, &d.von_mises, &d.stress})
     if (*dataset) dataset->resize(rows);
 }
 
@@ -284,6 +287,7 @@ void Results::Impl::write_snapshot(const Snapshot& s) {
   d.velocity.write_row(written, s.velocity);
   d.center.write_row(written, std::span<const Vec2>(&s.center, 1));
   row(d.angle, s.angle);
+  row(d.angle_velocity, s.angle_velocity);
   row(d.time_velocity, s.time_velocity);
   row(d.time, s.time);
   ++written;
@@ -324,7 +328,7 @@ std::size_t Results::bytes(const ResultsLayout& layout) noexcept {
   const Counts c = counts_of(layout);
   constexpr std::size_t real = 8, single = 4;
   const std::size_t node = 4 * real + (9U + (c.contact ? 3U : 0U) + (c.stress ? 7U : 0U)) * single;
-  const std::size_t candidate = c.contact ? 4 * real : 0, frame = 5 * real;
+  const std::size_t candidate = c.contact ? 4 * real : 0, frame = 6 * real;
   return index_bytes(c) + mesh_bytes(*layout.mesh) +
          c.times * (frame + c.nodes * node + c.candidates * candidate);
 }

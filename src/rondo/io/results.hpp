@@ -30,10 +30,11 @@ struct ResultsLayout {
 
 /// One snapshot, as the stepper leaves it; spans are only read during the call.
 struct Snapshot {
-  double time = 0.0;           ///< of displacement and contact                        [s]
-  double time_velocity = 0.0;  ///< of velocity: half a step before `time`             [s]
-  double angle = 0.0;          ///< θ, counter-clockwise                               [rad]
-  Vec2 center;                 ///< fixed frame                                        [m]
+  double time = 0.0;            ///< of displacement and contact                        [s]
+  double time_velocity = 0.0;   ///< of velocity: half a step before `time`             [s]
+  double angle = 0.0;           ///< θ at `time`, counter-clockwise                     [rad]
+  double angle_velocity = 0.0;  ///< θ at `time_velocity`                      [rad]
+  Vec2 center;                  ///< fixed frame                                        [m]
   std::span<const Vec2> displacement;         ///< (n) turning frame                         [m]
   std::span<const Vec2> velocity;             ///< (n) turning frame                         [m/s]
   std::span<const Vec2> contact_force;        ///< (nb) normal, tangential; empty: no ground [N/m]

@@ -163,6 +163,7 @@ void Snapshots::observe(const dynamics::State& state) {
   s.time = state.frame.time;
   s.time_velocity = state.step == 0 ? 0.0 : state.frame.time - 0.5 * setup_.model.dt;
   s.angle = state.frame.angle;
+  s.angle_velocity = setup_.model.motion.angle(s.time_velocity);
   s.center = state.frame.center;
   s.displacement = state.u;
   s.velocity = state.v;

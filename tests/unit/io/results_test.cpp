@@ -27,6 +27,7 @@ std::vector<std::pair<std::string, Shape>> expected(const SmallRun& r, std::size
           {"/frame/time", {t}},
           {"/frame/time_velocity", {t}},
           {"/frame/angle", {t}},
+          {"/frame/angle_velocity", {t}},
           {"/frame/center", {t, 2}},
           {"/snapshots/displacement", {t, n, 2}},
           {"/snapshots/velocity", {t, n, 2}},
@@ -69,6 +70,7 @@ TEST(Results, WhatWasGivenIsReadBack) {
     EXPECT_EQ(file.read<double>("/frame/time")[k], s.time);
     EXPECT_EQ(file.read<double>("/frame/time_velocity")[k], s.time_velocity);
     EXPECT_EQ(file.read<double>("/frame/angle")[k], s.angle);
+    EXPECT_EQ(file.read<double>("/frame/angle_velocity")[k], s.angle_velocity);
     EXPECT_EQ(file.read<Vec2>("/frame/center")[k], s.center);
     const auto same = [&](const char* name, std::span<const Vec2> values) {
       EXPECT_EQ(file.dataset(name).read_row<Vec2>(k),

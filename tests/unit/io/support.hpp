@@ -123,7 +123,8 @@ class SmallRun {
       force_.push_back({100.0 + x, t});
       fixed_.push_back({-t, 100.0 + x});
     }
-    snapshot_ = {0.1 * t, 0.1 * t - 0.05, 0.7 * t, {3.0 * t, 0.28}, u_, v_, force_, fixed_, s_};
+    snapshot_ = {0.1 * t, 0.1 * t - 0.05, 0.7 * t, 0.7 * t - 0.35, {3.0 * t, 0.28}, u_, v_,
+                 force_,  fixed_,         s_};
     return snapshot_;
   }
 
