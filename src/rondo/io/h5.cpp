@@ -157,6 +157,7 @@ void Dataset::find_spaces() {
   Shape row = shape_;  // of the file's rank: HDF5 then copies at once, else number by number
   if (!row.empty()) row[0] = 1;
   row_space_ = make_space(row, row);
+  part_space_ = make_space(row, row);
 }
 
 void Dataset::select(std::size_t row) const {
@@ -196,6 +197,33 @@ void Dataset::read_one(std::size_t row, void* values, Type type, std::size_t n) 
   RONDO_DEMAND(n == n_in_row(), name_, n, n_in_row());
   select(row);
   if (H5Dread(id_.get(), native(type), row_space_.get(), file_space_.get(), H5P_DEFAULT, values) <
+      0)
+    fail("read");
+}
+
+void Dataset::select_part(std::size_t row, std::size_t first, std::size_t n) const {
+  constexpr std::size_t most = 8;
+  RONDO_DEMAND(shape_.size() > 1 && shape_.size() <= most, name_, shape_.size());
+  RONDO_DEMAND(row < shape_[0] && n > 0 && n <= shape_[1] && first <= shape_[1] - n, name_, row,
+               first, n);
+  std::array<hsize_t, most> start{}, count{};
+  std::copy(shape_.begin(), shape_.end(), count.begin());
+  start[0] = row, count[0] = 1;
+  start[1] = first, count[1] = n;
+  if (H5Sselect_hyperslab(file_space_.get(), H5S_SELECT_SET, start.data(), nullptr, count.data(),
+                          nullptr) < 0 ||
+      H5Sset_extent_simple(part_space_.get(), static_cast<int>(shape_.size()), count.data(),
+                           nullptr) < 0)
+    fail("select in");
+}
+
+void Dataset::read_some(std::size_t row, std::size_t first, void* values, Type type,
+                        std::size_t n) const {
+  if (n == 0) return;
+  const std::size_t place = product(shape_, 2);
+  RONDO_DEMAND(n % place == 0, name_, n, place);
+  select_part(row, first, n / place);
+  if (H5Dread(id_.get(), native(type), part_space_.get(), file_space_.get(), H5P_DEFAULT, values) <
       0)
     fail("read");
 }
@@ -296,10 +324,35 @@ Dataset File::dataset(const std::string& name) const {
   Dataset dataset;
   dataset.file_ = path_;
   dataset.name_ = name;
-  dataset.id_ = Handle(H5Dopen2(id_.get(), name.c_str(), H5P_DEFAULT));
+  const Handle access(H5Pcreate(H5P_DATASET_ACCESS));
+  H5Pset_chunk_cache(access.get(), 0, 0, H5D_CHUNK_CACHE_W0_DEFAULT);
+  dataset.id_ = Handle(H5Dopen2(id_.get(), name.c_str(), access.get()));
   if (!dataset) dataset.fail("open");
   dataset.find_spaces();
   return dataset;
+}
+
+Dataset File::dataset(const std::string& name, const Shape& shape) const {
+  Dataset found = dataset(name);
+  const auto text = [](const Shape& s) {
+    std::string list;
+    for (const std::size_t n : s)
+      list += (list.empty() ? "" : ", ") + (n == any ? "any" : std::to_string(n));
+    return "(" + list + ")";
+  };
+  const bool fits = std::equal(shape.begin(), shape.end(), found.shape_.begin(), found.shape_.end(),
+                               [](std::size_t a, std::size_t b) { return a == any || a == b; });
+  if (!fits)
+    throw FileError(path_, name + " has the shape " + text(found.shape_) + " where " + text(shape) +
+                               " is expected: damaged, or not of this program");
+  hsize_t bytes = 0;
+  if (H5Fget_filesize(id_.get(), &bytes) < 0) fail("measure");
+  const Handle type(H5Dget_type(found.id_.get()));
+  double wanted = static_cast<double>(H5Tget_size(type.get()));
+  for (const std::size_t n : found.shape_) wanted *= static_cast<double>(n);
+  if (wanted > static_cast<double>(bytes))
+    throw FileError(path_, name + " is larger than the file: damaged");
+  return found;
 }
 
 void File::set_attribute(const std::string& object, const std::string& name,

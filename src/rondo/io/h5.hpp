@@ -21,6 +21,7 @@ namespace rondo::io::h5 {
 enum class Type { float64, float32, int32, int64 };
 
 using Shape = std::vector<std::size_t>;
+inline constexpr std::size_t any = ~std::size_t{0};  ///< a size that may be what it is
 
 struct Label {
   std::string units;  ///< "1" for pure numbers
@@ -111,6 +112,12 @@ class Dataset {
     read_one(row, values.data(), Element<T>::type, values.size() * Element<T>::count);
     return values;
   }
+  /// The places [first, first + n) of the second dimension of row `row`, straight into `values`.
+  /// @pre n = values.size() * Element<T>::count over the numbers of a place. @throws FileError
+  template <class T>
+  void read_part(std::size_t row, std::size_t first, std::span<T> values) const {
+    read_some(row, first, values.data(), Element<T>::type, values.size() * Element<T>::count);
+  }
   /// Makes room in the file for rows, or gives up those from `rows` on. @pre made by
   /// File::create_rows, at most the rows given there. @throws FileError
   void resize(std::size_t rows);
@@ -123,15 +130,18 @@ class Dataset {
   [[nodiscard]] std::size_t n_in_row() const noexcept;
   void find_spaces();
   void select(std::size_t row) const;
+  void select_part(std::size_t row, std::size_t first, std::size_t n) const;
   void write_all(const void* values, Type type, std::size_t n);
   void write_one(std::size_t row, const void* values, Type type, std::size_t n);
   void read_all(void* values, Type type, std::size_t n) const;
   void read_one(std::size_t row, void* values, Type type, std::size_t n) const;
+  void read_some(std::size_t row, std::size_t first, void* values, Type type, std::size_t n) const;
   [[noreturn]] void fail(const char* doing) const;
 
   std::string file_, name_;
   Shape shape_;
   Handle id_, file_space_, row_space_;
+  Handle part_space_;  ///< of a part read: its extent changes with each call
 };
 
 class File {
@@ -142,7 +152,7 @@ class File {
   /// leave nothing behind them and the file becomes shorter. @throws FileError
   static File create(const std::filesystem::path& path, std::size_t index_bytes = 0);
   static constexpr std::size_t bytes_of_entry = 100;
-  /// To read only. @throws FileError: missing, not HDF5, truncated
+  /// To read only, without copies of what is read. @throws FileError: missing, not HDF5, truncated
   static File open(const std::filesystem::path& path);
 
   explicit operator bool() const noexcept { return id_.get() >= 0; }
@@ -162,8 +172,12 @@ class File {
     create(name, Element<T>::type, shape, label).write(values);
   }
 
+  [[nodiscard]] const std::string& path() const noexcept { return path_; }
   [[nodiscard]] bool contains(const std::string& name) const;
   [[nodiscard]] Dataset dataset(const std::string& name) const;  ///< @throws FileError: none such
+  /// Of a file that may be damaged or not ours. @param shape wanted, `any` where all will do.
+  /// @throws FileError: none such, of another shape, larger than the file
+  [[nodiscard]] Dataset dataset(const std::string& name, const Shape& shape) const;
   template <class T>
   [[nodiscard]] std::vector<T> read(const std::string& name) const {
     return dataset(name).read<T>();

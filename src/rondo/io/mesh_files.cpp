@@ -1,7 +1,15 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "rondo/io/mesh_files.hpp"
 
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <string>
 #include <vector>
+
+#include "rondo/core/error.hpp"
 
 namespace rondo::io {
 namespace {
@@ -70,6 +78,76 @@ void write_mesh(h5::File& file, const mesh::Mesh& m, std::span<const double> mas
              {"1", "sector of each node, counter-clockwise from straight down, from 0"});
   file.write("/mesh/sector_node", {n}, view(m.sector_node),
              {"1", "number of each node within its sector: the same in all sectors"});
+}
+
+namespace {
+
+[[noreturn]] void damaged(const h5::File& file, const std::string& what) {
+  throw FileError(file.path(), "/mesh " + what + ": damaged, or not of this program");
+}
+
+std::vector<mesh::Cell> read_cells(const h5::File& file) {
+  const h5::Dataset dataset = file.dataset("/mesh/cells", {h5::any, h5::any});
+  const std::size_t corners = dataset.shape()[1];
+  if (corners != 3 && corners != 4) damaged(file, fmt::format("has cells of {} corners", corners));
+  if (corners == 4) return dataset.read<mesh::Cell>();
+  std::vector<mesh::Cell> cells;
+  for (const auto& [a, b, c] : dataset.read<std::array<int, 3>>()) cells.push_back({a, b, c, -1});
+  return cells;
+}
+
+/// Each pair (sector, number within it) belongs to one node. @return number of sectors
+int count_sectors(const h5::File& file, const mesh::Mesh& m) {
+  const auto n = static_cast<long long>(m.n_nodes());
+  const long long sectors = 1LL + *std::max_element(m.sector.begin(), m.sector.end());
+  if (sectors < 1 || n % sectors != 0)
+    damaged(file, fmt::format("has {} nodes in {} sectors", n, sectors));
+  const long long of_each = n / sectors;
+  std::vector<char> seen(m.n_nodes(), 0);
+  for (std::size_t i = 0; i < m.n_nodes(); ++i) {
+    const long long s = m.sector[i], k = m.sector_node[i];
+    if (s < 0 || k < 0 || k >= of_each || seen[static_cast<std::size_t>(s * of_each + k)]++ != 0)
+      damaged(file,
+              fmt::format("has node {} at place {} of sector {}, where it cannot be", i, k, s));
+  }
+  return static_cast<int>(sectors);
+}
+
+void check_nodes(const h5::File& file, const mesh::Mesh& m) {
+  const auto n = static_cast<long long>(m.n_nodes());
+  const auto is_node = [n](int node) { return node >= 0 && node < n; };
+  for (std::size_t c = 0; c < m.cells.size(); ++c)
+    for (int k = 0; k < mesh::n_corners(m.cells[c]); ++k)
+      if (!is_node(m.cells[c][static_cast<std::size_t>(k)]))
+        damaged(file, fmt::format("has cell {} with a node that is none of the {}", c, n));
+  for (const int node : m.boundary)
+    if (!is_node(node)) damaged(file, fmt::format("has candidate {} among {} nodes", node, n));
+  for (std::size_t i = 0; i < m.n_nodes(); ++i)
+    if (!std::isfinite(m.coordinates[i].x) || !std::isfinite(m.coordinates[i].y))
+      damaged(file, fmt::format("has node {} at a place that is not finite", i));
+}
+
+}  // namespace
+
+MeshWithMass read_mesh(const h5::File& file) {
+  MeshWithMass out;
+  mesh::Mesh& m = out.mesh;
+  m.coordinates = file.dataset("/mesh/coordinates", {h5::any, 2}).read<Vec2>();
+  const std::size_t n = m.n_nodes();
+  if (n == 0) damaged(file, "has no nodes");
+  m.cells = read_cells(file);
+  m.boundary = file.dataset("/mesh/boundary", {h5::any}).read<int>();
+  m.tributary = file.dataset("/mesh/tributary", {m.boundary.size()}).read<double>();
+  out.mass = file.dataset("/mesh/mass", {n}).read<double>();
+  for (std::size_t i = 0; i < n; ++i)
+    if (!(out.mass[i] > 0.0) || !std::isfinite(out.mass[i]))
+      damaged(file, fmt::format("has node {} with the mass {} kg/m", i, out.mass[i]));
+  check_nodes(file, m);
+  if (!file.contains("/mesh/sector")) return out;
+  m.sector = file.dataset("/mesh/sector", {n}).read<int>();
+  m.sector_node = file.dataset("/mesh/sector_node", {n}).read<int>();
+  m.n_sectors = count_sectors(file, m);
+  return out;
 }
 
 std::size_t mesh_bytes(const mesh::Mesh& m) noexcept {

@@ -3,6 +3,7 @@
 #pragma once
 #include <cstddef>
 #include <span>
+#include <vector>
 
 #include "rondo/io/h5.hpp"
 #include "rondo/io/xdmf.hpp"
@@ -12,6 +13,14 @@ namespace rondo::io {
 
 /// @param mass (n) lumped mass per unit thickness [kg/m]. @throws FileError
 void write_mesh(h5::File& file, const mesh::Mesh& mesh, std::span<const double> mass);
+
+struct MeshWithMass {
+  mesh::Mesh mesh;           ///< without `clamped`, which is not stored
+  std::vector<double> mass;  ///< (n) lumped mass per unit thickness [kg/m]
+};
+
+/// @throws FileError: no mesh, or one that cannot be right
+MeshWithMass read_mesh(const h5::File& file);
 
 /// Bytes of the datasets of write_mesh().
 std::size_t mesh_bytes(const mesh::Mesh& mesh) noexcept;

@@ -1,0 +1,187 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "rondo/io/run_reader.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <fstream>
+#include <nlohmann/json.hpp>
+#include <system_error>
+#include <utility>
+
+#include "rondo/core/contract.hpp"
+#include "rondo/core/error.hpp"
+#include "rondo/io/mesh_files.hpp"
+
+namespace rondo::io {
+namespace fs = std::filesystem;
+namespace {
+
+constexpr const char* format_name = "rondo results 1";
+
+[[noreturn]] void refuse(const fs::path& directory, const std::string& what) {
+  Fault fault;
+  fault.key = "RUN";
+  fault.found = directory.string();
+  fault.message = what;
+  fault.allowed = "the directory of a run, as `rondo run CASE.toml -o RUN` makes it";
+  throw InputError(fault);
+}
+
+/// results.h5 of a directory that holds one.
+fs::path results_of(const fs::path& directory) {
+  std::error_code error;
+  if (!fs::exists(directory, error)) refuse(directory, "there is no such directory");
+  if (!fs::is_directory(directory, error)) refuse(directory, "is not a directory");
+  if (!fs::exists(directory / "results.h5", error)) refuse(directory, "holds no results.h5");
+  return directory / "results.h5";
+}
+
+h5::File open_results(const fs::path& path) {
+  h5::File file = h5::File::open(path);
+  std::string format = "none";
+  try {
+    format = file.attribute("/", "format");
+  } catch (const FileError&) {  // said below
+  }
+  if (format != format_name)
+    throw FileError(path.string(),
+                    fmt::format("not a results file of this version: its format is \"{}\", not "
+                                "\"{}\"; run the case again",
+                                format, format_name));
+  return file;
+}
+
+std::string text_in(const nlohmann::json& json, const char* key) {
+  if (!json.is_object() || !json.contains(key) || !json[key].is_string()) return "unknown";
+  return json[key].get<std::string>();
+}
+
+}  // namespace
+
+RunReader::RunReader(fs::path directory)
+    : directory_(std::move(directory)), file_(open_results(results_of(directory_))) {
+  read_summary();
+  MeshWithMass read = read_mesh(file_);
+  mesh_ = std::move(read.mesh);
+  mass_ = std::move(read.mass);
+  read_times();
+  open_snapshots();
+}
+
+void RunReader::read_summary() {
+  std::ifstream in(directory_ / "run.json", std::ios::binary);
+  constexpr bool exceptions = false;
+  const nlohmann::json json = nlohmann::json::parse(in, nullptr, exceptions);
+  title_ = text_in(json, "title");
+  status_ = text_in(json, "status");
+}
+
+/// A run without snapshots has no /frame.
+void RunReader::read_times() {
+  if (!file_.contains("/frame/time") && !file_.contains("/snapshots")) return;
+  times_.time = file_.dataset("/frame/time", {h5::any}).read<double>();
+  n_planned_ = times_.time.size();
+  std::size_t n = 0;
+  while (n < n_planned_ && std::isfinite(times_.time[n]) &&
+         (n == 0 || times_.time[n] > times_.time[n - 1]))
+    ++n;
+  for (std::size_t k = n; k < n_planned_; ++k)
+    if (!std::isnan(times_.time[k]))
+      throw FileError(file_.path(), fmt::format("/frame/time[{}] = {}: times must rise, and be NaN "
+                                                "from the first snapshot not written: damaged",
+                                                k, times_.time[k]));
+  const auto read = [&](const char* name, std::vector<double>& values) {
+    values = file_.dataset(name, {n_planned_}).read<double>();
+    values.resize(n);
+    for (std::size_t k = 0; k < n; ++k)
+      if (!std::isfinite(values[k]))
+        throw FileError(file_.path(), fmt::format("{}[{}] = {}: damaged", name, k, values[k]));
+  };
+  times_.time.resize(n);
+  read("/frame/time_velocity", times_.time_velocity);
+  read("/frame/angle", times_.angle);
+  if (file_.contains("/frame/angle_velocity")) read("/frame/angle_velocity", times_.angle_velocity);
+}
+
+void RunReader::open_snapshots() {
+  const auto open = [&](const char* name, std::size_t points, h5::Dataset& dataset) {
+    if (file_.contains(name)) dataset = file_.dataset(name, {n_planned_, points, 2});
+  };
+  open("/snapshots/displacement", mesh_.n_nodes(), displacement_);
+  open("/snapshots/velocity", mesh_.n_nodes(), velocity_);
+  open("/contact/force", mesh_.boundary.size(), contact_);
+  if (n_planned_ > 0 && (!displacement_ || !velocity_))
+    throw FileError(file_.path(), "times without /snapshots: damaged, or not of this program");
+}
+
+const h5::Dataset& RunReader::dataset(Quantity quantity) const noexcept {
+  if (quantity == Quantity::displacement) return displacement_;
+  return quantity == Quantity::velocity ? velocity_ : contact_;
+}
+
+bool RunReader::has(Quantity quantity) const noexcept {
+  return static_cast<bool>(dataset(quantity));
+}
+
+std::size_t RunReader::n_points(Quantity quantity) const noexcept {
+  return quantity == Quantity::contact ? mesh_.boundary.size() : mesh_.n_nodes();
+}
+
+void RunReader::read(Quantity quantity, std::size_t snapshot, std::size_t first,
+                     std::span<Vec2> out) const {
+  RONDO_DEMAND(has(quantity) && snapshot < n_snapshots(), snapshot, n_snapshots());
+  dataset(quantity).read_part(snapshot, first, out);
+}
+
+namespace {
+
+std::string counts_differ(std::size_t a, std::size_t b, const char* what) {
+  return a == b ? std::string() : fmt::format("{} {} against {}", a, what, b);
+}
+
+/// First place where two lists of the same length differ; their length where they do not.
+template <class T>
+std::size_t first_difference(const std::vector<T>& a, const std::vector<T>& b) {
+  std::size_t i = 0;
+  while (i < a.size() && a[i] == b[i]) ++i;
+  return i;
+}
+
+std::string sizes_differ(const mesh::Mesh& a, const mesh::Mesh& b) {
+  for (const std::string& text : {counts_differ(a.n_nodes(), b.n_nodes(), "nodes"),
+                                  counts_differ(a.cells.size(), b.cells.size(), "cells"),
+                                  counts_differ(a.boundary.size(), b.boundary.size(), "candidates"),
+                                  counts_differ(static_cast<std::size_t>(a.n_sectors),
+                                                static_cast<std::size_t>(b.n_sectors), "sectors")})
+    if (!text.empty()) return text;
+  return {};
+}
+
+}  // namespace
+
+std::string mesh_difference(const RunReader& run_a, const RunReader& run_b) {
+  const mesh::Mesh &a = run_a.mesh(), &b = run_b.mesh();
+  if (const std::string text = sizes_differ(a, b); !text.empty()) return text;
+  const std::size_t n = a.n_nodes();
+  if (const auto i = first_difference(a.coordinates, b.coordinates); i < n)
+    return fmt::format("coordinates differ at node {} by {:.3g} m", i,
+                       norm(a.coordinates[i] - b.coordinates[i]));
+  if (const auto c = first_difference(a.cells, b.cells); c < a.cells.size())
+    return fmt::format("cells differ at cell {}", c);
+  if (const auto k = first_difference(a.boundary, b.boundary); k < a.boundary.size())
+    return fmt::format("candidates differ: number {} is node {} against {}", k, a.boundary[k],
+                       b.boundary[k]);
+  if (const auto k = first_difference(a.tributary, b.tributary); k < a.tributary.size())
+    return fmt::format("tributary lengths differ at candidate {} by {:.3g} m", k,
+                       std::abs(a.tributary[k] - b.tributary[k]));
+  if (first_difference(a.sector, b.sector) < a.sector.size() ||
+      first_difference(a.sector_node, b.sector_node) < a.sector_node.size())
+    return "the numbering of the sectors differs";
+  if (const auto i = first_difference(run_a.mass(), run_b.mass()); i < n)
+    return fmt::format("masses differ at node {}: {:.6g} kg/m against {:.6g}", i, run_a.mass()[i],
+                       run_b.mass()[i]);
+  return {};
+}
+
+}  // namespace rondo::io
