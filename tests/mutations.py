@@ -145,9 +145,9 @@ traction not over length | / tributary[k]; => ; | io:Results.ContactForce*
 7.2 second pass forgets a block | first, 0, n, kept), d.modes, 1.0, 1.0 =>
   first, 0, n, kept), d.modes, 1.0, 0.0 | reduction:Tsqr.Agrees*
 @reduction/incremental.cpp
-7.2 one projection only | multiply(u, again, b, -1.0, 1.0); => | reduction:Incremental.Stays*
+7.2 U is not mended | <= drift_allowed => >= 0.0 | reduction:Incremental.Within*
 7.2 bound forgets a block | f.bound_squared += svd => f.bound_squared = svd |
-  reduction:Incremental.Truncated*
+  reduction:Incremental.BoundAdds*
 7.2 V of the new snapshots | svd.v.block(k, 0, n, kept) => svd.v.block(0, 0, n, kept) |
   reduction:Incremental.*
 @reduction/spectrum.cpp

@@ -33,7 +33,8 @@ Eigen::MatrixXd project(Factors& f, Index n) {
   Eigen::MatrixXd c(k, n), again(k, n);
   multiply_transposed(u, b, c);
   multiply(u, c, b, -1.0, 1.0);
-  // Once more: what is left of b may be far smaller than b, and hold round-off along U.
+  // Once more: what is left of b may be far smaller than b, and hold round-off along U, which would
+  // be left to mend().
   multiply_transposed(u, b, again);
   multiply(u, again, b, -1.0, 1.0);
   c += again;

@@ -147,6 +147,22 @@ TEST(Incremental, TruncatedByMemorySaysSo) {
   EXPECT_LE(s.p.memory, 100000U);
 }
 
+TEST(Incremental, BoundAddsUpWhatEachBlockCut) {
+  // One mode kept, and it is the first snapshot: each other, along its own direction, is a little
+  // shorter and is cut off, though together they are the larger. σ_1² = 99 · 0.99², close to the
+  // bound σ̂_1² + Σδ² = 1 + 99 · 0.99².
+  Eigen::MatrixXd a = Eigen::MatrixXd::Zero(10, 100);
+  a(3, 0) = 1.0;
+  a.row(7).tail(99).setConstant(0.99);
+  const Streamed s = streamed(a, with(Method::incremental, 1000));
+  ASSERT_EQ(s.p.modes, 1);
+  ASSERT_EQ(s.p.block, 1);
+  EXPECT_NEAR(s.d.sigma[0], 1.0, 1e-15);
+  EXPECT_NEAR(s.d.sigma_bound, 0.99 * std::sqrt(99.0), 1e-13);
+  EXPECT_LT(0.99 * std::sqrt(99.0) - s.d.sigma[0], s.d.sigma_bound);
+  EXPECT_NEAR(s.d.lost_energy, 0.99 * 0.99 * 99.0, 1e-12);
+}
+
 TEST(Incremental, StaysOrthonormalOverManyBlocks) {
   // 1200 blocks of one snapshot; singular values over twelve decades, so that each projection
   // leaves a remainder far smaller than the snapshot.
