@@ -120,6 +120,28 @@ void write_json(const fs::path& file, const nlohmann::ordered_json& json) {
   write_file(file, json.dump(indent, ' ', false, replace) + "\n");
 }
 
+void replace_file(const fs::path& file, const fs::path& target) {
+  const auto fail = [&](const char* doing) {
+    throw FileError(target.string(), fmt::format("cannot {}: {}", doing, message(errno)));
+  };
+  const int descriptor = ::open(file.c_str(), O_RDONLY | O_CLOEXEC);
+  if (descriptor < 0) fail("open what replaces it");
+  const bool written = ::fsync(descriptor) == 0;
+  ::close(descriptor);
+  if (!written) fail("write");
+  if (::rename(file.c_str(), target.c_str()) != 0) fail("replace");
+}
+
+void demand_room(const fs::path& file, std::size_t bytes) {
+  std::error_code error;
+  const auto space = fs::space(file.parent_path(), error);
+  if (error || space.capacity == 0 || space.available >= bytes) return;
+  constexpr double mega = 1e6;
+  throw FileError(file.string(), fmt::format("disk full: {:.1f} MB needed, {:.1f} MB free",
+                                             static_cast<double>(bytes) / mega,
+                                             static_cast<double>(space.available) / mega));
+}
+
 bool overwrite_json(const fs::path& file, const nlohmann::ordered_json& json) noexcept {
   try {
     const std::string text = json.dump(2) + "\n";

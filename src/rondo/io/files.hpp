@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// @file  Results directories and small files.
 #pragma once
+#include <cstddef>
 #include <filesystem>
 #include <string>
 
@@ -17,6 +18,12 @@ void prepare_results_directory(const std::filesystem::path& directory, bool over
 /// Written beside, then renamed: readers never see half a file. @throws FileError
 void write_file(const std::filesystem::path& file, const std::string& text);
 void write_json(const std::filesystem::path& file, const nlohmann::ordered_json& json);
+/// The file takes the place of `target` in the same file system, at once and for good.
+/// @throws FileError
+void replace_file(const std::filesystem::path& file, const std::filesystem::path& target);
+/// Better before the work than after it: a file of that many bytes would fill the disk. File
+/// systems that do not say are believed to have room. @throws FileError
+void demand_room(const std::filesystem::path& file, std::size_t bytes);
 /// For a full disk: over the old text of a small file, in place, which asks for no new room.
 /// False where that cannot be done either.
 bool overwrite_json(const std::filesystem::path& file, const nlohmann::ordered_json& json) noexcept;

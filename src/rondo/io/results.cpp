@@ -1,18 +1,15 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "rondo/io/results.hpp"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cmath>
 #include <limits>
 #include <string>
-#include <system_error>
 #include <vector>
 
 #include "rondo/core/contract.hpp"
-#include "rondo/core/error.hpp"
 #include "rondo/fem/stress.hpp"
+#include "rondo/io/files.hpp"
 #include "rondo/io/h5.hpp"
 #include "rondo/io/mesh_files.hpp"
 #include "rondo/io/xdmf.hpp"
@@ -81,18 +78,6 @@ std::array<float, 3> in_space(Vec2 a) noexcept {
   return {static_cast<float>(a.x), static_cast<float>(a.y), 0.0F};
 }
 
-/// Better now than after hours; file systems that do not say are believed to have room.
-void demand_room(const std::filesystem::path& directory, std::size_t bytes) {
-  std::error_code error;
-  const auto space = std::filesystem::space(directory, error);
-  if (error || space.capacity == 0 || space.available >= bytes) return;
-  constexpr double mega = 1e6;
-  throw FileError(
-      (directory / "results.h5").string(),
-      fmt::format("disk full: {:.1f} MB needed, {:.1f} MB free", static_cast<double>(bytes) / mega,
-                  static_cast<double>(space.available) / mega));
-}
-
 }  // namespace
 
 struct Results::Impl {
@@ -146,7 +131,7 @@ Results::Impl::Impl(const std::filesystem::path& directory, const ResultsLayout&
       traction(c.contact ? c.candidates : 0) {
   RONDO_DEMAND(c.nodes > 0 && layout.mass.size() == c.nodes, c.nodes, layout.mass.size());
   RONDO_DEMAND(tributary.size() == c.candidates, tributary.size(), c.candidates);
-  demand_room(directory, bytes(layout));
+  demand_room(directory / "results.h5", bytes(layout));
   file = h5::File::create(directory / "results.h5", index_bytes(c));
   file.set_attribute("/", "format", "rondo results 1");
   write_mesh(file, *layout.mesh, layout.mass);

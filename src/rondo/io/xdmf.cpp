@@ -55,14 +55,19 @@ void Xdmf::append_topology() {
                  t.type, t.n_cells, fmt::join(t.shape, " "), series_.data_file, t.dataset);
 }
 
+void Xdmf::append_reference_geometry() {
+  fmt::format_to(std::back_inserter(text_),
+                 "<Geometry GeometryType=\"XY\"><DataItem Format=\"HDF\" NumberType=\"Float\" "
+                 "Precision=\"8\" Dimensions=\"{} 2\">{}:{}</DataItem></Geometry>\n",
+                 series_.n_nodes, series_.data_file, series_.reference);
+}
+
 /// ParaView crashes on a collection of nothing. The first grid, which is longer, replaces this one.
 void Xdmf::append_reference_grid() {
   text_ += "<Grid Name=\"reference\" GridType=\"Uniform\"><Time Value=\"0\"/>\n";
   append_topology();
-  fmt::format_to(std::back_inserter(text_),
-                 "<Geometry GeometryType=\"XY\"><DataItem Format=\"HDF\" NumberType=\"Float\" "
-                 "Precision=\"8\" Dimensions=\"{} 2\">{}:{}</DataItem></Geometry>\n</Grid>\n",
-                 series_.n_nodes, series_.data_file, series_.reference);
+  append_reference_geometry();
+  text_ += "</Grid>\n";
 }
 
 /// Row `row` of a dataset (t, n) or (t, n, width), said twice, as ParaView's two families of
@@ -94,9 +99,13 @@ void Xdmf::append_grid(std::size_t row) {
   fmt::format_to(std::back_inserter(text_),
                  "<Grid Name=\"{}\" GridType=\"Uniform\"><Time Value=\"{}\"/>\n", row, times_[row]);
   append_topology();
-  text_ += "<Geometry GeometryType=\"XYZ\">";
-  append_array(row, {"position", "Vector", series_.position, 3, 0, 3});
-  text_ += "</Geometry>\n";
+  if (series_.position.empty()) {
+    append_reference_geometry();
+  } else {
+    text_ += "<Geometry GeometryType=\"XYZ\">";
+    append_array(row, {"position", "Vector", series_.position, 3, 0, 3});
+    text_ += "</Geometry>\n";
+  }
   for (const XdmfField& field : series_.fields) {
     fmt::format_to(std::back_inserter(text_),
                    "<Attribute Name=\"{}\" AttributeType=\"{}\" Center=\"Node\">", field.name,

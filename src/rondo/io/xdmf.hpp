@@ -31,7 +31,7 @@ struct XdmfSeries {
   std::string data_file;  ///< name of the HDF5 file, in the same directory
   XdmfTopology topology;
   std::string reference;  ///< dataset (n, 2) of float64, shown as long as there is no grid  [m]
-  std::string position;   ///< dataset (t, n, 3) of float32                                  [m]
+  std::string position;   ///< dataset (t, n, 3) of float32; empty: `reference` in all grids [m]
   std::size_t n_nodes = 0;
   std::size_t n_times = 0;  ///< t
   std::vector<XdmfField> fields;
@@ -55,6 +55,7 @@ class Xdmf {
  private:
   void append_grid(std::size_t row);
   void append_topology();
+  void append_reference_geometry();
   void append_reference_grid();
   void append_array(std::size_t row, const XdmfField& field);
   void put(std::size_t end);

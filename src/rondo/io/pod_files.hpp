@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: BSD-3-Clause
+/// @file  Files of a POD: pod.h5, spectrum.csv, modes.xdmf, reconstruction.xdmf (docs/results.md).
+///
+/// All are written into a folder of their own beside the old ones, which commit() replaces one by
+/// one by complete files: a program killed before leaves the old POD as it was.
+#pragma once
+#include <Eigen/Core>
+#include <filesystem>
+#include <memory>
+#include <span>
+#include <string>
+
+#include "rondo/core/vec2.hpp"
+#include "rondo/mesh/mesh.hpp"
+#include "rondo/reduction/decompose.hpp"
+#include "rondo/reduction/spectrum.hpp"
+
+namespace rondo::io {
+
+/// What a POD found; pointers and spans are only read by the constructor of PodWriter. Points are
+/// nodes, or the contact candidates; r modes, k singular values, t snapshots.
+struct PodContent {
+  const mesh::Mesh* mesh = nullptr;
+  std::span<const double> mass;  ///< (n) lumped mass of the nodes [kg/m]
+  bool contact = false;          ///< points are candidates, components normal and tangential
+  std::string quantity;          ///< "displacement"
+  std::string unit;              ///< of the quantity: "m"
+  std::string frame, shift;      ///< of the analysis
+  std::string weight;            ///< "mass" [kg/m], "delassus" [m/kg], "none" [1]
+  std::span<const double> point_weight;                     ///< (n_points)
+  const reduction::Decomposition* decomposition = nullptr;  ///< its `modes` are not read
+  const reduction::Spectrum* spectrum = nullptr;
+  const Eigen::MatrixXd* modes =
+      nullptr;                        ///< (2 n_points, r) Φ, unweighted; row 2 point + component
+  std::span<const double> time;       ///< (t) [s]
+  std::span<const double> angle;      ///< (t) of the turning frame [rad]
+  std::span<const int> run;           ///< (t) place in `runs`
+  std::span<const double> error;      ///< (t) of r modes, relative
+  std::span<const std::string> runs;  ///< directories
+};
+
+class PodWriter {
+ public:
+  /// Writes all but the reconstruction, of which `n_reconstructed` snapshots will follow (0: no
+  /// reconstruction.xdmf). @pre `directory` is there. @throws FileError
+  PodWriter(const std::filesystem::path& directory, const PodContent& content,
+            std::size_t n_reconstructed);
+  ~PodWriter();  ///< without commit(): nothing is left of what was written
+  PodWriter(PodWriter&&) noexcept;
+  PodWriter& operator=(PodWriter&&) noexcept;
+
+  /// The next snapshot, in the frame of the analysis. @param original, reconstructed (n_points)
+  /// @pre time rises. @throws FileError
+  void add(double time, std::span<const Vec2> original, std::span<const Vec2> reconstructed);
+  /// Replaces the files in the directory, removes a reconstruction.xdmf that is not of this POD
+  /// and, first of all, pod.json, which the caller writes last: where it is, the POD is complete.
+  /// @pre all snapshots added. @throws FileError
+  void commit();
+
+  /// Bytes that pod.h5 will take.
+  [[nodiscard]] static std::size_t bytes(const PodContent& content,
+                                         std::size_t n_reconstructed) noexcept;
+
+ private:
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace rondo::io
