@@ -33,8 +33,8 @@ struct DecomposePlan {
   Method method = Method::direct;  ///< chosen
   Index block = 0;         ///< rows (tsqr of more rows than columns) or columns read at once
   Index modes = 0;         ///< most that are kept: asked for, or what fits
-  std::size_t memory = 0;  ///< estimated, of the arrays [B]; above what is allowed: no
-                           ///<     method fits, this one would take the least
+  std::size_t memory = 0;  ///< estimated, of the arrays (the libraries take some 8 MB besides) [B];
+                           ///<     above what is allowed: no method fits, this one takes least
   double flops = 0.0;      ///< estimated
 };
 

@@ -17,8 +17,8 @@ struct Sizes {
 
   [[nodiscard]] double shorter() const { return std::min(rows, columns); }
   [[nodiscard]] double longer() const { return std::max(rows, columns); }
-  /// A triangle, its copy, its singular vectors and the work space of gesdd.
-  [[nodiscard]] double small_svd() const { return 10.0 * shorter() * shorter(); }
+  /// A triangle, its singular vectors on both sides, and three times as much of work for gesdd.
+  [[nodiscard]] double small_svd() const { return 6.0 * shorter() * shorter(); }
   [[nodiscard]] double svd_flops() const { return 22.0 * std::pow(shorter(), 3); }
   [[nodiscard]] double modes_at_least() const {
     return asked < 0.0 ? 1.0 : std::clamp(asked, 1.0, shorter());
@@ -34,7 +34,8 @@ DecomposePlan plan_direct(const Sizes& s) {
   const double modes = s.asked < 0.0 ? s.shorter() : s.modes_at_least();
   // A, and of the longer side the vectors that stand beside it: the modes, or all of V.
   const double vectors = s.rows >= s.columns ? s.rows * modes : s.columns * s.rows + s.rows * modes;
-  const double numbers = s.rows * s.columns + vectors + s.small_svd();
+  const double n = s.shorter();
+  const double numbers = s.rows * s.columns + std::max(s.small_svd(), 3.0 * n * n + vectors);
   const double flops =
       2.0 * s.longer() * s.shorter() * s.shorter() + s.svd_flops() + 4.0 * vectors * s.shorter();
   return make(Method::direct, s.columns, modes, numbers, flops);

@@ -23,7 +23,7 @@ int stride(const Matrix& m) {
   return std::max({1, length(m.outerStride()), length(m.rows())});
 }
 
-void product(CBLAS_TRANSPOSE left, const In& a, const In& b, Out c, double factor, double scale) {
+void product(CBLAS_TRANSPOSE left, const In& a, const In& b, Out& c, double factor, double scale) {
   const Index inner = left == CblasTrans ? a.rows() : a.cols();
   const Index rows = left == CblasTrans ? a.cols() : a.rows();
   RONDO_DEMAND(c.rows() == rows && c.cols() == b.cols() && b.rows() == inner, c.rows(), rows,
