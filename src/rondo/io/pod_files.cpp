@@ -143,10 +143,11 @@ struct PodWriter::Impl {
 
   fs::path directory, folder;  ///< folder: where the files are made
   Counts n;
-  std::vector<int> boundary;     ///< nodes of the points; empty: points are the nodes
-  std::vector<Vector> field;     ///< (n) reused
-  std::vector<Vec2> difference;  ///< (n_points) reused
+  std::vector<int> boundary;  ///< nodes of the points; empty: points are the nodes
+  std::vector<Vector> field;  ///< (n) reused
+  std::vector<Vec2> points;   ///< (n_points) reused
   std::size_t added = 0;
+  double last = 0.0;  ///< time added [s]
   h5::File file;
   struct {
     h5::Dataset original, reconstructed, error;
@@ -159,7 +160,7 @@ PodWriter::Impl::Impl(const fs::path& where, const PodContent& c, std::size_t n_
       folder(where / fmt::format(".pod.{}.tmp", ::getpid())),
       n(counts_of(c, n_reconstructed)),
       field(n.nodes, Vector{}),
-      difference(n_reconstructed > 0 ? n.points : 0) {
+      points(n.points) {
   check(c, n);
   if (c.contact) boundary = c.mesh->boundary;
   demand_room(directory / "pod.h5", bytes(c, n_reconstructed));
@@ -206,17 +207,17 @@ void PodWriter::Impl::write_modes(const PodContent& c) {
   Xdmf modes(folder / "modes.xdmf", series(c, n.modes));
   if (n.modes == 0) return modes.close();
   const Units units = units_of(c);
-  const std::string points =
-      c.contact ? "node of /mesh/boundary: normal, tangential" : "node: x, y";
+  const std::string place = c.contact ? "node of /mesh/boundary: normal, tangential" : "node: x, y";
   file.write("/modes/spatial", {n.modes, n.points, 2},
              std::span<const double>(c.modes->data(), size(c.modes->size())),
-             {units.modes, "spatial modes Φ at each " + points});
+             {units.modes, "spatial modes Φ at each " + place});
   h5::Dataset dataset = file.create("/fields/modes", Type::float32, {n.modes, n.nodes, 3},
                                     {units.modes, "/modes/spatial for ParaView, at all nodes"});
   for (std::size_t i = 0; i < n.modes; ++i) {
-    // Pairs of numbers, as Vec2 has them.
-    const auto* column = reinterpret_cast<const Vec2*>(c.modes->col(static_cast<Index>(i)).data());
-    put(dataset, i, {column, n.points});
+    const auto column = c.modes->col(static_cast<Index>(i));
+    for (std::size_t k = 0; k < n.points; ++k)
+      points[k] = {column[static_cast<Index>(2 * k)], column[static_cast<Index>(2 * k + 1)]};
+    put(dataset, i, points);
     modes.add(static_cast<double>(i + 1));
   }
   modes.close();
@@ -309,14 +310,16 @@ PodWriter& PodWriter::operator=(PodWriter&&) noexcept = default;
 void PodWriter::add(double time, std::span<const Vec2> original,
                     std::span<const Vec2> reconstructed) {
   Impl& m = *impl_;
+  RONDO_DEMAND(m.added == 0 || time > m.last, time, m.last);  // as ParaView wants them
   RONDO_DEMAND(m.added < m.n.reconstructed && original.size() == m.n.points &&
                    reconstructed.size() == m.n.points,
                m.added, original.size(), reconstructed.size(), m.n.points);
-  for (std::size_t i = 0; i < m.n.points; ++i) m.difference[i] = original[i] - reconstructed[i];
+  for (std::size_t i = 0; i < m.n.points; ++i) m.points[i] = original[i] - reconstructed[i];
   m.put(m.d.original, m.added, original);
   m.put(m.d.reconstructed, m.added, reconstructed);
-  m.put(m.d.error, m.added, m.difference);
+  m.put(m.d.error, m.added, m.points);
   ++m.added;
+  m.last = time;
   m.xdmf->add(time);
 }
 
