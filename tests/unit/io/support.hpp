@@ -92,6 +92,28 @@ std::string error_of(Body&& body) {
   return {};
 }
 
+/// XML: Every element is closed, in the right order, and nothing follows the last.
+inline bool is_well_formed(const std::string& text) {
+  std::vector<std::string> open;
+  std::size_t at = text.find("?>");
+  while ((at = text.find('<', at)) != std::string::npos) {
+    const std::size_t end = text.find('>', at);
+    if (end == std::string::npos) return false;
+    const std::string tag = text.substr(at + 1, end - at - 1);
+    at = end;
+    if (tag.ends_with('/')) continue;
+    const std::string name = tag.substr(0, tag.find(' '));
+    if (!name.starts_with('/')) {
+      open.push_back(name);
+    } else if (open.empty() || name.substr(1) != open.back()) {
+      return false;
+    } else {
+      open.pop_back();
+    }
+  }
+  return open.empty() && text.ends_with("</Xdmf>\n");
+}
+
 /// A small disk with values that depend on the snapshot and the node in a way easy to check.
 class SmallRun {
  public:

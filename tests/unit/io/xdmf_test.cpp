@@ -20,28 +20,6 @@ XdmfSeries series() {
   return s;
 }
 
-/// Every element is closed, in the right order, and nothing follows the last.
-bool is_well_formed(const std::string& text) {
-  std::vector<std::string> open;
-  std::size_t at = text.find("?>");
-  while ((at = text.find('<', at)) != std::string::npos) {
-    const std::size_t end = text.find('>', at);
-    if (end == std::string::npos) return false;
-    const std::string tag = text.substr(at + 1, end - at - 1);
-    at = end;
-    if (tag.ends_with('/')) continue;
-    const std::string name = tag.substr(0, tag.find(' '));
-    if (!name.starts_with('/')) {
-      open.push_back(name);
-    } else if (open.empty() || name.substr(1) != open.back()) {
-      return false;
-    } else {
-      open.pop_back();
-    }
-  }
-  return open.empty() && text.ends_with("</Xdmf>\n");
-}
-
 TEST(Xdmf, IsValidAfterEveryGrid) {
   const Folder folder;
   Xdmf xdmf(folder / "fields.xdmf", series());
@@ -82,6 +60,22 @@ TEST(Xdmf, ClosedEarlyNamesTheShorterDatasets) {
   EXPECT_TRUE(is_well_formed(text));
   EXPECT_NE(text.find("Dimensions=\"2 11 3\""), std::string::npos);
   EXPECT_EQ(text.find("Dimensions=\"5 11 3\""), std::string::npos);
+}
+
+TEST(Xdmf, WithoutPositionsEachGridShowsTheReference) {
+  const Folder folder;
+  XdmfSeries fixed = series();
+  fixed.position.clear();
+  Xdmf xdmf(folder / "fields.xdmf", fixed);
+  for (const double time : {1.0, 2.0}) xdmf.add(time);
+  const std::string text = text_of(folder / "fields.xdmf");
+  EXPECT_TRUE(is_well_formed(text));
+  const std::string reference = "Dimensions=\"11 2\">results.h5:/mesh/coordinates<";
+  const auto first = text.find(reference);
+  ASSERT_NE(first, std::string::npos);
+  EXPECT_NE(text.find(reference, first + 1), std::string::npos);
+  EXPECT_EQ(text.find("GeometryType=\"XYZ\""), std::string::npos);
+  EXPECT_NE(text.find("results.h5:/fields/speed|1 0:"), std::string::npos);
 }
 
 TEST(Xdmf, ErrorsNameTheFileAndTheReason) {
