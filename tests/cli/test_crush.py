@@ -210,6 +210,24 @@ class Crush(ProgramTest):
         with h5py.File(self.out / "results.h5") as f:
             self.assertEqual(len(f["/frame/time"]), s["snapshots"])
 
+    def test_an_increment_that_is_not_solved_is_exit_3(self):
+        # With so much friction on lands that lean, the sweeps find no equilibrium at some depth.
+        case = ROOT / "cases" / "crush-treaded.toml"
+        done = run("run", case, "-o", self.out, "--set", "ground.friction=5.0")
+        self.assertEqual(done.returncode, 3, done.stderr)
+        self.assertRegex(done.stderr, r"increment \d+ of 40, depth \S+ m: contact residual \S+, "
+                         r"bound 1e-10, after 5000 sweeps")
+        s = summary(self.out)
+        self.assertEqual(s["status"], "failed")
+        self.assertIn("contact residual", s["message"])
+        self.assertGreater(s["contact_residual_max"], 1e-10)
+        done = s["increments_done"]
+        self.assertGreater(done, 0)
+        self.assertEqual(s["snapshots"], done)  # what was solved is kept, what was not is left out
+        h = history(self.out)
+        self.assertEqual(len(h["time_s"]), done + 1)
+        self.assertLess(h["contact_residual"].max(), 1e-10)
+
     def test_stiffness_out_of_range(self):
         done = run("run", self.case(CRUSH), "-o", self.out, "--set", "material.youngs_modulus=1e308")
         self.assertEqual(done.returncode, 2, done.stderr)
