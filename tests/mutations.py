@@ -24,9 +24,11 @@ PROGRAMS = {"V": "verification/verification", "W": "verification/verification_sl
 PROGRAMS |= {m: f"unit/unit_{m}" for m in ("core", "mesh", "fem", "contact", "dynamics", "statics",
                                            "reduction", "io", "study")}
 
+SCRIPTS = {"cli": "test_run.py", "crush": "test_crush.py"}
+
 # @file in src/rondo, then of each mutation in it: name | old text => new text | tests.
 # \n is a new line; a line that begins with spaces continues the one above. The tests are
-# program:filter, with the letters of PROGRAMS and gtest's filters, or cli:pattern (unittest's -k).
+# program:filter, with the letters of PROGRAMS and gtest's filters, or cli:pattern and crush:pattern (unittest's -k).
 TABLE = r"""
 @dynamics/ledger.cpp
 V1 frame work without -s² | {-f.spin * f.spin, f => {0.0, f | V:*Ledgers.*/plain V:SpinUp.Damped*
@@ -105,6 +107,24 @@ touching before the ground | if (p.gap > 0.0) => if (p.gap > 0.01) | contact:Gro
 V9 load without mass | m.array(); => m.mean(); | V:*Mesh.Displacement* V:*Mesh.NodalStress*
 V9 no softening | m, free, spin * spin) => m, free, 0.0) | V:*Mesh.Displacement* statics:*Beyond*
 eigenvalues_above: sign | (i, i) -= shift => (i, i) += shift | statics:*Beyond*
+@statics/condensed_contact.cpp
+crush sense of friction | stick.y > 0.0 ? friction => stick.y < 0.0 ? friction | statics:SolveBlock.* statics:Crush.O*
+crush slip without the mixed term | p.normal + edge * p.mixed => p.normal | statics:SolveBlock.*
+crush direct solve without friction | if (edge(column) != 0.0) a.col => if (false) a.col |
+  statics:Crush.ClosesIts*
+@statics/condensation.cpp
+crush sign of the tangent | c == 0 ? 1.0 : -1.0 => 1.0 | statics:Condensation.* statics:Crush.O*
+crush old rows of an appended set | topRightCorner(old, size - old).transpose() =>
+  topRightCorner(old, size - old).transpose() * 1.001 | statics:Condensation.* statics:Crush.ASet*
+@statics/crush.cpp
+V14 depth | = model.clearance[set[j]] - depth => = 1.1 * model.clearance[set[j]] - depth |
+  statics:Crush.O* V:Hertz.*
+crush slip since first touch | -displaced(model, set[j], state.u).y => 0.0 | statics:Crush.ClosesIts*
+crush set never grows | if (!report.converged || outside.empty()) break; => break; |
+  statics:Crush.ASet*
+crush friction by the last force | (-mean.y * after.slip => (-after.force[k].y * after.slip |
+  statics:Crush.ClosesIts*
+crush blind balance | w.residual = w.strain - w.contact => w.residual = 0.0 | statics:Crush.Balance*
 @fem/elasticity.cpp
 V9 d12 of plane strain | factor * nu, => factor * nu * nu, | V:*ClosedForm.* fem:Hooke.*
 @fem/element.cpp
@@ -163,6 +183,10 @@ unknown keys let through |
   add(value.key_place, path, found, unknown => static_cast<void>(unknown | study:*WrongCase.*
 @study/observers.cpp
 history of the last step | impulse_ += report.i => impulse_ = report.i | cli:*history_is*
+@study/crush_observers.cpp
+crush rate without its increments | static_cast<double>(increments_) * (state => 1.0 * (state |
+  crush:*snapshots_and*
+crush force of the body on the ground | normal{0.0, 1.0} => normal{0.0, -1.0} | crush:*history*
 """
 
 
@@ -200,8 +224,8 @@ def make(build, tests):
 def failures(tree, build, program, pattern):
     """Names of the tests that fail, sorted."""
     command = [build / "tests" / PROGRAMS.get(program, ""), f"--gtest_filter={pattern}"]
-    if program == "cli":
-        command = ["/usr/bin/python3", tree / "tests/cli/test_run.py", "-k", pattern]
+    if program in SCRIPTS:
+        command = ["/usr/bin/python3", tree / "tests/cli" / SCRIPTS[program], "-k", pattern]
     try:
         code, said = run(command, timeout=TIMEOUT,
                          env={**os.environ, "RONDO": str(build / "rondo")})
