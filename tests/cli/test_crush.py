@@ -228,6 +228,13 @@ class Crush(ProgramTest):
         self.assertEqual(len(h["time_s"]), done + 1)
         self.assertLess(h["contact_residual"].max(), 1e-10)
 
+    def test_forces_out_of_range(self):
+        done = run("run", self.case(CRUSH), "-o", self.out, "--set", "material.youngs_modulus=1e200")
+        self.assertEqual(done.returncode, 3, done.stderr)
+        self.assertIn("increment 1 of 8", done.stderr)
+        self.assertIn("out of the range", done.stderr)
+        self.assertIsNone(summary(self.out)["contact_residual_max"])
+
     def test_stiffness_out_of_range(self):
         done = run("run", self.case(CRUSH), "-o", self.out, "--set", "material.youngs_modulus=1e308")
         self.assertEqual(done.returncode, 2, done.stderr)

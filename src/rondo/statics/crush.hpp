@@ -22,7 +22,8 @@ struct CrushModel {
   double bound = 1e-10;  ///< of the final residual, computed from the whole field          [-]
 };
 
-/// @pre candidates, heights X_y of theirs from `reference` (n)                             [m]
+/// Clearances over ground that touches the lowest candidate.
+/// @param reference (n) [m], nodes (nb) candidates, not empty
 CrushModel make_crush_model(std::span<const Vec2> reference, std::span<const int> nodes,
                             double friction);
 

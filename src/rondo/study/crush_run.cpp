@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <cmath>
 
 #include "rondo/core/error.hpp"
 #include "rondo/io/files.hpp"
@@ -35,8 +36,8 @@ struct Loop {
   statics::CrushState state;
 
   void add(const statics::CrushReport& r) {
-    residual = std::max(residual, r.residual);
-    equilibrium = std::max(equilibrium, r.equilibrium);
+    if (!(r.residual <= residual)) residual = r.residual;  // NaN comes through
+    if (!(r.equilibrium <= equilibrium)) equilibrium = r.equilibrium;
     penetration = std::max(penetration, r.penetration);
     sweeps = std::max(sweeps, r.sweeps);
   }
@@ -45,6 +46,8 @@ struct Loop {
 /// What is wrong after an increment; empty while all is well.
 std::string find_trouble(const CrushSetup& setup, const statics::CrushReport& report,
                          const statics::CrushState& state) {
+  if (!std::isfinite(report.residual) || !std::isfinite(report.equilibrium))
+    return "the forces or displacements are out of the range of the numbers";
   if (!report.converged)
     return fmt::format(
         "contact residual {:.3g}, bound {:.0e}, after {} sweeps; more increments "
