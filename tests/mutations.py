@@ -176,12 +176,25 @@ traction not over length | / tributary[k]; => ; | io:Results.ContactForce*
 @reduction/decompose.cpp
 7.2 round-off gives modes | (d.sigma.array() > least) => (d.sigma.array() >= 0.0 * least) |
   reduction:Tsqr.MakesNo* reduction:EveryMethod.Degenerate*
+@io/run_reader.cpp
+snapshots not written are read | times_.time.resize(n);\n => | io:RunReader.KilledRun*
+masses not compared | if (const auto i = first_difference(run_a.mass(), run_b.mass()); i < n) =>
+  if (const auto i = n; i < n) | io:MeshDifference.*
+@io/h5.cpp
+a part reads its whole row | name.c_str(), access.get())); => name.c_str(), H5P_DEFAULT)); |
+  io:RunReader.APart*
+@io/pod_files.cpp
+coefficients without Σ | (times_sigma ? c. => (false ? c. | io:PodFiles.WhatWas*
+POD written in place | folder(where / fmt::format(".pod.{}.tmp", ::getpid())), => folder(where), |
+  io:PodFiles.Replace*
 @study/toml_text.cpp
 case writer drops a digit | ("{}", value) => ("{:.16g}", value) | study:WriteCase.Numbers*
 @study/case_values.cpp
 unknown keys let through |
   add(value.key_place, path, found, unknown => static_cast<void>(unknown | study:*WrongCase.*
 @study/observers.cpp
+angle of the velocity at the snapshot | motion.angle(s.time_velocity) => motion.angle(s.time) |
+  cli:*test_snapshots*
 history of the last step | impulse_ += report.i => impulse_ = report.i | cli:*history_is*
 @study/crush_observers.cpp
 crush rate without its increments | static_cast<double>(increments_) * (state => 1.0 * (state |
