@@ -184,7 +184,7 @@ masses not compared | if (const auto i = first_difference(run_a.mass(), run_b.ma
 a part reads its whole row | name.c_str(), access.get())); => name.c_str(), H5P_DEFAULT)); |
   io:RunReader.APart*
 @io/pod_files.cpp
-coefficients without Σ | (times_sigma ? c. => (false ? c. | io:PodFiles.WhatWas*
+coefficients without Σ | c.decomposition->sigma[at] : 1.0 => 1.0 : 1.0 | io:PodFiles.WhatWas*
 POD written in place | folder(where / fmt::format(".pod.{}.tmp", ::getpid())), => folder(where), |
   io:PodFiles.Replace*
 @study/toml_text.cpp

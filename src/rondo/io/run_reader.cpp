@@ -53,7 +53,7 @@ h5::File open_results(const fs::path& path) {
 }
 
 std::string text_in(const nlohmann::json& json, const char* key) {
-  if (!json.is_object() || !json.contains(key) || !json[key].is_string()) return "unknown";
+  if (!json.contains(key) || !json[key].is_string()) return "unknown";
   return json[key].get<std::string>();
 }
 
