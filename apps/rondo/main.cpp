@@ -8,6 +8,7 @@
 
 #include "commands.hpp"
 #include "exit_codes.hpp"
+#include "pod_command.hpp"
 #include "rondo/core/error.hpp"
 #include "rondo/study/version.hpp"
 
@@ -47,6 +48,46 @@ CLI::App* add_check(CLI::App& program, app::CommonArguments& arguments) {
   return check;
 }
 
+struct PodArguments {
+  study::PodRequest request;
+  bool quiet = false;
+};
+
+CLI::App* add_pod(CLI::App& program, PodArguments& arguments) {
+  CLI::App* pod =
+      program.add_subcommand("pod", "proper orthogonal decomposition of the snapshots of runs");
+  study::PodRequest& r = arguments.request;
+  pod->add_option("run", r.runs, "results directories; several: one common basis")->required();
+  pod->add_option("--field", r.field, "displacement | velocity | contact")->capture_default_str();
+  pod->add_option("--frame", r.frame, "rotating | rectified")->capture_default_str();
+  pod->add_option("--from", r.from, "time of the first snapshot taken [s]");
+  pod->add_option("--to", r.to, "time of the last snapshot taken [s]");
+  pod->add_option("--modes", r.modes,
+                  "modes kept; as many as leave 1e-6 of the energy if left out");
+  pod->add_option("--weight", r.weight,
+                  "mass | delassus | none; mass if left out, delassus for contact");
+  pod->add_option("--shift", r.shift,
+                  "fourier | pitch: rectified by the angle itself or by whole sectors")
+      ->capture_default_str();
+  pod->add_option("--memory", r.memory,
+                  "memory allowed, e.g. 500MB; beyond it snapshots are streamed")
+      ->transform(CLI::AsSizeValue(true))
+      ->default_str("2GB");
+  pod->add_option("--method", r.method, "auto | direct | tsqr | incremental")
+      ->capture_default_str();
+  pod->add_option("--reconstruct", r.reconstruct,
+                  "snapshots rebuilt from the modes, for ParaView; 0: none")
+      ->check(CLI::NonNegativeNumber)
+      ->capture_default_str();
+  pod->add_option("-o,--output", r.directory,
+                  "the results go to OUTPUT/<field>-<frame>; RUN/pod if left out");
+  pod->add_flag("--quiet", arguments.quiet, "prints warnings and the figures only");
+  pod->footer(
+      "Example:\n  rondo pod results/ledge --field velocity --frame rectified --from 0.07\n"
+      "Modes, spectrum and figures: docs/results.md.");
+  return pod;
+}
+
 int report_input_error(const InputError& error) {
   for (const Fault& fault : error.faults()) spdlog::error("{}", fault.text());
   if (error.faults().size() > 1) spdlog::error("{} faults; nothing was run", error.faults().size());
@@ -58,6 +99,8 @@ int dispatch_command(CLI::App& program, int argc, char** argv) {
   app::CommonArguments check_arguments;
   const CLI::App* run = add_run(program, run_arguments);
   const CLI::App* check = add_check(program, check_arguments);
+  PodArguments pod_arguments;
+  const CLI::App* pod = add_pod(program, pod_arguments);
   try {
     program.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
@@ -65,6 +108,7 @@ int dispatch_command(CLI::App& program, int argc, char** argv) {
   }
   if (run->parsed()) return app::run(run_arguments);
   if (check->parsed()) return app::check(check_arguments);
+  if (pod->parsed()) return app::pod(pod_arguments.request, pod_arguments.quiet);
   return app::exit_input;
 }
 

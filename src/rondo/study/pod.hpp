@@ -1,0 +1,71 @@
+// SPDX-License-Identifier: BSD-3-Clause
+/// @file  POD of the snapshots of one or several runs, from results directories to a directory of
+/// modes and spectra (docs/theory.md, section 7; docs/results.md).
+#pragma once
+#include <cstddef>
+#include <filesystem>
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace rondo::study {
+
+/// What the user asks for, in the command line's words.
+struct PodRequest {
+  std::vector<std::filesystem::path> runs;  ///< results directories; several: one common basis
+  std::string field = "displacement";       ///< "displacement" | "velocity" | "contact"
+  std::string frame = "rotating";           ///< "rotating" | "rectified"
+  std::string weight;                  ///< "mass" | "delassus" | "none"; empty: the field's own
+  std::string shift = "fourier";       ///< "fourier" | "pitch": rectified frame only
+  std::string method = "auto";         ///< "auto" | "direct" | "tsqr" | "incremental"
+  std::optional<double> from, to;      ///< window of the field's times, both ends included  [s]
+  std::optional<long long> modes;      ///< kept; none: as many as leave 1e-6 of the energy
+  std::size_t memory = 2'000'000'000;  ///< allowed to the decomposition                      [B]
+  int reconstruct = 20;                ///< snapshots rebuilt from the modes for ParaView
+  std::filesystem::path directory;     ///< of the results; empty: RUN/pod
+  std::function<void(const std::string&)> warn, say;   ///< may be empty
+  std::function<void(long long, long long)> progress;  ///< done, of all; may be empty
+};
+
+/// Modes that leave at most a share of the energy; -1: more than were found.
+struct PodCount {
+  double discarded = 0.0;
+  long long modes = -1;
+};
+
+/// How well the common basis serves one run: ‖S - ΦΦᵀMS‖ / ‖S‖ over its snapshots.
+struct PodRun {
+  std::filesystem::path directory;
+  std::string title, status;
+  std::size_t snapshots = 0;
+  double from = 0.0, to = 0.0;  ///< times of the first and last snapshot taken               [s]
+  double energy_share = 0.0;    ///< of all runs'
+  double error = 0.0;           ///< with all modes kept
+  std::vector<double> count_errors;  ///< with the modes of each PodReport::counts
+};
+
+struct PodReport {
+  std::filesystem::path directory;  ///< where the files are
+  std::string method, unit, weight;
+  std::size_t rows = 0, snapshots = 0;
+  double energy = 0.0;  ///< Σσ², with what was truncated
+  double sigma_1 = 0.0;
+  double sigma_bound = 0.0;       ///< of the error of the singular values, over the first
+  long long rank = 0, modes = 0;  ///< modes: kept
+  std::vector<PodCount> counts;
+  double worst_error = 0.0;  ///< largest error of a snapshot over its own norm, with the modes kept
+  double worst_time = 0.0;   ///< [s]
+  std::filesystem::path worst_run;
+  double residual = 0.0, tail = 0.0, difference = 0.0;  ///< error identity, shares of the energy
+  double orthonormality = 0.0;                          ///< max |ΦᵀMΦ - I|
+  std::vector<PodRun> runs;
+  std::size_t memory_estimate = 0, peak_memory = 0;  ///< [B]
+  double wall_s = 0.0;
+};
+
+/// @throws InputError: a word that is not known, no such field, empty window, runs of different
+/// meshes, rectified frame without sectors; FileError: damaged files, cannot write.
+[[nodiscard]] PodReport run_pod(const PodRequest& request);
+
+}  // namespace rondo::study

@@ -1,0 +1,184 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "rondo/study/pod_input.hpp"
+
+#include <fmt/format.h>
+
+#include <array>
+#include <limits>
+
+namespace rondo::study {
+namespace {
+
+template <class Value>
+struct Word {
+  const char* text;
+  Value value;
+};
+
+/// What a word of the command line stands for; a fault that lists the words otherwise.
+template <class Value, std::size_t N>
+Value value_of(const char* option, const std::string& word,
+               const std::array<Word<Value>, N>& words) {
+  Fault fault;
+  fault.key = option;
+  fault.found = word;
+  fault.message = "no such choice";
+  for (const auto& [text, value] : words) {
+    if (word == text) return value;
+    fault.allowed += fmt::format("{}{}", fault.allowed.empty() ? "" : " | ", text);
+  }
+  throw InputError(fault);
+}
+
+constexpr std::array quantities{Word<io::Quantity>{"displacement", io::Quantity::displacement},
+                                Word<io::Quantity>{"velocity", io::Quantity::velocity},
+                                Word<io::Quantity>{"contact", io::Quantity::contact}};
+constexpr std::array weights{Word<Weight>{"mass", Weight::mass},
+                             Word<Weight>{"delassus", Weight::delassus},
+                             Word<Weight>{"none", Weight::none}};
+constexpr std::array shifts{Word<reduction::Shift>{"fourier", reduction::Shift::fourier},
+                            Word<reduction::Shift>{"pitch", reduction::Shift::pitch}};
+constexpr std::array frames{Word<bool>{"rotating", false}, Word<bool>{"rectified", true}};
+constexpr std::array methods{
+    Word<reduction::Method>{"auto", reduction::Method::automatic},
+    Word<reduction::Method>{"direct", reduction::Method::direct},
+    Word<reduction::Method>{"tsqr", reduction::Method::tsqr},
+    Word<reduction::Method>{"incremental", reduction::Method::incremental}};
+
+template <class Value, std::size_t N>
+const char* word_of(Value value, const std::array<Word<Value>, N>& words) {
+  for (const auto& word : words)
+    if (word.value == value) return word.text;
+  return "";
+}
+
+InputError request_error(const std::string& option, const std::string& found,
+                         const std::string& message, const std::string& allowed) {
+  Fault fault;
+  fault.key = option;
+  fault.found = found;
+  fault.message = message;
+  fault.allowed = allowed;
+  return InputError(fault);
+}
+
+void say_if_unfinished(const PodRequest& request, const io::RunReader& run) {
+  if (!request.warn || run.status() == "done") return;
+  request.warn(
+      fmt::format("{}: the run is not finished (status {}); its {} complete snapshots of {} "
+                  "planned are used",
+                  run.directory().string(), run.status(), run.n_snapshots(), run.n_planned()));
+}
+
+}  // namespace
+
+SnapshotChoice choice_of(const PodRequest& r) {
+  SnapshotChoice choice;
+  choice.quantity = value_of("--field", r.field, quantities);
+  const bool contact = choice.quantity == io::Quantity::contact;
+  choice.weight = r.weight.empty() ? (contact ? Weight::delassus : Weight::mass)
+                                   : value_of("--weight", r.weight, weights);
+  if (choice.weight == (contact ? Weight::mass : Weight::delassus))
+    throw request_error("--weight", r.weight,
+                        fmt::format("does not weigh a field of {}", contact ? "forces" : r.field),
+                        contact ? "delassus | none" : "mass | none");
+  if (value_of("--frame", r.frame, frames)) choice.rectified = value_of("--shift", r.shift, shifts);
+  if (r.modes && *r.modes < 1)
+    throw request_error("--modes", fmt::to_string(*r.modes), "no modes to keep", "1 or more");
+  return choice;
+}
+
+reduction::Method method_of(const PodRequest& request) {
+  return value_of("--method", request.method, methods);
+}
+
+const char* name_of(reduction::Method method) noexcept {
+  return word_of(method, methods);
+}
+
+const char* name_of(Weight weight) noexcept {
+  return word_of(weight, weights);
+}
+
+const char* unit_of(io::Quantity quantity) noexcept {
+  switch (quantity) {
+    case io::Quantity::displacement:
+      return "m";
+    case io::Quantity::velocity:
+      return "m/s";
+    case io::Quantity::contact:
+      return "N/m";
+  }
+  return "";
+}
+
+std::vector<io::RunReader> open_runs(const PodRequest& request, const SnapshotChoice& choice) {
+  std::vector<io::RunReader> runs;
+  runs.reserve(request.runs.size());
+  for (const auto& directory : request.runs) {
+    const io::RunReader& run = runs.emplace_back(directory);
+    const std::string name = directory.string();
+    if (run.n_snapshots() == 0)
+      throw request_error(
+          "RUN", name, fmt::format("the run holds no complete snapshot (status {})", run.status()),
+          "a run with output.snapshots > 0 that got that far");
+    if (!run.has(choice.quantity))
+      throw request_error("--field", request.field,
+                          fmt::format("{} holds no such field: the case has no [ground]", name),
+                          "displacement | velocity");
+    if (choice.rectified && run.mesh().n_sectors == 0)
+      throw request_error(
+          "--frame", request.frame,
+          fmt::format("the mesh of {} has no equal sectors to move a field round", name),
+          "--frame rotating");
+    if (choice.rectified && choice.quantity == io::Quantity::velocity &&
+        run.times().angle_velocity.empty())
+      throw request_error("--frame", request.frame,
+                          fmt::format("{} was written by an older version without the angles at "
+                                      "the velocity's times",
+                                      name),
+                          "run the case again, or --frame rotating");
+    const std::string difference = io::mesh_difference(runs.front(), run);
+    if (!difference.empty())
+      throw request_error(
+          "RUN", name,
+          fmt::format("not the mesh of {}: {}", request.runs.front().string(), difference),
+          "runs of one mesh and density together");
+    say_if_unfinished(request, run);
+  }
+  return runs;
+}
+
+/// The snapshots of all runs within the window, in the order of the runs.
+std::vector<Column> columns_of(const PodRequest& request, const SnapshotChoice& choice,
+                               const std::vector<io::RunReader>& runs) {
+  const bool velocity = choice.quantity == io::Quantity::velocity;
+  const double from = request.from.value_or(-std::numeric_limits<double>::infinity());
+  const double to = request.to.value_or(std::numeric_limits<double>::infinity());
+  std::vector<Column> columns;
+  for (std::size_t r = 0; r < runs.size(); ++r) {
+    const io::RunTimes& of = runs[r].times();
+    const std::vector<double>& times = velocity ? of.time_velocity : of.time;
+    const std::vector<double>& angles = velocity && choice.rectified ? of.angle_velocity : of.angle;
+    const std::size_t before = columns.size();
+    for (std::size_t j = 0; j < times.size(); ++j)
+      if (times[j] >= from && times[j] <= to) columns.push_back({r, j, times[j], angles[j]});
+    if (columns.size() == before)
+      throw request_error(
+          "--from, --to", fmt::format("{:.9g} to {:.9g} s", from, to),
+          fmt::format("no snapshot of {} is in this window", runs[r].directory().string()),
+          fmt::format("a window that meets [{:.9g}, {:.9g}] s, where its {} snapshots are",
+                      times.front(), times.back(), times.size()));
+  }
+  return columns;
+}
+
+std::filesystem::path directory_of(const PodRequest& request) {
+  if (request.directory.empty() && request.runs.size() > 1)
+    throw request_error("-o", "", "several runs have one basis, which belongs to none of them",
+                        "-o DIR");
+  const auto base = request.directory.empty() ? request.runs.front() / "pod" : request.directory;
+  return base / fmt::format("{}-{}", request.field, request.frame);
+}
+
+}  // namespace rondo::study

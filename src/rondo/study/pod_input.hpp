@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: BSD-3-Clause
+/// @file  What a POD was asked for, checked: the command line's words, the runs, the window.
+#pragma once
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "rondo/core/error.hpp"
+#include "rondo/reduction/decompose.hpp"
+#include "rondo/study/pod.hpp"
+#include "rondo/study/pod_snapshots.hpp"
+
+namespace rondo::study {
+
+/// @throws InputError: a word that is not known, a weight that does not fit the field.
+SnapshotChoice choice_of(const PodRequest& request);
+reduction::Method method_of(const PodRequest& request);
+
+/// Words of the command line.
+const char* name_of(reduction::Method method) noexcept;
+const char* name_of(Weight weight) noexcept;
+const char* unit_of(io::Quantity quantity) noexcept;
+
+/// Opens the runs and says which are unfinished. @throws InputError: no snapshots, no such field,
+/// no sectors, different meshes; FileError
+std::vector<io::RunReader> open_runs(const PodRequest& request, const SnapshotChoice& choice);
+
+/// The snapshots of all runs within the window, in the order of the runs. @throws InputError: none
+std::vector<Column> columns_of(const PodRequest& request, const SnapshotChoice& choice,
+                               const std::vector<io::RunReader>& runs);
+
+/// Where the results go. @throws InputError: several runs and no directory
+std::filesystem::path directory_of(const PodRequest& request);
+
+}  // namespace rondo::study

@@ -1,0 +1,139 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "rondo/study/pod_report.hpp"
+
+#include <fmt/format.h>
+
+#include <array>
+#include <cmath>
+
+#include "rondo/study/version.hpp"
+
+namespace rondo::study {
+namespace {
+
+using reduction::Index;
+
+constexpr std::array<double, 3> counted_shares{1e-2, 1e-4, 1e-6};
+
+void add_energies(PodReport& report, const reduction::Decomposition& d,
+                  const reduction::Spectrum& spectrum) {
+  report.energy = d.energy;
+  report.sigma_1 = d.sigma.size() > 0 ? d.sigma[0] : 0.0;
+  report.sigma_bound = report.sigma_1 > 0.0 ? d.sigma_bound / report.sigma_1 : 0.0;
+  report.rank = d.rank;
+  report.modes = d.modes.cols();
+  for (const double share : counted_shares)
+    report.counts.push_back({share, modes_for(spectrum, share)});
+}
+
+void add_identity(PodReport& report, const reduction::Identity& identity,
+                  const std::vector<Column>& columns) {
+  report.residual = identity.residual;
+  report.tail = identity.tail;
+  report.difference = identity.difference;
+  report.orthonormality = identity.orthonormality;
+  for (std::size_t j = 0; j < columns.size(); ++j) {
+    const double error = relative_error(identity.squared_error[j], identity.snapshot_energy[j]);
+    if (error <= report.worst_error && j > 0) continue;
+    report.worst_error = error;
+    report.worst_time = columns[j].time;
+    report.worst_run = report.runs[columns[j].run].directory;
+  }
+}
+
+/// Sums over the snapshots of each run.
+std::vector<double> by_run(const std::vector<double>& values, const std::vector<Column>& columns,
+                           std::size_t n_runs) {
+  std::vector<double> sums(n_runs, 0.0);
+  for (std::size_t j = 0; j < columns.size(); ++j) sums[columns[j].run] += values[j];
+  return sums;
+}
+
+void add_run_errors(PodReport& report, const reduction::Decomposition& d,
+                    const reduction::Identity& identity, const std::vector<Column>& columns) {
+  const std::size_t n = report.runs.size();
+  const std::vector<double> energy = by_run(identity.snapshot_energy, columns, n);
+  const std::vector<double> error = by_run(identity.squared_error, columns, n);
+  for (std::size_t r = 0; r < n; ++r) {
+    report.runs[r].energy_share = d.energy > 0.0 ? energy[r] / d.energy : 0.0;
+    report.runs[r].error = relative_error(error[r], energy[r]);
+  }
+  for (const PodCount& count : report.counts) {
+    const Index modes = count.modes < 0 ? d.sigma.size() : static_cast<Index>(count.modes);
+    const std::vector<double> of_count = by_run(squared_errors(d, modes), columns, n);
+    for (std::size_t r = 0; r < n; ++r)
+      report.runs[r].count_errors.push_back(relative_error(of_count[r], energy[r]));
+  }
+}
+
+}  // namespace
+
+std::vector<PodRun> describe_runs(const std::vector<io::RunReader>& runs,
+                                  const std::vector<Column>& columns) {
+  std::vector<PodRun> described;
+  for (const io::RunReader& run : runs)
+    described.push_back({run.directory(), run.title(), run.status(), 0, 0.0, 0.0, 0.0, 0.0, {}});
+  for (const Column& c : columns) {
+    PodRun& run = described[c.run];
+    if (run.snapshots++ == 0) run.from = c.time;
+    run.to = c.time;
+  }
+  return described;
+}
+
+void add_figures(PodReport& report, const PodResult& found) {
+  add_energies(report, found.d, found.spectrum);
+  add_identity(report, found.identity, found.columns);
+  add_run_errors(report, found.d, found.identity, found.columns);
+}
+
+double relative_error(double squared_error, double energy) noexcept {
+  return energy > 0.0 ? std::sqrt(squared_error / energy) : 0.0;
+}
+
+nlohmann::ordered_json as_json(const PodRequest& request, const PodReport& r) {
+  nlohmann::ordered_json j;
+  j["status"] = "done";
+  j["version"] = version;
+  j["field"] = request.field;
+  j["frame"] = request.frame;
+  if (request.frame == "rectified") j["shift"] = request.shift;
+  j["weight"] = r.weight;
+  j["unit"] = r.unit;
+  j["method"] = r.method;
+  j["rows"] = r.rows;
+  j["snapshots"] = r.snapshots;
+  j["energy"] = r.energy;
+  j["sigma_1"] = r.sigma_1;
+  j["sigma_bound_relative"] = r.sigma_bound;
+  j["rank"] = r.rank;
+  j["modes_kept"] = r.modes;
+  for (const PodCount& c : r.counts) {
+    auto& value = j["modes_for"][fmt::format("{:.0e}", c.discarded)];
+    if (c.modes >= 0) value = c.modes;
+  }
+  j["worst_snapshot"] = {
+      {"error", r.worst_error}, {"time", r.worst_time}, {"run", r.worst_run.string()}};
+  j["error_identity"] = {{"residual", r.residual}, {"tail", r.tail}, {"difference", r.difference}};
+  j["orthonormality"] = r.orthonormality;
+  for (const PodRun& run : r.runs) {
+    nlohmann::ordered_json errors;
+    for (std::size_t c = 0; c < r.counts.size(); ++c)
+      errors[fmt::format("{:.0e}", r.counts[c].discarded)] = run.count_errors[c];
+    j["runs"].push_back({{"directory", run.directory.string()},
+                         {"title", run.title},
+                         {"status", run.status},
+                         {"snapshots", run.snapshots},
+                         {"from", run.from},
+                         {"to", run.to},
+                         {"energy_share", run.energy_share},
+                         {"error", run.error},
+                         {"error_with_modes_for", errors}});
+  }
+  j["memory_estimate_bytes"] = r.memory_estimate;
+  j["peak_memory_bytes"] = r.peak_memory;
+  j["wall_s"] = r.wall_s;
+  return j;
+}
+
+}  // namespace rondo::study

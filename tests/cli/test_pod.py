@@ -1,0 +1,300 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""rondo pod on real runs: the figures against numpy's own, the files, and wrong input."""
+import csv
+import json
+import shutil
+import signal
+import subprocess
+import time
+import unittest
+
+import h5py
+import numpy as np
+
+from program import PROGRAM, SMALL, ProgramTest, replaced, run
+
+TREADED = replaced(SMALL, "circumferential", "[disk.tread]\npitches = 12\ndepth = 0.02\n"
+                   "land_columns = 2\ngroove_columns = 1\nlayers = 1")
+STILL = "\n".join(line for line in replaced(replaced(SMALL, "angular_velocity",
+                  "angular_velocity = 0.0"), "height", "height = 0.5").splitlines()
+                  if not line.startswith(("friction", "profile", "[ground]")))
+
+
+def rectified(values, h5, angles, rows):
+    """Fields (t, n, 2) moved to the fixed frame: real transforms over the sectors, by numpy."""
+    sector, ring = h5["/mesh/sector"][:][rows], h5["/mesh/sector_node"][:][rows]
+    n = sector.max() + 1
+    out = np.empty_like(values)
+    scalars = len(rows) != len(h5["/mesh/sector"])
+    for number in np.unique(ring):
+        at = np.flatnonzero(ring == number)
+        at = at[np.argsort(sector[at])]
+        phi = 2 * np.pi * np.arange(n) / n
+        c, s = (1.0, 0.0) if scalars else (np.cos(phi), np.sin(phi))
+        polar = np.stack([c * values[:, at, 0] + s * values[:, at, 1],
+                          -s * values[:, at, 0] + c * values[:, at, 1]])
+        k = np.arange(n // 2 + 1)
+        turn = np.exp(-1j * k[None, :] * angles[:, None])
+        if n % 2 == 0:
+            turn[:, -1] = 1.0
+        moved = np.fft.irfft(np.fft.rfft(polar, axis=2) * turn, n=n, axis=2)
+        out[:, at, 0] = c * moved[0] - s * moved[1]
+        out[:, at, 1] = s * moved[0] + c * moved[1]
+    return out
+
+
+def reference(directory, field, frame="rotating", weight=None):
+    """Weighted snapshots (rows, t) of a run, put together by numpy alone."""
+    with h5py.File(directory / "results.h5") as h5:
+        mass = h5["/mesh/mass"][:]
+        rows = np.arange(len(mass))
+        angle = h5["/frame/angle"][:]
+        if field == "contact":
+            rows = h5["/mesh/boundary"][:]
+            values, w = h5["/contact/force"][:], 1.0 / mass[rows]
+        else:
+            values, w = h5["/snapshots/" + field][:], mass
+            if field == "velocity":
+                angle = h5["/frame/angle_velocity"][:]
+        if frame == "rectified":
+            values = rectified(values, h5, angle, rows)
+    if weight == "none":
+        w = np.ones_like(w)
+    return (np.sqrt(w)[None, :, None] * values).reshape(len(values), -1).T
+
+
+def spectrum(directory):
+    with open(directory / "spectrum.csv", newline="") as file:
+        rows = list(csv.DictReader(file))
+    return {name: np.array([float(row[name]) for row in rows]) for name in rows[0]}
+
+
+def summary(directory):
+    return json.loads((directory / "pod.json").read_text())
+
+
+class Pod(ProgramTest):
+    def make(self, text=SMALL, name="out", *extra):
+        out = self.folder / name
+        done = run("run", self.case(text, name + ".toml"), "-o", out, "--quiet", *extra)
+        self.assertEqual(done.returncode, 0, done.stderr)
+        return out
+
+    def pod(self, *arguments):
+        done = run("pod", *arguments)
+        self.assertEqual(done.returncode, 0, done.stderr)
+        return done
+
+    def fails(self, code, *arguments):
+        done = run("pod", *arguments)
+        self.assertEqual(done.returncode, code, done.stderr + done.stdout)
+        self.assertEqual(done.stdout, "")
+        return done.stderr
+
+    def check_against_numpy(self, out, a, folder, tolerance=1e-12):
+        u, s, vt = np.linalg.svd(a, full_matrices=False)
+        got = spectrum(out / "pod" / folder)
+        self.assertEqual(len(got["singular_value"]), len(s))
+        # Both are right to some eps of the first value.
+        np.testing.assert_allclose(got["singular_value"], s, rtol=0, atol=tolerance * s[0])
+        np.testing.assert_allclose(got["energy"], s**2 / (s**2).sum(), rtol=0, atol=tolerance)
+        tail = np.append(np.cumsum((s**2)[::-1])[::-1][1:], 0.0) / (s**2).sum()
+        np.testing.assert_allclose(got["discarded_energy"], tail, rtol=0, atol=tolerance)
+        np.testing.assert_array_equal(got["mode"], np.arange(1, len(s) + 1))
+        return u, s, vt
+
+    def test_spectra_are_numpys(self):
+        for text, name in (SMALL, "smooth"), (TREADED, "treaded"):
+            out = self.make(text, name)
+            for field in "displacement", "velocity", "contact":
+                for frame in "rotating", "rectified":
+                    with self.subTest(body=name, field=field, frame=frame):
+                        self.pod(out, "--field", field, "--frame", frame)
+                        self.check_against_numpy(out, reference(out, field, frame),
+                                                 f"{field}-{frame}")
+
+    def test_files(self):
+        out = self.make()
+        done = self.pod(out, "--modes", 3)
+        self.assertIn("modes kept         3", done.stdout)
+        folder = out / "pod" / "displacement-rotating"
+        self.assertEqual(sorted(p.name for p in folder.iterdir()),
+                         ["modes.xdmf", "pod.h5", "pod.json", "reconstruction.xdmf", "spectrum.csv"])
+        a = reference(out, "displacement")
+        u, s, vt = np.linalg.svd(a, full_matrices=False)
+        with h5py.File(folder / "pod.h5") as h5:
+            for name in ("/modes/spatial", "/modes/temporal", "/modes/coefficients",
+                         "/spectrum/singular_value"):
+                self.assertTrue(h5[name].attrs["units"], name)
+                self.assertTrue(h5[name].attrs["description"], name)
+            phi = h5["/modes/spatial"][:].reshape(3, -1)
+            v = h5["/modes/temporal"][:]
+            mass = np.repeat(h5["/mesh/mass"][:], 2)
+            np.testing.assert_allclose(phi * mass @ phi.T, np.eye(3), atol=1e-13)
+            np.testing.assert_allclose(h5["/modes/coefficients"][:], v[:, :3] * s[:3],
+                                       atol=1e-13 * s[0])
+        for mode in range(3):
+            ours = np.sqrt(mass) * phi[mode]
+            self.assertAlmostEqual(abs(ours @ u[:, mode]), 1.0, delta=1e-9)  # eps over the gap
+        j = summary(folder)
+        self.assertEqual((j["status"], j["modes_kept"], j["snapshots"]), ("done", 3, 11))
+        self.assertLess(j["error_identity"]["difference"], 1e-14)
+        self.assertAlmostEqual(j["error_identity"]["tail"], (s[3:]**2).sum() / (s**2).sum(),
+                               delta=1e-14)
+        rest = np.linalg.norm(a - u[:, :3] @ (u[:, :3].T @ a), axis=0)
+        size = np.linalg.norm(a, axis=0)
+        worst = max(r / n for r, n in zip(rest, size) if n > 0)
+        self.assertAlmostEqual(j["worst_snapshot"]["error"], worst, delta=1e-9)
+
+    def test_window_and_counts(self):
+        out = self.make()
+        self.pod(out, "--from", 0.009, "--to", 0.0161)
+        a = reference(out, "displacement")
+        with h5py.File(out / "results.h5") as h5:
+            t = h5["/frame/time"][:]
+        inside = (t >= 0.009) & (t <= 0.0161)
+        folder = out / "pod" / "displacement-rotating"
+        s = np.linalg.svd(a[:, inside], compute_uv=False)
+        np.testing.assert_allclose(spectrum(folder)["singular_value"], s, rtol=0, atol=1e-12 * s[0])
+        tail = np.append(np.cumsum((s**2)[::-1])[::-1], 0.0) / (s**2).sum()
+        for share, modes in summary(folder)["modes_for"].items():
+            self.assertEqual(modes, int(np.argmax(tail <= float(share))))
+
+    def test_streamed_is_the_same(self):
+        out = self.make()
+        a = reference(out, "velocity", "rectified")
+        for method in "direct", "tsqr", "incremental":
+            with self.subTest(method=method):
+                self.pod(out, "--field", "velocity", "--frame", "rectified", "--method", method)
+                self.assertEqual(summary(out / "pod/velocity-rectified")["method"], method)
+                if method != "incremental":
+                    self.check_against_numpy(out, a, "velocity-rectified")
+                    continue
+                # What is nothing against the rest (here a snapshot at rest) is cut off.
+                s = np.linalg.svd(a, compute_uv=False)
+                got = spectrum(out / "pod/velocity-rectified")["singular_value"]
+                np.testing.assert_allclose(got, s[:len(got)], rtol=0, atol=1e-12 * s[0])
+                self.assertLess(s[len(got):].max(), 1e-8 * s[0])
+
+    def test_streams_by_itself_when_memory_is_short(self):
+        out = self.make(SMALL, "out", "--set", "output.snapshots=30")  # 77 kB
+        done = self.pod(out, "--memory", "100kB")
+        self.assertIn("tsqr", done.stdout)
+        self.check_against_numpy(out, reference(out, "displacement"), "displacement-rotating")
+        # Too little even for that: truncated, within the bound that is told.
+        done = self.pod(out, "--memory", "20kB")
+        self.assertIn("incremental", done.stdout)
+        self.assertIn("--memory", done.stderr)
+        s = np.linalg.svd(reference(out, "displacement"), compute_uv=False)
+        folder = out / "pod/displacement-rotating"
+        got, bound = spectrum(folder)["singular_value"], summary(folder)["sigma_bound_relative"] * s[0]
+        self.assertGreater(bound, 0.0)
+        self.assertLess(len(got), len(s))
+        error = s[:len(got)] - got
+        self.assertGreater(error.min(), -1e-12 * s[0])
+        self.assertLess(error.max(), bound)
+
+    def test_several_runs_have_one_basis(self):
+        runs = [self.make(SMALL, f"mu{k}", "--set", f"ground.friction=0.{k}") for k in (0, 3, 6)]
+        target = self.folder / "common"
+        done = self.pod(*runs, "-o", target, "--modes", 2)
+        blocks = [reference(r, "displacement") for r in runs]
+        a = np.hstack(blocks)
+        u, s, _ = np.linalg.svd(a, full_matrices=False)
+        folder = target / "displacement-rotating"
+        np.testing.assert_allclose(spectrum(folder)["singular_value"], s, rtol=0, atol=1e-12 * s[0])
+        entries = summary(folder)["runs"]
+        self.assertEqual(len(entries), 3)
+        for entry, block in zip(entries, blocks):
+            rest = block - u[:, :2] @ (u[:, :2].T @ block)
+            self.assertAlmostEqual(entry["error"], np.linalg.norm(rest) / np.linalg.norm(block),
+                                   delta=1e-10)
+            self.assertIn(entry["directory"], done.stdout)
+        self.assertIn("-o", self.fails(2, *runs))
+
+    def test_more_modes_than_rank(self):
+        out = self.make()
+        done = self.pod(out, "--modes", 1000)
+        j = summary(out / "pod/displacement-rotating")
+        self.assertEqual(j["modes_kept"], j["rank"])
+        self.assertLess(j["rank"], 1000)
+        self.assertIn(f"rank {j['rank']}", done.stderr)
+
+    def test_all_zero_and_single_snapshots(self):
+        out = self.make(STILL)
+        done = self.pod(out)
+        self.assertIn("zero", done.stderr)
+        j = summary(out / "pod/displacement-rotating")
+        self.assertEqual((j["rank"], j["modes_kept"], j["energy"]), (0, 0, 0.0))
+        self.assertTrue((spectrum(out / "pod/displacement-rotating")["singular_value"] == 0).all())
+        one = self.make(SMALL, "one", "--set", "output.snapshots=1")
+        self.pod(one)
+        self.assertEqual(summary(one / "pod/displacement-rotating")["rank"], 1)
+
+    def test_unfinished_runs(self):
+        """A killed run: what is there is used, and said."""
+        out = self.folder / "killed"
+        text = replaced(replaced(SMALL, "end", "end = 2000.0"), "snapshots", "snapshots = 1000000")
+        program = subprocess.Popen([PROGRAM, "run", str(self.case(text)), "-o", str(out), "--quiet",
+                                    "--set", "output.stress=false"], stderr=subprocess.DEVNULL)
+        try:
+            for _ in range(600):
+                time.sleep(0.1)
+                if (out / "history.csv").exists() and len((out / "history.csv").read_text()) > 5000:
+                    break
+        finally:
+            program.send_signal(signal.SIGKILL)
+            program.wait()
+        done = self.pod(out)
+        self.assertIn("not finished", done.stderr)
+        self.assertIn("running", done.stderr)
+        with h5py.File(out / "results.h5") as h5:
+            written = int(np.isfinite(h5["/frame/time"][:]).sum())
+        self.assertGreater(written, 0)
+        self.assertEqual(summary(out / "pod/displacement-rotating")["snapshots"], written)
+
+    def test_wrong_input(self):
+        out = self.make()
+        self.assertIn("displacement | velocity | contact", self.fails(2, out, "--field", "velocty"))
+        self.assertIn("mass | none", self.fails(2, out, "--weight", "delassus"))
+        said = self.fails(2, out, "--from", 5.0)
+        self.assertIn("no snapshot", said)
+        self.assertIn("0.02", said)  # where they are
+        self.fails(2, out, "--modes", 0)
+        self.fails(2, self.folder / "nowhere")
+        self.fails(2, self.folder)  # a directory without a run
+        self.fails(2)
+        still = self.make(STILL, "still")
+        self.assertIn("[ground]", self.fails(2, still, "--field", "contact"))
+        empty = self.make(SMALL, "empty", "--set", "output.snapshots=0")
+        self.assertIn("no complete snapshot", self.fails(2, empty))
+
+    def test_different_meshes(self):
+        fine = self.make(SMALL, "fine", "--set", "disk.mesh.circumferential=44")
+        coarse = self.make(SMALL, "coarse")
+        said = self.fails(2, coarse, fine, "-o", self.folder / "common")
+        self.assertIn("176", said)
+        heavy = self.make(SMALL, "heavy", "--set", "material.density=1200")
+        self.assertIn("mass", self.fails(2, coarse, heavy, "-o", self.folder / "common"))
+
+    def test_damaged_files(self):
+        out = self.make()
+        whole = (out / "results.h5").read_bytes()
+        for name, content in (("text", b"not HDF5"), ("half", whole[:len(whole) // 2])):
+            damaged = self.folder / name
+            shutil.copytree(out, damaged)
+            (damaged / "results.h5").write_bytes(content)
+            self.assertIn("results.h5", self.fails(4, damaged))
+        no_sectors = self.folder / "plain"
+        shutil.copytree(out, no_sectors)
+        with h5py.File(no_sectors / "results.h5", "r+") as h5:
+            del h5["/mesh/sector"], h5["/mesh/sector_node"]
+        self.assertIn("sectors", self.fails(2, no_sectors, "--frame", "rectified"))
+        self.pod(no_sectors)
+        with h5py.File(no_sectors / "results.h5", "r+") as h5:
+            h5["/snapshots/displacement"][3, 5, 0] = np.nan
+        self.assertIn("not finite", self.fails(2, no_sectors))
+
+
+if __name__ == "__main__":
+    unittest.main()

@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: BSD-3-Clause
+/// V20: the treaded disk's forces in rolling, and the pitch frequency in them.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+#include <vector>
+
+#include "support/models.hpp"
+
+using namespace rondo;
+using namespace rondo::dynamics;
+
+namespace {
+
+constexpr double pitches = 60.0, spin = 33.333333;
+
+/// Amplitude of the part of `values` with a frequency, over the time of whole pitches.
+double amplitude(const std::vector<double>& values, double dt, double frequency) {
+  Vec2 sum;
+  for (std::size_t j = 0; j < values.size(); ++j)
+    sum += values[j] * rotation(-2.0 * std::numbers::pi * frequency * dt * static_cast<double>(j));
+  return 2.0 * norm(sum) / static_cast<double>(values.size());
+}
+
+}  // namespace
+
+TEST(Tread, ForcesAndPitchFrequency) {
+  test::DiskCase c = test::rolling_disk(9, 0);
+  c.disk.tread = mesh::Tread{60, 0.02, 3, 1, 2};
+  auto b = test::build(c);
+  test::add_ground(b, test::ledge(), {0.3, 0.0});
+  State state = test::start_at_rest(b.model);
+  Ledger ledger(b.model);
+  const double pitch = pitches * spin / (2.0 * std::numbers::pi);  // 318.3 Hz
+  const double from = 0.1, to = from + 40.0 / pitch;               // whole pitches
+  std::vector<double> force_x, force_y;
+  while (state.frame.time < to) {
+    const ContactReport r = advance(b.model, state, ledger);
+    if (state.frame.time <= from) continue;
+    force_x.push_back(r.impulse.x / b.model.dt);
+    force_y.push_back(r.impulse.y / b.model.dt);
+  }
+  // 0.5 %: the reference's own scatter with the step, and where its mean ends.
+  const double mean_x = 0.5 * amplitude(force_x, b.model.dt, 0.0);
+  const double mean_y = 0.5 * amplitude(force_y, b.model.dt, 0.0);
+  EXPECT_NEAR(mean_y, 1.7209e5, 0.005 * 1.7209e5);
+  EXPECT_NEAR(mean_x, 1.961e4, 0.005 * 1.961e4);  // backwards; amplitude() takes the size
+  EXPECT_LT(force_x[force_x.size() / 2], 0.0);
+  // The line at the pitch frequency stands out of all others below its double but those near it.
+  const double peak = amplitude(force_y, b.model.dt, pitch);
+  RecordProperty("peak_over_mean", std::to_string(peak / mean_y));
+  for (double share = 0.1; share < 1.95; share += 0.05) {
+    if (std::abs(share - 1.0) < 0.075) continue;
+    EXPECT_LT(amplitude(force_y, b.model.dt, share * pitch), 0.5 * peak) << share;
+  }
+  // So do its multiples, each against what lies between them.
+  for (const double multiple : {2.0, 3.0})
+    EXPECT_GT(amplitude(force_y, b.model.dt, multiple * pitch),
+              3.0 * amplitude(force_y, b.model.dt, (multiple - 0.5) * pitch))
+        << multiple;
+}
