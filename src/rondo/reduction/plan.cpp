@@ -44,7 +44,7 @@ DecomposePlan plan_direct(const Sizes& s) {
 /// Before the SVD a triangle and a block; then its work space; then U or V of the longer side, the
 /// vectors of the shorter and a block.
 DecomposePlan plan_tsqr(const Sizes& s) {
-  constexpr double block_numbers = 1 << 22;
+  constexpr double block_numbers = 1 << 24;
   const bool tall = s.rows >= s.columns;
   const double grain = tall ? s.grain : 1.0, n = s.shorter();
   // Blocks of columns stand beside a transposed copy of themselves.

@@ -22,7 +22,7 @@ using Clock = std::chrono::steady_clock;
 
 /// Speed of the matrix work of a decomposition on this machine, from a small one [flop/s].
 double measured_speed() {
-  constexpr Index rows = 2000, columns = 100;
+  constexpr Index rows = 3000, columns = 200;
   Eigen::MatrixXd values(rows, columns);
   for (Index j = 0; j < columns; ++j)
     for (Index i = 0; i < rows; ++i) values(i, j) = std::sin(static_cast<double>(i * (j + 1) + j));
