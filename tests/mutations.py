@@ -117,8 +117,6 @@ crush sign of the tangent | c == 0 ? 1.0 : -1.0 => 1.0 | statics:Condensation.* 
 crush old rows of an appended set | topRightCorner(old, size - old).transpose() =>
   topRightCorner(old, size - old).transpose() * 1.001 | statics:Condensation.* statics:Crush.ASet*
 @statics/crush.cpp
-V14 depth | = model.clearance[set[j]] - depth => = 1.1 * model.clearance[set[j]] - depth |
-  statics:Crush.O* V:Hertz.*
 crush slip since first touch | -displaced(model, set[j], state.u).y => 0.0 | statics:Crush.ClosesIts*
 crush set never grows | if (!report.converged || outside.empty()) break; => break; |
   statics:Crush.ASet*
@@ -126,7 +124,8 @@ crush friction by the last force | (-mean.y * after.slip => (-after.force[k].y *
   statics:Crush.ClosesIts*
 crush blind balance | w.residual = w.strain - w.contact => w.residual = 0.0 | statics:Crush.Balance*
 @fem/elasticity.cpp
-V9 d12 of plane strain | factor * nu, => factor * nu * nu, | V:*ClosedForm.* fem:Hooke.*
+V9 V14 d12 of plane strain | factor * nu, => factor * nu * nu, | V:*ClosedForm.* fem:Hooke.*
+  V:Hertz.HalfWidth*
 @fem/element.cpp
 V17 weight of a Gauss point | k += g => k += (corner.x + corner.y > 1.0 ? 1.1 : 1.0) * g |
   V:*Patch.*/0 V:*Patch.*/4 V:*Mesh.Displacement*
