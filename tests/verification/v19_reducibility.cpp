@@ -11,6 +11,7 @@
 #include <filesystem>
 #include <fstream>
 #include <map>
+#include <ostream>
 #include <string>
 
 #include "rondo/study/pod.hpp"
@@ -27,6 +28,10 @@ struct Counts {
   const char *run, *field, *frame, *shift;
   std::array<long long, 3> modes;  ///< that leave 1e-2, 1e-4, 1e-6 of the energy
 };
+
+void PrintTo(const Counts& c, std::ostream* out) {
+  *out << c.run << ' ' << c.field << ' ' << c.frame << ' ' << c.shift;
+}
 
 std::string name_of(const testing::TestParamInfo<Counts>& info) {
   std::string name = fmt::format("{}_{}_{}_{}", info.param.run, info.param.field, info.param.frame,
