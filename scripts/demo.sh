@@ -8,6 +8,7 @@ cmake --preset release
 cmake --build --preset release --target rondo
 out=results/ledge-smooth
 build/release/rondo run cases/ledge-smooth.toml -o "$out" --overwrite
+build/release/rondo pod "$out" --frame rectified --from 0.07 --quiet
 /usr/bin/python3 python/draw_ledge.py "$out" "$out/ledge.png"
 
 cat <<EOT
@@ -17,6 +18,7 @@ The results are in $out:
   history.csv   contact forces and the energy ledger over time (any spreadsheet, pandas)
   fields.xdmf   the rolling disk: open it in ParaView and press play
   results.h5    every array (HDF5: h5py, MATLAB, Julia), described in docs/results.md
+  pod/          modes of the displacement as seen from the ground: modes.xdmf for ParaView
   run.json      the figures of the run: steps, speed, largest imbalance of the ledger
 Next: build/release/rondo run --help, the other files in cases/, and docs/cases.md.
 EOT

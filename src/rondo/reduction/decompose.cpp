@@ -41,8 +41,7 @@ void fix_signs(Decomposition& d) {
 
 namespace {
 
-Eigen::MatrixXd read_all(SnapshotMatrix& source, const DecomposeOptions& options) {
-  Progress progress(source, options, 1);
+Eigen::MatrixXd read_all(SnapshotMatrix& source, Progress& progress) {
   Eigen::MatrixXd a(source.rows(), source.columns());
   const Index block = std::max<Index>(1, (Index{1} << 22) / source.rows());
   for (Index first = 0; first < a.cols(); first += block) {
@@ -86,13 +85,15 @@ void wide(Eigen::MatrixXd& a, Index asked, Decomposition& d) {
 Decomposition direct(SnapshotMatrix& source, const DecomposeOptions& options) {
   Decomposition d;
   d.method = Method::direct;
-  Eigen::MatrixXd a = read_all(source, options);
+  Progress progress(source, options, 2);  // to read it; and to decompose it, which is all at once
+  Eigen::MatrixXd a = read_all(source, progress);
   d.snapshot_energy = a.colwise().squaredNorm();
   d.energy = d.snapshot_energy.sum();
   if (a.rows() >= a.cols())
     tall(a, options.modes, d);
   else
     wide(a, options.modes, d);
+  progress.finish();
   return d;
 }
 
