@@ -20,15 +20,16 @@ import tempfile
 ROOT = pathlib.Path(__file__).resolve().parent.parent
 TIMEOUT = 900  # s for one call of a test program; what hangs has failed
 
-PROGRAMS = {"V": "verification/verification", "W": "verification/verification_slow"}
+PROGRAMS = {"V": "verification/verification", "W": "verification/verification_slow",
+            "R": "verification/verification_reducibility"}
 PROGRAMS |= {m: f"unit/unit_{m}" for m in ("core", "mesh", "fem", "contact", "dynamics", "statics",
                                            "reduction", "io", "study")}
 
-SCRIPTS = {"cli": "test_run.py", "crush": "test_crush.py"}
+SCRIPTS = {"cli": "test_run.py", "crush": "test_crush.py", "pod": "test_pod.py"}
 
 # @file in src/rondo, then of each mutation in it: name | old text => new text | tests.
 # \n is a new line; a line that begins with spaces continues the one above. The tests are
-# program:filter, with the letters of PROGRAMS and gtest's filters, or cli:pattern and crush:pattern (unittest's -k).
+# program:filter, with the letters of PROGRAMS and gtest's filters, or cli:, crush: and pod:pattern (unittest's -k).
 TABLE = r"""
 @dynamics/ledger.cpp
 V1 frame work without -s² | {-f.spin * f.spin, f => {0.0, f | V:*Ledgers.*/plain V:SpinUp.Damped*
@@ -199,6 +200,24 @@ history of the last step | impulse_ += report.i => impulse_ = report.i | cli:*hi
 crush rate without its increments | static_cast<double>(increments_) * (state => 1.0 * (state |
   crush:*snapshots_and*
 crush force of the body on the ground | normal{0.0, 1.0} => normal{0.0, -1.0} | crush:*history*
+@study/pod_snapshots.cpp
+V19 no rectification | rectifier_->apply(column.angle, field); => | R:*smooth*rectified* pod:spectra
+V19 rectified the other way | apply(column.angle, field) => apply(-column.angle, field) | R:*smooth*rectified* pod:spectra
+POD weight not its root | root_.push_back(std::sqrt(weight_ => root_.push_back((weight_ | pod:spectra study:PodSnapshots.*
+POD forces weighed by the mass | if (choice.weight == Weight::delassus) w = 1.0 / w; => | pod:spectra
+POD forces turned as vectors | contact ? Components::scalars : => !contact ? Components::scalars : | pod:spectra
+POD rows of another place | read_order(columns_[size(j)], place, count); => read_order(columns_[size(j)], 0, count); | study:PodSnapshots.Rows* pod:streamed
+POD blind to numbers not finite | if (!std::isfinite(sum)) => if (false) | pod:damaged
+@study/pod_input.cpp
+POD angle at the displacement's time | velocity && choice.rectified ? of.angle_velocity : of.angle; => of.angle; | pod:spectra
+POD time of the displacement | velocity ? of.time_velocity : of.time; => of.time; | study:PodSnapshots.Windows*
+POD different meshes | if (!difference.empty()) => if (false) | pod:different
+POD unfinished run unsaid | run.status() == "done") return; => true) return; | pod:unfinished
+@study/pod_report.cpp
+POD run errors of the first run | sums[columns[j].run] => sums[0] | study:PodSnapshots.Errors* pod:several
+POD worst is the last | if (error <= report.worst_error && j > 0) continue; => | pod:files
+@study/pod.cpp
+POD rank unsaid | request.warn && d.rank > 0 && request.modes => false && d.rank > 0 && request.modes | pod:rank
 """
 
 
