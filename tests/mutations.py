@@ -206,7 +206,7 @@ V19 rectified the other way | apply(column.angle, field) => apply(-column.angle,
 POD weight not its root | root_.push_back(std::sqrt(weight_ => root_.push_back((weight_ | pod:spectra study:PodSnapshots.*
 POD forces weighed by the mass | if (choice.weight == Weight::delassus) w = 1.0 / w; => | pod:spectra
 POD forces turned as vectors | contact ? Components::scalars : => !contact ? Components::scalars : | pod:spectra
-POD rows of another place | read_order(columns_[size(j)], place, count); => read_order(columns_[size(j)], 0, count); | study:PodSnapshots.Rows* pod:streamed
+POD rows of another place | read_order(columns_[size(j)], place, count); => read_order(columns_[size(j)], 0, count); | study:PodSnapshots.Rows* pod:streams
 POD blind to numbers not finite | if (!std::isfinite(sum)) => if (false) | pod:damaged
 @study/pod_input.cpp
 POD angle at the displacement's time | velocity && choice.rectified ? of.angle_velocity : of.angle; => of.angle; | pod:spectra
