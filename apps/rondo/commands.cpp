@@ -26,9 +26,8 @@ extern "C" void request_stop(int) {
 }
 
 /// While a case is built, a signal ends the program at once: nothing is there to be saved. From the
-/// loop on it asks for a clean end. A reader of our output that goes away ends nothing.
+/// loop on it asks for a clean end.
 void catch_signals(study::RunOptions& options) {
-  std::signal(SIGPIPE, SIG_IGN);
   options.stop = &stop_requested;
   options.before_loop = [] {
     for (const int number : {SIGINT, SIGTERM, SIGHUP}) std::signal(number, request_stop);

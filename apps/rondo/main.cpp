@@ -4,6 +4,8 @@
 #include <spdlog/spdlog.h>
 
 #include <CLI/CLI.hpp>
+#include <csignal>
+#include <cstdio>
 #include <exception>
 
 #include "commands.hpp"
@@ -71,13 +73,11 @@ CLI::App* add_pod(CLI::App& program, PodArguments& arguments) {
       ->capture_default_str();
   pod->add_option("--memory", r.memory,
                   "memory allowed, e.g. 500MB; beyond it snapshots are streamed")
-      ->transform(CLI::AsSizeValue(true))
-      ->default_str("2GB");
+      ->capture_default_str();
   pod->add_option("--method", r.method, "auto | direct | tsqr | incremental")
       ->capture_default_str();
   pod->add_option("--reconstruct", r.reconstruct,
                   "snapshots rebuilt from the modes, for ParaView; 0: none")
-      ->check(CLI::NonNegativeNumber)
       ->capture_default_str();
   pod->add_option("-o,--output", r.directory,
                   "the results go to OUTPUT/<field>-<frame>; RUN/pod if left out");
@@ -124,8 +124,11 @@ int main(int argc, char** argv) {
   program.footer(
       "Example:\n  rondo run cases/ledge-smooth.toml -o results/ledge\n"
       "Each command has its own help: rondo run --help");
+  std::signal(SIGPIPE, SIG_IGN);  // a reader of our output that goes away ends nothing
   try {
-    return dispatch_command(program, argc, argv);
+    const int code = dispatch_command(program, argc, argv);
+    if (std::fflush(stdout) == 0) return code;
+    throw FileError("standard output", "cannot be written");
   } catch (const InputError& error) {
     return report_input_error(error);
   } catch (const FileError& error) {

@@ -29,30 +29,33 @@ void print_runs(const study::PodReport& r) {
   fmt::print("errors by run      with the modes for {}all kept\n", shares);
   for (const study::PodRun& run : r.runs) {
     std::string errors;
-    for (const double error : run.count_errors) errors += percent(error) + " / ";
-    fmt::print("  {}: {}{} ({} snapshots, {} of the energy)\n", run.directory.string(), errors,
-               percent(run.error), run.snapshots, percent(run.energy_share));
+    for (const auto& error : run.count_errors) errors += (error ? percent(*error) : "-") + " / ";
+    fmt::print("  {}: {}{} ({} snapshots, t = {:.6g} to {:.6g} s, {} of the energy)\n",
+               run.directory.string(), errors, percent(run.error), run.snapshots, run.from, run.to,
+               percent(run.energy_share));
   }
 }
 
 void print_report(const study::PodRequest& q, const study::PodReport& r) {
   fmt::print("field              {} ({}), {} frame, weight {}\n", q.field, r.unit, q.frame,
              r.weight);
-  fmt::print("snapshots          {} of {} numbers, t = {:.6g} to {:.6g} s{}\n", r.snapshots, r.rows,
-             r.runs.front().from, r.runs.back().to,
-             r.runs.size() > 1 ? fmt::format(", from {} runs", r.runs.size()) : "");
+  fmt::print("snapshots          {} of {} numbers, {}\n", r.snapshots, r.rows,
+             r.runs.size() > 1
+                 ? fmt::format("from {} runs", r.runs.size())
+                 : fmt::format("t = {:.6g} to {:.6g} s", r.runs.front().from, r.runs.front().to));
   fmt::print("method             {}, {:.2f} s, {}\n", r.method, r.wall_s,
              study::readable_bytes(r.peak_memory));
-  fmt::print("rank               {} (first singular value {:.6g}{})\n", r.rank, r.sigma_1,
+  fmt::print("rank               {}{} (first singular value {:.6g}{})\n",
+             r.rank_is_known ? "" : "at least ", r.rank, r.sigma_1,
              r.sigma_bound > 0.0 ? fmt::format(", all right to {:.1e} of it", r.sigma_bound) : "");
   for (const study::PodCount& count : r.counts)
     fmt::print("modes for {:.0e}    {}\n", count.discarded, count_text(count.modes));
   fmt::print("modes kept         {}\n", r.modes);
   fmt::print("worst snapshot     {} of its norm lost, t = {:.6g} s{}\n", percent(r.worst_error),
              r.worst_time, r.runs.size() > 1 ? ", " + r.worst_run.string() : "");
-  fmt::print(
-      "error identity     |S - PP'MS|^2 = {:.6e}, discarded {:.6e} of the energy: {:.1e} apart\n",
-      r.residual, r.tail, r.difference);
+  fmt::print("error identity     |S - PP'WS|^2 = {:.6e} of the energy, {} {:.6e}: {:.1e} apart\n",
+             r.residual, r.truncated ? "with what was cut at most" : "discarded", r.tail,
+             r.difference);
   if (r.runs.size() > 1) print_runs(r);
   fmt::print("files              {}\n", r.directory.string());
 }
@@ -62,14 +65,16 @@ void print_report(const study::PodRequest& q, const study::PodReport& r) {
 int pod(study::PodRequest request, bool quiet) {
   if (quiet) spdlog::set_level(spdlog::level::warn);
   request.warn = [](const std::string& text) { spdlog::warn(text); };
-  request.say = [](const std::string& text) { spdlog::info(text); };
+  if (!quiet) request.say = [](const std::string& text) { spdlog::info(text); };
   const study::PodReport report = [&] {
     Progress progress("value");
     if (!quiet) request.progress = std::ref(progress);
     return study::run_pod(request);
   }();
   print_report(request, report);
-  return exit_done;
+  if (report.trouble.empty()) return exit_done;
+  spdlog::error("{}; the results are in {}", report.trouble, report.directory.string());
+  return exit_numerical;
 }
 
 }  // namespace rondo::app

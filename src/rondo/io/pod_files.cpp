@@ -30,23 +30,26 @@ std::size_t size(Index n) noexcept {
 }
 
 struct Counts {
-  std::size_t nodes, points, modes, values, times, reconstructed;
+  std::size_t nodes, points, modes, values, temporal, times, reconstructed;
 };
 
 Counts counts_of(const PodContent& c, std::size_t n_reconstructed) noexcept {
-  return {c.mesh->n_nodes(),     c.contact ? c.mesh->boundary.size() : c.mesh->n_nodes(),
-          size(c.modes->cols()), size(c.decomposition->sigma.size()),
-          c.time.size(),         n_reconstructed};
+  return {c.mesh->n_nodes(),
+          c.contact ? c.mesh->boundary.size() : c.mesh->n_nodes(),
+          size(c.modes->cols()),
+          size(c.decomposition->sigma.size()),
+          size(c.decomposition->temporal.cols()),
+          c.time.size(),
+          n_reconstructed};
 }
 
 void check(const PodContent& c, const Counts& n) {
   RONDO_DEMAND(c.mass.size() == n.nodes && c.point_weight.size() == n.points, c.mass.size(),
                c.point_weight.size(), n.points);
   RONDO_DEMAND(n.modes == 0 || size(c.modes->rows()) == 2 * n.points, c.modes->rows(), n.points);
-  RONDO_DEMAND(n.modes <= n.values, n.modes, n.values);
-  RONDO_DEMAND(size(c.decomposition->temporal.rows()) == n.times &&
-                   size(c.decomposition->temporal.cols()) == n.values,
-               c.decomposition->temporal.rows(), c.decomposition->temporal.cols(), n.times);
+  RONDO_DEMAND(n.modes <= n.temporal && n.temporal <= n.values, n.modes, n.temporal, n.values);
+  RONDO_DEMAND(size(c.decomposition->temporal.rows()) == n.times, c.decomposition->temporal.rows(),
+               n.times);
   RONDO_DEMAND(c.spectrum->energy.size() == n.values && c.spectrum->cumulative.size() == n.values &&
                    c.spectrum->discarded.size() == n.values,
                c.spectrum->energy.size(), n.values);
@@ -119,7 +122,7 @@ void write_temporal(h5::File& file, const PodContent& c, const Counts& n) {
       dataset.write_row(j, std::span<const double>(row));
     }
   };
-  put("/modes/temporal", n.values, false,
+  put("/modes/temporal", n.temporal, false,
       {"1", "V: column i is the course of mode i over the snapshots, of norm 1"});
   put("/modes/coefficients", n.modes, true,
       {units_of(c).sigma, "V Σ: coefficients of the spatial modes in each snapshot"});
@@ -331,7 +334,7 @@ std::size_t PodWriter::bytes(const PodContent& content, std::size_t n_reconstruc
   const Counts n = counts_of(content, n_reconstructed);
   constexpr std::size_t real = 8, whole = 4, vector = sizeof(Vector), description = 65536;
   const std::size_t modes = n.modes * (2 * n.points * real + n.nodes * vector);
-  const std::size_t times = n.times * ((n.values + n.modes + 3) * real + whole);
+  const std::size_t times = n.times * ((n.temporal + n.modes + 3) * real + whole);
   return description + mesh_bytes(*content.mesh) + modes + times + 4 * n.values * real +
          n.points * real + 3 * n_reconstructed * n.nodes * vector;
 }

@@ -16,7 +16,7 @@ double round_off(Index rows, Index columns, double largest) {
          largest;
 }
 
-Index set_rank(Decomposition& d, Index asked, Index most) {
+Index rank_and_choose(Decomposition& d, Index asked, Index most) {
   const double largest = d.sigma.size() > 0 ? d.sigma[0] : 0.0;
   const double least = round_off(d.modes.rows(), d.temporal.rows(), largest);
   d.rank = (d.sigma.array() > least).count();
@@ -60,7 +60,7 @@ void tall(Eigen::MatrixXd& a, Index asked, Decomposition& d) {
   d.sigma = std::move(small.sigma);
   d.temporal = std::move(small.v);
   d.modes.resize(a.rows(), 0);
-  const Index kept = set_rank(d, asked, d.sigma.size());
+  const Index kept = rank_and_choose(d, asked, d.sigma.size());
   d.modes.setZero(a.rows(), kept);
   d.modes.topRows(a.cols()) = small.u.leftCols(kept);
   apply_q(a, factors, d.modes);
@@ -76,7 +76,7 @@ void wide(Eigen::MatrixXd& a, Index asked, Decomposition& d) {
   d.temporal.topRows(a.rows()) = small.v;
   apply_lq_transposed(a, factors, d.temporal);
   d.modes.resize(a.rows(), 0);
-  const Index kept = set_rank(d, asked, d.sigma.size());
+  const Index kept = rank_and_choose(d, asked, d.sigma.size());
   d.modes = small.u.leftCols(kept);
 }
 

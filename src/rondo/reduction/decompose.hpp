@@ -28,6 +28,9 @@ struct DecomposeOptions {
 /// Energy that the modes kept without being asked for leave out.
 inline constexpr double default_discarded = 1e-6;
 
+/// Longest shorter side of direct and tsqr: beyond it LAPACK's work space passes its integers.
+inline constexpr Index largest_side = 26000;
+
 /// What a decomposition would take.
 struct DecomposePlan {
   Method method = Method::direct;  ///< chosen
@@ -38,8 +41,12 @@ struct DecomposePlan {
   double flops = 0.0;      ///< estimated
 };
 
+/// @pre the shorter side is at most largest_side where direct or tsqr is asked for
 [[nodiscard]] DecomposePlan plan(Index rows, Index columns, Index row_grain,
                                  const DecomposeOptions& options);
+
+/// Singular values not above this, max(rows, columns) ε σ_1, are round-off.
+[[nodiscard]] double round_off(Index rows, Index columns, double largest);
 
 struct Decomposition {
   Method method = Method::direct;
@@ -51,7 +58,7 @@ struct Decomposition {
   double energy = 0.0;              ///< ‖A‖² (Frobenius)
   double lost_energy = 0.0;  ///< ‖A‖² - Σσ² of what was truncated; 0 unless incremental
   double sigma_bound = 0.0;  ///< 0 <= true σ_i - sigma[i] <= this, beside round-off
-  Index rank = 0;            ///< σ above max(rows, columns) ε σ_1
+  Index rank = 0;            ///< σ above round_off()
 };
 
 /// @pre every number read is finite. The sign of a mode makes its largest number positive.

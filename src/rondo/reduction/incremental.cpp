@@ -48,7 +48,7 @@ Eigen::MatrixXd project(Factors& f, Index n) {
   return small;
 }
 
-/// Number of singular values to keep, if the squares of what is cut may sum up to `allowed`.
+/// Number of singular values to keep, if the square of the largest one cut may be `allowed`.
 Index cut(const Eigen::VectorXd& sigma, Index most, double floor, double allowed) {
   Index k = std::min<Index>(most, (sigma.array() > floor).count());
   while (k > 0 && sigma[k - 1] * sigma[k - 1] <= allowed) --k;
@@ -129,7 +129,7 @@ Decomposition incremental(SnapshotMatrix& source, const DecomposeOptions& option
   f.right.conservativeResize(Eigen::NoChange, f.k());
   d.temporal = std::move(f.right);
   d.modes.resize(source.rows(), 0);
-  const Index kept = set_rank(d, options.modes, plan.modes);
+  const Index kept = rank_and_choose(d, options.modes, plan.modes);
   f.left.conservativeResize(Eigen::NoChange, kept);
   d.modes = std::move(f.left);
   return d;

@@ -30,10 +30,8 @@ class Progress {
 [[nodiscard]] Decomposition incremental(SnapshotMatrix& source, const DecomposeOptions& options,
                                         const DecomposePlan& plan);
 
-/// Singular values not above this are round-off.
-[[nodiscard]] double round_off(Index rows, Index columns, double largest);
 /// Sets d.rank from sigma. @return the number of modes to keep, at most `most`
-[[nodiscard]] Index set_rank(Decomposition& d, Index asked, Index most);
+[[nodiscard]] Index rank_and_choose(Decomposition& d, Index asked, Index most);
 /// Makes the largest number of each mode positive, its column of V with it.
 void fix_signs(Decomposition& d);
 

@@ -57,7 +57,8 @@ DecomposePlan plan_tsqr(const Sizes& s) {
       std::clamp(grain * std::floor(room / grain), fewest, std::max(fewest, s.longer()));
   // The second pass reads whole columns, one at least.
   const double second = tall ? std::max(block * n, s.rows) : block * n;
-  const double left = (s.allowed - second - 2.0 * n * n) / s.longer();
+  // What the decomposition of the triangle takes is there again afterwards.
+  const double left = (std::max(s.allowed, s.small_svd()) - second - 2.0 * n * n) / s.longer();
   const double modes = s.asked < 0.0 ? std::clamp(std::floor(left), 1.0, n) : s.modes_at_least();
   const double numbers = std::max(
       {2.0 * n * n + copies * block * n, s.small_svd(), second + 2.0 * n * n + s.longer() * modes});
@@ -93,11 +94,15 @@ DecomposePlan plan(Index rows, Index columns, Index row_grain, const DecomposeOp
   const Sizes sizes{static_cast<double>(rows), static_cast<double>(columns),
                     static_cast<double>(row_grain), static_cast<double>(options.memory) / 8.0,
                     static_cast<double>(options.modes)};
+  const bool short_enough = std::min(rows, columns) <= largest_side;
+  RONDO_DEMAND(
+      short_enough || options.method == Method::automatic || options.method == Method::incremental,
+      rows, columns, largest_side);
   if (options.method == Method::direct) return plan_direct(sizes);
   if (options.method == Method::tsqr) return plan_tsqr(sizes);
   if (options.method == Method::incremental) return plan_incremental(sizes);
   for (const DecomposePlan& p : {plan_direct(sizes), plan_tsqr(sizes)})
-    if (p.memory <= options.memory) return p;
+    if (short_enough && p.memory <= options.memory) return p;
   return plan_incremental(sizes);
 }
 

@@ -17,23 +17,22 @@ constexpr double turn = 2.0 * std::numbers::pi;
 Rings rings_of(const mesh::Mesh& mesh, const std::vector<int>& nodes) {
   RONDO_DEMAND(mesh.n_sectors > 0, mesh.n_sectors);
   const auto n_sectors = static_cast<std::size_t>(mesh.n_sectors);
-  RONDO_DEMAND(nodes.size() % n_sectors == 0, nodes.size(), n_sectors);
   // The order of the rings is that of their nodes within a sector.
   std::vector<int> in_sector;
   for (const int node : nodes)
     if (mesh.sector[static_cast<std::size_t>(node)] == 0)
       in_sector.push_back(mesh.sector_node[static_cast<std::size_t>(node)]);
   std::sort(in_sector.begin(), in_sector.end());
-  RONDO_DEMAND(in_sector.size() * n_sectors == nodes.size(), in_sector.size(), nodes.size());
+  if (in_sector.size() * n_sectors != nodes.size()) return {};
   Rings rings{mesh.n_sectors, std::vector<int>(nodes.size(), -1)};
   for (std::size_t k = 0; k < nodes.size(); ++k) {
     const auto node = static_cast<std::size_t>(nodes[k]);
     const auto ring = std::lower_bound(in_sector.begin(), in_sector.end(), mesh.sector_node[node]);
-    RONDO_DEMAND(ring != in_sector.end() && *ring == mesh.sector_node[node], node);
+    if (ring == in_sector.end() || *ring != mesh.sector_node[node]) return {};
     rings.point[static_cast<std::size_t>(ring - in_sector.begin()) * n_sectors +
                 static_cast<std::size_t>(mesh.sector[node])] = static_cast<int>(k);
   }
-  RONDO_DEMAND(std::count(rings.point.begin(), rings.point.end(), -1) == 0, nodes.size());
+  if (std::count(rings.point.begin(), rings.point.end(), -1) > 0) return {};
   return rings;
 }
 

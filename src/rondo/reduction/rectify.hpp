@@ -23,9 +23,10 @@ struct Rings {
   }
 };
 
-/// Rings of all nodes; places are nodes. @pre mesh.n_sectors > 0
+/// Rings of all nodes; places are nodes. None (n_sectors 0) where the sectors do not all hold the
+/// same nodes. @pre mesh.n_sectors > 0
 Rings node_rings(const mesh::Mesh& mesh);
-/// Rings of the contact candidates; places are places in mesh.boundary. @pre mesh.n_sectors > 0
+/// The same of the contact candidates; places are places in mesh.boundary. @pre mesh.n_sectors > 0
 Rings boundary_rings(const mesh::Mesh& mesh);
 
 enum class Components {
@@ -48,7 +49,7 @@ class Rectifier {
   Rectifier& operator=(Rectifier&&) noexcept;
 
   /// In place. @param theta counter-clockwise angle of the turning frame [rad]
-  /// @param values (n_rings * n_sectors) ring after ring, as Rings::point. No allocation.
+  /// @param values (n_rings * n_sectors) ring after ring, as Rings::point
   void apply(double theta, std::span<Vec2> values);
 
  private:

@@ -36,44 +36,45 @@ Index modes_for(const Spectrum& s, double share) {
   return enough == s.discarded.end() ? -1 : enough - s.discarded.begin() + 1;
 }
 
-std::vector<double> squared_errors(const Decomposition& d, Index modes) {
-  RONDO_DEMAND(modes >= 0 && modes <= d.sigma.size(), modes, d.sigma.size());
-  const Index there = d.temporal.cols();
-  std::vector<double> errors(static_cast<std::size_t>(d.temporal.rows()));
-  for (Index j = 0; j < d.temporal.rows(); ++j) {
-    double& error = errors[static_cast<std::size_t>(j)];
-    if (there >= std::min(d.rank, d.sigma.size())) {
-      for (Index i = there; i-- > modes;) error += std::pow(d.sigma[i] * d.temporal(j, i), 2);
-    } else {  // the tail of V did not fit in memory
-      RONDO_DEMAND(modes <= there, modes, there);
-      error = d.snapshot_energy[j];
-      for (Index i = 0; i < modes; ++i) error -= std::pow(d.sigma[i] * d.temporal(j, i), 2);
-      error = std::max(error, 0.0);
-    }
+namespace {
+
+/// Errors of a block of snapshots; `a` becomes what all modes leave of it.
+void add_errors(const Decomposition& d, const IdentityOptions& options,
+                Eigen::Ref<Eigen::MatrixXd> a, Eigen::Ref<Eigen::MatrixXd> parts, Identity& out) {
+  for (Index j = 0; j < a.cols(); ++j) out.snapshot_energy.push_back(a.col(j).squaredNorm());
+  multiply_transposed(d.modes, a, parts);
+  multiply(d.modes, parts, a, -1.0, 1.0);
+  for (Index j = 0; j < a.cols(); ++j) {
+    const double error = a.col(j).squaredNorm();
+    out.squared_error.push_back(error);
+    for (std::size_t k = 0; k < options.fewer.size(); ++k)
+      out.fewer_error[k].push_back(error +
+                                   parts.col(j).tail(out.modes - options.fewer[k]).squaredNorm());
   }
-  return errors;
 }
 
-Identity check_identity(SnapshotMatrix& snapshots, const Decomposition& d, Index block) {
+}  // namespace
+
+Identity check_identity(SnapshotMatrix& snapshots, const Decomposition& d,
+                        const IdentityOptions& options) {
   RONDO_DEMAND(snapshots.rows() == d.modes.rows() && snapshots.columns() == d.temporal.rows(),
                snapshots.rows(), d.modes.rows(), snapshots.columns(), d.temporal.rows());
-  RONDO_DEMAND(block > 0, block);
+  RONDO_DEMAND(options.block > 0, options.block);
   const OneThread one_thread;
   Identity out;
   out.modes = d.modes.cols();
+  for (const Index q : options.fewer) RONDO_DEMAND(q >= 0 && q <= out.modes, q, out.modes);
+  out.fewer_error.resize(options.fewer.size());
   out.orthonormality = orthonormality(d.modes);
-  CompensatedSum energy, residual, tail;
-  Eigen::MatrixXd columns(snapshots.rows(), std::min(block, snapshots.columns()));
-  Eigen::MatrixXd parts(d.modes.cols(), columns.cols());
-  for (Index first = 0; first < snapshots.columns(); first += block) {
-    const Index n = std::min(block, snapshots.columns() - first);
-    auto a = columns.leftCols(n);
-    snapshots.read_columns(first, a);
-    for (Index j = 0; j < n; ++j) out.snapshot_energy.push_back(a.col(j).squaredNorm());
-    multiply_transposed(d.modes, a, parts.leftCols(n));
-    multiply(d.modes, parts.leftCols(n), a, -1.0, 1.0);
-    for (Index j = 0; j < n; ++j) out.squared_error.push_back(a.col(j).squaredNorm());
+  Eigen::MatrixXd columns(snapshots.rows(), std::min(options.block, snapshots.columns()));
+  Eigen::MatrixXd parts(out.modes, columns.cols());
+  for (Index first = 0; first < snapshots.columns(); first += options.block) {
+    const Index n = std::min(options.block, snapshots.columns() - first);
+    snapshots.read_columns(first, columns.leftCols(n));
+    add_errors(d, options, columns.leftCols(n), parts.leftCols(n), out);
+    if (options.progress) options.progress(snapshots.rows() * n);
   }
+  CompensatedSum energy, residual, tail;
   for (const double e : out.snapshot_energy) energy.add(e);
   if (!(energy.value() > 0.0)) return out;
   for (const double e : out.squared_error) residual.add(e / energy.value());

@@ -53,7 +53,7 @@ void tall(SnapshotMatrix& source, const DecomposeOptions& options, const Decompo
   }
   d.energy = d.snapshot_energy.sum();
   d.modes.resize(source.rows(), 0);
-  const Index kept = set_rank(d, options.modes, plan.modes);
+  const Index kept = rank_and_choose(d, options.modes, plan.modes);
   d.modes.setZero(source.rows(), kept);
   if (kept > 0) {
     // As many numbers at once as in a block of rows.
@@ -85,7 +85,7 @@ void wide(SnapshotMatrix& source, const DecomposeOptions& options, const Decompo
   d.energy = d.snapshot_energy.sum();
   d.modes.resize(source.rows(), 0);
   d.temporal.resize(source.columns(), 0);
-  const Index kept = set_rank(d, options.modes, plan.modes);
+  const Index kept = rank_and_choose(d, options.modes, plan.modes);
   d.modes = u.leftCols(kept);
   d.temporal.resize(source.columns(), std::min(d.rank, plan.modes));
   if (d.temporal.cols() > 0) {

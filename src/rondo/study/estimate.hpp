@@ -2,6 +2,7 @@
 /// @file  What a case needs of the machine, told before anything is built.
 #pragma once
 #include <cstddef>
+#include <optional>
 #include <string>
 
 #include "rondo/study/case.hpp"
@@ -19,6 +20,9 @@ std::size_t estimated_memory(const Case& c) noexcept;
 
 /// Physical memory of this machine [B]; 0: unknown.
 std::size_t physical_memory() noexcept;
+
+/// 2.5e9 for "2.5GB"; B, kB, MB, GB, TB, or KiB, MiB, GiB, TiB; none where `text` is not that.
+std::optional<std::size_t> bytes_in(const std::string& text);
 
 /// "512 MB", "1.8 TB".
 std::string readable_bytes(std::size_t bytes);

@@ -26,8 +26,7 @@ double measured_speed() {
   constexpr Index rows = 3000, columns = 200;
   Eigen::MatrixXd values(rows, columns);
   for (Index j = 0; j < columns; ++j)
-    for (Index i = 0; i < rows; ++i)
-      values(i, j) = std::sin(static_cast<double>(i * (j + 1) + j));
+    for (Index i = 0; i < rows; ++i) values(i, j) = std::sin(static_cast<double>(i * (j + 1) + j));
   reduction::DenseSnapshots snapshots(std::move(values));
   reduction::DecomposeOptions options;
   options.modes = columns;
@@ -45,43 +44,100 @@ void say_plan(const PodRequest& request, const reduction::DecomposePlan& plan, I
   const auto bytes =
       static_cast<std::size_t>(rows) * static_cast<std::size_t>(columns) * sizeof(double);
   if (request.say)
-    request.say(fmt::format("{} x {} numbers ({}): {}, about {} of memory and {:.2g} s", rows,
-                            columns, readable_bytes(bytes), name_of(plan.method),
-                            readable_bytes(plan.memory), plan.flops / measured_speed()));
-  if (request.warn && plan.memory > request.memory)
+    request.say(
+        fmt::format("{} x {} numbers ({}): {}, about {} of memory besides the program's own, "
+                    "and {:.2g} s",
+                    rows, columns, readable_bytes(bytes), name_of(plan.method),
+                    readable_bytes(plan.memory), plan.flops / measured_speed()));
+  if (request.warn && plan.memory > memory_of(request))
     request.warn(fmt::format("{} are not enough: about {} will be used (--memory)",
-                             readable_bytes(request.memory), readable_bytes(plan.memory)));
+                             readable_bytes(memory_of(request)), readable_bytes(plan.memory)));
 }
 
-/// As many as make some tens of megabytes.
-Index columns_at_once(Index rows) {
-  constexpr Index numbers = 1 << 22, most = 32;
-  return std::clamp<Index>(numbers / rows, 1, most);
-}
-
-reduction::Decomposition decompose_snapshots(const PodRequest& request, RunSnapshots& snapshots,
-                                             PodReport& report) {
-  reduction::DecomposeOptions options;
-  options.method = method_of(request);
-  options.memory = request.memory;
-  options.modes = static_cast<Index>(request.modes.value_or(-1));
-  options.progress = request.progress;
-  const auto plan =
-      reduction::plan(snapshots.rows(), snapshots.columns(), snapshots.row_grain(), options);
-  report.memory_estimate = plan.memory;
-  say_plan(request, plan, snapshots.rows(), snapshots.columns());
-  reduction::Decomposition d = decompose(snapshots, options);
-  report.method = name_of(d.method);
-  if (request.warn && d.rank == 0) request.warn("all snapshots are zero: there are no modes");
-  if (request.warn && d.rank > 0 && request.modes && *request.modes > d.modes.cols())
-    request.warn(fmt::format("{} modes asked for; the snapshots have rank {}: {} kept",
-                             *request.modes, d.rank, d.modes.cols()));
-  if (request.warn && d.sigma_bound > 10.0 * options.tolerance * std::sqrt(d.energy))
+/// What is less than the user may think.
+void warn_of_limits(const PodRequest& request, const PodReport& r, double tolerance) {
+  if (!request.warn) return;
+  if (request.frame == "rotating" && request.shift != PodRequest{}.shift)
+    request.warn("--shift has no effect in the rotating frame");
+  if (r.rank == 0) return request.warn("all snapshots are zero: there are no modes");
+  if (request.modes && *request.modes > r.modes)
+    request.warn(r.rank_is_known && r.modes == r.rank
+                     ? fmt::format("{} modes asked for; the snapshots have rank {}: {} kept",
+                                   *request.modes, r.rank, r.modes)
+                     : fmt::format("{} modes asked for; the memory allowed holds {}: more with "
+                                   "--memory",
+                                   *request.modes, r.modes));
+  else if (!request.modes && r.modes < std::max(r.counts.back().modes, 1LL))
+    request.warn(
+        fmt::format("the memory allowed holds {} modes; {} would leave {:.0e} of the energy: "
+                    "more with --memory",
+                    r.modes, r.counts.back().modes, r.counts.back().discarded));
+  if (r.sigma_bound > 10.0 * tolerance)
     request.warn(
         fmt::format("the memory allowed holds {} modes only: singular values are right to "
                     "{:.1e} of the first; more with --memory",
-                    d.sigma.size(), d.sigma_bound / d.sigma[0]));
-  return d;
+                    r.rank, r.sigma_bound));
+}
+
+/// Only where a method is forced: by itself none would be chosen.
+void refuse_too_long(const PodRequest& request, reduction::Method method,
+                     const RunSnapshots& snapshots) {
+  if (method != reduction::Method::direct && method != reduction::Method::tsqr) return;
+  const Index side = std::min(snapshots.rows(), snapshots.columns());
+  if (side <= reduction::largest_side) return;
+  throw request_error("--method", request.method,
+                      fmt::format("{} snapshots are too many for it", side),
+                      fmt::format("auto | incremental, above {}", reduction::largest_side));
+}
+
+reduction::DecomposeOptions options_of(const PodRequest& request) {
+  reduction::DecomposeOptions options;
+  options.method = method_of(request);
+  options.memory = memory_of(request);
+  options.modes = static_cast<Index>(request.modes.value_or(-1));
+  return options;
+}
+
+/// What the error identity says against the modes; empty: nothing.
+std::string trouble_in(const PodReport& r, const reduction::Decomposition& d) {
+  constexpr double bound = 1e-11;  // some ε of all snapshots; a wrong mode is off by its energy
+  const bool truncated = d.lost_energy > 0.0;
+  const double off =
+      truncated ? std::max(r.residual - r.tail, r.tail - d.lost_energy / d.energy - r.residual)
+                : r.difference;
+  if (!(off <= bound))
+    return fmt::format(
+        "the error identity does not hold: {:.3e} left by the modes, {:.3e} by the "
+        "spectrum, bound {:.0e}",
+        r.residual, r.tail, bound);
+  if (!(r.orthonormality <= bound))
+    return fmt::format("the modes are not orthonormal: off by {:.3e}, bound {:.0e}",
+                       r.orthonormality, bound);
+  return {};
+}
+
+/// Decomposition and error identity: two parts of one work, counted in numbers read.
+void find(const PodRequest& request, RunSnapshots& snapshots, PodResult& found) {
+  const long long all = static_cast<long long>(snapshots.rows()) * snapshots.columns();
+  long long done = 0, total = 0;
+  reduction::DecomposeOptions options = options_of(request);
+  if (request.progress)
+    options.progress = [&](long long d, long long of) {
+      done = d;
+      total = of + all;
+      request.progress(done, total);
+    };
+  found.d = decompose(snapshots, options);
+  found.spectrum = reduction::spectrum(found.d);
+  // Some tens of megabytes at once, or what is allowed.
+  const auto numbers =
+      std::min<Index>(Index{1} << 22, static_cast<Index>(options.memory / sizeof(double) / 4));
+  reduction::IdentityOptions identity;
+  identity.block = std::clamp<Index>(numbers / snapshots.rows(), 1, 32);
+  identity.fewer = kept_counts(found.spectrum, found.d.modes.cols());
+  if (request.progress)
+    identity.progress = [&](long long read) { request.progress(done += read, total); };
+  found.identity = check_identity(snapshots, found.d, identity);
 }
 
 }  // namespace
@@ -89,22 +145,29 @@ reduction::Decomposition decompose_snapshots(const PodRequest& request, RunSnaps
 PodReport run_pod(const PodRequest& request) {
   const auto begin = Clock::now();
   const SnapshotChoice choice = choice_of(request);
-  PodReport report;
-  report.directory = directory_of(request);
+  const reduction::DecomposeOptions options = options_of(request);
   const std::vector<io::RunReader> runs = open_runs(request, choice);
   PodResult found;
   found.columns = columns_of(request, choice, runs);
   RunSnapshots snapshots(runs, found.columns, choice);
+  PodReport report;
+  report.directory = make_directory(request);
   report.runs = describe_runs(runs, found.columns);
   report.weight = name_of(choice.weight);
   report.unit = unit_of(choice.quantity);
   report.rows = static_cast<std::size_t>(snapshots.rows());
   report.snapshots = found.columns.size();
+  refuse_too_long(request, options.method, snapshots);
+  const auto plan =
+      reduction::plan(snapshots.rows(), snapshots.columns(), snapshots.row_grain(), options);
+  report.memory_estimate = plan.memory;
+  say_plan(request, plan, snapshots.rows(), snapshots.columns());
 
-  found.d = decompose_snapshots(request, snapshots, report);
-  found.spectrum = reduction::spectrum(found.d);
-  found.identity = check_identity(snapshots, found.d, columns_at_once(snapshots.rows()));
+  find(request, snapshots, found);
+  report.method = name_of(found.d.method);
   add_figures(report, found);
+  warn_of_limits(request, report, options.tolerance);
+  report.trouble = trouble_in(report, found.d);
   write_pod_files(request, report, snapshots, found);
   report.wall_s = std::chrono::duration<double>(Clock::now() - begin).count();
   report.peak_memory = static_cast<std::size_t>(peak_memory_bytes());

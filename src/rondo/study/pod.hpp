@@ -16,14 +16,14 @@ struct PodRequest {
   std::vector<std::filesystem::path> runs;  ///< results directories; several: one common basis
   std::string field = "displacement";       ///< "displacement" | "velocity" | "contact"
   std::string frame = "rotating";           ///< "rotating" | "rectified"
-  std::string weight;                  ///< "mass" | "delassus" | "none"; empty: the field's own
-  std::string shift = "fourier";       ///< "fourier" | "pitch": rectified frame only
-  std::string method = "auto";         ///< "auto" | "direct" | "tsqr" | "incremental"
-  std::optional<double> from, to;      ///< window of the field's times, both ends included  [s]
-  std::optional<long long> modes;      ///< kept; none: as many as leave 1e-6 of the energy
-  std::size_t memory = 2'000'000'000;  ///< allowed to the decomposition                      [B]
-  int reconstruct = 20;                ///< snapshots rebuilt from the modes for ParaView
-  std::filesystem::path directory;     ///< of the results; empty: RUN/pod
+  std::string weight;               ///< "mass" | "delassus" | "none"; empty: the field's own
+  std::string shift = "fourier";    ///< "fourier" | "pitch": rectified frame only
+  std::string method = "auto";      ///< "auto" | "direct" | "tsqr" | "incremental"
+  std::optional<double> from, to;   ///< window of the field's times, both ends included  [s]
+  std::optional<long long> modes;   ///< kept; none: as many as leave 1e-6 of the energy
+  std::string memory = "2GB";       ///< allowed to the decomposition, e.g. "500MB"
+  int reconstruct = 20;             ///< snapshots rebuilt from the modes for ParaView
+  std::filesystem::path directory;  ///< of the results; empty: RUN/pod
   std::function<void(const std::string&)> warn, say;   ///< may be empty
   std::function<void(long long, long long)> progress;  ///< done, of all; may be empty
 };
@@ -42,7 +42,8 @@ struct PodRun {
   double from = 0.0, to = 0.0;  ///< times of the first and last snapshot taken               [s]
   double energy_share = 0.0;    ///< of all runs'
   double error = 0.0;           ///< with all modes kept
-  std::vector<double> count_errors;  ///< with the modes of each PodReport::counts
+  /// With the modes of each PodReport::counts; none where these are more than kept.
+  std::vector<std::optional<double>> count_errors;
 };
 
 struct PodReport {
@@ -53,12 +54,16 @@ struct PodReport {
   double sigma_1 = 0.0;
   double sigma_bound = 0.0;       ///< of the error of the singular values, over the first
   long long rank = 0, modes = 0;  ///< modes: kept
+  bool rank_is_known = true;      ///< false: truncated, it is at least `rank`
   std::vector<PodCount> counts;
   double worst_error = 0.0;  ///< largest error of a snapshot over its own norm, with the modes kept
   double worst_time = 0.0;   ///< [s]
   std::filesystem::path worst_run;
   double residual = 0.0, tail = 0.0, difference = 0.0;  ///< error identity, shares of the energy
-  double orthonormality = 0.0;                          ///< max |ΦᵀMΦ - I|
+  bool truncated = false;       ///< the tail is then an upper bound of the residual
+  double orthonormality = 0.0;  ///< max |ΦᵀMΦ - I|
+  std::string
+      trouble;  ///< the identity does not hold or the modes are not orthonormal; empty: fine
   std::vector<PodRun> runs;
   std::size_t memory_estimate = 0, peak_memory = 0;  ///< [B]
   double wall_s = 0.0;

@@ -3,8 +3,16 @@
 
 #include <fmt/format.h>
 
+#include <unistd.h>
+
 #include <array>
+#include <cerrno>
+#include <cmath>
 #include <limits>
+#include <system_error>
+#include <utility>
+
+#include "rondo/study/estimate.hpp"
 
 namespace rondo::study {
 namespace {
@@ -52,6 +60,42 @@ const char* word_of(Value value, const std::array<Word<Value>, N>& words) {
   return "";
 }
 
+void say_if_unfinished(const PodRequest& request, const io::RunReader& run) {
+  if (!request.warn || run.status() == "done") return;
+  // A run that could end by itself has cut its datasets to what it wrote.
+  const std::string of = run.n_planned() > run.n_snapshots()
+                             ? fmt::format(" of {} planned", run.n_planned())
+                             : std::string();
+  request.warn(
+      fmt::format("{}: the run is not finished (status {}); its {} complete snapshots{} are used",
+                  run.directory().string(), run.status(), run.n_snapshots(), of));
+}
+
+void refuse_twice(const PodRequest& request) {
+  std::error_code error;
+  for (std::size_t k = 1; k < request.runs.size(); ++k)
+    for (std::size_t other = 0; other < k; ++other)
+      if (std::filesystem::equivalent(request.runs[k], request.runs[other], error))
+        throw request_error("RUN", request.runs[k].string(), "named twice", "each run once");
+}
+
+io::RunReader open_run(const std::filesystem::path& directory) {
+  try {
+    return io::RunReader(directory);
+  } catch (const FileError& error) {
+    throw FileError(directory.string(),
+                    fmt::format("{}; copy the run again or run the case again", error.what()));
+  }
+}
+
+/// Sectors that all hold the same places; else a field cannot be moved from one to the next.
+bool repeats(const mesh::Mesh& mesh, bool contact) {
+  if (mesh.n_sectors == 0) return false;
+  return (contact ? reduction::boundary_rings(mesh) : reduction::node_rings(mesh)).n_sectors > 0;
+}
+
+}  // namespace
+
 InputError request_error(const std::string& option, const std::string& found,
                          const std::string& message, const std::string& allowed) {
   Fault fault;
@@ -61,16 +105,6 @@ InputError request_error(const std::string& option, const std::string& found,
   fault.allowed = allowed;
   return InputError(fault);
 }
-
-void say_if_unfinished(const PodRequest& request, const io::RunReader& run) {
-  if (!request.warn || run.status() == "done") return;
-  request.warn(
-      fmt::format("{}: the run is not finished (status {}); its {} complete snapshots of {} "
-                  "planned are used",
-                  run.directory().string(), run.status(), run.n_snapshots(), run.n_planned()));
-}
-
-}  // namespace
 
 SnapshotChoice choice_of(const PodRequest& r) {
   SnapshotChoice choice;
@@ -82,14 +116,29 @@ SnapshotChoice choice_of(const PodRequest& r) {
     throw request_error("--weight", r.weight,
                         fmt::format("does not weigh a field of {}", contact ? "forces" : r.field),
                         contact ? "delassus | none" : "mass | none");
-  if (value_of("--frame", r.frame, frames)) choice.rectified = value_of("--shift", r.shift, shifts);
+  const reduction::Shift shift = value_of("--shift", r.shift, shifts);
+  if (value_of("--frame", r.frame, frames)) choice.rectified = shift;
   if (r.modes && *r.modes < 1)
     throw request_error("--modes", fmt::to_string(*r.modes), "no modes to keep", "1 or more");
+  if (r.reconstruct < 0)
+    throw request_error("--reconstruct", fmt::to_string(r.reconstruct), "not a number of snapshots",
+                        "0 or more");
+  for (const auto& [option, time] : {std::pair{"--from", r.from}, {"--to", r.to}})
+    if (time && std::isnan(*time))
+      throw request_error(option, "nan", "not a time", "a number of seconds");
   return choice;
 }
 
 reduction::Method method_of(const PodRequest& request) {
   return value_of("--method", request.method, methods);
+}
+
+std::size_t memory_of(const PodRequest& request) {
+  const std::optional<std::size_t> bytes = bytes_in(request.memory);
+  if (!bytes)
+    throw request_error("--memory", request.memory, "not an amount of memory",
+                        "e.g. 500MB, 2GB, 1.5GiB");
+  return *bytes;
 }
 
 const char* name_of(reduction::Method method) noexcept {
@@ -115,8 +164,9 @@ const char* unit_of(io::Quantity quantity) noexcept {
 std::vector<io::RunReader> open_runs(const PodRequest& request, const SnapshotChoice& choice) {
   std::vector<io::RunReader> runs;
   runs.reserve(request.runs.size());
+  refuse_twice(request);
   for (const auto& directory : request.runs) {
-    const io::RunReader& run = runs.emplace_back(directory);
+    const io::RunReader& run = runs.emplace_back(open_run(directory));
     const std::string name = directory.string();
     if (run.n_snapshots() == 0)
       throw request_error(
@@ -126,7 +176,7 @@ std::vector<io::RunReader> open_runs(const PodRequest& request, const SnapshotCh
       throw request_error("--field", request.field,
                           fmt::format("{} holds no such field: the case has no [ground]", name),
                           "displacement | velocity");
-    if (choice.rectified && run.mesh().n_sectors == 0)
+    if (choice.rectified && !repeats(run.mesh(), choice.quantity == io::Quantity::contact))
       throw request_error(
           "--frame", request.frame,
           fmt::format("the mesh of {} has no equal sectors to move a field round", name),
@@ -173,12 +223,21 @@ std::vector<Column> columns_of(const PodRequest& request, const SnapshotChoice& 
   return columns;
 }
 
-std::filesystem::path directory_of(const PodRequest& request) {
+std::filesystem::path make_directory(const PodRequest& request) {
   if (request.directory.empty() && request.runs.size() > 1)
     throw request_error("-o", "", "several runs have one basis, which belongs to none of them",
                         "-o DIR");
   const auto base = request.directory.empty() ? request.runs.front() / "pod" : request.directory;
-  return base / fmt::format("{}-{}", request.field, request.frame);
+  const auto directory = base / fmt::format("{}-{}", request.field, request.frame);
+  std::error_code error;
+  std::filesystem::create_directories(directory, error);
+  if (!error && access(directory.c_str(), W_OK | X_OK) != 0)
+    error = std::error_code(errno, std::generic_category());
+  if (error)
+    throw FileError(
+        directory.string(),
+        fmt::format("cannot be made or written into: {}; choose another -o", error.message()));
+  return directory;
 }
 
 }  // namespace rondo::study

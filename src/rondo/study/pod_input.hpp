@@ -12,9 +12,15 @@
 
 namespace rondo::study {
 
+/// A fault of the command line.
+InputError request_error(const std::string& option, const std::string& found,
+                         const std::string& message, const std::string& allowed);
+
 /// @throws InputError: a word that is not known, a weight that does not fit the field.
 SnapshotChoice choice_of(const PodRequest& request);
 reduction::Method method_of(const PodRequest& request);
+/// Bytes. @throws InputError: not an amount of memory
+std::size_t memory_of(const PodRequest& request);
 
 /// Words of the command line.
 const char* name_of(reduction::Method method) noexcept;
@@ -29,7 +35,8 @@ std::vector<io::RunReader> open_runs(const PodRequest& request, const SnapshotCh
 std::vector<Column> columns_of(const PodRequest& request, const SnapshotChoice& choice,
                                const std::vector<io::RunReader>& runs);
 
-/// Where the results go. @throws InputError: several runs and no directory
-std::filesystem::path directory_of(const PodRequest& request);
+/// Where the results go, made if it is not there. @throws InputError: several runs and no
+/// directory; FileError: cannot be made or written into
+std::filesystem::path make_directory(const PodRequest& request);
 
 }  // namespace rondo::study

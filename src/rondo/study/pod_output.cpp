@@ -102,7 +102,6 @@ void write_pod_files(const PodRequest& request, const PodReport& report, RunSnap
   content.runs = numbers.runs;
   const std::size_t asked = result.d.rank > 0 ? static_cast<std::size_t>(request.reconstruct) : 0;
   const std::vector<std::size_t> chosen = spread(asked, result.columns.size());
-  std::filesystem::create_directories(report.directory);
   io::PodWriter writer(report.directory, content, chosen.size());
   reconstruct(writer, snapshots, result, chosen);
   writer.commit();

@@ -15,6 +15,12 @@ using reduction::Index;
 
 constexpr std::array<double, 3> counted_shares{1e-2, 1e-4, 1e-6};
 
+std::vector<PodCount> count_modes(const reduction::Spectrum& spectrum) {
+  std::vector<PodCount> counts;
+  for (const double share : counted_shares) counts.push_back({share, modes_for(spectrum, share)});
+  return counts;
+}
+
 void add_energies(PodReport& report, const reduction::Decomposition& d,
                   const reduction::Spectrum& spectrum) {
   report.energy = d.energy;
@@ -22,8 +28,11 @@ void add_energies(PodReport& report, const reduction::Decomposition& d,
   report.sigma_bound = report.sigma_1 > 0.0 ? d.sigma_bound / report.sigma_1 : 0.0;
   report.rank = d.rank;
   report.modes = d.modes.cols();
-  for (const double share : counted_shares)
-    report.counts.push_back({share, modes_for(spectrum, share)});
+  report.rank_is_known =
+      d.method != reduction::Method::incremental ||
+      d.sigma_bound <= reduction::round_off(d.modes.rows(), d.temporal.rows(), report.sigma_1);
+  report.truncated = d.lost_energy > 0.0;
+  report.counts = count_modes(spectrum);
 }
 
 void add_identity(PodReport& report, const reduction::Identity& identity,
@@ -58,11 +67,14 @@ void add_run_errors(PodReport& report, const reduction::Decomposition& d,
     report.runs[r].energy_share = d.energy > 0.0 ? energy[r] / d.energy : 0.0;
     report.runs[r].error = relative_error(error[r], energy[r]);
   }
+  std::size_t k = 0;  // place in identity.fewer_error
   for (const PodCount& count : report.counts) {
-    const Index modes = count.modes < 0 ? d.sigma.size() : static_cast<Index>(count.modes);
-    const std::vector<double> of_count = by_run(squared_errors(d, modes), columns, n);
+    const bool kept = count.modes >= 0 && count.modes <= report.modes;
+    const std::vector<double> of_count =
+        kept ? by_run(identity.fewer_error[k++], columns, n) : std::vector<double>();
     for (std::size_t r = 0; r < n; ++r)
-      report.runs[r].count_errors.push_back(relative_error(of_count[r], energy[r]));
+      report.runs[r].count_errors.push_back(
+          kept ? std::optional(relative_error(of_count[r], energy[r])) : std::nullopt);
   }
 }
 
@@ -87,13 +99,21 @@ void add_figures(PodReport& report, const PodResult& found) {
   add_run_errors(report, found.d, found.identity, found.columns);
 }
 
+std::vector<Index> kept_counts(const reduction::Spectrum& spectrum, Index kept) {
+  std::vector<Index> modes;
+  for (const PodCount& count : count_modes(spectrum))
+    if (count.modes >= 0 && count.modes <= kept) modes.push_back(static_cast<Index>(count.modes));
+  return modes;
+}
+
 double relative_error(double squared_error, double energy) noexcept {
   return energy > 0.0 ? std::sqrt(squared_error / energy) : 0.0;
 }
 
 nlohmann::ordered_json as_json(const PodRequest& request, const PodReport& r) {
   nlohmann::ordered_json j;
-  j["status"] = "done";
+  j["status"] = r.trouble.empty() ? "done" : "failed";
+  if (!r.trouble.empty()) j["message"] = r.trouble;
   j["version"] = version;
   j["field"] = request.field;
   j["frame"] = request.frame;
@@ -106,7 +126,7 @@ nlohmann::ordered_json as_json(const PodRequest& request, const PodReport& r) {
   j["energy"] = r.energy;
   j["sigma_1"] = r.sigma_1;
   j["sigma_bound_relative"] = r.sigma_bound;
-  j["rank"] = r.rank;
+  j[r.rank_is_known ? "rank" : "rank_at_least"] = r.rank;
   j["modes_kept"] = r.modes;
   for (const PodCount& c : r.counts) {
     auto& value = j["modes_for"][fmt::format("{:.0e}", c.discarded)];
@@ -119,7 +139,8 @@ nlohmann::ordered_json as_json(const PodRequest& request, const PodReport& r) {
   for (const PodRun& run : r.runs) {
     nlohmann::ordered_json errors;
     for (std::size_t c = 0; c < r.counts.size(); ++c)
-      errors[fmt::format("{:.0e}", r.counts[c].discarded)] = run.count_errors[c];
+      if (auto& error = errors[fmt::format("{:.0e}", r.counts[c].discarded)]; run.count_errors[c])
+        error = *run.count_errors[c];
     j["runs"].push_back({{"directory", run.directory.string()},
                          {"title", run.title},
                          {"status", run.status},

@@ -14,7 +14,11 @@ namespace rondo::study {
 std::vector<PodRun> describe_runs(const std::vector<io::RunReader>& runs,
                                   const std::vector<Column>& columns);
 
-/// @pre report.runs are there.
+/// Those of PodReport::counts that are kept: what the error identity is to look at besides.
+std::vector<reduction::Index> kept_counts(const reduction::Spectrum& spectrum,
+                                          reduction::Index kept);
+
+/// @pre report.runs are there; the identity was looked at with kept_counts().
 void add_figures(PodReport& report, const PodResult& found);
 
 /// Norm of an error over that of what it is of; 0 where that is 0.
