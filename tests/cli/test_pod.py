@@ -45,7 +45,22 @@ def rectified(values, h5, angles, rows):
     return out
 
 
-def reference(directory, field, frame="rotating", weight=None):
+def by_pitches(values, h5, angles, rows):
+    """The same by the nearest whole number of sectors: places and components."""
+    sector, ring = h5["/mesh/sector"][:][rows], h5["/mesh/sector_node"][:][rows]
+    n = sector.max() + 1
+    place = {(s, r): k for k, (s, r) in enumerate(zip(sector, ring))}
+    out = np.empty_like(values)
+    for j, angle in enumerate(angles):
+        steps = round(angle / (2 * np.pi) * n)
+        source = [place[(s - steps) % n, r] for s, r in zip(sector, ring)]
+        c, s = np.cos(2 * np.pi * steps / n), np.sin(2 * np.pi * steps / n)
+        turn = np.eye(2) if len(rows) != len(h5["/mesh/sector"]) else np.array([[c, -s], [s, c]])
+        out[j] = values[j][source] @ turn.T
+    return out
+
+
+def reference(directory, field, frame="rotating", weight=None, weighted=True):
     """Weighted snapshots (rows, t) of a run, put together by numpy alone."""
     with h5py.File(directory / "results.h5") as h5:
         mass = h5["/mesh/mass"][:]
@@ -60,6 +75,10 @@ def reference(directory, field, frame="rotating", weight=None):
                 angle = h5["/frame/angle_velocity"][:]
         if frame == "rectified":
             values = rectified(values, h5, angle, rows)
+        if frame == "pitch":
+            values = by_pitches(values, h5, angle, rows)
+    if not weighted:
+        return values
     if weight == "none":
         w = np.ones_like(w)
     return (np.sqrt(w)[None, :, None] * values).reshape(len(values), -1).T
@@ -148,17 +167,105 @@ class Pod(ProgramTest):
         worst = max(r / n for r, n in zip(rest, size) if n > 0)
         self.assertAlmostEqual(j["worst_snapshot"]["error"], worst, delta=1e-9)
 
+    def test_weight_none_and_whole_pitches(self):
+        out = self.make(TREADED)
+        for field in "displacement", "contact":
+            self.pod(out, "--field", field, "--weight", "none")
+            self.check_against_numpy(out, reference(out, field, weight="none"), f"{field}-rotating")
+            self.pod(out, "--field", field, "--frame", "rectified", "--shift", "pitch")
+            self.check_against_numpy(out, reference(out, field, "pitch"), f"{field}-rectified")
+
+    def test_modes_rebuild_the_fields(self):
+        """All modes give every snapshot back, in the order of the mesh; the copies for ParaView too."""
+        out = self.make(replaced(TREADED, "angular_velocity",
+                                 "angular_velocity = [[0, 0], [0.02, 60]]"))
+        for field in "velocity", "contact":
+            self.pod(out, "--field", field, "--frame", "rectified", "--modes", 1000,
+                     "--reconstruct", 4)
+            values = reference(out, field, "rectified", weighted=False)
+            scale = np.abs(values).max()
+            with h5py.File(out / "pod" / f"{field}-rectified" / "pod.h5") as h5:
+                modes, coefficients = h5["/modes/spatial"][:], h5["/modes/coefficients"][:]
+                np.testing.assert_allclose(np.tensordot(coefficients, modes, axes=1), values,
+                                           rtol=0, atol=1e-12 * scale)
+                nodes = h5["/mesh/boundary"][:] if field == "contact" else np.arange(values.shape[1])
+                for name in "original", "reconstructed":
+                    shown = h5["/fields/" + name][:][:, nodes, :2]
+                    np.testing.assert_allclose(shown, values[[0, 3, 6, 10]], rtol=0,
+                                               atol=1e-6 * scale)  # single precision
+                with h5py.File(out / "results.h5") as run:
+                    end = "_velocity" if field == "velocity" else ""
+                    for name in "time", "angle":
+                        np.testing.assert_array_equal(h5["/snapshots/" + name][:],
+                                                      run["/frame/" + name + end][:])
+
+    def test_angles_of_the_rotating_frame_too(self):
+        out = self.make()
+        self.pod(out, "--field", "velocity")
+        with h5py.File(out / "pod/velocity-rotating/pod.h5") as h5, \
+                h5py.File(out / "results.h5") as run:
+            np.testing.assert_array_equal(h5["/snapshots/angle"][:], run["/frame/angle_velocity"][:])
+
+    def test_more_snapshots_than_numbers(self):
+        """By blocks of snapshots; candidates that never touch make rows of zeros."""
+        out = self.make(SMALL, "out", "--set", "output.snapshots=300", "--set",
+                        "time.end=0.06", "--set", "output.stress=false")
+        a = reference(out, "contact")
+        self.assertLess(*a.shape)
+        rank = np.linalg.matrix_rank(a)
+        self.assertLess(rank, len(a))
+        for option in (("--method", "tsqr"), ("--method", "tsqr", "--modes", "5"),
+                       ("--memory", "450kB")):
+            done = self.pod(out, "--field", "contact", *option)
+            self.assertIn("tsqr", done.stdout)
+            self.check_against_numpy(out, a, "contact-rotating")
+            self.assertEqual(summary(out / "pod/contact-rotating")["rank"], rank)
+
+    def test_what_was_cut_is_in_the_errors(self):
+        """Of a basis that memory truncated: true errors by run, and none where modes are missing."""
+        runs = [self.make(SMALL, f"mu{k}", "--set", f"ground.friction=0.{k}", "--set",
+                          "output.snapshots=80", "--set", "output.stress=false") for k in (0, 6)]
+        done = self.pod(*runs, "-o", self.folder / "c", "--field", "velocity", "--memory", "150kB")
+        folder = self.folder / "c" / "velocity-rotating"
+        j = summary(folder)
+        self.assertEqual(j["method"], "incremental")
+        self.assertNotIn("rank", j)
+        self.assertEqual(j["rank_at_least"], j["modes_kept"])
+        self.assertIsNone(j["modes_for"]["1e-06"])
+        self.assertIn("at least", done.stdout)
+        with h5py.File(folder / "pod.h5") as h5:
+            mass = np.repeat(h5["/mesh/mass"][:], 2)
+            phi = h5["/modes/spatial"][:].reshape(j["modes_kept"], -1) * np.sqrt(mass)
+            np.testing.assert_array_equal(h5["/snapshots/run"][:], [0] * 80 + [1] * 80)
+            error = h5["/snapshots/error"][:]
+        worst = (0.0, None, None)
+        for k, entry in enumerate(j["runs"]):
+            a = reference(runs[k], "velocity")
+            rest = np.linalg.norm(a - phi.T @ (phi @ a), axis=0)
+            size = np.linalg.norm(a, axis=0)
+            self.assertAlmostEqual(entry["error"], np.linalg.norm(rest) / np.linalg.norm(a),
+                                   delta=1e-12)
+            self.assertIsNone(entry["error_with_modes_for"]["1e-06"])
+            relative = np.divide(rest, size, out=np.zeros_like(rest), where=size > 0)
+            np.testing.assert_allclose(error[80 * k : 80 * k + 80], relative, atol=1e-12)
+            with h5py.File(runs[k] / "results.h5") as h5:
+                times = h5["/frame/time_velocity"][:]
+            worst = max(worst, (relative.max(), times[relative.argmax()], str(runs[k])))
+        self.assertEqual((j["worst_snapshot"]["time"], j["worst_snapshot"]["run"]), worst[1:])
+
     def test_window_and_counts(self):
         out = self.make()
-        self.pod(out, "--from", 0.009, "--to", 0.0161)
         a = reference(out, "displacement")
         with h5py.File(out / "results.h5") as h5:
             t = h5["/frame/time"][:]
-        inside = (t >= 0.009) & (t <= 0.0161)
+        self.pod(out, "--from", repr(float(t[4])), "--to", repr(float(t[8])))  # both included
+        inside = np.arange(11) // 4 == 1
+        inside[8] = True
         folder = out / "pod" / "displacement-rotating"
         s = np.linalg.svd(a[:, inside], compute_uv=False)
         np.testing.assert_allclose(spectrum(folder)["singular_value"], s, rtol=0, atol=1e-12 * s[0])
         tail = np.append(np.cumsum((s**2)[::-1])[::-1], 0.0) / (s**2).sum()
+        self.assertEqual(list(summary(folder)["modes_for"]), ["1e-02", "1e-04", "1e-06"])
         for share, modes in summary(folder)["modes_for"].items():
             self.assertEqual(modes, int(np.argmax(tail <= float(share))))
 
@@ -207,11 +314,20 @@ class Pod(ProgramTest):
         np.testing.assert_allclose(spectrum(folder)["singular_value"], s, rtol=0, atol=1e-12 * s[0])
         entries = summary(folder)["runs"]
         self.assertEqual(len(entries), 3)
+        whole = (a**2).sum()
         for entry, block in zip(entries, blocks):
+            self.assertAlmostEqual(entry["energy_share"], (block**2).sum() / whole, delta=1e-12)
             rest = block - u[:, :2] @ (u[:, :2].T @ block)
             self.assertAlmostEqual(entry["error"], np.linalg.norm(rest) / np.linalg.norm(block),
                                    delta=1e-10)
             self.assertIn(entry["directory"], done.stdout)
+        self.pod(*runs, "-o", target)
+        j = summary(folder)
+        for entry, block in zip(j["runs"], blocks):
+            for share, modes in j["modes_for"].items():
+                left = block - u[:, :modes] @ (u[:, :modes].T @ block)
+                self.assertAlmostEqual(entry["error_with_modes_for"][share],
+                                       np.linalg.norm(left) / np.linalg.norm(block), delta=1e-10)
         self.assertIn("-o", self.fails(2, *runs))
 
     def test_more_modes_than_rank(self):
@@ -266,6 +382,13 @@ class Pod(ProgramTest):
         self.fails(2, self.folder / "nowhere")
         self.fails(2, self.folder)  # a directory without a run
         self.fails(2)
+        for option, value in (("--shift", "banana"), ("--memory", "-5"), ("--memory", "much"),
+                              ("--reconstruct", -1), ("--from", "nan"), ("--method", "svd")):
+            self.assertIn(option, self.fails(2, out, option, value))
+        self.assertIn("twice", self.fails(2, out, out, "-o", self.folder / "c"))
+        self.assertIn("--shift", self.pod(out, "--shift", "pitch").stderr)  # no effect: said
+        (self.folder / "file").write_text("")
+        self.assertIn("-o", self.fails(4, out, "-o", self.folder / "file"))
         still = self.make(STILL, "still")
         self.assertIn("[ground]", self.fails(2, still, "--field", "contact"))
         empty = self.make(SMALL, "empty", "--set", "output.snapshots=0")
@@ -293,9 +416,17 @@ class Pod(ProgramTest):
             del h5["/mesh/sector"], h5["/mesh/sector_node"]
         self.assertIn("sectors", self.fails(2, no_sectors, "--frame", "rectified"))
         self.pod(no_sectors)
-        with h5py.File(no_sectors / "results.h5", "r+") as h5:
-            h5["/snapshots/displacement"][3, 5, 0] = np.nan
-        self.assertIn("not finite", self.fails(2, no_sectors))
+        for value in np.nan, 1e160:
+            with h5py.File(no_sectors / "results.h5", "r+") as h5:
+                h5["/snapshots/displacement"][3, 5, 0] = value
+            self.assertIn("not finite", self.fails(2, no_sectors))
+        with h5py.File(out / "results.h5", "r+") as h5:
+            h5["/mesh/boundary"][0] = h5["/mesh/boundary"][1]
+            del h5["/frame/angle_velocity"]
+        self.fails(2, out, "--field", "contact", "--frame", "rectified")
+        said = self.fails(2, out, "--field", "velocity", "--frame", "rectified")
+        self.assertIn("run the case again", said)
+        self.pod(out, "--field", "velocity")
 
 
 if __name__ == "__main__":

@@ -209,7 +209,9 @@ std::vector<Column> columns_of(const PodRequest& request, const SnapshotChoice& 
   for (std::size_t r = 0; r < runs.size(); ++r) {
     const io::RunTimes& of = runs[r].times();
     const std::vector<double>& times = velocity ? of.time_velocity : of.time;
-    const std::vector<double>& angles = velocity && choice.rectified ? of.angle_velocity : of.angle;
+    // Without turning, an earlier version's file will do, and its angles are not looked at.
+    const std::vector<double>& angles =
+        velocity && !of.angle_velocity.empty() ? of.angle_velocity : of.angle;
     const std::size_t before = columns.size();
     for (std::size_t j = 0; j < times.size(); ++j)
       if (times[j] >= from && times[j] <= to) columns.push_back({r, j, times[j], angles[j]});
