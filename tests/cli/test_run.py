@@ -392,5 +392,27 @@ class Program(ProgramTest):
         self.assertIn(b"100 %", said)
 
 
+class BlasThreads(ProgramTest):
+    """Sparse factorisations call a BLAS that would divide its sums by threads: large ones show it."""
+
+    def bits(self, threads, *settings):
+        out = self.folder / f"threads{threads}"
+        fine = ("disk.mesh.radial=48", "disk.mesh.circumferential=720", *settings)
+        done = run("run", ROOT / "cases" / "ledge-smooth.toml", "-o", out, "--quiet", "--threads", 1,
+                   *(word for setting in fine for word in ("--set", setting)),
+                   env={**os.environ, "OPENBLAS_NUM_THREADS": str(threads)})
+        self.assertEqual(done.returncode, 0, done.stderr)
+        return (out / "history.csv").read_bytes()
+
+    def test_crush(self):
+        settings = ("analysis.kind=crush", "analysis.depth=0.03", "analysis.increments=2",
+                    "ground.profile=flat", "ground.friction=0.1")
+        self.assertEqual(self.bits(1, *settings), self.bits(2, *settings))
+
+    def test_stationary_start(self):
+        settings = ("initial.state=stationary", "time.end=2e-5", "output.history_interval=0")
+        self.assertEqual(self.bits(1, *settings), self.bits(2, *settings))
+
+
 if __name__ == "__main__":
     unittest.main()

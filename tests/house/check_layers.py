@@ -24,7 +24,7 @@ ALLOWED["apps"] = {"core", "study"}
 # Libraries that only one module may see.
 ONLY_IN = {"hdf5.h": "io", "toml++/": "study", "CLI/": "apps", "cholmod": "statics",
            "CholmodSupport": "statics", "Spectra/": "dynamics",
-           "lapacke": "reduction", "cblas": "reduction", "fftw3": "reduction"}
+           "lapacke": "reduction", "fftw3": "reduction"}
 
 INCLUDE = re.compile(r'^\s*#\s*include\s*[<"]([^">]+)[">]', re.MULTILINE)
 

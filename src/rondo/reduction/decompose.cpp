@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <limits>
 
+#include "rondo/core/blas_threads.hpp"
 #include "rondo/core/contract.hpp"
 #include "rondo/reduction/methods.hpp"
 #include "rondo/reduction/spectrum.hpp"
@@ -100,7 +101,7 @@ Decomposition direct(SnapshotMatrix& source, const DecomposeOptions& options) {
 Decomposition decompose(SnapshotMatrix& snapshots, const DecomposeOptions& options) {
   const DecomposePlan p =
       plan(snapshots.rows(), snapshots.columns(), snapshots.row_grain(), options);
-  const OneThread one_thread;
+  const OneBlasThread one_thread;
   Decomposition d = p.method == Method::direct ? direct(snapshots, options)
                     : p.method == Method::tsqr ? tsqr(snapshots, options, p)
                                                : incremental(snapshots, options, p);

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "rondo/core/blas_threads.hpp"
 #include "rondo/core/contract.hpp"
 #include "rondo/core/sum.hpp"
 #include "rondo/reduction/svd.hpp"
@@ -60,7 +61,7 @@ Identity check_identity(SnapshotMatrix& snapshots, const Decomposition& d,
   RONDO_DEMAND(snapshots.rows() == d.modes.rows() && snapshots.columns() == d.temporal.rows(),
                snapshots.rows(), d.modes.rows(), snapshots.columns(), d.temporal.rows());
   RONDO_DEMAND(options.block > 0, options.block);
-  const OneThread one_thread;
+  const OneBlasThread one_thread;
   Identity out;
   out.modes = d.modes.cols();
   for (const Index q : options.fewer) RONDO_DEMAND(q >= 0 && q <= out.modes, q, out.modes);

@@ -35,13 +35,6 @@ void product(CBLAS_TRANSPOSE left, const In& a, const In& b, Out& c, double fact
 
 }  // namespace
 
-OneThread::OneThread() : before_(openblas_get_num_threads()) {
-  openblas_set_num_threads(1);
-}
-OneThread::~OneThread() {
-  openblas_set_num_threads(before_);
-}
-
 void multiply(const In& a, const In& b, Out c, double factor, double scale) {
   product(CblasNoTrans, a, b, c, factor, scale);
 }

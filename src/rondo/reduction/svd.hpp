@@ -11,18 +11,6 @@ using Eigen::Index;
 using In = Eigen::Ref<const Eigen::MatrixXd>;
 using Out = Eigen::Ref<Eigen::MatrixXd>;
 
-/// OpenBLAS computes on one thread while this lives, so that its sums have one order.
-class OneThread {
- public:
-  OneThread();
-  ~OneThread();
-  OneThread(const OneThread&) = delete;
-  OneThread& operator=(const OneThread&) = delete;
-
- private:
-  int before_;
-};
-
 /// c = scale · c + factor · a b
 void multiply(const In& a, const In& b, Out c, double factor = 1.0, double scale = 0.0);
 /// c = aᵀ b

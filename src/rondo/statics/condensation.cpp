@@ -4,6 +4,7 @@
 #include <Eigen/CholmodSupport>
 #include <algorithm>
 
+#include "rondo/core/blas_threads.hpp"
 #include "rondo/core/contract.hpp"
 
 namespace rondo::statics {
@@ -40,6 +41,7 @@ struct Condensation::Impl {
       const int c = static_cast<int>(i % 2);
       loads(row(begin + static_cast<std::size_t>(i / 2), c), i) = sign(c);
     }
+    const OneBlasThread one_thread;
     const Eigen::MatrixXd u = factor.solve(loads);
     Eigen::MatrixXd g(static_cast<Index>(2 * set.size()), width);
     for (std::size_t j = 0; j < set.size(); ++j)
@@ -62,6 +64,7 @@ Condensation::Condensation(const fem::BlockCsr& k, std::span<const int> free,
   }
   m.factor.setMode(Eigen::CholmodSupernodalLLt);
   m.factor.cholmod().print = 0;  // "not positive definite" is an answer here, not a message
+  const OneBlasThread one_thread;
   m.factor.compute(m.k);
 }
 
@@ -102,6 +105,7 @@ const Eigen::MatrixXd& Condensation::compliance() const noexcept {
 CondensedField Condensation::field(const Eigen::VectorXd& r) const {
   const Impl& m = *impl_;
   const Eigen::VectorXd load = m.load(r);
+  const OneBlasThread one_thread;
   Eigen::VectorXd u = m.factor.solve(load);
   u += m.factor.solve(load - m.k * u);  // one refinement: round-off of the solve, not of the factor
   const Eigen::VectorXd force = m.k * u;

@@ -3,6 +3,8 @@
 
 #include <Eigen/CholmodSupport>
 
+#include "rondo/core/blas_threads.hpp"
+
 namespace rondo::statics {
 namespace {
 
@@ -48,6 +50,7 @@ StationarySpin stationary_spin(const fem::BlockCsr& k, std::span<const double> m
   load.array() *= spin * spin * m.array();
   StationarySpin out;
   out.u.assign(reference.size(), Vec2{});
+  const OneBlasThread one_thread;
   Cholesky solver;
   if (!factorise(solver, a)) return out;
   Eigen::VectorXd u = solver.solve(load);
