@@ -20,6 +20,8 @@ namespace {
 constexpr std::array run_marks = {"run.json", "results.h5", "history.csv"};
 constexpr std::array run_files = {"case.toml",  "run.json",    "history.csv",  "contact.csv",
                                   "results.h5", "fields.xdmf", "checkpoint.h5"};
+constexpr std::array pod_files = {"pod.json", "pod.h5", "spectrum.csv", "modes.xdmf",
+                                  "reconstruction.xdmf"};
 
 std::string message(int code) {
   return std::generic_category().message(code);
@@ -40,13 +42,26 @@ void refuse(const fs::path& directory, const std::string& what, const std::strin
   throw InputError(fault);
 }
 
-void remove_run(const fs::path& directory) {
-  for (const char* name : run_files) {
-    std::error_code error;
-    fs::remove(directory / name, error);
-    if (error)
-      throw FileError((directory / name).string(), "cannot remove: " + message(error.value()));
+void remove_one(const fs::path& file) {
+  std::error_code error;
+  fs::remove(file, error);
+  if (error) throw FileError(file.string(), "cannot remove: " + message(error.value()));
+}
+
+/// PODs of a run that is no more: in the run's own pod/, their files and folders that are then
+/// empty.
+void remove_pods(const fs::path& directory) {
+  std::error_code error;
+  for (const auto& entry : fs::directory_iterator(directory / "pod", error)) {
+    for (const char* name : pod_files) remove_one(entry.path() / name);
+    if (fs::is_empty(entry.path(), error)) remove_one(entry.path());
   }
+  if (fs::is_empty(directory / "pod", error)) remove_one(directory / "pod");
+}
+
+void remove_run(const fs::path& directory) {
+  for (const char* name : run_files) remove_one(directory / name);
+  remove_pods(directory);
 }
 
 /// Descriptor of a file being written; removes it unless kept.

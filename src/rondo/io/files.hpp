@@ -11,8 +11,8 @@ namespace rondo::io {
 
 /// Makes `directory` ready for a run: creates it with its parents, refuses one that holds another
 /// run (run.json, results.h5 or history.csv) unless `overwrite`, which removes that run's files
-/// (and nothing else). @throws InputError (holds a run; is not a directory), FileError (cannot
-/// create).
+/// and the PODs in its own pod/ (and nothing else). @throws InputError (holds a run; is not a
+/// directory), FileError (cannot create).
 void prepare_results_directory(const std::filesystem::path& directory, bool overwrite);
 
 /// Written beside, then renamed: readers never see half a file. @throws FileError

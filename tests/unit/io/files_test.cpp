@@ -42,11 +42,18 @@ TEST(ResultsDirectory, OverwriteRemovesTheRunAndNothingElse) {
   for (const std::string& name : run) put_text(folder / name, "old");
   put_text(folder / "notes.txt", "mine");
   fs::create_directories(folder / "pod/displacement-rotating");
-  put_text(folder / "pod/displacement-rotating/pod.h5", "old");
+  fs::create_directories(folder / "pod/velocity-rotating");
+  for (const char* name : {"pod.json", "pod.h5", "spectrum.csv", "modes.xdmf"})
+    put_text(folder / "pod/displacement-rotating" / name, "old");
+  put_text(folder / "pod/velocity-rotating/pod.h5", "old");
+  put_text(folder / "pod/velocity-rotating/figure.png", "mine");
   prepare_results_directory(folder.path(), true);
   for (const std::string& name : run) EXPECT_FALSE(fs::exists(folder / name)) << name;
   EXPECT_EQ(text_of(folder / "notes.txt"), "mine");
-  EXPECT_EQ(text_of(folder / "pod/displacement-rotating/pod.h5"), "old");
+  // A POD goes with its run; what else lies there does not.
+  EXPECT_FALSE(fs::exists(folder / "pod/displacement-rotating"));
+  EXPECT_FALSE(fs::exists(folder / "pod/velocity-rotating/pod.h5"));
+  EXPECT_EQ(text_of(folder / "pod/velocity-rotating/figure.png"), "mine");
 }
 
 TEST(ResultsDirectory, ThatIsAFileIsRefused) {
