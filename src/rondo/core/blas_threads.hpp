@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-/// @file  OpenBLAS on one thread, so that its sums have one order: the same bits on any machine with
-/// the same kernels, whatever its number of cores. Sparse factorisations (CHOLMOD) call it too.
+/// @file  OpenBLAS on one thread, so that its sums have one order: the same bits on any machine
+/// with the same kernels, whatever its number of cores. Sparse factorisations (CHOLMOD) call it
+/// too.
 #pragma once
 
 namespace rondo {
