@@ -200,6 +200,8 @@ history of the last step | impulse_ += report.i => impulse_ = report.i | cli:*hi
 crush rate without its increments | static_cast<double>(increments_) * (state => 1.0 * (state |
   crush:*snapshots_and*
 crush force of the body on the ground | normal{0.0, 1.0} => normal{0.0, -1.0} | crush:*history*
+@core/blas_threads.cpp
+many BLAS threads | openblas_set_num_threads(1); => | cli:BlasThreads reduction:*SameBits*
 @study/pod_snapshots.cpp
 V19 no rectification | rectifier_->apply(column.angle, field); => | R:*smooth*rectified* pod:spectra
 V19 rectified the other way | apply(column.angle, field) => apply(-column.angle, field) | R:*smooth*rectified* pod:spectra
@@ -207,17 +209,27 @@ POD weight not its root | root_.push_back(std::sqrt(weight_ => root_.push_back((
 POD forces weighed by the mass | if (choice.weight == Weight::delassus) w = 1.0 / w; => | pod:spectra
 POD forces turned as vectors | contact ? Components::scalars : => !contact ? Components::scalars : | pod:spectra
 POD rows of another place | read_order(columns_[size(j)], place, count); => read_order(columns_[size(j)], 0, count); | study:PodSnapshots.Rows* pod:streams
-POD blind to numbers not finite | if (!std::isfinite(sum)) => if (false) | pod:damaged
+POD blind to numbers not finite | if (!(std::abs(v.x) < largest && std::abs(v.y) < largest)) => if (v.x != v.x && false) | pod:damaged
+POD fields in the order of the rings | const Index to = 2 * order_[i], from => const Index to = static_cast<Index>(2 * i), from | study:PodSnapshots.Unweight* pod:rebuild
+POD weight none is two | w = 1.0;\n => w = 2.0;\n | pod:none
 @study/pod_input.cpp
-POD angle at the displacement's time | velocity && choice.rectified ? of.angle_velocity : of.angle; => of.angle; | pod:spectra
+POD angle at the displacement's time | velocity && !of.angle_velocity.empty() ? of.angle_velocity : of.angle; => of.angle; | pod:spectra pod:angles
+POD window without its end | times[j] <= to) => times[j] < to) | pod:window
+POD shift by pitches is by harmonics | {"pitch", reduction::Shift::pitch} => {"pitch", reduction::Shift::fourier} | pod:pitches
 POD time of the displacement | velocity ? of.time_velocity : of.time; => of.time; | study:PodSnapshots.Windows*
 POD different meshes | if (!difference.empty()) => if (false) | pod:different
 POD unfinished run unsaid | run.status() == "done") return; => true) return; | pod:unfinished
 @study/pod_report.cpp
 POD run errors of the first run | sums[columns[j].run] => sums[0] | study:PodSnapshots.Errors* pod:several
+POD rank of what memory holds | rank_is_known = => rank_is_known = true || | pod:cut
+POD errors of a mode less | static_cast<Index>(count.modes)); => static_cast<Index>(count.modes) - 1); | pod:several study:PodSnapshots.*
+POD identity not judged | if (!(off <= bound)) => if (false) | study:PodTrouble.*
 POD worst is the last | if (error <= report.worst_error && j > 0) continue; => | pod:files
 @study/pod.cpp
-POD rank unsaid | request.warn && d.rank > 0 && request.modes => false && d.rank > 0 && request.modes | pod:rank
+POD rank unsaid | if (request.modes && *request.modes > r.modes) => if (false) | pod:rank
+@study/pod_output.cpp
+POD rebuilt from the first row | temporal.row(column) => temporal.row(0) | pod:rebuild
+POD original weighted | snapshots.unweight(original.col(0)); => | pod:rebuild
 """
 
 

@@ -54,7 +54,7 @@ void print_report(const study::PodRequest& q, const study::PodReport& r) {
   fmt::print("worst snapshot     {} of its norm lost, t = {:.6g} s{}\n", percent(r.worst_error),
              r.worst_time, r.runs.size() > 1 ? ", " + r.worst_run.string() : "");
   fmt::print("error identity     |S - PP'WS|^2 = {:.6e} of the energy, {} {:.6e}: {:.1e} apart\n",
-             r.residual, r.truncated ? "with what was cut at most" : "discarded", r.tail,
+             r.residual, r.lost > 0.0 ? "with what was cut at most" : "discarded", r.tail,
              r.difference);
   if (r.runs.size() > 1) print_runs(r);
   fmt::print("files              {}\n", r.directory.string());

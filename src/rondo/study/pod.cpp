@@ -98,24 +98,6 @@ reduction::DecomposeOptions options_of(const PodRequest& request) {
   return options;
 }
 
-/// What the error identity says against the modes; empty: nothing.
-std::string trouble_in(const PodReport& r, const reduction::Decomposition& d) {
-  constexpr double bound = 1e-11;  // some ε of all snapshots; a wrong mode is off by its energy
-  const bool truncated = d.lost_energy > 0.0;
-  const double off =
-      truncated ? std::max(r.residual - r.tail, r.tail - d.lost_energy / d.energy - r.residual)
-                : r.difference;
-  if (!(off <= bound))
-    return fmt::format(
-        "the error identity does not hold: {:.3e} left by the modes, {:.3e} by the "
-        "spectrum, bound {:.0e}",
-        r.residual, r.tail, bound);
-  if (!(r.orthonormality <= bound))
-    return fmt::format("the modes are not orthonormal: off by {:.3e}, bound {:.0e}",
-                       r.orthonormality, bound);
-  return {};
-}
-
 /// Decomposition and error identity: two parts of one work, counted in numbers read.
 void find(const PodRequest& request, RunSnapshots& snapshots, PodResult& found) {
   const long long all = static_cast<long long>(snapshots.rows()) * snapshots.columns();
@@ -167,7 +149,7 @@ PodReport run_pod(const PodRequest& request) {
   report.method = name_of(found.d.method);
   add_figures(report, found);
   warn_of_limits(request, report, options.tolerance);
-  report.trouble = trouble_in(report, found.d);
+  report.trouble = trouble_in(report);
   write_pod_files(request, report, snapshots, found);
   report.wall_s = std::chrono::duration<double>(Clock::now() - begin).count();
   report.peak_memory = static_cast<std::size_t>(peak_memory_bytes());

@@ -60,7 +60,7 @@ struct PodReport {
   double worst_time = 0.0;   ///< [s]
   std::filesystem::path worst_run;
   double residual = 0.0, tail = 0.0, difference = 0.0;  ///< error identity, shares of the energy
-  bool truncated = false;       ///< the tail is then an upper bound of the residual
+  double lost = 0.0;  ///< share that was truncated, in the tail: then a bound of the residual
   double orthonormality = 0.0;  ///< max |ΦᵀMΦ - I|
   std::string
       trouble;  ///< the identity does not hold or the modes are not orthonormal; empty: fine

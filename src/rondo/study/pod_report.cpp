@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 
@@ -31,7 +32,7 @@ void add_energies(PodReport& report, const reduction::Decomposition& d,
   report.rank_is_known =
       d.method != reduction::Method::incremental ||
       d.sigma_bound <= reduction::round_off(d.modes.rows(), d.temporal.rows(), report.sigma_1);
-  report.truncated = d.lost_energy > 0.0;
+  report.lost = d.energy > 0.0 ? d.lost_energy / d.energy : 0.0;
   report.counts = count_modes(spectrum);
 }
 
@@ -104,6 +105,21 @@ std::vector<Index> kept_counts(const reduction::Spectrum& spectrum, Index kept) 
   for (const PodCount& count : count_modes(spectrum))
     if (count.modes >= 0 && count.modes <= kept) modes.push_back(static_cast<Index>(count.modes));
   return modes;
+}
+
+std::string trouble_in(const PodReport& r) {
+  constexpr double bound = 1e-11;  // some ε of all snapshots; a wrong mode is off by its energy
+  // What was cut may lie along the modes kept: then it is in the tail, and not left by the modes.
+  const double off = std::max(r.residual - r.tail, r.tail - r.lost - r.residual);
+  if (!(off <= bound))
+    return fmt::format(
+        "the error identity does not hold: {:.3e} of the energy left by the modes, {:.3e} by the "
+        "spectrum, bound {:.0e}",
+        r.residual, r.tail, bound);
+  if (!(r.orthonormality <= bound))
+    return fmt::format("the modes are not orthonormal: off by {:.3e}, bound {:.0e}",
+                       r.orthonormality, bound);
+  return {};
 }
 
 double relative_error(double squared_error, double energy) noexcept {

@@ -2,6 +2,7 @@
 /// @file  From a decomposition to the figures of a POD, and to its pod.json.
 #pragma once
 #include <nlohmann/json.hpp>
+#include <string>
 #include <vector>
 
 #include "rondo/io/run_reader.hpp"
@@ -20,6 +21,10 @@ std::vector<reduction::Index> kept_counts(const reduction::Spectrum& spectrum,
 
 /// @pre report.runs are there; the identity was looked at with kept_counts().
 void add_figures(PodReport& report, const PodResult& found);
+
+/// What the figures say against the modes: the error identity does not hold, or they are not
+/// orthonormal. Empty: nothing.
+std::string trouble_in(const PodReport& report);
 
 /// Norm of an error over that of what it is of; 0 where that is 0.
 double relative_error(double squared_error, double energy) noexcept;

@@ -14,6 +14,7 @@
 #include "rondo/fem/assembly.hpp"
 #include "rondo/io/results.hpp"
 #include "rondo/mesh/disk.hpp"
+#include "rondo/study/pod_report.hpp"
 #include "rondo/study/pod_snapshots.hpp"
 
 using namespace rondo;
@@ -164,4 +165,20 @@ TEST_F(PodSnapshots, ErrorsByRunAddUpToThatOfAll) {
       left += run.energy_share * std::pow(run.count_errors[c].value(), 2);
     EXPECT_LE(left, whole.counts[c].discarded);
   }
+}
+
+TEST(PodTrouble, IdentityAndOrthonormalityAreJudged) {
+  PodReport r;
+  r.residual = r.tail = 0.25;
+  EXPECT_EQ(trouble_in(r), "");
+  r.residual = 0.26;  // more is left than the spectrum says
+  EXPECT_NE(trouble_in(r).find("identity"), std::string::npos);
+  r.residual = 0.24;  // less: only what was cut may explain it
+  EXPECT_NE(trouble_in(r), "");
+  r.lost = 0.02;
+  EXPECT_EQ(trouble_in(r), "");
+  r.orthonormality = 1e-9;
+  EXPECT_NE(trouble_in(r).find("orthonormal"), std::string::npos);
+  r.orthonormality = std::nan("");
+  EXPECT_NE(trouble_in(r), "");
 }
