@@ -93,13 +93,57 @@ void look(const CondensedProblem& p, const Findings& found, Eigen::VectorXd& r,
   r = std::move(direct);
 }
 
+/// What the basis of (6.4f) says of each candidate. Where r_n is basic and none of its slacks is,
+/// r_n is zero: open.
+Findings findings_of(const LcpSolution& lcp, double friction) {
+  const std::size_t m = lcp.basic.size() / 3;
+  Findings found(m);
+  for (std::size_t j = 0; j < m; ++j) {
+    const bool off_lower = lcp.basic[m + j] != 0, off_upper = lcp.basic[2 * m + j] == 0;
+    if (lcp.basic[j] == 0 || (!off_lower && !off_upper)) continue;
+    found[j].side = off_lower ? 1.0 : -1.0;
+    found[j].status = off_lower && off_upper && friction > 0.0 ? Status::stick : Status::slip;
+  }
+  return found;
+}
+
+/// Solves (6.4f) by pivoting and polishes; r stays where that is not better.
+void pivot(const CondensedProblem& p, Eigen::VectorXd& r, Findings& found,
+           CondensedReport& report) {
+  const ComplementaryForm form = make_complementary(p);
+  if (!(form.length > 0.0)) return;
+  const Index m = p.free.size() / 2;
+  const int max_pivots = static_cast<int>(std::min<Index>(30 * m + 100, 1000000));
+  LcpSolution lcp;
+  const LemkeReport ended = solve_lemke(form.lcp, max_pivots, lcp);
+  report.pivots = ended.pivots;
+  report.pivoting = ended.end == LemkeEnd::solved ? Pivoting::used : Pivoting::failed;
+  if (ended.end != LemkeEnd::solved) return;
+  Eigen::VectorXd pivoted(2 * m);
+  for (Index j = 0; j < m; ++j) {
+    const double normal = form.force * lcp.z[j], lower = form.force * lcp.z[m + j];
+    pivoted.segment<2>(2 * j) << normal, lower - p.friction * normal;
+  }
+  const double swept = report.residual;
+  const Findings of_basis = findings_of(lcp, p.friction);
+  look(p, of_basis, pivoted, report);
+  if (report.residual < swept) {
+    r = std::move(pivoted);
+    found = of_basis;
+  } else {
+    report.residual = swept;
+  }
+}
+
 }  // namespace
 
 contact::LocalSolution solve_block(const BlockProblem& p, double friction) noexcept {
   if (p.free.x >= 0.0) return {};
-  const double det = p.normal * p.shear - p.mixed * p.mixed;
-  const Vec2 stick = {-(p.shear * p.free.x - p.mixed * p.free.y) / det,
-                      -(p.normal * p.free.y - p.mixed * p.free.x) / det};
+  // Over `normal`, so that no square of a compliance leaves the range of the numbers.
+  const double shear = p.shear / p.normal, mixed = p.mixed / p.normal;
+  const double det = (shear - mixed * mixed) * p.normal;
+  const Vec2 stick = {-(shear * p.free.x - mixed * p.free.y) / det,
+                      -(p.free.y - mixed * p.free.x) / det};
   if (friction > 0.0 && std::abs(stick.y) <= friction * stick.x) return {stick, Status::stick};
   // The sense is that of the force which sticking would need, as in contact::solve_local.
   const double edge = stick.y > 0.0 ? friction : -friction;
@@ -122,6 +166,33 @@ double condensed_residual(const CondensedProblem& p, const Eigen::VectorXd& r,
   return largest == 0.0 ? 0.0 : largest / (force > 0.0 ? force : free);
 }
 
+ComplementaryForm make_complementary(const CondensedProblem& p) {
+  const Index m = p.free.size() / 2;
+  const auto normal = Eigen::seqN(0, m, 2), tangential = Eigen::seqN(1, m, 2);
+  ComplementaryForm f;
+  Eigen::MatrixXd& matrix = f.lcp.matrix;
+  const double compliance = p.compliance.diagonal().mean();
+  f.length = p.free.cwiseAbs().maxCoeff();
+  f.force = f.length / compliance;
+  matrix = Eigen::MatrixXd::Zero(3 * m, 3 * m);
+  const Eigen::MatrixXd nt = p.compliance(normal, tangential) / compliance,
+                        tt = p.compliance(tangential, tangential) / compliance;
+  matrix.topLeftCorner(m, m) = p.compliance(normal, normal) / compliance - p.friction * nt;
+  matrix.block(0, m, m, m) = nt;
+  matrix.block(m, 0, m, m) = nt.transpose() - p.friction * tt;
+  matrix.block(m, m, m, m) = tt;
+  matrix.block(m, 2 * m, m, m).setIdentity();
+  matrix.bottomLeftCorner(m, m).diagonal().setConstant(2.0 * p.friction);
+  matrix.block(2 * m, m, m, m).diagonal().setConstant(-1.0);
+  f.lcp.q = Eigen::VectorXd::Zero(3 * m);
+  f.lcp.q.head(m) = p.free(normal) / f.length;
+  f.lcp.q.segment(m, m) = p.free(tangential) / f.length;
+  // With the normal part at least μ times the tangential one there is no ray (6.4).
+  f.lcp.cover = Eigen::VectorXd::Ones(3 * m);
+  f.lcp.cover.segment(m, m).setConstant(1.0 / std::max(1.0, p.friction));
+  return f;
+}
+
 CondensedReport solve_condensed(const CondensedProblem& p, const CondensedLimits& limits,
                                 CondensedSolution& solution) {
   const Index size = p.free.size();
@@ -133,10 +204,13 @@ CondensedReport solve_condensed(const CondensedProblem& p, const CondensedLimits
   while (!report.converged && report.sweeps < limits.sweeps) {
     sweep(p, solution.force, found);
     ++report.sweeps;
+    const bool last = report.sweeps == limits.sweeps;
+    const bool pivots = report.sweeps == limits.sweeps_before_pivoting;
     const int wait = found == looked_at ? sweeps_without_news : sweeps_between_looks;
-    if (report.sweeps % wait != 0 && report.sweeps != limits.sweeps) continue;
+    if (report.sweeps % wait != 0 && !last && !pivots) continue;
     looked_at = found;
     look(p, found, solution.force, report);
+    if (pivots && !(report.residual <= limits.tolerance)) pivot(p, solution.force, found, report);
     report.converged = report.residual <= limits.tolerance;
   }
   solution.status.clear();

@@ -4,12 +4,15 @@
 /// the first is normal (> 0 separates), the second tangential.
 /// Method: block Gauss–Seidel (Jourdan, Alart, Jean, CMAME 155 (1998) 31) to find who is open, who
 /// sticks and who slips; a direct solve of those that press then gives the forces to round-off.
+/// Where the sweeps do not find it, Lemke's pivoting on the law as a linear complementarity problem
+/// (Klarbring, Ing.-Arch. 60 (1990) 529).
 #pragma once
 #include <Eigen/Core>
 #include <vector>
 
 #include "rondo/contact/law.hpp"
 #include "rondo/core/vec2.hpp"
+#include "rondo/statics/lemke.hpp"
 
 namespace rondo::statics {
 
@@ -27,13 +30,22 @@ struct CondensedSolution {
 
 struct CondensedLimits {
   double tolerance = 1e-12;  ///< of the relative residual (6.4d)                        [-]
-  int sweeps = 5000;
+  int sweeps_before_pivoting = 300;
+  int sweeps = 5000;  ///< in all; those after the pivoting where that found nothing
+};
+
+enum class Pivoting {
+  none,   ///< not needed
+  used,   ///< ended on a solution; the residual tells whether it is one
+  failed  ///< found none, by round-off: there is one (docs/theory.md, 6.4)
 };
 
 struct CondensedReport {
   bool converged = false;
   int sweeps = 0;
   int direct_solves = 0;
+  Pivoting pivoting = Pivoting::none;
+  int pivots = 0;
   double residual = 0.0;  ///< relative (6.4d)                                           [-]
 };
 
@@ -53,6 +65,16 @@ contact::LocalSolution solve_block(const BlockProblem& problem, double friction)
 /// @param w (2m) gap and slip under r [m]
 double condensed_residual(const CondensedProblem& problem, const Eigen::VectorXd& r,
                           const Eigen::VectorXd& w);
+
+/// The law as a linear complementarity problem without units (6.4f): forces over `force`, gaps and
+/// slips over `length`; z = (r_n, r_t + μ r_n, backward slip), y = (gap, forward slip, μ r_n -
+/// r_t).
+struct ComplementaryForm {
+  Lcp lcp;              ///< of 3m
+  double length = 0.0;  ///< largest |free| [m]
+  double force = 0.0;   ///< length over the mean of G's diagonal [N/m]
+};
+ComplementaryForm make_complementary(const CondensedProblem& problem);
 
 [[nodiscard]] CondensedReport solve_condensed(const CondensedProblem& problem,
                                               const CondensedLimits& limits,

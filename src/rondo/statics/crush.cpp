@@ -166,6 +166,8 @@ CrushReport press(const CrushModel& model, double depth, Condensation& body, Cru
     trial.solution.force = last_force(body, state);
     const CondensedReport solved = solve_condensed(problem, model.limits, trial.solution);
     report.sweeps += solved.sweeps;
+    report.pivots += solved.pivots;
+    if (solved.pivoting != Pivoting::none) report.pivoting = solved.pivoting;
     find_field(model, body, state, trial);
     report.residual = field_residual(problem, body, trial);
     report.equilibrium = trial.field.residual;

@@ -60,7 +60,9 @@ struct CrushReport {
   double equilibrium = 0.0;  ///< ‖K u - Hᵀ r‖ / ‖Hᵀ r‖                                      [-]
   double penetration = 0.0;  ///< largest -gap of all candidates, >= 0                      [m]
   int sweeps = 0;            ///< of all solves of the increment
-  std::size_t appended = 0;  ///< candidates that had to be added to the set
+  int pivots = 0;            ///< likewise
+  Pivoting pivoting = Pivoting::none;  ///< of the last solve that needed it
+  std::size_t appended = 0;            ///< candidates that had to be added to the set
 };
 
 /// Adds the candidates to the set whose clearance is at most `reach` [m]; how many.

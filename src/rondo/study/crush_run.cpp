@@ -31,6 +31,7 @@ struct Loop {
   double equilibrium = 0.0;  ///< largest of K u = Hᵀ r
   double penetration = 0.0;  ///< largest [m]
   int sweeps = 0;            ///< most of an increment
+  int pivoted = 0;           ///< increments that the sweeps alone did not solve
   double wall_s = 0.0;
   std::size_t snapshots = 0;
   statics::CrushState state;
@@ -40,26 +41,17 @@ struct Loop {
     if (!(r.equilibrium <= equilibrium)) equilibrium = r.equilibrium;
     penetration = std::max(penetration, r.penetration);
     sweeps = std::max(sweeps, r.sweeps);
+    pivoted += r.pivoting != statics::Pivoting::none ? 1 : 0;
   }
 };
 
-/// What is wrong after an increment; empty while all is well.
-std::string find_trouble(const CrushSetup& setup, const statics::CrushReport& report,
-                         const statics::CrushState& state) {
-  if (!std::isfinite(report.residual) || !std::isfinite(report.equilibrium))
-    return "the forces or displacements are out of the range of the numbers";
-  if (!report.converged)
-    return fmt::format(
-        "contact residual {:.3g}, bound {:.0e}, after {} sweeps; more increments "
-        "may help",
-        report.residual, setup.model.bound, report.sweeps);
-  if (!(report.equilibrium <= residual_bound))
-    return fmt::format("residual of the equilibrium {:.3g}, bound {:.0e}", report.equilibrium,
-                       residual_bound);
-  if (!(state.works.relative <= residual_bound))
-    return fmt::format("the energy does not balance: relative residual {:.3g}, bound {:.0e}",
-                       state.works.relative, residual_bound);
-  return {};
+std::string not_solved(const statics::CrushReport& report, double bound) {
+  const char* failed =
+      report.pivoting == statics::Pivoting::failed ? ", which found none in numbers" : "";
+  return fmt::format(
+      "the contact was not solved: contact residual {:.3g}, bound {:.0e}, after {} sweeps and {} "
+      "pivots{}; a smaller ground.friction is easier",
+      report.residual, bound, report.sweeps, report.pivots, failed);
 }
 
 Loop run_loop(const Case& c, const CrushSetup& setup, statics::Condensation& body,
@@ -74,7 +66,7 @@ Loop run_loop(const Case& c, const CrushSetup& setup, statics::Condensation& bod
     const std::vector<Vec2> before = loop.state.u;
     const statics::CrushReport report = statics::press(setup.model, depth, body, loop.state);
     loop.add(report);
-    const std::string trouble = find_trouble(setup, report, loop.state);
+    const std::string trouble = crush_trouble(report, loop.state.works, setup.model.bound);
     if (!trouble.empty()) {
       loop.status = RunStatus::failed;
       loop.message = fmt::format("increment {} of {}, depth {:.6g} m: {}", k, n, depth, trouble);
@@ -117,6 +109,7 @@ void add_outcome(Json& j, const Loop& loop, const statics::Condensation& body) {
   j["energy_exchanged"] = loop.state.works.exchanged;
   j["penetration_max_m"] = loop.penetration;
   j["sweeps_max"] = loop.sweeps;
+  j["pivoted_increments"] = loop.pivoted;
   j["loop_wall_s"] = loop.wall_s;
   j["peak_memory_bytes"] = peak_memory_bytes();
   j["snapshots"] = loop.snapshots;
@@ -152,6 +145,20 @@ Loop record(const Case& c, const CrushSetup& setup, statics::Condensation& body,
 }
 
 }  // namespace
+
+std::string crush_trouble(const statics::CrushReport& report, const statics::CrushWorks& works,
+                          double bound) {
+  if (!std::isfinite(report.residual) || !std::isfinite(report.equilibrium))
+    return "the forces or displacements are out of the range of the numbers";
+  if (!report.converged) return not_solved(report, bound);
+  if (!(report.equilibrium <= residual_bound))
+    return fmt::format("residual of the equilibrium {:.3g}, bound {:.0e}", report.equilibrium,
+                       residual_bound);
+  if (!(works.relative <= residual_bound))
+    return fmt::format("the energy does not balance: relative residual {:.3g}, bound {:.0e}",
+                       works.relative, residual_bound);
+  return {};
+}
 
 RunReport run_crush(const Case& c, const RunOptions& options) {
   const CrushSetup setup = build_crush(c);

@@ -7,6 +7,7 @@
 #include <random>
 
 #include "rondo/contact/residual.hpp"
+#include "rondo/statics/lemke.hpp"
 
 using namespace rondo;
 using contact::Status;
@@ -138,4 +139,95 @@ TEST(SolveCondensed, NoForceWhereAllIsOpen) {
   EXPECT_TRUE(statics::solve_condensed(p, {}, s).converged);
   EXPECT_EQ(s.force.norm(), 0.0);
   EXPECT_EQ(s.status[1], Status::open);
+}
+
+namespace {
+
+/// Forces of all choices of statuses that hold the law.
+std::vector<Eigen::VectorXd> enumerate(const statics::CondensedProblem& p) {
+  std::vector<Eigen::VectorXd> found;
+  const int choices = 1 << p.free.size();  // 4 to the power of the candidates
+  for (int choice = 0; choice < choices; ++choice) {
+    const Eigen::VectorXd r = of_choice(p, choice);
+    if (statics::condensed_residual(p, r, p.free + p.compliance * r) < 1e-10) found.push_back(r);
+  }
+  return found;
+}
+
+constexpr statics::CondensedLimits sweeps_alone{1e-12, 0, 5000};
+
+}  // namespace
+
+/// Little friction: there is one solution, and the complementary form has it, unpolished.
+TEST(Pivoting, FindsWhatEnumerationFinds) {
+  std::mt19937_64 random(5);
+  int slipping = 0, sticking = 0;
+  for (int k = 0; k < 300; ++k) {
+    constexpr Index m = 4;
+    const Eigen::MatrixXd g = random_compliance(m, random);
+    const statics::CondensedProblem p{g, random_free(m, random), k % 3 == 0 ? 0.0 : 0.4};
+    const statics::ComplementaryForm form = statics::make_complementary(p);
+    statics::LcpSolution lcp;
+    ASSERT_EQ(statics::solve_lemke(form.lcp, 1000, lcp).end, statics::LemkeEnd::solved);
+    Eigen::VectorXd r(2 * m);
+    for (Index j = 0; j < m; ++j) {
+      r[2 * j] = form.force * lcp.z[j];
+      r[2 * j + 1] = form.force * lcp.z[m + j] - p.friction * r[2 * j];
+      const double edge = p.friction * r[2 * j] - std::abs(r[2 * j + 1]);
+      slipping += r[2 * j] > 0.0 && edge < 1e-9 ? 1 : 0;
+      sticking += edge > 1e-9 ? 1 : 0;
+    }
+    const auto all = enumerate(p);
+    ASSERT_FALSE(all.empty()) << k;
+    for (const auto& other : all) EXPECT_LT((other - r).norm(), 1e-9) << k;  // as above
+  }
+  EXPECT_GT(slipping, 100);
+  EXPECT_GT(sticking, 50);
+}
+
+/// Much friction: the sweeps may cycle, and there may be several solutions, but there always is one
+/// (docs/theory.md, 6.4), and the default limits find it.
+TEST(Pivoting, SolvesWhatSweepsDoNot) {
+  std::mt19937_64 random(6);
+  int several = 0, mended = 0;
+  for (int k = 0; k < 1000; ++k) {
+    const Eigen::MatrixXd g =
+        random_compliance(3, random) - 0.98 * Eigen::MatrixXd::Identity(6, 6);  // positive still
+    const statics::CondensedProblem p{g, random_free(3, random), 4.0};
+    statics::CondensedSolution swept{Eigen::VectorXd::Zero(6), {}}, solved = swept;
+    const bool by_sweeps = statics::solve_condensed(p, sweeps_alone, swept).converged;
+    const auto report = statics::solve_condensed(p, {}, solved);
+    ASSERT_TRUE(report.converged) << k;
+    mended += by_sweeps ? 0 : 1;
+    EXPECT_EQ(report.pivoting == statics::Pivoting::none, report.sweeps < 300) << k;
+    EXPECT_EQ(report.pivots == 0, report.sweeps < 300) << k;
+    const auto all = enumerate(p);
+    double nearest = 1.0;
+    for (const auto& r : all)
+      nearest = std::min(nearest, (r - solved.force).norm() / std::max(1.0, r.norm()));
+    EXPECT_LT(nearest, 1e-7) << k;  // residual 1e-10, condition up to 1e3
+    for (const auto& r : all)
+      if ((r - all.front()).norm() > 1e-3 * r.norm()) {
+        ++several;
+        break;
+      }
+  }
+  EXPECT_GT(mended, 5);
+  EXPECT_GT(several, 5);
+}
+
+/// Large problems far from little friction: the covering vector excludes a ray.
+TEST(Pivoting, EndsOnASolutionForAnyFriction) {
+  std::mt19937_64 random(7);
+  for (int k = 0; k < 60; ++k) {
+    const double friction = std::array{0.5, 1.5, 5.0, 100.0}[static_cast<std::size_t>(k % 4)];
+    const Eigen::MatrixXd g =
+        random_compliance(30, random) - 0.9 * Eigen::MatrixXd::Identity(60, 60);
+    const statics::CondensedProblem p{g, random_free(30, random), friction};
+    const statics::ComplementaryForm form = statics::make_complementary(p);
+    statics::LcpSolution s;
+    ASSERT_EQ(statics::solve_lemke(form.lcp, 5000, s).end, statics::LemkeEnd::solved) << k;
+    const Eigen::VectorXd y = form.lcp.q + form.lcp.matrix * s.z;
+    EXPECT_LT(s.z.cwiseMin(y).cwiseAbs().maxCoeff(), 1e-9 * (1.0 + s.z.maxCoeff())) << k;
+  }
 }
