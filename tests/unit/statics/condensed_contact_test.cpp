@@ -231,3 +231,21 @@ TEST(Pivoting, EndsOnASolutionForAnyFriction) {
     EXPECT_LT(s.z.cwiseMin(y).cwiseAbs().maxCoeff(), 1e-9 * (1.0 + s.z.maxCoeff())) << k;
   }
 }
+
+/// One candidate with q > s and μ q > p: with a covering vector of ones there is a ray, for some of
+/// these gaps and slips the end of the path.
+TEST(Pivoting, CoveringVectorExcludesTheRay) {
+  const Eigen::MatrixXd g = (Eigen::MatrixXd(2, 2) << 4.0, 1.5, 1.5, 1.0).finished();
+  int rays = 0;
+  for (int k = 0; k < 360; ++k) {
+    const double angle = 0.0174 * k;
+    const statics::CondensedProblem p{
+        g, (Eigen::VectorXd(2) << std::cos(angle), std::sin(angle)).finished(), 10.0};
+    statics::ComplementaryForm form = statics::make_complementary(p);
+    statics::LcpSolution s;
+    EXPECT_EQ(statics::solve_lemke(form.lcp, 100, s).end, statics::LemkeEnd::solved) << k;
+    form.lcp.cover.setOnes();
+    rays += statics::solve_lemke(form.lcp, 100, s).end == statics::LemkeEnd::ray ? 1 : 0;
+  }
+  EXPECT_GT(rays, 0);
+}

@@ -117,6 +117,18 @@ TEST(Lemke, TiesDoNotCycle) {
   }
 }
 
+/// Goes round for ever where ties are left to chance (Kostreva, Math. Program. 16 (1979) 127).
+TEST(Lemke, KostrevasExampleDoesNotCycle) {
+  const Eigen::MatrixXd m =
+      (Eigen::MatrixXd(3, 3) << 1.0, 2.0, 0.0, 0.0, 1.0, 2.0, 2.0, 0.0, 1.0).finished();
+  for (const double scale : {1.0, 3.0}) {  // in thirds the ties are not exact
+    statics::LcpSolution s;
+    const auto report = solve(m / scale, Eigen::VectorXd::Constant(3, -1.0 / scale), s);
+    ASSERT_EQ(report.end, LemkeEnd::solved);
+    EXPECT_LT((s.z.array() - 1.0 / 3.0).abs().maxCoeff(), 1e-14);
+  }
+}
+
 TEST(Lemke, NothingToDoAndTooFewPivots) {
   std::mt19937_64 random(3);
   const Eigen::MatrixXd a = random_matrix(10, random);
