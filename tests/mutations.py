@@ -152,7 +152,16 @@ sum by the threads | t = term(i); => t = term(threads > 1 ? begin + end - 1 - i 
 time written first | check(s);\n => check(s);\n  row(d.time, s.time);\n | io:ResultsOfAKilledRun.*
 times not NaN at first | d.time.write(view(never)); => | io:ResultsOfAKilledRun.*
 stress turned backwards | cs * (s[0] - s[1]) + => cs * (s[1] - s[0]) + | io:Results.StressTurns*
+crush labelled as a motion | if (c.quasi_static) {\n    time = => if (false) {\n    time = | crush:*labels*
 traction not over length | / tributary[k]; => ; | io:Results.ContactForce*
+@statics/lemke.cpp
+6.4f ties left to chance | for (Index k = 0; k < n_ && rows.size() => for (Index k = 0; k < 0 && rows.size() |
+  statics:Lemke.Kostreva*
+@statics/condensed_contact.cpp
+6.4f covering vector of ones | setConstant(1.0 / std::max(1.0, p.friction)) => setConstant(1.0) |
+  statics:Pivoting.Covering*
+6.4f slips to the other side | side = off_lower ? 1.0 : -1.0 => side = off_lower ? -1.0 : 1.0 | crush:*pivoting
+6.4f is not called | pivot(p, solution.force, found, report); => ; | statics:Pivoting.Solves* crush:*by_pivoting
 @reduction/rectify.cpp
 7.3 rectified backwards | rotation(-harmonic * theta) => rotation(harmonic * theta) |
   reduction:Rectifier.OneSector* reduction:Rectifier.ATrans* reduction:Travelling.Vectors*

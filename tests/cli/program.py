@@ -46,6 +46,13 @@ def run(*arguments, timeout=120, **options):
                           errors="replace", timeout=timeout, **options)
 
 
+def estimated_memory(case):
+    """What `rondo check` says of memory [B]."""
+    said = run("check", case).stdout
+    line = [line for line in said.splitlines() if line.startswith("memory")][0].split()
+    return float(line[2]) * {"kB": 1e3, "MB": 1e6, "GB": 1e9}[line[3]]
+
+
 def line_of(text, beginning):
     """Number of the line that begins with `beginning`, from 1."""
     for number, line in enumerate(text.splitlines(), start=1):

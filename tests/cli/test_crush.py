@@ -10,7 +10,8 @@ import unittest
 import h5py
 import numpy as np
 
-from program import LEDGE, PROGRAM, ROOT, SMALL, ProgramTest, line_of, replaced, run
+from program import (LEDGE, PROGRAM, ROOT, SMALL, ProgramTest, estimated_memory, line_of, replaced,
+                     run)
 
 CRUSH = """schema = 1
 title = "crush"
@@ -191,6 +192,46 @@ class Crush(ProgramTest):
         self.assertNotIn("critical step", done.stdout)
         self.assertEqual([p.name for p in self.folder.iterdir()], ["case.toml"])
 
+    def test_memory_estimate_is_what_a_run_takes(self):
+        # Smaller runs are below the memory of this script, which the system counts to them.
+        for radial in (24, 36, 48):
+            text = replaced(CRUSH, "radial", f"radial = {radial}")
+            text = replaced(text, "circumferential", f"circumferential = {15 * radial}")
+            text = replaced(text, "increments", "increments = 2")
+            out = self.folder / f"out{radial}"
+            self.assertEqual(run("run", self.case(text), "-o", out).returncode, 0)
+            ratio = estimated_memory(self.folder / "case.toml") / summary(out)["peak_memory_bytes"]
+            self.assertGreater(ratio, 0.8, radial)
+            self.assertLess(ratio, 1.3, radial)
+
+    def test_labels_of_a_crush(self):
+        self.run_ok()
+        h = history(self.out)
+        with h5py.File(self.out / "results.h5") as f:
+            self.assertEqual(f.attrs["analysis"], "crush")
+            for name, units in (("frame/time", "1"), ("frame/time_velocity", "1"),
+                                ("snapshots/velocity", "m"), ("fields/velocity", "m"),
+                                ("crush/depth", "m"), ("crush/force", "N/m"),
+                                ("crush/contact_length", "m"), ("crush/pressure_max", "Pa")):
+                self.assertEqual(f[name].attrs["units"], units, name)
+                self.assertTrue(f[name].attrs["description"], name)
+            self.assertIn("equilibrium", f["contact/force"].attrs["description"])
+            every = []
+            f.visititems(lambda _, item: every.extend(map(str, item.attrs.values())))
+            self.assertFalse([text for text in every if "step" in text or "du/dt" in text])
+            np.testing.assert_array_equal(f["crush/depth"][:], h["depth_m"][1:])
+            np.testing.assert_array_equal(f["crush/force"][:, 0], h["force_y"][1:])
+            np.testing.assert_array_equal(f["crush/force"][:, 1], -h["force_x"][1:])
+            np.testing.assert_array_equal(f["crush/contact_length"][:], h["contact_length_m"][1:])
+            np.testing.assert_array_equal(f["crush/pressure_max"][:], h["pressure_max_pa"][1:])
+        dynamic = self.folder / "dynamic"
+        run("run", self.case(SMALL, "small.toml"), "-o", dynamic, "--set", "time.end=0.001")
+        with h5py.File(dynamic / "results.h5") as f:
+            self.assertEqual(f.attrs["analysis"], "dynamic")
+            self.assertEqual(f["frame/time"].attrs["units"], "s")
+            self.assertEqual(f["snapshots/velocity"].attrs["units"], "m/s")
+            self.assertNotIn("crush", f)
+
     def test_interrupted(self):
         text = replaced(CRUSH, "increments", "increments = 20000")
         process = subprocess.Popen([PROGRAM, "run", self.case(text), "-o", self.out],
@@ -209,6 +250,7 @@ class Crush(ProgramTest):
         self.assertEqual(len(history(self.out)["time_s"]), s["increments_done"] + 1)
         with h5py.File(self.out / "results.h5") as f:
             self.assertEqual(len(f["/frame/time"]), s["snapshots"])
+            self.assertEqual(len(f["/crush/depth"]), s["snapshots"])
 
     def test_much_friction_is_solved_by_pivoting(self):
         # On lands that lean the sweeps cycle; there is a solution at any friction.

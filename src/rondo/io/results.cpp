@@ -21,18 +21,19 @@ using h5::Type;
 
 struct Counts {
   std::size_t nodes, candidates, times;
-  bool contact, stress;
+  bool contact, stress, quasi_static;
 };
 
 Counts counts_of(const ResultsLayout& layout) noexcept {
   const mesh::Mesh& m = *layout.mesh;
   const bool contact = layout.contact && !m.boundary.empty();
-  return {m.n_nodes(), m.boundary.size(), layout.n_snapshots, contact, layout.stress};
+  return {m.n_nodes(), m.boundary.size(), layout.n_snapshots,
+          contact,     layout.stress,     layout.quasi_static};
 }
 
 /// Of results.h5: what describes the datasets, and an entry for each row.
 std::size_t index_bytes(const Counts& c) noexcept {
-  constexpr std::size_t datasets = 15, description = 4096;
+  constexpr std::size_t datasets = 19, description = 4096;
   return datasets * (description + c.times * h5::File::bytes_of_entry);
 }
 
@@ -85,12 +86,14 @@ struct Results::Impl {
   void create_frame();
   void create_snapshots();
   void create_fields();
+  void create_crush();
   void reserve();
   void resize(std::size_t rows);
   void check(const Snapshot& s) const;
   void write_fields(const Snapshot& s);
   void write_stress(const Snapshot& s, Vec2 turn);
   void write_contact(const Snapshot& s);
+  void write_crush(const CrushRow& crush);
   void write_snapshot(const Snapshot& s);
   void close();
 
@@ -114,7 +117,8 @@ struct Results::Impl {
   h5::File file;
   struct {
     h5::Dataset time, time_velocity, angle, angle_velocity, center, displacement, velocity, force,
-        traction, position, field_displacement, field_velocity, field_force, von_mises, stress;
+        traction, position, field_displacement, field_velocity, field_force, von_mises, stress,
+        depth, load, contact_length, pressure_max;
   } d;
   std::unique_ptr<Xdmf> xdmf;
 };
@@ -134,11 +138,13 @@ Results::Impl::Impl(const std::filesystem::path& directory, const ResultsLayout&
   demand_room(directory / "results.h5", bytes(layout));
   file = h5::File::create(directory / "results.h5", index_bytes(c));
   file.set_attribute("/", "format", "rondo results 1");
+  file.set_attribute("/", "analysis", c.quasi_static ? "crush" : "dynamic");
   write_mesh(file, *layout.mesh, layout.mass);
   if (c.times > 0) {
     create_frame();
     create_snapshots();
     create_fields();
+    if (c.quasi_static) create_crush();
     reserve();
   }
   file.flush();
@@ -147,12 +153,17 @@ Results::Impl::Impl(const std::filesystem::path& directory, const ResultsLayout&
 
 void Results::Impl::create_frame() {
   const h5::Shape times = {c.times};
-  d.time = file.create_rows("/frame/time", Type::float64, times,
-                            {"s",
-                             "of displacement, angle, centre, contact and fields; "
-                             "NaN: snapshot not written"});
-  d.time_velocity = file.create_rows("/frame/time_velocity", Type::float64, times,
-                                     {"s", "of velocity: half a step before /frame/time"});
+  h5::Label time = {
+      "s", "of displacement, angle, centre, contact and fields; NaN: snapshot not written"};
+  h5::Label time_velocity = {"s", "of velocity: half a step before /frame/time"};
+  if (c.quasi_static) {
+    time = {"1",
+            "share of the depth, of displacement, centre, contact and fields; NaN: snapshot not "
+            "written"};
+    time_velocity = {"1", "of velocity: half an increment before /frame/time"};
+  }
+  d.time = file.create_rows("/frame/time", Type::float64, times, time);
+  d.time_velocity = file.create_rows("/frame/time_velocity", Type::float64, times, time_velocity);
   d.angle = file.create_rows("/frame/angle", Type::float64, times,
                              {"rad", "angle of the turning frame, counter-clockwise"});
   d.angle_velocity =
@@ -165,16 +176,21 @@ void Results::Impl::create_frame() {
 void Results::Impl::create_snapshots() {
   d.displacement = file.create_rows("/snapshots/displacement", Type::float64, {c.times, c.nodes, 2},
                                     {"m", "displacement u of each node, turning frame"});
-  d.velocity = file.create_rows("/snapshots/velocity", Type::float64, {c.times, c.nodes, 2},
-                                {"m/s",
-                                 "velocity du/dt of each node in the turning frame, at "
-                                 "/frame/time_velocity"});
+  h5::Label velocity = {
+      "m/s", "velocity du/dt of each node in the turning frame, at /frame/time_velocity"};
+  if (c.quasi_static)
+    velocity = {"m",
+                "rate of the displacement over the share of the depth, at /frame/time_velocity"};
+  d.velocity =
+      file.create_rows("/snapshots/velocity", Type::float64, {c.times, c.nodes, 2}, velocity);
   if (!c.contact) return;
   const h5::Shape shape = {c.times, c.candidates, 2};
-  d.force = file.create_rows("/contact/force", Type::float64, shape,
-                             {"N/m",
-                              "contact force on each node of /mesh/boundary: normal, "
-                              "tangential; impulse of the step over its length"});
+  d.force =
+      file.create_rows("/contact/force", Type::float64, shape,
+                       {"N/m", std::string("contact force on each node of /mesh/boundary: normal, "
+                                           "tangential; ") +
+                                   (c.quasi_static ? "of the equilibrium at /frame/time"
+                                                   : "impulse of the step over its length")});
   d.traction = file.create_rows("/contact/traction", Type::float64, shape,
                                 {"Pa", "/contact/force over /mesh/tributary: pressure, shear"});
 }
@@ -186,11 +202,16 @@ void Results::Impl::create_fields() {
   d.field_displacement =
       file.create_rows("/fields/displacement", Type::float32, vector,
                        {"m", "displacement u of each node along the fixed axes"});
-  d.field_velocity = file.create_rows(
-      "/fields/velocity", Type::float32, vector,
-      {"m/s",
-       "velocity du/dt in the turning frame of each node, along the fixed axes, at "
-       "/frame/time_velocity"});
+  h5::Label velocity = {
+      "m/s",
+      "velocity du/dt in the turning frame of each node, along the fixed axes, at "
+      "/frame/time_velocity"};
+  if (c.quasi_static)
+    velocity = {
+        "m",
+        "rate of the displacement of each node over the share of the depth, along the fixed "
+        "axes, at /frame/time_velocity"};
+  d.field_velocity = file.create_rows("/fields/velocity", Type::float32, vector, velocity);
   if (c.contact)
     d.field_force = file.create_rows("/fields/contact_force", Type::float32, vector,
                                      {"N/m", "contact force on each node along the fixed axes"});
@@ -203,11 +224,26 @@ void Results::Impl::create_fields() {
                                "xx, xy, xz, yy, yz, zz"});
 }
 
+/// The curve of force over depth, a row for each snapshot.
+void Results::Impl::create_crush() {
+  const h5::Shape rows = {c.times};
+  d.depth = file.create_rows("/crush/depth", Type::float64, rows,
+                             {"m", "depth of the centre below first touch"});
+  d.load = file.create_rows("/crush/force", Type::float64, {c.times, 2},
+                            {"N/m", "force of the ground on the body: normal, tangential"});
+  d.contact_length =
+      file.create_rows("/crush/contact_length", Type::float64, rows,
+                       {"m", "/mesh/tributary of the candidates in contact, summed"});
+  d.pressure_max = file.create_rows("/crush/pressure_max", Type::float64, rows,
+                                    {"Pa", "largest pressure of all candidates"});
+}
+
 void Results::Impl::resize(std::size_t rows) {
   for (h5::Dataset* dataset :
        {&d.time, &d.time_velocity, &d.angle, &d.angle_velocity, &d.center, &d.displacement,
         &d.velocity, &d.force, &d.traction, &d.position, &d.field_displacement, &d.field_velocity,
-        &d.field_force, &d.von_mises, &d.stress})
+        &d.field_force, &d.von_mises, &d.stress, &d.depth, &d.load, &d.contact_length,
+        &d.pressure_max})
     if (*dataset) dataset->resize(rows);
 }
 
@@ -264,10 +300,18 @@ void Results::Impl::write_contact(const Snapshot& s) {
   row(d.traction, traction);
 }
 
+void Results::Impl::write_crush(const CrushRow& crush) {
+  row(d.depth, crush.depth);
+  d.load.write_row(written, std::span<const Vec2>(&crush.force, 1));
+  row(d.contact_length, crush.contact_length);
+  row(d.pressure_max, crush.pressure_max);
+}
+
 /// The time comes last: where it is a number, the snapshot is complete.
 void Results::Impl::write_snapshot(const Snapshot& s) {
   check(s);
   write_fields(s);
+  if (c.quasi_static) write_crush(s.crush);
   d.displacement.write_row(written, s.displacement);
   d.velocity.write_row(written, s.velocity);
   d.center.write_row(written, std::span<const Vec2>(&s.center, 1));
@@ -313,7 +357,8 @@ std::size_t Results::bytes(const ResultsLayout& layout) noexcept {
   const Counts c = counts_of(layout);
   constexpr std::size_t real = 8, single = 4;
   const std::size_t node = 4 * real + (9U + (c.contact ? 3U : 0U) + (c.stress ? 7U : 0U)) * single;
-  const std::size_t candidate = c.contact ? 4 * real : 0, frame = 6 * real;
+  const std::size_t candidate = c.contact ? 4 * real : 0,
+                    frame = (6U + (c.quasi_static ? 5U : 0U)) * real;
   return index_bytes(c) + mesh_bytes(*layout.mesh) +
          c.times * (frame + c.nodes * node + c.candidates * candidate);
 }

@@ -26,9 +26,19 @@ struct ResultsLayout {
   std::size_t n_snapshots = 0;   ///< planned
   bool contact = false;          ///< a ground is there: /contact is written
   bool stress = false;           ///< stress goes into the fields
+  bool quasi_static = false;  ///< a crush: `time` is the share of the depth [1], /crush is written
 };
 
-/// One snapshot, as the stepper leaves it; spans are only read during the call.
+/// Of a crush after an increment.
+struct CrushRow {
+  double depth = 0.0;           ///< of the centre below first touch              [m]
+  Vec2 force;                   ///< of the ground: normal, tangential, summed    [N/m]
+  double contact_length = 0.0;  ///< tributary lengths in contact, summed         [m]
+  double pressure_max = 0.0;    ///< largest of all candidates                    [Pa]
+};
+
+/// One snapshot, as the stepper leaves it; spans are only read during the call. Where quasi-static,
+/// the times are shares of the depth [1] and the velocity is the rate over that share [m].
 struct Snapshot {
   double time = 0.0;            ///< of displacement and contact                        [s]
   double time_velocity = 0.0;   ///< of velocity: half a step before `time`             [s]
@@ -40,6 +50,7 @@ struct Snapshot {
   std::span<const Vec2> contact_force;        ///< (nb) normal, tangential; empty: no ground [N/m]
   std::span<const Vec2> contact_force_fixed;  ///< (nb) x, y in the fixed frame        [N/m]
   std::span<const NodalStress> stress;        ///< (n) turning frame; empty: not asked for   [Pa]
+  CrushRow crush = {};                        ///< only written where quasi-static
 };
 
 class Results {

@@ -62,6 +62,7 @@ std::string text_in(const nlohmann::json& json, const char* key) {
 RunReader::RunReader(fs::path directory)
     : directory_(std::move(directory)), file_(open_results(results_of(directory_))) {
   read_summary();
+  read_analysis();
   MeshWithMass read = read_mesh(file_);
   mesh_ = std::move(read.mesh);
   mass_ = std::move(read.mass);
@@ -75,6 +76,20 @@ void RunReader::read_summary() {
   const nlohmann::json json = nlohmann::json::parse(in, nullptr, exceptions);
   title_ = text_in(json, "title");
   status_ = text_in(json, "status");
+}
+
+void RunReader::read_analysis() {
+  std::string found;
+  try {
+    found = file_.attribute("/", "analysis");
+  } catch (const FileError&) {  // of an earlier version
+    return;
+  }
+  if (found != "dynamic" && found != "crush")
+    throw FileError(file_.path(), fmt::format("analysis is \"{}\", not \"dynamic\" or \"crush\": "
+                                              "damaged, or not of this program",
+                                              found));
+  analysis_ = found;
 }
 
 /// A run without snapshots has no /frame.

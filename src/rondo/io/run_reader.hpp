@@ -39,6 +39,9 @@ class RunReader {
   /// From run.json; "unknown" where that is missing or damaged.
   [[nodiscard]] const std::string& title() const noexcept { return title_; }
   [[nodiscard]] const std::string& status() const noexcept { return status_; }
+  /// "dynamic" or "crush", from results.h5, "dynamic" where an earlier version did not say. In a
+  /// crush the times are shares of the depth [1] and the velocity is the rate over that share [m].
+  [[nodiscard]] const std::string& analysis() const noexcept { return analysis_; }
   [[nodiscard]] const mesh::Mesh& mesh() const noexcept { return mesh_; }  ///< `clamped` is empty
   /// (n) lumped mass per unit thickness [kg/m]
   [[nodiscard]] const std::vector<double>& mass() const noexcept { return mass_; }
@@ -55,12 +58,13 @@ class RunReader {
 
  private:
   void read_summary();
+  void read_analysis();
   void read_times();
   void open_snapshots();
   [[nodiscard]] const h5::Dataset& dataset(Quantity quantity) const noexcept;
 
   std::filesystem::path directory_;
-  std::string title_ = "unknown", status_ = "unknown";
+  std::string title_ = "unknown", status_ = "unknown", analysis_ = "dynamic";
   h5::File file_;
   mesh::Mesh mesh_;
   std::vector<double> mass_;

@@ -159,7 +159,8 @@ double condensed_residual(const CondensedProblem& p, const Eigen::VectorXd& r,
   for (Index j = 0; j < r.size() / 2; ++j) {
     const double stiffness = 1.0 / p.compliance(2 * j, 2 * j);
     const double residual = contact::law_residual(at(r, j), at(w, j), 0.0, p.friction, stiffness);
-    if (!(residual <= largest)) largest = residual;  // NaN comes through
+    if (!std::isfinite(residual)) return residual;
+    largest = std::max(largest, residual);
     force = std::max(force, norm(at(r, j)));
     free = std::max(free, stiffness * norm(at(p.free, j)));
   }

@@ -48,7 +48,9 @@ CheckReport check_crush(const Case& c) {
   r.condensed = setup.within_reach;
   r.snapshots = static_cast<std::size_t>(c.analysis.increments);
   r.memory_bytes = estimated_memory(c);
-  r.disk_bytes = io::Results::bytes({&setup.mesh, setup.mass, r.snapshots, true, c.output.stress}) +
+  constexpr bool contact = true, quasi_static = true;
+  r.disk_bytes = io::Results::bytes({&setup.mesh, setup.mass, r.snapshots, contact, c.output.stress,
+                                     quasi_static}) +
                  r.snapshots * history_row_bytes;
   r.warnings = c.warnings;
   return r;

@@ -21,7 +21,8 @@ std::vector<std::string> columns() {
 
 /// Of the contact after an increment.
 struct Sums {
-  Vec2 force;           ///< of the ground, fixed axes [N/m]
+  Vec2 contact;         ///< of the ground: normal, tangential [N/m]
+  Vec2 force;           ///< the same along the fixed axes [N/m]
   double torque = 0.0;  ///< about the centre [N]
   double nodes = 0.0, sticking = 0.0;
   double length = 0.0;                 ///< [m]
@@ -35,6 +36,7 @@ Sums sum_up(const CrushSetup& setup, const statics::CrushState& state) {
     if (!(r.x > 0.0)) continue;
     const auto node = static_cast<std::size_t>(setup.model.nodes[k]);
     const double tributary = setup.mesh.tributary[k];
+    s.contact += r;
     s.force += normal * r;
     s.torque += cross(setup.mesh.coordinates[node] + state.u[node], normal * r);
     s.nodes += 1.0;
@@ -47,8 +49,9 @@ Sums sum_up(const CrushSetup& setup, const statics::CrushState& state) {
 }
 
 io::ResultsLayout layout(const Case& c, const CrushSetup& setup) {
-  return {&setup.mesh, setup.mass, static_cast<std::size_t>(c.analysis.increments), true,
-          c.output.stress};
+  const auto increments = static_cast<std::size_t>(c.analysis.increments);
+  constexpr bool contact = true, quasi_static = true;
+  return {&setup.mesh, setup.mass, increments, contact, c.output.stress, quasi_static};
 }
 
 }  // namespace
@@ -143,6 +146,8 @@ void CrushRecord::write_snapshot(int k, const statics::CrushState& state,
   s.contact_force = state.force;
   s.contact_force_fixed = force_fixed_;
   if (stress_) s.stress = (*stress_)(state.u);
+  const Sums sums = sum_up(setup_, state);
+  s.crush = {state.depth, sums.contact, sums.length, sums.pressure};
   results_.write(s);
 }
 

@@ -38,8 +38,9 @@ std::size_t factor_memory(const Case& c, std::size_t nodes) noexcept {
   return static_cast<std::size_t>(bytes_per_entry * dofs * std::log2(dofs));
 }
 
-/// Of the compliance of a crush and its direct solves; candidates up to twice the depth.
-std::size_t compliance_memory(const Case& c) noexcept {
+/// Of a crush: the fields of the 32 columns that are condensed at once (loads, solution and copies
+/// within CHOLMOD), the compliance and its direct solves; candidates up to twice the depth.
+std::size_t compliance_memory(const Case& c, std::size_t nodes) noexcept {
   if (c.analysis.kind != AnalysisKind::crush) return 0;
   const mesh::Disk& d = c.disk;
   const double columns = d.tread
@@ -48,7 +49,11 @@ std::size_t compliance_memory(const Case& c) noexcept {
   const double share =
       std::acos(std::max(-1.0, 1.0 - 2.0 * c.analysis.depth / d.outer_radius)) / std::numbers::pi;
   const double rows = 2.0 * share * columns;
-  return static_cast<std::size_t>(3.0 * rows * rows * sizeof(double));
+  constexpr double columns_at_once = 32.0, copies = 3.0;
+  const double fields = copies * columns_at_once * 2.0 * static_cast<double>(nodes);
+  const bool pivots = c.ground && c.ground->friction > 1.0;  // only then seen to be needed
+  const double matrices = (pivots ? 7.5 : 3.0) * rows * rows;
+  return static_cast<std::size_t>((fields + matrices) * sizeof(double));
 }
 
 }  // namespace
@@ -60,8 +65,9 @@ std::size_t estimated_memory(const Case& c) noexcept {
   constexpr std::size_t stiffness = 2 * blocks * (4 * sizeof(double) + sizeof(int));
   constexpr std::size_t fields = 30 * sizeof(double);
   const std::size_t nodes = mesh::n_disk_nodes(c.disk);
-  return nodes * (stiffness + fields) + n_disk_cells(c.disk) * sizeof(mesh::Cell) +
-         factor_memory(c, nodes) + compliance_memory(c);
+  constexpr std::size_t program = 30'000'000;  // with its libraries
+  return program + nodes * (stiffness + fields) + n_disk_cells(c.disk) * sizeof(mesh::Cell) +
+         factor_memory(c, nodes) + compliance_memory(c, nodes);
 }
 
 std::size_t physical_memory() noexcept {

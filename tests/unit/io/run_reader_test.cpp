@@ -117,6 +117,44 @@ TEST(RunReader, RunningRunMayEndMeanwhile) {
   for (const int end : {told[0], told[1], asked[0], asked[1]}) ::close(end);
 }
 
+TEST(RunReader, TellsTheAnalysis) {
+  const Folder folder;
+  SmallRun run;
+  write_run(folder.path(), run, 1, 1);
+  EXPECT_EQ(RunReader(folder.path()).analysis(), "dynamic");
+  ResultsLayout layout = run.layout(2);
+  layout.quasi_static = true;
+  {
+    Results results(folder.path(), layout);
+    Snapshot s = run.snapshot(0);
+    s.crush = {0.25, {7.0, -2.0}, 0.125, 3.0};
+    results.write(s);
+    results.close();
+  }
+  EXPECT_EQ(RunReader(folder.path()).analysis(), "crush");
+  {
+    const h5::File file = h5::File::open(folder / "results.h5");
+    EXPECT_EQ(file.read<double>("/crush/depth"), std::vector<double>{0.25});
+    EXPECT_EQ(file.read<Vec2>("/crush/force"), (std::vector<Vec2>{{7.0, -2.0}}));
+    EXPECT_EQ(file.read<double>("/crush/contact_length"), std::vector<double>{0.125});
+    EXPECT_EQ(file.read<double>("/crush/pressure_max"), std::vector<double>{3.0});
+  }
+  {  // of an earlier version
+    h5::File file = h5::File::create(folder / "results.h5");
+    file.set_attribute("/", "format", "rondo results 1");
+    write_mesh(file, run.mesh, run.mass);
+  }
+  EXPECT_EQ(RunReader(folder.path()).analysis(), "dynamic");
+  {
+    h5::File file = h5::File::create(folder / "results.h5");
+    file.set_attribute("/", "format", "rondo results 1");
+    file.set_attribute("/", "analysis", "static");
+    write_mesh(file, run.mesh, run.mass);
+  }
+  const std::string wrong = error_of<FileError>([&] { RunReader reader(folder.path()); });
+  EXPECT_NE(wrong.find("\"static\""), std::string::npos) << wrong;
+}
+
 TEST(RunReader, RunWithoutSnapshotsOrGround) {
   const Folder folder;
   SmallRun run;
