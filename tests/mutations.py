@@ -160,7 +160,6 @@ traction not over length | / tributary[k]; => ; | io:Results.ContactForce*
 @statics/condensed_contact.cpp
 6.4f covering vector of ones | setConstant(1.0 / std::max(1.0, p.friction)) => setConstant(1.0) |
   statics:Pivoting.Covering*
-6.4f slips to the other side | side = off_lower ? 1.0 : -1.0 => side = off_lower ? -1.0 : 1.0 | crush:*pivoting
 6.4f is not called | pivot(p, solution.force, found, report); => ; | statics:Pivoting.Solves* crush:*by_pivoting
 @reduction/rectify.cpp
 7.3 rectified backwards | rotation(-harmonic * theta) => rotation(harmonic * theta) |

@@ -19,6 +19,11 @@ std::string count_text(long long modes) {
   return modes < 0 ? "more than kept" : fmt::to_string(modes);
 }
 
+std::string times(const study::PodReport& r, double from, double to) {
+  return r.time_unit == "s" ? fmt::format("t = {:.6g} to {:.6g} s", from, to)
+                            : fmt::format("{:.6g} to {:.6g} of the load", from, to);
+}
+
 std::string percent(double share) {
   return fmt::format("{:.3g} %", 100.0 * share);
 }
@@ -30,8 +35,8 @@ void print_runs(const study::PodReport& r) {
   for (const study::PodRun& run : r.runs) {
     std::string errors;
     for (const auto& error : run.count_errors) errors += (error ? percent(*error) : "-") + " / ";
-    fmt::print("  {}: {}{} ({} snapshots, t = {:.6g} to {:.6g} s, {} of the energy)\n",
-               run.directory.string(), errors, percent(run.error), run.snapshots, run.from, run.to,
+    fmt::print("  {}: {}{} ({} snapshots, {}, {} of the energy)\n", run.directory.string(), errors,
+               percent(run.error), run.snapshots, times(r, run.from, run.to),
                percent(run.energy_share));
   }
 }
@@ -51,8 +56,10 @@ void print_report(const study::PodRequest& q, const study::PodReport& r) {
   for (const study::PodCount& count : r.counts)
     fmt::print("modes for {:.0e}    {}\n", count.discarded, count_text(count.modes));
   fmt::print("modes kept         {}\n", r.modes);
-  fmt::print("worst snapshot     {} of its norm lost, t = {:.6g} s{}\n", percent(r.worst_error),
-             r.worst_time, r.runs.size() > 1 ? ", " + r.worst_run.string() : "");
+  fmt::print("worst snapshot     {} of its norm lost, {}{}\n", percent(r.worst_error),
+             r.time_unit == "s" ? fmt::format("t = {:.6g} s", r.worst_time)
+                                : fmt::format("at {:.6g} of the load", r.worst_time),
+             r.runs.size() > 1 ? ", " + r.worst_run.string() : "");
   fmt::print("error identity     |S - PP'WS|^2 = {:.6e} of the energy, {} {:.6e}: {:.1e} apart\n",
              r.residual, r.lost > 0.0 ? "with what was cut at most" : "discarded", r.tail,
              r.difference);

@@ -330,6 +330,24 @@ class Pod(ProgramTest):
                                        np.linalg.norm(left) / np.linalg.norm(block), delta=1e-10)
         self.assertIn("-o", self.fails(2, *runs))
 
+    def test_crush(self):
+        """The load is no time: what is per second elsewhere is per load here, and not mixed."""
+        crush = ("--set", "analysis.kind=crush", "--set", "analysis.depth=0.01", "--set",
+                 "analysis.increments=8")
+        pressed, rolling = self.make(SMALL, "pressed", *crush), self.make(SMALL, "rolling")
+        done = self.pod(pressed, "--field", "velocity", "--from", 0.2)
+        self.assertIn("of the load", done.stdout)
+        self.assertNotIn(" s,", done.stdout.splitlines()[1])
+        folder = pressed / "pod" / "velocity-rotating"
+        self.assertEqual((summary(folder)["unit"], summary(folder)["time_unit"]), ("m", "1"))
+        with h5py.File(folder / "pod.h5") as h5:
+            self.assertEqual(h5["/snapshots/time"].attrs["units"], "1")
+            self.assertEqual(h5["/spectrum/singular_value"].attrs["units"], "m (kg/m)^(1/2)")
+            np.testing.assert_allclose(h5["/snapshots/time"][:], (np.arange(2, 8) + 0.5) / 8)
+        self.assertIn("crush", self.fails(2, pressed, rolling, "--field", "velocity", "-o",
+                                          self.folder / "c"))
+        self.pod(pressed, rolling, "-o", self.folder / "c")  # both are displacements
+
     def test_more_modes_than_rank(self):
         out = self.make()
         done = self.pod(out, "--modes", 1000)

@@ -91,7 +91,9 @@ void write_spectrum(h5::File& file, const PodContent& c, const Counts& n) {
 }
 
 void write_snapshots(h5::File& file, const PodContent& c, const Counts& n) {
-  write(file, "/snapshots/time", {n.times}, c.time, {"s", "of each snapshot"});
+  write(file, "/snapshots/time", {n.times}, c.time,
+        {c.time_unit,
+         c.time_unit == "s" ? "of each snapshot" : "of each snapshot: share of the load"});
   write(file, "/snapshots/angle", {n.times}, c.angle,
         {"rad", "angle of the turning frame, counter-clockwise, at the time of the quantity"});
   write(

@@ -25,6 +25,7 @@ struct PodContent {
   bool contact = false;          ///< points are candidates, components normal and tangential
   std::string quantity;          ///< "displacement"
   std::string unit;              ///< of the quantity: "m"
+  std::string time_unit = "s";   ///< "1": shares of the load of a crush
   std::string frame, shift;      ///< of the analysis
   std::string weight;            ///< "mass" [kg/m], "delassus" [m/kg], "none" [1]
   std::span<const double> point_weight;                     ///< (n_points)

@@ -101,7 +101,9 @@ void add_works(const CrushModel& model, const CrushState& before, CrushState& af
   w.impact = after.sums[2].value();
   w.residual = w.strain - w.contact;
   w.exchanged = std::max(w.exchanged, w.strain + std::abs(w.contact));
-  if (w.residual != 0.0) w.relative = std::max(w.relative, std::abs(w.residual) / w.exchanged);
+  const double relative = w.residual != 0.0 ? std::abs(w.residual) / w.exchanged : 0.0;
+  if (!(relative <= w.relative))
+    w.relative = relative;  // so that the caller sees what is no number
 }
 
 CrushState accept(const CrushModel& model, const Condensation& body, const CrushState& state,

@@ -49,6 +49,7 @@ struct PodRun {
 struct PodReport {
   std::filesystem::path directory;  ///< where the files are
   std::string method, unit, weight;
+  std::string time_unit;  ///< "s"; "1" for a crush, whose times are shares of its load
   std::size_t rows = 0, snapshots = 0;
   double energy = 0.0;  ///< Σσ², with what was truncated
   double sigma_1 = 0.0;

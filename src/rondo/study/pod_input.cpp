@@ -141,6 +141,10 @@ std::size_t memory_of(const PodRequest& request) {
   return *bytes;
 }
 
+bool is_crush(const io::RunReader& run) noexcept {
+  return run.analysis() == "crush";
+}
+
 const char* name_of(reduction::Method method) noexcept {
   return word_of(method, methods);
 }
@@ -149,12 +153,12 @@ const char* name_of(Weight weight) noexcept {
   return word_of(weight, weights);
 }
 
-const char* unit_of(io::Quantity quantity) noexcept {
+const char* unit_of(io::Quantity quantity, const io::RunReader& run) noexcept {
   switch (quantity) {
     case io::Quantity::displacement:
       return "m";
     case io::Quantity::velocity:
-      return "m/s";
+      return is_crush(run) ? "m" : "m/s";  // over the load, a pure number
     case io::Quantity::contact:
       return "N/m";
   }
@@ -188,6 +192,10 @@ std::vector<io::RunReader> open_runs(const PodRequest& request, const SnapshotCh
                                       "the velocity's times",
                                       name),
                           "run the case again, or --frame rotating");
+    if (choice.quantity == io::Quantity::velocity && run.analysis() != runs.front().analysis())
+      throw request_error("RUN", name,
+                          "the velocity of a crush is its rate over the load, not over time",
+                          "velocities of runs of one kind together");
     const std::string difference = io::mesh_difference(runs.front(), run);
     if (!difference.empty())
       throw request_error(

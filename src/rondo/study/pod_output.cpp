@@ -78,6 +78,7 @@ io::PodContent content_of(const PodRequest& request, const PodReport& report,
   content.contact = request.field == "contact";
   content.quantity = request.field;
   content.unit = report.unit;
+  content.time_unit = report.time_unit;
   content.frame = request.frame;
   content.shift = request.frame == "rectified" ? request.shift : "none";
   content.weight = report.weight;

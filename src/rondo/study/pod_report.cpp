@@ -136,6 +136,7 @@ nlohmann::ordered_json as_json(const PodRequest& request, const PodReport& r) {
   if (request.frame == "rectified") j["shift"] = request.shift;
   j["weight"] = r.weight;
   j["unit"] = r.unit;
+  j["time_unit"] = r.time_unit;
   j["method"] = r.method;
   j["rows"] = r.rows;
   j["snapshots"] = r.snapshots;

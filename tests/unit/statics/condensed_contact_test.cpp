@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <Eigen/LU>
+#include <limits>
 #include <random>
 
 #include "rondo/contact/residual.hpp"
@@ -118,6 +119,17 @@ TEST(SolveCondensed, StartsFromTheSolutionInOneLook) {
   EXPECT_TRUE(again.converged);
   EXPECT_EQ(again.direct_solves, 1);
   EXPECT_LT((s.force - before).norm(), 1e-12 * before.norm());
+}
+
+TEST(SolveCondensed, AResidualThatIsNoNumberIsNotForgotten) {
+  std::mt19937_64 random(5);
+  const Eigen::MatrixXd g = random_compliance(3, random);
+  const statics::CondensedProblem p{g, random_free(3, random), 0.4};
+  for (const Index bad : {0, 2, 5}) {
+    Eigen::VectorXd r = Eigen::VectorXd::Zero(6);
+    r[bad] = std::numeric_limits<double>::quiet_NaN();
+    EXPECT_FALSE(statics::condensed_residual(p, r, p.free) <= 1e300) << bad;
+  }
 }
 
 TEST(SolveCondensed, SaysThatItDidNotConverge) {
