@@ -16,7 +16,7 @@ namespace rondo::app {
 namespace {
 
 std::string count_text(long long modes) {
-  return modes < 0 ? "more than kept" : fmt::to_string(modes);
+  return modes < 0 ? "more than found" : fmt::to_string(modes);
 }
 
 std::string times(const study::PodReport& r, double from, double to) {
@@ -45,9 +45,8 @@ void print_report(const study::PodRequest& q, const study::PodReport& r) {
   fmt::print("field              {} ({}), {} frame, weight {}\n", q.field, r.unit, q.frame,
              r.weight);
   fmt::print("snapshots          {} of {} numbers, {}\n", r.snapshots, r.rows,
-             r.runs.size() > 1
-                 ? fmt::format("from {} runs", r.runs.size())
-                 : fmt::format("t = {:.6g} to {:.6g} s", r.runs.front().from, r.runs.front().to));
+             r.runs.size() > 1 ? fmt::format("from {} runs", r.runs.size())
+                               : times(r, r.runs.front().from, r.runs.front().to));
   fmt::print("method             {}, {:.2f} s, {}\n", r.method, r.wall_s,
              study::readable_bytes(r.peak_memory));
   fmt::print("rank               {}{} (first singular value {:.6g}{})\n",

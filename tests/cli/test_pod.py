@@ -336,8 +336,9 @@ class Pod(ProgramTest):
                  "analysis.increments=8")
         pressed, rolling = self.make(SMALL, "pressed", *crush), self.make(SMALL, "rolling")
         done = self.pod(pressed, "--field", "velocity", "--from", 0.2)
-        self.assertIn("of the load", done.stdout)
-        self.assertNotIn(" s,", done.stdout.splitlines()[1])
+        for line in done.stdout.splitlines():
+            if line.startswith(("snapshots", "worst snapshot")):
+                self.assertIn("of the load", line)
         folder = pressed / "pod" / "velocity-rotating"
         self.assertEqual((summary(folder)["unit"], summary(folder)["time_unit"]), ("m", "1"))
         with h5py.File(folder / "pod.h5") as h5:
