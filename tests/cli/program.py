@@ -1,10 +1,14 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """What the command-line tests share: the program under test and small edits of a case file."""
+import csv
+import json
 import os
 import pathlib
 import subprocess
 import tempfile
 import unittest
+
+import numpy as np
 
 PROGRAM = os.environ["RONDO"]
 ROOT = pathlib.Path(__file__).resolve().parents[2]
@@ -69,6 +73,16 @@ def replaced(text, beginning, line):
     return "\n".join(lines) + "\n"
 
 
+def history(directory):
+    with open(directory / "history.csv", newline="") as file:
+        rows = list(csv.DictReader(file))
+    return {name: np.array([float(row[name]) for row in rows]) for name in rows[0]}
+
+
+def summary(directory):
+    return json.loads((directory / "run.json").read_text())
+
+
 class ProgramTest(unittest.TestCase):
     """A test with a folder of its own."""
 
@@ -81,3 +95,19 @@ class ProgramTest(unittest.TestCase):
         path = self.folder / name
         path.write_text(text)
         return path
+
+
+class RunTest(ProgramTest):
+    """A test of runs into `self.out`; `text` is the case where none is given."""
+
+    text = SMALL
+
+    def setUp(self):
+        super().setUp()
+        self.out = self.folder / "out"
+
+    def run_ok(self, text=None, *extra):
+        done = run("run", self.case(text or self.text), "-o", self.out, *extra)
+        self.assertEqual(done.returncode, 0, done.stderr)
+        self.assertEqual(done.stdout, "")
+        return done

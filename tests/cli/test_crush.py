@@ -1,7 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """rondo run and rondo check on a crush: files, columns, figures, wrong input, interruption."""
-import csv
-import json
 import signal
 import subprocess
 import time
@@ -10,8 +8,8 @@ import unittest
 import h5py
 import numpy as np
 
-from program import (LEDGE, PROGRAM, ROOT, SMALL, ProgramTest, estimated_memory, line_of, replaced,
-                     run)
+from program import (LEDGE, PROGRAM, ProgramTest, ROOT, RunTest, SMALL, estimated_memory,
+                     history, line_of, replaced, run, summary)
 
 CRUSH = """schema = 1
 title = "crush"
@@ -38,26 +36,8 @@ FROM_DYNAMIC = ["--set", "analysis.kind=crush", "--set", "analysis.depth=0.02", 
          "analysis.increments=4", "--set", "ground.profile=flat"]
 
 
-def history(directory):
-    with open(directory / "history.csv", newline="") as file:
-        rows = list(csv.DictReader(file))
-    return {name: np.array([float(row[name]) for row in rows]) for name in rows[0]}
-
-
-def summary(directory):
-    return json.loads((directory / "run.json").read_text())
-
-
-class Crush(ProgramTest):
-    def setUp(self):
-        super().setUp()
-        self.out = self.folder / "out"
-
-    def run_ok(self, text=CRUSH, *extra):
-        done = run("run", self.case(text), "-o", self.out, *extra)
-        self.assertEqual(done.returncode, 0, done.stderr)
-        self.assertEqual(done.stdout, "")
-        return done
+class Crush(RunTest):
+    text = CRUSH
 
     def test_results_directory(self):
         done = self.run_ok()

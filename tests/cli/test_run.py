@@ -1,7 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """rondo run and rondo check on real cases: files, their contents, exit codes, interruption."""
-import csv
-import json
 import os
 import resource
 import signal
@@ -12,29 +10,12 @@ import unittest
 import h5py
 import numpy as np
 
-from program import PROGRAM, ROOT, SMALL, ProgramTest, estimated_memory, replaced, run
+from program import (PROGRAM, ProgramTest, ROOT, RunTest, SMALL, estimated_memory, history,
+                     replaced, run, summary)
 
 
-def history(directory):
-    with open(directory / "history.csv", newline="") as file:
-        rows = list(csv.DictReader(file))
-    return {name: np.array([float(row[name]) for row in rows]) for name in rows[0]}
-
-
-def summary(directory):
-    return json.loads((directory / "run.json").read_text())
-
-
-class Run(ProgramTest):
-    def setUp(self):
-        super().setUp()
-        self.out = self.folder / "out"
-
-    def run_ok(self, text=SMALL, *extra):
-        done = run("run", self.case(text), "-o", self.out, *extra)
-        self.assertEqual(done.returncode, 0, done.stderr)
-        self.assertEqual(done.stdout, "")
-        return done
+class Run(RunTest):
+    text = SMALL
 
     def test_results_directory(self):
         self.run_ok()
