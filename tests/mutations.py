@@ -109,7 +109,7 @@ V9 load without mass | m.array(); => m.mean(); | V:*Mesh.Displacement* V:*Mesh.N
 V9 no softening | m, free, spin * spin) => m, free, 0.0) | V:*Mesh.Displacement* statics:*Beyond*
 eigenvalues_above: sign | (i, i) -= shift => (i, i) += shift | statics:*Beyond*
 @statics/condensed_contact.cpp
-crush sense of friction | stick.y > 0.0 ? friction => stick.y < 0.0 ? friction | statics:SolveBlock.* statics:Crush.O*
+crush sense of friction | stick.y > 0.0 ? friction => stick.y < 0.0 ? friction | statics:SolveBlock.*
 crush slip without the mixed term | p.normal + edge * p.mixed => p.normal | statics:SolveBlock.*
 crush direct solve without friction | if (edge(column) != 0.0) a.col => if (false) a.col |
   statics:Crush.ClosesIts*
