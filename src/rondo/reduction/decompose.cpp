@@ -88,8 +88,7 @@ Decomposition direct(SnapshotMatrix& source, const DecomposeOptions& options) {
   d.method = Method::direct;
   Progress progress(source, options, 2);  // to read it; and to decompose it, which is all at once
   Eigen::MatrixXd a = read_all(source, progress);
-  d.snapshot_energy = a.colwise().squaredNorm();
-  d.energy = d.snapshot_energy.sum();
+  d.energy = a.squaredNorm();
   if (a.rows() >= a.cols())
     tall(a, options.modes, d);
   else

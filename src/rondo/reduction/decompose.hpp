@@ -54,8 +54,7 @@ struct Decomposition {
   Eigen::MatrixXd modes;     ///< (rows, r) U: orthonormal columns, r <= rank
   Eigen::MatrixXd temporal;  ///< (columns, k) V: orthonormal columns. After tsqr of fewer rows than
                              ///<     columns only those that fit in memory, of at most `rank`
-  Eigen::VectorXd snapshot_energy;  ///< (columns) ‖a_j‖²
-  double energy = 0.0;              ///< ‖A‖² (Frobenius)
+  double energy = 0.0;       ///< ‖A‖² (Frobenius)
   double lost_energy = 0.0;  ///< ‖A‖² - Σσ² of what was truncated; 0 unless incremental
   double sigma_bound = 0.0;  ///< 0 <= true σ_i - sigma[i] <= this, beside round-off
   Index rank = 0;            ///< σ above round_off()

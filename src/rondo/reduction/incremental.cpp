@@ -108,7 +108,6 @@ Decomposition incremental(SnapshotMatrix& source, const DecomposeOptions& option
   Progress progress(source, options, 1);
   Decomposition d;
   d.method = Method::incremental;
-  d.snapshot_energy.resize(source.columns());
   Factors f;
   f.left.resize(source.rows(), plan.modes + plan.block);
   f.right.resize(source.columns(), plan.modes);
@@ -116,8 +115,7 @@ Decomposition incremental(SnapshotMatrix& source, const DecomposeOptions& option
     const Index n = std::min(plan.block, source.columns() - first);
     auto block = f.left.middleCols(f.k(), n);
     source.read_columns(first, block);
-    d.snapshot_energy.segment(first, n) = block.colwise().squaredNorm();
-    f.energy += d.snapshot_energy.segment(first, n).sum();
+    f.energy += block.squaredNorm();
     add_block(f, n, plan.modes, options.tolerance);
     progress.add(source.rows() * n);
   }

@@ -13,11 +13,10 @@ Eigen::MatrixXd triangle_by_rows(SnapshotMatrix& source, Index block, Decomposit
                                  Progress& progress) {
   StackedQr qr(source.columns());
   Eigen::MatrixXd rows(std::min(block, source.rows()), source.columns());
-  d.snapshot_energy.setZero(source.columns());
   for (Index first = 0; first < source.rows(); first += block) {
     auto part = rows.topRows(std::min(block, source.rows() - first));
     source.read_rows(first, part);
-    d.snapshot_energy += part.colwise().squaredNorm().transpose();
+    d.energy += part.squaredNorm();
     qr.add(part);
     progress.add(part.size());
   }
@@ -29,11 +28,10 @@ Eigen::MatrixXd triangle_by_columns(SnapshotMatrix& source, Index block, Decompo
                                     Progress& progress) {
   StackedQr qr(source.rows());
   Eigen::MatrixXd columns(source.rows(), std::min(block, source.columns()));
-  d.snapshot_energy.resize(source.columns());
   for (Index first = 0; first < source.columns(); first += block) {
     const Index n = std::min(block, source.columns() - first);
     source.read_columns(first, columns.leftCols(n));
-    d.snapshot_energy.segment(first, n) = columns.leftCols(n).colwise().squaredNorm();
+    d.energy += columns.leftCols(n).squaredNorm();
     Eigen::MatrixXd turned = columns.leftCols(n).transpose();
     qr.add(turned);
     progress.add(turned.size());
@@ -51,7 +49,6 @@ void tall(SnapshotMatrix& source, const DecomposeOptions& options, const Decompo
     d.sigma = std::move(small.sigma);
     d.temporal = std::move(small.v);
   }
-  d.energy = d.snapshot_energy.sum();
   d.modes.resize(source.rows(), 0);
   const Index kept = rank_and_choose(d, options.modes, plan.modes);
   d.modes.setZero(source.rows(), kept);
@@ -82,7 +79,6 @@ void wide(SnapshotMatrix& source, const DecomposeOptions& options, const Decompo
     d.sigma = std::move(small.sigma);
     u = std::move(small.v);
   }
-  d.energy = d.snapshot_energy.sum();
   d.modes.resize(source.rows(), 0);
   d.temporal.resize(source.columns(), 0);
   const Index kept = rank_and_choose(d, options.modes, plan.modes);

@@ -85,9 +85,10 @@ void refuse_too_long(const PodRequest& request, reduction::Method method,
   if (method != reduction::Method::direct && method != reduction::Method::tsqr) return;
   const Index side = std::min(snapshots.rows(), snapshots.columns());
   if (side <= reduction::largest_side) return;
-  throw request_error("--method", request.method,
-                      fmt::format("{} snapshots are too many for it", side),
-                      fmt::format("auto | incremental, above {}", reduction::largest_side));
+  throw request_error(
+      "--method", request.method,
+      fmt::format("{} is too long for the shorter side of the snapshots", side),
+      fmt::format("auto | incremental; up to {} this one", reduction::largest_side));
 }
 
 reduction::DecomposeOptions options_of(const PodRequest& request) {
