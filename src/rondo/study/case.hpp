@@ -89,6 +89,9 @@ struct Case {
 /// Reads and validates. `settings` are the "a.b=value" of --set, applied before validation; a value
 /// that is not TOML is taken as a string. @throws InputError with every fault, in the file's order.
 Case read_case(const std::filesystem::path& file, const std::vector<std::string>& settings = {});
+/// The same from the text of a file that need not be there; `file` is what messages call it.
+Case read_case_text(const std::filesystem::path& file, std::string text,
+                    const std::vector<std::string>& settings = {});
 
 /// The case as TOML with all defaults written out; reading it again gives the same case to the bit.
 std::string write_case(const Case& c);

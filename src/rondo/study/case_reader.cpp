@@ -240,10 +240,7 @@ void leave_out_dynamics(CaseValues& in, Case& c) {
   c.output.snapshots_from = standard.snapshots_from;
 }
 
-}  // namespace
-
-Case read_case(const std::filesystem::path& file, const std::vector<std::string>& settings) {
-  CaseSource source = load_case(file, settings);
+Case read_source(const std::filesystem::path& file, CaseSource source) {
   read_schema(source);
   CaseValues in(std::move(source));
   Case c;
@@ -267,6 +264,17 @@ Case read_case(const std::filesystem::path& file, const std::vector<std::string>
   in.finish();
   c.places = in.places();
   return c;
+}
+
+}  // namespace
+
+Case read_case(const std::filesystem::path& file, const std::vector<std::string>& settings) {
+  return read_source(file, load_case(file, settings));
+}
+
+Case read_case_text(const std::filesystem::path& file, std::string text,
+                    const std::vector<std::string>& settings) {
+  return read_source(file, load_case_text(file.string(), std::move(text), settings));
 }
 
 }  // namespace rondo::study

@@ -201,13 +201,18 @@ void apply_setting(CaseSource& into, const std::string& setting) {
 }  // namespace
 
 CaseSource load_case(const std::filesystem::path& file, const std::vector<std::string>& settings) {
+  return load_case_text(file.string(), read_text(file), settings);
+}
+
+CaseSource load_case_text(const std::string& name, std::string text,
+                          const std::vector<std::string>& settings) {
   CaseSource source;
-  source.sources.push_back(source_text(file.string(), read_text(file)));
+  source.sources.push_back(source_text(name, std::move(text)));
   try {
     add_table(source, "", toml::parse(source.sources[0].text), 0);
   } catch (const toml::parse_error& error) {
     const Place at = place_of(error.source(), 0);
-    throw InputError(Fault{file.string(), at.line, at.column, "", "",
+    throw InputError(Fault{name, at.line, at.column, "", "",
                            "is not TOML: " + std::string(error.description()), ""});
   }
   for (const std::string& setting : settings) apply_setting(source, setting);

@@ -53,6 +53,9 @@ struct CaseSource {
 /// Reads the file and applies the settings. @throws InputError where the file cannot be read or is
 /// not TOML.
 CaseSource load_case(const std::filesystem::path& file, const std::vector<std::string>& settings);
+/// The same from a text that messages call `name`. @throws InputError where it is not TOML.
+CaseSource load_case_text(const std::string& name, std::string text,
+                          const std::vector<std::string>& settings);
 
 /// The text itself if it is UTF-8, else with '?' for the bytes outside ASCII.
 std::string as_utf8(std::string text);
