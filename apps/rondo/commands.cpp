@@ -4,8 +4,6 @@
 #include <fmt/format.h>
 #include <spdlog/spdlog.h>
 
-#include <atomic>
-#include <csignal>
 #include <filesystem>
 #include <functional>
 
@@ -14,25 +12,10 @@
 #include "rondo/study/check.hpp"
 #include "rondo/study/estimate.hpp"
 #include "rondo/study/run.hpp"
+#include "signals.hpp"
 
 namespace rondo::app {
 namespace {
-
-std::atomic<bool> stop_requested{false};
-static_assert(std::atomic<bool>::is_always_lock_free, "set from a signal handler");
-
-extern "C" void request_stop(int) {
-  stop_requested.store(true);
-}
-
-/// While a case is built, a signal ends the program at once: nothing is there to be saved. From the
-/// loop on it asks for a clean end.
-void catch_signals(study::RunOptions& options) {
-  options.stop = &stop_requested;
-  options.before_loop = [] {
-    for (const int number : {SIGINT, SIGTERM, SIGHUP}) std::signal(number, request_stop);
-  };
-}
 
 study::RunReport run_with_progress(const study::Case& c, study::RunOptions& options, bool quiet) {
   Progress progress(c.analysis.kind == study::AnalysisKind::crush ? "increment" : "step");
@@ -93,7 +76,8 @@ int run(const RunArguments& arguments) {
   options.threads = arguments.threads;
   options.overwrite = arguments.overwrite;
   options.warn = [](const std::string& text) { spdlog::warn(text); };
-  catch_signals(options);
+  options.stop = &stop_requested();
+  options.before_loop = catch_stop_signals;
   return finish(run_with_progress(c, options, arguments.quiet), options.directory);
 }
 
