@@ -26,7 +26,10 @@ std::string readable_time(double seconds) {
 
 std::string indented(const std::string& message) {
   std::string text;
-  for (const char c : message) text += c == '\n' ? std::string("\n    ") : std::string(1, c);
+  for (const char c : message) {
+    text += c;
+    if (c == '\n') text += "    ";
+  }
   return text;
 }
 
@@ -77,8 +80,8 @@ JobProgress::~JobProgress() {
 void JobProgress::ended(std::size_t job, const study::JobOutcome& outcome) {
   ++ended_;
   if (terminal_ && outcome.status != study::JobStatus::failed) return;
-  const std::string line = ended_line(ended_, names_.size(), names_[job], outcome) + "\n";
-  print(out_, open_ ? "\r\033[K" + line : line);
+  print(out_, fmt::format("{}{}\n", open_ ? "\r\033[K" : "",
+                          ended_line(ended_, names_.size(), names_[job], outcome)));
   open_ = false;
 }
 
@@ -87,8 +90,8 @@ void JobProgress::draw(const study::JobsProgress& progress) {
   const std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - start_;
   std::vector<std::string> running;
   for (const std::size_t job : progress.running) running.push_back(names_[job]);
-  print(out_,
-        "\r" + bar_line(progress.share, seconds.count(), running, terminal_width(out_)) + "\033[K");
+  const std::string bar = bar_line(progress.share, seconds.count(), running, terminal_width(out_));
+  print(out_, fmt::format("\r{}\033[K", bar));
   open_ = true;
 }
 
