@@ -10,6 +10,7 @@
 
 #include "commands.hpp"
 #include "exit_codes.hpp"
+#include "paper_command.hpp"
 #include "pod_command.hpp"
 #include "rondo/core/error.hpp"
 #include "rondo/study/version.hpp"
@@ -88,6 +89,25 @@ CLI::App* add_pod(CLI::App& program, PodArguments& arguments) {
   return pod;
 }
 
+CLI::App* add_paper(CLI::App& program, app::PaperArguments& arguments) {
+  CLI::App* paper = program.add_subcommand(
+      "paper", "the study of the paper: all runs behind its figures, ours against expected");
+  paper->add_option("-o,--output", arguments.directory,
+                    "directory of the study; \"paper\", or \"paper-quick\", if left out");
+  paper->add_flag("--quick", arguments.quick, "coarse meshes, a few seconds");
+  paper
+      ->add_option("--jobs", arguments.jobs, "runs at once; as many as there are cores if left out")
+      ->check(CLI::Range(1, 1024));
+  paper->add_flag("--overwrite", arguments.overwrite, "does again what is there");
+  paper->add_flag("--quiet", arguments.quiet, "prints warnings and the table only");
+  paper->footer(
+      "Example:\n  rondo paper -o results/paper\n  python3 -m rondo figures results/paper\n"
+      "A study that was interrupted or killed goes on with the same command. Exit code 3: a row "
+      "of\n"
+      "the table is not as expected. The study is walked through in docs/paper.md.");
+  return paper;
+}
+
 int report_input_error(const InputError& error) {
   for (const Fault& fault : error.faults()) spdlog::error("{}", fault.text());
   if (error.faults().size() > 1) spdlog::error("{} faults; nothing was run", error.faults().size());
@@ -101,6 +121,8 @@ int dispatch_command(CLI::App& program, int argc, char** argv) {
   const CLI::App* check = add_check(program, check_arguments);
   PodArguments pod_arguments;
   const CLI::App* pod = add_pod(program, pod_arguments);
+  app::PaperArguments paper_arguments;
+  const CLI::App* paper = add_paper(program, paper_arguments);
   try {
     program.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
@@ -109,6 +131,7 @@ int dispatch_command(CLI::App& program, int argc, char** argv) {
   if (run->parsed()) return app::run(run_arguments);
   if (check->parsed()) return app::check(check_arguments);
   if (pod->parsed()) return app::pod(pod_arguments.request, pod_arguments.quiet);
+  if (paper->parsed()) return app::paper(paper_arguments);
   return app::exit_input;
 }
 

@@ -4,8 +4,11 @@
 #include <fmt/format.h>
 
 #include <cerrno>
+#include <charconv>
 #include <cmath>
+#include <fstream>
 #include <iterator>
+#include <sstream>
 #include <system_error>
 
 #include "rondo/core/contract.hpp"
@@ -55,6 +58,53 @@ void Csv::rows(std::span<const double> values) {
 
 void Csv::close() {
   if (file_ && std::fclose(file_.release()) != 0) fail(path_, "close");
+}
+
+namespace {
+
+double number(std::string_view field, const std::filesystem::path& path, std::size_t line) {
+  double value = 0.0;
+  const auto [end, error] = std::from_chars(field.data(), field.data() + field.size(), value);
+  if (error != std::errc() || end != field.data() + field.size())
+    throw FileError(path.string(), fmt::format("line {}: \"{}\" is not a number", line, field));
+  return value;
+}
+
+/// Appends the fields of a row to as many columns.
+void add_row(std::string_view row, std::vector<std::vector<double>>& columns,
+             const std::filesystem::path& path, std::size_t line) {
+  for (std::size_t k = 0; k < columns.size(); ++k) {
+    const auto comma = row.find(',');
+    if ((comma == std::string_view::npos) != (k + 1 == columns.size()))
+      throw FileError(path.string(),
+                      fmt::format("line {}: not {} fields as in the header", line, columns.size()));
+    columns[k].push_back(number(row.substr(0, comma), path, line));
+    if (comma != std::string_view::npos) row.remove_prefix(comma + 1);
+  }
+}
+
+}  // namespace
+
+std::map<std::string, std::vector<double>, std::less<>> read_columns(
+    const std::filesystem::path& file) {
+  std::ifstream in(file, std::ios::binary);
+  if (!in) fail(file, "read");
+  std::vector<std::string> names;
+  std::vector<std::vector<double>> columns;
+  std::string line;
+  for (std::size_t number = 1; std::getline(in, line) && !in.eof(); ++number) {
+    if (number > 1) {
+      add_row(line, columns, file, number);
+      continue;
+    }
+    std::istringstream header(line);
+    for (std::string name; std::getline(header, name, ',');) names.push_back(name);
+    columns.resize(names.size());
+  }
+  if (names.empty()) throw FileError(file.string(), "holds no header of columns");
+  std::map<std::string, std::vector<double>, std::less<>> by_name;
+  for (std::size_t k = 0; k < names.size(); ++k) by_name[names[k]] = std::move(columns[k]);
+  return by_name;
 }
 
 }  // namespace rondo::io

@@ -5,6 +5,8 @@
 #pragma once
 #include <cstdio>
 #include <filesystem>
+#include <functional>
+#include <map>
 #include <memory>
 #include <span>
 #include <string>
@@ -32,5 +34,10 @@ class Csv {
   std::unique_ptr<std::FILE, Closer> file_;
   std::string text_;  ///< reused
 };
+
+/// The columns of such a file by name. A last row without its end, of a program killed while it
+/// wrote, is left out. @throws FileError: cannot be read, no header, a field that is not a number
+std::map<std::string, std::vector<double>, std::less<>> read_columns(
+    const std::filesystem::path& file);
 
 }  // namespace rondo::io

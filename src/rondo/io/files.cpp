@@ -3,6 +3,7 @@
 
 #include <fcntl.h>
 #include <fmt/format.h>
+#include <sys/file.h>
 #include <unistd.h>
 
 #include <array>
@@ -135,6 +136,15 @@ void write_json(const fs::path& file, const nlohmann::ordered_json& json) {
   write_file(file, json.dump(indent, ' ', false, replace) + "\n");
 }
 
+nlohmann::ordered_json read_json(const fs::path& file) {
+  std::ifstream in(file, std::ios::binary);
+  if (!in) throw FileError(file.string(), "cannot read: " + message(errno));
+  constexpr bool exceptions = false;
+  auto json = nlohmann::ordered_json::parse(in, nullptr, exceptions);
+  if (json.is_discarded()) throw FileError(file.string(), "is damaged: not JSON");
+  return json;
+}
+
 void replace_file(const fs::path& file, const fs::path& target) {
   const auto fail = [&](const char* doing) {
     throw FileError(target.string(), fmt::format("cannot {}: {}", doing, message(errno)));
@@ -169,6 +179,22 @@ bool overwrite_json(const fs::path& file, const nlohmann::ordered_json& json) no
   } catch (const std::exception&) {
     return false;
   }
+}
+
+DirectoryLock::DirectoryLock(const fs::path& directory)
+    : descriptor_(::open(directory.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC)) {
+  if (descriptor_ < 0)
+    throw FileError(directory.string(), "cannot open the directory: " + message(errno));
+  if (::flock(descriptor_, LOCK_EX | LOCK_NB) == 0) return;
+  const int code = errno;
+  ::close(descriptor_);
+  throw FileError(directory.string(), code == EWOULDBLOCK
+                                          ? "another rondo is at work here; wait until it ends"
+                                          : "cannot lock: " + message(code));
+}
+
+DirectoryLock::~DirectoryLock() {
+  ::close(descriptor_);
 }
 
 }  // namespace rondo::io

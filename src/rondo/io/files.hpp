@@ -18,6 +18,8 @@ void prepare_results_directory(const std::filesystem::path& directory, bool over
 /// Written beside, then renamed: readers never see half a file. @throws FileError
 void write_file(const std::filesystem::path& file, const std::string& text);
 void write_json(const std::filesystem::path& file, const nlohmann::ordered_json& json);
+/// @throws FileError: cannot be read, is not JSON
+nlohmann::ordered_json read_json(const std::filesystem::path& file);
 /// The file takes the place of `target` in the same file system, at once and for good.
 /// @throws FileError
 void replace_file(const std::filesystem::path& file, const std::filesystem::path& target);
@@ -27,5 +29,19 @@ void demand_room(const std::filesystem::path& file, std::size_t bytes);
 /// For a full disk: over the old text of a small file, in place, which asks for no new room.
 /// False where that cannot be done either.
 bool overwrite_json(const std::filesystem::path& file, const nlohmann::ordered_json& json) noexcept;
+
+/// Held by one program at a time, until it and the processes that it forked have ended, however
+/// they end.
+class DirectoryLock {
+ public:
+  /// @throws FileError: another program holds it; cannot be made
+  explicit DirectoryLock(const std::filesystem::path& directory);
+  ~DirectoryLock();
+  DirectoryLock(const DirectoryLock&) = delete;
+  DirectoryLock& operator=(const DirectoryLock&) = delete;
+
+ private:
+  int descriptor_ = -1;
+};
 
 }  // namespace rondo::io

@@ -34,13 +34,17 @@ void keep_the_users_case(const Case& c, const std::filesystem::path& directory) 
 
 }  // namespace
 
+void describe_program(Json& json) {
+  json["version"] = version;
+  json["build"] = build_options;
+  json["host"] = host_name();
+}
+
 Json describe_run(const Case& c, std::string_view analysis, std::size_t nodes, std::size_t dofs) {
   Json j;
   j["status"] = "running";
   j["title"] = c.title;
-  j["version"] = version;
-  j["build"] = build_options;
-  j["host"] = host_name();
+  describe_program(j);
   j["analysis"] = analysis;
   j["nodes"] = nodes;
   j["dofs"] = dofs;

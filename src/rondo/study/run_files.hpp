@@ -12,6 +12,9 @@ namespace rondo::study {
 
 using Json = nlohmann::ordered_json;
 
+/// Adds what program wrote it, where: version, build, host.
+void describe_program(Json& json);
+
 /// The first keys of run.json, with the status "running".
 Json describe_run(const Case& c, std::string_view analysis, std::size_t nodes, std::size_t dofs);
 

@@ -1,0 +1,224 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "rondo/study/paper.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <chrono>
+#include <system_error>
+
+#include "rondo/core/error.hpp"
+#include "rondo/io/files.hpp"
+#include "rondo/study/paper_checks.hpp"
+#include "rondo/study/paper_jobs.hpp"
+#include "rondo/study/paper_plan.hpp"
+#include "rondo/study/run_files.hpp"
+
+namespace rondo::study {
+namespace {
+
+namespace fs = std::filesystem;
+using Clock = std::chrono::steady_clock;
+
+constexpr const char* format_name = "rondo paper 1";
+
+[[noreturn]] void refuse(const fs::path& directory, const std::string& what,
+                         const std::string& to_do) {
+  Fault fault;
+  fault.key = "-o";
+  fault.found = directory.string();
+  fault.message = what;
+  fault.allowed = to_do;
+  throw InputError(fault);
+}
+
+/// A directory that holds no study, or one of the same kind, which goes on.
+void prepare(const PaperRequest& request) {
+  const fs::path& directory = request.directory;
+  std::error_code error;
+  fs::create_directories(directory / "runs", error);
+  if (error) throw FileError(directory.string(), "cannot create directory: " + error.message());
+  if (request.overwrite) return;
+  const fs::path paper = directory / "paper.json";
+  if (!fs::exists(paper, error)) {
+    if (!fs::is_empty(directory / "runs", error) || fs::exists(directory / "run.json", error))
+      refuse(directory, "holds runs that are not of this study", "choose another -o");
+    return;
+  }
+  const Json found = io::read_json(paper);
+  if (found.value("format", "") != format_name)
+    refuse(directory,
+           fmt::format("holds a study of format \"{}\", not \"{}\"", found.value("format", ""),
+                       format_name),
+           "choose another -o");
+  if (found.value("quick", false) != request.quick)
+    refuse(directory,
+           found.value("quick", false) ? "holds the quick study" : "holds the study in full",
+           "choose another -o, or give --overwrite");
+}
+
+const char* name_of(JobStatus status) {
+  switch (status) {
+    case JobStatus::waiting:
+      return "waiting";
+    case JobStatus::running:
+      return "running";
+    case JobStatus::done:
+      return "done";
+    case JobStatus::failed:
+      return "failed";
+    case JobStatus::interrupted:
+      return "interrupted";
+  }
+  return "";
+}
+
+/// The study as it goes on, and what is written of it.
+class Record {
+ public:
+  Record(const PaperRequest& request, const PaperPlan& plan, std::span<const PaperJob> jobs)
+      : request_(request), plan_(plan), jobs_(jobs), outcomes_(jobs.size()) {
+    for (std::size_t k = 0; k < jobs.size(); ++k)
+      if (jobs[k].there) outcomes_[k].status = JobStatus::done;
+  }
+
+  void set(std::size_t job, const JobOutcome& outcome) { outcomes_[job] = outcome; }
+  [[nodiscard]] const std::vector<JobOutcome>& outcomes() const noexcept { return outcomes_; }
+
+  void write(const char* status, const PaperReport& report) const {
+    Json j;
+    j["format"] = format_name;
+    j["status"] = status;
+    if (!report.message.empty()) j["message"] = report.message;
+    j["quick"] = request_.quick;
+    describe_program(j);
+    j["wall_s"] = report.wall_s;
+    j["runs"] = Json::array();
+    j["pods"] = Json::array();
+    for (std::size_t k = 0; k < jobs_.size(); ++k)
+      j[jobs_[k].is_pod ? "pods" : "runs"].push_back(describe(k));
+    j["table"] = Json::array();
+    for (const PaperRow& row : report.rows) j["table"].push_back(as_json(row));
+    const auto passed = std::count_if(report.rows.begin(), report.rows.end(), passes);
+    j["passed"] = passed;
+    j["failed"] = static_cast<std::ptrdiff_t>(report.rows.size()) - passed;
+    io::write_json(request_.directory / "paper.json", j);
+  }
+
+ private:
+  [[nodiscard]] Json describe(std::size_t k) const {
+    const PaperJob& job = jobs_[k];
+    Json j;
+    if (job.is_pod) {
+      const PaperPod& pod = plan_.pods[job.of];
+      j = {{"run", pod.run}, {"field", pod.field}, {"frame", pod.frame}};
+    } else {
+      j["name"] = plan_.runs[job.of].name;
+    }
+    j["directory"] = job.directory.generic_string();
+    j["command"] = job.command;
+    j["status"] = name_of(outcomes_[k].status);
+    if (!outcomes_[k].message.empty()) j["message"] = outcomes_[k].message;
+    j["kept"] = job.there;
+    j["wall_s"] = outcomes_[k].wall_s;
+    return j;
+  }
+
+  const PaperRequest& request_;
+  const PaperPlan& plan_;
+  std::span<const PaperJob> jobs_;
+  std::vector<JobOutcome> outcomes_;
+};
+
+/// The jobs that are not there, and the places of all of them in that list.
+struct ToDo {
+  std::vector<Job> jobs;
+  std::vector<std::size_t> from;  ///< place in all jobs of each
+};
+
+ToDo to_do(std::span<const PaperJob> all) {
+  ToDo list;
+  std::vector<std::size_t> place(all.size());
+  for (std::size_t k = 0; k < all.size(); ++k) {
+    if (all[k].there) continue;
+    Job job = all[k].job;
+    std::erase_if(job.after, [&](std::size_t before) { return all[before].there; });
+    for (std::size_t& before : job.after) before = place[before];
+    place[k] = list.jobs.size();
+    list.jobs.push_back(std::move(job));
+    list.from.push_back(k);
+  }
+  return list;
+}
+
+void do_jobs(const PaperRequest& request, std::span<const PaperJob> jobs, Record& record,
+             PaperReport& report) {
+  const ToDo list = to_do(jobs);
+  report.jobs = jobs.size();
+  report.kept = jobs.size() - list.jobs.size();
+  if (request.begin) request.begin(list.jobs, report.kept);
+  JobsOptions options;
+  options.at_once = request.at_once;
+  options.stop = request.stop;
+  options.progress = request.progress;
+  options.ended = [&](std::size_t k, const JobOutcome& outcome) {
+    record.set(list.from[k], outcome);
+    record.write("running", report);
+    if (request.ended) request.ended(k, outcome);
+  };
+  static_cast<void>(run_jobs(list.jobs, options));  // each outcome came by `ended`
+}
+
+/// How the jobs ended, but for the table.
+void judge_jobs(std::span<const PaperJob> jobs, const Record& record, PaperReport& report) {
+  report.status = RunStatus::done;
+  for (std::size_t k = 0; k < jobs.size(); ++k) {
+    const JobOutcome& outcome = record.outcomes()[k];
+    if (outcome.status == JobStatus::done) {
+      report.done += jobs[k].there ? 0 : 1;
+    } else if (outcome.status == JobStatus::failed && report.status != RunStatus::failed) {
+      report.status = RunStatus::failed;
+      report.code = outcome.code;
+      report.message = jobs[k].job.name + ": " + outcome.message;
+    } else if (report.status == RunStatus::done) {
+      report.status = RunStatus::interrupted;
+      report.code = job_interrupted;
+    }
+  }
+}
+
+void judge_rows(PaperReport& report) {
+  const auto wrong = std::count_if(report.rows.begin(), report.rows.end(),
+                                   [](const PaperRow& row) { return !passes(row); });
+  if (wrong == 0) return;
+  report.status = RunStatus::failed;
+  report.code = job_failed;
+  report.message =
+      fmt::format("{} of {} rows of the table are not as expected", wrong, report.rows.size());
+}
+
+}  // namespace
+
+PaperReport run_paper(const PaperRequest& request) {
+  const auto begin = Clock::now();
+  prepare(request);
+  const io::DirectoryLock lock(request.directory);
+  const PaperPlan plan = paper_plan(request.quick);
+  const std::vector<PaperJob> jobs = paper_jobs(request.directory, plan, request.overwrite);
+  PaperReport report;
+  Record record(request, plan, jobs);
+  record.write("running", report);
+  do_jobs(request, jobs, record, report);
+  judge_jobs(jobs, record, report);
+  if (report.status == RunStatus::done) {
+    report.rows = check_paper(request.directory, plan, request.quick);
+    judge_rows(report);
+  }
+  report.wall_s = std::chrono::duration<double>(Clock::now() - begin).count();
+  static constexpr std::array<const char*, 3> names{"done", "interrupted", "failed"};
+  record.write(names[static_cast<std::size_t>(report.status)], report);
+  return report;
+}
+
+}  // namespace rondo::study

@@ -1,0 +1,157 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "rondo/study/paper_jobs.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <fstream>
+#include <iterator>
+#include <system_error>
+
+#include "rondo/core/error.hpp"
+#include "rondo/io/files.hpp"
+#include "rondo/study/pod.hpp"
+#include "rondo/study/run.hpp"
+#include "rondo/study/run_files.hpp"
+#include "rondo/study/version.hpp"
+
+namespace rondo::study {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// Empty where it cannot be read.
+std::string text_of(const fs::path& file) {
+  std::ifstream in(file, std::ios::binary);
+  return {std::istreambuf_iterator<char>(in), {}};
+}
+
+Json json_of(const fs::path& file) {
+  constexpr bool exceptions = false;
+  Json json = Json::parse(text_of(file), nullptr, exceptions);
+  return json.is_object() ? json : Json::object();
+}
+
+/// A program built anew may give other numbers: only what is younger than the program counts.
+bool is_of_this_program(const fs::path& file) {
+  std::error_code error;
+  const fs::path program = fs::read_symlink("/proc/self/exe", error);
+  const auto built = fs::last_write_time(program, error);
+  if (error) return false;
+  const auto written = fs::last_write_time(file, error);
+  return !error && written >= built;
+}
+
+bool run_is_there(const fs::path& directory, const PaperRun& run, const Case& c) {
+  const Json j = json_of(directory / "run.json");
+  const std::string status = j.value("status", "");
+  return (status == "done" || (run.may_fail && status == "failed")) &&
+         j.value("version", "") == version && j.value("build", "") == build_options &&
+         is_of_this_program(directory / "run.json") &&
+         text_of(directory / "case.toml") == write_case(c) &&
+         fs::exists(directory / "results.h5") && fs::exists(directory / "history.csv");
+}
+
+bool pod_is_there(const fs::path& directory, const PaperPod& pod) {
+  const Json j = json_of(directory / "pod.json");
+  return j.value("status", "") == "done" && j.value("field", "") == pod.field &&
+         j.value("frame", "") == pod.frame && j.value("version", "") == version &&
+         is_of_this_program(directory / "pod.json") && fs::exists(directory / "pod.h5") &&
+         fs::exists(directory / "spectrum.csv");
+}
+
+JobReport report_of(const RunReport& r, bool may_fail) {
+  switch (r.status) {
+    case RunStatus::done:
+      return {};
+    case RunStatus::interrupted:
+      return {job_interrupted, {}, {}};
+    case RunStatus::failed:
+      break;
+  }
+  return {job_failed, r.message, may_fail};
+}
+
+JobReport do_run(const fs::path& directory, const Case& c, bool may_fail, JobChannel& channel) {
+  RunOptions options;
+  options.directory = directory;
+  options.threads = 1;
+  options.overwrite = true;
+  options.stop = channel.stop();
+  options.progress = [&](long long done, long long total) { channel.progress(done, total); };
+  return report_of(run_case(c, options), may_fail);
+}
+
+/// What a program left that was killed while it wrote.
+void remove_unfinished(const fs::path& directory) {
+  std::error_code error;
+  for (const auto& entry : fs::directory_iterator(directory, error))
+    if (entry.path().filename().string().starts_with(".pod.")) fs::remove_all(entry.path(), error);
+}
+
+/// It takes about a second, and is finished in spite of a signal.
+JobReport do_pod(const fs::path& run, const PaperPod& pod, JobChannel& channel) {
+  remove_unfinished(run / "pod" / (pod.field + "-" + pod.frame));
+  PodRequest request;
+  request.runs = {run};
+  request.field = pod.field;
+  request.frame = pod.frame;
+  request.modes = paper_modes;
+  request.reconstruct = 0;
+  request.progress = [&](long long done, long long total) { channel.progress(done, total); };
+  const PodReport report = run_pod(request);
+  if (!report.trouble.empty()) return {job_failed, report.trouble, {}};
+  return {};
+}
+
+/// Nodes of the mesh and, up to a factor, steps of the run: the critical step goes with the layers.
+/// Only the order of the jobs and the bar of progress hang on it.
+double cost_of(const Case& c) {
+  const double layers = c.disk.radial + (c.disk.tread ? c.disk.tread->layers : 0);
+  const auto nodes = static_cast<double>(mesh::n_disk_nodes(c.disk));
+  if (c.analysis.kind == AnalysisKind::crush) return 0.01 * nodes * layers;
+  const double speed = std::sqrt(c.material.youngs_modulus / 2.0e7);
+  return nodes * layers * (c.time.end / 0.12) * speed + nodes * c.output.snapshots / 100.0;
+}
+
+}  // namespace
+
+std::vector<PaperJob> paper_jobs(const fs::path& directory, const PaperPlan& plan, bool again) {
+  std::vector<PaperJob> jobs;
+  for (std::size_t k = 0; k < plan.runs.size(); ++k) {
+    const PaperRun& run = plan.runs[k];
+    const Case c = case_of(run);
+    PaperJob job;
+    job.directory = fs::path("runs") / run.name;
+    job.command = command_of(run);
+    job.of = k;
+    const fs::path results = directory / job.directory;
+    job.there = !again && run_is_there(results, run, c);
+    job.job = {run.name, cost_of(c), {}, [=, may_fail = run.may_fail](JobChannel& channel) {
+                 return do_run(results, c, may_fail, channel);
+               }};
+    jobs.push_back(std::move(job));
+  }
+  for (std::size_t k = 0; k < plan.pods.size(); ++k) {
+    const PaperPod& pod = plan.pods[k];
+    const auto run = static_cast<std::size_t>(
+        std::find_if(plan.runs.begin(), plan.runs.end(),
+                     [&](const PaperRun& r) { return r.name == pod.run; }) -
+        plan.runs.begin());
+    PaperJob job;
+    job.directory = fs::path("runs") / pod.run / "pod" / (pod.field + "-" + pod.frame);
+    job.command = command_of(pod);
+    job.is_pod = true;
+    job.of = k;
+    // A run made again takes its PODs with it.
+    job.there = jobs[run].there && pod_is_there(directory / job.directory, pod);
+    const fs::path results = directory / "runs" / pod.run;
+    job.job = {pod.run + " " + pod.field + "-" + pod.frame,
+               0.2 * jobs[run].job.weight,
+               {run},
+               [=](JobChannel& channel) { return do_pod(results, pod, channel); }};
+    jobs.push_back(std::move(job));
+  }
+  return jobs;
+}
+
+}  // namespace rondo::study
