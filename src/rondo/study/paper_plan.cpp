@@ -51,7 +51,7 @@ void add_spin_up(PlanMaker& make) {
            {half_second, make.snapshots(1000, 1), no_stress});
   make.run("spin-up-as-printed", "spin-up-undamped",
            {half_second, make.snapshots(1000, 1), no_stress, printed});
-  const Settings fast{"motion.angular_velocity=200.0", "time.end=0.3", "time.safety=0.9",
+  const Settings fast{"motion.angular_velocity=200.0", "time.end=0.4", "time.safety=0.9",
                       "output.snapshots=0"};
   make.run("spin-up-fast", "spin-up-undamped", fast);
   Settings fast_printed = fast;

@@ -60,5 +60,39 @@ TEST(Csv, ErrorsNameTheFileAndTheReason) {
   EXPECT_EQ(full, "/dev/full: cannot write: No space left on device");
 }
 
+TEST(ReadColumns, GivesBackTheBitsWritten) {
+  const Folder folder;
+  const double third = 1.0 / 3.0, tiny = std::numeric_limits<double>::denorm_min();
+  Csv csv(folder / "a.csv", {"time_s", "b"});
+  csv.row(std::vector<double>{third, -tiny});
+  csv.row(std::vector<double>{2.0, std::nan("")});
+  csv.close();
+  const auto columns = read_columns(folder / "a.csv");
+  ASSERT_EQ(columns.size(), 2u);
+  EXPECT_EQ(columns.at("time_s"), (std::vector<double>{third, 2.0}));
+  EXPECT_EQ(columns.at("b")[0], -tiny);
+  EXPECT_TRUE(std::isnan(columns.at("b")[1]));
+}
+
+TEST(ReadColumns, LeavesOutARowThatWasNotFinished) {
+  const Folder folder;
+  put_text(folder / "a.csv", "a,b\n1,2\n3,4");
+  EXPECT_EQ(read_columns(folder / "a.csv").at("b"), std::vector<double>{2.0});
+}
+
+TEST(ReadColumns, SaysWhatIsWrongAndWhere) {
+  const Folder folder;
+  const auto error = [&](const std::string& text) {
+    put_text(folder / "a.csv", text);
+    return error_of<FileError>([&] { read_columns(folder / "a.csv"); });
+  };
+  EXPECT_NE(error("a,b\n1,2\n3,x4\n").find("line 3: \"x4\" is not a number"), std::string::npos);
+  EXPECT_NE(error("a,b\n1\n").find("line 2: not 2 fields"), std::string::npos);
+  EXPECT_NE(error("a,b\n1,2,3\n").find("line 2: not 2 fields"), std::string::npos);
+  EXPECT_NE(error("").find("no header"), std::string::npos);
+  EXPECT_NE(error_of<FileError>([&] { read_columns(folder / "none.csv"); }).find("No such file"),
+            std::string::npos);
+}
+
 }  // namespace
 }  // namespace rondo::io::test

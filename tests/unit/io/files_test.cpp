@@ -115,5 +115,41 @@ TEST(WriteJson, KeepsOrderAndNumbers) {
   EXPECT_EQ(nlohmann::ordered_json::parse(text)["a"], (std::vector<int>{1, 2}));
 }
 
+TEST(ReadJson, SaysWhatIsWrong) {
+  const Folder folder;
+  write_json(folder / "a.json", {{"x", 1.5}});
+  EXPECT_EQ(read_json(folder / "a.json")["x"], 1.5);
+  put_text(folder / "a.json", "{\"x\": 1.");
+  EXPECT_NE(error_of<FileError>([&] { read_json(folder / "a.json"); }).find("damaged"),
+            std::string::npos);
+  EXPECT_NE(error_of<FileError>([&] { read_json(folder / "none"); }).find("No such file"),
+            std::string::npos);
+}
+
+TEST(DirectoryLock, IsHeldByOneAtATime) {
+  const Folder folder;
+  const auto error = [&] {
+    return error_of<FileError>([&] { const DirectoryLock again(folder.path()); });
+  };
+  {
+    const DirectoryLock lock(folder.path());
+    EXPECT_NE(error().find("another rondo is at work here"), std::string::npos);
+  }
+  EXPECT_EQ(error(), "");
+  EXPECT_NE(
+      error_of<FileError>([&] { const DirectoryLock lock(folder / "none"); }).find("No such file"),
+      std::string::npos);
+}
+
+TEST(DirectoryLock, EndsWithItsHolderHoweverThatEnds) {
+  const Folder folder;
+  const int status = in_child([&] {
+    const DirectoryLock lock(folder.path());
+    std::raise(SIGKILL);
+  });
+  EXPECT_TRUE(WIFSIGNALED(status));
+  EXPECT_EQ(error_of<FileError>([&] { const DirectoryLock lock(folder.path()); }), "");
+}
+
 }  // namespace
 }  // namespace rondo::io::test

@@ -1,0 +1,253 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""rondo paper: the quick study from the command line, killed and interrupted on the way, its table
+against numbers computed here from its files, and what it refuses."""
+import json
+import pathlib
+import signal
+import subprocess
+import tempfile
+import time
+import unittest
+
+import h5py
+import numpy as np
+
+from program import PROGRAM, ProgramTest, history, run, summary
+
+N_RUNS, N_PODS = 15, 18
+
+
+def paper(folder):
+    return json.loads((folder / "paper.json").read_text())
+
+
+def table(folder):
+    return {row["name"]: row for row in paper(folder)["table"]}
+
+
+def finished(folder):
+    """Runs and PODs with the status done; none while there is no paper.json."""
+    try:
+        found = paper(folder)
+    except FileNotFoundError:
+        return 0
+    return sum(part["status"] == "done" for part in found["runs"] + found["pods"])
+
+
+def stop_midway(folder, number, least):
+    """Starts the study, sends it a signal once `least` parts are done; its exit code and stderr."""
+    with subprocess.Popen([PROGRAM, "paper", "--quick", "-o", folder], text=True,
+                          stdout=subprocess.DEVNULL, stderr=subprocess.PIPE) as study:
+        deadline = time.monotonic() + 60
+        while finished(folder) < least and study.poll() is None:
+            if time.monotonic() > deadline:
+                study.kill()
+                raise AssertionError(f"only {finished(folder)} parts were done after a minute")
+            time.sleep(0.01)
+        study.send_signal(number)
+        said = study.stderr.read()
+    return study.returncode, said
+
+
+def snapshot_of(folder):
+    """Time of the last change of every file of the results."""
+    return {file: file.stat().st_mtime_ns for file in (folder / "runs").rglob("*")
+            if file.is_file()}
+
+
+class Study(unittest.TestCase):
+    """One study for all tests: killed, interrupted, finished."""
+
+    @classmethod
+    def setUpClass(cls):
+        holder = tempfile.TemporaryDirectory()
+        cls.addClassCleanup(holder.cleanup)
+        cls.folder = pathlib.Path(holder.name) / "study"
+        cls.killed = stop_midway(cls.folder, signal.SIGKILL, 4)
+        cls.after_kill = paper(cls.folder)
+        cls.done_then = finished(cls.folder)
+        cls.interrupted = stop_midway(cls.folder, signal.SIGTERM, cls.done_then + 3)
+        cls.after_interrupt = paper(cls.folder)
+        cls.files_then = snapshot_of(cls.folder)
+        cls.last = run("paper", "--quick", "-o", cls.folder)
+        cls.once = pathlib.Path(holder.name) / "once"
+        cls.whole = run("paper", "--quick", "-o", cls.once, "--jobs", 1)
+
+    def test_1_a_killed_study_leaves_its_record_and_no_child(self):
+        self.assertEqual(self.killed[0], -signal.SIGKILL)
+        self.assertEqual(self.after_kill["status"], "running")
+        self.assertLess(self.done_then, N_RUNS + N_PODS, "it had ended before it was killed")
+
+    def test_2_an_interrupted_study_says_how_to_go_on(self):
+        code, said = self.interrupted
+        self.assertEqual(code, 130, said)
+        self.assertIn("the same command goes on", said)
+        self.assertIn(f"{self.done_then} of {N_RUNS + N_PODS} jobs are there already", said)
+        self.assertEqual(self.after_interrupt["status"], "interrupted")
+        self.assertEqual(self.after_interrupt["table"], [])
+
+    def test_3_it_goes_on_where_it_was(self):
+        self.assertEqual(self.last.returncode, 0, self.last.stderr)
+        found = paper(self.folder)
+        self.assertEqual(found["status"], "done")
+        kept = [part["directory"] for part in found["runs"] + found["pods"] if part["kept"]]
+        self.assertGreaterEqual(len(kept), self.done_then + 3)
+        self.assertLess(len(kept), N_RUNS + N_PODS)
+        now = snapshot_of(self.folder)
+        for directory in kept:
+            for file in (self.folder / directory).iterdir():
+                if file.is_file():
+                    self.assertEqual(now[file], self.files_then[file], file)
+
+    def test_4_the_same_table_as_at_one_go_one_at_a_time(self):
+        self.assertEqual(self.whole.returncode, 0, self.whole.stderr)
+        ours, once = table(self.folder), table(self.once)
+        self.assertEqual(ours.keys(), once.keys())
+        for name, row in ours.items():
+            self.assertEqual(row["ours"], once[name]["ours"], name)
+
+    def test_5_every_row_is_as_expected_and_printed(self):
+        found = paper(self.once)
+        self.assertEqual(found["format"], "rondo paper 1")
+        self.assertTrue(found["quick"])
+        self.assertEqual((found["passed"], found["failed"]), (len(found["table"]), 0))
+        self.assertEqual({row["figure"] for row in found["table"]}, {2, 3, 4, 5, 6})
+        for row in found["table"]:
+            self.assertTrue(row["pass"], row)
+            self.assertTrue(row["source"], row)
+            self.assertIn(row["quantity"], self.whole.stdout)
+        self.assertIn(f"{len(found['table'])} of {len(found['table'])} as expected",
+                      self.whole.stdout)
+
+    def test_6_runs_and_pods_are_all_there_with_their_commands(self):
+        found = paper(self.once)
+        self.assertEqual((len(found["runs"]), len(found["pods"])), (N_RUNS, N_PODS))
+        for entry in found["runs"]:
+            self.assertEqual(entry["status"], "done", entry)
+            self.assertTrue(entry["command"].startswith("rondo run cases/"), entry)
+            blows_up = entry["name"] == "spin-up-fast-as-printed"
+            self.assertEqual(summary(self.once / entry["directory"])["status"],
+                             "failed" if blows_up else "done", entry)
+        for entry in found["pods"]:
+            self.assertTrue((self.once / entry["directory"] / "pod.h5").is_file(), entry)
+            self.assertTrue(entry["command"].startswith("rondo pod runs/"), entry)
+
+    def test_7_a_command_of_the_record_gives_the_same_bits(self):
+        entry = [e for e in paper(self.once)["runs"] if e["name"] == "friction-0.2"][0]
+        words = entry["command"].split()
+        words[words.index("-o") + 1] = str(self.once / "by-hand")
+        root = pathlib.Path(__file__).resolve().parents[2]
+        self.assertEqual(run(*words[1:], cwd=root).returncode, 0)
+        self.assertEqual((self.once / "by-hand" / "history.csv").read_bytes(),
+                         (self.once / "runs" / "friction-0.2" / "history.csv").read_bytes())
+
+    def test_8_the_table_is_what_the_files_say(self):
+        rows, runs = table(self.once), self.once / "runs"
+        # Rows of the history are means over their intervals.
+        h = history(runs / "friction-0.2")
+        spans = np.diff(h["time_s"], prepend=0)
+        late = h["time_s"] - spans >= 0.095
+        self.assertAlmostEqual(rows["friction-0.2-force-y"]["ours"],
+                               np.average(h["force_y"][late], weights=spans[late]), delta=1e-6)
+        # The pitch frequency by an FFT of the rows: within its resolution.
+        h = history(runs / "turn-treaded")
+        late = h["time_s"] > 0.1
+        force = h["force_y"][late] - h["force_y"][late].mean()
+        step = (h["time_s"][late][-1] - h["time_s"][late][0]) / (late.sum() - 1)
+        lines = np.abs(np.fft.rfft(force * np.hanning(late.sum())))
+        frequency = np.fft.rfftfreq(late.sum(), step)
+        low = frequency < 500
+        self.assertAlmostEqual(rows["treaded-frequency"]["ours"],
+                               frequency[low][np.argmax(lines[low])], delta=frequency[1])
+        # The edge of the spun-up ring.
+        with h5py.File(runs / "spin-up-damped" / "results.h5") as file:
+            edge = file["mesh/boundary"][:]
+            x = file["mesh/coordinates"][:][edge]
+            u = file["snapshots/displacement"][-1][edge]
+        radial = np.einsum("ij,ij->i", u, x / np.linalg.norm(x, axis=1)[:, None]).mean()
+        self.assertAlmostEqual(rows["damped-closed-form"]["ours"], radial, delta=1e-16)
+        self.assertAlmostEqual(rows["damped-closed-form"]["expected"], 1.591599e-4, delta=1e-10)
+        # Numbers of modes, from the spectra.
+        def modes(name):
+            spectrum = np.genfromtxt(runs / name / "spectrum.csv", delimiter=",", names=True)
+            return 1 + np.argmax(spectrum["discarded_energy"] <= 1e-4)
+        gain = modes("turn-smooth/pod/velocity-rotating") / modes(
+            "turn-smooth/pod/velocity-rectified")
+        self.assertEqual(rows["smooth-velocity-gain"]["ours"], gain)
+        as_crush = rows["treaded-displacement-as-crush"]
+        self.assertEqual(as_crush["ours"], modes("turn-treaded/pod/displacement-rectified"))
+        self.assertEqual(as_crush["expected"], modes("crush-treaded/pod/displacement-rotating"))
+        # Coulomb's law, node by node.
+        worst = -1.0
+        for friction in ("0.0", "0.2", "0.4", "0.6"):
+            with h5py.File(runs / f"friction-{friction}" / "results.h5") as file:
+                force = file["contact/force"][:]
+            outside = np.abs(force[..., 1]) - float(friction) * force[..., 0]
+            worst = max(worst, outside.max() / force[..., 0].max())
+        self.assertAlmostEqual(rows["shear-in-cone"]["ours"], worst, delta=1e-20)
+
+    def test_9_what_is_damaged_or_of_another_case_is_made_again(self):
+        runs = self.folder / "runs"
+        (runs / "crush-smooth" / "results.h5").unlink()
+        case = runs / "friction-0.4" / "case.toml"
+        case.write_text(case.read_text().replace("friction = 0.4", "friction = 0.5"))
+        (runs / "turn-smooth" / "pod" / "velocity-rectified" / "pod.json").write_text("{")
+        again = run("paper", "--quick", "-o", self.folder)
+        self.assertEqual(again.returncode, 0, again.stderr)
+        found = paper(self.folder)
+        made = sorted(part["directory"] for part in found["runs"] + found["pods"]
+                      if not part["kept"])
+        pods = [f"runs/crush-smooth/pod/{field}-rotating"
+                for field in ("contact", "displacement", "velocity")]
+        self.assertEqual(made, sorted(["runs/crush-smooth", "runs/friction-0.4",
+                                       "runs/turn-smooth/pod/velocity-rectified", *pods]))
+        self.assertIn("friction = 0.4", case.read_text())
+
+
+class Refusals(ProgramTest):
+    def refused(self, *arguments, code=2):
+        done = run("paper", *arguments)
+        self.assertEqual(done.returncode, code, done.stderr)
+        self.assertEqual(done.stdout, "")
+        return done.stderr
+
+    def test_a_directory_of_something_else(self):
+        (self.folder / "run.json").write_text("{}")
+        self.assertIn("choose another -o", self.refused("--quick", "-o", self.folder))
+        self.assertEqual((self.folder / "run.json").read_text(), "{}")
+
+    def test_the_other_kind_of_study(self):
+        (self.folder / "paper.json").write_text('{"format": "rondo paper 1", "quick": false}')
+        said = self.refused("--quick", "-o", self.folder)
+        self.assertIn("holds the study in full", said)
+        self.assertIn("--overwrite", said)
+
+    def test_a_newer_or_damaged_record(self):
+        (self.folder / "paper.json").write_text('{"format": "rondo paper 2", "quick": true}')
+        self.assertIn('"rondo paper 2"', self.refused("--quick", "-o", self.folder))
+        (self.folder / "paper.json").write_text("{")
+        self.assertIn("damaged", self.refused("--quick", "-o", self.folder, code=4))
+
+    def test_a_file_in_the_way(self):
+        (self.folder / "study").write_text("")
+        self.refused("--quick", "-o", self.folder / "study", code=4)
+
+    def test_two_studies_at_once(self):
+        first = subprocess.Popen([PROGRAM, "paper", "--quick", "-o", self.folder],
+                                 stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+        try:
+            while not (self.folder / "paper.json").exists():
+                self.assertIsNone(first.poll())
+                time.sleep(0.01)
+            self.assertIn("another rondo is at work here",
+                          self.refused("--quick", "-o", self.folder, code=4))
+        finally:
+            first.send_signal(signal.SIGINT)
+            first.wait()
+
+    def test_a_wrong_option(self):
+        self.assertIn("--jobs", self.refused("--jobs", 0))
+
+
+if __name__ == "__main__":
+    unittest.main()
