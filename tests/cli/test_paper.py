@@ -26,12 +26,12 @@ def table(folder):
 
 
 def finished(folder):
-    """Runs and PODs with the status done; none while there is no paper.json."""
+    """Runs and PODs that have ended; none while there is no paper.json."""
     try:
         found = paper(folder)
     except FileNotFoundError:
         return 0
-    return sum(part["status"] == "done" for part in found["runs"] + found["pods"])
+    return sum(part["status"] in ("done", "failed") for part in found["runs"] + found["pods"])
 
 
 def stop_midway(folder, number, least):
@@ -123,11 +123,11 @@ class Study(unittest.TestCase):
         found = paper(self.once)
         self.assertEqual((len(found["runs"]), len(found["pods"])), (N_RUNS, N_PODS))
         for entry in found["runs"]:
-            self.assertEqual(entry["status"], "done", entry)
             self.assertTrue(entry["command"].startswith("rondo run cases/"), entry)
             blows_up = entry["name"] == "spin-up-fast-as-printed"
-            self.assertEqual(summary(self.once / entry["directory"])["status"],
-                             "failed" if blows_up else "done", entry)
+            self.assertEqual(entry["status"], "failed" if blows_up else "done", entry)
+            self.assertEqual(entry["status"], summary(self.once / entry["directory"])["status"])
+            self.assertEqual("blown up" in entry.get("message", ""), blows_up)
         for entry in found["pods"]:
             self.assertTrue((self.once / entry["directory"] / "pod.h5").is_file(), entry)
             self.assertTrue(entry["command"].startswith("rondo pod runs/"), entry)
@@ -199,6 +199,8 @@ class Study(unittest.TestCase):
                       if not part["kept"])
         pods = [f"runs/crush-smooth/pod/{field}-rotating"
                 for field in ("contact", "displacement", "velocity")]
+        fast = [e for e in found["runs"] if e["name"] == "spin-up-fast-as-printed"][0]
+        self.assertEqual((fast["kept"], fast["status"]), (True, "failed"))
         self.assertEqual(made, sorted(["runs/crush-smooth", "runs/friction-0.4",
                                        "runs/turn-smooth/pod/velocity-rectified", *pods]))
         self.assertIn("friction = 0.4", case.read_text())

@@ -58,14 +58,15 @@ void prepare(const PaperRequest& request) {
            "choose another -o, or give --overwrite");
 }
 
-const char* name_of(JobStatus status) {
-  switch (status) {
+/// A run that may fail is done as a job, and has failed as a run.
+const char* status_of(const JobOutcome& outcome) {
+  switch (outcome.status) {
     case JobStatus::waiting:
       return "waiting";
     case JobStatus::running:
       return "running";
     case JobStatus::done:
-      return "done";
+      return outcome.code == job_done ? "done" : "failed";
     case JobStatus::failed:
       return "failed";
     case JobStatus::interrupted:
@@ -80,7 +81,7 @@ class Record {
   Record(const PaperRequest& request, const PaperPlan& plan, std::span<const PaperJob> jobs)
       : request_(request), plan_(plan), jobs_(jobs), outcomes_(jobs.size()) {
     for (std::size_t k = 0; k < jobs.size(); ++k)
-      if (jobs[k].there) outcomes_[k].status = JobStatus::done;
+      if (jobs[k].there) outcomes_[k] = jobs[k].found;
   }
 
   void set(std::size_t job, const JobOutcome& outcome) { outcomes_[job] = outcome; }
@@ -118,7 +119,7 @@ class Record {
     }
     j["directory"] = job.directory.generic_string();
     j["command"] = job.command;
-    j["status"] = name_of(outcomes_[k].status);
+    j["status"] = status_of(outcomes_[k]);
     if (!outcomes_[k].message.empty()) j["message"] = outcomes_[k].message;
     j["kept"] = job.there;
     j["wall_s"] = outcomes_[k].wall_s;

@@ -51,6 +51,13 @@ bool run_is_there(const fs::path& directory, const PaperRun& run, const Case& c)
          fs::exists(directory / "results.h5") && fs::exists(directory / "history.csv");
 }
 
+/// How a run that is there ended: one that may fail says why.
+JobOutcome outcome_of(const fs::path& directory) {
+  const Json j = json_of(directory / "run.json");
+  const bool failed = j.value("status", "") == "failed";
+  return {JobStatus::done, failed ? job_failed : job_done, j.value("message", ""), 0.0};
+}
+
 bool pod_is_there(const fs::path& directory, const PaperPod& pod) {
   const Json j = json_of(directory / "pod.json");
   return j.value("status", "") == "done" && j.value("field", "") == pod.field &&
@@ -126,6 +133,7 @@ std::vector<PaperJob> paper_jobs(const fs::path& directory, const PaperPlan& pla
     job.of = k;
     const fs::path results = directory / job.directory;
     job.there = !again && run_is_there(results, run, c);
+    if (job.there) job.found = outcome_of(results);
     job.job = {run.name, cost_of(c), {}, [=, may_fail = run.may_fail](JobChannel& channel) {
                  return do_run(results, c, may_fail, channel);
                }};
@@ -144,6 +152,7 @@ std::vector<PaperJob> paper_jobs(const fs::path& directory, const PaperPlan& pla
     job.of = k;
     // A run made again takes its PODs with it.
     job.there = jobs[run].there && pod_is_there(directory / job.directory, pod);
+    if (job.there) job.found.status = JobStatus::done;
     const fs::path results = directory / "runs" / pod.run;
     job.job = {pod.run + " " + pod.field + "-" + pod.frame,
                0.2 * jobs[run].job.weight,

@@ -18,6 +18,7 @@ struct PaperJob {
   bool is_pod = false;
   std::size_t of = 0;  ///< place in the plan's runs or pods
   bool there = false;  ///< complete, of this program and this case
+  JobOutcome found;    ///< if it is there: how it ended
 };
 
 /// Runs first, then PODs, each after its run. @param again: nothing counts as being there
