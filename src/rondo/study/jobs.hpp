@@ -89,8 +89,9 @@ struct JobsOptions {
 /// in the order of the list. A job whose predecessor is not done fails without a start and names
 /// it. A failure stops nothing else. Outcomes do not depend on at_once, times aside.
 ///
-/// Before the call this process must not have run a parallel loop (OpenMP, BLAS) nor have other
-/// threads at work: their locks and pools do not survive a fork. The number of threads within a
+/// Before the call this process must not have run a parallel loop of OpenMP nor have other threads
+/// at work: their pools and locks do not survive a fork, and a child that needs them hangs. (BLAS's
+/// idle pool is no trouble: OpenBLAS takes it down before a fork.) The number of threads within a
 /// job is the job's business, usually 1. Children stay in the process group, so that a Ctrl-C
 /// reaches them all: the caller catches it and sets `stop`. They die with the thread that called.
 ///
