@@ -103,6 +103,42 @@ TEST(JobsStop, WhatTheParentIgnoresStaysIgnoredButForTheStopItself) {
             0);
 }
 
+TEST(JobsStop, OfAJobIsNotThatOfTheJobsWithinIt) {
+  const std::vector<Job> jobs{make_job("outer", [](JobChannel&) {
+    raise(SIGTERM);
+    const std::vector<Job> inner{make_job("inner", [](JobChannel& channel) {
+      return JobReport{channel.stop()->load() ? 1 : 0, {}, {}};
+    })};
+    return JobReport{run_jobs(inner, {})[0].code, {}, {}};
+  })};
+  EXPECT_EQ(run_jobs(jobs, {})[0].code, 0);
+}
+
+/// 'S' while it sleeps, as in a write to a full pipe; 'R' while it runs.
+char state_of(pid_t pid) {
+  std::ifstream in("/proc/" + std::to_string(pid) + "/stat");
+  std::string text(std::istreambuf_iterator<char>(in), {});
+  return text.at(text.rfind(')') + 2);
+}
+
+TEST(JobsProcess, HalfAReportIsNone) {
+  Shared<std::atomic<pid_t>> child;
+  const std::vector<Job> jobs{make_job("job", [&](JobChannel&) {
+    JobReport report{0, std::string(1 << 20, 'a'), {}};
+    *child = getpid();
+    return report;
+  })};
+  JobsOptions options;
+  options.progress = [&](const JobsProgress& progress) {  // meanwhile nobody reads the pipe
+    if (progress.ended > 0) return;
+    ASSERT_TRUE(holds_soon([&] { return *child != 0 && state_of(*child) == 'S'; }));
+    kill(*child, SIGKILL);
+  };
+  const std::vector<JobOutcome> outcomes = run_jobs(jobs, options);
+  EXPECT_EQ(outcomes[0].status, JobStatus::failed);
+  EXPECT_EQ(outcomes[0].message.substr(0, 18), "killed by signal 9");
+}
+
 TEST(JobsProcess, DiesWithItsParent) {
   std::array<int, 2> ends{};  // nobody writes: it reaches its end as the last holder dies
   ASSERT_EQ(pipe(ends.data()), 0);
@@ -217,14 +253,18 @@ TEST(JobsProcess, NoForkIsAnErrorOnceTheRunningOnesHaveEnded) {
 
 TEST(JobsProcess, ACallbackThatThrowsLeavesNothingBehind) {
   const std::ptrdiff_t before = open_files();
-  Shared<std::array<std::atomic<bool>, 2>> started;
-  const std::vector<Job> jobs{make_job("a", stopped_with((*started)[0], {})),
-                              make_job("b", stopped_with((*started)[1], {}))};
+  Shared<std::atomic<int>> started, stopped;
+  const std::vector<Job> jobs(2, make_job("job", [&](JobChannel& channel) {
+                                ++*started;
+                                if (wait_for_stop(channel)) ++*stopped;
+                                return JobReport{};
+                              }));
   JobsOptions options = at_once(2);
   options.progress = [&](const JobsProgress&) {
-    if ((*started)[0] && (*started)[1]) throw std::runtime_error("the callback's");
+    if (*started == 2) throw std::runtime_error("the callback's");
   };
   EXPECT_THROW(static_cast<void>(run_jobs(jobs, options)), std::runtime_error);
+  EXPECT_EQ(*stopped, 2);
   EXPECT_TRUE(no_child_left());
   EXPECT_EQ(open_files(), before);
 }
