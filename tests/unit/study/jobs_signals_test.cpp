@@ -29,6 +29,13 @@ std::function<JobReport(JobChannel&)> stopped_with(std::atomic<bool>& started, J
   };
 }
 
+/// 'S' while it sleeps, as in a write to a full pipe; 'R' while it runs.
+char state_of(pid_t pid) {
+  std::ifstream in("/proc/" + std::to_string(pid) + "/stat");
+  std::string text(std::istreambuf_iterator<char>(in), {});
+  return text.at(text.rfind(')') + 2);
+}
+
 }  // namespace
 
 TEST(JobsStop, RunningJobsEndCleanlyAndNoOtherStarts) {
@@ -112,13 +119,6 @@ TEST(JobsStop, OfAJobIsNotThatOfTheJobsWithinIt) {
     return JobReport{run_jobs(inner, {})[0].code, {}, {}};
   })};
   EXPECT_EQ(run_jobs(jobs, {})[0].code, 0);
-}
-
-/// 'S' while it sleeps, as in a write to a full pipe; 'R' while it runs.
-char state_of(pid_t pid) {
-  std::ifstream in("/proc/" + std::to_string(pid) + "/stat");
-  std::string text(std::istreambuf_iterator<char>(in), {});
-  return text.at(text.rfind(')') + 2);
 }
 
 TEST(JobsProcess, HalfAReportIsNone) {
