@@ -12,6 +12,7 @@
 #include <fstream>
 #include <iterator>
 #include <stdexcept>
+#include <utility>
 
 #include "jobs_fixture.hpp"
 #include "rondo/core/error.hpp"
@@ -34,6 +35,25 @@ char state_of(pid_t pid) {
   std::ifstream in("/proc/" + std::to_string(pid) + "/stat");
   std::string text(std::istreambuf_iterator<char>(in), {});
   return text.at(text.rfind(')') + 2);
+}
+
+/// Of a job whose long report nobody reads until it has got this signal.
+JobOutcome signalled_amid_its_report(int number) {
+  Shared<std::atomic<pid_t>> child;
+  const std::vector<Job> jobs{make_job("job", [&](JobChannel&) {
+    JobReport report{0, std::string(1 << 20, 'a'), {}};
+    *child = getpid();
+    return report;
+  })};
+  JobsOptions options;
+  bool sent = false;
+  options.progress = [&](const JobsProgress&) {  // meanwhile nobody reads the pipe
+    if (std::exchange(sent, true)) return;
+    ASSERT_TRUE(holds_soon([&] { return *child != 0 && state_of(*child) == 'S'; }));
+    kill(*child, number);
+    if (number == SIGTERM) holds_soon([&] { return state_of(*child) == 'S'; });
+  };
+  return run_jobs(jobs, options)[0];
 }
 
 }  // namespace
@@ -122,21 +142,36 @@ TEST(JobsStop, OfAJobIsNotThatOfTheJobsWithinIt) {
 }
 
 TEST(JobsProcess, HalfAReportIsNone) {
-  Shared<std::atomic<pid_t>> child;
-  const std::vector<Job> jobs{make_job("job", [&](JobChannel&) {
-    JobReport report{0, std::string(1 << 20, 'a'), {}};
-    *child = getpid();
-    return report;
-  })};
-  JobsOptions options;
-  options.progress = [&](const JobsProgress& progress) {  // meanwhile nobody reads the pipe
-    if (progress.ended > 0) return;
-    ASSERT_TRUE(holds_soon([&] { return *child != 0 && state_of(*child) == 'S'; }));
-    kill(*child, SIGKILL);
-  };
-  const std::vector<JobOutcome> outcomes = run_jobs(jobs, options);
-  EXPECT_EQ(outcomes[0].status, JobStatus::failed);
-  EXPECT_EQ(outcomes[0].message.substr(0, 18), "killed by signal 9");
+  const JobOutcome outcome = signalled_amid_its_report(SIGKILL);
+  EXPECT_EQ(outcome.status, JobStatus::failed);
+  EXPECT_EQ(outcome.message.substr(0, 18), "killed by signal 9");
+}
+
+TEST(JobsProcess, AStopAmidAReportCutsNothing) {
+  const JobOutcome outcome = signalled_amid_its_report(SIGTERM);
+  EXPECT_EQ(outcome.status, JobStatus::done);
+  EXPECT_TRUE(outcome.message == std::string(1 << 20, 'a')) << outcome.message.substr(0, 80);
+}
+
+/// As after a Ctrl-C: the parent sleeps, its handler sets the stop flag, the job is told.
+TEST(JobsStop, ASignalToTheParentStopsTheJobs) {
+  EXPECT_EQ(in_process([] {
+              static std::atomic<bool> stop{false};
+              std::signal(SIGINT, [](int) { stop = true; });
+              const std::vector<Job> jobs{make_job("job", [](JobChannel& channel) {
+                const bool asleep = holds_soon([] { return state_of(getppid()) == 'S'; });
+                kill(getppid(), SIGINT);
+                return JobReport{asleep && wait_for_stop(channel) ? 7 : 1, {}, {}};
+              })};
+              JobsOptions options;
+              options.stop = &stop;
+              try {
+                return run_jobs(jobs, options)[0].code;
+              } catch (const std::exception&) {
+                return 2;
+              }
+            }),
+            7);
 }
 
 TEST(JobsProcess, DiesWithItsParent) {

@@ -245,6 +245,16 @@ TEST(Jobs, AFailureStopsWhatNeedsItAndNothingElse) {
   EXPECT_EQ(outcomes[5].status, JobStatus::interrupted);
 }
 
+TEST(Jobs, NothingToDoYetIsNoShare) {
+  std::atomic<double> share{0.0};
+  const std::atomic<bool> stop{false};
+  JobChannel channel(share, stop);
+  channel.progress(0, 0);
+  EXPECT_EQ(share, 0.0);
+  channel.progress(3, 4);
+  EXPECT_EQ(share, 0.75);
+}
+
 TEST(Jobs, ProgressRisesToOne) {
   // Of each job: 1 it is half done, 2 the parent has seen it, 3 it has gone back, 4 and 5 the
   // parent has called twice since (the share of the first call may have been read before).
@@ -253,7 +263,6 @@ TEST(Jobs, ProgressRisesToOne) {
   for (std::size_t i = 0; i < 2; ++i)
     jobs.push_back(make_job("job", [&stage, i](JobChannel& channel) {
       std::atomic<int>& mine = (*stage)[i];
-      channel.progress(0, 0);  // nothing to do yet is not a share
       channel.progress(1, 2);
       mine = 1;
       const bool seen = holds_soon([&] { return mine == 2; });
