@@ -65,15 +65,15 @@ TEST(Jobs, OutcomesDoNotDependOnHowManyRunAtOnce) {
   }
 }
 
-TEST(Jobs, EachHasAProcessOfItsOwn) {
+TEST(Jobs, EachHasAProcessOfItsOwnInTheGroupOfAll) {
   Shared<std::array<pid_t, 2>> pids;
   std::vector<Job> jobs;
   for (std::size_t i = 0; i < 2; ++i)
     jobs.push_back(make_job("job", [&pids, i](JobChannel&) {
       (*pids)[i] = getpid();
-      return JobReport{};
+      return JobReport{getpgrp() == getpgid(getppid()) ? 0 : 1, {}, {}};
     }));
-  ASSERT_EQ(run_jobs(jobs, {}).size(), 2U);
+  for (const JobOutcome& outcome : run_jobs(jobs, {})) EXPECT_EQ(outcome.code, 0);
   EXPECT_NE((*pids)[0], (*pids)[1]);
   for (const pid_t pid : *pids) EXPECT_TRUE(pid > 0 && pid != getpid());
 }
