@@ -25,11 +25,13 @@ PROGRAMS = {"V": "verification/verification", "W": "verification/verification_sl
 PROGRAMS |= {m: f"unit/unit_{m}" for m in ("core", "mesh", "fem", "contact", "dynamics", "statics",
                                            "reduction", "io", "study")}
 
-SCRIPTS = {"cli": "test_run.py", "crush": "test_crush.py", "pod": "test_pod.py"}
+SCRIPTS = {"cli": "test_run.py", "crush": "test_crush.py", "pod": "test_pod.py",
+           "paper": "test_paper.py"}
 
 # @file in src/rondo, then of each mutation in it: name | old text => new text | tests.
 # \n is a new line; a line that begins with spaces continues the one above. The tests are
-# program:filter, with the letters of PROGRAMS and gtest's filters, or cli:, crush: and pod:pattern (unittest's -k).
+# program:filter, with the letters of PROGRAMS and gtest's filters, or cli:, crush:, pod: and
+# paper:pattern (unittest's -k).
 TABLE = r"""
 @dynamics/ledger.cpp
 V1 frame work without -s² | {-f.spin * f.spin, f => {0.0, f | V:*Ledgers.*/plain V:SpinUp.Damped*
@@ -238,6 +240,34 @@ POD rank unsaid | if (request.modes && *request.modes > r.modes) => if (false) |
 @study/pod_output.cpp
 POD rebuilt from the first row | temporal.row(column) => temporal.row(0) | pod:rebuild
 POD original weighted | snapshots.unweight(original.col(0)); => | pod:rebuild
+@study/paper_jobs.cpp
+paper another case is kept | text_of(directory / "case.toml") == write_case(c) && => | paper:damaged
+paper a damaged run is kept | fs::is_regular_file(directory / "results.h5") && => | paper:damaged
+paper PODs of a run made again are kept | jobs[run].there && pod_is_there => pod_is_there | paper:damaged
+paper a damaged POD is kept | j.value("status", "") == "done" && j.value("field" => true || j.value("field" |
+  paper:damaged
+paper nothing is kept | job.there = !again && run_is_there => job.there = again && run_is_there | paper:goes_on
+paper the run that blows up is a failure | r.message, may_fail} => r.message, {}} | paper:every_row
+paper stop unheard | options.stop = channel.stop(); => | paper:interrupted
+@study/paper_results.cpp
+paper means by row | const double w = f.length[k] * weight(k); => const double w = weight(k); |
+  study:PaperResults.Means*
+paper a line twice as high | return 2.0 * std::abs(weighted => return 4.0 * std::abs(weighted |
+  study:PaperResults.ALine*
+paper rows that begin too early | if (before < from) continue; => if (time[k] < from) continue; |
+  study:PaperResults.Means*
+paper edge along x | dot(u[i], mesh.coordinates[i]) / norm(mesh.coordinates[i]) => u[i].x |
+  study:PaperResults.Edge* paper:what_the_files
+paper friction cone of half the angle | friction * f.x => 0.5 * friction * f.x | paper:every_row
+@study/paper_plan.cpp
+paper times of the snapshots | make.snapshots(480, 5) => make.snapshots(470, 5) | study:*Plan.TheLedge*
+@study/paper_table.cpp
+paper rows that are no number pass | return row.ours <= row.expected; => return !(row.ours > row.expected); |
+  study:PaperTable.*
+@study/paper.cpp
+paper another study is taken over | if (found.value("quick", false) != request.quick) => if (false) |
+  paper:other_kind
+paper two studies at once | const io::DirectoryLock lock(request.directory); => | paper:two_studies
 """
 
 

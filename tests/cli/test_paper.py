@@ -205,6 +205,43 @@ class Study(unittest.TestCase):
                                        "runs/turn-smooth/pod/velocity-rectified", *pods]))
         self.assertIn("friction = 0.4", case.read_text())
 
+    def test_9_wrong_figures_are_told(self):
+        path = self.once / "runs" / "friction-0.2" / "history.csv"
+        text = path.read_text()
+        self.addCleanup(path.write_text, text)
+        lines = text.splitlines()
+        place = lines[0].split(",").index("force_y")
+        rows = [line.split(",") for line in lines[1:]]
+        for row in rows:
+            row[place] = repr(1.1 * float(row[place]))
+        path.write_text("\n".join([lines[0]] + [",".join(row) for row in rows]) + "\n")
+        again = run("paper", "--quick", "-o", self.once)
+        self.assertEqual(again.returncode, 3, again.stderr)
+        self.assertIn("NOT  mean vertical force, friction 0.2", again.stdout)
+        self.assertIn("1 of 32 rows of the table are not as expected", again.stderr)
+        found = paper(self.once)
+        self.assertEqual((found["status"], found["failed"]), ("failed", 1))
+        self.assertFalse(table(self.once)["friction-0.2-force-y"]["pass"])
+
+    def test_9_a_part_that_fails_is_named_and_the_others_are_done(self):
+        results = self.folder / "runs" / "crush-treaded" / "results.h5"
+        results.unlink(missing_ok=True)
+        (results / "in-the-way").mkdir(parents=True)
+        (self.folder / "runs" / "crush-smooth" / "run.json").unlink()
+        again = run("paper", "--quick", "-o", self.folder)
+        self.assertEqual(again.returncode, 4, again.stderr)
+        self.assertIn("crush-treaded", again.stderr.splitlines()[-1])
+        self.assertIn("the same command goes on", again.stderr)
+        found = paper(self.folder)
+        self.assertEqual((found["status"], found["table"]), ("failed", []))
+        status = {part["directory"]: part["status"] for part in found["runs"] + found["pods"]}
+        self.assertEqual(status["runs/crush-treaded"], "failed")
+        self.assertEqual(status["runs/crush-treaded/pod/velocity-rotating"], "failed")
+        self.assertEqual(status["runs/crush-smooth/pod/velocity-rotating"], "done")
+        (results / "in-the-way").rmdir()
+        results.rmdir()
+        self.assertEqual(run("paper", "--quick", "-o", self.folder).returncode, 0)
+
 
 class Refusals(ProgramTest):
     def refused(self, *arguments, code=2):

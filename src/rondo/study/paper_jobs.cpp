@@ -48,7 +48,8 @@ bool run_is_there(const fs::path& directory, const PaperRun& run, const Case& c)
          j.value("version", "") == version && j.value("build", "") == build_options &&
          is_of_this_program(directory / "run.json") &&
          text_of(directory / "case.toml") == write_case(c) &&
-         fs::exists(directory / "results.h5") && fs::exists(directory / "history.csv");
+         fs::is_regular_file(directory / "results.h5") &&
+         fs::is_regular_file(directory / "history.csv");
 }
 
 /// How a run that is there ended: one that may fail says why.
@@ -62,8 +63,8 @@ bool pod_is_there(const fs::path& directory, const PaperPod& pod) {
   const Json j = json_of(directory / "pod.json");
   return j.value("status", "") == "done" && j.value("field", "") == pod.field &&
          j.value("frame", "") == pod.frame && j.value("version", "") == version &&
-         is_of_this_program(directory / "pod.json") && fs::exists(directory / "pod.h5") &&
-         fs::exists(directory / "spectrum.csv");
+         is_of_this_program(directory / "pod.json") && fs::is_regular_file(directory / "pod.h5") &&
+         fs::is_regular_file(directory / "spectrum.csv");
 }
 
 JobReport report_of(const RunReport& r, bool may_fail) {

@@ -52,7 +52,7 @@ void add_spin_up(PlanMaker& make) {
   make.run("spin-up-undamped", "spin-up-undamped", undamped);
   undamped.push_back(printed);
   make.run("spin-up-as-printed", "spin-up-undamped", undamped);
-  const Settings fast{"motion.angular_velocity=200.0", "time.end=0.4", "time.safety=0.9",
+  const Settings fast{"motion.angular_velocity=200.0", "time.end=0.5", "time.safety=0.9",
                       "output.snapshots=0"};
   make.run("spin-up-fast", "spin-up-undamped", fast);
   Settings fast_printed = fast;
