@@ -9,16 +9,17 @@ cmake --build --preset release --target rondo
 out=results/ledge-smooth
 build/release/rondo run cases/ledge-smooth.toml -o "$out" --overwrite
 build/release/rondo pod "$out" --frame rectified --from 0.07 --quiet
-/usr/bin/python3 python/draw_ledge.py "$out" "$out/ledge.png"
+PYTHONPATH=python /usr/bin/python3 -m rondo figures "$out"
 
 cat <<EOT
 
 The results are in $out:
-  ledge.png     a picture of the run
+  figures/      pictures of the run, PNG and SVG: the disk, the forces, the energy, the modes
   history.csv   contact forces and the energy ledger over time (any spreadsheet, pandas)
   fields.xdmf   the rolling disk: open it in ParaView and press play
   results.h5    every array (HDF5: h5py, MATLAB, Julia), described in docs/results.md
   pod/          modes of the displacement as seen from the ground: modes.xdmf for ParaView
   run.json      the figures of the run: steps, speed, largest imbalance of the ledger
-Next: build/release/rondo run --help, the other files in cases/, and docs/cases.md.
+Next: build/release/rondo paper -o results/paper, the study of the paper (docs/paper.md);
+build/release/rondo run --help, the other files in cases/, and docs/cases.md.
 EOT
