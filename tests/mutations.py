@@ -244,7 +244,7 @@ POD original weighted | snapshots.unweight(original.col(0)); => | pod:rebuild
 paper another case is kept | text_of(directory / "case.toml") == write_case(c) && => | paper:damaged
 paper a damaged run is kept | fs::is_regular_file(directory / "results.h5") && => | paper:damaged
 paper PODs of a run made again are kept | jobs[run].there && pod_is_there => pod_is_there | paper:damaged
-paper a damaged POD is kept | j.value("status", "") == "done" && j.value("field" => true || j.value("field" |
+paper a damaged POD is kept | text_in(j, "status") == "done" && text_in(j, "field" => true || text_in(j, "field" |
   paper:damaged
 paper nothing is kept | job.there = !again && run_is_there => job.there = again && run_is_there | paper:goes_on
 paper the run that blows up is a failure | r.message, may_fail} => r.message, {}} | paper:every_row

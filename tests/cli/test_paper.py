@@ -223,6 +223,18 @@ class Study(unittest.TestCase):
         self.assertEqual((found["status"], found["failed"]), ("failed", 1))
         self.assertFalse(table(self.once)["friction-0.2-force-y"]["pass"])
 
+    def test_9_results_that_cannot_be_read_are_told_and_recorded(self):
+        path = self.folder / "runs" / "friction-0.2" / "history.csv"
+        text = path.read_text()
+        self.addCleanup(path.write_text, text)
+        path.write_text(text.replace("force_y", "force_z", 1))
+        again = run("paper", "--quick", "-o", self.folder)
+        self.assertEqual(again.returncode, 4, again.stderr)
+        self.assertIn("has no column force_y", again.stderr)
+        found = paper(self.folder)
+        self.assertEqual((found["status"], found["table"]), ("failed", []))
+        self.assertIn("has no column force_y", found["message"])
+
     def test_9_a_part_that_fails_is_named_and_the_others_are_done(self):
         results = self.folder / "runs" / "crush-treaded" / "results.h5"
         results.unlink(missing_ok=True)
@@ -253,6 +265,7 @@ class Refusals(ProgramTest):
     def test_a_directory_of_something_else(self):
         (self.folder / "run.json").write_text("{}")
         self.assertIn("choose another -o", self.refused("--quick", "-o", self.folder))
+        self.assertIn("choose another -o", self.refused("--quick", "--overwrite", "-o", self.folder))
         self.assertEqual((self.folder / "run.json").read_text(), "{}")
 
     def test_the_other_kind_of_study(self):
@@ -265,7 +278,9 @@ class Refusals(ProgramTest):
         (self.folder / "paper.json").write_text('{"format": "rondo paper 2", "quick": true}')
         self.assertIn('"rondo paper 2"', self.refused("--quick", "-o", self.folder))
         (self.folder / "paper.json").write_text("{")
-        self.assertIn("damaged", self.refused("--quick", "-o", self.folder, code=4))
+        self.assertIn("--overwrite", self.refused("--quick", "-o", self.folder, code=4))
+        (self.folder / "paper.json").write_text('{"format": 1, "quick": "yes"}')
+        self.assertIn("choose another", self.refused("--quick", "-o", self.folder))
 
     def test_a_file_in_the_way(self):
         (self.folder / "study").write_text("")

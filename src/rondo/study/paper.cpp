@@ -33,29 +33,35 @@ constexpr const char* format_name = "rondo paper 1";
   throw InputError(fault);
 }
 
+/// What paper.json of the directory says of its study; with `overwrite` it may say anything.
+void accept(const PaperRequest& request, const fs::path& paper) {
+  if (request.overwrite) return;
+  Json found;
+  try {
+    found = io::read_json(paper);
+  } catch (const FileError&) {
+    throw FileError(paper.string(), "cannot be read as JSON: --overwrite makes the study anew");
+  }
+  const std::string format = text_in(found, "format");
+  if (format != format_name)
+    refuse(request.directory,
+           fmt::format("holds a study of format \"{}\", not \"{}\"", format, format_name),
+           "choose another -o");
+  const bool quick = found.contains("quick") && found["quick"] == true;
+  if (quick != request.quick)
+    refuse(request.directory, quick ? "holds the quick study" : "holds the study in full",
+           "choose another -o, or give --overwrite");
+}
+
 /// A directory that holds no study, or one of the same kind, which goes on.
 void prepare(const PaperRequest& request) {
   const fs::path& directory = request.directory;
   std::error_code error;
   fs::create_directories(directory / "runs", error);
   if (error) throw FileError(directory.string(), "cannot create directory: " + error.message());
-  if (request.overwrite) return;
-  const fs::path paper = directory / "paper.json";
-  if (!fs::exists(paper, error)) {
-    if (!fs::is_empty(directory / "runs", error) || fs::exists(directory / "run.json", error))
-      refuse(directory, "holds runs that are not of this study", "choose another -o");
-    return;
-  }
-  const Json found = io::read_json(paper);
-  if (found.value("format", "") != format_name)
-    refuse(directory,
-           fmt::format("holds a study of format \"{}\", not \"{}\"", found.value("format", ""),
-                       format_name),
-           "choose another -o");
-  if (found.value("quick", false) != request.quick)
-    refuse(directory,
-           found.value("quick", false) ? "holds the quick study" : "holds the study in full",
-           "choose another -o, or give --overwrite");
+  if (fs::exists(directory / "paper.json", error)) return accept(request, directory / "paper.json");
+  if (!fs::is_empty(directory / "runs", error) || fs::exists(directory / "run.json", error))
+    refuse(directory, "holds runs that are not of this study", "choose another -o");
 }
 
 /// A run that may fail is done as a job, and has failed as a run.
@@ -210,11 +216,17 @@ PaperReport run_paper(const PaperRequest& request) {
   PaperReport report;
   Record record(request, plan, jobs);
   record.write("running", report);
-  do_jobs(request, jobs, record, report);
-  judge_jobs(jobs, record, report);
-  if (report.status == RunStatus::done) {
-    report.rows = check_paper(request.directory, plan, request.quick);
-    judge_rows(report);
+  try {
+    do_jobs(request, jobs, record, report);
+    judge_jobs(jobs, record, report);
+    if (report.status == RunStatus::done) {
+      report.rows = check_paper(request.directory, plan, request.quick);
+      judge_rows(report);
+    }
+  } catch (const FileError& error) {
+    report.message = error.what();
+    record.write("failed", report);
+    throw;
   }
   report.wall_s = std::chrono::duration<double>(Clock::now() - begin).count();
   static constexpr std::array<const char*, 3> names{"done", "interrupted", "failed"};

@@ -36,13 +36,13 @@ struct Study {
   [[nodiscard]] Json pod(const std::string& run, const std::string& name) const {
     return io::read_json(path(run) / "pod" / name / "pod.json");
   }
-  [[nodiscard]] Columns history(const std::string& run) const {
-    return io::read_columns(path(run) / "history.csv");
-  }
-  [[nodiscard]] Intervals force(const std::string& run, std::string_view column,
-                                double from) const {
+  [[nodiscard]] std::vector<double> column(const std::string& run, std::string_view name) const {
     const fs::path file = path(run) / "history.csv";
-    return intervals(io::read_columns(file), column, from, file);
+    return study::column(io::read_columns(file), name, file);
+  }
+  [[nodiscard]] Intervals force(const std::string& run, std::string_view name, double from) const {
+    const fs::path file = path(run) / "history.csv";
+    return intervals(io::read_columns(file), name, from, file);
   }
   [[nodiscard]] const PaperRun& planned(const std::string& name) const {
     return *std::find_if(plan.runs.begin(), plan.runs.end(),
@@ -93,11 +93,12 @@ double stationary_edge(Case c) {
 
 /// Energy that the scheme created by the end of a run, over the largest energy of another one.
 double created(const Study& s, const std::string& run, const std::string& other) {
-  const Columns history = s.history(other);
+  const std::vector<double> kinetic = s.column(other, "kinetic"),
+                            strain = s.column(other, "strain");
   double energy = 0.0;
-  for (std::size_t k = 0; k < history.at("kinetic").size(); ++k)
-    energy = std::max(energy, history.at("kinetic")[k] + history.at("strain")[k]);
-  return std::abs(s.history(run).at("work_scheme").back()) / energy;
+  for (std::size_t k = 0; k < kinetic.size(); ++k)
+    energy = std::max(energy, kinetic[k] + strain[k]);
+  return std::abs(s.column(run, "work_scheme").back()) / energy;
 }
 
 void check_swing(Study& s) {

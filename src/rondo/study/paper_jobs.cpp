@@ -43,9 +43,9 @@ bool is_of_this_program(const fs::path& file) {
 
 bool run_is_there(const fs::path& directory, const PaperRun& run, const Case& c) {
   const Json j = json_of(directory / "run.json");
-  const std::string status = j.value("status", "");
+  const std::string status = text_in(j, "status");
   return (status == "done" || (run.may_fail && status == "failed")) &&
-         j.value("version", "") == version && j.value("build", "") == build_options &&
+         text_in(j, "version") == version && text_in(j, "build") == build_options &&
          is_of_this_program(directory / "run.json") &&
          text_of(directory / "case.toml") == write_case(c) &&
          fs::is_regular_file(directory / "results.h5") &&
@@ -55,14 +55,14 @@ bool run_is_there(const fs::path& directory, const PaperRun& run, const Case& c)
 /// How a run that is there ended: one that may fail says why.
 JobOutcome outcome_of(const fs::path& directory) {
   const Json j = json_of(directory / "run.json");
-  const bool failed = j.value("status", "") == "failed";
-  return {JobStatus::done, failed ? job_failed : job_done, j.value("message", ""), 0.0};
+  const bool failed = text_in(j, "status") == "failed";
+  return {JobStatus::done, failed ? job_failed : job_done, text_in(j, "message"), 0.0};
 }
 
 bool pod_is_there(const fs::path& directory, const PaperPod& pod) {
   const Json j = json_of(directory / "pod.json");
-  return j.value("status", "") == "done" && j.value("field", "") == pod.field &&
-         j.value("frame", "") == pod.frame && j.value("version", "") == version &&
+  return text_in(j, "status") == "done" && text_in(j, "field") == pod.field &&
+         text_in(j, "frame") == pod.frame && text_in(j, "version") == version &&
          is_of_this_program(directory / "pod.json") && fs::is_regular_file(directory / "pod.h5") &&
          fs::is_regular_file(directory / "spectrum.csv");
 }

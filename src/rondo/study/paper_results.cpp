@@ -15,13 +15,6 @@
 namespace rondo::study {
 namespace {
 
-const std::vector<double>& column_of(const Columns& history, std::string_view name,
-                                     const std::filesystem::path& file) {
-  const auto found = history.find(name);
-  if (found == history.end()) throw FileError(file.string(), fmt::format("has no column {}", name));
-  return found->second;
-}
-
 double total(const std::vector<double>& values) {
   return std::accumulate(values.begin(), values.end(), 0.0);
 }
@@ -45,10 +38,17 @@ double one(std::size_t) {
 
 }  // namespace
 
-Intervals intervals(const Columns& history, std::string_view column, double from,
+const std::vector<double>& column(const Columns& history, std::string_view name,
+                                  const std::filesystem::path& file) {
+  const auto found = history.find(name);
+  if (found == history.end()) throw FileError(file.string(), fmt::format("has no column {}", name));
+  return found->second;
+}
+
+Intervals intervals(const Columns& history, std::string_view name, double from,
                     const std::filesystem::path& file) {
-  const std::vector<double>& time = column_of(history, "time_s", file);
-  const std::vector<double>& value = column_of(history, column, file);
+  const std::vector<double>& time = column(history, "time_s", file);
+  const std::vector<double>& value = column(history, name, file);
   Intervals found;
   double before = 0.0;
   for (std::size_t k = 0; k < time.size(); before = time[k++]) {

@@ -16,6 +16,10 @@ namespace rondo::study {
 /// Columns of a history.csv by name.
 using Columns = std::map<std::string, std::vector<double>, std::less<>>;
 
+/// @throws FileError naming `file`: no such column
+[[nodiscard]] const std::vector<double>& column(const Columns& history, std::string_view name,
+                                                const std::filesystem::path& file);
+
 /// A column as a function of time, each row the mean over an interval.
 struct Intervals {
   std::vector<double> middle;  ///< (m) of the interval                       [s]
@@ -25,7 +29,7 @@ struct Intervals {
 
 /// The rows whose interval begins at `from` or later. @throws FileError naming `file`: no such
 /// column or no such rows
-[[nodiscard]] Intervals intervals(const Columns& history, std::string_view column, double from,
+[[nodiscard]] Intervals intervals(const Columns& history, std::string_view name, double from,
                                   const std::filesystem::path& file);
 
 [[nodiscard]] double mean(const Intervals& f) noexcept;

@@ -51,6 +51,11 @@ Json describe_run(const Case& c, std::string_view analysis, std::size_t nodes, s
   return j;
 }
 
+std::string text_in(const Json& json, const char* key) {
+  const auto found = json.find(key);
+  return found != json.end() && found->is_string() ? found->get<std::string>() : std::string();
+}
+
 void give_warnings(const std::vector<std::string>& warnings, const RunOptions& options) {
   if (!options.warn) return;
   for (const std::string& warning : warnings) options.warn(warning);

@@ -18,6 +18,9 @@ void describe_program(Json& json);
 /// The first keys of run.json, with the status "running".
 Json describe_run(const Case& c, std::string_view analysis, std::size_t nodes, std::size_t dofs);
 
+/// The string under a key; empty where there is none, or something else.
+std::string text_in(const Json& json, const char* key);
+
 /// Gives the warnings, if there is somebody to take them.
 void give_warnings(const std::vector<std::string>& warnings, const RunOptions& options);
 
