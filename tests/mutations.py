@@ -248,7 +248,7 @@ paper a damaged POD is kept | text_in(j, "status") == "done" && text_in(j, "fiel
   paper:damaged
 paper nothing is kept | job.there = !again && run_is_there => job.there = again && run_is_there | paper:goes_on
 paper the run that blows up is a failure | r.message, may_fail} => r.message, {}} | paper:every_row
-paper stop unheard | options.stop = channel.stop(); => | paper:interrupted
+paper stop unheard | options.stop = channel.stop(); => | paper:in_hand
 @study/paper_results.cpp
 paper means by row | const double w = f.length[k] * weight(k); => const double w = weight(k); |
   study:PaperResults.Means*

@@ -255,6 +255,33 @@ class Study(unittest.TestCase):
         self.assertEqual(run("paper", "--quick", "-o", self.folder).returncode, 0)
 
 
+class Interrupt(ProgramTest):
+    def test_the_runs_in_hand_end_cleanly(self):
+        def in_hand():
+            """run.json of the runs at work; those of the full study take about a second."""
+            found = []
+            for file in self.folder.glob("runs/*/run.json"):
+                try:
+                    found.append(json.loads(file.read_text()))
+                except FileNotFoundError:  # replaced just now
+                    pass
+            return [one for one in found if one["status"] == "running"]
+
+        with subprocess.Popen([PROGRAM, "paper", "-o", self.folder], stdout=subprocess.DEVNULL,
+                              stderr=subprocess.DEVNULL) as study:
+            while not in_hand():
+                self.assertIsNone(study.poll())
+                time.sleep(0.01)
+            study.send_signal(signal.SIGTERM)
+        self.assertEqual(study.returncode, 130)
+        self.assertEqual(in_hand(), [])
+        ended = [summary(file.parent) for file in self.folder.glob("runs/*/run.json")]
+        cut = [one for one in ended if one["status"] == "interrupted"]
+        self.assertTrue(cut, ended)
+        for one in cut:
+            self.assertLess(one["steps_done"], one["steps"])
+
+
 class Refusals(ProgramTest):
     def refused(self, *arguments, code=2):
         done = run("paper", *arguments)
