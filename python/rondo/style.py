@@ -1,0 +1,97 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""How all figures look: widths, colours, line styles, and how they are written to files.
+
+Colours are those of Okabe and Ito, told apart by colour-blind readers; each curve has a line style
+and a grey level of its own besides, so that a print in grey is read as well.
+"""
+import contextlib
+import pathlib
+from collections.abc import Iterator
+
+import matplotlib
+from matplotlib.colors import Colormap, LinearSegmentedColormap
+from matplotlib.figure import Figure
+
+COLUMN = 3.35  # width of one column (in)
+PAGE = 7.0  # width of two columns (in)
+DPI = 200  # of PNG files and of what is rasterised inside SVG files
+
+BLACK = "#000000"
+BLUE = "#0072b2"
+VERMILLION = "#d55e00"
+SKY = "#56b4e9"
+ORANGE = "#e69f00"
+PURPLE = "#cc79a7"
+GREEN = "#009e73"
+
+GROUND = "0.72"  # the ground, in grey
+OUTLINE = "0.15"  # the edge of a body
+MESH = "0.35"  # sides of cells
+
+# One after another for the curves of a panel: colour, line style, grey level all differ.
+CURVES: tuple[dict[str, object], ...] = (
+    {"color": BLUE, "linestyle": "-"},
+    {"color": VERMILLION, "linestyle": "--"},
+    {"color": BLACK, "linestyle": ":"},
+    {"color": ORANGE, "linestyle": "-."},
+    {"color": GREEN, "linestyle": (0, (5, 1, 1, 1, 1, 1))},
+    {"color": PURPLE, "linestyle": (0, (3, 1))},
+)
+
+# Magnitudes: light where nothing happens, darker with every step upwards, so also in grey.
+SEQUENTIAL: Colormap = matplotlib.colormaps["magma_r"]
+
+# Signed quantities: white at zero. The negative end is darker than the positive one, so that a
+# print in grey tells at least the strong values apart.
+DIVERGING: Colormap = LinearSegmentedColormap.from_list(
+    "rondo_diverging", ["#08306b", "#2171b5", "#9ecae1", "#ffffff", "#fdc086", "#e6550d", "#b33c00"])
+
+RC: dict[str, object] = {
+    "font.size": 8.0,
+    "axes.titlesize": 8.0,
+    "axes.labelsize": 8.0,
+    "xtick.labelsize": 7.0,
+    "ytick.labelsize": 7.0,
+    "legend.fontsize": 7.0,
+    "legend.frameon": False,
+    "legend.handlelength": 2.4,
+    "axes.linewidth": 0.6,
+    "axes.spines.top": False,
+    "axes.spines.right": False,
+    "lines.linewidth": 1.0,
+    "xtick.major.width": 0.6,
+    "ytick.major.width": 0.6,
+    "xtick.minor.width": 0.4,
+    "ytick.minor.width": 0.4,
+    "xtick.major.size": 2.5,
+    "ytick.major.size": 2.5,
+    "xtick.minor.size": 1.5,
+    "ytick.minor.size": 1.5,
+    "figure.constrained_layout.use": True,
+    "figure.dpi": DPI,
+    "savefig.dpi": DPI,
+    "savefig.facecolor": "white",
+    "svg.fonttype": "none",
+    "svg.hashsalt": "rondo",
+}
+
+
+@contextlib.contextmanager
+def paper() -> Iterator[None]:
+    """Within this context figures look as in a journal: 8 pt type, thin axes, constrained layout."""
+    with matplotlib.rc_context(RC):
+        yield
+
+
+def save(figure: Figure, path: str | pathlib.Path) -> list[pathlib.Path]:
+    """Writes `path`.png and `path`.svg and returns both; the same figure gives the same bits.
+
+    The files have the width of the figure: nothing is cut off or added. Text in the SVG is text.
+    """
+    path = pathlib.Path(path)
+    path.parent.mkdir(parents=True, exist_ok=True)
+    png, svg = (path.with_name(path.name + ending) for ending in (".png", ".svg"))
+    with paper():
+        figure.savefig(png, dpi=DPI, metadata={"Software": None})
+        figure.savefig(svg, dpi=DPI, metadata={"Date": None, "Creator": None})
+    return [png, svg]
