@@ -5,6 +5,7 @@ from __future__ import annotations
 import dataclasses
 from typing import TYPE_CHECKING, Any
 
+import matplotlib.pyplot as plt
 import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.collections import LineCollection, PolyCollection
@@ -21,6 +22,7 @@ Array = NDArray[np.float64]
 FRAMES = ("fixed", "turning")
 COMPONENTS = ("x", "y", "radial", "tangential")
 VECTORS = ("displacement", "velocity")
+NAMES = {"von_mises": "von Mises stress"}  # in figures, where not the name of the field itself
 SHOWN_IN = {"m": (1e3, "mm"), "Pa": (1e-6, "MPa")}  # units of results: factor, unit of figures
 
 
@@ -80,7 +82,7 @@ def nodal(run: Run, index: int, quantity: str, frame: str = "fixed") -> Nodal:
             raise Error(f"{quantity}: {values.shape[-1]} numbers at each node; allowed are "
                         "displacement and velocity, alone or with _x, _y, _radial, _tangential, and "
                         "fields with one number at each node, as von_mises")
-        signed, label = bool(values.min() < 0), quantity.replace("_", " ")
+        signed, label = bool(values.min() < 0), NAMES.get(quantity, quantity.replace("_", " "))
     factor, unit = SHOWN_IN.get(source.units, (1.0, source.units))
     return Nodal(values * factor, label, unit, signed)
 
@@ -110,6 +112,25 @@ def outline(cells: NDArray[np.integer[Any]]) -> NDArray[np.int64]:
     return sides[np.sort(where[count == 1])]
 
 
+def loops(sides: NDArray[np.int64]) -> list[NDArray[np.int64]]:
+    """The sides of `outline` joined end to end: nodes of each closed line, the first once more at
+    its end. Drawn as one line each they have round corners, and SVG files stay small."""
+    following: dict[int, list[int]] = {}
+    for start, end in sides.tolist():
+        following.setdefault(start, []).append(end)
+    found = []
+    while following:
+        line = [next(iter(following))]
+        while line[-1] in following:
+            ends = following[line[-1]]
+            node = ends.pop()
+            if not ends:
+                del following[line[-1]]
+            line.append(node)
+        found.append(np.array(line))
+    return found
+
+
 def corners(points: Array, cells: NDArray[np.integer[Any]]) -> Array:
     """(e, 4 or 3, 2): the corners of the cells; a triangle among quadrilaterals has its last
     corner twice."""
@@ -133,14 +154,14 @@ class Body:
     deformation: float
     cells: PolyCollection
     edge: LineCollection
-    sides: NDArray[np.int64]
+    lines: list[NDArray[np.int64]]
 
     def update(self, index: int) -> None:
         points = positions(self.run, index, self.frame, self.deformation)
         values = nodal(self.run, index, self.quantity, self.frame).values
         self.cells.set_verts(corners(points, self.run.mesh.cells))
         self.cells.set_array(cell_means(values, self.run.mesh.cells))
-        self.edge.set_segments(list(points[self.sides]))
+        self.edge.set_segments([points[line] for line in self.lines])
 
 
 def draw_cells(ax: Axes, points: Array, cells: NDArray[np.integer[Any]], values: Array,
@@ -155,8 +176,8 @@ def draw_cells(ax: Axes, points: Array, cells: NDArray[np.integer[Any]], values:
         patches.set_edgecolor("face")  # else the background shines through between cells
         patches.set_linewidth(0.3)
     patches.set_clim(*limits)
-    edge = LineCollection(list(points[outline(cells)]), colors=style.OUTLINE, linewidths=0.6,
-                          capstyle="round")
+    edge = LineCollection([points[line] for line in loops(outline(cells))], colors=style.OUTLINE,
+                          linewidths=0.6, joinstyle="round")
     ax.add_collection(patches)
     ax.add_collection(edge)
     return patches, edge
@@ -171,7 +192,7 @@ def draw_body(ax: Axes, run: Run, index: int, quantity: str = "displacement", fr
     points = positions(run, index, frame, deformation)
     patches, edge = draw_cells(ax, points, run.mesh.cells, field.values,
                                limits or full_range(field.values, field.signed), field.signed, mesh_width)
-    return Body(run, quantity, frame, deformation, patches, edge, outline(run.mesh.cells))
+    return Body(run, quantity, frame, deformation, patches, edge, loops(outline(run.mesh.cells)))
 
 
 def full_range(values: Array, signed: bool) -> tuple[float, float]:
@@ -215,20 +236,18 @@ def plot_field(run: Run, time: float, quantity: str = "displacement", ax: Axes |
     frame: "fixed" (with the ground and the nodes in contact) or "turning"; deformation: factor on
     the displacement; limits: of the colours, in the unit of the colour bar (mm, m/s, MPa).
     """
-    import matplotlib.pyplot as plt
-
     index = run.index(time)
-    if ax is None:
-        with style.paper():
-            ax = plt.figure(figsize=(style.COLUMN, 0.9 * style.COLUMN)).add_subplot()
-    body = draw_body(ax, run, index, quantity, frame, deformation, limits)
-    frame_axes(ax, run, index, frame, deformation)
-    if frame == "fixed" and deformation == 1.0:
-        draw_contact(ax, run, index)
-    ax.set_title(snapshot_title(run, index))
-    if colorbar:
-        field = nodal(run, index, quantity, frame)
-        ax.figure.colorbar(body.cells, ax=ax, label=f"{field.label} ({field.unit})", shrink=0.8)
+    with style.paper():
+        if ax is None:
+            ax = plt.figure(figsize=(style.COLUMN, 0.85 * style.COLUMN)).add_subplot()
+        body = draw_body(ax, run, index, quantity, frame, deformation, limits)
+        frame_axes(ax, run, index, frame, deformation)
+        if frame == "fixed" and deformation == 1.0:
+            draw_contact(ax, run, index)
+        ax.set_title(snapshot_title(run, index))
+        if colorbar:
+            field = nodal(run, index, quantity, frame)
+            ax.figure.colorbar(body.cells, ax=ax, label=f"{field.label} ({field.unit})", shrink=0.8)
     return ax
 
 
