@@ -1,0 +1,14 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Reads and draws what the program rondo writes: rondo.open("results").plot_field(0.1)."""
+from .errors import Error, NewerSchemaError, NotARunError, UnfinishedRunError, UnknownNameError
+from .history import History
+from .mesh import Mesh
+from .paper import Paper, open_paper
+from .pod import Pod, open_pod
+from .run import Run
+from .run import open_run as open
+
+__version__ = "0.1.0"
+
+__all__ = ["Error", "History", "Mesh", "NewerSchemaError", "NotARunError", "Paper", "Pod", "Run",
+           "UnfinishedRunError", "UnknownNameError", "open", "open_paper", "open_pod"]

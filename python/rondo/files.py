@@ -1,0 +1,121 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Opening the files of a directory; whatever is wrong with one becomes a rondo.Error that names it."""
+from __future__ import annotations
+
+import contextlib
+import json
+import os
+import pathlib
+import re
+import tomllib
+from collections.abc import Iterator
+from typing import Any
+
+import h5py
+import numpy as np
+
+from .errors import Error, NewerSchemaError, NotARunError
+
+FORMAT = 1  # of results.h5, pod.h5, paper.json
+SCHEMA = 1  # of case.toml
+
+KINDS = {  # what is in a directory with this file, and who opens it
+    "paper.json": ("a paper study", "rondo.open_paper"),
+    "pod.json": ("a POD", "rondo.open_pod"),
+    "run.json": ("a run", "rondo.open"),
+}
+
+
+def read_json(path: pathlib.Path) -> dict[str, Any]:
+    """The object in a JSON file."""
+    try:
+        found = json.loads(path.read_text())
+    except (OSError, ValueError) as reason:
+        raise Error(f"{path}: cannot be read: {reason}") from None
+    if not isinstance(found, dict):
+        raise Error(f"{path}: damaged: an object is expected, found {type(found).__name__}")
+    return found
+
+
+def read_case(path: pathlib.Path) -> dict[str, Any]:
+    """A case file as nested dicts."""
+    try:
+        case = tomllib.loads(path.read_text())
+    except (OSError, ValueError) as reason:
+        raise Error(f"{path}: cannot be read: {reason}") from None
+    schema = case.get("schema")
+    if not isinstance(schema, int):
+        raise Error(f"{path}: damaged: no schema")
+    if schema > SCHEMA:
+        raise NewerSchemaError(f"{path}: schema {schema}; this package reads {SCHEMA}: "
+                               "install the Python package of that version of rondo")
+    return case
+
+
+def read_table(path: pathlib.Path) -> dict[str, np.ndarray]:
+    """Columns of a CSV file of numbers: (rows,) each. The last line may be one being written, or one
+    at which the program was killed: without its end of line it is left out."""
+    try:
+        text = path.read_text()
+    except (OSError, ValueError) as reason:
+        raise Error(f"{path}: cannot be read: {reason}") from None
+    header, *lines = text[: text.rfind("\n") + 1].splitlines() or [""]
+    names = header.split(",")
+    if not header:
+        raise Error(f"{path}: damaged: it has no header")
+    if not lines:
+        return {name: np.empty(0) for name in names}
+    try:
+        values = np.loadtxt(lines, delimiter=",", ndmin=2, comments=None)
+    except ValueError as reason:
+        raise Error(f"{path}: damaged: {reason} (row 1 is line 2)") from None
+    if values.shape[1] != len(names):
+        raise Error(f"{path}: damaged: {len(names)} columns are named, "
+                    f"but there are {values.shape[1]}")
+    return dict(zip(names, values.T.copy()))
+
+
+@contextlib.contextmanager
+def opened(path: pathlib.Path) -> Iterator[h5py.File]:
+    """An HDF5 file, open for reading as long as the block lasts."""
+    try:
+        with h5py.File(path, "r") as file:
+            yield file
+    except Error:
+        raise
+    except FileNotFoundError:
+        raise Error(f"{path}: no such file") from None
+    except (OSError, KeyError, RuntimeError) as reason:
+        raise Error(f"{path}: cannot be read, it may be damaged: {reason}") from None
+
+
+def check_format(path: pathlib.Path, what: str, found: Any) -> None:
+    """`found` is to be "rondo <what> N" with an N that this package reads."""
+    match = re.fullmatch(rf"rondo {what} (\d+)", found) if isinstance(found, str) else None
+    if match is None:
+        raise Error(f'{path}: its format is {found!r}; "rondo {what} {FORMAT}" is expected')
+    if int(match[1]) > FORMAT:
+        raise NewerSchemaError(f'{path}: its format is "{found}"; this package reads '
+                               f'"rondo {what} {FORMAT}": install the Python package of that '
+                               "version of rondo")
+
+
+def require(path: str | os.PathLike[str], wanted: str, beside: str | None = None) -> pathlib.Path:
+    """The directory, if it has the file `wanted` (a key of KINDS) and the one beside it."""
+    directory = pathlib.Path(path)
+    what, opener = KINDS[wanted]
+    if not directory.exists():
+        raise NotARunError(f"{directory}: no such directory")
+    if not directory.is_dir():
+        raise NotARunError(f"{directory}: is a file; {opener} takes the directory of {what}")
+    if (directory / wanted).is_file():
+        if beside is None or (directory / beside).is_file():
+            return directory
+        raise NotARunError(f"{directory}: has {wanted}, but no {beside}: part of {what} is missing")
+    for name, (other, its_opener) in KINDS.items():
+        if name != wanted and (directory / name).is_file():
+            raise NotARunError(f"{directory}: is {other}, not {what}; "
+                               f'{its_opener}("{directory}") opens it')
+    inside = sorted(found.parent.name for found in directory.glob(f"*/{wanted}"))
+    hint = f"; it holds {', '.join(inside)}" if inside else ""
+    raise NotARunError(f"{directory}: is not {what}: it has no {wanted}{hint}")

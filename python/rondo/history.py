@@ -1,0 +1,80 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""history.csv: forces, contact and energies against time."""
+from __future__ import annotations
+
+import pathlib
+from collections.abc import Iterator, Mapping
+
+import numpy as np
+
+from .errors import Error, unknown
+from .files import read_table
+
+UNITS = {
+    "time_s": "s", "angle_rad": "rad", "center_x_m": "m", "center_y_m": "m",
+    "force_x": "N/m", "force_y": "N/m", "torque": "N",
+    "contact_nodes": "1", "sticking_nodes": "1", "contact_length_m": "m", "penetration_max_m": "m",
+    "slip_ratio": "1",
+    "kinetic": "J/m", "strain": "J/m", "work_frame": "J/m", "work_contact": "J/m",
+    "dissipation_friction": "J/m", "loss_impact": "J/m", "work_rim": "J/m",
+    "dissipation_mass": "J/m", "dissipation_stiffness": "J/m", "work_scheme": "J/m",
+    "energy_residual": "J/m",
+    # of a crush
+    "depth_m": "m", "pressure_max_pa": "Pa", "shear_max_pa": "Pa", "contact_residual": "1",
+    "sweeps": "1",
+}
+
+
+class History(Mapping[str, np.ndarray]):
+    """history["force_y"]: array (rows,); history.units["force_y"]: its unit."""
+
+    def __init__(self, path: pathlib.Path, crush: bool = False) -> None:
+        self.path, self.crush = path, crush
+        self._columns = read_table(path)
+        self.units = {name: UNITS[name] for name in self._columns if name in UNITS}
+        if crush:
+            self.units["time_s"] = "1"  # the share of the depth
+
+    def __getitem__(self, name: str) -> np.ndarray:
+        if name not in self._columns:
+            raise unknown(self.path, "column", name, self._columns)
+        return self._columns[name]
+
+    def __iter__(self) -> Iterator[str]:
+        return iter(self._columns)
+
+    def __len__(self) -> int:
+        """Number of columns."""
+        return len(self._columns)
+
+    def __repr__(self) -> str:
+        return f"History({self.path}, {len(self['time_s'])} rows: {', '.join(self._columns)})"
+
+    @property
+    def names(self) -> list[str]:
+        return list(self._columns)
+
+    def window(self, from_time: float | None = None, to_time: float | None = None) -> np.ndarray:
+        """Mask (rows,) of the rows whose whole interval is between the two times [s]; None: no bound.
+        At least one, or an error."""
+        end = self["time_s"]
+        begin = np.append(0.0, end)[:-1]
+        chosen: np.ndarray = np.ones(len(end), dtype=bool)
+        if from_time is not None:
+            chosen &= begin >= from_time
+        if to_time is not None:
+            chosen &= end <= to_time
+        if not chosen.any():
+            there = f"there are {begin[0]:g} to {end[-1]:g} s" if len(end) else "it has no rows"
+            raise Error(f"{self.path}: no rows from {from_time} to {to_time} s; {there}")
+        return chosen
+
+    def mean(self, name: str, from_time: float | None = None,
+             to_time: float | None = None) -> float:
+        """Mean over time of a column, in its unit: rows weighted by their intervals, of which forces
+        and torque are the means."""
+        if self.crush:
+            raise Error(f"{self.path}: a crush has no means over time")
+        chosen = self.window(from_time, to_time)
+        spans = np.diff(self["time_s"], prepend=0.0)
+        return float(np.average(self[name][chosen], weights=spans[chosen]))

@@ -1,0 +1,39 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""The mesh of a run or of a POD."""
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import h5py
+import numpy as np
+
+
+@dataclass(frozen=True)
+class Mesh:
+    """n nodes, e cells, nb candidates (nodes that may touch the ground); all numbered from 0."""
+
+    coordinates: np.ndarray  # (n, 2) reference position X, turning frame [m]
+    cells: np.ndarray        # (e, 4) or (e, 3) corner nodes, counter-clockwise; -1: a triangle's fourth
+    boundary: np.ndarray     # (nb,) candidates, in order along the boundary
+    tributary: np.ndarray    # (nb,) length of boundary that each candidate stands for [m]
+    mass: np.ndarray         # (n,) lumped mass [kg/m]
+    sector: np.ndarray | None       # (n,) counter-clockwise from straight down; None: not cyclic
+    sector_node: np.ndarray | None  # (n,) number within the sector, the same in all; or None
+
+    @property
+    def n_nodes(self) -> int:
+        return len(self.coordinates)
+
+    @property
+    def n_cells(self) -> int:
+        return len(self.cells)
+
+
+def read_mesh(file: h5py.File) -> Mesh:
+    """/mesh of results.h5 or pod.h5."""
+    mesh = file["mesh"]
+    cyclic = "sector" in mesh
+    return Mesh(coordinates=mesh["coordinates"][:], cells=mesh["cells"][:],
+                boundary=mesh["boundary"][:], tributary=mesh["tributary"][:], mass=mesh["mass"][:],
+                sector=mesh["sector"][:] if cyclic else None,
+                sector_node=mesh["sector_node"][:] if cyclic else None)
