@@ -9,13 +9,13 @@ import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
-from rondo import style
-from rondo.plots.field import draw_body, frame_axes
-from rondo.plots.marks import edge_displacement, energy, letter, relative_residual
+from .. import style
+from ..plots.field import draw_body, frame_axes
+from ..plots.marks import edge_displacement, energy, letter, relative_residual
 
 if TYPE_CHECKING:
-    from rondo.paper import Paper
-    from rondo.run import Run
+    from ..paper import Paper
+    from ..run import Run
 
 ZOOM = 0.012  # s, of the undamped oscillation: some four periods
 SYMPLECTIC, PRINTED, CREATED = style.CURVES[:3]
@@ -93,7 +93,7 @@ def _ledger(ax: Axes, run: Run) -> None:
     for values, name, curve in ((h["kinetic"], "kinetic", style.CURVES[0]),
                                 (h["strain"], "strain", style.CURVES[1]),
                                 (total, "sum", {"color": "0.6", "linestyle": "-", "linewidth": 2.5}),
-                                (h["work_frame"], "work of the frame", style.CURVES[2])):
+                                (h["work_frame"], "frame's work", style.CURVES[2])):
         ax.plot(time[shown], values[shown], label=name, **curve)
     ax.set(xlim=(0, ZOOM * 1e3), ylim=(0, 1.45 * total[shown].max()), xlabel="time (ms)",
            ylabel="energy (J/m)")

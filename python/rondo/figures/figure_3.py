@@ -10,15 +10,15 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.patches import Rectangle
 
-from rondo import style
-from rondo.figures import figure_3_forces
-from rondo.ground import Ground
-from rondo.plots.field import Body, draw_body, draw_contact, draw_ground, nodal
-from rondo.plots.marks import draw_tractions, letter
+from .. import style
+from . import figure_3_forces
+from ..ground import Ground
+from ..plots.field import Body, draw_body, draw_contact, draw_ground, nodal
+from ..plots.marks import draw_tractions, letter
 
 if TYPE_CHECKING:
-    from rondo.paper import Paper
-    from rondo.run import Run
+    from ..paper import Paper
+    from ..run import Run
 
 TIMES = (0.0125, 0.0625, 0.1)  # s, those of the paper's figure 3
 WHOLE = (0.35, 0.42, 0.31)  # m from the centre: to both sides, down, up
@@ -38,7 +38,7 @@ def draw(paper: Paper) -> dict[str, Figure]:
 def _disks(run: Run, chosen: list[int], top: float) -> Figure:
     traction = max(float(np.abs(run.contact.traction[k]).max()) for k in chosen) or 1.0
     with style.paper():
-        figure = plt.figure(figsize=(style.PAGE, 3.75))
+        figure = plt.figure(figsize=(style.PAGE, 4.15))
         grid = figure.add_gridspec(2, 3, height_ratios=(WHOLE[1] + WHOLE[2],
                                                         (CLOSE[1] + CLOSE[2]) * WHOLE[0] / CLOSE[0]))
         for column, k in enumerate(chosen):

@@ -8,16 +8,15 @@ import matplotlib.pyplot as plt
 import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
-from matplotlib.ticker import FuncFormatter
 
-from rondo import style
-from rondo.ground import Ground
-from rondo.plots.curves import force_spectrum
-from rondo.plots.marks import letter
+from .. import style
+from ..ground import Ground
+from ..plots.curves import force_spectrum
+from ..plots.marks import letter
 
 if TYPE_CHECKING:
-    from rondo.paper import Paper
-    from rondo.run import Run
+    from ..paper import Paper
+    from ..run import Run
 
 PERIODS = 6  # in the close view
 MULTIPLES = 8  # of the pitch frequency in the spectrum of the treaded disk
@@ -40,7 +39,7 @@ def draw(paper: Paper) -> dict[str, Figure]:
             high = max(ax.get_ylim()[1] for ax in row)
             for ax in row:
                 ax.set_ylim(low, high)  # compared: the same scale
-        axes[0][0].legend(loc="center right", bbox_to_anchor=(1.0, 0.5))
+        axes[0][0].legend(loc="center right", bbox_to_anchor=(1.0, 0.63), ncol=2)
     return {"figure-3-forces": figure}
 
 
@@ -84,14 +83,16 @@ def _history(ax: Axes, run: Run) -> None:
     touch, flat = (1e3 * t for t in climbing(run))
     steady = 1e3 * steady_from(run)
     regime = "quasi-periodic" if run.pitch_frequency is not None else "stationary"
-    top = 1.38 * h["force_y"].max() / 1e3
+    top = 1.3 * h["force_y"].max() / 1e3
     bounds = (0.0, touch, flat, steady, time[-1])
-    names = ("before\ncontact", "climb-\ning", "sett-\nling", f"{regime}\n(one turn: figures 5, 6)")
-    for start, end, name in zip(bounds, bounds[1:], names):
+    for number, (start, end) in enumerate(zip(bounds, bounds[1:]), start=1):
         ax.axvline(end, color="0.75", lw=0.6, zorder=0)
-        ax.text(0.5 * (start + end), 0.985 * top, name, ha="center", va="top", fontsize=6)
+        ax.text(0.5 * (start + end), 0.97, str(number), transform=ax.get_xaxis_transform(),
+                ha="center", va="top", weight="bold")
+    ax.text(0.98, 0.52, f"1 before contact, 2 climbing,\n3 settling, 4 {regime}", fontsize=7,
+            transform=ax.transAxes, ha="right", va="top")
     ax.set(xlim=(0, time[-1]), ylim=(-0.2 * top, top), xlabel="time (ms)",
-           ylabel="force of the ground (kN/m)")
+           ylabel="force of the\nground (kN/m)")
 
 
 def _periods(ax: Axes, run: Run) -> None:
@@ -101,13 +102,12 @@ def _periods(ax: Axes, run: Run) -> None:
     shown = (h["time_s"] >= start) & (h["time_s"] <= start + PERIODS / rate)
     mean = np.average(h["force_y"][h["time_s"] >= start], weights=spans[h["time_s"] >= start])
     middle = h["time_s"][shown] - 0.5 * spans[shown]  # rows are means over their intervals
-    ax.plot((middle - start) * rate, h["force_y"][shown] / mean - 1, lw=1.0, color=style.BLUE,
+    ax.plot((middle - start) * rate, 100 * (h["force_y"][shown] / mean - 1), lw=1.0, color=style.BLUE,
             marker="o", markersize=2)
     ax.axhline(0, color="0.6", lw=0.5, zorder=0)
     for period in range(PERIODS + 1):
         ax.axvline(period, color="0.85", lw=0.6, zorder=0)
-    ax.yaxis.set_major_formatter(FuncFormatter(lambda value, _: f"{100 * value:.1f}"))
-    ax.set(xlim=(0, PERIODS), xlabel=f"time in periods of the {name} (–)",
+    ax.set(xlim=(0, PERIODS), xlabel=f"time over the period of the {name}, {1e3 / rate:.2f} ms (–)",
            ylabel="vertical force,\noff its mean (%)")
 
 
@@ -115,9 +115,9 @@ def _spectrum(ax: Axes, run: Run, end: float) -> None:
     frequencies, amplitude = force_spectrum(run, "force_y", from_time=steady_from(run))
     ax.semilogy(frequencies, amplitude, color=style.BLUE, lw=0.8)
     rate, name = frequency(run)
-    ax.set(xlim=(0, end), ylim=(1.0, 1e4), xlabel="frequency (Hz)",
+    ax.set(xlim=(0, end), ylim=(1.0, 2e4), xlabel="frequency (Hz)",
            ylabel="amplitude of the\nvertical force (N/m)")
     for multiple in range(1, int(end / rate) + 1):
-        ax.plot(multiple * rate, 3.2e3, "v", color=style.VERMILLION, markersize=3.5, markeredgewidth=0)
+        ax.plot(multiple * rate, 2.6e3, "v", color=style.VERMILLION, markersize=3.5, markeredgewidth=0)
     ax.text(0.98, 0.98, f"marks: {rate:.1f} Hz ({name}) and multiples", transform=ax.transAxes,
             ha="right", va="top", fontsize=7)

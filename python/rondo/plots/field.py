@@ -11,12 +11,12 @@ from matplotlib.axes import Axes
 from matplotlib.collections import LineCollection, PolyCollection
 from numpy.typing import NDArray
 
-from rondo import style
-from rondo.errors import Error
-from rondo.ground import Ground
+from .. import style
+from ..errors import Error
+from ..ground import Ground
 
 if TYPE_CHECKING:
-    from rondo.run import Run
+    from ..run import Run
 
 Array = NDArray[np.float64]
 FRAMES = ("fixed", "turning")

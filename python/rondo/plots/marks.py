@@ -8,10 +8,10 @@ import numpy as np
 from matplotlib.axes import Axes
 from numpy.typing import NDArray
 
-from rondo import style
+from .. import style
 
 if TYPE_CHECKING:
-    from rondo.run import Run
+    from ..run import Run
 
 Array = NDArray[np.float64]
 
