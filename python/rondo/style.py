@@ -42,9 +42,10 @@ CURVES: tuple[dict[str, object], ...] = (
 SEQUENTIAL: Colormap = matplotlib.colormaps["magma_r"]
 
 # Signed quantities: white at zero. The negative end is darker than the positive one, so that a
-# print in grey tells at least the strong values apart.
+# print in grey tells at least the strong values apart. In steps, which show lines of equal value.
 DIVERGING: Colormap = LinearSegmentedColormap.from_list(
-    "rondo_diverging", ["#08306b", "#2171b5", "#9ecae1", "#ffffff", "#fdc086", "#e6550d", "#b33c00"])
+    "rondo_diverging", ["#08306b", "#2171b5", "#9ecae1", "#ffffff", "#fdc086", "#e6550d", "#b33c00"],
+    N=33)
 
 RC: dict[str, object] = {
     "font.size": 8.0,
@@ -92,6 +93,6 @@ def save(figure: Figure, path: str | pathlib.Path) -> list[pathlib.Path]:
     path.parent.mkdir(parents=True, exist_ok=True)
     png, svg = (path.with_name(path.name + ending) for ending in (".png", ".svg"))
     with paper():
-        figure.savefig(png, dpi=DPI, metadata={"Software": None})
+        figure.savefig(png, dpi=DPI, metadata={"Software": None}, pil_kwargs={"optimize": True})
         figure.savefig(svg, dpi=DPI, metadata={"Date": None, "Creator": None})
     return [png, svg]

@@ -20,8 +20,8 @@ if TYPE_CHECKING:
 
 FRICTION = ("0.0", "0.2", "0.4", "0.6")
 WINDOW = (0.105, 0.018, 0.082)  # m: to both sides of the centre, below and above the ledge
-QUANTITIES = (("displacement", "displacement\n(mm)"),
-              ("displacement_x", "displacement\nalong x (mm)"))
+QUANTITIES = (("displacement", "|u| (mm)"),
+              ("displacement_x", "u along x (mm)"))
 
 
 def draw(paper: Paper) -> dict[str, Figure]:

@@ -173,8 +173,7 @@ def draw_cells(ax: Axes, points: Array, cells: NDArray[np.integer[Any]], values:
                              cmap=style.DIVERGING if signed else style.SEQUENTIAL, edgecolors=style.MESH,
                              linewidths=mesh_width, rasterized=True)
     if mesh_width == 0:
-        patches.set_edgecolor("face")  # else the background shines through between cells
-        patches.set_linewidth(0.3)
+        patches.set_antialiased(False)  # else the background shines through between cells
     patches.set_clim(*limits)
     edge = LineCollection([points[line] for line in loops(outline(cells))], colors=style.OUTLINE,
                           linewidths=0.6, joinstyle="round")

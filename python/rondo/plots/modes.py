@@ -1,0 +1,183 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Modes of a POD, in space and in time, and how fast their energy falls."""
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import TYPE_CHECKING
+
+import matplotlib.pyplot as plt
+import numpy as np
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
+from numpy.typing import NDArray
+
+from .. import style
+from ..errors import Error
+from .field import component, draw_cells, turned
+from .marks import letter
+
+if TYPE_CHECKING:
+    from ..pod import Pod
+
+Array = NDArray[np.float64]
+Window = tuple[tuple[float, float], tuple[float, float]]
+COLUMNS = 3
+LARGEST = 0.12  # length of the largest vector of a mode as drawn, over the radius of the body,
+LARGEST_CLOSE = 0.035  # and where only a part of the body is shown
+SHARES = (1e-2, 1e-4, 1e-6)  # of the energy left out, for which the numbers of modes are told
+MANY, FEW = 24, 8  # swings in time: more are not drawn, but these
+FLOOR = 1e-14  # shares below are not drawn: round-off
+
+
+def plot_pod_spectrum(pods: Sequence[Pod], ax: Axes | None = None,
+                      labels: Sequence[str] | None = None) -> Axes:
+    """Share of the energy left out over the number of modes kept, one curve for each POD."""
+    with style.paper():
+        if ax is None:
+            ax = plt.figure(figsize=(style.COLUMN, 0.75 * style.COLUMN)).add_subplot()
+        for share in SHARES:
+            ax.axhline(share, color="0.85", lw=0.6, zorder=0)
+        names = labels or [f"{pod.field}, {pod.frame}" for pod in pods]
+        for number, (pod, name) in enumerate(zip(pods, names)):
+            draw_decay(ax, pod, name, style.CURVES[number % len(style.CURVES)])
+        ax.set(xlabel="modes kept (–)", ylabel="share of the energy left out (–)")
+        if len(pods) > 1:
+            ax.legend(loc="lower left")
+    return ax
+
+
+def draw_decay(ax: Axes, pod: Pod, label: str, curve: dict[str, object]) -> None:
+    """The curve of one POD; axes are logarithmic, as both the first modes and the last matter."""
+    left = np.asarray(pod.discarded_energy)
+    shown = left > FLOOR
+    ax.loglog(1 + np.flatnonzero(shown), left[shown], label=label, **curve)
+
+
+def plot_modes(pod: Pod, count: int = 6, window: Window | None = None) -> Figure:
+    """The first modes of a POD, each with its course in time below.
+
+    Modes of displacement and velocity are drawn as shapes: the reference position plus the mode,
+    magnified until its largest vector is 0.12 of the radius (0.035 in a window), coloured by its radial part over that
+    vector. Those of the rectified frame stand as in the fixed one, with the ground below. `window`:
+    ((x from, to), (y from, to)) m, the part of the body shown; None: all of it. Modes of contact
+    are curves of their normal and tangential part along the edge. The courses in time are the
+    columns of V, times the root of the number of snapshots, so that their mean square is 1; they
+    have no unit. Where they swing fast, only the first periods are shown.
+    """
+    count = min(count, pod.n_modes)
+    if count < 1:
+        raise Error(f"{pod.directory}: the POD has no modes: all its snapshots are zero")
+    rows = -(-count // COLUMNS)
+    contact = pod.field == "contact"
+    tall = 1.0 if contact else 2.1 * (_height(window) if window else 1.0)
+    with style.paper():
+        figure = plt.figure(figsize=(style.PAGE, rows * (tall + 1.5)))
+        ratios = (tall, 0.7)
+        grid = figure.add_gridspec(2 * rows, COLUMNS, height_ratios=ratios * rows)
+        shown = course_shown(pod, count)
+        space: list[Axes] = []
+        course: list[Axes] = []
+        for mode in range(count):
+            row, column = divmod(mode, COLUMNS)
+            space.append(figure.add_subplot(grid[2 * row, column]))
+            course.append(figure.add_subplot(grid[2 * row + 1, column]))
+            if contact:
+                draw_contact_mode(space[mode], pod, mode)
+            else:
+                draw_mode(space[mode], pod, mode, window)
+            draw_course(course[mode], pod, mode, shown)
+            letter(space[mode], "abcdefghijklmnopqrstuvwxyz"[mode % 26],
+                   f"mode {mode + 1}: {percent(pod.energy[mode])} of energy")
+        tidy(space)
+        tidy(course)
+        if contact:
+            space[0].legend(loc="upper right", handlelength=1.5)
+        else:
+            figure.colorbar(space[0].collections[0], ax=figure.axes, shrink=0.5, aspect=30, pad=0.01,
+                            label="radial part over the largest vector (–)")
+    return figure
+
+
+def tidy(axes: Sequence[Axes]) -> None:
+    """Panels side by side share what their axes say: the same limits across, numbers at the left."""
+    low = min(ax.get_ylim()[0] for ax in axes)
+    high = max(ax.get_ylim()[1] for ax in axes)
+    for number, ax in enumerate(axes):
+        ax.set_ylim(low, high)
+        if number % COLUMNS:
+            ax.set_ylabel("")
+            ax.tick_params(labelleft=False)
+
+
+def percent(share: float) -> str:
+    """A share of the energy as text."""
+    return f"{100 * share:.2g} %" if share >= 1e-6 else f"{100 * share:.0e} %"
+
+
+def shape(pod: Pod, mode: int, largest: float) -> tuple[Array, Array]:
+    """(n, 2) m and (n,): the deformed shape of a mode as drawn, and its radial part over its largest
+    vector."""
+    vectors = np.asarray(pod.spatial[mode])
+    vectors = vectors / np.linalg.norm(vectors, axis=1).max()
+    coordinates = pod.mesh.coordinates
+    radius = np.linalg.norm(coordinates, axis=1).max()
+    return coordinates + largest * radius * vectors, component(vectors, coordinates, "radial")
+
+
+def _height(window: Window) -> float:
+    """Of a window, over its width."""
+    (left, right), (low, high) = window
+    return (high - low) / (right - left)
+
+
+def draw_mode(ax: Axes, pod: Pod, mode: int, window: Window | None = None) -> None:
+    points, radial = shape(pod, mode, LARGEST_CLOSE if window else LARGEST)
+    draw_cells(ax, points, pod.mesh.cells, radial, (-1.0, 1.0), signed=True, mesh_width=0)
+    reach = (1 + LARGEST) * np.abs(pod.mesh.coordinates).max()
+    across, up = window or ((-reach, reach), (-reach, reach))
+    ax.set(xlim=across, ylim=up, aspect="equal", xlabel="X (m)", ylabel="Y (m)")
+
+
+def edge_angle(pod: Pod) -> Array:
+    """(nb,) degrees from straight down, counter-clockwise, -180 to 180: places of the candidates."""
+    points = turned(pod.mesh.coordinates[pod.mesh.boundary], 0.5 * np.pi)
+    return np.degrees(np.arctan2(points[:, 1], points[:, 0]))
+
+
+def draw_contact_mode(ax: Axes, pod: Pod, mode: int) -> None:
+    values = np.asarray(pod.spatial[mode])
+    values = values / np.abs(values).max()
+    angle = edge_angle(pod)
+    order = np.argsort(angle)
+    for part, name in enumerate(("normal", "tangential")):
+        ax.plot(angle[order], values[order, part], label=name, **style.CURVES[part])
+    ax.axhline(0, color="0.6", lw=0.5, zorder=0)
+    used = np.abs(values).max(axis=1) > 1e-3
+    reach = 1.15 * np.abs(angle[used]).max()
+    ax.set(xlim=(-min(reach, 180.0), min(reach, 180.0)), ylim=(-1.1, 1.1),
+           xlabel="angle from straight down (°)", ylabel="mode over its\nlargest (–)")
+
+
+def course_shown(pod: Pod, count: int) -> int:
+    """How many snapshots of the courses in time are drawn: all, or those of the first periods where
+    most of the first modes swing too fast to be seen."""
+    courses = np.asarray(pod.temporal[:, :count])
+    amplitude = np.abs(np.fft.rfft(courses - courses.mean(axis=0), axis=0))
+    swings = float(np.median(amplitude.argmax(axis=0)))
+    return len(courses) if swings <= MANY else int(np.ceil(len(courses) * FEW / swings))
+
+
+def draw_course(ax: Axes, pod: Pod, mode: int, shown: int) -> None:
+    """The column of V over the turns of the body, or over time where it does not turn."""
+    course = np.asarray(pod.temporal[:shown, mode]) * np.sqrt(len(pod.time))
+    turns = np.abs(np.asarray(pod.angle) - pod.angle[0]) / (2 * np.pi)
+    if turns[-1] > 0:
+        abscissa, label = turns, "turns of the disk (–)"
+    elif pod.time_unit == "s":
+        abscissa, label = np.asarray(pod.time) * 1e3, "time (ms)"
+    else:
+        abscissa, label = np.asarray(pod.time), "share of the depth (–)"
+    few = shown < len(pod.time) or shown < 60
+    ax.plot(abscissa[:shown], course, color=style.BLUE, lw=0.7, marker="o" if few else "", markersize=1.5)
+    ax.axhline(0, color="0.6", lw=0.5, zorder=0)
+    ax.set(xlim=(abscissa[0], abscissa[shown - 1]), xlabel=label, ylabel="in time (–)")
