@@ -1,0 +1,196 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Curves of a run's history: forces, energies, spectra."""
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+from matplotlib.axes import Axes
+from matplotlib.ticker import LogLocator
+
+from rondo import style
+from rondo.errors import Error, unknown
+from rondo.plots.marks import energy, relative_residual
+
+if TYPE_CHECKING:
+    from rondo.run import Run
+
+LABELS = {  # of columns, where their name does not say it
+    "angle_rad": "angle", "center_x_m": "centre, x", "center_y_m": "centre, y",
+    "force_x": "horizontal force", "force_y": "vertical force",
+    "torque": "torque about the centre", "contact_nodes": "nodes in contact",
+    "sticking_nodes": "nodes that stick", "contact_length_m": "contact length",
+    "penetration_max_m": "largest penetration", "kinetic": "kinetic energy",
+    "strain": "strain energy", "depth_m": "depth", "pressure_max_pa": "largest pressure",
+    "shear_max_pa": "largest shear",
+}
+
+# What changes the energy, with its sign in the ledger (docs/theory.md, 5); the same colours in all
+# figures.
+TERMS: dict[str, tuple[int, str, dict[str, Any]]] = {
+    "work_frame": (1, "work of the turning frame", {"color": style.BLUE, "linestyle": "--"}),
+    "work_rim": (1, "work of the rim", {"color": style.SKY, "linestyle": "-", "linewidth": 1.8}),
+    "dissipation_friction": (-1, "friction", {"color": style.VERMILLION, "linestyle": "-."}),
+    "loss_impact": (-1, "impacts", {"color": style.PURPLE, "linestyle": ":"}),
+    "dissipation_mass": (-1, "mass damping", {"color": style.GREEN, "linestyle": (0, (6, 1.5))}),
+    "dissipation_stiffness": (-1, "stiffness damping",
+                              {"color": style.ORANGE, "linestyle": (0, (4, 1, 1, 1, 1, 1))}),
+    "work_scheme": (1, "created by the scheme", {"color": "0.5", "linestyle": (0, (1, 1))}),
+}
+
+MIN_ROWS = 16  # for a spectrum
+FLOOR = 1e-18  # of the residual's axis
+
+
+def _axes(ax: Axes | None, height: float) -> Axes:
+    """The axes given, or those of a new figure, two columns wide."""
+    import matplotlib.pyplot as plt
+
+    if ax is not None:
+        return ax
+    return plt.figure(figsize=(style.PAGE, height)).add_subplot()
+
+
+def _abscissa(run: Run) -> tuple[np.ndarray, str]:
+    """What a history is drawn over, (rows,), and its label: time, or the depth of a crush."""
+    if run.is_crush:
+        return run.history["depth_m"] * 1e3, "depth (mm)"
+    return run.history["time_s"] * 1e3, "time (ms)"
+
+
+def _readable(size: float, unit: str) -> tuple[float, str]:
+    """Factor and unit for values up to `size`: 1.9e5 N/m is 190 kN/m."""
+    for factor, prefix in ((1e-6, "M"), (1e-3, "k")):
+        if unit in ("N/m", "J/m", "N", "Pa") and size * factor >= 1:
+            return factor, prefix + unit
+    if unit == "m" and 0 < size < 0.1:
+        return 1e3, "mm"
+    return 1.0, unit
+
+
+def _label(column: str) -> str:
+    return LABELS.get(column, column.replace("_", " "))
+
+
+@style.paper()
+def plot_history(run: Run, *columns: str, ax: Axes | None = None) -> Axes:
+    """Columns of the history over time, of a crush over depth; without any, the forces of the ground
+    on the body. Columns in one axes have one unit."""
+    names = columns or ("force_y", "force_x")
+    history = run.history
+    x, x_label = _abscissa(run)
+    values = [history[name] for name in names]
+    units = {history.units.get(name, "unknown") for name in names}
+    if len(units) > 1:
+        raise Error(f"{', '.join(names)}: of different units ({', '.join(sorted(units))}); "
+                    "draw them in axes of their own")
+    if len(names) > len(style.CURVES):
+        raise Error(f"{len(names)} columns: at most {len(style.CURVES)} can be told apart in one axes")
+    factor, unit = _readable(max((np.abs(v).max(initial=0.0) for v in values)), units.pop())
+    ax = _axes(ax, 2.2)
+    for name, value, line in zip(names, values, style.CURVES):
+        ax.plot(x, value * factor, label=_label(name), **line)
+    suffix = "" if unit == "1" else f" ({unit})"
+    if len(names) == 1:
+        ax.set_ylabel(_label(names[0]) + suffix)
+    else:
+        forces = set(names) <= {"force_x", "force_y"}
+        ax.set_ylabel(("force of the ground\non the disk" if forces else "energy" if
+                       unit.endswith("J/m") else "value") + suffix)
+        ax.legend(loc="lower center", bbox_to_anchor=(0.5, 1.0), ncols=min(len(names), 3))
+    ax.set_xlabel(x_label)
+    if len(x):
+        ax.set_xlim(min(x[0], 0.0), x[-1])
+    return ax
+
+
+@style.paper()
+def plot_energy(run: Run, ax: Axes | None = None) -> Axes:
+    """The energy ledger: the body's energy, kinetic and strain, and what has changed it, each with
+    its sign, so that they sum up to it; below, what the ledger leaves open over the energy
+    exchanged. Given axes are divided in two. Returns the upper ones."""
+    ax = _axes(ax, 4.0)
+    spec = ax.get_subplotspec()
+    if spec is None:
+        raise Error("plot_energy divides its axes: give it some of a grid, as from plt.subplots()")
+    grid = spec.subgridspec(2, 1, height_ratios=(2.2, 1), hspace=0.08)
+    ax.set_subplotspec(grid[0])
+    below = ax.figure.add_subplot(grid[1], sharex=ax)
+    x, x_label = _abscissa(run)
+    total = energy(run)
+    drawn = {name: sign * run.history[name] for name, (sign, _, _) in TERMS.items()
+             if np.any(run.history[name])}
+    size = max(np.abs(curve).max(initial=0.0) for curve in (total, *drawn.values()))
+    factor, unit = _readable(size, "J/m")
+    ax.axhline(0.0, color="0.8", linewidth=0.6, zorder=0)
+    ax.plot(x, total * factor, color=style.BLACK, linewidth=1.4, zorder=3,
+            label="energy: kinetic and strain")
+    for name, curve in drawn.items():
+        ax.plot(x, curve * factor, label=TERMS[name][1], **TERMS[name][2])
+    ax.set_ylabel(f"energy ({unit})")
+    ax.legend(loc="lower center", bbox_to_anchor=(0.5, 1.0), ncols=3)
+    ax.tick_params(labelbottom=False)
+    residual = relative_residual(run)
+    below.semilogy(x, np.where(residual > 0, residual, np.nan), color=style.BLACK, linewidth=0.8)
+    below.set_ylim(FLOOR, max(1e-12, 10 * residual.max(initial=0.0)))
+    below.yaxis.set_major_locator(LogLocator(numticks=5))
+    below.set_ylabel("imbalance over\nenergy exchanged")
+    below.set_xlabel(x_label)
+    if len(x):
+        below.set_xlim(min(x[0], 0.0), x[-1])
+    return ax
+
+
+def force_spectrum(run: Run, column: str = "force_y", from_time: float | None = None,
+                   to_time: float | None = None) -> tuple[np.ndarray, np.ndarray]:
+    """(frequency (f,) [Hz], amplitude (f,) in the column's unit): one-sided, of the rows between two
+    times [s], their mean removed, under a Hann window whose gain is undone.
+
+    A sine whose periods fit in the window has its own amplitude there; between two lines it shows up
+    to 15 % less, in both. Rows are the means over their intervals, taken as values at their middles;
+    where intervals differ they are resampled evenly, linearly."""
+    if run.is_crush:
+        raise Error(f"{run.directory}: a crush has no course in time, and no spectrum")
+    chosen = run.history.window(from_time, to_time)
+    rows = int(chosen.sum())
+    if rows < MIN_ROWS:
+        raise Error(f"{run.directory}: {rows} rows of the history from {from_time} to {to_time} s; "
+                    f"a spectrum takes at least {MIN_ROWS}: widen the window or lower "
+                    "output.history_interval")
+    end = run.history["time_s"]
+    begin = np.append(0.0, end)[:-1]
+    middle = 0.5 * (begin + end)[chosen]
+    even = np.linspace(middle[0], middle[-1], rows)
+    signal = np.interp(even, middle, run.history[column][chosen])
+    window = 0.5 - 0.5 * np.cos(2 * np.pi * np.arange(rows) / rows)
+    amplitude = np.abs(np.fft.rfft((signal - signal.mean()) * window)) / window.sum()
+    amplitude[1: (rows + 1) // 2] *= 2  # the other half of the spectrum; not of 0 nor of Nyquist's
+    return np.fft.rfftfreq(rows, even[1] - even[0]), amplitude
+
+
+@style.paper()
+def plot_force_spectrum(run: Run, column: str = "force_y", from_time: float | None = None,
+                        to_time: float | None = None, ax: Axes | None = None) -> Axes:
+    """Amplitude spectrum (see force_spectrum) of a column over frequency; of a treaded disk with the
+    multiples of the frequency at which its pitches pass."""
+    if column not in run.history:
+        raise unknown(run.history.path, "column", column, run.history)
+    frequency, amplitude = force_spectrum(run, column, from_time, to_time)
+    ax = _axes(ax, 2.4)
+    pitch = run.pitch_frequency
+    if pitch and pitch <= frequency[-1]:
+        ax.vlines(np.arange(pitch, frequency[-1], pitch), 0, 1, transform=ax.get_xaxis_transform(),
+                  color="0.8", linewidth=0.8, zorder=0)
+        ax.annotate(f"multiples of the pitch frequency, {pitch:.0f} Hz", (pitch, 1.0),
+                    xycoords=ax.get_xaxis_transform(), xytext=(0, 2), textcoords="offset points",
+                    va="bottom", ha="left", fontsize=7, color="0.35")
+    line: dict[str, Any] = {**style.CURVES[0], "linewidth": 0.8}
+    ax.semilogy(frequency[1:], amplitude[1:], **line)
+    top = amplitude.max()
+    if top > 0:
+        ax.set_ylim(max(amplitude[1:].min(), 1e-6 * top), 3 * top)
+    ax.set_xlim(0, frequency[-1])
+    ax.set_xlabel("frequency (Hz)")
+    unit = run.history.units.get(column, "unknown")
+    ax.set_ylabel(f"amplitude of the\n{_label(column)}" + ("" if unit == "1" else f" ({unit})"))
+    return ax
