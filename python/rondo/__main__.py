@@ -1,0 +1,99 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""python3 -m rondo: figures, films and means of what the program rondo wrote."""
+from __future__ import annotations
+
+import argparse
+import pathlib
+import sys
+from collections.abc import Sequence
+
+import matplotlib
+
+from rondo import __version__, open_paper
+from rondo import open as open_run
+from rondo.errors import Error, UnfinishedRunError
+from rondo.run import Run
+
+WRONG = 2  # exit code of wrong input, as the program's
+
+
+def _parser() -> argparse.ArgumentParser:
+    parser = argparse.ArgumentParser(prog="python3 -m rondo", description=__doc__)
+    parser.add_argument("--version", action="version", version=f"rondo {__version__}")
+    commands = parser.add_subparsers(dest="command", required=True)
+
+    figures = commands.add_parser("figures", help="draw the figures of a run or of a paper study")
+    figures.add_argument("directory", type=pathlib.Path, help="of `rondo run` or `rondo paper`")
+    figures.add_argument("-o", "--output", type=pathlib.Path, metavar="FOLDER",
+                         help="where the .png and .svg files go; default DIRECTORY/figures")
+
+    film = commands.add_parser("animate", help="make a film of a run")
+    film.add_argument("directory", type=pathlib.Path, help="of `rondo run`")
+    film.add_argument("file", type=pathlib.Path, help="ends in .mp4 (needs ffmpeg) or .gif")
+    film.add_argument("--quantity", default="displacement",
+                      help="displacement, velocity, displacement_y, von_mises, ...; default "
+                           "%(default)s")
+    film.add_argument("--frames", type=int, help="pictures; default at most 300")
+    film.add_argument("--fps", type=int, help="pictures a second; default at most 30")
+
+    means = commands.add_parser("means", help="print the mean forces of the ground on the body")
+    means.add_argument("directory", type=pathlib.Path, nargs="+", help="of `rondo run`")
+    for command in film, means:
+        command.add_argument("--from", dest="from_time", type=float, metavar="SECONDS",
+                             help="from this time on")
+        command.add_argument("--to", dest="to_time", type=float, metavar="SECONDS",
+                             help="up to this time")
+    for command in figures, film, means:
+        command.add_argument("--unfinished", action="store_true",
+                             help="also of a run that has not ended, was interrupted or has failed")
+    return parser
+
+
+def _figures(options: argparse.Namespace) -> None:
+    from rondo.figures import draw_paper
+    from rondo.figures.run_figures import draw_run
+
+    folder = options.output or options.directory / "figures"
+    if (options.directory / "paper.json").is_file():
+        written = draw_paper(open_paper(options.directory), folder)
+    else:
+        written = draw_run(open_run(options.directory, options.unfinished), folder)
+    for path in written:
+        print(path)
+
+
+def _animate(options: argparse.Namespace) -> None:
+    run = open_run(options.directory, options.unfinished)
+    print(run.animate(options.file, quantity=options.quantity, from_time=options.from_time,
+                      to_time=options.to_time, frames=options.frames, fps=options.fps))
+
+
+def _mean_forces(run: Run, from_time: float | None, to_time: float | None) -> str:
+    force_x, force_y = (run.history.mean(column, from_time, to_time)
+                        for column in ("force_x", "force_y"))
+    return f"{run.directory}: force_x {force_x:.5g} N/m, force_y {force_y:.6g} N/m"
+
+
+def _means(options: argparse.Namespace) -> None:
+    for directory in options.directory:
+        run = open_run(directory, options.unfinished)
+        print(_mean_forces(run, options.from_time, options.to_time))
+
+
+def main(arguments: Sequence[str] | None = None) -> int:
+    options = _parser().parse_args(arguments)
+    matplotlib.use("Agg")
+    commands = {"figures": _figures, "animate": _animate, "means": _means}
+    try:
+        commands[options.command](options)
+    except UnfinishedRunError as reason:
+        print(f"rondo: {reason} (here: --unfinished)", file=sys.stderr)
+        return WRONG
+    except (Error, OSError) as reason:
+        print(f"rondo: {reason}", file=sys.stderr)
+        return WRONG
+    return 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())

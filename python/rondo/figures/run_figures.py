@@ -1,0 +1,65 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""The figures of any run: fields at three times, forces, energies, spectra, modes of its PODs."""
+from __future__ import annotations
+
+import os
+import pathlib
+from typing import TYPE_CHECKING
+
+import matplotlib.pyplot as plt
+import numpy as np
+from matplotlib.figure import Figure
+
+from rondo import style
+from rondo.plots import curves, field
+from rondo.plots.modes import plot_modes, plot_pod_spectrum
+
+if TYPE_CHECKING:
+    from rondo.run import Run
+
+PANELS = 3
+
+
+def draw_run(run: Run, folder: str | os.PathLike[str]) -> list[pathlib.Path]:
+    """Writes the figures that the run has the data for, each as PNG and SVG; returns their files."""
+    written: list[pathlib.Path] = []
+
+    def keep(name: str, figure: Figure) -> None:
+        written.extend(style.save(figure, pathlib.Path(folder) / name))
+        plt.close(figure)
+
+    if run.n_snapshots:
+        for quantity in ("displacement", "von_mises"):
+            if quantity in run.field_names:
+                keep(f"field-{quantity}", fields(run, quantity))
+    history = run.history
+    if len(history["time_s"]):
+        keep("energy", curves.plot_energy(run).figure)
+        if "ground" in run.case:
+            keep("forces", curves.plot_history(run).figure)
+            half = 0.5 * history["time_s"][-1]  # what came before is the start, not the course
+            if not run.is_crush and history.window(from_time=half).sum() >= curves.MIN_ROWS:
+                keep("force-spectrum", curves.plot_force_spectrum(run, from_time=half).figure)
+    pods = [pod for pod in run.pods.values() if pod.n_modes]
+    for pod in pods:
+        keep(f"modes-{pod.name}", plot_modes(pod))
+    if pods:
+        keep("pod-spectrum", plot_pod_spectrum(pods, labels=[pod.name for pod in pods]).figure)
+    return written
+
+
+@style.paper()
+def fields(run: Run, quantity: str) -> Figure:
+    """A quantity at three snapshots, spread evenly up to the last, in the same colours."""
+    shown = np.unique(np.linspace(0, run.n_snapshots - 1, PANELS + 1).round().astype(int)[1:])
+    nodal = [field.nodal(run, int(k), quantity) for k in shown]
+    limits = field.full_range(np.stack([n.values for n in nodal]), any(n.signed for n in nodal))
+    figure = plt.figure(figsize=(style.PAGE, 2.5))
+    axes = figure.subplots(1, len(shown), squeeze=False)[0]
+    for ax, k in zip(axes, shown):
+        field.plot_field(run, float(run.times[k]), quantity, ax, limits=limits, colorbar=False)
+        if ax is not axes[0]:
+            ax.set_ylabel("")
+    figure.colorbar(axes[-1].collections[0], ax=axes, label=f"{nodal[0].label} ({nodal[0].unit})",
+                    shrink=0.8)
+    return figure
