@@ -8,6 +8,7 @@ import contextlib
 import io
 import pathlib
 from collections.abc import Iterator
+from typing import Any
 
 import matplotlib
 from matplotlib.colors import Colormap, LinearSegmentedColormap
@@ -31,7 +32,7 @@ OUTLINE = "0.15"  # the edge of a body
 MESH = "0.35"  # sides of cells
 
 # One after another for the curves of a panel: colour, line style, grey level all differ.
-CURVES: tuple[dict[str, object], ...] = (
+CURVES: tuple[dict[str, Any], ...] = (
     {"color": BLUE, "linestyle": "-"},
     {"color": VERMILLION, "linestyle": "--"},
     {"color": BLACK, "linestyle": ":"},
@@ -46,8 +47,8 @@ SEQUENTIAL: Colormap = matplotlib.colormaps["magma_r"]
 # Signed quantities: white at zero. The negative end is darker than the positive one, so that a
 # print in grey tells at least the strong values apart. In steps, which show lines of equal value.
 DIVERGING: Colormap = LinearSegmentedColormap.from_list(
-    "rondo_diverging", ["#08306b", "#2171b5", "#9ecae1", "#ffffff", "#fdc086", "#e6550d", "#b33c00"],
-    N=33)
+    "rondo_diverging",
+    ["#08306b", "#2171b5", "#9ecae1", "#ffffff", "#fdc086", "#e6550d", "#b33c00"], N=33)
 
 RC: dict[str, object] = {
     "font.size": 8.0,
@@ -81,7 +82,8 @@ RC: dict[str, object] = {
 
 @contextlib.contextmanager
 def paper() -> Iterator[None]:
-    """Within this context figures look as in a journal: 8 pt type, thin axes, constrained layout."""
+    """Within this context (or as a decorator) figures look as in a journal: 8 pt type, thin axes,
+    constrained layout."""
     with matplotlib.rc_context(RC):
         yield
 

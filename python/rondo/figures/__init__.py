@@ -15,7 +15,7 @@ if TYPE_CHECKING:
 
 
 def draw_paper(paper: Paper, folder: str | os.PathLike[str]) -> list[pathlib.Path]:
-    """Draws figures 2 to 6 of a paper study into `folder`, each as .png and .svg; returns the files."""
+    """Draws figures 2 to 6 of a study into `folder`, each as .png and .svg; returns the files."""
     from . import figure_2, figure_3, figure_4, figure_5, figure_6
 
     written = []

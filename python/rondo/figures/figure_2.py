@@ -49,7 +49,7 @@ def _damped_curve(curve: Axes, error: Axes, run: Run, closed_form: float) -> Non
     curve.axhline(closed_form * 1e3, color=style.BLACK, ls="--", lw=0.8, label="closed form")
     curve.set(xlim=(0, end), ylim=(0, None), xlabel="time (ms)",
               ylabel="radial displacement\nof the edge (mm)")
-    curve.legend(loc="upper right")
+    curve.legend(loc="lower right")
     letter(curve, "a", "with damping")
     difference = np.abs(radial / closed_form - 1)
     error.semilogy(time, difference, **style.CURVES[0])
@@ -66,7 +66,8 @@ def _stationary_disk(ax: Axes, run: Run) -> None:
     last = run.n_snapshots - 1
     body = draw_body(ax, run, last, frame="turning", mesh_width=0)
     frame_axes(ax, run, last, "turning")
-    ax.figure.colorbar(body.cells, ax=ax, label="displacement (mm)", shrink=0.9, pad=0.01, aspect=15)
+    ax.figure.colorbar(body.cells, ax=ax, label="displacement (mm)", shrink=0.9, pad=0.01,
+                       aspect=15)
     letter(ax, "c", f"at {run.times[last]:.1f} s")
 
 
@@ -92,7 +93,7 @@ def _ledger(ax: Axes, run: Run) -> None:
     total = energy(run)
     for values, name, curve in ((h["kinetic"], "kinetic", style.CURVES[0]),
                                 (h["strain"], "strain", style.CURVES[1]),
-                                (total, "sum", {"color": "0.6", "linestyle": "-", "linewidth": 2.5}),
+                                (total, "sum", {"color": "0.6", "linewidth": 2.5}),
                                 (h["work_frame"], "frame's work", style.CURVES[2])):
         ax.plot(time[shown], values[shown], label=name, **curve)
     ax.set(xlim=(0, ZOOM * 1e3), ylim=(0, 1.45 * total[shown].max()), xlabel="time (ms)",
@@ -105,7 +106,8 @@ def _ledger(ax: Axes, run: Run) -> None:
 def _schemes(ax: Axes, symplectic: Run, printed: Run, logarithmic: bool) -> None:
     """The largest energy so far, which only growth can raise: the energy itself swings from nearly
     nothing to that with each period."""
-    for run, name, curve in ((symplectic, "symplectic", SYMPLECTIC), (printed, "as printed", PRINTED)):
+    for run, name, curve in ((symplectic, "symplectic", SYMPLECTIC),
+                             (printed, "as printed", PRINTED)):
         ax.plot(run.history["time_s"], np.maximum.accumulate(energy(run)), label=name, **curve)
     ax.plot(printed.history["time_s"], printed.history["work_scheme"],
             label="created by the scheme", **CREATED)

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Figure 3: the disk climbing onto the ledge, with a close view of the contact under each picture."""
+"""Figure 3: the disk climbing onto the ledge, a close view of the contact under each picture."""
 from __future__ import annotations
 
 from typing import TYPE_CHECKING
@@ -12,9 +12,9 @@ from matplotlib.patches import Rectangle
 
 from .. import style
 from . import figure_3_forces
-from ..ground import Ground
+from ..plots.contact import contact_of, draw_tractions, ground_of
 from ..plots.field import Body, draw_body, draw_contact, draw_ground, nodal
-from ..plots.marks import draw_tractions, letter
+from ..plots.marks import letter, minus
 
 if TYPE_CHECKING:
     from ..paper import Paper
@@ -36,11 +36,11 @@ def draw(paper: Paper) -> dict[str, Figure]:
 
 
 def _disks(run: Run, chosen: list[int], top: float) -> Figure:
-    traction = max(float(np.abs(run.contact.traction[k]).max()) for k in chosen) or 1.0
+    traction = max(float(np.abs(contact_of(run).traction[k]).max()) for k in chosen) or 1.0
     with style.paper():
         figure = plt.figure(figsize=(style.PAGE, 4.15))
-        grid = figure.add_gridspec(2, 3, height_ratios=(WHOLE[1] + WHOLE[2],
-                                                        (CLOSE[1] + CLOSE[2]) * WHOLE[0] / CLOSE[0]))
+        heights = (WHOLE[1] + WHOLE[2], (CLOSE[1] + CLOSE[2]) * WHOLE[0] / CLOSE[0])
+        grid = figure.add_gridspec(2, 3, height_ratios=heights)
         for column, k in enumerate(chosen):
             whole, close = (figure.add_subplot(grid[row, column]) for row in range(2))
             body = _whole(whole, run, k, top)
@@ -50,8 +50,8 @@ def _disks(run: Run, chosen: list[int], top: float) -> Figure:
             for ax, name in ((whole, "y (m)"), (close, "y (mm)")):
                 ax.set_ylabel(name if column == 0 else "")
                 ax.tick_params(labelleft=column == 0)
-        figure.colorbar(body.cells, ax=figure.axes, label="displacement (mm)", shrink=0.7, aspect=28,
-                        pad=0.015)
+        figure.colorbar(body.cells, ax=figure.axes, label="displacement (mm)", shrink=0.7,
+                        aspect=28, pad=0.015)
     return figure
 
 
@@ -59,7 +59,7 @@ def _whole(ax: Axes, run: Run, k: int, top: float) -> Body:
     x, y = run.center[k]
     ax.set(xlim=(x - WHOLE[0], x + WHOLE[0]), ylim=(y - WHOLE[1], y + WHOLE[2]), aspect="equal",
            xlabel="x (m)")
-    draw_ground(ax, Ground.from_case(run.case), ax.get_xlim(), y - 1)
+    draw_ground(ax, ground_of(run), ax.get_xlim(), y - 1)
     body = draw_body(ax, run, k, limits=(0, top), mesh_width=0)
     draw_contact(ax, run, k, width=1.5)
     low, high = _close_window(run, k)
@@ -71,7 +71,7 @@ def _whole(ax: Axes, run: Run, k: int, top: float) -> Body:
 def _close_window(run: Run, k: int) -> tuple[tuple[float, float], tuple[float, float]]:
     """Lower left and upper right corner (m) of the close view, about where the ledge is or will be
     touched."""
-    x, ledge = float(run.center[k][0]), float(Ground.from_case(run.case).corners[-1, 1])
+    x, ledge = float(run.center[k][0]), float(ground_of(run).corners[-1, 1])
     return (x - CLOSE[0], ledge - CLOSE[1]), (x + CLOSE[0], ledge + CLOSE[2])
 
 
@@ -79,9 +79,9 @@ def _close(ax: Axes, run: Run, k: int, top: float, traction: float) -> None:
     low, high = _close_window(run, k)
     ax.set(xlim=(low[0], high[0]), ylim=(low[1], high[1]), aspect="equal", xlabel="x (mm)")
     for axis in (ax.xaxis, ax.yaxis):
-        axis.set_major_formatter(lambda value, _: f"{value * 1e3:.0f}".replace("-", "\N{MINUS SIGN}"))
+        axis.set_major_formatter(lambda value, _: minus(f"{value * 1e3:.0f}"))
         axis.set_major_locator(plt.MultipleLocator(0.05))
-    draw_ground(ax, Ground.from_case(run.case), ax.get_xlim(), low[1] - 1)
+    draw_ground(ax, ground_of(run), ax.get_xlim(), low[1] - 1)
     draw_body(ax, run, k, limits=(0, top), mesh_width=0.25)
     draw_contact(ax, run, k, width=2.5)
     arrows = draw_tractions(ax, run, k, ARROW / traction)

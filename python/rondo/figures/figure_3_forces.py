@@ -10,9 +10,9 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from .. import style
-from ..ground import Ground
+from ..plots.contact import ground_of
 from ..plots.curves import force_spectrum
-from ..plots.marks import letter
+from ..plots.marks import edge_nodes, letter
 
 if TYPE_CHECKING:
     from ..paper import Paper
@@ -34,11 +34,10 @@ def draw(paper: Paper) -> dict[str, Figure]:
             _spectrum(axes[2][column], run, frequency_shown(runs[1]))
             for row in range(3):
                 letter(axes[row][column], "abcdef"[2 * row + column], name if row == 0 else "")
-        for row in axes:
-            low = min(ax.get_ylim()[0] for ax in row)
-            high = max(ax.get_ylim()[1] for ax in row)
-            for ax in row:
-                ax.set_ylim(low, high)  # compared: the same scale
+        for left, right in axes:  # compared: the same scale
+            low, high = zip(left.get_ylim(), right.get_ylim())
+            left.set_ylim(min(low), max(high))
+            right.set_ylim(min(low), max(high))
         axes[0][0].legend(loc="center right", bbox_to_anchor=(1.0, 0.63), ncol=2)
     return {"figure-3-forces": figure}
 
@@ -48,16 +47,11 @@ def steady_from(run: Run) -> float:
     return float(run.times[0])
 
 
-def columns(run: Run) -> int:
-    """How many nodes of the outer edge come down in a turn, lands and grooves alike."""
-    return int(run.mesh.sector.max() + 1)
-
-
 def frequency(run: Run) -> tuple[float, str]:
     """Hz, and its name: that of the pitches, or of the nodes where the disk is smooth."""
     if run.pitch_frequency is not None:
         return float(run.pitch_frequency), "pitches"
-    return columns(run) * run.spin / (2 * np.pi), "nodes"
+    return len(edge_nodes(run)) * abs(run.spin) / (2 * np.pi), "nodes"
 
 
 def frequency_shown(treaded: Run) -> float:
@@ -67,7 +61,7 @@ def frequency_shown(treaded: Run) -> float:
 
 def climbing(run: Run) -> tuple[float, float]:
     """s: first touch, and when the whole contact has come to the last facet of the ground."""
-    h, ground = run.history, Ground.from_case(run.case)
+    h, ground = run.history, ground_of(run)
     touching = h["force_y"] > 0
     rear = h["center_x_m"] - 0.5 * h["contact_length_m"]
     flat = touching & (rear > ground.corners[-2, 0] + ground.fillet)
@@ -102,8 +96,8 @@ def _periods(ax: Axes, run: Run) -> None:
     shown = (h["time_s"] >= start) & (h["time_s"] <= start + PERIODS / rate)
     mean = np.average(h["force_y"][h["time_s"] >= start], weights=spans[h["time_s"] >= start])
     middle = h["time_s"][shown] - 0.5 * spans[shown]  # rows are means over their intervals
-    ax.plot((middle - start) * rate, 100 * (h["force_y"][shown] / mean - 1), lw=1.0, color=style.BLUE,
-            marker="o", markersize=2)
+    ax.plot((middle - start) * rate, 100 * (h["force_y"][shown] / mean - 1), lw=1.0,
+            color=style.BLUE, marker="o", markersize=2)
     ax.axhline(0, color="0.6", lw=0.5, zorder=0)
     for period in range(PERIODS + 1):
         ax.axvline(period, color="0.85", lw=0.6, zorder=0)
@@ -118,6 +112,7 @@ def _spectrum(ax: Axes, run: Run, end: float) -> None:
     ax.set(xlim=(0, end), ylim=(1.0, 2e4), xlabel="frequency (Hz)",
            ylabel="amplitude of the\nvertical force (N/m)")
     for multiple in range(1, int(end / rate) + 1):
-        ax.plot(multiple * rate, 2.6e3, "v", color=style.VERMILLION, markersize=3.5, markeredgewidth=0)
+        ax.plot(multiple * rate, 2.6e3, "v", color=style.VERMILLION, markersize=3.5,
+                markeredgewidth=0)
     ax.text(0.98, 0.98, f"marks: {rate:.1f} Hz ({name}) and multiples", transform=ax.transAxes,
             ha="right", va="top", fontsize=7)

@@ -9,10 +9,9 @@ import numpy as np
 from matplotlib.figure import Figure
 
 from .. import style
-from ..ground import Ground
-from ..plots.contact import TractionProfile, mean_force, traction_profile
+from ..plots.contact import TractionProfile, ground_of, mean_force, traction_profile
 from ..plots.field import draw_body, draw_contact, draw_ground, nodal
-from ..plots.marks import letter
+from ..plots.marks import letter, minus
 
 if TYPE_CHECKING:
     from ..paper import Paper
@@ -44,10 +43,10 @@ def _displacement(runs: list[Run]) -> Figure:
             for column, (ax, run) in enumerate(zip(axes, runs)):
                 k = run.index(time)
                 x = float(run.center[k][0])
-                ledge = float(Ground.from_case(run.case).corners[-1, 1])
+                ledge = float(ground_of(run).corners[-1, 1])
                 ax.set(xlim=(x - WINDOW[0], x + WINDOW[0]), aspect="equal",
                        ylim=(ledge - WINDOW[1], ledge + WINDOW[2]))
-                draw_ground(ax, Ground.from_case(run.case), ax.get_xlim(), ledge - 1)
+                draw_ground(ax, ground_of(run), ax.get_xlim(), ledge - 1)
                 body = draw_body(ax, run, k, quantity, limits=limits, mesh_width=0.2)
                 draw_contact(ax, run, k, color=style.BLUE if row == 0 else style.BLACK)
                 ax.set_xticks(x + np.array([-0.1, 0.0, 0.1]), ["\N{MINUS SIGN}100", "0", "100"])
@@ -55,7 +54,7 @@ def _displacement(runs: list[Run]) -> Figure:
                 ax.tick_params(labelleft=column == 0, labelbottom=row == 1)
                 ax.set_ylabel("y (mm)" if column == 0 else "")
                 ax.set_xlabel("x off the centre (mm)" if row == 1 else "")
-                letter(ax, "abcdefgh"[4 * row + column], f"μ = {run.friction:.1f}" if row == 0 else "")
+                letter(ax, "abcdefgh"[4 * row + column], f"μ = {run.friction:.1f}" * (row == 0))
             figure.colorbar(body.cells, ax=axes, label=label, pad=0.01, aspect=12)
     return figure
 
@@ -72,16 +71,16 @@ def _contact(runs: list[Run]) -> Figure:
             force = mean_force(run)
             above.plot(x, pressure, **style.CURVES[0])
             above.fill_between(x, pressure, color=style.BLUE, alpha=0.15, lw=0)
-            above.text(0.5, 0.06, f"in all {_kilo(force[1])}", transform=above.transAxes, ha="center",
-                       fontsize=7)
-            limit = run.friction * pressure
+            above.text(0.5, 0.06, f"in all {_kilo(force[1])}", transform=above.transAxes,
+                       ha="center", fontsize=7)
+            limit = (run.friction or 0.0) * pressure
             below.fill_between(x, -limit, limit, color="0.88", lw=0)
             below.plot(x, limit, color="0.45", lw=0.6)
             below.plot(x, -limit, color="0.45", lw=0.6)
             below.plot(x, shear, **style.CURVES[1])
             below.axhline(0, color="0.6", lw=0.5, zorder=0)
-            below.text(0.5, 0.03, f"in all {_kilo(force[0])}", transform=below.transAxes, ha="center",
-                       fontsize=7)
+            below.text(0.5, 0.03, f"in all {_kilo(force[0])}", transform=below.transAxes,
+                       ha="center", fontsize=7)
             below.set_xlabel("x off the centre (mm)")
             letter(above, "abcd"[column], f"μ = {run.friction:.1f}")
             letter(below, "efgh"[column])
@@ -90,15 +89,15 @@ def _contact(runs: list[Run]) -> Figure:
         axes[1][0].set(ylabel="mean shear along x (MPa)", ylim=(low - 0.17 * (high - low), high))
         axes[1][1].text(0.5, 0.97, "grey: up to μ × pressure", transform=axes[1][1].transAxes,
                         ha="center", va="top", fontsize=7)
-        axes[1][0].text(0.5, 0.97, f"bins of {1e3 * profiles[0].width:.1f} mm", ha="center", va="top",
-                        transform=axes[1][0].transAxes, fontsize=7)
+        axes[1][0].text(0.5, 0.97, f"bins of {1e3 * profiles[0].width:.1f} mm", ha="center",
+                        va="top", transform=axes[1][0].transAxes, fontsize=7)
     return figure
 
 
 def _kilo(force: float) -> str:
     """A force (N/m) in kN/m, without a minus before zero."""
     text = f"{1e-3 * force:.1f}"
-    return f"{'0.0' if float(text) == 0 else text} kN/m".replace("-", "\N{MINUS SIGN}")
+    return minus(f"{'0.0' if float(text) == 0 else text} kN/m")
 
 
 def _shown(profiles: list[TractionProfile]) -> tuple[float, float]:

@@ -43,12 +43,12 @@ def _own(paper: Paper) -> Figure:
         figure = plt.figure(figsize=(style.COLUMN, 2.8))
         ax = figure.add_subplot()
         _axes(ax)
-        rolling = ({**style.CURVES[0]}, {**style.CURVES[1]})
+        rolling = style.CURVES[:2]
         crush = ({"color": style.SKY, "linestyle": ":"}, {"color": style.BLACK, "linestyle": "-."})
-        for body, curve, slow in zip(BODIES, rolling, crush):
-            draw_decay(ax, paper.pod(f"turn-{body}", "velocity", "rotating"), f"rolling, {body}", curve)
-        for body, slow in zip(BODIES, crush):
-            draw_decay(ax, paper.pod(f"crush-{body}", "velocity", "rotating"), f"crush, {body}", slow)
+        for run, name, curves in (("turn", "rolling", rolling), ("crush", "crush", crush)):
+            for body, curve in zip(BODIES, curves):
+                pod = paper.pod(f"{run}-{body}", "velocity", "rotating")
+                draw_decay(ax, pod, f"{name}, {body}", curve)
         ax.set(xlabel="modes kept (–)", ylabel="share of the energy\nof the velocity left out (–)")
         ax.legend(loc="lower right", borderaxespad=0.0, handlelength=2.2)
     return figure

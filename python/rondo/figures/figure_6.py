@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Figure 6: the first modes of the velocity in steady rolling, in the turning and the fixed frame."""
+"""Figure 6: the first modes of the velocity in steady rolling, turning frame and rectified."""
 from __future__ import annotations
 
 from typing import TYPE_CHECKING
@@ -16,8 +16,8 @@ LOWER = ((-0.75, 0.75), (-1.16, -0.3))  # over the outer radius: the part above 
 
 
 def draw(paper: Paper) -> dict[str, Figure]:
-    """The turning frame first, the paper's own. In the rectified one the modes are near the contact,
-    and only the lower part of the body is shown."""
+    """The turning frame first, the paper's own. In the rectified one the modes are near the
+    contact, and only the lower part of the body is shown."""
     figures = {}
     for name in ("smooth", "treaded"):
         radius = paper.run(f"turn-{name}").outer_radius

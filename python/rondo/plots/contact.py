@@ -1,19 +1,37 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Contact of steady rolling as the ground sees it: means over the snapshots, by place."""
+"""Contact as figures show it: arrows at the body, and means over the snapshots by place."""
 from __future__ import annotations
 
 import dataclasses
 from typing import TYPE_CHECKING
 
 import numpy as np
+from matplotlib.axes import Axes
 from numpy.typing import NDArray
 
+from .. import style
 from ..errors import Error
+from ..ground import Ground
 
 if TYPE_CHECKING:
-    from ..run import Run
+    from ..run import Contact, Run
 
 Array = NDArray[np.float64]
+
+
+def contact_of(run: Run) -> Contact:
+    """The contact of a run that must have it."""
+    if run.contact is None:
+        raise Error(f"{run.directory}: no contact in this run; it needs [ground] and snapshots")
+    return run.contact
+
+
+def ground_of(run: Run) -> Ground:
+    """The ground of a run that must have it."""
+    ground = Ground.from_case(run.case)
+    if ground is None:
+        raise Error(f"{run.directory}: no [ground] in its case")
+    return ground
 
 
 @dataclasses.dataclass(frozen=True)
@@ -43,16 +61,15 @@ def traction_profile(run: Run, bins_per_node: int = 2) -> TractionProfile:
     (1/`bins_per_node`), and divided by the number of snapshots and the width of a bin. So the
     profile has exactly the mean force of the snapshots as its integral.
     """
-    if run.contact is None:
-        raise Error(f"{run.directory}: no contact in this run; it needs [ground] and snapshots")
-    width = float(np.median(run.contact.tributary)) / bins_per_node
+    contact = contact_of(run)
+    width = float(np.median(contact.tributary)) / bins_per_node
     reach = np.ceil(run.outer_radius / width) * width
     edges = np.arange(-reach, reach + 1.5 * width, width) - 0.5 * width
     sums = np.zeros((len(edges) - 1, 2))
     for k in range(run.n_snapshots):
-        force = np.asarray(run.contact.force[k])
+        force = np.asarray(contact.force[k])
         touching = np.flatnonzero(force[:, 0] > 0)
-        x = run.position(k)[run.contact.nodes[touching], 0] - run.center[k][0]
+        x = run.position(k)[contact.nodes[touching], 0] - run.center[k][0]
         for which in range(2):
             sums[:, which] += np.histogram(x, edges, weights=force[touching, which])[0]
     mean = sums / (run.n_snapshots * width)
@@ -60,6 +77,24 @@ def traction_profile(run: Run, bins_per_node: int = 2) -> TractionProfile:
 
 
 def mean_force(run: Run) -> Array:
-    """(2,) N/m: horizontal and vertical force on the body on level ground, mean of the snapshots."""
-    force = np.asarray(run.contact.force[:]).sum(axis=1).mean(axis=0)
+    """(2,) N/m: horizontal and vertical force on a body on level ground, mean of the snapshots."""
+    force = np.asarray(contact_of(run).force[:]).sum(axis=1).mean(axis=0)
     return np.array([-force[1], force[0]])
+
+
+def draw_tractions(ax: Axes, run: Run, index: int, length: float) -> bool:
+    """Arrows of the ground's traction on the body that end at the nodes in contact, in the fixed
+    frame, `length` m for each Pa; False where nothing touches."""
+    traction = np.asarray(contact_of(run).traction[index])
+    touching = traction[:, 0] > 0
+    if not touching.any():
+        return False
+    nodes = run.mesh.boundary[touching]
+    force = np.asarray(run.field("contact_force")[index])[nodes, :2]  # along the fixed axes
+    size = np.linalg.norm(force, axis=1)
+    arrows = force * (np.linalg.norm(traction[touching], axis=1) / size * length)[:, None]
+    tips = run.position(index)[nodes]
+    ax.quiver(*tips.T, *arrows.T, pivot="tip", angles="xy", scale_units="xy", scale=1.0,
+              color=style.BLUE, width=0.006, headwidth=4, headlength=4.5, headaxislength=4,
+              zorder=5)
+    return True

@@ -80,8 +80,8 @@ def nodal(run: Run, index: int, quantity: str, frame: str = "fixed") -> Nodal:
         values = np.asarray(source[index], dtype=float)
         if values.ndim != 1:
             raise Error(f"{quantity}: {values.shape[-1]} numbers at each node; allowed are "
-                        "displacement and velocity, alone or with _x, _y, _radial, _tangential, and "
-                        "fields with one number at each node, as von_mises")
+                        "displacement and velocity, alone or with _x, _y, _radial, _tangential, "
+                        "and fields with one number at each node, as von_mises")
         signed, label = bool(values.min() < 0), NAMES.get(quantity, quantity.replace("_", " "))
     factor, unit = SHOWN_IN.get(source.units, (1.0, source.units))
     return Nodal(values * factor, label, unit, signed)
@@ -170,8 +170,8 @@ def draw_cells(ax: Axes, points: Array, cells: NDArray[np.integer[Any]], values:
     """Cells (e, 4 or 3) with nodes at points (n, 2), coloured by the mean of their nodal values
     (n,), and the edge of the body. `mesh_width` (pt) is that of the sides of the cells."""
     patches = PolyCollection(corners(points, cells), array=cell_means(values, cells),
-                             cmap=style.DIVERGING if signed else style.SEQUENTIAL, edgecolors=style.MESH,
-                             linewidths=mesh_width, rasterized=True)
+                             cmap=style.DIVERGING if signed else style.SEQUENTIAL,
+                             edgecolors=style.MESH, linewidths=mesh_width, rasterized=True)
     if mesh_width == 0:
         patches.set_antialiased(False)  # else the background shines through between cells
     patches.set_clim(*limits)
@@ -190,7 +190,8 @@ def draw_body(ax: Axes, run: Run, index: int, quantity: str = "displacement", fr
     field = nodal(run, index, quantity, frame)
     points = positions(run, index, frame, deformation)
     patches, edge = draw_cells(ax, points, run.mesh.cells, field.values,
-                               limits or full_range(field.values, field.signed), field.signed, mesh_width)
+                               limits or full_range(field.values, field.signed), field.signed,
+                               mesh_width)
     return Body(run, quantity, frame, deformation, patches, edge, loops(outline(run.mesh.cells)))
 
 
@@ -200,7 +201,8 @@ def full_range(values: Array, signed: bool) -> tuple[float, float]:
     return (-top if signed else 0.0, top)
 
 
-def draw_ground(ax: Axes, ground: Ground | None, window: tuple[float, float], bottom: float) -> None:
+def draw_ground(ax: Axes, ground: Ground | None, window: tuple[float, float],
+                bottom: float) -> None:
     """The ground between window[0] and window[1] (m along x), filled down to `bottom` (m)."""
     if ground is None:
         return
@@ -211,7 +213,8 @@ def draw_ground(ax: Axes, ground: Ground | None, window: tuple[float, float], bo
     ax.plot(line[:, 0], line[:, 1], color=style.OUTLINE, linewidth=0.6, zorder=0.5)
 
 
-def draw_contact(ax: Axes, run: Run, index: int, width: float = 2.0, color: str = style.BLUE) -> None:
+def draw_contact(ax: Axes, run: Run, index: int, width: float = 2.0,
+                 color: str = style.BLUE) -> None:
     """The nodes in contact with the ground as a thick line along the edge of the body, in the fixed
     frame; a node without a neighbour in contact is a dot."""
     if run.contact is None:
@@ -252,7 +255,7 @@ def plot_field(run: Run, time: float, quantity: str = "displacement", ax: Axes |
 
 def snapshot_title(run: Run, index: int) -> str:
     """The time of a snapshot, or the depth of an increment of a crush."""
-    if run.is_crush:
+    if run.crush is not None:
         return f"depth {float(run.crush.depth[index]) * 1e3:.3g} mm"
     return f"t = {float(run.times[index]) * 1e3:.1f} ms"
 

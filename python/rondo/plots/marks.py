@@ -8,8 +8,6 @@ import numpy as np
 from matplotlib.axes import Axes
 from numpy.typing import NDArray
 
-from .. import style
-
 if TYPE_CHECKING:
     from ..run import Run
 
@@ -19,6 +17,11 @@ Array = NDArray[np.float64]
 def letter(ax: Axes, name: str, title: str = "") -> None:
     """The panel's letter and title, above its left edge."""
     ax.set_title(f"({name}) {title}".rstrip(), loc="left")
+
+
+def minus(text: str) -> str:
+    """The text with minus signs as the axes have them."""
+    return text.replace("-", "\N{MINUS SIGN}")
 
 
 def edge_nodes(run: Run) -> NDArray[np.int64]:
@@ -51,20 +54,3 @@ def relative_residual(run: Run) -> Array:
     exchanged = np.abs(energy(run)) + sum(np.abs(run.history[name]) for name in WORKS)
     so_far = np.maximum.accumulate(exchanged)
     return np.abs(run.history["energy_residual"]) / np.where(so_far > 0, so_far, 1.0)
-
-
-def draw_tractions(ax: Axes, run: Run, index: int, length: float) -> bool:
-    """Arrows of the ground's traction on the body that end at the nodes in contact, in the fixed
-    frame, `length` m for each Pa; False where nothing touches."""
-    traction = np.asarray(run.contact.traction[index])
-    touching = traction[:, 0] > 0
-    if not touching.any():
-        return False
-    nodes = run.mesh.boundary[touching]
-    force = np.asarray(run.field("contact_force")[index])[nodes, :2]  # along the fixed axes
-    size = np.linalg.norm(force, axis=1)
-    arrows = force * (np.linalg.norm(traction[touching], axis=1) / size * length)[:, None]
-    tips = run.position(index)[nodes]
-    ax.quiver(*tips.T, *arrows.T, pivot="tip", angles="xy", scale_units="xy", scale=1.0,
-              color=style.BLUE, width=0.006, headwidth=4, headlength=4.5, headaxislength=4, zorder=5)
-    return True

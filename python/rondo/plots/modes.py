@@ -2,8 +2,8 @@
 """Modes of a POD, in space and in time, and how fast their energy falls."""
 from __future__ import annotations
 
-from collections.abc import Sequence
-from typing import TYPE_CHECKING
+from collections.abc import Mapping, Sequence
+from typing import TYPE_CHECKING, Any
 
 import matplotlib.pyplot as plt
 import numpy as np
@@ -46,7 +46,7 @@ def plot_pod_spectrum(pods: Sequence[Pod], ax: Axes | None = None,
     return ax
 
 
-def draw_decay(ax: Axes, pod: Pod, label: str, curve: dict[str, object]) -> None:
+def draw_decay(ax: Axes, pod: Pod, label: str, curve: Mapping[str, Any]) -> None:
     """The curve of one POD; axes are logarithmic, as both the first modes and the last matter."""
     left = np.asarray(pod.discarded_energy)
     shown = left > FLOOR
@@ -57,12 +57,14 @@ def plot_modes(pod: Pod, count: int = 6, window: Window | None = None) -> Figure
     """The first modes of a POD, each with its course in time below.
 
     Modes of displacement and velocity are drawn as shapes: the reference position plus the mode,
-    magnified until its largest vector is 0.12 of the radius (0.035 in a window), coloured by its radial part over that
-    vector. Those of the rectified frame stand as in the fixed one, with the ground below. `window`:
-    ((x from, to), (y from, to)) m, the part of the body shown; None: all of it. Modes of contact
-    are curves of their normal and tangential part along the edge. The courses in time are the
-    columns of V, times the root of the number of snapshots, so that their mean square is 1; they
-    have no unit. Where they swing fast, only the first periods are shown.
+    magnified until its largest vector is 0.12 of the radius (0.035 in a window), and coloured by
+    its radial part over that vector. Those of the rectified frame stand as in the fixed one, with
+    the ground below. `window`: ((x from, to), (y from, to)) m, the part of the body shown; None:
+    all of it. Modes of contact are curves of their normal and tangential part along the edge.
+
+    The courses in time are the columns of V, times the root of the number of snapshots, so that
+    their mean square is 1; they have no unit. Where they swing fast, only the first periods are
+    shown.
     """
     count = min(count, pod.n_modes)
     if count < 1:
@@ -93,13 +95,13 @@ def plot_modes(pod: Pod, count: int = 6, window: Window | None = None) -> Figure
         if contact:
             space[0].legend(loc="upper right", handlelength=1.5)
         else:
-            figure.colorbar(space[0].collections[0], ax=figure.axes, shrink=0.5, aspect=30, pad=0.01,
-                            label="radial part over the largest vector (–)")
+            figure.colorbar(space[0].collections[0], ax=figure.axes, shrink=0.5, aspect=30,
+                            pad=0.01, label="radial part over the largest vector (–)")
     return figure
 
 
 def tidy(axes: Sequence[Axes]) -> None:
-    """Panels side by side share what their axes say: the same limits across, numbers at the left."""
+    """Panels side by side share what their axes say: the same limits, numbers at the left only."""
     low = min(ax.get_ylim()[0] for ax in axes)
     high = max(ax.get_ylim()[1] for ax in axes)
     for number, ax in enumerate(axes):
@@ -115,8 +117,8 @@ def percent(share: float) -> str:
 
 
 def shape(pod: Pod, mode: int, largest: float) -> tuple[Array, Array]:
-    """(n, 2) m and (n,): the deformed shape of a mode as drawn, and its radial part over its largest
-    vector."""
+    """(n, 2) m and (n,): the deformed shape of a mode as drawn, its largest vector `largest` radii
+    long, and its radial part over that vector."""
     vectors = np.asarray(pod.spatial[mode])
     vectors = vectors / np.linalg.norm(vectors, axis=1).max()
     coordinates = pod.mesh.coordinates
@@ -139,7 +141,7 @@ def draw_mode(ax: Axes, pod: Pod, mode: int, window: Window | None = None) -> No
 
 
 def edge_angle(pod: Pod) -> Array:
-    """(nb,) degrees from straight down, counter-clockwise, -180 to 180: places of the candidates."""
+    """(nb,) degrees, -180 to 180: places of the candidates, counter-clockwise from straight down."""
     points = turned(pod.mesh.coordinates[pod.mesh.boundary], 0.5 * np.pi)
     return np.degrees(np.arctan2(points[:, 1], points[:, 0]))
 
@@ -178,6 +180,7 @@ def draw_course(ax: Axes, pod: Pod, mode: int, shown: int) -> None:
     else:
         abscissa, label = np.asarray(pod.time), "share of the depth (–)"
     few = shown < len(pod.time) or shown < 60
-    ax.plot(abscissa[:shown], course, color=style.BLUE, lw=0.7, marker="o" if few else "", markersize=1.5)
+    ax.plot(abscissa[:shown], course, color=style.BLUE, lw=0.7, marker="o" if few else "",
+            markersize=1.5)
     ax.axhline(0, color="0.6", lw=0.5, zorder=0)
     ax.set(xlim=(abscissa[0], abscissa[shown - 1]), xlabel=label, ylabel="in time (–)")
