@@ -50,13 +50,12 @@ def _parser() -> argparse.ArgumentParser:
 
 
 def _figures(options: argparse.Namespace) -> None:
-    from rondo.figures import draw_paper
-    from rondo.figures.run_figures import draw_run
-
     folder = options.output or options.directory / "figures"
     if (options.directory / "paper.json").is_file():
+        from rondo.figures import draw_paper
         written = draw_paper(open_paper(options.directory), folder)
     else:
+        from rondo.figures.run_figures import draw_run
         written = draw_run(open_run(options.directory, options.unfinished), folder)
     for path in written:
         print(path)

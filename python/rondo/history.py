@@ -25,6 +25,13 @@ UNITS = {
 }
 
 
+def between(from_time: float | None, to_time: float | None, unit: str = "s") -> str:
+    """A window of time in words."""
+    ends = [f"{word} {time:g}" for word, time in (("from", from_time), ("to", to_time))
+            if time is not None]
+    return f"{' '.join(ends)} {unit}" if ends else "at any time"
+
+
 class History(Mapping[str, np.ndarray]):
     """history["force_y"]: array (rows,); history.units["force_y"]: its unit."""
 
@@ -66,7 +73,7 @@ class History(Mapping[str, np.ndarray]):
             chosen &= end <= to_time
         if not chosen.any():
             there = f"there are {begin[0]:g} to {end[-1]:g} s" if len(end) else "it has no rows"
-            raise Error(f"{self.path}: no rows from {from_time} to {to_time} s; {there}")
+            raise Error(f"{self.path}: no rows {between(from_time, to_time)}; {there}")
         return chosen
 
     def mean(self, name: str, from_time: float | None = None,

@@ -56,10 +56,13 @@ def fields(run: Run, quantity: str) -> Figure:
     limits = field.full_range(np.stack([n.values for n in nodal]), any(n.signed for n in nodal))
     figure = plt.figure(figsize=(style.PAGE, 2.5))
     axes = figure.subplots(1, len(shown), squeeze=False)[0]
-    for ax, k in zip(axes, shown):
-        field.plot_field(run, float(run.times[k]), quantity, ax, limits=limits, colorbar=False)
+    for ax, index in zip(axes, shown):
+        k = int(index)
+        body = field.draw_body(ax, run, k, quantity, limits=limits, mesh_width=0.0)
+        field.frame_axes(ax, run, k, "fixed")
+        field.draw_contact(ax, run, k)
+        ax.set_title(field.snapshot_title(run, k))
         if ax is not axes[0]:
             ax.set_ylabel("")
-    figure.colorbar(axes[-1].collections[0], ax=axes, label=f"{nodal[0].label} ({nodal[0].unit})",
-                    shrink=0.8)
+    figure.colorbar(body.cells, ax=axes, label=f"{nodal[0].label} ({nodal[0].unit})", shrink=0.8)
     return figure

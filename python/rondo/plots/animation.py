@@ -15,6 +15,7 @@ from matplotlib.figure import Figure
 from rondo import style
 from rondo.errors import Error
 from rondo.ground import Ground
+from rondo.history import between
 from rondo.plots.field import draw_body, draw_ground, full_range, nodal, snapshot_title
 
 if TYPE_CHECKING:
@@ -85,7 +86,7 @@ def _snapshots(run: Run, from_time: float | None, to_time: float | None,
     high = np.inf if to_time is None else to_time
     there = np.flatnonzero((run.times >= low) & (run.times <= high))
     if not len(there):
-        raise Error(f"{run.directory}: no snapshot from {from_time} to {to_time} {run.time_unit}; "
+        raise Error(f"{run.directory}: no snapshot {between(from_time, to_time, run.time_unit)}; "
                     f"they are from {run.times[0]:g} to {run.times[-1]:g} {run.time_unit}")
     if frames is None:
         frames = min(len(there), round(SECONDS * FPS))

@@ -10,6 +10,7 @@ from matplotlib.ticker import LogLocator
 
 from rondo import style
 from rondo.errors import Error, unknown
+from rondo.history import between
 from rondo.plots.marks import energy, relative_residual
 
 if TYPE_CHECKING:
@@ -154,7 +155,7 @@ def force_spectrum(run: Run, column: str = "force_y", from_time: float | None = 
     chosen = run.history.window(from_time, to_time)
     rows = int(chosen.sum())
     if rows < MIN_ROWS:
-        raise Error(f"{run.directory}: {rows} rows of the history from {from_time} to {to_time} s; "
+        raise Error(f"{run.directory}: {rows} rows of the history {between(from_time, to_time)}; "
                     f"a spectrum takes at least {MIN_ROWS}: widen the window or lower "
                     "output.history_interval")
     end = run.history["time_s"]
