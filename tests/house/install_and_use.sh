@@ -1,5 +1,6 @@
 #!/usr/bin/env bash
-# Installs the build into a folder of its own, builds another program against it and runs both.
+# Installs the build into a folder of its own, builds another program against it and runs both; imports
+# the Python package from there.
 set -euo pipefail
 build=$1 source=$2 build_type=$3
 work=$(mktemp -d)
@@ -11,3 +12,20 @@ cmake -S "$source/tests/house/consumer" -B "$work/build" -G Ninja -DCMAKE_BUILD_
   -DCMAKE_PREFIX_PATH="$work/prefix" >/dev/null
 cmake --build "$work/build"
 "$work/build/consumer"
+
+package=$(cd "$work/prefix" && echo lib/python3*/dist-packages)
+test -z "$(find "$work/prefix" -name __pycache__)"
+cd "$work" # not the sources: nothing else is to be found
+PYTHONPATH="$work/prefix/$package" PYTHONDONTWRITEBYTECODE=1 /usr/bin/python3 - "$work/prefix" <<'EOT'
+import subprocess
+import sys
+
+import rondo
+import rondo.figures.run_figures  # the folders below are there too
+
+prefix = sys.argv[1]
+assert rondo.__file__.startswith(prefix), rondo.__file__
+said = subprocess.run([f"{prefix}/bin/rondo", "--version"], capture_output=True, text=True).stdout
+assert said.split()[:2] == ["rondo", rondo.__version__], said
+print("rondo", rondo.__version__, "for Python")
+EOT
