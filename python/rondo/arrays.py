@@ -52,24 +52,16 @@ class LazyArray:
         """As numpy's indexing: integers, slices, lists of integers, masks; no new axes."""
         parts = [_part(index, size, axis) for axis, (index, size)
                  in enumerate(zip(_expanded(key, self.ndim), self.shape))]
-        selection: list[Any] = []
-        afterwards: list[Any] = []
-        listed = False  # h5py takes one list; of further ones the range is read
-        for part in parts:
-            if isinstance(part, np.ndarray) and part.size and not listed:
-                values, places = np.unique(part, return_inverse=True)
-                listed = True
-                selection.append(_run_or_list(values))
-                afterwards.append(places)
-            else:
-                wanted, after = _range(part)
-                selection.append(wanted)
-                afterwards.append(after)
+        pieces, first = _pieces(parts[0])
+        ranges = [_range(part) for part in parts[1:]]
+        rest = [wanted for wanted, _ in ranges]
         if self.component is not None:
-            selection.append(self.component)
+            rest.append(self.component)
         with opened(self.path) as file:
             data: h5py.Dataset = file[self.dataset]
-            return data[tuple(selection)][tuple(afterwards)]
+            read = [data[(piece, *rest)] for piece in pieces]
+        whole = read[0] if len(read) == 1 else np.concatenate(read)
+        return whole[(first, *(after for _, after in ranges))]
 
 
 def _expanded(key: Any, ndim: int) -> list[Any]:
@@ -107,11 +99,15 @@ def _part(index: Any, size: int, axis: int) -> Any:
     return array if array.ndim else operator.index(array[()])
 
 
-def _run_or_list(values: np.ndarray) -> Any:
-    """Rising values as a slice where they have no gap, for h5py reads lists slowly."""
-    if values[-1] - values[0] == len(values) - 1:
-        return slice(int(values[0]), int(values[-1]) + 1)
-    return values
+def _pieces(part: Any) -> tuple[list[slice], Any]:
+    """What h5py is to read along the first axis, one after another, and the index of numpy within
+    it. Lists are read by their runs without a gap: h5py itself reads them far more slowly."""
+    if not isinstance(part, np.ndarray) or not part.size:
+        wanted, after = _range(part)
+        return [wanted], after
+    values, places = np.unique(part, return_inverse=True)
+    runs = np.split(values, np.flatnonzero(np.diff(values) > 1) + 1)
+    return [slice(int(run[0]), int(run[-1]) + 1) for run in runs], places
 
 
 def _range(part: Any) -> tuple[slice, Any]:
