@@ -18,6 +18,7 @@ TREADED = replaced(SMALL, "circumferential", "[disk.tread]\npitches = 12\ndepth 
 IN_THE_AIR = "\n".join(line for line in SMALL.splitlines()
                        if not line.startswith(("[ground]", "profile", "friction")))
 LONG = replaced(SMALL, "end", "end = 500.0").replace("snapshots = 11", "snapshots = 100000")
+EACH_STEP = ["--set", "output.history_interval=0"]
 TO_CRUSH = ["--set", "analysis.kind=crush", "--set", "analysis.depth=0.02", "--set",
             "analysis.increments=6"]
 
@@ -31,8 +32,8 @@ def ok(*arguments):
 def runs(tmp_path_factory):
     """The folder of the runs `smooth` (with three PODs), `treaded`, `crush`, `air`."""
     folder = tmp_path_factory.mktemp("runs")
-    for name, text, settings in (("smooth", SMALL, []), ("treaded", TREADED, []),
-                                 ("crush", SMALL, TO_CRUSH), ("air", IN_THE_AIR, [])):
+    for name, text, settings in (("smooth", SMALL, []), ("treaded", TREADED, EACH_STEP),
+                                 ("crush", SMALL, TO_CRUSH), ("air", IN_THE_AIR, EACH_STEP)):
         case = folder / f"{name}.toml"
         case.write_text(text)
         ok("run", case, "-o", folder / name, *settings)

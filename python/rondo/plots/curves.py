@@ -108,10 +108,10 @@ def plot_history(run: Run, *columns: str, ax: Axes | None = None) -> Axes:
 @style.paper()
 def plot_energy(run: Run, ax: Axes | None = None) -> Axes:
     """The energy ledger: the body's energy, kinetic and strain, and what has changed it, each with
-    its sign, so that they sum up to it; below, what the ledger leaves open over the energy
-    exchanged. Given axes are divided in two. Returns the upper ones."""
+    its sign: but for the energy at the start they sum up to it. Below, what the ledger leaves open
+    over the energy exchanged. Given axes are divided in two. Returns the upper ones."""
     ax = _axes(ax, 4.0)
-    spec = ax.get_subplotspec()
+    spec = getattr(ax, "get_subplotspec", lambda: None)()  # not there before matplotlib 3.7
     if spec is None:
         raise Error("plot_energy divides its axes: give it some of a grid, as from plt.subplots()")
     grid = spec.subgridspec(2, 1, height_ratios=(2.2, 1), hspace=0.08)
