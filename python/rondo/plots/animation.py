@@ -27,6 +27,7 @@ SECONDS = 10.0  # of a film, about, where nothing else is asked for
 FPS = 30
 DPI = 128  # a power of two: sizes in inches are exact, and so are those in pixels
 SIZES = {".mp4": (1280, 720), ".gif": (640, 360)}  # px, largest by default
+SMALLEST = 240  # px, width: labels and colour bar take 200 of them
 FOLLOW_BEYOND = 6.0  # outer radii that the centre moves: beyond, the picture moves with it
 SIDE, TOP, BOTTOM = 1.15, 1.15, 1.45  # outer radii from the centre to the edges of the picture
 AHEAD = 1.8  # the same to both sides where the picture moves with the body
@@ -96,7 +97,7 @@ def _snapshots(run: Run, from_time: float | None, to_time: float | None,
 
 
 def _even(pixels: float) -> int:
-    """H.264 takes even numbers of pixels."""
+    """The nearest even number."""
     return 2 * round(pixels / 2)
 
 
@@ -115,6 +116,9 @@ class _Film:
         self.window = np.array([-side, side, -bottom, TOP]) * radius  # about the centre
         size = np.array([2 * side, bottom + TOP]) * radius if follow else high - low
         self.ax, bar = _layout(size[1] / size[0], width, largest)
+        box = self.ax.get_window_extent()  # whole pixels: the upper edge makes the scales equal
+        high[1] += size[0] * box.height / box.width - size[1]
+        self.window[3] += size[0] * box.height / box.width - size[1]
         self.ax.set(xlabel="x (m)", ylabel="y (m)", xlim=(low[0], high[0]), ylim=(low[1], high[1]))
         draw_ground(self.ax, ground, (low[0], high[0]), low[1])
         inches = self.ax.figure.get_figheight() - BELOW - ABOVE  # of size[1]
@@ -139,21 +143,20 @@ class _Film:
 
 
 def _layout(aspect: float, width: int | None, largest: tuple[int, int]) -> tuple[Axes, Axes]:
-    """Axes of the given height over width, and those of the colour bar. H.264 takes even numbers of
-    pixels; equal scales are exact but for that rounding."""
+    """Axes of the given height over width, and those of the colour bar, in a figure of even
+    numbers of pixels, as H.264 takes them; the height is rounded."""
     if width is None:
         height = (largest[0] / DPI - LEFT - RIGHT) * aspect + BELOW + ABOVE
         tall = (largest[1] / DPI - BELOW - ABOVE) / aspect + LEFT + RIGHT
         width = largest[0] if height * DPI <= largest[1] else round(tall * DPI)
-    if width < 2 * (LEFT + RIGHT) * DPI:
-        raise Error(f"width = {width}: at least {2 * (LEFT + RIGHT) * DPI:.0f} px")
-    across = 2 * round(width / 2) / DPI
-    up = 2 * round(((across - LEFT - RIGHT) * aspect + BELOW + ABOVE) * DPI / 2) / DPI
+    if width < SMALLEST:
+        raise Error(f"width = {width}: at least {SMALLEST} px")
+    across = _even(width) / DPI
+    up = _even(((across - LEFT - RIGHT) * aspect + BELOW + ABOVE) * DPI) / DPI
     figure = Figure(figsize=(across, up), dpi=DPI)
     bottom, height = BELOW / up, 1 - (BELOW + ABOVE) / up
     ax = figure.add_axes((LEFT / across, bottom, 1 - (LEFT + RIGHT) / across, height))
     bar = figure.add_axes((1 - (RIGHT - BAR) / across, bottom, BAR / across, height))
-    ax.set_aspect("equal", adjustable="datalim")
     return ax, bar
 
 

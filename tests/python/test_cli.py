@@ -1,0 +1,92 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""python3 -m rondo, from outside."""
+import shutil
+import subprocess
+import sys
+
+import pytest
+
+import rondo
+
+
+def rondo_module(*arguments, **options):
+    return subprocess.run([sys.executable, "-m", "rondo", *map(str, arguments)], text=True,
+                          capture_output=True, timeout=120, **options)
+
+
+def test_figures_of_a_run(smooth, tmp_path):
+    done = rondo_module("figures", smooth, "-o", tmp_path)
+    assert (done.returncode, done.stderr) == (0, "")
+    printed = done.stdout.splitlines()
+    names = {path.name for path in tmp_path.iterdir()}
+    assert [tmp_path / name for name in sorted(names)] == sorted(tmp_path / p for p in printed)
+    stems = {"field-displacement", "field-von_mises", "energy", "forces", "force-spectrum",
+             "pod-spectrum", "modes-velocity-rectified", "modes-displacement-rotating",
+             "modes-contact-rotating"}
+    assert names == {stem + ending for stem in stems for ending in (".png", ".svg")}
+    for path in tmp_path.glob("*.png"):
+        assert path.read_bytes().startswith(b"\x89PNG")
+        assert path.stat().st_size < 400e3
+
+
+@pytest.mark.parametrize("name, stems", [
+    ("crush", ["energy", "field-displacement", "field-von_mises", "forces"]),
+    ("air", ["energy", "field-displacement", "field-von_mises"])])
+def test_figures_go_into_the_directory(runs, tmp_path, name, stems):
+    run = shutil.copytree(runs / name, tmp_path / name)
+    done = rondo_module("figures", run)
+    assert (done.returncode, done.stderr) == (0, "")
+    assert sorted(path.stem for path in (run / "figures").glob("*.svg")) == stems
+
+
+def test_film(smooth, tmp_path):
+    done = rondo_module("animate", smooth, tmp_path / "a.gif", "--quantity", "velocity", "--frames",
+                        3, "--from", 0.01)
+    assert (done.returncode, done.stderr) == (0, "")
+    assert done.stdout == f"{tmp_path / 'a.gif'}\n"
+    assert (tmp_path / "a.gif").read_bytes().startswith(b"GIF8")
+
+
+def test_means(smooth, treaded):
+    done = rondo_module("means", "--from", 0.01, "--to", 0.015, smooth, treaded)
+    assert (done.returncode, done.stderr) == (0, "")
+    for directory, line in zip((smooth, treaded), done.stdout.splitlines()):
+        history = rondo.open(directory).history
+        force_x, force_y = (history.mean(name, 0.01, 0.015) for name in ("force_x", "force_y"))
+        assert line == f"{directory}: force_x {force_x:.5g} N/m, force_y {force_y:.6g} N/m"
+    assert len(done.stdout.splitlines()) == 2
+    assert rondo_module("means", smooth).stdout != done.stdout.splitlines()[0] + "\n"
+
+
+def test_version():
+    assert rondo_module("--version").stdout == f"rondo {rondo.__version__}\n"
+
+
+def test_unfinished(killed, tmp_path):
+    refused = rondo_module("means", killed)
+    assert refused.returncode == 2
+    assert refused.stderr.endswith("(here: --unfinished)\n")
+    for arguments in (("means", killed), ("animate", killed, tmp_path / "a.gif", "--frames", 2),
+                      ("figures", killed, "-o", tmp_path / "f")):
+        done = rondo_module(*arguments, "--unfinished")
+        assert (done.returncode, done.stderr) == (0, "")
+
+
+@pytest.mark.parametrize("arguments, words", [
+    (["figures", "nowhere"], "nowhere: no such directory"),
+    (["animate", "SMOOTH", "a.avi"], "ends in .mp4 or .gif"),
+    (["animate", "SMOOTH", "a.gif", "--quantity", "x"], "no field 'x'"),
+    (["means", "SMOOTH", "--from", "7"], "no rows from 7 s"),
+    (["figures", "SMOOTH/pod/velocity-rectified"], "is a POD"),
+    (["figures", "SMOOTH", "-o", "SMOOTH/run.json"], "run.json")])
+def test_wrong_input_is_one_line_and_code_2(smooth, tmp_path, arguments, words):
+    done = rondo_module(*(text.replace("SMOOTH", str(smooth)) for text in arguments), cwd=tmp_path)
+    assert (done.returncode, done.stdout) == (2, "")
+    assert done.stderr.startswith("rondo: ") and done.stderr.count("\n") == 1
+    assert words in done.stderr
+
+
+def test_wrong_options_are_code_2():
+    for arguments in ((), ("fly",), ("figures",), ("means", "a", "--from", "now")):
+        done = rondo_module(*arguments)
+        assert done.returncode == 2 and "usage: python3 -m rondo" in done.stderr
