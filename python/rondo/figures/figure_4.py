@@ -54,7 +54,8 @@ def _displacement(runs: list[Run]) -> Figure:
                 ax.tick_params(labelleft=column == 0, labelbottom=row == 1)
                 ax.set_ylabel("y (mm)" if column == 0 else "")
                 ax.set_xlabel("x off the centre (mm)" if row == 1 else "")
-                letter(ax, "abcdefgh"[4 * row + column], f"μ = {run.friction:.1f}" * (row == 0))
+                name = f"μ = {run.friction:.1f}" if row == 0 else ""
+                letter(ax, "abcdefgh"[4 * row + column], name)
             figure.colorbar(body.cells, ax=axes, label=label, pad=0.01, aspect=12)
     return figure
 

@@ -93,7 +93,8 @@ def plot_modes(pod: Pod, count: int = 6, window: Window | None = None) -> Figure
         tidy(space)
         tidy(course)
         if contact:
-            space[0].legend(loc="upper right", handlelength=1.5)
+            figure.legend(*space[0].get_legend_handles_labels(), loc="upper center", ncol=2)
+            figure.get_layout_engine().set(rect=(0, 0, 1, 1 - 0.1 / rows))  # room for the legend
         else:
             figure.colorbar(space[0].collections[0], ax=figure.axes, shrink=0.5, aspect=30,
                             pad=0.01, label="radial part over the largest vector (–)")
@@ -113,6 +114,8 @@ def tidy(axes: Sequence[Axes]) -> None:
 
 def percent(share: float) -> str:
     """A share of the energy as text."""
+    if share >= 0.01:
+        return f"{100 * share:.1f} %"
     return f"{100 * share:.2g} %" if share >= 1e-6 else f"{100 * share:.0e} %"
 
 
@@ -141,7 +144,7 @@ def draw_mode(ax: Axes, pod: Pod, mode: int, window: Window | None = None) -> No
 
 
 def edge_angle(pod: Pod) -> Array:
-    """(nb,) degrees, -180 to 180: places of the candidates, counter-clockwise from straight down."""
+    """(nb,) degrees, -180 to 180: candidates, counter-clockwise from straight down."""
     points = turned(pod.mesh.coordinates[pod.mesh.boundary], 0.5 * np.pi)
     return np.degrees(np.arctan2(points[:, 1], points[:, 0]))
 
