@@ -94,3 +94,4 @@ def test_rare_colours_survive_in_png(tmp_path: pathlib.Path) -> None:
                   for name in ("all", "few"))
     assert np.abs(every - few).max() < 32
     assert np.abs(every - few).mean() < 2
+    assert np.all(few[0] == 255)  # white stays white

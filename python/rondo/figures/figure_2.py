@@ -83,6 +83,7 @@ def _oscillation(first: Axes, last: Axes, run: Run, closed_form: float) -> None:
                xlabel="time (ms)")
     first.set_ylabel("radial displacement\nof the edge (mm)")
     letter(first, "d", "without damping, first periods")
+    last.tick_params(labelleft=False)
     letter(last, "e", "last periods")
 
 
