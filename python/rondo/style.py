@@ -103,7 +103,8 @@ def save(figure: Figure, path: str | pathlib.Path) -> list[pathlib.Path]:
         figure.savefig(drawn, format="png", dpi=DPI)
         with Image.open(drawn) as image:
             # Of Pillow's palettes this one follows rare colours too; the others lose colour bars.
-            few = image.convert("RGB").quantize(256, Image.Quantize.MAXCOVERAGE,
+            # Without k-means greys take a hue and gradients show steps.
+            few = image.convert("RGB").quantize(256, Image.Quantize.MAXCOVERAGE, kmeans=1,
                                                 dither=Image.Dither.NONE)
             few.save(png, optimize=True, dpi=(DPI, DPI))
         layout = figure.get_layout_engine()

@@ -99,7 +99,7 @@ def _ledger(ax: Axes, run: Run) -> None:
         ax.plot(time[shown], values[shown], label=name, **curve)
     ax.set(xlim=(0, ZOOM * 1e3), ylim=(0, 1.45 * total[shown].max()), xlabel="time (ms)",
            ylabel="energy (J/m)")
-    ax.legend(loc="upper right", ncol=2, columnspacing=0.6, handlelength=1.5, handletextpad=0.4,
+    ax.legend(loc="upper right", ncol=2, columnspacing=0.6, handlelength=1.2, handletextpad=0.4,
               borderpad=0.0, borderaxespad=0.0)
     letter(ax, "f", "energy, without damping")
 
@@ -117,7 +117,8 @@ def _schemes(ax: Axes, symplectic: Run, printed: Run, logarithmic: bool) -> None
         ax.set_ylim(0.02 * energy(symplectic).max(), None)
     else:
         ax.set_ylim(0, None)
-        ax.legend(loc="center left", bbox_to_anchor=(0.0, 0.45))
+        ax.legend(loc="center left", bbox_to_anchor=(0.0, 0.45), handlelength=1.8,
+                  borderaxespad=0.2)
     ax.set(xlim=(0, symplectic.history["time_s"][-1]), xlabel="time (s)",
            ylabel="largest energy so far (J/m)")
 

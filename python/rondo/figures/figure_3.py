@@ -38,7 +38,7 @@ def draw(paper: Paper) -> dict[str, Figure]:
 def _disks(run: Run, chosen: list[int], top: float) -> Figure:
     traction = max(float(np.abs(contact_of(run).traction[k]).max()) for k in chosen) or 1.0
     with style.paper():
-        figure = plt.figure(figsize=(style.PAGE, 4.15))
+        figure = plt.figure(figsize=(style.PAGE, 4.0))
         heights = (WHOLE[1] + WHOLE[2], (CLOSE[1] + CLOSE[2]) * WHOLE[0] / CLOSE[0])
         grid = figure.add_gridspec(2, 3, height_ratios=heights)
         for column, k in enumerate(chosen):

@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 
 from .. import style
 from ..errors import Error
-from .field import component, draw_cells, turned
+from .field import cell_means, component, draw_cells, turned
 from .marks import letter
 
 if TYPE_CHECKING:
@@ -58,7 +58,7 @@ def plot_modes(pod: Pod, count: int = 6, window: Window | None = None) -> Figure
 
     Modes of displacement and velocity are drawn as shapes: the reference position plus the mode,
     magnified until its largest vector is 0.12 of the radius (0.035 in a window), and coloured by
-    its radial part over that vector. Those of the rectified frame stand as in the fixed one, with
+    its radial part over the largest of all cells. Those of the rectified frame stand as in the fixed one, with
     the ground below. `window`: ((x from, to), (y from, to)) m, the part of the body shown; None:
     all of it. Modes of contact are curves of their normal and tangential part along the edge.
 
@@ -97,7 +97,7 @@ def plot_modes(pod: Pod, count: int = 6, window: Window | None = None) -> Figure
             figure.get_layout_engine().set(rect=(0, 0, 1, 1 - 0.1 / rows))  # room for the legend
         else:
             figure.colorbar(space[0].collections[0], ax=figure.axes, shrink=0.5, aspect=30,
-                            pad=0.01, label="radial part over the largest vector (–)")
+                            pad=0.01, label="radial part over its largest (–)")
     return figure
 
 
@@ -121,12 +121,14 @@ def percent(share: float) -> str:
 
 def shape(pod: Pod, mode: int, largest: float) -> tuple[Array, Array]:
     """(n, 2) m and (n,): the deformed shape of a mode as drawn, its largest vector `largest` radii
-    long, and its radial part over that vector."""
+    long, and its radial part, scaled so that the largest mean of a cell is 1 or -1."""
     vectors = np.asarray(pod.spatial[mode])
     vectors = vectors / np.linalg.norm(vectors, axis=1).max()
     coordinates = pod.mesh.coordinates
     radius = np.linalg.norm(coordinates, axis=1).max()
-    return coordinates + largest * radius * vectors, component(vectors, coordinates, "radial")
+    radial = component(vectors, coordinates, "radial")
+    means = np.abs(cell_means(radial, pod.mesh.cells))
+    return coordinates + largest * radius * vectors, radial / (means.max() or 1.0)
 
 
 def _height(window: Window) -> float:
