@@ -155,7 +155,8 @@ def test_the_contact_is_the_nodes_with_a_force(run: rondo.Run) -> None:
     k = run.n_snapshots - 1
     _, ax = plt.subplots()
     field.draw_contact(ax, run, k)
-    shown = {tuple(p) for line in ax.collections for path in line.get_paths() for p in path.vertices}
+    paths = [path for line in ax.collections for path in line.get_paths()]
+    shown = {tuple(p) for path in paths for p in path.vertices}
     shown |= {tuple(p) for line in ax.lines for p in line.get_xydata()}
     force = np.asarray(run.contact.force[k])
     touching = run.mesh.boundary[force[:, 0] > 0]

@@ -124,7 +124,7 @@ def test_fast_courses_are_cut_after_some_periods() -> None:
         assert modes.course_shown(types.SimpleNamespace(temporal=courses), 3) == shown
 
 
-@pytest.mark.parametrize("share, text", [(0.98765, "98.8 %"), (1.0, "100.0 %"), (0.00045, "0.045 %"),
-                                         (3e-9, "3e-07 %")])
+@pytest.mark.parametrize("share, text", [(0.98765, "98.8 %"), (1.0, "100.0 %"),
+                                         (0.00045, "0.045 %"), (3e-9, "3e-07 %")])
 def test_shares_as_text(share: float, text: str) -> None:
     assert modes.percent(share) == text

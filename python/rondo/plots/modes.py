@@ -58,9 +58,10 @@ def plot_modes(pod: Pod, count: int = 6, window: Window | None = None) -> Figure
 
     Modes of displacement and velocity are drawn as shapes: the reference position plus the mode,
     magnified until its largest vector is 0.12 of the radius (0.035 in a window), and coloured by
-    its radial part over the largest of all cells. Those of the rectified frame stand as in the fixed one, with
-    the ground below. `window`: ((x from, to), (y from, to)) m, the part of the body shown; None:
-    all of it. Modes of contact are curves of their normal and tangential part along the edge.
+    its radial part over the largest of all cells. Those of the rectified frame stand as in the
+    fixed one, with the ground below. `window`: ((x from, to), (y from, to)) m, the part of the
+    body shown; None: all of it. Modes of contact are curves of their normal and tangential part
+    along the edge.
 
     The courses in time are the columns of V, times the root of the number of snapshots, so that
     their mean square is 1; they have no unit. Where they swing fast, only the first periods are
