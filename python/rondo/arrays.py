@@ -54,7 +54,7 @@ class LazyArray:
                  in enumerate(zip(_expanded(key, self.ndim), self.shape))]
         pieces, first = _pieces(parts[0])
         ranges = [_range(part) for part in parts[1:]]
-        rest = [wanted for wanted, _ in ranges]
+        rest: list[Any] = [wanted for wanted, _ in ranges]
         if self.component is not None:
             rest.append(self.component)
         with opened(self.path) as file:

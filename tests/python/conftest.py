@@ -1,21 +1,100 @@
 # SPDX-License-Identifier: BSD-3-Clause
-import os
+"""Runs made by the built program, once for all tests: small ones, which the tests do not change."""
 import pathlib
+import shutil
 import subprocess
+import sys
+import time
 
-import matplotlib
 import pytest
 
 import rondo
 
-matplotlib.use("Agg")
+ROOT = pathlib.Path(__file__).resolve().parents[2]
+sys.path.insert(0, str(ROOT / "tests" / "cli"))
+
+from program import PROGRAM, SMALL, replaced, run  # noqa: E402
+
+TREADED = replaced(SMALL, "circumferential", "[disk.tread]\npitches = 12\ndepth = 0.02\n"
+                   "land_columns = 2\ngroove_columns = 1\nlayers = 1")
+IN_THE_AIR = "\n".join(line for line in SMALL.splitlines()
+                       if not line.startswith(("[ground]", "profile", "friction")))
+LONG = replaced(SMALL, "end", "end = 500.0").replace("snapshots = 11", "snapshots = 100000")
+EACH_STEP = ["--set", "output.history_interval=0"]
+TO_CRUSH = ["--set", "analysis.kind=crush", "--set", "analysis.depth=0.02", "--set",
+            "analysis.increments=6"]
+
+
+def ok(*arguments):
+    done = run(*arguments, "--quiet")
+    assert done.returncode == 0, done.stderr
 
 
 @pytest.fixture(scope="session")
-def paper(tmp_path_factory: pytest.TempPathFactory) -> rondo.Paper:
+def runs(tmp_path_factory):
+    """The folder of the runs `smooth` (with three PODs), `treaded`, `crush`, `air`."""
+    folder = tmp_path_factory.mktemp("runs")
+    for name, text, settings in (("smooth", SMALL, []), ("treaded", TREADED, EACH_STEP),
+                                 ("crush", SMALL, TO_CRUSH), ("air", IN_THE_AIR, EACH_STEP)):
+        case = folder / f"{name}.toml"
+        case.write_text(text)
+        ok("run", case, "-o", folder / name, *settings)
+        case.unlink()
+    for field, frame in (("velocity", "rectified"), ("displacement", "rotating"),
+                         ("contact", "rotating")):
+        ok("pod", folder / "smooth", "--field", field, "--frame", frame, "--modes", 3)
+    return folder
+
+
+@pytest.fixture(scope="session")
+def smooth(runs):
+    return runs / "smooth"
+
+
+@pytest.fixture(scope="session")
+def treaded(runs):
+    return runs / "treaded"
+
+
+@pytest.fixture(scope="session")
+def crush(runs):
+    return runs / "crush"
+
+
+@pytest.fixture(scope="session")
+def air(runs):
+    """A run without ground."""
+    return runs / "air"
+
+
+@pytest.fixture(scope="session")
+def killed(tmp_path_factory):
+    """A run that was killed in the middle."""
+    folder = tmp_path_factory.mktemp("killed")
+    (folder / "case.toml").write_text(LONG)
+    out = folder / "out"
+    process = subprocess.Popen([PROGRAM, "run", str(folder / "case.toml"), "-o", str(out)],
+                               stderr=subprocess.DEVNULL)
+    deadline = time.time() + 60
+    rows = out / "history.csv"
+    while not (rows.exists() and rows.stat().st_size > 60000) and time.time() < deadline:
+        time.sleep(0.05)
+    process.kill()
+    process.wait()
+    assert rows.stat().st_size > 60000, "the run did not start"
+    return out
+
+
+@pytest.fixture
+def copy(smooth, tmp_path):
+    """A copy of the run `smooth` that a test may change."""
+    return pathlib.Path(shutil.copytree(smooth, tmp_path / "copy"))
+
+
+@pytest.fixture(scope="session")
+def paper(tmp_path_factory):
     """The study of the paper on coarse meshes, a few seconds."""
     folder = tmp_path_factory.mktemp("paper") / "study"
-    done = subprocess.run([os.environ["RONDO"], "paper", "--quick", "-o", folder],
-                          capture_output=True, text=True, timeout=300)
-    assert (pathlib.Path(folder) / "paper.json").exists(), done.stderr
+    done = run("paper", "--quick", "-o", folder, timeout=300)
+    assert (folder / "paper.json").exists(), done.stderr
     return rondo.open_paper(folder)
