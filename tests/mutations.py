@@ -265,7 +265,7 @@ paper times of the snapshots | make.snapshots(480, 5) => make.snapshots(470, 5) 
 paper rows that are no number pass | return row.ours <= row.expected; => return !(row.ours > row.expected); |
   study:PaperTable.*
 @study/paper.cpp
-paper another study is taken over | if (found.value("quick", false) != request.quick) => if (false) |
+paper another study is taken over | if (quick != request.quick) => if (false) |
   paper:other_kind
 paper two studies at once | const io::DirectoryLock lock(request.directory); => | paper:two_studies
 """

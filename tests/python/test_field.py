@@ -166,8 +166,9 @@ def test_the_contact_is_the_nodes_with_a_force(run: rondo.Run) -> None:
 def test_no_contact_no_arrows(paper: rondo.Paper) -> None:
     run = paper.run("ledge-smooth")
     _, ax = plt.subplots()
-    assert not contact.draw_tractions(ax, run, 0, 1e-8)
-    assert contact.draw_tractions(ax, run, run.n_snapshots - 1, 1e-8)
+    contact.draw_tractions(ax, run, 0, 1e-8)
+    assert not ax.collections
+    contact.draw_tractions(ax, run, run.n_snapshots - 1, 1e-8)
     arrows, = ax.collections
     assert np.all(arrows.V > 0)  # the level ground pushes upwards
     force = np.asarray(run.contact.traction[run.n_snapshots - 1])

@@ -36,7 +36,7 @@ def draw(paper: Paper) -> dict[str, Figure]:
 
 
 def _disks(run: Run, chosen: list[int], top: float) -> Figure:
-    traction = max(float(np.abs(contact_of(run).traction[k]).max()) for k in chosen) or 1.0
+    tractions = [float(np.linalg.norm(contact_of(run).traction[k], axis=1).max()) for k in chosen]
     with style.paper():
         figure = plt.figure(figsize=(style.PAGE, 4.0))
         heights = (WHOLE[1] + WHOLE[2], (CLOSE[1] + CLOSE[2]) * WHOLE[0] / CLOSE[0])
@@ -44,9 +44,10 @@ def _disks(run: Run, chosen: list[int], top: float) -> Figure:
         for column, k in enumerate(chosen):
             whole, close = (figure.add_subplot(grid[row, column]) for row in range(2))
             body = _whole(whole, run, k, top)
-            _close(close, run, k, top, traction)
+            _close(close, run, k, top, max(tractions) or 1.0)
             letter(whole, "abc"[column], f"t = {run.times[k] * 1e3:.1f} ms")
-            letter(close, "def"[column])
+            said = f"traction up to {tractions[column] * 1e-6:.2g} MPa"
+            letter(close, "def"[column], said if tractions[column] else "not yet in contact")
             for ax, name in ((whole, "y (m)"), (close, "y (mm)")):
                 ax.set_ylabel(name if column == 0 else "")
                 ax.tick_params(labelleft=column == 0)
@@ -84,6 +85,4 @@ def _close(ax: Axes, run: Run, k: int, top: float, traction: float) -> None:
     draw_ground(ax, ground_of(run), ax.get_xlim(), low[1] - 1)
     draw_body(ax, run, k, limits=(0, top), mesh_width=0.25)
     draw_contact(ax, run, k, width=2.5)
-    arrows = draw_tractions(ax, run, k, ARROW / traction)
-    text = f"longest arrow {traction * 1e-6:.2g} MPa" if arrows else "not yet in contact"
-    ax.text(0.03, 0.04, text, transform=ax.transAxes, fontsize=7)
+    draw_tractions(ax, run, k, ARROW / traction)

@@ -82,13 +82,13 @@ def mean_force(run: Run) -> Array:
     return np.array([-force[1], force[0]])
 
 
-def draw_tractions(ax: Axes, run: Run, index: int, length: float) -> bool:
+def draw_tractions(ax: Axes, run: Run, index: int, length: float) -> None:
     """Arrows of the ground's traction on the body that end at the nodes in contact, in the fixed
-    frame, `length` m for each Pa; False where nothing touches."""
+    frame, `length` m for each Pa; none where nothing touches."""
     traction = np.asarray(contact_of(run).traction[index])
     touching = traction[:, 0] > 0
     if not touching.any():
-        return False
+        return
     nodes = run.mesh.boundary[touching]
     force = np.asarray(run.field("contact_force")[index])[nodes, :2]  # along the fixed axes
     size = np.linalg.norm(force, axis=1)
@@ -97,4 +97,3 @@ def draw_tractions(ax: Axes, run: Run, index: int, length: float) -> bool:
     ax.quiver(*tips.T, *arrows.T, pivot="tip", angles="xy", scale_units="xy", scale=1.0,
               color=style.BLUE, width=0.006, headwidth=4, headlength=4.5, headaxislength=4,
               zorder=5)
-    return True

@@ -35,9 +35,10 @@ def edge_displacement(run: Run) -> Array:
     nodes = edge_nodes(run)
     outward = run.mesh.coordinates[nodes]
     outward = outward / np.linalg.norm(outward, axis=1)[:, None]
-    means = [np.mean(np.sum(np.asarray(run.displacement[k])[nodes] * outward, axis=1))
-             for k in range(run.n_snapshots)]
-    return np.array(means)
+    blocks = range(0, run.n_snapshots, 64)  # some megabytes at once
+    means = [np.sum(run.displacement[k:k + 64, nodes] * outward, axis=2).mean(axis=1)
+             for k in blocks]
+    return np.concatenate(means)
 
 
 def energy(run: Run) -> Array:
