@@ -81,8 +81,6 @@ def opened(path: pathlib.Path) -> Iterator[h5py.File]:
     try:
         with h5py.File(path, "r") as file:
             yield file
-    except Error:
-        raise
     except FileNotFoundError:
         raise Error(f"{path}: no such file") from None
     except (OSError, KeyError, RuntimeError) as reason:

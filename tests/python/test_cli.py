@@ -81,6 +81,7 @@ def test_unfinished(killed, tmp_path):
     (["figures", "nowhere"], "nowhere: no such directory"),
     (["animate", "SMOOTH", "a.avi"], "ends in .mp4 or .gif"),
     (["animate", "SMOOTH", "a.gif", "--quantity", "x"], "no field 'x'"),
+    (["animate", "SMOOTH", "a.gif", "--from", "0.01", "--to", "0.005"], "from 0.01 to 0.005 s"),
     (["means", "SMOOTH", "--from", "7"], "no rows from 7 s"),
     (["figures", "SMOOTH/pod/velocity-rectified"], "is a POD"),
     (["figures", "SMOOTH", "-o", "SMOOTH/run.json"], "run.json")])

@@ -60,13 +60,25 @@ def test_spectrum_at_the_ends(copy):
 
 
 def test_spectrum_of_uneven_intervals(copy):
-    """Steps of 5, 10 and 15 in turn. Taken for even, they would put 30 % into other lines."""
-    run = sine(copy, np.tile([0.5e-4, 1e-4, 1.5e-4], 534)[:1600])
+    """Twice as long in the second half: taken for even, the sine would have two frequencies."""
+    run = sine(copy, np.repeat([1e-4, 2e-4], 800))
     frequency, amplitude = curves.force_spectrum(run)
     line = int(np.argmax(amplitude))
     assert frequency[line] == pytest.approx(FREQUENCY, rel=2e-3)
     assert amplitude[line] == pytest.approx(AMPLITUDE, rel=1e-2)
-    assert np.delete(amplitude, np.arange(line - 2, line + 3)).max() < 0.02 * AMPLITUDE
+    assert np.delete(amplitude, np.arange(line - 2, line + 3)).max() < 0.03 * AMPLITUDE
+
+
+def test_rows_are_values_at_the_middle_of_their_intervals(copy):
+    """A ramp then stays one, whatever the intervals."""
+    intervals = np.random.default_rng(5).uniform(1e-4, 3e-4, 64)
+    middle = np.cumsum(intervals) - 0.5 * intervals
+    run = with_history(copy, np.cumsum(intervals), force_y=1e5 * middle)
+    ramp = np.linspace(1e5 * middle[0], 1e5 * middle[-1], 64)
+    window = 0.5 * (1 - np.cos(2 * np.pi * np.arange(64) / 64))
+    expected = 2 * np.abs(np.fft.rfft((ramp - ramp.mean()) * window))[1:-1] / window.sum()
+    got = curves.force_spectrum(run)[1][1:-1]
+    np.testing.assert_allclose(got, expected, rtol=0, atol=1e-9 * expected.max())
 
 
 def test_spectrum_of_a_window(copy):
