@@ -13,9 +13,9 @@ from .files import opened
 
 
 class LazyArray:
-    """A dataset of an HDF5 file, indexed like a numpy array. Each indexing opens the file, reads what
-    is asked for and closes it. The first axis is cut to `length`, the snapshots that are complete;
-    with a `component` only that place of the last axis is seen.
+    """A dataset of an HDF5 file, indexed like a numpy array. Each indexing opens the file, reads
+    what is asked for and closes it. The first axis is cut to `length`, the snapshots that are
+    complete; with a `component` only that place of the last axis is seen.
 
     shape, dtype, ndim, size; units and description as the file has them."""
 

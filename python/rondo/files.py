@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Opening the files of a directory; whatever is wrong with one becomes a rondo.Error that names it."""
+"""Opening the files of a directory; what is wrong with one becomes a rondo.Error that names it."""
 from __future__ import annotations
 
 import contextlib
@@ -53,8 +53,8 @@ def read_case(path: pathlib.Path) -> dict[str, Any]:
 
 
 def read_table(path: pathlib.Path) -> dict[str, np.ndarray]:
-    """Columns of a CSV file of numbers: (rows,) each. The last line may be one being written, or one
-    at which the program was killed: without its end of line it is left out."""
+    """Columns of a CSV file of numbers: (rows,) each. The last line may be one being written, or
+    one at which the program was killed: without its end of line it is left out."""
     try:
         text = path.read_text()
     except (OSError, ValueError) as reason:

@@ -62,8 +62,8 @@ class History(Mapping[str, np.ndarray]):
         return list(self._columns)
 
     def window(self, from_time: float | None = None, to_time: float | None = None) -> np.ndarray:
-        """Mask (rows,) of the rows whose whole interval is between the two times [s]; None: no bound.
-        At least one, or an error."""
+        """Mask (rows,) of the rows whose whole interval is between the two times [s]; None: no
+        bound. At least one, or an error."""
         end = self["time_s"]
         begin = np.append(0.0, end)[:-1]
         chosen: np.ndarray = np.ones(len(end), dtype=bool)
@@ -78,8 +78,8 @@ class History(Mapping[str, np.ndarray]):
 
     def mean(self, name: str, from_time: float | None = None,
              to_time: float | None = None) -> float:
-        """Mean over time of a column, in its unit: rows weighted by their intervals, of which forces
-        and torque are the means."""
+        """Mean over time of a column, in its unit: rows weighted by their intervals, of which
+        forces and torque are the means."""
         if self.crush:
             raise Error(f"{self.path}: a crush has no means over time")
         chosen = self.window(from_time, to_time)

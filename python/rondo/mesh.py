@@ -13,7 +13,7 @@ class Mesh:
     """n nodes, e cells, nb candidates (nodes that may touch the ground); all numbered from 0."""
 
     coordinates: np.ndarray  # (n, 2) reference position X, turning frame [m]
-    cells: np.ndarray        # (e, 4) or (e, 3) corner nodes, counter-clockwise; -1: a triangle's fourth
+    cells: np.ndarray        # (e, 4) or (e, 3) corner nodes, counter-clockwise; -1: none
     boundary: np.ndarray     # (nb,) candidates, in order along the boundary
     tributary: np.ndarray    # (nb,) length of boundary that each candidate stands for [m]
     mass: np.ndarray         # (n,) lumped mass [kg/m]

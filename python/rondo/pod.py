@@ -24,12 +24,13 @@ def open_pod(path: str | os.PathLike[str]) -> Pod:
 
 
 class Pod:
-    """Modes of a field: p points (nodes, or candidates for contact), r modes kept, k singular values,
-    t snapshots. [q] is the unit of the field, [w] that of the weight. Arrays are read when first
-    asked for.
+    """Modes of a field: p points (nodes, or candidates for contact), r modes kept, k singular
+    values, t snapshots. [q] is the unit of the field, [w] that of the weight. Arrays are read when
+    first asked for.
 
-    directory; info: pod.json; mesh; field: "displacement", "velocity" or "contact"; frame: "rotating"
-    or "rectified"; weight: "mass", "delassus" or "none"; unit: [q]; time_unit: "s" or "1"."""
+    directory; info: pod.json; mesh; field: "displacement", "velocity" or "contact"; frame:
+    "rotating" or "rectified"; weight: "mass", "delassus" or "none"; unit: [q];
+    time_unit: "s" or "1"."""
 
     def __init__(self, directory: pathlib.Path) -> None:
         self.directory = directory
@@ -51,7 +52,7 @@ class Pod:
                 f"{len(self.time)} snapshots, {self.n_modes} modes)")
 
     def _read(self, dataset: str, *empty: int) -> np.ndarray:
-        """A dataset; one of shape `empty` where it would hold no number and is therefore not there."""
+        """A dataset; of shape `empty` where it would hold no number and is therefore not there."""
         with opened(self.path) as file:
             if empty and dataset not in file:
                 return np.empty(empty)

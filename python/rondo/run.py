@@ -46,7 +46,7 @@ def open_run(path: str | os.PathLike[str], unfinished: bool = False) -> Run:
 
 
 class Pods(Mapping[str, Pod]):
-    """The PODs in a run's own folder pod/, by name ("velocity-rectified"); opened when asked for."""
+    """The PODs in a run's folder pod/, by name ("velocity-rectified"); opened when asked for."""
 
     def __init__(self, folder: pathlib.Path) -> None:
         self.folder = folder
@@ -72,8 +72,8 @@ class Pods(Mapping[str, Pod]):
 
 @dataclass(frozen=True)
 class Contact:
-    """Contact of t snapshots at nb candidates. Normal is positive in compression; tangential is along
-    t = J n, to the left."""
+    """Contact of t snapshots at nb candidates. Normal is positive in compression; tangential is
+    along t = J n, to the left."""
 
     force: LazyArray       # (t, nb, 2) normal, tangential, mean over the step before [N/m]
     traction: LazyArray    # (t, nb, 2) pressure, shear [Pa]
@@ -101,9 +101,9 @@ class Crush:
 class Run:
     """What a run left, n nodes and t complete snapshots.
 
-    directory; info: run.json; case: case.toml; times, times_velocity: (t,) [s], of a crush the share
-    of its depth; angle, angle_velocity: (t,) of the turning frame at these times [rad]; center: (t, 2)
-    in the fixed frame [m]; mesh."""
+    directory; info: run.json; case: case.toml; times, times_velocity: (t,) [s], of a crush the
+    share of its depth; angle, angle_velocity: (t,) of the turning frame at these times [rad];
+    center: (t, 2) in the fixed frame [m]; mesh."""
 
     def __init__(self, directory: pathlib.Path) -> None:
         self.directory = directory
@@ -121,8 +121,8 @@ class Run:
             self.times: np.ndarray = times[:t]
             frame = {name: file[f"frame/{name}"][:t] if "frame" in file else np.empty(0)
                      for name in ("time_velocity", "angle", "angle_velocity", "center")}
-            self._datasets = [f"{group}/{name}" for group in ("snapshots", "fields") if group in file
-                              for name in file[group]]
+            self._datasets = [f"{group}/{name}" for group in ("snapshots", "fields")
+                              if group in file for name in file[group]]
         self.times_velocity: np.ndarray = frame["time_velocity"]
         self.angle: np.ndarray = frame["angle"]
         self.angle_velocity: np.ndarray = frame["angle_velocity"]
@@ -205,8 +205,9 @@ class Run:
     def field(self, name: str) -> LazyArray:
         """A field of all snapshots: "displacement", "velocity" (t, n, 2) in the turning frame;
         "von_mises", "stress_xx", "stress_xy", ... (t, n) and "cauchy_stress" (t, n, 6) with stress;
-        "position", "contact_force" (t, n, 3) for pictures. Stress, position and contact force are along
-        the fixed axes. "fields/displacement", "fields/velocity": these along the fixed axes."""
+        "position", "contact_force" (t, n, 3) for pictures. Stress, position and contact force are
+        along the fixed axes. "fields/displacement", "fields/velocity": these along the fixed
+        axes."""
         component = None
         dataset = name
         if name.startswith("stress_") and name[7:] in STRESS:
@@ -223,8 +224,8 @@ class Run:
 
     @property
     def velocity(self) -> LazyArray:
-        """(t, n, 2) du/dt in the turning frame, at times_velocity [m/s]; in a crush du over the share
-        of the depth [m]."""
+        """(t, n, 2) du/dt in the turning frame, at times_velocity [m/s]; in a crush du over the
+        share of the depth [m]."""
         return self.field("velocity")
 
     def position(self, k: int) -> np.ndarray:
@@ -242,8 +243,8 @@ class Run:
         spacing = np.diff(self.times).max() if self.n_snapshots > 1 else 0.0
         slack = max(spacing, self.info.get("step") or 0.0)
         if not first - slack <= time <= last + slack:
-            raise Error(f"{self.directory}: no snapshot near {time:g} {self.time_unit}; they are from "
-                        f"{first:g} to {last:g} {self.time_unit}")
+            raise Error(f"{self.directory}: no snapshot near {time:g} {self.time_unit}; they are "
+                        f"from {first:g} to {last:g} {self.time_unit}")
         return int(np.argmin(np.abs(self.times - time)))
 
     @cached_property

@@ -21,7 +21,8 @@ def probe(path, entry):
 
 def film(run, follow=False, quantity="displacement", chosen=(0, 5, 10), width=333):
     with matplotlib.rc_context({"figure.constrained_layout.use": False}):
-        return animation._Film(run, np.array(chosen), quantity, (0.0, 1.0), follow, width, (640, 360))
+        return animation._Film(run, np.array(chosen), quantity, (0.0, 1.0), follow, width,
+                               (640, 360))
 
 
 def test_mp4(smooth, tmp_path):
@@ -109,7 +110,8 @@ def test_frames_and_colours_by_default(smooth, monkeypatch, tmp_path):
     largest = np.linalg.norm(run.displacement[:], axis=2).max() * 1e3
     np.testing.assert_allclose(seen["limits"], (0, largest))
     assert seen["size"][0] <= 1280 and seen["size"][1] <= 722
-    run.animate(tmp_path / "a.mp4", quantity="displacement_y", from_time=0.01, frames=3, limits=(-1, 2))
+    run.animate(tmp_path / "a.mp4", quantity="displacement_y", from_time=0.01, frames=3,
+                limits=(-1, 2))
     assert run.times[seen["chosen"][0]] >= 0.01 and len(seen["chosen"]) == 3
     assert seen["limits"] == (-1, 2)
     run.times = np.linspace(0, 1, 1000)  # as many as a long run has

@@ -90,8 +90,8 @@ def test_spectrum_of_a_window(copy):
 
 
 def test_no_spectrum(smooth, crush):
-    with pytest.raises(rondo.Error, match="10 rows of the history from .*; a spectrum takes at least "
-                                          "16: widen the window or lower output.history_interval"):
+    with pytest.raises(rondo.Error, match="10 rows of the history from .*; a spectrum takes at "
+                                          "least 16: widen the window or lower output.history_"):
         times = rondo.open(smooth).history["time_s"]
         curves.force_spectrum(rondo.open(smooth), from_time=times[-11])
     with pytest.raises(rondo.Error, match="a crush has no course in time"):

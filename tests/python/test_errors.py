@@ -38,7 +38,8 @@ def test_all_errors_are_rondos():
 
 
 def test_no_such_directory(tmp_path):
-    says(rondo.NotARunError, rondo.open, tmp_path / "x", words=[tmp_path / "x", "no such directory"])
+    nowhere = tmp_path / "x"
+    says(rondo.NotARunError, rondo.open, nowhere, words=[nowhere, "no such directory"])
 
 
 def test_a_file_is_no_directory(smooth):
@@ -143,7 +144,7 @@ def test_a_truncated_file(copy):
 def test_a_foreign_file(copy):
     with h5py.File(copy / "results.h5", "w") as file:
         file["x"] = 1
-    says(rondo.Error, rondo.open, copy, words=["its format is None", '"rondo results 1" is expected'])
+    says(rondo.Error, rondo.open, copy, words=["format is None", '"rondo results 1" is expected'])
 
 
 def test_a_dataset_that_is_not_there(copy):
@@ -175,7 +176,7 @@ def test_damaged_pods_and_papers(copy, tmp_path):
 
 def test_names_that_are_not_there(smooth, air):
     run = rondo.open(smooth)
-    says(rondo.UnknownNameError, run.field, "stress", words=["'stress'", ", von_mises", "stress_xx"])
+    says(rondo.UnknownNameError, run.field, "stress", words=["'stress'", "stress_xx, "])
     says(rondo.UnknownNameError, run.history.__getitem__, "force", words=["history.csv", "force_y"])
     says(rondo.UnknownNameError, run.pods.__getitem__, "x", words=["contact-rotating, "])
     says(rondo.UnknownNameError, run.pod, "velocity", words=["velocity-rectified", "to make it: "
@@ -212,7 +213,7 @@ def test_windows_without_rows_and_means_of_a_crush(smooth, crush):
 
 def test_more_modes_than_are_kept(smooth):
     pod = rondo.open_pod(smooth / "pod" / "velocity-rectified")
-    says(rondo.Error, pod.reconstruct, 0, 4, words=["3 modes are kept; 4 were asked for", "--modes"])
+    says(rondo.Error, pod.reconstruct, 0, 4, words=["3 modes are kept; 4 were asked", "--modes"])
     says(rondo.Error, pod.reconstruct, 0, -1)
 
 

@@ -21,7 +21,7 @@ PANELS = 3
 
 
 def draw_run(run: Run, folder: str | os.PathLike[str]) -> list[pathlib.Path]:
-    """Writes the figures that the run has the data for, each as PNG and SVG; returns their files."""
+    """Writes the figures that the run has data for, each as PNG and SVG; returns their files."""
     written: list[pathlib.Path] = []
 
     def keep(name: str, figure: Figure) -> None:

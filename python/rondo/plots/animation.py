@@ -31,7 +31,7 @@ SMALLEST = 240  # px, width: labels and colour bar take 200 of them
 FOLLOW_BEYOND = 6.0  # outer radii that the centre moves: beyond, the picture moves with it
 SIDE, TOP, BOTTOM = 1.15, 1.15, 1.45  # outer radii from the centre to the edges of the picture
 AHEAD = 1.8  # the same to both sides where the picture moves with the body
-LEFT, RIGHT, BELOW, ABOVE = 0.62, 0.95, 0.45, 0.3  # in, about the picture: labels, colour bar, title
+LEFT, RIGHT, BELOW, ABOVE = 0.62, 0.95, 0.45, 0.3  # in, about the picture: labels, bar, title
 SMALL = 1.5  # in, outer radius in the picture: a mesh drawn on smaller ones hides the colours
 BAR = 0.12  # in, width of the colour bar and its distance
 
@@ -40,14 +40,14 @@ def animate(run: Run, path: str | os.PathLike[str], quantity: str = "displacemen
             from_time: float | None = None, to_time: float | None = None, frames: int | None = None,
             fps: int | None = None, limits: tuple[float, float] | None = None,
             follow: bool | None = None, width: int | None = None) -> pathlib.Path:
-    """Writes a film of the body in the fixed frame, with ground, time and colour bar, and returns its
-    path. The ending says how: .mp4 (H.264, by the program ffmpeg) or .gif.
+    """Writes a film of the body in the fixed frame, with ground, time and colour bar, and returns
+    its path. The ending says how: .mp4 (H.264, by the program ffmpeg) or .gif.
 
     quantity: as of plot_field. from_time, to_time: window of the run [s]. frames: pictures, spread
     evenly over the snapshots of the window; at most one for each, by default at most 300. fps:
     pictures a second; by default such that a film of few pictures lasts about 10 s, at most 30.
-    limits: of the colours, in the unit of the colour bar; by default those of the whole film. follow:
-    the picture moves along with the body; by default where it goes far. width: [px]."""
+    limits: of the colours, in the unit of the colour bar; by default those of the whole film.
+    follow: the picture moves along with the body; by default where it goes far. width: [px]."""
     path = pathlib.Path(path)
     ending = path.suffix.lower()
     _check_ending(path, ending)

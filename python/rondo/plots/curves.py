@@ -75,8 +75,8 @@ def _label(column: str) -> str:
 
 @style.paper()
 def plot_history(run: Run, *columns: str, ax: Axes | None = None) -> Axes:
-    """Columns of the history over time, of a crush over depth; without any, the forces of the ground
-    on the body. Columns in one axes have one unit."""
+    """Columns of the history over time, of a crush over depth; without any, the forces of the
+    ground on the body. Columns in one axes have one unit."""
     names = columns or ("force_y", "force_x")
     history = run.history
     x, x_label = _abscissa(run)
@@ -86,7 +86,8 @@ def plot_history(run: Run, *columns: str, ax: Axes | None = None) -> Axes:
         raise Error(f"{', '.join(names)}: of different units ({', '.join(sorted(units))}); "
                     "draw them in axes of their own")
     if len(names) > len(style.CURVES):
-        raise Error(f"{len(names)} columns: at most {len(style.CURVES)} can be told apart in one axes")
+        raise Error(f"{len(names)} columns: at most {len(style.CURVES)} can be told apart in one "
+                    "axes")
     factor, unit = _readable(max((np.abs(v).max(initial=0.0) for v in values)), units.pop())
     ax = _axes(ax, 2.2)
     for name, value, line in zip(names, values, style.CURVES):
@@ -144,12 +145,12 @@ def plot_energy(run: Run, ax: Axes | None = None) -> Axes:
 
 def force_spectrum(run: Run, column: str = "force_y", from_time: float | None = None,
                    to_time: float | None = None) -> tuple[np.ndarray, np.ndarray]:
-    """(frequency (f,) [Hz], amplitude (f,) in the column's unit): one-sided, of the rows between two
-    times [s], their mean removed, under a Hann window whose gain is undone.
+    """(frequency (f,) [Hz], amplitude (f,) in the column's unit): one-sided, of the rows between
+    two times [s], their mean removed, under a Hann window whose gain is undone.
 
-    A sine whose periods fit in the window has its own amplitude there; between two lines it shows up
-    to 15 % less, in both. Rows are the means over their intervals, taken as values at their middles;
-    where intervals differ they are resampled evenly, linearly."""
+    A sine whose periods fit in the window has its own amplitude there; between two lines it shows
+    up to 15 % less, in both. Rows are the means over their intervals, taken as values at their
+    middles; where intervals differ they are resampled evenly, linearly."""
     if run.is_crush:
         raise Error(f"{run.directory}: a crush has no course in time, and no spectrum")
     chosen = run.history.window(from_time, to_time)
@@ -172,8 +173,8 @@ def force_spectrum(run: Run, column: str = "force_y", from_time: float | None = 
 @style.paper()
 def plot_force_spectrum(run: Run, column: str = "force_y", from_time: float | None = None,
                         to_time: float | None = None, ax: Axes | None = None) -> Axes:
-    """Amplitude spectrum (see force_spectrum) of a column over frequency; of a treaded disk with the
-    multiples of the frequency at which its pitches pass."""
+    """Amplitude spectrum (see force_spectrum) of a column over frequency; of a treaded disk with
+    the multiples of the frequency at which its pitches pass."""
     if column not in run.history:
         raise unknown(run.history.path, "column", column, run.history)
     frequency, amplitude = force_spectrum(run, column, from_time, to_time)
