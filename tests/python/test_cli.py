@@ -7,6 +7,8 @@ import sys
 import pytest
 
 import rondo
+from rondo import style
+from rondo.figures.run_figures import draw_run
 
 
 def rondo_module(*arguments, **options):
@@ -29,20 +31,28 @@ def test_figures_of_a_run(smooth, tmp_path):
         assert path.stat().st_size < 400e3
 
 
-@pytest.mark.parametrize("name, stems", [
-    ("crush", ["energy", "field-displacement", "field-von_mises", "forces"]),
-    ("air", ["energy", "field-displacement", "field-von_mises"])])
-def test_figures_go_into_the_directory(runs, tmp_path, name, stems):
-    run = shutil.copytree(runs / name, tmp_path / name)
-    arguments = []
-    if name == "air":
-        text = (run / "run.json").read_text()
-        (run / "run.json").write_text(text.replace('"done"', '"interrupted"'))
-        assert rondo_module("figures", run).returncode == 2
-        arguments = ["--unfinished"]
-    done = rondo_module("figures", run, *arguments)
+def test_figures_go_into_the_directory(air, tmp_path):
+    run = shutil.copytree(air, tmp_path / "air")
+    text = (run / "run.json").read_text()
+    (run / "run.json").write_text(text.replace('"done"', '"interrupted"'))
+    assert rondo_module("figures", run).returncode == 2
+    done = rondo_module("figures", run, "--unfinished")
     assert (done.returncode, done.stderr) == (0, "")
-    assert sorted(path.stem for path in (run / "figures").glob("*.svg")) == stems
+    assert sorted(path.stem for path in (run / "figures").glob("*.svg")) == [
+        "energy", "field-displacement", "field-von_mises"]
+
+
+def test_figures_of_a_crush(crush, tmp_path, monkeypatch):
+    drawn = []
+
+    def keep(figure, path):
+        drawn.append(path.name)
+        assert all(ax.get_xlabel() for ax in figure.axes if ax.get_title())
+        return [path]
+
+    monkeypatch.setattr(style, "save", keep)
+    draw_run(rondo.open(crush), tmp_path)
+    assert drawn == ["field-displacement", "field-von_mises", "energy", "forces"]
 
 
 def test_film(smooth, tmp_path):
