@@ -22,7 +22,7 @@ IN_THE_AIR = "\n".join(line for line in SMALL.splitlines()
 LONG = replaced(SMALL, "end", "end = 500.0").replace("snapshots = 11", "snapshots = 100000")
 EACH_STEP = ["--set", "output.history_interval=0"]
 TO_CRUSH = ["--set", "analysis.kind=crush", "--set", "analysis.depth=0.02", "--set",
-            "analysis.increments=6"]
+            "analysis.increments=40"]
 
 
 def ok(*arguments):

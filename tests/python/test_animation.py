@@ -37,14 +37,14 @@ def test_mp4(smooth, tmp_path):
 
 
 def test_gif(crush, tmp_path):
-    path = rondo.open(crush).animate(str(tmp_path / "film.GIF"), quantity="von_mises", width=240)
+    path = rondo.open(crush).animate(str(tmp_path / "film.GIF"), quantity="von_mises", frames=6,
+                                     width=240)
     with Image.open(path) as image:
         assert image.n_frames == 6
         assert image.width == 240
         assert image.info["duration"] == 1000  # 6 pictures, one a second
-        colours = [np.unique(np.asarray(_frame(image, k)), axis=0).shape for k in (0, 5)]
-        assert np.any(np.asarray(_frame(image, 0)) != np.asarray(_frame(image, 5)))
-    assert colours[0][0] > 1
+        first, last = (np.asarray(_frame(image, k)) for k in (0, 5))
+    assert np.any(first != last)
 
 
 def _frame(image, k):
