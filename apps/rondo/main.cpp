@@ -148,6 +148,7 @@ int main(int argc, char** argv) {
       "Example:\n  rondo run cases/ledge-smooth.toml -o results/ledge\n"
       "Each command has its own help: rondo run --help");
   std::signal(SIGPIPE, SIG_IGN);  // a reader of our output that goes away ends nothing
+  std::signal(SIGXFSZ, SIG_IGN);  // a file that grows too long is an error of writing
   try {
     const int code = dispatch_command(program, argc, argv);
     if (std::fflush(stdout) == 0) return code;

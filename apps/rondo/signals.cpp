@@ -20,7 +20,8 @@ const std::atomic<bool>& stop_requested() noexcept {
 }
 
 void catch_stop_signals() {
-  for (const int number : {SIGINT, SIGTERM, SIGHUP}) std::signal(number, request_stop);
+  for (const int number : {SIGINT, SIGTERM, SIGHUP})
+    if (std::signal(number, request_stop) == SIG_IGN) std::signal(number, SIG_IGN);
 }
 
 }  // namespace rondo::app

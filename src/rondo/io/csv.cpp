@@ -101,6 +101,7 @@ std::map<std::string, std::vector<double>, std::less<>> read_columns(
     for (std::string name; std::getline(header, name, ',');) names.push_back(name);
     columns.resize(names.size());
   }
+  if (in.bad()) fail(file, "read");
   if (names.empty()) throw FileError(file.string(), "holds no header of columns");
   std::map<std::string, std::vector<double>, std::less<>> by_name;
   for (std::size_t k = 0; k < names.size(); ++k) by_name[names[k]] = std::move(columns[k]);

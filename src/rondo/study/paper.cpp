@@ -53,24 +53,45 @@ void accept(const PaperRequest& request, const fs::path& paper) {
            "choose another -o, or give --overwrite");
 }
 
-/// A directory that holds no study, or one of the same kind, which goes on.
-void prepare(const PaperRequest& request) {
-  const fs::path& directory = request.directory;
+/// The name of something in runs/ that is not of this study; empty if there is none.
+std::string foreign_in(const fs::path& runs, const PaperPlan& plan) {
   std::error_code error;
+  for (const auto& entry : fs::directory_iterator(runs, error)) {
+    const std::string name = entry.path().filename().string();
+    if (std::none_of(plan.runs.begin(), plan.runs.end(),
+                     [&](const PaperRun& run) { return run.name == name; }))
+      return name;
+  }
+  return {};
+}
+
+/// A directory that holds no study, or one of the same kind, which goes on. Nothing is made before
+/// it is known to be right.
+void prepare(const PaperRequest& request, const PaperPlan& plan) {
+  const fs::path& directory = request.directory;
+  const std::string elsewhere = "choose another -o";
+  std::error_code error;
+  if (fs::exists(directory, error) && !fs::is_directory(directory, error))
+    refuse(directory, "is there and is not a directory", elsewhere);
+  if (fs::exists(directory / "paper.json", error)) {
+    accept(request, directory / "paper.json");
+  } else if (fs::exists(directory / "run.json", error)) {
+    refuse(directory, "holds a run, not a study", elsewhere);
+  } else if (const std::string name = foreign_in(directory / "runs", plan); !name.empty()) {
+    refuse(directory, fmt::format("holds runs/{}, which is not of this study", name), elsewhere);
+  }
   fs::create_directories(directory / "runs", error);
-  if (error) throw FileError(directory.string(), "cannot create directory: " + error.message());
-  if (fs::exists(directory / "paper.json", error)) return accept(request, directory / "paper.json");
-  if (!fs::is_empty(directory / "runs", error) || fs::exists(directory / "run.json", error))
-    refuse(directory, "holds runs that are not of this study", "choose another -o");
+  if (error)
+    throw FileError((directory / "runs").string(),
+                    "cannot create directory: " + error.message() + "; choose another -o");
 }
 
 /// A run that may fail is done as a job, and has failed as a run.
 const char* status_of(const JobOutcome& outcome) {
   switch (outcome.status) {
     case JobStatus::waiting:
+    case JobStatus::running:  // told once it has ended
       return "waiting";
-    case JobStatus::running:
-      return "running";
     case JobStatus::done:
       return outcome.code == job_done ? "done" : "failed";
     case JobStatus::failed:
@@ -94,6 +115,21 @@ class Record {
   [[nodiscard]] const std::vector<JobOutcome>& outcomes() const noexcept { return outcomes_; }
 
   void write(const char* status, const PaperReport& report) const {
+    io::write_json(path(), as_json(status, report));
+  }
+  /// After an error, of which the disk may be full.
+  void write_failure(const PaperReport& report) const noexcept {
+    try {
+      write("failed", report);
+    } catch (const std::exception&) {
+      io::overwrite_json(path(), as_json("failed", report));
+    }
+  }
+
+ private:
+  [[nodiscard]] fs::path path() const { return request_.directory / "paper.json"; }
+
+  [[nodiscard]] Json as_json(const char* status, const PaperReport& report) const {
     Json j;
     j["format"] = format_name;
     j["status"] = status;
@@ -106,14 +142,13 @@ class Record {
     for (std::size_t k = 0; k < jobs_.size(); ++k)
       j[jobs_[k].is_pod ? "pods" : "runs"].push_back(describe(k));
     j["table"] = Json::array();
-    for (const PaperRow& row : report.rows) j["table"].push_back(as_json(row));
+    for (const PaperRow& row : report.rows) j["table"].push_back(study::as_json(row));
     const auto passed = std::count_if(report.rows.begin(), report.rows.end(), passes);
     j["passed"] = passed;
     j["failed"] = static_cast<std::ptrdiff_t>(report.rows.size()) - passed;
-    io::write_json(request_.directory / "paper.json", j);
+    return j;
   }
 
- private:
   [[nodiscard]] Json describe(std::size_t k) const {
     const PaperJob& job = jobs_[k];
     Json j;
@@ -209,9 +244,9 @@ void judge_rows(PaperReport& report) {
 
 PaperReport run_paper(const PaperRequest& request) {
   const auto begin = Clock::now();
-  prepare(request);
-  const io::DirectoryLock lock(request.directory);
   const PaperPlan plan = paper_plan(request.quick);
+  prepare(request, plan);
+  const io::DirectoryLock lock(request.directory);
   const std::vector<PaperJob> jobs = paper_jobs(request.directory, plan, request.overwrite);
   PaperReport report;
   Record record(request, plan, jobs);
@@ -223,9 +258,9 @@ PaperReport run_paper(const PaperRequest& request) {
       report.rows = check_paper(request.directory, plan, request.quick);
       judge_rows(report);
     }
-  } catch (const FileError& error) {
+  } catch (const std::exception& error) {
     report.message = error.what();
-    record.write("failed", report);
+    record.write_failure(report);
     throw;
   }
   report.wall_s = std::chrono::duration<double>(Clock::now() - begin).count();

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <initializer_list>
 #include <numbers>
 
 #include "rondo/io/csv.hpp"
@@ -70,16 +71,12 @@ double number(const Json& value) {
   return value.is_number() ? value.get<double>() : std::nan("");
 }
 
-/// A value that is not a number comes through.
-void keep_larger(double& largest, double value) {
-  if (!(value <= largest)) largest = value;
-}
-
 /// The largest of a key of run.json over the runs whose name begins so.
-double largest(const Study& s, const std::string& begin, const char* key) {
+double largest(const Study& s, std::initializer_list<const char*> begins, const char* key) {
   double found = 0.0;
   for (const PaperRun& run : s.plan.runs)
-    if (run.name.starts_with(begin)) keep_larger(found, number(s.summary(run.name)[key]));
+    for (const char* begin : begins)
+      if (run.name.starts_with(begin)) found = keep_larger(found, number(s.summary(run.name)[key]));
   return found;
 }
 
@@ -97,7 +94,7 @@ double created(const Study& s, const std::string& run, const std::string& other)
                             strain = s.column(other, "strain");
   double energy = 0.0;
   for (std::size_t k = 0; k < kinetic.size(); ++k)
-    energy = std::max(energy, kinetic[k] + strain[k]);
+    energy = keep_larger(energy, kinetic[k] + strain[k]);
   return std::abs(s.column(run, "work_scheme").back()) / energy;
 }
 
@@ -131,18 +128,16 @@ void check_spin_up(Study& s) {
            stationary, 1e-6 * stationary, "stationary spin of the same mesh, solved by itself");
   check_swing(s);
   s.at_most(2, "spin-up-ledger", "largest ledger residual of all spin-ups, over the energy", "1",
-            largest(s, "spin-up", "energy_residual_relative"), 1e-12, identity);
+            largest(s, {"spin-up"}, "energy_residual_relative"), 1e-12, identity);
   const std::string growing =
       "the gyroscopic term at the old half step creates energy; over the largest energy of the "
       "symplectic run";
-  s.at_least(2, "printed-creates", "energy created by the scheme as printed, 50 rad/s, 0.5 s", "1",
+  s.at_least(2, "printed-creates",
+             "energy created by the scheme as printed, 50 rad/s, over E of symplectic", "1",
              created(s, "spin-up-as-printed", "spin-up-undamped"), 0.05, growing);
   s.at_least(2, "printed-blows-up",
-             "energy created by the scheme as printed, 200 rad/s, until it stops", "1",
+             "energy created by the scheme as printed, 200 rad/s, over E of symplectic", "1",
              created(s, "spin-up-fast-as-printed", "spin-up-fast"), 1.0, growing);
-  s.at_most(2, "midpoint-creates", "energy created by the symplectic scheme", "1",
-            created(s, "spin-up-fast", "spin-up-fast"), 0.0,
-            "the term at the midpoint does no work");
 }
 
 struct Expected {
@@ -182,21 +177,15 @@ void check_regimes(Study& s) {
   const double pitch =
       c.disk.tread->pitches * c.motion.angular_velocity.at(0.0) / (2.0 * std::numbers::pi);
   s.within(3, "treaded-frequency", "frequency of the highest line of F_y, treaded", "Hz",
-           highest_line(treaded, 0.25 * pitch, 1.75 * pitch), pitch, 1.0,
+           highest_line(treaded), pitch, 1.0,
            "pitches times turns a second; 1 Hz, a sixth of the resolution of 0.16 s");
   s.at_least(3, "treaded-line", "line of F_y there, treaded over smooth", "1",
              line(treaded, pitch) / line(smooth, pitch), 10.0, "the tread makes it");
   s.at_most(3, "rolling-ledger", "largest ledger residual of all rolling runs, over the energy",
-            "1",
-            std::max({largest(s, "ledge", "energy_residual_relative"),
-                      largest(s, "turn", "energy_residual_relative"),
-                      largest(s, "friction", "energy_residual_relative")}),
-            1e-12, identity);
+            "1", largest(s, {"ledge", "turn", "friction"}, "energy_residual_relative"), 1e-12,
+            identity);
   s.at_most(3, "contact-law", "largest residual of the contact law, over the speed of impact", "1",
-            std::max({largest(s, "ledge", "contact_residual_max"),
-                      largest(s, "turn", "contact_residual_max"),
-                      largest(s, "friction", "contact_residual_max")}),
-            1e-12, identity);
+            largest(s, {"ledge", "turn", "friction"}, "contact_residual_max"), 1e-12, identity);
 }
 
 void check_friction(Study& s) {
@@ -207,14 +196,14 @@ void check_friction(Study& s) {
        {"friction-0.4", "friction 0.4", -2.189e4, 1.8983e5},
        {"friction-0.6", "friction 0.6", -2.308e4, 1.9000e5}}};
   constexpr double steady = 0.095;  // s
-  double outside = -1.0, before = -1.0, growth = 1.0;
+  double outside = -1.0, before = 0.0, growth = 1.0;
   for (std::size_t k = 0; k < expected.size(); ++k) {
     const std::string run = expected[k].run;
     check_force(s, 4, expected[k], steady);
-    outside = std::max(outside, outside_cone(io::RunReader(s.path(run)), coefficients[k]));
+    outside = keep_larger(outside, outside_cone(io::RunReader(s.path(run)), coefficients[k]));
     const double drag =
         -mean(s.force(run, "force_x", steady)) / mean(s.force(run, "force_y", steady));
-    if (k > 0) growth = std::min(growth, drag - before);
+    if (k > 0) growth = keep_smaller(growth, drag - before);
     before = drag;
   }
   s.at_most(4, "shear-in-cone", "largest shear beyond friction times pressure, over the pressure",
@@ -248,11 +237,12 @@ void check_counts(Study& s) {
   for (const Counts& row : expected)
     for (std::size_t k = 0; k < shares.size(); ++k) {
       const double modes = row.modes[k];
-      s.rows.push_back({5, fmt::format("{}-{}-{}", row.run, row.pod, shares[k]),
-                        fmt::format("modes for {}, {}, {}", shares[k], row.run, row.pod), "1",
-                        count(s, row.run, row.pod, shares[k]), modes, Comparison::within,
-                        modes < 10.0 ? 1.0 : std::ceil(0.1 * modes),
-                        fmt::format("{}, 1 below ten modes, 10 % above", other_code)});
+      s.rows.push_back(
+          {5, fmt::format("{}-{}-{}", row.run, row.pod, shares[k]),
+           fmt::format("modes for {}, {}, {}", shares[k], row.run, row.pod), "1",
+           count(s, row.run, row.pod, shares[k]), modes, Comparison::within,
+           modes < 10.0 ? 1.0 : std::ceil(0.1 * modes),
+           fmt::format("{} and the same snapshots, 1 below ten modes, 10 % above", other_code)});
     }
 }
 
@@ -279,14 +269,15 @@ void check_modes(Study& s) {
   double orthonormality = 0.0, difference = 0.0;
   for (const PaperPod& pod : s.plan.pods) {
     const Json found = s.pod(pod.run, pod.field + "-" + pod.frame);
-    keep_larger(orthonormality, number(found["orthonormality"]));
-    keep_larger(difference, number(found["error_identity"]["difference"]));
+    orthonormality = keep_larger(orthonormality, number(found["orthonormality"]));
+    difference = keep_larger(difference, number(found["error_identity"]["difference"]));
   }
   for (const std::string body : {"smooth", "treaded"}) {
     const fs::path file = s.path("turn-" + body) / "pod" / "velocity-rotating" / "spectrum.csv";
-    const std::vector<double> sigma = io::read_columns(file).at("singular_value");
+    std::vector<double> sigma = column(io::read_columns(file), "singular_value", file);
+    sigma.resize(6, std::nan(""));
     double least = 1.0;
-    for (std::size_t k = 0; k < 6; k += 2) least = std::min(least, sigma.at(k + 1) / sigma.at(k));
+    for (std::size_t k = 0; k < 6; k += 2) least = keep_smaller(least, sigma[k + 1] / sigma[k]);
     s.at_least(6, body + "-pairs", "velocity, rotating, " + body + ": least ratio within a pair",
                "1", least, 0.98, "a travelling pattern: modes in pairs, alike in energy");
   }

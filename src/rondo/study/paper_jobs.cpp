@@ -8,11 +8,14 @@
 #include <system_error>
 
 #include "rondo/core/error.hpp"
+#include "rondo/io/csv.hpp"
 #include "rondo/io/files.hpp"
+#include "rondo/io/h5.hpp"
+#include "rondo/study/build_id.hpp"
+#include "rondo/study/paper_results.hpp"
 #include "rondo/study/pod.hpp"
 #include "rondo/study/run.hpp"
 #include "rondo/study/run_files.hpp"
-#include "rondo/study/version.hpp"
 
 namespace rondo::study {
 namespace {
@@ -31,40 +34,84 @@ Json json_of(const fs::path& file) {
   return json.is_object() ? json : Json::object();
 }
 
-/// A program built anew may give other numbers: only what is younger than the program counts.
-bool is_of_this_program(const fs::path& file) {
-  std::error_code error;
-  const fs::path program = fs::read_symlink("/proc/self/exe", error);
-  const auto built = fs::last_write_time(program, error);
-  if (error) return false;
-  const auto written = fs::last_write_time(file, error);
-  return !error && written >= built;
+/// Written by this very program: one built anew may give other numbers.
+bool is_of_this_program(const Json& j) {
+  static const std::string own = build_id();
+  return !own.empty() && text_in(j, "build_id") == own;
+}
+
+/// The files hold what run.json says, as far as their ends and heads tell. @throws FileError,
+/// InputError: they cannot be read
+bool is_whole(const fs::path& directory, const Json& j) {
+  const auto number = [&](const char* key) {
+    return j.contains(key) && j[key].is_number() ? j[key].get<double>() : -1.0;
+  };
+  const Columns history = io::read_columns(directory / "history.csv");
+  const std::vector<double>& time = column(history, "time_s", directory / "history.csv");
+  if (text_in(j, "analysis") == "crush") {
+    if (static_cast<double>(time.size()) != number("increments_done") + 1.0) return false;
+  } else if (std::abs(time.back() - number("end_time")) > 1e-9 * time.back()) {
+    return false;
+  }
+  if (number("snapshots") == 0.0) {
+    static_cast<void>(io::h5::File::open(directory / "results.h5"));  // it opens
+    return true;
+  }
+  return static_cast<double>(io::RunReader(directory).n_snapshots()) == number("snapshots") &&
+         fs::is_regular_file(directory / "fields.xdmf");
+}
+
+/// A run that may fail did so by itself, at a step: not for want of room on the disk.
+bool ended(const Json& j, bool may_fail) {
+  const std::string status = text_in(j, "status");
+  return status == "done" || (may_fail && status == "failed" && j.contains("steps_done"));
 }
 
 bool run_is_there(const fs::path& directory, const PaperRun& run, const Case& c) {
   const Json j = json_of(directory / "run.json");
-  const std::string status = text_in(j, "status");
-  return (status == "done" || (run.may_fail && status == "failed")) &&
-         text_in(j, "version") == version && text_in(j, "build") == build_options &&
-         is_of_this_program(directory / "run.json") &&
-         text_of(directory / "case.toml") == write_case(c) &&
-         fs::is_regular_file(directory / "results.h5") &&
-         fs::is_regular_file(directory / "history.csv");
+  if (!ended(j, run.may_fail) || !is_of_this_program(j) ||
+      text_of(directory / "case.toml") != write_case(c))
+    return false;
+  try {
+    return is_whole(directory, j);
+  } catch (const std::exception&) {  // what cannot be read is made again
+    return false;
+  }
+}
+
+std::string wanted(const std::string& message) {
+  return "failed, as it should: " + message;
 }
 
 /// How a run that is there ended: one that may fail says why.
 JobOutcome outcome_of(const fs::path& directory) {
   const Json j = json_of(directory / "run.json");
   const bool failed = text_in(j, "status") == "failed";
-  return {JobStatus::done, failed ? job_failed : job_done, text_in(j, "message"), 0.0};
+  return {JobStatus::done, failed ? job_failed : job_done,
+          failed ? wanted(text_in(j, "message")) : "", 0.0};
 }
 
-bool pod_is_there(const fs::path& directory, const PaperPod& pod) {
-  const Json j = json_of(directory / "pod.json");
+/// What a POD of the study has by default, and of all snapshots of its run.
+bool is_asked_for(const Json& j, const PaperPod& pod, const Json& run) {
+  const long long modes = j.value("modes_kept", 0LL);
   return text_in(j, "status") == "done" && text_in(j, "field") == pod.field &&
-         text_in(j, "frame") == pod.frame && text_in(j, "version") == version &&
-         is_of_this_program(directory / "pod.json") && fs::is_regular_file(directory / "pod.h5") &&
-         fs::is_regular_file(directory / "spectrum.csv");
+         text_in(j, "frame") == pod.frame && text_in(j, "weight") != "none" &&
+         j.value("snapshots", 0LL) == run.value("snapshots", -1LL) &&
+         (modes == paper_modes || modes == j.value("rank", 0LL));
+}
+
+bool pod_is_there(const fs::path& run, const PaperPod& pod) {
+  const fs::path directory = run / "pod" / (pod.field + "-" + pod.frame);
+  try {
+    const Json j = json_of(directory / "pod.json");
+    static_cast<void>(io::h5::File::open(directory / "pod.h5"));  // it opens
+    const fs::path spectrum = directory / "spectrum.csv";
+    const Columns columns = io::read_columns(spectrum);
+    return is_of_this_program(j) && is_asked_for(j, pod, json_of(run / "run.json")) &&
+           !column(columns, "singular_value", spectrum).empty();
+  } catch (const std::exception&) {
+    return false;
+  }
 }
 
 JobReport report_of(const RunReport& r, bool may_fail) {
@@ -76,10 +123,18 @@ JobReport report_of(const RunReport& r, bool may_fail) {
     case RunStatus::failed:
       break;
   }
-  return {job_failed, r.message, may_fail};
+  return {job_failed, may_fail ? wanted(r.message) : r.message, may_fail};
+}
+
+/// What a program left that was killed while it wrote: files and folders of unfinished writes.
+void remove_unfinished(const fs::path& directory) {
+  std::error_code error;
+  for (const auto& entry : fs::directory_iterator(directory, error))
+    if (entry.path().extension() == ".tmp") fs::remove_all(entry.path(), error);
 }
 
 JobReport do_run(const fs::path& directory, const Case& c, bool may_fail, JobChannel& channel) {
+  remove_unfinished(directory);
   RunOptions options;
   options.directory = directory;
   options.threads = 1;
@@ -87,13 +142,6 @@ JobReport do_run(const fs::path& directory, const Case& c, bool may_fail, JobCha
   options.stop = channel.stop();
   options.progress = [&](long long done, long long total) { channel.progress(done, total); };
   return report_of(run_case(c, options), may_fail);
-}
-
-/// What a program left that was killed while it wrote.
-void remove_unfinished(const fs::path& directory) {
-  std::error_code error;
-  for (const auto& entry : fs::directory_iterator(directory, error))
-    if (entry.path().filename().string().starts_with(".pod.")) fs::remove_all(entry.path(), error);
 }
 
 /// It takes about a second, and is finished in spite of a signal.
@@ -130,7 +178,7 @@ std::vector<PaperJob> paper_jobs(const fs::path& directory, const PaperPlan& pla
     const Case c = case_of(run);
     PaperJob job;
     job.directory = fs::path("runs") / run.name;
-    job.command = command_of(run);
+    job.command = command_of(run, directory);
     job.of = k;
     const fs::path results = directory / job.directory;
     job.there = !again && run_is_there(results, run, c);
@@ -148,11 +196,11 @@ std::vector<PaperJob> paper_jobs(const fs::path& directory, const PaperPlan& pla
         plan.runs.begin());
     PaperJob job;
     job.directory = fs::path("runs") / pod.run / "pod" / (pod.field + "-" + pod.frame);
-    job.command = command_of(pod);
+    job.command = command_of(pod, directory);
     job.is_pod = true;
     job.of = k;
     // A run made again takes its PODs with it.
-    job.there = jobs[run].there && pod_is_there(directory / job.directory, pod);
+    job.there = jobs[run].there && pod_is_there(directory / "runs" / pod.run, pod);
     if (job.there) job.found.status = JobStatus::done;
     const fs::path results = directory / "runs" / pod.run;
     job.job = {pod.run + " " + pod.field + "-" + pod.frame,

@@ -106,15 +106,16 @@ Case case_of(const PaperRun& run) {
                         std::string(shipped_case(run.case_name)), run.settings);
 }
 
-std::string command_of(const PaperRun& run) {
-  std::string command = fmt::format("rondo run cases/{}.toml -o runs/{}", run.case_name, run.name);
+std::string command_of(const PaperRun& run, const std::filesystem::path& directory) {
+  std::string command = fmt::format("rondo run cases/{}.toml -o {}", run.case_name,
+                                    (directory / "runs" / run.name).string());
   for (const std::string& setting : run.settings) command += " --set " + setting;
   return command;
 }
 
-std::string command_of(const PaperPod& pod) {
-  return fmt::format("rondo pod runs/{} --field {} --frame {} --modes {} --reconstruct 0", pod.run,
-                     pod.field, pod.frame, paper_modes);
+std::string command_of(const PaperPod& pod, const std::filesystem::path& directory) {
+  return fmt::format("rondo pod {} --field {} --frame {} --modes {} --reconstruct 0",
+                     (directory / "runs" / pod.run).string(), pod.field, pod.frame, paper_modes);
 }
 
 }  // namespace rondo::study

@@ -2,6 +2,7 @@
 /// @file  What the study of the paper computes: the runs and decompositions behind its figures 2 to
 /// 6 (docs/paper.md).
 #pragma once
+#include <filesystem>
 #include <string>
 #include <vector>
 
@@ -28,14 +29,15 @@ struct PaperPlan {
   std::vector<PaperPod> pods;
 };
 
-/// @param quick coarse meshes and fewer snapshots: seconds instead of half a minute
+/// @param quick coarse meshes and fewer snapshots: a third of the work
 [[nodiscard]] PaperPlan paper_plan(bool quick);
 
 /// The shipped case with the run's settings.
 [[nodiscard]] Case case_of(const PaperRun& run);
 
-/// The command that gives the same, from the root of the project.
-[[nodiscard]] std::string command_of(const PaperRun& run);
-[[nodiscard]] std::string command_of(const PaperPod& pod);
+/// The command that gives the same, from the root of the project where `directory`, that of the
+/// study, is given from there.
+[[nodiscard]] std::string command_of(const PaperRun& run, const std::filesystem::path& directory);
+[[nodiscard]] std::string command_of(const PaperPod& pod, const std::filesystem::path& directory);
 
 }  // namespace rondo::study

@@ -38,10 +38,19 @@ double one(std::size_t) {
 
 }  // namespace
 
+double keep_smaller(double a, double b) noexcept {
+  return a <= b || std::isnan(a) ? a : b;
+}
+
+double keep_larger(double a, double b) noexcept {
+  return a >= b || std::isnan(a) ? a : b;
+}
+
 const std::vector<double>& column(const Columns& history, std::string_view name,
                                   const std::filesystem::path& file) {
   const auto found = history.find(name);
   if (found == history.end()) throw FileError(file.string(), fmt::format("has no column {}", name));
+  if (found->second.empty()) throw FileError(file.string(), "has no rows");
   return found->second;
 }
 
@@ -85,20 +94,21 @@ double line(const Intervals& f, double frequency) {
   return 2.0 * std::abs(weighted_mean(f, hann, term));
 }
 
-double highest_line(const Intervals& f, double from, double to) {
-  // A line is about 4 / span wide: a quarter of 1 / span cannot miss it.
-  const auto best_of = [&](double lo, double hi, double step) {
-    double best = lo, height = 0.0;
-    for (double at = lo; at <= hi; at += step)
+double highest_line(const Intervals& f) {
+  const auto best_of = [&](double from, double to, double step) {
+    double best = from, height = 0.0;
+    for (double at = from; at <= to; at += step)
       if (const double here = line(f, at); here > height) {
         height = here;
         best = at;
       }
     return best;
   };
-  const double coarse = 0.25 / total(f.length), fine = 0.1;
-  const double near = best_of(from, to, coarse);
-  return best_of(near - coarse, near + coarse, fine);
+  // A line is about 4 / span wide: steps of a quarter of 1 / span cannot miss it.
+  const double resolution = 1.0 / total(f.length), fine = 0.1;
+  const double nyquist = 0.5 * static_cast<double>(f.value.size()) * resolution;
+  const double near = best_of(4.0 * resolution, nyquist, 0.25 * resolution);
+  return best_of(near - 0.25 * resolution, near + 0.25 * resolution, fine);
 }
 
 double edge_displacement(const mesh::Mesh& mesh, std::span<const Vec2> u) {
@@ -125,8 +135,8 @@ double swing(const EdgeMotion& edge, double from, double to) {
   double low = std::numeric_limits<double>::infinity(), high = -low;
   for (std::size_t j = 0; j < edge.time.size(); ++j) {
     if (edge.time[j] < from || edge.time[j] > to) continue;
-    low = std::min(low, edge.displacement[j]);
-    high = std::max(high, edge.displacement[j]);
+    low = keep_smaller(low, edge.displacement[j]);
+    high = keep_larger(high, edge.displacement[j]);
   }
   return high - low;
 }
@@ -137,11 +147,11 @@ double outside_cone(const io::RunReader& run, double friction) {
   for (std::size_t j = 0; j < run.n_snapshots(); ++j) {
     run.read(io::Quantity::contact, j, 0, force);
     for (const Vec2& f : force) {
-      outside = std::max(outside, std::abs(f.y) - friction * f.x);
-      largest = std::max(largest, f.x);
+      outside = keep_larger(outside, std::abs(f.y) - friction * f.x);
+      largest = keep_larger(largest, f.x);
     }
   }
-  return outside / largest;
+  return largest > 0.0 ? outside / largest : std::nan("");
 }
 
 }  // namespace rondo::study

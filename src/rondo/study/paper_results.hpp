@@ -13,10 +13,15 @@
 
 namespace rondo::study {
 
+/// The smaller and the larger of two; a value that is not a number comes through, unlike in
+/// std::min and std::max.
+[[nodiscard]] double keep_smaller(double a, double b) noexcept;
+[[nodiscard]] double keep_larger(double a, double b) noexcept;
+
 /// Columns of a history.csv by name.
 using Columns = std::map<std::string, std::vector<double>, std::less<>>;
 
-/// @throws FileError naming `file`: no such column
+/// @throws FileError naming `file`: no such column, or no rows
 [[nodiscard]] const std::vector<double>& column(const Columns& history, std::string_view name,
                                                 const std::filesystem::path& file);
 
@@ -39,8 +44,9 @@ struct Intervals {
 /// Amplitude of a harmonic of `frequency` [Hz] in f, seen through a Hann window over its time,
 /// whose gain is undone.
 [[nodiscard]] double line(const Intervals& f, double frequency);
-/// The frequency in [from, to] with the largest line, to a tenth of a hertz [Hz].
-[[nodiscard]] double highest_line(const Intervals& f, double from, double to);
+/// The frequency with the largest line, from four periods in the time of f up to the half of a row
+/// a period, to a tenth of a hertz [Hz].
+[[nodiscard]] double highest_line(const Intervals& f);
 
 /// Radial displacement of the outer edge, mean over the candidates, at each snapshot.
 struct EdgeMotion {
@@ -54,7 +60,7 @@ struct EdgeMotion {
 [[nodiscard]] double swing(const EdgeMotion& edge, double from, double to);
 
 /// Largest |tangential| - μ · normal of all contact forces of all snapshots, over the largest
-/// normal one.
+/// normal one; not a number where there is no force.
 [[nodiscard]] double outside_cone(const io::RunReader& run, double friction);
 
 }  // namespace rondo::study

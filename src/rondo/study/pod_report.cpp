@@ -7,7 +7,7 @@
 #include <array>
 #include <cmath>
 
-#include "rondo/study/version.hpp"
+#include "rondo/study/run_files.hpp"
 
 namespace rondo::study {
 namespace {
@@ -130,7 +130,7 @@ nlohmann::ordered_json as_json(const PodRequest& request, const PodReport& r) {
   nlohmann::ordered_json j;
   j["status"] = r.trouble.empty() ? "done" : "failed";
   if (!r.trouble.empty()) j["message"] = r.trouble;
-  j["version"] = version;
+  describe_program(j);
   j["field"] = request.field;
   j["frame"] = request.frame;
   if (request.frame == "rectified") j["shift"] = request.shift;

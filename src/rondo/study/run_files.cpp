@@ -9,6 +9,7 @@
 
 #include "rondo/core/error.hpp"
 #include "rondo/io/files.hpp"
+#include "rondo/study/build_id.hpp"
 #include "rondo/study/version.hpp"
 
 namespace rondo::study {
@@ -37,6 +38,7 @@ void keep_the_users_case(const Case& c, const std::filesystem::path& directory) 
 void describe_program(Json& json) {
   json["version"] = version;
   json["build"] = build_options;
+  json["build_id"] = build_id();
   json["host"] = host_name();
 }
 

@@ -12,7 +12,7 @@ namespace rondo::study {
 
 using Json = nlohmann::ordered_json;
 
-/// Adds what program wrote it, where: version, build, host.
+/// Adds what program wrote it, where: version, build, build id, host.
 void describe_program(Json& json);
 
 /// The first keys of run.json, with the status "running".

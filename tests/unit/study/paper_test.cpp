@@ -11,6 +11,7 @@
 
 #include "rondo/core/error.hpp"
 #include "rondo/mesh/disk.hpp"
+#include "rondo/study/build_id.hpp"
 #include "rondo/study/paper_plan.hpp"
 #include "rondo/study/paper_results.hpp"
 #include "rondo/study/paper_table.hpp"
@@ -30,6 +31,13 @@ TEST(ShippedCases, AreTheFilesOfCases) {
     ++files;
   }
   EXPECT_EQ(shipped_cases().size(), files);
+}
+
+TEST(BuildId, IsTheProgramsOwn) {
+  const std::string id = build_id();
+  EXPECT_GE(id.size(), 16U);
+  EXPECT_EQ(id.find_first_not_of("0123456789abcdef"), std::string::npos);
+  EXPECT_EQ(id, build_id());
 }
 
 class Plan : public testing::TestWithParam<bool> {};
@@ -61,10 +69,9 @@ INSTANTIATE_TEST_SUITE_P(Paper, Plan, testing::Values(false, true),
 TEST(Plan, CommandsNameCaseAndSettings) {
   const PaperRun run{
       "friction-0.2", "ledge-smooth", {"ground.friction=0.2", "time.end=0.1"}, false};
-  EXPECT_EQ(
-      command_of(run),
-      "rondo run cases/ledge-smooth.toml -o runs/friction-0.2 --set ground.friction=0.2 --set "
-      "time.end=0.1");
+  EXPECT_EQ(command_of(run, "some/paper"),
+            "rondo run cases/ledge-smooth.toml -o some/paper/runs/friction-0.2 --set "
+            "ground.friction=0.2 --set time.end=0.1");
 }
 
 /// a + b cos(2π f t + 0.3), as means over intervals of 0.3, 0.5, 0.7 ms in turn.
@@ -102,6 +109,8 @@ TEST(PaperResults, MissingColumnsAndTimesAreNamed) {
   EXPECT_NE(message("z", 0.0).find("some/history.csv"), std::string::npos);
   EXPECT_NE(message("z", 0.0).find("no column z"), std::string::npos);
   EXPECT_NE(message("y", 1.0).find("no rows after 1 s"), std::string::npos);
+  const Columns empty{{"y", {}}};
+  EXPECT_THROW(static_cast<void>(column(empty, "y", "h.csv")), FileError);
 }
 
 TEST(PaperResults, ALineHasTheHeightAndFrequencyOfItsHarmonic) {
@@ -109,7 +118,20 @@ TEST(PaperResults, ALineHasTheHeightAndFrequencyOfItsHarmonic) {
   // Means over up to 0.7 ms damp the harmonic by at most (w Δt)²/24 = 1.2 %.
   EXPECT_NEAR(line(f, 123.4), 7.0, 0.12);
   EXPECT_LT(line(f, 223.4), 0.05);
-  EXPECT_NEAR(highest_line(f, 30.0, 250.0), 123.4, 0.11);  // steps of a tenth of a hertz
+  EXPECT_NEAR(highest_line(f), 123.4, 0.11);  // steps of a tenth of a hertz
+}
+
+TEST(PaperResults, WhatIsNoNumberComesThrough) {
+  const double nan = std::nan("");
+  for (const auto keep : {keep_smaller, keep_larger}) {
+    EXPECT_TRUE(std::isnan(keep(nan, 1.0)));
+    EXPECT_TRUE(std::isnan(keep(1.0, nan)));
+  }
+  EXPECT_EQ(keep_smaller(1.0, 2.0), 1.0);
+  EXPECT_EQ(keep_smaller(2.0, 1.0), 1.0);
+  EXPECT_EQ(keep_larger(1.0, 2.0), 2.0);
+  EXPECT_EQ(keep_larger(2.0, 1.0), 2.0);
+  EXPECT_TRUE(std::isnan(swing({{0.0, 1.0, 2.0}, {0.0, nan, 1.0}}, 0.0, 2.0)));
 }
 
 TEST(PaperResults, SwingIsWithinItsTimes) {
