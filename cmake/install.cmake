@@ -31,5 +31,5 @@ if(RONDO_PYTHON_DIR)
   install(DIRECTORY python/rondo DESTINATION ${RONDO_PYTHON_DIR}
           FILES_MATCHING PATTERN "*.py" PATTERN "py.typed" PATTERN "__pycache__" EXCLUDE)
 else()
-  message(STATUS "No /usr/bin/python3: the Python package will not be installed")
+  message(STATUS "RONDO_PYTHON_DIR is empty: the Python package will not be installed")
 endif()

@@ -38,7 +38,7 @@ def package_files() -> list[str]:
 def metadata() -> str:
     lines = ["Metadata-Version: 2.1", f"Name: {NAME}", f"Version: {version()}",
              f"Summary: {PROJECT['description']}", f"License: {PROJECT['license']['text']}",
-             f"Requires-Python: {PROJECT['requires-python']}"]
+             "License-File: LICENSE", f"Requires-Python: {PROJECT['requires-python']}"]
     lines += [f"Requires-Dist: {needed}" for needed in PROJECT["dependencies"]]
     return "\n".join(lines) + "\n"
 
@@ -51,6 +51,7 @@ def build_wheel(wheel_directory: str, config_settings: dict[str, Any] | None = N
     contents[f"{info}/METADATA"] = metadata().encode()
     contents[f"{info}/WHEEL"] = (b"Wheel-Version: 1.0\nGenerator: rondo\nRoot-Is-Purelib: true\n"
                                  b"Tag: py3-none-any\n")
+    contents[f"{info}/LICENSE"] = (ROOT / "LICENSE").read_bytes()
     record = []
     for name, data in contents.items():
         digest = base64.urlsafe_b64encode(hashlib.sha256(data).digest()).rstrip(b"=").decode()
@@ -70,7 +71,7 @@ def build_sdist(sdist_directory: str, config_settings: dict[str, Any] | None = N
     """Writes the source archive into the folder and returns its name."""
     top = f"{NAME}-{version()}"
     contents = {name: (ROOT / name).read_bytes()
-                for name in ["build_wheel.py", "pyproject.toml", *package_files()]}
+                for name in ["LICENSE", "build_wheel.py", "pyproject.toml", *package_files()]}
     contents["PKG-INFO"] = metadata().encode()
     archive = io.BytesIO()
     with tarfile.open(fileobj=archive, mode="w", format=tarfile.PAX_FORMAT) as out:

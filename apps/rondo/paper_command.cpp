@@ -51,7 +51,10 @@ int finish(const study::PaperReport& report, const std::string& directory) {
   const auto passed = std::count_if(report.rows.begin(), report.rows.end(), study::passes);
   fmt::print("\n{} of {} as expected, in {:.1f} s; data and paper.json in {}\n", passed,
              report.rows.size(), report.wall_s, directory);
-  fmt::print("figures: python3 -m rondo figures {}\n", directory);
+  fmt::print(
+      "figures: python3 -m rondo figures {} (PYTHONPATH=python from the project's root, where\n"
+      "the package is not installed: docs/python.md)\n",
+      directory);
   if (report.status == study::RunStatus::done) return exit_done;
   spdlog::error("{}", report.message);
   return report.code;

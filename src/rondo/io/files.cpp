@@ -8,8 +8,10 @@
 
 #include <array>
 #include <cerrno>
+#include <chrono>
 #include <fstream>
 #include <system_error>
+#include <thread>
 
 #include "rondo/core/error.hpp"
 
@@ -185,8 +187,13 @@ DirectoryLock::DirectoryLock(const fs::path& directory)
     : descriptor_(::open(directory.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC)) {
   if (descriptor_ < 0)
     throw FileError(directory.string(), "cannot open the directory: " + message(errno));
-  if (::flock(descriptor_, LOCK_EX | LOCK_NB) == 0) return;
-  const int code = errno;
+  int code = 0;
+  for (int tries = 0; tries < 20; ++tries) {  // a second: processes of a killed one may be ending
+    if (::flock(descriptor_, LOCK_EX | LOCK_NB) == 0) return;
+    code = errno;
+    if (code != EWOULDBLOCK && code != EINTR) break;
+    std::this_thread::sleep_for(std::chrono::milliseconds(50));
+  }
   ::close(descriptor_);
   throw FileError(directory.string(), code == EWOULDBLOCK
                                           ? "another rondo is at work here; wait until it ends"

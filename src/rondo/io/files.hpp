@@ -34,7 +34,7 @@ bool overwrite_json(const std::filesystem::path& file, const nlohmann::ordered_j
 /// they end.
 class DirectoryLock {
  public:
-  /// @throws FileError: another program holds it; cannot be made
+  /// @throws FileError: another program holds it, still after a second; cannot be made
   explicit DirectoryLock(const std::filesystem::path& directory);
   ~DirectoryLock();
   DirectoryLock(const DirectoryLock&) = delete;

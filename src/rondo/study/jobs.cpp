@@ -187,8 +187,9 @@ void Pool::report_progress() {
     const JobStatus status = outcomes_[i].status;
     const bool over = status != JobStatus::waiting && status != JobStatus::running;
     progress.ended += over ? 1 : 0;
+    const bool whole = status == JobStatus::done || status == JobStatus::failed;
     shares_[i] =
-        over ? 1.0 : std::clamp(shared_[i].load(std::memory_order_relaxed), shares_[i], 1.0);
+        whole ? 1.0 : std::clamp(shared_[i].load(std::memory_order_relaxed), shares_[i], 1.0);
     done += jobs_[i].weight * shares_[i];
     total += jobs_[i].weight;
   }

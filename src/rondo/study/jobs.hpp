@@ -65,7 +65,8 @@ struct JobOutcome {
 
 /// The whole at one moment.
 struct JobsProgress {
-  double share = 0.0;     ///< by weight, 0 to 1; never falls; a job that ended counts in full
+  double share = 0.0;  ///< by weight, 0 to 1; never falls; a job that is done or failed counts in
+                       ///< full, one that was interrupted as far as it came
   std::size_t ended = 0;  ///< jobs
   /// Indices of jobs, in the order of their start; valid during the call.
   std::span<const std::size_t> running;

@@ -98,6 +98,7 @@ TEST(JobsStop, SetBeforehandStartsNothing) {
 
 TEST(JobsStop, EachOfTheSignalsReachesTheJobAndNotTheParent) {
   std::vector<Job> jobs;
+  for (const int number : {SIGINT, SIGTERM, SIGHUP}) std::signal(number, SIG_DFL);  // but for nohup
   for (const int number : {SIGINT, SIGTERM, SIGHUP})
     jobs.push_back(make_job("job", [number](JobChannel& channel) {
       const bool before = channel.stop()->load();
