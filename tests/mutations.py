@@ -26,12 +26,12 @@ PROGRAMS |= {m: f"unit/unit_{m}" for m in ("core", "mesh", "fem", "contact", "dy
                                            "reduction", "io", "study")}
 
 SCRIPTS = {"cli": "test_run.py", "crush": "test_crush.py", "pod": "test_pod.py",
-           "paper": "test_paper.py"}
+           "paper": "test_paper.py", "ring": "test_ring.py"}
 
 # @file in src/rondo, then of each mutation in it: name | old text => new text | tests.
 # \n is a new line; a line that begins with spaces continues the one above. The tests are
-# program:filter, with the letters of PROGRAMS and gtest's filters, or cli:, crush:, pod: and
-# paper:pattern (unittest's -k).
+# program:filter, with the letters of PROGRAMS and gtest's filters, or cli:, crush:, pod:, paper:
+# and ring:pattern (unittest's -k).
 TABLE = r"""
 @dynamics/ledger.cpp
 V1 frame work without -s² | {-f.spin * f.spin, f => {0.0, f | V:*Ledgers.*/plain V:SpinUp.Damped*
@@ -53,6 +53,7 @@ V10 sign of centrifugal term | {-f.spin * f.spin, f => {f.spin * f.spin, f |
 V18 sign of Euler term | f.spin_rate}}; => -f.spin_rate}}; | V:*Ledgers.*/tables dynamics:*AFree*
 V18 sign of Coriolis term | state.frame.spin);\n  free => -state.frame.spin);\n  free |
   V:*Rolling.* dynamics:*AFree*
+V10 half of the Coriolis term | state.frame.spin);\n  free => 0.5 * state.frame.spin);\n  free | ring:tangential
 V10 half of α | model.dt, model.mass => model.dt, 0.5 * model.mass | dynamics:*MassDamping*
 V10 no α | model.dt, model.mass_damping => model.dt, 0.0 | V:SpinUp.Damped* V:*Ledgers.*/plain
 V12 symplectic is as printed | (model.scheme, model.dt => (Scheme::as_printed, model.dt |
@@ -256,7 +257,7 @@ paper a line twice as high | return 2.0 * std::abs(weighted => return 4.0 * std:
   study:PaperResults.ALine*
 paper rows that begin too early | if (before < from) continue; => if (time[k] < from) continue; |
   study:PaperResults.Means*
-paper edge along x | dot(u[i], mesh.coordinates[i]) / norm(mesh.coordinates[i]) => u[i].x |
+paper edge along x | Vec2{dot(u[i], outward), dot => Vec2{u[i].x, dot |
   study:PaperResults.Edge* paper:what_the_files
 paper friction cone of half the angle | friction * f.x => 0.5 * friction * f.x | paper:every_row
 @study/paper_plan.cpp

@@ -298,7 +298,7 @@ class Study(unittest.TestCase):
         again = run("paper", "--quick", "-o", self.once)
         self.assertEqual(again.returncode, 3, again.stderr)
         self.assertIn("NOT  mean vertical force, friction 0.2", again.stdout)
-        self.assertIn("1 of 31 rows of the table are not as expected", again.stderr)
+        self.assertIn("1 of 32 rows of the table are not as expected", again.stderr)
         found = paper(self.once)
         self.assertEqual((found["status"], found["failed"]), ("failed", 1))
         self.assertFalse(table(self.once)["friction-0.2-force-y"]["pass"])

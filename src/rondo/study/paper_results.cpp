@@ -111,13 +111,14 @@ double highest_line(const Intervals& f) {
   return best_of(near - 0.25 * resolution, near + 0.25 * resolution, fine);
 }
 
-double edge_displacement(const mesh::Mesh& mesh, std::span<const Vec2> u) {
-  double sum = 0.0;
+Vec2 edge_displacement(const mesh::Mesh& mesh, std::span<const Vec2> u) {
+  Vec2 sum;
   for (const int node : mesh.boundary) {
     const auto i = static_cast<std::size_t>(node);
-    sum += dot(u[i], mesh.coordinates[i]) / norm(mesh.coordinates[i]);
+    const Vec2 outward = (1.0 / norm(mesh.coordinates[i])) * mesh.coordinates[i];
+    sum += Vec2{dot(u[i], outward), dot(u[i], {-outward.y, outward.x})};
   }
-  return sum / static_cast<double>(mesh.boundary.size());
+  return (1.0 / static_cast<double>(mesh.boundary.size())) * sum;
 }
 
 EdgeMotion edge_motion(const io::RunReader& run) {
@@ -126,7 +127,9 @@ EdgeMotion edge_motion(const io::RunReader& run) {
   std::vector<Vec2> u(run.n_points(io::Quantity::displacement));
   for (std::size_t j = 0; j < run.n_snapshots(); ++j) {
     run.read(io::Quantity::displacement, j, 0, u);
-    edge.displacement.push_back(edge_displacement(run.mesh(), u));
+    const Vec2 mean = edge_displacement(run.mesh(), u);
+    edge.displacement.push_back(mean.x);
+    edge.tangential.push_back(mean.y);
   }
   return edge;
 }

@@ -48,15 +48,17 @@ struct Intervals {
 /// a period, to a tenth of a hertz [Hz].
 [[nodiscard]] double highest_line(const Intervals& f);
 
-/// Radial displacement of the outer edge, mean over the candidates, at each snapshot.
+/// Displacement of the outer edge, mean over the candidates, at each snapshot.
 struct EdgeMotion {
   std::vector<double> time;          ///< (t) [s]
-  std::vector<double> displacement;  ///< (t) [m]
+  std::vector<double> displacement;  ///< (t) radial [m]
+  std::vector<double> tangential;    ///< (t) counter-clockwise [m]
 };
 
-[[nodiscard]] double edge_displacement(const mesh::Mesh& mesh, std::span<const Vec2> u);
+/// Radial and tangential (counter-clockwise) displacement of the edge, mean over the candidates [m]
+[[nodiscard]] Vec2 edge_displacement(const mesh::Mesh& mesh, std::span<const Vec2> u);
 [[nodiscard]] EdgeMotion edge_motion(const io::RunReader& run);
-/// Largest minus smallest displacement over the snapshots with from <= time <= to [m]
+/// Largest minus smallest radial displacement over the snapshots with from <= time <= to [m]
 [[nodiscard]] double swing(const EdgeMotion& edge, double from, double to);
 
 /// Largest |tangential| - μ · normal of all contact forces of all snapshots, over the largest
