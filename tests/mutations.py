@@ -242,17 +242,21 @@ POD rank unsaid | if (request.modes && *request.modes > r.modes) => if (false) |
 POD rebuilt from the first row | temporal.row(column) => temporal.row(0) | pod:rebuild
 POD original weighted | snapshots.unweight(original.col(0)); => | pod:rebuild
 @study/paper_jobs.cpp
-paper another case is kept | text_of(directory / "case.toml") == write_case(c) && => | paper:damaged
-paper a damaged run is kept | fs::is_regular_file(directory / "results.h5") && => | paper:damaged
+paper another case is kept | text_of(directory / "case.toml") != write_case(c)) => false) | paper:another_case
+paper a damaged run is kept | return is_whole(directory, j); => return true; | paper:truncated
+paper another program's run is kept | !is_of_this_program(j) || => | paper:another_program
+paper a failure of the machine is kept | && j.contains("steps_done") => | paper:machine
+paper a POD of other weights is kept | text_in(j, "weight") != "none" && => | paper:other_settings
+paper a POD of other snapshots is kept | j.value("snapshots", 0LL) == run.value("snapshots", -1LL) && => | paper:other_settings
+paper leftovers stay | if (entry.path().extension() == ".tmp") => if (false) | paper:leftovers
 paper PODs of a run made again are kept | jobs[run].there && pod_is_there => pod_is_there | paper:damaged
-paper a damaged POD is kept | text_in(j, "status") == "done" && text_in(j, "field" => true || text_in(j, "field" |
-  paper:damaged
 paper nothing is kept | job.there = !again && run_is_there => job.there = again && run_is_there | paper:goes_on
 paper the run that blows up is a failure | r.message, may_fail} => r.message, {}} | paper:every_row
 paper stop unheard | options.stop = channel.stop(); => | paper:in_hand
 @study/paper_results.cpp
 paper means by row | const double w = f.length[k] * weight(k); => const double w = weight(k); |
   study:PaperResults.Means*
+paper no number is swallowed | return a >= b || std::isnan(a) ? a : b; => return a < b ? b : a; | study:PaperResults.WhatIsNo*
 paper a line twice as high | return 2.0 * std::abs(weighted => return 4.0 * std::abs(weighted |
   study:PaperResults.ALine*
 paper rows that begin too early | if (before < from) continue; => if (time[k] < from) continue; |
