@@ -30,6 +30,7 @@ GREEN = "#009e73"
 GROUND = "0.72"  # the ground, in grey
 OUTLINE = "0.15"  # the edge of a body
 MESH = "0.35"  # sides of cells
+CONTACT = BLUE  # nodes in contact, in all figures
 
 # One after another for the curves of a panel: colour, line style, grey level all differ.
 CURVES: tuple[dict[str, Any], ...] = (
@@ -44,11 +45,12 @@ CURVES: tuple[dict[str, Any], ...] = (
 # Magnitudes: light where nothing happens, darker with every step upwards, so also in grey.
 SEQUENTIAL: Colormap = matplotlib.colormaps["magma_r"]
 
-# Signed quantities: white at zero. The negative end is darker than the positive one, so that a
-# print in grey tells at least the strong values apart. In steps, which show lines of equal value.
+# Signed quantities: grey at zero, darker and bluer below, lighter and yellower above. A print in grey
+# then tells the signs apart, and so do colour-blind readers: blue and yellow differ to all of them.
+# In steps, which show lines of equal value; their number is odd, so that zero has one of its own.
 DIVERGING: Colormap = LinearSegmentedColormap.from_list(
     "rondo_diverging",
-    ["#08306b", "#2171b5", "#9ecae1", "#ffffff", "#fdc086", "#e6550d", "#b33c00"], N=33)
+    ["#04164f", "#0b4a9b", "#8a8a8a", "#d9b83f", "#fff7b8"], N=33)
 
 RC: dict[str, object] = {
     "font.size": 8.0,

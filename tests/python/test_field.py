@@ -5,6 +5,8 @@ import matplotlib.pyplot as plt
 import numpy as np
 import pytest
 from drawn import bodies, without_unit
+from matplotlib.collections import LineCollection
+from matplotlib.colors import to_hex
 
 import rondo
 from rondo import style
@@ -151,16 +153,36 @@ def test_a_crush_is_told_by_its_depth(paper: rondo.Paper) -> None:
     assert crush.plot_field(1.0).get_title() == f"depth {depth:.3g} mm"
 
 
-def test_the_contact_is_the_nodes_with_a_force(run: rondo.Run) -> None:
+def marked(ax: plt.Axes) -> set[tuple[float, float]]:
+    """The places marked as in contact."""
+    lines = [line for line in ax.collections if isinstance(line, LineCollection)
+             and to_hex(line.get_color()[0]) == style.CONTACT]
+    dots = [line for line in ax.lines if line.get_color() == style.CONTACT]
+    shown = {tuple(p) for line in lines for path in line.get_paths() for p in path.vertices}
+    return shown | {tuple(p) for line in dots for p in line.get_xydata()}
+
+
+@pytest.mark.parametrize("frame, deformation", [("fixed", 1.0), ("turning", 1.0), ("fixed", 2.0)])
+def test_the_contact_is_the_nodes_with_a_force(run: rondo.Run, frame: str,
+                                               deformation: float) -> None:
     k = run.n_snapshots - 1
-    _, ax = plt.subplots()
-    field.draw_contact(ax, run, k)
-    paths = [path for line in ax.collections for path in line.get_paths()]
-    shown = {tuple(p) for path in paths for p in path.vertices}
-    shown |= {tuple(p) for line in ax.lines for p in line.get_xydata()}
+    ax = run.plot_field(run.times[k], frame=frame, deformation=deformation)
     force = np.asarray(run.contact.force[k])
     touching = run.mesh.boundary[force[:, 0] > 0]
-    assert shown == {tuple(p) for p in run.position(k)[touching]}
+    points = field.positions(run, k, frame, deformation)
+    assert len(touching) and marked(ax) == {tuple(p) for p in points[touching]}
+
+
+def test_the_contact_follows_the_snapshots(paper: rondo.Paper) -> None:
+    run = paper.run("ledge-smooth")
+    _, ax = plt.subplots()
+    zone = field.draw_contact(ax, run, run.n_snapshots - 1)
+    zone.update(0)
+    assert not run.contact.force[0].any() and not marked(ax)
+    k = run.n_snapshots // 2
+    zone.update(k)
+    touching = run.mesh.boundary[run.contact.force[k][:, 0] > 0]
+    assert marked(ax) == {tuple(p) for p in run.position(k)[touching]}
 
 
 def test_no_contact_no_arrows(paper: rondo.Paper) -> None:

@@ -8,6 +8,7 @@ import matplotlib.pyplot as plt
 import numpy as np
 import pytest
 from drawn import bodies, body_axes, check_files, without_unit
+from matplotlib.colors import to_hex
 from matplotlib.figure import Figure
 
 import rondo
@@ -197,6 +198,18 @@ def test_smooth_disks_are_marked_at_the_passing_of_nodes(paper: rondo.Paper) -> 
     columns = run.case["disk"]["mesh"]["circumferential"]
     rate, name = figure_3_forces.frequency(run)
     assert name == "nodes" and rate == pytest.approx(columns * run.spin / (2 * np.pi))
+
+
+def test_figure_4_tells_the_time_of_its_snapshots(paper: rondo.Paper,
+                                                  figures: dict[str, Figure]) -> None:
+    figure = figures["figure-4-displacement"]
+    times = {float(run.times[-1]) for run in map(paper.run, (f"friction-{name}" for name in
+                                                             figure_4.FRICTION))}
+    assert len(times) == 1
+    assert f"t = {times.pop() * 1e3:.1f} ms" in figure._suptitle.get_text()
+    colours = {to_hex(line.get_color()[0]) for ax in body_axes(figure) for line in ax.collections
+               if line.get_zorder() > 4}
+    assert colours == {style.CONTACT}
 
 
 def test_figure_4_contact_is_within_friction(figures: dict[str, Figure]) -> None:

@@ -30,13 +30,27 @@ def test_magnitudes_get_darker_with_every_step() -> None:
     assert level[0] - level[-1] > 80
 
 
-def test_signed_quantities_get_darker_on_both_sides_of_zero() -> None:
+def test_signed_quantities_get_lighter_from_end_to_end() -> None:
+    """The sign is told in grey: each step is seen, and they are much the same."""
     level = levels(style.DIVERGING)
-    middle = len(level) // 2
-    assert level[middle] > 99  # white
-    assert np.all(np.diff(level[: middle + 1]) > 0)
-    assert np.all(np.diff(level[middle:]) < 0)
-    assert level[-1] - level[0] > 10  # in grey the two ends are not the same
+    steps = np.diff(level)
+    assert steps.min() > 1.5 and steps.max() < 2 * steps.min()
+    assert level[-1] - level[0] > 80
+
+
+def test_zero_has_a_grey_of_its_own() -> None:
+    assert style.DIVERGING.N % 2 == 1
+    red, green, blue, _ = style.DIVERGING(0.5)
+    assert red == green == blue
+    assert 45 < levels(style.DIVERGING)[style.DIVERGING.N // 2] < 60
+
+
+def test_signs_differ_in_blue_against_yellow() -> None:
+    """What red-green blindness leaves: blue over the other two below zero, under them above."""
+    colour = style.DIVERGING(np.arange(style.DIVERGING.N))[:, :3]
+    excess = colour[:, 2] - colour[:, :2].mean(axis=1)
+    middle = style.DIVERGING.N // 2
+    assert np.all(excess[:middle] > 0) and np.all(excess[middle + 1:] < 0)
 
 
 def test_curves_differ_in_colour_and_in_line() -> None:

@@ -33,7 +33,7 @@ def _displacement(runs: list[Run]) -> Figure:
     their nodes stand at the same places before they are displaced."""
     time = min(float(run.times[-1]) for run in runs)
     with style.paper():
-        figure = plt.figure(figsize=(style.PAGE, 2.35))
+        figure = plt.figure(figsize=(style.PAGE, 2.5))
         grid = figure.add_gridspec(2, 4)
         for row, (quantity, label) in enumerate(QUANTITIES):
             fields = [nodal(run, run.index(time), quantity) for run in runs]
@@ -48,7 +48,7 @@ def _displacement(runs: list[Run]) -> Figure:
                        ylim=(ledge - WINDOW[1], ledge + WINDOW[2]))
                 draw_ground(ax, ground_of(run), ax.get_xlim(), ledge - 1)
                 body = draw_body(ax, run, k, quantity, limits=limits, mesh_width=0.2)
-                draw_contact(ax, run, k, color=style.BLUE if row == 0 else style.BLACK)
+                draw_contact(ax, run, k)
                 ax.set_xticks(x + np.array([-0.1, 0.0, 0.1]), ["\N{MINUS SIGN}100", "0", "100"])
                 ax.set_yticks([ledge, ledge + 0.05], ["0", "50"])
                 ax.tick_params(labelleft=column == 0, labelbottom=row == 1)
@@ -57,6 +57,8 @@ def _displacement(runs: list[Run]) -> Figure:
                 name = f"μ = {run.friction:.1f}" if row == 0 else ""
                 letter(ax, "abcdefgh"[4 * row + column], name)
             figure.colorbar(body.cells, ax=axes, label=label, pad=0.01, aspect=12)
+        figure.suptitle(f"One snapshot of each run, t = {time * 1e3:.1f} ms; blue: in contact",
+                        fontsize=7)
     return figure
 
 

@@ -9,6 +9,7 @@ import matplotlib.pyplot as plt
 import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.collections import LineCollection, PolyCollection
+from matplotlib.lines import Line2D
 from numpy.typing import NDArray
 
 from .. import style
@@ -213,21 +214,47 @@ def draw_ground(ax: Axes, ground: Ground | None, window: tuple[float, float],
     ax.plot(line[:, 0], line[:, 1], color=style.OUTLINE, linewidth=0.6, zorder=0.5)
 
 
-def draw_contact(ax: Axes, run: Run, index: int, width: float = 2.0,
-                 color: str = style.BLUE) -> None:
-    """The nodes in contact with the ground as a thick line along the edge of the body, in the fixed
-    frame; a node without a neighbour in contact is a dot."""
-    if run.contact is None:
-        return
-    touching = np.zeros(len(run.mesh.coordinates), dtype=bool)
-    touching[run.mesh.boundary[np.asarray(run.contact.force[index])[:, 0] > 0]] = True
-    points = run.position(index)
-    sides = outline(run.mesh.cells)
-    zone = sides[touching[sides].all(axis=1)]
-    ax.add_collection(LineCollection(list(points[zone]), colors=color, linewidths=width,
-                                     capstyle="round", zorder=4))
-    alone = np.setdiff1d(np.flatnonzero(touching), zone)
-    ax.plot(*points[alone].T, "o", color=color, markersize=width, markeredgewidth=0, zorder=4)
+@dataclasses.dataclass
+class ContactZone:
+    """The nodes in contact drawn on an axes; `update` shows another snapshot."""
+
+    run: Run
+    frame: str
+    deformation: float
+    lines: tuple[LineCollection, LineCollection]
+    dots: tuple[Line2D, Line2D]
+    sides: NDArray[np.int64]
+
+    def update(self, index: int) -> None:
+        if self.run.contact is None:
+            return
+        touching = np.zeros(self.run.mesh.n_nodes, dtype=bool)
+        forces = np.asarray(self.run.contact.force[index])[:, 0]
+        touching[self.run.mesh.boundary[forces > 0]] = True
+        points = positions(self.run, index, self.frame, self.deformation)
+        zone = self.sides[touching[self.sides].all(axis=1)]
+        alone = np.setdiff1d(np.flatnonzero(touching), zone)
+        for line in self.lines:
+            line.set_segments(list(points[zone]))
+        for dot in self.dots:
+            dot.set_data(*points[alone].T)
+
+
+def draw_contact(ax: Axes, run: Run, index: int, width: float = 2.0, frame: str = "fixed",
+                 deformation: float = 1.0) -> ContactZone:
+    """The nodes in contact with the ground as a thick line along the edge of the body, with a white
+    seam that parts it from any colour; a node without a neighbour in contact is a dot. Nothing
+    where the run has no ground."""
+    lines, dots = [], []
+    for color, wide, above in (("white", width + 1.2, 4.0), (style.CONTACT, width, 4.1)):
+        lines.append(LineCollection([], colors=color, linewidths=wide, capstyle="round",
+                                    zorder=above))
+        ax.add_collection(lines[-1])
+        dots += ax.plot([], [], "o", color=color, markersize=wide, markeredgewidth=0, zorder=above)
+    drawn = ContactZone(run, frame, deformation, (lines[0], lines[1]), (dots[0], dots[1]),
+                        outline(run.mesh.cells))
+    drawn.update(index)
+    return drawn
 
 
 def plot_field(run: Run, time: float, quantity: str = "displacement", ax: Axes | None = None,
@@ -235,8 +262,9 @@ def plot_field(run: Run, time: float, quantity: str = "displacement", ax: Axes |
                limits: tuple[float, float] | None = None, colorbar: bool = True) -> Axes:
     """The body at the snapshot nearest to `time` (s; of a crush: share of the depth, 0 to 1).
 
-    frame: "fixed" (with the ground and the nodes in contact) or "turning"; deformation: factor on
-    the displacement; limits: of the colours, in the unit of the colour bar (mm, m/s, MPa).
+    frame: "fixed" (with the ground) or "turning"; nodes in contact are marked in both.
+    deformation: factor on the displacement; limits: of the colours, in the unit of the colour bar
+    (mm, m/s, MPa); by default those of the cells as drawn.
     """
     index = run.index(time)
     with style.paper():
@@ -244,8 +272,7 @@ def plot_field(run: Run, time: float, quantity: str = "displacement", ax: Axes |
             ax = plt.figure(figsize=(style.COLUMN, 0.85 * style.COLUMN)).add_subplot()
         body = draw_body(ax, run, index, quantity, frame, deformation, limits)
         frame_axes(ax, run, index, frame, deformation)
-        if frame == "fixed" and deformation == 1.0:
-            draw_contact(ax, run, index)
+        draw_contact(ax, run, index, frame=frame, deformation=deformation)
         ax.set_title(snapshot_title(run, index))
         if colorbar:
             field = nodal(run, index, quantity, frame)
