@@ -13,7 +13,8 @@ from numpy.typing import NDArray
 
 from .. import style
 from ..errors import Error
-from .field import cell_means, component, draw_cells, turned
+from .amplitude import without_crossing
+from .field import cell_means, component, draw_cells, outline, turned
 from .marks import letter
 
 if TYPE_CHECKING:
@@ -23,7 +24,8 @@ Array = NDArray[np.float64]
 Window = tuple[tuple[float, float], tuple[float, float]]
 COLUMNS = 3
 LARGEST = 0.12  # length of the largest vector of a mode as drawn, over the radius of the body,
-LARGEST_CLOSE = 0.035  # and where only a part of the body is shown
+LARGEST_CLOSE = 0.025  # and where only a part of the body is shown; less where outlines would cross
+SMALL_MEAN = 0.1  # mean over root mean square of a course that swings about zero
 SHARES = (1e-2, 1e-4, 1e-6)  # of the energy left out, for which the numbers of modes are told
 MANY, FEW = 24, 8  # swings in time: more are not drawn, but these
 FLOOR = 1e-14  # shares below are not drawn: round-off
@@ -57,16 +59,19 @@ def plot_modes(pod: Pod, count: int = 6, window: Window | None = None) -> Figure
     """The first modes of a POD, each with its course in time below.
 
     Modes of displacement and velocity are drawn as shapes: the reference position plus the mode,
-    magnified until its largest vector is 0.12 of the radius (0.035 in a window), and coloured by
-    its radial part over the largest of all cells. Those of the rectified frame stand as in the
-    fixed one, with the ground below. `window`: ((x from, to), (y from, to)) m, the part of the
-    body shown; None: all of it. Modes of contact are curves of their normal and tangential part
-    along the edge.
+    magnified until its largest vector is 0.12 of the radius (0.025 in a window), or less where the
+    outline would cross itself, and coloured by its radial part over the largest of all cells.
+    Those of the rectified frame stand as in the fixed one, with the ground below. `window`:
+    ((x from, to), (y from, to)) m, the part of the body shown; None: all of it. Modes of contact
+    are curves of their normal and tangential part along the edge.
 
     The courses in time are the columns of V, times the root of the number of snapshots, so that
     their mean square is 1; they have no unit. Where they swing fast, only the first periods are
-    shown.
+    shown. A mode and its course may be turned over together: they are drawn such that the course is
+    positive in the mean, or where it has none to speak of, at its largest (see `sign`).
     """
+    if count < 1:
+        raise Error(f"count = {count}: at least 1 mode")
     count = min(count, pod.n_modes)
     if count < 1:
         raise Error(f"{pod.directory}: the POD has no modes: all its snapshots are zero")
@@ -120,16 +125,26 @@ def percent(share: float) -> str:
     return f"{100 * share:.2g} %" if share >= 1e-6 else f"{100 * share:.0e} %"
 
 
+def sign(pod: Pod, mode: int) -> float:
+    """1 or -1, by which a mode and its course are drawn: a POD leaves the sign of the two open."""
+    course = np.asarray(pod.temporal[:, mode])
+    mean, size = course.mean(), np.sqrt(np.mean(course**2))
+    decisive = mean if abs(mean) > SMALL_MEAN * size else course[np.abs(course).argmax()]
+    return -1.0 if decisive < 0 else 1.0
+
+
 def shape(pod: Pod, mode: int, largest: float) -> tuple[Array, Array]:
     """(n, 2) m and (n,): the deformed shape of a mode as drawn, its largest vector `largest` radii
-    long, and its radial part, scaled so that the largest mean of a cell is 1 or -1."""
-    vectors = np.asarray(pod.spatial[mode])
+    long, or less where the outline would cross itself, and its radial part, scaled so that the
+    largest mean of a cell is 1 or -1."""
+    vectors = sign(pod, mode) * np.asarray(pod.spatial[mode])
     vectors = vectors / np.linalg.norm(vectors, axis=1).max()
-    coordinates = pod.mesh.coordinates
+    coordinates, cells = pod.mesh.coordinates, pod.mesh.cells
     radius = np.linalg.norm(coordinates, axis=1).max()
     radial = component(vectors, coordinates, "radial")
-    means = np.abs(cell_means(radial, pod.mesh.cells))
-    return coordinates + largest * radius * vectors, radial / (means.max() or 1.0)
+    means = np.abs(cell_means(radial, cells))
+    length = without_crossing(coordinates, vectors, outline(cells), largest * radius)
+    return coordinates + length * vectors, radial / (means.max() or 1.0)
 
 
 def _height(window: Window) -> float:
@@ -153,7 +168,7 @@ def edge_angle(pod: Pod) -> Array:
 
 
 def draw_contact_mode(ax: Axes, pod: Pod, mode: int) -> None:
-    values = np.asarray(pod.spatial[mode])
+    values = sign(pod, mode) * np.asarray(pod.spatial[mode])
     values = values / np.abs(values).max()
     angle = edge_angle(pod)
     order = np.argsort(angle)
@@ -177,7 +192,7 @@ def course_shown(pod: Pod, count: int) -> int:
 
 def draw_course(ax: Axes, pod: Pod, mode: int, shown: int) -> None:
     """The column of V over the turns of the body, or over time where it does not turn."""
-    course = np.asarray(pod.temporal[:shown, mode]) * np.sqrt(len(pod.time))
+    course = sign(pod, mode) * np.asarray(pod.temporal[:shown, mode]) * np.sqrt(len(pod.time))
     turns = np.abs(np.asarray(pod.angle) - pod.angle[0]) / (2 * np.pi)
     if turns[-1] > 0:
         abscissa, label = turns, "turns of the disk (–)"
