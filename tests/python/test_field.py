@@ -233,8 +233,8 @@ def test_end_segments_go_on_as_they_are() -> None:
 def test_the_traction_integrates_to_the_mean_force(paper: rondo.Paper, friction: str) -> None:
     run = paper.run(f"friction-{friction}")
     profile = contact.traction_profile(run)
-    assert profile.width == pytest.approx(0.5 * np.median(run.contact.tributary))
-    assert np.allclose(np.diff(profile.x), profile.width)
+    assert profile.window == pytest.approx(np.median(run.contact.tributary))
+    assert np.allclose(np.diff(profile.x), 0.5 * profile.window)
     force = np.asarray(run.contact.force[:]).sum(axis=1).mean(axis=0)
     assert profile.force() == pytest.approx([-force[1], force[0]], rel=1e-12, abs=1e-9)
     assert contact.mean_force(run) == pytest.approx(profile.force(), rel=1e-12, abs=1e-9)
@@ -245,6 +245,20 @@ def test_the_traction_integrates_to_the_mean_force(paper: rondo.Paper, friction:
     assert np.all(np.abs(profile.shear_x) <= run.friction * profile.pressure * (1 + 1e-12) + 1e-6)
     inside = np.abs(profile.x) < 0.25 * run.outer_radius
     assert not profile.pressure[~inside].any() and profile.pressure[inside].max() > 1e6
+
+
+def test_the_traction_is_the_mean_over_windows(paper: rondo.Paper) -> None:
+    """Summed anew, window by window."""
+    run = paper.run("friction-0.2")
+    profile = contact.traction_profile(run)
+    x = np.concatenate([run.position(k)[run.contact.nodes, 0] - run.center[k, 0]
+                        for k in range(run.n_snapshots)])
+    force = run.contact.force[:].reshape(-1, 2)
+    for k in np.flatnonzero(profile.pressure > 0):
+        inside = np.abs(x - profile.x[k]) < 0.5 * profile.window
+        mean = force[inside].sum(axis=0) / (run.n_snapshots * profile.window)
+        assert profile.pressure[k] == pytest.approx(mean[0], rel=1e-9)
+        assert profile.shear_x[k] == pytest.approx(-mean[1], rel=1e-9, abs=1e-6)
 
 
 def test_no_contact_no_profile(paper: rondo.Paper) -> None:

@@ -141,6 +141,18 @@ def test_the_printed_scheme_gains_energy_and_the_other_does_not(figures: dict[st
             assert line.get_ydata().max() < 1e-12
 
 
+def test_figure_2_tells_the_spin_and_its_titles_stand_in_line(figures: dict[str, Figure]) -> None:
+    figure = figures["figure-2"]
+    figure.canvas.draw()
+    for row in ("abc", "def", "ghi"):
+        panels = [titled(figure, letter) for letter in row]
+        heights = [ax._left_title.get_window_extent().y0 for ax in panels]
+        assert np.ptp(heights) < 1.0  # px
+        for letter, ax in zip(row, panels):
+            spin = "200 rad/s" if letter == "h" else "50 rad/s"
+            assert letter == "i" or spin in ax.get_title(loc="left")
+
+
 def test_the_energy_of_the_undamped_disk_is_the_work_of_its_frame(
         figures: dict[str, Figure]) -> None:
     panel = titled(figures["figure-2"], "f")
@@ -164,7 +176,7 @@ def test_figure_3_shows_the_times_of_the_paper(paper: rondo.Paper,
             traction = np.linalg.norm(run.contact.traction[run.index(time)], axis=1)
             panel = titled(figures[f"figure-3-{name}"], letter)
             assert panel.get_title(loc="left") == (
-                f"({letter}) traction up to {traction.max() * 1e-6:.2g} MPa")
+                f"({letter}) traction up to {traction.max() * 1e-6:.1f} MPa")
 
 
 def test_the_phases_of_the_climb_follow_each_other(paper: rondo.Paper) -> None:
@@ -233,6 +245,32 @@ def test_figure_5_is_of_the_velocity_in_the_turning_frame(paper: rondo.Paper,
             left = paper.pod(f"{run}-{body}", "velocity", "rotating").discarded_energy
             drawn = curve(ax, f"{kind}, {body}")
             assert np.array_equal(drawn[:, 1], left[drawn[:, 0].astype(int) - 1])
+
+
+def test_figure_5_has_the_colours_of_its_frames(figures: dict[str, Figure]) -> None:
+    own = {line.get_label(): line for line in figures["figure-5"].axes[0].lines}
+    frames = {line.get_label(): line for line in figures["figure-5-frames"].axes[0].lines}
+    for name, other in (("rolling", "rolling, turning frame"), ("crush", "crush")):
+        for body in ("smooth", "treaded"):
+            assert own[f"{name}, {body}"].get_color() == frames[other].get_color()
+    lines = [own[f"{name}, {body}"].get_linestyle() for name in ("rolling", "crush")
+             for body in ("smooth", "treaded")]
+    assert lines == ["-", "--", ":", "-."]
+
+
+def test_figure_5_tells_the_numbers_of_snapshots(paper: rondo.Paper,
+                                                 figures: dict[str, Figure]) -> None:
+    smooth, treaded = (len(paper.run(f"turn-{body}").times) for body in ("smooth", "treaded"))
+    for name in ("figure-5", "figure-5-frames"):
+        said = figures[name]._supxlabel.get_text()
+        assert f"of {smooth} (smooth) and {treaded} (treaded) snapshots" in said
+
+
+def test_figure_5_has_no_empty_decades(paper: rondo.Paper, figures: dict[str, Figure]) -> None:
+    low, _ = figures["figure-5"].axes[0].get_ylim()
+    drawn = [line.get_ydata() for line in figures["figure-5"].axes[0].lines
+             if "," in str(line.get_label())]
+    assert low >= 1e-10 and min(data.min() for data in drawn) < 100 * low
 
 
 def test_rectified_rolling_falls_faster(figures: dict[str, Figure]) -> None:

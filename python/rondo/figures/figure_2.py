@@ -37,9 +37,13 @@ def draw(paper: Paper) -> dict[str, Figure]:
         _schemes(axes[2][0], *slow, logarithmic=False)
         _schemes(axes[2][1], *fast, logarithmic=True)
         _residuals(axes[2][2], slow, fast)
-        letter(axes[2][0], "g", f"both schemes, {slow[0].spin:.0f} rad/s")
-        letter(axes[2][1], "h", f"both schemes, {fast[0].spin:.0f} rad/s")
+        for ax, name, (run, _) in ((axes[2][0], "g", slow), (axes[2][1], "h", fast)):
+            letter(ax, name, f"both schemes, {_spin(run)}")
     return {"figure-2": figure}
+
+
+def _spin(run: Run) -> str:
+    return f"{run.spin:.0f} rad/s"
 
 
 def _damped_curve(curve: Axes, error: Axes, run: Run, closed_form: float) -> None:
@@ -50,7 +54,7 @@ def _damped_curve(curve: Axes, error: Axes, run: Run, closed_form: float) -> Non
     curve.set(xlim=(0, end), ylim=(0, None), xlabel="time (ms)",
               ylabel="radial displacement\nof the edge (mm)")
     curve.legend(loc="lower right")
-    letter(curve, "a", "with damping")
+    letter(curve, "a", f"damped, {_spin(run)}")
     difference = np.abs(radial / closed_form - 1)
     error.semilogy(time, difference, **style.CURVES[0])
     error.axhline(difference[-1], color=style.BLACK, ls="--", lw=0.8)
@@ -59,16 +63,17 @@ def _damped_curve(curve: Axes, error: Axes, run: Run, closed_form: float) -> Non
                    ha="right", va="bottom", fontsize=7)
     error.set(xlim=(0, time[-1]), ylim=(0.1 * difference[-1], 2), xlabel="time (ms)",
               ylabel="difference from the\nclosed form (–)")
-    letter(error, "b", "towards the closed form")
+    letter(error, "b", f"damped, {_spin(run)}")
 
 
 def _stationary_disk(ax: Axes, run: Run) -> None:
     last = run.n_snapshots - 1
     body = draw_body(ax, run, last, frame="turning", mesh_width=0)
     frame_axes(ax, run, last, "turning")
+    ax.set_adjustable("datalim")  # as high as the axes beside it
     ax.figure.colorbar(body.cells, ax=ax, label="displacement (mm)", shrink=0.9, pad=0.01,
                        aspect=15)
-    letter(ax, "c", f"at {run.times[last]:.1f} s")
+    letter(ax, "c", f"damped, {_spin(run)}, {run.times[last]:.1f} s")
 
 
 def _oscillation(first: Axes, last: Axes, run: Run, closed_form: float) -> None:
@@ -82,9 +87,9 @@ def _oscillation(first: Axes, last: Axes, run: Run, closed_form: float) -> None:
         ax.set(xlim=(start, start + span), ylim=(min(-0.02, 1.15 * radial.min()), top),
                xlabel="time (ms)")
     first.set_ylabel("radial displacement\nof the edge (mm)")
-    letter(first, "d", "without damping, first periods")
+    letter(first, "d", f"undamped, {_spin(run)}, start")
     last.tick_params(labelleft=False)
-    letter(last, "e", "last periods")
+    letter(last, "e", f"undamped, {_spin(run)}, end")
 
 
 def _ledger(ax: Axes, run: Run) -> None:
@@ -101,7 +106,7 @@ def _ledger(ax: Axes, run: Run) -> None:
            ylabel="energy (J/m)")
     ax.legend(loc="upper right", ncol=2, columnspacing=0.6, handlelength=1.2, handletextpad=0.4,
               borderpad=0.0, borderaxespad=0.0)
-    letter(ax, "f", "energy, without damping")
+    letter(ax, "f", f"undamped, {_spin(run)}")
 
 
 def _schemes(ax: Axes, symplectic: Run, printed: Run, logarithmic: bool) -> None:
@@ -110,8 +115,8 @@ def _schemes(ax: Axes, symplectic: Run, printed: Run, logarithmic: bool) -> None
     for run, name, curve in ((symplectic, "symplectic", SYMPLECTIC),
                              (printed, "as printed", PRINTED)):
         ax.plot(run.history["time_s"], np.maximum.accumulate(energy(run)), label=name, **curve)
-    ax.plot(printed.history["time_s"], printed.history["work_scheme"],
-            label="created by the scheme", **CREATED)
+    created = np.maximum.accumulate(printed.history["work_scheme"])
+    ax.plot(printed.history["time_s"], created, label="created by the scheme", **CREATED)
     if logarithmic:
         ax.set_yscale("log")
         ax.set_ylim(0.02 * energy(symplectic).max(), None)
@@ -120,7 +125,7 @@ def _schemes(ax: Axes, symplectic: Run, printed: Run, logarithmic: bool) -> None
         ax.legend(loc="center left", bbox_to_anchor=(0.0, 0.45), handlelength=1.8,
                   borderaxespad=0.2)
     ax.set(xlim=(0, symplectic.history["time_s"][-1]), xlabel="time (s)",
-           ylabel="largest energy so far (J/m)")
+           ylabel="energy, largest\nso far (J/m)")
 
 
 def _residuals(ax: Axes, slow: tuple[Run, Run], fast: tuple[Run, Run]) -> None:

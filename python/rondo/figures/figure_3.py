@@ -46,7 +46,7 @@ def _disks(run: Run, chosen: list[int], top: float) -> Figure:
             body = _whole(whole, run, k, top)
             _close(close, run, k, top, max(tractions) or 1.0)
             letter(whole, "abc"[column], f"t = {run.times[k] * 1e3:.1f} ms")
-            said = f"traction up to {tractions[column] * 1e-6:.2g} MPa"
+            said = f"traction up to {tractions[column] * 1e-6:.1f} MPa"
             letter(close, "def"[column], said if tractions[column] else "not yet in contact")
             for ax, name in ((whole, "y (m)"), (close, "y (mm)")):
                 ax.set_ylabel(name if column == 0 else "")

@@ -92,8 +92,8 @@ def _contact(runs: list[Run]) -> Figure:
         axes[1][0].set(ylabel="mean shear along x (MPa)", ylim=(low - 0.17 * (high - low), high))
         axes[1][1].text(0.5, 0.97, "grey: up to μ × pressure", transform=axes[1][1].transAxes,
                         ha="center", va="top", fontsize=7)
-        axes[1][0].text(0.5, 0.97, f"bins of {1e3 * profiles[0].width:.1f} mm", ha="center",
-                        va="top", transform=axes[1][0].transAxes, fontsize=7)
+        axes[1][0].text(0.5, 0.97, f"means over windows\nof {1e3 * profiles[0].window:.1f} mm",
+                        ha="center", va="top", transform=axes[1][0].transAxes, fontsize=7)
     return figure
 
 

@@ -18,39 +18,51 @@ if TYPE_CHECKING:
 
 BODIES = ("smooth", "treaded")
 FIELDS = (("displacement", "displacement"), ("velocity", "velocity"), ("contact", "contact force"))
+ROLLING, RECTIFIED, CRUSH = style.CURVES[1], style.CURVES[0], style.CURVES[2]
 CURVES = (  # what is compared: label, run, frame, look
-    ("rolling, turning frame", "turn", "rotating", style.CURVES[1]),
-    ("rolling, rectified", "turn", "rectified", style.CURVES[0]),
-    ("crush", "crush", "rotating", style.CURVES[2]),
+    ("rolling, turning frame", "turn", "rotating", ROLLING),
+    ("rolling, rectified", "turn", "rectified", RECTIFIED),
+    ("crush", "crush", "rotating", CRUSH),
 )
-LEAST = 1e-12  # of the shares shown
+OWN = (  # the same colours, with lines of their own for the two bodies
+    ("rolling", "turn", [{**ROLLING, "linestyle": line} for line in ("-", "--")]),
+    ("crush", "crush", [{**CRUSH, "linestyle": line} for line in (":", "-.")]),
+)
+LEAST_OWN, LEAST = 1e-10, 1e-12  # of the shares shown
 
 
 def draw(paper: Paper) -> dict[str, Figure]:
     return {"figure-5": _own(paper), "figure-5-frames": _frames(paper)}
 
 
-def _axes(ax: Axes) -> None:
+def _axes(ax: Axes, least: float) -> None:
     for share in SHARES:
         ax.axhline(share, color="0.85", lw=0.6, zorder=0)
-    ax.set(ylim=(LEAST, 2), xlim=(1, 1000))
+    ax.set(ylim=(least, 2), xlim=(1, 1000))
     ax.yaxis.set_major_locator(LogLocator(numticks=8))
+
+
+def _snapshots(paper: Paper) -> str:
+    """Of rolling: no POD has more modes, so counts near these say how many were taken."""
+    counts = [len(paper.pod(f"turn-{body}", "velocity", "rotating").time) for body in BODIES]
+    return f"{counts[0]} (smooth) and {counts[1]} (treaded) snapshots"
 
 
 def _own(paper: Paper) -> Figure:
     """The paper's own: the velocity of rolling in the turning frame, against a crush."""
     with style.paper():
-        figure = plt.figure(figsize=(style.COLUMN, 2.8))
+        figure = plt.figure(figsize=(style.COLUMN, 3.0))
         ax = figure.add_subplot()
-        _axes(ax)
-        rolling = style.CURVES[:2]
-        crush = ({"color": style.SKY, "linestyle": ":"}, {"color": style.BLACK, "linestyle": "-."})
-        for run, name, curves in (("turn", "rolling", rolling), ("crush", "crush", crush)):
+        _axes(ax, LEAST_OWN)
+        for name, run, curves in OWN:
             for body, curve in zip(BODIES, curves):
                 pod = paper.pod(f"{run}-{body}", "velocity", "rotating")
                 draw_decay(ax, pod, f"{name}, {body}", curve)
         ax.set(xlabel="modes kept (–)", ylabel="share of the energy\nof the velocity left out (–)")
-        ax.legend(loc="lower right", borderaxespad=0.0, handlelength=2.2)
+        figure.supxlabel(f"Rolling: of {_snapshots(paper)};\ncounts near these are set by them.",
+                         fontsize=7)
+        ax.legend(loc="lower right", bbox_to_anchor=(0.91, 0.12), borderaxespad=0.0,
+                  handlelength=2.0)
     return figure
 
 
@@ -62,7 +74,7 @@ def _frames(paper: Paper) -> Figure:
         for row, body in enumerate(BODIES):
             for column, (field, name) in enumerate(FIELDS):
                 ax = axes[row][column]
-                _axes(ax)
+                _axes(ax, LEAST)
                 for label, run, frame, curve in CURVES:
                     draw_decay(ax, paper.pod(f"{run}-{body}", field, frame), label, curve)
                 ax.set_xlabel("modes kept (–)" if row == 1 else "")
@@ -70,5 +82,7 @@ def _frames(paper: Paper) -> Figure:
             axes[row][0].set_ylabel("share of the\nenergy left out (–)")
         handles, labels = axes[0][0].get_legend_handles_labels()
         figure.legend(handles, labels, loc="upper center", ncol=3)
+        figure.supxlabel(f"Rolling: of {_snapshots(paper)}; counts near these are set by them.",
+                         fontsize=7)
         figure.get_layout_engine().set(rect=(0, 0, 1, 0.94))  # room for the legend
     return figure

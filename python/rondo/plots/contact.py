@@ -36,35 +36,37 @@ def ground_of(run: Run) -> Ground:
 
 @dataclasses.dataclass(frozen=True)
 class TractionProfile:
-    """Mean traction of the ground on the body in bins along x, from the centre of the disk (m).
+    """Mean traction of the ground on the body in windows along x, from the centre of the disk (m).
 
-    x: (b,) m, middles of the bins; width: m; pressure: (b,) Pa; shear_x: (b,) Pa, > 0 pushes the
-    body towards +x (contact.csv and results.h5 count shear towards -x, to the left of the normal).
+    x: (b,) m, middles of the windows, half a window apart, so that each overlaps the next; window:
+    m, their width; pressure: (b,) Pa; shear_x: (b,) Pa, > 0 pushes the body towards +x (contact.csv
+    and results.h5 count shear towards -x, to the left of the normal).
     """
 
     x: Array
-    width: float
+    window: float
     pressure: Array
     shear_x: Array
 
     def force(self) -> Array:
         """(2,) N/m: the integrals of shear and pressure: mean horizontal and vertical force."""
-        return np.array([self.shear_x.sum(), self.pressure.sum()]) * self.width
+        return np.array([self.shear_x.sum(), self.pressure.sum()]) * 0.5 * self.window
 
 
-def traction_profile(run: Run, bins_per_node: int = 2) -> TractionProfile:
+def traction_profile(run: Run) -> TractionProfile:
     """The mean over all snapshots of a run that rolls steadily on level ground.
 
     In one snapshot the few nodes in contact stand at certain places; in the next ones they have
     moved on, so that together they sample every place. The forces of all nodes of all snapshots
-    are summed by the place of the node, in bins of half the spacing of the nodes along the edge
-    (1/`bins_per_node`), and divided by the number of snapshots and the width of a bin. So the
-    profile has exactly the mean force of the snapshots as its integral.
+    are summed by the place of the node, in windows as wide as the spacing of the nodes along the
+    edge, one at each half of it, and divided by the number of snapshots and the width. So the
+    profile has exactly the mean force of the snapshots as its integral. Narrower windows hold now
+    more nodes, now fewer, which the snapshots of a finite run do not even out.
     """
     contact = contact_of(run)
-    width = float(np.median(contact.tributary)) / bins_per_node
-    reach = np.ceil(run.outer_radius / width) * width
-    edges = np.arange(-reach, reach + 1.5 * width, width) - 0.5 * width
+    half = 0.5 * float(np.median(contact.tributary))
+    reach = np.ceil(run.outer_radius / half) * half
+    edges = np.arange(-reach, reach + 1.5 * half, half) - 0.5 * half
     sums = np.zeros((len(edges) - 1, 2))
     for k in range(run.n_snapshots):
         force = np.asarray(contact.force[k])
@@ -72,8 +74,8 @@ def traction_profile(run: Run, bins_per_node: int = 2) -> TractionProfile:
         x = run.position(k)[contact.nodes[touching], 0] - run.center[k][0]
         for which in range(2):
             sums[:, which] += np.histogram(x, edges, weights=force[touching, which])[0]
-    mean = sums / (run.n_snapshots * width)
-    return TractionProfile(0.5 * (edges[:-1] + edges[1:]), width, mean[:, 0], -mean[:, 1])
+    mean = (sums[:-1] + sums[1:]) / (run.n_snapshots * 2 * half)
+    return TractionProfile(edges[1:-1], 2 * half, mean[:, 0], -mean[:, 1])
 
 
 def mean_force(run: Run) -> Array:
