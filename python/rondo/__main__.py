@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import argparse
+import os
 import pathlib
 import sys
 from collections.abc import Sequence
@@ -15,6 +16,7 @@ from rondo.errors import Error, UnfinishedRunError
 from rondo.run import Run
 
 WRONG = 2  # exit code of wrong input, as the program's
+BROKEN_PIPE = 141  # as a shell has it of a program that is killed by SIGPIPE
 
 
 def _parser() -> argparse.ArgumentParser:
@@ -49,11 +51,16 @@ def _parser() -> argparse.ArgumentParser:
     return parser
 
 
+def _folder(options: argparse.Namespace) -> pathlib.Path:
+    """Where figures go."""
+    return options.output or options.directory / "figures"
+
+
 def _figures(options: argparse.Namespace) -> None:
-    folder = options.output or options.directory / "figures"
+    folder = _folder(options)
     if (options.directory / "paper.json").is_file():
         from rondo.figures import draw_paper
-        written = draw_paper(open_paper(options.directory), folder)
+        written = draw_paper(open_paper(options.directory, options.unfinished), folder)
     else:
         from rondo.figures.run_figures import draw_run
         written = draw_run(open_run(options.directory, options.unfinished), folder)
@@ -85,11 +92,21 @@ def main(arguments: Sequence[str] | None = None) -> int:
     commands = {"figures": _figures, "animate": _animate, "means": _means}
     try:
         commands[options.command](options)
+        sys.stdout.flush()
+    except BrokenPipeError:  # the reader, as `head`, has enough
+        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())  # for the flush at exit
+        return BROKEN_PIPE
     except UnfinishedRunError as reason:
         print(f"rondo: {reason} (here: --unfinished)", file=sys.stderr)
         return WRONG
-    except (Error, OSError) as reason:
+    except Error as reason:
         print(f"rondo: {reason}", file=sys.stderr)
+        return WRONG
+    except OSError as reason:
+        figures = options.command == "figures"  # what else writes has said so itself
+        place = reason.filename or (_folder(options) if figures else "output")
+        advice = "; choose another -o" if figures else ""
+        print(f"rondo: {place}: {reason.strerror or reason}{advice}", file=sys.stderr)
         return WRONG
     return 0
 

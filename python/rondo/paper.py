@@ -6,15 +6,26 @@ import os
 import pathlib
 from typing import Any
 
-from .errors import Error, unknown
+from .errors import Error, UnfinishedRunError, unknown
 from .files import check_format, read_json, require
 from .pod import Pod
 from .run import Run, open_run
 
 
-def open_paper(path: str | os.PathLike[str]) -> Paper:
-    """Opens the directory of a paper study, as far as it has come (`status`)."""
-    return Paper(require(path, "paper.json"))
+def open_paper(path: str | os.PathLike[str], unfinished: bool = False) -> Paper:
+    """Opens the directory of a paper study. `unfinished`: also one that has not come to its table,
+    which is made last; what is done of it is read."""
+    paper = Paper(require(path, "paper.json"))
+    if paper.status != "done" and not paper.table and not unfinished:
+        parts = [part.get("status") for part in (*paper._runs.values(), *paper._pods)]
+        failed = f", {parts.count('failed')} have failed" if "failed" in parts else ""
+        quick = " --quick" if paper.quick else ""
+        raise UnfinishedRunError(
+            f'{paper.directory}: a study of status "{paper.status}", without its table: '
+            f"{parts.count('done')} of {len(parts)} parts are done{failed}. "
+            f'"rondo paper -o {paper.directory}{quick}" goes on with it; '
+            f'rondo.open_paper("{paper.directory}", unfinished=True) reads what is there')
+    return paper
 
 
 class Paper:
@@ -31,6 +42,7 @@ class Paper:
             self.table: list[dict[str, Any]] = list(self.info["table"])
             self._rows = {row["name"]: row for row in self.table}
             self._runs = {run["name"]: run for run in self.info["runs"]}
+            self._pods = list(self.info["pods"])
         except (KeyError, TypeError) as reason:
             raise Error(f"{path}: damaged: {reason!r}") from None
         self._opened: dict[str, Run] = {}

@@ -1,5 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """python3 -m rondo, from outside."""
+import json
+import os
 import shutil
 import subprocess
 import sys
@@ -94,12 +96,36 @@ def test_unfinished(killed, tmp_path):
     (["animate", "SMOOTH", "a.gif", "--from", "0.01", "--to", "0.005"], "from 0.01 to 0.005 s"),
     (["means", "SMOOTH", "--from", "7"], "no rows from 7 s"),
     (["figures", "SMOOTH/pod/velocity-rectified"], "is a POD"),
-    (["figures", "SMOOTH", "-o", "SMOOTH/run.json"], "run.json")])
-def test_wrong_input_is_one_line_and_code_2(smooth, tmp_path, arguments, words):
-    done = rondo_module(*(text.replace("SMOOTH", str(smooth)) for text in arguments), cwd=tmp_path)
+    (["animate", "SMOOTH", "new/a.gif"], "no directory new"),
+    (["means", "AIR"], "no ground: the case has no [ground]"),
+    (["figures", "SMOOTH", "-o", "SMOOTH/run.json"], "/run.json: File exists; choose another -o")])
+def test_wrong_input_is_one_line_and_code_2(smooth, air, tmp_path, arguments, words):
+    done = rondo_module(*(text.replace("SMOOTH", str(smooth)).replace("AIR", str(air))
+                          for text in arguments), cwd=tmp_path)
     assert (done.returncode, done.stdout) == (2, "")
     assert done.stderr.startswith("rondo: ") and done.stderr.count("\n") == 1
     assert words in done.stderr
+
+
+def test_figures_of_a_study_without_its_table(tmp_path):
+    (tmp_path / "paper.json").write_text(json.dumps(
+        {"format": "rondo paper 1", "status": "running", "quick": True, "table": [], "pods": [],
+         "runs": [{"name": "a", "directory": "a", "status": "running"}]}))
+    done = rondo_module("figures", tmp_path, "-o", tmp_path / "figures")
+    assert done.returncode == 2 and "0 of 1 parts are done" in done.stderr
+    assert f'"rondo paper -o {tmp_path} --quick" goes on' in done.stderr
+    done = rondo_module("figures", tmp_path, "--unfinished")
+    assert done.returncode == 2 and "no run 'spin-up-damped'" in done.stderr
+
+
+def test_a_reader_that_has_enough(smooth):
+    """As `| head` ends: without a trace."""
+    reading, writing = os.pipe()
+    os.close(reading)
+    process = subprocess.run([sys.executable, "-m", "rondo", "means", str(smooth)], stdout=writing,
+                             stderr=subprocess.PIPE, text=True, timeout=120)
+    os.close(writing)
+    assert (process.returncode, process.stderr) == (141, "")
 
 
 def test_wrong_options_are_code_2():
