@@ -25,6 +25,9 @@ UNITS = {
 }
 
 
+FORCES = ("force_x", "force_y", "torque")  # of the ground on the body
+
+
 def between(from_time: float | None, to_time: float | None, unit: str = "s") -> str:
     """A window of time in words."""
     ends = [f"{word} {time:g}" for word, time in (("from", from_time), ("to", to_time))
@@ -35,8 +38,8 @@ def between(from_time: float | None, to_time: float | None, unit: str = "s") -> 
 class History(Mapping[str, np.ndarray]):
     """history["force_y"]: array (rows,); history.units["force_y"]: its unit."""
 
-    def __init__(self, path: pathlib.Path, crush: bool = False) -> None:
-        self.path, self.crush = path, crush
+    def __init__(self, path: pathlib.Path, crush: bool = False, ground: bool = True) -> None:
+        self.path, self.crush, self.ground = path, crush, ground
         self._columns = read_table(path)
         self.units = {name: UNITS[name] for name in self._columns if name in UNITS}
         if crush:
@@ -61,6 +64,24 @@ class History(Mapping[str, np.ndarray]):
     def names(self) -> list[str]:
         return list(self._columns)
 
+    def check_end(self, end: float | None = None, rows: int | None = None) -> None:
+        """That the history of a run that is done reaches its end: the last time [s], or the number
+        of rows; an error where the file has lost some."""
+        time = self["time_s"]
+        if rows is not None and len(time) != rows:
+            raise Error(f"{self.path}: damaged: {len(time)} rows, but run.json says that the run is "
+                        f"done, with {rows}")
+        last = time[-1] if len(time) else 0.0
+        if end is not None and abs(last - end) > 1e-9 * abs(end):
+            raise Error(f"{self.path}: damaged: it ends at {last:g} s, but run.json says that the "
+                        f"run is done, to {end:g} s")
+
+    def need_ground(self, name: str) -> None:
+        """An error where a column is of the ground's forces and there is no ground."""
+        if not self.ground and name in FORCES:
+            raise Error(f"{self.path}: no ground: the case has no [ground], so {name} is zero all "
+                        "along")
+
     def window(self, from_time: float | None = None, to_time: float | None = None) -> np.ndarray:
         """Mask (rows,) of the rows whose whole interval is between the two times [s]; None: no
         bound. At least one, or an error."""
@@ -82,6 +103,7 @@ class History(Mapping[str, np.ndarray]):
         forces and torque are the means."""
         if self.crush:
             raise Error(f"{self.path}: a crush has no means over time")
+        self.need_ground(name)
         chosen = self.window(from_time, to_time)
         spans = np.diff(self["time_s"], prepend=0.0)
         return float(np.average(self[name][chosen], weights=spans[chosen]))

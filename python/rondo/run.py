@@ -215,6 +215,7 @@ class Run:
         for candidate in (dataset, f"snapshots/{dataset}", f"fields/{dataset}"):
             if candidate in self._datasets:
                 return LazyArray(self.path, candidate, self.n_snapshots, component)
+        self.need_snapshots()
         raise unknown(self.directory, "field", name, self.field_names)
 
     @property
@@ -237,8 +238,7 @@ class Run:
 
     def index(self, time: float) -> int:
         """The snapshot nearest to a time [s] (of a crush: share of the depth)."""
-        if not self.n_snapshots:
-            raise Error(f"{self.directory}: the run has no snapshots")
+        self.need_snapshots()
         first, last = self.times[0], self.times[-1]
         spacing = np.diff(self.times).max() if self.n_snapshots > 1 else 0.0
         slack = max(spacing, self.info.get("step") or 0.0)
@@ -246,6 +246,15 @@ class Run:
             raise Error(f"{self.directory}: no snapshot near {time:g} {self.time_unit}; they are "
                         f"from {first:g} to {last:g} {self.time_unit}")
         return int(np.argmin(np.abs(self.times - time)))
+
+    def need_snapshots(self) -> None:
+        """An error where there are none, which says why."""
+        if self.n_snapshots:
+            return
+        if self.case.get("output", {}).get("snapshots") == 0:
+            raise Error(f"{self.directory}: the run has no snapshots: output.snapshots was 0; run it "
+                        "again with more")
+        raise Error(f"{self.directory}: the run has no snapshots yet")
 
     @cached_property
     def contact(self) -> Contact | None:
@@ -268,8 +277,13 @@ class Run:
 
     @cached_property
     def history(self) -> History:
-        """history.csv, a row for each interval of output."""
-        return History(self.directory / "history.csv", self.is_crush)
+        """history.csv, a row for each interval of output. Of a run that is done it must be whole."""
+        history = History(self.directory / "history.csv", self.is_crush, "ground" in self.case)
+        if self.status == "done":
+            increments = self.info.get("increments_done") if self.is_crush else None
+            history.check_end(None if self.is_crush else self.info.get("end_time"),
+                              None if increments is None else increments + 1)
+        return history
 
     # Its PODs
 

@@ -26,6 +26,7 @@ def film(run, follow=False, quantity="displacement", chosen=(0, 5, 10), width=33
 
 
 def test_mp4(smooth, tmp_path):
+    (tmp_path / "new").mkdir()
     path = rondo.open(smooth).animate(tmp_path / "new" / "film.mp4", frames=5, fps=4, width=401)
     assert path == tmp_path / "new" / "film.mp4"
     assert probe(path, "codec_name") == "h264"
@@ -61,6 +62,11 @@ def test_what_a_picture_shows(smooth):
         np.testing.assert_allclose(corners, run.position(k)[run.mesh.cells], rtol=0, atol=1e-14)
         sizes = np.linalg.norm(run.displacement[k], axis=1)[run.mesh.cells].mean(axis=1) * 1e3
         np.testing.assert_allclose(shown.body.cells.get_array(), sizes)
+        touching = run.contact.force[k][:, 0] > 0
+        line, dots = shown.contact.lines[1], shown.contact.dots[1]
+        marked = {tuple(p) for path in line.get_paths() for p in path.vertices}
+        marked |= {tuple(p) for p in dots.get_xydata()}
+        assert marked == {tuple(p) for p in run.position(k)[run.mesh.boundary[touching]]}
         assert shown.ax.get_title() == f"t = {run.times[k] * 1e3:.1f} ms"
         mark = np.array(shown.mark.get_data()).T - run.center[k]
         down = [np.sin(run.angle[k]), -np.cos(run.angle[k])]  # R(θ) (0, -1)
@@ -107,7 +113,8 @@ def test_frames_and_colours_by_default(smooth, monkeypatch, tmp_path):
     run = rondo.open(smooth)
     run.animate(tmp_path / "a.mp4")
     assert (seen["chosen"], seen["fps"]) == (list(range(11)), 1)
-    largest = np.linalg.norm(run.displacement[:], axis=2).max() * 1e3
+    sizes = np.linalg.norm(run.displacement[:], axis=2) * 1e3
+    largest = sizes[:, run.mesh.cells].mean(axis=2).max()  # of the cells as drawn
     np.testing.assert_allclose(seen["limits"], (0, largest))
     assert seen["size"][0] <= 1280 and seen["size"][1] <= 722
     run.animate(tmp_path / "a.mp4", quantity="displacement_y", from_time=0.01, frames=3,
@@ -125,7 +132,8 @@ def test_wrong_input(smooth, crush, tmp_path, monkeypatch):
             ("a.avi", {}, "ends in .mp4 or .gif, not in '.avi'"),
             ("a", {}, "not in 'nothing'"),
             ("a.gif", {"frames": 12}, "frames = 12: there are 11 snapshots"),
-            ("a.gif", {"frames": 0}, "frames = 0"),
+            ("a.gif", {"frames": 0}, "frames = 0: at least 1"),
+            ("new/a.gif", {}, "no directory"),
             ("a.gif", {"fps": 0}, "fps = 0"),
             ("a.gif", {"width": 100}, "width = 100: at least"),
             ("a.gif", {"from_time": 3.0}, "no snapshot from 3 s; they are from 0 to 0.02"),

@@ -1,5 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Curves of the history, and the spectrum of a signal that is known."""
+import json
+
 import matplotlib.pyplot as plt
 import numpy as np
 import pytest
@@ -17,10 +19,12 @@ def closed_figures():
 
 
 def with_history(directory, times, **columns):
-    """The run, with a history of other columns at other times [s]."""
+    """The run, with a history of other columns at other times [s], the last of which is its end."""
     rows = np.column_stack([times, *columns.values()])
     np.savetxt(directory / "history.csv", rows, fmt="%.17g", delimiter=",", comments="",
                header=",".join(["time_s", *columns]))
+    info = json.loads((directory / "run.json").read_text()) | {"end_time": times[-1]}
+    (directory / "run.json").write_text(json.dumps(info))
     return rondo.open(directory)
 
 
@@ -126,10 +130,36 @@ def test_plot_history(smooth, crush):
     figure, ax = plt.subplots()
     assert run.plot_history("penetration_max_m", ax=ax) is ax
     assert ax.get_ylabel() == "largest penetration (mm)" and ax.get_legend() is None
-    assert run.plot_history("slip_ratio").get_ylabel() == "slip ratio"
+    assert run.plot_history("slip_ratio").get_ylabel() == "slip ratio (–)"
+    ax = run.plot_history("contact_nodes", "sticking_nodes")
+    assert ax.get_ylabel() == "nodes (–)"
+    assert run.plot_history("contact_nodes").get_ylabel() == "nodes in contact (–)"
     ax = rondo.open(crush).plot_history()
     np.testing.assert_allclose(ax.lines[0].get_xdata()[-1], 20.0)
     assert ax.get_xlabel() == "depth (mm)"
+
+
+@pytest.mark.parametrize("level", [0.29, -4e5, 0.0])
+def test_what_is_constant_is_a_level_line(copy, level):
+    """Not its round-off, magnified, with an offset at the axis."""
+    times = 1e-3 * np.arange(1, 21)
+    run = with_history(copy, times, force_y=level * (1 + 1e-9 * (-1.0) ** np.arange(20)))
+    ax = run.plot_history("force_y")
+    ax.figure.canvas.draw()
+    low, high = ax.get_ylim()
+    values = ax.lines[0].get_ydata()
+    assert high - low > 1e5 * np.ptp(values) and low < values.min() and values.max() < high
+    assert ax.yaxis.get_offset_text().get_text() == ""
+
+
+def test_forces_without_ground(air):
+    run = rondo.open(air)
+    for function in (run.plot_spectrum, run.plot_history, lambda: run.plot_spectrum("torque"),
+                     lambda: run.history.mean("force_y")):
+        with pytest.raises(rondo.Error, match="no ground: the case has no .ground., so "):
+            function()
+    assert run.plot_history("kinetic").lines and run.plot_spectrum("kinetic").lines
+    assert run.history.mean("kinetic") > 0
 
 
 def test_columns_that_do_not_go_together(smooth):
@@ -154,10 +184,22 @@ def test_the_curves_of_the_ledger_sum_up_to_the_energy(treaded, air):
         assert 0 <= rest[0] < 1e-3 * total.max()
 
 
+def test_what_is_zero_all_along_is_left_out(copy):
+    run = rondo.open(copy)
+    count = len(run.plot_energy().get_legend().get_texts())
+    columns = {name: run.history[name] for name in run.history if name != "time_s"}
+    assert columns["dissipation_friction"].any()
+    columns["dissipation_friction"] = 1e-18 * np.ones(len(run.history["time_s"]))
+    changed = with_history(copy, run.history["time_s"], **columns)
+    names = [text.get_text() for text in changed.plot_energy().get_legend().get_texts()]
+    assert "friction" not in names and len(names) == count - 1
+
+
 def test_the_residual_of_the_ledger(smooth):
     run = rondo.open(smooth)
     ax = run.plot_energy()
     below = [other for other in ax.figure.axes if other is not ax][0]
+    assert below.get_ylabel().endswith("(–)")
     assert below.get_yscale() == "log" and "time (ms)" == below.get_xlabel()
     drawn = below.lines[0].get_ydata()
     assert np.nanmax(drawn) == pytest.approx(run.info["energy_residual_relative"], rel=0.5)

@@ -10,6 +10,7 @@ import numpy as np
 import pytest
 
 import rondo
+from rondo.plots.contact import contact_of
 
 
 def says(kind, function, *arguments, words=()):
@@ -85,13 +86,34 @@ def test_a_killed_run(killed):
 
 
 def test_the_line_that_a_killed_run_was_writing(copy):
+    edit(copy / "run.json", status="running")
     text = (copy / "history.csv").read_text()
     whole = len(text.splitlines()) - 1
     cut = text[:-1]  # the last number may have lost digits: not to be told from a whole one
     (copy / "history.csv").write_text(cut)
-    assert len(rondo.open(copy).history["time_s"]) == whole - 1
+    assert len(rondo.open(copy, unfinished=True).history["time_s"]) == whole - 1
     (copy / "history.csv").write_text(text.splitlines()[0] + "\n0.0")
-    assert len(rondo.open(copy).history["force_y"]) == 0
+    assert len(rondo.open(copy, unfinished=True).history["force_y"]) == 0
+
+
+@pytest.mark.parametrize("cut", [1, 300, -1])
+def test_a_history_that_has_lost_its_end(copy, cut):
+    """Of a run that is done it is whole: its last row within a line, some rows, all rows gone."""
+    text = (copy / "history.csv").read_text()
+    (copy / "history.csv").write_text(text[:-cut] if cut > 0 else text.splitlines()[0] + "\n")
+    says(rondo.Error, getattr, rondo.open(copy), "history",
+         words=[copy / "history.csv", "damaged", "it ends at", "the run is done, to 0.02"])
+    edit(copy / "run.json", status="interrupted")
+    assert rondo.open(copy, unfinished=True).history.names[0] == "time_s"
+
+
+def test_a_crush_that_has_lost_its_end(crush, tmp_path):
+    copy = shutil.copytree(crush, tmp_path / "crush")
+    text = (copy / "history.csv").read_text()
+    assert len(rondo.open(copy).history["depth_m"]) == 41
+    (copy / "history.csv").write_text(text[:-1])
+    says(rondo.Error, getattr, rondo.open(copy), "history",
+         words=["history.csv", "damaged", "40 rows", "done, with 41"])
 
 
 @pytest.mark.parametrize("status, meaning", [("interrupted", "stopped before its end"),
@@ -203,6 +225,24 @@ def test_names_that_a_paper_has_not(tmp_path, smooth):
     says(rondo.UnfinishedRunError, paper.run, "next")
 
 
+@pytest.mark.parametrize("quick", [False, True])
+def test_a_study_without_its_table(tmp_path, quick):
+    runs = [{"name": name, "directory": name, "status": status} for name, status in
+            (("a", "done"), ("b", "failed"), ("c", "running"), ("d", "waiting"))]
+    info = {"format": "rondo paper 1", "status": "interrupted", "quick": quick, "runs": runs,
+            "pods": [{"directory": "a/pod", "status": "done"}], "table": []}
+    (tmp_path / "paper.json").write_text(json.dumps(info))
+    goes_on = f'"rondo paper -o {tmp_path}{" --quick" if quick else ""}" goes on'
+    says(rondo.UnfinishedRunError, rondo.open_paper, tmp_path,
+         words=['status "interrupted"', "2 of 5 parts are done, 1 have failed", goes_on,
+                f'rondo.open_paper("{tmp_path}", unfinished=True)'])
+    assert rondo.open_paper(tmp_path, unfinished=True).run_names == ["a", "b", "c", "d"]
+    edit(tmp_path / "paper.json", status="failed", table=[{"name": "a", "pass": False}])
+    assert rondo.open_paper(tmp_path).row("a")["pass"] is False
+    edit(tmp_path / "paper.json", status="done", table=[])
+    assert rondo.open_paper(tmp_path).table == []
+
+
 def test_windows_without_rows_and_means_of_a_crush(smooth, crush):
     says(rondo.Error, rondo.open(smooth).history.mean, "force_y", 1.0,
          words=["no rows from 1 s", "there are 0 to 0.02"])
@@ -224,8 +264,22 @@ def test_a_run_without_snapshots(copy):
     run = rondo.open(copy)
     assert (run.n_snapshots, run.center.shape, run.field_names) == (0, (0, 2), [])
     assert run.contact is None
-    says(rondo.Error, run.index, 0.0, words=["no snapshots"])
-    says(rondo.UnknownNameError, run.field, "displacement", words=["there are: none"])
+    says(rondo.Error, run.index, 0.0, words=["no snapshots yet"])
+    says(rondo.Error, run.field, "displacement", words=["no snapshots yet"])
+
+
+def test_a_run_that_was_to_have_no_snapshots(copy, tmp_path):
+    with h5py.File(copy / "results.h5", "r+") as file:
+        for group in ("frame", "snapshots", "fields", "contact"):
+            del file[group]
+    text = (copy / "case.toml").read_text()
+    (copy / "case.toml").write_text(text.replace("snapshots = 11", "snapshots = 0"))
+    run = rondo.open(copy)
+    assert run.case["output"]["snapshots"] == 0
+    for function, arguments in ((run.index, [0.0]), (run.field, ["displacement"]),
+                                (run.plot_field, [0.0]), (run.animate, [tmp_path / "a.gif"]),
+                                (contact_of, [run])):
+        says(rondo.Error, function, *arguments, words=["no snapshots: output.snapshots was 0"])
 
 
 def test_all_messages_name_a_place(tmp_path):

@@ -111,6 +111,8 @@ def test_units_are_those_of_the_manual():
 
 def test_means_are_weighted_by_intervals(copy):
     (copy / "history.csv").write_text("time_s,force_y\n1,100\n2,1\n4,2\n5,3\n9,4\n10,100\n")
+    info = json.loads((copy / "run.json").read_text()) | {"end_time": 10}
+    (copy / "run.json").write_text(json.dumps(info))
     history = rondo.open(copy).history
     assert history.mean("force_y", 1, 9) == (1 * 1 + 2 * 2 + 1 * 3 + 4 * 4) / 8
     assert history.mean("force_y", 1.5, 8.9) == (2 * 2 + 1 * 3) / 3  # whole intervals

@@ -53,7 +53,8 @@ def fields(run: Run, quantity: str) -> Figure:
     """A quantity at three snapshots, spread evenly up to the last, in the same colours."""
     shown = np.unique(np.linspace(0, run.n_snapshots - 1, PANELS + 1).round().astype(int)[1:])
     nodal = [field.nodal(run, int(k), quantity) for k in shown]
-    limits = field.full_range(np.stack([n.values for n in nodal]), any(n.signed for n in nodal))
+    limits = field.full_range(np.stack([field.cell_means(n.values, run.mesh.cells) for n in nodal]),
+                              any(n.signed for n in nodal))
     figure = plt.figure(figsize=(style.PAGE, 2.5))
     axes = figure.subplots(1, len(shown), squeeze=False)[0]
     for ax, index in zip(axes, shown):

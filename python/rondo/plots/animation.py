@@ -16,7 +16,8 @@ from rondo import style
 from rondo.errors import Error
 from rondo.ground import Ground
 from rondo.history import between
-from rondo.plots.field import draw_body, draw_ground, full_range, nodal, snapshot_title
+from rondo.plots.field import (cell_means, draw_body, draw_contact, draw_ground, full_range, nodal,
+                               snapshot_title)
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -43,14 +44,14 @@ def animate(run: Run, path: str | os.PathLike[str], quantity: str = "displacemen
     """Writes a film of the body in the fixed frame, with ground, time and colour bar, and returns
     its path. The ending says how: .mp4 (H.264, by the program ffmpeg) or .gif.
 
-    quantity: as of plot_field. from_time, to_time: window of the run [s]. frames: pictures, spread
+    The folder must be there. quantity: as of plot_field. from_time, to_time: window of the run [s]. frames: pictures, spread
     evenly over the snapshots of the window; at most one for each, by default at most 300. fps:
     pictures a second; by default such that a film of few pictures lasts about 10 s, at most 30.
     limits: of the colours, in the unit of the colour bar; by default those of the whole film.
     follow: the picture moves along with the body; by default where it goes far. width: [px]."""
     path = pathlib.Path(path)
     ending = path.suffix.lower()
-    _check_ending(path, ending)
+    _check_place(path, ending)
     chosen = _snapshots(run, from_time, to_time, frames)
     if fps is None:
         fps = min(FPS, max(1, round(len(chosen) / SECONDS)))
@@ -58,31 +59,32 @@ def animate(run: Run, path: str | os.PathLike[str], quantity: str = "displacemen
         raise Error(f"fps = {fps}: at least 1 picture a second")
     if limits is None:
         fields = [nodal(run, k, quantity) for k in chosen]
-        limits = full_range(np.stack([field.values for field in fields]),
+        limits = full_range(np.stack([cell_means(field.values, run.mesh.cells)
+                                      for field in fields]),
                             any(field.signed for field in fields))
     centers = run.center[chosen]
     if follow is None:
         follow = bool(np.ptp(centers[:, 0]) > FOLLOW_BEYOND * run.outer_radius)
-    path.parent.mkdir(parents=True, exist_ok=True)
     with style.paper(), matplotlib.rc_context({"figure.constrained_layout.use": False}):
         film = _Film(run, chosen, quantity, limits, follow, width, SIZES[ending])
         _write(film, path, ending, fps)
     return path
 
 
-def _check_ending(path: pathlib.Path, ending: str) -> None:
+def _check_place(path: pathlib.Path, ending: str) -> None:
     if ending not in SIZES:
         raise Error(f"{path}: a film ends in .mp4 or .gif, not in {ending or 'nothing'!r}")
     if ending == ".mp4" and not animation.writers.is_available("ffmpeg"):
         raise Error(f"{path}: the program ffmpeg writes .mp4, and is not there: install the Debian "
                     "package ffmpeg, or take a name that ends in .gif")
+    if not path.parent.is_dir():
+        raise Error(f"{path}: no directory {path.parent}: make it first, or choose another")
 
 
 def _snapshots(run: Run, from_time: float | None, to_time: float | None,
                frames: int | None) -> np.ndarray:
     """Numbers of the snapshots to show."""
-    if not run.n_snapshots:
-        raise Error(f"{run.directory}: the run has no snapshots")
+    run.need_snapshots()
     low = -np.inf if from_time is None else from_time
     high = np.inf if to_time is None else to_time
     there = np.flatnonzero((run.times >= low) & (run.times <= high))
@@ -91,7 +93,9 @@ def _snapshots(run: Run, from_time: float | None, to_time: float | None,
                     f"they are from {run.times[0]:g} to {run.times[-1]:g} {run.time_unit}")
     if frames is None:
         frames = min(len(there), round(SECONDS * FPS))
-    if not 1 <= frames <= len(there):
+    if frames < 1:
+        raise Error(f"frames = {frames}: at least 1 picture")
+    if frames > len(there):
         raise Error(f"frames = {frames}: there are {len(there)} snapshots to show")
     return there[np.round(np.linspace(0, len(there) - 1, frames)).astype(int)]
 
@@ -125,6 +129,7 @@ class _Film:
         mesh_width = 0.1 if inches * radius / size[1] > SMALL else 0.0
         self.body = draw_body(self.ax, run, int(chosen[0]), quantity, limits=limits,
                               mesh_width=mesh_width)
+        self.contact = draw_contact(self.ax, run, int(chosen[0]))
         # A radius of the rim, straight down at angle 0: a smooth disk would not be seen to turn.
         self.mark, = self.ax.plot([], [], color=style.OUTLINE, linewidth=1.2)
         field = nodal(run, int(chosen[0]), quantity)
@@ -133,6 +138,7 @@ class _Film:
     def show(self, frame: int) -> None:
         index = int(self.chosen[frame])
         self.body.update(index)
+        self.contact.update(index)
         center, angle = self.run.center[index], self.run.angle[index]
         spoke = self.run.inner_radius * np.array([np.sin(angle), -np.cos(angle)])
         self.mark.set_data(*np.stack([center + 0.6 * spoke, center + spoke], axis=1))

@@ -21,8 +21,9 @@ Array = NDArray[np.float64]
 
 def contact_of(run: Run) -> Contact:
     """The contact of a run that must have it."""
-    if run.contact is None:
-        raise Error(f"{run.directory}: no contact in this run; it needs [ground] and snapshots")
+    ground_of(run)
+    run.need_snapshots()
+    assert run.contact is not None  # with ground and snapshots
     return run.contact
 
 
@@ -30,7 +31,7 @@ def ground_of(run: Run) -> Ground:
     """The ground of a run that must have it."""
     ground = Ground.from_case(run.case)
     if ground is None:
-        raise Error(f"{run.directory}: no [ground] in its case")
+        raise Error(f"{run.directory}: no ground: the case has no [ground]")
     return ground
 
 

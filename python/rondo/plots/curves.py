@@ -2,6 +2,7 @@
 """Curves of a run's history: forces, energies, spectra."""
 from __future__ import annotations
 
+from collections.abc import Sequence
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -40,6 +41,8 @@ TERMS: dict[str, tuple[int, str, dict[str, Any]]] = {
 }
 
 MIN_ROWS = 16  # for a spectrum
+CONSTANT = 1e-6  # span over size of a column that does not change
+ROUND_OFF = 1e-13  # size over that of the energy of a part of the ledger that is zero
 FLOOR = 1e-18  # of the residual's axis
 
 
@@ -66,7 +69,7 @@ def _readable(size: float, unit: str) -> tuple[float, str]:
             return factor, prefix + unit
     if unit == "m" and 0 < size < 0.1:
         return 1e3, "mm"
-    return 1.0, unit
+    return 1.0, "–" if unit == "1" else unit
 
 
 def _label(column: str) -> str:
@@ -79,6 +82,8 @@ def plot_history(run: Run, *columns: str, ax: Axes | None = None) -> Axes:
     ground on the body. Columns in one axes have one unit."""
     names = columns or ("force_y", "force_x")
     history = run.history
+    for name in names:
+        history.need_ground(name)
     x, x_label = _abscissa(run)
     values = [history[name] for name in names]
     units = {history.units.get(name, "unknown") for name in names}
@@ -92,18 +97,36 @@ def plot_history(run: Run, *columns: str, ax: Axes | None = None) -> Axes:
     ax = _axes(ax, 2.2)
     for name, value, line in zip(names, values, style.CURVES):
         ax.plot(x, value * factor, label=_label(name), **line)
-    suffix = "" if unit == "1" else f" ({unit})"
-    if len(names) == 1:
-        ax.set_ylabel(_label(names[0]) + suffix)
-    else:
-        forces = set(names) <= {"force_x", "force_y"}
-        ax.set_ylabel(("force of the ground\non the disk" if forces else "energy" if
-                       unit.endswith("J/m") else "value") + suffix)
+    ax.set_ylabel(f"{_together(names, unit)} ({unit})")
+    if len(names) > 1:
         ax.legend(loc="lower center", bbox_to_anchor=(0.5, 1.0), ncols=min(len(names), 3))
+    _steady_scale(ax, np.concatenate(values) * factor)
     ax.set_xlabel(x_label)
     if len(x):
         ax.set_xlim(min(x[0], 0.0), x[-1])
     return ax
+
+
+def _together(names: Sequence[str], unit: str) -> str:
+    """What the columns in one axes are."""
+    if len(names) == 1:
+        return _label(names[0])
+    if set(names) <= {"force_x", "force_y"}:
+        return "force of the ground\non the disk"
+    if set(names) <= {"contact_nodes", "sticking_nodes"}:
+        return "nodes"
+    return "energy" if unit.endswith("J/m") else "value"
+
+
+def _steady_scale(ax: Axes, values: np.ndarray) -> None:
+    """Numbers at the axis as they are, and a column that does not change drawn as a level line, not
+    magnified until its round-off fills the axes."""
+    ax.ticklabel_format(axis="y", useOffset=False)
+    if not len(values) or np.ptp(values) > CONSTANT * np.abs(values).max():
+        return
+    middle = 0.5 * (values.min() + values.max())
+    around = 0.1 * abs(middle) or 1.0
+    ax.set_ylim(middle - around, middle + around)
 
 
 @style.paper()
@@ -120,8 +143,9 @@ def plot_energy(run: Run, ax: Axes | None = None) -> Axes:
     below = ax.figure.add_subplot(grid[1], sharex=ax)
     x, x_label = _abscissa(run)
     total = energy(run)
+    largest = np.abs(total).max(initial=0.0)
     drawn = {name: sign * run.history[name] for name, (sign, _, _) in TERMS.items()
-             if np.any(run.history[name])}
+             if np.abs(run.history[name]).max(initial=0.0) > ROUND_OFF * largest}
     size = max(np.abs(curve).max(initial=0.0) for curve in (total, *drawn.values()))
     factor, unit = _readable(size, "J/m")
     ax.axhline(0.0, color="0.8", linewidth=0.6, zorder=0)
@@ -136,7 +160,7 @@ def plot_energy(run: Run, ax: Axes | None = None) -> Axes:
     below.semilogy(x, np.where(residual > 0, residual, np.nan), color=style.BLACK, linewidth=0.8)
     below.set_ylim(FLOOR, max(1e-12, 10 * residual.max(initial=0.0)))
     below.yaxis.set_major_locator(LogLocator(numticks=5))
-    below.set_ylabel("imbalance over\nenergy exchanged")
+    below.set_ylabel("imbalance over\nenergy exchanged (–)")
     below.set_xlabel(x_label)
     if len(x):
         below.set_xlim(min(x[0], 0.0), x[-1])
@@ -177,6 +201,7 @@ def plot_force_spectrum(run: Run, column: str = "force_y", from_time: float | No
     the multiples of the frequency at which its pitches pass."""
     if column not in run.history:
         raise unknown(run.history.path, "column", column, run.history)
+    run.history.need_ground(column)
     frequency, amplitude = force_spectrum(run, column, from_time, to_time)
     ax = _axes(ax, 2.4)
     pitch = run.pitch_frequency
@@ -194,5 +219,5 @@ def plot_force_spectrum(run: Run, column: str = "force_y", from_time: float | No
     ax.set_xlim(0, frequency[-1])
     ax.set_xlabel("frequency (Hz)")
     unit = run.history.units.get(column, "unknown")
-    ax.set_ylabel(f"amplitude of the\n{_label(column)}" + ("" if unit == "1" else f" ({unit})"))
+    ax.set_ylabel(f"amplitude of the\n{_label(column)} ({'–' if unit == '1' else unit})")
     return ax

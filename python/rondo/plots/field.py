@@ -24,7 +24,7 @@ FRAMES = ("fixed", "turning")
 COMPONENTS = ("x", "y", "radial", "tangential")
 VECTORS = ("displacement", "velocity")
 NAMES = {"von_mises": "von Mises stress"}  # in figures, where not the name of the field itself
-SHOWN_IN = {"m": (1e3, "mm"), "Pa": (1e-6, "MPa")}  # units of results: factor, unit of figures
+SHOWN_IN = {"m": (1e3, "mm"), "Pa": (1e-6, "MPa"), "1": (1.0, "–")}  # units of results: factor, unit of figures
 
 
 @dataclasses.dataclass(frozen=True)
@@ -187,12 +187,13 @@ def draw_body(ax: Axes, run: Run, index: int, quantity: str = "displacement", fr
               deformation: float = 1.0, limits: tuple[float, float] | None = None,
               mesh_width: float = 0.1) -> Body:
     """The body of the snapshot `index`; its `cells` go to a colour bar. `limits` of the colours are
-    in the unit of the figure (see `nodal`); None: those of this snapshot."""
+    in the unit of the figure (see `nodal`); None: those of the cells of this snapshot, as one
+    corner node may have far more."""
     field = nodal(run, index, quantity, frame)
     points = positions(run, index, frame, deformation)
     patches, edge = draw_cells(ax, points, run.mesh.cells, field.values,
-                               limits or full_range(field.values, field.signed), field.signed,
-                               mesh_width)
+                               limits or full_range(cell_means(field.values, run.mesh.cells),
+                                                    field.signed), field.signed, mesh_width)
     return Body(run, quantity, frame, deformation, patches, edge, loops(outline(run.mesh.cells)))
 
 
