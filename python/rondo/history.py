@@ -65,12 +65,12 @@ class History(Mapping[str, np.ndarray]):
         return list(self._columns)
 
     def check_end(self, end: float | None = None, rows: int | None = None) -> None:
-        """That the history of a run that is done reaches its end: the last time [s], or the number
-        of rows; an error where the file has lost some."""
+        """That the history of a run that is done reaches its end, the last time [s] or the number
+        of rows: an error where the file has lost some."""
         time = self["time_s"]
         if rows is not None and len(time) != rows:
-            raise Error(f"{self.path}: damaged: {len(time)} rows, but run.json says that the run is "
-                        f"done, with {rows}")
+            raise Error(f"{self.path}: damaged: {len(time)} rows, but run.json says that the run "
+                        f"is done, with {rows}")
         last = time[-1] if len(time) else 0.0
         if end is not None and abs(last - end) > 1e-9 * abs(end):
             raise Error(f"{self.path}: damaged: it ends at {last:g} s, but run.json says that the "

@@ -252,8 +252,8 @@ class Run:
         if self.n_snapshots:
             return
         if self.case.get("output", {}).get("snapshots") == 0:
-            raise Error(f"{self.directory}: the run has no snapshots: output.snapshots was 0; run it "
-                        "again with more")
+            raise Error(f"{self.directory}: the run has no snapshots: output.snapshots was 0; run "
+                        "it again with more")
         raise Error(f"{self.directory}: the run has no snapshots yet")
 
     @cached_property
@@ -277,7 +277,7 @@ class Run:
 
     @cached_property
     def history(self) -> History:
-        """history.csv, a row for each interval of output. Of a run that is done it must be whole."""
+        """history.csv, a row for each interval of output. Of a run that is done it is whole."""
         history = History(self.directory / "history.csv", self.is_crush, "ground" in self.case)
         if self.status == "done":
             increments = self.info.get("increments_done") if self.is_crush else None

@@ -45,9 +45,9 @@ CURVES: tuple[dict[str, Any], ...] = (
 # Magnitudes: light where nothing happens, darker with every step upwards, so also in grey.
 SEQUENTIAL: Colormap = matplotlib.colormaps["magma_r"]
 
-# Signed quantities: grey at zero, darker and bluer below, lighter and yellower above. A print in grey
-# then tells the signs apart, and so do colour-blind readers: blue and yellow differ to all of them.
-# In steps, which show lines of equal value; their number is odd, so that zero has one of its own.
+# Signed quantities: grey at zero, darker and bluer below, lighter and yellower above. A print in
+# grey then tells the signs apart, and so do colour-blind readers: blue and yellow differ to most
+# of them. In steps, an odd number, so that zero has one of its own.
 DIVERGING: Colormap = LinearSegmentedColormap.from_list(
     "rondo_diverging",
     ["#04164f", "#0b4a9b", "#8a8a8a", "#d9b83f", "#fff7b8"], N=33)

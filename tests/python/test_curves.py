@@ -152,6 +152,17 @@ def test_what_is_constant_is_a_level_line(copy, level):
     assert ax.yaxis.get_offset_text().get_text() == ""
 
 
+def test_a_ratio_of_round_off_is_a_level_line(copy):
+    """Not one of some 1e-8 at the axis."""
+    times = 1e-3 * np.arange(1, 21)
+    run = with_history(copy, times, slip_ratio=np.where(times < 2e-3, 0.0, -1e-8))
+    ax = run.plot_history("slip_ratio")
+    ax.figure.canvas.draw()
+    low, high = ax.get_ylim()
+    assert high - low >= 0.02 and low < 0 < high
+    assert ax.yaxis.get_offset_text().get_text() == ""
+
+
 def test_forces_without_ground(air):
     run = rondo.open(air)
     for function in (run.plot_spectrum, run.plot_history, lambda: run.plot_spectrum("torque"),

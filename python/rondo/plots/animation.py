@@ -41,10 +41,11 @@ def animate(run: Run, path: str | os.PathLike[str], quantity: str = "displacemen
             from_time: float | None = None, to_time: float | None = None, frames: int | None = None,
             fps: int | None = None, limits: tuple[float, float] | None = None,
             follow: bool | None = None, width: int | None = None) -> pathlib.Path:
-    """Writes a film of the body in the fixed frame, with ground, time and colour bar, and returns
-    its path. The ending says how: .mp4 (H.264, by the program ffmpeg) or .gif.
+    """Writes a film of the body in the fixed frame, with ground, contact, time and colour bar, and
+    returns its path, in a folder that is there. The ending says how: .mp4 (H.264, by the program
+    ffmpeg) or .gif.
 
-    The folder must be there. quantity: as of plot_field. from_time, to_time: window of the run [s]. frames: pictures, spread
+    quantity: as of plot_field. from_time, to_time: window of the run [s]. frames: pictures, spread
     evenly over the snapshots of the window; at most one for each, by default at most 300. fps:
     pictures a second; by default such that a film of few pictures lasts about 10 s, at most 30.
     limits: of the colours, in the unit of the colour bar; by default those of the whole film.

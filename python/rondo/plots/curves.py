@@ -42,6 +42,7 @@ TERMS: dict[str, tuple[int, str, dict[str, Any]]] = {
 
 MIN_ROWS = 16  # for a spectrum
 CONSTANT = 1e-6  # span over size of a column that does not change
+LEVEL = 0.01  # least height of the axis on both sides of such a one, in its unit
 ROUND_OFF = 1e-13  # size over that of the energy of a part of the ledger that is zero
 FLOOR = 1e-18  # of the residual's axis
 
@@ -100,7 +101,7 @@ def plot_history(run: Run, *columns: str, ax: Axes | None = None) -> Axes:
     ax.set_ylabel(f"{_together(names, unit)} ({unit})")
     if len(names) > 1:
         ax.legend(loc="lower center", bbox_to_anchor=(0.5, 1.0), ncols=min(len(names), 3))
-    _steady_scale(ax, np.concatenate(values) * factor)
+    _steady_scale(ax, np.concatenate(values) * factor, unit)
     ax.set_xlabel(x_label)
     if len(x):
         ax.set_xlim(min(x[0], 0.0), x[-1])
@@ -118,14 +119,15 @@ def _together(names: Sequence[str], unit: str) -> str:
     return "energy" if unit.endswith("J/m") else "value"
 
 
-def _steady_scale(ax: Axes, values: np.ndarray) -> None:
-    """Numbers at the axis as they are, and a column that does not change drawn as a level line, not
-    magnified until its round-off fills the axes."""
+def _steady_scale(ax: Axes, values: np.ndarray, unit: str) -> None:
+    """Numbers at the axis as they are, and columns that do not change drawn as level lines, not
+    magnified until round-off fills the axes."""
     ax.ticklabel_format(axis="y", useOffset=False)
-    if not len(values) or np.ptp(values) > CONSTANT * np.abs(values).max():
+    size = np.abs(values).max(initial=1.0 if unit == "–" else 0.0)  # 1e-8 of a ratio is nothing
+    if not len(values) or np.ptp(values) > CONSTANT * size:
         return
     middle = 0.5 * (values.min() + values.max())
-    around = 0.1 * abs(middle) or 1.0
+    around = max(0.1 * abs(middle), LEVEL)
     ax.set_ylim(middle - around, middle + around)
 
 

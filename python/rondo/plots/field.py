@@ -24,7 +24,9 @@ FRAMES = ("fixed", "turning")
 COMPONENTS = ("x", "y", "radial", "tangential")
 VECTORS = ("displacement", "velocity")
 NAMES = {"von_mises": "von Mises stress"}  # in figures, where not the name of the field itself
-SHOWN_IN = {"m": (1e3, "mm"), "Pa": (1e-6, "MPa"), "1": (1.0, "–")}  # units of results: factor, unit of figures
+SHOWN_IN = {  # units of results: factor, unit of figures
+    "m": (1e3, "mm"), "Pa": (1e-6, "MPa"), "1": (1.0, "–"),
+}
 
 
 @dataclasses.dataclass(frozen=True)
