@@ -57,7 +57,7 @@ def _displacement(runs: list[Run]) -> Figure:
                 name = f"μ = {run.friction:.1f}" if row == 0 else ""
                 letter(ax, "abcdefgh"[4 * row + column], name)
             figure.colorbar(body.cells, ax=axes, label=label, pad=0.01, aspect=12)
-        figure.suptitle(f"One snapshot of each run, t = {time * 1e3:.1f} ms; blue: in contact",
+        figure.suptitle(f"One snapshot of each run, t = {time * 1e3:.1f} ms; bar: nodes in contact",
                         fontsize=7)
     return figure
 
