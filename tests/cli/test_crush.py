@@ -49,8 +49,8 @@ class Crush(RunTest):
                           "run.json"])
         s = summary(self.out)
         self.assertEqual(
-            sorted(s), sorted("status title version build host analysis nodes dofs depth increments "
-                              "increments_done candidates_condensed contact_residual_max "
+            sorted(s), sorted("status title version build build_id host analysis nodes dofs depth "
+                              "increments increments_done candidates_condensed contact_residual_max "
                               "equilibrium_residual_max energy_residual_relative energy_exchanged "
                               "penetration_max_m sweeps_max pivoted_increments factor_wall_s loop_wall_s "
                               "peak_memory_bytes snapshots".split()))

@@ -71,9 +71,9 @@ def test_what_is_in_the_wheel(tmp_path):
             sha = base64.urlsafe_b64encode(hashlib.sha256(data).digest()).decode().rstrip("=")
             assert (digest, int(size)) == (f"sha256={sha}", len(data))
         metadata = wheel.read(f"{info}/METADATA").decode()
+        assert wheel.read(f"{info}/LICENSE") == (PYTHON.parent / "LICENSE").read_bytes()
     sources = [path.relative_to(PYTHON).as_posix() for path in (PYTHON / "rondo").rglob("*.py")]
     assert {name for name in names if name.endswith(".py")} == set(sources)
-        assert wheel.read(f"{info}/LICENSE") == (PYTHON.parent / "LICENSE").read_bytes()
     assert "rondo/py.typed" in names and not any("__pycache__" in name for name in names)
     for line in ("Name: rondo", f"Version: {rondo.__version__}", "Requires-Dist: h5py>=3.7",
                  "Requires-Python: >=3.11"):
