@@ -36,15 +36,6 @@ bool is_there(const fs::path& path) {
   return fs::exists(fs::symlink_status(path, error));
 }
 
-void refuse(const fs::path& directory, const std::string& what, const std::string& to_do) {
-  Fault fault;
-  fault.key = "-o";
-  fault.found = directory.string();
-  fault.message = what;
-  fault.allowed = to_do;
-  throw InputError(fault);
-}
-
 void remove_one(const fs::path& file) {
   std::error_code error;
   fs::remove(file, error);
@@ -111,19 +102,29 @@ class Beside {
 
 }  // namespace
 
+void refuse_directory(const fs::path& directory, const std::string& what,
+                      const std::string& to_do) {
+  Fault fault;
+  fault.key = "-o";
+  fault.found = directory.string();
+  fault.message = what;
+  fault.allowed = to_do;
+  throw InputError(fault);
+}
+
 void prepare_results_directory(const fs::path& directory, bool overwrite) {
   const std::string elsewhere = "choose another -o";
   std::error_code error;
   if (is_there(directory) && !fs::is_directory(directory, error))
-    refuse(directory, "is there and is not a directory", elsewhere);
+    refuse_directory(directory, "is there and is not a directory", elsewhere);
   fs::create_directories(directory, error);
   if (error)
     throw FileError(directory.string(), "cannot create directory: " + message(error.value()));
   if (overwrite) return remove_run(directory);
   for (const char* name : run_marks)
     if (is_there(directory / name))
-      refuse(directory, fmt::format("holds another run ({} is there)", name),
-             elsewhere + ", or give --overwrite");
+      refuse_directory(directory, fmt::format("holds another run ({} is there)", name),
+                       elsewhere + ", or give --overwrite");
 }
 
 void write_file(const fs::path& file, const std::string& text) {

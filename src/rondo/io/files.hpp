@@ -9,6 +9,10 @@
 
 namespace rondo::io {
 
+/// @throws InputError: -o names a directory that cannot be used, `what` is wrong with it, `to_do`
+[[noreturn]] void refuse_directory(const std::filesystem::path& directory, const std::string& what,
+                                   const std::string& to_do);
+
 /// Makes `directory` ready for a run: creates it with its parents, refuses one that holds another
 /// run (run.json, results.h5 or history.csv) unless `overwrite`, which removes that run's files
 /// and the PODs in its own pod/ (and nothing else). @throws InputError (holds a run; is not a

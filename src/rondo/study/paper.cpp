@@ -23,16 +23,6 @@ using Clock = std::chrono::steady_clock;
 
 constexpr const char* format_name = "rondo paper 1";
 
-[[noreturn]] void refuse(const fs::path& directory, const std::string& what,
-                         const std::string& to_do) {
-  Fault fault;
-  fault.key = "-o";
-  fault.found = directory.string();
-  fault.message = what;
-  fault.allowed = to_do;
-  throw InputError(fault);
-}
-
 /// What paper.json of the directory says of its study; with `overwrite` it may say anything.
 void accept(const PaperRequest& request, const fs::path& paper) {
   if (request.overwrite) return;
@@ -44,13 +34,15 @@ void accept(const PaperRequest& request, const fs::path& paper) {
   }
   const std::string format = text_in(found, "format");
   if (format != format_name)
-    refuse(request.directory,
-           fmt::format("holds a study of format \"{}\", not \"{}\"", format, format_name),
-           "choose another -o");
+    io::refuse_directory(
+        request.directory,
+        fmt::format("holds a study of format \"{}\", not \"{}\"", format, format_name),
+        "choose another -o");
   const bool quick = found.contains("quick") && found["quick"] == true;
   if (quick != request.quick)
-    refuse(request.directory, quick ? "holds the quick study" : "holds the study in full",
-           "choose another -o, or give --overwrite");
+    io::refuse_directory(request.directory,
+                         quick ? "holds the quick study" : "holds the study in full",
+                         "choose another -o, or give --overwrite");
 }
 
 /// The name of something in runs/ that is not of this study; empty if there is none.
@@ -72,13 +64,14 @@ void prepare(const PaperRequest& request, const PaperPlan& plan) {
   const std::string elsewhere = "choose another -o";
   std::error_code error;
   if (fs::exists(directory, error) && !fs::is_directory(directory, error))
-    refuse(directory, "is there and is not a directory", elsewhere);
+    io::refuse_directory(directory, "is there and is not a directory", elsewhere);
   if (fs::exists(directory / "paper.json", error)) {
     accept(request, directory / "paper.json");
   } else if (fs::exists(directory / "run.json", error)) {
-    refuse(directory, "holds a run, not a study", elsewhere);
+    io::refuse_directory(directory, "holds a run, not a study", elsewhere);
   } else if (const std::string name = foreign_in(directory / "runs", plan); !name.empty()) {
-    refuse(directory, fmt::format("holds runs/{}, which is not of this study", name), elsewhere);
+    io::refuse_directory(directory, fmt::format("holds runs/{}, which is not of this study", name),
+                         elsewhere);
   }
   fs::create_directories(directory / "runs", error);
   if (error)

@@ -7,7 +7,6 @@
 #include <array>
 #include <system_error>
 
-#include "rondo/core/error.hpp"
 #include "rondo/io/files.hpp"
 #include "rondo/study/build_id.hpp"
 #include "rondo/study/version.hpp"
@@ -24,13 +23,9 @@ std::string host_name() {
 void keep_the_users_case(const Case& c, const std::filesystem::path& directory) {
   std::error_code error;
   if (!std::filesystem::equivalent(c.file, directory / "case.toml", error) || error) return;
-  Fault fault;
-  fault.key = "-o";
-  fault.found = directory.string();
-  fault.message =
-      "the case file is this directory's own case.toml, which a run there would replace";
-  fault.allowed = "choose another -o";
-  throw InputError(fault);
+  io::refuse_directory(
+      directory, "the case file is this directory's own case.toml, which a run there would replace",
+      "choose another -o");
 }
 
 }  // namespace
