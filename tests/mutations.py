@@ -242,11 +242,11 @@ POD rank unsaid | if (request.modes && *request.modes > r.modes) => if (false) |
 POD rebuilt from the first row | temporal.row(column) => temporal.row(0) | pod:rebuild
 POD original weighted | snapshots.unweight(original.col(0)); => | pod:rebuild
 @study/paper_jobs.cpp
-paper another case is kept | text_of(directory / "case.toml") != write_case(c)) => false) | paper:another_case
-paper a damaged run is kept | return is_whole(directory, j); => return true; | paper:truncated
-paper another program's run is kept | !is_of_this_program(j) || => | paper:another_program
+paper another case is kept | text_of(directory / "case.toml") == write_case(c) && => | paper:another_case
+paper a damaged run is kept | && is_whole(directory, j); => ; | paper:truncated
+paper another program's run is kept | ended(j, run.may_fail) && is_of_this_program(j) && => ended(j, run.may_fail) && | paper:another_program
 paper a failure of the machine is kept | && j.contains("steps_done") => | paper:machine
-paper a POD of other weights is kept | text_in(j, "weight") != "none" && => | paper:other_settings
+paper a POD of other weights is kept | text_in(j, "weight") == (pod.field == "contact" ? "delassus" : "mass") && => | paper:other_settings
 paper a POD of other snapshots is kept | j.value("snapshots", 0LL) == run.value("snapshots", -1LL) && => | paper:other_settings
 paper leftovers stay | if (entry.path().extension() == ".tmp") => if (false) | paper:leftovers
 paper PODs of a run made again are kept | jobs[run].there && pod_is_there => pod_is_there | paper:damaged

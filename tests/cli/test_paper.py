@@ -254,11 +254,15 @@ class Study(unittest.TestCase):
 
     def test_9_a_pod_with_other_settings_is_made_again(self):
         name = self.folder / "runs" / "turn-smooth"
-        for extra in (["--from", "0.2", "--modes", 12], ["--modes", 2],
-                      ["--weight", "none", "--modes", 12]):
-            done = run("pod", name, "--field", "velocity", "--quiet", *extra)
+        for what, extra in (("velocity-rotating", ["--from", "0.2", "--modes", 12]),
+                            ("velocity-rotating", ["--modes", 2]),
+                            ("velocity-rotating", ["--weight", "none", "--modes", 12]),
+                            ("contact-rotating", ["--weight", "none", "--modes", 12]),
+                            ("velocity-rectified", ["--shift", "pitch", "--modes", 12])):
+            field, frame = what.split("-")
+            done = run("pod", name, "--field", field, "--frame", frame, "--quiet", *extra)
             self.assertEqual(done.returncode, 0, done.stderr)
-            self.assertEqual(self.made_again(), {"runs/turn-smooth/pod/velocity-rotating"}, extra)
+            self.assertEqual(self.made_again(), {f"runs/turn-smooth/pod/{what}"}, extra)
 
     def test_9_a_failure_of_the_machine_is_not_the_one_that_is_wanted(self):
         file = self.folder / "runs" / "spin-up-fast-as-printed" / "run.json"

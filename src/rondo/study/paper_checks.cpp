@@ -7,6 +7,7 @@
 #include <array>
 #include <cmath>
 #include <initializer_list>
+#include <limits>
 #include <numbers>
 
 #include "rondo/io/csv.hpp"
@@ -71,13 +72,13 @@ double number(const Json& value) {
   return value.is_number() ? value.get<double>() : std::nan("");
 }
 
-/// The largest of a key of run.json over the runs whose name begins so.
+/// The largest of a key of run.json over the runs whose name begins so; not a number without any.
 double largest(const Study& s, std::initializer_list<const char*> begins, const char* key) {
-  double found = 0.0;
+  double found = -std::numeric_limits<double>::infinity();
   for (const PaperRun& run : s.plan.runs)
     for (const char* begin : begins)
       if (run.name.starts_with(begin)) found = keep_larger(found, number(s.summary(run.name)[key]));
-  return found;
+  return std::isinf(found) ? std::nan("") : found;
 }
 
 /// Edge of the ring in stationary spin, of the same mesh by a sparse solve.

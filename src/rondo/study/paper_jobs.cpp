@@ -28,12 +28,6 @@ std::string text_of(const fs::path& file) {
   return {std::istreambuf_iterator<char>(in), {}};
 }
 
-Json json_of(const fs::path& file) {
-  constexpr bool exceptions = false;
-  Json json = Json::parse(text_of(file), nullptr, exceptions);
-  return json.is_object() ? json : Json::object();
-}
-
 /// Written by this very program: one built anew may give other numbers.
 bool is_of_this_program(const Json& j) {
   static const std::string own = build_id();
@@ -68,12 +62,10 @@ bool ended(const Json& j, bool may_fail) {
 }
 
 bool run_is_there(const fs::path& directory, const PaperRun& run, const Case& c) {
-  const Json j = json_of(directory / "run.json");
-  if (!ended(j, run.may_fail) || !is_of_this_program(j) ||
-      text_of(directory / "case.toml") != write_case(c))
-    return false;
   try {
-    return is_whole(directory, j);
+    const Json j = io::read_json(directory / "run.json");
+    return ended(j, run.may_fail) && is_of_this_program(j) &&
+           text_of(directory / "case.toml") == write_case(c) && is_whole(directory, j);
   } catch (const std::exception&) {  // what cannot be read is made again
     return false;
   }
@@ -85,7 +77,7 @@ std::string wanted(const std::string& message) {
 
 /// How a run that is there ended: one that may fail says why.
 JobOutcome outcome_of(const fs::path& directory) {
-  const Json j = json_of(directory / "run.json");
+  const Json j = io::read_json(directory / "run.json");
   const bool failed = text_in(j, "status") == "failed";
   return {JobStatus::done, failed ? job_failed : job_done,
           failed ? wanted(text_in(j, "message")) : "", 0.0};
@@ -95,7 +87,9 @@ JobOutcome outcome_of(const fs::path& directory) {
 bool is_asked_for(const Json& j, const PaperPod& pod, const Json& run) {
   const long long modes = j.value("modes_kept", 0LL);
   return text_in(j, "status") == "done" && text_in(j, "field") == pod.field &&
-         text_in(j, "frame") == pod.frame && text_in(j, "weight") != "none" &&
+         text_in(j, "frame") == pod.frame &&
+         text_in(j, "weight") == (pod.field == "contact" ? "delassus" : "mass") &&
+         text_in(j, "shift") == (pod.frame == "rectified" ? "fourier" : "") &&
          j.value("snapshots", 0LL) == run.value("snapshots", -1LL) &&
          (modes == paper_modes || modes == j.value("rank", 0LL));
 }
@@ -103,11 +97,11 @@ bool is_asked_for(const Json& j, const PaperPod& pod, const Json& run) {
 bool pod_is_there(const fs::path& run, const PaperPod& pod) {
   const fs::path directory = run / "pod" / (pod.field + "-" + pod.frame);
   try {
-    const Json j = json_of(directory / "pod.json");
+    const Json j = io::read_json(directory / "pod.json");
     static_cast<void>(io::h5::File::open(directory / "pod.h5"));  // it opens
     const fs::path spectrum = directory / "spectrum.csv";
     const Columns columns = io::read_columns(spectrum);
-    return is_of_this_program(j) && is_asked_for(j, pod, json_of(run / "run.json")) &&
+    return is_of_this_program(j) && is_asked_for(j, pod, io::read_json(run / "run.json")) &&
            !column(columns, "singular_value", spectrum).empty();
   } catch (const std::exception&) {
     return false;
