@@ -17,7 +17,7 @@ void step(benchmark::State& bench, bool contact) {
   b.model.threads = static_cast<int>(bench.range(1));
   if (contact) test::add_ground(b, {}, {0.3, 0.0});
   dynamics::State state = test::start_at_rest(b.model);
-  dynamics::Ledger ledger(b.model);
+  dynamics::Ledger ledger;
   for (auto _ : bench) benchmark::DoNotOptimize(advance(b.model, state, ledger));
   if (!(ledger.last().relative < 1e-12)) bench.SkipWithError("the ledger does not close");
   const double dofs = 2.0 * static_cast<double>(b.model.free.size());

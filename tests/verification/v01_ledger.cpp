@@ -35,7 +35,7 @@ TEST_P(Ledgers, CloseToRoundOff) {
   auto b = test::build(c);
   test::add_ground(b, test::ledge(), {v.friction, v.restitution});
   State state = test::start_at_rest(b.model);
-  Ledger ledger(b.model);
+  Ledger ledger;
   const test::FloatingPointTraps traps;
   long contacts = 0;
   double split = 0.0;
@@ -75,7 +75,7 @@ INSTANTIATE_TEST_SUITE_P(All, Ledgers,
 TEST(LedgerCheck, SeesAVelocityChangedBehindItsBack) {
   auto b = test::build(test::rolling_disk(4, 60));
   State state = test::start_at_rest(b.model);
-  Ledger ledger(b.model);
+  Ledger ledger;
   for (int n = 0; n < 200; ++n) static_cast<void>(advance(b.model, state, ledger));
   EXPECT_LT(ledger.last().relative, 1e-14);
   state.v_next[41] += Vec2{1e-5, 0.0};

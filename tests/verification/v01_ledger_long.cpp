@@ -16,7 +16,7 @@ TEST(LedgerLong, RollingWithFrictionAndDampingOverAMillionSteps) {
   auto b = test::build(c);
   test::add_ground(b, {}, {0.3, 0.0});
   State state = test::start_at_rest(b.model);
-  Ledger ledger(b.model);
+  Ledger ledger;
   const test::FloatingPointTraps traps;
   long contacts = 0;
   for (int n = 0; n < 1000000; ++n) contacts += advance(b.model, state, ledger).nodes;
@@ -30,7 +30,7 @@ TEST(LedgerLong, RollingWithFrictionAndDampingOverAMillionSteps) {
 TEST(LedgerLong, TenMillionSteps) {
   auto b = test::build(test::rubber_annulus(1, 8));
   State state = test::start_at_rest(b.model);
-  Ledger ledger(b.model);
+  Ledger ledger;
   const test::FloatingPointTraps traps;
   for (int n = 0; n < 10000000; ++n) static_cast<void>(advance(b.model, state, ledger));
   RecordProperty("relative", fmt::format("{:.2g}", ledger.last().relative));
@@ -41,7 +41,7 @@ TEST(LedgerLong, FreeSpinWithoutDampingOverAMillionSteps) {
   auto c = test::rubber_annulus(3, 24);
   auto b = test::build(c);
   State state = test::start_at_rest(b.model);
-  Ledger ledger(b.model);
+  Ledger ledger;
   const test::FloatingPointTraps traps;
   for (int n = 0; n < 1000000; ++n) static_cast<void>(advance(b.model, state, ledger));
   RecordProperty("relative", fmt::format("{:.2g}", ledger.last().relative));

@@ -16,7 +16,7 @@ TEST(SpinUp, DampedSettlesOnTheStationarySpin) {
   c.beta = 1e-5;
   auto b = test::build(c);
   State state = test::start_at_rest(b.model);
-  Ledger ledger(b.model);
+  Ledger ledger;
   const test::FloatingPointTraps traps;
   while (state.frame.time < 0.3) static_cast<void>(advance(b.model, state, ledger));
   const auto exact = statics::stationary_spin(b.model.stiffness, b.model.mass, b.model.reference,
@@ -37,7 +37,7 @@ TEST(SpinUp, StationaryStartDoesNotMove) {
   const auto s = statics::stationary_spin(b.model.stiffness, b.model.mass, b.model.reference,
                                           b.model.free, -50.0);
   State state = start(b.model, s.u, std::vector<Vec2>(b.model.n_nodes()));
-  Ledger ledger(b.model);
+  Ledger ledger;
   for (int n = 0; n < 5000; ++n) static_cast<void>(advance(b.model, state, ledger));
   for (std::size_t i = 0; i < b.model.n_nodes(); ++i)
     ASSERT_LT(norm(state.u[i] - s.u[i]), 1e-12 * 1.6e-4);  // round-off of K u, over 5,000 steps

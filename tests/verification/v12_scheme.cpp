@@ -42,7 +42,7 @@ Eigen::VectorXd step_of(const Model& model, const Eigen::VectorXd& y) {
     state.u[k] = {y[place], y[place + 1]};
     state.v_next[k] = Vec2{y[half + place], y[half + place + 1]} / model.dt;
   }
-  Ledger ledger(model);
+  Ledger ledger;
   static_cast<void>(advance(model, state, ledger));
   Eigen::VectorXd out(2 * half);
   for (std::size_t i = 0; i < model.free.size(); ++i) {
@@ -196,7 +196,7 @@ TEST(Scheme, AsPrintedLargestGrowthOnTheDisk) {
   std::vector<Vec2> zero(b.model.n_nodes()), v0(b.model.n_nodes());
   for (Vec2& v : v0) v = {x(random), x(random)};
   State state = start(b.model, zero, v0);
-  Ledger ledger(b.model);
+  Ledger ledger;
   const auto energy_after = [&](int steps) {
     for (int n = 0; n < steps; ++n) static_cast<void>(advance(b.model, state, ledger));
     return ledger.last().kinetic + ledger.last().strain;
@@ -211,14 +211,14 @@ TEST(Scheme, LedgerShowsTheEnergyCreated) {
   auto c = spinning(4, 60, Scheme::as_printed, 0.9);
   auto b = test::build(c);
   State state = test::start_at_rest(b.model);
-  Ledger ledger(b.model);
+  Ledger ledger;
   while (state.frame.time < 0.3) static_cast<void>(advance(b.model, state, ledger));
   const Balance printed = ledger.last();
   EXPECT_GT(printed.works.scheme, 10.0 * printed.otherwise);
   EXPECT_LT(printed.relative, 1e-13);
   b.model.scheme = Scheme::symplectic;
   State again = test::start_at_rest(b.model);
-  Ledger kept(b.model);
+  Ledger kept;
   while (again.frame.time < 0.3) static_cast<void>(advance(b.model, again, kept));
   EXPECT_EQ(kept.last().works.scheme, 0.0);
   EXPECT_LT(kept.last().relative, 1e-13);

@@ -43,7 +43,7 @@ double largest_energy(const Variant& v, double safety, int steps) {
   std::vector<Vec2> u0(b.model.n_nodes()), v0(b.model.n_nodes());
   for (Vec2& velocity : v0) velocity = {x(random), x(random)};
   State state = start(b.model, u0, v0);
-  Ledger ledger(b.model);
+  Ledger ledger;
   double largest = 0.0;
   for (int n = 0; n < steps && std::isfinite(largest) && largest < 1e30; ++n) {
     static_cast<void>(advance(b.model, state, ledger));

@@ -118,7 +118,7 @@ TEST(FreeFall, EveryNodeFallsAtG) {
   model.motion.gravity = 9.81;
   model.dt = 1e-4;
   dynamics::State state = test::start_at_rest(model);
-  dynamics::Ledger ledger(model);
+  dynamics::Ledger ledger;
   for (int n = 0; n < 1000; ++n) static_cast<void>(advance(model, state, ledger));
   for (const Vec2 u : state.u) {
     ASSERT_NEAR(u.y, -0.5 * 9.81 * 0.1 * 0.1, 1e-13);  // round-off of K u feeds 1,000 steps

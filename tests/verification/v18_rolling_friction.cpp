@@ -25,7 +25,7 @@ TEST_P(Rolling, MeanForces) {
   auto b = test::build(test::rolling_disk(12, 180));
   test::add_ground(b, test::ledge(), {row.friction, 0.0});
   State state = test::start_at_rest(b.model);
-  Ledger ledger(b.model);
+  Ledger ledger;
   const test::FloatingPointTraps traps;
   Vec2 impulse;
   double time = 0.0, scale = 0.0, residual = 0.0;

@@ -31,7 +31,7 @@ TEST(Tread, ForcesAndPitchFrequency) {
   auto b = test::build(c);
   test::add_ground(b, test::ledge(), {0.3, 0.0});
   State state = test::start_at_rest(b.model);
-  Ledger ledger(b.model);
+  Ledger ledger;
   const double pitch = pitches * spin / (2.0 * std::numbers::pi);  // 318.3 Hz
   const double from = 0.1, to = from + 40.0 / pitch;               // whole pitches
   std::vector<double> force_x, force_y;

@@ -6,18 +6,10 @@
 
 namespace rondo::dynamics {
 
-Ledger::Ledger(const Model& model)
-    : energy_sums_(model.free.size()), work_sums_(model.free.size()) {}
-
-void Ledger::balance(const Model& model, const State& state) noexcept {
-  const auto energy = energy_sums_.sum(model.threads, [&](std::size_t i) {
-    const auto k = static_cast<std::size_t>(model.free[i]);
-    return std::array<double, 2>{0.5 * model.mass[k] * dot(state.v[k], state.v[k]),
-                                 0.5 * dot(state.u[k], state.force_before[k])};
-  });
+void Ledger::compare(double kinetic, double strain) noexcept {
   Balance& b = balance_;
-  b.kinetic = energy[0];
-  b.strain = energy[1];
+  b.kinetic = kinetic;
+  b.strain = strain;
   if (!started_) start_ = b.kinetic + b.strain;
   started_ = true;
   b.works = {frame_.value(), contact_.value(), friction_.value(),  impact_.value(),
@@ -35,41 +27,17 @@ void Ledger::balance(const Model& model, const State& state) noexcept {
   if (b.residual != 0.0) b.relative = std::max(b.relative, std::abs(b.residual) / b.exchanged);
 }
 
-void Ledger::add_works(const Model& model, const State& state) noexcept {
-  const FrameStep& f = state.frame;
-  const double dt = model.dt, alpha = model.mass_damping, beta = model.stiffness_damping;
-  const bool printed = model.scheme == Scheme::as_printed;
-  const Vec2 rate = {-f.spin * f.spin, f.spin_rate};  // ṡJ - s²
-  const auto works = work_sums_.sum(model.threads, [&](std::size_t i) {
-    const auto k = static_cast<std::size_t>(model.free[i]);
-    const double m = model.mass[k];
-    const Vec2 v = state.v[k];
-    const Vec2 mean = 0.5 * (v + state.v_next[k]);
-    const Vec2 inertia = rate * (model.reference[k] + state.u[k]) + f.pull;
-    const Vec2 stiffness_rate = (state.force[k] - state.force_before[k]) / dt;  // K v⁻
-    return std::array<double, 4>{-dt * m * dot(mean, inertia),
-                                 dt * alpha * m * dot(mean, printed ? v : mean),
-                                 dt * beta * dot(mean, stiffness_rate),
-                                 printed ? -2.0 * dt * f.spin * m * dot(mean, turn90(v)) : 0.0};
-  });
-  frame_.add(works[0]);
-  mass_.add(works[1]);
-  stiffness_.add(works[2]);
-  scheme_.add(works[3]);
-  add_contact(model, state);
-}
-
-void Ledger::add_contact(const Model& model, const State& state) noexcept {
-  for (const ActiveContact& c : state.active) {
-    const auto k = static_cast<std::size_t>(model.contact->nodes[c.candidate]);
-    const Vec2 impulse = conj(state.frame.rotation) * (c.normal * c.impulse);  // turning frame
-    const double work = dot(impulse, 0.5 * (state.v[k] + state.v_next[k]));
-    const Vec2 mean = 0.5 * (c.before + c.after);
-    contact_.add(work);
-    friction_.add(-c.impulse.y * mean.y);
-    impact_.add(-c.impulse.x * mean.x);
-    rim_.add(work - dot(c.impulse, mean));
-  }
+void Ledger::add(const StepEnergy& step) noexcept {
+  compare(step.kinetic, step.strain);
+  const Works& w = step.works;
+  frame_.add(w.frame);
+  contact_.add(w.contact);
+  friction_.add(w.dissipation_friction);
+  impact_.add(w.loss_impact);
+  rim_.add(w.rim);
+  mass_.add(w.dissipation_mass);
+  stiffness_.add(w.dissipation_stiffness);
+  scheme_.add(w.scheme);
 }
 
 }  // namespace rondo::dynamics

@@ -1,10 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// @file  Energy ledger of a run: closes to round-off at every step (docs/theory.md, section 5).
-/// Computed from the states before and after a step, outside the stepper.
+/// The steppers give the sums over the nodes of each step; the ledger adds up and compares.
 #pragma once
 #include "rondo/core/sum.hpp"
-#include "rondo/core/threads.hpp"
-#include "rondo/dynamics/model.hpp"
 
 namespace rondo::dynamics {
 
@@ -18,6 +16,13 @@ struct Works {
   double dissipation_mass = 0.0;
   double dissipation_stiffness = 0.0;
   double scheme = 0.0;  ///< 0 for symplectic; what the scheme as printed creates
+};
+
+/// Sums over the nodes of the step at t_{n+1}: the energy before it, and what it does [J/m].
+struct StepEnergy {
+  double kinetic = 0.0;  ///< ½ v_{n+1/2}ᵀ M v_{n+1/2}
+  double strain = 0.0;   ///< ½ u_{n+1}ᵀ K u_n
+  Works works;           ///< of this step alone
 };
 
 /// The balance at half step n+1/2.
@@ -34,20 +39,15 @@ struct Balance {
 
 class Ledger {
  public:
-  explicit Ledger(const Model& model);
+  /// Compares the energy before the step with the works so far, then adds the works of the step.
+  void add(const StepEnergy& step) noexcept;
 
-  /// Call when u_{n+1} is known and state.force_before = K u_n: E_{n+1/2} against the works so far.
-  void balance(const Model& model, const State& state) noexcept;
-  /// Call when v_{n+3/2}, K u_{n+1} and the contacts are known: adds the works of the step.
-  void add_works(const Model& model, const State& state) noexcept;
-
+  /// Of the half step before the step added last.
   [[nodiscard]] const Balance& last() const noexcept { return balance_; }
 
  private:
-  void add_contact(const Model& model, const State& state) noexcept;
+  void compare(double kinetic, double strain) noexcept;
 
-  BlockSums<2> energy_sums_;
-  BlockSums<4> work_sums_;
   CompensatedSum frame_, contact_, friction_, impact_, rim_, mass_, stiffness_, scheme_;
   double start_ = 0.0;
   bool started_ = false;

@@ -3,12 +3,7 @@
 
 namespace rondo::dynamics {
 
-State::State(const Model& model)
-    : u(model.n_nodes()),
-      v(model.n_nodes()),
-      v_next(model.n_nodes()),
-      force(model.n_nodes()),
-      force_before(model.n_nodes()) {
+State::State(const Model& model) : u(model.n_nodes()), v(model.n_nodes()), v_next(model.n_nodes()) {
   if (model.contact) active.reserve(2 * model.contact->nodes.size());
 }
 

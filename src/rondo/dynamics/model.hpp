@@ -11,6 +11,7 @@
 #include "rondo/dynamics/motion.hpp"
 #include "rondo/dynamics/scheme.hpp"
 #include "rondo/fem/assembly.hpp"
+#include "rondo/fem/sector_stiffness.hpp"
 
 namespace rondo::dynamics {
 
@@ -22,11 +23,19 @@ struct ContactModel {
   std::vector<double> tributary;  ///< (nb) length of boundary each stands for [m]
 };
 
+/// Which product with K a run takes.
+enum class StiffnessOperator {
+  cyclic,  ///< one sector's blocks, on meshes of equal sectors
+  sparse,  ///< assembled 2×2 block rows, on any mesh
+};
+
 struct Model {
-  std::vector<Vec2> reference;     ///< (n) X                        [m]
-  std::vector<double> mass;        ///< (n) lumped, > 0              [kg/m]
-  std::vector<int> free;           ///< nodes that move, ascending
-  fem::BlockCsr stiffness;         ///< K on the free nodes          [N/m²]
+  std::vector<Vec2> reference;                 ///< (n) X                        [m]
+  std::vector<double> mass;                    ///< (n) lumped, > 0              [kg/m]
+  std::vector<int> free;                       ///< nodes that move, ascending
+  fem::BlockCsr stiffness;                     ///< K on the free nodes, or empty [N/m²]
+  std::optional<fem::SectorStiffness> sector;  ///< K of one sector; absent: not cyclic
+  StiffnessOperator stiffness_operator = StiffnessOperator::sparse;
   double mass_damping = 0.0;       ///< α                            [1/s]
   double stiffness_damping = 0.0;  ///< β                            [s]
   Motion motion;
@@ -61,8 +70,8 @@ struct State {
   std::vector<Vec2> u;                ///< (n) u_{n+1}, turning frame                [m]
   std::vector<Vec2> v;                ///< (n) v_{n+1/2} (at step 0: v_0)            [m/s]
   std::vector<Vec2> v_next;           ///< (n) v_{n+3/2}                             [m/s]
-  std::vector<Vec2> force;            ///< (n) K u_{n+1}                             [N/m]
-  std::vector<Vec2> force_before;     ///< (n) K u_n                               [N/m]
+  std::vector<Vec2> force;            ///< (n) K u_{n+1}, of the reference step      [N/m]
+  std::vector<Vec2> force_before;     ///< (n) K u_n, of the reference step          [N/m]
   std::vector<ActiveContact> active;  ///< capacity for every candidate twice
 };
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "rondo/dynamics/operator.hpp"
 
+#include "rondo/core/contract.hpp"
 #include "rondo/core/threads.hpp"
 
 namespace rondo::dynamics {
@@ -25,6 +26,12 @@ void apply(const fem::BlockCsr& k, std::span<const Vec2> u, std::span<Vec2> out,
   for_blocks(out.size(), threads, [&](std::size_t begin, std::size_t end, std::size_t) {
     for (std::size_t row = begin; row < end; ++row) out[row] = row_product(k, row, u.data());
   });
+}
+
+void apply_stiffness(const Model& model, std::span<const Vec2> u, std::span<Vec2> out) {
+  if (!model.stiffness.row_start.empty()) return apply(model.stiffness, u, out, model.threads);
+  RONDO_DEMAND(model.sector.has_value());
+  fem::apply(*model.sector, u, out);
 }
 
 }  // namespace rondo::dynamics

@@ -4,7 +4,6 @@
 #include <utility>
 
 #include "rondo/core/contract.hpp"
-#include "rondo/core/threads.hpp"
 #include "rondo/dynamics/operator.hpp"
 
 namespace rondo::dynamics {
@@ -12,68 +11,102 @@ namespace {
 
 template <class Body>
 void for_free_nodes(const Model& model, Body&& body) noexcept {
-  for_blocks(model.free.size(), model.threads,
-             [&](std::size_t begin, std::size_t end, std::size_t) {
-               for (std::size_t i = begin; i < end; ++i)
-                 body(static_cast<std::size_t>(model.free[i]));
-             });
+  for (const int node : model.free) body(static_cast<std::size_t>(node));
 }
 
-/// f/m at t_{n+1} (3.2): -(K u + β K v)/m - (ṡJ - s²)(X + u) - Rᵀ(c̈ - g).
-struct Acceleration {
-  const Model& model;
-  const State& state;
-  Vec2 rate;  ///< ṡJ - s²
-
-  Vec2 operator()(std::size_t k, Vec2 stiffness_rate) const noexcept {
-    const Vec2 elastic = state.force[k] + model.stiffness_damping * stiffness_rate;
-    const Vec2 inertia = rate * (model.reference[k] + state.u[k]) + state.frame.pull;
-    return -(elastic / model.mass[k]) - inertia;
-  }
-};
-
-Acceleration acceleration(const Model& model, const State& state) noexcept {
+/// (ṡJ - s²)(X + u) + Rᵀ(c̈ - g): acceleration of the frame at a node (3.1).
+Vec2 frame_acceleration(const Model& model, const State& state, std::size_t k) noexcept {
   const FrameStep& f = state.frame;
-  return {model, state, {-f.spin * f.spin, f.spin_rate}};
+  return Vec2{-f.spin * f.spin, f.spin_rate} * (model.reference[k] + state.u[k]) + f.pull;
 }
 
-void advance_displacement(const Model& model, State& state) noexcept {
-  for_free_nodes(model, [&](std::size_t k) { state.u[k] += model.dt * state.v[k]; });
+/// f/m at t_{n+1} (3.2).
+Vec2 acceleration(const Model& model, const State& state, std::size_t k,
+                  Vec2 stiffness_rate) noexcept {
+  const Vec2 elastic = state.force[k] + model.stiffness_damping * stiffness_rate;
+  return -(elastic / model.mass[k]) - frame_acceleration(model, state, k);
+}
+
+/// K v⁻, from the products of two steps.
+Vec2 stiffness_rate(const Model& model, const State& state, std::size_t k) noexcept {
+  return (state.force[k] - state.force_before[k]) / model.dt;
 }
 
 /// v⁺ = v⁻ + [Δt f/m - drag v⁻]/a, without contact (3.4). The increment form does not drift.
 void free_velocities(const Model& model, State& state, const VelocityUpdate& update) noexcept {
-  const Acceleration f = acceleration(model, state);
   const Vec2 inverse = Vec2{1.0, 0.0} / update.a;
   for_free_nodes(model, [&](std::size_t k) {
     const Vec2 v = state.v[k];
-    const Vec2 stiffness_rate = (state.force[k] - state.force_before[k]) / model.dt;  // K v⁻
-    state.v_next[k] = v + inverse * (model.dt * f(k, stiffness_rate) - update.drag * v);
+    const Vec2 f = acceleration(model, state, k, stiffness_rate(model, state, k));
+    state.v_next[k] = v + inverse * (model.dt * f - update.drag * v);
+  });
+}
+
+ContactReport contacts(const Model& model, State& state, const VelocityUpdate& update) noexcept {
+  ContactReport report;
+  state.active.clear();
+  const ContactModel& contact = *model.contact;
+  const ContactStep step(model, state.frame, update);
+  for (std::size_t i = 0; i < contact.nodes.size(); ++i) {
+    const auto k = static_cast<std::size_t>(contact.nodes[i]);
+    const contact::Touches touches = contact.ground.touches(position(model, state, k));
+    if (touches.count == 0) continue;
+    const std::size_t first = state.active.size();
+    state.active.resize(first + static_cast<std::size_t>(touches.count));
+    state.v_next[k] = solve_contacts(step,
+                                     {i, model.mass[k], contact.tributary[i],
+                                      model.reference[k] + state.u[k], state.v[k], state.v_next[k]},
+                                     touches, std::span(state.active).subspan(first), report);
+  }
+  return report;
+}
+
+/// E_{n+1/2} (5.1): before the product is made anew.
+void add_energy(const Model& model, const State& state, StepEnergy& energy) noexcept {
+  for_free_nodes(model, [&](std::size_t k) {
+    energy.kinetic += 0.5 * model.mass[k] * dot(state.v[k], state.v[k]);
+    energy.strain += 0.5 * dot(state.u[k], state.force_before[k]);
+  });
+}
+
+/// (5.3)
+void add_works(const Model& model, const State& state, Works& w) noexcept {
+  const double dt = model.dt;
+  const bool printed = model.scheme == Scheme::as_printed;
+  for_free_nodes(model, [&](std::size_t k) {
+    const double m = model.mass[k];
+    const Vec2 v = state.v[k];
+    const Vec2 mean = 0.5 * (v + state.v_next[k]);
+    w.frame -= dt * m * dot(mean, frame_acceleration(model, state, k));
+    w.dissipation_mass += dt * model.mass_damping * m * dot(mean, printed ? v : mean);
+    w.dissipation_stiffness +=
+        dt * model.stiffness_damping * dot(mean, stiffness_rate(model, state, k));
+    if (printed) w.scheme -= 2.0 * dt * state.frame.spin * m * dot(mean, turn90(v));
   });
 }
 
 }  // namespace
 
-State start(const Model& model, std::span<const Vec2> u0, std::span<const Vec2> v0) {
+State start(const Model& model, std::vector<Vec2> u0, std::vector<Vec2> v0) {
   RONDO_DEMAND(u0.size() == model.n_nodes() && v0.size() == model.n_nodes(), u0.size(), v0.size());
   RONDO_DEMAND(model.dt > 0.0, model.dt);
   State state(model);
   state.frame = frame_step(model.motion, 0, model.dt);
-  for (const int node : model.free) {
-    const auto k = static_cast<std::size_t>(node);
+  for_free_nodes(model, [&](std::size_t k) {
     state.u[k] = u0[k];
     state.v[k] = v0[k];
-  }
-  std::vector<Vec2> stiffness_rate(model.n_nodes());
-  apply(model.stiffness, state.u, state.force, model.threads);
-  apply(model.stiffness, state.v, stiffness_rate, model.threads);
+  });
+  state.force.resize(model.n_nodes());
+  state.force_before.resize(model.n_nodes());
+  apply_stiffness(model, state.u, state.force);
+  apply_stiffness(model, state.v, state.force_before);  // K v_0, for now
   const double half = 0.5 * model.dt;
   const VelocityUpdate update =
       velocity_update(model.scheme, half, model.mass_damping, state.frame.spin);
-  const Acceleration f = acceleration(model, state);
   for_free_nodes(model, [&](std::size_t k) {
     const Vec2 v = state.v[k];
-    state.v_next[k] = v + (half * f(k, stiffness_rate[k]) - update.drag * v) / update.a;
+    const Vec2 f = acceleration(model, state, k, state.force_before[k]);
+    state.v_next[k] = v + (half * f - update.drag * v) / update.a;
   });
   return state;
 }
@@ -82,15 +115,20 @@ ContactReport advance(const Model& model, State& state, Ledger& ledger) noexcept
   std::swap(state.v, state.v_next);
   std::swap(state.force, state.force_before);
   state.frame = frame_step(model.motion, ++state.step, model.dt);
-  advance_displacement(model, state);
-  ledger.balance(model, state);
-  apply(model.stiffness, state.u, state.force, model.threads);
+  for_free_nodes(model, [&](std::size_t k) { state.u[k] += model.dt * state.v[k]; });
+  StepEnergy energy;
+  add_energy(model, state, energy);
+  apply_stiffness(model, state.u, state.force);
   const VelocityUpdate update =
       velocity_update(model.scheme, model.dt, model.mass_damping, state.frame.spin);
   free_velocities(model, state, update);
-  const ContactReport report =
-      model.contact ? contact_phase(model, state, update) : ContactReport{};
-  ledger.add_works(model, state);
+  const ContactReport report = model.contact ? contacts(model, state, update) : ContactReport{};
+  add_works(model, state, energy.works);
+  energy.works.contact = report.work;
+  energy.works.dissipation_friction = report.dissipation_friction;
+  energy.works.loss_impact = report.loss_impact;
+  energy.works.rim = report.work_rim;
+  ledger.add(energy);
   return report;
 }
 

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 
 namespace rondo::study {
 
@@ -50,23 +51,23 @@ double History::slip_ratio(double time) const {
   return scale > 0.0 ? (rim - speed) / scale : 0.0;
 }
 
-void History::observe(const dynamics::State& state, const dynamics::ContactReport& report,
-                      const dynamics::Ledger& ledger, bool last) {
+void History::observe(const dynamics::StepReport& step, bool last) {
+  const dynamics::ContactReport& report = step.contact;
   ++steps_;
   impulse_ += report.impulse;
   angular_impulse_ += report.angular_impulse;
   penetration_ = std::max(penetration_, report.penetration);
-  const double time = state.frame.time;
+  const double time = step.frame.time;
   // The step nearest to a multiple of the interval writes the row.
   const bool due = time + 0.5 * dt_ > static_cast<double>(next_) * interval_;
   if (!due && !last) return;
   const double span = static_cast<double>(steps_) * dt_;
-  const dynamics::Balance& b = ledger.last();
+  const dynamics::Balance& b = step.balance;
   const dynamics::Works& w = b.works;
   csv_.row(std::array<double, 23>{time,
-                                  state.frame.angle,
-                                  state.frame.center.x,
-                                  state.frame.center.y,
+                                  step.frame.angle,
+                                  step.frame.center.x,
+                                  step.frame.center.y,
                                   impulse_.x / span,
                                   impulse_.y / span,
                                   angular_impulse_ / span,
@@ -156,8 +157,12 @@ void Snapshots::write_contact_rows(const dynamics::State& state) {
   contact_csv_.rows(rows_);
 }
 
+long long Snapshots::next_step() const {
+  return next_ < steps_.size() ? steps_[next_] : std::numeric_limits<long long>::max();
+}
+
 void Snapshots::observe(const dynamics::State& state) {
-  if (next_ == steps_.size() || state.step != steps_[next_]) return;
+  if (state.step != next_step()) return;
   ++next_;
   io::Snapshot s;
   s.time = state.frame.time;

@@ -4,7 +4,7 @@
 #include <filesystem>
 #include <vector>
 
-#include "rondo/dynamics/stepper.hpp"
+#include "rondo/dynamics/integrator.hpp"
 #include "rondo/fem/stress.hpp"
 #include "rondo/io/csv.hpp"
 #include "rondo/io/results.hpp"
@@ -22,8 +22,8 @@ class History {
  public:
   /// @param interval [s]; 0: every step.
   History(const std::filesystem::path& file, const Case& c, const Setup& setup);
-  void observe(const dynamics::State& state, const dynamics::ContactReport& report,
-               const dynamics::Ledger& ledger, bool last);
+  /// @param last no step comes after: a row is written even where none is due.
+  void observe(const dynamics::StepReport& step, bool last);
 
  private:
   [[nodiscard]] double slip_ratio(double time) const;
@@ -46,6 +46,9 @@ std::vector<long long> snapshot_steps(int count, double from, double dt, long lo
 class Snapshots {
  public:
   Snapshots(const std::filesystem::path& directory, const Case& c, const Setup& setup);
+  /// The next step at which observe wants to see the state; the largest number where none is left.
+  [[nodiscard]] long long next_step() const;
+  /// @pre state.step == next_step(), unless the run ends there.
   void observe(const dynamics::State& state);
   void close();
   [[nodiscard]] std::size_t written() const { return results_.written(); }

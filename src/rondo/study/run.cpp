@@ -8,8 +8,13 @@
 #include <chrono>
 #include <cmath>
 #include <ctime>
+#include <memory>
+#include <span>
+#include <utility>
+#include <vector>
 
 #include "rondo/core/error.hpp"
+#include "rondo/dynamics/stepper.hpp"
 #include "rondo/io/files.hpp"
 #include "rondo/study/build.hpp"
 #include "rondo/study/crush_run.hpp"
@@ -60,29 +65,27 @@ struct Loop {
 struct Trouble {
   std::string what;  ///< empty while all is well
   bool at_half_step = false;
+  bool not_finite = false;
 };
 
-/// Name of the first quantity of the state that is not finite; empty if all are.
-std::string not_finite(const dynamics::State& state) {
+/// Name of the first quantity of the state that is not finite; `otherwise` if all are.
+std::string not_finite(const dynamics::State& state, const std::string& otherwise) {
   const auto first = [](const std::vector<Vec2>& field, const char* name) -> std::string {
     for (std::size_t i = 0; i < field.size(); ++i)
       if (!std::isfinite(field[i].x) || !std::isfinite(field[i].y))
         return fmt::format("the {} of node {} is not finite", name, i);
     return {};
   };
-  const std::string velocity = first(state.v, "velocity");
-  return velocity.empty() ? first(state.u, "displacement") : velocity;
+  const std::string velocity = first(state.v_next, "velocity");
+  const std::string found = velocity.empty() ? first(state.u, "displacement") : velocity;
+  return found.empty() ? otherwise : found;
 }
 
-Trouble find_trouble(const dynamics::State& state, const dynamics::Balance& b,
-                     const ContactStatistics& contact) {
-  if (!std::isfinite(b.kinetic + b.strain) || !std::isfinite(b.residual)) {
-    const std::string what = not_finite(state);
-    return {what.empty() ? fmt::format("the energy is out of range (kinetic {:.3g}, strain {:.3g})",
-                                       b.kinetic, b.strain)
-                         : what,
-            true};
-  }
+Trouble find_trouble(const dynamics::Balance& b, const ContactStatistics& contact) {
+  if (!std::isfinite(b.kinetic + b.strain) || !std::isfinite(b.residual))
+    return {fmt::format("the energy is out of range (kinetic {:.3g}, strain {:.3g})", b.kinetic,
+                        b.strain),
+            true, true};
   if (std::abs(b.works.scheme) > 10.0 * b.otherwise)
     return {fmt::format("work_scheme = {:.6g} J/m, more than ten times the energy exchanged "
                         "otherwise ({:.6g} J/m): the scheme as printed has blown up",
@@ -100,56 +103,94 @@ Trouble find_trouble(const dynamics::State& state, const dynamics::Balance& b,
 
 /// The message names the step that made the trouble: what a half step shows came from the step
 /// before.
-void judge(const Setup& setup, const dynamics::State& state, const dynamics::Ledger& ledger,
-           Loop& loop) {
-  const Trouble trouble = find_trouble(state, ledger.last(), loop.contact);
+void judge(const Setup& setup, const dynamics::StepReport& step,
+           const dynamics::Integrator& integrator, dynamics::State& state, Loop& loop) {
+  Trouble trouble = find_trouble(step.balance, loop.contact);
   if (trouble.what.empty()) return;
+  if (trouble.not_finite) {
+    integrator.fields(state);
+    trouble.what = not_finite(state, trouble.what);
+  }
   loop.status = RunStatus::failed;
   const double half = trouble.at_half_step ? 0.5 * setup.model.dt : 0.0;
   loop.message =
-      fmt::format("step {} of {}, t = {:.9g} s: {}", state.step - (trouble.at_half_step ? 1 : 0),
-                  setup.n_steps, state.frame.time - half, trouble.what);
+      fmt::format("step {} of {}, t = {:.9g} s: {}", step.step - (trouble.at_half_step ? 1 : 0),
+                  setup.n_steps, step.frame.time - half, trouble.what);
 }
 
-/// Steps between two looks at the clock for the progress: cheap against the step.
-constexpr long long progress_stride = 64;
-
-/// A step's works are compared once the next half step is known: one step more, which nobody sees,
-/// brings the last ones into the balance.
-void close_ledger(const Setup& setup, dynamics::State& state, dynamics::Ledger& ledger,
-                  Loop& loop) {
-  static_cast<void>(advance(setup.model, state, ledger));
-  judge(setup, state, ledger, loop);
+/// Steps made in one call: enough to hide what a call costs, few enough to hear a signal soon.
+std::size_t steps_at_once(const Setup& setup) {
+  constexpr double dof_steps = 5e7;  // some 0.05 s
+  const double dofs = 2.0 * static_cast<double>(setup.model.free.size());
+  return static_cast<std::size_t>(std::clamp(dof_steps / dofs, 8.0, 64.0));
 }
 
-Loop run_loop(const Setup& setup, const RunOptions& options, History& history,
-              Snapshots& snapshots) {
-  Loop loop;
-  dynamics::State state = start(setup.model, setup.displacement, setup.velocity);
-  dynamics::Ledger ledger(setup.model);
-  const auto wall = Clock::now();
-  const std::clock_t cpu = std::clock();
-  snapshots.observe(state);
-  while (loop.steps < setup.n_steps && loop.status == RunStatus::done) {
-    const dynamics::ContactReport report = advance(setup.model, state, ledger);
-    ++loop.steps;
-    loop.contact.add(report);
-    judge(setup, state, ledger, loop);
-    if (loop.status == RunStatus::done && options.stop &&
-        options.stop->load(std::memory_order_relaxed))
-      loop.status = RunStatus::interrupted;
-    const bool last = loop.steps == setup.n_steps || loop.status != RunStatus::done;
-    history.observe(state, report, ledger, last);
-    snapshots.observe(state);
-    if (options.progress && (last || loop.steps % progress_stride == 0))
-      options.progress(loop.steps, setup.n_steps);
+/// The loop of a run and what it works with.
+class Runner {
+ public:
+  Runner(const Setup& setup, const RunOptions& options, History& history, Snapshots& snapshots)
+      : setup_(setup),
+        options_(options),
+        history_(history),
+        snapshots_(snapshots),
+        reports_(steps_at_once(setup)),
+        state_(start(setup.model, setup.displacement, setup.velocity)),
+        integrator_(make_integrator(setup.model, state_)) {}
+
+  Loop run() {
+    const auto wall = Clock::now();
+    const std::clock_t cpu = std::clock();
+    snapshots_.observe(state_);
+    while (loop_.steps < setup_.n_steps && loop_.status == RunStatus::done) advance();
+    if (loop_.status == RunStatus::done) close_ledger();
+    loop_.wall_s = std::chrono::duration<double>(Clock::now() - wall).count();
+    loop_.cpu_s = static_cast<double>(std::clock() - cpu) / CLOCKS_PER_SEC;
+    return std::move(loop_);
   }
-  if (loop.status == RunStatus::done) close_ledger(setup, state, ledger, loop);
-  loop.balance = ledger.last();
-  loop.wall_s = std::chrono::duration<double>(Clock::now() - wall).count();
-  loop.cpu_s = static_cast<double>(std::clock() - cpu) / CLOCKS_PER_SEC;
-  return loop;
-}
+
+ private:
+  /// Steps up to the next snapshot, at most as many as there are reports.
+  void advance() {
+    const long long left = std::min(setup_.n_steps, snapshots_.next_step()) - loop_.steps;
+    const auto n =
+        static_cast<std::size_t>(std::min(static_cast<long long>(reports_.size()), left));
+    const std::span reports = std::span(reports_).first(n);
+    const bool seen = reports.size() == static_cast<std::size_t>(left);
+    integrator_->advance(reports, seen ? &state_ : nullptr);
+    const bool stop = options_.stop && options_.stop->load(std::memory_order_relaxed);
+    for (std::size_t i = 0; i < n && loop_.status == RunStatus::done; ++i)
+      take(reports[i], stop && i + 1 == n);
+    if (seen && state_.step == loop_.steps) snapshots_.observe(state_);
+    if (options_.progress) options_.progress(loop_.steps, setup_.n_steps);
+  }
+
+  void take(const dynamics::StepReport& step, bool stop) {
+    ++loop_.steps;
+    loop_.contact.add(step.contact);
+    loop_.balance = step.balance;
+    judge(setup_, step, *integrator_, state_, loop_);
+    if (loop_.status == RunStatus::done && stop) loop_.status = RunStatus::interrupted;
+    history_.observe(step, loop_.steps == setup_.n_steps || loop_.status != RunStatus::done);
+  }
+
+  /// A step's works are compared once the next half step is known: one step more, which nobody
+  /// sees, brings the last ones into the balance.
+  void close_ledger() {
+    dynamics::StepReport& beyond = reports_.front();
+    integrator_->advance({&beyond, 1});
+    loop_.balance = beyond.balance;
+    judge(setup_, beyond, *integrator_, state_, loop_);
+  }
+
+  const Setup& setup_;
+  const RunOptions& options_;
+  History& history_;
+  Snapshots& snapshots_;
+  std::vector<dynamics::StepReport> reports_;
+  dynamics::State state_;
+  std::unique_ptr<dynamics::Integrator> integrator_;
+  Loop loop_;
+};
 
 Json describe(const Case& c, const Setup& setup) {
   Json j = describe_run(c, "dynamic", setup.model.n_nodes(), 2 * setup.model.free.size());
@@ -223,7 +264,7 @@ Loop record(const Case& c, const Setup& setup, const RunOptions& options, const 
   try {
     History history(options.directory / "history.csv", c, setup);
     Snapshots snapshots(options.directory, c, setup);
-    Loop loop = run_loop(setup, options, history, snapshots);
+    Loop loop = Runner(setup, options, history, snapshots).run();
     snapshots.close();
     loop.snapshots = snapshots.written();
     return loop;

@@ -20,7 +20,7 @@ int main() {
   model.dt = 0.8 * critical.step;
   const std::vector<Vec2> zero(model.n_nodes());
   dynamics::State state = dynamics::start(model, zero, zero);
-  dynamics::Ledger ledger(model);
+  dynamics::Ledger ledger;
   for (int n = 0; n < 100; ++n) static_cast<void>(dynamics::advance(model, state, ledger));
   return ledger.last().relative < 1e-13 && !study::write_case({}).empty() ? 0 : 1;
 }

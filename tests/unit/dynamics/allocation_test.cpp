@@ -45,7 +45,7 @@ TEST(Allocation, NoneInTheStep) {
       b, {.profile = {{-10, -0.1}, {0, -0.1}, {0, 0}, {0.1, -0.01}, {10, 0}}, .fillet = 0.02},
       {0.3, 0.0});
   dynamics::State state = test::start_at_rest(b.model);
-  dynamics::Ledger ledger(b.model);
+  dynamics::Ledger ledger;
   long in_contact = 0;
   const long before = allocations;
   for (int n = 0; n < 4000; ++n) in_contact += advance(b.model, state, ledger).nodes;

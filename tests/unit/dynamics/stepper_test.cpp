@@ -31,7 +31,7 @@ double distance_after(const Motion& motion, double end, int steps) {
   const Model model = particle(motion, place, end / steps);
   const std::vector<Vec2> u0{{0.01, 0.02}}, v0{{0.5, -0.3}};
   State state = start(model, u0, v0);
-  Ledger ledger(model);
+  Ledger ledger;
   for (int n = 0; n < steps; ++n) static_cast<void>(advance(model, state, ledger));
   // In the fixed frame: a parabola, whatever the frame does.
   const FrameStep f = frame_step(motion, 0, model.dt);
@@ -63,7 +63,7 @@ TEST(Stepper, MassDampingIsTheMidpointDecay) {
   model.mass_damping = 50.0;
   const std::vector<Vec2> u0{{0.0, 0.0}}, v0{{1.0, 0.0}};
   State state = start(model, u0, v0);
-  Ledger ledger(model);
+  Ledger ledger;
   for (int n = 0; n < 100; ++n) static_cast<void>(advance(model, state, ledger));
   const double x = 0.5 * 1e-3 * 50.0;
   const double expected = (1 - x / 2) / (1 + x / 2) * std::pow((1 - x) / (1 + x), 100);
@@ -76,7 +76,7 @@ TEST(Stepper, LawVelocityIsTheDiscreteMotion) {
   auto b = test::build(test::rolling_disk(4, 40));
   test::add_ground(b, test::ledge(), {0.3, 0.0});
   State state = test::start_at_rest(b.model);
-  Ledger ledger(b.model);
+  Ledger ledger;
   const test::FloatingPointTraps traps;
   int seen = 0, stuck = 0;
   for (int n = 0; n < 600; ++n) {
@@ -110,7 +110,7 @@ TEST(Stepper, ABallBouncesWithItsRestitution) {
       ContactModel{contact::Ground(contact::GroundShape{}), {0.0, 0.5}, {0}, {1.0}});
   const std::vector<Vec2> zero(1);
   State state = start(model, zero, zero);
-  Ledger ledger(model);
+  Ledger ledger;
   double impact = 0.0, apex = 0.0;
   for (int n = 0; n < 90000; ++n) {
     const ContactReport r = advance(model, state, ledger);
@@ -130,7 +130,7 @@ TEST(Stepper, AConcaveCornerStopsByBothFacets) {
     model.contact.emplace(ContactModel{contact::Ground(foot), law, {0}, {1.0}});
     const std::vector<Vec2> zero(1), v0{{2.0, -1.0}};
     State state = start(model, zero, v0);
-    Ledger ledger(model);
+    Ledger ledger;
     int pairs = 0;
     for (int n = 0; n < 150; ++n) {
       const ContactReport r = advance(model, state, ledger);
@@ -154,7 +154,7 @@ TEST(Stepper, SameBitsForAnyNumberOfThreadsAndFromRunToRun) {
   const auto final_state = [&](int threads) {
     b.model.threads = threads;
     State state = test::start_at_rest(b.model);
-    Ledger ledger(b.model);
+    Ledger ledger;
     for (int n = 0; n < 150; ++n) static_cast<void>(advance(b.model, state, ledger));
     EXPECT_FALSE(state.active.empty());
     return std::tuple{state.u, state.v_next, ledger.last().works.frame, ledger.last().kinetic};
@@ -169,7 +169,7 @@ TEST(Stepper, ClampedNodesStayClamped) {
   test::add_ground(b, test::ledge(), {0.6, 0.0});
   const std::vector<Vec2> ones(b.model.n_nodes(), Vec2{1.0, 1.0});
   State state = start(b.model, std::vector<Vec2>(b.model.n_nodes()), ones);
-  Ledger ledger(b.model);
+  Ledger ledger;
   for (int n = 0; n < 500; ++n) static_cast<void>(advance(b.model, state, ledger));
   for (const int node : b.mesh.clamped) {
     EXPECT_EQ(state.u[static_cast<std::size_t>(node)], Vec2{});

@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: BSD-3-Clause
+/// @file  The steps of a run, many at a time. Two operators do the same step (stepper.hpp is the
+/// reference of both): `cyclic` on meshes of equal sectors, `sparse` on any mesh. What comes out is
+/// the same to the last bit for any number of threads and however the steps are cut into calls.
+#pragma once
+#include <memory>
+#include <span>
+
+#include "rondo/dynamics/contact_node.hpp"
+#include "rondo/dynamics/ledger.hpp"
+#include "rondo/dynamics/model.hpp"
+
+namespace rondo::dynamics {
+
+/// What a step leaves for those who look on.
+struct StepReport {
+  long long step = 0;     ///< n + 1
+  FrameStep frame;        ///< of t_{n+1}
+  ContactReport contact;  ///< of t_{n+1}
+  Balance balance;        ///< of t_{n+1/2}
+};
+
+class Integrator {
+ public:
+  virtual ~Integrator() = default;
+  Integrator() = default;
+  Integrator(const Integrator&) = delete;
+  Integrator& operator=(const Integrator&) = delete;
+
+  /// Makes as many steps as there are reports, and fills these. `last`, if given, gets step, frame,
+  /// u, v, v_next and the contacts of the last of them; `force` and `force_before` are left alone.
+  /// @pre at least one report; *last was made for this model. Allocates nothing.
+  virtual void advance(std::span<StepReport> reports, State* last = nullptr) noexcept = 0;
+
+  /// Fields as they stand between two steps: u_{n+2} and v_{n+3/2}, n + 1 the last step made.
+  /// Fills u and v_next.
+  virtual void fields(State& state) const noexcept = 0;
+};
+
+/// The integrator of model.stiffness_operator. The model must outlive it.
+/// @param start at t = 0 (stepper.hpp).
+[[nodiscard]] std::unique_ptr<Integrator> make_integrator(const Model& model, State start);
+
+}  // namespace rondo::dynamics

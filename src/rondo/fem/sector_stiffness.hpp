@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: BSD-3-Clause
+/// @file  Stiffness of a mesh of N equal sectors: the row block of one sector says it all
+/// (docs/theory.md, 2.7). In polar components, each vector turned into the frame of its node's
+/// sector, K is block-circulant.
+#pragma once
+#include <array>
+#include <cstddef>
+#include <span>
+#include <vector>
+
+#include "rondo/fem/elasticity.hpp"
+#include "rondo/mesh/mesh.hpp"
+
+namespace rondo::fem {
+
+/// Rows are the free nodes of sector 0, layer after layer from the clamped nodes outwards, so that
+/// a row couples with near rows only. Symmetric to the last bit.
+struct SectorStiffness {
+  /// 2×2 block that acts on local node `column` of the sector `shift` further on (-1, 0, 1), in
+  /// polar components, column-major as in BlockCsr [N/m²].
+  struct Entry {
+    int column;
+    int shift;
+    std::array<double, 4> block;
+  };
+
+  int n_sectors = 0;
+  int nodes_per_sector = 0;            ///< of the mesh, clamped ones included
+  std::vector<int> nodes;              ///< (n_local) number within the sector of each row's node
+  std::vector<std::size_t> row_start;  ///< (n_local + 1) first entry of a row
+  std::vector<Entry> entries;
+  std::vector<Vec2> turn;  ///< (N) e^{iφ_j}, φ_j = 2πj/N: frame of sector j
+
+  [[nodiscard]] std::size_t n_local() const noexcept { return nodes.size(); }
+  /// Node of the mesh for row `a` of sector `j`.
+  [[nodiscard]] std::size_t node(std::size_t a, std::size_t j) const noexcept {
+    return j * static_cast<std::size_t>(nodes_per_sector) + static_cast<std::size_t>(nodes[a]);
+  }
+  [[nodiscard]] std::span<const Entry> row(std::size_t a) const noexcept {
+    return std::span(entries).subspan(row_start[a], row_start[a + 1] - row_start[a]);
+  }
+};
+
+/// @pre the mesh has N >= 3 equal sectors, numbered one after the other; no inverted element.
+SectorStiffness assemble_sector(const mesh::Mesh& mesh, const Material& material);
+
+/// out = K u, Cartesian components in the turning frame, both (n); clamped nodes give 0. The
+/// readable product: the steps have their own.
+void apply(const SectorStiffness& k, std::span<const Vec2> u, std::span<Vec2> out);
+
+}  // namespace rondo::fem
