@@ -52,6 +52,8 @@ class Ground {
   [[nodiscard]] double distance(Vec2 x) const noexcept;
   /// Length along the surface, from the first point of the profile, of the point nearest to x [m]
   [[nodiscard]] double abscissa(Vec2 x) const noexcept;
+  /// No ground above this height; infinite where the ground rises for ever                [m]
+  [[nodiscard]] double top() const noexcept { return top_; }
 
  private:
   /// A straight facet, or a fillet's arc (radius > 0).
@@ -75,7 +77,7 @@ class Ground {
   [[nodiscard]] std::size_t nearest(Vec2 x, Projection& projection) const noexcept;
 
   std::vector<Facet> facets_;
-  double top_ = std::numeric_limits<double>::infinity();  ///< no ground above this height   [m]
+  double top_ = std::numeric_limits<double>::infinity();  ///< [m]
 };
 
 }  // namespace rondo::contact

@@ -3,6 +3,7 @@
 
 #include <utility>
 
+#include "rondo/dynamics/cyclic_integrator.hpp"
 #include "rondo/dynamics/stepper.hpp"
 
 namespace rondo::dynamics {
@@ -36,6 +37,8 @@ class ReferenceIntegrator : public Integrator {
 }  // namespace
 
 std::unique_ptr<Integrator> make_integrator(const Model& model, State start) {
+  if (model.stiffness_operator == StiffnessOperator::cyclic)
+    return std::make_unique<CyclicIntegrator>(model, start);
   return std::make_unique<ReferenceIntegrator>(model, std::move(start));
 }
 

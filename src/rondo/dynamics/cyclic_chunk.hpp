@@ -1,0 +1,86 @@
+// SPDX-License-Identifier: BSD-3-Clause
+/// @file  Fields of some sectors of a disk, in polar components, and their steps.
+#pragma once
+#include <array>
+#include <span>
+#include <vector>
+
+#include "rondo/core/large_array.hpp"
+#include "rondo/dynamics/cyclic_plan.hpp"
+#include "rondo/dynamics/step_context.hpp"
+
+namespace rondo::dynamics {
+
+class CyclicChunk {
+ public:
+  CyclicChunk(const Model& model, const CyclicPlan& plan, const kernels::Table& table,
+              const CyclicChunkRange& range);
+
+  /// From u_n, v_{n+1/2} (state.v_next) and, with β, K u_n (state.force): u_{n+1} and these.
+  void load(const State& state);
+  /// u_{n+1} of this chunk's own nodes into u, v_{n+1/2} into v, (n) each.
+  void save_displacement(std::vector<Vec2>& u) const noexcept;
+  void save_velocity(std::vector<Vec2>& v) const noexcept;
+
+  /// What neighbours need of this chunk, for the pass of that number (its parity).
+  void give_edges(unsigned pass) noexcept;
+  void take_halo(const CyclicChunk& left, const CyclicChunk& right, unsigned pass) noexcept;
+
+  /// Makes the steps; parts[i * stride + g] gets what group g of the ring gives in step i.
+  /// @pre at most plan.depth steps, the halo taken.
+  void pass(std::span<const StepContext> steps, PartialStep* parts, std::size_t stride) noexcept;
+
+  /// Contacts of the last step of the last pass, this chunk's own.
+  [[nodiscard]] std::span<const ActiveContact> active() const noexcept { return active_; }
+
+ private:
+  /// Columns of the chunk that a step of a pass works on.
+  struct Extent {
+    int first_pack, last_pack;
+    int first_column, last_column;  ///< whose values are right: contact is looked for there
+  };
+  /// A column that touches, and what its row held before the update.
+  struct Touching {
+    int column;
+    contact::Touches touches;
+    Vec2 v;
+    Vec2 force;
+  };
+
+  [[nodiscard]] Extent extent(std::size_t step, std::size_t n_steps) const noexcept;
+  [[nodiscard]] Vec2 at(int row, int field, int column) const noexcept;
+  [[nodiscard]] Vec2 turn(int column) const noexcept {
+    return {turn_x_[padded(column)], turn_y_[padded(column)]};
+  }
+  static std::size_t padded(int column) noexcept {
+    return static_cast<std::size_t>(column + halo_columns);
+  }
+  void row(const StepContext& step, const Extent& extent, std::size_t place, int a) noexcept;
+  void find_touching(const StepContext& step, const Extent& extent, int a) noexcept;
+  void solve_touching(const StepContext& step, std::size_t place, int a) noexcept;
+  void save_field(int field, std::vector<Vec2>& out) const noexcept;
+  void wrap(int a) noexcept;
+  void hand_over(std::size_t n_steps, PartialStep* parts, std::size_t stride) noexcept;
+  [[nodiscard]] int edge_width() const noexcept {
+    return plan_.halo == Halo::wide ? halo_columns : 1;
+  }
+  [[nodiscard]] int edge_fields() const noexcept {
+    return plan_.halo == Halo::wide ? plan_.n_fields : 2;
+  }
+
+  const Model& model_;
+  const CyclicPlan& plan_;
+  const kernels::Table& table_;
+  CyclicChunkRange range_;
+  LargeArray fields_;
+  std::vector<double> turn_x_, turn_y_;  ///< of the columns, from the halo on the left
+  LargeArray sums_;                      ///< (depth, groups, n_sums, lanes)
+  std::vector<PartialStep> contact_;     ///< (depth, groups): of these the contacts' part
+  std::array<std::array<LargeArray, 2>, 2> edges_;  ///< [parity][left, right]
+  std::vector<int> low_;
+  std::vector<Touching> touching_;
+  std::vector<ActiveContact> active_;
+  bool keep_active_ = false;
+};
+
+}  // namespace rondo::dynamics

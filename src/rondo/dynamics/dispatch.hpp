@@ -1,0 +1,13 @@
+// SPDX-License-Identifier: BSD-3-Clause
+/// @file  Which instruction set the inner loops use (docs/performance.md).
+#pragma once
+#include "rondo/dynamics/kernels/kernels.hpp"
+
+namespace rondo::dynamics {
+
+/// The best level of this machine, or the one that the environment variable RONDO_DISPATCH names
+/// ("avx512", "avx2", "baseline"). Chosen once. @throws InputError: unknown, or not of this
+/// machine.
+const kernels::Table& kernel_table();
+
+}  // namespace rondo::dynamics

@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: BSD-3-Clause
+/// @file  Eight doubles in two registers of four: the same bits as eight in one.
+#pragma once
+#include <immintrin.h>
+
+namespace {
+
+struct Pack {
+  __m256d a, b;
+};
+
+inline Pack load(const double* p) noexcept {
+  return {_mm256_loadu_pd(p), _mm256_loadu_pd(p + 4)};
+}
+inline void store(double* p, Pack x) noexcept {
+  _mm256_storeu_pd(p, x.a);
+  _mm256_storeu_pd(p + 4, x.b);
+}
+inline Pack all(double x) noexcept {
+  return {_mm256_set1_pd(x), _mm256_set1_pd(x)};
+}
+inline Pack operator+(Pack x, Pack y) noexcept {
+  return {_mm256_add_pd(x.a, y.a), _mm256_add_pd(x.b, y.b)};
+}
+inline Pack operator-(Pack x, Pack y) noexcept {
+  return {_mm256_sub_pd(x.a, y.a), _mm256_sub_pd(x.b, y.b)};
+}
+inline Pack operator*(Pack x, Pack y) noexcept {
+  return {_mm256_mul_pd(x.a, y.a), _mm256_mul_pd(x.b, y.b)};
+}
+/// x y + z
+inline Pack fma(Pack x, Pack y, Pack z) noexcept {
+  return {_mm256_fmadd_pd(x.a, y.a, z.a), _mm256_fmadd_pd(x.b, y.b, z.b)};
+}
+/// z - x y
+inline Pack fnma(Pack x, Pack y, Pack z) noexcept {
+  return {_mm256_fnmadd_pd(x.a, y.a, z.a), _mm256_fnmadd_pd(x.b, y.b, z.b)};
+}
+inline __m256d first_of_four(int n, __m256d x, __m256d y) noexcept {
+  const __m256i lane = _mm256_set_epi64x(3, 2, 1, 0);
+  const __m256i taken = _mm256_cmpgt_epi64(_mm256_set1_epi64x(n), lane);
+  return _mm256_blendv_pd(y, x, _mm256_castsi256_pd(taken));
+}
+/// The first n lanes of x, the others of y.
+inline Pack first_lanes(int n, Pack x, Pack y) noexcept {
+  return {first_of_four(n, x.a, y.a), first_of_four(n - 4, x.b, y.b)};
+}
+/// Bit i is set where lane i of x <= y.
+inline unsigned not_above(Pack x, Pack y) noexcept {
+  const int low = _mm256_movemask_pd(_mm256_cmp_pd(x.a, y.a, _CMP_LE_OQ));
+  const int high = _mm256_movemask_pd(_mm256_cmp_pd(x.b, y.b, _CMP_LE_OQ));
+  return static_cast<unsigned>(low | (high << 4));
+}
+
+constexpr int block_packs = 1;
+
+}  // namespace
