@@ -41,32 +41,40 @@ class CyclicChunk {
   };
   /// A column that touches, and what its row held before the update.
   struct Touching {
-    int column;
+    int row, column;
     contact::Touches touches;
     Vec2 v;
     Vec2 force;
   };
 
   [[nodiscard]] Extent extent(std::size_t step, std::size_t n_steps) const noexcept;
+  [[nodiscard]] double* field(int row, int field) noexcept;
   [[nodiscard]] Vec2 at(int row, int field, int column) const noexcept;
+  void put(int row, int field, int column, Vec2 value) noexcept;
   [[nodiscard]] Vec2 turn(int column) const noexcept {
     return {turn_x_[padded(column)], turn_y_[padded(column)]};
   }
   static std::size_t padded(int column) noexcept {
     return static_cast<std::size_t>(column + halo_columns);
   }
-  void row(const StepContext& step, const Extent& extent, std::size_t place, int a) noexcept;
-  void find_touching(const StepContext& step, const Extent& extent, int a) noexcept;
-  void solve_touching(const StepContext& step, std::size_t place, int a) noexcept;
+  /// The step in hand of a pass.
+  struct Work {
+    const StepContext* step;
+    Extent extent;
+    std::size_t place;  ///< of the step in the pass
+    int now, next;      ///< fields of u before and after the step
+    bool last;          ///< of the pass
+  };
+  void strip(const Work& work, int i) noexcept;
+  void find_touching(const Work& work, int a) noexcept;
+  void solve_node(const Work& work, const Touching& t) noexcept;
   void save_field(int field, std::vector<Vec2>& out) const noexcept;
-  void wrap(int a) noexcept;
-  void hand_over(std::size_t n_steps, PartialStep* parts, std::size_t stride) noexcept;
-  [[nodiscard]] int edge_width() const noexcept {
-    return plan_.halo == Halo::wide ? halo_columns : 1;
-  }
-  [[nodiscard]] int edge_fields() const noexcept {
-    return plan_.halo == Halo::wide ? plan_.n_fields : 2;
-  }
+  void wrap(int a, int field) noexcept;
+  void hand_over(std::size_t n_steps, PartialStep* parts, std::size_t stride) const noexcept;
+  [[nodiscard]] int field_now() const noexcept;
+  [[nodiscard]] std::array<int, 3> edge_fields() const noexcept;
+  [[nodiscard]] std::size_t n_edge_fields() const noexcept;
+  [[nodiscard]] int edge_width() const noexcept;
 
   const Model& model_;
   const CyclicPlan& plan_;
@@ -80,7 +88,7 @@ class CyclicChunk {
   std::vector<int> low_;
   std::vector<Touching> touching_;
   std::vector<ActiveContact> active_;
-  bool keep_active_ = false;
+  long long steps_ = 0;  ///< made so far: tells which field u is in
 };
 
 }  // namespace rondo::dynamics

@@ -2,6 +2,9 @@
 #include "rondo/dynamics/cyclic_plan.hpp"
 
 #include <algorithm>
+#include <array>
+#include <cmath>
+#include <utility>
 
 #include "rondo/core/contract.hpp"
 
@@ -36,7 +39,7 @@ void choose_chunks(CyclicPlan& plan, int threads) {
   plan.n_groups = static_cast<std::size_t>((plan.n_sectors + group_columns - 1) / group_columns);
   const int groups = static_cast<int>(plan.n_groups);
   const std::size_t bytes = static_cast<std::size_t>(plan.n_local) *
-                            static_cast<std::size_t>(plan.n_sectors * plan.n_fields) *
+                            static_cast<std::size_t>(plan.n_sectors * plan.n_fields()) *
                             sizeof(double);
   const bool in_cache = bytes < cache_bytes * static_cast<std::size_t>(threads);
   const int for_threads = std::min(threads, groups);
@@ -51,67 +54,102 @@ void choose_chunks(CyclicPlan& plan, int threads) {
   if (plan.chunks.size() == 1)
     plan.halo = Halo::ring;
   else
-    plan.halo = !in_cache && narrowest->columns >= worth_a_wide_halo ? Halo::wide : Halo::narrow;
-  plan.depth = in_cache || plan.halo == Halo::narrow ? 1 : most_steps_in_a_pass;
-}
-
-void add_entries(const SectorStiffness& k, CyclicPlan& plan) {
-  plan.entry_start.push_back(0);
-  for (std::size_t a = 0; a < k.n_local(); ++a) {
-    for (const SectorStiffness::Entry& e : k.row(a)) {
-      kernels::CyclicEntry entry{plan.row_at(e.column) + e.shift, {}};
-      std::copy(e.block.begin(), e.block.end(), entry.k);
-      plan.entries.push_back(entry);
-    }
-    plan.entry_start.push_back(static_cast<int>(plan.entries.size()));
-  }
-}
-
-/// u of row b is advanced after the last row that couples with it; the next step does row a when
-/// all that couple with a are advanced.
-void add_order(const SectorStiffness& k, CyclicPlan& plan) {
-  const auto n = k.n_local();
-  std::vector<int> last_use(n);
-  for (std::size_t a = 0; a < n; ++a) {
-    last_use[a] = std::max(last_use[a], static_cast<int>(a));
-    for (const SectorStiffness::Entry& e : k.row(a)) {
-      int& last = last_use[static_cast<std::size_t>(e.column)];
-      last = std::max(last, static_cast<int>(a));
-    }
-  }
-  plan.advanced_start.assign(n + 1, 0);
-  for (const int a : last_use) ++plan.advanced_start[static_cast<std::size_t>(a) + 1];
-  for (std::size_t a = 0; a < n; ++a) plan.advanced_start[a + 1] += plan.advanced_start[a];
-  plan.advanced.resize(n);
-  std::vector<int> next(plan.advanced_start.begin(), plan.advanced_start.end() - 1);
-  for (std::size_t b = 0; b < n; ++b)
-    plan.advanced[static_cast<std::size_t>(next[static_cast<std::size_t>(last_use[b])]++)] =
-        static_cast<int>(b);
-  for (std::size_t a = 0; a < n; ++a) {
-    int needed = last_use[a];
-    for (const SectorStiffness::Entry& e : k.row(a))
-      needed = std::max(needed, last_use[static_cast<std::size_t>(e.column)]);
-    plan.needs.push_back(needed);
-  }
+    plan.halo = narrowest->columns >= worth_a_wide_halo ? Halo::wide : Halo::narrow;
+  const bool one_by_one = plan.halo == Halo::ring ? in_cache : plan.halo == Halo::narrow;
+  plan.depth = one_by_one ? 1 : most_steps_in_a_pass;
 }
 
 void add_rows(const Model& model, const SectorStiffness& k, CyclicPlan& plan) {
+  for (const SectorStiffness::Entry& e : k.entries) {
+    kernels::CyclicEntry entry{e.column * plan.row_size() + e.shift, {}};
+    std::copy(e.block.begin(), e.block.end(), entry.k);
+    plan.entries.push_back(entry);
+  }
+  for (std::size_t a = 0; a < k.n_local(); ++a) {
+    const double mass = model.mass[k.node(a, 0)];
+    const Vec2 reference = model.reference[k.node(a, 0)];
+    plan.rows.push_back({.entries = plan.entries.data() + k.row_start[a],
+                         .n_entries = static_cast<int>(k.row(a).size()),
+                         .at = static_cast<std::ptrdiff_t>(a) * plan.row_size(),
+                         .mass = mass,
+                         .dt_over_mass = model.dt / mass,
+                         .x = reference.x,
+                         .y = reference.y});
+  }
+}
+
+/// The mirrored part of a row's blocks on one layer: D k(-s) D is k(s), D = diag(1, -1). Summed so
+/// that symmetry is kept to the last bit. `left` and `right` are the blocks of the last and the
+/// next sector.
+kernels::MirrorBlock mirrored(const std::array<double, 4>& here, const std::array<double, 4>& left,
+                              const std::array<double, 4>& right) noexcept {
+  return {.rr = here[0],
+          .tt = here[3],
+          .rr1 = 0.5 * (left[0] + right[0]),
+          .tt1 = 0.5 * (left[3] + right[3]),
+          .rt1 = 0.5 * (right[2] - left[2]),
+          .tr1 = 0.5 * (right[1] - left[1])};
+}
+
+/// Largest part of the blocks that is not mirrored.
+double deviation(const std::array<double, 4>& here, const std::array<double, 4>& left,
+                 const std::array<double, 4>& right) noexcept {
+  return std::max({std::abs(here[1]), std::abs(here[2]), std::abs(left[0] - right[0]),
+                   std::abs(left[3] - right[3]), std::abs(left[1] + right[1]),
+                   std::abs(left[2] + right[2])});
+}
+
+/// Where a sector is one line of nodes and its own mirror, as that of a smooth disk, a row needs
+/// half of the products.
+void add_mirror(const SectorStiffness& k, CyclicPlan& plan) {
+  const int n = plan.n_local;
+  std::vector<kernels::MirrorRow> rows(static_cast<std::size_t>(n));
+  double largest = 0.0, worst = 0.0;
+  for (int a = 0; a < n; ++a) {
+    std::array<std::array<std::array<double, 4>, 3>, 3> blocks{};  // [layer][shift]
+    for (const SectorStiffness::Entry& e : k.row(static_cast<std::size_t>(a))) {
+      if (std::abs(e.column - a) > 1) return;
+      blocks[static_cast<std::size_t>(e.column - a + 1)][static_cast<std::size_t>(e.shift + 1)] =
+          e.block;
+      largest = std::max(largest, std::abs(e.block[0]));
+    }
+    const auto block = [&](std::size_t layer) {
+      const auto& [left, here, right] = blocks[layer];
+      worst = std::max(worst, deviation(here, left, right));
+      return mirrored(here, left, right);
+    };
+    rows[static_cast<std::size_t>(a)] = {block(0), block(1), block(2)};
+  }
+  constexpr double round_off = 1e-11;  // of the coordinates, over the size of an element
+  if (worst <= round_off * largest) plan.mirror = std::move(rows);
+}
+
+/// A strip reads u of the rows that couple with its own, and overwrites what these read in the step
+/// before: that step must have done them.
+void add_order(const SectorStiffness& k, CyclicPlan& plan) {
+  plan.needs.assign(static_cast<std::size_t>(plan.n_strips()), 0);
   for (std::size_t a = 0; a < k.n_local(); ++a)
-    plan.rows.push_back({model.mass[k.node(a, 0)], model.reference[k.node(a, 0)], -1});
+    for (const SectorStiffness::Entry& e : k.row(a)) {
+      int& needed = plan.needs[a / kernels::most_rows];
+      needed = std::max(needed, e.column / kernels::most_rows);
+    }
+}
+
+void add_contact(const Model& model, const SectorStiffness& k, CyclicPlan& plan) {
+  plan.contact_row.assign(k.n_local(), -1);
   if (!model.contact) return;
-  std::vector<int> row_of(static_cast<std::size_t>(k.nodes_per_sector), -1);
-  for (std::size_t a = 0; a < k.n_local(); ++a)
-    row_of[static_cast<std::size_t>(k.nodes[a])] = static_cast<int>(a);
+  std::vector<std::size_t> row_of(static_cast<std::size_t>(k.nodes_per_sector), k.n_local());
+  for (std::size_t a = 0; a < k.n_local(); ++a) row_of[static_cast<std::size_t>(k.nodes[a])] = a;
   for (std::size_t i = 0; i < model.contact->nodes.size(); ++i) {
     const int node = model.contact->nodes[i];
-    const int a = row_of[static_cast<std::size_t>(node % k.nodes_per_sector)];
-    RONDO_DEMAND(a >= 0, node);
-    CyclicRowData& row = plan.rows[static_cast<std::size_t>(a)];
-    if (row.contact_row < 0) {
-      row.contact_row = static_cast<int>(plan.candidate.size());
+    const std::size_t a = row_of[static_cast<std::size_t>(node % k.nodes_per_sector)];
+    RONDO_DEMAND(a < k.n_local(), node);
+    int& row = plan.contact_row[a];
+    if (row < 0) {
+      row = static_cast<int>(plan.candidate.size());
       plan.candidate.emplace_back(static_cast<std::size_t>(k.n_sectors), -1);
     }
-    plan.candidate[static_cast<std::size_t>(row.contact_row)]
+    plan.candidate[static_cast<std::size_t>(row)]
                   [static_cast<std::size_t>(node / k.nodes_per_sector)] = static_cast<int>(i);
   }
 }
@@ -136,12 +174,13 @@ CyclicPlan make_cyclic_plan(const Model& model) {
   CyclicPlan plan;
   plan.n_local = static_cast<int>(k.n_local());
   plan.n_sectors = k.n_sectors;
-  plan.n_fields = model.stiffness_damping > 0.0 ? 6 : 4;
+  plan.keeps_force = model.stiffness_damping > 0.0;
   choose_chunks(plan, model.threads);
   plan.stride = choose_stride(plan);
-  add_entries(k, plan);
-  add_order(k, plan);
   add_rows(model, k, plan);
+  add_mirror(k, plan);
+  add_order(k, plan);
+  add_contact(model, k, plan);
   return plan;
 }
 

@@ -30,32 +30,29 @@ struct CyclicChunkRange {
   std::size_t n_groups = 0;
 };
 
-/// A row's constants, in the sector's frame.
-struct CyclicRowData {
-  double mass = 0.0;     ///< [kg/m]
-  Vec2 reference;        ///< X                                                         [m]
-  int contact_row = -1;  ///< place in `candidate`; -1: no contact candidates
-};
-
 struct CyclicPlan {
   int n_local = 0, n_sectors = 0;
-  int n_fields = 4;           ///< u, v, and with β K u_n: two each
-  std::ptrdiff_t stride = 0;  ///< doubles between the fields of a row
-  std::vector<CyclicRowData> rows;
+  bool keeps_force = false;              ///< K u_n is a field: β > 0
+  std::ptrdiff_t stride = 0;             ///< doubles between the fields of a row
+  std::vector<kernels::CyclicRow> rows;  ///< (n_local)
   std::vector<kernels::CyclicEntry> entries;
-  std::vector<int> entry_start;     ///< (n_local + 1)
-  std::vector<int> advanced;        ///< rows in the order in which u may be advanced
-  std::vector<int> advanced_start;  ///< (n_local + 1): those that follow row a
-  std::vector<int> needs;           ///< row that the step before must have done before row a
+  std::vector<kernels::MirrorRow> mirror;  ///< (n_local), or empty: sectors are no mirrors
+  std::vector<int> needs;        ///< strip that the step before must have done before strip i
+  std::vector<int> contact_row;  ///< (n_local) place in `candidate`; -1: no contact candidates
   std::vector<std::vector<int>> candidate;  ///< (contact rows, N) place in ContactModel::nodes
   Halo halo = Halo::ring;
   int depth = 1;  ///< steps in a pass
   std::vector<CyclicChunkRange> chunks;
   std::size_t n_groups = 0;
 
-  [[nodiscard]] std::ptrdiff_t row_at(int a) const noexcept { return a * n_fields * stride + lead; }
+  [[nodiscard]] int n_fields() const noexcept { return keeps_force ? 8 : 6; }
+  [[nodiscard]] std::ptrdiff_t row_size() const noexcept { return n_fields() * stride; }
   [[nodiscard]] std::size_t chunk_size() const noexcept {
-    return static_cast<std::size_t>(row_at(n_local) + halo_columns);
+    return static_cast<std::size_t>(lead + n_local * row_size() + halo_columns);
+  }
+  /// Rows that are worked on together: this one and those above it, up to most_rows.
+  [[nodiscard]] int n_strips() const noexcept {
+    return (n_local + kernels::most_rows - 1) / kernels::most_rows;
   }
   /// Doubles before sector 0 of a chunk's first field.
   static constexpr std::ptrdiff_t lead = 2 * halo_columns;

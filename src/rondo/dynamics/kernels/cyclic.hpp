@@ -8,74 +8,178 @@ namespace {
 using rondo::dynamics::kernels::CyclicEntry;
 using rondo::dynamics::kernels::CyclicHeight;
 using rondo::dynamics::kernels::CyclicRow;
+using rondo::dynamics::kernels::CyclicStrip;
 using rondo::dynamics::kernels::group_packs;
 using rondo::dynamics::kernels::lanes;
+using rondo::dynamics::kernels::MirrorBlock;
+using rondo::dynamics::kernels::most_rows;
 using rondo::dynamics::kernels::n_sums;
 
-/// K u of N packs from column `column` on.
+/// K u of a group of packs, row by row.
+using Forces = Vectors[most_rows][group_packs];
+
+/// K u of N packs of one row, entry by entry.
 template <int N>
-inline void product(const CyclicRow& r, std::ptrdiff_t column, Vectors* force) noexcept {
-  for (int i = 0; i < N; ++i) force[i] = {all(0.0), all(0.0)};
-  for (const CyclicEntry* e = r.entries; e != r.entries + r.n_entries; ++e) {
-    const double* u = r.base + e->at + column;
+inline void row_product(const CyclicStrip& s, const CyclicRow& row, std::ptrdiff_t column,
+                        Vectors* out) noexcept {
+  Vectors sum[N];
+#pragma GCC unroll 4
+  for (int i = 0; i < N; ++i) sum[i] = {all(0.0), all(0.0)};
+  for (const CyclicEntry* e = row.entries; e != row.entries + row.n_entries; ++e) {
+    const double* u = s.now + e->at + column;
     const Pack xx = all(e->k[0]), yx = all(e->k[1]), xy = all(e->k[2]), yy = all(e->k[3]);
 #pragma GCC unroll 4
     for (int i = 0; i < N; ++i) {
-      const Vectors c = load_vectors(u + i * lanes, r.stride);
-      force[i].x = fma(xx, c.x, fma(xy, c.y, force[i].x));
-      force[i].y = fma(yx, c.x, fma(yy, c.y, force[i].y));
+      const Vectors c = load_vectors(u + i * lanes, s.stride);
+      sum[i].x = fma(xx, c.x, fma(xy, c.y, sum[i].x));
+      sum[i].y = fma(yx, c.x, fma(yy, c.y, sum[i].y));
     }
+  }
+#pragma GCC unroll 4
+  for (int i = 0; i < N; ++i) out[i] = sum[i];
+}
+
+/// A layer's vectors: here, sum and difference of the next and the last sector.
+struct Layer {
+  Vectors here, sum, difference;
+};
+
+inline Layer load_layer(const double* u, std::ptrdiff_t stride) noexcept {
+  const Vectors last = load_vectors(u - 1, stride), next = load_vectors(u + 1, stride);
+  return {load_vectors(u, stride),
+          {next.x + last.x, next.y + last.y},
+          {next.x - last.x, next.y - last.y}};
+}
+
+template <int N>
+inline void add_layer(const MirrorBlock& k, const Layer* u, Vectors* sum) noexcept {
+  const Pack rr = all(k.rr), tt = all(k.tt), rr1 = all(k.rr1), tt1 = all(k.tt1);
+  const Pack rt1 = all(k.rt1), tr1 = all(k.tr1);
+#pragma GCC unroll 4
+  for (int i = 0; i < N; ++i) {
+    sum[i].x = fma(rr, u[i].here.x, sum[i].x);
+    sum[i].y = fma(tt, u[i].here.y, sum[i].y);
+    sum[i].x = fma(rr1, u[i].sum.x, sum[i].x);
+    sum[i].y = fma(tt1, u[i].sum.y, sum[i].y);
+    sum[i].x = fma(rt1, u[i].difference.y, sum[i].x);
+    sum[i].y = fma(tr1, u[i].difference.x, sum[i].y);
   }
 }
 
-/// Product, update and sums of N packs. Tail: the last own pack, of which only `columns` count.
-template <int N, bool Tail, bool Beta, bool Printed, bool Pull>
-inline void block(const CyclicRow& r, const Factors& f, int pack, Sums& sums) noexcept {
-  const std::ptrdiff_t column = static_cast<std::ptrdiff_t>(pack) * lanes;
-  Vectors force[N];
-  product<N>(r, column, force);
-  const Pack x = all(r.x), y = all(r.y);
+/// K u of N packs of all rows of a strip: each layer is read once for the rows below, at and above
+/// it.
+template <int N>
+inline void mirror_product(const CyclicStrip& s, std::ptrdiff_t column, Forces out,
+                           int pack) noexcept {
+  Vectors below[N], here[N], above[N];  // sums of the rows around the layer in hand
+  const Vectors zero = {all(0.0), all(0.0)};
 #pragma GCC unroll 4
-  for (int i = 0; i < N; ++i) {
-    const std::ptrdiff_t here = column + i * lanes;
-    double* u = r.base + r.at + here;
-    double* v = u + 2 * r.stride;
-    double* p = u + 4 * r.stride;
-    Nodes n;
-    n.u = load_vectors(u, r.stride);
-    n.v = load_vectors(v, r.stride);
-    n.force = force[i];
-    n.before = Beta ? load_vectors(p, r.stride) : force[i];
-    n.arm = {x + n.u.x, y + n.u.y};
-    n.dt_over_mass = all(r.dt_over_mass);
-    if constexpr (Pull) {  // turned into the frame of each sector
-      const Pack c = load(r.turn_x + here), s = load(r.turn_y + here);
-      const Pack px = all(r.step->pull_x), py = all(r.step->pull_y);
-      n.pull = {fma(py, s, px * c), fnma(px, s, py * c)};
+  for (int i = 0; i < N; ++i) below[i] = here[i] = above[i] = zero;
+  const double* u = s.now + s.rows[0].at + column;
+  Layer layer[N];
+  const auto read = [&](int row) {
+#pragma GCC unroll 4
+    for (int i = 0; i < N; ++i) layer[i] = load_layer(u + row * s.row_size + i * lanes, s.stride);
+  };
+  if (!s.lowest) {
+    read(-1);
+    add_layer<N>(s.mirror[0].below, layer, here);
+  }
+  for (int r = 0; r < s.n_rows; ++r) {
+    read(r);
+    if (r > 0) {
+      add_layer<N>(s.mirror[r - 1].above, layer, below);
+#pragma GCC unroll 4
+      for (int i = 0; i < N; ++i) out[r - 1][pack + i] = below[i];
     }
-    if constexpr (!Tail) {
-      store_vectors(v, r.stride, update<Beta, Printed, Pull>(f, n, sums));
-      if constexpr (Beta) store_vectors(p, r.stride, n.force);
-    } else {
-      const int own = r.columns - static_cast<int>(here);
-      Sums there = no_sums();
-      Vectors after = update<Beta, Printed, Pull>(f, n, there);
-      const Pack zero = all(0.0);
-      sums.kinetic = sums.kinetic + first_lanes(own, there.kinetic, zero);
-      sums.strain = sums.strain + first_lanes(own, there.strain, zero);
-      sums.frame = sums.frame + first_lanes(own, there.frame, zero);
-      sums.mass = sums.mass + first_lanes(own, there.mass, zero);
-      sums.stiffness = sums.stiffness + first_lanes(own, there.stiffness, zero);
-      sums.scheme = sums.scheme + first_lanes(own, there.scheme, zero);
-      if (r.keep_tail) {
-        after = {first_lanes(own, after.x, n.v.x), first_lanes(own, after.y, n.v.y)};
-        if constexpr (Beta)
-          n.force = {first_lanes(own, n.force.x, n.before.x),
-                     first_lanes(own, n.force.y, n.before.y)};
-      }
-      store_vectors(v, r.stride, after);
-      if constexpr (Beta) store_vectors(p, r.stride, n.force);
+    add_layer<N>(s.mirror[r].here, layer, here);
+    if (r + 1 < s.n_rows) add_layer<N>(s.mirror[r + 1].below, layer, above);
+#pragma GCC unroll 4
+    for (int i = 0; i < N; ++i) below[i] = here[i], here[i] = above[i], above[i] = zero;
+  }
+  if (!s.highest) {
+    read(s.n_rows);
+    add_layer<N>(s.mirror[s.n_rows - 1].above, layer, below);
+  }
+#pragma GCC unroll 4
+  for (int i = 0; i < N; ++i) out[s.n_rows - 1][pack + i] = below[i];
+}
+
+/// K u of `n` packs from `pack` on, all rows.
+inline void product(const CyclicStrip& s, int pack, int n, Forces out) noexcept {
+  const auto column = [&](int i) { return static_cast<std::ptrdiff_t>(pack + i) * lanes; };
+  if (s.mirror) {
+    int i = 0;
+    for (; i + strip_packs <= n; i += strip_packs)
+      mirror_product<strip_packs>(s, column(i), out, i);
+    for (; i < n; ++i) mirror_product<1>(s, column(i), out, i);
+    return;
+  }
+  for (int r = 0; r < s.n_rows; ++r) {
+    int i = 0;
+    for (; i + block_packs <= n; i += block_packs)
+      row_product<block_packs>(s, s.rows[r], column(i), out[r] + i);
+    for (; i < n; ++i) row_product<1>(s, s.rows[r], column(i), out[r] + i);
+  }
+}
+
+inline void add_first_lanes(int n, const Sums& part, Sums& sums) noexcept {
+  const Pack zero = all(0.0);
+  sums.kinetic = sums.kinetic + first_lanes(n, part.kinetic, zero);
+  sums.strain = sums.strain + first_lanes(n, part.strain, zero);
+  sums.frame = sums.frame + first_lanes(n, part.frame, zero);
+  sums.mass = sums.mass + first_lanes(n, part.mass, zero);
+  sums.stiffness = sums.stiffness + first_lanes(n, part.stiffness, zero);
+  sums.scheme = sums.scheme + first_lanes(n, part.scheme, zero);
+}
+
+inline Vectors first_of(int n, Vectors a, Vectors b) noexcept {
+  return {first_lanes(n, a.x, b.x), first_lanes(n, a.y, b.y)};
+}
+
+/// Constants of a row in every lane.
+struct RowConstants {
+  Vectors frame;  ///< Δt[(ṡJ - s²)X + Rᵀ(c̈ - g)], the second term only without turning
+  Pack dt_over_mass;
+};
+
+/// Update and sums of one pack of a row. Tail: the last own pack, of which only `columns` count.
+template <bool Tail, bool Beta, bool Printed, bool Pull>
+inline void update_pack(const CyclicStrip& s, const Factors& f, const RowConstants& c,
+                        std::ptrdiff_t at, std::ptrdiff_t column, Vectors force,
+                        Sums& sums) noexcept {
+  double* v = s.velocity + at + column;
+  double* p = s.force + at + column;
+  double* u_next = s.next + at + column;
+  Nodes n;
+  n.u = load_vectors(s.now + at + column, s.stride);
+  n.v = load_vectors(v, s.stride);
+  n.force = force;
+  n.before = Beta ? load_vectors(p, s.stride) : force;
+  n.frame = c.frame;
+  n.dt_over_mass = c.dt_over_mass;
+  if constexpr (Pull) {  // turned into the frame of each sector
+    const Pack cosine = load(s.turn_x + column), sine = load(s.turn_y + column);
+    const Pack px = all(s.step->pull_x), py = all(s.step->pull_y);
+    n.frame = {n.frame.x + fma(py, sine, px * cosine), n.frame.y + fnma(px, sine, py * cosine)};
+  }
+  if constexpr (!Tail) {
+    const Vectors after = update<Beta, Printed>(f, n, sums);
+    store_vectors(v, s.stride, after);
+    store_vectors(u_next, s.stride, {fma(f.dt, after.x, n.u.x), fma(f.dt, after.y, n.u.y)});
+    if constexpr (Beta) store_vectors(p, s.stride, n.force);
+  } else {
+    const int own = s.columns - static_cast<int>(column);
+    Sums part = no_sums();
+    Vectors after = update<Beta, Printed>(f, n, part);
+    add_first_lanes(own, part, sums);
+    if (s.keep_tail) {
+      after = first_of(own, after, n.v);
+      n.force = first_of(own, n.force, n.before);
     }
+    store_vectors(v, s.stride, after);
+    store_vectors(u_next, s.stride, {fma(f.dt, after.x, n.u.x), fma(f.dt, after.y, n.u.y)});
+    if constexpr (Beta) store_vectors(p, s.stride, n.force);
   }
 }
 
@@ -94,35 +198,41 @@ inline void add_sums(double* to, double mass, const Sums& s) noexcept {
   add_mass(sum_scheme, s.scheme);
 }
 
+/// All rows of the strip on packs [first, last), at most a group. `sums` null: the halo.
 template <bool Beta, bool Printed, bool Pull>
-void cyclic_row(const CyclicRow& r) noexcept {
-  const Factors f(*r.step);
-  Sums halo = no_sums();
-  if (r.first_pack < 0) block<1, false, Beta, Printed, Pull>(r, f, -1, halo);
-  const int full = r.columns / lanes;  // own packs with nothing else in them
-  int pack = 0;
-  for (double* sums = r.sums; pack * lanes < r.columns; sums += n_sums * lanes) {
+inline void group(const CyclicStrip& s, const Factors& f, int first, int last,
+                  double* sums) noexcept {
+  Forces force;
+  product(s, first, last - first, force);
+  for (int r = 0; r < s.n_rows; ++r) {
+    const CyclicRow& row = s.rows[r];
+    const double rate_x = s.step->rate_x, rate_y = s.step->rate_y;
+    const RowConstants c = {
+        {all(rate_x * row.x - rate_y * row.y), all(rate_x * row.y + rate_y * row.x)},
+        all(row.dt_over_mass)};
     Sums own = no_sums();
-    const int end = pack + group_packs;
-    for (; pack + block_packs <= end && pack + block_packs <= full; pack += block_packs)
-      block<block_packs, false, Beta, Printed, Pull>(r, f, pack, own);
-    for (; pack < end && pack < full; ++pack) block<1, false, Beta, Printed, Pull>(r, f, pack, own);
-    if (pack < end && pack == full && pack * lanes < r.columns)
-      block<1, true, Beta, Printed, Pull>(r, f, pack++, own);
-    add_sums(sums, r.mass, own);
+    for (int pack = first; pack < last; ++pack) {
+      const std::ptrdiff_t column = static_cast<std::ptrdiff_t>(pack) * lanes;
+      const Vectors g = force[r][pack - first];
+      if (sums && (pack + 1) * lanes > s.columns)
+        update_pack<true, Beta, Printed, Pull>(s, f, c, row.at, column, g, own);
+      else
+        update_pack<false, Beta, Printed, Pull>(s, f, c, row.at, column, g, own);
+    }
+    if (sums) add_sums(sums, row.mass, own);
   }
-  for (; pack < r.last_pack; ++pack) block<1, false, Beta, Printed, Pull>(r, f, pack, halo);
 }
 
-void advance_row(double* u, std::ptrdiff_t stride, double dt, int first_pack,
-                 int last_pack) noexcept {
-  const Pack step = all(dt);
-  for (std::ptrdiff_t at = static_cast<std::ptrdiff_t>(first_pack) * lanes;
-       at < static_cast<std::ptrdiff_t>(last_pack) * lanes; at += lanes) {
-    double* x = u + at;
-    const Vectors v = load_vectors(x + 2 * stride, stride), now = load_vectors(x, stride);
-    store_vectors(x, stride, {fma(step, v.x, now.x), fma(step, v.y, now.y)});
-  }
+template <bool Beta, bool Printed, bool Pull>
+void cyclic_strip(const CyclicStrip& s) noexcept {
+  const Factors f(*s.step);
+  const int own = (s.columns + lanes - 1) / lanes;
+  if (s.first_pack < 0) group<Beta, Printed, Pull>(s, f, -1, 0, nullptr);
+  double* sums = s.sums;
+  for (int pack = 0; pack < own; pack += group_packs, sums += n_sums * lanes)
+    group<Beta, Printed, Pull>(s, f, pack, pack + group_packs < own ? pack + group_packs : own,
+                               sums);
+  if (own < s.last_pack) group<Beta, Printed, Pull>(s, f, own, s.last_pack, nullptr);
 }
 
 int low_columns(const CyclicHeight& h, int* columns) noexcept {

@@ -11,6 +11,8 @@ namespace rondo::dynamics::kernels {
 inline constexpr int lanes = 8;
 /// Packs whose sums are added up together.
 inline constexpr int group_packs = 4;
+/// Rows that are worked on together.
+inline constexpr int most_rows = 4;
 
 /// Sums over the nodes of a step, before the factors of (5.1) and (5.3); v̂ = v⁻ + v⁺.
 enum Sum {
@@ -41,29 +43,53 @@ struct Terms {
 };
 
 /// One 2×2 block of a row, column-major, and where its vectors are: number of doubles from the
-/// chunk's base to the column's u_r of sector 0 of the chunk, the shift included.
+/// field u of the chunk's first row, sector 0, to that of the column, the shift included.
 struct CyclicEntry {
   std::ptrdiff_t at;
   double k[4];
 };
 
-/// One local node over the sectors of a chunk: product, velocity update and sums in one pass. The
-/// fields of a row are u_r, u_t, v_r, v_t and, with β, (K u_n)_r, (K u_n)_t, `stride` apart.
+/// Blocks of a row on one layer where sectors are mirrors of themselves: with the sum S and the
+/// difference D of the vectors of the next and the last sector,
+/// f_r = rr u_r + rr1 S_r + rt1 D_t,  f_t = tt u_t + tt1 S_t + tr1 D_r.
+struct MirrorBlock {
+  double rr, tt, rr1, tt1, rt1, tr1;
+};
+/// Row of such a disk: what the layers below, here and above do on it.
+struct MirrorRow {
+  MirrorBlock below, here, above;
+};
+
+/// A local node over the sectors of a chunk.
 struct CyclicRow {
-  double* base;
-  std::ptrdiff_t at;      ///< u_r of this row, sector 0 of the chunk
-  std::ptrdiff_t stride;  ///< between fields
-  const CyclicEntry* entries;
+  const CyclicEntry* entries;  ///< unused where the strip has mirror rows
   int n_entries;
-  double mass;           ///< m                                                          [kg/m]
-  double dt_over_mass;   ///< Δt/m
-  double x, y;           ///< X in the sector's frame                                     [m]
+  std::ptrdiff_t at;    ///< from the chunk's first field to this row's, sector 0
+  double mass;          ///< m                                                        [kg/m]
+  double dt_over_mass;  ///< Δt/m
+  double x, y;          ///< X in the sector's frame                                    [m]
+};
+
+/// Some rows, one above the other, over the sectors of a chunk: product, velocity update and sums
+/// in one pass. Fields are `stride` apart in a row, two components each: u of even and of odd
+/// steps, v, and with β K u_n.
+struct CyclicStrip {
+  const CyclicRow* rows;
+  int n_rows;               ///< at most most_rows
+  const MirrorRow* mirror;  ///< of each row; null: rows have entries
+  std::ptrdiff_t row_size;  ///< between rows
+  double* now;              ///< u_{n+1} of the chunk's first row, sector 0
+  double* next;             ///< u_{n+2}
+  double* velocity;         ///< v⁻, becomes v⁺
+  double* force;            ///< K u_n, becomes K u_{n+1}
+  std::ptrdiff_t stride;
   const double* turn_x;  ///< cos φ of the chunk's sectors (padded like a field)
   const double* turn_y;  ///< sin φ
   int first_pack;        ///< 0, or -1 where the halo is advanced too
   int last_pack;         ///< one past the last pack
   int columns;           ///< sectors of the chunk's own: the sums are over these
   bool keep_tail;        ///< lanes past `columns` in the last own pack stay as they are
+  bool lowest, highest;  ///< no free row below the first, none above the last
   const StepFactors* step;
   double* sums;  ///< (groups, n_sums, lanes): added to
 };
@@ -84,10 +110,7 @@ struct CyclicHeight {
 struct Table {
   const char* name;
   /// [stiffness_damping][printed][pull]
-  void (*cyclic_row[2][2][2])(const CyclicRow&) noexcept;
-  /// u += Δt v over packs [first, last); u is u_r of sector 0 of the chunk.
-  void (*advance_row)(double* u, std::ptrdiff_t stride, double dt, int first_pack,
-                      int last_pack) noexcept;
+  void (*cyclic_strip[2][2][2])(const CyclicStrip&) noexcept;
   /// Columns that are low enough, ascending; returns how many.
   int (*low_columns)(const CyclicHeight&, int* columns) noexcept;
 };

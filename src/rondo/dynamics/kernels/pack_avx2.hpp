@@ -53,5 +53,6 @@ inline unsigned not_above(Pack x, Pack y) noexcept {
 }
 
 constexpr int block_packs = 1;
+constexpr int strip_packs = 1;
 
 }  // namespace

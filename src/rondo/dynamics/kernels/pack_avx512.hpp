@@ -46,5 +46,7 @@ inline unsigned not_above(Pack a, Pack b) noexcept {
 
 /// Packs whose product is formed at once: as many as the registers hold.
 constexpr int block_packs = 4;
+/// The same where neighbouring rows are worked on together.
+constexpr int strip_packs = 2;
 
 }  // namespace

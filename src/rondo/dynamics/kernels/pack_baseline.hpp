@@ -63,5 +63,6 @@ inline unsigned not_above(Pack a, Pack b) noexcept {
 }
 
 constexpr int block_packs = 1;
+constexpr int strip_packs = 1;
 
 }  // namespace

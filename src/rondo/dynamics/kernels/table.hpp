@@ -7,11 +7,10 @@ namespace {
 
 constexpr rondo::dynamics::kernels::Table table(const char* name) noexcept {
   return {name,
-          {{{cyclic_row<false, false, false>, cyclic_row<false, false, true>},
-            {cyclic_row<false, true, false>, cyclic_row<false, true, true>}},
-           {{cyclic_row<true, false, false>, cyclic_row<true, false, true>},
-            {cyclic_row<true, true, false>, cyclic_row<true, true, true>}}},
-          advance_row,
+          {{{cyclic_strip<false, false, false>, cyclic_strip<false, false, true>},
+            {cyclic_strip<false, true, false>, cyclic_strip<false, true, true>}},
+           {{cyclic_strip<true, false, false>, cyclic_strip<true, false, true>},
+            {cyclic_strip<true, true, false>, cyclic_strip<true, true, true>}}},
           low_columns};
 }
 

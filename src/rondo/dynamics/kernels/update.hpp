@@ -47,18 +47,18 @@ struct Factors {
   Vectors rate, inverse, drag;
 };
 
-/// What the update of a pack reads. `before` is K u_n, with β only.
+/// What the update of a pack reads. `before` is K u_n, with β only; `frame` what the acceleration
+/// of the frame is without u: Δt[(ṡJ - s²)X + Rᵀ(c̈ - g)].
 struct Nodes {
-  Vectors u, v, force, before, arm, pull;
+  Vectors u, v, force, before, frame;
   Pack dt_over_mass;
 };
 
 /// v⁺ of (3.4) and its part of the sums.
-template <bool Beta, bool Printed, bool Pull>
+template <bool Beta, bool Printed>
 inline Vectors update(const Factors& f, const Nodes& n, Sums& sums) noexcept {
-  Vectors frame = {fnma(f.rate.y, n.arm.y, f.rate.x * n.arm.x),
-                   fma(f.rate.y, n.arm.x, f.rate.x * n.arm.y)};
-  if constexpr (Pull) frame = {frame.x + n.pull.x, frame.y + n.pull.y};
+  const Vectors frame = {fnma(f.rate.y, n.u.y, fma(f.rate.x, n.u.x, n.frame.x)),
+                         fma(f.rate.y, n.u.x, fma(f.rate.x, n.u.y, n.frame.y))};
   Vectors elastic = n.force;
   const Vectors change = {n.force.x - n.before.x, n.force.y - n.before.y};
   if constexpr (Beta)
