@@ -44,11 +44,16 @@ struct Layer {
   Vectors here, sum, difference;
 };
 
-inline Layer load_layer(const double* u, std::ptrdiff_t stride) noexcept {
-  const Vectors last = load_vectors(u - 1, stride), next = load_vectors(u + 1, stride);
-  return {load_vectors(u, stride),
-          {next.x + last.x, next.y + last.y},
-          {next.x - last.x, next.y - last.y}};
+template <int N>
+inline void load_layer(const double* u, std::ptrdiff_t stride, Layer* layer) noexcept {
+  Pack last_x[N], here_x[N], next_x[N], last_y[N], here_y[N], next_y[N];
+  load_neighbours<N>(u, last_x, here_x, next_x);
+  load_neighbours<N>(u + stride, last_y, here_y, next_y);
+#pragma GCC unroll 4
+  for (int i = 0; i < N; ++i)
+    layer[i] = {{here_x[i], here_y[i]},
+                {next_x[i] + last_x[i], next_y[i] + last_y[i]},
+                {next_x[i] - last_x[i], next_y[i] - last_y[i]}};
 }
 
 template <int N>
@@ -77,10 +82,7 @@ inline void mirror_product(const CyclicStrip& s, std::ptrdiff_t column, Forces o
   for (int i = 0; i < N; ++i) below[i] = here[i] = above[i] = zero;
   const double* u = s.now + s.rows[0].at + column;
   Layer layer[N];
-  const auto read = [&](int row) {
-#pragma GCC unroll 4
-    for (int i = 0; i < N; ++i) layer[i] = load_layer(u + row * s.row_size + i * lanes, s.stride);
-  };
+  const auto read = [&](int row) { load_layer<N>(u + row * s.row_size, s.stride, layer); };
   if (!s.lowest) {
     read(-1);
     add_layer<N>(s.mirror[0].below, layer, here);

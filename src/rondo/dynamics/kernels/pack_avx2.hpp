@@ -52,6 +52,16 @@ inline unsigned not_above(Pack x, Pack y) noexcept {
   return static_cast<unsigned>(low | (high << 4));
 }
 
+/// N packs of sectors from u on, with the last and the next sector of each.
+template <int N>
+inline void load_neighbours(const double* u, Pack* last, Pack* here, Pack* next) noexcept {
+  for (int i = 0; i < N; ++i) {
+    last[i] = load(u + i * 8 - 1);
+    here[i] = load(u + i * 8);
+    next[i] = load(u + i * 8 + 1);
+  }
+}
+
 constexpr int block_packs = 1;
 constexpr int strip_packs = 1;
 
