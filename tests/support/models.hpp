@@ -56,6 +56,7 @@ inline double lagged_mass(const DiskCase& c) {
 
 struct Built {
   mesh::Mesh mesh;
+  fem::Material material;
   dynamics::Model model;
   dynamics::CriticalStep critical;
 };
@@ -63,6 +64,7 @@ struct Built {
 inline Built build(const DiskCase& c) {
   Built b;
   b.mesh = mesh::make_disk(c.disk);
+  b.material = c.material;
   b.model.reference = b.mesh.coordinates;
   b.model.mass = fem::lumped_mass(b.mesh, c.material.density);
   b.model.free = fem::free_nodes(b.mesh);

@@ -146,24 +146,6 @@ TEST(Stepper, AConcaveCornerStopsByBothFacets) {
   }
 }
 
-TEST(Stepper, SameBitsForAnyNumberOfThreadsAndFromRunToRun) {
-  auto c = test::rolling_disk(6, 240);
-  c.motion.height = Table(0.2995);  // in contact from the first step
-  auto b = test::build(c);
-  test::add_ground(b, {}, {0.3, 0.0});
-  const auto final_state = [&](int threads) {
-    b.model.threads = threads;
-    State state = test::start_at_rest(b.model);
-    Ledger ledger;
-    for (int n = 0; n < 150; ++n) static_cast<void>(advance(b.model, state, ledger));
-    EXPECT_FALSE(state.active.empty());
-    return std::tuple{state.u, state.v_next, ledger.last().works.frame, ledger.last().kinetic};
-  };
-  const auto one = final_state(1);
-  EXPECT_EQ(final_state(1), one);
-  for (const int threads : {2, 3, 7}) EXPECT_EQ(final_state(threads), one) << threads;
-}
-
 TEST(Stepper, ClampedNodesStayClamped) {
   auto b = test::build(test::rolling_disk(3, 30));
   test::add_ground(b, test::ledge(), {0.6, 0.0});

@@ -1,0 +1,198 @@
+// SPDX-License-Identifier: BSD-3-Clause
+/// What an integrator gives to the last bit: for any number of threads, however the steps are cut
+/// into calls. What it does with clamped nodes, and with numbers that are none.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <initializer_list>
+#include <limits>
+#include <map>
+#include <memory>
+#include <span>
+#include <vector>
+
+#include "integrator_cases.hpp"
+#include "support/stepping.hpp"
+
+using namespace rondo;
+using namespace rondo::dynamics;
+
+namespace {
+
+void append(std::vector<double>& out, std::initializer_list<double> values) {
+  out.insert(out.end(), values);
+}
+void append(std::vector<double>& out, std::span<const Vec2> field) {
+  for (const Vec2 v : field) append(out, {v.x, v.y});
+}
+
+std::vector<double> numbers(const StepReport& s) {
+  const FrameStep& f = s.frame;
+  const ContactReport& c = s.contact;
+  const Balance& b = s.balance;
+  const Works& w = b.works;
+  std::vector<double> out{static_cast<double>(s.step)};
+  append(out, {f.time, f.spin, f.spin_rate, f.angle, f.turn, f.turn_before});
+  append(out, std::array{f.rotation, f.center, f.advance, f.advance_before, f.pull, c.impulse});
+  for (const int count : {c.nodes, c.sticking, c.pairs, c.pairs_not_converged})
+    out.push_back(static_cast<double>(count));
+  append(out, {c.angular_impulse, c.length, c.penetration, c.free_velocity, c.residual});
+  append(out, {c.work, c.dissipation_friction, c.loss_impact, c.work_rim});
+  append(out, {w.frame, w.contact, w.dissipation_friction, w.loss_impact, w.rim});
+  append(out, {w.dissipation_mass, w.dissipation_stiffness, w.scheme});
+  append(out, {b.kinetic, b.strain, b.residual, b.exchanged, b.otherwise, b.relative});
+  return out;
+}
+
+std::vector<double> numbers(const State& s) {
+  std::vector<double> out{static_cast<double>(s.step), s.frame.time};
+  append(out, s.u);
+  append(out, s.v);
+  append(out, s.v_next);
+  for (const ActiveContact& a : s.active) {
+    append(out, {static_cast<double>(a.candidate), static_cast<double>(a.status), a.gap, a.bounce});
+    append(out, std::array{a.normal, a.before, a.free, a.after, a.impulse});
+  }
+  return out;
+}
+
+/// A run's numbers: of each step, and of the states that were asked for.
+struct Record {
+  std::vector<std::vector<double>> reports;
+  std::map<long long, std::vector<double>> states;
+  std::vector<double> fields;
+};
+
+struct Way {
+  int threads = 1;
+  std::size_t steps_a_call = 64;
+  bool last_of_each_call = false;  ///< or of the last call only
+};
+
+Record run(const test::Built& b, StiffnessOperator of, std::size_t steps, Way way) {
+  Model model = test::model_with(b, of);
+  model.threads = way.threads;
+  State state = start(model, test::some_displacement(b), test::some_velocity(b));
+  const std::unique_ptr<Integrator> integrator = make_integrator(model, state);
+  std::vector<StepReport> reports(steps);
+  Record out;
+  for (std::size_t done = 0; done < steps;) {
+    const std::size_t n = std::min(way.steps_a_call, steps - done);
+    done += n;
+    const bool seen = way.last_of_each_call || done == steps;
+    integrator->advance(std::span(reports).subspan(done - n, n), seen ? &state : nullptr);
+    if (seen) out.states[state.step] = numbers(state);
+  }
+  int contacts = 0;
+  for (const StepReport& report : reports) {
+    out.reports.push_back(numbers(report));
+    contacts += report.contact.nodes;
+  }
+  EXPECT_GT(contacts, 0);
+  State fields(model);
+  integrator->fields(fields);
+  append(out.fields, fields.u);
+  append(out.fields, fields.v_next);
+  EXPECT_EQ(fields.v_next, state.v_next);
+  return out;
+}
+
+void expect_same_bits(const Record& a, const Record& b) {
+  ASSERT_EQ(a.reports.size(), b.reports.size());
+  for (std::size_t n = 0; n < a.reports.size(); ++n)
+    ASSERT_EQ(a.reports[n], b.reports[n]) << "step " << n + 1;
+  int compared = 0;
+  for (const auto& [step, state] : a.states) {
+    if (!b.states.contains(step)) continue;
+    ASSERT_TRUE(state == b.states.at(step)) << "fields or contacts of step " << step;
+    ++compared;
+  }
+  EXPECT_GT(compared, 0);
+  EXPECT_TRUE(a.fields == b.fields);
+}
+
+/// From many nodes to the fewest sectors there can be.
+std::vector<test::Built> disks() {
+  return {test::build(test::everything("", 6, 240)), test::build(test::everything("", 4, 61)),
+          test::build(test::everything("", 3, mesh::Tread{20, 0.02, 3, 1, 2})),
+          test::build(test::everything("", 3, mesh::Tread{3, 0.02, 20, 10, 2}))};
+}
+
+class Integrators : public testing::TestWithParam<StiffnessOperator> {};
+
+}  // namespace
+
+/// Few steps: where others work on the machine too, threads that wait for each other take long.
+TEST_P(Integrators, SameBitsForAnyNumberOfThreadsAndFromRunToRun) {
+  for (const test::Built& b : disks()) {
+    const Record one = run(b, GetParam(), 100, {});
+    for (const Way way : {Way{1, 64}, Way{2, 7}, Way{3, 64}, Way{7, 64}}) {
+      SCOPED_TRACE(way.threads);
+      expect_same_bits(one, run(b, GetParam(), 100, way));
+    }
+  }
+}
+
+TEST_P(Integrators, SameBitsHoweverTheStepsAreCutIntoCalls) {
+  for (const test::Built& b : disks()) {
+    const Record one = run(b, GetParam(), 1000, {.steps_a_call = 1, .last_of_each_call = true});
+    EXPECT_EQ(one.states.size(), 1000);
+    for (const std::size_t n : {1U, 7U, 64U, 1000U})
+      for (const bool last : {false, true}) {
+        SCOPED_TRACE(n);
+        expect_same_bits(one,
+                         run(b, GetParam(), 1000, {.steps_a_call = n, .last_of_each_call = last}));
+      }
+  }
+}
+
+TEST_P(Integrators, ClampedNodesStayClamped) {
+  auto b = test::build(test::everything("", 3, 30));
+  const std::vector<Vec2> u0(b.model.n_nodes(), Vec2{1e-5, 1e-5}),
+      v0(b.model.n_nodes(), Vec2{1.0, 1.0});
+  test::Stepping run(b, GetParam(), u0, v0);
+  run.advance(500);
+  State fields = run.state();
+  run.integrator().fields(fields);
+  for (const int node : b.mesh.clamped) {
+    const auto k = static_cast<std::size_t>(node);
+    EXPECT_EQ(run.state().u[k], Vec2{});
+    EXPECT_EQ(run.state().v[k], Vec2{});
+    EXPECT_EQ(run.state().v_next[k], Vec2{});
+    EXPECT_EQ(fields.u[k], Vec2{});
+    EXPECT_EQ(fields.v_next[k], Vec2{});
+  }
+}
+
+/// A run stops by the balance: it must not stay finite where a field is not, in no component, at
+/// no node, with and without contact.
+TEST_P(Integrators, NumbersThatAreNoneReachTheBalance) {
+  const auto none = {std::numeric_limits<double>::quiet_NaN(),
+                     std::numeric_limits<double>::infinity()};
+  for (const bool contact : {true, false}) {
+    test::RollingCase c = test::everything("", 3, 21);
+    if (!contact) c.ground.reset();
+    const test::Built b = test::build(c);
+    const Model model = test::model_with(b, GetParam());
+    for (const int node : model.free)
+      for (const auto field : {&State::u, &State::v_next})
+        for (const auto component : {&Vec2::x, &Vec2::y})
+          for (const double value : none) {
+            State state = test::start_at_rest(model);
+            (state.*field)[static_cast<std::size_t>(node)].*component = value;
+            const auto integrator = make_integrator(model, state);
+            std::array<StepReport, 3> reports;
+            integrator->advance(reports);
+            for (const StepReport& report : reports)
+              ASSERT_FALSE(std::isfinite(report.balance.kinetic + report.balance.strain)) << node;
+            integrator->fields(state);
+            const Vec2 u = state.u[static_cast<std::size_t>(node)];
+            ASSERT_FALSE(std::isfinite(u.x + u.y)) << node;
+          }
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Both, Integrators, testing::ValuesIn(test::both_operators),
+                         [](const auto& p) { return test::name(p.param); });

@@ -1,0 +1,110 @@
+// SPDX-License-Identifier: BSD-3-Clause
+/// @file  Rolling disks with every option of a run on, and with one or the other off; what is seen
+/// of their steps.
+#pragma once
+#include <optional>
+#include <random>
+#include <string>
+#include <tuple>
+#include <vector>
+
+#include "support/models.hpp"
+
+namespace rondo::test {
+
+struct RollingCase {
+  std::string name;
+  DiskCase disk;
+  contact::Law law{0.4, 0.0};
+  std::optional<contact::GroundShape> ground;
+};
+
+/// Smooth disk that rolls up a ledge and over the valleys behind it (pairs of facets), with both
+/// dampings, gravity, and tables that change within the steps and stand still for some of them.
+inline RollingCase everything(const std::string& name, int radial, int columns) {
+  RollingCase c{name, rolling_disk(radial, columns), {0.4, 0.0}, {}};
+  using dynamics::Table;
+  dynamics::Motion& m = c.disk.motion;
+  m.angular_velocity = Table({{0.0, 30.0}, {0.01, 30.0}, {0.02, 45.0}, {0.03, 35.0}});
+  m.speed = Table({{0.004, 12.0}, {0.012, 9.0}});
+  m.height = Table({{0.0, 0.291}, {0.015, 0.286}, {0.035, 0.290}});
+  m.start_x = -0.05;
+  m.gravity = 9.81;
+  c.ground = {
+      .profile =
+          {{-10, -0.1}, {0, -0.1}, {0, 0}, {0.04, -0.006}, {0.10, 0.002}, {0.14, -0.004}, {10, 0}},
+      .fillet = 0.02};
+  return c;
+}
+
+/// The same on a treaded disk.
+inline RollingCase everything(const std::string& name, int radial, mesh::Tread tread) {
+  RollingCase c = everything(name, radial, 0);
+  c.disk.disk.tread = tread;
+  return c;
+}
+
+/// Each difference between the operators that a step could depend on, and numbers of sectors that
+/// are no multiple of what a vector register or a thread takes.
+inline std::vector<RollingCase> rolling_cases() {
+  const mesh::Tread tread{20, 0.02, 3, 1, 2};
+  std::vector<RollingCase> all;
+  const auto smooth = [&](const char* name) -> RollingCase& {
+    return all.emplace_back(everything(name, 6, 90));
+  };
+  smooth("smooth");
+  smooth("smooth_as_printed").disk.scheme = dynamics::Scheme::as_printed;
+  smooth("smooth_graded").disk.disk.grading = 1.8;
+  smooth("smooth_frictionless").law = {};
+  smooth("smooth_without_contact").ground.reset();
+  smooth("smooth_without_mass_damping").disk.alpha = 0.0;
+  smooth("smooth_without_stiffness_damping").disk.beta = 0.0;
+  RollingCase& restitution = smooth("smooth_restitution");
+  restitution.law = {0.3, 0.5};
+  restitution.ground = ledge();  // a corner with restitution and friction may have no solution
+  RollingCase& steady = smooth("smooth_steady_undamped");
+  steady.disk.alpha = steady.disk.beta = 0.0;
+  steady.disk.motion = rolling_disk(6, 90).motion;
+  steady.disk.motion.start_x = -0.05;
+  RollingCase& still = smooth("smooth_not_turning");
+  still.disk.motion = {};
+  still.disk.motion.height = dynamics::Table(0.2999);
+  still.ground.emplace();
+  const auto treaded = [&](const std::string& name, mesh::Tread of) -> RollingCase& {
+    return all.emplace_back(everything(name, 3, of));
+  };
+  treaded("treaded", tread);
+  treaded("treaded_as_printed", tread).disk.scheme = dynamics::Scheme::as_printed;
+  RollingCase& undamped = treaded("treaded_undamped", tread);
+  undamped.disk.alpha = undamped.disk.beta = 0.0;
+  for (const auto& [n, land, groove] : {std::tuple{3, 9, 5}, {5, 6, 4}, {9, 4, 2}})
+    treaded("pitches_" + std::to_string(n), {n, 0.02, land, groove, 2});
+  for (const int n : {61, 64, 100})
+    all.push_back(everything("columns_" + std::to_string(n), n == 100 ? 1 : 4, n));
+  for (const int n : {3, 9})  // polygons: not to be rolled over the ground
+    all.emplace_back(everything("columns_" + std::to_string(n), 3, n)).ground.reset();
+  return all;
+}
+
+inline Built build(const RollingCase& c) {
+  Built b = build(c.disk);
+  if (c.ground) add_ground(b, *c.ground, c.law);
+  return b;
+}
+
+/// No two nodes alike, so that the symmetry of the disk hides no mistake of place.
+inline std::vector<Vec2> random_field(std::size_t n, double size, unsigned seed) {
+  std::mt19937 random(seed);
+  std::uniform_real_distribution<double> x(-size, size);
+  std::vector<Vec2> field(n);
+  for (Vec2& v : field) v = {x(random), x(random)};
+  return field;
+}
+inline std::vector<Vec2> some_displacement(const Built& b) {
+  return random_field(b.model.n_nodes(), 2e-5, 1);  // m
+}
+inline std::vector<Vec2> some_velocity(const Built& b) {
+  return random_field(b.model.n_nodes(), 0.2, 2);  // m/s
+}
+
+}  // namespace rondo::test
