@@ -3,6 +3,7 @@
 /// of their steps.
 #pragma once
 #include <optional>
+#include <ostream>
 #include <random>
 #include <string>
 #include <tuple>
@@ -18,6 +19,11 @@ struct RollingCase {
   contact::Law law{0.4, 0.0};
   std::optional<contact::GroundShape> ground;
 };
+
+/// For the names that the tests print.
+inline void PrintTo(const RollingCase& c, std::ostream* out) {
+  *out << c.name;
+}
 
 /// Smooth disk that rolls up a ledge and over the valleys behind it (pairs of facets), with both
 /// dampings, gravity, and tables that change within the steps and stand still for some of them.
