@@ -13,6 +13,7 @@
 #include "paper_command.hpp"
 #include "pod_command.hpp"
 #include "rondo/core/error.hpp"
+#include "rondo/study/run_files.hpp"
 #include "rondo/study/version.hpp"
 
 namespace {
@@ -141,8 +142,10 @@ int main(int argc, char** argv) {
   spdlog::set_default_logger(spdlog::stderr_color_st("rondo"));
   spdlog::set_pattern("rondo: %^%l%$: %v");
   CLI::App program{"rondo: explicit non-smooth dynamics of rolling bodies", "rondo"};
-  program.set_version_flag(
-      "--version", fmt::format("rondo {} ({}; kernels {})", version, build_options, dispatch));
+  program.set_version_flag("--version", [] {
+    return fmt::format("rondo {} ({}; kernels {})", version, build_options,
+                       study::dispatch_level());
+  });
   program.require_subcommand(1);
   program.footer(
       "Example:\n  rondo run cases/ledge-smooth.toml -o results/ledge\n"

@@ -29,6 +29,11 @@ enum class StiffnessOperator {
   sparse,  ///< assembled 2×2 block rows, on any mesh
 };
 
+/// "cyclic" or "sparse".
+inline const char* operator_name(StiffnessOperator which) noexcept {
+  return which == StiffnessOperator::cyclic ? "cyclic" : "sparse";
+}
+
 struct Model {
   std::vector<Vec2> reference;                 ///< (n) X                        [m]
   std::vector<double> mass;                    ///< (n) lumped, > 0              [kg/m]

@@ -65,6 +65,9 @@ dynamics::Model make_model(const Case& c, const mesh::Mesh& mesh) {
   model.mass = fem::lumped_mass(mesh, c.material.density);
   model.free = fem::free_nodes(mesh);
   model.stiffness = fem::assemble_stiffness(mesh, c.material);
+  model.sector = fem::assemble_sector(mesh, c.material);
+  model.stiffness_operator = c.solver_operator == "sparse" ? dynamics::StiffnessOperator::sparse
+                                                           : dynamics::StiffnessOperator::cyclic;
   model.mass_damping = c.damping.mass;
   model.stiffness_damping = c.damping.stiffness;
   model.motion = c.motion;

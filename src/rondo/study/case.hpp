@@ -81,7 +81,7 @@ struct Case {
   Initial initial;
   Analysis analysis;
   Time time;
-  std::string solver_operator = "auto";  ///< "auto" | "sparse"
+  std::string solver_operator = "auto";  ///< "auto" | "cyclic" | "sparse"
   Output output;
   std::vector<std::string> warnings;  ///< said while reading; the caller prints them
 };

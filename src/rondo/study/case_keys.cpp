@@ -157,9 +157,8 @@ constexpr CaseKey keys[] = {
      any,
      "",
      "\"auto\"",
-     "storage of the stiffness",
-     {"auto", "sparse"},
-     "cyclic"},
+     "how K u is formed",
+     {"auto", "cyclic", "sparse"}},
 
     {"output.history_interval", number, "s", not_negative, "", "0.0001",
      "between the rows of history.csv; 0: every step"},
@@ -183,10 +182,14 @@ std::string range_text(const Range& r, bool whole) {
   return said;
 }
 
+/// "a" or "b"; "a", "b" or "c".
 std::string choices_text(const CaseKey& key) {
+  const auto n = static_cast<std::size_t>(
+      std::count_if(key.choices.begin(), key.choices.end(),
+                    [](std::string_view choice) { return !choice.empty(); }));
   std::string said;
-  for (const std::string_view choice : key.choices)
-    if (!choice.empty()) said += fmt::format("{}\"{}\"", said.empty() ? "" : " or ", choice);
+  for (std::size_t i = 0; i < n; ++i)
+    said += fmt::format("{}\"{}\"", i == 0 ? "" : i + 1 < n ? ", " : " or ", key.choices[i]);
   return said;
 }
 

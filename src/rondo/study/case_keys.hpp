@@ -31,7 +31,7 @@ struct CaseKey {
   std::string_view standard;  ///< the default; "required"; "required if ...": by the
                               ///< reader; "later": refused by this version
   std::string_view meaning;
-  std::array<std::string_view, 2> choices{};  ///< in the order of the enum they stand for
+  std::array<std::string_view, 3> choices{};  ///< in the order of the enum they stand for
   std::string_view later{};                   ///< a choice which this version refuses
 
   [[nodiscard]] bool required() const noexcept { return standard == "required"; }

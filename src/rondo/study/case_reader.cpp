@@ -257,7 +257,7 @@ Case read_source(const std::filesystem::path& file, CaseSource source) {
   read_ground(in, c);
   read_initial(in, c.initial);
   read_time(in, c);
-  const std::array<std::string, 2> operators{"auto", "sparse"};
+  const std::array<std::string, 3> operators{"auto", "cyclic", "sparse"};
   c.solver_operator = operators[in.choice("solver.operator")];
   read_output(in, c);
   if (is_crush(c)) leave_out_dynamics(in, c);

@@ -194,13 +194,13 @@ class Runner {
 
 Json describe(const Case& c, const Setup& setup) {
   Json j = describe_run(c, "dynamic", setup.model.n_nodes(), 2 * setup.model.free.size());
-  j["operator"] = "sparse";
+  j["operator"] = operator_name(setup.model.stiffness_operator);
   j["threads"] = setup.model.threads;
   j["critical_step"] = setup.critical.step;
   j["largest_frequency"] = setup.critical.omega;
   j["step"] = setup.model.dt;
   j["steps"] = setup.n_steps;
-  j["dispatch"] = dispatch;
+  j["dispatch"] = dispatch_level();
   return j;
 }
 

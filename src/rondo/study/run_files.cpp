@@ -7,6 +7,7 @@
 #include <array>
 #include <system_error>
 
+#include "rondo/dynamics/dispatch.hpp"
 #include "rondo/io/files.hpp"
 #include "rondo/study/build_id.hpp"
 #include "rondo/study/version.hpp"
@@ -76,6 +77,10 @@ void add_status(Json& json, RunStatus status, const std::string& message) {
   static constexpr std::array<const char*, 3> names{"done", "interrupted", "failed"};
   json["status"] = names[static_cast<std::size_t>(status)];
   if (!message.empty()) json["message"] = message;
+}
+
+const char* dispatch_level() {
+  return dynamics::kernel_table().name;
 }
 
 long long peak_memory_bytes() {

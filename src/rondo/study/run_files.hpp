@@ -34,6 +34,10 @@ void note_failure(const RunOptions& options, Json json, const std::exception& er
 /// Adds how the run ended, for run.json.
 void add_status(Json& json, RunStatus status, const std::string& message);
 
+/// Instruction set of the inner loops. @throws InputError: RONDO_DISPATCH names none of this
+/// machine's
+const char* dispatch_level();
+
 /// Of this process [B].
 long long peak_memory_bytes();
 
