@@ -22,7 +22,7 @@ StepContext step_context(const Model& model, long long n) noexcept {
                .beta_over_dt = model.stiffness_damping / dt};
   s.terms = {.stiffness_damping = model.stiffness_damping > 0.0,
              .printed = model.scheme == Scheme::as_printed,
-             .pull = f.pull != Vec2{}};
+             .unsteady = f.spin_rate != 0.0 || f.pull != Vec2{}};
   if (model.contact) s.contact.emplace(model, f, update);
   return s;
 }

@@ -146,7 +146,7 @@ struct RowConstants {
 };
 
 /// Update and sums of one pack of a row. Tail: the last own pack, of which only `columns` count.
-template <bool Tail, bool Beta, bool Printed, bool Pull>
+template <bool Tail, bool Beta, bool Printed, bool Unsteady>
 inline void update_pack(const CyclicStrip& s, const Factors& f, const RowConstants& c,
                         std::ptrdiff_t at, std::ptrdiff_t column, Vectors force,
                         Sums& sums) noexcept {
@@ -160,20 +160,20 @@ inline void update_pack(const CyclicStrip& s, const Factors& f, const RowConstan
   n.before = Beta ? load_vectors(p, s.stride) : force;
   n.frame = c.frame;
   n.dt_over_mass = c.dt_over_mass;
-  if constexpr (Pull) {  // turned into the frame of each sector
+  if constexpr (Unsteady) {  // turned into the frame of each sector
     const Pack cosine = load(s.turn_x + column), sine = load(s.turn_y + column);
     const Pack px = all(s.step->pull_x), py = all(s.step->pull_y);
     n.frame = {n.frame.x + fma(py, sine, px * cosine), n.frame.y + fnma(px, sine, py * cosine)};
   }
   if constexpr (!Tail) {
-    const Vectors after = update<Beta, Printed>(f, n, sums);
+    const Vectors after = update<Beta, Printed, Unsteady>(f, n, sums);
     store_vectors(v, s.stride, after);
     store_vectors(u_next, s.stride, {fma(f.dt, after.x, n.u.x), fma(f.dt, after.y, n.u.y)});
     if constexpr (Beta) store_vectors(p, s.stride, n.force);
   } else {
     const int own = s.columns - static_cast<int>(column);
     Sums part = no_sums();
-    Vectors after = update<Beta, Printed>(f, n, part);
+    Vectors after = update<Beta, Printed, Unsteady>(f, n, part);
     add_first_lanes(own, part, sums);
     if (s.keep_tail) {
       after = first_of(own, after, n.v);
@@ -201,7 +201,7 @@ inline void add_sums(double* to, double mass, const Sums& s) noexcept {
 }
 
 /// All rows of the strip on packs [first, last), at most a group. `sums` null: the halo.
-template <bool Beta, bool Printed, bool Pull>
+template <bool Beta, bool Printed, bool Unsteady>
 inline void group(const CyclicStrip& s, const Factors& f, int first, int last,
                   double* sums) noexcept {
   Forces force;
@@ -217,24 +217,24 @@ inline void group(const CyclicStrip& s, const Factors& f, int first, int last,
       const std::ptrdiff_t column = static_cast<std::ptrdiff_t>(pack) * lanes;
       const Vectors g = force[r][pack - first];
       if (sums && (pack + 1) * lanes > s.columns)
-        update_pack<true, Beta, Printed, Pull>(s, f, c, row.at, column, g, own);
+        update_pack<true, Beta, Printed, Unsteady>(s, f, c, row.at, column, g, own);
       else
-        update_pack<false, Beta, Printed, Pull>(s, f, c, row.at, column, g, own);
+        update_pack<false, Beta, Printed, Unsteady>(s, f, c, row.at, column, g, own);
     }
     if (sums) add_sums(sums, row.mass, own);
   }
 }
 
-template <bool Beta, bool Printed, bool Pull>
+template <bool Beta, bool Printed, bool Unsteady>
 void cyclic_strip(const CyclicStrip& s) noexcept {
   const Factors f(*s.step);
   const int own = (s.columns + lanes - 1) / lanes;
-  if (s.first_pack < 0) group<Beta, Printed, Pull>(s, f, -1, 0, nullptr);
+  if (s.first_pack < 0) group<Beta, Printed, Unsteady>(s, f, -1, 0, nullptr);
   double* sums = s.sums;
   for (int pack = 0; pack < own; pack += group_packs, sums += n_sums * lanes)
-    group<Beta, Printed, Pull>(s, f, pack, pack + group_packs < own ? pack + group_packs : own,
-                               sums);
-  if (own < s.last_pack) group<Beta, Printed, Pull>(s, f, own, s.last_pack, nullptr);
+    group<Beta, Printed, Unsteady>(s, f, pack, pack + group_packs < own ? pack + group_packs : own,
+                                   sums);
+  if (own < s.last_pack) group<Beta, Printed, Unsteady>(s, f, own, s.last_pack, nullptr);
 }
 
 int low_columns(const CyclicHeight& h, int* columns) noexcept {

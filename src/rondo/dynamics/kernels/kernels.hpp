@@ -39,7 +39,7 @@ struct StepFactors {
 struct Terms {
   bool stiffness_damping = false;  ///< β > 0: K u_n is kept
   bool printed = false;            ///< the scheme as printed
-  bool pull = false;               ///< some pull is not zero
+  bool unsteady = false;           ///< the spin changes, or some pull is not zero
 };
 
 /// One 2×2 block of a row, column-major, and where its vectors are: number of doubles from the
@@ -109,7 +109,7 @@ struct CyclicHeight {
 /// The loops of one instruction set.
 struct Table {
   const char* name;
-  /// [stiffness_damping][printed][pull]
+  /// [stiffness_damping][printed][unsteady]
   void (*cyclic_strip[2][2][2])(const CyclicStrip&) noexcept;
   /// Columns that are low enough, ascending; returns how many.
   int (*low_columns)(const CyclicHeight&, int* columns) noexcept;

@@ -55,10 +55,10 @@ struct Nodes {
 };
 
 /// v⁺ of (3.4) and its part of the sums.
-template <bool Beta, bool Printed>
+template <bool Beta, bool Printed, bool Unsteady>
 inline Vectors update(const Factors& f, const Nodes& n, Sums& sums) noexcept {
-  const Vectors frame = {fnma(f.rate.y, n.u.y, fma(f.rate.x, n.u.x, n.frame.x)),
-                         fma(f.rate.y, n.u.x, fma(f.rate.x, n.u.y, n.frame.y))};
+  Vectors frame = {fma(f.rate.x, n.u.x, n.frame.x), fma(f.rate.x, n.u.y, n.frame.y)};
+  if constexpr (Unsteady) frame = {fnma(f.rate.y, n.u.y, frame.x), fma(f.rate.y, n.u.x, frame.y)};
   Vectors elastic = n.force;
   const Vectors change = {n.force.x - n.before.x, n.force.y - n.before.y};
   if constexpr (Beta)
