@@ -10,7 +10,7 @@ packages=(
   libhdf5-dev nlohmann-json3-dev libtomlplusplus-dev # files
   libcli11-dev libfmt-dev libspdlog-dev              # command line, text, log
   libgtest-dev clang-format clang-tidy libomp-dev    # tests (omp.h as clang-tidy wants it)
-  libbenchmark-dev                                   # bench/
+  libbenchmark-dev valgrind                          # bench/; instructions of a step, a test
   python3 python3-numpy python3-h5py python3-matplotlib python3-pil # pictures; a second reader of the results
   ffmpeg                                             # films (.mp4)
   python3-pytest mypy python3-pip python3-venv       # tests of the Python package

@@ -1,0 +1,112 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "problem.hpp"
+
+#include <array>
+#include <cmath>
+#include <utility>
+
+#include "rondo/core/contract.hpp"
+#include "rondo/dynamics/critical_step.hpp"
+#include "rondo/dynamics/stepper.hpp"
+#include "support/models.hpp"
+
+namespace rondo::bench {
+namespace {
+
+/// The cells of one sector, which stand for all.
+mesh::Mesh one_sector(const mesh::Mesh& mesh) {
+  mesh::Mesh part;
+  part.coordinates = mesh.coordinates;
+  for (const mesh::Cell& cell : mesh.cells)
+    if (mesh.sector[static_cast<std::size_t>(cell[0])] == 0) part.cells.push_back(cell);
+  return part;
+}
+
+/// Flops a node: K u is 8 a block; the rest, counted by the formulas: displacement 4, acceleration
+/// 14, velocity 18, ledger 23; with stiffness damping 8 and 4 more (docs/performance.md).
+double flops_per_node(double blocks, bool beta) {
+  return 8.0 * blocks + 59.0 + (beta ? 12.0 : 0.0);
+}
+
+}  // namespace
+
+std::string_view name_of(Steps steps) noexcept {
+  constexpr std::array<std::string_view, 4> names{"cyclic", "sparse", "eigen", "reference"};
+  return names[static_cast<std::size_t>(steps)];
+}
+
+Problem::Problem(const mesh::Disk& disk) : mesh_(mesh::make_disk(disk)) {
+  const test::DiskCase defaults = test::rolling_disk(1, 3);
+  model_.reference = mesh_.coordinates;
+  model_.mass = fem::lumped_mass(mesh_, defaults.material.density);
+  model_.free = fem::free_nodes(mesh_);
+  model_.sector = fem::assemble_sector(mesh_, defaults.material);
+  model_.mass_damping = defaults.alpha;
+  model_.motion = defaults.motion;
+  model_.motion.height = dynamics::Table(0.2995);  // a contact of 35 mm from the first step
+  omega_ = std::sqrt(fem::element_eigenvalue_bound(one_sector(mesh_), defaults.material));
+}
+
+void Problem::assemble() {
+  if (!stiffness_.row_start.empty() || !model_.stiffness.row_start.empty()) return;
+  stiffness_ = fem::assemble_stiffness(mesh_, test::DiskCase{}.material);
+}
+
+const fem::BlockCsr& Problem::blocks() {
+  assemble();
+  return model_.stiffness.row_start.empty() ? stiffness_ : model_.stiffness;
+}
+
+const CsrMatrix& Problem::csr() {
+  if (csr_.rows() == 0) csr_ = csr_matrix(blocks(), model_.free);
+  return csr_;
+}
+
+std::unique_ptr<dynamics::Integrator> Problem::integrator(Steps steps, const Variant& variant) {
+  const test::DiskCase defaults;
+  model_.threads = variant.threads;
+  model_.stiffness_damping = variant.beta ? defaults.beta : 0.0;
+  model_.dt = 0.8 * dynamics::critical_step_of(omega_, {model_.stiffness_damping, 0.0});
+  model_.contact.reset();
+  if (variant.rolling)
+    model_.contact.emplace(dynamics::ContactModel{
+        contact::Ground(contact::GroundShape{}), {0.3, 0.0}, mesh_.boundary, mesh_.tributary});
+  // The cyclic operator is to do without the assembled matrix, as on meshes too large for it.
+  const bool assembled = steps != Steps::cyclic;
+  if (assembled) assemble();
+  if (assembled == model_.stiffness.row_start.empty()) std::swap(stiffness_, model_.stiffness);
+  dynamics::State start = test::start_at_rest(model_);
+  switch (steps) {
+    case Steps::cyclic:
+      model_.stiffness_operator = dynamics::StiffnessOperator::cyclic;
+      return make_integrator(model_, std::move(start));
+    case Steps::sparse:
+      model_.stiffness_operator = dynamics::StiffnessOperator::sparse;
+      return make_integrator(model_, std::move(start));
+    case Steps::eigen:
+      return make_csr_steps(model_, csr(), start);
+    case Steps::reference:
+      return make_reference_steps(model_, std::move(start));
+  }
+  RONDO_DEMAND(false, static_cast<int>(steps));
+  return nullptr;
+}
+
+Work Problem::work(Steps steps, const Variant& variant) {
+  const fem::SectorStiffness& sector = *model_.sector;
+  const auto nodes = static_cast<double>(model_.free.size());
+  const double blocks =
+      static_cast<double>(sector.entries.size()) / static_cast<double>(sector.n_local());
+  Work work;
+  work.flops = 0.5 * flops_per_node(blocks, variant.beta);
+  work.streams.length = n_dofs();
+  work.streams.in_place = variant.beta ? 3 : 2;  // u, v, and K u of the step before
+  // Bytes a node that are only read: values and columns of its rows, where the rows begin, mass, X.
+  const double of_blocks = 36.0 * blocks + 8.0 + 24.0, of_csr = 48.0 * blocks + 8.0 + 24.0;
+  if (steps != Steps::cyclic)
+    work.streams.read_only =
+        static_cast<std::size_t>(nodes * (steps == Steps::eigen ? of_csr : of_blocks) / 8.0);
+  return work;
+}
+
+}  // namespace rondo::bench
