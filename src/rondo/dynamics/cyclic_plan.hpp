@@ -21,7 +21,7 @@ enum class Halo {
 };
 
 inline constexpr int halo_columns = 8;
-inline constexpr int most_steps_in_a_pass = 8;
+inline constexpr int most_steps_in_a_pass = 4;
 
 struct CyclicChunkRange {
   int first = 0;  ///< sector of its first column
