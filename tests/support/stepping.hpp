@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// @file  The steps of a test, one or many at a time, by either operator: as a run makes them.
 #pragma once
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -32,6 +33,10 @@ inline constexpr std::array both_operators{dynamics::StiffnessOperator::cyclic,
 
 inline std::string name(dynamics::StiffnessOperator of) {
   return testing::PrintToString(of);
+}
+/// variant_operator, for the names of tests.
+inline std::string name(const char* variant, dynamics::StiffnessOperator of) {
+  return fmt::format("{}_{}", variant, name(of));
 }
 
 /// The model with the stiffness that an operator needs, and without the other's.

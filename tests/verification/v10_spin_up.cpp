@@ -1,44 +1,51 @@
 // SPDX-License-Identifier: BSD-3-Clause
-/// V10: sudden spin-up of a disk at rest. Damped, it settles on the stationary spin of its own
-/// mesh; without damping it oscillates about it for ever (v10_spin_up_long.cpp has the long times).
+/// V10: sudden spin-up of a disk at rest, by both operators. Damped, it settles on the stationary
+/// spin of its own mesh; without damping it oscillates about it for ever (v10_spin_up_long.cpp has
+/// the long times).
 #include <gtest/gtest.h>
 
 #include "rondo/statics/stationary_spin.hpp"
 #include "support/models.hpp"
+#include "support/stepping.hpp"
 #include "support/traps.hpp"
 
 using namespace rondo;
 using namespace rondo::dynamics;
 
-TEST(SpinUp, DampedSettlesOnTheStationarySpin) {
+namespace {
+class SpinUp : public testing::TestWithParam<StiffnessOperator> {};
+}  // namespace
+
+TEST_P(SpinUp, DampedSettlesOnTheStationarySpin) {
   auto c = test::rubber_annulus(4, 36);
   c.alpha = 200.0;
   c.beta = 1e-5;
-  auto b = test::build(c);
-  State state = test::start_at_rest(b.model);
-  Ledger ledger;
+  const auto b = test::build(c);
+  test::Stepping run(b, GetParam());
   const test::FloatingPointTraps traps;
-  while (state.frame.time < 0.3) static_cast<void>(advance(b.model, state, ledger));
+  run.advance_to(0.3);
   const auto exact = statics::stationary_spin(b.model.stiffness, b.model.mass, b.model.reference,
                                               b.model.free, -50.0);
   double error = 0.0, size = 0.0;
   for (std::size_t i = 0; i < b.model.n_nodes(); ++i) {
-    error = std::max(error, norm(state.u[i] - exact.u[i]));
+    error = std::max(error, norm(run.state().u[i] - exact.u[i]));
     size = std::max(size, norm(exact.u[i]));
   }
   // The slowest wave decays at about α/2 = 100 1/s: e^{-30} is left after 0.3 s.
   EXPECT_LT(error, 1e-6 * size);
-  EXPECT_LT(ledger.last().relative, 1e-13);
+  EXPECT_LT(run.balance().relative, 1e-13);
 }
 
 /// The stationary start is at rest in the turning frame and stays so.
-TEST(SpinUp, StationaryStartDoesNotMove) {
-  auto b = test::build(test::rubber_annulus(4, 36));
+TEST_P(SpinUp, StationaryStartDoesNotMove) {
+  const auto b = test::build(test::rubber_annulus(4, 36));
   const auto s = statics::stationary_spin(b.model.stiffness, b.model.mass, b.model.reference,
                                           b.model.free, -50.0);
-  State state = start(b.model, s.u, std::vector<Vec2>(b.model.n_nodes()));
-  Ledger ledger;
-  for (int n = 0; n < 5000; ++n) static_cast<void>(advance(b.model, state, ledger));
+  test::Stepping run(b, GetParam(), s.u, std::vector<Vec2>(b.model.n_nodes()));
+  run.advance(5000);
   for (std::size_t i = 0; i < b.model.n_nodes(); ++i)
-    ASSERT_LT(norm(state.u[i] - s.u[i]), 1e-12 * 1.6e-4);  // round-off of K u, over 5,000 steps
+    ASSERT_LT(norm(run.state().u[i] - s.u[i]), 1e-12 * 1.6e-4);  // round-off of K u, 5,000 steps
 }
+
+INSTANTIATE_TEST_SUITE_P(Both, SpinUp, testing::ValuesIn(test::both_operators),
+                         [](const auto& p) { return test::name(p.param); });

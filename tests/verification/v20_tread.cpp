@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-/// V20: the treaded disk's forces in rolling, and the pitch frequency in them.
+/// V20: the treaded disk's forces in rolling, and the pitch frequency in them, by both operators.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "support/models.hpp"
+#include "support/stepping.hpp"
 
 using namespace rondo;
 using namespace rondo::dynamics;
@@ -23,24 +24,24 @@ double amplitude(const std::vector<double>& values, double dt, double frequency)
   return 2.0 * norm(sum) / static_cast<double>(values.size());
 }
 
+class Tread : public testing::TestWithParam<StiffnessOperator> {};
+
 }  // namespace
 
-TEST(Tread, ForcesAndPitchFrequency) {
+TEST_P(Tread, ForcesAndPitchFrequency) {
   test::DiskCase c = test::rolling_disk(9, 0);
   c.disk.tread = mesh::Tread{60, 0.02, 3, 1, 2};
   auto b = test::build(c);
   test::add_ground(b, test::ledge(), {0.3, 0.0});
-  State state = test::start_at_rest(b.model);
-  Ledger ledger;
+  test::Stepping run(b, GetParam());
   const double pitch = pitches * spin / (2.0 * std::numbers::pi);  // 318.3 Hz
   const double from = 0.1, to = from + 40.0 / pitch;               // whole pitches
   std::vector<double> force_x, force_y;
-  while (state.frame.time < to) {
-    const ContactReport r = advance(b.model, state, ledger);
-    if (state.frame.time <= from) continue;
-    force_x.push_back(r.impulse.x / b.model.dt);
-    force_y.push_back(r.impulse.y / b.model.dt);
-  }
+  run.advance_to(to, [&](const StepReport& step) {
+    if (step.frame.time <= from) return;
+    force_x.push_back(step.contact.impulse.x / b.model.dt);
+    force_y.push_back(step.contact.impulse.y / b.model.dt);
+  });
   // 0.5 %: the reference's own scatter with the step, and where its mean ends.
   const double mean_x = 0.5 * amplitude(force_x, b.model.dt, 0.0);
   const double mean_y = 0.5 * amplitude(force_y, b.model.dt, 0.0);
@@ -60,3 +61,6 @@ TEST(Tread, ForcesAndPitchFrequency) {
               3.0 * amplitude(force_y, b.model.dt, (multiple - 0.5) * pitch))
         << multiple;
 }
+
+INSTANTIATE_TEST_SUITE_P(Both, Tread, testing::ValuesIn(test::both_operators),
+                         [](const auto& p) { return test::name(p.param); });
