@@ -6,6 +6,7 @@
 #include <cmath>
 #include <random>
 
+#include "integrator_cases.hpp"
 #include "support/models.hpp"
 #include "support/traps.hpp"
 
@@ -143,6 +144,29 @@ TEST(Stepper, AConcaveCornerStopsByBothFacets) {
     EXPECT_GT(pairs, 0);
     EXPECT_LT(norm(state.v_next[0] + law.restitution * v0[0]), 1e-15);
     EXPECT_LT(ledger.last().relative, 1e-14);
+  }
+}
+
+/// What V1 asks of the operators, of the reference: every term, contacts, both schemes.
+TEST(Stepper, ClosesItsLedger) {
+  for (const Scheme scheme : {Scheme::symplectic, Scheme::as_printed}) {
+    test::RollingCase c = test::everything("", 3, 60);
+    c.disk.scheme = scheme;
+    const test::Built b = test::build(c);
+    State state = start(b.model, test::some_displacement(b), test::some_velocity(b));
+    Ledger ledger;
+    const test::FloatingPointTraps traps;
+    int contacts = 0;
+    for (int n = 0; n < 1000; ++n) contacts += advance(b.model, state, ledger).nodes;
+    const Works& w = ledger.last().works;
+    EXPECT_GT(contacts, 500);
+    EXPECT_LT(ledger.last().relative, 2e-14);  // √(1,000 × 20) roundings of 1e-16
+    EXPECT_LT(std::abs(w.contact - (w.rim - w.dissipation_friction - w.loss_impact)),
+              1e-12 * ledger.last().exchanged);
+    EXPECT_GT(w.dissipation_friction, 1.0);
+    EXPECT_GT(w.dissipation_mass, 0.1);
+    EXPECT_GT(w.dissipation_stiffness, 0.1);
+    EXPECT_EQ(w.scheme == 0.0, scheme == Scheme::symplectic);
   }
 }
 
