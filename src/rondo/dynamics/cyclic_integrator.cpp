@@ -5,8 +5,6 @@
 
 #include <algorithm>
 
-#include "rondo/dynamics/dispatch.hpp"
-
 namespace rondo::dynamics {
 namespace {
 
@@ -14,7 +12,8 @@ constexpr std::size_t most_steps_in_a_batch = 64;
 
 }  // namespace
 
-CyclicIntegrator::CyclicIntegrator(const Model& model, const State& start)
+CyclicIntegrator::CyclicIntegrator(const Model& model, const State& start,
+                                   const kernels::Table& table)
     : model_(model),
       plan_(make_cyclic_plan(model)),
       steps_(most_steps_in_a_batch),
@@ -22,7 +21,7 @@ CyclicIntegrator::CyclicIntegrator(const Model& model, const State& start)
       step_(start.step) {
   chunks_.reserve(plan_.chunks.size());
   for (const CyclicChunkRange& range : plan_.chunks) {
-    chunks_.emplace_back(model_, plan_, kernel_table(), range);
+    chunks_.emplace_back(model_, plan_, table, range);
     chunks_.back().load(start);
     if (plan_.halo != Halo::ring) chunks_.back().give_edges(pass_);
   }

@@ -12,8 +12,8 @@ namespace rondo::dynamics {
 
 class CyclicIntegrator : public Integrator {
  public:
-  /// @pre model.sector is there. @throws InputError (RONDO_DISPATCH), std::bad_alloc
-  CyclicIntegrator(const Model& model, const State& start);
+  /// @pre model.sector is there. @throws std::bad_alloc
+  CyclicIntegrator(const Model& model, const State& start, const kernels::Table& table);
 
   void advance(std::span<StepReport> reports, State* last) noexcept override;
   void fields(State& state) const noexcept override;

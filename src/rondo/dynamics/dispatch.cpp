@@ -21,7 +21,7 @@ bool machine_has(std::string_view level) noexcept {
 }
 
 /// Best first.
-constexpr const kernels::Table* tables[] = {
+constexpr const kernels::Table* all_tables[] = {
 #ifdef RONDO_X86_KERNELS
     &kernels::avx512_table, &kernels::avx2_table,
 #endif
@@ -31,8 +31,7 @@ const kernels::Table& choose() {
   const char* asked = std::getenv("RONDO_DISPATCH");
   const std::string_view name = asked ? asked : "";
   std::string allowed;
-  for (const kernels::Table* table : tables) {
-    if (!machine_has(table->name)) continue;
+  for (const kernels::Table* table : kernel_tables()) {
     if (name.empty() || name == table->name) return *table;
     allowed += (allowed.empty() ? "" : ", ") + std::string(table->name);
   }
@@ -46,6 +45,13 @@ const kernels::Table& choose() {
 }
 
 }  // namespace
+
+std::span<const kernels::Table* const> kernel_tables() noexcept {
+  // A machine that has a level has those after it.
+  std::span<const kernels::Table* const> tables(all_tables);
+  while (!machine_has(tables.front()->name)) tables = tables.subspan(1);
+  return tables;
+}
 
 const kernels::Table& kernel_table() {
   static const kernels::Table& chosen = choose();

@@ -1,9 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// @file  Which instruction set the inner loops use (docs/performance.md).
 #pragma once
+#include <span>
+
 #include "rondo/dynamics/kernels/kernels.hpp"
 
 namespace rondo::dynamics {
+
+/// Every level of this machine, the best first.
+std::span<const kernels::Table* const> kernel_tables() noexcept;
 
 /// The best level of this machine, or the one that the environment variable RONDO_DISPATCH names
 /// ("avx512", "avx2", "baseline"). Chosen once. @throws InputError: unknown, or not of this

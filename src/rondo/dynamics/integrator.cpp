@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "rondo/dynamics/cyclic_integrator.hpp"
+#include "rondo/dynamics/dispatch.hpp"
 #include "rondo/dynamics/stepper.hpp"
 
 namespace rondo::dynamics {
@@ -40,7 +41,7 @@ class ReferenceIntegrator : public Integrator {
 
 std::unique_ptr<Integrator> make_integrator(const Model& model, State start) {
   if (model.stiffness_operator == StiffnessOperator::cyclic)
-    return std::make_unique<CyclicIntegrator>(model, start);
+    return std::make_unique<CyclicIntegrator>(model, start, kernel_table());
   return std::make_unique<ReferenceIntegrator>(model, std::move(start));
 }
 

@@ -38,7 +38,7 @@ class Integrator {
 };
 
 /// The integrator of model.stiffness_operator. The model must outlive it.
-/// @param start at t = 0 (stepper.hpp).
+/// @param start at t = 0 (stepper.hpp). @throws InputError (RONDO_DISPATCH), std::bad_alloc
 [[nodiscard]] std::unique_ptr<Integrator> make_integrator(const Model& model, State start);
 
 }  // namespace rondo::dynamics
