@@ -18,7 +18,7 @@ constexpr int group_columns = kernels::group_packs * kernels::lanes;
 constexpr std::size_t cache_bytes = 1'200'000;
 /// Columns of a chunk that several steps pass over: their rows stay in the cache, the halo is
 /// small.
-constexpr int chunk_columns = 1024;
+constexpr int chunk_columns = 768;
 
 void cut(CyclicPlan& plan, int n_chunks) {
   const int groups = static_cast<int>(plan.n_groups);
