@@ -107,7 +107,7 @@ V18 b linear in the turn | (rotation_minus_one(f.turn)), => (Vec2{0.0, f.turn}),
 sign of the bounce | std::min(c.before.x, 0.0) => std::max(-c.before.x, 0.0) | dynamics:*ABall*
 sticking by R(θ_{n+1}) | conj(s.rotation_next) * (c => conj(s.rotation) * (c | dynamics:*LawVel*
 normals of a pair swapped | conj(a.normal) * b.normal => conj(b.normal) * a.normal |
-  dynamics:Stepper.* cli:*concave*
+  dynamics:Stepper.AConcave*
 @contact/law.cpp
 V18 sign of friction | {{rn, side => {{rn, -side |
   V:*Rolling.*/friction_2* V:*Rolling.*/friction_6* contact:Law.*
