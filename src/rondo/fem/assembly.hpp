@@ -36,6 +36,9 @@ std::vector<double> lumped_mass(const mesh::Mesh& mesh, double density);
 /// eigenvalue of the element's own M_e⁻¹ K_e [1/s²] (Irons and Treharne 1972), (3.8a).
 double element_eigenvalue_bound(const mesh::Mesh& mesh, const Material& material);
 
+/// The same by the elements of one sector, to round-off. @pre a cyclic mesh.
+double sector_eigenvalue_bound(const mesh::Mesh& mesh, const Material& material);
+
 /// K of the free nodes as a symmetric scalar matrix, numbered 2·(place in `free`) + component.
 Eigen::SparseMatrix<double> free_matrix(const BlockCsr& k, std::span<const int> free);
 

@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: BSD-3-Clause
+/// @file  Harmonics of a body of N equal sectors: fields whose polar components turn by the phase
+/// κ = 2πk/N from a sector to the next (docs/theory.md, 2.7). The body falls apart into them, each
+/// as large as one sector.
+#pragma once
+#include <Eigen/SparseCore>
+#include <complex>
+#include <span>
+#include <vector>
+
+#include "rondo/fem/sector_stiffness.hpp"
+
+namespace rondo::fem {
+
+/// A(k) = M^-½ K(k) M^-½ with K(k) = K_0 + e^{iκ} K_1 + e^{-iκ} K_{-1} (2.7), Hermitian, for
+/// k = 0 … N/2; N - k has the conjugate matrix, with the same eigenvalues. Component c of the
+/// sector's row a is number 2a + c. With masses of 1 kg/m it is K(k).
+class Harmonics {
+ public:
+  using Matrix = Eigen::SparseMatrix<std::complex<double>>;
+
+  /// @param mass (n) of every node of the mesh; those of sector 0 are taken, > 0 [kg/m].
+  Harmonics(const SectorStiffness& k, std::span<const double> mass);
+
+  /// N/2 + 1, rounded down.
+  [[nodiscard]] int count() const noexcept { return n_sectors_ / 2 + 1; }
+  /// 2 n_local.
+  [[nodiscard]] Eigen::Index size() const noexcept { return matrix_.rows(); }
+  /// (2 n_local) M^½ of the sector [√(kg/m)].
+  [[nodiscard]] const Eigen::VectorXd& root_mass() const noexcept { return root_mass_; }
+
+  /// Lower triangle of factor · A(k) + shift · I, all of the same pattern, columns in order, each
+  /// from its diagonal on [1/s²]. The reference is to the one matrix there is: it holds until the
+  /// next call. @pre 0 <= harmonic < count().
+  const Matrix& lower(int harmonic, double factor, double shift);
+
+ private:
+  int n_sectors_;
+  Eigen::VectorXd root_mass_;
+  Matrix matrix_;
+  /// Entry of A(k) = constant + even cos κ + i odd sin κ.
+  struct Entry {
+    double constant, even, odd;
+  };
+  std::vector<Entry> entries_;  ///< (nonzeros of matrix_)
+};
+
+}  // namespace rondo::fem
