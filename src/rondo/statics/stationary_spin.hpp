@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "rondo/fem/assembly.hpp"
+#include "rondo/fem/sector_stiffness.hpp"
 
 namespace rondo::statics {
 
@@ -28,5 +29,15 @@ struct StationarySpin {
 /// `shift` [1/s²]. By the same Cholesky factorisation.
 [[nodiscard]] bool eigenvalues_above(const fem::BlockCsr& k, std::span<const double> mass,
                                      std::span<const int> free, double shift);
+
+/// The same for a body of N equal sectors, without the assembled K: u is the same in each sector,
+/// found from harmonic 0 alone; all harmonics are factorised to see whether it is stable (6.1a).
+[[nodiscard]] StationarySpin stationary_spin(const fem::SectorStiffness& k,
+                                             std::span<const double> mass,
+                                             std::span<const Vec2> reference, double spin);
+
+/// The same for a body of N equal sectors: a factorisation of each harmonic.
+[[nodiscard]] bool eigenvalues_above(const fem::SectorStiffness& k, std::span<const double> mass,
+                                     double shift);
 
 }  // namespace rondo::statics

@@ -1,0 +1,103 @@
+// SPDX-License-Identifier: BSD-3-Clause
+/// Stationary spin of a body of equal sectors, harmonic by harmonic (docs/theory.md, 6.1).
+#include <Eigen/CholmodSupport>
+
+#include "rondo/core/blas_threads.hpp"
+#include "rondo/fem/harmonics.hpp"
+#include "rondo/statics/stationary_spin.hpp"
+
+namespace rondo::statics {
+namespace {
+
+using Eigen::Index;
+
+/// Cholesky of A(k) - shift I, one harmonic after another.
+class HarmonicFactor {
+ public:
+  HarmonicFactor(fem::Harmonics& harmonics, double shift) : harmonics_(harmonics), shift_(shift) {
+    solver_.setMode(Eigen::CholmodAuto);  // narrow bands by columns, others by dense blocks
+    solver_.cholmod().final_ll = 1;       // not LDLᵀ, which would not see a negative pivot
+    solver_.cholmod().print = 0;          // "not positive definite" is an answer, not a message
+    solver_.analyzePattern(matrix(0));
+  }
+
+  const fem::Harmonics::Matrix& matrix(int harmonic) {
+    return harmonics_.lower(harmonic, 1.0, -shift_);
+  }
+  /// False where the matrix is not positive definite.
+  bool compute(int harmonic) {
+    solver_.factorize(matrix(harmonic));
+    return solver_.info() == Eigen::Success;
+  }
+  /// Harmonics first … N/2.
+  bool positive_from(int first) {
+    for (int k = first; k < harmonics_.count(); ++k)
+      if (!compute(k)) return false;
+    return true;
+  }
+  /// Of harmonic 0, which is real, after compute(0).
+  Eigen::VectorXd solve(const Eigen::VectorXd& load) const {
+    const Eigen::VectorXcd x = solver_.solve(Eigen::VectorXcd(load.cast<std::complex<double>>()));
+    return x.real();
+  }
+
+ private:
+  fem::Harmonics& harmonics_;
+  double shift_;
+  Eigen::CholmodDecomposition<fem::Harmonics::Matrix, Eigen::Lower> solver_;
+};
+
+/// s² M^½ X of sector 0, whose polar frame is that of X.
+Eigen::VectorXd scaled_load(const fem::SectorStiffness& k, const Eigen::VectorXd& root_mass,
+                            std::span<const Vec2> reference, double spin) {
+  Eigen::VectorXd load(root_mass.size());
+  for (std::size_t a = 0; a < k.n_local(); ++a) {
+    const Vec2 x = reference[k.node(a, 0)];
+    load.segment<2>(static_cast<Index>(2 * a)) = Eigen::Vector2d(x.x, x.y);
+  }
+  return spin * spin * load.cwiseProduct(root_mass);
+}
+
+/// The same polar components in every sector.
+void spread(const fem::SectorStiffness& k, const Eigen::VectorXd& polar, std::span<Vec2> u) {
+  for (std::size_t j = 0; j < k.turn.size(); ++j)
+    for (std::size_t a = 0; a < k.n_local(); ++a) {
+      const auto at = static_cast<Index>(2 * a);
+      u[k.node(a, j)] = k.turn[j] * Vec2{polar[at], polar[at + 1]};
+    }
+}
+
+}  // namespace
+
+StationarySpin stationary_spin(const fem::SectorStiffness& k, std::span<const double> mass,
+                               std::span<const Vec2> reference, double spin) {
+  StationarySpin out;
+  out.u.assign(reference.size(), Vec2{});
+  fem::Harmonics harmonics(k, mass);
+  const OneBlasThread one_thread;
+  HarmonicFactor factor(harmonics, spin * spin);
+  if (!factor.compute(0)) return out;
+  // (A(0) - s²I) w = s² M^½ X with w = M^½ u
+  const Eigen::VectorXd& root_mass = harmonics.root_mass();
+  const Eigen::VectorXd load = scaled_load(k, root_mass, reference, spin);
+  const Eigen::SparseMatrix<double> a = factor.matrix(0).real();
+  const auto remainder = [&](const Eigen::VectorXd& w) -> Eigen::VectorXd {
+    return load - a.selfadjointView<Eigen::Lower>() * w;
+  };
+  Eigen::VectorXd w = factor.solve(load);
+  w += factor.solve(remainder(w));  // one refinement, as for the assembled stiffness
+  if (!factor.positive_from(1)) return out;
+  out.status = SpinStatus::solved;
+  const double scale = load.cwiseProduct(root_mass).norm();
+  out.residual = scale > 0.0 ? remainder(w).cwiseProduct(root_mass).norm() / scale : 0.0;
+  spread(k, w.cwiseQuotient(root_mass), out.u);
+  return out;
+}
+
+bool eigenvalues_above(const fem::SectorStiffness& k, std::span<const double> mass, double shift) {
+  fem::Harmonics harmonics(k, mass);
+  const OneBlasThread one_thread;
+  return HarmonicFactor(harmonics, shift).positive_from(0);
+}
+
+}  // namespace rondo::statics
