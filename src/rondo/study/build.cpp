@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <optional>
 #include <thread>
 
 #include "rondo/statics/stationary_spin.hpp"
@@ -59,15 +60,21 @@ void refuse_flat_elements(const Case& c, const std::vector<double>& size) {
                    "a milder grading, fewer layers or columns, a thicker disk");
 }
 
+/// What can be done harmonic by harmonic is.
+bool by_harmonics(const dynamics::Model& model) {
+  return model.sector && 2 * model.free.size() > harmonic_setup_dofs;
+}
+
 dynamics::Model make_model(const Case& c, const mesh::Mesh& mesh) {
   dynamics::Model model;
   model.reference = mesh.coordinates;
   model.mass = fem::lumped_mass(mesh, c.material.density);
   model.free = fem::free_nodes(mesh);
-  model.stiffness = fem::assemble_stiffness(mesh, c.material);
-  model.sector = fem::assemble_sector(mesh, c.material);
-  model.stiffness_operator = c.solver_operator == "sparse" ? dynamics::StiffnessOperator::sparse
-                                                           : dynamics::StiffnessOperator::cyclic;
+  if (mesh.n_sectors > 0) model.sector = fem::assemble_sector(mesh, c.material);
+  if (model.sector && c.solver_operator != "sparse")
+    model.stiffness_operator = dynamics::StiffnessOperator::cyclic;
+  if (model.stiffness_operator == dynamics::StiffnessOperator::sparse || !by_harmonics(model))
+    model.stiffness = fem::assemble_stiffness(mesh, c.material);
   model.mass_damping = c.damping.mass;
   model.stiffness_damping = c.damping.stiffness;
   model.motion = c.motion;
@@ -114,14 +121,29 @@ long long count_steps(const Case& c, double dt) {
                                                                            : std::ceil(steps));
 }
 
+dynamics::CriticalStep find_critical_step(const Case& c, const Setup& s) {
+  const dynamics::Model& m = s.model;
+  const bool lagged = c.time.scheme == Scheme::as_printed;
+  const dynamics::LaggedDamping damping{c.damping.stiffness, lagged ? c.damping.mass : 0.0};
+  if (by_harmonics(m))
+    return dynamics::critical_step(*m.sector, m.mass, damping,
+                                   fem::sector_eigenvalue_bound(s.mesh, c.material));
+  return dynamics::critical_step(m.stiffness, m.mass, m.free, damping,
+                                 fem::element_eigenvalue_bound(s.mesh, c.material), m.threads);
+}
+
+statics::StationarySpin find_stationary_spin(const dynamics::Model& m, double spin) {
+  if (by_harmonics(m)) return statics::stationary_spin(*m.sector, m.mass, m.reference, spin);
+  return statics::stationary_spin(m.stiffness, m.mass, m.reference, m.free, spin);
+}
+
 void set_initial_fields(const Case& c, Setup& s) {
   const dynamics::Model& model = s.model;
   s.displacement.assign(model.n_nodes(), Vec2{});
   s.velocity.assign(model.n_nodes(), Vec2{});
   if (c.initial.state == InitialState::stationary) {
     const double spin = -c.motion.angular_velocity.at(0.0);
-    auto stationary =
-        statics::stationary_spin(model.stiffness, model.mass, model.reference, model.free, spin);
+    auto stationary = find_stationary_spin(model, spin);
     if (stationary.status != statics::SpinStatus::solved)
       throw case_error(c, "motion.angular_velocity",
                        "no stationary state: at this spin the centrifugal softening "
@@ -167,17 +189,26 @@ void check_start_inside(const Case& c, const std::vector<double>& size, Setup& s
                     deepest));
 }
 
+/// Nothing where factorisations would take too long.
+std::optional<bool> softens_little(const dynamics::Model& m, double spin) {
+  const double shift = 4.0 * spin * spin;
+  const bool harmonics = by_harmonics(m);
+  if (!softening_is_checked(2 * m.free.size(), harmonics ? 2 * m.sector->n_local() : 0))
+    return std::nullopt;
+  if (harmonics) return statics::eigenvalues_above(*m.sector, m.mass, shift);
+  return statics::eigenvalues_above(m.stiffness, m.mass, m.free, shift);
+}
+
 void warn_of_softening(const Case& c, Setup& s) {
   const double spin = c.motion.angular_velocity.largest();
   if (spin == 0.0) return;
-  if (2 * s.model.free.size() > softening_check_dofs) {
+  const std::optional<bool> little = softens_little(s.model, spin);
+  if (!little)
     s.warnings.push_back(
-        fmt::format("the check of spin softening is left out above {} degrees of "
-                    "freedom",
-                    softening_check_dofs));
-    return;
-  }
-  if (!statics::eigenvalues_above(s.model.stiffness, s.model.mass, s.model.free, 4.0 * spin * spin))
+        fmt::format("the check of spin softening is left out above {} degrees of freedom, unless "
+                    "one of equal sectors of the disk has at most {}",
+                    softening_check_dofs, softening_check_harmonic_dofs));
+  else if (!*little)
     s.warnings.push_back(fmt::format(
         "at {:.6g} rad/s the centrifugal softening takes more than a quarter of the lowest "
         "stiffness (s² > ω₁²/4): a small-strain model without stress stiffening is soft there",
@@ -199,11 +230,7 @@ Setup build(const Case& c, int threads) {
   s.model.threads = choose_threads(s.model, threads);
   set_initial_fields(c, s);
   check_start_inside(c, element_sizes(s.mesh), s);
-  const bool lagged = c.time.scheme == Scheme::as_printed;
-  s.critical =
-      dynamics::critical_step(s.model.stiffness, s.model.mass, s.model.free,
-                              {c.damping.stiffness, lagged ? c.damping.mass : 0.0},
-                              fem::element_eigenvalue_bound(s.mesh, c.material), s.model.threads);
+  s.critical = find_critical_step(c, s);
   s.model.dt = choose_step(c, s.critical);
   s.n_steps = count_steps(c, s.model.dt);
   warn_of_softening(c, s);

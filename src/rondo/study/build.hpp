@@ -26,6 +26,11 @@ struct Setup {
 /// starting threads at every step costs more than it brings; all cores above.
 inline constexpr std::size_t single_thread_dofs = 20000;
 
+/// Above this many free degrees of freedom, on meshes of equal sectors, the critical step, the
+/// stationary start and the check of softening work sector by sector, harmonic by harmonic: memory
+/// and time of one sector. Below it, with the assembled K, as they always did: to the same bits.
+inline constexpr std::size_t harmonic_setup_dofs = 200000;
+
 /// A fault that shows only once the case is put together, at the place where its key stands.
 InputError case_error(const Case& c, const std::string& key, const std::string& message,
                       const std::string& allowed);

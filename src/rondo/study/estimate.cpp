@@ -58,6 +58,11 @@ std::size_t compliance_memory(const Case& c, std::size_t nodes) noexcept {
 
 }  // namespace
 
+bool softening_is_checked(std::size_t dofs, std::size_t harmonic_dofs) noexcept {
+  return dofs <= softening_check_dofs ||
+         (harmonic_dofs > 0 && harmonic_dofs <= softening_check_harmonic_dofs);
+}
+
 std::size_t estimated_memory(const Case& c) noexcept {
   // A node of a grid of quadrilaterals couples with 9 nodes: 2 x 2 blocks of doubles and an index
   // each, held twice while the stiffness is assembled; state and fields are some 30 doubles.

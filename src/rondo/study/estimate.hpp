@@ -12,8 +12,13 @@ namespace rondo::study {
 /// Cells that mesh::make_disk would make, without making them.
 std::size_t n_disk_cells(const mesh::Disk& disk) noexcept;
 
-/// Above this size the check of spin softening, a Cholesky factorisation, is left out.
+/// Above this size the check of spin softening, a Cholesky factorisation, is left out...
 inline constexpr std::size_t softening_check_dofs = 500000;
+/// ... unless the body falls apart into harmonics of this size at the most.
+inline constexpr std::size_t softening_check_harmonic_dofs = 20000;
+
+/// Whether the check is made. `harmonic_dofs`: as many as a sector has; 0: not by harmonics.
+bool softening_is_checked(std::size_t dofs, std::size_t harmonic_dofs) noexcept;
 
 /// Memory of a run at its largest, while K is assembled or factorised; an estimate [B].
 std::size_t estimated_memory(const Case& c) noexcept;

@@ -1,0 +1,103 @@
+// SPDX-License-Identifier: BSD-3-Clause
+/// From a case to a setup: by the assembled stiffness where the disk is small, by harmonics above.
+#include "rondo/study/build.hpp"
+
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "rondo/statics/stationary_spin.hpp"
+#include "rondo/study/estimate.hpp"
+#include "unit/study/case_fixture.hpp"
+
+namespace rondo::study {
+namespace {
+
+Case spinning(int radial, int circumferential, double spin) {
+  return test::read_text(fmt::format(R"(schema = 1
+[disk]
+outer_radius = 0.30
+inner_radius = 0.15
+[disk.mesh]
+radial = {}
+circumferential = {}
+[material]
+youngs_modulus = 2e7
+poissons_ratio = 0.3
+density = 1100.0
+[damping]
+stiffness = 1e-8
+[motion]
+angular_velocity = {:.1f}
+speed = 0.0
+height = 0.0
+[initial]
+state = "stationary"
+[time]
+end = 1e-3
+)",
+                                     radial, circumferential, spin));
+}
+
+}  // namespace
+
+TEST(Build, SmallDisksAreSetUpAsEver) {
+  const auto s = build(spinning(12, 180, 60.0), 1);
+  const dynamics::Model& m = s.model;
+  ASSERT_LT(2 * m.free.size(), harmonic_setup_dofs);
+  const auto expected =
+      dynamics::critical_step(m.stiffness, m.mass, m.free, {1e-8, 0.0},
+                              s.critical.element_bound * s.critical.element_bound);
+  EXPECT_FALSE(s.critical.proven);
+  EXPECT_EQ(s.critical.omega, expected.omega);
+  EXPECT_EQ(s.critical.step, expected.step);
+  EXPECT_EQ(s.displacement,
+            statics::stationary_spin(m.stiffness, m.mass, m.reference, m.free, -60.0).u);
+  EXPECT_TRUE(s.warnings.empty());
+}
+
+TEST(Build, LargeDisksAreSetUpByHarmonics) {
+  const auto s = build(spinning(82, 1230, 60.0), 1);
+  const dynamics::Model& m = s.model;
+  ASSERT_GT(2 * m.free.size(), harmonic_setup_dofs);
+  ASSERT_TRUE(m.sector);
+  const double bound = fem::sector_eigenvalue_bound(s.mesh, {2e7, 0.3, 1100.0});
+  const auto expected = dynamics::critical_step(*m.sector, m.mass, {1e-8, 0.0}, bound);
+  EXPECT_TRUE(s.critical.proven);
+  EXPECT_EQ(s.critical.omega, expected.omega);
+  EXPECT_EQ(s.critical.step, expected.step);
+  EXPECT_EQ(s.critical.element_bound, std::sqrt(bound));
+  EXPECT_EQ(s.displacement, statics::stationary_spin(*m.sector, m.mass, m.reference, -60.0).u);
+  EXPECT_TRUE(s.warnings.empty());
+}
+
+TEST(Build, LargeDisksAreCheckedForSoftening) {
+  const auto s = build(spinning(82, 1230, 400.0), 1);  // the lowest frequency is 548 rad/s
+  ASSERT_EQ(s.warnings.size(), 1U);
+  EXPECT_NE(s.warnings[0].find("takes more than a quarter"), std::string::npos) << s.warnings[0];
+  EXPECT_THROW(build(spinning(82, 1230, 600.0), 1), InputError);
+}
+
+TEST(Build, MassDampingShortensTheStepOfTheSchemeAsPrinted) {
+  for (const int radial : {12, 82}) {
+    Case c = spinning(radial, 15 * radial, 60.0);
+    c.damping.mass = 300.0;
+    const auto kept = build(c, 1).critical;
+    EXPECT_EQ(kept.step, dynamics::critical_step_of(kept.omega, {1e-8, 0.0}));
+    c.time.scheme = Scheme::as_printed;
+    const auto lagged = build(c, 1).critical;
+    EXPECT_EQ(lagged.step, dynamics::critical_step_of(lagged.omega, {1e-8, 300.0}));
+    EXPECT_LT(lagged.step, kept.step);
+  }
+}
+
+TEST(Build, SofteningIsCheckedWhereOneFactorIsSmall) {
+  EXPECT_TRUE(softening_is_checked(500000, 0));
+  EXPECT_FALSE(softening_is_checked(500001, 0));
+  EXPECT_TRUE(softening_is_checked(10000000, 20000));
+  EXPECT_FALSE(softening_is_checked(10000000, 20001));
+  EXPECT_TRUE(softening_is_checked(500000, 100000));
+}
+
+}  // namespace rondo::study
