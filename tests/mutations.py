@@ -159,7 +159,35 @@ V17 mass of corners | (corners, corner_xi[a]) => (corners, 0.0 * corner_xi[a]) |
 V17 stress at corners | reach = std::sqrt(3.0) => reach = 1.0 | fem:Element.*
 V17 shear strain | g.n[a].y * u[a].x + => g.n[a].y * u[a].x - | V:*Patch.* fem:Element.Stress*
 @fem/assembly.cpp
-V13 element bound too low | bound, solver => bound, 0.5 * solver | V:*.Frequency* fem:*ElementBound*
+V13 element bound too low | return solver.eig => return 0.5 * solver.eig | V:*.Frequency* fem:*ElementBoundIs*
+element bound of whole cells only | std::any_of(cell => std::all_of(cell | fem:*ElementBoundOf*
+@fem/harmonics.cpp
+2.7 harmonics backwards | entry.odd += t.shift => entry.odd -= t.shift | fem:Harmonics.Product*
+2.7 harmonics without their phase | factor * std::cos(kappa) => factor | fem:Harmonics.*
+2.7 harmonics without masses | (root_mass[row] * root_mass[column]) => (root_mass[row] * root_mass[row]) |
+  fem:Harmonics.Together*
+2.7 harmonics not shifted | [j]] += shift; => [j]] += 0.0 * shift; | fem:Harmonics.Factor*
+@dynamics/critical_step_sector.cpp
+3.8 a harmonic is left out | i < count; => i < count - (count > 2); | dynamics:*BySectors.FindsIt*
+3.8 harmonics met twice | while (std::gcd(stride, count) != 1) ++stride; => | dynamics:*BySectors.FindsIt*
+3.8 the lower end | std::sqrt(largest.upper() => std::sqrt((1.0 - largest.width()) * largest.upper() |
+  dynamics:*BySectors.Encloses*
+3.8 a wide interval | enclosure_width = 1e-6 => enclosure_width = 1e-4 | dynamics:*BySectors.Encloses*
+3.8 Lanczos of all but the last | k < harmonics.count(); => k < harmonics.count() - 1; |
+  dynamics:*BySectors.LargeS*
+3.8 Lanczos without its residual | (pair->value + pair->residual)) => (pair->value - pair->residual)) |
+  dynamics:*BySectors.DoesNot*
+3.8 proven by Lanczos | pair->value;\n    out.converged = => pair->value;\n    out.proven = out.converged = |
+  dynamics:*BySectors.DoesNot*
+@statics/stationary_spin_sector.cpp
+6.1 LDL sees no negative pivot | final_ll = 1 => final_ll = 0 | statics:*BySectors.Beyond*
+6.1 harmonic 1 is not looked at | positive_from(1) => positive_from(2) | statics:*BySectors.Sees*
+6.1 harmonic N/2 is not looked at | k < harmonics_.count(); => k < harmonics_.count() - 1; |
+  statics:*BySectors.Sees*
+6.1 stationary sectors not turned | k.turn[j] * Vec2 => k.turn[0] * Vec2 | statics:*BySectors.IsThat*
+6.1 stationary load without mass | load.cwiseProduct(root_mass);\n} => load;\n} | statics:*BySectors.Solves*
+6.1 stationary without softening | factor(harmonics, spin * spin) => factor(harmonics, 0.0) |
+  statics:*BySectors.IsThat* statics:*BySectors.Solves*
 @fem/stress.cpp
 V17 nodal stress no mean | weight[a] /= total => weight[a] *= 1.1 / total | V:*Patch.* fem:Stress*
 @mesh/disk.cpp
@@ -219,6 +247,11 @@ POD written in place | folder(where / fmt::format(".pod.{}.tmp", ::getpid())), =
   io:PodFiles.Replace*
 @study/toml_text.cpp
 case writer drops a digit | ("{}", value) => ("{:.16g}", value) | study:WriteCase.Numbers*
+@study/build.cpp
+harmonics for all disks | .free.size() > harmonic_setup_dofs => .free.size() > 0 | study:Build.Small*
+harmonics for no disk | return model.sector && => return false && | study:Build.LargeDisksAreSetUp*
+harmonics undamped | (*m.sector, m.mass, damping => (*m.sector, m.mass, {} | study:Build.Mass* study:Build.LargeDisksAreSet*
+softening by harmonics of another limit | shift = 4.0 * spin => shift = 1.0 * spin | study:Build.*Checked*
 @study/case_values.cpp
 unknown keys let through |
   add(value.key_place, path, found, unknown => static_cast<void>(unknown | study:*WrongCase.*
