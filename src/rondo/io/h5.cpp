@@ -38,9 +38,10 @@ std::string reason() {
   throw FileError(path, doing + ": " + reason());
 }
 
-/// Errors are thrown, never printed.
+/// Errors are thrown, never printed. HDF5 may keep that setting for each thread.
 void be_quiet() {
-  H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);
+  thread_local const herr_t done = H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);
+  static_cast<void>(done);
 }
 
 hid_t native(Type type) {
@@ -161,6 +162,7 @@ void Dataset::find_spaces() {
 }
 
 void Dataset::select(std::size_t row) const {
+  be_quiet();  // rows may be written by another thread than the one that made the file
   RONDO_DEMAND(!shape_.empty() && row < shape_[0], name_, row);
   constexpr std::size_t most = 8;
   RONDO_DEMAND(shape_.size() <= most, name_, shape_.size());

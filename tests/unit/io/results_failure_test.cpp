@@ -3,6 +3,7 @@
 #include <sys/mman.h>
 
 #include <cstring>
+#include <thread>
 
 #include "rondo/io/h5.hpp"
 #include "rondo/io/results.hpp"
@@ -137,6 +138,27 @@ TEST(ResultsOutOfRoom, NameTheFileAndTheReason) {
       for (std::size_t k = 0; k < planned; ++k) results.write(run.snapshot(k));
     });
     EXPECT_NE(what.find("results.h5: cannot write /"), std::string::npos) << what;
+    EXPECT_NE(what.find("File too large"), std::string::npos) << what;
+    if (::testing::Test::HasFailure()) std::_Exit(1);
+  });
+  EXPECT_TRUE(went_well(status));
+}
+
+/// HDF5 keeps its settings for each thread: where it does not know better, it prints errors.
+TEST(ResultsOutOfRoom, AreSilentOnAThreadThatDidNotMakeThem) {
+  const Folder folder;
+  SmallRun run(64, 8);
+  const int status = in_child([&] {
+    Results results(folder.path(), run.layout(planned));
+    limit_files(std::filesystem::file_size(folder / "results.h5") / 2);
+    testing::internal::CaptureStderr();
+    std::string what;
+    std::thread([&] {
+      what = error_of<FileError>([&] {
+        for (std::size_t k = 0; k < planned; ++k) results.write(run.snapshot(k));
+      });
+    }).join();
+    EXPECT_EQ(testing::internal::GetCapturedStderr(), "");
     EXPECT_NE(what.find("File too large"), std::string::npos) << what;
     if (::testing::Test::HasFailure()) std::_Exit(1);
   });
