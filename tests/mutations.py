@@ -259,6 +259,16 @@ unknown keys let through |
 angle of the velocity at the snapshot | motion.angle(s.time_velocity) => motion.angle(s.time) |
   cli:*test_snapshots*
 history of the last step | impulse_ += report.i => impulse_ = report.i | cli:*history_is*
+@study/writer_thread.cpp
+writer leaves out every other slot | (first_ready_ + 1) % => (first_ready_ + 2) % | study:WriterThread.WorksOff*
+writer forgets the error of the last slot | join();\n  check(); => join(); |
+  study:WriterThread.ErrorInTheLast* cli:*last_rows
+writer is killed with slots left | if (n_ready_ == 0) return; => if (closing_) return; | study:WriterThread.Destructor*
+writer goes on after an error | while (!error_) { => while (true) { | study:WriterThread.DestructorJoins*
+@study/run_output.cpp
+writer rows wait for more | !rows_.empty() && Clock::now() - handed_over_ > longest_wait => false | study:RunOutputTest.ARow*
+writer rows after their snapshot | slot.rows.swap(rows_); => if (!state) slot.rows.swap(rows_); | study:RunOutputTest.ASnapshot*
+writer last rows stay behind | if (!rows_.empty()) push(nullptr);\n  const => const | study:RunOutputTest.Rows* cli:*test_snapshots*
 @study/crush_observers.cpp
 crush rate without its increments | static_cast<double>(increments_) * (state => 1.0 * (state |
   crush:*snapshots_and*

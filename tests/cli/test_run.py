@@ -25,12 +25,25 @@ class Run(RunTest):
         s = summary(self.out)
         for key in ("status title version build host nodes dofs operator threads critical_step step "
                     "steps loop_wall_s loop_cpu_s ns_per_dof_step energy_residual_relative "
-                    "contact_residual_max penetration_max_m peak_memory_bytes dispatch").split():
+                    "contact_residual_max penetration_max_m peak_memory_bytes dispatch output "
+                    "total_wall_s").split():
             self.assertIn(key, s)
         self.assertEqual((s["status"], s["title"], s["nodes"], s["dofs"]), ("done", "small", 160, 240))
         self.assertLess(s["energy_residual_relative"], 1e-13)
         self.assertLess(s["contact_residual_max"], 1e-13)
         self.assertAlmostEqual(s["step"], 0.8 * s["critical_step"], delta=1e-15)
+
+    def test_cost_of_output(self):
+        self.run_ok()
+        s = summary(self.out)
+        cost = s["output"]
+        self.assertEqual(set(cost), {"wait_wall_s", "drain_wall_s", "write_wall_s", "queue_full"})
+        self.assertGreater(cost["wait_wall_s"], 0)
+        self.assertGreater(cost["write_wall_s"], 0)
+        self.assertLess(cost["wait_wall_s"], s["loop_wall_s"])
+        self.assertLess(s["loop_wall_s"] + cost["drain_wall_s"], s["total_wall_s"])
+        self.assertLess(cost["write_wall_s"], s["total_wall_s"])
+        self.assertIsInstance(cost["queue_full"], int)
 
     def test_history_closes_row_by_row(self):
         self.run_ok()
@@ -279,18 +292,52 @@ class Interrupt(ProgramTest):
         self.assertNotEqual(process.wait(timeout=20), 0)
         self.assertFalse(out.exists())
 
-    def test_full_disk_is_exit_4_and_said_in_run_json(self):
+    def assert_full(self, text, most, name):
+        """A run whose files cannot grow beyond `most` bytes ends with exit 4, one line that names
+        the file, and says the same in run.json."""
         def limit():
-            resource.setrlimit(resource.RLIMIT_FSIZE, (200000, 200000))
+            resource.setrlimit(resource.RLIMIT_FSIZE, (most, most))
             signal.signal(signal.SIGXFSZ, signal.SIG_IGN)
 
-        text = SMALL.replace("snapshots = 11", "snapshots = 2\nhistory_interval = 0\nstress = false")
-        out = self.folder / "out"
-        done = run("run", self.case(replaced(text, "end", "end = 5.0")), "-o", out, preexec_fn=limit)
+        out = self.folder / "full"
+        done = run("run", self.case(text), "-o", out, "--quiet", "--overwrite", preexec_fn=limit)
         self.assertEqual(done.returncode, 4, done.stderr)
-        self.assertIn("history.csv", done.stderr)
+        self.assertEqual(len(done.stderr.splitlines()), 1, done.stderr)
+        self.assertIn(name, done.stderr)
         self.assertEqual(summary(out)["status"], "failed")
-        self.assertIn("history.csv", summary(out)["message"])
+        self.assertIn(name, summary(out)["message"])
+        return out
+
+    def test_full_disk_is_exit_4_and_said_in_run_json(self):
+        text = SMALL.replace("snapshots = 11", "snapshots = 2\nhistory_interval = 0\nstress = false")
+        out = self.assert_full(replaced(text, "end", "end = 5.0"), 200000, "history.csv")
+        steps = len((out / "history.csv").read_text().splitlines())
+        self.assertLess(steps, 2000)  # of some 100,000
+
+    def test_disk_that_fills_up_in_a_snapshot(self):
+        # fields.xdmf takes more than results.h5 on a mesh of 8 nodes: its writing fails midway.
+        text = replaced(replaced(SMALL, "radial", "radial = 1"), "circumferential",
+                        "circumferential = 4")
+        text = replaced(replaced(text, "snapshots", "snapshots = 400"), "end", "end = 1.0")
+        whole = self.folder / "out"
+        self.assertEqual(run("run", self.case(text), "-o", whole).returncode, 0)
+        size = {p.name: p.stat().st_size for p in whole.iterdir()}
+        most = (size["results.h5"] + size["fields.xdmf"]) // 2
+        self.assertEqual([name for name in size if size[name] > most], ["fields.xdmf"])
+        out = self.assert_full(text, most, "fields.xdmf")
+        with h5py.File(out / "results.h5") as f:
+            self.assertGreater(len(f["/frame/time"]), 200)
+            self.assertLess(len(f["/frame/time"]), 400)
+
+    def test_disk_that_fills_up_with_the_last_rows(self):
+        # The loop has ended when the error comes.
+        text = SMALL.replace("snapshots = 11", "snapshots = 0\nhistory_interval = 0\nstress = false")
+        text = replaced(text, "end", "end = 0.1")
+        whole = self.folder / "out"
+        self.assertEqual(run("run", self.case(text), "-o", whole).returncode, 0)
+        size = (whole / "history.csv").stat().st_size
+        self.assertGreater(size, (whole / "results.h5").stat().st_size)
+        self.assert_full(text, size - 10, "history.csv")
 
 
 class Check(ProgramTest):

@@ -12,6 +12,8 @@
 #include <string_view>
 #include <system_error>
 
+#include "rondo/study/run_output.hpp"
+
 namespace rondo::study {
 
 std::size_t n_disk_cells(const mesh::Disk& disk) noexcept {
@@ -56,6 +58,14 @@ std::size_t compliance_memory(const Case& c, std::size_t nodes) noexcept {
   return static_cast<std::size_t>((fields + matrices) * sizeof(double));
 }
 
+/// Of snapshots that wait to be written, displacement and velocity each.
+std::size_t queue_memory(const Case& c, std::size_t nodes) noexcept {
+  if (c.analysis.kind == AnalysisKind::crush || c.output.snapshots == 0) return 0;
+  const auto snapshots = static_cast<std::size_t>(c.output.snapshots);
+  const std::size_t bytes = 2 * nodes * sizeof(Vec2);
+  return std::min(snapshots, queue_length(snapshots, bytes)) * bytes;
+}
+
 }  // namespace
 
 bool softening_is_checked(std::size_t dofs, std::size_t harmonic_dofs) noexcept {
@@ -72,7 +82,7 @@ std::size_t estimated_memory(const Case& c) noexcept {
   const std::size_t nodes = mesh::n_disk_nodes(c.disk);
   constexpr std::size_t program = 30'000'000;  // with its libraries
   return program + nodes * (stiffness + fields) + n_disk_cells(c.disk) * sizeof(mesh::Cell) +
-         factor_memory(c, nodes) + compliance_memory(c, nodes);
+         factor_memory(c, nodes) + compliance_memory(c, nodes) + queue_memory(c, nodes);
 }
 
 std::size_t physical_memory() noexcept {

@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <limits>
 
 namespace rondo::study {
 
@@ -38,11 +37,8 @@ std::vector<std::string> contact_columns() {
   return {"time_s", "node", "abscissa_m", "x_m", "y_m", "pressure_pa", "shear_pa"};
 }
 
-History::History(const std::filesystem::path& file, const Case& c, const Setup& setup)
-    : csv_(file, history_columns()),
-      case_(c),
-      dt_(setup.model.dt),
-      interval_(c.output.history_interval) {}
+History::History(const Case& c, const Setup& setup)
+    : case_(c), dt_(setup.model.dt), interval_(c.output.history_interval) {}
 
 double History::slip_ratio(double time) const {
   const double rim = case_.motion.angular_velocity.at(time) * case_.disk.outer_radius;
@@ -51,7 +47,7 @@ double History::slip_ratio(double time) const {
   return scale > 0.0 ? (rim - speed) / scale : 0.0;
 }
 
-void History::observe(const dynamics::StepReport& step, bool last) {
+void History::observe(const dynamics::StepReport& step, bool last, std::vector<double>& rows) {
   const dynamics::ContactReport& report = step.contact;
   ++steps_;
   impulse_ += report.impulse;
@@ -64,29 +60,30 @@ void History::observe(const dynamics::StepReport& step, bool last) {
   const double span = static_cast<double>(steps_) * dt_;
   const dynamics::Balance& b = step.balance;
   const dynamics::Works& w = b.works;
-  csv_.row(std::array<double, 23>{time,
-                                  step.frame.angle,
-                                  step.frame.center.x,
-                                  step.frame.center.y,
-                                  impulse_.x / span,
-                                  impulse_.y / span,
-                                  angular_impulse_ / span,
-                                  static_cast<double>(report.nodes),
-                                  static_cast<double>(report.sticking),
-                                  report.length,
-                                  penetration_,
-                                  slip_ratio(time),
-                                  b.kinetic,
-                                  b.strain,
-                                  w.frame,
-                                  w.contact,
-                                  w.dissipation_friction,
-                                  w.loss_impact,
-                                  w.rim,
-                                  w.dissipation_mass,
-                                  w.dissipation_stiffness,
-                                  w.scheme,
-                                  b.residual});
+  const std::array<double, n_history_columns> row{time,
+                                                  step.frame.angle,
+                                                  step.frame.center.x,
+                                                  step.frame.center.y,
+                                                  impulse_.x / span,
+                                                  impulse_.y / span,
+                                                  angular_impulse_ / span,
+                                                  static_cast<double>(report.nodes),
+                                                  static_cast<double>(report.sticking),
+                                                  report.length,
+                                                  penetration_,
+                                                  slip_ratio(time),
+                                                  b.kinetic,
+                                                  b.strain,
+                                                  w.frame,
+                                                  w.contact,
+                                                  w.dissipation_friction,
+                                                  w.loss_impact,
+                                                  w.rim,
+                                                  w.dissipation_mass,
+                                                  w.dissipation_stiffness,
+                                                  w.scheme,
+                                                  b.residual};
+  rows.insert(rows.end(), row.begin(), row.end());
   if (interval_ > 0.0) next_ = static_cast<long long>((time + 0.5 * dt_) / interval_) + 1;
   steps_ = 0;
   impulse_ = {};
@@ -114,11 +111,10 @@ io::ResultsLayout layout(const Case& c, const Setup& setup, std::size_t n_snapsh
 
 }  // namespace
 
-Snapshots::Snapshots(const std::filesystem::path& directory, const Case& c, const Setup& setup)
+Snapshots::Snapshots(const std::filesystem::path& directory, const Case& c, const Setup& setup,
+                     std::size_t planned)
     : setup_(setup),
-      steps_(snapshot_steps(c.output.snapshots, c.output.snapshots_from, setup.model.dt,
-                            setup.n_steps)),
-      results_(directory, layout(c, setup, steps_.size())),
+      results_(directory, layout(c, setup, planned)),
       contact_csv_(directory / "contact.csv", contact_columns()) {
   if (c.output.stress) stress_.emplace(setup.mesh, c.material);
   const std::size_t nb = setup.model.contact ? setup.mesh.boundary.size() : 0;
@@ -157,13 +153,7 @@ void Snapshots::write_contact_rows(const dynamics::State& state) {
   contact_csv_.rows(rows_);
 }
 
-long long Snapshots::next_step() const {
-  return next_ < steps_.size() ? steps_[next_] : std::numeric_limits<long long>::max();
-}
-
-void Snapshots::observe(const dynamics::State& state) {
-  if (state.step != next_step()) return;
-  ++next_;
+void Snapshots::write(const dynamics::State& state) {
   io::Snapshot s;
   s.time = state.frame.time;
   s.time_velocity = state.step == 0 ? 0.0 : state.frame.time - 0.5 * setup_.model.dt;

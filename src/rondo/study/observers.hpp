@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-/// @file  What looks at a run while it goes on, and changes nothing of it: history, snapshots.
+/// @file  What a run writes down while it goes on: rows of its history, snapshots.
 #pragma once
 #include <filesystem>
 #include <vector>
@@ -16,19 +16,22 @@ namespace rondo::study {
 std::vector<std::string> history_columns();
 std::vector<std::string> contact_columns();
 
-/// history.csv: forces as means over the interval since the last row, the ledger at half a step
-/// before.
+/// As many as history_columns() has; a crush adds some.
+inline constexpr std::size_t n_history_columns = 23;
+
+/// Rows of history.csv: forces as means over the interval since the last row, the ledger at half a
+/// step before.
 class History {
  public:
-  /// @param interval [s]; 0: every step.
-  History(const std::filesystem::path& file, const Case& c, const Setup& setup);
-  /// @param last no step comes after: a row is written even where none is due.
-  void observe(const dynamics::StepReport& step, bool last);
+  /// c.output.history_interval 0: every step. The case must outlive the object.
+  History(const Case& c, const Setup& setup);
+  /// Every step, in turn: appends a row where one is due.
+  /// @param last no step comes after: a row is appended even where none is due.
+  void observe(const dynamics::StepReport& step, bool last, std::vector<double>& rows);
 
  private:
   [[nodiscard]] double slip_ratio(double time) const;
 
-  io::Csv csv_;
   const Case& case_;
   double dt_, interval_;
   long long next_ = 1;   ///< number of the next row's interval
@@ -42,14 +45,15 @@ class History {
 /// nearest step, the last one at the last step. Fewer where steps are fewer.
 std::vector<long long> snapshot_steps(int count, double from, double dt, long long n_steps);
 
-/// results.h5, fields.xdmf and contact.csv.
+/// results.h5, fields.xdmf and contact.csv. Made, used and closed by one thread at a time.
 class Snapshots {
  public:
-  Snapshots(const std::filesystem::path& directory, const Case& c, const Setup& setup);
-  /// The next step at which observe wants to see the state; the largest number where none is left.
-  [[nodiscard]] long long next_step() const;
-  /// @pre state.step == next_step(), unless the run ends there.
-  void observe(const dynamics::State& state);
+  /// @param planned snapshots, at the most. The setup must outlive the object. @throws FileError
+  Snapshots(const std::filesystem::path& directory, const Case& c, const Setup& setup,
+            std::size_t planned);
+  /// @param state step, frame, u, v and active are read. @throws FileError
+  void write(const dynamics::State& state);
+  /// @throws FileError
   void close();
   [[nodiscard]] std::size_t written() const { return results_.written(); }
 
@@ -58,8 +62,6 @@ class Snapshots {
   void write_contact_rows(const dynamics::State& state);
 
   const Setup& setup_;
-  std::vector<long long> steps_;
-  std::size_t next_ = 0;
   io::Results results_;
   io::Csv contact_csv_;
   std::optional<fem::StressRecovery> stress_;

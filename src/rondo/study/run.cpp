@@ -20,6 +20,7 @@
 #include "rondo/study/crush_run.hpp"
 #include "rondo/study/observers.hpp"
 #include "rondo/study/run_files.hpp"
+#include "rondo/study/run_output.hpp"
 #include "rondo/study/version.hpp"
 
 namespace rondo::study {
@@ -58,6 +59,7 @@ struct Loop {
   double wall_s = 0.0;
   double cpu_s = 0.0;
   std::size_t snapshots = 0;
+  OutputCost output;
 };
 
 /// What is out of bound, and when: a half step (velocities, ledger) comes before its step's
@@ -128,11 +130,10 @@ std::size_t steps_at_once(const Setup& setup) {
 /// The loop of a run and what it works with.
 class Runner {
  public:
-  Runner(const Setup& setup, const RunOptions& options, History& history, Snapshots& snapshots)
+  Runner(const Setup& setup, const RunOptions& options, RunOutput& output)
       : setup_(setup),
         options_(options),
-        history_(history),
-        snapshots_(snapshots),
+        output_(output),
         reports_(steps_at_once(setup)),
         state_(start(setup.model, setup.displacement, setup.velocity)),
         integrator_(make_integrator(setup.model, state_)) {}
@@ -140,7 +141,7 @@ class Runner {
   Loop run() {
     const auto wall = Clock::now();
     const std::clock_t cpu = std::clock();
-    snapshots_.observe(state_);
+    output_.observe(state_);
     while (loop_.steps < setup_.n_steps && loop_.status == RunStatus::done) advance();
     if (loop_.status == RunStatus::done) close_ledger();
     loop_.wall_s = std::chrono::duration<double>(Clock::now() - wall).count();
@@ -151,7 +152,7 @@ class Runner {
  private:
   /// Steps up to the next snapshot, at most as many as there are reports.
   void advance() {
-    const long long left = std::min(setup_.n_steps, snapshots_.next_step()) - loop_.steps;
+    const long long left = std::min(setup_.n_steps, output_.next_snapshot()) - loop_.steps;
     const auto n =
         static_cast<std::size_t>(std::min(static_cast<long long>(reports_.size()), left));
     const std::span reports = std::span(reports_).first(n);
@@ -160,7 +161,8 @@ class Runner {
     const bool stop = options_.stop && options_.stop->load(std::memory_order_relaxed);
     for (std::size_t i = 0; i < n && loop_.status == RunStatus::done; ++i)
       take(reports[i], stop && i + 1 == n);
-    if (seen && state_.step == loop_.steps) snapshots_.observe(state_);
+    if (seen && state_.step == loop_.steps) output_.observe(state_);
+    output_.keep_up();
     if (options_.progress) options_.progress(loop_.steps, setup_.n_steps);
   }
 
@@ -170,7 +172,7 @@ class Runner {
     loop_.balance = step.balance;
     judge(setup_, step, *integrator_, state_, loop_);
     if (loop_.status == RunStatus::done && stop) loop_.status = RunStatus::interrupted;
-    history_.observe(step, loop_.steps == setup_.n_steps || loop_.status != RunStatus::done);
+    output_.observe(step, loop_.steps == setup_.n_steps || loop_.status != RunStatus::done);
   }
 
   /// A step's works are compared once the next half step is known: one step more, which nobody
@@ -184,8 +186,7 @@ class Runner {
 
   const Setup& setup_;
   const RunOptions& options_;
-  History& history_;
-  Snapshots& snapshots_;
+  RunOutput& output_;
   std::vector<dynamics::StepReport> reports_;
   dynamics::State state_;
   std::unique_ptr<dynamics::Integrator> integrator_;
@@ -209,6 +210,13 @@ double per_dof_step(const Setup& setup, const Loop& loop) {
   return 1e9 * loop.wall_s / (dofs * static_cast<double>(std::max(1LL, loop.steps)));
 }
 
+Json describe(const OutputCost& cost) {
+  return {{"wait_wall_s", cost.wait_wall_s},
+          {"drain_wall_s", cost.drain_wall_s},
+          {"write_wall_s", cost.write_wall_s},
+          {"queue_full", cost.queue_full}};
+}
+
 void add_outcome(Json& j, const Setup& setup, const Loop& loop) {
   add_status(j, loop.status, loop.message);
   j["steps_done"] = loop.steps;
@@ -227,6 +235,7 @@ void add_outcome(Json& j, const Setup& setup, const Loop& loop) {
                   {"pairs_not_converged", loop.contact.pairs_not_converged}};
   j["peak_memory_bytes"] = peak_memory_bytes();
   j["snapshots"] = loop.snapshots;
+  j["output"] = describe(loop.output);
 }
 
 RunReport report_of(const Setup& setup, const Loop& loop) {
@@ -258,15 +267,15 @@ std::vector<std::string> all_warnings(const Case& c, const Setup& setup) {
   return warnings;
 }
 
-/// The loop with its observers. A file that cannot be written ends the run: run.json says so, where
+/// The loop with its output. A file that cannot be written ends the run: run.json says so, where
 /// it can still be written itself.
 Loop record(const Case& c, const Setup& setup, const RunOptions& options, const Json& json) {
   try {
-    History history(options.directory / "history.csv", c, setup);
-    Snapshots snapshots(options.directory, c, setup);
-    Loop loop = Runner(setup, options, history, snapshots).run();
-    snapshots.close();
-    loop.snapshots = snapshots.written();
+    RunOutput output(options.directory, c, setup);
+    Loop loop = Runner(setup, options, output).run();
+    output.close();
+    loop.snapshots = output.written();
+    loop.output = output.cost();
     return loop;
   } catch (const FileError& error) {
     note_failure(options, json, error);
@@ -278,6 +287,7 @@ Loop record(const Case& c, const Setup& setup, const RunOptions& options, const 
 
 RunReport run_case(const Case& c, const RunOptions& options) {
   if (c.analysis.kind == AnalysisKind::crush) return run_crush(c, options);
+  const auto begin = Clock::now();
   const Setup setup = build(c, options.threads);
   give_warnings(all_warnings(c, setup), options);
   Json json = describe(c, setup);
@@ -285,6 +295,7 @@ RunReport run_case(const Case& c, const RunOptions& options) {
 
   const Loop loop = record(c, setup, options, json);
   add_outcome(json, setup, loop);
+  json["total_wall_s"] = std::chrono::duration<double>(Clock::now() - begin).count();
   io::write_json(options.directory / "run.json", json);
   return report_of(setup, loop);
 }

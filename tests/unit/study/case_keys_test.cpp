@@ -69,7 +69,7 @@ TEST(CaseKeys, ExamplesOfTheManualAreCases) {
 }
 
 TEST(Estimate, CountsNodesAndCells) {
-  Case c = read_text(base, {"motion.angular_velocity=0.0"});
+  Case c = read_text(base, {"motion.angular_velocity=0.0", "output.snapshots=0"});
   EXPECT_EQ(n_disk_cells(c.disk), 12U * 180U);
   constexpr std::size_t program = 30'000'000;
   const std::size_t still = estimated_memory(c) - program;
@@ -77,6 +77,10 @@ TEST(Estimate, CountsNodesAndCells) {
   c.initial.state = InitialState::stationary;  // needs the factors of K
   EXPECT_GT(estimated_memory(c) - program, 2 * still);
   c.initial.state = InitialState::rest;
+  c.output.snapshots = 7;  // all of them may wait to be written
+  EXPECT_EQ(estimated_memory(c) - program, still + 7U * 13U * 180U * 32U);
+  c.output.snapshots = 100'000;
+  EXPECT_LE(estimated_memory(c) - program, still + 64'000'000U);
   c.analysis = {AnalysisKind::crush, 0.02, 10};
   EXPECT_GT(estimated_memory(c) - program, 2 * still);
   c = read_text(treaded());

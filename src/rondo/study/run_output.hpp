@@ -1,0 +1,89 @@
+// SPDX-License-Identifier: BSD-3-Clause
+/// @file  All output of a run while it goes on, off its loop: the loop hands over numbers, a thread
+/// of its own recovers stresses, formats and writes (docs/decisions/014-writer-thread.md).
+#pragma once
+#include <chrono>
+#include <cstddef>
+#include <filesystem>
+#include <vector>
+
+#include "rondo/dynamics/integrator.hpp"
+#include "rondo/io/csv.hpp"
+#include "rondo/study/build.hpp"
+#include "rondo/study/observers.hpp"
+#include "rondo/study/writer_thread.hpp"
+
+namespace rondo::study {
+
+/// Memory of what was handed over and not yet written, at the most; but there is room for two
+/// snapshots however large [B].
+inline constexpr std::size_t output_queue_bytes = 64'000'000;
+
+/// Snapshots that can wait to be written. @param bytes of one
+[[nodiscard]] std::size_t queue_length(std::size_t n_snapshots, std::size_t bytes) noexcept;
+
+/// What output cost a run [s].
+struct OutputCost {
+  double wait_wall_s = 0.0;   ///< of the loop, handing over: copies, waiting for a free slot
+  double drain_wall_s = 0.0;  ///< after the loop, until everything was written
+  double write_wall_s = 0.0;  ///< of the thread, at work
+  long long queue_full = 0;   ///< how often the loop had to wait for a free slot
+};
+
+/// history.csv, results.h5, fields.xdmf and contact.csv. Every call throws what the thread met
+/// (FileError, std::bad_alloc) since the last one.
+class RunOutput {
+ public:
+  /// Creates the files. Case and setup must outlive it. @throws FileError
+  RunOutput(const std::filesystem::path& directory, const Case& c, const Setup& setup);
+  /// Writes what is there, as far as that is possible; errors are reported where close() is called.
+  ~RunOutput();
+  RunOutput(const RunOutput&) = delete;
+  RunOutput& operator=(const RunOutput&) = delete;
+
+  /// The next step of which a snapshot is wanted; the largest number where none is left.
+  [[nodiscard]] long long next_snapshot() const noexcept;
+  /// Every step, in turn. @param last no step comes after: a row is written even where none is due.
+  void observe(const dynamics::StepReport& step, bool last);
+  /// A snapshot, if state.step is next_snapshot().
+  void observe(const dynamics::State& state);
+  /// To be called now and then: hands over rows that would else wait for a snapshot, or for more
+  /// rows.
+  void keep_up();
+  /// Writes everything and closes the files.
+  void close();
+
+  /// Complete once closed.
+  [[nodiscard]] OutputCost cost() const;
+  /// Snapshots in the files. @pre closed.
+  [[nodiscard]] std::size_t written() const { return snapshots_.written(); }
+
+ private:
+  using Clock = std::chrono::steady_clock;
+
+  /// Of what is handed over: rows of history.csv, then a snapshot.
+  struct Slot {
+    std::vector<double> rows;
+    bool snapshot = false;
+    dynamics::State state;  ///< step, frame, u, v and active only
+  };
+
+  [[nodiscard]] std::vector<Slot> make_slots(const Setup& setup) const;
+  void push(const dynamics::State* state);
+  void write(const Slot& slot);
+
+  std::vector<long long> steps_;  ///< of the snapshots
+  std::size_t next_ = 0;
+  History history_;
+  std::vector<double> rows_;  ///< not yet handed over
+  Clock::time_point handed_over_ = Clock::now();
+  double wait_s_ = 0.0, drain_s_ = 0.0;
+  bool closed_ = false;
+  // The thread's from its start to its end.
+  io::Csv history_csv_;
+  Snapshots snapshots_;
+  std::vector<Slot> slots_;
+  WriterThread writer_;  ///< last: ends before what it works with
+};
+
+}  // namespace rondo::study
