@@ -157,7 +157,8 @@ V17 stiffness of triangles | 0.5 * g.jacobian => g.jacobian | V:*Patch.*/4
 V17 mass of triangles | / 6.0 => / 3.0 | V:Mass.* fem:Element.Masses*
 V17 mass of corners | (corners, corner_xi[a]) => (corners, 0.0 * corner_xi[a]) | fem:Element.Masses*
 V17 stress at corners | reach = std::sqrt(3.0) => reach = 1.0 | fem:Element.*
-V17 shear strain | g.n[a].y * u[a].x + => g.n[a].y * u[a].x - | V:*Patch.* fem:Element.Stress*
+V17 shear strain of quadrilaterals | dy * u[a].x + => dy * u[a].x - | V:*Patch.* fem:Element.Stress*
+V17 shear strain of triangles | g.n[a].y * u[a].x + => g.n[a].y * u[a].x - | V:*Patch.* fem:Element.Stress*
 @fem/assembly.cpp
 V13 element bound too low | return solver.eig => return 0.5 * solver.eig | V:*.Frequency* fem:*ElementBoundIs*
 element bound of whole cells only | std::any_of(cell => std::all_of(cell | fem:*ElementBoundOf*
