@@ -92,7 +92,7 @@ void CyclicIntegrator::advance(std::span<StepReport> reports, State* last) noexc
   last->frame = reports.back().frame;
   last->active.clear();
   for (CyclicChunk& chunk : chunks_) {
-    chunk.save_velocity(last->v_next);
+    if (!last->v_next.empty()) chunk.save_velocity(last->v_next);
     const std::span active = chunk.active();
     last->active.insert(last->active.end(), active.begin(), active.end());
   }

@@ -39,10 +39,10 @@ class ReferenceIntegrator : public Integrator {
 
 }  // namespace
 
-std::unique_ptr<Integrator> make_integrator(const Model& model, State start) {
+std::unique_ptr<Integrator> make_integrator(const Model& model, const State& start) {
   if (model.stiffness_operator == StiffnessOperator::cyclic)
     return std::make_unique<CyclicIntegrator>(model, start, kernel_table());
-  return std::make_unique<ReferenceIntegrator>(model, std::move(start));
+  return std::make_unique<ReferenceIntegrator>(model, start);
 }
 
 }  // namespace rondo::dynamics

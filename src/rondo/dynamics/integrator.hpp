@@ -28,7 +28,8 @@ class Integrator {
   Integrator& operator=(const Integrator&) = delete;
 
   /// Makes as many steps as there are reports, and fills these. `last`, if given, gets step, frame,
-  /// u, v, v_next and the contacts of the last of them; `force` and `force_before` are left alone.
+  /// u, v, contacts and, where it has room for it, v_next of the last of them; `force` and
+  /// `force_before` are left alone.
   /// @pre at least one report; *last was made for this model. Allocates nothing.
   virtual void advance(std::span<StepReport> reports, State* last = nullptr) noexcept = 0;
 
@@ -39,6 +40,6 @@ class Integrator {
 
 /// The integrator of model.stiffness_operator. The model must outlive it.
 /// @param start at t = 0 (stepper.hpp). @throws InputError (RONDO_DISPATCH), std::bad_alloc
-[[nodiscard]] std::unique_ptr<Integrator> make_integrator(const Model& model, State start);
+[[nodiscard]] std::unique_ptr<Integrator> make_integrator(const Model& model, const State& start);
 
 }  // namespace rondo::dynamics

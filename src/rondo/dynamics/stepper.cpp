@@ -85,17 +85,28 @@ void add_works(const Model& model, const State& state, Works& w) noexcept {
   });
 }
 
+void clear_clamped(const Model& model, State& state) noexcept {
+  std::size_t next_free = 0;
+  for (std::size_t k = 0; k < model.n_nodes(); ++k) {
+    if (next_free < model.free.size() && static_cast<std::size_t>(model.free[next_free]) == k)
+      ++next_free;
+    else
+      state.u[k] = state.v[k] = Vec2{};
+  }
+}
+
 }  // namespace
 
 State start(const Model& model, std::vector<Vec2> u0, std::vector<Vec2> v0) {
   RONDO_DEMAND(u0.size() == model.n_nodes() && v0.size() == model.n_nodes(), u0.size(), v0.size());
   RONDO_DEMAND(model.dt > 0.0, model.dt);
-  State state(model);
+  State state;
+  state.u = std::move(u0);
+  state.v = std::move(v0);
+  clear_clamped(model, state);
+  state.v_next.resize(model.n_nodes());
+  if (model.contact) state.active.reserve(2 * model.contact->nodes.size());
   state.frame = frame_step(model.motion, 0, model.dt);
-  for_free_nodes(model, [&](std::size_t k) {
-    state.u[k] = u0[k];
-    state.v[k] = v0[k];
-  });
   state.force.resize(model.n_nodes());
   state.force_before.resize(model.n_nodes());
   apply_stiffness(model, state.u, state.force);

@@ -119,6 +119,11 @@ Mesh make_disk(const Disk& disk) {
   RONDO_DEMAND(!disk.tread || (disk.tread->groove_columns >= 1 && l.layers >= 1), l.layers);
   Mesh mesh;
   mesh.n_sectors = l.pitches;
+  const std::size_t n = n_disk_nodes(disk);
+  mesh.coordinates.reserve(n);
+  mesh.sector.reserve(n);
+  mesh.sector_node.reserve(n);
+  mesh.cells.reserve(n);  // no more cells than nodes
   const std::vector<Line> lines = add_nodes(mesh, l, layer_radii(disk, l));
   add_cells(mesh, l, lines);
   add_boundary(mesh, l, lines);

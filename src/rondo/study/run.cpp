@@ -110,6 +110,7 @@ void judge(const Setup& setup, const dynamics::StepReport& step,
   Trouble trouble = find_trouble(step.balance, loop.contact);
   if (trouble.what.empty()) return;
   if (trouble.not_finite) {
+    state.v_next.resize(state.u.size());
     integrator.fields(state);
     trouble.what = not_finite(state, trouble.what);
   }
@@ -130,18 +131,22 @@ std::size_t steps_at_once(const Setup& setup) {
 /// The loop of a run and what it works with.
 class Runner {
  public:
-  Runner(const Setup& setup, const RunOptions& options, RunOutput& output)
+  /// Takes the initial fields of the setup, which are not needed twice.
+  Runner(Setup& setup, const RunOptions& options, RunOutput& output)
       : setup_(setup),
         options_(options),
         output_(output),
         reports_(steps_at_once(setup)),
-        state_(start(setup.model, setup.displacement, setup.velocity)),
-        integrator_(make_integrator(setup.model, state_)) {}
+        state_(start(setup.model, std::move(setup.displacement), std::move(setup.velocity))) {}
 
   Loop run() {
+    output_.observe(state_);
+    state_.v = state_.force_before = {};  // memory that the integrator will have
+    integrator_ = make_integrator(setup_.model, state_);
+    state_.force = state_.v_next = {};
+    state_.v.resize(state_.u.size());
     const auto wall = Clock::now();
     const std::clock_t cpu = std::clock();
-    output_.observe(state_);
     while (loop_.steps < setup_.n_steps && loop_.status == RunStatus::done) advance();
     if (loop_.status == RunStatus::done) close_ledger();
     loop_.wall_s = std::chrono::duration<double>(Clock::now() - wall).count();
@@ -269,7 +274,7 @@ std::vector<std::string> all_warnings(const Case& c, const Setup& setup) {
 
 /// The loop with its output. A file that cannot be written ends the run: run.json says so, where
 /// it can still be written itself.
-Loop record(const Case& c, const Setup& setup, const RunOptions& options, const Json& json) {
+Loop record(const Case& c, Setup& setup, const RunOptions& options, const Json& json) {
   try {
     RunOutput output(options.directory, c, setup);
     Loop loop = Runner(setup, options, output).run();
@@ -288,7 +293,7 @@ Loop record(const Case& c, const Setup& setup, const RunOptions& options, const 
 RunReport run_case(const Case& c, const RunOptions& options) {
   if (c.analysis.kind == AnalysisKind::crush) return run_crush(c, options);
   const auto begin = Clock::now();
-  const Setup setup = build(c, options.threads);
+  Setup setup = build(c, options.threads);
   give_warnings(all_warnings(c, setup), options);
   Json json = describe(c, setup);
   begin_directory(c, options, json);
