@@ -27,13 +27,13 @@ PROGRAMS = {"V": "verification/verification", "W": "verification/verification_sl
 PROGRAMS |= {m: f"unit/unit_{m}" for m in ("core", "mesh", "fem", "contact", "dynamics", "statics",
                                            "reduction", "io", "study")}
 
-SCRIPTS = {"cli": "test_run.py", "crush": "test_crush.py", "pod": "test_pod.py",
-           "paper": "test_paper.py", "ring": "test_ring.py"}
+SCRIPTS = {"cli": "test_run.py", "disk": "test_full_disk.py", "crush": "test_crush.py",
+           "pod": "test_pod.py", "paper": "test_paper.py", "ring": "test_ring.py"}
 
 # @file in src/rondo, then of each mutation in it: name | old text => new text | tests.
 # \n is a new line; a line that begins with spaces continues the one above. The tests are
-# program:filter, with the letters of PROGRAMS and gtest's filters, or cli:, crush:, pod:, paper:
-# and ring:pattern (unittest's -k).
+# program:filter, with the letters of PROGRAMS and gtest's filters, or cli:, disk:, crush:, pod:,
+# paper: and ring:pattern (unittest's -k).
 TABLE = r"""
 @dynamics/ledger.cpp
 V1 no W_scheme | scheme_.add(w.scheme); => |
@@ -263,13 +263,14 @@ history of the last step | impulse_ += report.i => impulse_ = report.i | cli:*hi
 @study/writer_thread.cpp
 writer leaves out every other slot | (first_ready_ + 1) % => (first_ready_ + 2) % | study:WriterThread.WorksOff*
 writer forgets the error of the last slot | join();\n  check(); => join(); |
-  study:WriterThread.ErrorInTheLast* cli:*last_rows
+  study:WriterThread.ErrorInTheLast* disk:last_rows
 writer is killed with slots left | if (n_ready_ == 0) return; => if (closing_) return; | study:WriterThread.Destructor*
 writer goes on after an error | while (!error_) { => while (true) { | study:WriterThread.DestructorJoins*
 @study/run_output.cpp
 writer rows wait for more | !rows_.empty() && Clock::now() - handed_over_ > longest_wait => false | study:RunOutputTest.ARow*
 writer rows after their snapshot | slot.rows.swap(rows_); => if (!state) slot.rows.swap(rows_); | study:RunOutputTest.ASnapshot*
-writer last rows stay behind | if (!rows_.empty()) push(nullptr);\n  const => const | study:RunOutputTest.Rows* cli:*test_snapshots*
+writer last rows stay behind | if (!rows_.empty()) push(nullptr);\n  const => const |
+  study:RunOutputTest.Rows*
 @study/crush_observers.cpp
 crush rate without its increments | static_cast<double>(increments_) * (state => 1.0 * (state |
   crush:*snapshots_and*
