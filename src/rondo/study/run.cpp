@@ -141,9 +141,9 @@ class Runner {
 
   Loop run() {
     output_.observe(state_);
-    state_.v = state_.force_before = {};  // memory that the integrator will have
+    state_.v = state_.force_before = std::vector<Vec2>();  // memory that the integrator will have
     integrator_ = make_integrator(setup_.model, state_);
-    state_.force = state_.v_next = {};
+    state_.force = state_.v_next = std::vector<Vec2>();
     state_.v.resize(state_.u.size());
     const auto wall = Clock::now();
     const std::clock_t cpu = std::clock();
