@@ -9,19 +9,19 @@
 
 namespace rondo {
 
-LargeArray::LargeArray(std::size_t n) : size_(n) {
+LargeMemory::LargeMemory(std::size_t bytes) {
   constexpr std::size_t cache_line = 64, huge_page = 2U << 20U;
-  const std::size_t alignment = n * sizeof(double) >= 2 * huge_page ? huge_page : cache_line;
-  const std::size_t bytes = (n * sizeof(double) + alignment - 1) / alignment * alignment;
-  if (bytes == 0) return;
-  void* memory = std::aligned_alloc(alignment, bytes);
+  const std::size_t alignment = bytes >= 2 * huge_page ? huge_page : cache_line;
+  const std::size_t whole = (bytes + alignment - 1) / alignment * alignment;
+  if (whole == 0) return;
+  void* memory = std::aligned_alloc(alignment, whole);
   if (!memory) throw std::bad_alloc();
-  if (alignment == huge_page) madvise(memory, bytes, MADV_HUGEPAGE);  // a wish: it may be ignored
-  std::memset(memory, 0, bytes);
-  data_.reset(static_cast<double*>(memory));
+  if (alignment == huge_page) madvise(memory, whole, MADV_HUGEPAGE);  // a wish: it may be ignored
+  std::memset(memory, 0, whole);
+  data_.reset(memory);
 }
 
-void LargeArray::Free::operator()(double* memory) const noexcept {
+void LargeMemory::Free::operator()(void* memory) const noexcept {
   std::free(memory);
 }
 

@@ -4,26 +4,44 @@
 #pragma once
 #include <cstddef>
 #include <memory>
-#include <span>
+#include <type_traits>
 
 namespace rondo {
 
-class LargeArray {
+/// The memory of such an array.
+class LargeMemory {
  public:
-  LargeArray() = default;
-  /// n doubles, all 0. @throws std::bad_alloc
-  explicit LargeArray(std::size_t n);
+  LargeMemory() = default;
+  /// All bits 0. @throws std::bad_alloc
+  explicit LargeMemory(std::size_t bytes);
 
-  [[nodiscard]] double* data() noexcept { return data_.get(); }
-  [[nodiscard]] const double* data() const noexcept { return data_.get(); }
-  [[nodiscard]] std::size_t size() const noexcept { return size_; }
+  [[nodiscard]] void* data() const noexcept { return data_.get(); }
 
  private:
   struct Free {
-    void operator()(double* memory) const noexcept;
+    void operator()(void* memory) const noexcept;
   };
-  std::unique_ptr<double[], Free> data_;
+  std::unique_ptr<void, Free> data_;
+};
+
+template <class T>
+class LargeArrayOf {
+  static_assert(std::is_arithmetic_v<T>);
+
+ public:
+  LargeArrayOf() = default;
+  /// n numbers, all 0. @throws std::bad_alloc
+  explicit LargeArrayOf(std::size_t n) : memory_(n * sizeof(T)), size_(n) {}
+
+  [[nodiscard]] T* data() noexcept { return static_cast<T*>(memory_.data()); }
+  [[nodiscard]] const T* data() const noexcept { return static_cast<const T*>(memory_.data()); }
+  [[nodiscard]] std::size_t size() const noexcept { return size_; }
+
+ private:
+  LargeMemory memory_;
   std::size_t size_ = 0;
 };
+
+using LargeArray = LargeArrayOf<double>;
 
 }  // namespace rondo

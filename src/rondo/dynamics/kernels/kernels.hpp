@@ -4,6 +4,7 @@
 /// that the linker could hand to a machine without it.
 #pragma once
 #include <cstddef>
+#include <cstdint>
 
 namespace rondo::dynamics::kernels {
 
@@ -106,6 +107,23 @@ struct CyclicHeight {
   int first, last;                ///< columns looked at
 };
 
+/// Packs of eight rows of K on any mesh, one a node, and the nodes' fields: product, velocity
+/// update and sums in one pass. Rows of a pack have as many blocks as the longest: zero blocks on
+/// their own node fill the others up. `column` is twice the node: where its pair is in u.
+struct SparseRows {
+  const std::int64_t* start;   ///< (packs + 1) first place of a pack in `blocks`, `column`
+  const double* blocks;        ///< (places, lanes, 4) [k_xx, k_xy, k_yx, k_yy]           [N/m²]
+  const std::int32_t* column;  ///< (places, lanes)
+  const double* constants;     ///< (packs, 4, lanes) X_x, X_y [m], m [kg/m], Δt/m
+  const double* now;           ///< (nodes, 2) u_{n+1}
+  double* next;                ///< (nodes, 2) u_{n+2}
+  double* motion;              ///< (packs, 2, lanes) v⁻, becomes v⁺; with β (packs, 4, lanes):
+                               ///< v and K u_n, which becomes K u_{n+1}
+  std::ptrdiff_t first_pack, last_pack;
+  const StepFactors* step;
+  double* sums;  ///< (n_sums, lanes) of these packs: set
+};
+
 /// The loops of one instruction set.
 struct Table {
   const char* name;
@@ -113,6 +131,8 @@ struct Table {
   void (*cyclic_strip[2][2][2])(const CyclicStrip&) noexcept;
   /// Columns that are low enough, ascending; returns how many.
   int (*low_columns)(const CyclicHeight&, int* columns) noexcept;
+  /// [stiffness_damping][printed][pull]
+  void (*sparse_rows[2][2][2])(const SparseRows&) noexcept;
 };
 
 extern const Table avx512_table, avx2_table, baseline_table;

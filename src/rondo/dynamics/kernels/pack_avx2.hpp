@@ -3,6 +3,8 @@
 #pragma once
 #include <immintrin.h>
 
+#include <cstdint>
+
 namespace {
 
 struct Pack {
@@ -60,6 +62,48 @@ inline void load_neighbours(const double* u, Pack* last, Pack* here, Pack* next)
     here[i] = load(u + i * 8);
     next[i] = load(u + i * 8 + 1);
   }
+}
+
+/// x and y of four vectors, one after the other (x, y).
+inline void load_four_pairs(const double* p, __m256d& x, __m256d& y) noexcept {
+  const __m256d a = _mm256_loadu_pd(p), b = _mm256_loadu_pd(p + 4);
+  const __m256d low = _mm256_permute2f128_pd(a, b, 0x20), high = _mm256_permute2f128_pd(a, b, 0x31);
+  x = _mm256_unpacklo_pd(low, high);
+  y = _mm256_unpackhi_pd(low, high);
+}
+inline void store_four_pairs(double* p, __m256d x, __m256d y) noexcept {
+  const __m256d even = _mm256_unpacklo_pd(x, y), odd = _mm256_unpackhi_pd(x, y);
+  _mm256_storeu_pd(p, _mm256_permute2f128_pd(even, odd, 0x20));
+  _mm256_storeu_pd(p + 4, _mm256_permute2f128_pd(even, odd, 0x31));
+}
+/// Eight vectors, one after the other (x, y).
+inline void load_pairs(const double* p, Pack& x, Pack& y) noexcept {
+  load_four_pairs(p, x.a, y.a);
+  load_four_pairs(p + 8, x.b, y.b);
+}
+inline void store_pairs(double* p, Pack x, Pack y) noexcept {
+  store_four_pairs(p, x.a, y.a);
+  store_four_pairs(p + 8, x.b, y.b);
+}
+
+inline void sums_of_four_rows(const __m256d* rows, __m256d& x, __m256d& y) noexcept {
+  const __m256d a = _mm256_hadd_pd(rows[0], rows[1]), b = _mm256_hadd_pd(rows[2], rows[3]);
+  x = _mm256_permute2f128_pd(a, b, 0x20);
+  y = _mm256_permute2f128_pd(a, b, 0x31);
+}
+/// K u of eight rows of `n` 2×2 blocks: k (n, rows, 4), column (n, rows) where its pair is in u.
+inline void row_products(std::int64_t n, const double* k, const std::int32_t* column,
+                         const double* u, Pack& x, Pack& y) noexcept {
+  __m256d sums[8] = {};  // of a row the products with k_xx, k_xy, k_yx, k_yy
+  for (; n > 0; --n, k += 32, column += 8) {
+#pragma GCC unroll 8
+    for (int i = 0; i < 8; ++i) {
+      const __m256d pair = _mm256_broadcast_pd(reinterpret_cast<const __m128d*>(u + column[i]));
+      sums[i] = _mm256_fmadd_pd(_mm256_loadu_pd(k + i * 4), pair, sums[i]);
+    }
+  }
+  sums_of_four_rows(sums, x.a, y.a);
+  sums_of_four_rows(sums + 4, x.b, y.b);
 }
 
 constexpr int block_packs = 1;

@@ -3,6 +3,8 @@
 #pragma once
 #include <immintrin.h>
 
+#include <cstdint>
+
 namespace {
 
 struct Pack {
@@ -67,6 +69,44 @@ inline void load_neighbours(const double* u, Pack* last, Pack* here, Pack* next)
     here[i] = packs[i + 1];
     next[i] = shifted_up(packs[i + 1], packs[i + 2]);
   }
+}
+
+/// Eight vectors, one after the other (x, y).
+inline void load_pairs(const double* p, Pack& x, Pack& y) noexcept {
+  const __m512d a = _mm512_loadu_pd(p), b = _mm512_loadu_pd(p + 8);
+  x.v = _mm512_permutex2var_pd(a, _mm512_setr_epi64(0, 2, 4, 6, 8, 10, 12, 14), b);
+  y.v = _mm512_permutex2var_pd(a, _mm512_setr_epi64(1, 3, 5, 7, 9, 11, 13, 15), b);
+}
+inline void store_pairs(double* p, Pack x, Pack y) noexcept {
+  const __m512i low = _mm512_setr_epi64(0, 8, 1, 9, 2, 10, 3, 11);
+  const __m512i high = _mm512_setr_epi64(4, 12, 5, 13, 6, 14, 7, 15);
+  _mm512_storeu_pd(p, _mm512_permutex2var_pd(x.v, low, y.v));
+  _mm512_storeu_pd(p + 8, _mm512_permutex2var_pd(x.v, high, y.v));
+}
+
+/// K u of eight rows of `n` 2×2 blocks: k (n, rows, 4), column (n, rows) where its pair is in u.
+/// Two rows a register; two numbers of columns a load: loads are what the loop is short of.
+inline void row_products(std::int64_t n, const double* k, const std::int32_t* column,
+                         const double* u, Pack& x, Pack& y) noexcept {
+  __m512d sums[4] = {};  // of rows 2i and 2i + 1 the products with k_xx, k_xy, k_yx, k_yy
+  for (; n > 0; --n, k += 32, column += 8) {
+#pragma GCC unroll 4
+    for (int i = 0; i < 4; ++i) {
+      std::uint64_t columns;
+      __builtin_memcpy(&columns, column + 2 * i, sizeof columns);
+      const __m512d even = _mm512_broadcast_f64x2(_mm_loadu_pd(u + (columns & 0xFFFFFFFF)));
+      const __m512d both =
+          _mm512_mask_broadcast_f64x2(even, 0xF0, _mm_loadu_pd(u + (columns >> 32U)));
+      sums[i] = _mm512_fmadd_pd(_mm512_loadu_pd(k + i * 8), both, sums[i]);
+    }
+  }
+  // x of rows 0, 2, y of 0, 2, x of 1, 3, y of 1, 3; and of rows 4 to 7.
+  const auto pairs = [](__m512d a, __m512d b) {
+    return _mm512_add_pd(_mm512_unpacklo_pd(a, b), _mm512_unpackhi_pd(a, b));
+  };
+  const __m512d low = pairs(sums[0], sums[1]), high = pairs(sums[2], sums[3]);
+  x.v = _mm512_permutex2var_pd(low, _mm512_setr_epi64(0, 4, 1, 5, 8, 12, 9, 13), high);
+  y.v = _mm512_permutex2var_pd(low, _mm512_setr_epi64(2, 6, 3, 7, 10, 14, 11, 15), high);
 }
 
 /// Packs whose product is formed at once: as many as the registers hold.

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// @file  Eight doubles in four registers of two, for any machine: products are not fused with
-/// sums.
+/// sums. Inlined always: GCC takes functions of four registers for too long, and a call for each
+/// product makes a step two to three times as slow.
 #pragma once
+#include <cstdint>
 #include <cstring>
 
 namespace {
@@ -12,40 +14,40 @@ struct Pack {
   Two v[4];
 };
 
-inline Pack load(const double* p) noexcept {
+[[gnu::always_inline]] inline Pack load(const double* p) noexcept {
   Pack a;
   std::memcpy(&a, p, sizeof a);
   return a;
 }
-inline void store(double* p, Pack a) noexcept {
+[[gnu::always_inline]] inline void store(double* p, Pack a) noexcept {
   std::memcpy(p, &a, sizeof a);
 }
-inline Pack all(double x) noexcept {
+[[gnu::always_inline]] inline Pack all(double x) noexcept {
   const Two two = {x, x};
   return {{two, two, two, two}};
 }
-inline Pack operator+(Pack a, Pack b) noexcept {
+[[gnu::always_inline]] inline Pack operator+(Pack a, Pack b) noexcept {
   for (int i = 0; i < 4; ++i) a.v[i] += b.v[i];
   return a;
 }
-inline Pack operator-(Pack a, Pack b) noexcept {
+[[gnu::always_inline]] inline Pack operator-(Pack a, Pack b) noexcept {
   for (int i = 0; i < 4; ++i) a.v[i] -= b.v[i];
   return a;
 }
-inline Pack operator*(Pack a, Pack b) noexcept {
+[[gnu::always_inline]] inline Pack operator*(Pack a, Pack b) noexcept {
   for (int i = 0; i < 4; ++i) a.v[i] *= b.v[i];
   return a;
 }
 /// a b + c
-inline Pack fma(Pack a, Pack b, Pack c) noexcept {
+[[gnu::always_inline]] inline Pack fma(Pack a, Pack b, Pack c) noexcept {
   return a * b + c;
 }
 /// c - a b
-inline Pack fnma(Pack a, Pack b, Pack c) noexcept {
+[[gnu::always_inline]] inline Pack fnma(Pack a, Pack b, Pack c) noexcept {
   return c - a * b;
 }
 /// The first n lanes of a, the others of b.
-inline Pack first_lanes(int n, Pack a, Pack b) noexcept {
+[[gnu::always_inline]] inline Pack first_lanes(int n, Pack a, Pack b) noexcept {
   double x[8], y[8];
   store(x, a);
   store(y, b);
@@ -53,7 +55,7 @@ inline Pack first_lanes(int n, Pack a, Pack b) noexcept {
   return load(y);
 }
 /// Bit i is set where lane i of a <= b.
-inline unsigned not_above(Pack a, Pack b) noexcept {
+[[gnu::always_inline]] inline unsigned not_above(Pack a, Pack b) noexcept {
   double x[8], y[8];
   store(x, a);
   store(y, b);
@@ -64,12 +66,61 @@ inline unsigned not_above(Pack a, Pack b) noexcept {
 
 /// N packs of sectors from u on, with the last and the next sector of each.
 template <int N>
-inline void load_neighbours(const double* u, Pack* last, Pack* here, Pack* next) noexcept {
+[[gnu::always_inline]] inline void load_neighbours(const double* u, Pack* last, Pack* here,
+                                                   Pack* next) noexcept {
   for (int i = 0; i < N; ++i) {
     last[i] = load(u + i * 8 - 1);
     here[i] = load(u + i * 8);
     next[i] = load(u + i * 8 + 1);
   }
+}
+
+/// Eight vectors, one after the other (x, y).
+[[gnu::always_inline]] inline void load_pairs(const double* p, Pack& x, Pack& y) noexcept {
+  double a[8], b[8];
+  for (int i = 0; i < 8; ++i) {
+    a[i] = p[2 * i];
+    b[i] = p[2 * i + 1];
+  }
+  x = load(a);
+  y = load(b);
+}
+[[gnu::always_inline]] inline void store_pairs(double* p, Pack x, Pack y) noexcept {
+  double a[8], b[8];
+  store(a, x);
+  store(b, y);
+  for (int i = 0; i < 8; ++i) {
+    p[2 * i] = a[i];
+    p[2 * i + 1] = b[i];
+  }
+}
+
+/// K u of eight rows of `n` 2×2 blocks: k (n, rows, 4), column (n, rows) where its pair is in u.
+/// Four rows at a time: so many sums stay in registers.
+[[gnu::always_inline]] inline void row_products(std::int64_t n, const double* k,
+                                                const std::int32_t* column, const double* u,
+                                                Pack& x, Pack& y) noexcept {
+  double to_x[8], to_y[8];
+  for (int first = 0; first < 8; first += 4) {
+    Two sums[4][2] = {};  // of a row the products with k_xx and k_xy, with k_yx and k_yy
+    for (std::int64_t at = 0; at < n; ++at) {
+#pragma GCC unroll 4
+      for (int i = 0; i < 4; ++i) {
+        Two pair, block[2];
+        std::memcpy(&pair, u + column[at * 8 + first + i], sizeof pair);
+        std::memcpy(block, k + (at * 8 + first + i) * 4, sizeof block);
+        sums[i][0] += block[0] * pair;
+        sums[i][1] += block[1] * pair;
+      }
+    }
+#pragma GCC unroll 4
+    for (int i = 0; i < 4; ++i) {
+      to_x[first + i] = sums[i][0][0] + sums[i][0][1];
+      to_y[first + i] = sums[i][1][0] + sums[i][1][1];
+    }
+  }
+  x = load(to_x);
+  y = load(to_y);
 }
 
 constexpr int block_packs = 1;

@@ -2,6 +2,7 @@
 /// @file  The table of one instruction set. Included after a pack_*.hpp.
 #pragma once
 #include "rondo/dynamics/kernels/cyclic.hpp"
+#include "rondo/dynamics/kernels/sparse.hpp"
 
 namespace {
 
@@ -11,7 +12,11 @@ constexpr rondo::dynamics::kernels::Table table(const char* name) noexcept {
             {cyclic_strip<false, true, false>, cyclic_strip<false, true, true>}},
            {{cyclic_strip<true, false, false>, cyclic_strip<true, false, true>},
             {cyclic_strip<true, true, false>, cyclic_strip<true, true, true>}}},
-          low_columns};
+          low_columns,
+          {{{sparse_rows<false, false, false>, sparse_rows<false, false, true>},
+            {sparse_rows<false, true, false>, sparse_rows<false, true, true>}},
+           {{sparse_rows<true, false, false>, sparse_rows<true, false, true>},
+            {sparse_rows<true, true, false>, sparse_rows<true, true, true>}}}};
 }
 
 }  // namespace
