@@ -226,7 +226,7 @@ void SparseIntegrator::advance(std::span<StepReport> reports, State* last) noexc
   save_velocity(last->v);
   std::fill(n_active_.begin(), n_active_.end(), 0);
   advance_batch(reports.last(1));
-  save_velocity(last->v_next);
+  if (!last->v_next.empty()) save_velocity(last->v_next);
   save_active(last->active);
   last->step = step_;
   last->frame = reports.back().frame;

@@ -5,11 +5,13 @@
 
 #include <cstdint>
 #include <cstring>
+#include <memory>
 #include <string>
 #include <string_view>
 
 #include "rondo/dynamics/cyclic_integrator.hpp"
 #include "rondo/dynamics/dispatch.hpp"
+#include "rondo/dynamics/sparse_integrator.hpp"
 #include "support/models.hpp"
 
 using namespace rondo;
@@ -36,11 +38,19 @@ struct Outcome {
   Balance balance;
 };
 
-Outcome after(const test::Built& b, const kernels::Table& table, int steps) {
-  CyclicIntegrator integrator(b.model, test::start_at_rest(b.model), table);
+std::unique_ptr<Integrator> integrator_of(const Model& model, StiffnessOperator of,
+                                          const kernels::Table& table) {
+  const State start = test::start_at_rest(model);
+  if (of == StiffnessOperator::cyclic)
+    return std::make_unique<CyclicIntegrator>(model, start, table);
+  return std::make_unique<SparseIntegrator>(model, start, table);
+}
+
+Outcome after(const test::Built& b, StiffnessOperator of, const kernels::Table& table, int steps) {
+  const auto integrator = integrator_of(b.model, of, table);
   std::vector<StepReport> reports(static_cast<std::size_t>(steps));
   Outcome out{State(b.model), {}};
-  integrator.advance(reports, &out.state);
+  integrator->advance(reports, &out.state);
   out.balance = reports.back().balance;
   EXPECT_FALSE(out.state.active.empty());
   return out;
@@ -61,6 +71,25 @@ std::uint64_t bits_of(const Outcome& o) {
   return hash;
 }
 
+/// AVX2 does on two registers what AVX-512 does on one: the same bits. Without fused products the
+/// results differ by round-off.
+void expect_the_same(const test::Built& b, StiffnessOperator of) {
+  const Outcome best = after(b, of, *kernel_tables().front(), 200);
+  for (const kernels::Table* table : kernel_tables()) {
+    const Outcome other = after(b, of, *table, 200);
+    double size = 0.0, error = 0.0;
+    for (std::size_t i = 0; i < best.state.u.size(); ++i) {
+      size = std::max(size, norm(best.state.u[i]));
+      error = std::max(error, norm(best.state.u[i] - other.state.u[i]));
+    }
+    EXPECT_LT(error, 1e-11 * size) << table->name;
+    EXPECT_LT(other.balance.relative, 1e-14) << table->name;
+    if (std::string_view(table->name) != "baseline") {
+      EXPECT_EQ(bits_of(best), bits_of(other)) << table->name;
+    }
+  }
+}
+
 }  // namespace
 
 TEST(Levels, EndWithOneThatEveryMachineHas) {
@@ -68,26 +97,12 @@ TEST(Levels, EndWithOneThatEveryMachineHas) {
   EXPECT_STREQ(kernel_tables().back()->name, "baseline");
 }
 
-/// AVX2 does on two registers what AVX-512 does on one: the same bits. Without fused products the
-/// results differ by round-off.
 TEST(Levels, GiveTheSameToRoundOffAndFusedOnesTheSameBits) {
-  for (const bool tread : {false, true}) {
-    const test::Built b = rolling(tread);
-    const Outcome best = after(b, *kernel_tables().front(), 200);
-    for (const kernels::Table* table : kernel_tables()) {
-      const Outcome other = after(b, *table, 200);
-      double size = 0.0, error = 0.0;
-      for (std::size_t i = 0; i < best.state.u.size(); ++i) {
-        size = std::max(size, norm(best.state.u[i]));
-        error = std::max(error, norm(best.state.u[i] - other.state.u[i]));
-      }
-      EXPECT_LT(error, 1e-11 * size) << table->name;
-      EXPECT_LT(other.balance.relative, 1e-14) << table->name;
-      if (std::string_view(table->name) != "baseline") {
-        EXPECT_EQ(bits_of(best), bits_of(other)) << table->name;
-      }
+  for (const bool tread : {false, true})
+    for (const StiffnessOperator of : {StiffnessOperator::cyclic, StiffnessOperator::sparse}) {
+      SCOPED_TRACE(operator_name(of));
+      expect_the_same(rolling(tread), of);
     }
-  }
 }
 
 /// So that nobody changes them unawares. They also hang on the sines and cosines of the C library
@@ -100,15 +115,22 @@ TEST(Levels, BitsAreThoseRecorded) {
                  << " and " << __VERSION__;
   struct Record {
     std::string_view level;
+    StiffnessOperator of;
     std::uint64_t smooth, treaded;
   };
-  constexpr Record records[] = {{"avx512", 3874433451030308355U, 14781144385522393836U},
-                                {"avx2", 3874433451030308355U, 14781144385522393836U},
-                                {"baseline", 206957415440807762U, 1944564878519571354U}};
+  constexpr auto cyclic = StiffnessOperator::cyclic, sparse = StiffnessOperator::sparse;
+  constexpr Record records[] = {{"avx512", cyclic, 3874433451030308355U, 14781144385522393836U},
+                                {"avx2", cyclic, 3874433451030308355U, 14781144385522393836U},
+                                {"baseline", cyclic, 206957415440807762U, 1944564878519571354U},
+                                {"avx512", sparse, 0, 0},
+                                {"avx2", sparse, 0, 0},
+                                {"baseline", sparse, 0, 0}};
   for (const kernels::Table* table : kernel_tables())
     for (const Record& record : records) {
       if (record.level != table->name) continue;
-      EXPECT_EQ(bits_of(after(rolling(false), *table, 200)), record.smooth) << table->name;
-      EXPECT_EQ(bits_of(after(rolling(true), *table, 200)), record.treaded) << table->name;
+      SCOPED_TRACE(table->name);
+      SCOPED_TRACE(operator_name(record.of));
+      EXPECT_EQ(bits_of(after(rolling(false), record.of, *table, 200)), record.smooth);
+      EXPECT_EQ(bits_of(after(rolling(true), record.of, *table, 200)), record.treaded);
     }
 }

@@ -11,6 +11,7 @@
 #include <random>
 #include <vector>
 
+#include "rondo/dynamics/dispatch.hpp"
 #include "rondo/dynamics/numbering.hpp"
 #include "rondo/dynamics/stepper.hpp"
 #include "support/models.hpp"
@@ -137,7 +138,7 @@ TEST_P(Sparse, TheStepOfTheReferenceOnTrianglesNumberedByChance) {
   const test::FloatingPointTraps traps;
   State reference = some_start(model);
   Ledger ledger;
-  SparseIntegrator integrator(model, reference);
+  SparseIntegrator integrator(model, reference, kernel_table());
   State last(model);
   std::vector<StepReport> reports(100);
   int in_contact = 0;
@@ -160,10 +161,10 @@ TEST_P(Sparse, SameBitsForAnyNumberOfThreads) {
   const State start = some_start(model);
   State one(model), many(model);
   std::vector<StepReport> reports(50), others(50);
-  SparseIntegrator(model, start).advance(reports, &one);
+  SparseIntegrator(model, start, kernel_table()).advance(reports, &one);
   for (const int threads : {2, 3, 7}) {
     model.threads = threads;
-    SparseIntegrator(model, start).advance(others, &many);
+    SparseIntegrator(model, start, kernel_table()).advance(others, &many);
     EXPECT_EQ(one.u, many.u);
     EXPECT_EQ(one.v, many.v);
     EXPECT_EQ(one.v_next, many.v_next);
@@ -190,7 +191,7 @@ TEST(SparsePadding, StaysWhereItIs) {
   c.motion.gravity = 9.81;
   const Model model = mixed_model(c, false);
   EXPECT_NE(model.free.size() % 8, 0);
-  SparseIntegrator integrator(model, test::start_at_rest(model));
+  SparseIntegrator integrator(model, test::start_at_rest(model), kernel_table());
   std::vector<StepReport> reports(1000);
   for (int call = 0; call < 50; ++call) integrator.advance(reports, nullptr);
   EXPECT_TRUE(std::isfinite(reports.back().balance.kinetic));

@@ -131,7 +131,7 @@ struct Table {
   void (*cyclic_strip[2][2][2])(const CyclicStrip&) noexcept;
   /// Columns that are low enough, ascending; returns how many.
   int (*low_columns)(const CyclicHeight&, int* columns) noexcept;
-  /// [stiffness_damping][printed][pull]
+  /// [stiffness_damping][printed][unsteady]
   void (*sparse_rows[2][2][2])(const SparseRows&) noexcept;
 };
 

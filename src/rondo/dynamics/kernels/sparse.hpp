@@ -17,7 +17,7 @@ inline Vectors sparse_product(const SparseRows& s, std::ptrdiff_t pack) noexcept
   return product;
 }
 
-template <bool Beta, bool Pull>
+template <bool Beta, bool Unsteady>
 inline Nodes sparse_nodes(const SparseRows& s, const Factors& f, std::ptrdiff_t pack,
                           const double* motion) noexcept {
   const double* constants = s.constants + pack * 4 * lanes;
@@ -27,9 +27,11 @@ inline Nodes sparse_nodes(const SparseRows& s, const Factors& f, std::ptrdiff_t 
   n.v = load_vectors(motion, lanes);
   n.force = sparse_product(s, pack);
   n.before = Beta ? load_vectors(motion + 2 * lanes, lanes) : n.force;
-  n.frame = {fnma(f.rate.y, reference.y, f.rate.x * reference.x),
-             fma(f.rate.y, reference.x, f.rate.x * reference.y)};
-  if constexpr (Pull) n.frame = {n.frame.x + all(s.step->pull_x), n.frame.y + all(s.step->pull_y)};
+  n.frame = {f.rate.x * reference.x, f.rate.x * reference.y};
+  if constexpr (Unsteady) {
+    n.frame = {fnma(f.rate.y, reference.y, n.frame.x), fma(f.rate.y, reference.x, n.frame.y)};
+    n.frame = {n.frame.x + all(s.step->pull_x), n.frame.y + all(s.step->pull_y)};
+  }
   n.dt_over_mass = load(constants + 3 * lanes);
   return n;
 }
@@ -54,15 +56,15 @@ inline void store_sums(const Sums& sums, double* to) noexcept {
   store(to + sum_scheme * lanes, sums.scheme);
 }
 
-template <bool Beta, bool Printed, bool Pull>
+template <bool Beta, bool Printed, bool Unsteady>
 void sparse_rows(const SparseRows& s) noexcept {
   const Factors f(*s.step);
   Sums sums = no_sums();
   for (std::ptrdiff_t pack = s.first_pack; pack < s.last_pack; ++pack) {
     double* motion = s.motion + pack * (Beta ? 4 : 2) * lanes;
-    const Nodes n = sparse_nodes<Beta, Pull>(s, f, pack, motion);
+    const Nodes n = sparse_nodes<Beta, Unsteady>(s, f, pack, motion);
     Sums own = no_sums();
-    const Vectors after = update<Beta, Printed>(f, n, own);
+    const Vectors after = update<Beta, Printed, Unsteady>(f, n, own);
     add_sums(load(s.constants + (pack * 4 + 2) * lanes), own, sums);
     store_vectors(motion, lanes, after);
     if constexpr (Beta) store_vectors(motion + 2 * lanes, lanes, n.force);
