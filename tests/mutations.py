@@ -196,9 +196,6 @@ tributary at the edges of lands | land_before ? 0.5 * => true ? 0.5 * | mesh:Dis
 grading | , d.grading) => , 1.0) | mesh:Disk.Grading*
 sector numbering | sector.push_back(pitch) => sector.push_back(line) | mesh:Disk.Sectors*
 column 0 to the right | - 0.5 * std::numbers::pi; => ; | mesh:Disk.ColumnZero*
-@core/threads.hpp
-sum by the threads | t = term(i); => t = term(threads > 1 ? begin + end - 1 - i : i); |
-  core:BlockSums.*
 @io/results.cpp
 time written first | check(s);\n => check(s);\n  row(d.time, s.time);\n | io:ResultsOfAKilledRun.*
 times not NaN at first | d.time.write(view(never)); => | io:ResultsOfAKilledRun.*

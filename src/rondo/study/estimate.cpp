@@ -12,6 +12,7 @@
 #include <string_view>
 #include <system_error>
 
+#include "rondo/study/build.hpp"
 #include "rondo/study/run_output.hpp"
 
 namespace rondo::study {
@@ -27,13 +28,33 @@ std::size_t n_disk_cells(const mesh::Disk& disk) noexcept {
 
 namespace {
 
+std::size_t n_disk_sectors(const mesh::Disk& disk) noexcept {
+  return static_cast<std::size_t>(disk.tread ? disk.tread->pitches : disk.circumferential);
+}
+
+bool set_up_by_harmonics(const Case& c, std::size_t nodes) noexcept {
+  return c.analysis.kind == AnalysisKind::dynamic && 2 * nodes > harmonic_setup_dofs;
+}
+
+/// Of the assembled stiffness: 9 blocks of 2 x 2 doubles and an index for a node of a grid of
+/// quadrilaterals, held twice while they are assembled. Large disks go without.
+std::size_t stiffness_memory(const Case& c, std::size_t nodes) noexcept {
+  if (set_up_by_harmonics(c, nodes) && c.solver_operator != "sparse") return 0;
+  constexpr std::size_t blocks = 9;
+  return nodes * 2 * blocks * (4 * sizeof(double) + sizeof(int));
+}
+
 /// Of the Cholesky factors for a crush, the stationary start and the check of spin softening.
 /// Nested dissection of a plane grid fills in about n log2 n; the factor is fitted to runs of 10⁴
 /// to 4·10⁵ dofs.
 std::size_t factor_memory(const Case& c, std::size_t nodes) noexcept {
-  const double dofs = 2.0 * static_cast<double>(nodes);
+  const double dofs =
+      2.0 *
+      static_cast<double>(set_up_by_harmonics(c, nodes) ? nodes / n_disk_sectors(c.disk) : nodes);
+  const std::size_t of_a_sector =
+      set_up_by_harmonics(c, nodes) ? 2 * nodes / n_disk_sectors(c.disk) : 0;
   const bool checked =
-      c.motion.angular_velocity.largest() != 0.0 && 2 * nodes <= softening_check_dofs;
+      c.motion.angular_velocity.largest() != 0.0 && softening_is_checked(2 * nodes, of_a_sector);
   const bool crush = c.analysis.kind == AnalysisKind::crush;
   if (!checked && !crush && c.initial.state != InitialState::stationary) return 0;
   constexpr double bytes_per_entry = 60.0;
@@ -74,15 +95,12 @@ bool softening_is_checked(std::size_t dofs, std::size_t harmonic_dofs) noexcept 
 }
 
 std::size_t estimated_memory(const Case& c) noexcept {
-  // A node of a grid of quadrilaterals couples with 9 nodes: 2 x 2 blocks of doubles and an index
-  // each, held twice while the stiffness is assembled; state and fields are some 30 doubles.
-  constexpr std::size_t blocks = 9;
-  constexpr std::size_t stiffness = 2 * blocks * (4 * sizeof(double) + sizeof(int));
-  constexpr std::size_t fields = 30 * sizeof(double);
+  constexpr std::size_t fields = 30 * sizeof(double);  // mesh, model, state and what is written
   const std::size_t nodes = mesh::n_disk_nodes(c.disk);
   constexpr std::size_t program = 30'000'000;  // with its libraries
-  return program + nodes * (stiffness + fields) + n_disk_cells(c.disk) * sizeof(mesh::Cell) +
-         factor_memory(c, nodes) + compliance_memory(c, nodes) + queue_memory(c, nodes);
+  return program + nodes * fields + stiffness_memory(c, nodes) +
+         n_disk_cells(c.disk) * sizeof(mesh::Cell) + factor_memory(c, nodes) +
+         compliance_memory(c, nodes) + queue_memory(c, nodes);
 }
 
 std::size_t physical_memory() noexcept {

@@ -6,7 +6,7 @@
 
 #include "rondo/core/contract.hpp"
 #include "rondo/core/error.hpp"
-#include "rondo/core/threads.hpp"
+#include "rondo/core/sum.hpp"
 #include "rondo/core/vec2.hpp"
 
 using namespace rondo;
@@ -40,20 +40,6 @@ TEST(CompensatedSum, KeepsWhatPlainSumsLose) {
   CompensatedSum large;
   for (const double x : {1.0, 1e100, 1.0, -1e100}) large.add(x);
   EXPECT_EQ(large.value(), 2.0);
-}
-
-TEST(BlockSums, SameBitsForAnyNumberOfThreads) {
-  const std::size_t n = 10007;
-  BlockSums<2> sums(n);
-  const auto term = [](std::size_t i) {
-    const auto x = static_cast<double>(i);
-    return std::array<double, 2>{std::sin(x), 1.0 / (1.0 + x)};
-  };
-  const auto one = sums.sum(1, term);
-  for (const int threads : {2, 3, 7}) EXPECT_EQ(sums.sum(threads, term), one) << threads;
-  double direct = 0.0;
-  for (std::size_t i = 0; i < n; ++i) direct += 1.0 / (1.0 + static_cast<double>(i));
-  EXPECT_NEAR(one[1], direct, 1e-13);  // 1e4 terms of order 1 and below, summed plainly
 }
 
 TEST(Fault, NamesPlaceKeyFoundAndAllowed) {
