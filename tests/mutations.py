@@ -76,9 +76,45 @@ reference: step allocates | state.active.clear(); => state.active = State(model)
   dynamics:Allocation.*
 V1 step without increments | v + inverse * (model.dt * f - update.drag * v) =>
   inverse * (model.dt * f + (update.a - update.drag) * v) | W:*FreeSpin*
-V10 start without u | state.u[k] = u0[k]; => | V:*SpinUp.Stationary* dynamics:*AFree*
+V10 start without u | state.u = std::move(u0); => state.u.assign(u0.size(), {}); | V:*SpinUp.Stationary* dynamics:*AFree*
 start by a whole step | half = 0.5 * model.dt => half = model.dt | dynamics:*AFree*
 clamped nodes move | v + (half => (state.v_next[0] = v) + (half | dynamics:*ClampedNodes*
+@dynamics/step_context.cpp
+fast: sign of the centrifugal term | .rate_x = -dt => .rate_x = dt |
+  dynamics:*Operators* V:*Ledgers.*/plain*
+fast: no Euler term | .rate_y = dt * f.spin_rate => .rate_y = 0.0 * f.spin_rate |
+  dynamics:*Operators* V:*Ledgers.*/tables*
+fast: no pull | .pull_y = dt * f.pull.y => .pull_y = 0.0 | dynamics:*Operators* V:FreeFall.*
+fast: half of the drag | .drag_y = update.drag.y => .drag_y = 0.5 * update.drag.y |
+  dynamics:*Operators* V:*Ledgers.*
+fast: D_mass of the wrong mean | (printed ? 0.5 : 0.25) => 0.5 | V:*Ledgers.*/plain*
+@dynamics/kernels/update.hpp
+fast: strain at one time | add_dot(n.u, n.before, => add_dot(n.u, n.force, | V:*Ledgers.*/plain*
+fast: no stiffness damping | fma(f.beta_over_dt, change.x, elastic.x) => elastic.x |
+  dynamics:*Operators*
+fast: steady steps of a changing spin | if constexpr (Unsteady) => if constexpr (false && Unsteady) |
+  dynamics:*Operators*
+@dynamics/kernels/cyclic.hpp
+fast: last and next sector swapped | {next_x[i] - last_x[i], => {last_x[i] - next_x[i], |
+  dynamics:*Operators*
+fast: lanes past the last sector counted | if (sums && (pack + 1) * lanes > s.columns) => if (false) |
+  dynamics:*Operators*
+fast: last columns not looked at for contact | column < h.last; column += lanes =>
+  column + lanes <= h.last; column += lanes | dynamics:*Operators*
+@dynamics/cyclic_plan.cpp
+fast: a step runs into the one before | needed = std::max(needed, e.column / kernels::most_rows); =>
+  needed = 0; | dynamics:*Operators* dynamics:*Integrators*
+fast: mirrored with the wrong sign | .tr1 = 0.5 * (right[1] - left[1]) =>
+  .tr1 = 0.5 * (left[1] - right[1]) |
+  dynamics:*Operators*
+@dynamics/cyclic_chunk.cpp
+fast: edges of the same pass | double* left = edges_[pass % 2] => double* left = edges_[0] |
+  dynamics:*Integrators*
+fast: no wrap around the ring | u[range_.columns] = u[0]; => | dynamics:*Operators*
+fast: contact without u of the next step | put(t.row, work.next, t.column, u + model_.dt * v); => |
+  dynamics:*Operators*
+fast: halo contacts reported twice | if (t.column < 0 || t.column >= range_.columns) return; =>
+  if (t.column < 0 || t.column >= range_.columns + 8) return; | dynamics:*Integrators*
 @dynamics/scheme.hpp
 V12 as printed with a of symplectic | {{1.0, 0.0}, => {{1.0 + 0.5 * dt * alpha, dt * spin}, |
   V:*Schemes.AsPrintedGrows* V:*Ledgers.*/as_printed*
