@@ -4,11 +4,14 @@
 #include <gtest/gtest.h>
 
 #include <cstdint>
+#include <cstdio>
+#include <cstdlib>
 #include <cstring>
 #include <memory>
 #include <string>
 #include <string_view>
 
+#include "rondo/core/error.hpp"
 #include "rondo/dynamics/cyclic_integrator.hpp"
 #include "rondo/dynamics/dispatch.hpp"
 #include "rondo/dynamics/sparse_integrator.hpp"
@@ -95,6 +98,27 @@ void expect_the_same(const test::Built& b, StiffnessOperator of) {
 TEST(Levels, EndWithOneThatEveryMachineHas) {
   ASSERT_FALSE(kernel_tables().empty());
   EXPECT_STREQ(kernel_tables().back()->name, "baseline");
+}
+
+/// The whole of these tests is run again with each level in the environment: it must count.
+TEST(Levels, TheOneAskedForIsTaken) {
+  const char* asked = std::getenv("RONDO_DISPATCH");
+  EXPECT_STREQ(kernel_table().name, asked && *asked ? asked : kernel_tables().front()->name);
+}
+
+TEST(Levels, AnUnknownOneIsRefused) {
+  GTEST_FLAG_SET(death_test_style, "threadsafe");  // anew: this process may have chosen already
+  EXPECT_EXIT(
+      {
+        setenv("RONDO_DISPATCH", "sse9", 1);
+        try {
+          kernel_table();
+        } catch (const InputError& error) {
+          std::fputs(error.what(), stderr);
+          std::exit(2);
+        }
+      },
+      testing::ExitedWithCode(2), "RONDO_DISPATCH = sse9.*allowed: .*baseline");
 }
 
 TEST(Levels, GiveTheSameToRoundOffAndFusedOnesTheSameBits) {

@@ -1,0 +1,14 @@
+#!/usr/bin/env bash
+# SPDX-License-Identifier: BSD-3-Clause
+# with_dispatch.sh LEVEL PROGRAM: PROGRAM with the loops of an instruction set. Exits 77 where the
+# processor does not have it.
+set -euo pipefail
+case $1 in
+  avx2) needed="avx2 fma" ;;
+  baseline) needed="" ;;
+  *) echo "no such instruction set: $1"; exit 2 ;;
+esac
+for flag in $needed; do
+  grep -qw "$flag" /proc/cpuinfo || { echo "skipped: this processor has no $flag"; exit 77; }
+done
+RONDO_DISPATCH=$1 exec "$2"
