@@ -80,10 +80,9 @@ V10 start without u | state.u = std::move(u0); => state.u.assign(u0.size(), {});
 start by a whole step | half = 0.5 * model.dt => half = model.dt | dynamics:*AFree*
 clamped nodes move | v + (half => (state.v_next[0] = v) + (half | dynamics:*ClampedNodes*
 @dynamics/step_context.cpp
-fast: sign of the centrifugal term | .rate_x = -dt => .rate_x = dt |
-  dynamics:*Operators* V:*Ledgers.*/plain*
+fast: sign of the centrifugal term | .rate_x = -dt => .rate_x = dt | dynamics:*Operators*
 fast: no Euler term | .rate_y = dt * f.spin_rate => .rate_y = 0.0 * f.spin_rate |
-  dynamics:*Operators* V:*Ledgers.*/tables*
+  dynamics:*Operators*
 fast: no pull | .pull_y = dt * f.pull.y => .pull_y = 0.0 | dynamics:*Operators* V:FreeFall.*
 fast: half of the drag | .drag_y = update.drag.y => .drag_y = 0.5 * update.drag.y |
   dynamics:*Operators* V:*Ledgers.*
@@ -103,18 +102,18 @@ fast: last columns not looked at for contact | column < h.last; column += lanes 
   column + lanes <= h.last; column += lanes | dynamics:*Operators*
 @dynamics/cyclic_plan.cpp
 fast: a step runs into the one before | needed = std::max(needed, e.column / kernels::most_rows); =>
-  needed = 0; | dynamics:*Operators* dynamics:*Integrators*
+  needed = 0; | dynamics:*CyclicCuts*
 fast: mirrored with the wrong sign | .tr1 = 0.5 * (right[1] - left[1]) =>
   .tr1 = 0.5 * (left[1] - right[1]) |
   dynamics:*Operators*
 @dynamics/cyclic_chunk.cpp
 fast: edges of the same pass | double* left = edges_[pass % 2] => double* left = edges_[0] |
-  dynamics:*Integrators*
+  dynamics:*CyclicCuts*
 fast: no wrap around the ring | u[range_.columns] = u[0]; => | dynamics:*Operators*
 fast: contact without u of the next step | put(t.row, work.next, t.column, u + model_.dt * v); => |
   dynamics:*Operators*
 fast: halo contacts reported twice | if (t.column < 0 || t.column >= range_.columns) return; =>
-  if (t.column < 0 || t.column >= range_.columns + 8) return; | dynamics:*Integrators*
+  if (t.column >= range_.columns + 8) return; | dynamics:*CyclicCuts*
 @dynamics/scheme.hpp
 V12 as printed with a of symplectic | {{1.0, 0.0}, => {{1.0 + 0.5 * dt * alpha, dt * spin}, |
   V:*Schemes.AsPrintedGrows* V:*Ledgers.*/as_printed*

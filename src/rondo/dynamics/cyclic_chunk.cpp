@@ -9,6 +9,13 @@ namespace {
 constexpr int group_columns = kernels::group_packs * kernels::lanes;
 enum Field { field_u_even = 0, field_u_odd = 2, field_v = 4, field_force = 6 };
 
+/// The block of a mirrored row on the layer below (-1), at (0) or above it, `shift` sectors on.
+std::array<double, 4> mirrored_block(const kernels::MirrorRow& row, int layer, int shift) noexcept {
+  const kernels::MirrorBlock& m = layer < 0 ? row.below : layer == 0 ? row.here : row.above;
+  if (shift == 0) return {m.rr, 0.0, 0.0, m.tt};
+  return {m.rr1, shift * m.tr1, shift * m.rt1, m.tt1};
+}
+
 }  // namespace
 
 CyclicChunk::CyclicChunk(const Model& model, const CyclicPlan& plan, const kernels::Table& table,
@@ -60,6 +67,23 @@ int CyclicChunk::field_now() const noexcept {
   return steps_ % 2 == 0 ? field_u_even : field_u_odd;
 }
 
+/// K u_0 by the very blocks of the steps: with others, alike to round-off, the ledger would begin
+/// with their difference.
+Vec2 CyclicChunk::initial_force(const std::vector<Vec2>& u, int a, int c) const noexcept {
+  const fem::SectorStiffness& k = *model_.sector;
+  const int n = plan_.n_sectors, sector = range_.first + c;
+  Vec2 force;
+  for (const fem::SectorStiffness::Entry& e : k.row(static_cast<std::size_t>(a))) {
+    const auto there = static_cast<std::size_t>((sector + e.shift + n) % n);
+    const Vec2 x = conj(k.turn[there]) * u[k.node(static_cast<std::size_t>(e.column), there)];
+    std::array<double, 4> block = e.block;
+    if (!plan_.mirror.empty())
+      block = mirrored_block(plan_.mirror[static_cast<std::size_t>(a)], e.column - a, e.shift);
+    force += {block[0] * x.x + block[2] * x.y, block[1] * x.x + block[3] * x.y};
+  }
+  return force;
+}
+
 void CyclicChunk::load(const State& state) {
   const fem::SectorStiffness& k = *model_.sector;
   for (int a = 0; a < plan_.n_local; ++a)
@@ -70,7 +94,7 @@ void CyclicChunk::load(const State& state) {
       const Vec2 v = to_sector * state.v_next[node];
       put(a, field_now(), c, to_sector * state.u[node] + model_.dt * v);
       put(a, field_v, c, v);
-      if (plan_.keeps_force) put(a, field_force, c, to_sector * state.force[node]);
+      if (plan_.keeps_force) put(a, field_force, c, initial_force(state.u, a, c));
     }
   if (plan_.halo == Halo::ring)
     for (int a = 0; a < plan_.n_local; ++a) wrap(a, field_now());

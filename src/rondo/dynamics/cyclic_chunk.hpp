@@ -16,7 +16,7 @@ class CyclicChunk {
   CyclicChunk(const Model& model, const CyclicPlan& plan, const kernels::Table& table,
               const CyclicChunkRange& range);
 
-  /// From u_n, v_{n+1/2} (state.v_next) and, with β, K u_n (state.force): u_{n+1} and these.
+  /// From u_n and v_{n+1/2} (state.v_next): u_{n+1} and, with β, K u_n.
   void load(const State& state);
   /// u_{n+1} of this chunk's own nodes into u, v_{n+1/2} into v, (n) each.
   void save_displacement(std::vector<Vec2>& u) const noexcept;
@@ -65,6 +65,7 @@ class CyclicChunk {
     int now, next;      ///< fields of u before and after the step
     bool last;          ///< of the pass
   };
+  [[nodiscard]] Vec2 initial_force(const std::vector<Vec2>& u, int a, int c) const noexcept;
   void strip(const Work& work, int i) noexcept;
   void find_touching(const Work& work, int a) noexcept;
   void solve_node(const Work& work, const Touching& t) noexcept;

@@ -13,7 +13,8 @@ namespace rondo::dynamics {
 class CyclicIntegrator : public Integrator {
  public:
   /// @pre model.sector is there. @throws std::bad_alloc
-  CyclicIntegrator(const Model& model, const State& start, const kernels::Table& table);
+  CyclicIntegrator(const Model& model, const State& start, const kernels::Table& table,
+                   const CyclicTuning& tuning = {});
 
   void advance(std::span<StepReport> reports, State* last) noexcept override;
   void fields(State& state) const noexcept override;

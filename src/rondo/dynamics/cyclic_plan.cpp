@@ -14,11 +14,6 @@ namespace {
 using fem::SectorStiffness;
 
 constexpr int group_columns = kernels::group_packs * kernels::lanes;
-/// Fields below this stay in the cache of a core from step to step: no passes of several steps.
-constexpr std::size_t cache_bytes = 1'200'000;
-/// Columns of a chunk that several steps pass over: their rows stay in the cache, the halo is
-/// small.
-constexpr int chunk_columns = 768;
 
 void cut(CyclicPlan& plan, int n_chunks) {
   const int groups = static_cast<int>(plan.n_groups);
@@ -35,26 +30,25 @@ void cut(CyclicPlan& plan, int n_chunks) {
 
 /// Chunks for the threads and for the cache; many steps in a pass where the fields are larger than
 /// it.
-void choose_chunks(CyclicPlan& plan, int threads) {
+void choose_chunks(CyclicPlan& plan, int threads, const CyclicTuning& tuning) {
   plan.n_groups = static_cast<std::size_t>((plan.n_sectors + group_columns - 1) / group_columns);
   const int groups = static_cast<int>(plan.n_groups);
   const std::size_t bytes = static_cast<std::size_t>(plan.n_local) *
                             static_cast<std::size_t>(plan.n_sectors * plan.n_fields()) *
                             sizeof(double);
-  const bool in_cache = bytes < cache_bytes * static_cast<std::size_t>(threads);
+  const bool in_cache = bytes < tuning.cache_bytes * static_cast<std::size_t>(threads);
   const int for_threads = std::min(threads, groups);
-  const int for_cache = in_cache ? 1 : std::max(1, plan.n_sectors / chunk_columns);
+  const int for_cache = in_cache ? 1 : std::max(1, plan.n_sectors / tuning.chunk_columns);
   const int n_chunks =
       (std::max(for_threads, for_cache) + for_threads - 1) / for_threads * for_threads;
   cut(plan, std::min(n_chunks, groups));
   const auto narrowest =
       std::min_element(plan.chunks.begin(), plan.chunks.end(),
                        [](const auto& a, const auto& b) { return a.columns < b.columns; });
-  constexpr int worth_a_wide_halo = 16 * halo_columns;
   if (plan.chunks.size() == 1)
     plan.halo = Halo::ring;
   else
-    plan.halo = narrowest->columns >= worth_a_wide_halo ? Halo::wide : Halo::narrow;
+    plan.halo = narrowest->columns >= tuning.wide_halo_columns ? Halo::wide : Halo::narrow;
   const bool one_by_one = plan.halo == Halo::ring ? in_cache : plan.halo == Halo::narrow;
   plan.depth = one_by_one ? 1 : most_steps_in_a_pass;
 }
@@ -152,6 +146,8 @@ void add_contact(const Model& model, const SectorStiffness& k, CyclicPlan& plan)
     plan.candidate[static_cast<std::size_t>(row)]
                   [static_cast<std::size_t>(node / k.nodes_per_sector)] = static_cast<int>(i);
   }
+  for (const std::vector<int>& ring : plan.candidate)  // the same nodes in every sector
+    RONDO_DEMAND(std::find(ring.begin(), ring.end(), -1) == ring.end(), ring.size());
 }
 
 /// Room for the columns of the widest chunk, whole packs, and the halo on both sides. Fields whose
@@ -168,14 +164,14 @@ std::ptrdiff_t choose_stride(const CyclicPlan& plan) {
 
 }  // namespace
 
-CyclicPlan make_cyclic_plan(const Model& model) {
+CyclicPlan make_cyclic_plan(const Model& model, const CyclicTuning& tuning) {
   RONDO_DEMAND(model.sector.has_value());
   const SectorStiffness& k = *model.sector;
   CyclicPlan plan;
   plan.n_local = static_cast<int>(k.n_local());
   plan.n_sectors = k.n_sectors;
   plan.keeps_force = model.stiffness_damping > 0.0;
-  choose_chunks(plan, model.threads);
+  choose_chunks(plan, model.threads, tuning);
   plan.stride = choose_stride(plan);
   add_rows(model, k, plan);
   add_mirror(k, plan);

@@ -58,7 +58,18 @@ struct CyclicPlan {
   static constexpr std::ptrdiff_t lead = 2 * halo_columns;
 };
 
-/// @pre model.sector is there. Bits do not depend on how the ring is cut.
-CyclicPlan make_cyclic_plan(const Model& model);
+/// What the cut is fitted to. The bits of the results do not hang on it.
+struct CyclicTuning {
+  /// Fields below this stay in the cache of a core from step to step: no passes of several steps.
+  std::size_t cache_bytes = 1'200'000;
+  /// Columns of a chunk that several steps pass over: its rows stay in the cache, its halo is
+  /// small.
+  int chunk_columns = 768;
+  /// A halo of eight columns is advanced along where no chunk is narrower than this.
+  int wide_halo_columns = 16 * halo_columns;
+};
+
+/// @pre model.sector is there.
+CyclicPlan make_cyclic_plan(const Model& model, const CyclicTuning& tuning = {});
 
 }  // namespace rondo::dynamics

@@ -38,8 +38,11 @@ std::string reason() {
   throw FileError(path, doing + ": " + reason());
 }
 
-/// Errors are thrown, never printed. HDF5 may keep that setting for each thread.
+/// Errors are thrown, never printed. HDF5 may keep that setting for each thread. What could not be
+/// written is not tried again when the program ends: HDF5 would crash on a file that cannot grow.
 void be_quiet() {
+  static const herr_t no_work_at_exit = H5dont_atexit();
+  static_cast<void>(no_work_at_exit);
   thread_local const herr_t done = H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);
   static_cast<void>(done);
 }

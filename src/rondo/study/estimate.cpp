@@ -33,7 +33,11 @@ std::size_t n_disk_sectors(const mesh::Disk& disk) noexcept {
 }
 
 bool set_up_by_harmonics(const Case& c, std::size_t nodes) noexcept {
-  return c.analysis.kind == AnalysisKind::dynamic && 2 * nodes > harmonic_setup_dofs;
+  const auto on_the_rim = static_cast<std::size_t>(
+      c.disk.tread
+          ? c.disk.tread->pitches * (c.disk.tread->land_columns + c.disk.tread->groove_columns)
+          : c.disk.circumferential);
+  return c.analysis.kind == AnalysisKind::dynamic && 2 * (nodes - on_the_rim) > harmonic_setup_dofs;
 }
 
 /// Of the assembled stiffness: 9 blocks of 2 x 2 doubles and an index for a node of a grid of
@@ -95,7 +99,8 @@ bool softening_is_checked(std::size_t dofs, std::size_t harmonic_dofs) noexcept 
 }
 
 std::size_t estimated_memory(const Case& c) noexcept {
-  constexpr std::size_t fields = 30 * sizeof(double);  // mesh, model, state and what is written
+  // Mesh, model, state and what is written; weights and nodal values of the stress.
+  const std::size_t fields = (c.output.stress ? 38 : 30) * sizeof(double);
   const std::size_t nodes = mesh::n_disk_nodes(c.disk);
   constexpr std::size_t program = 30'000'000;  // with its libraries
   return program + nodes * fields + stiffness_memory(c, nodes) +

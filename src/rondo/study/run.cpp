@@ -106,13 +106,13 @@ Trouble find_trouble(const dynamics::Balance& b, const ContactStatistics& contac
 /// The message names the step that made the trouble: what a half step shows came from the step
 /// before.
 void judge(const Setup& setup, const dynamics::StepReport& step,
-           const dynamics::Integrator& integrator, dynamics::State& state, Loop& loop) {
+           const dynamics::Integrator& integrator, Loop& loop) {
   Trouble trouble = find_trouble(step.balance, loop.contact);
   if (trouble.what.empty()) return;
   if (trouble.not_finite) {
-    state.v_next.resize(state.u.size());
-    integrator.fields(state);
-    trouble.what = not_finite(state, trouble.what);
+    dynamics::State now(setup.model);  // after the steps of this call
+    integrator.fields(now);
+    trouble.what = not_finite(now, trouble.what);
   }
   loop.status = RunStatus::failed;
   const double half = trouble.at_half_step ? 0.5 * setup.model.dt : 0.0;
@@ -141,9 +141,11 @@ class Runner {
 
   Loop run() {
     output_.observe(state_);
-    state_.v = state_.force_before = std::vector<Vec2>();  // memory that the integrator will have
+    for (std::vector<Vec2>* field : {&state_.v, &state_.force_before})
+      std::vector<Vec2>().swap(*field);  // memory that the integrator will have
     integrator_ = make_integrator(setup_.model, state_);
-    state_.force = state_.v_next = std::vector<Vec2>();
+    for (std::vector<Vec2>* field : {&state_.force, &state_.v_next})
+      std::vector<Vec2>().swap(*field);
     state_.v.resize(state_.u.size());
     const auto wall = Clock::now();
     const std::clock_t cpu = std::clock();
@@ -175,7 +177,7 @@ class Runner {
     ++loop_.steps;
     loop_.contact.add(step.contact);
     loop_.balance = step.balance;
-    judge(setup_, step, *integrator_, state_, loop_);
+    judge(setup_, step, *integrator_, loop_);
     if (loop_.status == RunStatus::done && stop) loop_.status = RunStatus::interrupted;
     output_.observe(step, loop_.steps == setup_.n_steps || loop_.status != RunStatus::done);
   }
@@ -186,7 +188,7 @@ class Runner {
     dynamics::StepReport& beyond = reports_.front();
     integrator_->advance({&beyond, 1});
     loop_.balance = beyond.balance;
-    judge(setup_, beyond, *integrator_, state_, loop_);
+    judge(setup_, beyond, *integrator_, loop_);
   }
 
   const Setup& setup_;
@@ -293,6 +295,7 @@ Loop record(const Case& c, Setup& setup, const RunOptions& options, const Json& 
 RunReport run_case(const Case& c, const RunOptions& options) {
   if (c.analysis.kind == AnalysisKind::crush) return run_crush(c, options);
   const auto begin = Clock::now();
+  static_cast<void>(dispatch_level());  // a wrong one is told before anything is built
   Setup setup = build(c, options.threads);
   give_warnings(all_warnings(c, setup), options);
   Json json = describe(c, setup);
