@@ -335,6 +335,42 @@ class Check(ProgramTest):
 
 
 class Program(ProgramTest):
+    def test_the_instruction_set_is_told_and_can_be_asked_for(self):
+        best = run("--version").stdout.split("kernels ")[1].rstrip(")\n")
+        forces = {}
+        for level in dict.fromkeys((best, "baseline")):
+            environment = os.environ | {"RONDO_DISPATCH": level}
+            out = self.folder / level
+            self.assertEqual(run("run", self.case(), "-o", out, env=environment).returncode, 0)
+            self.assertEqual(summary(out)["dispatch"], level)
+            self.assertIn(f"kernels {level})", run("--version", env=environment).stdout)
+            forces[level] = history(out)["force_y"]
+        scale = np.abs(forces[best]).max()
+        self.assertGreater(scale, 0.0)
+        self.assertLess(np.abs(forces[best] - forces["baseline"]).max(), 1e-8 * scale)
+
+    def test_an_unknown_instruction_set_is_refused_before_anything_is_built(self):
+        for command in (("run", self.case(), "-o", self.folder / "out"), ("check", self.case()),
+                        ("--version",)):
+            done = run(*command, env=os.environ | {"RONDO_DISPATCH": "sse9"})
+            self.assertEqual(done.returncode, 2, command)
+            for said in ("RONDO_DISPATCH = sse9", "baseline"):
+                self.assertIn(said, done.stderr, command)
+        self.assertFalse((self.folder / "out").exists())
+
+    def test_operators_give_the_same_to_round_off(self):
+        both = []
+        for operator in ("cyclic", "sparse"):
+            out = self.folder / operator
+            run("run", self.case(), "-o", out, "--set", f"solver.operator={operator}")
+            self.assertEqual(summary(out)["operator"], operator)
+            self.assertLess(summary(out)["energy_residual_relative"], 1e-13)
+            both.append(history(out))
+        for column in ("force_x", "force_y", "strain", "work_frame", "dissipation_friction"):
+            scale = np.abs(both[0][column]).max()
+            self.assertGreater(scale, 0.0, column)
+            self.assertLess(np.abs(both[0][column] - both[1][column]).max(), 1e-8 * scale, column)
+
     def test_version_and_help(self):
         self.assertRegex(run("--version").stdout, r"^rondo \d+\.\d+\.\d+ ")
         for arguments in (["--help"], ["run", "--help"], ["check", "--help"]):

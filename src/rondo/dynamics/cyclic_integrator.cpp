@@ -53,9 +53,7 @@ void CyclicIntegrator::passes(std::size_t n_steps, std::size_t thread,
       chunks_[c].pass(steps, parts_.data() + done * plan_.n_groups, plan_.n_groups);
       if (plan_.halo != Halo::ring) chunks_[c].give_edges(pass + 1);
     }
-    if (n_threads > 1) {
-#pragma omp barrier
-    }
+    if (n_threads > 1) barrier_.wait(static_cast<unsigned>(n_threads));
   }
 }
 

@@ -5,6 +5,7 @@
 #pragma once
 #include <vector>
 
+#include "rondo/core/barrier.hpp"
 #include "rondo/dynamics/cyclic_chunk.hpp"
 #include "rondo/dynamics/integrator.hpp"
 
@@ -29,6 +30,7 @@ class CyclicIntegrator : public Integrator {
   std::vector<CyclicChunk> chunks_;
   std::vector<StepContext> steps_;  ///< of a batch
   std::vector<PartialStep> parts_;  ///< (steps of a batch, groups of the ring)
+  Barrier barrier_;
   Ledger ledger_;
   long long step_ = 0;  ///< number of the last step made
   unsigned pass_ = 0;   ///< number of the next pass

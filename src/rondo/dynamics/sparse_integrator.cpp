@@ -183,9 +183,7 @@ void SparseIntegrator::steps_of(std::size_t n_steps, std::size_t thread,
                     parts_.data() + i * n, i + 1 == n_steps};
     for (std::size_t block = n * thread / n_threads; block < n * (thread + 1) / n_threads; ++block)
       make_block(work, block, touching_[thread]);
-    if (n_threads > 1) {
-#pragma omp barrier
-    }
+    if (n_threads > 1) barrier_.wait(static_cast<unsigned>(n_threads));
   }
 }
 

@@ -5,6 +5,7 @@
 #include <array>
 #include <vector>
 
+#include "rondo/core/barrier.hpp"
 #include "rondo/core/large_array.hpp"
 #include "rondo/dynamics/integrator.hpp"
 #include "rondo/dynamics/sparse_plan.hpp"
@@ -66,6 +67,7 @@ class SparseIntegrator : public Integrator {
   std::vector<std::vector<Touching>> touching_;  ///< of each thread
   std::vector<ActiveContact> active_;            ///< (nb, 2) of the last step of a batch
   std::vector<int> n_active_;                    ///< (nb) how many of them
+  Barrier barrier_;
   Ledger ledger_;
   long long step_ = 0;   ///< number of the last step made
   std::size_t now_ = 0;  ///< which u is that of the step to come
