@@ -114,6 +114,32 @@ fast: contact without u of the next step | put(t.row, work.next, t.column, u + m
   dynamics:*Operators*
 fast: halo contacts reported twice | if (t.column < 0 || t.column >= range_.columns) return; =>
   if (t.column >= range_.columns + 8) return; | dynamics:*CyclicCuts*
+  if (t.column < 0 || t.column >= range_.columns + 8) return; | dynamics:*Integrators*
+@dynamics/numbering.cpp
+sparse: nodes as given | if (bandwidth(k, other).mean < bandwidth(k, nodes).mean) return other; => |
+  dynamics:Numbering.TheWidth*
+sparse: always another order | if (bandwidth(k, other).mean < bandwidth(k, nodes).mean) return other; =>
+  return other; | dynamics:Numbering.AGood*
+sparse: walks begin anywhere | node = end.node; => | dynamics:Numbering.AChain*
+sparse: one connected part only | if (!walker.in_order(node)) walker => if (node == nodes[0]) walker |
+  dynamics:Numbering.Parts*
+@dynamics/sparse_plan.cpp
+sparse: blocks transposed | {xx, xy, yx, yy} => {xx, yx, xy, yy} |
+  dynamics:*Sparse.TheStep* dynamics:*Operators*
+sparse: packs as long as a short row | row_length(k, a) > row_length(k, b) =>
+  row_length(k, a) < row_length(k, b) | dynamics:*Sparse.TheStep*
+@dynamics/sparse_integrator.cpp
+sparse: the last pack is flung out | if (block + 1 == plan_.n_blocks) rest_padding(work.next); => |
+  dynamics:SparsePadding.*
+sparse: threads do not wait | #pragma omp barrier => | dynamics:*SameBits*
+sparse: contact without u of the next step | work.next[2 * c.row] = u.x; => | dynamics:*Operators*
+sparse: sums without the impulse | correct_sums(*work.step, node, after, change, part.sums); =>
+  static_cast<void>(change); | dynamics:*Sparse.TheStep* dynamics:*Operators*
+sparse: contacts of an earlier step | std::fill(n_active_.begin(), n_active_.end(), 0); => |
+  dynamics:*Operators*
+@dynamics/kernels/sparse.hpp
+sparse: kinetic energy without mass | sums.kinetic = fma(mass, pack.kinetic, sums.kinetic) =>
+  sums.kinetic = sums.kinetic + pack.kinetic | dynamics:*Sparse.TheStep* dynamics:*Operators*
 @dynamics/scheme.hpp
 V12 as printed with a of symplectic | {{1.0, 0.0}, => {{1.0 + 0.5 * dt * alpha, dt * spin}, |
   V:*Schemes.AsPrintedGrows* V:*Ledgers.*/as_printed*
