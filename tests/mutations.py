@@ -104,8 +104,7 @@ fast: last columns not looked at for contact | column < h.last; column += lanes 
 fast: a step runs into the one before | needed = std::max(needed, e.column / kernels::most_rows); =>
   needed = 0; | dynamics:*CyclicCuts*
 fast: mirrored with the wrong sign | .tr1 = 0.5 * (right[1] - left[1]) =>
-  .tr1 = 0.5 * (left[1] - right[1]) |
-  dynamics:*Operators*
+  .tr1 = 0.5 * (left[1] - right[1]) | dynamics:*Operators*
 @dynamics/cyclic_chunk.cpp
 fast: edges of the same pass | double* left = edges_[pass % 2] => double* left = edges_[0] |
   dynamics:*CyclicCuts*
@@ -114,7 +113,6 @@ fast: contact without u of the next step | put(t.row, work.next, t.column, u + m
   dynamics:*Operators*
 fast: halo contacts reported twice | if (t.column < 0 || t.column >= range_.columns) return; =>
   if (t.column >= range_.columns + 8) return; | dynamics:*CyclicCuts*
-  if (t.column < 0 || t.column >= range_.columns + 8) return; | dynamics:*Integrators*
 @dynamics/numbering.cpp
 sparse: nodes as given | if (bandwidth(k, other).mean < bandwidth(k, nodes).mean) return other; => |
   dynamics:Numbering.TheWidth*
@@ -131,7 +129,8 @@ sparse: packs as long as a short row | row_length(k, a) > row_length(k, b) =>
 @dynamics/sparse_integrator.cpp
 sparse: the last pack is flung out | if (block + 1 == plan_.n_blocks) rest_padding(work.next); => |
   dynamics:SparsePadding.*
-sparse: threads do not wait | #pragma omp barrier => | dynamics:*SameBits*
+sparse: threads do not wait | if (n_threads > 1) barrier_.wait(static_cast<unsigned>(n_threads)); =>
+  | dynamics:*SameBits*
 sparse: contact without u of the next step | work.next[2 * c.row] = u.x; => | dynamics:*Operators*
 sparse: sums without the impulse | correct_sums(*work.step, node, after, change, part.sums); =>
   static_cast<void>(change); | dynamics:*Sparse.TheStep* dynamics:*Operators*
