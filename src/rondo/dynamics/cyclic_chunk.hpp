@@ -55,7 +55,7 @@ class CyclicChunk {
     return {turn_x_[padded(column)], turn_y_[padded(column)]};
   }
   static std::size_t padded(int column) noexcept {
-    return static_cast<std::size_t>(column + halo_columns);
+    return static_cast<std::size_t>(std::ptrdiff_t{column} + halo_columns);
   }
   /// The step in hand of a pass.
   struct Work {
