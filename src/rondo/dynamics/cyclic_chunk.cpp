@@ -41,7 +41,7 @@ CyclicChunk::CyclicChunk(const Model& model, const CyclicPlan& plan, const kerne
         edge =
             LargeArray(static_cast<std::size_t>(plan.n_local * edge_width() * 2) * n_edge_fields());
   if (!model.contact) return;
-  const auto most = static_cast<std::size_t>(range.columns + 2 * halo_columns);
+  const auto most = static_cast<std::size_t>(range.columns) + 2 * halo_columns;
   low_.resize(most + kernels::lanes);
   touching_.reserve(most * kernels::most_rows);
   active_.reserve(2 * most * plan.candidate.size());
@@ -88,8 +88,9 @@ void CyclicChunk::load(const State& state) {
   const fem::SectorStiffness& k = *model_.sector;
   for (int a = 0; a < plan_.n_local; ++a)
     for (int c = 0; c < range_.columns; ++c) {
+      const int sector = range_.first + c;
       const std::size_t node =
-          k.node(static_cast<std::size_t>(a), static_cast<std::size_t>(range_.first + c));
+          k.node(static_cast<std::size_t>(a), static_cast<std::size_t>(sector));
       const Vec2 to_sector = conj(turn(c));
       const Vec2 v = to_sector * state.v_next[node];
       put(a, field_now(), c, to_sector * state.u[node] + model_.dt * v);
@@ -102,10 +103,12 @@ void CyclicChunk::load(const State& state) {
 
 void CyclicChunk::save_field(int field, std::vector<Vec2>& out) const noexcept {
   const fem::SectorStiffness& k = *model_.sector;
-  for (int c = 0; c < range_.columns; ++c)
+  for (int c = 0; c < range_.columns; ++c) {
+    const int sector = range_.first + c;
     for (int a = 0; a < plan_.n_local; ++a)
-      out[k.node(static_cast<std::size_t>(a), static_cast<std::size_t>(range_.first + c))] =
+      out[k.node(static_cast<std::size_t>(a), static_cast<std::size_t>(sector))] =
           turn(c) * at(a, field, c);
+  }
 }
 
 void CyclicChunk::save_displacement(std::vector<Vec2>& u) const noexcept {

@@ -103,8 +103,8 @@ void add_mirror(const SectorStiffness& k, CyclicPlan& plan) {
     std::array<std::array<std::array<double, 4>, 3>, 3> blocks{};  // [layer][shift]
     for (const SectorStiffness::Entry& e : k.row(static_cast<std::size_t>(a))) {
       if (std::abs(e.column - a) > 1) return;
-      blocks[static_cast<std::size_t>(e.column - a + 1)][static_cast<std::size_t>(e.shift + 1)] =
-          e.block;
+      const int layer = e.column - a + 1, place = e.shift + 1;
+      blocks[static_cast<std::size_t>(layer)][static_cast<std::size_t>(place)] = e.block;
       largest = std::max(largest, std::abs(e.block[0]));
     }
     const auto block = [&](std::size_t layer) {

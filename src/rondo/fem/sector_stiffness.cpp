@@ -167,7 +167,8 @@ void apply(const SectorStiffness& k, std::span<const Vec2> u, std::span<Vec2> ou
     for (std::size_t a = 0; a < k.n_local(); ++a) {
       Vec2 sum;
       for (const SectorStiffness::Entry& e : k.row(a)) {
-        const std::size_t there = sector[static_cast<std::size_t>(e.shift + 1)];
+        const int place = e.shift + 1;
+        const std::size_t there = sector[static_cast<std::size_t>(place)];
         const Vec2 c = conj(k.turn[there]) * u[k.node(static_cast<std::size_t>(e.column), there)];
         sum += {e.block[0] * c.x + e.block[2] * c.y, e.block[1] * c.x + e.block[3] * c.y};
       }

@@ -92,7 +92,7 @@ inline void row_products(std::int64_t n, const double* k, const std::int32_t* co
   for (; n > 0; --n, k += 32, column += 8) {
 #pragma GCC unroll 4
     for (int i = 0; i < 4; ++i) {
-      std::uint64_t columns;
+      std::uint64_t columns = 0;
       __builtin_memcpy(&columns, column + 2 * i, sizeof columns);
       const __m512d even = _mm512_broadcast_f64x2(_mm_loadu_pd(u + (columns & 0xFFFFFFFF)));
       const __m512d both =
