@@ -100,6 +100,11 @@ void ContactReport::add(const ContactReport& other) noexcept {
   sticking += other.sticking;
   pairs += other.pairs;
   pairs_not_converged += other.pairs_not_converged;
+  clusters += other.clusters;
+  clusters_not_converged += other.clusters_not_converged;
+  cluster_largest = std::max(cluster_largest, other.cluster_largest);
+  cluster_iterations = std::max(cluster_iterations, other.cluster_iterations);
+  between_bodies += other.between_bodies;
   length += other.length;
   penetration = std::max(penetration, other.penetration);
   free_velocity = std::max(free_velocity, other.free_velocity);

@@ -18,10 +18,15 @@ struct ContactReport {
   int sticking = 0;              ///< of these, those that stick
   int pairs = 0;                 ///< nodes held by two facets
   int pairs_not_converged = 0;   ///< of these, no case met the law to 1e-12
-  double length = 0.0;           ///< Σ tributary lengths of nodes with r_n > 0           [m]
-  double penetration = 0.0;      ///< largest -gap of an active contact, >= 0             [m]
-  double free_velocity = 0.0;    ///< largest |w_free|                                    [m/s]
-  double residual = 0.0;         ///< largest law residual over the node's mass           [m/s]
+  int clusters = 0;              ///< groups of two contacts and more that share nodes
+  int clusters_not_converged = 0;
+  int cluster_largest = 0;     ///< contacts of the largest
+  int cluster_iterations = 0;  ///< most that one took
+  int between_bodies = 0;      ///< nodes pressed against a segment of a body
+  double length = 0.0;         ///< Σ tributary lengths of nodes with r_n > 0           [m]
+  double penetration = 0.0;    ///< largest -gap of an active contact, >= 0             [m]
+  double free_velocity = 0.0;  ///< largest |w_free|                                    [m/s]
+  double residual = 0.0;       ///< largest law residual over the node's mass           [m/s]
   // Works of the impulses (5.3), (5.5) [J/m].
   double work = 0.0;
   double dissipation_friction = 0.0;

@@ -12,16 +12,23 @@ void Ledger::compare(double kinetic, double strain) noexcept {
   b.strain = strain;
   if (!started_) start_ = b.kinetic + b.strain;
   started_ = true;
-  b.works = {frame_.value(), contact_.value(), friction_.value(),  impact_.value(),
-             rim_.value(),   mass_.value(),    stiffness_.value(), scheme_.value()};
+  b.works = {.frame = frame_.value(),
+             .contact = contact_.value(),
+             .dissipation_friction = friction_.value(),
+             .loss_impact = impact_.value(),
+             .load = load_.value(),
+             .rim = rim_.value(),
+             .dissipation_mass = mass_.value(),
+             .dissipation_stiffness = stiffness_.value(),
+             .scheme = scheme_.value()};
   const Works& w = b.works;
   CompensatedSum rest;
-  for (const double term : {b.kinetic, b.strain, -start_, -w.frame, -w.contact, w.dissipation_mass,
-                            w.dissipation_stiffness, -w.scheme})
+  for (const double term : {b.kinetic, b.strain, -start_, -w.frame, -w.contact, -w.load,
+                            w.dissipation_mass, w.dissipation_stiffness, -w.scheme})
     rest.add(term);
   b.residual = rest.value();
-  const double works = std::abs(w.frame) + std::abs(w.contact) + std::abs(w.dissipation_mass) +
-                       std::abs(w.dissipation_stiffness);
+  const double works = std::abs(w.frame) + std::abs(w.contact) + std::abs(w.load) +
+                       std::abs(w.dissipation_mass) + std::abs(w.dissipation_stiffness);
   b.exchanged = std::max(b.exchanged, std::abs(b.kinetic + b.strain) + works + std::abs(w.scheme));
   b.otherwise = std::max(b.otherwise, std::abs(start_) + works);
   if (b.residual != 0.0) b.relative = std::max(b.relative, std::abs(b.residual) / b.exchanged);
@@ -34,6 +41,7 @@ void Ledger::add(const StepEnergy& step) noexcept {
   contact_.add(w.contact);
   friction_.add(w.dissipation_friction);
   impact_.add(w.loss_impact);
+  load_.add(w.load);
   rim_.add(w.rim);
   mass_.add(w.dissipation_mass);
   stiffness_.add(w.dissipation_stiffness);

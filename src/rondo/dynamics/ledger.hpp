@@ -12,7 +12,8 @@ struct Works {
   double contact = 0.0;  ///< = rim - friction - impact
   double dissipation_friction = 0.0;
   double loss_impact = 0.0;
-  double rim = 0.0;  ///< done by the rim against the ground's impulses
+  double load = 0.0;  ///< of pressures on the boundary
+  double rim = 0.0;   ///< done by the rim against the ground's impulses
   double dissipation_mass = 0.0;
   double dissipation_stiffness = 0.0;
   double scheme = 0.0;  ///< 0 for symplectic; what the scheme as printed creates
@@ -48,7 +49,7 @@ class Ledger {
  private:
   void compare(double kinetic, double strain) noexcept;
 
-  CompensatedSum frame_, contact_, friction_, impact_, rim_, mass_, stiffness_, scheme_;
+  CompensatedSum frame_, contact_, load_, friction_, impact_, rim_, mass_, stiffness_, scheme_;
   double start_ = 0.0;
   bool started_ = false;
   Balance balance_;

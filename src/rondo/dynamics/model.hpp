@@ -12,6 +12,7 @@
 #include "rondo/dynamics/scheme.hpp"
 #include "rondo/fem/assembly.hpp"
 #include "rondo/fem/sector_stiffness.hpp"
+#include "rondo/mesh/mesh.hpp"
 
 namespace rondo::dynamics {
 
@@ -19,8 +20,36 @@ namespace rondo::dynamics {
 struct ContactModel {
   contact::Ground ground;
   contact::Law law;
-  std::vector<int> nodes;         ///< (nb) candidates; none is clamped
-  std::vector<double> tributary;  ///< (nb) length of boundary each stands for [m]
+  std::vector<int> nodes;           ///< (nb) candidates; none is clamped
+  std::vector<double> tributary;    ///< (nb) length of boundary each stands for [m]
+  std::vector<mesh::Edge> edges{};  ///< between candidates, for sharp corners of the ground; nodes
+};
+
+/// A body that nothing holds. It moves in the fixed frame, where u is its whole displacement x - X;
+/// strains are taken in the frame of its mean rotation (docs/theory.md, section 9).
+struct FreeBody {
+  std::vector<int> nodes;  ///< ascending
+  double mass = 0.0;       ///< [kg/m]
+  Vec2 center;             ///< centre of mass of X                             [m]
+};
+
+/// Contact of boundaries of deformable bodies, node to segment.
+struct SurfaceContact {
+  std::vector<mesh::Edge> edges;  ///< of every boundary that may touch another, candidates' nodes
+  bool self = false;              ///< a body's boundary may touch itself as well
+  contact::Law law;
+};
+
+/// Pressure on a part of the boundary, against the outward normal of the edges.
+struct PressureLoad {
+  std::vector<mesh::Edge> edges;
+  Table pressure;  ///< [Pa]
+};
+
+/// When a coupled contact problem counts as difficult, and how long it is worked at.
+struct CoupledSettings {
+  int most_iterations = 10000;
+  int dump_above = 0;  ///< keep problems that took more iterations than this; 0: none
 };
 
 /// Which product with K a run takes.
@@ -45,11 +74,24 @@ struct Model {
   double stiffness_damping = 0.0;  ///< β                            [s]
   Motion motion;
   std::optional<ContactModel> contact;
+  std::vector<FreeBody> free_bodies;       ///< none: everything moves in the turning frame
+  std::vector<int> free_body;              ///< (n) place in free_bodies, -1: in the turning frame;
+                                           ///< empty: no free body
+  std::optional<SurfaceContact> surfaces;  ///< absent: bodies do not touch each other
+  std::vector<PressureLoad> pressures;
+  CoupledSettings coupled;
   Scheme scheme = Scheme::symplectic;
   double dt = 0.0;  ///< Δt                           [s]
   int threads = 1;
 
   [[nodiscard]] std::size_t n_nodes() const noexcept { return reference.size(); }
+};
+
+/// Mean place and rotation of a free body.
+struct Pose {
+  Vec2 center;              ///< of mass                                         [m]
+  Vec2 rotation{1.0, 0.0};  ///< e^{iθ}
+  double angle = 0.0;       ///< θ, counter-clockwise, whole turns counted       [rad]
 };
 
 /// A contact of the step just done, in its frame (normal, tangential).
@@ -77,11 +119,18 @@ struct State {
   std::vector<Vec2> v_next;           ///< (n) v_{n+3/2}                             [m/s]
   std::vector<Vec2> force;            ///< (n) K u_{n+1}, of the reference step      [N/m]
   std::vector<Vec2> force_before;     ///< (n) K u_n, of the reference step          [N/m]
+  std::vector<Pose> poses;            ///< (free_bodies) at t_{n+1}
   std::vector<ActiveContact> active;  ///< capacity for every candidate twice
 };
 
+/// The node belongs to a body that nothing holds: its u and v are those of the fixed frame.
+inline bool in_fixed_frame(const Model& model, std::size_t node) noexcept {
+  return !model.free_body.empty() && model.free_body[node] >= 0;
+}
+
 /// Position of a node in the fixed frame at t_{n+1} [m].
 inline Vec2 position(const Model& model, const State& state, std::size_t node) noexcept {
+  if (in_fixed_frame(model, node)) return model.reference[node] + state.u[node];
   return state.frame.center + state.frame.rotation * (model.reference[node] + state.u[node]);
 }
 

@@ -6,11 +6,16 @@ namespace rondo::fem {
 
 enum class Plane { strain, stress };
 
+/// Quadrature of the stiffness of quadrilaterals: 2×2 points, or these for the deviator and the
+/// mean of the element for the volume (B-bar, Hughes 1980), which does not lock near ν = 1/2.
+enum class Integration { full, b_bar };
+
 struct Material {
   double youngs_modulus = 0.0;  ///< E > 0                                            [Pa]
   double poissons_ratio = 0.0;  ///< -1 < ν < 1/2                                     [-]
   double density = 0.0;         ///< ρ > 0                                            [kg/m3]
   Plane plane = Plane::strain;
+  Integration integration = Integration::full;
 };
 
 /// σ = D ε with ε = (ε_xx, ε_yy, γ_xy), D = [[d11, d12, 0], [d12, d11, 0], [0, 0, d33]].

@@ -96,6 +96,7 @@ void add_boundary(Mesh& mesh, const Layout& l, const std::vector<Line>& lines) {
     mesh.boundary.push_back(top_node(i));
     mesh.tributary.push_back((land_before ? 0.5 * chord(i - 1) : 0.0) +
                              (land_after ? 0.5 * chord(i) : 0.0));
+    if (land_after) mesh.contact_edges.push_back({top_node(i), top_node(i + 1)});
   }
 }
 

@@ -1,12 +1,42 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "rondo/mesh/mesh.hpp"
 
+#include <algorithm>
+#include <numeric>
+
 namespace rondo::mesh {
 
 std::vector<char> clamped_flags(const Mesh& mesh) {
   std::vector<char> flags(mesh.n_nodes(), 0);
   for (const int node : mesh.clamped) flags[static_cast<std::size_t>(node)] = 1;
   return flags;
+}
+
+Bodies find_bodies(const Mesh& mesh) {
+  std::vector<int> root(mesh.n_nodes());
+  std::iota(root.begin(), root.end(), 0);
+  const auto find = [&](int node) {
+    while (root[static_cast<std::size_t>(node)] != node) {
+      int& up = root[static_cast<std::size_t>(node)];
+      node = up = root[static_cast<std::size_t>(up)];
+    }
+    return node;
+  };
+  std::vector<char> used(mesh.n_nodes(), 0);
+  for (const Cell& cell : mesh.cells)
+    for (int a = 0; a < n_corners(cell); ++a) {
+      const int first = find(cell[0]), other = find(cell[static_cast<std::size_t>(a)]);
+      used[static_cast<std::size_t>(cell[static_cast<std::size_t>(a)])] = 1;
+      root[static_cast<std::size_t>(std::max(first, other))] = std::min(first, other);
+    }
+  Bodies bodies;
+  bodies.of_node.assign(mesh.n_nodes(), -1);
+  for (std::size_t k = 0; k < mesh.n_nodes(); ++k) {
+    if (!used[k]) continue;
+    const auto first = static_cast<std::size_t>(find(static_cast<int>(k)));  // the smallest number
+    bodies.of_node[k] = first == k ? bodies.count++ : bodies.of_node[first];
+  }
+  return bodies;
 }
 
 }  // namespace rondo::mesh

@@ -3,6 +3,7 @@
 #pragma once
 #include <array>
 #include <cstddef>
+#include <string>
 #include <vector>
 
 #include "rondo/core/vec2.hpp"
@@ -16,14 +17,28 @@ inline int n_corners(const Cell& cell) noexcept {
   return cell[3] < 0 ? 3 : 4;
 }
 
+/// Two nodes, the body on the left of the way from the first to the second: the outward normal is
+/// on the right.
+using Edge = std::array<int, 2>;
+
+/// A named part of the boundary (a physical curve of a file; "rim" and "tread" of a disk).
+struct Curve {
+  std::string name;
+  std::vector<Edge> edges;
+};
+
 struct Mesh {
   std::vector<Vec2> coordinates;  ///< (n) reference position X                                 [m]
   std::vector<Cell> cells;        ///< (e) corner nodes
   std::vector<int> clamped;       ///< nodes held in the turning frame (u = 0), ascending
   std::vector<int> boundary;      ///< (nb) contact candidates, in order along the contact boundary
   std::vector<double>
-      tributary;      ///< (nb) length of contact boundary that a candidate stands for [m]
-  int n_sectors = 0;  ///< equal sectors of a cyclic mesh; 0: not cyclic
+      tributary;  ///< (nb) length of contact boundary that a candidate stands for [m]
+  std::vector<Edge> contact_edges;  ///< edges between candidates, in order along the boundary
+  std::vector<int> region;          ///< (e) place of a cell's surface in region_names; empty: one
+  std::vector<std::string> region_names;  ///< physical surfaces of a file
+  std::vector<Curve> curves;              ///< physical curves of a file
+  int n_sectors = 0;                      ///< equal sectors of a cyclic mesh; 0: not cyclic
   std::vector<int>
       sector;  ///< (n) sector of a node, counter-clockwise from -90°; empty: not cyclic
   std::vector<int> sector_node;  ///< (n) number of a node within its sector; empty: not cyclic
@@ -33,5 +48,12 @@ struct Mesh {
 
 /// (n) 1 where a node is clamped.
 std::vector<char> clamped_flags(const Mesh& mesh);
+
+/// Parts that no cell joins: number of each node's body, in the order of their first nodes.
+struct Bodies {
+  int count = 0;
+  std::vector<int> of_node;  ///< (n) -1: a node of no cell
+};
+Bodies find_bodies(const Mesh& mesh);
 
 }  // namespace rondo::mesh

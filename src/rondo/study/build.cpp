@@ -83,7 +83,8 @@ dynamics::Model make_model(const Case& c, const mesh::Mesh& mesh) {
     model.contact.emplace(dynamics::ContactModel{contact::Ground(c.ground->shape),
                                                  {c.ground->friction, c.ground->restitution},
                                                  mesh.boundary,
-                                                 mesh.tributary});
+                                                 mesh.tributary,
+                                                 mesh.contact_edges});
   return model;
 }
 

@@ -21,6 +21,42 @@ struct Damping {
   double stiffness = 0.0;  ///< β >= 0 [s]
 };
 
+/// A Gmsh file instead of a generated disk; names are those of physical groups.
+struct MeshCase {
+  std::filesystem::path file;  ///< absolute, or relative to the working directory
+  double scale = 1.0;          ///< m per unit of length of the file
+  std::string clamped;         ///< physical curve held in the turning frame; empty: none
+  std::string contact;         ///< physical curve of candidates; empty: none
+};
+
+/// Material of a physical surface, where it differs from [material].
+struct MaterialRegion {
+  std::string surface;
+  fem::Material material;
+};
+
+enum class StressStiffening { none, centrifugal };
+
+/// Which boundaries of bodies touch each other.
+enum class BodyContact { none, bodies, all };  ///< all: a body may touch itself
+
+struct BodyContactCase {
+  BodyContact between = BodyContact::none;
+  double friction = 0.0;     ///< μ >= 0
+  double restitution = 0.0;  ///< e in [0, 1]
+};
+
+struct PressureCase {
+  std::string curve;         ///< physical curve
+  dynamics::Table pressure;  ///< against the outward normal [Pa]
+};
+
+/// A point of the reference configuration whose motion and stress go into history.csv.
+struct Probe {
+  std::string name;  ///< of its columns
+  Vec2 position;     ///< [m]
+};
+
 struct GroundCase {
   contact::GroundShape shape;
   double friction = 0.0;     ///< μ >= 0
@@ -37,10 +73,22 @@ struct Analysis {
 
 enum class InitialState { rest, stationary };
 
+/// Rigid motion of the free bodies of a physical surface at t = 0, instead of that of [initial].
+struct InitialRegion {
+  std::string surface;
+  Vec2 velocity;                  ///< of the centre of mass [m/s]
+  double angular_velocity = 0.0;  ///< about it, counter-clockwise [rad/s]
+};
+
 struct Initial {
   InitialState state = InitialState::rest;
   Vec2 velocity;  ///< added to every free node, fixed frame [m/s]
   std::array<std::array<double, 2>, 2> displacement_gradient{};  ///< u0 += G X on free nodes [-]
+  // Of free bodies only: the mesh is turned by `angle` about the origin, then moved by `position`.
+  Vec2 position;                  ///< [m]
+  double angle = 0.0;             ///< [rad]
+  double angular_velocity = 0.0;  ///< of each about its centre of mass, counter-clockwise [rad/s]
+  std::vector<InitialRegion> regions;
 };
 
 using dynamics::Scheme;
@@ -57,6 +105,7 @@ struct Output {
   int snapshots = 400;               ///< >= 0
   double snapshots_from = 0.0;       ///< [s], in [0, end]
   bool stress = true;
+  std::vector<Probe> probes;
   double checkpoint_interval = 60.0;  ///< [s of wall time]
 };
 
@@ -73,15 +122,23 @@ struct Case {
   std::filesystem::path file;
   std::map<std::string, KeyPlace> places;  ///< of the keys given, by dotted key
   std::string title;
-  mesh::Disk disk;
+  mesh::Disk disk;               ///< unused where there is a mesh
+  bool free_rim = false;         ///< of a disk: nothing holds its inner boundary
+  std::optional<MeshCase> mesh;  ///< instead of the disk
   fem::Material material;
+  std::vector<MaterialRegion> regions;
+  StressStiffening stress_stiffening = StressStiffening::none;
+  std::vector<PressureCase> pressures;
   Damping damping;
   dynamics::Motion motion;
   std::optional<GroundCase> ground;  ///< absent: no contact
+  BodyContactCase body_contact;
   Initial initial;
   Analysis analysis;
   Time time;
   std::string solver_operator = "auto";  ///< "auto" | "cyclic" | "sparse"
+  int contact_iterations = 10000;        ///< most that a coupled contact problem may take
+  int dump_contacts = 0;  ///< contact problems that took more iterations are kept as files; 0: none
   Output output;
   std::vector<std::string> warnings;  ///< said while reading; the caller prints them
 };
