@@ -5,6 +5,7 @@
 #include <array>
 #include <cstddef>
 #include <limits>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -29,6 +30,12 @@ struct ShapeFault {
 /// the left or turns back on itself, a convex corner without a fillet, a fillet that does not fit.
 std::vector<ShapeFault> shape_faults(const GroundShape& shape);
 
+/// A sharp convex corner: it may touch a body between two nodes (docs/theory.md, 4.1).
+struct Corner {
+  Vec2 position;                ///< [m]
+  std::array<Vec2, 2> normals;  ///< of the facets before and after it, out of the solid
+};
+
 /// A place where a point touches the ground.
 struct Touch {
   double gap = 0.0;  ///< signed distance to the facet, > 0 outside                          [m]
@@ -52,6 +59,8 @@ class Ground {
   [[nodiscard]] double distance(Vec2 x) const noexcept;
   /// Length along the surface, from the first point of the profile, of the point nearest to x [m]
   [[nodiscard]] double abscissa(Vec2 x) const noexcept;
+  /// Sharp convex corners, left to right: none where a fillet rounds them.
+  [[nodiscard]] std::span<const Corner> corners() const noexcept { return corners_; }
   /// No ground above this height; infinite where the ground rises for ever                [m]
   [[nodiscard]] double top() const noexcept { return top_; }
 
@@ -77,6 +86,7 @@ class Ground {
   [[nodiscard]] std::size_t nearest(Vec2 x, Projection& projection) const noexcept;
 
   std::vector<Facet> facets_;
+  std::vector<Corner> corners_;
   double top_ = std::numeric_limits<double>::infinity();  ///< [m]
 };
 

@@ -1,0 +1,71 @@
+// SPDX-License-Identifier: BSD-3-Clause
+/// @file  A point against the boundary of a deformable body, made of straight segments
+/// (docs/theory.md, 4.8). The body is on the left of each segment a→b.
+#pragma once
+#include <array>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "rondo/core/vec2.hpp"
+
+namespace rondo::contact {
+
+/// A point inside a body, at a segment of its boundary.
+struct SegmentTouch {
+  double gap = 0.0;  ///< signed distance of the point from the segment's line, > 0 outside  [m]
+  double at = 0.0;   ///< ξ of the foot, 0 at a, 1 at b; slightly beyond at a reflex joint    [-]
+  Vec2 normal;       ///< unit, out of the body: the way the contact pushes the point
+};
+
+/// A segment and the points that its boundary goes on to.
+struct Segment {
+  Vec2 before;  ///< of the segment that ends at a; a itself where there is none   [m]
+  Vec2 a, b;    ///<                                                               [m]
+  Vec2 after;   ///< of the segment that begins at b; b itself where there is none [m]
+};
+
+/// The point is behind the segment's line (gap <= 0), no deeper than `deepest` [m], and between the
+/// bisectors of the joints at a and b: inside a body, each point near a joint belongs to one of its
+/// two segments, the nearer one, on the bisector to the first (4.8a). Beyond an end without a
+/// neighbour nothing touches. @pre a != b
+std::optional<SegmentTouch> touch_segment(Vec2 p, const Segment& segment, double deepest) noexcept;
+
+/// Without neighbours: the foot lies on the segment.
+inline std::optional<SegmentTouch> touch_segment(Vec2 p, Vec2 a, Vec2 b, double deepest) noexcept {
+  return touch_segment(p, {a, a, b, b}, deepest);
+}
+
+/// Boundary of bodies: edges and how they follow each other.
+struct Boundary {
+  std::vector<std::array<int, 2>> edges;   ///< (n) nodes a, b: the body is on the left
+  std::vector<std::array<int, 2>> beside;  ///< (n) edge that ends at a, that begins at b; -1: none
+};
+
+/// Where several edges begin, or end, at a node, they have no neighbour there.
+Boundary make_boundary(std::vector<std::array<int, 2>> edges);
+
+/// A touch of a boundary.
+struct EdgeTouch {
+  int edge = -1;
+  SegmentTouch touch;
+};
+
+/// At most two edges at once, the nearest first; two only at a joint where the boundary turns
+/// inwards by more than 0.1 rad, when the point is behind both (a corner pressed into a corner).
+struct EdgeTouches {
+  int count = 0;
+  std::array<EdgeTouch, 2> at;
+};
+
+/// What the point touches among `candidates` (ascending edges): the least deep touch, of equal
+/// ones the first. Edges of the node `own` (-1: none) do not count.
+struct BoundaryQuery {
+  const Boundary& boundary;
+  std::span<const Vec2> positions;  ///< of the nodes [m]
+  std::span<const int> candidates;  ///< edges
+  double deepest = 0.0;             ///< [m]
+};
+EdgeTouches touch_boundary(Vec2 p, int own, const BoundaryQuery& query) noexcept;
+
+}  // namespace rondo::contact
