@@ -11,17 +11,6 @@ namespace {
 
 using contact::Status;
 
-/// Velocity of the step to come without v⁺: b of (4.2), fixed frame.
-Vec2 drive_of(const ContactStep& s, const ContactNode& node) noexcept {
-  return s.rotation * (s.turn_minus_one * node.arm) / s.dt + s.center_rate;
-}
-
-/// (x_{n+1} - x_n)/Δt (4.2a), fixed frame.
-Vec2 velocity_before(const ContactStep& s, const ContactNode& node) noexcept {
-  return s.rotation * (node.before + s.turn_back * node.before - s.turn_back * node.arm / s.dt) +
-         s.center_rate_before;
-}
-
 void solve(const ContactStep& s, Vec2 delassus, std::span<ActiveContact> contacts,
            ContactReport& report) noexcept {
   if (contacts.size() == 1) {
@@ -127,11 +116,21 @@ ContactStep::ContactStep(const Model& model, const FrameStep& f,
       center_rate_before(f.advance_before / model.dt),
       a(update.a),
       dt(model.dt),
-      law(model.contact->law) {}
+      law(model.contact ? model.contact->law : contact::Law{}) {}
+
+Vec2 drive_of(const ContactStep& s, Vec2 arm) noexcept {
+  return s.rotation * (s.turn_minus_one * arm) / s.dt + s.center_rate;
+}
+
+Vec2 velocity_before(const ContactStep& s, Vec2 arm, Vec2 before) noexcept {
+  return s.rotation * (before + s.turn_back * before - s.turn_back * arm / s.dt) +
+         s.center_rate_before;
+}
 
 Vec2 solve_contacts(const ContactStep& s, const ContactNode& node, const contact::Touches& touches,
                     std::span<ActiveContact> contacts, ContactReport& report) noexcept {
-  const Vec2 drive = drive_of(s, node), before = velocity_before(s, node);
+  const Vec2 drive = drive_of(s, node.arm);
+  const Vec2 before = velocity_before(s, node.arm, node.before);
   for (std::size_t i = 0; i < contacts.size(); ++i) {
     ActiveContact& c = contacts[i];
     c.candidate = node.candidate;

@@ -64,6 +64,12 @@ struct ContactNode {
   Vec2 free;                  ///< v_{n+3/2} without impulse                          [m/s]
 };
 
+/// Velocity of the step to come without v⁺: b of (4.2), fixed frame. @param arm X + u_{n+1}  [m]
+[[nodiscard]] Vec2 drive_of(const ContactStep& step, Vec2 arm) noexcept;
+
+/// (x_{n+1} - x_n)/Δt (4.2a), fixed frame. @param before v_{n+1/2}, turning frame           [m/s]
+[[nodiscard]] Vec2 velocity_before(const ContactStep& step, Vec2 arm, Vec2 before) noexcept;
+
 /// Solves the contacts of a node, one a touch, into `contacts` (as many), adds them to the report,
 /// and returns v_{n+3/2}. @pre touches.count is 1 or 2. Allocates nothing.
 [[nodiscard]] Vec2 solve_contacts(const ContactStep& step, const ContactNode& node,

@@ -3,11 +3,13 @@
 
 #include "rondo/dynamics/cyclic_integrator.hpp"
 #include "rondo/dynamics/dispatch.hpp"
+#include "rondo/dynamics/general_integrator.hpp"
 #include "rondo/dynamics/sparse_integrator.hpp"
 
 namespace rondo::dynamics {
 
 std::unique_ptr<Integrator> make_integrator(const Model& model, const State& start) {
+  if (is_general(model)) return std::make_unique<GeneralIntegrator>(model, start);
   if (model.stiffness_operator == StiffnessOperator::cyclic)
     return std::make_unique<CyclicIntegrator>(model, start, kernel_table());
   return std::make_unique<SparseIntegrator>(model, start, kernel_table());

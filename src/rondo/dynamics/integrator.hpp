@@ -5,7 +5,9 @@
 #pragma once
 #include <memory>
 #include <span>
+#include <vector>
 
+#include "rondo/contact/problem_file.hpp"
 #include "rondo/dynamics/contact_node.hpp"
 #include "rondo/dynamics/ledger.hpp"
 #include "rondo/dynamics/model.hpp"
@@ -36,6 +38,9 @@ class Integrator {
   /// Fields as they stand between two steps: u_{n+2} and v_{n+3/2}, n + 1 the last step made.
   /// Fills u and v_next.
   virtual void fields(State& state) const noexcept = 0;
+
+  /// Contact problems kept since the last call, as model.coupled says.
+  [[nodiscard]] virtual std::vector<contact::ProblemFile> take_difficult() { return {}; }
 };
 
 /// The integrator of model.stiffness_operator. The model must outlive it.

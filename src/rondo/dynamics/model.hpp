@@ -35,7 +35,10 @@ struct FreeBody {
 
 /// Contact of boundaries of deformable bodies, node to segment.
 struct SurfaceContact {
-  std::vector<mesh::Edge> edges;  ///< of every boundary that may touch another, candidates' nodes
+  std::vector<int> nodes;         ///< (nb) candidates, numbered as those of the ground
+  std::vector<double> tributary;  ///< (nb)                                           [m]
+  std::vector<mesh::Edge> edges;  ///< between candidates
+  std::vector<int> body;          ///< (n) number of each node's body
   bool self = false;              ///< a body's boundary may touch itself as well
   contact::Law law;
 };
@@ -127,6 +130,14 @@ struct State {
 inline bool in_fixed_frame(const Model& model, std::size_t node) noexcept {
   return !model.free_body.empty() && model.free_body[node] >= 0;
 }
+
+/// Fills free_bodies and free_body: the bodies of the mesh without a clamped node.
+/// @pre reference and mass are there.
+void find_free_bodies(const mesh::Mesh& mesh, Model& model);
+
+/// The model has something that only the general integrator does: a free body, contact between
+/// bodies, a sharp corner of the ground, a pressure.
+[[nodiscard]] bool is_general(const Model& model) noexcept;
 
 /// Position of a node in the fixed frame at t_{n+1} [m].
 inline Vec2 position(const Model& model, const State& state, std::size_t node) noexcept {

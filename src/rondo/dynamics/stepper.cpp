@@ -4,7 +4,10 @@
 #include <utility>
 
 #include "rondo/core/contract.hpp"
+#include "rondo/dynamics/body_frames.hpp"
+#include "rondo/dynamics/corotated.hpp"
 #include "rondo/dynamics/operator.hpp"
+#include "rondo/dynamics/pressure.hpp"
 
 namespace rondo::dynamics {
 namespace {
@@ -15,16 +18,16 @@ void for_free_nodes(const Model& model, Body&& body) noexcept {
 }
 
 /// (ṡJ - s²)(X + u) + Rᵀ(c̈ - g): acceleration of the frame at a node (3.1).
-Vec2 frame_acceleration(const Model& model, const State& state, std::size_t k) noexcept {
-  const FrameStep& f = state.frame;
+Vec2 frame_acceleration(const Model& model, const State& state, const FrameStep& f,
+                        std::size_t k) noexcept {
   return Vec2{-f.spin * f.spin, f.spin_rate} * (model.reference[k] + state.u[k]) + f.pull;
 }
 
 /// f/m at t_{n+1} (3.2).
-Vec2 acceleration(const Model& model, const State& state, std::size_t k,
+Vec2 acceleration(const Model& model, const State& state, const FrameStep& frame, std::size_t k,
                   Vec2 stiffness_rate) noexcept {
   const Vec2 elastic = state.force[k] + model.stiffness_damping * stiffness_rate;
-  return -(elastic / model.mass[k]) - frame_acceleration(model, state, k);
+  return -(elastic / model.mass[k]) - frame_acceleration(model, state, frame, k);
 }
 
 /// K v⁻, from the products of two steps.
@@ -37,7 +40,7 @@ void free_velocities(const Model& model, State& state, const VelocityUpdate& upd
   const Vec2 inverse = Vec2{1.0, 0.0} / update.a;
   for_free_nodes(model, [&](std::size_t k) {
     const Vec2 v = state.v[k];
-    const Vec2 f = acceleration(model, state, k, stiffness_rate(model, state, k));
+    const Vec2 f = acceleration(model, state, state.frame, k, stiffness_rate(model, state, k));
     state.v_next[k] = v + inverse * (model.dt * f - update.drag * v);
   });
 }
@@ -77,7 +80,7 @@ void add_works(const Model& model, const State& state, Works& w) noexcept {
     const double m = model.mass[k];
     const Vec2 v = state.v[k];
     const Vec2 mean = 0.5 * (v + state.v_next[k]);
-    w.frame -= dt * m * dot(mean, frame_acceleration(model, state, k));
+    w.frame -= dt * m * dot(mean, frame_acceleration(model, state, state.frame, k));
     w.dissipation_mass += dt * model.mass_damping * m * dot(mean, printed ? v : mean);
     w.dissipation_stiffness +=
         dt * model.stiffness_damping * dot(mean, stiffness_rate(model, state, k));
@@ -95,6 +98,18 @@ void clear_clamped(const Model& model, State& state) noexcept {
   }
 }
 
+/// K u_0 and what pressures add, in `force`; poses of the free bodies.
+void find_start_forces(const Model& model, State& state) {
+  update_poses(model, state.u, state.poses);
+  std::vector<Vec2> elastic(model.n_nodes()), product(model.n_nodes());
+  elastic_displacements(model, state.u, state.poses, elastic);
+  apply_stiffness(model, elastic, product);
+  to_gradient(model, elastic, product, state.poses, state.force);
+  if (model.pressures.empty()) return;
+  pressure_forces(model, state.u, 0.0, product);
+  for_free_nodes(model, [&](std::size_t k) { state.force[k] -= product[k]; });
+}
+
 }  // namespace
 
 State start(const Model& model, std::vector<Vec2> u0, std::vector<Vec2> v0) {
@@ -107,16 +122,19 @@ State start(const Model& model, std::vector<Vec2> u0, std::vector<Vec2> v0) {
   state.v_next.resize(model.n_nodes());
   if (model.contact) state.active.reserve(2 * model.contact->nodes.size());
   state.frame = frame_step(model.motion, 0, model.dt);
+  for (const FreeBody& body : model.free_bodies) state.poses.push_back({body.center});
   state.force.resize(model.n_nodes());
   state.force_before.resize(model.n_nodes());
-  apply_stiffness(model, state.u, state.force);
+  find_start_forces(model, state);
   apply_stiffness(model, state.v, state.force_before);  // K v_0, for now
   const double half = 0.5 * model.dt;
-  const VelocityUpdate update =
-      velocity_update(model.scheme, half, model.mass_damping, state.frame.spin);
+  const FrameStep fixed = fixed_frame_step(model, 0);
   for_free_nodes(model, [&](std::size_t k) {
+    const FrameStep& frame = in_fixed_frame(model, k) ? fixed : state.frame;
+    const VelocityUpdate update =
+        velocity_update(model.scheme, half, model.mass_damping, frame.spin);
     const Vec2 v = state.v[k];
-    const Vec2 f = acceleration(model, state, k, state.force_before[k]);
+    const Vec2 f = acceleration(model, state, frame, k, state.force_before[k]);
     state.v_next[k] = v + (half * f - update.drag * v) / update.a;
   });
   return state;
