@@ -74,8 +74,8 @@ inline void add_ground(dynamics::Model& model, const mesh::Mesh& mesh,
 
 inline void add_surfaces(dynamics::Model& model, const mesh::Mesh& mesh, contact::Law law,
                          bool self = false) {
-  model.surfaces.emplace(dynamics::SurfaceContact{mesh.boundary, mesh.tributary, mesh.contact_edges,
-                                                  mesh::find_bodies(mesh).of_node, self, law});
+  model.surfaces.emplace(
+      dynamics::SurfaceContact{mesh.boundary, mesh.tributary, mesh.contact_edges, self, law});
 }
 
 /// Linear and angular momentum (about the origin) of the free bodies; `v` at half a step before u.

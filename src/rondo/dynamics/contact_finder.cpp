@@ -33,10 +33,10 @@ double shortest_edge(const Model& model, const std::vector<mesh::Edge>& edges) n
 ContactFinder::ContactFinder(const Model& model)
     : model_(model), positions_(model.n_nodes()), outward_(model.surfaces ? model.n_nodes() : 0) {
   if (model.contact && !model.contact->ground.corners().empty())
-    ground_side_ = contact::make_boundary(model.contact->edges);
+    ground_side_ = contact::make_boundary(model.contact->edges, model.body);
   all_edges_.resize(ground_side_.edges.size());
   std::iota(all_edges_.begin(), all_edges_.end(), 0);
-  if (model.surfaces) surface_ = contact::make_boundary(model.surfaces->edges);
+  if (model.surfaces) surface_ = contact::make_boundary(model.surfaces->edges, model.body);
   // A point half an edge deep is in the body, not at its boundary.
   deepest_ = 0.5 * std::min(shortest_edge(model, ground_side_.edges),
                             shortest_edge(model, surface_.edges));
@@ -72,9 +72,8 @@ void ContactFinder::find_on_ground(std::vector<ContactRow>& rows) const {
 void ContactFinder::find_corners(std::vector<ContactRow>& rows) const {
   const auto corners = model_.contact->ground.corners();
   for (std::size_t c = 0; c < corners.size(); ++c) {
-    const Vec2 p = corners[c].position;
-    const contact::EdgeTouches touches =
-        contact::touch_boundary(p, -1, {ground_side_, positions_, all_edges_, deepest_});
+    const contact::EdgeTouches touches = contact::touch_boundary(
+        {.position = corners[c].position}, {ground_side_, positions_, all_edges_, deepest_});
     for (int t = 0; t < touches.count; ++t) {
       const EdgeTouch& found = touches.at[at(t)];
       const mesh::Edge& e = ground_side_.edges[at(found.edge)];
@@ -106,7 +105,7 @@ bool ContactFinder::may_touch(std::size_t candidate, int edge) const {
   const SurfaceContact& s = *model_.surfaces;
   const auto node = at(s.nodes[candidate]);
   const mesh::Edge& e = surface_.edges[at(edge)];
-  if (!s.self && s.body[node] == s.body[at(e[0])]) return false;
+  if (!s.self && body_of(node) == body_of(at(e[0]))) return false;
   const Vec2 along = positions_[at(e[1])] - positions_[at(e[0])];
   return dot(outward_[node], -turn90(along)) < 0.0;
 }
@@ -120,8 +119,9 @@ void ContactFinder::find_segments(std::vector<ContactRow>& rows) {
     grid_.near(positions_[at(node)], near_);
     std::erase_if(near_, [&](int edge) { return !may_touch(i, edge); });
     if (near_.empty()) continue;
-    const contact::EdgeTouches touches = contact::touch_boundary(
-        positions_[at(node)], node, {surface_, positions_, near_, deepest_});
+    const contact::EdgeTouches touches =
+        contact::touch_boundary({positions_[at(node)], node, body_of(at(node)), s.self},
+                                {surface_, positions_, near_, deepest_});
     for (int t = 0; t < touches.count; ++t) {
       const EdgeTouch& found = touches.at[at(t)];
       const mesh::Edge& e = surface_.edges[at(found.edge)];

@@ -27,6 +27,9 @@ class ContactFinder {
   void find_corners(std::vector<ContactRow>& rows) const;
   void find_segments(std::vector<ContactRow>& rows);
   void find_normals();
+  [[nodiscard]] int body_of(std::size_t node) const {
+    return model_.body.empty() ? 0 : model_.body[node];
+  }
   [[nodiscard]] bool may_touch(std::size_t candidate, int edge) const;
 
   const Model& model_;

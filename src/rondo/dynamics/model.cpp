@@ -23,6 +23,7 @@ void find_free_bodies(const mesh::Mesh& mesh, Model& model) {
     model.free_bodies.emplace_back();
   }
   model.free_body.clear();
+  model.body = bodies.of_node;
   if (model.free_bodies.empty()) return;
   model.free_body.assign(mesh.n_nodes(), -1);
   for (std::size_t k = 0; k < mesh.n_nodes(); ++k) {

@@ -38,7 +38,6 @@ struct SurfaceContact {
   std::vector<int> nodes;         ///< (nb) candidates, numbered as those of the ground
   std::vector<double> tributary;  ///< (nb)                                           [m]
   std::vector<mesh::Edge> edges;  ///< between candidates
-  std::vector<int> body;          ///< (n) number of each node's body
   bool self = false;              ///< a body's boundary may touch itself as well
   contact::Law law;
 };
@@ -80,6 +79,7 @@ struct Model {
   std::vector<FreeBody> free_bodies;       ///< none: everything moves in the turning frame
   std::vector<int> free_body;              ///< (n) place in free_bodies, -1: in the turning frame;
                                            ///< empty: no free body
+  std::vector<int> body;                   ///< (n) number of each node's body; empty: there is one
   std::optional<SurfaceContact> surfaces;  ///< absent: bodies do not touch each other
   std::vector<PressureLoad> pressures;
   CoupledSettings coupled;
@@ -131,7 +131,7 @@ inline bool in_fixed_frame(const Model& model, std::size_t node) noexcept {
   return !model.free_body.empty() && model.free_body[node] >= 0;
 }
 
-/// Fills free_bodies and free_body: the bodies of the mesh without a clamped node.
+/// Fills body, free_bodies and free_body: a body of the mesh without a clamped node is free.
 /// @pre reference and mass are there.
 void find_free_bodies(const mesh::Mesh& mesh, Model& model);
 

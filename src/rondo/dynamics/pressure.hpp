@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-/// @file  Pressure on boundary curves (docs/theory.md, 9.4): on the edges as they lie for a free
+/// @file  Pressure on boundary curves (docs/theory.md, 9.8): on the edges as they lie for a free
 /// body, so that a closed curve feels neither force nor moment; on the reference edges, in the
 /// turning frame, for a body that is held, as small strain has it.
 #pragma once

@@ -154,7 +154,7 @@ double ledger_after_a_turn(double safety) {
 TEST(FreeBody, TheLedgerClosesToSecondOrder) {
   const double coarse = ledger_after_a_turn(0.8), half = ledger_after_a_turn(0.4),
                quarter = ledger_after_a_turn(0.2);
-  EXPECT_LT(coarse, 1e-3);
+  EXPECT_LT(coarse, 5e-3);  // ten times the pulsation's share would be seen
   EXPECT_NEAR(std::log2(coarse / half), 2.0, 0.3);
   EXPECT_NEAR(std::log2(half / quarter), 2.0, 0.3);
 }
