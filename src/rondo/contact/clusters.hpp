@@ -31,7 +31,8 @@ class ClusterFinder {
 
   std::vector<int> parent_;      ///< (contacts) union–find
   std::vector<int> first_at_;    ///< (n_nodes) a contact that has the node, -1: none
-  std::vector<int> cluster_of_;  ///< (contacts) by root
+  std::vector<int> cluster_of_;  ///< (contacts)
+  std::vector<int> filled_;      ///< (clusters) next free place
   Clusters clusters_;
 };
 

@@ -8,6 +8,7 @@
 #include <span>
 #include <vector>
 
+#include "rondo/contact/band.hpp"
 #include "rondo/contact/law.hpp"
 #include "rondo/core/vec2.hpp"
 
@@ -48,10 +49,13 @@ struct CoupledResult {
 /// Memory of the solver, kept from one problem to the next: it grows, and only with a problem
 /// larger than all before.
 struct CoupledWorkspace {
-  std::vector<Vec2> best, velocity, trial;
-  std::vector<int> order, place, start;
-  std::vector<double> band, step;
-  std::vector<int> pivot;
+  std::vector<Vec2> current, candidate, newton, velocity;  ///< (nc)
+  std::vector<int> order;      ///< (nc) contacts in the order of the matrix
+  std::vector<int> unknown;    ///< (nc) first unknown, -1: open
+  std::vector<Status> status;  ///< (nc)
+  std::vector<double> side;    ///< (nc) of slip, ±1
+  std::vector<double> step;    ///< (unknowns)
+  BandLu matrix;
 };
 
 /// Impulses that obey the law at all contacts together. `impulse` (nc) comes in as a warm start
@@ -66,6 +70,9 @@ struct CoupledWorkspace {
 /// @pre W_nn > μ|W_nt| and det W > 0: one solution.
 [[nodiscard]] LocalSolution solve_block(const Block& delassus, Vec2 free, double bounce,
                                         double friction) noexcept;
+
+/// W_jj.
+[[nodiscard]] const Block& diagonal_block(const CoupledProblem& problem, std::size_t j) noexcept;
 
 /// w = free + W r into `velocity` (nc).
 void coupled_velocities(const CoupledProblem& problem, std::span<const Vec2> impulse,

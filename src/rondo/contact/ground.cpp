@@ -53,11 +53,7 @@ std::vector<ShapeFault> point_faults(const std::vector<Vec2>& p) {
 std::vector<ShapeFault> fillet_faults(const GroundShape& shape) {
   std::vector<ShapeFault> faults;
   const auto& p = shape.profile;
-  for (std::size_t i = 1; i + 1 < p.size(); ++i)
-    if (turn_at(p, i) < -straight && shape.fillet <= 0.0)
-      faults.push_back({static_cast<int>(i), false,
-                        "a convex corner needs a fillet in this version (a sharp corner would pass "
-                        "between two nodes): set ground.fillet > 0"});
+  if (!(shape.fillet >= 0.0)) return {{-1, true, "must be >= 0"}};
   // The end segments go on for ever, so a fillet always fits beside its outer end.
   for (std::size_t i = 1; i + 2 < p.size(); ++i) {
     const double length = norm(p[i + 1] - p[i]);
@@ -93,7 +89,10 @@ Ground::Ground(const GroundShape& shape) {
     segment.to = i + 1 == n ? infinity : to;
     segment.start_length = length;
     segment.concave_end = i + 1 < n && turn_at(p, i + 1) > straight;
+    segment.sharp_end = i + 1 < n && trail == 0.0 && turn_at(p, i + 1) < -straight;
     facets_.push_back(segment);
+    if (segment.sharp_end)
+      corners_.push_back({p[i + 1], {segment.normal, turn90(direction(p, i + 1))}});
     length += to;
     if (trail > 0.0) {
       Facet arc{.begin = p[i + 1] - trail * t, .tangent = t, .normal = turn90(t), .center = {}};
@@ -139,6 +138,19 @@ std::size_t Ground::nearest(Vec2 x, Projection& projection) const noexcept {
       best = k;
     }
   }
+  // Where the corner itself is nearest, both facets are equally far; outside an acute corner the
+  // point is behind the line of one of them, and the other tells that it is outside.
+  const auto rather = [&](std::size_t other) {
+    const Projection candidate = project(facets_[other], x);
+    if (candidate.gap <= projection.gap) return;
+    projection = candidate;
+    best = other;
+  };
+  const Facet& f = facets_[best];
+  if (f.sharp_end && projection.along == f.to)
+    rather(best + 1);
+  else if (best > 0 && facets_[best - 1].sharp_end && projection.along == f.from)
+    rather(best - 1);
   return best;
 }
 

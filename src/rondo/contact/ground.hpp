@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// @file  Rigid ground: the solid on the right-hand side of a polyline walked from left to right
-/// (so: below it), its convex corners rounded by a fillet (docs/theory.md, section 4.1).
+/// (so: below it), its convex corners sharp or rounded by a fillet (docs/theory.md, section 4.1).
 #pragma once
 #include <array>
 #include <cstddef>
@@ -16,7 +16,7 @@ namespace rondo::contact {
 /// What the user gives. The end segments go on for ever.
 struct GroundShape {
   std::vector<Vec2> profile{{-1.0, 0.0}, {1.0, 0.0}};  ///< (>= 2) corners, left to right    [m]
-  double fillet = 0.0;                                 ///< radius at convex corners, >= 0   [m]
+  double fillet = 0.0;                                 ///< radius at convex corners, 0: sharp [m]
 };
 
 /// Something wrong with a shape; `point` is the index of the profile's point it is about, or -1.
@@ -27,7 +27,7 @@ struct ShapeFault {
 };
 
 /// All that is wrong with a shape: under two points, coincident points, a profile that goes back to
-/// the left or turns back on itself, a convex corner without a fillet, a fillet that does not fit.
+/// the left or turns back on itself, a fillet that is negative or does not fit.
 std::vector<ShapeFault> shape_faults(const GroundShape& shape);
 
 /// A sharp convex corner: it may touch a body between two nodes (docs/theory.md, 4.1).
@@ -75,6 +75,7 @@ class Ground {
     double to = 0.0;       ///<   -inf, the last one's to is +inf                          [m]
     double start_length = 0.0;  ///< length of the surface before abscissa 0                [m]
     bool concave_end = false;   ///< a concave corner between this facet and the next
+    bool sharp_end = false;     ///< a sharp convex one
   };
   struct Projection {
     double gap = 0.0;       ///< signed distance to the facet's line or circle              [m]

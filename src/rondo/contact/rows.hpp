@@ -35,9 +35,8 @@ class DelassusBuilder {
              CoupledProblem& problem);
 
  private:
-  std::vector<int> head_, next_;  ///< contacts of each node, as linked lists of (contact, place)
-  std::vector<int> touched_;      ///< contacts that share a node with the one at hand
-  std::vector<int> seen_;
+  std::vector<int> head_, next_;  ///< contacts of each node, as linked lists
+  std::vector<int> sharing_;      ///< contacts that share a node with the one at hand
 };
 
 }  // namespace rondo::contact

@@ -13,14 +13,14 @@ namespace rondo::contact {
 /// Memory grows and is kept. Same input, same answers, in ascending order.
 class SegmentGrid {
  public:
-  /// Boxes of the edges at these positions, widened by `margin` + `skin` [m]. Cells are as long as
-  /// the mean widened box, and at most four times as many as edges.
+  /// Boxes of the edges at these positions, widened by `margin` + `skin` [m]. Cells are at least as
+  /// long as the mean widened box, and about four times as many as edges at most.
   /// @pre positions are finite, margin >= 0, skin >= 0
   void build(std::span<const Vec2> positions, std::span<const std::array<int, 2>> edges,
              double margin, double skin);
 
   /// Builds where there is no grid yet, the edges are other ones in number, or a node of an edge
-  /// has moved by more than half the skin since the last build; true where it did. `near` is then
+  /// has moved by more than the skin since the last build; true where it did. `near` is then
   /// right for points and nodes at these positions.
   bool update(std::span<const Vec2> positions, std::span<const std::array<int, 2>> edges,
               double margin, double skin);
@@ -35,12 +35,14 @@ class SegmentGrid {
   struct Box {
     Vec2 low, high;
   };
+  void size_cells();
+  void fill_cells();
   [[nodiscard]] int cell_x(double x) const noexcept;
   [[nodiscard]] int cell_y(double y) const noexcept;
 
   std::vector<Box> boxes_;       ///< (edges) widened by margin + skin                  [m]
   std::vector<Vec2> built_at_;   ///< (edges, 2) positions of their nodes at the build  [m]
-  std::vector<int> cell_start_;  ///< (cells + 1)
+  std::vector<int> cell_start_;  ///< (cells + 2)
   std::vector<int> cell_edges_;  ///< edges of each cell, ascending
   Vec2 low_, high_;              ///< of the grid                                       [m]
   double inverse_cell_ = 0.0;    ///< [1/m]

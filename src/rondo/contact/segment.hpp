@@ -25,10 +25,10 @@ struct Segment {
   Vec2 after;   ///< of the segment that begins at b; b itself where there is none [m]
 };
 
-/// The point is behind the segment's line (gap <= 0), no deeper than `deepest` [m], and between the
-/// bisectors of the joints at a and b: inside a body, each point near a joint belongs to one of its
-/// two segments, the nearer one, on the bisector to the first (4.8a). Beyond an end without a
-/// neighbour nothing touches. @pre a != b
+/// The point is behind the segment's line (gap <= 0), no farther than `deepest` [m] from the
+/// segment, and between the bisectors of the joints at a and b: inside a body, each point near a
+/// joint belongs to one of its two segments, on the bisector to the first (4.8a). Beyond an end
+/// without a neighbour nothing touches. @pre a != b
 std::optional<SegmentTouch> touch_segment(Vec2 p, const Segment& segment, double deepest) noexcept;
 
 /// Without neighbours: the foot lies on the segment.
@@ -40,10 +40,13 @@ inline std::optional<SegmentTouch> touch_segment(Vec2 p, Vec2 a, Vec2 b, double 
 struct Boundary {
   std::vector<std::array<int, 2>> edges;   ///< (n) nodes a, b: the body is on the left
   std::vector<std::array<int, 2>> beside;  ///< (n) edge that ends at a, that begins at b; -1: none
+  std::vector<int> body;                   ///< (n) number of the edge's body
 };
 
-/// Where several edges begin, or end, at a node, they have no neighbour there.
-Boundary make_boundary(std::vector<std::array<int, 2>> edges);
+/// Where several edges begin, or several end, at a node, none is a neighbour there (two bodies, or
+/// parts of one, that hang together at the node alone).
+/// @param body_of_node number of each node's body; empty: there is one
+Boundary make_boundary(std::vector<std::array<int, 2>> edges, std::span<const int> body_of_node);
 
 /// A touch of a boundary.
 struct EdgeTouch {
@@ -51,21 +54,30 @@ struct EdgeTouch {
   SegmentTouch touch;
 };
 
-/// At most two edges at once, the nearest first; two only at a joint where the boundary turns
-/// inwards by more than 0.1 rad, when the point is behind both (a corner pressed into a corner).
+/// Each body is touched at the segment where the point is least deep, at one more where it is
+/// behind both segments of a joint that turns inwards by over 0.1 rad (a corner pressed into a
+/// corner). In the order of the edges; of more than four the first four.
 struct EdgeTouches {
   int count = 0;
-  std::array<EdgeTouch, 2> at;
+  std::array<EdgeTouch, 4> at;
 };
 
-/// What the point touches among `candidates` (ascending edges): the least deep touch, of equal
-/// ones the first. Edges of the node `own` (-1: none) do not count.
+/// A point that may touch a boundary.
+struct BoundaryPoint {
+  Vec2 position;      ///< [m]
+  int node = -1;      ///< edges of this node do not count; -1: not a node
+  int body = -1;      ///< of that node
+  bool self = false;  ///< edges of its own body count
+};
+
+/// What the point may touch.
 struct BoundaryQuery {
   const Boundary& boundary;
-  std::span<const Vec2> positions;  ///< of the nodes [m]
-  std::span<const int> candidates;  ///< edges
-  double deepest = 0.0;             ///< [m]
+  std::span<const Vec2> positions;  ///< of the nodes                       [m]
+  std::span<const int> candidates;  ///< edges, ascending
+  double deepest = 0.0;             ///< see touch_segment                  [m]
 };
-EdgeTouches touch_boundary(Vec2 p, int own, const BoundaryQuery& query) noexcept;
+
+EdgeTouches touch_boundary(const BoundaryPoint& point, const BoundaryQuery& query) noexcept;
 
 }  // namespace rondo::contact
