@@ -1,0 +1,170 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Contacts of general models: free blocks on the ground, corners, blocks against each other.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+
+#include "support/blocks.hpp"
+#include "support/stepping.hpp"
+
+namespace rondo::dynamics {
+namespace {
+
+const fem::Material rubber{1.0e6, 0.3, 1000.0, fem::Plane::strain};
+
+std::vector<Vec2> velocities(const Model& model, const std::vector<Vec2>& of_body) {
+  std::vector<Vec2> v(model.n_nodes());
+  for (std::size_t k = 0; k < v.size(); ++k)
+    v[k] = of_body[static_cast<std::size_t>(model.free_body[k])];
+  return v;
+}
+
+/// Largest figures of a run.
+struct Extremes {
+  double residual = 0.0, penetration = 0.0, length = 0.0;
+  int nodes = 0, clusters = 0, not_converged = 0, largest = 0, iterations = 0, between = 0;
+
+  void see(const StepReport& report) {
+    const ContactReport& c = report.contact;
+    if (c.free_velocity > 0.0) residual = std::max(residual, c.residual / c.free_velocity);
+    penetration = std::max(penetration, c.penetration);
+    length = std::max(length, c.length);
+    nodes = std::max(nodes, c.nodes);
+    clusters = std::max(clusters, c.clusters);
+    not_converged += c.clusters_not_converged;
+    largest = std::max(largest, c.cluster_largest);
+    iterations = std::max(iterations, c.cluster_iterations);
+    between = std::max(between, c.between_bodies);
+  }
+};
+
+/// A block that comes straight down does not turn: followed in its rotation or not is the same.
+TEST(GeneralContact, ABlockOnFlatGroundAsTheReferenceStepHasIt) {
+  mesh::Mesh mesh;
+  test::add_block(mesh, {.corner = {0.0, 0.01}, .columns = 5, .rows = 4});
+  Model model = test::body_model(mesh, rubber, 0.0, 1e-5, 0.8);
+  test::add_ground(model, mesh, {}, {0.4, 0.2});
+  Model held = model;  // u in a turning frame that does not turn
+  held.free_bodies.clear();
+  held.free_body.clear();
+  ASSERT_TRUE(is_general(model));
+  ASSERT_FALSE(is_general(held));
+  const std::vector<Vec2> v(model.n_nodes(), Vec2{0.0, -2.0}), u(model.n_nodes());
+  test::Stepping free(model, start(model, u, v)), reference(held, start(held, u, v));
+  free.advance(200);
+  reference.advance(200);
+  // Round-off of a metre's place, over 200 steps.
+  for (std::size_t k = 0; k < u.size(); ++k)
+    EXPECT_LT(norm(free.state().u[k] - reference.state().u[k]), 1e-12);
+  EXPECT_GT(reference.balance().works.dissipation_friction, 1.0);
+  EXPECT_LT(free.balance().relative, 1e-12);
+}
+
+/// A block comes down on a sharp edge between two of its nodes, frictionless and with friction.
+TEST(GeneralContact, ASharpCornerHoldsASegment) {
+  mesh::Mesh mesh;
+  test::add_block(mesh, {.corner = {-0.5, 0.0}, .columns = 3, .rows = 3});
+  for (const double mu : {0.0, 0.5}) {
+    Model model = test::body_model(mesh, rubber, 20.0, 2e-4, 0.8);
+    model.motion.gravity = 9.81;
+    // A roof whose ridge is under the middle of the middle edge.
+    test::add_ground(model, mesh, {.profile = {{-10, -10.01}, {0, -0.01}, {10, -10.01}}},
+                     {mu, 0.0});
+    test::Stepping stepping(model, start(model, std::vector<Vec2>(model.n_nodes()),
+                                         std::vector<Vec2>(model.n_nodes())));
+    Extremes seen;
+    stepping.advance_to(2.0, [&](const StepReport& r) { seen.see(r); });
+    // At rest on the ridge: the corner carries the weight, 9.81 kN/m, and is no deeper than a
+    // step's travel at the first touch, after a fall of 0.01 m.
+    EXPECT_NEAR(stepping.report().contact.impulse.y / model.dt, 9810.0, 0.1) << mu;
+    EXPECT_LT(seen.penetration, std::sqrt(2.0 * 9.81 * 0.011) * model.dt) << mu;
+    EXPECT_LT(seen.residual, 1e-12) << mu;
+    EXPECT_EQ(seen.not_converged, 0);
+  }
+}
+
+struct TwoBlocks {
+  mesh::Mesh mesh;
+  Model model;
+};
+/// One above the other, the upper one shifted by a third of an element and a little turned.
+TwoBlocks two_blocks(double mu, double alpha = 0.0) {
+  TwoBlocks t;
+  test::add_block(t.mesh, {.corner = {0.0, 0.0}, .columns = 5, .rows = 4});
+  test::add_block(t.mesh, {.corner = {0.07, 1.01}, .columns = 6, .rows = 4, .turned = 0.004});
+  t.model = test::body_model(t.mesh, rubber, alpha, 0.0, 0.8);
+  test::add_surfaces(t.model, t.mesh, {mu, 0.0});
+  return t;
+}
+
+TEST(GeneralContact, ACollisionKeepsMomentum) {
+  for (const double mu : {0.0, 0.6}) {
+    const TwoBlocks t = two_blocks(mu);
+    test::Stepping stepping(t.model, start(t.model, std::vector<Vec2>(t.model.n_nodes()),
+                                           velocities(t.model, {{0.5, 1.0}, {-0.5, -2.0}})));
+    stepping.advance(1);
+    const test::Momentum before = test::momentum(t.model, stepping.state());
+    const double scale = 1000.0 * 2.0;  // mass of a block times its velocity
+    Extremes seen;
+    stepping.advance_to(0.3, [&](const StepReport& r) { seen.see(r); });
+    const test::Momentum after = test::momentum(t.model, stepping.state());
+    EXPECT_GE(seen.between, 6) << mu;
+    EXPECT_EQ(stepping.report().contact.nodes, 0) << "they have parted";
+    EXPECT_LT(norm(after.linear - before.linear), 1e-11 * scale) << mu;
+    EXPECT_LT(std::abs(after.angular - before.angular), 1e-11 * scale) << mu;
+    double upper = 0.0;
+    for (const int node : t.model.free_bodies[1].nodes)
+      upper += t.model.mass[static_cast<std::size_t>(node)] *
+               stepping.state().v[static_cast<std::size_t>(node)].y / t.model.free_bodies[1].mass;
+    EXPECT_GT(upper, 0.0) << "the upper block has bounced";
+    EXPECT_LT(seen.residual, 1e-11) << mu;
+    EXPECT_EQ(seen.not_converged, 0) << mu;
+    EXPECT_LT(stepping.balance().relative, 1e-3) << mu;
+    EXPECT_LT(std::abs(stepping.balance().works.rim), 1e-12 * stepping.balance().exchanged)
+        << "nothing holds the bodies";
+    if (mu == 0.0) {
+      EXPECT_LT(std::abs(stepping.balance().works.dissipation_friction), 1e-12);
+    } else {
+      EXPECT_GT(stepping.balance().works.dissipation_friction, 0.1);
+    }
+  }
+}
+
+/// The ledger of a collision closes to second order: what is left is that of the turning bodies.
+TEST(GeneralContact, TheLedgerOfACollisionClosesWithTheStep) {
+  double before = 0.0;
+  for (const double safety : {0.8, 0.4, 0.2}) {
+    TwoBlocks t = two_blocks(0.3);
+    t.model.dt *= safety / 0.8;
+    test::Stepping stepping(t.model, start(t.model, std::vector<Vec2>(t.model.n_nodes()),
+                                           velocities(t.model, {{0.5, 1.0}, {-0.5, -2.0}})));
+    stepping.advance_to(0.1);
+    const double relative = stepping.balance().relative;
+    if (before > 0.0) {
+      EXPECT_LT(relative, 0.35 * before) << safety;
+    }
+    before = relative;
+  }
+}
+
+/// A stack: the lower block rests on the ground, the upper one on it, after damping.
+TEST(GeneralContact, AStackComesToRest) {
+  TwoBlocks t = two_blocks(0.5, 30.0);
+  t.model.motion.gravity = 9.81;
+  test::add_ground(t.model, t.mesh, {}, {0.5, 0.0});
+  test::Stepping stepping(t.model, start(t.model, std::vector<Vec2>(t.model.n_nodes()),
+                                         std::vector<Vec2>(t.model.n_nodes())));
+  Extremes seen;
+  stepping.advance_to(5.0, [&](const StepReport& r) { seen.see(r); });
+  EXPECT_NEAR(stepping.report().contact.impulse.y / t.model.dt, 2 * 9810.0, 0.1);
+  double fastest = 0.0;
+  for (const Vec2 v : stepping.state().v) fastest = std::max(fastest, norm(v));
+  EXPECT_LT(fastest, 1e-4);  // it falls by a third in a tenth of a second, and goes on
+  EXPECT_LT(seen.residual, 1e-11);
+  EXPECT_EQ(seen.not_converged, 0);
+  EXPECT_LT(seen.penetration, 2e-3);
+}
+
+}  // namespace
+}  // namespace rondo::dynamics
