@@ -38,18 +38,19 @@ std::string_view name_of(Steps steps) noexcept {
 Problem::Problem(const mesh::Disk& disk) : mesh_(mesh::make_disk(disk)) {
   const test::DiskCase defaults = test::rolling_disk(1, 3);
   model_.reference = mesh_.coordinates;
-  model_.mass = fem::lumped_mass(mesh_, defaults.material.density);
+  model_.mass = fem::lumped_mass(mesh_, {&defaults.material, 1});
   model_.free = fem::free_nodes(mesh_);
-  model_.sector = fem::assemble_sector(mesh_, defaults.material);
+  model_.sector = fem::assemble_sector(mesh_, {&defaults.material, 1});
   model_.mass_damping = defaults.alpha;
   model_.motion = defaults.motion;
   model_.motion.height = dynamics::Table(0.2995);  // a contact of 35 mm from the first step
-  omega_ = std::sqrt(fem::element_eigenvalue_bound(one_sector(mesh_), defaults.material));
+  omega_ = std::sqrt(fem::element_eigenvalue_bound(one_sector(mesh_), {&defaults.material, 1}));
 }
 
 void Problem::assemble() {
   if (!stiffness_.row_start.empty() || !model_.stiffness.row_start.empty()) return;
-  stiffness_ = fem::assemble_stiffness(mesh_, test::DiskCase{}.material);
+  const fem::Material material = test::DiskCase{}.material;
+  stiffness_ = fem::assemble_stiffness(mesh_, {&material, 1});
 }
 
 const fem::BlockCsr& Problem::blocks() {

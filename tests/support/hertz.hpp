@@ -37,7 +37,7 @@ class HertzDisk {
     mesh_ = mesh::make_disk(disk);
     model_ = statics::make_crush_model(mesh_.coordinates, mesh_.boundary, 0.0);
     const fem::Material rubber{5.0e6, 0.3, 1100.0, fem::Plane::strain};
-    body_ = std::make_unique<statics::Condensation>(fem::assemble_stiffness(mesh_, rubber),
+    body_ = std::make_unique<statics::Condensation>(fem::assemble_stiffness(mesh_, {&rubber, 1}),
                                                     fem::free_nodes(mesh_), model_.nodes);
   }
 

@@ -66,16 +66,16 @@ inline Built build(const DiskCase& c) {
   b.mesh = mesh::make_disk(c.disk);
   b.material = c.material;
   b.model.reference = b.mesh.coordinates;
-  b.model.mass = fem::lumped_mass(b.mesh, c.material.density);
+  b.model.mass = fem::lumped_mass(b.mesh, {&c.material, 1});
   b.model.free = fem::free_nodes(b.mesh);
-  b.model.stiffness = fem::assemble_stiffness(b.mesh, c.material);
+  b.model.stiffness = fem::assemble_stiffness(b.mesh, {&c.material, 1});
   b.model.mass_damping = c.alpha;
   b.model.stiffness_damping = c.beta;
   b.model.motion = c.motion;
   b.model.scheme = c.scheme;
   b.critical = dynamics::critical_step(b.model.stiffness, b.model.mass, b.model.free,
                                        {c.beta, lagged_mass(c)},
-                                       fem::element_eigenvalue_bound(b.mesh, c.material));
+                                       fem::element_eigenvalue_bound(b.mesh, {&c.material, 1}));
   b.model.dt = c.safety * b.critical.step;
   return b;
 }

@@ -25,7 +25,7 @@ Computed compute(int radial) {
   const auto s = statics::stationary_spin(b.model.stiffness, b.model.mass, b.model.reference,
                                           b.model.free, -50.0);
   EXPECT_EQ(s.status, statics::SpinStatus::solved);
-  fem::StressRecovery recovery(b.mesh, c.material);
+  fem::StressRecovery recovery(b.mesh, {&c.material, 1});
   const fem::Stress rim = recovery(s.u)[0];
   return {-s.u[static_cast<std::size_t>(radial)].y, rim[1], rim[0]};
 }

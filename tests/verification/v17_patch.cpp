@@ -60,7 +60,7 @@ TEST_P(Patch, ConstantStrain) {
   const auto [kind, plane] = GetParam();
   const mesh::Mesh m = distorted_square(kind, 5);
   const fem::Material material{2e7, 0.3, 1100.0, plane};
-  const fem::BlockCsr k = fem::assemble_stiffness(m, material);
+  const fem::BlockCsr k = fem::assemble_stiffness(m, {&material, 1});
   const std::vector<int> all = fem::free_nodes(m);  // nothing is clamped: all of them
   const Eigen::SparseMatrix<double> a = fem::free_matrix(k, all);
   std::vector<Eigen::Index> inner;
@@ -85,7 +85,7 @@ TEST_P(Patch, ConstantStrain) {
     ASSERT_LT(norm(field[i] - linear(m.coordinates[i])), 1e-16);
   }
   const fem::Hooke d = fem::hooke(material);
-  fem::StressRecovery recovery(m, material);
+  fem::StressRecovery recovery(m, {&material, 1});
   for (const fem::Stress& s : recovery(field)) {
     ASSERT_NEAR(s[0], d.d11 * 1e-3 + d.d12 * 7e-4, 1e-12 * d.d11);
     ASSERT_NEAR(s[1], d.d12 * 1e-3 + d.d11 * 7e-4, 1e-12 * d.d11);
@@ -100,9 +100,10 @@ INSTANTIATE_TEST_SUITE_P(All, Patch,
                                           testing::Values(fem::Plane::strain, fem::Plane::stress)));
 
 TEST(Mass, SumsToDensityTimesArea) {
+  const fem::Material rubber{2e7, 0.3, 1100.0, fem::Plane::strain};
   for (const Cells kind : {Cells::quadrilaterals, Cells::triangles, Cells::mixed}) {
     double sum = 0.0;
-    for (const double mass : fem::lumped_mass(distorted_square(kind, 5), 1100.0)) sum += mass;
+    for (const double mass : fem::lumped_mass(distorted_square(kind, 5), {&rubber, 1})) sum += mass;
     EXPECT_NEAR(sum, 1100.0, 1e-11);
   }
 }
@@ -114,9 +115,9 @@ TEST(FreeFall, EveryNodeFallsAtG) {
   const fem::Material material{2e5, 0.3, 1100.0, fem::Plane::strain};
   dynamics::Model model;
   model.reference = m.coordinates;
-  model.mass = fem::lumped_mass(m, material.density);
+  model.mass = fem::lumped_mass(m, {&material, 1});
   model.free = fem::free_nodes(m);
-  model.stiffness = fem::assemble_stiffness(m, material);
+  model.stiffness = fem::assemble_stiffness(m, {&material, 1});
   model.motion.gravity = 9.81;
   model.dt = 1e-4;
   test::Stepping run(model, test::start_at_rest(model));

@@ -73,9 +73,12 @@ void add_element(BlockCsr& k, const mesh::Cell& cell, const ElementMatrix& e) {
 }
 
 /// Of the element's own M_e⁻¹ K_e [1/s²].
-double largest_eigenvalue(const Corners& corners, const Hooke& d, double density) {
-  ElementMatrix k = element_stiffness(corners.span(), d);
-  const std::array<double, 4> m = element_masses(corners.span(), density);
+double largest_eigenvalue(const mesh::Mesh& mesh, std::span<const Material> materials,
+                          std::size_t e) {
+  const Corners corners = corners_of(mesh, mesh.cells[e]);
+  const Material& material = material_of(mesh, materials, e);
+  ElementMatrix k = element_stiffness(corners.span(), hooke(material));
+  const std::array<double, 4> m = element_masses(corners.span(), material.density);
   for (Eigen::Index i = 0; i < k.rows(); ++i)
     for (Eigen::Index j = 0; j < k.cols(); ++j)
       k(i, j) /= std::sqrt(m[static_cast<std::size_t>(i / 2)] * m[static_cast<std::size_t>(j / 2)]);
@@ -83,47 +86,57 @@ double largest_eigenvalue(const Corners& corners, const Hooke& d, double density
   return solver.eigenvalues().maxCoeff();
 }
 
+/// (n) Element masses of a density for each cell, summed.
+template <class Density>
+std::vector<double> sum_at_nodes(const mesh::Mesh& mesh, Density&& density) {
+  std::vector<double> sum(mesh.n_nodes(), 0.0);
+  for (std::size_t e = 0; e < mesh.cells.size(); ++e) {
+    const Corners corners = corners_of(mesh, mesh.cells[e]);
+    const std::array<double, 4> m = element_masses(corners.span(), density(e));
+    for (std::size_t a = 0; a < corners.n; ++a)
+      sum[static_cast<std::size_t>(mesh.cells[e][a])] += m[a];
+  }
+  return sum;
+}
+
 }  // namespace
 
-BlockCsr assemble_stiffness(const mesh::Mesh& mesh, const Material& material) {
-  const Hooke d = hooke(material);
+BlockCsr assemble_stiffness(const mesh::Mesh& mesh, std::span<const Material> materials) {
   BlockCsr k = pattern(mesh);
-  for (const mesh::Cell& cell : mesh.cells) {
+  for (std::size_t e = 0; e < mesh.cells.size(); ++e) {
+    const mesh::Cell& cell = mesh.cells[e];
     const Corners corners = corners_of(mesh, cell);
     RONDO_DEMAND(smallest_jacobian(corners.span()) > 0.0, cell[0], cell[1], cell[2], cell[3]);
-    add_element(k, cell, element_stiffness(corners.span(), d));
+    add_element(k, cell, element_stiffness(corners.span(), hooke(material_of(mesh, materials, e))));
   }
   return k;
 }
 
-std::vector<double> lumped_mass(const mesh::Mesh& mesh, double density) {
-  std::vector<double> mass(mesh.n_nodes(), 0.0);
-  for (const mesh::Cell& cell : mesh.cells) {
-    const Corners corners = corners_of(mesh, cell);
-    const std::array<double, 4> m = element_masses(corners.span(), density);
-    for (std::size_t a = 0; a < corners.n; ++a) mass[static_cast<std::size_t>(cell[a])] += m[a];
-  }
-  return mass;
+std::vector<double> lumped_mass(const mesh::Mesh& mesh, std::span<const Material> materials) {
+  return sum_at_nodes(mesh, [&](std::size_t e) { return material_of(mesh, materials, e).density; });
 }
 
-double element_eigenvalue_bound(const mesh::Mesh& mesh, const Material& material) {
-  const Hooke d = hooke(material);
+std::vector<double> nodal_areas(const mesh::Mesh& mesh) {
+  return sum_at_nodes(mesh, [](std::size_t) { return 1.0; });
+}
+
+double element_eigenvalue_bound(const mesh::Mesh& mesh, std::span<const Material> materials) {
   double bound = 0.0;
-  for (const mesh::Cell& cell : mesh.cells)
-    bound = std::max(bound, largest_eigenvalue(corners_of(mesh, cell), d, material.density));
+  for (std::size_t e = 0; e < mesh.cells.size(); ++e)
+    bound = std::max(bound, largest_eigenvalue(mesh, materials, e));
   return bound;
 }
 
-double sector_eigenvalue_bound(const mesh::Mesh& mesh, const Material& material) {
+double sector_eigenvalue_bound(const mesh::Mesh& mesh, std::span<const Material> materials) {
   RONDO_DEMAND(mesh.n_sectors > 0, mesh.n_sectors);
-  const Hooke d = hooke(material);
   double bound = 0.0;
-  for (const mesh::Cell& cell : mesh.cells) {
+  for (std::size_t e = 0; e < mesh.cells.size(); ++e) {
+    const mesh::Cell& cell = mesh.cells[e];
     const auto in_sector_0 = [&](int node) {
       return node >= 0 && mesh.sector[static_cast<std::size_t>(node)] == 0;
     };
     if (std::any_of(cell.begin(), cell.end(), in_sector_0))
-      bound = std::max(bound, largest_eigenvalue(corners_of(mesh, cell), d, material.density));
+      bound = std::max(bound, largest_eigenvalue(mesh, materials, e));
   }
   return bound;
 }

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// @file  Global matrices: lumped mass and the stiffness in 2×2 blocks (docs/theory.md, 2.4, 2.5).
+/// `materials` everywhere: one for each region of the mesh (material_of).
 #pragma once
 #include <Eigen/SparseCore>
 #include <array>
@@ -27,17 +28,20 @@ struct BlockCsr {
 };
 
 /// Stiffness of the free nodes. Symmetric to the last bit. @pre no inverted element.
-BlockCsr assemble_stiffness(const mesh::Mesh& mesh, const Material& material);
+BlockCsr assemble_stiffness(const mesh::Mesh& mesh, std::span<const Material> materials);
 
 /// (n) Lumped mass of every node, clamped ones included: sums to ρ × area of the polygons [kg/m].
-std::vector<double> lumped_mass(const mesh::Mesh& mesh, double density);
+std::vector<double> lumped_mass(const mesh::Mesh& mesh, std::span<const Material> materials);
+
+/// (n) The same with a density of 1: area that a node stands for [m²].
+std::vector<double> nodal_areas(const mesh::Mesh& mesh);
 
 /// Upper bound of the largest eigenvalue of M⁻¹K by elements: max over elements of the largest
 /// eigenvalue of the element's own M_e⁻¹ K_e [1/s²] (Irons and Treharne 1972), (3.8a).
-double element_eigenvalue_bound(const mesh::Mesh& mesh, const Material& material);
+double element_eigenvalue_bound(const mesh::Mesh& mesh, std::span<const Material> materials);
 
 /// The same by the elements of one sector, to round-off. @pre a cyclic mesh.
-double sector_eigenvalue_bound(const mesh::Mesh& mesh, const Material& material);
+double sector_eigenvalue_bound(const mesh::Mesh& mesh, std::span<const Material> materials);
 
 /// K of the free nodes as a symmetric scalar matrix, numbered 2·(place in `free`) + component.
 Eigen::SparseMatrix<double> free_matrix(const BlockCsr& k, std::span<const int> free);

@@ -3,7 +3,16 @@
 
 #include <cmath>
 
+#include "rondo/core/contract.hpp"
+
 namespace rondo::fem {
+
+const Material& material_of(const mesh::Mesh& mesh, std::span<const Material> materials,
+                            std::size_t cell) {
+  const std::size_t place = mesh.region.empty() ? 0 : static_cast<std::size_t>(mesh.region[cell]);
+  RONDO_DEMAND(place < materials.size(), place, materials.size());
+  return materials[place];
+}
 
 Hooke hooke(const Material& m) noexcept {
   const double e = m.youngs_modulus, nu = m.poissons_ratio;

@@ -1,6 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// @file  Isotropic linear elasticity in the plane (docs/theory.md, section 2.2).
 #pragma once
+#include <cstddef>
+#include <span>
+
+#include "rondo/mesh/mesh.hpp"
 
 namespace rondo::fem {
 
@@ -17,6 +21,11 @@ struct Material {
   Plane plane = Plane::strain;
   Integration integration = Integration::full;
 };
+
+/// Of cell `cell`. @param materials one for each of mesh.region_names, or, where mesh.region is
+/// empty, one for all.
+const Material& material_of(const mesh::Mesh& mesh, std::span<const Material> materials,
+                            std::size_t cell);
 
 /// σ = D ε with ε = (ε_xx, ε_yy, γ_xy), D = [[d11, d12, 0], [d12, d11, 0], [0, 0, d33]].
 struct Hooke {

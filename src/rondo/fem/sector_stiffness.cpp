@@ -29,6 +29,7 @@ struct LocalCell {
   std::array<Vec2, 4> x;
   std::array<int, 4> node, shift;
   std::size_t n;
+  std::size_t cell;  ///< of the mesh
 };
 
 int shift_of(int sector, int n_sectors) noexcept {
@@ -38,8 +39,9 @@ int shift_of(int sector, int n_sectors) noexcept {
 /// Cells with a corner in sector 0.
 std::vector<LocalCell> cells_of_sector(const mesh::Mesh& mesh) {
   std::vector<LocalCell> cells;
-  for (const mesh::Cell& cell : mesh.cells) {
-    LocalCell c{{}, {}, {}, static_cast<std::size_t>(mesh::n_corners(cell))};
+  for (std::size_t e = 0; e < mesh.cells.size(); ++e) {
+    const mesh::Cell& cell = mesh.cells[e];
+    LocalCell c{{}, {}, {}, static_cast<std::size_t>(mesh::n_corners(cell)), e};
     bool touches = false;
     for (std::size_t i = 0; i < c.n; ++i) {
       const auto node = static_cast<std::size_t>(cell[i]);
@@ -96,15 +98,14 @@ struct Key {
 
 /// Blocks of the rows of sector 0 on the columns of sectors 0 and 1. What couples it with the
 /// sector before is the transpose of what couples that one with it.
-std::map<Key, Block> forward_blocks(const std::vector<LocalCell>& cells,
-                                    const std::vector<int>& place, const Material& material,
-                                    Vec2 turn) {
-  const Hooke d = hooke(material);
+std::map<Key, Block> forward_blocks(const mesh::Mesh& mesh, std::span<const Material> materials,
+                                    const std::vector<LocalCell>& cells,
+                                    const std::vector<int>& place, Vec2 turn) {
   std::map<Key, Block> blocks;
   for (const LocalCell& c : cells) {
     const std::span corners(c.x.data(), c.n);
     RONDO_DEMAND(smallest_jacobian(corners) > 0.0, c.node[0], c.node[1], c.node[2], c.node[3]);
-    const ElementMatrix e = element_stiffness(corners, d);
+    const ElementMatrix e = element_stiffness(corners, hooke(material_of(mesh, materials, c.cell)));
     for (std::size_t i = 0; i < c.n; ++i)
       for (std::size_t j = 0; j < c.n; ++j) {
         const int row = place[static_cast<std::size_t>(c.node[i])],
@@ -139,7 +140,7 @@ void add_rows(const std::map<Key, Block>& forward, SectorStiffness& k) {
 
 }  // namespace
 
-SectorStiffness assemble_sector(const mesh::Mesh& mesh, const Material& material) {
+SectorStiffness assemble_sector(const mesh::Mesh& mesh, std::span<const Material> materials) {
   RONDO_DEMAND(mesh.n_sectors >= 3, mesh.n_sectors);
   SectorStiffness k;
   k.n_sectors = mesh.n_sectors;
@@ -155,7 +156,7 @@ SectorStiffness assemble_sector(const mesh::Mesh& mesh, const Material& material
     clamped[static_cast<std::size_t>(mesh.sector_node[static_cast<std::size_t>(node)])] = 1;
   const std::vector<LocalCell> cells = cells_of_sector(mesh);
   const std::vector<int> place = order_by_layers(cells, clamped, k);
-  add_rows(forward_blocks(cells, place, material, k.turn[1]), k);
+  add_rows(forward_blocks(mesh, materials, cells, place, k.turn[1]), k);
   return k;
 }
 

@@ -41,8 +41,9 @@ struct SectorStiffness {
   }
 };
 
+/// @param materials one for each region of the mesh (material_of).
 /// @pre the mesh has N >= 3 equal sectors, numbered one after the other; no inverted element.
-SectorStiffness assemble_sector(const mesh::Mesh& mesh, const Material& material);
+SectorStiffness assemble_sector(const mesh::Mesh& mesh, std::span<const Material> materials);
 
 /// out = K u, Cartesian components in the turning frame, both (n); clamped nodes give 0. The
 /// readable product: the steps have their own.

@@ -12,7 +12,8 @@ namespace rondo::fem {
 
 class StressRecovery {
  public:
-  StressRecovery(const mesh::Mesh& mesh, const Material& material);
+  /// @param materials one for each region of the mesh (material_of).
+  StressRecovery(const mesh::Mesh& mesh, std::span<const Material> materials);
 
   /// (n) Cauchy stress xx, yy, zz, xy at the nodes in the frame of u [Pa]; `u` is (n) [m].
   /// Allocates nothing. The mesh must outlive the object.
@@ -20,7 +21,7 @@ class StressRecovery {
 
  private:
   const mesh::Mesh& mesh_;
-  Hooke hooke_;
+  std::vector<Hooke> hooke_;                   ///< of each material
   std::vector<std::array<double, 4>> weight_;  ///< (e) share of a corner in its node's mean
   std::vector<Stress> nodal_;
 };

@@ -68,13 +68,13 @@ bool by_harmonics(const dynamics::Model& model) {
 dynamics::Model make_model(const Case& c, const mesh::Mesh& mesh) {
   dynamics::Model model;
   model.reference = mesh.coordinates;
-  model.mass = fem::lumped_mass(mesh, c.material.density);
+  model.mass = fem::lumped_mass(mesh, {&c.material, 1});
   model.free = fem::free_nodes(mesh);
-  if (mesh.n_sectors > 0) model.sector = fem::assemble_sector(mesh, c.material);
+  if (mesh.n_sectors > 0) model.sector = fem::assemble_sector(mesh, {&c.material, 1});
   if (model.sector && c.solver_operator != "sparse")
     model.stiffness_operator = dynamics::StiffnessOperator::cyclic;
   if (model.stiffness_operator == dynamics::StiffnessOperator::sparse || !by_harmonics(model))
-    model.stiffness = fem::assemble_stiffness(mesh, c.material);
+    model.stiffness = fem::assemble_stiffness(mesh, {&c.material, 1});
   model.mass_damping = c.damping.mass;
   model.stiffness_damping = c.damping.stiffness;
   model.motion = c.motion;
@@ -128,9 +128,10 @@ dynamics::CriticalStep find_critical_step(const Case& c, const Setup& s) {
   const dynamics::LaggedDamping damping{c.damping.stiffness, lagged ? c.damping.mass : 0.0};
   if (by_harmonics(m))
     return dynamics::critical_step(*m.sector, m.mass, damping,
-                                   fem::sector_eigenvalue_bound(s.mesh, c.material));
+                                   fem::sector_eigenvalue_bound(s.mesh, {&c.material, 1}));
   return dynamics::critical_step(m.stiffness, m.mass, m.free, damping,
-                                 fem::element_eigenvalue_bound(s.mesh, c.material), m.threads);
+                                 fem::element_eigenvalue_bound(s.mesh, {&c.material, 1}),
+                                 m.threads);
 }
 
 statics::StationarySpin find_stationary_spin(const dynamics::Model& m, double spin) {

@@ -13,7 +13,7 @@ CrushSetup build_crush(const Case& c) {
                c.ground.has_value());
   CrushSetup s;
   s.mesh = build_mesh(c);
-  s.mass = fem::lumped_mass(s.mesh, c.material.density);
+  s.mass = fem::lumped_mass(s.mesh, {&c.material, 1});
   s.free = fem::free_nodes(s.mesh);
   s.model = statics::make_crush_model(s.mesh.coordinates, s.mesh.boundary, c.ground->friction);
   s.ground_height = c.ground->shape.profile.front().y;

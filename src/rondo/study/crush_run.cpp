@@ -163,7 +163,7 @@ std::string crush_trouble(const statics::CrushReport& report, const statics::Cru
 RunReport run_crush(const Case& c, const RunOptions& options) {
   const CrushSetup setup = build_crush(c);
   const auto begin = Clock::now();
-  statics::Condensation body(fem::assemble_stiffness(setup.mesh, c.material), setup.free,
+  statics::Condensation body(fem::assemble_stiffness(setup.mesh, {&c.material, 1}), setup.free,
                              setup.model.nodes);
   condense(c, setup, body);
   Json json = describe(c, setup, seconds_since(begin));

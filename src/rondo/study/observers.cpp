@@ -116,7 +116,7 @@ Snapshots::Snapshots(const std::filesystem::path& directory, const Case& c, cons
     : setup_(setup),
       results_(directory, layout(c, setup, planned)),
       contact_csv_(directory / "contact.csv", contact_columns()) {
-  if (c.output.stress) stress_.emplace(setup.mesh, c.material);
+  if (c.output.stress) stress_.emplace(setup.mesh, std::span(&c.material, 1));
   const std::size_t nb = setup.model.contact ? setup.mesh.boundary.size() : 0;
   force_.resize(nb);
   force_fixed_.resize(nb);

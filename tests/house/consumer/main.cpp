@@ -11,12 +11,13 @@ int main() {
   const fem::Material material{2e7, 0.3, 1100.0, fem::Plane::strain};
   dynamics::Model model;
   model.reference = mesh.coordinates;
-  model.mass = fem::lumped_mass(mesh, material.density);
+  model.mass = fem::lumped_mass(mesh, {&material, 1});
   model.free = fem::free_nodes(mesh);
-  model.stiffness = fem::assemble_stiffness(mesh, material);
+  model.stiffness = fem::assemble_stiffness(mesh, {&material, 1});
   model.motion.angular_velocity = dynamics::Table(50.0);
-  const auto critical = dynamics::critical_step(model.stiffness, model.mass, model.free, {},
-                                                fem::element_eigenvalue_bound(mesh, material));
+  const auto critical =
+      dynamics::critical_step(model.stiffness, model.mass, model.free, {},
+                              fem::element_eigenvalue_bound(mesh, {&material, 1}));
   model.dt = 0.8 * critical.step;
   const std::vector<Vec2> zero(model.n_nodes());
   dynamics::State state = dynamics::start(model, zero, zero);

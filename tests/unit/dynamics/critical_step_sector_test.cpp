@@ -19,21 +19,21 @@ namespace {
 const fem::Material material{2.0e7, 0.3, 1100.0, fem::Plane::strain};
 
 CriticalStep by_harmonics(const mesh::Mesh& mesh, LaggedDamping damping = {}) {
-  return critical_step(fem::assemble_sector(mesh, material),
-                       fem::lumped_mass(mesh, material.density), damping,
-                       fem::sector_eigenvalue_bound(mesh, material));
+  return critical_step(fem::assemble_sector(mesh, {&material, 1}),
+                       fem::lumped_mass(mesh, {&material, 1}), damping,
+                       fem::sector_eigenvalue_bound(mesh, {&material, 1}));
 }
 
 CriticalStep assembled(const mesh::Mesh& mesh) {
-  return critical_step(fem::assemble_stiffness(mesh, material),
-                       fem::lumped_mass(mesh, material.density), fem::free_nodes(mesh), {},
-                       fem::element_eigenvalue_bound(mesh, material));
+  return critical_step(fem::assemble_stiffness(mesh, {&material, 1}),
+                       fem::lumped_mass(mesh, {&material, 1}), fem::free_nodes(mesh), {},
+                       fem::element_eigenvalue_bound(mesh, {&material, 1}));
 }
 
 double dense_omega(const mesh::Mesh& mesh) {
   const std::vector<int> free = fem::free_nodes(mesh);
-  const std::vector<double> mass = fem::lumped_mass(mesh, material.density);
-  Eigen::MatrixXd a = fem::free_matrix(fem::assemble_stiffness(mesh, material), free);
+  const std::vector<double> mass = fem::lumped_mass(mesh, {&material, 1});
+  Eigen::MatrixXd a = fem::free_matrix(fem::assemble_stiffness(mesh, {&material, 1}), free);
   const auto m = [&](Eigen::Index i) {
     return mass[static_cast<std::size_t>(free[static_cast<std::size_t>(i / 2)])];
   };

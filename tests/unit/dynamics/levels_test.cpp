@@ -31,7 +31,7 @@ test::Built rolling(bool tread) {
   c.motion.gravity = 9.81;
   auto b = test::build(c);
   b.model.dt = 2e-5;
-  b.model.sector = fem::assemble_sector(b.mesh, c.material);
+  b.model.sector = fem::assemble_sector(b.mesh, {&c.material, 1});
   test::add_ground(b, {}, {0.3, 0.0});
   return b;
 }

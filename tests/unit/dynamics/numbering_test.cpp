@@ -61,7 +61,7 @@ Disk disk(int radial, int circumferential, bool by_chance) {
     std::for_each(mesh.clamped.begin(), mesh.clamped.end(), renumber);
     std::sort(mesh.clamped.begin(), mesh.clamped.end());
   }
-  return {fem::assemble_stiffness(mesh, c.material), fem::free_nodes(mesh)};
+  return {fem::assemble_stiffness(mesh, {&c.material, 1}), fem::free_nodes(mesh)};
 }
 
 }  // namespace

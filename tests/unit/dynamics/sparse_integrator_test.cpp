@@ -55,16 +55,16 @@ Model mixed_model(const test::DiskCase& c, bool contact) {
   test::Built b;
   b.mesh = mixed(mesh::make_disk(c.disk));
   b.model.reference = b.mesh.coordinates;
-  b.model.mass = fem::lumped_mass(b.mesh, c.material.density);
+  b.model.mass = fem::lumped_mass(b.mesh, {&c.material, 1});
   b.model.free = fem::free_nodes(b.mesh);
-  b.model.stiffness = fem::assemble_stiffness(b.mesh, c.material);
+  b.model.stiffness = fem::assemble_stiffness(b.mesh, {&c.material, 1});
   b.model.mass_damping = c.alpha;
   b.model.stiffness_damping = c.beta;
   b.model.motion = c.motion;
   b.model.scheme = c.scheme;
   b.model.dt = c.safety * critical_step(b.model.stiffness, b.model.mass, b.model.free,
                                         {c.beta, test::lagged_mass(c)},
-                                        fem::element_eigenvalue_bound(b.mesh, c.material))
+                                        fem::element_eigenvalue_bound(b.mesh, {&c.material, 1}))
                               .step;
   if (contact) test::add_ground(b, {}, {0.3, 0.0});
   return b.model;

@@ -24,7 +24,7 @@ std::vector<double> eigenvalues(const Eigen::MatrixXcd& lower) {
 /// Of M^-½ K M^-½, by the assembled stiffness.
 std::vector<double> assembled_eigenvalues(const mesh::Mesh& mesh, std::span<const double> mass) {
   const std::vector<int> free = fem::free_nodes(mesh);
-  Eigen::MatrixXd a = fem::free_matrix(fem::assemble_stiffness(mesh, material), free);
+  Eigen::MatrixXd a = fem::free_matrix(fem::assemble_stiffness(mesh, {&material, 1}), free);
   const auto root = [&](Eigen::Index i) {
     return std::sqrt(mass[static_cast<std::size_t>(free[static_cast<std::size_t>(i / 2)])]);
   };
@@ -39,8 +39,8 @@ std::vector<double> assembled_eigenvalues(const mesh::Mesh& mesh, std::span<cons
 TEST(Harmonics, TogetherHaveTheEigenvaluesOfTheAssembledStiffness) {
   for (const mesh::Disk& disk : test::cyclic_disks()) {
     const mesh::Mesh mesh = mesh::make_disk(disk);
-    const std::vector<double> mass = fem::lumped_mass(mesh, material.density);
-    fem::Harmonics harmonics(fem::assemble_sector(mesh, material), mass);
+    const std::vector<double> mass = fem::lumped_mass(mesh, {&material, 1});
+    fem::Harmonics harmonics(fem::assemble_sector(mesh, {&material, 1}), mass);
     std::vector<double> found;
     for (int k = 0; k < harmonics.count(); ++k) {
       const bool twice = k > 0 && 2 * k < mesh.n_sectors;  // k and N - k
@@ -61,7 +61,7 @@ TEST(Harmonics, ProductIsThatOfTheWholeMesh) {
   std::uniform_real_distribution<double> x(-1.0, 1.0);
   for (const mesh::Disk& disk : test::cyclic_disks()) {
     const mesh::Mesh mesh = mesh::make_disk(disk);
-    const fem::SectorStiffness sector = fem::assemble_sector(mesh, material);
+    const fem::SectorStiffness sector = fem::assemble_sector(mesh, {&material, 1});
     fem::Harmonics harmonics(sector, std::vector<double>(mesh.n_nodes(), 1.0));
     const auto on_mesh = [&](const Eigen::VectorXcd& polar, int k) {
       std::vector<Vec2> u(mesh.n_nodes());
@@ -113,7 +113,7 @@ TEST(Harmonics, FactorAndShift) {
 TEST(Assembly, ElementBoundOfASectorIsThatOfTheMesh) {
   for (const mesh::Disk& disk : test::cyclic_disks()) {
     const mesh::Mesh mesh = mesh::make_disk(disk);
-    const double expected = fem::element_eigenvalue_bound(mesh, material);
-    EXPECT_NEAR(fem::sector_eigenvalue_bound(mesh, material), expected, 1e-12 * expected);
+    const double expected = fem::element_eigenvalue_bound(mesh, {&material, 1});
+    EXPECT_NEAR(fem::sector_eigenvalue_bound(mesh, {&material, 1}), expected, 1e-12 * expected);
   }
 }

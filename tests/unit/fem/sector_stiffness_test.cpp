@@ -33,8 +33,8 @@ TEST(SectorStiffness, ProductIsThatOfTheAssembledStiffness) {
   std::uniform_real_distribution<double> x(-1.0, 1.0);
   for (const mesh::Disk& disk : disks()) {
     const mesh::Mesh mesh = mesh::make_disk(disk);
-    const fem::BlockCsr k = fem::assemble_stiffness(mesh, material);
-    const fem::SectorStiffness sector = fem::assemble_sector(mesh, material);
+    const fem::BlockCsr k = fem::assemble_stiffness(mesh, {&material, 1});
+    const fem::SectorStiffness sector = fem::assemble_sector(mesh, {&material, 1});
     std::vector<Vec2> u(mesh.n_nodes()), out(mesh.n_nodes(), Vec2{7.0, 7.0});
     for (Vec2& v : u) v = {x(random), x(random)};
     fem::apply(sector, u, out);
@@ -57,7 +57,7 @@ TEST(SectorStiffness, ProductIsThatOfTheAssembledStiffness) {
 
 TEST(SectorStiffness, IsSymmetricToTheLastBit) {
   for (const mesh::Disk& disk : disks()) {
-    const fem::SectorStiffness k = fem::assemble_sector(mesh::make_disk(disk), material);
+    const fem::SectorStiffness k = fem::assemble_sector(mesh::make_disk(disk), {&material, 1});
     std::map<std::tuple<std::size_t, std::size_t, int>, std::array<double, 4>> blocks;
     for (std::size_t a = 0; a < k.n_local(); ++a)
       for (const auto& e : k.row(a))
@@ -75,7 +75,7 @@ TEST(SectorStiffness, IsSymmetricToTheLastBit) {
 TEST(SectorStiffness, RowsGoOutwardsLayerByLayer) {
   for (const mesh::Disk& disk : disks()) {
     const mesh::Mesh mesh = mesh::make_disk(disk);
-    const fem::SectorStiffness k = fem::assemble_sector(mesh, material);
+    const fem::SectorStiffness k = fem::assemble_sector(mesh, {&material, 1});
     double radius = disk.inner_radius;
     for (std::size_t a = 0; a < k.n_local(); ++a) {
       const double r = norm(mesh.coordinates[k.node(a, 0)]);

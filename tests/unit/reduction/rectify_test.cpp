@@ -170,7 +170,7 @@ TEST(Rings, ContactCandidates) {
 TEST(Rectifier, TheInverseIsTheAdjoint) {
   for (const mesh::Mesh& m : meshes()) {
     const Rings rings = node_rings(m);
-    const std::vector<double> mass = fem::lumped_mass(m, 1100.0);
+    const std::vector<double> mass = fem::lumped_mass(m, {&rubber, 1});
     const Field a = random_field(m.n_nodes()), b = random_field(m.n_nodes(), 2);
     for (const Shift shift : {Shift::fourier, Shift::pitch})
       for (const double theta : angles) {
@@ -203,7 +203,7 @@ TEST(Rectifier, IsAGroup) {
 TEST(Rectifier, CommutesWithTheStiffness) {
   for (const mesh::Mesh& m : meshes()) {
     const Rings rings = node_rings(m);
-    const fem::BlockCsr k = fem::assemble_stiffness(m, rubber);
+    const fem::BlockCsr k = fem::assemble_stiffness(m, {&rubber, 1});
     const Field u = random_field(m.n_nodes());
     const Field ku = stiffness_times(k, u);
     for (const Shift shift : {Shift::fourier, Shift::pitch})

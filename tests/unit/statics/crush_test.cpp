@@ -26,7 +26,8 @@ Pressed make(double friction, bool tread = false) {
   disk.circumferential = 60;
   if (tread) disk.tread = {.pitches = 20, .depth = 0.02, .land_columns = 2};
   Pressed p{mesh::make_disk(disk), {}, {}, {}};
-  p.k = fem::assemble_stiffness(p.mesh, {2.0e7, 0.3, 1100.0, fem::Plane::strain});
+  const fem::Material rubber{2.0e7, 0.3, 1100.0, fem::Plane::strain};
+  p.k = fem::assemble_stiffness(p.mesh, {&rubber, 1});
   p.free = fem::free_nodes(p.mesh);
   p.model = statics::make_crush_model(p.mesh.coordinates, p.mesh.boundary, friction);
   return p;

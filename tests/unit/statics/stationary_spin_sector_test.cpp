@@ -24,9 +24,9 @@ struct Body {
 
 Body body(const mesh::Disk& disk) {
   Body b{mesh::make_disk(disk), {}, {}, {}, {}};
-  b.k = fem::assemble_stiffness(b.mesh, soft);
-  b.sector = fem::assemble_sector(b.mesh, soft);
-  b.mass = fem::lumped_mass(b.mesh, soft.density);
+  b.k = fem::assemble_stiffness(b.mesh, {&soft, 1});
+  b.sector = fem::assemble_sector(b.mesh, {&soft, 1});
+  b.mass = fem::lumped_mass(b.mesh, {&soft, 1});
   b.free = fem::free_nodes(b.mesh);
   return b;
 }

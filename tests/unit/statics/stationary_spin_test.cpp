@@ -22,8 +22,8 @@ Body body() {
   disk.circumferential = 24;
   Body b{mesh::make_disk(disk), {}, {}, {}};
   const fem::Material m{5e6, 0.45, 1100.0, fem::Plane::strain};
-  b.k = fem::assemble_stiffness(b.mesh, m);
-  b.mass = fem::lumped_mass(b.mesh, m.density);
+  b.k = fem::assemble_stiffness(b.mesh, {&m, 1});
+  b.mass = fem::lumped_mass(b.mesh, {&m, 1});
   b.free = fem::free_nodes(b.mesh);
   return b;
 }

@@ -62,7 +62,8 @@ TEST(Build, LargeDisksAreSetUpByHarmonics) {
   const dynamics::Model& m = s.model;
   ASSERT_GT(2 * m.free.size(), harmonic_setup_dofs);
   ASSERT_TRUE(m.sector);
-  const double bound = fem::sector_eigenvalue_bound(s.mesh, {2e7, 0.3, 1100.0});
+  const fem::Material rubber{2e7, 0.3, 1100.0};
+  const double bound = fem::sector_eigenvalue_bound(s.mesh, {&rubber, 1});
   const auto expected = dynamics::critical_step(*m.sector, m.mass, {1e-8, 0.0}, bound);
   EXPECT_TRUE(s.critical.proven);
   EXPECT_EQ(s.critical.omega, expected.omega);

@@ -35,7 +35,8 @@ class PodSnapshots : public testing::Test {
     disk.radial = 2;
     disk.tread = mesh::Tread{.pitches = 7, .depth = 0.02, .land_columns = 2};
     mesh_ = mesh::make_disk(disk);
-    mass_ = fem::lumped_mass(mesh_, 1100.0);
+    const fem::Material rubber{2e7, 0.3, 1100.0};
+    mass_ = fem::lumped_mass(mesh_, {&rubber, 1});
   }
   void TearDown() override { fs::remove_all(folder_); }
 
