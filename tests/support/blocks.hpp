@@ -52,16 +52,17 @@ inline int add_block(mesh::Mesh& mesh, const Block& block) {
 /// A model of bodies from any mesh, without contact and motion; dt at `safety` of the critical.
 inline dynamics::Model body_model(const mesh::Mesh& mesh, const fem::Material& material,
                                   double alpha, double beta, double safety) {
+  const std::span materials(&material, 1);
   dynamics::Model m;
   m.reference = mesh.coordinates;
-  m.mass = fem::lumped_mass(mesh, material.density);
+  m.mass = fem::lumped_mass(mesh, materials);
   m.free = fem::free_nodes(mesh);
-  m.stiffness = fem::assemble_stiffness(mesh, material);
+  m.stiffness = fem::assemble_stiffness(mesh, materials);
   m.mass_damping = alpha;
   m.stiffness_damping = beta;
   dynamics::find_free_bodies(mesh, m);
   m.dt = safety * dynamics::critical_step(m.stiffness, m.mass, m.free, {beta, 0.0},
-                                          fem::element_eigenvalue_bound(mesh, material))
+                                          fem::element_eigenvalue_bound(mesh, materials))
                       .step;
   return m;
 }
