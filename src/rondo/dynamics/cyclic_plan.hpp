@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// @file  How the cyclic operator lays out a disk and walks over it (docs/performance.md). A row is
 /// one local node over sectors; the ring of sectors is cut into chunks, each with a halo of its
-/// neighbours' sectors. Within a chunk rows are worked outwards; u of a row is advanced as soon as
-/// no row needs its old value, so that step n + 1 can follow a few rows behind step n in the same
-/// pass over memory.
+/// neighbours' sectors. Within a chunk rows are worked outwards in strips of kernels::most_rows. u
+/// has two fields, of even and of odd steps: a strip reads u_{n+1} from one and writes u_{n+2} into
+/// the other, so that step n + 1 can follow step n in the same pass over memory, behind by the
+/// strips that its own couples with: on a smooth disk one.
 #pragma once
 #include <cstddef>
 #include <vector>

@@ -139,27 +139,28 @@ inline Vectors first_of(int n, Vectors a, Vectors b) noexcept {
   return {first_lanes(n, a.x, b.x), first_lanes(n, a.y, b.y)};
 }
 
-/// Constants of a row in every lane.
-struct RowConstants {
-  Vectors frame;  ///< Δt[(ṡJ - s²)X + Rᵀ(c̈ - g)], the second term only without turning
+/// The row in hand; its constants in every lane.
+struct RowInHand {
+  std::ptrdiff_t at;  ///< as in CyclicRow
+  Vectors frame;  ///< Δt(ṡJ - s²)X; Δt Rᵀ(c̈ - g), in each sector another, is added to it
   Pack dt_over_mass;
 };
 
 /// Update and sums of one pack of a row. Tail: the last own pack, of which only `columns` count.
 template <bool Tail, bool Beta, bool Printed, bool Unsteady>
-inline void update_pack(const CyclicStrip& s, const Factors& f, const RowConstants& c,
-                        std::ptrdiff_t at, std::ptrdiff_t column, Vectors force,
-                        Sums& sums) noexcept {
-  double* v = s.velocity + at + column;
-  double* p = s.force + at + column;
-  double* u_next = s.next + at + column;
+inline void update_pack(const CyclicStrip& s, const Factors& f, const RowInHand& row,
+                        std::ptrdiff_t column, Vectors force, Sums& sums) noexcept {
+  const std::ptrdiff_t at = row.at + column;
+  double* v = s.velocity + at;
+  double* p = s.force + at;
+  double* u_next = s.next + at;
   Nodes n;
-  n.u = load_vectors(s.now + at + column, s.stride);
+  n.u = load_vectors(s.now + at, s.stride);
   n.v = load_vectors(v, s.stride);
   n.force = force;
   n.before = Beta ? load_vectors(p, s.stride) : force;
-  n.frame = c.frame;
-  n.dt_over_mass = c.dt_over_mass;
+  n.frame = row.frame;
+  n.dt_over_mass = row.dt_over_mass;
   if constexpr (Unsteady) {  // turned into the frame of each sector
     const Pack cosine = load(s.turn_x + column), sine = load(s.turn_y + column);
     const Pack px = all(s.step->pull_x), py = all(s.step->pull_y);
@@ -209,7 +210,8 @@ inline void group(const CyclicStrip& s, const Factors& f, int first, int last,
   for (int r = 0; r < s.n_rows; ++r) {
     const CyclicRow& row = s.rows[r];
     const double rate_x = s.step->rate_x, rate_y = s.step->rate_y;
-    const RowConstants c = {
+    const RowInHand in_hand = {
+        row.at,
         {all(rate_x * row.x - rate_y * row.y), all(rate_x * row.y + rate_y * row.x)},
         all(row.dt_over_mass)};
     Sums own = no_sums();
@@ -217,9 +219,9 @@ inline void group(const CyclicStrip& s, const Factors& f, int first, int last,
       const std::ptrdiff_t column = static_cast<std::ptrdiff_t>(pack) * lanes;
       const Vectors g = force[r][pack - first];
       if (sums && (pack + 1) * lanes > s.columns)
-        update_pack<true, Beta, Printed, Unsteady>(s, f, c, row.at, column, g, own);
+        update_pack<true, Beta, Printed, Unsteady>(s, f, in_hand, column, g, own);
       else
-        update_pack<false, Beta, Printed, Unsteady>(s, f, c, row.at, column, g, own);
+        update_pack<false, Beta, Printed, Unsteady>(s, f, in_hand, column, g, own);
     }
     if (sums) add_sums(sums, row.mass, own);
   }
