@@ -140,10 +140,10 @@ std::array<int, 3> CyclicChunk::edge_fields() const noexcept {
   return {field_now(), field_v, field_force};
 }
 
-void CyclicChunk::give_edges(unsigned pass) noexcept {
+void CyclicChunk::give_edges() noexcept {
   const int width = edge_width();
-  double* left = edges_[pass % 2][0].data();
-  double* right = edges_[pass % 2][1].data();
+  double* left = edges_[passes_ % 2][0].data();
+  double* right = edges_[passes_ % 2][1].data();
   const std::array<int, 3> fields = edge_fields();
   for (int a = 0; a < plan_.n_local; ++a)
     for (std::size_t i = 0; i < n_edge_fields(); ++i)
@@ -154,11 +154,10 @@ void CyclicChunk::give_edges(unsigned pass) noexcept {
       }
 }
 
-void CyclicChunk::take_halo(const CyclicChunk& left, const CyclicChunk& right,
-                            unsigned pass) noexcept {
+void CyclicChunk::take_halo(const CyclicChunk& left, const CyclicChunk& right) noexcept {
   const int width = edge_width();
-  const double* from_left = left.edges_[pass % 2][1].data();
-  const double* from_right = right.edges_[pass % 2][0].data();
+  const double* from_left = left.edges_[passes_ % 2][1].data();
+  const double* from_right = right.edges_[passes_ % 2][0].data();
   const std::array<int, 3> fields = edge_fields();
   for (int a = 0; a < plan_.n_local; ++a)
     for (std::size_t i = 0; i < n_edge_fields(); ++i)
@@ -298,6 +297,7 @@ void CyclicChunk::pass(std::span<const StepContext> steps, PartialStep* parts,
         strip(work[i], done[i]++);
   }
   steps_ += static_cast<long long>(n);
+  ++passes_;
   hand_over(n, parts, stride);
 }
 

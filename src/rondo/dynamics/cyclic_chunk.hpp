@@ -22,9 +22,10 @@ class CyclicChunk {
   void save_displacement(std::vector<Vec2>& u) const noexcept;
   void save_velocity(std::vector<Vec2>& v) const noexcept;
 
-  /// What neighbours need of this chunk, for the pass of that number (its parity).
-  void give_edges(unsigned pass) noexcept;
-  void take_halo(const CyclicChunk& left, const CyclicChunk& right, unsigned pass) noexcept;
+  /// What neighbours need of this chunk for the pass to come.
+  void give_edges() noexcept;
+  /// @pre the neighbours have made as many passes, or one more, and given their edges after each.
+  void take_halo(const CyclicChunk& left, const CyclicChunk& right) noexcept;
 
   /// Makes the steps; parts[i * stride + g] gets what group g of the ring gives in step i.
   /// @pre at most plan.depth steps, the halo taken.
@@ -85,11 +86,12 @@ class CyclicChunk {
   std::vector<double> turn_x_, turn_y_;  ///< of the columns, from the halo on the left
   LargeArray sums_;                      ///< (depth, groups, n_sums, lanes)
   std::vector<PartialStep> contact_;     ///< (depth, groups): of these the contacts' part
-  std::array<std::array<LargeArray, 2>, 2> edges_;  ///< [parity][left, right]
+  std::array<std::array<LargeArray, 2>, 2> edges_;  ///< [parity of the pass][left, right]
   std::vector<int> low_;
   std::vector<Touching> touching_;
   std::vector<ActiveContact> active_;
   long long steps_ = 0;  ///< made so far: tells which field u is in
+  std::size_t passes_ = 0;
 };
 
 }  // namespace rondo::dynamics

@@ -5,35 +5,27 @@
 #pragma once
 #include <vector>
 
-#include "rondo/core/barrier.hpp"
+#include "rondo/dynamics/batch_integrator.hpp"
 #include "rondo/dynamics/cyclic_chunk.hpp"
-#include "rondo/dynamics/integrator.hpp"
 
 namespace rondo::dynamics {
 
-class CyclicIntegrator : public Integrator {
+class CyclicIntegrator : public BatchIntegrator {
  public:
   /// @pre model.sector is there. @throws std::bad_alloc
   CyclicIntegrator(const Model& model, const State& start, const kernels::Table& table,
                    const CyclicTuning& tuning = {});
 
-  void advance(std::span<StepReport> reports, State* last) noexcept override;
-  void fields(State& state) const noexcept override;
-
  private:
-  void advance_batch(std::span<StepReport> reports) noexcept;
-  void make_steps(std::size_t n_steps) noexcept;
-  void passes(std::size_t n_steps, std::size_t thread, std::size_t n_threads) noexcept;
+  CyclicIntegrator(const Model& model, const State& start, const kernels::Table& table,
+                   CyclicPlan plan);
+  void make_steps(const Batch& batch, Share share) noexcept override;
+  void save_displacement(std::vector<Vec2>& u) const noexcept override;
+  void save_velocity(std::vector<Vec2>& v) const noexcept override;
+  void save_active(std::vector<ActiveContact>& active) const noexcept override;
 
-  const Model& model_;
   CyclicPlan plan_;
   std::vector<CyclicChunk> chunks_;
-  std::vector<StepContext> steps_;  ///< of a batch
-  std::vector<PartialStep> parts_;  ///< (steps of a batch, groups of the ring)
-  Barrier barrier_;
-  Ledger ledger_;
-  long long step_ = 0;  ///< number of the last step made
-  unsigned pass_ = 0;   ///< number of the next pass
 };
 
 }  // namespace rondo::dynamics

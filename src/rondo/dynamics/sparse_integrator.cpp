@@ -1,14 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "rondo/dynamics/sparse_integrator.hpp"
 
-#include <omp.h>
-
-#include <algorithm>
+#include <utility>
 
 namespace rondo::dynamics {
 namespace {
 
-constexpr std::size_t most_steps_in_a_batch = 64;
 constexpr std::size_t lanes = kernels::lanes;
 constexpr std::size_t force_at = 2 * lanes;  ///< K u of a row, from its v
 
@@ -32,18 +29,20 @@ double sum_of(const double* x) noexcept {
 
 SparseIntegrator::SparseIntegrator(const Model& model, const State& start,
                                    const kernels::Table& table)
-    : model_(model),
+    : SparseIntegrator(model, start, table, make_sparse_plan(model)) {}
+
+SparseIntegrator::SparseIntegrator(const Model& model, const State& start,
+                                   const kernels::Table& table, SparsePlan plan)
+    : BatchIntegrator(model, start.step, plan.n_blocks, plan.n_blocks),
       table_(table),
-      plan_(make_sparse_plan(model)),
+      plan_(std::move(plan)),
       u_{LargeArray(plan_.n_packs * 2 * lanes), LargeArray(plan_.n_packs * 2 * lanes)},
       motion_(plan_.n_packs * plan_.motion_size()),
-      steps_(most_steps_in_a_batch),
-      parts_(most_steps_in_a_batch * plan_.n_blocks),
-      touching_(static_cast<std::size_t>(model.threads)),
-      active_(2 * plan_.candidates.size()),
-      n_active_(plan_.candidates.size()),
-      step_(start.step) {
-  for (std::vector<Touching>& touching : touching_) touching.reserve(plan_.candidates.size());
+      contacts_(static_cast<std::size_t>(model.threads)) {
+  for (Contacts& contacts : contacts_) {
+    contacts.touching.reserve(plan_.candidates.size());
+    contacts.active.reserve(2 * plan_.candidates.size());
+  }
   load(start);
 }
 
@@ -52,11 +51,12 @@ std::size_t SparseIntegrator::motion_at(std::size_t row) const noexcept {
 }
 
 void SparseIntegrator::load(const State& start) {
+  double* now = u_[parity(step_)].data();
   for (std::size_t i = 0; i < plan_.node.size(); ++i) {
     const auto node = static_cast<std::size_t>(plan_.node[i]);
     const Vec2 u = start.u[node] + model_.dt * start.v_next[node];
-    u_[now_].data()[2 * i] = u.x;
-    u_[now_].data()[2 * i + 1] = u.y;
+    now[2 * i] = u.x;
+    now[2 * i + 1] = u.y;
     double* motion = motion_.data() + motion_at(i);
     put(motion, start.v_next[node]);
     if (plan_.keeps_force) put(motion + force_at, start.force[node]);
@@ -64,8 +64,9 @@ void SparseIntegrator::load(const State& start) {
 }
 
 void SparseIntegrator::save_displacement(std::vector<Vec2>& u) const noexcept {
+  const double* now = u_[parity(step_)].data();
   for (std::size_t i = 0; i < plan_.node.size(); ++i)
-    u[static_cast<std::size_t>(plan_.node[i])] = pair_at(u_[now_].data(), static_cast<int>(i));
+    u[static_cast<std::size_t>(plan_.node[i])] = pair_at(now, static_cast<int>(i));
 }
 
 void SparseIntegrator::save_velocity(std::vector<Vec2>& v) const noexcept {
@@ -74,16 +75,12 @@ void SparseIntegrator::save_velocity(std::vector<Vec2>& v) const noexcept {
 }
 
 void SparseIntegrator::save_active(std::vector<ActiveContact>& active) const noexcept {
-  active.clear();
-  for (std::size_t k = 0; k < n_active_.size(); ++k) {
-    const auto first = active_.begin() + static_cast<std::ptrdiff_t>(2 * k);
-    active.insert(active.end(), first, first + n_active_[k]);
-  }
+  for (const Contacts& contacts : contacts_)
+    active.insert(active.end(), contacts.active.begin(), contacts.active.end());
 }
 
-void SparseIntegrator::find_touching(const Work& work, std::size_t block,
-                                     std::vector<Touching>& touching) const noexcept {
-  touching.clear();
+void SparseIntegrator::find_touching(const Work& work, std::size_t block) const noexcept {
+  work.contacts->touching.clear();
   const ContactStep& contact = *work.step->contact;
   constexpr double margin = 1e-9;  // m: the nodes found are looked at again, exactly
   const double limit = model_.contact->ground.top() - contact.center.y + margin;
@@ -93,20 +90,19 @@ void SparseIntegrator::find_touching(const Work& work, std::size_t block,
   const std::size_t last = plan_.first_candidate[block + 1];
   for (std::size_t i = plan_.first_candidate[block]; i < last; ++i) {
     const SparseCandidate& c = candidates[i];
-    if (dot(up, c.reference + pair_at(u, c.row)) <= limit) look_at(work, c, touching);
+    if (dot(up, c.reference + pair_at(u, c.row)) <= limit) look_at(work, c);
   }
 }
 
-void SparseIntegrator::look_at(const Work& work, const SparseCandidate& c,
-                               std::vector<Touching>& touching) const noexcept {
+void SparseIntegrator::look_at(const Work& work, const SparseCandidate& c) const noexcept {
   const ContactStep& contact = *work.step->contact;
   const Vec2 u = pair_at(work.now, c.row);
   const contact::Touches touches =
       model_.contact->ground.touches(contact.center + contact.rotation * (c.reference + u));
   if (touches.count == 0) return;
   const double* motion = motion_.data() + motion_at(static_cast<std::size_t>(c.row));
-  touching.push_back({c, touches, u, vector_at(motion),
-                      plan_.keeps_force ? vector_at(motion + force_at) : Vec2{}});
+  work.contacts->touching.push_back({c, touches, u, vector_at(motion),
+                                     plan_.keeps_force ? vector_at(motion + force_at) : Vec2{}});
 }
 
 void SparseIntegrator::solve_node(const Work& work, const Touching& t, PartialStep& part) noexcept {
@@ -128,9 +124,8 @@ void SparseIntegrator::solve_node(const Work& work, const Touching& t, PartialSt
   work.next[2 * c.row + 1] = u.y;
   const Vec2 change = plan_.keeps_force ? vector_at(motion + force_at) - t.force : Vec2{};
   correct_sums(*work.step, node, after, change, part.sums);
-  if (!work.last) return;
-  n_active_[k] = t.touches.count;
-  std::copy(active.begin(), active.end(), active_.begin() + static_cast<std::ptrdiff_t>(2 * k));
+  std::vector<ActiveContact>& all = work.contacts->active;
+  if (work.last) all.insert(all.end(), active.begin(), active.end());
 }
 
 void SparseIntegrator::update_rows(const Work& work, std::size_t block,
@@ -162,77 +157,31 @@ void SparseIntegrator::rest_padding(double* next) noexcept {
   }
 }
 
-void SparseIntegrator::make_block(const Work& work, std::size_t block,
-                                  std::vector<Touching>& touching) noexcept {
+void SparseIntegrator::make_block(const Work& work, std::size_t block) noexcept {
   PartialStep& part = work.parts[block];
   part.contact = {};
-  if (work.step->contact) find_touching(work, block, touching);
+  if (work.step->contact) find_touching(work, block);
   update_rows(work, block, part);
   if (work.step->contact)
-    for (const Touching& t : touching) solve_node(work, t, part);
+    for (const Touching& t : work.contacts->touching) solve_node(work, t, part);
   if (block + 1 == plan_.n_blocks) rest_padding(work.next);
 }
 
 /// A thread's blocks are the same in every step. A product reads u of other threads' blocks: all of
 /// it must be there.
-void SparseIntegrator::steps_of(std::size_t n_steps, std::size_t thread,
-                                std::size_t n_threads) noexcept {
+void SparseIntegrator::make_steps(const Batch& batch, Share share) noexcept {
   const std::size_t n = plan_.n_blocks;
-  for (std::size_t i = 0; i < n_steps; ++i) {
-    const Work work{&steps_[i], u_[(now_ + i) % 2].data(), u_[(now_ + i + 1) % 2].data(),
-                    parts_.data() + i * n, i + 1 == n_steps};
-    for (std::size_t block = n * thread / n_threads; block < n * (thread + 1) / n_threads; ++block)
-      make_block(work, block, touching_[thread]);
-    if (n_threads > 1) barrier_.wait(static_cast<unsigned>(n_threads));
+  // Of this thread, and of those that are not there this time.
+  for (std::size_t k = share.thread; k < contacts_.size(); k += share.n_threads)
+    contacts_[k].active.clear();
+  for (std::size_t i = 0; i < batch.steps.size(); ++i) {
+    const long long step = step_ + static_cast<long long>(i);
+    const Work work{&batch.steps[i],     u_[parity(step)].data(),  u_[parity(step + 1)].data(),
+                    batch.parts + i * n, &contacts_[share.thread], i + 1 == batch.steps.size()};
+    for (std::size_t block = share.first(n); block < share.last(n); ++block)
+      make_block(work, block);
+    wait_for_others(share);
   }
-}
-
-void SparseIntegrator::make_steps(std::size_t n_steps) noexcept {
-  const int threads = std::min(model_.threads, static_cast<int>(plan_.n_blocks));
-  if (threads > 1) {
-#pragma omp parallel num_threads(threads)
-    steps_of(n_steps, static_cast<std::size_t>(omp_get_thread_num()),
-             static_cast<std::size_t>(omp_get_num_threads()));
-  } else {
-    steps_of(n_steps, 0, 1);
-  }
-  now_ = (now_ + n_steps) % 2;
-}
-
-void SparseIntegrator::advance_batch(std::span<StepReport> reports) noexcept {
-  const std::size_t n = plan_.n_blocks;
-  for (std::size_t i = 0; i < reports.size(); ++i)
-    steps_[i] = step_context(model_, step_ + 1 + static_cast<long long>(i));
-  make_steps(reports.size());
-  for (std::size_t i = 0; i < reports.size(); ++i) {
-    const std::span parts = std::span<const PartialStep>(parts_).subspan(i * n, n);
-    const WholeStep whole = whole_step(model_, steps_[i].frame, parts);
-    ledger_.add(whole.energy);
-    reports[i] = {++step_, steps_[i].frame, whole.contact, ledger_.last()};
-  }
-}
-
-void SparseIntegrator::advance(std::span<StepReport> reports, State* last) noexcept {
-  std::span before = reports.first(reports.size() - (last ? 1 : 0));
-  while (!before.empty()) {
-    const std::size_t n = std::min(before.size(), most_steps_in_a_batch);
-    advance_batch(before.first(n));
-    before = before.subspan(n);
-  }
-  if (!last) return;
-  save_displacement(last->u);
-  save_velocity(last->v);
-  std::fill(n_active_.begin(), n_active_.end(), 0);
-  advance_batch(reports.last(1));
-  if (!last->v_next.empty()) save_velocity(last->v_next);
-  save_active(last->active);
-  last->step = step_;
-  last->frame = reports.back().frame;
-}
-
-void SparseIntegrator::fields(State& state) const noexcept {
-  save_displacement(state.u);
-  save_velocity(state.v_next);
 }
 
 }  // namespace rondo::dynamics
