@@ -154,8 +154,13 @@ void CyclicChunk::give_edges() noexcept {
       }
 }
 
+/// What fills up the last pack behind a wide halo is advanced too: afresh in every pass, for
+/// nothing holds it.
 void CyclicChunk::take_halo(const CyclicChunk& left, const CyclicChunk& right) noexcept {
   const int width = edge_width();
+  const int end = range_.columns + width;
+  const int filling =
+      plan_.halo == Halo::wide ? (kernels::lanes - end % kernels::lanes) % kernels::lanes : 0;
   const double* from_left = left.edges_[passes_ % 2][1].data();
   const double* from_right = right.edges_[passes_ % 2][0].data();
   const std::array<int, 3> fields = edge_fields();
@@ -164,7 +169,7 @@ void CyclicChunk::take_halo(const CyclicChunk& left, const CyclicChunk& right) n
       for (int component = 0; component < 2; ++component) {
         double* x = field(a, fields[i]) + component * plan_.stride;
         std::copy_n(from_left, width, x - width);
-        std::copy_n(from_right, width, x + range_.columns);
+        std::fill_n(std::copy_n(from_right, width, x + range_.columns), filling, 0.0);
         from_left += width;
         from_right += width;
       }
