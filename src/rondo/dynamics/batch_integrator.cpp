@@ -5,6 +5,8 @@
 
 #include <algorithm>
 
+#include "rondo/core/contract.hpp"
+
 namespace rondo::dynamics {
 namespace {
 
@@ -51,6 +53,9 @@ void BatchIntegrator::advance_batch(std::span<StepReport> reports) noexcept {
 }
 
 void BatchIntegrator::advance(std::span<StepReport> reports, State* last) noexcept {
+  RONDO_DEMAND(!reports.empty());
+  const std::size_t contacts = model_.contact ? 2 * model_.contact->nodes.size() : 0;
+  if (last) RONDO_DEMAND(last->active.capacity() >= contacts, last->active.capacity(), contacts);
   std::span before = reports.first(reports.size() - (last ? 1 : 0));
   while (!before.empty()) {
     const std::size_t n = std::min(before.size(), most_steps_in_a_batch);

@@ -32,7 +32,8 @@ class Integrator {
   /// Makes as many steps as there are reports, and fills these. `last`, if given, gets step, frame,
   /// u, v, contacts and, where it has room for it, v_next of the last of them; `force` and
   /// `force_before` are left alone.
-  /// @pre at least one report; *last was made for this model. Allocates nothing.
+  /// @pre at least one report; *last was made for this model, not copied (a copy has no room for
+  /// contacts). Allocates nothing.
   virtual void advance(std::span<StepReport> reports, State* last = nullptr) noexcept = 0;
 
   /// Fields as they stand between two steps: u_{n+2} and v_{n+3/2}, n + 1 the last step made.

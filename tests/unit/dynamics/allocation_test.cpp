@@ -82,6 +82,18 @@ TEST_P(Allocations, NoneInTheStepsOfAnIntegrator) {
   EXPECT_GT(in_contact, 0);
 }
 
+/// It could not report that there is no memory.
+TEST(Allocation, AStateWithoutRoomForAllContactsIsNotTaken) {
+  for (const dynamics::StiffnessOperator of : test::both_operators) {
+    const dynamics::Model model = test::model_with(test::build(test::everything("", 3, 45)), of);
+    const dynamics::State start = test::start_at_rest(model);
+    const auto integrator = dynamics::make_integrator(model, start);
+    std::vector<dynamics::StepReport> reports(1);
+    dynamics::State copy = start;
+    EXPECT_DEATH(integrator->advance(reports, &copy), "active.capacity.*values: 0 90");
+  }
+}
+
 INSTANTIATE_TEST_SUITE_P(Both, Allocations,
                          testing::Combine(testing::ValuesIn(test::both_operators),
                                           testing::Values(1, 2)),

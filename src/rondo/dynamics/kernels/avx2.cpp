@@ -4,5 +4,5 @@
 #include "rondo/dynamics/kernels/table.hpp"
 
 namespace rondo::dynamics::kernels {
-const Table avx2_table = table("avx2");
+constinit const Table avx2_table = table("avx2");
 }  // namespace rondo::dynamics::kernels

@@ -4,5 +4,5 @@
 #include "rondo/dynamics/kernels/table.hpp"
 
 namespace rondo::dynamics::kernels {
-const Table avx512_table = table("avx512");
+constinit const Table avx512_table = table("avx512");
 }  // namespace rondo::dynamics::kernels

@@ -4,5 +4,5 @@
 #include "rondo/dynamics/kernels/table.hpp"
 
 namespace rondo::dynamics::kernels {
-const Table baseline_table = table("baseline");
+constinit const Table baseline_table = table("baseline");
 }  // namespace rondo::dynamics::kernels
