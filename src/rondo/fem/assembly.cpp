@@ -5,7 +5,6 @@
 #include <cmath>
 
 #include "rondo/core/contract.hpp"
-#include "rondo/fem/element.hpp"
 
 namespace rondo::fem {
 namespace {
@@ -74,11 +73,11 @@ void add_element(BlockCsr& k, const mesh::Cell& cell, const ElementMatrix& e) {
 
 /// Of the element's own M_e⁻¹ K_e [1/s²].
 double largest_eigenvalue(const mesh::Mesh& mesh, std::span<const Material> materials,
-                          std::size_t e) {
+                          std::span<const Vec2> prestress, std::size_t e) {
   const Corners corners = corners_of(mesh, mesh.cells[e]);
-  const Material& material = material_of(mesh, materials, e);
-  ElementMatrix k = element_stiffness(corners.span(), hooke(material));
-  const std::array<double, 4> m = element_masses(corners.span(), material.density);
+  ElementMatrix k = cell_stiffness(mesh, materials, prestress, e);
+  const std::array<double, 4> m =
+      element_masses(corners.span(), material_of(mesh, materials, e).density);
   for (Eigen::Index i = 0; i < k.rows(); ++i)
     for (Eigen::Index j = 0; j < k.cols(); ++j)
       k(i, j) /= std::sqrt(m[static_cast<std::size_t>(i / 2)] * m[static_cast<std::size_t>(j / 2)]);
@@ -101,13 +100,26 @@ std::vector<double> sum_at_nodes(const mesh::Mesh& mesh, Density&& density) {
 
 }  // namespace
 
-BlockCsr assemble_stiffness(const mesh::Mesh& mesh, std::span<const Material> materials) {
+ElementMatrix cell_stiffness(const mesh::Mesh& mesh, std::span<const Material> materials,
+                             std::span<const Vec2> prestress, std::size_t cell) {
+  const mesh::Cell& nodes = mesh.cells[cell];
+  const Corners corners = corners_of(mesh, nodes);
+  RONDO_DEMAND(smallest_jacobian(corners.span()) > 0.0, nodes[0], nodes[1], nodes[2], nodes[3]);
+  const ElementLaw law = element_law(material_of(mesh, materials, cell));
+  ElementMatrix k = element_stiffness(corners.span(), law);
+  if (prestress.empty()) return k;
+  std::array<Vec2, 4> u;
+  for (std::size_t a = 0; a < corners.n; ++a) u[a] = prestress[static_cast<std::size_t>(nodes[a])];
+  k += element_geometric_stiffness(corners.span(), {u.data(), corners.n}, law);
+  return k;
+}
+
+BlockCsr assemble_stiffness(const mesh::Mesh& mesh, std::span<const Material> materials,
+                            std::span<const Vec2> prestress) {
   BlockCsr k = pattern(mesh);
   for (std::size_t e = 0; e < mesh.cells.size(); ++e) {
     const mesh::Cell& cell = mesh.cells[e];
-    const Corners corners = corners_of(mesh, cell);
-    RONDO_DEMAND(smallest_jacobian(corners.span()) > 0.0, cell[0], cell[1], cell[2], cell[3]);
-    add_element(k, cell, element_stiffness(corners.span(), hooke(material_of(mesh, materials, e))));
+    add_element(k, cell, cell_stiffness(mesh, materials, prestress, e));
   }
   return k;
 }
@@ -120,14 +132,16 @@ std::vector<double> nodal_areas(const mesh::Mesh& mesh) {
   return sum_at_nodes(mesh, [](std::size_t) { return 1.0; });
 }
 
-double element_eigenvalue_bound(const mesh::Mesh& mesh, std::span<const Material> materials) {
+double element_eigenvalue_bound(const mesh::Mesh& mesh, std::span<const Material> materials,
+                                std::span<const Vec2> prestress) {
   double bound = 0.0;
   for (std::size_t e = 0; e < mesh.cells.size(); ++e)
-    bound = std::max(bound, largest_eigenvalue(mesh, materials, e));
+    bound = std::max(bound, largest_eigenvalue(mesh, materials, prestress, e));
   return bound;
 }
 
-double sector_eigenvalue_bound(const mesh::Mesh& mesh, std::span<const Material> materials) {
+double sector_eigenvalue_bound(const mesh::Mesh& mesh, std::span<const Material> materials,
+                               std::span<const Vec2> prestress) {
   RONDO_DEMAND(mesh.n_sectors > 0, mesh.n_sectors);
   double bound = 0.0;
   for (std::size_t e = 0; e < mesh.cells.size(); ++e) {
@@ -136,7 +150,7 @@ double sector_eigenvalue_bound(const mesh::Mesh& mesh, std::span<const Material>
       return node >= 0 && mesh.sector[static_cast<std::size_t>(node)] == 0;
     };
     if (std::any_of(cell.begin(), cell.end(), in_sector_0))
-      bound = std::max(bound, largest_eigenvalue(mesh, materials, e));
+      bound = std::max(bound, largest_eigenvalue(mesh, materials, prestress, e));
   }
   return bound;
 }

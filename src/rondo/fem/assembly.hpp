@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// @file  Global matrices: lumped mass and the stiffness in 2×2 blocks (docs/theory.md, 2.4, 2.5).
-/// `materials` everywhere: one for each region of the mesh (material_of).
+/// `materials` everywhere: one for each region of the mesh (material_of). `prestress`: (n)
+/// displacement whose stress stiffens the body, (2.8) [m]; empty: none.
 #pragma once
 #include <Eigen/SparseCore>
 #include <array>
@@ -8,10 +9,15 @@
 #include <span>
 #include <vector>
 
-#include "rondo/fem/elasticity.hpp"
+#include "rondo/fem/element.hpp"
 #include "rondo/mesh/mesh.hpp"
 
 namespace rondo::fem {
+
+/// Of one cell: elastic, and geometric where there is prestress [N/m²].
+/// @pre the cell is not inverted.
+ElementMatrix cell_stiffness(const mesh::Mesh& mesh, std::span<const Material> materials,
+                             std::span<const Vec2> prestress, std::size_t cell);
 
 /// Compressed sparse rows of 2×2 blocks, one row a node. Rows and columns of clamped nodes are
 /// empty: what is stored acts on free nodes.
@@ -27,8 +33,10 @@ struct BlockCsr {
   [[nodiscard]] std::size_t n_rows() const noexcept { return row_start.size() - 1; }
 };
 
-/// Stiffness of the free nodes. Symmetric to the last bit. @pre no inverted element.
-BlockCsr assemble_stiffness(const mesh::Mesh& mesh, std::span<const Material> materials);
+/// Stiffness of the free nodes, geometric stiffness included. Symmetric to the last bit. @pre no
+/// inverted element.
+BlockCsr assemble_stiffness(const mesh::Mesh& mesh, std::span<const Material> materials,
+                            std::span<const Vec2> prestress = {});
 
 /// (n) Lumped mass of every node, clamped ones included: sums to ρ × area of the polygons [kg/m].
 std::vector<double> lumped_mass(const mesh::Mesh& mesh, std::span<const Material> materials);
@@ -38,10 +46,12 @@ std::vector<double> nodal_areas(const mesh::Mesh& mesh);
 
 /// Upper bound of the largest eigenvalue of M⁻¹K by elements: max over elements of the largest
 /// eigenvalue of the element's own M_e⁻¹ K_e [1/s²] (Irons and Treharne 1972), (3.8a).
-double element_eigenvalue_bound(const mesh::Mesh& mesh, std::span<const Material> materials);
+double element_eigenvalue_bound(const mesh::Mesh& mesh, std::span<const Material> materials,
+                                std::span<const Vec2> prestress = {});
 
 /// The same by the elements of one sector, to round-off. @pre a cyclic mesh.
-double sector_eigenvalue_bound(const mesh::Mesh& mesh, std::span<const Material> materials);
+double sector_eigenvalue_bound(const mesh::Mesh& mesh, std::span<const Material> materials,
+                               std::span<const Vec2> prestress = {});
 
 /// K of the free nodes as a symmetric scalar matrix, numbered 2·(place in `free`) + component.
 Eigen::SparseMatrix<double> free_matrix(const BlockCsr& k, std::span<const int> free);

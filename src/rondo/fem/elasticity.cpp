@@ -25,6 +25,13 @@ Hooke hooke(const Material& m) noexcept {
   return {factor * (1.0 - nu), factor * nu, shear, nu};
 }
 
+ElementLaw element_law(const Material& m) noexcept {
+  const Hooke d = hooke(m);
+  if (m.integration == Integration::full || m.plane == Plane::stress) return {d, 0.0};
+  const double shear = d.d33;
+  return {{4.0 / 3.0 * shear, -2.0 / 3.0 * shear, shear, -1.0}, d.d11 - 4.0 / 3.0 * shear};
+}
+
 WaveSpeeds wave_speeds(const Material& m) noexcept {
   const Hooke d = hooke(m);
   return {std::sqrt(d.d11 / m.density), std::sqrt(d.d33 / m.density)};

@@ -12,6 +12,7 @@ enum class Plane { strain, stress };
 
 /// Quadrature of the stiffness of quadrilaterals: 2×2 points, or these for the deviator and the
 /// mean of the element for the volume (B-bar, Hughes 1980), which does not lock near ν = 1/2.
+/// Triangles have one strain: they lock with either.
 enum class Integration { full, b_bar };
 
 struct Material {
@@ -36,6 +37,17 @@ struct Hooke {
 };
 
 Hooke hooke(const Material& material) noexcept;
+
+/// Stress in an element: D ε of the point, and the bulk modulus times the element's mean of the
+/// volumetric strain on xx, yy, zz. With full integration D is all of it. With B-bar D is that of
+/// the deviator, whose trace is none: zz = -1 (docs/theory.md, 2.3). In plane stress thickness
+/// gives way, nothing locks, and B-bar is the full integration.
+struct ElementLaw {
+  Hooke point;
+  double mean_bulk = 0.0;  ///< [Pa]
+};
+
+ElementLaw element_law(const Material& material) noexcept;
 
 struct WaveSpeeds {
   double pressure = 0.0;  ///< √(d11/ρ) [m/s]

@@ -62,7 +62,28 @@ Eigen::Matrix3d matrix(const Hooke& d) {
 
 const double gauss = 1.0 / std::sqrt(3.0);
 
-Stress stress_of(const Gradients& g, std::span<const Vec2> u, const Hooke& d) {
+/// Points of the stiffness: `jacobian` is here the area that a point stands for.
+struct Points {
+  std::array<Gradients, 4> at{};
+  std::size_t n = 4;
+};
+
+Points quadrature(std::span<const Vec2> x) {
+  Points points;
+  if (x.size() == 3) {
+    points.n = 1;
+    points.at[0] = triangle_gradients(x);
+    points.at[0].jacobian *= 0.5;
+  } else {
+    for (std::size_t q = 0; q < 4; ++q)
+      points.at[q] = quadrilateral_gradients(x, gauss * corner_xi[q]);
+  }
+  return points;
+}
+
+/// Of a triangle.
+Stress stress_of(const Gradients& g, std::span<const Vec2> u, const ElementLaw& law) {
+  const Hooke& d = law.point;
   double exx = 0.0, eyy = 0.0, gxy = 0.0;
   for (std::size_t a = 0; a < u.size(); ++a) {
     exx += g.n[a].x * u[a].x;
@@ -70,7 +91,8 @@ Stress stress_of(const Gradients& g, std::span<const Vec2> u, const Hooke& d) {
     gxy += g.n[a].y * u[a].x + g.n[a].x * u[a].y;
   }
   const double xx = d.d11 * exx + d.d12 * eyy, yy = d.d12 * exx + d.d11 * eyy;
-  return {xx, yy, d.zz * (xx + yy), d.d33 * gxy};
+  const double mean = law.mean_bulk * (exx + eyy);
+  return {xx + mean, yy + mean, d.zz * (xx + yy) + mean, d.d33 * gxy};
 }
 
 using Lanes = std::array<double, 4>;  ///< a number of each Gauss point
@@ -95,12 +117,13 @@ struct GaussPoints {
 
 const GaussPoints gauss_points;
 
-/// Stress at the Gauss points of a quadrilateral: stress_of with quadrilateral_gradients, to the
-/// bit, but for all points at once, which is what most of the time of a snapshot goes into.
+/// Stress at the Gauss points of a quadrilateral, all points at once, which is what most of the
+/// time of a snapshot goes into.
 std::array<Stress, 4> gauss_stress(std::span<const Vec2> x, std::span<const Vec2> u,
-                                   const Hooke& d) {
+                                   const ElementLaw& law) {
   const GaussPoints& g = gauss_points;
-  Lanes x_xi{}, y_xi{}, x_eta{}, y_eta{}, exx{}, eyy{}, gxy{};
+  const Hooke& d = law.point;
+  Lanes x_xi{}, y_xi{}, x_eta{}, y_eta{}, jacobian{}, exx{}, eyy{}, gxy{};
   for (std::size_t a = 0; a < 4; ++a)
     for (std::size_t q = 0; q < 4; ++q) {
       x_xi[q] += g.dxi[a][q] * x[a].x;
@@ -108,38 +131,73 @@ std::array<Stress, 4> gauss_stress(std::span<const Vec2> x, std::span<const Vec2
       x_eta[q] += g.deta[a][q] * x[a].x;
       y_eta[q] += g.deta[a][q] * x[a].y;
     }
+  for (std::size_t q = 0; q < 4; ++q) jacobian[q] = x_xi[q] * y_eta[q] - y_xi[q] * x_eta[q];
   for (std::size_t a = 0; a < 4; ++a)
     for (std::size_t q = 0; q < 4; ++q) {
-      const double jacobian = x_xi[q] * y_eta[q] - y_xi[q] * x_eta[q];
-      const double dx = (y_eta[q] * g.dxi[a][q] - y_xi[q] * g.deta[a][q]) / jacobian;
-      const double dy = (x_xi[q] * g.deta[a][q] - x_eta[q] * g.dxi[a][q]) / jacobian;
+      const double dx = (y_eta[q] * g.dxi[a][q] - y_xi[q] * g.deta[a][q]) / jacobian[q];
+      const double dy = (x_xi[q] * g.deta[a][q] - x_eta[q] * g.dxi[a][q]) / jacobian[q];
       exx[q] += dx * u[a].x;
       eyy[q] += dy * u[a].y;
       gxy[q] += dy * u[a].x + dx * u[a].y;
     }
+  double volume = 0.0, dilatation = 0.0;
+  for (std::size_t q = 0; q < 4; ++q) {
+    volume += jacobian[q];
+    dilatation += jacobian[q] * (exx[q] + eyy[q]);
+  }
+  const double mean = law.mean_bulk * dilatation / volume;
   std::array<Stress, 4> stress;
   for (std::size_t q = 0; q < 4; ++q) {
     const double xx = d.d11 * exx[q] + d.d12 * eyy[q], yy = d.d12 * exx[q] + d.d11 * eyy[q];
-    stress[q] = {xx, yy, d.zz * (xx + yy), d.d33 * gxy[q]};
+    stress[q] = {xx + mean, yy + mean, d.zz * (xx + yy) + mean, d.d33 * gxy[q]};
   }
   return stress;
 }
 
 }  // namespace
 
-ElementMatrix element_stiffness(std::span<const Vec2> corners, const Hooke& d) {
+ElementMatrix element_stiffness(std::span<const Vec2> corners, const ElementLaw& law) {
   RONDO_DEMAND(corners.size() == 3 || corners.size() == 4, corners.size());
-  const Eigen::Matrix3d material = matrix(d);
-  if (corners.size() == 3) {
-    const Gradients g = triangle_gradients(corners);
-    const Strain b = strain_matrix(g, 3);
-    return 0.5 * g.jacobian * b.transpose() * material * b;
-  }
-  ElementMatrix k = ElementMatrix::Zero(8, 8);
-  for (const Vec2 corner : corner_xi) {
-    const Gradients g = quadrilateral_gradients(corners, gauss * corner);
-    const Strain b = strain_matrix(g, 4);
+  const Eigen::Matrix3d material = matrix(law.point);
+  const auto size = static_cast<Eigen::Index>(2 * corners.size());
+  ElementMatrix k = ElementMatrix::Zero(size, size);
+  Eigen::Matrix<double, 1, Eigen::Dynamic, Eigen::RowMajor, 1, 8> volumetric =
+      Eigen::RowVectorXd::Zero(size);  // corner u -> ∫ ε_v
+  double volume = 0.0;
+  const Points points = quadrature(corners);
+  for (std::size_t q = 0; q < points.n; ++q) {
+    const Gradients& g = points.at[q];
+    const Strain b = strain_matrix(g, corners.size());
     k += g.jacobian * b.transpose() * material * b;
+    volumetric += g.jacobian * (b.row(0) + b.row(1));
+    volume += g.jacobian;
+  }
+  if (law.mean_bulk > 0.0) k += law.mean_bulk / volume * volumetric.transpose() * volumetric;
+  return k;
+}
+
+ElementMatrix element_geometric_stiffness(std::span<const Vec2> corners, std::span<const Vec2> u,
+                                          const ElementLaw& law) {
+  const Points points = quadrature(corners);
+  std::array<Stress, 4> stress{};
+  if (points.n == 1)
+    stress[0] = stress_of(points.at[0], u, law);
+  else
+    stress = gauss_stress(corners, u, law);
+  const auto size = static_cast<Eigen::Index>(2 * corners.size());
+  ElementMatrix k = ElementMatrix::Zero(size, size);
+  for (std::size_t q = 0; q < points.n; ++q) {
+    const Gradients& g = points.at[q];
+    const auto& [xx, yy, zz, xy] = stress[q];
+    for (std::size_t a = 0; a < corners.size(); ++a)
+      for (std::size_t b = 0; b < corners.size(); ++b) {
+        const Vec2 traction{xx * g.n[b].x + xy * g.n[b].y, xy * g.n[b].x + yy * g.n[b].y};
+        const double value = g.jacobian * dot(g.n[a], traction);
+        const auto row = static_cast<Eigen::Index>(2 * a),
+                   column = static_cast<Eigen::Index>(2 * b);
+        k(row, column) += value;
+        k(row + 1, column + 1) += value;
+      }
   }
   return k;
 }
@@ -156,13 +214,13 @@ std::array<double, 4> element_masses(std::span<const Vec2> corners, double densi
 }
 
 std::array<Stress, 4> element_stress(std::span<const Vec2> corners, std::span<const Vec2> u,
-                                     const Hooke& d) {
+                                     const ElementLaw& law) {
   std::array<Stress, 4> out{};
   if (corners.size() == 3) {
-    out.fill(stress_of(triangle_gradients(corners), u, d));
+    out.fill(stress_of(triangle_gradients(corners), u, law));
     return out;
   }
-  const std::array<Stress, 4> at_gauss = gauss_stress(corners, u, d);
+  const std::array<Stress, 4> at_gauss = gauss_stress(corners, u, law);
   for (std::size_t a = 0; a < 4; ++a)
     for (std::size_t q = 0; q < 4; ++q)
       for (std::size_t k = 0; k < 4; ++k)

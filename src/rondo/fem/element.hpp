@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// @file  Plane elements: 4-node quadrilateral (2×2 Gauss) and 3-node triangle (one point);
-/// docs/theory.md, sections 2.2, 2.3, 2.5 and 2.6.
+/// docs/theory.md, sections 2.2, 2.3, 2.5, 2.6 and 2.8.
 #pragma once
 #include <Eigen/Dense>
 #include <array>
@@ -16,17 +16,24 @@ using ElementMatrix = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, 8
 /// Stress at a corner: xx, yy, zz, xy [Pa].
 using Stress = std::array<double, 4>;
 
-/// ∫ Bᵀ D B (2.3), per unit thickness [N/m²]. @pre 3 or 4 corners, counter-clockwise, convex.
-ElementMatrix element_stiffness(std::span<const Vec2> corners, const Hooke& d);
+/// ∫ Bᵀ D B (2.3), (2.3a), per unit thickness [N/m²]. @pre 3 or 4 corners, counter-clockwise,
+/// convex.
+ElementMatrix element_stiffness(std::span<const Vec2> corners, const ElementLaw& law);
+
+/// Geometric stiffness (2.8) of the stress of a displacement, with the same quadrature [N/m²].
+/// `u`: one displacement a corner [m].
+ElementMatrix element_geometric_stiffness(std::span<const Vec2> corners, std::span<const Vec2> u,
+                                          const ElementLaw& law);
 
 /// Lumped masses (2.5): quadrature at the corners, ρ det(∂x/∂ξ); triangles a third each [kg/m].
 /// Entries past the corners are 0.
 std::array<double, 4> element_masses(std::span<const Vec2> corners, double density);
 
 /// Stress at the corners: Gauss-point stress extrapolated bilinearly (quadrilateral), constant
-/// (triangle); exact for a linear displacement. `u`: one displacement a corner [m].
+/// (triangle); exact for a linear displacement. With B-bar the pressure of the mean volumetric
+/// strain is that of the element. `u`: one displacement a corner [m].
 std::array<Stress, 4> element_stress(std::span<const Vec2> corners, std::span<const Vec2> u,
-                                     const Hooke& d);
+                                     const ElementLaw& law);
 
 /// Smallest det(∂x/∂ξ) over the corners [m²]: positive for an element that is not inverted
 /// (quadrilateral: a quarter of a parallelogram's area; triangle: twice its area).

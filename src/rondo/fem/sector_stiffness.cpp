@@ -7,7 +7,7 @@
 #include <utility>
 
 #include "rondo/core/contract.hpp"
-#include "rondo/fem/element.hpp"
+#include "rondo/fem/assembly.hpp"
 
 namespace rondo::fem {
 namespace {
@@ -26,10 +26,10 @@ Block turned(const Block& b, Vec2 turn) noexcept {
 
 /// Corners of a cell as (number within the sector, shift from sector 0).
 struct LocalCell {
-  std::array<Vec2, 4> x;
   std::array<int, 4> node, shift;
   std::size_t n;
-  std::size_t cell;  ///< of the mesh
+  std::size_t cell;         ///< of the mesh
+  ElementMatrix stiffness;  ///< of that cell
 };
 
 int shift_of(int sector, int n_sectors) noexcept {
@@ -41,11 +41,10 @@ std::vector<LocalCell> cells_of_sector(const mesh::Mesh& mesh) {
   std::vector<LocalCell> cells;
   for (std::size_t e = 0; e < mesh.cells.size(); ++e) {
     const mesh::Cell& cell = mesh.cells[e];
-    LocalCell c{{}, {}, {}, static_cast<std::size_t>(mesh::n_corners(cell)), e};
+    LocalCell c{{}, {}, static_cast<std::size_t>(mesh::n_corners(cell)), e, {}};
     bool touches = false;
     for (std::size_t i = 0; i < c.n; ++i) {
       const auto node = static_cast<std::size_t>(cell[i]);
-      c.x[i] = mesh.coordinates[node];
       c.node[i] = mesh.sector_node[node];
       c.shift[i] = shift_of(mesh.sector[node], mesh.n_sectors);
       touches = touches || c.shift[i] == 0;
@@ -98,14 +97,11 @@ struct Key {
 
 /// Blocks of the rows of sector 0 on the columns of sectors 0 and 1. What couples it with the
 /// sector before is the transpose of what couples that one with it.
-std::map<Key, Block> forward_blocks(const mesh::Mesh& mesh, std::span<const Material> materials,
-                                    const std::vector<LocalCell>& cells,
+std::map<Key, Block> forward_blocks(const std::vector<LocalCell>& cells,
                                     const std::vector<int>& place, Vec2 turn) {
   std::map<Key, Block> blocks;
   for (const LocalCell& c : cells) {
-    const std::span corners(c.x.data(), c.n);
-    RONDO_DEMAND(smallest_jacobian(corners) > 0.0, c.node[0], c.node[1], c.node[2], c.node[3]);
-    const ElementMatrix e = element_stiffness(corners, hooke(material_of(mesh, materials, c.cell)));
+    const ElementMatrix& e = c.stiffness;
     for (std::size_t i = 0; i < c.n; ++i)
       for (std::size_t j = 0; j < c.n; ++j) {
         const int row = place[static_cast<std::size_t>(c.node[i])],
@@ -140,7 +136,8 @@ void add_rows(const std::map<Key, Block>& forward, SectorStiffness& k) {
 
 }  // namespace
 
-SectorStiffness assemble_sector(const mesh::Mesh& mesh, std::span<const Material> materials) {
+SectorStiffness assemble_sector(const mesh::Mesh& mesh, std::span<const Material> materials,
+                                std::span<const Vec2> prestress) {
   RONDO_DEMAND(mesh.n_sectors >= 3, mesh.n_sectors);
   SectorStiffness k;
   k.n_sectors = mesh.n_sectors;
@@ -154,9 +151,10 @@ SectorStiffness assemble_sector(const mesh::Mesh& mesh, std::span<const Material
   std::vector<char> clamped(static_cast<std::size_t>(k.nodes_per_sector), 0);
   for (const int node : mesh.clamped)
     clamped[static_cast<std::size_t>(mesh.sector_node[static_cast<std::size_t>(node)])] = 1;
-  const std::vector<LocalCell> cells = cells_of_sector(mesh);
+  std::vector<LocalCell> cells = cells_of_sector(mesh);
   const std::vector<int> place = order_by_layers(cells, clamped, k);
-  add_rows(forward_blocks(mesh, materials, cells, place, k.turn[1]), k);
+  for (LocalCell& c : cells) c.stiffness = cell_stiffness(mesh, materials, prestress, c.cell);
+  add_rows(forward_blocks(cells, place, k.turn[1]), k);
   return k;
 }
 

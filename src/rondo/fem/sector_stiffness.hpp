@@ -42,8 +42,12 @@ struct SectorStiffness {
 };
 
 /// @param materials one for each region of the mesh (material_of).
+/// @param prestress (n) displacement, the same in each sector, whose stress stiffens the body,
+/// (2.8)
+///        [m]; empty: none.
 /// @pre the mesh has N >= 3 equal sectors, numbered one after the other; no inverted element.
-SectorStiffness assemble_sector(const mesh::Mesh& mesh, std::span<const Material> materials);
+SectorStiffness assemble_sector(const mesh::Mesh& mesh, std::span<const Material> materials,
+                                std::span<const Vec2> prestress = {});
 
 /// out = K u, Cartesian components in the turning frame, both (n); clamped nodes give 0. The
 /// readable product: the steps have their own.

@@ -10,7 +10,7 @@ namespace rondo::fem {
 
 StressRecovery::StressRecovery(const mesh::Mesh& mesh, std::span<const Material> materials)
     : mesh_(mesh), nodal_(mesh.n_nodes()) {
-  for (const Material& material : materials) hooke_.push_back(hooke(material));
+  for (const Material& material : materials) law_.push_back(element_law(material));
   const std::vector<double> total = nodal_areas(mesh);
   for (std::size_t e = 0; e < mesh.cells.size(); ++e) {
     static_cast<void>(material_of(mesh, materials, e));  // there is one
@@ -34,8 +34,9 @@ std::span<const Stress> StressRecovery::operator()(std::span<const Vec2> u) {
       x[a] = mesh_.coordinates[static_cast<std::size_t>(cell[a])];
       displacement[a] = u[static_cast<std::size_t>(cell[a])];
     }
-    const Hooke& d = hooke_[mesh_.region.empty() ? 0 : static_cast<std::size_t>(mesh_.region[e])];
-    const auto stress = element_stress({x.data(), n}, {displacement.data(), n}, d);
+    const ElementLaw& law =
+        law_[mesh_.region.empty() ? 0 : static_cast<std::size_t>(mesh_.region[e])];
+    const auto stress = element_stress({x.data(), n}, {displacement.data(), n}, law);
     for (std::size_t a = 0; a < n; ++a)
       for (std::size_t k = 0; k < 4; ++k)
         nodal_[static_cast<std::size_t>(cell[a])][k] += weight_[e][a] * stress[a][k];

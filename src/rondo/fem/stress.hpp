@@ -21,7 +21,7 @@ class StressRecovery {
 
  private:
   const mesh::Mesh& mesh_;
-  std::vector<Hooke> hooke_;                   ///< of each material
+  std::vector<ElementLaw> law_;                ///< of each material
   std::vector<std::array<double, 4>> weight_;  ///< (e) share of a corner in its node's mean
   std::vector<Stress> nodal_;
 };

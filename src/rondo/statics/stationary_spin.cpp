@@ -35,13 +35,12 @@ bool factorise(Cholesky& solver, const Matrix& a) {
   return solver.info() == Eigen::Success;
 }
 
-}  // namespace
-
-StationarySpin stationary_spin(const fem::BlockCsr& k, std::span<const double> mass,
-                               std::span<const Vec2> reference, std::span<const int> free,
-                               double spin) {
+/// (K - softening M) u = s² M X.
+StationarySpin solve(const fem::BlockCsr& k, std::span<const double> mass,
+                     std::span<const Vec2> reference, std::span<const int> free, double spin,
+                     double softening) {
   const Eigen::VectorXd m = mass_vector(mass, free);
-  const Matrix a = shifted(k, m, free, spin * spin);
+  const Matrix a = shifted(k, m, free, softening);
   Eigen::VectorXd load(m.size());
   for (std::size_t i = 0; i < free.size(); ++i) {
     const Vec2 x = reference[static_cast<std::size_t>(free[i])];
@@ -61,6 +60,20 @@ StationarySpin stationary_spin(const fem::BlockCsr& k, std::span<const double> m
     out.u[static_cast<std::size_t>(free[i])] = {u[static_cast<Eigen::Index>(2 * i)],
                                                 u[static_cast<Eigen::Index>(2 * i + 1)]};
   return out;
+}
+
+}  // namespace
+
+StationarySpin stationary_spin(const fem::BlockCsr& k, std::span<const double> mass,
+                               std::span<const Vec2> reference, std::span<const int> free,
+                               double spin) {
+  return solve(k, mass, reference, free, spin, spin * spin);
+}
+
+StationarySpin centrifugal_prestress(const fem::BlockCsr& k, std::span<const double> mass,
+                                     std::span<const Vec2> reference, std::span<const int> free,
+                                     double spin) {
+  return solve(k, mass, reference, free, spin, 0.0);
 }
 
 bool eigenvalues_above(const fem::BlockCsr& k, std::span<const double> mass,

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-/// @file  Equilibrium of a body in stationary spin: (K - s²M) u = s² M X (docs/theory.md, 6.1).
+/// @file  Equilibrium of a body in stationary spin: (K - s²M) u = s² M X (docs/theory.md, 6.1), and
+/// the stress that stiffens it (2.8).
 #pragma once
 #include <span>
 #include <vector>
@@ -17,13 +18,20 @@ enum class SpinStatus {
 struct StationarySpin {
   SpinStatus status = SpinStatus::unstable;
   std::vector<Vec2> u;    ///< (n) turning frame, 0 on clamped nodes                [m]
-  double residual = 0.0;  ///< ‖K u - s²M(X + u)‖ / ‖s² M X‖ after the solve         [-]
+  double residual = 0.0;  ///< of the equation solved, relative to ‖s² M X‖         [-]
 };
 
 /// Sparse Cholesky (CHOLMOD). @param spin s [rad/s]; others (n).
 [[nodiscard]] StationarySpin stationary_spin(const fem::BlockCsr& k, std::span<const double> mass,
                                              std::span<const Vec2> reference,
                                              std::span<const int> free, double spin);
+
+/// Displacement whose stress stiffens a body in stationary spin, (2.8b): K u = s² M X, without
+/// softening. @param k without geometric stiffness. @pre something is clamped.
+[[nodiscard]] StationarySpin centrifugal_prestress(const fem::BlockCsr& k,
+                                                   std::span<const double> mass,
+                                                   std::span<const Vec2> reference,
+                                                   std::span<const int> free, double spin);
 
 /// True where K - shift M is positive definite on the free nodes: every eigenvalue of M⁻¹K is above
 /// `shift` [1/s²]. By the same Cholesky factorisation.
@@ -35,6 +43,11 @@ struct StationarySpin {
 [[nodiscard]] StationarySpin stationary_spin(const fem::SectorStiffness& k,
                                              std::span<const double> mass,
                                              std::span<const Vec2> reference, double spin);
+
+/// The same for a body of N equal sectors, from harmonic 0 alone.
+[[nodiscard]] StationarySpin centrifugal_prestress(const fem::SectorStiffness& k,
+                                                   std::span<const double> mass,
+                                                   std::span<const Vec2> reference, double spin);
 
 /// The same for a body of N equal sectors: a factorisation of each harmonic.
 [[nodiscard]] bool eigenvalues_above(const fem::SectorStiffness& k, std::span<const double> mass,

@@ -67,18 +67,14 @@ void spread(const fem::SectorStiffness& k, const Eigen::VectorXd& polar, std::sp
     }
 }
 
-}  // namespace
-
-StationarySpin stationary_spin(const fem::SectorStiffness& k, std::span<const double> mass,
-                               std::span<const Vec2> reference, double spin) {
+/// (K - softening M) u = s² M X by harmonic 0; `unstable` where that is not positive definite.
+StationarySpin solve(const fem::SectorStiffness& k, HarmonicFactor& factor,
+                     const Eigen::VectorXd& root_mass, std::span<const Vec2> reference,
+                     double spin) {
   StationarySpin out;
   out.u.assign(reference.size(), Vec2{});
-  fem::Harmonics harmonics(k, mass);
-  const OneBlasThread one_thread;
-  HarmonicFactor factor(harmonics, spin * spin);
   if (!factor.compute(0)) return out;
-  // (A(0) - s²I) w = s² M^½ X with w = M^½ u
-  const Eigen::VectorXd& root_mass = harmonics.root_mass();
+  // (A(0) - softening I) w = s² M^½ X with w = M^½ u
   const Eigen::VectorXd load = scaled_load(k, root_mass, reference, spin);
   const Eigen::SparseMatrix<double> a = factor.matrix(0).real();
   const auto remainder = [&](const Eigen::VectorXd& w) -> Eigen::VectorXd {
@@ -86,12 +82,33 @@ StationarySpin stationary_spin(const fem::SectorStiffness& k, std::span<const do
   };
   Eigen::VectorXd w = factor.solve(load);
   w += factor.solve(remainder(w));  // one refinement, as for the assembled stiffness
-  if (!factor.positive_from(1)) return out;
   out.status = SpinStatus::solved;
   const double scale = load.cwiseProduct(root_mass).norm();
   out.residual = scale > 0.0 ? remainder(w).cwiseProduct(root_mass).norm() / scale : 0.0;
   spread(k, w.cwiseQuotient(root_mass), out.u);
   return out;
+}
+
+}  // namespace
+
+StationarySpin stationary_spin(const fem::SectorStiffness& k, std::span<const double> mass,
+                               std::span<const Vec2> reference, double spin) {
+  fem::Harmonics harmonics(k, mass);
+  const OneBlasThread one_thread;
+  HarmonicFactor factor(harmonics, spin * spin);
+  StationarySpin out = solve(k, factor, harmonics.root_mass(), reference, spin);
+  if (out.status != SpinStatus::solved || factor.positive_from(1)) return out;
+  StationarySpin none;
+  none.u.assign(reference.size(), Vec2{});
+  return none;
+}
+
+StationarySpin centrifugal_prestress(const fem::SectorStiffness& k, std::span<const double> mass,
+                                     std::span<const Vec2> reference, double spin) {
+  fem::Harmonics harmonics(k, mass);
+  const OneBlasThread one_thread;
+  HarmonicFactor factor(harmonics, 0.0);
+  return solve(k, factor, harmonics.root_mass(), reference, spin);
 }
 
 bool eigenvalues_above(const fem::SectorStiffness& k, std::span<const double> mass, double shift) {
