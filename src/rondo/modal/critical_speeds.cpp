@@ -1,0 +1,92 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "rondo/modal/critical_speeds.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+
+#include "rondo/core/contract.hpp"
+#include "rondo/modal/harmonic_problem.hpp"
+#include "rondo/modal/inertia.hpp"
+
+namespace rondo::modal {
+namespace {
+
+using Eigen::Index;
+using Complex = std::complex<double>;
+using Matrix = fem::Harmonics::Matrix;
+using Vector = Eigen::VectorXcd;
+
+/// A(n) w = s² Q w, Q = n² + 1 - n G - A_σ(n) (8.6).
+class CriticalProblem {
+ public:
+  CriticalProblem(const CyclicBody& body, const fem::SectorStiffness* stiffening)
+      : elastic_(body.stiffness, body.mass) {
+    if (stiffening) stiffening_.emplace(*stiffening, body.mass);
+  }
+
+  [[nodiscard]] int n_harmonics() const noexcept { return elastic_.count(); }
+
+  CriticalSpeed lowest(int n) {
+    n_ = n;
+    a_ = elastic_.lower(n, 1.0, 0.0);
+    if (stiffening_) a_sigma_ = stiffening_->lower(n, 1.0, 0.0);
+    factor_.compute(a_);
+    RONDO_DEMAND(factor_.info() == Eigen::Success, n);
+    Operator<Complex> op;
+    op.size = op.rank = a_.rows();
+    op.apply = [this](const Vector& x) { return Vector(factor_.solve(right(x))); };
+    op.metric = [this](const Vector& x) { return Vector(left(x)); };
+    Krylov<Complex> space(op);
+    Ritz ritz = eigenvalues_beyond(space, 0.0, 1, 0);
+    while (!space.complete() && ritz.value[0] > 0.0 && !is_lowest(ritz.value[0])) {
+      space.widen();
+      ritz = eigenvalues_beyond(space, ritz.value[0] * (1.0 + 1e-6), 1, 0);
+    }
+    if (!(ritz.value[0] > 0.0)) return {n, 0.0, 0.0};
+    const Vector w = op.apply(space.vector(ritz, 0));
+    const Vector aw = left(w);
+    return {n, 1.0 / std::sqrt(ritz.value[0]), (aw - right(w) / ritz.value[0]).norm() / aw.norm()};
+  }
+
+ private:
+  [[nodiscard]] Vector left(const Vector& x) const {
+    return a_.selfadjointView<Eigen::Lower>() * x;
+  }
+  [[nodiscard]] Vector right(const Vector& x) const {
+    const double n = n_;
+    Vector y = (n * n + 1.0) * x - n * gyroscopic(x);
+    if (stiffening_) y -= a_sigma_.selfadjointView<Eigen::Lower>() * x;
+    return y;
+  }
+  /// A - s² Q is positive definite just below the spin found: none is lower.
+  [[nodiscard]] bool is_lowest(double mu) const {
+    const double squared = (1.0 - 1e-6) / mu, n = n_;
+    Matrix m = a_;
+    if (stiffening_) m += squared * a_sigma_;
+    for (Index k = 0; k < m.cols(); ++k) m.coeffRef(k, k) -= squared * (n * n + 1.0);
+    for (Index k = 0; k < m.cols(); k += 2) m.coeffRef(k + 1, k) += Complex(0.0, 2.0 * n * squared);
+    return negative_eigenvalues(m) == 0;
+  }
+
+  fem::Harmonics elastic_;
+  std::optional<fem::Harmonics> stiffening_;
+  int n_ = 0;
+  Matrix a_, a_sigma_;
+  Eigen::SimplicialLDLT<Matrix, Eigen::Lower> factor_;
+};
+
+}  // namespace
+
+std::vector<CriticalSpeed> critical_speeds(const CyclicBody& body,
+                                           const fem::SectorStiffness* stiffening, int last) {
+  CriticalProblem problem(body, stiffening);
+  std::vector<CriticalSpeed> speeds;
+  for (int n = body.free() ? 2 : 1; n <= std::min(last, problem.n_harmonics() - 1); ++n) {
+    const CriticalSpeed found = problem.lowest(n);
+    if (found.spin > 0.0) speeds.push_back(found);
+  }
+  return speeds;
+}
+
+}  // namespace rondo::modal

@@ -1,0 +1,20 @@
+// SPDX-License-Identifier: BSD-3-Clause
+/// @file  Harmonic 0 of a free disk in spin, where K' is indefinite (docs/theory.md, 8.5).
+#pragma once
+#include <vector>
+
+#include "rondo/modal/harmonic_problem.hpp"
+
+namespace rondo::modal {
+
+struct RotationalRoots {
+  std::vector<HarmonicRoot> vibrations;  ///< ω > 0, ascending
+  HarmonicRoot rotation;                 ///< ω = 0 where it is held back, |Re ω| where it is not
+  double growth = 0.0;                   ///< of the rotation, > 0 where nothing holds it back [1/s]
+};
+
+/// By a dense eigensolver without symmetry.
+/// @param a A' = A(0) - s², as HarmonicProblem::dense_rotational() gives it. @param spin s ≠ 0
+RotationalRoots rotational_roots(const Eigen::MatrixXd& a, double spin);
+
+}  // namespace rondo::modal

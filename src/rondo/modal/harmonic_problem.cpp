@@ -1,0 +1,174 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "rondo/modal/harmonic_problem.hpp"
+
+#include <cmath>
+#include <optional>
+
+#include "rondo/core/contract.hpp"
+#include "rondo/modal/inertia.hpp"
+
+namespace rondo::modal {
+namespace {
+
+using Eigen::Index;
+using Vector = Eigen::VectorXcd;
+
+}  // namespace
+
+Vector gyroscopic(const Vector& w) {
+  const std::complex<double> two_i(0.0, 2.0);
+  Vector out(w.size());
+  for (Index a = 0; a < w.size(); a += 2) {
+    out[a] = -two_i * w[a + 1];
+    out[a + 1] = two_i * w[a];
+  }
+  return out;
+}
+
+HarmonicProblem::HarmonicProblem(const CyclicBody& body, double spin)
+    : body_(body), spin_(spin), harmonics_(body.stiffness, body.mass) {
+  choose(0);
+}
+
+bool HarmonicProblem::finite() {
+  return std::isfinite(harmonics_.lower(0, 1.0, -spin_ * spin_).norm());
+}
+
+void HarmonicProblem::choose(int n) {
+  n_ = n;
+  rigid_.resize(0);
+  if (!body_.free() || n > 1) return;
+  rigid_.resize(size());
+  const Complex i(0.0, 1.0);
+  for (Index a = 0; a < rigid_.size(); a += 2) {
+    // Polar components of sector 0: of J X, and of e_x, which is Re (1, i) e^{iφ} in sector φ.
+    const Vec2 x = body_.reference[body_.stiffness.node(static_cast<std::size_t>(a / 2), 0)];
+    rigid_[a] = n == 0 ? Complex(-x.y) : Complex(1.0);
+    rigid_[a + 1] = n == 0 ? Complex(x.x) : i;
+  }
+  rigid_ = rigid_.cwiseProduct(harmonics_.root_mass().cast<Complex>()).eval();
+  rigid_.normalize();
+}
+
+bool HarmonicProblem::has_partner() const noexcept {
+  return n_ > 0 && 2 * n_ < body_.stiffness.n_sectors;
+}
+
+void HarmonicProblem::take_rigid_out(Eigen::Ref<Vector> w) const {
+  if (rigid_.size() > 0) w -= rigid_.dot(w) * rigid_;
+}
+
+/// Of A' - ω² + ω s G, without the rigid-body motion: there it is -ω² or -(ω ± s)², negative. A
+/// pivot of exactly zero is met at another ω next to it.
+int HarmonicProblem::negative(double omega) {
+  std::optional<int> found;
+  for (int tries = 0; tries < 8 && !found; ++tries) {
+    const double w = omega * (1.0 + tries * 1e-12);
+    Matrix a = harmonics_.lower(n_, 1.0, -spin_ * spin_ - w * w);
+    for (Index k = 0; k < a.cols(); k += 2) {
+      // From its diagonal on, the next entry of the column is that of y in the row of x's node.
+      const Index next = a.outerIndexPtr()[k] + 1;
+      RONDO_ASSERT(a.innerIndexPtr()[next] == k + 1, k);
+      a.valuePtr()[next] += Complex(0.0, 2.0 * w * spin_);
+    }
+    found = negative_eigenvalues(a);
+  }
+  RONDO_DEMAND(found.has_value(), omega, spin_, n_);
+  const int rigid = rigid_.size() > 0 && (omega != 0.0 || spin_ != 0.0) ? 1 : 0;
+  return *found - rigid;
+}
+
+RootCounts HarmonicProblem::count_below(double sigma) {
+  if (spin_ == 0.0) return {negative(sigma), 0};
+  return {negative(sigma), negative(-sigma)};
+}
+
+double HarmonicProblem::sigma_with(int count) {
+  const Matrix& a = harmonics_.lower(n_, 1.0, -spin_ * spin_);
+  const double diagonal = a.diagonal().real().minCoeff();  // a Rayleigh quotient of A'
+  const double scale = std::max(diagonal, 1e-6 * a.diagonal().real().maxCoeff());
+  const int all = (spin_ == 0.0 ? 1 : 2) * (size() - (rigid_.size() > 0 ? 1 : 0));
+  double sigma = std::sqrt(scale) / size();
+  while (true) {
+    const RootCounts counts = count_below(sigma);
+    if (counts.positive + counts.negative >= std::min(count, all)) return sigma;
+    sigma *= 2.0;
+  }
+}
+
+/// A' + shift I.
+void HarmonicProblem::factorise(double shift) {
+  lower_ = harmonics_.lower(n_, 1.0, -spin_ * spin_);
+  Matrix a = lower_;
+  for (Index k = 0; k < a.cols(); ++k) a.valuePtr()[a.outerIndexPtr()[k]] += shift;
+  factor_.compute(a);
+  RONDO_DEMAND(factor_.info() == Eigen::Success, n_, spin_);
+}
+
+/// T = (A + shift)⁻¹, with μ = 1/(ω² + shift).
+Operator<HarmonicProblem::Complex> HarmonicProblem::at_rest(double shift) {
+  factorise(shift);
+  Operator<Complex> op;
+  op.size = size();
+  op.rank = size() - (rigid_.size() > 0 ? 1 : 0);
+  op.apply = [this](const Vector& x) {
+    Vector y = factor_.solve(x);
+    take_rigid_out(y);
+    return y;
+  };
+  op.metric = [](const Vector& x) { return x; };
+  return op;
+}
+
+/// T = P⁻¹ Q with P = diag(A', 1), Q = [-sG, 1; 1, 0], of (w, ω w), with μ = 1/ω (8.3).
+Operator<HarmonicProblem::Complex> HarmonicProblem::in_spin() {
+  factorise(0.0);
+  const Index n = size();
+  Operator<Complex> op;
+  op.size = 2 * n;
+  op.rank = 2 * (n - (rigid_.size() > 0 ? 1 : 0));
+  op.apply = [this, n](const Vector& x) {
+    Vector y(2 * n);
+    y.head(n) = factor_.solve(Vector(x.tail(n) - spin_ * gyroscopic(x.head(n))));
+    y.tail(n) = x.head(n);
+    take_rigid_out(y.head(n));
+    take_rigid_out(y.tail(n));
+    return y;
+  };
+  op.metric = [this, n](const Vector& x) {
+    Vector y(2 * n);
+    y.head(n).noalias() = lower_.selfadjointView<Eigen::Lower>() * x.head(n);
+    y.tail(n) = x.tail(n);
+    return y;
+  };
+  return op;
+}
+
+std::vector<HarmonicRoot> HarmonicProblem::roots_below(double sigma, RootCounts counts) {
+  const bool rest = spin_ == 0.0;
+  // Some lower than the lowest frequency: rigid-body motions make A singular.
+  const double shift = rest && rigid_.size() > 0 ? 0.1 * sigma * sigma / size() : 0.0;
+  const Operator<Complex> op = rest ? at_rest(shift) : in_spin();
+  const double limit = rest ? 1.0 / (sigma * sigma + shift) : 1.0 / sigma;
+  Krylov<Complex> space(op);
+  const Ritz ritz = eigenvalues_beyond(space, limit, counts.positive, counts.negative);
+  dimension_ = std::max(dimension_, static_cast<int>(space.dimension()));
+  std::vector<HarmonicRoot> roots;
+  for (Index k = 0; k < ritz.value.size(); ++k) {
+    const double mu = ritz.value[k];
+    if (!(std::abs(mu) > limit) || (rest && mu < 0.0)) continue;
+    HarmonicRoot root;
+    root.omega = rest ? std::sqrt(std::max(0.0, 1.0 / mu - shift)) : 1.0 / mu;
+    root.w = op.apply(space.vector(ritz, k)).head(size());  // once more: less of what is far off
+    root.w.normalize();
+    roots.push_back(std::move(root));
+  }
+  return roots;
+}
+
+Eigen::MatrixXd HarmonicProblem::dense_rotational() {
+  const Eigen::MatrixXd lower = Eigen::MatrixXcd(harmonics_.lower(0, 1.0, -spin_ * spin_)).real();
+  return lower.selfadjointView<Eigen::Lower>();
+}
+
+}  // namespace rondo::modal

@@ -1,0 +1,83 @@
+// SPDX-License-Identifier: BSD-3-Clause
+/// @file  One harmonic of a body of equal sectors in constant spin (docs/theory.md, 8.2): with
+/// w = M^½ φ of one sector, A' = A(n) - s² and the Hermitian G = 2iJ,
+///   (A' - ω² + ω s G) w = 0,                                                              (8.2)
+/// where ω may be of both signs: w e^{i(nϑ + ωt)} travels clockwise where ω > 0.
+#pragma once
+#include <Eigen/SparseCholesky>
+#include <complex>
+#include <vector>
+
+#include "rondo/fem/harmonics.hpp"
+#include "rondo/modal/krylov.hpp"
+#include "rondo/modal/modes.hpp"
+
+namespace rondo::modal {
+
+/// A root of (8.2) and its unit vector.
+struct HarmonicRoot {
+  double omega = 0.0;  ///< of both signs; >= 0 at rest                        [rad/s]
+  Eigen::VectorXcd w;  ///< (2 n_local), polar components, ‖w‖ = 1
+};
+
+/// Numbers of roots in (0, σ) and in (-σ, 0); at rest both signs are one.
+struct RootCounts {
+  int positive = 0, negative = 0;
+};
+
+/// G w = 2iJ w: of each node, (x, y) becomes 2i (-y, x).
+Eigen::VectorXcd gyroscopic(const Eigen::VectorXcd& w);
+
+class HarmonicProblem {
+ public:
+  using Complex = std::complex<double>;
+  using Matrix = fem::Harmonics::Matrix;
+
+  HarmonicProblem(const CyclicBody& body, double spin);
+
+  /// N/2 + 1, rounded down.
+  [[nodiscard]] int n_harmonics() const noexcept { return harmonics_.count(); }
+  /// 2 n_local.
+  [[nodiscard]] int size() const noexcept { return static_cast<int>(harmonics_.size()); }
+  /// All numbers are finite, so that there is something to solve.
+  [[nodiscard]] bool finite();
+  /// From here on all is about harmonic `n`.
+  void choose(int n);
+  /// True where w and its conjugate, of harmonic N - n, are two motions: 0 < n < N/2.
+  [[nodiscard]] bool has_partner() const noexcept;
+  /// Unit vector of a rigid-body motion of a free body, which is left out below: of the rotation in
+  /// harmonic 0, of the translations in harmonic 1; else empty.
+  [[nodiscard]] const Eigen::VectorXcd& rigid() const noexcept { return rigid_; }
+
+  /// Negative eigenvalues of A'.
+  int unstable() { return negative(0.0); }
+  /// Roots with |ω| < σ. @pre unstable() is 0, σ > 0
+  RootCounts count_below(double sigma);
+  /// All roots with |ω| < σ. @pre unstable() is 0
+  std::vector<HarmonicRoot> roots_below(double sigma, RootCounts counts);
+  /// A σ with at least `count` roots below it, or all.
+  double sigma_with(int count);
+  /// Largest dimension of a Krylov space so far.
+  [[nodiscard]] int dimension() const noexcept { return dimension_; }
+
+  /// A' of harmonic 0 as a dense matrix, real.
+  Eigen::MatrixXd dense_rotational();
+
+ private:
+  int negative(double omega);
+  void factorise(double shift);
+  [[nodiscard]] Operator<Complex> at_rest(double shift);
+  [[nodiscard]] Operator<Complex> in_spin();
+  void take_rigid_out(Eigen::Ref<Eigen::VectorXcd> w) const;
+
+  const CyclicBody& body_;
+  double spin_;
+  fem::Harmonics harmonics_;
+  int n_ = 0;
+  int dimension_ = 0;
+  Eigen::VectorXcd rigid_;
+  Matrix lower_;  ///< of A', as the operators use it
+  Eigen::SimplicialLDLT<Matrix, Eigen::Lower> factor_;
+};
+
+}  // namespace rondo::modal

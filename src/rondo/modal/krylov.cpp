@@ -1,0 +1,151 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "rondo/modal/krylov.hpp"
+
+#include <Eigen/Eigenvalues>
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "rondo/core/contract.hpp"
+
+namespace rondo::modal {
+namespace {
+
+using Eigen::Index;
+
+/// Columns of a block: a double eigenvalue is found without more.
+constexpr Index block = 2;
+/// What is left of a vector after orthogonalisation, over what it was: less is round-off.
+constexpr double dependent = 1e-12;
+
+double real(double x) {
+  return x;
+}
+double real(std::complex<double> x) {
+  return x.real();
+}
+
+}  // namespace
+
+template <class Scalar>
+void Krylov<Scalar>::reserve(Index columns) {
+  if (columns <= basis_.cols()) return;
+  const Index capacity = std::min(std::max(columns, 2 * basis_.cols()), op_.rank + block);
+  basis_.conservativeResize(op_.size, std::max(columns, capacity));
+  const Index before = projected_.cols();
+  projected_.conservativeResize(basis_.cols(), basis_.cols());
+  projected_.bottomRows(basis_.cols() - before).setZero();
+  projected_.rightCols(basis_.cols() - before).setZero();
+}
+
+/// Uniform in [-1, 1), by a counter through the finaliser of a hash (splitmix64).
+template <class Scalar>
+auto Krylov<Scalar>::random() -> Vector {
+  Vector x(op_.size);
+  for (Index i = 0; i < x.size(); ++i) {
+    std::uint64_t z = seed_ += 0x9e3779b97f4a7c15U;
+    z = (z ^ (z >> 30U)) * 0xbf58476d1ce4e5b9U;
+    z = (z ^ (z >> 27U)) * 0x94d049bb133111ebU;
+    x[i] = static_cast<double>((z ^ (z >> 31U)) >> 11U) * 0x1p-52 - 1.0;
+  }
+  return x;
+}
+
+/// Adds x, made P-orthonormal, to the basis; its parts along the basis go into column `from` of the
+/// projected operator (-1: nowhere). False where nothing new is left of it.
+template <class Scalar>
+bool Krylov<Scalar>::add(Vector x, Index from) {
+  const double before = std::sqrt(std::max(0.0, real(x.dot(op_.metric(x)))));
+  for (int pass = 0; pass < 2; ++pass) {
+    const Vector parts = basis_.leftCols(all_).adjoint() * op_.metric(x);
+    x.noalias() -= basis_.leftCols(all_) * parts;
+    if (from >= 0) projected_.col(from).head(all_) += parts;
+  }
+  const double norm = std::sqrt(std::max(0.0, real(x.dot(op_.metric(x)))));
+  if (!(norm > dependent * before) || all_ >= op_.rank) return false;
+  reserve(all_ + 1);
+  basis_.col(all_) = x / norm;
+  if (from >= 0) projected_(all_, from) = norm;
+  ++all_;
+  return true;
+}
+
+template <class Scalar>
+void Krylov<Scalar>::widen() {
+  if (all_ >= op_.rank) return;
+  reserve(all_ + 1);
+  for (int tries = 0; tries < 10; ++tries)
+    if (add(op_.apply(random()), -1)) return;  // T x holds nothing of what `apply` takes out
+  RONDO_DEMAND(false, all_, op_.rank);
+}
+
+template <class Scalar>
+void Krylov<Scalar>::grow() {
+  if (all_ == 0)
+    for (Index i = 0; i < block; ++i) widen();
+  if (done_ == all_) widen();
+  const Index end = all_;
+  for (; done_ < end; ++done_) static_cast<void>(add(op_.apply(basis_.col(done_)), done_));
+}
+
+template <class Scalar>
+Ritz Krylov<Scalar>::ritz() const {
+  Eigen::MatrixXcd h = projected_.topLeftCorner(done_, done_).template cast<std::complex<double>>();
+  if (op_.skew) h *= std::complex<double>(0.0, 1.0);
+  const Eigen::MatrixXcd hermitian = 0.5 * (h + h.adjoint());
+  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXcd> solver(hermitian);
+  Ritz out;
+  out.value = solver.eigenvalues().reverse();
+  out.weights = solver.eigenvectors().rowwise().reverse();
+  const Eigen::MatrixXcd rest =
+      projected_.block(done_, 0, all_ - done_, done_).template cast<std::complex<double>>();
+  out.residual = (rest * out.weights).colwise().norm().transpose();
+  return out;
+}
+
+template <class Scalar>
+Eigen::VectorXcd Krylov<Scalar>::vector(const Ritz& ritz, Index column) const {
+  return basis_.leftCols(ritz.weights.rows()).template cast<std::complex<double>>() *
+         ritz.weights.col(column);
+}
+
+template class Krylov<double>;
+template class Krylov<std::complex<double>>;
+
+namespace {
+
+/// True where the first `n` values from one end are beyond the limit, and found.
+bool found(const Ritz& r, double limit, Index n, bool above) {
+  const Index m = r.value.size();
+  if (n > m) return false;
+  for (Index i = 0; i < n; ++i) {
+    const Index k = above ? i : m - 1 - i;
+    const double value = above ? r.value[k] : -r.value[k];
+    if (!(value > limit) || r.residual[k] > krylov_tolerance * value) return false;
+  }
+  return true;
+}
+
+}  // namespace
+
+template <class Scalar>
+Ritz eigenvalues_beyond(Krylov<Scalar>& space, double limit, Index above, Index below) {
+  double next = 0.0, widened = static_cast<double>(2 * (above + below) + 40);
+  while (true) {
+    if (!space.complete()) space.grow();
+    const auto m = static_cast<double>(space.dimension());
+    if (m < next && !space.complete()) continue;
+    next = 1.1 * m;
+    Ritz r = space.ritz();
+    const bool all = found(r, limit, above, true) && found(r, limit, below, false);
+    if (all || space.complete()) return r;
+    if (m < 2.0 * widened) continue;
+    space.widen();  // longer than it should take: some may be multiple
+    widened = m;
+  }
+}
+
+template Ritz eigenvalues_beyond(Krylov<double>&, double, Index, Index);
+template Ritz eigenvalues_beyond(Krylov<std::complex<double>>&, double, Index, Index);
+
+}  // namespace rondo::modal

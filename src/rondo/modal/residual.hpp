@@ -1,0 +1,14 @@
+// SPDX-License-Identifier: BSD-3-Clause
+/// @file  How well a mode fulfils (8.1), apart from the solvers: on all nodes of the mesh, with the
+/// readable products of K.
+#pragma once
+#include "rondo/modal/modes.hpp"
+
+namespace rondo::modal {
+
+/// ‖(K' - ω²M + 2iωsMJ) φ‖ / ‖K' φ‖; where K'φ is round-off, of the rigid-body motions at rest,
+/// over ‖D φ‖ instead, D the blocks of K on its diagonal.
+double residual(const CyclicBody& body, double spin, const Mode& mode);
+double residual(const MeshBody& body, double spin, const Mode& mode);
+
+}  // namespace rondo::modal
