@@ -33,7 +33,7 @@ TEST_P(Ledgers, CloseToRoundOff) {
     c.motion.angular_velocity = Table({{0.0, 20.0}, {0.05, 60.0}, {0.1, 10.0}});
     c.motion.speed = Table({{0.0, 12.0}, {0.1, 5.0}});
     c.motion.height = Table({{0.0, 0.295}, {0.03, 0.28}, {0.06, 0.31}});
-    c.motion.gravity = 9.81;
+    c.motion.gravity = Table(9.81);
   }
   auto b = test::build(c);
   test::add_ground(b, test::ledge(), {v.friction, v.restitution});

@@ -118,7 +118,7 @@ TEST(FreeFall, EveryNodeFallsAtG) {
   model.mass = fem::lumped_mass(m, {&material, 1});
   model.free = fem::free_nodes(m);
   model.stiffness = fem::assemble_stiffness(m, {&material, 1});
-  model.motion.gravity = 9.81;
+  model.motion.gravity = dynamics::Table(9.81);
   model.dt = 1e-4;
   test::Stepping run(model, test::start_at_rest(model));
   run.advance(1000);

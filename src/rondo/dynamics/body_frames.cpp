@@ -6,9 +6,11 @@
 namespace rondo::dynamics {
 
 FrameStep fixed_frame_step(const Model& model, long long n) noexcept {
-  Motion still;
-  still.gravity = model.motion.gravity;
-  return frame_step(still, n, model.dt);
+  FrameStep f;
+  f.time = static_cast<double>(n) * model.dt;
+  f.rotation = {1.0, 0.0};
+  f.pull = {0.0, model.motion.gravity.at(f.time)};
+  return f;
 }
 
 BodyFrame::BodyFrame(const Model& model, const FrameStep& f) noexcept

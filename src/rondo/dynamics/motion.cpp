@@ -110,7 +110,7 @@ FrameStep frame_step(const Motion& motion, long long n, double dt) noexcept {
   f.advance = motion.advance(t, dt);
   f.advance_before = motion.advance(before, dt);
   const Vec2 acceleration = (f.advance - f.advance_before) / (dt * dt);
-  f.pull = conj(f.rotation) * (acceleration + Vec2{0.0, motion.gravity});
+  f.pull = conj(f.rotation) * (acceleration + Vec2{0.0, motion.gravity.at(t)});
   return f;
 }
 

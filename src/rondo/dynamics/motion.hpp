@@ -37,8 +37,8 @@ struct Motion {
   Table angular_velocity;  ///< ω > 0 rolls towards +x; counter-clockwise rate s = -ω  [rad/s]
   Table speed;             ///< V, of the centre along x                               [m/s]
   Table height;            ///< h, of the centre above y = 0                           [m]
+  Table gravity;           ///< downwards                                              [m/s2]
   double start_x = 0.0;    ///< x of the centre at t = 0                               [m]
-  double gravity = 0.0;    ///< downwards                                              [m/s2]
 
   [[nodiscard]] double angle(double t) const noexcept { return turn(0.0, t); }
   /// θ(from + length) - θ(from); before t = 0 as for the centre                        [rad]

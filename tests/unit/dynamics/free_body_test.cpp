@@ -162,7 +162,7 @@ TEST(FreeBody, TheLedgerClosesToSecondOrder) {
 TEST(FreeBody, WithoutRotationTheLedgerClosesToRoundOff) {
   const mesh::Mesh mesh = one_block();
   Model model = test::body_model(mesh, rubber, 5.0, 1e-5, 0.8);
-  model.motion.gravity = 9.81;
+  model.motion.gravity = Table(9.81);
   std::vector<Vec2> u(model.n_nodes()), v(model.n_nodes(), Vec2{1.0, 2.0});
   // Symmetric about the block's upright middle: its mean rotation stays zero.
   for (std::size_t k = 0; k < u.size(); ++k) {
@@ -177,7 +177,7 @@ TEST(FreeBody, WithoutRotationTheLedgerClosesToRoundOff) {
 TEST(FreeBody, FallsAsAParabola) {
   const mesh::Mesh mesh = one_block();
   Model model = test::body_model(mesh, rubber, 0.0, 0.0, 0.8);
-  model.motion.gravity = 9.81;
+  model.motion.gravity = Table(9.81);
   test::Stepping stepping(model, start(model, std::vector<Vec2>(model.n_nodes()),
                                        std::vector<Vec2>(model.n_nodes(), Vec2{2.0, 0.0})));
   stepping.advance(1000);

@@ -67,7 +67,7 @@ TEST(GeneralContact, ASharpCornerHoldsASegment) {
   test::add_block(mesh, {.corner = {-0.5, 0.0}, .columns = 3, .rows = 3});
   for (const double mu : {0.0, 0.5}) {
     Model model = test::body_model(mesh, rubber, 20.0, 2e-4, 0.8);
-    model.motion.gravity = 9.81;
+    model.motion.gravity = Table(9.81);
     // A roof whose ridge is under the middle of the middle edge.
     test::add_ground(model, mesh, {.profile = {{-10, -10.01}, {0, -0.01}, {10, -10.01}}},
                      {mu, 0.0});
@@ -151,7 +151,7 @@ TEST(GeneralContact, TheLedgerOfACollisionClosesWithTheStep) {
 /// A stack: the lower block rests on the ground, the upper one on it, after damping.
 TEST(GeneralContact, AStackComesToRest) {
   TwoBlocks t = two_blocks(0.5, 30.0);
-  t.model.motion.gravity = 9.81;
+  t.model.motion.gravity = Table(9.81);
   test::add_ground(t.model, t.mesh, {}, {0.5, 0.0});
   test::Stepping stepping(t.model, start(t.model, std::vector<Vec2>(t.model.n_nodes()),
                                          std::vector<Vec2>(t.model.n_nodes())));

@@ -35,7 +35,7 @@ inline RollingCase everything(const std::string& name, int radial, int columns) 
   m.speed = Table({{0.004, 12.0}, {0.012, 9.0}});
   m.height = Table({{0.0, 0.291}, {0.015, 0.286}, {0.035, 0.290}});
   m.start_x = -0.05;
-  m.gravity = 9.81;
+  m.gravity = dynamics::Table(9.81);
   c.ground = {
       .profile =
           {{-10, -0.1}, {0, -0.1}, {0, 0}, {0.04, -0.006}, {0.10, 0.002}, {0.14, -0.004}, {10, 0}},

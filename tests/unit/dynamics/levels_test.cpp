@@ -28,7 +28,7 @@ test::Built rolling(bool tread) {
   if (tread) c.disk.tread = mesh::Tread{.pitches = 19};
   c.motion.angular_velocity = Table({{0.0, 33.0}, {0.004, 36.0}});
   c.motion.height = Table({{0.0, 0.2995}, {0.004, 0.298}});
-  c.motion.gravity = 9.81;
+  c.motion.gravity = Table(9.81);
   auto b = test::build(c);
   b.model.dt = 2e-5;
   b.model.sector = fem::assemble_sector(b.mesh, {&c.material, 1});

@@ -76,3 +76,11 @@ TEST(Motion, KinkOfTheHeightIsOneImpulse) {
   falling.height = Table({{0.0, 1.0}, {1.0, 0.0}});
   EXPECT_EQ(frame_step(falling, 0, dt).pull.y, 0.0);  // it moved like that before the start
 }
+
+TEST(Motion, GravityFollowsItsTable) {
+  Motion m;
+  m.gravity = Table({{0.0, 0.0}, {0.5, 10.0}});
+  EXPECT_EQ(frame_step(m, 0, 0.01).pull, Vec2{});
+  EXPECT_NEAR(frame_step(m, 25, 0.01).pull.y, 5.0, 1e-14);  // at t = 0.25: half way
+  EXPECT_EQ(frame_step(m, 80, 0.01).pull, (Vec2{0.0, 10.0}));
+}

@@ -74,7 +74,7 @@ Model mixed_model(const test::DiskCase& c, bool contact) {
 test::DiskCase rolling(int radial, int circumferential) {
   test::DiskCase c = test::rolling_disk(radial, circumferential);
   c.motion.height = Table(0.298);
-  c.motion.gravity = 9.81;
+  c.motion.gravity = Table(9.81);
   return c;
 }
 
@@ -188,7 +188,7 @@ TEST(SparsePadding, StaysWhereItIs) {
   c.beta = 1e-3;
   c.motion = {};
   c.motion.angular_velocity = Table(400.0);
-  c.motion.gravity = 9.81;
+  c.motion.gravity = Table(9.81);
   const Model model = mixed_model(c, false);
   EXPECT_NE(model.free.size() % 8, 0);
   SparseIntegrator integrator(model, test::start_at_rest(model), kernel_table());

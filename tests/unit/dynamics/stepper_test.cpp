@@ -39,7 +39,7 @@ double distance_after(const Motion& motion, double end, int steps) {
   const Vec2 x0 = f.center + place + u0[0];
   const Vec2 speed = f.advance / model.dt;
   const Vec2 v = Vec2{motion.speed.at(0.0), speed.y} + turn90(f.spin * (place + u0[0])) + v0[0];
-  const Vec2 expected = x0 + end * v + 0.5 * end * end * Vec2{0.0, -motion.gravity};
+  const Vec2 expected = x0 + end * v + 0.5 * end * end * Vec2{0.0, -motion.gravity.at(0.0)};
   return norm(position(model, state, 0) - expected);
 }
 
@@ -52,7 +52,7 @@ TEST(Stepper, AFreeParticleFallsOnAParabolaInAnyFrame) {
   motion.angular_velocity = Table({{0.0, 3.0}, {0.333, 20.0}, {1.0, 9.0}});
   motion.speed = Table({{0.0, 2.0}, {0.417, 5.0}, {1.0, -3.0}});
   motion.height = Table({{0.0, 1.0}, {1.0, 0.4}});
-  motion.gravity = 9.81;
+  motion.gravity = Table(9.81);
   const double coarse = distance_after(motion, 0.8, 8000),
                fine = distance_after(motion, 0.8, 16000);
   EXPECT_LT(coarse, 1e-4);  // of some 3 m, at up to 20 rad/s
@@ -105,7 +105,7 @@ TEST(Stepper, LawVelocityIsTheDiscreteMotion) {
 
 TEST(Stepper, ABallBouncesWithItsRestitution) {
   Motion motion;
-  motion.gravity = 9.81;
+  motion.gravity = Table(9.81);
   Model model = particle(motion, {0.0, 1.0}, 1e-5);
   model.contact.emplace(
       ContactModel{contact::Ground(contact::GroundShape{}), {0.0, 0.5}, {0}, {1.0}});
