@@ -143,6 +143,16 @@ struct Case {
   std::vector<std::string> warnings;  ///< said while reading; the caller prints them
 };
 
+/// Something is held in the turning frame, so that there is a motion of the rim.
+inline bool is_held(const Case& c) {
+  return c.mesh ? !c.mesh->clamped.empty() : !c.free_rim;
+}
+
+/// There may be a body that nothing holds: of a mesh, only its cells tell.
+inline bool may_be_free(const Case& c) {
+  return c.mesh.has_value() || c.free_rim;
+}
+
 /// Reads and validates. `settings` are the "a.b=value" of --set, applied before validation; a value
 /// that is not TOML is taken as a string. @throws InputError with every fault, in the file's order.
 Case read_case(const std::filesystem::path& file, const std::vector<std::string>& settings = {});

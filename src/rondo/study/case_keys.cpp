@@ -12,164 +12,8 @@ namespace rondo::study {
 namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
-constexpr Range any{};
-constexpr Range positive{0.0, infinity, true, false};
-constexpr Range not_negative{0.0, infinity, false, false};
-
-constexpr Range between(double low, double high) {
-  return {low, high, false, false};
-}
 
 using enum KeyType;
-constexpr CaseKey keys[] = {
-    {"schema", integer, "-", between(1, 1), "", "required", "version of the case file's format"},
-    {"title", text, "-", any, "", "name of the case file", "a line for people"},
-
-    {"disk.outer_radius", number, "m", positive, "", "required",
-     "outer radius, to the top of the tread"},
-    {"disk.inner_radius", number, "m", positive, "< disk.outer_radius", "required",
-     "inner radius, bonded to the rigid rim"},
-    {"disk.mesh.radial", integer, "-", between(1, 100000), "", "required",
-     "layers of quadrilaterals between the radii (with a tread: below the grooves)"},
-    {"disk.mesh.circumferential", integer, "-", between(3, 10000000), "",
-     "required without [disk.tread]", "columns of quadrilaterals; not together with [disk.tread]"},
-    {"disk.mesh.grading", number, "-", between(1, 10), "", "1.0",
-     "exponent p of the layers' radii; above 1 the layers are finer near the tread"},
-    {"disk.tread.pitches", integer, "-", between(3, 10000000), "", "required",
-     "equal pitches, each a land then a groove"},
-    {"disk.tread.depth", number, "m", positive, "< disk.outer_radius - disk.inner_radius",
-     "required", "height of the lands"},
-    {"disk.tread.land_columns", integer, "-", between(1, 100000), "", "required",
-     "columns of quadrilaterals in a land"},
-    {"disk.tread.groove_columns", integer, "-", between(1, 100000), "", "required",
-     "columns in a groove"},
-    {"disk.tread.layers", integer, "-", between(1, 100000), "", "required",
-     "layers of quadrilaterals over the depth"},
-
-    {"mesh.file", text, "-", any, "", "later", "a Gmsh file instead of [disk]"},
-    {"mesh.clamped", text, "-", any, "", "later", "the physical curve held in the turning frame"},
-    {"mesh.contact", text, "-", any, "", "later", "the physical curve that may touch the ground"},
-
-    {"material.youngs_modulus", number, "Pa", positive, "", "required", "Young's modulus E"},
-    {"material.poissons_ratio",
-     number,
-     "-",
-     {-1.0, 0.5, true, true},
-     "",
-     "required",
-     "Poisson's ratio ν"},
-    {"material.density", number, "kg/m3", positive, "", "required", "density ρ"},
-    {"material.plane",
-     choice,
-     "-",
-     any,
-     "",
-     "\"strain\"",
-     "plane strain or plane stress",
-     {"strain", "stress"}},
-    {"material.integration",
-     choice,
-     "-",
-     any,
-     "",
-     "\"full\"",
-     "quadrature of the stiffness",
-     {"full"},
-     "b-bar"},
-    {"material.stress_stiffening",
-     choice,
-     "-",
-     any,
-     "",
-     "\"none\"",
-     "stiffening by the stress of the spin",
-     {"none"},
-     "centrifugal"},
-
-    {"damping.mass", number, "1/s", not_negative, "", "0.0", "α of the damping α M + β K"},
-    {"damping.stiffness", number, "s", not_negative, "", "0.0", "β of the damping α M + β K"},
-
-    {"motion.angular_velocity", history, "rad/s", any, "", "required if dynamic",
-     "of the rim; > 0 rolls towards +x"},
-    {"motion.speed", history, "m/s", any, "", "required if dynamic", "of the centre along x"},
-    {"motion.height", history, "m", any, "", "required if dynamic", "of the centre above y = 0"},
-    {"motion.start_x", number, "m", any, "", "0.0", "x of the centre at t = 0"},
-    {"motion.gravity", number, "m/s2", any, "", "0.0", "acceleration of gravity, downwards"},
-
-    {"ground.profile", profile, "m", any, "", "required",
-     "surface of the ground, solid on its right-hand side; only where there is a [ground]"},
-    {"ground.fillet", number, "m", not_negative, "", "0.0",
-     "radius that rounds the convex corners"},
-    {"ground.friction", number, "-", between(0, 100), "", "0.0",
-     "Coulomb's coefficient of friction μ"},
-    {"ground.restitution", number, "-", between(0, 1), "", "0.0",
-     "Newton's coefficient of restitution e"},
-
-    {"initial.state",
-     choice,
-     "-",
-     any,
-     "",
-     "\"rest\"",
-     "displacement at t = 0: none, or in equilibrium with the spin",
-     {"rest", "stationary"}},
-    {"initial.velocity", vector, "m/s", any, "", "[0.0, 0.0]",
-     "added to every free node, fixed frame"},
-    {"initial.displacement_gradient", matrix, "-", any, "", "[[0.0, 0.0], [0.0, 0.0]]",
-     "G of a displacement G X added to the free nodes"},
-
-    {"analysis.kind",
-     choice,
-     "-",
-     any,
-     "",
-     "\"dynamic\"",
-     "kind of analysis",
-     {"dynamic", "crush"}},
-    {"analysis.depth", number, "m", positive, "< disk.outer_radius - disk.inner_radius",
-     "required if crush", "by which a crush lowers the centre, from first touch on"},
-    {"analysis.increments", integer, "-", between(1, 1000000), "", "required if crush",
-     "equal parts of the depth"},
-
-    {"time.end", number, "s", positive, "", "required if dynamic",
-     "end of the run, which starts at t = 0"},
-    {"time.safety",
-     number,
-     "-",
-     {0.0, 1.0, true, false},
-     "not together with time.step",
-     "0.8",
-     "time step over the critical step"},
-    {"time.step", number, "s", positive, "not together with time.safety", "none",
-     "a given time step"},
-    {"time.scheme",
-     choice,
-     "-",
-     any,
-     "",
-     "\"symplectic\"",
-     "how the gyroscopic and mass damping forces are taken",
-     {"symplectic", "as-printed"}},
-
-    {"solver.operator",
-     choice,
-     "-",
-     any,
-     "",
-     "\"auto\"",
-     "how K u is formed",
-     {"auto", "cyclic", "sparse"}},
-
-    {"output.history_interval", number, "s", not_negative, "", "0.0001",
-     "between the rows of history.csv; 0: every step"},
-    {"output.snapshots", integer, "-", between(0, 1000000), "", "400",
-     "fields kept, evenly spread over [snapshots_from, end]"},
-    {"output.snapshots_from", number, "s", not_negative, "<= time.end", "0.0",
-     "time of the first snapshot"},
-    {"output.stress", boolean, "-", any, "", "true", "stress with the snapshots"},
-    {"output.checkpoint_interval", number, "s", positive, "", "60.0",
-     "wall time between checkpoints; no effect in this version, which writes none"},
-};
 
 std::string range_text(const Range& r, bool whole) {
   const bool low = r.low > -infinity, high = r.high < infinity;
@@ -193,19 +37,31 @@ std::string choices_text(const CaseKey& key) {
   return said;
 }
 
-/// Names of tables, outer before inner, without those which this version refuses.
+/// Names of tables and of lists of tables, these with "[]", outer before inner.
 std::vector<std::string_view> case_tables() {
   std::vector<std::string_view> tables;
   const auto add = [&](std::string_view table) {
     if (!table.empty() && std::find(tables.begin(), tables.end(), table) == tables.end())
       tables.push_back(table);
   };
-  for (const CaseKey& key : keys) {
-    if (key.refused()) continue;
+  for (const CaseKey& key : case_keys()) {
     add(table_of(table_of(key.path)));
     add(table_of(key.path));
   }
   return tables;
+}
+
+bool is_list(std::string_view table) {
+  return table.ends_with("[]");
+}
+
+/// There is a key of which `path` is the part before a character `next`.
+bool leads_to_a_key(std::string_view path, char next) {
+  const auto keys = case_keys();
+  return std::any_of(keys.begin(), keys.end(), [&](const CaseKey& key) {
+    return key.path.size() > path.size() && key.path.starts_with(path) &&
+           key.path[path.size()] == next;
+  });
 }
 
 std::string lowered(std::string_view a) {
@@ -222,21 +78,34 @@ bool Range::contains(double value) const noexcept {
   return above && below;
 }
 
-std::span<const CaseKey> case_keys() noexcept {
-  return keys;
-}
-
-const CaseKey* find_case_key(std::string_view path) noexcept {
-  for (const CaseKey& key : keys)
-    if (key.path == path) return &key;
+const CaseKey* find_case_key(std::string_view path) {
+  const std::string any_item = without_indices(path);
+  for (const CaseKey& key : case_keys())
+    if (key.path == any_item) return &key;
   return nullptr;
 }
 
-bool is_case_table(std::string_view path) noexcept {
-  for (const CaseKey& key : keys)
-    if (key.path.size() > path.size() && key.path.starts_with(path) && key.path[path.size()] == '.')
-      return true;
-  return false;
+bool is_case_table(std::string_view path) {
+  return leads_to_a_key(without_indices(path), '.');
+}
+
+bool is_case_list(std::string_view path) {
+  return leads_to_a_key(without_indices(path), '[');
+}
+
+std::string item_of(std::string_view list, std::size_t index) {
+  return fmt::format("{}[{}]", list, index);
+}
+
+std::string without_indices(std::string_view path) {
+  std::string without;
+  bool inside = false;
+  for (const char c : path) {
+    if (c == ']') inside = false;
+    if (!inside) without += c;
+    if (c == '[') inside = true;
+  }
+  return without;
 }
 
 std::string_view type_text(const CaseKey& key) noexcept {
@@ -289,14 +158,20 @@ std::string allowed_text(const CaseKey& key) {
 }
 
 std::string keys_text(std::string_view table) {
+  const std::string any_item = without_indices(table);
   std::string said;
   const auto add = [&](std::string_view word) {
     said += (said.empty() ? "" : ", ") + std::string(word);
   };
-  for (const CaseKey& key : keys)
-    if (!key.refused() && table_of(key.path) == table) add(leaf_of(key.path));
-  for (const std::string_view inner : case_tables())
-    if (table_of(inner) == table) add(fmt::format("[{}]", inner));
+  for (const CaseKey& key : case_keys())
+    if (table_of(key.path) == any_item) add(leaf_of(key.path));
+  for (const std::string_view inner : case_tables()) {
+    if (table_of(inner) != any_item) continue;
+    if (is_list(inner))
+      add(fmt::format("[[{}]]", inner.substr(0, inner.size() - 2)));
+    else
+      add(fmt::format("[{}]", inner));
+  }
   return said;
 }
 
@@ -330,7 +205,8 @@ std::size_t edit_distance(std::string_view a, std::string_view b) {
 
 std::string_view nearest_key(std::string_view path) {
   constexpr std::size_t longest = 60;  // no key is half as long
-  const std::string_view leaf = leaf_of(path), table = table_of(path);
+  const std::string any_item = without_indices(path);
+  const std::string_view leaf = leaf_of(any_item), table = table_of(any_item);
   if (leaf.size() > longest || table.size() > longest) return {};
   std::string_view best;
   std::pair<std::size_t, std::size_t> least{std::max<std::size_t>(1, leaf.size() / 3) + 1, 0};
@@ -343,9 +219,9 @@ std::string_view nearest_key(std::string_view path) {
     least = score;
     best = candidate;
   };
-  for (const CaseKey& key : keys)
-    if (!key.refused()) consider(key.path);
-  for (const std::string_view inner : case_tables()) consider(inner);
+  for (const CaseKey& key : case_keys()) consider(key.path);
+  for (const std::string_view inner : case_tables())
+    consider(is_list(inner) ? inner.substr(0, inner.size() - 2) : inner);
   return best;
 }
 

@@ -23,29 +23,37 @@ struct Range {
 };
 
 struct CaseKey {
-  std::string_view path;      ///< dotted, e.g. "disk.tread.depth"
+  std::string_view path;      ///< dotted, e.g. "disk.tread.depth"; "output.probe[].name": of each
+                              ///< table of a list
   KeyType type;               ///< what kind of value
   std::string_view unit;      ///< "-": none
   Range range;                ///< of numbers
   std::string_view also;      ///< a bound that involves other keys, or none
-  std::string_view standard;  ///< the default; "required"; "required if ...": by the
-                              ///< reader; "later": refused by this version
+  std::string_view standard;  ///< the default; "required"; "required if ...": by the reader
   std::string_view meaning;
   std::array<std::string_view, 3> choices{};  ///< in the order of the enum they stand for
-  std::string_view later{};                   ///< a choice which this version refuses
 
   [[nodiscard]] bool required() const noexcept { return standard == "required"; }
-  [[nodiscard]] bool refused() const noexcept { return standard == "later"; }
 };
 
 /// All keys, in the order in which a case is written.
 std::span<const CaseKey> case_keys() noexcept;
 
-/// Null where there is no such key.
-const CaseKey* find_case_key(std::string_view path) noexcept;
+/// Null where there is no such key. Tables of lists are named by their number:
+/// "output.probe[0].name".
+const CaseKey* find_case_key(std::string_view path);
 
-/// A table of a case file, e.g. "disk.tread".
-bool is_case_table(std::string_view path) noexcept;
+/// A table of a case file, e.g. "disk.tread", "output.probe[0]".
+bool is_case_table(std::string_view path);
+
+/// A list of tables of a case file, e.g. "output.probe".
+bool is_case_list(std::string_view path);
+
+/// "output.probe" and 2 to "output.probe[2]".
+std::string item_of(std::string_view list, std::size_t index);
+
+/// "output.probe[2].name" to "output.probe[].name".
+std::string without_indices(std::string_view path);
 
 /// "float", "integer", ...: TOML's words, for the manual.
 std::string_view type_text(const CaseKey& key) noexcept;

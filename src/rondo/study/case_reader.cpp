@@ -6,7 +6,7 @@
 
 #include "rondo/core/contract.hpp"
 #include "rondo/study/case.hpp"
-#include "rondo/study/case_values.hpp"
+#include "rondo/study/case_bodies.hpp"
 #include "rondo/study/estimate.hpp"
 
 namespace rondo::study {
@@ -54,6 +54,7 @@ void read_analysis(CaseValues& in, Case& c) {
 
 /// @pre analysis and disk are read
 void check_depth(CaseValues& in, const Case& c) {
+  if (c.mesh) return;  // how thick it is, only the file tells
   const double thickness = c.disk.outer_radius - c.disk.inner_radius;
   if (is_crush(c) && in.good({"disk.outer_radius", "disk.inner_radius", "analysis.depth"}) &&
       !(c.analysis.depth < thickness))
@@ -111,8 +112,10 @@ void check_size(CaseValues& in, const Case& c) {
 }
 
 void read_disk(CaseValues& in, Case& c) {
-  if (in.has_table("mesh") && !in.has_table("disk")) return;  // said to be refused
   mesh::Disk& disk = c.disk;
+  c.free_rim = in.choice("disk.rim") == 1;
+  if (c.free_rim && is_crush(c))
+    in.fault("disk.rim", "a crush presses a disk down by its rim", "\"bonded\"");
   in.read("disk.outer_radius", disk.outer_radius);
   in.read("disk.inner_radius", disk.inner_radius);
   if (in.good({"disk.outer_radius", "disk.inner_radius"}) &&
@@ -125,25 +128,33 @@ void read_disk(CaseValues& in, Case& c) {
   check_size(in, c);
 }
 
-void read_material(CaseValues& in, Case& c) {
-  in.read("material.youngs_modulus", c.material.youngs_modulus);
-  in.read("material.poissons_ratio", c.material.poissons_ratio);
-  in.read("material.density", c.material.density);
-  c.material.plane = static_cast<fem::Plane>(in.choice("material.plane"));
-  in.choice("material.integration");
-  in.choice("material.stress_stiffening");
-  if (c.material.plane == fem::Plane::strain && c.material.poissons_ratio > 0.49)
-    c.warnings.push_back(
-        fmt::format("material.poissons_ratio = {}: in plane strain, full integration is far too "
-                    "stiff this near to 0.5",
-                    c.material.poissons_ratio));
-  in.read("damping.mass", c.damping.mass);
-  in.read("damping.stiffness", c.damping.stiffness);
+void read_body(CaseValues& in, Case& c) {
+  if (!in.has_table("mesh")) return read_disk(in, c);
+  if (in.has_table("disk")) {
+    in.fault("mesh", "stands beside a [disk]: the body is one or the other", "[disk] or [mesh]");
+    return read_disk(in, c);
+  }
+  read_mesh_file(in, c);
+  if (is_crush(c) && !is_held(c) && in.good({"mesh.clamped"}))
+    in.fault("mesh.clamped", "a crush presses a body down by what is held",
+             "a physical curve of the mesh");
+}
+
+/// Nothing carries or turns a free body but what it starts with.
+void refuse_motion(CaseValues& in) {
+  for (const std::string_view key :
+       {"motion.angular_velocity", "motion.speed", "motion.height", "motion.start_x"})
+    if (in.has(key))
+      in.fault(key, "means nothing to a body that nothing holds",
+               "initial.position, initial.velocity, initial.angular_velocity in its place");
 }
 
 void read_motion(CaseValues& in, Case& c) {
   dynamics::Motion& motion = c.motion;
-  if (!is_crush(c)) require(in, {"motion.angular_velocity", "motion.speed", "motion.height"});
+  const bool held = is_held(c);
+  if (!is_crush(c) && held)
+    require(in, {"motion.angular_velocity", "motion.speed", "motion.height"});
+  if (!is_crush(c) && !held) refuse_motion(in);
   in.read("motion.angular_velocity", motion.angular_velocity);
   in.read("motion.speed", motion.speed);
   in.read("motion.height", motion.height);
@@ -179,12 +190,6 @@ void read_ground(CaseValues& in, Case& c) {
   }
 }
 
-void read_initial(CaseValues& in, Initial& initial) {
-  initial.state = static_cast<InitialState>(in.choice("initial.state"));
-  in.read("initial.velocity", initial.velocity);
-  in.read("initial.displacement_gradient", initial.displacement_gradient);
-}
-
 void read_time(CaseValues& in, Case& c) {
   Time& time = c.time;
   if (!is_crush(c)) require(in, {"time.end"});
@@ -198,6 +203,17 @@ void read_time(CaseValues& in, Case& c) {
     in.fault("time.step", fmt::format("the run would take {:.3g} steps", time.end / *time.step),
              fmt::format("at most {:.0e} steps", most_steps));
   time.scheme = static_cast<Scheme>(in.choice("time.scheme"));
+  if (time.scheme == Scheme::as_printed && !is_held(c))
+    in.fault("time.scheme", "shows what the spin of a rim does, and nothing turns a free body",
+             "\"symplectic\"");
+}
+
+void read_solver(CaseValues& in, Case& c) {
+  const std::array<std::string, 3> operators{"auto", "cyclic", "sparse"};
+  c.solver_operator = operators[in.choice("solver.operator")];
+  check_operator(in, c);
+  in.read("solver.contact_iterations", c.contact_iterations);
+  in.read("solver.dump_contacts", c.dump_contacts);
 }
 
 void read_output(CaseValues& in, Case& c) {
@@ -210,6 +226,7 @@ void read_output(CaseValues& in, Case& c) {
     in.fault("output.snapshots_from", "must not be after the end of the run",
              fmt::format("0 to time.end = {:.6g}", c.time.end));
   in.read("output.stress", output.stress);
+  read_probes(in, c);
   in.read("output.checkpoint_interval", output.checkpoint_interval);
   if (output.checkpoint_interval != Output{}.checkpoint_interval)
     c.warnings.emplace_back(
@@ -222,9 +239,12 @@ void leave_out_dynamics(CaseValues& in, Case& c) {
   const auto add = [&](const std::string& name) { given += (given.empty() ? "" : ", ") + name; };
   for (const std::string_view table : {"damping", "motion", "initial", "time"})
     if (in.has_table(table)) add(fmt::format("[{}]", table));
-  for (const std::string_view key : {"ground.restitution", "output.history_interval",
-                                     "output.snapshots", "output.snapshots_from"})
+  for (const std::string_view key :
+       {"ground.restitution", "output.history_interval", "output.snapshots",
+        "output.snapshots_from", "solver.contact_iterations", "solver.dump_contacts"})
     if (in.has(key)) add(std::string(key));
+  if (!c.output.probes.empty()) add("[[output.probe]]");
+  if (c.stress_stiffening != Case{}.stress_stiffening) add("material.stress_stiffening");
   if (c.solver_operator != Case{}.solver_operator) add("solver.operator");
   if (!given.empty())
     c.warnings.push_back("a crush is quasi-static, its ground flat; without effect: " + given);
@@ -232,12 +252,17 @@ void leave_out_dynamics(CaseValues& in, Case& c) {
   c.motion = {};
   c.initial = {};
   c.time = {};
-  c.solver_operator = Case{}.solver_operator;
+  const Case defaults;
+  c.stress_stiffening = defaults.stress_stiffening;
+  c.solver_operator = defaults.solver_operator;
+  c.contact_iterations = defaults.contact_iterations;
+  c.dump_contacts = defaults.dump_contacts;
   if (c.ground) c.ground->restitution = c.ground->shape.fillet = 0.0;
   const Output standard;
   c.output.history_interval = standard.history_interval;
   c.output.snapshots = standard.snapshots;
   c.output.snapshots_from = standard.snapshots_from;
+  c.output.probes.clear();
 }
 
 Case read_source(const std::filesystem::path& file, CaseSource source) {
@@ -250,15 +275,16 @@ Case read_source(const std::filesystem::path& file, CaseSource source) {
   in.read("schema", schema);
   in.read("title", c.title);
   read_analysis(in, c);
-  read_disk(in, c);
+  read_body(in, c);
   check_depth(in, c);
   read_material(in, c);
   read_motion(in, c);
   read_ground(in, c);
-  read_initial(in, c.initial);
+  read_body_contact(in, c);
+  read_pressures(in, c);
+  read_initial(in, c);
   read_time(in, c);
-  const std::array<std::string, 3> operators{"auto", "cyclic", "sparse"};
-  c.solver_operator = operators[in.choice("solver.operator")];
+  read_solver(in, c);
   read_output(in, c);
   if (is_crush(c)) leave_out_dynamics(in, c);
   in.finish();

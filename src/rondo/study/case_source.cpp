@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "rondo/study/case_source.hpp"
 
+#include <fmt/format.h>
 #include <toml++/toml.h>
 
 #include <algorithm>
@@ -113,6 +114,23 @@ std::string joined(const std::string& table, std::string_view key) {
   return table.empty() ? part : table + "." + part;
 }
 
+void add_table(CaseSource& into, const std::string& path, const toml::table& table, int source);
+
+/// A list of tables of a case is opened; anything else in the place of one is no list.
+bool add_list(CaseSource& into, const std::string& path, const toml::node& node, int source) {
+  const toml::array* list = node.as_array();
+  if (!is_case_list(path) || list == nullptr) return false;
+  for (const toml::node& item : *list)
+    if (!item.is_table()) return false;
+  into.lists[path] = list->size();
+  for (std::size_t k = 0; k < list->size(); ++k) {
+    const std::string inner = item_of(path, k);
+    into.tables[inner] = place_of((*list)[k].source(), source);
+    add_table(into, inner, *(*list)[k].as_table(), source);
+  }
+  return true;
+}
+
 /// Tables of a case are opened; any other table is a value, which the reader will refuse.
 void add_table(CaseSource& into, const std::string& path, const toml::table& table, int source) {
   for (const auto& [key, node] : table) {
@@ -122,6 +140,7 @@ void add_table(CaseSource& into, const std::string& path, const toml::table& tab
       add_table(into, inner, *node.as_table(), source);
       continue;
     }
+    if (add_list(into, inner, node, source)) continue;
     CaseValue value = value_of(node, source);
     value.key_place = place_of(key.source(), source);
     into.values[inner] = std::move(value);
@@ -131,10 +150,12 @@ void add_table(CaseSource& into, const std::string& path, const toml::table& tab
 /// Removes a key and all below it.
 void remove(CaseSource& from, const std::string& path) {
   const auto at_or_below = [&](const auto& entry) {
-    return entry.first == path || entry.first.starts_with(path + ".");
+    return entry.first == path || entry.first.starts_with(path + ".") ||
+           entry.first.starts_with(path + "[");
   };
   std::erase_if(from.values, at_or_below);
   std::erase_if(from.tables, at_or_below);
+  std::erase_if(from.lists, at_or_below);
 }
 
 /// A setting of one of two keys that exclude each other takes the place of the file's other one.
@@ -158,13 +179,44 @@ toml::table parsed_setting(const std::string& text) {
   return toml::parse("v = " + toml_string(as_utf8(text)));
 }
 
+/// "name" of "name[3]"; the part itself where it has no such end.
+std::string_view without_index(std::string_view part) {
+  const auto begin = part.find('[');
+  if (begin == std::string_view::npos || !part.ends_with(']')) return part;
+  const std::string_view digits = part.substr(begin + 1, part.size() - begin - 2);
+  const bool number =
+      !digits.empty() && digits.size() <= 9 && (digits == "0" || digits.front() != '0') &&
+      std::all_of(digits.begin(), digits.end(), [](char c) { return c >= '0' && c <= '9'; });
+  return number ? part.substr(0, begin) : part;
+}
+
 bool is_dotted_key(std::string_view path) {
   while (true) {
     const auto dot = path.find('.');
-    if (!is_bare(path.substr(0, dot))) return false;
+    if (!is_bare(without_index(path.substr(0, dot)))) return false;
     if (dot == std::string_view::npos) return true;
     path.remove_prefix(dot + 1);
   }
+}
+
+/// A setting of a table of a list: one that is there, or the one after the last. Others are no
+/// setting.
+bool find_items(CaseSource& into, const std::string& path, const std::string& name) {
+  for (auto end = path.find(']'); end != std::string::npos; end = path.find(']', end + 1)) {
+    const auto begin = path.rfind('[', end);
+    const std::string list = path.substr(0, begin);
+    const std::size_t index = std::stoul(path.substr(begin + 1, end - begin - 1));
+    if (!is_case_list(list)) return true;  // an unknown key
+    std::size_t& count = into.lists[list];
+    if (index > count) {
+      into.bad_settings.push_back(
+          file_fault(name, fmt::format("there are {} tables in {}, from number 0 on", count, list),
+                     fmt::format("{}[{}] adds one", list, count)));
+      return false;
+    }
+    count = std::max(count, index + 1);
+  }
+  return true;
 }
 
 void apply_setting(CaseSource& into, const std::string& setting) {
@@ -178,6 +230,7 @@ void apply_setting(CaseSource& into, const std::string& setting) {
     into.bad_settings.push_back(file_fault(name, "is not a setting", "a.b=value"));
     return;
   }
+  if (!find_items(into, path, name)) return;
   const std::string text = setting.substr(equals + 1);
   into.sources.push_back(source_text(name, "v = " + text));
   const toml::table parsed = parsed_setting(text);
@@ -193,6 +246,7 @@ void apply_setting(CaseSource& into, const std::string& setting) {
     add_table(into, path, *node.as_table(), source);
     return;
   }
+  if (add_list(into, path, node, source)) return;
   CaseValue value = value_of(node, source);
   value.key_place = place;
   into.values[path] = std::move(value);

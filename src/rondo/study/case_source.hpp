@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// @file  A case file and its --set as flat lists of keys with values and places; the only includer
-/// of toml++. What the keys mean is not known here, except which of them are tables.
+/// of toml++. What the keys mean is not known here, except which of them are tables and lists of
+/// tables, whose k-th table is "list[k]", from 0.
 #pragma once
 #include <cstdint>
 #include <filesystem>
@@ -41,10 +42,11 @@ struct SourceText {
 };
 
 struct CaseSource {
-  std::vector<SourceText> sources;                       ///< the case file, then each --set
-  std::map<std::string, Place, std::less<>> tables;      ///< by dotted path
-  std::map<std::string, CaseValue, std::less<>> values;  ///< by dotted path
-  std::vector<Fault> bad_settings;                       ///< --set that is not "a.b=value"
+  std::vector<SourceText> sources;                        ///< the case file, then each --set
+  std::map<std::string, Place, std::less<>> tables;       ///< by dotted path
+  std::map<std::string, std::size_t, std::less<>> lists;  ///< number of tables, by dotted path
+  std::map<std::string, CaseValue, std::less<>> values;   ///< by dotted path
+  std::vector<Fault> bad_settings;  ///< --set that is not "a.b=value", or beyond a list's end
 
   /// The text at a place, on one line, shortened.
   [[nodiscard]] std::string written(const Place& place) const;

@@ -53,26 +53,39 @@ std::string_view asked_type(KeyType type) {
 }  // namespace
 
 CaseValues::CaseValues(CaseSource source) : source_(std::move(source)) {
-  if (has_table("mesh"))
-    fault("mesh", "meshes from files are not in this version of rondo", "[disk]");
   for (const auto& [path, value] : source_.values) check_key(path, value);
 }
 
 void CaseValues::check_key(const std::string& path, const CaseValue& value) {
-  if (path == "mesh" || path.starts_with("mesh.")) return;  // the table has its fault
   const std::string found =
       value.type == ValueType::table ? std::string{} : source_.written(value.place);
   const CaseKey* key = find_case_key(path);
   if (is_case_table(path))
     fault(path, fmt::format("must be a table, not {}", type_word(value.type)), keys_text(path));
+  else if (is_case_list(path))
+    not_a_list(path, value);
   else if (key == nullptr)
     add(value.key_place, path, found, unknown_text(path, value), keys_beside(path));
-  else if (key->refused())
-    add(value.key_place, path, found, "is not in this version of rondo", keys_beside(path));
+}
+
+/// At the first item that is no table, if it is an array.
+void CaseValues::not_a_list(const std::string& path, const CaseValue& value) {
+  const auto item = std::find_if(value.items.begin(), value.items.end(),
+                                 [](const CaseValue& v) { return v.type != ValueType::table; });
+  const CaseValue& wrong = item == value.items.end() ? value : *item;
+  add(wrong.place, path, wrong.type == ValueType::table ? "" : source_.written(wrong.place),
+      fmt::format("must be a list of tables, not {}{}", type_word(wrong.type),
+                  item == value.items.end() ? "" : " in it"),
+      fmt::format("[[{}]] before each table, with {}", path, keys_text(path + "[]")));
 }
 
 bool CaseValues::has_table(std::string_view table) const {
   return source_.tables.contains(table) || source_.values.contains(table);
+}
+
+std::size_t CaseValues::n_items(std::string_view list) const {
+  const auto found = source_.lists.find(list);
+  return found == source_.lists.end() ? 0 : found->second;
 }
 
 bool CaseValues::good(std::initializer_list<std::string_view> keys) const {
@@ -142,7 +155,7 @@ void CaseValues::add_missing_tables() {
     std::string list;
     for (const std::string& key : keys) list += (list.empty() ? "" : ", ") + key;
     add(place_of_table(table_of(table)), table, "", "the table is missing; it must give " + list,
-        "");
+        table == "disk" ? "[disk], or [mesh] with a file in its place" : "");
   }
   missing_.clear();
 }
@@ -220,9 +233,7 @@ std::size_t CaseValues::choice(std::string_view key) {
   const auto chosen = std::find(k.choices.begin(), k.choices.end(), value->text);
   if (chosen != k.choices.end() && !chosen->empty())
     return static_cast<std::size_t>(chosen - k.choices.begin());
-  bad_value(key, *value,
-            !k.later.empty() && value->text == k.later ? "is not in this version of rondo"
-                                                       : "is not one of the choices");
+  bad_value(key, *value, "is not one of the choices");
   return 0;
 }
 
@@ -306,11 +317,14 @@ void CaseValues::read_profile(std::string_view key, std::vector<Vec2>& target) {
 
 std::map<std::string, KeyPlace> CaseValues::places() const {
   std::map<std::string, KeyPlace> places;
-  for (const auto& [key, value] : source_.values) {
-    const Place& place = value.place;
+  const auto put = [&](const std::string& key, const Place& place, const std::string& written) {
     const bool in_file = place.source == 0;
     places[key] = {source_.sources[static_cast<std::size_t>(place.source)].name,
-                   in_file ? place.line : 0, in_file ? place.column : 0, source_.written(place)};
+                   in_file ? place.line : 0, in_file ? place.column : 0, written};
+  };
+  for (const auto& [table, place] : source_.tables) put(table, place, "");
+  for (const auto& [key, value] : source_.values) {
+    put(key, value.place, source_.written(value.place));
   }
   return places;
 }

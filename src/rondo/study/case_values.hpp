@@ -20,11 +20,13 @@ namespace rondo::study {
 
 class CaseValues {
  public:
-  /// Finds keys that do not exist, are not in this version, or stand for a table but are none.
+  /// Finds keys that do not exist, or stand for a table or a list of tables but are none.
   explicit CaseValues(CaseSource source);
 
   [[nodiscard]] bool has(std::string_view key) const { return source_.values.contains(key); }
   [[nodiscard]] bool has_table(std::string_view table) const;
+  /// Tables in a list; they are item_of(list, 0) and so on.
+  [[nodiscard]] std::size_t n_items(std::string_view list) const;
   /// None of the keys has a fault so far, nor is it required and missing.
   [[nodiscard]] bool good(std::initializer_list<std::string_view> keys) const;
 
@@ -46,7 +48,7 @@ class CaseValues {
   void fault_at_item(std::string_view key, int item, std::string message);
   void missing(std::string_view key);
 
-  /// Of every value given, for faults that only show once the case is put together.
+  /// Of every value and table given, for faults that only show once the case is put together.
   [[nodiscard]] std::map<std::string, KeyPlace> places() const;
 
   /// @throws InputError if there are faults, in the file's order, then those of the settings.
@@ -66,6 +68,7 @@ class CaseValues {
   bool pair(std::string_view key, const CaseValue& value, std::array<double, 2>& target);
   std::vector<std::array<double, 2>> pairs(std::string_view key, const CaseValue& value);
   void check_key(const std::string& path, const CaseValue& value);
+  void not_a_list(const std::string& path, const CaseValue& value);
   void add_missing_tables();
   [[nodiscard]] Place place_of_table(std::string_view table) const;
 
