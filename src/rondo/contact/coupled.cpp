@@ -3,25 +3,32 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "rondo/contact/coupled_newton.hpp"
+#include "rondo/contact/coupled_pair.hpp"
 #include "rondo/contact/residual.hpp"
 #include "rondo/core/contract.hpp"
 
 namespace rondo::contact {
 namespace {
 
-constexpr int first_sweeps = 4;        ///< before the first try of Newton's method
-constexpr int most_sweeps = 256;       ///< between two tries
-constexpr int most_newton_steps = 12;  ///< in one try
+constexpr int first_sweeps = 4;  ///< before the first try of Newton's method
+constexpr int pair_sweeps = 5;   ///< after one that failed
+// Shifts of Newton's method: of the first try, which solves most problems; of the second, on which
+// all hold the law a little softly; then less after each that is solved, more after one that is
+// not.
+constexpr double first_shift = 1e-10, second_shift = 1e-3, shift_factor = 10.0;
+constexpr double least_shift = 1e-11, largest_shift = 1.0;
 
 /// One iteration of a solution: what is at hand, and the best so far.
 struct Iteration {
   const CoupledProblem& problem;
   const CoupledLimits& limits;
   std::span<Vec2> best;
-  CoupledResult result;
   CoupledWorkspace& work;
+  CoupledResult result{};
+  double scale = 0.0;  ///< of the residual [N·s/m]
 
   [[nodiscard]] bool finished() const noexcept {
     return result.converged || result.iterations >= limits.most_iterations;
@@ -47,7 +54,7 @@ void update_contact(const CoupledProblem& p, std::size_t j, std::span<Vec2> impu
     if (l == j)
       own = p.blocks[k];
     else
-      free += p.blocks[k] * impulse[l];
+      free += apply(p.blocks[k], impulse[l]);
   }
   impulse[j] = solve_block(own, free, p.bounce[j], p.friction[j]).impulse;
 }
@@ -61,24 +68,59 @@ void sweep(Iteration& it) noexcept {
   it.offer(r);
 }
 
-/// From the sweeps' iterate; they go on from the best that comes of it.
-void try_newton(Iteration& it, int width) {
-  CoupledWorkspace& work = it.work;
-  std::vector<Vec2>&r = work.newton, &feasible = work.candidate;
-  r = work.current;
-  for (int i = 0; i < most_newton_steps && !it.finished(); ++i) {
-    ++it.result.iterations;
-    if (!newton_step(it.problem, width, r, work)) return;
-    for (std::size_t j = 0; j < r.size(); ++j)
-      feasible[j] = project_on_cone(r[j], it.problem.friction[j]);
-    if (it.offer(feasible)) work.current = feasible;
+void sweep_pairs(Iteration& it) noexcept {
+  std::vector<Vec2>& r = it.work.current;
+  for (std::size_t j = 0; j < it.problem.size(); ++j) {
+    const int partner = partner_of(it.problem, j);
+    if (partner < 0 || !update_pair(it.problem, j, static_cast<std::size_t>(partner), r))
+      update_contact(it.problem, j, r);
+  }
+  ++it.result.iterations;
+  it.offer(r);
+}
+
+/// Newton's method from where the sweeps are; they go on from there if it has come nearer.
+bool try_newton(Iteration& it, int width, double shift) {
+  std::vector<Vec2>& r = it.work.candidate;
+  r = it.work.current;
+  NewtonSettings settings{.width = width, .shift = shift, .scale = it.scale};
+  settings.most_steps =
+      std::min(settings.most_steps, it.limits.most_iterations - it.result.iterations);
+  const NewtonResult found = newton(it.problem, settings, r, it.work);
+  it.result.iterations += found.steps;
+  for (std::size_t j = 0; j < r.size(); ++j) r[j] = project_on_cone(r[j], it.problem.friction[j]);
+  if (it.offer(r) || found.solved) it.work.current = r;
+  return found.solved;
+}
+
+/// Sweeps and Newton's method in turn until the law holds or the iterations are used up.
+void iterate(Iteration& it) {
+  for (int i = 0; i < first_sweeps && !it.finished(); ++i) sweep(it);
+  if (it.finished()) return;
+  const int width = order_contacts(it.problem, it.work);
+  const bool fits = newton_fits(it.problem, width);
+  double shift = second_shift;
+  bool solved = fits && try_newton(it, width, first_shift);
+  while (!it.finished()) {
+    if (!solved) {
+      sweep(it);
+      for (int i = 0; i < pair_sweeps && !it.finished(); ++i) sweep_pairs(it);
+    }
+    if (!fits || it.finished()) continue;
+    solved = try_newton(it, width, shift);
+    shift = solved ? std::max(shift / shift_factor, least_shift)
+                   : std::min(shift * shift_factor, largest_shift);
   }
 }
 
 void start(Iteration& it) noexcept {
   CoupledWorkspace& work = it.work;
   std::fill(work.current.begin(), work.current.end(), Vec2{});
-  std::copy(it.best.begin(), it.best.end(), work.candidate.begin());
+  for (std::size_t j = 0; j < it.problem.size(); ++j)
+    work.candidate[j] = project_on_cone(it.best[j], it.problem.friction[j]);
+  it.scale = it.problem.least_scale;
+  for (std::size_t j = 0; j < it.problem.size(); ++j)
+    it.scale = std::max(it.scale, it.problem.mass[j] * norm(it.problem.free[j]));
   it.result.residual = std::numeric_limits<double>::infinity();
   it.offer(work.current);
   // A warm start that is farther from the law than no impulse at all is none.
@@ -86,10 +128,11 @@ void start(Iteration& it) noexcept {
 }
 
 void fit(CoupledWorkspace& work, std::size_t nc) {
-  for (auto* v : {&work.current, &work.candidate, &work.newton, &work.velocity}) v->resize(nc);
+  for (auto* v : {&work.current, &work.candidate, &work.anchor, &work.step_from, &work.velocity})
+    v->resize(nc);
   work.order.resize(nc);
   work.unknown.resize(nc);
-  work.status.resize(nc);
+  work.status.assign(nc, Status::open);
   work.side.resize(nc);
 }
 
@@ -98,7 +141,7 @@ void set_statuses(const CoupledProblem& p, std::span<const Vec2> impulse, std::s
   coupled_velocities(p, impulse, work.velocity);
   for (std::size_t j = 0; j < p.size(); ++j) {
     const Block& w = diagonal_block(p, j);
-    const Vec2 free = work.velocity[j] - w * impulse[j];
+    const Vec2 free = work.velocity[j] - apply(w, impulse[j]);
     status[j] = solve_block(w, free, p.bounce[j], p.friction[j]).status;
   }
 }
@@ -131,7 +174,7 @@ void coupled_velocities(const CoupledProblem& p, std::span<const Vec2> impulse,
     velocity[j] = p.free[j];
     for (auto k = static_cast<std::size_t>(p.row_start[j]);
          k < static_cast<std::size_t>(p.row_start[j + 1]); ++k)
-      velocity[j] += p.blocks[k] * impulse[static_cast<std::size_t>(p.column[k])];
+      velocity[j] += apply(p.blocks[k], impulse[static_cast<std::size_t>(p.column[k])]);
   }
 }
 
@@ -143,15 +186,9 @@ CoupledResult solve_coupled(const CoupledProblem& p, const CoupledLimits& limits
                    p.mass.size() == p.size() && p.row_start.size() == p.size() + 1,
                p.size(), impulse.size(), status.size());
   fit(work, p.size());
-  Iteration it{p, limits, impulse, {}, work};
+  Iteration it{p, limits, impulse, work};
   start(it);
-  int width = -1;
-  for (int sweeps = first_sweeps; !it.finished(); sweeps = std::min(2 * sweeps, most_sweeps)) {
-    for (int i = 0; i < sweeps && !it.finished(); ++i) sweep(it);
-    if (it.finished()) break;
-    if (width < 0) width = order_contacts(p, work);
-    if (newton_fits(p, width)) try_newton(it, width);
-  }
+  iterate(it);
   set_statuses(p, impulse, status, work);
   return it.result;
 }

@@ -17,7 +17,7 @@ namespace rondo::contact {
 /// A 2×2 matrix by rows: nn, nt, tn, tt.
 using Block = std::array<double, 4>;
 
-constexpr Vec2 operator*(const Block& a, Vec2 b) noexcept {
+constexpr Vec2 apply(const Block& a, Vec2 b) noexcept {
   return {a[0] * b.x + a[1] * b.y, a[2] * b.x + a[3] * b.y};
 }
 
@@ -37,7 +37,7 @@ struct CoupledProblem {
 
 struct CoupledLimits {
   double tolerance = 1e-12;     ///< of the residual (4.5), coupled_residual
-  int most_iterations = 10000;  ///< sweeps (forward and backward) and Newton steps together
+  int most_iterations = 10000;  ///< sweeps and Newton steps together
 };
 
 struct CoupledResult {
@@ -49,18 +49,21 @@ struct CoupledResult {
 /// Memory of the solver, kept from one problem to the next: it grows, and only with a problem
 /// larger than all before.
 struct CoupledWorkspace {
-  std::vector<Vec2> current, candidate, newton, velocity;  ///< (nc)
-  std::vector<int> order;      ///< (nc) contacts in the order of the matrix
-  std::vector<int> unknown;    ///< (nc) first unknown, -1: open
-  std::vector<Status> status;  ///< (nc)
-  std::vector<double> side;    ///< (nc) of slip, ±1
-  std::vector<double> step;    ///< (unknowns)
+  std::vector<Vec2> current, candidate;  ///< (nc) iterates of the sweeps, to be judged
+  std::vector<Vec2> anchor, step_from;   ///< (nc) of Newton's method
+  std::vector<Vec2> velocity;            ///< (nc)
+  std::vector<int> order;                ///< (nc) contacts in the order of the matrix
+  std::vector<int> unknown;              ///< (nc) first unknown of a contact, -1: open
+  std::vector<Status> status;            ///< (nc)
+  std::vector<double> side;              ///< (nc) of slip, ±1
+  std::vector<double> step;              ///< (unknowns)
   BandLu matrix;
 };
 
-/// Impulses that obey the law at all contacts together. `impulse` (nc) comes in as a warm start
-/// (zeros where there is none) and leaves as the best found; `status` (nc) is that of the solution.
-/// A problem that no iterate solves to the tolerance is reported, with its best residual.
+/// Impulses that obey the law at all contacts together: sweeps of block Gauss–Seidel, and where
+/// they are slow Newton's method on statuses (4.7b). `impulse` (nc) comes in as a warm start (zeros
+/// where there is none) and leaves as the best found; `status` (nc) is that of the solution. A
+/// problem that no iterate solves to the tolerance is reported, with its best residual.
 /// @post r_n >= 0, |r_t| <= μ r_n to round-off.
 [[nodiscard]] CoupledResult solve_coupled(const CoupledProblem& problem,
                                           const CoupledLimits& limits, std::span<Vec2> impulse,

@@ -27,7 +27,7 @@ double coupled_residual(const CoupledProblem& p, std::span<const Vec2> impulse) 
     Vec2 w = p.free[j];
     for (auto k = static_cast<std::size_t>(p.row_start[j]);
          k < static_cast<std::size_t>(p.row_start[j + 1]); ++k)
-      w += p.blocks[k] * impulse[static_cast<std::size_t>(p.column[k])];
+      w += apply(p.blocks[k], impulse[static_cast<std::size_t>(p.column[k])]);
     const double found = law_residual(impulse[j], w, p.bounce[j], p.friction[j], p.mass[j]);
     if (!(found <= worst)) worst = found;  // NaN comes through
     scale = std::max(scale, p.mass[j] * norm(p.free[j]));
