@@ -19,6 +19,7 @@ constexpr int pair_sweeps = 5;   ///< after one that failed
 // all hold the law a little softly; then less after each that is solved, more after one that is
 // not.
 constexpr double first_shift = 1e-10, second_shift = 1e-3, shift_factor = 10.0;
+constexpr int most_halvings = 10;  ///< of Newton steps, after the first try
 constexpr double least_shift = 1e-11, largest_shift = 1.0;
 
 /// One iteration of a solution: what is at hand, and the best so far.
@@ -80,10 +81,10 @@ void sweep_pairs(Iteration& it) noexcept {
 }
 
 /// Newton's method from where the sweeps are; they go on from there if it has come nearer.
-bool try_newton(Iteration& it, int width, double shift) {
+bool try_newton(Iteration& it, int width, double shift, int halvings) {
   std::vector<Vec2>& r = it.work.candidate;
   r = it.work.current;
-  NewtonSettings settings{.width = width, .shift = shift, .scale = it.scale};
+  NewtonSettings settings{.width = width, .shift = shift, .halvings = halvings, .scale = it.scale};
   settings.most_steps =
       std::min(settings.most_steps, it.limits.most_iterations - it.result.iterations);
   const NewtonResult found = newton(it.problem, settings, r, it.work);
@@ -100,14 +101,14 @@ void iterate(Iteration& it) {
   const int width = order_contacts(it.problem, it.work);
   const bool fits = newton_fits(it.problem, width);
   double shift = second_shift;
-  bool solved = fits && try_newton(it, width, first_shift);
+  bool solved = fits && try_newton(it, width, first_shift, 0);
   while (!it.finished()) {
     if (!solved) {
       sweep(it);
       for (int i = 0; i < pair_sweeps && !it.finished(); ++i) sweep_pairs(it);
     }
     if (!fits || it.finished()) continue;
-    solved = try_newton(it, width, shift);
+    solved = try_newton(it, width, shift, most_halvings);
     shift = solved ? std::max(shift / shift_factor, least_shift)
                    : std::min(shift * shift_factor, largest_shift);
   }

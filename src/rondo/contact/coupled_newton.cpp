@@ -9,7 +9,6 @@ namespace rondo::contact {
 namespace {
 
 constexpr int refinements = 2;  ///< solutions with the factors of a step
-constexpr int halvings = 10;    ///< of a step that goes too far
 constexpr double solved_to = 1e-14;
 constexpr long long largest_matrix = 8'000'000;  ///< numbers
 
@@ -153,7 +152,7 @@ bool solve_statuses(Newton& it, int unknowns) {
 /// Halves the step from work.step_from to r until the merit falls; true for the whole step.
 bool shorten_step(Newton& it, double before, double after) noexcept {
   bool whole = true;
-  for (int i = 0; i < halvings && !(after < before); ++i, after = merit(it)) {
+  for (int i = 0; i < it.settings.halvings && !(after < before); ++i, after = merit(it)) {
     for (std::size_t j = 0; j < it.r.size(); ++j) it.r[j] = 0.5 * (it.r[j] + it.work.step_from[j]);
     whole = false;
   }
