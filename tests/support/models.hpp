@@ -59,7 +59,17 @@ struct Built {
   fem::Material material;
   dynamics::Model model;
   dynamics::CriticalStep critical;
+  std::vector<Vec2> prestress;  ///< (n) displacement whose stress stiffens the body; empty: none
 };
+
+/// Stiffness, critical step, step.
+inline void set_stiffness(Built& b, const DiskCase& c) {
+  b.model.stiffness = fem::assemble_stiffness(b.mesh, {&c.material, 1}, b.prestress);
+  b.critical = dynamics::critical_step(
+      b.model.stiffness, b.model.mass, b.model.free, {c.beta, lagged_mass(c)},
+      fem::element_eigenvalue_bound(b.mesh, {&c.material, 1}, b.prestress));
+  b.model.dt = c.safety * b.critical.step;
+}
 
 inline Built build(const DiskCase& c) {
   Built b;
@@ -68,15 +78,11 @@ inline Built build(const DiskCase& c) {
   b.model.reference = b.mesh.coordinates;
   b.model.mass = fem::lumped_mass(b.mesh, {&c.material, 1});
   b.model.free = fem::free_nodes(b.mesh);
-  b.model.stiffness = fem::assemble_stiffness(b.mesh, {&c.material, 1});
   b.model.mass_damping = c.alpha;
   b.model.stiffness_damping = c.beta;
   b.model.motion = c.motion;
   b.model.scheme = c.scheme;
-  b.critical = dynamics::critical_step(b.model.stiffness, b.model.mass, b.model.free,
-                                       {c.beta, lagged_mass(c)},
-                                       fem::element_eigenvalue_bound(b.mesh, {&c.material, 1}));
-  b.model.dt = c.safety * b.critical.step;
+  set_stiffness(b, c);
   return b;
 }
 

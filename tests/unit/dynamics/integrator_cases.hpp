@@ -9,6 +9,7 @@
 #include <tuple>
 #include <vector>
 
+#include "rondo/statics/stationary_spin.hpp"
 #include "support/models.hpp"
 
 namespace rondo::test {
@@ -18,6 +19,7 @@ struct RollingCase {
   DiskCase disk;
   contact::Law law{0.4, 0.0};
   std::optional<contact::GroundShape> ground;
+  bool stiffened = false;  ///< by the stress of the initial spin
 };
 
 /// For the names that the tests print.
@@ -76,11 +78,23 @@ inline std::vector<RollingCase> rolling_cases() {
   still.disk.motion = {};
   still.disk.motion.height = dynamics::Table(0.2999);
   still.ground.emplace();
+  const auto rubber = [](RollingCase& of) {
+    of.disk.material.poissons_ratio = 0.49;
+    of.disk.material.integration = fem::Integration::b_bar;
+  };
+  rubber(smooth("smooth_b_bar"));
+  smooth("smooth_stiffened").stiffened = true;
+  RollingCase& both = smooth("smooth_b_bar_stiffened");
+  rubber(both);
+  both.stiffened = true;
   const auto treaded = [&](const std::string& name, mesh::Tread of) -> RollingCase& {
     return all.emplace_back(everything(name, 3, of));
   };
   treaded("treaded", tread);
   treaded("treaded_as_printed", tread).disk.scheme = dynamics::Scheme::as_printed;
+  RollingCase& all_of_it = treaded("treaded_b_bar_stiffened", tread);
+  rubber(all_of_it);
+  all_of_it.stiffened = true;
   RollingCase& undamped = treaded("treaded_undamped", tread);
   undamped.disk.alpha = undamped.disk.beta = 0.0;
   for (const auto& [n, land, groove] : {std::tuple{3, 9, 5}, {5, 6, 4}, {9, 4, 2}})
@@ -94,6 +108,13 @@ inline std::vector<RollingCase> rolling_cases() {
 
 inline Built build(const RollingCase& c) {
   Built b = build(c.disk);
+  if (c.stiffened) {
+    const double spin = c.disk.motion.angular_velocity.at(0.0);
+    b.prestress = statics::centrifugal_prestress(b.model.stiffness, b.model.mass, b.model.reference,
+                                                 b.model.free, spin)
+                      .u;
+    set_stiffness(b, c.disk);
+  }
   if (c.ground) add_ground(b, *c.ground, c.law);
   return b;
 }

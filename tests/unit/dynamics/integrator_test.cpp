@@ -189,7 +189,9 @@ TEST_P(Operators, DoTheStepOfTheReference) {
     SCOPED_TRACE(test::name(of));
     found.push_back(by_operator(b, of));
     expect_agreement(reference, found.back());
+    EXPECT_LT(found.back().reports.back().balance.relative, 1e-12);
   }
+  EXPECT_LT(reference.reports.back().balance.relative, 1e-12);
   SCOPED_TRACE("cyclic against sparse");
   expect_agreement(found[1], found[0]);
 }
