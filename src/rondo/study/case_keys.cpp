@@ -4,9 +4,10 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cctype>
 #include <utility>
 #include <vector>
+
+#include "rondo/core/edit_distance.hpp"
 
 namespace rondo::study {
 namespace {
@@ -62,12 +63,6 @@ bool leads_to_a_key(std::string_view path, char next) {
     return key.path.size() > path.size() && key.path.starts_with(path) &&
            key.path[path.size()] == next;
   });
-}
-
-std::string lowered(std::string_view a) {
-  std::string low(a);
-  for (char& c : low) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
-  return low;
 }
 
 }  // namespace
@@ -183,24 +178,6 @@ std::string_view table_of(std::string_view path) noexcept {
 std::string_view leaf_of(std::string_view path) noexcept {
   const auto dot = path.rfind('.');
   return dot == std::string_view::npos ? path : path.substr(dot + 1);
-}
-
-std::size_t edit_distance(std::string_view a, std::string_view b) {
-  const std::string s = lowered(a), t = lowered(b);
-  std::vector<std::size_t> before(t.size() + 1), last(t.size() + 1), row(t.size() + 1);
-  for (std::size_t j = 0; j <= t.size(); ++j) last[j] = j;
-  for (std::size_t i = 1; i <= s.size(); ++i) {
-    row[0] = i;
-    for (std::size_t j = 1; j <= t.size(); ++j) {
-      const bool same = s[i - 1] == t[j - 1];
-      row[j] = std::min({last[j] + 1, row[j - 1] + 1, last[j - 1] + (same ? 0U : 1U)});
-      if (i > 1 && j > 1 && s[i - 1] == t[j - 2] && s[i - 2] == t[j - 1])
-        row[j] = std::min(row[j], before[j - 2] + 1);
-    }
-    std::swap(before, last);
-    std::swap(last, row);
-  }
-  return last[t.size()];
 }
 
 std::string_view nearest_key(std::string_view path) {

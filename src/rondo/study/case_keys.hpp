@@ -72,7 +72,4 @@ std::string_view leaf_of(std::string_view path) noexcept;
 /// wrong table counts as near.
 std::string_view nearest_key(std::string_view path);
 
-/// Damerau-Levenshtein distance (insert, delete, replace, swap two neighbours), ignoring case.
-std::size_t edit_distance(std::string_view a, std::string_view b);
-
 }  // namespace rondo::study

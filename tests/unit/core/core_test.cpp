@@ -5,6 +5,7 @@
 #include <numbers>
 
 #include "rondo/core/contract.hpp"
+#include "rondo/core/edit_distance.hpp"
 #include "rondo/core/error.hpp"
 #include "rondo/core/sum.hpp"
 #include "rondo/core/vec2.hpp"
@@ -63,4 +64,14 @@ TEST(Fault, NamesPlaceKeyFoundAndAllowed) {
 TEST(Contract, PrintsTheValues) {
   const int n = 3;
   EXPECT_DEATH(RONDO_DEMAND(n == 4, n, 2.5), "broken contract `n == 4`.*values: 3 2.5");
+}
+
+TEST(EditDistance, OfNames) {
+  EXPECT_EQ(edit_distance("", ""), 0U);
+  EXPECT_EQ(edit_distance("abc", ""), 3U);
+  EXPECT_EQ(edit_distance("", "ab"), 2U);
+  EXPECT_EQ(edit_distance("height", "HEIGHT"), 0U);
+  EXPECT_EQ(edit_distance("height", "hieght"), 1U);
+  EXPECT_EQ(edit_distance("height", "heigt"), 1U);
+  EXPECT_EQ(edit_distance("kitten", "sitting"), 3U);
 }

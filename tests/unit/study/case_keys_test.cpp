@@ -29,16 +29,6 @@ TEST(CaseKeys, NearestKey) {
   EXPECT_EQ(nearest_key(std::string(100000, 'a')), "");
 }
 
-TEST(CaseKeys, EditDistance) {
-  EXPECT_EQ(edit_distance("", ""), 0U);
-  EXPECT_EQ(edit_distance("abc", ""), 3U);
-  EXPECT_EQ(edit_distance("", "ab"), 2U);
-  EXPECT_EQ(edit_distance("height", "HEIGHT"), 0U);
-  EXPECT_EQ(edit_distance("height", "hieght"), 1U);
-  EXPECT_EQ(edit_distance("height", "heigt"), 1U);
-  EXPECT_EQ(edit_distance("kitten", "sitting"), 3U);
-}
-
 TEST(CaseKeys, ManualHasEveryKey) {
   const std::string manual = file_text(source_folder() / "docs" / "cases.md");
   ASSERT_FALSE(manual.empty());
