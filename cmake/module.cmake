@@ -1,10 +1,14 @@
 # rondo_module(NAME SOURCES a.cpp ... [PUBLIC libs] [PRIVATE libs])
 # One static library per folder of src/rondo; rondo::NAME is its alias, inside and after install.
-function(rondo_compile_options target)
-  # No contraction: the same source gives the same bits at every optimisation level.
+function(rondo_warnings target)
   target_compile_options(${target} PRIVATE -Wall -Wextra -Wconversion -Wshadow -Wpedantic
-                                           -ffp-contract=off
                                            $<$<BOOL:${RONDO_WERROR}>:-Werror>)
+endfunction()
+
+function(rondo_compile_options target)
+  rondo_warnings(${target})
+  # No contraction: the same source gives the same bits at every optimisation level.
+  target_compile_options(${target} PRIVATE -ffp-contract=off)
   if(RONDO_SANITIZE)
     target_compile_options(${target} PRIVATE -fsanitize=${RONDO_SANITIZE} -fno-omit-frame-pointer)
     target_link_options(${target} PUBLIC -fsanitize=${RONDO_SANITIZE})

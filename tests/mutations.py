@@ -75,7 +75,8 @@ def failures(tree, build, program, pattern):
         command = ["/usr/bin/python3", tree / "tests/cli" / SCRIPTS[program], "-k", pattern]
     try:
         code, said = run(command, timeout=TIMEOUT,
-                         env={**os.environ, "RONDO": str(build / "rondo")})
+                         env={**os.environ, "RONDO": str(build / "rondo"),
+                              "RONDO_MESH_READER": str(build / "rondo-mesh-reader")})
     except subprocess.TimeoutExpired:
         return [f"{program}:{pattern} (out of time)"]
     if re.search(r"Ran 0 tests|Running 0 tests", said):

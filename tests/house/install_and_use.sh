@@ -7,11 +7,13 @@ work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
 cmake --install "$build" --prefix "$work/prefix" >/dev/null
 "$work/prefix/bin/rondo" --version
+test -x "$work/prefix/bin/rondo-mesh-reader"
 test -f "$work/prefix/share/rondo/cases/ledge-smooth.toml"
 cmake -S "$source/tests/house/consumer" -B "$work/build" -G Ninja -DCMAKE_BUILD_TYPE="$build_type" \
   -DCMAKE_PREFIX_PATH="$work/prefix" >/dev/null
 cmake --build "$work/build"
-"$work/build/consumer"
+RONDO_MESH_READER="$work/prefix/bin/rondo-mesh-reader" \
+  "$work/build/consumer" "$work/prefix/share/rondo/cases/meshes/block.msh"
 
 package=$(cd "$work/prefix" && echo lib/python3*/dist-packages)
 test -z "$(find "$work/prefix" -name __pycache__)"

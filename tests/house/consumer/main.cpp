@@ -1,12 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
-/// Drives the solver from another program: a spinning disk, without a file.
+/// Drives the solver from another program: a spinning disk, without a file; reads a mesh.
 #include <rondo/dynamics/critical_step.hpp>
 #include <rondo/dynamics/stepper.hpp>
 #include <rondo/mesh/disk.hpp>
+#include <rondo/mesh/gmsh_reader.hpp>
 #include <rondo/study/case.hpp>
 
-int main() {
+int main(int, char** arguments) {
   using namespace rondo;
+  if (mesh::read_gmsh({.file = arguments[1]}).mesh.cells.empty()) return 1;
   const mesh::Mesh mesh = mesh::make_disk({});
   const fem::Material material{2e7, 0.3, 1100.0, fem::Plane::strain};
   dynamics::Model model;

@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: BSD-3-Clause
+/// @file  A Gmsh file as the Gmsh library gives it, with the file's own numbers ("tags").
+#pragma once
+#include <cstddef>
+#include <cstdint>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace rondo::mesh {
+
+struct RawType {
+  int type = 0;  ///< Gmsh's number: 1 line, 2 triangle, 3 quadrilateral, 15 point
+  int dimension = 0;
+  int order = 0;
+  int n_nodes = 0;
+  std::string name;
+};
+
+struct RawGroup {
+  int dimension = 0;
+  int tag = 0;
+  std::string name;  ///< may be empty
+};
+
+/// A point, curve, surface or volume of the geometry.
+struct RawEntity {
+  int dimension = 0;
+  int tag = 0;
+  std::vector<int> groups;  ///< tags of its physical groups
+};
+
+/// The elements of one type on one entity.
+struct RawBlock {
+  std::size_t entity = 0;            ///< place in RawMesh::entities
+  std::size_t type = 0;              ///< place in RawMesh::types
+  std::vector<std::uint64_t> tags;   ///< (m)
+  std::vector<std::uint64_t> nodes;  ///< (m, nodes per element) tags
+};
+
+/// Counts and places of entities and types are right; tags of nodes are as the file has them.
+struct RawMesh {
+  std::uint64_t nodes_in_file = 0;  ///< 0: not known
+  std::vector<std::string> warnings;
+  std::vector<RawType> types;
+  std::vector<RawGroup> groups;
+  std::vector<RawEntity> entities;
+  std::vector<std::uint64_t> node_tags;  ///< (n)
+  std::vector<double> places;            ///< (n, 3) in the file's unit of length
+  std::vector<RawBlock> blocks;
+};
+
+/// Starts rondo-mesh-reader on a file and reads what it writes. The program is the one named by the
+/// environment variable RONDO_MESH_READER, or the one beside the running program, or the installed
+/// one. Throws InputError where the file is the reason, FileError where the machine is.
+/// @pre the file can be read
+RawMesh read_raw_mesh(const std::filesystem::path& file, std::uint64_t file_bytes);
+
+}  // namespace rondo::mesh

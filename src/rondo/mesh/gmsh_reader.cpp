@@ -1,0 +1,131 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "rondo/mesh/gmsh_reader.hpp"
+
+#include <fcntl.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <array>
+#include <cerrno>
+#include <cmath>
+#include <cstring>
+#include <sstream>
+#include <utility>
+
+#include "rondo/mesh/gmsh_draft.hpp"
+
+namespace rondo::mesh {
+namespace {
+
+constexpr const char* formats =
+    "MSH 2.2 or 4.1, text or binary: gmsh FILE -save -format msh41 -o NEW.msh";
+
+/// An element takes six bytes at least: below this, cells and nodes can be counted by int.
+constexpr std::uint64_t largest_file = 12'000'000'000;
+
+/// Throws FileError: why the file cannot be opened.
+std::pair<std::string, std::uint64_t> beginning_of(const std::filesystem::path& file) {
+  const int opened = open(file.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK);
+  if (opened < 0)
+    throw FileError(file.string(), fmt::format("cannot be opened: {}", std::strerror(errno)));
+  struct stat status {};
+  const bool regular = fstat(opened, &status) == 0 && S_ISREG(status.st_mode);
+  std::array<char, 4096> text{};
+  const ssize_t got = regular ? pread(opened, text.data(), text.size(), 0) : 0;
+  const int error = errno;
+  close(opened);
+  if (!regular) throw FileError(file.string(), "is not a file");
+  if (got < 0)
+    throw FileError(file.string(), fmt::format("cannot be read: {}", std::strerror(error)));
+  return {std::string(text.data(), static_cast<std::size_t>(got)),
+          static_cast<std::uint64_t>(status.st_size)};
+}
+
+Fault file_fault(const std::filesystem::path& file, std::string message) {
+  Fault fault;
+  fault.file = file.string();
+  fault.message = std::move(message);
+  fault.allowed = formats;
+  return fault;
+}
+
+void check_request(const MeshRequest& request) {
+  if (std::isfinite(request.scale) && request.scale > 0.0) return;
+  Fault fault;
+  fault.file = request.file.string();
+  fault.key = "scale";
+  fault.found = fmt::format("{}", request.scale);
+  fault.message = "is no scale of lengths";
+  fault.allowed = "> 0";
+  throw InputError(std::move(fault));
+}
+
+void pass_on(const std::vector<std::string>& said, Findings& findings) {
+  if (said.empty()) return;
+  findings.warnings.push_back("the Gmsh library says: " +
+                              examples(said.size(), [&](std::size_t k) { return said[k]; }));
+}
+
+}  // namespace
+
+void Findings::add(std::string message, std::string allowed) {
+  Fault fault;
+  fault.file = file;
+  fault.message = std::move(message);
+  fault.allowed = std::move(allowed);
+  faults.push_back(std::move(fault));
+}
+
+void Findings::throw_if_faulty() {
+  if (!faults.empty()) throw InputError(std::move(faults));
+}
+
+MeshFile inspect(const std::filesystem::path& file) {
+  const auto [text, bytes] = beginning_of(file);
+  if (bytes == 0) throw InputError(file_fault(file, "is empty"));
+  if (bytes > largest_file)
+    throw InputError(file_fault(file, fmt::format("has {:.3g} GB, more than can be read",
+                                                  static_cast<double>(bytes) * 1e-9)));
+  // Only a mesh gets as far as the library: it would run any other text as a script.
+  const std::string heading = "$MeshFormat";
+  const auto at = text.starts_with("$Comments") ? text.find("\n" + heading) : text.find(heading);
+  if (at == std::string::npos || (at > 0 && !text.starts_with("$Comments")))
+    throw InputError(file_fault(file, "is no Gmsh mesh: it does not begin with $MeshFormat"));
+  std::istringstream words(text.substr(text.find('$', at) + heading.size()));
+  std::string version;
+  words >> version;
+  if (version != "2.2" && version != "4.1")
+    throw InputError(
+        file_fault(file, fmt::format("is of format \"{}\", which is not read", version)));
+  return {bytes, version == "2.2"};
+}
+
+ReadMesh read_gmsh(const MeshRequest& request) {
+  check_request(request);
+  const MeshFile file = inspect(request.file);
+  const RawMesh raw = read_raw_mesh(request.file, file.bytes);
+  Findings findings{.file = request.file.string(), .faults = {}, .warnings = {}};
+  pass_on(raw.warnings, findings);
+  const std::vector<NamedGroup> groups = named_groups(raw);
+  check_names(request, groups, findings);
+  const TagIndex index(raw.node_tags);
+  check_types(raw, index, findings);
+  const std::size_t faults = findings.faults.size();
+  Draft draft = draft_mesh(raw, index, request, findings);
+  if (findings.faults.size() == faults) check_shapes(raw, draft, findings);
+  findings.throw_if_faulty();
+
+  const EdgeTable table(draft.mesh);
+  check_joints(draft, table, findings);
+  add_regions(raw, groups, draft, findings);
+  const CurveInput curves{raw, index, groups, table, request, file.version_22};
+  add_curves(curves, draft, findings);
+  findings.throw_if_faulty();
+
+  add_boundary(curves, draft, findings);
+  findings.throw_if_faulty();
+  return {std::move(draft.mesh), std::move(findings.warnings)};
+}
+
+}  // namespace rondo::mesh
