@@ -6,6 +6,8 @@
 #include <algorithm>
 
 #include "rondo/core/contract.hpp"
+#include "rondo/dynamics/cyclic_plan.hpp"
+#include "rondo/dynamics/sparse_plan.hpp"
 
 namespace rondo::dynamics {
 namespace {
@@ -77,6 +79,12 @@ void BatchIntegrator::advance(std::span<StepReport> reports, State* last) noexce
 void BatchIntegrator::fields(State& state) const noexcept {
   save_displacement(state.u);
   save_velocity(state.v_next);
+}
+
+int most_threads(const Model& model) noexcept {
+  return static_cast<int>(model.stiffness_operator == StiffnessOperator::cyclic
+                              ? n_cyclic_groups(model.sector->n_sectors)
+                              : n_sparse_blocks(model.free.size()));
 }
 
 }  // namespace rondo::dynamics

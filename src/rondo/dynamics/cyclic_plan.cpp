@@ -31,7 +31,7 @@ void cut(CyclicPlan& plan, int n_chunks) {
 /// Chunks for the threads and for the cache; many steps in a pass where the fields are larger than
 /// it.
 void choose_chunks(CyclicPlan& plan, int threads, const CyclicTuning& tuning) {
-  plan.n_groups = static_cast<std::size_t>((plan.n_sectors + group_columns - 1) / group_columns);
+  plan.n_groups = n_cyclic_groups(plan.n_sectors);
   const int groups = static_cast<int>(plan.n_groups);
   const std::size_t bytes = static_cast<std::size_t>(plan.n_local) *
                             static_cast<std::size_t>(plan.n_sectors * plan.n_fields()) *
@@ -163,6 +163,10 @@ std::ptrdiff_t choose_stride(const CyclicPlan& plan) {
 }
 
 }  // namespace
+
+std::size_t n_cyclic_groups(int n_sectors) noexcept {
+  return static_cast<std::size_t>((n_sectors + group_columns - 1) / group_columns);
+}
 
 CyclicPlan make_cyclic_plan(const Model& model, const CyclicTuning& tuning) {
   RONDO_DEMAND(model.sector.has_value());

@@ -70,6 +70,9 @@ struct CyclicTuning {
   int wide_halo_columns = 16 * halo_columns;
 };
 
+/// Groups of kernels::group_packs packs round a ring: what it can be cut into.
+std::size_t n_cyclic_groups(int n_sectors) noexcept;
+
 /// @pre model.sector is there.
 CyclicPlan make_cyclic_plan(const Model& model, const CyclicTuning& tuning = {});
 

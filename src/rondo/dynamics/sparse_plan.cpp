@@ -85,10 +85,8 @@ void add_constants(const Model& model, SparsePlan& plan) {
   }
 }
 
-/// A multiple of four, where there are so many: of two or four threads none has one block more.
-std::size_t choose_blocks(std::size_t n_packs) {
-  const std::size_t n = std::clamp(n_packs / fewest_packs, std::size_t{1}, most_blocks);
-  return n < 4 ? n : n / 4 * 4;
+std::size_t packs_of(std::size_t n_rows) noexcept {
+  return (n_rows + lanes - 1) / lanes;
 }
 
 void add_contact(const Model& model, const std::vector<int>& row, SparsePlan& plan) {
@@ -113,6 +111,12 @@ void add_contact(const Model& model, const std::vector<int>& row, SparsePlan& pl
 
 }  // namespace
 
+/// A multiple of four, where there are so many: of two or four threads none has one block more.
+std::size_t n_sparse_blocks(std::size_t n_rows) noexcept {
+  const std::size_t n = std::clamp(packs_of(n_rows) / fewest_packs, std::size_t{1}, most_blocks);
+  return n < 4 ? n : n / 4 * 4;
+}
+
 SparsePlan make_sparse_plan(const Model& model) {
   const fem::BlockCsr& k = model.stiffness;
   RONDO_DEMAND(k.row_start.size() == model.n_nodes() + 1, k.row_start.size(), model.n_nodes());
@@ -122,8 +126,8 @@ SparsePlan make_sparse_plan(const Model& model) {
   plan.keeps_force = model.stiffness_damping > 0.0;
   plan.node = row_order(k, model.free);
   sort_by_length(k, plan.node);
-  plan.n_packs = (plan.node.size() + lanes - 1) / lanes;
-  plan.n_blocks = choose_blocks(plan.n_packs);
+  plan.n_packs = packs_of(plan.node.size());
+  plan.n_blocks = n_sparse_blocks(plan.node.size());
   const std::vector<int> row = row_of(model, plan);
   add_matrix(k, row, plan);
   add_constants(model, plan);

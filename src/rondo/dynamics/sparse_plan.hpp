@@ -43,6 +43,9 @@ struct SparsePlan {
   }
 };
 
+/// Blocks that so many rows are cut into.
+std::size_t n_sparse_blocks(std::size_t n_rows) noexcept;
+
 /// @pre model.stiffness is there. Does not depend on model.threads.
 SparsePlan make_sparse_plan(const Model& model);
 

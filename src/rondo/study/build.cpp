@@ -9,6 +9,7 @@
 #include <optional>
 #include <thread>
 
+#include "rondo/dynamics/batch_integrator.hpp"
 #include "rondo/statics/stationary_spin.hpp"
 #include "rondo/study/estimate.hpp"
 
@@ -88,10 +89,18 @@ dynamics::Model make_model(const Case& c, const mesh::Mesh& mesh) {
   return model;
 }
 
-int choose_threads(const dynamics::Model& model, int asked) {
-  if (asked > 0) return asked;
-  if (2 * model.free.size() < single_thread_dofs) return 1;
-  return static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
+void choose_threads(Setup& s, int asked) {
+  const int most = dynamics::most_threads(s.model);
+  if (asked > most)
+    s.warnings.push_back(
+        fmt::format("{} threads instead of {}: the {} operator shares out no smaller parts of this "
+                    "body (docs/performance.md)",
+                    most, asked, operator_name(s.model.stiffness_operator)));
+  if (asked <= 0) {
+    const bool small = 2 * s.model.free.size() < single_thread_dofs;
+    asked = small ? 1 : static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
+  }
+  s.model.threads = std::min(asked, most);
 }
 
 double choose_step(const Case& c, const dynamics::CriticalStep& critical) {
@@ -229,7 +238,7 @@ Setup build(const Case& c, int threads) {
   Setup s;
   s.mesh = build_mesh(c);
   s.model = make_model(c, s.mesh);
-  s.model.threads = choose_threads(s.model, threads);
+  choose_threads(s, threads);
   set_initial_fields(c, s);
   check_start_inside(c, element_sizes(s.mesh), s);
   s.critical = find_critical_step(c, s);

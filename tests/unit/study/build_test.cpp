@@ -6,7 +6,9 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <utility>
 
+#include "rondo/dynamics/sparse_plan.hpp"
 #include "rondo/statics/stationary_spin.hpp"
 #include "rondo/study/estimate.hpp"
 #include "unit/study/case_fixture.hpp"
@@ -55,6 +57,24 @@ TEST(Build, SmallDisksAreSetUpAsEver) {
   EXPECT_EQ(s.displacement,
             statics::stationary_spin(m.stiffness, m.mass, m.reference, m.free, -60.0).u);
   EXPECT_TRUE(s.warnings.empty());
+}
+
+TEST(Build, NoMoreThreadsThanTheOperatorSharesWorkAmong) {
+  Case c = spinning(12, 180, 60.0);  // 6 groups of 32 sectors, the last one of 20
+  for (const auto& [asked, used] : {std::pair{3, 3}, {6, 6}, {8, 6}}) {
+    const auto s = build(c, asked);
+    EXPECT_EQ(s.model.threads, used);
+    EXPECT_EQ(s.warnings.size(), asked > used ? 1U : 0U);
+  }
+  EXPECT_TRUE(build(c, 8).warnings.front().starts_with("6 threads instead of 8: the cyclic"));
+  EXPECT_EQ(build(c, 0).model.threads, 1);  // few dofs
+
+  c.solver_operator = "sparse";
+  const auto s = build(c, 1000);
+  const std::size_t blocks = make_sparse_plan(s.model).n_blocks;
+  EXPECT_GT(blocks, 1U);
+  EXPECT_EQ(s.model.threads, static_cast<int>(blocks));
+  EXPECT_EQ(s.warnings.size(), 1U);
 }
 
 TEST(Build, LargeDisksAreSetUpByHarmonics) {
