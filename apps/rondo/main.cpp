@@ -10,6 +10,7 @@
 
 #include "commands.hpp"
 #include "exit_codes.hpp"
+#include "modes_command.hpp"
 #include "paper_command.hpp"
 #include "pod_command.hpp"
 #include "rondo/core/error.hpp"
@@ -20,13 +21,17 @@ namespace {
 
 using namespace rondo;
 
-void add_common(CLI::App& command, app::CommonArguments& arguments) {
-  command.add_option("case", arguments.case_file, "case file (TOML, docs/cases.md)")->required();
+void add_case(CLI::App& command, std::string& case_file, std::vector<std::string>& settings) {
+  command.add_option("case", case_file, "case file (TOML, docs/cases.md)")->required();
   command
-      .add_option("--set", arguments.settings,
+      .add_option("--set", settings,
                   "KEY=VALUE: overrides a key of the case, e.g. ground.friction=0.6; repeatable")
       ->take_all()
       ->expected(1);
+}
+
+void add_common(CLI::App& command, app::CommonArguments& arguments) {
+  add_case(command, arguments.case_file, arguments.settings);
   command.add_option("--threads", arguments.threads, "threads; chosen by size if left out")
       ->check(CLI::Range(1, 1024));
 }
@@ -90,6 +95,33 @@ CLI::App* add_pod(CLI::App& program, PodArguments& arguments) {
   return pod;
 }
 
+CLI::App* add_modes(CLI::App& program, app::ModesArguments& arguments) {
+  CLI::App* modes = program.add_subcommand(
+      "modes", "frequencies and shapes of a case's body, at rest and spinning; critical speeds");
+  study::ModesRequest& r = arguments.request;
+  add_case(*modes, arguments.case_file, arguments.settings);
+  modes->add_option("-o,--output", arguments.directory,
+                    "results directory; the case's name and \"-modes\" beside it if left out");
+  modes->add_option("--count", r.count, "modes at each spin, besides rigid-body motions")
+      ->check(CLI::Range(1, 100000))
+      ->capture_default_str();
+  modes->add_option("--spin", r.spins,
+                    "angular velocities [rad/s], > 0 rolls towards +x; rest and the case's own at "
+                    "t = 0 if left out");
+  modes->add_option("--spins", r.sweep,
+                    "FROM:TO:NUMBER [rad/s]: frequencies over the spin, for a Campbell diagram");
+  modes->add_option("--diameters", r.diameters, "critical speeds of waves with up to that many")
+      ->check(CLI::Range(0, 1000000))
+      ->capture_default_str();
+  modes->add_flag("--overwrite", r.overwrite, "replaces what another run has left there");
+  modes->add_flag("--quiet", arguments.quiet, "prints warnings and the figures only");
+  modes->footer(
+      "Example:\n  rondo modes cases/modes-annulus.toml -o results/modes --spins 0:400:41\n"
+      "  python3 -m rondo campbell results/modes\n"
+      "Exit code 3: a spin beyond the softening limit. More: docs/modes.md.");
+  return modes;
+}
+
 CLI::App* add_paper(CLI::App& program, app::PaperArguments& arguments) {
   CLI::App* paper = program.add_subcommand(
       "paper", "the study of the paper: all runs behind its figures, ours against expected");
@@ -122,6 +154,8 @@ int dispatch_command(CLI::App& program, int argc, char** argv) {
   const CLI::App* check = add_check(program, check_arguments);
   PodArguments pod_arguments;
   const CLI::App* pod = add_pod(program, pod_arguments);
+  app::ModesArguments modes_arguments;
+  const CLI::App* modes = add_modes(program, modes_arguments);
   app::PaperArguments paper_arguments;
   const CLI::App* paper = add_paper(program, paper_arguments);
   try {
@@ -132,6 +166,7 @@ int dispatch_command(CLI::App& program, int argc, char** argv) {
   if (run->parsed()) return app::run(run_arguments);
   if (check->parsed()) return app::check(check_arguments);
   if (pod->parsed()) return app::pod(pod_arguments.request, pod_arguments.quiet);
+  if (modes->parsed()) return app::modes(modes_arguments);
   if (paper->parsed()) return app::paper(paper_arguments);
   return app::exit_input;
 }

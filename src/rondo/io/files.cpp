@@ -20,9 +20,12 @@ namespace fs = std::filesystem;
 namespace {
 
 /// Any of these: the directory holds a run.
-constexpr std::array run_marks = {"run.json", "results.h5", "history.csv"};
-constexpr std::array run_files = {"case.toml",  "run.json",    "history.csv",  "contact.csv",
-                                  "results.h5", "fields.xdmf", "checkpoint.h5"};
+constexpr std::array run_marks = {"run.json", "results.h5", "history.csv", "modes.json",
+                                  "modes.h5"};
+constexpr std::array run_files = {
+    "case.toml",   "run.json",      "history.csv",        "contact.csv", "results.h5",
+    "fields.xdmf", "checkpoint.h5", "modes.json",         "modes.h5",    "modes.xdmf",
+    "modes.csv",   "campbell.csv",  "critical-speeds.csv"};
 constexpr std::array pod_files = {"pod.json", "pod.h5", "spectrum.csv", "modes.xdmf",
                                   "reconstruction.xdmf"};
 

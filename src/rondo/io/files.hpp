@@ -14,9 +14,9 @@ namespace rondo::io {
                                    const std::string& to_do);
 
 /// Makes `directory` ready for a run: creates it with its parents, refuses one that holds another
-/// run (run.json, results.h5 or history.csv) unless `overwrite`, which removes that run's files
-/// and the PODs in its own pod/ (and nothing else). @throws InputError (holds a run; is not a
-/// directory), FileError (cannot create).
+/// run (run.json, results.h5, history.csv) or modes (modes.json, modes.h5) unless `overwrite`,
+/// which removes those files and the PODs in its own pod/ (and nothing else). @throws InputError
+/// (holds a run; is not a directory), FileError (cannot create).
 void prepare_results_directory(const std::filesystem::path& directory, bool overwrite);
 
 /// Written beside, then renamed: readers never see half a file. @throws FileError

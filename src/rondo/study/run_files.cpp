@@ -59,11 +59,15 @@ void give_warnings(const std::vector<std::string>& warnings, const RunOptions& o
   for (const std::string& warning : warnings) options.warn(warning);
 }
 
+void begin_modes_directory(const Case& c, const std::filesystem::path& directory, bool overwrite) {
+  keep_the_users_case(c, directory);
+  io::prepare_results_directory(directory, overwrite);
+  io::write_file(directory / "case.toml", write_case(c));
+}
+
 void begin_directory(const Case& c, const RunOptions& options, const Json& json) {
   if (options.before_loop) options.before_loop();
-  keep_the_users_case(c, options.directory);
-  io::prepare_results_directory(options.directory, options.overwrite);
-  io::write_file(options.directory / "case.toml", write_case(c));
+  begin_modes_directory(c, options.directory, options.overwrite);
   io::write_json(options.directory / "run.json", json);
 }
 

@@ -28,6 +28,9 @@ void give_warnings(const std::vector<std::string>& warnings, const RunOptions& o
 /// @throws InputError (the directory holds a run), FileError
 void begin_directory(const Case& c, const RunOptions& options, const Json& json);
 
+/// For `rondo modes`: the directory, with the case as read. @throws InputError, FileError
+void begin_modes_directory(const Case& c, const std::filesystem::path& directory, bool overwrite);
+
 /// After an error of files: run.json says so, where it can still be written itself.
 void note_failure(const RunOptions& options, Json json, const std::exception& error) noexcept;
 

@@ -27,9 +27,9 @@ inline const fem::Material rubber{5.0e6, 0.45, 1100.0, fem::Plane::strain};
 inline ModalBody body_of(mesh::Mesh mesh) {
   ModalBody b;
   b.mesh = std::move(mesh);
-  if (b.mesh.n_sectors > 0) b.sector = fem::assemble_sector(b.mesh, rubber);
-  b.stiffness = fem::assemble_stiffness(b.mesh, rubber);
-  b.mass = fem::lumped_mass(b.mesh, rubber.density);
+  if (b.mesh.n_sectors > 0) b.sector = fem::assemble_sector(b.mesh, {&rubber, 1});
+  b.stiffness = fem::assemble_stiffness(b.mesh, {&rubber, 1});
+  b.mass = fem::lumped_mass(b.mesh, {&rubber, 1});
   return b;
 }
 

@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "modes_command.hpp"
+
+#include <fmt/format.h>
+#include <spdlog/spdlog.h>
+
+#include <filesystem>
+#include <numbers>
+
+#include "exit_codes.hpp"
+
+namespace rondo::app {
+namespace {
+
+/// cases/annulus.toml -> cases/annulus-modes
+std::filesystem::path default_directory(const std::filesystem::path& case_file) {
+  return case_file.parent_path() / (case_file.stem().string() + "-modes");
+}
+
+void print_modes(const study::ModesReport& r) {
+  fmt::print("{:>5}  {:>12}  {:>14}  {:>12}  {:>9}  {:<9} {:>9}\n", "mode", "spin (rad/s)",
+             "omega (rad/s)", "f (Hz)", "diameters", "wave", "residual");
+  int number = 0;
+  for (const study::ModeLine& m : r.modes)
+    fmt::print("{:>5}  {:>12.6g}  {:>14.8g}  {:>12.6g}  {:>9}  {:<9} {:>9.1e}\n", ++number,
+               m.angular_velocity, m.omega, m.omega / (2.0 * std::numbers::pi),
+               m.diameters < 0 ? "-" : fmt::to_string(m.diameters), study::name_of(m.wave),
+               m.residual);
+}
+
+void print_critical(const study::ModesReport& r) {
+  if (r.critical.empty()) return;
+  fmt::print("critical speeds    n: spin (rad/s), rim speed (m/s)\n");
+  for (const auto& c : r.critical)
+    fmt::print("{:>18}: {:.6g}, {:.6g}\n", c.diameters, c.spin, c.spin * r.outer_radius);
+}
+
+}  // namespace
+
+int modes(ModesArguments arguments) {
+  if (arguments.quiet) spdlog::set_level(spdlog::level::warn);
+  const study::Case c = study::read_case(arguments.case_file, arguments.settings);
+  study::ModesRequest& request = arguments.request;
+  request.directory = arguments.directory.empty() ? default_directory(arguments.case_file)
+                                                  : std::filesystem::path(arguments.directory);
+  request.warn = [](const std::string& text) { spdlog::warn(text); };
+  const study::ModesReport r = study::run_modes(c, request);
+  print_modes(r);
+  print_critical(r);
+  fmt::print("files              {}\n", r.directory.string());
+  if (r.trouble.empty()) {
+    spdlog::info("{} modes of {} degrees of freedom in {:.2f} s", r.modes.size(), r.dofs, r.wall_s);
+    return exit_done;
+  }
+  spdlog::error("{}; what there is is in {}", r.trouble, r.directory.string());
+  return exit_numerical;
+}
+
+}  // namespace rondo::app

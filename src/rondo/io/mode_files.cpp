@@ -1,0 +1,105 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "rondo/io/mode_files.hpp"
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+
+#include "rondo/io/files.hpp"
+#include "rondo/io/h5.hpp"
+#include "rondo/io/mesh_files.hpp"
+#include "rondo/io/xdmf.hpp"
+
+namespace rondo::io {
+namespace fs = std::filesystem;
+namespace {
+
+using h5::Type;
+using Vector = std::array<float, 3>;  ///< of ParaView
+
+/// The same part of all modes: as computed, and as ParaView wants it.
+struct Part {
+  h5::Dataset exact, shown;
+};
+
+Part create(h5::File& file, const char* name, const h5::Shape& shape) {
+  const std::string part = name;
+  const std::string unit = "(kg/m)^(-1/2)";
+  return {file.create("/modes/" + part, Type::float64, {shape[0], shape[1], 2},
+                      {unit, part + " part of each shape phi at each node: x, y, in the turning "
+                                    "frame; the motion is Re(phi exp(i omega t))"}),
+          file.create("/fields/" + part, Type::float32, {shape[0], shape[1], 3},
+                      {unit, "/modes/" + part + " for ParaView"})};
+}
+
+void put(Part& part, std::size_t row, const std::vector<Vec2>& shape) {
+  std::vector<Vector> shown;
+  shown.reserve(shape.size());
+  for (const Vec2 v : shape)
+    shown.push_back({static_cast<float>(v.x), static_cast<float>(v.y), 0.0F});
+  part.exact.write_row(row, std::span<const Vec2>(shape));
+  part.shown.write_row(row, std::span<const Vector>(shown));
+}
+
+XdmfSeries series_of(const mesh::Mesh& mesh, std::size_t modes) {
+  XdmfSeries s;
+  s.data_file = "modes.h5";
+  s.topology = topology_of(mesh);
+  s.reference = "/mesh/coordinates";
+  s.n_nodes = mesh.n_nodes();
+  s.n_times = modes;
+  s.fields = {{"real", "Vector", "/fields/real", 3, 0, 3},
+              {"imaginary", "Vector", "/fields/imaginary", 3, 0, 3}};
+  return s;
+}
+
+void write_figures(h5::File& file, std::span<const SpinModes> spins, std::size_t n) {
+  std::vector<double> frequency, angular_velocity;
+  std::vector<std::int32_t> diameters;
+  for (const SpinModes& spin : spins)
+    for (const modal::Mode& mode : *spin.modes) {
+      frequency.push_back(mode.omega);
+      angular_velocity.push_back(spin.angular_velocity);
+      diameters.push_back(mode.diameters);
+    }
+  file.write("/modes/frequency", {n}, std::span<const double>(frequency),
+             {"rad/s", "omega of each mode in the turning frame"});
+  file.write("/modes/angular_velocity", {n}, std::span<const double>(angular_velocity),
+             {"rad/s", "of the body, as in the case: > 0 rolls towards +x"});
+  file.write("/modes/nodal_diameters", {n}, std::span<const std::int32_t>(diameters),
+             {"1", "of each mode; -1: unknown"});
+}
+
+std::size_t bytes(const mesh::Mesh& mesh, std::size_t modes) {
+  constexpr std::size_t of_node = 2 * (sizeof(Vec2) + sizeof(Vector)), description = 65536;
+  return description + mesh_bytes(mesh) + modes * mesh.n_nodes() * of_node;
+}
+
+}  // namespace
+
+void write_mode_shapes(const fs::path& directory, const mesh::Mesh& mesh,
+                       std::span<const double> mass, std::span<const SpinModes> spins) {
+  std::size_t n = 0;
+  for (const SpinModes& spin : spins) n += spin.modes->size();
+  demand_room(directory / "modes.h5", bytes(mesh, n));
+  h5::File file = h5::File::create(directory / "modes.h5");
+  file.set_attribute("/", "format", "rondo modes 1");
+  write_mesh(file, mesh, mass);
+  Xdmf xdmf(directory / "modes.xdmf", series_of(mesh, n));
+  if (n > 0) {  // readers trip over datasets without numbers
+    write_figures(file, spins, n);
+    Part real = create(file, "real", {n, mesh.n_nodes()});
+    Part imaginary = create(file, "imaginary", {n, mesh.n_nodes()});
+    std::size_t row = 0;
+    for (const SpinModes& spin : spins)
+      for (const modal::Mode& mode : *spin.modes) {
+        put(real, row, mode.real);
+        put(imaginary, row, mode.imaginary);
+        xdmf.add(static_cast<double>(++row));
+      }
+  }
+  xdmf.close();
+  file.close();
+}
+
+}  // namespace rondo::io
