@@ -12,7 +12,6 @@ namespace rondo::dynamics {
 namespace {
 
 using contact::ContactRows;
-using contact::operator*;
 using contact::Status;
 
 std::size_t at(int index) noexcept {
@@ -23,7 +22,8 @@ std::size_t at(int index) noexcept {
 template <class Value>
 Vec2 row_sum(const ContactRows& rows, Value&& value) {
   Vec2 w;
-  for (int i = 0; i < rows.count; ++i) w += rows.block[at(i)] * value(at(rows.node[at(i)]));
+  for (int i = 0; i < rows.count; ++i)
+    w += contact::apply(rows.block[at(i)], value(at(rows.node[at(i)])));
   return w;
 }
 

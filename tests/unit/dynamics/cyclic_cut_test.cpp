@@ -128,7 +128,7 @@ TEST(CyclicCut, WhatFillsUpTheLastPackStaysWhereItIs) {
   c.beta = 1e-4;
   c.motion = {};
   c.motion.angular_velocity = Table(400.0);
-  c.motion.gravity = 9.81;
+  c.motion.gravity = dynamics::Table(9.81);
   const Model model = test::model_with(test::build(c), StiffnessOperator::cyclic);
   const CyclicTuning wide{0, 16, 8};
   const CyclicPlan plan = make_cyclic_plan(model, wide);
