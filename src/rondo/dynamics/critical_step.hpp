@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// @file  Largest stable step of the central differences (docs/theory.md, 3.8).
 #pragma once
+#include <cstddef>
 #include <span>
 
 #include "rondo/fem/assembly.hpp"
@@ -37,6 +38,11 @@ CriticalStep critical_step(const fem::BlockCsr& k, std::span<const double> mass,
 /// @param mass (n) of every node of the mesh.
 CriticalStep critical_step(const fem::SectorStiffness& k, std::span<const double> mass,
                            LaggedDamping damping, double element_eigenvalue_bound);
+
+/// How far, of its largest diagonal entry, a matrix that was factorised may be from the one whose
+/// factor came out, with at most m numbers in a row or column of the factor (3.8): 1e-8 at the
+/// least.
+double cholesky_rounding(std::ptrdiff_t m) noexcept;
 
 /// Δt_c for a given largest frequency.
 double critical_step_of(double omega, LaggedDamping damping) noexcept;

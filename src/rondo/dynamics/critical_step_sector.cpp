@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <complex>
+#include <limits>
 #include <numeric>
 #include <optional>
 #include <vector>
@@ -23,9 +24,6 @@ using Matrix = fem::Harmonics::Matrix;
 /// Relative width of the interval in which the largest eigenvalue is enclosed: three factorisations
 /// for each digit, of the few harmonics that raise it.
 constexpr double enclosure_width = 1e-6;
-/// A factorisation is exact for a matrix off by 1.5 ε m^2.5 of the largest diagonal entry, with at
-/// most m numbers in a row or column of the factor (3.8): less than this where m < 900.
-constexpr double rounding = 1e-8;
 /// Of all factorisations, some seconds; above it Lanczos, several times as fast, has to do.
 constexpr double most_operations = 1e10;
 
@@ -45,7 +43,8 @@ class Enclosure {
  public:
   /// @param limit a bound known beforehand.
   Enclosure(fem::Harmonics& harmonics, double limit) : harmonics_(harmonics), limit_(limit) {
-    cholesky_.analyzePattern(harmonics.lower(0, 0.0, 1.0));
+    cholesky_.compute(harmonics.lower(0, 0.0, 1.0));  // 1, but with the places of the others
+    rounding_ = cholesky_rounding(longest(cholesky_.matrixL().nestedExpression()));
   }
 
   void include(int harmonic) {
@@ -68,10 +67,23 @@ class Enclosure {
     }
   }
 
-  [[nodiscard]] double upper() const noexcept { return upper_; }
+  /// What rounding may have hidden from the factorisations included.
+  [[nodiscard]] double upper() const noexcept { return upper_ * (1.0 + rounding_); }
   [[nodiscard]] double width() const noexcept { return (upper_ - lower_) / upper_; }
 
  private:
+  /// Most numbers in a row or column. The order of the unknowns is that of the factorisation.
+  static Index longest(const Matrix& factor) {
+    std::vector<Index> row(static_cast<std::size_t>(factor.rows()));
+    Index most = 0;
+    for (Index j = 0; j < factor.outerSize(); ++j) {
+      Index column = 0;
+      for (Matrix::InnerIterator at(factor, j); at; ++at, ++column)
+        most = std::max(most, ++row[static_cast<std::size_t>(at.row())]);
+      most = std::max(most, column);
+    }
+    return most;
+  }
   double largest_diagonal(int harmonic) const {
     return harmonics_.lower(harmonic, 1.0, 0.0).diagonal().real().maxCoeff();
   }
@@ -83,6 +95,7 @@ class Enclosure {
   fem::Harmonics& harmonics_;
   double limit_;
   double upper_ = 0.0, lower_ = 0.0;
+  double rounding_ = 0.0;
   Eigen::SimplicialLLT<Matrix, Eigen::Lower> cholesky_;
 };
 
@@ -118,6 +131,11 @@ std::optional<RitzPair> largest_of_all(fem::Harmonics& harmonics) {
 
 }  // namespace
 
+double cholesky_rounding(std::ptrdiff_t m) noexcept {
+  constexpr double epsilon = std::numeric_limits<double>::epsilon();
+  return std::max(1e-8, std::sqrt(2.0) * epsilon * std::pow(static_cast<double>(m), 2.5));
+}
+
 CriticalStep critical_step(const fem::SectorStiffness& k, std::span<const double> mass,
                            LaggedDamping damping, double element_eigenvalue_bound) {
   CriticalStep out;
@@ -131,7 +149,7 @@ CriticalStep critical_step(const fem::SectorStiffness& k, std::span<const double
   if (operations(harmonics) <= most_operations) {
     Enclosure largest(harmonics, element_eigenvalue_bound);
     for (const int harmonic : scattered(harmonics.count())) largest.include(harmonic);
-    out.omega = std::min(out.element_bound, std::sqrt(largest.upper() * (1.0 + rounding)));
+    out.omega = std::min(out.element_bound, std::sqrt(largest.upper()));
     out.uncertainty = largest.width();
     out.converged = out.proven = true;
   } else if (const auto pair = largest_of_all(harmonics)) {

@@ -118,6 +118,14 @@ TEST(CriticalStepBySectors, LargeSectorsHaveNoHarmonicLeftOutEither) {
   }
 }
 
+/// √2 ε m^2.5 by hand: m = 10,000 gives 1.4142·2.2204e-16·1e10.
+TEST(CriticalStepBySectors, TheMarginForRoundingGrowsWithTheFactor) {
+  EXPECT_EQ(cholesky_rounding(1), 1e-8);
+  EXPECT_EQ(cholesky_rounding(900), 1e-8);
+  EXPECT_GT(cholesky_rounding(1100), 1e-8);
+  EXPECT_NEAR(cholesky_rounding(10000), 3.1402e-6, 1e-10);  // five digits by hand
+}
+
 TEST(CriticalStepBySectors, DampingShortensTheStepAsEver) {
   mesh::Disk disk;
   disk.radial = 4, disk.circumferential = 30;
