@@ -89,6 +89,29 @@ dynamics::Model make_model(const Case& c, const mesh::Mesh& mesh) {
   return model;
 }
 
+/// K := K + K_σ of the stress of the initial spin, in both forms as far as they are there.
+void add_stress_stiffening(const Case& c, Setup& s) {
+  if (c.stress_stiffening == StressStiffening::none) return;
+  dynamics::Model& m = s.model;
+  const double spin = c.motion.angular_velocity.at(0.0);
+  if (spin == 0.0)
+    s.warnings.emplace_back(
+        "material.stress_stiffening: the initial angular velocity is 0, its stress stiffens "
+        "nothing");
+  auto found = by_harmonics(m)
+                   ? statics::centrifugal_prestress(*m.sector, m.mass, m.reference, spin)
+                   : statics::centrifugal_prestress(m.stiffness, m.mass, m.reference, m.free, spin);
+  if (found.status != statics::SpinStatus::solved)
+    throw case_error(c, "material.stress_stiffening",
+                     "the stress of the spin was not found: the stiffness is not positive definite "
+                     "to round-off",
+                     "\"none\", or a material and a mesh in SI units");
+  s.prestress = std::move(found.u);
+  if (m.sector) m.sector = fem::assemble_sector(s.mesh, {&c.material, 1}, s.prestress);
+  if (!m.stiffness.row_start.empty())
+    m.stiffness = fem::assemble_stiffness(s.mesh, {&c.material, 1}, s.prestress);
+}
+
 void choose_threads(Setup& s, int asked) {
   const int most = dynamics::most_threads(s.model);
   if (asked > most)
@@ -136,11 +159,12 @@ dynamics::CriticalStep find_critical_step(const Case& c, const Setup& s) {
   const bool lagged = c.time.scheme == Scheme::as_printed;
   const dynamics::LaggedDamping damping{c.damping.stiffness, lagged ? c.damping.mass : 0.0};
   if (by_harmonics(m))
-    return dynamics::critical_step(*m.sector, m.mass, damping,
-                                   fem::sector_eigenvalue_bound(s.mesh, {&c.material, 1}));
-  return dynamics::critical_step(m.stiffness, m.mass, m.free, damping,
-                                 fem::element_eigenvalue_bound(s.mesh, {&c.material, 1}),
-                                 m.threads);
+    return dynamics::critical_step(
+        *m.sector, m.mass, damping,
+        fem::sector_eigenvalue_bound(s.mesh, {&c.material, 1}, s.prestress));
+  return dynamics::critical_step(
+      m.stiffness, m.mass, m.free, damping,
+      fem::element_eigenvalue_bound(s.mesh, {&c.material, 1}, s.prestress), m.threads);
 }
 
 statics::StationarySpin find_stationary_spin(const dynamics::Model& m, double spin) {
@@ -212,7 +236,7 @@ std::optional<bool> softens_little(const dynamics::Model& m, double spin) {
 
 void warn_of_softening(const Case& c, Setup& s) {
   const double spin = c.motion.angular_velocity.largest();
-  if (spin == 0.0) return;
+  if (spin == 0.0 || c.stress_stiffening != StressStiffening::none) return;
   const std::optional<bool> little = softens_little(s.model, spin);
   if (!little)
     s.warnings.push_back(
@@ -238,6 +262,7 @@ Setup build(const Case& c, int threads) {
   Setup s;
   s.mesh = build_mesh(c);
   s.model = make_model(c, s.mesh);
+  add_stress_stiffening(c, s);
   choose_threads(s, threads);
   set_initial_fields(c, s);
   check_start_inside(c, element_sizes(s.mesh), s);

@@ -17,6 +17,7 @@ struct Setup {
   dynamics::Model model;
   dynamics::CriticalStep critical;
   long long n_steps = 0;              ///< ceil(end / step); the step is never fitted to the end
+  std::vector<Vec2> prestress;        ///< (n) displacement whose stress stiffens the body [m]
   std::vector<Vec2> displacement;     ///< (n) u_0                          [m]
   std::vector<Vec2> velocity;         ///< (n) v_0                          [m/s]
   std::vector<std::string> warnings;  ///< for the user: the caller prints them

@@ -100,6 +100,59 @@ TEST(Build, LargeDisksAreCheckedForSoftening) {
   EXPECT_THROW(build(spinning(82, 1230, 600.0), 1), InputError);
 }
 
+/// By both ways: the start solves the equation with K + K_σ, and the step is that of K + K_σ.
+TEST(Build, StressOfTheSpinStiffens) {
+  for (const int radial : {12, 82}) {
+    SCOPED_TRACE(radial);
+    Case c = spinning(radial, 15 * radial, 60.0);
+    const auto plain = build(c, 1);
+    c.stress_stiffening = StressStiffening::centrifugal;
+    const auto s = build(c, 1);
+    const dynamics::Model& m = s.model;
+    const fem::Material rubber{2e7, 0.3, 1100.0};
+    const fem::SectorStiffness expected = fem::assemble_sector(s.mesh, {&rubber, 1}, s.prestress);
+    std::vector<Vec2> ku(m.n_nodes()), of_prestress(m.n_nodes());
+    fem::apply(expected, s.displacement, ku);
+    fem::apply(*plain.model.sector, s.prestress, of_prestress);
+    double load = 0.0, rest = 0.0, rest_of_prestress = 0.0;
+    for (const int node : m.free) {
+      const auto i = static_cast<std::size_t>(node);
+      const double factor = 3600.0 * m.mass[i];
+      load = std::max(load, factor * norm(m.reference[i]));
+      rest = std::max(rest, norm(ku[i] - factor * (m.reference[i] + s.displacement[i])));
+      rest_of_prestress =
+          std::max(rest_of_prestress, norm(of_prestress[i] - factor * m.reference[i]));
+    }
+    EXPECT_LT(rest, 1e-9 * load);  // K u cancels: 1e-13 of its terms
+    EXPECT_LT(rest_of_prestress, 1e-9 * load);
+    const double bound = fem::sector_eigenvalue_bound(s.mesh, {&rubber, 1}, s.prestress);
+    EXPECT_NEAR(s.critical.element_bound, std::sqrt(bound), 1e-12 * std::sqrt(bound));
+    const auto step = dynamics::critical_step(expected, m.mass, {1e-8, 0.0}, bound);
+    EXPECT_NEAR(s.critical.omega, step.omega, 5e-4 * step.omega);  // Lanczos: 1e-3 of its square
+    // Stress over modulus: ρ s² R² / E = 2 %, of which rings carry some tenths.
+    EXPECT_GT(s.critical.omega, 1.0005 * plain.critical.omega);
+    EXPECT_TRUE(s.warnings.empty());
+    EXPECT_TRUE(plain.prestress.empty());
+  }
+}
+
+TEST(Build, WithoutSpinNothingStiffens) {
+  Case c = spinning(4, 60, 0.0);
+  c.stress_stiffening = StressStiffening::centrifugal;
+  const auto s = build(c, 1);
+  ASSERT_EQ(s.warnings.size(), 1U);
+  EXPECT_NE(s.warnings[0].find("the initial angular velocity is 0"), std::string::npos);
+}
+
+/// The spin that softening alone does not let be: 600 rad/s, above the lowest frequency.
+TEST(Build, StiffenedDisksMaySpinFaster) {
+  Case c = spinning(12, 180, 600.0);
+  EXPECT_THROW(build(c, 1), InputError);
+  c.stress_stiffening = StressStiffening::centrifugal;
+  const auto s = build(c, 1);
+  EXPECT_TRUE(s.warnings.empty());
+}
+
 TEST(Build, MassDampingShortensTheStepOfTheSchemeAsPrinted) {
   for (const int radial : {12, 82}) {
     Case c = spinning(radial, 15 * radial, 60.0);
