@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <tuple>
 #include <utility>
 
 #include "rondo/mesh/gmsh_draft.hpp"
@@ -19,8 +20,8 @@ struct RawCell {
   Cell nodes{-1, -1, -1, -1};  ///< places in RawMesh::node_tags
 };
 
-/// Elements of surfaces, by their tags; those of a surface in several groups once only (MSH 2.2
-/// has them once a group).
+/// Elements of surfaces by surface, kind and tag, an order that every form of a file gives; those
+/// of a surface in several groups once only (MSH 2.2 has them once a group).
 std::vector<RawCell> gather_cells(const RawMesh& raw, const TagIndex& index, Findings& findings) {
   std::vector<RawCell> cells;
   std::vector<std::uint64_t> lost;
@@ -44,8 +45,8 @@ std::vector<RawCell> gather_cells(const RawMesh& raw, const TagIndex& index, Fin
             "{} cells have nodes that the file does not have: element {}", lost.size(),
             examples(lost.size(), [&](std::size_t k) { return fmt::format("{}", lost[k]); })),
         "a mesh as Gmsh writes it");
-  if (!std::ranges::is_sorted(cells, {}, &RawCell::tag))
-    std::ranges::stable_sort(cells, {}, &RawCell::tag);
+  const auto key = [](const RawCell& c) { return std::tuple(c.entity, n_corners(c.nodes), c.tag); };
+  if (!std::ranges::is_sorted(cells, {}, key)) std::ranges::stable_sort(cells, {}, key);
   return cells;
 }
 
