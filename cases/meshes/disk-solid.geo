@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A disk without a hole, centred at the origin: triangles inside, recombined to quadrilaterals where
-// that makes good ones.
+// A disk without a hole, centred at the origin: quadrilaterals, and triangles where they are better.
 //   gmsh -2 disk-solid.geo                   R = 0.3 m, 60 elements along the rim
 //   gmsh -2 disk-solid.geo -setnumber N 120 -o fine.msh
 DefineConstant[ R = {0.3, Name "radius"}, N = {60, Name "elements along the rim"} ];

@@ -38,8 +38,9 @@ EdgeTable::EdgeTable(const Mesh& mesh) : first_(mesh.n_nodes() + 1, 0) {
 std::span<const CellEdge> EdgeTable::find(Edge edge) const {
   const auto low = static_cast<std::size_t>(std::ranges::min(edge));
   const auto all = std::span(edges_).subspan(first_[low], first_[low + 1] - first_[low]);
-  const auto found = std::ranges::equal_range(all, std::ranges::max(edge), {}, &CellEdge::high);
-  return {found.begin(), found.end()};
+  const int high = std::ranges::max(edge);
+  return {std::ranges::lower_bound(all, high, {}, &CellEdge::high),
+          std::ranges::upper_bound(all, high, {}, &CellEdge::high)};
 }
 
 std::vector<Edge> boundary_edges(const EdgeTable& table) {

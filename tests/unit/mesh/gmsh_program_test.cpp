@@ -4,6 +4,8 @@
 
 #include <gtest/gtest.h>
 
+#include <sys/wait.h>
+
 #include <csignal>
 #include <cstdlib>
 #include <optional>
@@ -98,6 +100,7 @@ TEST(GmshProgram, CountsAreNotBelieved) {
     std::string stream = std::string(start) + none;
     for (int j = 0; j < k; ++j) stream += none;
     expect(read_with_script(stream + absurd + "sleep 100"), "file", "no working mesh reader");
+    EXPECT_EQ(waitpid(-1, nullptr, WNOHANG), -1) << "nothing is left behind";
   }
 }
 
