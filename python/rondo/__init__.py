@@ -3,6 +3,7 @@
 from .errors import Error, NewerSchemaError, NotARunError, UnfinishedRunError, UnknownNameError
 from .history import History
 from .mesh import Mesh
+from .modes import Modes, open_modes
 from .paper import Paper, open_paper
 from .pod import Pod, open_pod
 from .run import Run
@@ -10,5 +11,6 @@ from .run import open_run as open
 
 __version__ = "0.1.0"
 
-__all__ = ["Error", "History", "Mesh", "NewerSchemaError", "NotARunError", "Paper", "Pod", "Run",
-           "UnfinishedRunError", "UnknownNameError", "open", "open_paper", "open_pod"]
+__all__ = ["Error", "History", "Mesh", "Modes", "NewerSchemaError", "NotARunError", "Paper", "Pod",
+           "Run", "UnfinishedRunError", "UnknownNameError", "open", "open_modes", "open_paper",
+           "open_pod"]

@@ -10,7 +10,7 @@ from collections.abc import Sequence
 
 import matplotlib
 
-from rondo import __version__, open_paper
+from rondo import __version__, open_modes, open_paper, style
 from rondo import open as open_run
 from rondo.errors import Error, UnfinishedRunError
 from rondo.run import Run
@@ -37,6 +37,13 @@ def _parser() -> argparse.ArgumentParser:
                            "%(default)s")
     film.add_argument("--frames", type=int, help="pictures; default at most 300")
     film.add_argument("--fps", type=int, help="pictures a second; default at most 30")
+
+    campbell = commands.add_parser("campbell", help="draw the frequencies of a body over its spin")
+    campbell.add_argument("directory", type=pathlib.Path, help="of `rondo modes`")
+    campbell.add_argument("--frame", choices=("turning", "fixed"), default="turning",
+                          help="in which frequencies are seen; default %(default)s")
+    campbell.add_argument("-o", "--output", type=pathlib.Path, metavar="FOLDER",
+                          help="where campbell-FRAME.png and .svg go; default DIRECTORY/figures")
 
     means = commands.add_parser("means", help="print the mean forces of the ground on the body")
     means.add_argument("directory", type=pathlib.Path, nargs="+", help="of `rondo run`")
@@ -86,10 +93,17 @@ def _means(options: argparse.Namespace) -> None:
         print(_mean_forces(run, options.from_time, options.to_time))
 
 
+def _campbell(options: argparse.Namespace) -> None:
+    figure = open_modes(options.directory).plot_campbell(options.frame)
+    for path in style.save(figure, _folder(options) / f"campbell-{options.frame}"):
+        print(path)
+
+
 def main(arguments: Sequence[str] | None = None) -> int:
     options = _parser().parse_args(arguments)
     matplotlib.use("Agg")
-    commands = {"figures": _figures, "animate": _animate, "means": _means}
+    commands = {"figures": _figures, "animate": _animate, "means": _means,
+                "campbell": _campbell}
     try:
         commands[options.command](options)
         sys.stdout.flush()
@@ -103,7 +117,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
         print(f"rondo: {reason}", file=sys.stderr)
         return WRONG
     except OSError as reason:
-        figures = options.command == "figures"  # what else writes has said so itself
+        figures = options.command in ("figures", "campbell")  # what else writes has said so itself
         place = reason.filename or (_folder(options) if figures else "output")
         advice = "; choose another -o" if figures else ""
         print(f"rondo: {place}: {reason.strerror or reason}{advice}", file=sys.stderr)

@@ -23,6 +23,7 @@ KINDS = {  # what is in a directory with this file, and who opens it
     "paper.json": ("a paper study", "rondo.open_paper"),
     "pod.json": ("a POD", "rondo.open_pod"),
     "run.json": ("a run", "rondo.open"),
+    "modes.json": ("modes of a body", "rondo.open_modes"),
 }
 
 

@@ -99,8 +99,8 @@ void add_rotational(const CyclicBody& body, HarmonicProblem& problem, double spi
   RotationalRoots roots = rotational_roots(problem.dense_rotational(), spin);
   std::vector<Mode> rotation = modes_of(body, spin, 0, false, roots.rotation);
   rotation.front().wave = Wave::rigid;
+  rotation.front().growth = roots.growth;
   out.modes.insert(out.modes.begin(), rotation.front());
-  out.rotation_growth = roots.growth;
   for (HarmonicRoot& root : roots.vibrations) lowest.add({std::move(root), 0, false, 1});
 }
 

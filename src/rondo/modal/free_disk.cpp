@@ -36,9 +36,10 @@ RotationalRoots rotational_roots(const Eigen::MatrixXd& a, double spin) {
     return r;
   };
   RotationalRoots out;
-  out.rotation = root(order[0]);
+  const Index rotation = lambda(order[0]).real() > lambda(order[1]).real() ? order[0] : order[1];
+  out.rotation = root(rotation);
   out.rotation.omega = std::abs(out.rotation.omega);
-  out.growth = std::max(lambda(order[0]).real(), lambda(order[1]).real());
+  out.growth = std::max(0.0, lambda(rotation).real());
   for (std::size_t k = 2; k < order.size(); ++k)
     if (lambda(order[k]).imag() > 0.0) out.vibrations.push_back(root(order[k]));
   return out;

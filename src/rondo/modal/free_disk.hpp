@@ -9,8 +9,8 @@ namespace rondo::modal {
 
 struct RotationalRoots {
   std::vector<HarmonicRoot> vibrations;  ///< ω > 0, ascending
-  HarmonicRoot rotation;                 ///< ω = 0 where it is held back, |Re ω| where it is not
-  double growth = 0.0;                   ///< of the rotation, > 0 where nothing holds it back [1/s]
+  HarmonicRoot rotation;
+  double growth = 0.0;  ///< of the rotation, > 0 where nothing holds it back [1/s]
 };
 
 /// By a dense eigensolver without symmetry.

@@ -17,10 +17,11 @@ namespace rondo::modal {
 /// How a mode goes round in the turning frame; forward: in the sense of the spin.
 enum class Wave { unknown, standing, forward, backward, rigid };
 
-/// The motion Re[(real + i imaginary) e^{iωt}], ω >= 0.
+/// The motion Re[(real + i imaginary) e^{(γ + iω) t}], ω >= 0.
 struct Mode {
-  double omega = 0.0;  ///< ω in the turning frame [rad/s]
-  int diameters = -1;  ///< n: harmonic of a body of equal sectors; -1: unknown
+  double omega = 0.0;   ///< ω in the turning frame [rad/s]
+  double growth = 0.0;  ///< γ: 0 but for the rotation of a spinning free disk (8.5) [1/s]
+  int diameters = -1;   ///< n: harmonic of a body of equal sectors; -1: unknown
   Wave wave = Wave::unknown;
   std::vector<Vec2> real, imaginary;  ///< (n) φ, φᴴ M φ = 1, largest component real [(kg/m)^(-1/2)]
 };
@@ -33,9 +34,6 @@ struct Modes {
   int unstable = 0;
   /// Whether a count of the eigenvalues below the last one has shown that none is missing (8.4).
   bool counted = false;
-  /// Of the rotation of a spinning free disk, which the model without stiffening does not hold
-  /// back (8.5) [1/s].
-  double rotation_growth = 0.0;
   /// Largest dimension of the spaces in which the modes were sought.
   int dimension = 0;
 };

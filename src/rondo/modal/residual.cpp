@@ -25,7 +25,8 @@ struct Products {
 };
 
 double residual_of(Products p, std::span<const double> mass, double spin, const Mode& mode) {
-  const double w = mode.omega, scale = squared(p.d_real) + squared(p.d_imaginary);
+  const double scale = squared(p.d_real) + squared(p.d_imaginary);
+  const Vec2 lambda{mode.growth, mode.omega}, square = lambda * lambda;  // as complex numbers
   Field rest_real = p.k_real, rest_imaginary = p.k_imaginary;
   for (std::size_t i = 0; i < mass.size(); ++i) {
     const double m = mass[i];
@@ -33,12 +34,15 @@ double residual_of(Products p, std::span<const double> mass, double spin, const 
     if (p.d_real[i] == Vec2{} && p.d_imaginary[i] == Vec2{}) continue;  // clamped
     p.k_real[i] -= spin * spin * m * r;
     p.k_imaginary[i] -= spin * spin * m * q;
-    rest_real[i] = p.k_real[i] - w * w * m * r - 2.0 * w * spin * m * turn90(q);
-    rest_imaginary[i] = p.k_imaginary[i] - w * w * m * q + 2.0 * w * spin * m * turn90(r);
+    const double turn = 2.0 * spin;
+    rest_real[i] = p.k_real[i] + m * (square.x * r - square.y * q) +
+                   m * turn90(turn * lambda.x * r - turn * lambda.y * q);
+    rest_imaginary[i] = p.k_imaginary[i] + m * (square.x * q + square.y * r) +
+                        m * turn90(turn * lambda.x * q + turn * lambda.y * r);
   }
   const double rest = squared(rest_real) + squared(rest_imaginary);
   const double size = squared(p.k_real) + squared(p.k_imaginary);
-  const bool still = mode.wave == Wave::rigid && w == 0.0;
+  const bool still = mode.wave == Wave::rigid && lambda == Vec2{};
   return std::sqrt(rest / (still ? scale : size));
 }
 

@@ -6,8 +6,8 @@
 
 namespace rondo::modal {
 
-/// ‖(K' - ω²M + 2iωsMJ) φ‖ / ‖K' φ‖; where K'φ is round-off, of the rigid-body motions at rest,
-/// over ‖D φ‖ instead, D the blocks of K on its diagonal.
+/// ‖(K' + λ²M + 2λsMJ) φ‖ / ‖K' φ‖, λ = γ + iω; where K'φ is round-off, of the rigid-body motions
+/// at rest, over ‖D φ‖ instead, D the blocks of K on its diagonal.
 double residual(const CyclicBody& body, double spin, const Mode& mode);
 double residual(const MeshBody& body, double spin, const Mode& mode);
 

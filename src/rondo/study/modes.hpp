@@ -36,7 +36,7 @@ struct SpinSummary {
   double angular_velocity = 0.0;  ///< [rad/s]
   int modes = 0, rigid = 0, unstable = 0, dimension = 0;
   bool counted = false;
-  double rotation_growth = 0.0;  ///< [1/s]
+  double growth = 0.0;  ///< of the rotation of a free disk [1/s]
 };
 
 struct ModesReport {

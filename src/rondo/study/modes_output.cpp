@@ -34,7 +34,7 @@ Json summary_of(const SpinSummary& s) {
   j["counted"] = s.counted;
   j["krylov_dimension"] = s.dimension;
   if (s.unstable > 0) j["unstable"] = s.unstable;
-  if (s.rotation_growth > 0.0) j["rotation_growth"] = s.rotation_growth;
+  if (s.growth > 0.0) j["rotation_growth"] = s.growth;
   return j;
 }
 
