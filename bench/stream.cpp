@@ -6,9 +6,6 @@
 #include <cmath>
 
 #include "rondo/core/contract.hpp"
-#if defined(__x86_64__)
-#include <immintrin.h>
-#endif
 
 namespace rondo::bench {
 namespace {
@@ -72,6 +69,25 @@ struct Pointers {
 
 constexpr int peak_sums = 12;  // two units of latency 4 need 8; registers hold 12 on all levels
 
+/// n times as many multiplications and additions as `peak_sums` registers of that width hold, which
+/// wait for those of their own place only.
+template <int Width, bool Fused>
+[[gnu::always_inline]] inline double multiply_add(long n) {
+  constexpr double x = 0.999999, y = 1e-6;
+  double sum[peak_sums][Width];
+  for (auto& s : sum)
+    for (double& lane : s) lane = y;
+  for (long i = 0; i < n; ++i)
+#pragma GCC unroll 12
+    for (auto& s : sum)
+#pragma GCC unroll 8
+      for (double& lane : s) lane = Fused ? __builtin_fma(lane, x, y) : lane * x + y;
+  double total = 0.0;
+  for (const auto& s : sum)
+    for (const double lane : s) total += lane;
+  return total;
+}
+
 #if defined(__x86_64__)
 [[gnu::target("avx512f,prefer-vector-width=512")]] double pass_avx512(const Pointers& p) {
   return pass(p);
@@ -79,46 +95,19 @@ constexpr int peak_sums = 12;  // two units of latency 4 need 8; registers hold 
 [[gnu::target("avx2")]] double pass_avx2(const Pointers& p) {
   return pass(p);
 }
-
-[[gnu::target("avx512f")]] double multiply_add_avx512(long n) {
-  const __m512d x = _mm512_set1_pd(0.999999), y = _mm512_set1_pd(1e-6);
-  __m512d sum[peak_sums];
-  for (auto& s : sum) s = y;
-  for (long i = 0; i < n; ++i)
-#pragma GCC unroll 12
-    for (auto& s : sum) s = _mm512_fmadd_pd(s, x, y);
-  double total = 0.0;
-  for (const auto& s : sum)
-    for (int lane = 0; lane < 8; ++lane) total += s[lane];
-  return total;
+[[gnu::target("avx512f,prefer-vector-width=512")]] double multiply_add_avx512(long n) {
+  return multiply_add<8, true>(n);
 }
 [[gnu::target("avx2,fma")]] double multiply_add_avx2(long n) {
-  const __m256d x = _mm256_set1_pd(0.999999), y = _mm256_set1_pd(1e-6);
-  __m256d sum[peak_sums];
-  for (auto& s : sum) s = y;
-  for (long i = 0; i < n; ++i)
-#pragma GCC unroll 12
-    for (auto& s : sum) s = _mm256_fmadd_pd(s, x, y);
-  double total = 0.0;
-  for (const auto& s : sum)
-    for (int lane = 0; lane < 4; ++lane) total += s[lane];
-  return total;
+  return multiply_add<4, true>(n);
 }
 #endif
 
 double pass_baseline(const Pointers& p) {
   return pass(p);
 }
-/// Two wide by the compiler, as all processors of the kind can.
 double multiply_add_baseline(long n) {
-  double sum[2 * peak_sums];
-  for (double& s : sum) s = 1e-6;
-  for (long i = 0; i < n; ++i)
-#pragma GCC unroll 24
-    for (double& s : sum) s = s * 0.999999 + 1e-6;
-  double total = 0.0;
-  for (const double s : sum) total += s;
-  return total;
+  return multiply_add<2, false>(n);
 }
 
 struct Level {
