@@ -21,15 +21,26 @@ import shutil
 import subprocess
 import sys
 import tempfile
-from typing import Any
+from typing import Any, NamedTuple
 
 RECORD = pathlib.Path(__file__).resolve().with_name("instructions.json")
 TOLERANCE = 0.02
-STEPS = 64
-OPERATORS = ("cyclic", "sparse")
 MOTIONS = ("free_spin", "rolling")
 LEVELS = ("avx2", "baseline")
 SKIPPED = 77
+
+
+class Counted(NamedTuple):
+    """What is counted: mesh as one_step names it; steps of the call, whole passes."""
+    operator: str
+    mesh: str
+    steps: int
+    levels: tuple[str, ...] = LEVELS
+
+
+# What is particular to chunks and treads shows at one level.
+COUNTED = (Counted("cyclic", "ring", 64), Counted("sparse", "ring", 64),
+           Counted("cyclic", "chunks", 8, ("avx2",)), Counted("cyclic", "treaded", 32, ("avx2",)))
 
 
 class Skip(Exception):
@@ -59,28 +70,29 @@ def circumstances(program: str) -> dict[str, str]:
     return {"compiler": compiler, "flags": flags, "valgrind": valgrind_version()}
 
 
-def count(program: str, operator: str, motion: str, level: str) -> int:
-    """Instructions of one step, the mean of STEPS."""
+def count(program: str, what: Counted, motion: str, level: str) -> int:
+    """Instructions of one step, the mean of what.steps."""
+    words = [program, what.operator, motion, what.mesh, str(what.steps)]
     with tempfile.TemporaryDirectory() as folder:
         out = pathlib.Path(folder) / "callgrind.out"
         run = subprocess.run(
             ["valgrind", "--tool=callgrind", f"--callgrind-out-file={out}",
-             "--toggle-collect=rondo_measured_steps", program, operator, motion, str(STEPS)],
+             "--toggle-collect=rondo_measured_steps", *words],
             env=os.environ | {"RONDO_DISPATCH": level, "OMP_NUM_THREADS": "1"},
             capture_output=True, text=True, check=False)
         if run.returncode != 0:
-            sys.exit(f"{program} {operator} {motion} {STEPS} with RONDO_DISPATCH={level} ended "
-                     f"with exit code {run.returncode}:\n{run.stdout}{run.stderr}")
+            sys.exit(f"{' '.join(words)} with RONDO_DISPATCH={level} ended with exit code "
+                     f"{run.returncode}:\n{run.stdout}{run.stderr}")
         total = re.search(r"^totals: (\d+)$", out.read_text(), re.MULTILINE)
     if total is None or int(total.group(1)) == 0:
         sys.exit("callgrind counted nothing: rondo_measured_steps was not called, or not found")
-    return round(int(total.group(1)) / STEPS)
+    return round(int(total.group(1)) / what.steps)
 
 
 def count_all(program: str) -> dict[str, int]:
-    """Instructions of one step by "operator/motion/level"."""
-    return {f"{operator}/{motion}/{level}": count(program, operator, motion, level)
-            for operator in OPERATORS for motion in MOTIONS for level in LEVELS}
+    """Instructions of one step by "operator/mesh/motion/level"."""
+    return {f"{what.operator}/{what.mesh}/{motion}/{level}": count(program, what, motion, level)
+            for what in COUNTED for motion in MOTIONS for level in what.levels}
 
 
 def compare(recorded: dict[str, Any], program: str) -> int:
@@ -120,8 +132,8 @@ def main() -> int:
         if arguments.check:
             return compare(json.loads(RECORD.read_text()), arguments.program)
         check_processor()
-        record = {**circumstances(arguments.program), "mesh": "12x180", "steps": STEPS,
-                  "instructions_per_step": count_all(arguments.program)}
+        record: dict[str, Any] = {**circumstances(arguments.program),
+                                  "instructions_per_step": count_all(arguments.program)}
         RECORD.write_text(json.dumps(record, indent=2) + "\n")
         print(RECORD.read_text(), end="")
         return 0

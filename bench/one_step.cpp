@@ -2,13 +2,14 @@
 /// Steps for bench/instructions.py to count the instructions of: what is counted is all that
 /// rondo_measured_steps does (callgrind's --toggle-collect).
 ///
-///     one_step OPERATOR MOTION STEPS     cyclic|sparse, free_spin|rolling, more than 0
-///     one_step compare                   do all operators of the benchmarks make the same steps?
-///     one_step build                     compiler and flags of this build
+///     one_step OPERATOR MOTION MESH STEPS   cyclic|sparse, free_spin|rolling, ring|chunks|treaded
+///     one_step compare                      do all operators of the benchmarks make the same
+///     steps? one_step build                        compiler and flags of this build
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cstdlib>
+#include <optional>
 #include <string_view>
 #include <vector>
 
@@ -23,19 +24,40 @@ extern "C" [[gnu::noinline]] void rondo_measured_steps(dynamics::Integrator& int
 
 namespace {
 
-int measure(bench::Steps steps, bool rolling, std::size_t n_steps) {
+mesh::Disk smooth(int radial, int circumferential) {
   mesh::Disk disk;
-  disk.radial = 12;
-  disk.circumferential = 180;
-  bench::Problem problem(disk);
-  const auto integrator = problem.integrator(steps, {.rolling = rolling});
-  std::vector<dynamics::StepReport> reports(n_steps);
+  disk.radial = radial;
+  disk.circumferential = circumferential;
+  return disk;
+}
+
+/// One of each way in which the cyclic operator goes over a disk.
+std::optional<mesh::Disk> disk_named(std::string_view name) {
+  if (name == "ring") return smooth(12, 180);     // one chunk, in the cache: step by step
+  if (name == "chunks") return smooth(14, 1600);  // two chunks, four steps in a pass
+  if (name != "treaded") return std::nullopt;     // sectors of several columns, no mirrors
+  mesh::Disk disk = smooth(9, 0);
+  disk.tread = mesh::Tread{60, 0.02, 3, 1, 2};
+  return disk;
+}
+
+struct Measured {
+  bench::Steps steps;
+  bool rolling;
+  mesh::Disk disk;
+  std::size_t n_steps;
+};
+
+int measure(const Measured& m) {
+  bench::Problem problem(m.disk);
+  const auto integrator = problem.integrator(m.steps, {.rolling = m.rolling});
+  std::vector<dynamics::StepReport> reports(m.n_steps);
   integrator->advance(reports);  // lazy loading and the like, contact there
   rondo_measured_steps(*integrator, reports);
   const dynamics::StepReport& last = reports.back();
   fmt::print("relative residual {:.3g}, nodes in contact {}\n", last.balance.relative,
              last.contact.nodes);
-  return last.balance.relative < 1e-12 && rolling == (last.contact.nodes > 0) ? 0 : 1;
+  return last.balance.relative < 1e-12 && m.rolling == (last.contact.nodes > 0) ? 0 : 1;
 }
 
 /// Largest difference of displacements and velocities over their largest, after rolling for long
@@ -52,10 +74,7 @@ double difference(const dynamics::State& a, const dynamics::State& b) {
 }
 
 int compare() {
-  mesh::Disk disk;
-  disk.radial = 5;
-  disk.circumferential = 75;
-  bench::Problem problem(disk);
+  bench::Problem problem(smooth(5, 75));
   const auto after_rolling = [&](bench::Steps steps, int threads) {
     const auto integrator = problem.integrator(steps, {.rolling = true, .threads = threads});
     std::vector<dynamics::StepReport> reports(300);
@@ -77,7 +96,7 @@ int compare() {
 
 int refuse() {
   fmt::print(stderr,
-             "usage: one_step cyclic|sparse free_spin|rolling STEPS\n"
+             "usage: one_step cyclic|sparse free_spin|rolling ring|chunks|treaded STEPS\n"
              "       one_step compare\n"
              "       one_step build\n");
   return 2;
@@ -92,11 +111,12 @@ int main(int argc, char** argv) {
     return 0;
   }
   if (words.size() == 1 && words[0] == "compare") return compare();
-  if (words.size() != 3) return refuse();
-  const int n = std::atoi(argv[3]);
+  if (words.size() != 4) return refuse();
+  const std::optional<mesh::Disk> disk = disk_named(words[2]);
+  const int n = std::atoi(argv[4]);
   if ((words[0] != "cyclic" && words[0] != "sparse") ||
-      (words[1] != "free_spin" && words[1] != "rolling") || n <= 0)
+      (words[1] != "free_spin" && words[1] != "rolling") || !disk || n <= 0)
     return refuse();
-  return measure(words[0] == "cyclic" ? bench::Steps::cyclic : bench::Steps::sparse,
-                 words[1] == "rolling", static_cast<std::size_t>(n));
+  return measure({words[0] == "cyclic" ? bench::Steps::cyclic : bench::Steps::sparse,
+                  words[1] == "rolling", *disk, static_cast<std::size_t>(n)});
 }
