@@ -28,12 +28,13 @@ PROGRAMS |= {m: f"unit/unit_{m}" for m in ("core", "mesh", "fem", "contact", "dy
                                            "reduction", "io", "study")}
 
 SCRIPTS = {"cli": "test_run.py", "disk": "test_full_disk.py", "crush": "test_crush.py",
-           "pod": "test_pod.py", "paper": "test_paper.py", "ring": "test_ring.py"}
+           "pod": "test_pod.py", "paper": "test_paper.py", "calls": "test_paper_calls.py",
+           "ring": "test_ring.py"}
 
 # @file in src/rondo, then of each mutation in it: name | old text => new text | tests.
 # \n is a new line; a line that begins with spaces continues the one above. The tests are
-# program:filter, with the letters of PROGRAMS and gtest's filters, or cli:, disk:, crush:, pod:,
-# paper: and ring:pattern (unittest's -k).
+# program:filter, with the names in PROGRAMS and gtest's filters, or name:pattern with those in
+# SCRIPTS (unittest's -k).
 TABLE = (ROOT / "tests" / "mutations.txt").read_text()
 
 

@@ -1,16 +1,12 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""rondo run and rondo check on real cases: files, their contents, exit codes, interruption."""
+"""rondo run on real cases: files, their contents, exit codes, the same bits."""
 import os
-import signal
-import subprocess
-import time
 import unittest
 
 import h5py
 import numpy as np
 
-from program import (PROGRAM, ProgramTest, ROOT, RunTest, SMALL, estimated_memory, history,
-                     replaced, run, summary)
+from program import (ProgramTest, ROOT, RunTest, SMALL, history, replaced, run, summary)
 
 
 class Run(RunTest):
@@ -229,179 +225,6 @@ class Run(RunTest):
         self.run_ok(text.replace("circumferential = 40", "circumferential = 120"))
         self.assertGreater(summary(self.out)["contact"]["pairs_solved"], 0)
         self.assertEqual(summary(self.out)["contact"]["pairs_not_converged"], 0)
-
-
-class Interrupt(ProgramTest):
-    LONG = replaced(SMALL, "end", "end = 500.0").replace("snapshots = 11", "snapshots = 100000")
-
-    def started(self):
-        out = self.folder / "out"
-        process = subprocess.Popen([PROGRAM, "run", str(self.case(self.LONG)), "-o", str(out)],
-                                   stderr=subprocess.PIPE, text=True)
-        self.addCleanup(process.stderr.close)
-        deadline = time.time() + 60
-        while time.time() < deadline:  # until rows come
-            path = out / "history.csv"
-            if path.exists() and path.stat().st_size > 20000:
-                return process, out
-            time.sleep(0.05)
-        process.kill()
-        self.fail("the run did not start")
-
-    def test_sigint_and_sigterm_end_cleanly(self):
-        for number in (signal.SIGINT, signal.SIGTERM):
-            with self.subTest(number):
-                process, out = self.started()
-                process.send_signal(number)
-                self.assertEqual(process.wait(timeout=60), 130)
-                s = summary(out)
-                self.assertEqual(s["status"], "interrupted")
-                with h5py.File(out / "results.h5") as f:
-                    self.assertEqual(len(f["/frame/time"]), s["snapshots"])
-                    self.assertFalse(np.isnan(f["/frame/time"][:]).any())
-                self.assertGreater(len(history(out)["time_s"]), 10)
-                self.assertAlmostEqual(history(out)["time_s"][-1], s["end_time"], places=12)
-                for path in out.iterdir():
-                    path.unlink()
-
-    def test_sigkill_leaves_readable_files(self):
-        process, out = self.started()
-        process.kill()
-        process.wait()
-        self.assertEqual(summary(out)["status"], "running")
-        with h5py.File(out / "results.h5") as f:
-            t = f["/frame/time"][:]
-            written = np.count_nonzero(~np.isnan(t))
-            self.assertGreater(written, 1)
-            self.assertTrue(np.all(np.diff(t[:written]) > 0))
-            u = f["/snapshots/displacement"][written - 1]
-            self.assertTrue(np.isfinite(u).all())
-            self.assertGreater(np.abs(u).max(), 0)
-        lines = (out / "history.csv").read_text().splitlines()
-        self.assertGreater(len(lines), 10)
-
-    def test_a_signal_before_the_loop_ends_at_once_and_leaves_nothing(self):
-        big = replaced(replaced(SMALL, "radial", "radial = 150"), "circumferential",
-                       "circumferential = 3000")
-        out = self.folder / "out"
-        process = subprocess.Popen([PROGRAM, "run", str(self.case(big)), "-o", str(out),
-                                    "--set", "solver.operator=sparse"],  # its K takes seconds
-                                   stderr=subprocess.DEVNULL)
-        time.sleep(0.5)
-        process.send_signal(signal.SIGINT)
-        self.assertNotEqual(process.wait(timeout=20), 0)
-        self.assertFalse(out.exists())
-
-
-class Check(ProgramTest):
-    def test_check_says_what_a_run_would_cost_and_writes_nothing(self):
-        done = run("check", self.case())
-        self.assertEqual(done.returncode, 0, done.stderr)
-        for word in ("nodes", "160", "critical step", "steps", "wave speeds", "156.447", "memory",
-                     "disk", "time"):
-            self.assertIn(word, done.stdout)
-        self.assertEqual([p.name for p in self.folder.iterdir()], ["case.toml"])
-
-    def test_disk_estimate_is_what_a_run_takes(self):
-        run("run", self.case(), "-o", self.folder / "out")
-        size = sum(p.stat().st_size for p in (self.folder / "out").iterdir())
-        said = run("check", self.folder / "case.toml").stdout
-        number, unit = [line.split()[2:4] for line in said.splitlines() if line.startswith("disk")][0]
-        estimate = float(number) * {"kB": 1e3, "MB": 1e6, "GB": 1e9}[unit]
-        self.assertLess(abs(estimate - size), 0.35 * size)
-
-    def test_memory_estimate_is_what_a_run_takes(self):
-        # A smaller run is below the memory of this script, which the system counts to it.
-        # The largest is above the size from which no stiffness is assembled.
-        for radial, spin in ((60, 0.0), (60, 30.0), (120, 30.0)):
-            text = replaced(SMALL, "radial", f"radial = {radial}")
-            text = replaced(text, "circumferential", f"circumferential = {20 * radial}")
-            text = replaced(text, "angular_velocity", f"angular_velocity = {spin}")
-            text = replaced(replaced(text, "end", "end = 1e-6"), "snapshots", "snapshots = 0")
-            out = self.folder / f"out{radial}-{spin}"
-            self.assertEqual(run("run", self.case(text), "-o", out).returncode, 0)
-            ratio = estimated_memory(self.folder / "case.toml") / summary(out)["peak_memory_bytes"]
-            self.assertGreater(ratio, 0.7, (radial, spin))
-            self.assertLess(ratio, 1.4, (radial, spin))
-
-    def test_every_case_of_the_project_is_right(self):
-        cases = sorted((ROOT / "cases").glob("*.toml"))
-        self.assertGreaterEqual(len(cases), 5)
-        for path in cases:
-            with self.subTest(path.name):
-                self.assertTrue(path.read_text().startswith("#"))  # says what it shows
-                done = run("check", path)
-                self.assertEqual((done.returncode, done.stderr), (0, ""))
-
-
-class Program(ProgramTest):
-    def test_the_instruction_set_is_told_and_can_be_asked_for(self):
-        best = run("--version").stdout.split("kernels ")[1].rstrip(")\n")
-        forces = {}
-        for level in dict.fromkeys((best, "baseline")):
-            environment = os.environ | {"RONDO_DISPATCH": level}
-            out = self.folder / level
-            self.assertEqual(run("run", self.case(), "-o", out, env=environment).returncode, 0)
-            self.assertEqual(summary(out)["dispatch"], level)
-            self.assertIn(f"kernels {level})", run("--version", env=environment).stdout)
-            forces[level] = history(out)["force_y"]
-        scale = np.abs(forces[best]).max()
-        self.assertGreater(scale, 0.0)
-        self.assertLess(np.abs(forces[best] - forces["baseline"]).max(), 1e-8 * scale)
-
-    def test_an_unknown_instruction_set_is_refused_before_anything_is_built(self):
-        for command in (("run", self.case(), "-o", self.folder / "out"), ("check", self.case()),
-                        ("--version",)):
-            done = run(*command, env=os.environ | {"RONDO_DISPATCH": "sse9"})
-            self.assertEqual(done.returncode, 2, command)
-            for said in ("RONDO_DISPATCH = sse9", "baseline"):
-                self.assertIn(said, done.stderr, command)
-        self.assertFalse((self.folder / "out").exists())
-
-    def test_operators_give_the_same_to_round_off(self):
-        both = []
-        for operator in ("cyclic", "sparse"):
-            out = self.folder / operator
-            run("run", self.case(), "-o", out, "--set", f"solver.operator={operator}")
-            self.assertEqual(summary(out)["operator"], operator)
-            self.assertLess(summary(out)["energy_residual_relative"], 1e-13)
-            both.append(history(out))
-        for column in ("force_x", "force_y", "strain", "work_frame", "dissipation_friction"):
-            scale = np.abs(both[0][column]).max()
-            self.assertGreater(scale, 0.0, column)
-            self.assertLess(np.abs(both[0][column] - both[1][column]).max(), 1e-8 * scale, column)
-
-    def test_version_and_help(self):
-        self.assertRegex(run("--version").stdout, r"^rondo \d+\.\d+\.\d+ ")
-        for arguments in (["--help"], ["run", "--help"], ["check", "--help"]):
-            done = run(*arguments)
-            self.assertEqual(done.returncode, 0)
-            self.assertIn("Example:", done.stdout)
-
-    def test_no_progress_bar_where_there_is_no_terminal(self):
-        done = run("run", self.case(), "-o", self.folder / "out")
-        self.assertNotIn("\r", done.stderr)
-        self.assertIn("100 %", done.stderr)
-
-    def test_progress_bar_on_a_terminal(self):
-        import pty
-        try:
-            main, other = pty.openpty()
-        except OSError as error:
-            self.skipTest(f"no pseudo-terminal here: {error}")
-        process = subprocess.Popen([PROGRAM, "run", str(self.case()), "-o", str(self.folder / "out")],
-                                   stderr=other)
-        os.close(other)
-        said = b""
-        try:
-            while chunk := os.read(main, 4096):
-                said += chunk
-        except OSError:
-            pass  # the terminal closes with the program
-        os.close(main)
-        self.assertEqual(process.wait(), 0)
-        self.assertIn(b"steps/s", said)
-        self.assertIn(b"100 %", said)
 
 
 class BlasThreads(ProgramTest):
