@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <cmath>
 #include <random>
-#include <string>
 #include <vector>
 
 #include "rondo/contact/node_to_segment.hpp"
@@ -35,15 +34,17 @@ struct Scene {
   }
 };
 
+inline Vec2 free_velocity(const Scene& scene, const ContactRows& c) {
+  Vec2 w;
+  for (std::size_t k = 0; k < static_cast<std::size_t>(c.count); ++k)
+    w += contact::apply(c.block[k], scene.velocity[static_cast<std::size_t>(c.node[k])]);
+  return w;
+}
+
 inline CoupledProblem problem_of(const Scene& scene) {
   CoupledProblem p;
   contact::DelassusBuilder().build(scene.contacts, scene.response, p);
-  for (const ContactRows& c : scene.contacts) {
-    Vec2 w;
-    for (std::size_t k = 0; k < static_cast<std::size_t>(c.count); ++k)
-      w += contact::apply(c.block[k], scene.velocity[static_cast<std::size_t>(c.node[k])]);
-    p.free.push_back(w);
-  }
+  for (const ContactRows& c : scene.contacts) p.free.push_back(free_velocity(scene, c));
   p.friction = scene.friction;
   p.bounce = scene.bounce;
   return p;
@@ -68,9 +69,10 @@ inline Scene chain(const ChainShape& s) {
   std::vector<Vec2> x;
   const auto row = [&](int n, double shift, double y, double mass, Vec2 v) {
     for (int i = 0; i < n; ++i) {
+      const double at_end = i == 0 || i + 1 == n ? 0.5 : 1.0;
       x.push_back({(i + shift) / n, y + 1e-4 / n * r(random)});
-      scene.add_node(mass * (i == 0 || i + 1 == n ? 0.5 : 1.0),
-                     v + s.noise * Vec2{r(random), r(random)}, s.turn);
+      const Vec2 noise{r(random), r(random)};
+      scene.add_node(mass * at_end, v + s.noise * noise, s.turn);
     }
   };
   row(s.upper, 0.0, 0.0, 1.0 / s.upper, {s.shear, -s.press});
@@ -79,17 +81,32 @@ inline Scene chain(const ChainShape& s) {
     const auto at = [&](int k) { return x[static_cast<std::size_t>(k)]; };
     const auto touch = contact::touch_segment(at(p), at(a), at(b), 1.0);
     if (!touch) return;
-    scene.add(contact::node_rows(*touch, norm(at(b) - at(a)), p, a, b), s.friction);
-    Vec2 w;
-    const ContactRows& c = scene.contacts.back();
-    for (std::size_t k = 0; k < 3; ++k)
-      w += contact::apply(c.block[k], scene.velocity[static_cast<std::size_t>(c.node[k])]);
-    scene.bounce.back() = s.restitution * std::min(w.x, 0.0);
+    const ContactRows rows = contact::node_rows(*touch, norm(at(b) - at(a)), p, a, b);
+    scene.add(rows, s.friction, s.restitution * std::min(free_velocity(scene, rows).x, 0.0));
   };
   for (int p = 0; p < s.upper; ++p)  // the lower body is below its row: it is walked to the left
     for (int k = 0; k + 1 < s.lower; ++k) against(p, s.upper + k + 1, s.upper + k);
   for (int p = s.upper; s.both_ways && p < s.upper + s.lower; ++p)
     for (int k = 0; k + 1 < s.upper; ++k) against(p, k, k + 1);
+  return scene;
+}
+
+/// Each node of the upper row on two facets as well, which turn by `turn` [rad] between them.
+inline Scene chain_in_valleys(const ChainShape& s, double turn) {
+  Scene scene = chain(s);
+  for (int p = 0; p < s.upper; ++p)
+    for (const double side : {-0.5, 0.5})
+      scene.add(contact::ground_rows(p, rotation(0.5 * 3.141592653589793 + side * turn)),
+                s.friction);
+  return scene;
+}
+
+/// Every contact n times.
+inline Scene repeated(Scene scene, int n) {
+  const Scene once = scene;
+  for (int i = 1; i < n; ++i)
+    for (std::size_t j = 0; j < once.contacts.size(); ++j)
+      scene.add(once.contacts[j], once.friction[j], once.bounce[j]);
   return scene;
 }
 

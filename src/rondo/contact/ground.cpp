@@ -138,19 +138,22 @@ std::size_t Ground::nearest(Vec2 x, Projection& projection) const noexcept {
       best = k;
     }
   }
-  // Where the corner itself is nearest, both facets are equally far; outside an acute corner the
-  // point is behind the line of one of them, and the other tells that it is outside.
-  const auto rather = [&](std::size_t other) {
+  // Where a corner itself is nearest, both facets are equally far, and the point may be on the
+  // wrong side of the line of one: it is outside a convex corner if it is before either facet,
+  // inside a concave one if it is behind either.
+  const auto at_corner = [&](std::size_t other, bool convex) {
     const Projection candidate = project(facets_[other], x);
-    if (candidate.gap <= projection.gap) return;
+    if (convex ? candidate.gap <= projection.gap : candidate.gap >= projection.gap) return;
     projection = candidate;
     best = other;
   };
   const Facet& f = facets_[best];
-  if (f.sharp_end && projection.along == f.to)
-    rather(best + 1);
-  else if (best > 0 && facets_[best - 1].sharp_end && projection.along == f.from)
-    rather(best - 1);
+  if ((f.sharp_end || f.concave_end) && projection.along == f.to) {
+    at_corner(best + 1, f.sharp_end);
+  } else if (best > 0 && projection.along == f.from) {
+    const Facet& before = facets_[best - 1];
+    if (before.sharp_end || before.concave_end) at_corner(best - 1, before.sharp_end);
+  }
   return best;
 }
 

@@ -3,6 +3,7 @@
 /// anew only when a node has moved by more than a skin (docs/theory.md, 4.8).
 #pragma once
 #include <array>
+#include <cstddef>
 #include <span>
 #include <vector>
 
@@ -30,6 +31,9 @@ class SegmentGrid {
   void near(Vec2 p, std::vector<int>& edges_out) const;
 
   [[nodiscard]] long long builds() const noexcept { return builds_; }
+  [[nodiscard]] std::size_t cells() const noexcept {
+    return static_cast<std::size_t>(columns_) * static_cast<std::size_t>(rows_);
+  }
 
  private:
   struct Box {

@@ -97,6 +97,74 @@ TEST(Ground, AbscissaIsTheLengthOfTheSurface) {
   EXPECT_NEAR(ground.abscissa({1.0, 0.2}), 10.0 + wall + arc + 0.98, 1e-13);
 }
 
+TEST(Ground, SharpConvexCornersAreListed) {
+  const Ground ground{GroundShape{.profile = ledge.profile}};
+  ASSERT_EQ(ground.corners().size(), 1u);
+  const Corner& corner = ground.corners()[0];
+  EXPECT_EQ(corner.position, (Vec2{0.0, 0.0}));
+  EXPECT_EQ(corner.normals[0], (Vec2{-1.0, 0.0}));
+  EXPECT_EQ(corner.normals[1], (Vec2{0.0, 1.0}));
+  EXPECT_TRUE(Ground{ledge}.corners().empty());  // a fillet rounds it
+  const GroundShape in_line{.profile = {{-1, 0}, {0, 0}, {1, 0}, {2, -1}, {3, 0}, {4, 0}}};
+  ASSERT_EQ(Ground{in_line}.corners().size(), 2u);
+  EXPECT_EQ(Ground{in_line}.corners()[0].position, (Vec2{1.0, 0.0}));
+  EXPECT_EQ(Ground{in_line}.corners()[1].position, (Vec2{3.0, 0.0}));
+}
+
+TEST(Ground, BesideASharpCornerTheNearerFacetHolds) {
+  const Ground ground{GroundShape{.profile = ledge.profile}};
+  const auto hold = [&](Vec2 x) {
+    const Touches t = ground.touches(x);
+    EXPECT_EQ(t.count, 1);
+    return t.at[0];
+  };
+  EXPECT_EQ(hold({0.01, -0.002}).normal, (Vec2{0.0, 1.0}));
+  EXPECT_NEAR(hold({0.01, -0.002}).gap, -0.002, 1e-18);
+  EXPECT_EQ(hold({0.002, -0.01}).normal, (Vec2{-1.0, 0.0}));
+  EXPECT_NEAR(hold({0.002, -0.01}).gap, -0.002, 1e-18);
+  EXPECT_EQ(hold({0.0, 0.0}).gap, 0.0);
+  EXPECT_EQ(ground.touches({-0.002, 0.001}).count, 0);
+  EXPECT_EQ(ground.touches({-0.002, -0.01}).count, 0);
+  EXPECT_NEAR(ground.distance({-0.003, 0.004}), 0.005, 1e-17);  // from the corner itself
+}
+
+/// Outside an acute corner a point is behind the line of one of its facets.
+TEST(Ground, OutsideAnAcuteCornerNothingTouches) {
+  const Ground ground{GroundShape{.profile = {{-9, 0}, {0, 0}, {0.05, 1}, {0.1, 0}, {9, 0}}}};
+  EXPECT_EQ(ground.touches({0.05, 1.1}).count, 0);
+  EXPECT_EQ(ground.touches({0.06, 1.001}).count, 0);  // behind the left facet's line
+  EXPECT_EQ(ground.touches({0.04, 1.001}).count, 0);
+  EXPECT_NEAR(ground.distance({0.06, 1.001}), std::hypot(0.01, 1e-3), 1e-16);
+  EXPECT_EQ(ground.touches({0.05, 0.99}).count, 1);
+  EXPECT_LT(ground.distance({0.05, 0.99}), 0.0);
+  EXPECT_GT(ground.touches({0.055, 0.85}).at[0].normal.x, 0.0);
+  EXPECT_LT(ground.touches({0.045, 0.85}).at[0].normal.x, 0.0);
+}
+
+/// The sign of the distance is that of the solid: below the profile, walked from left to right.
+TEST(Ground, SharpDistanceIsContinuousAndHasTheRightSign) {
+  std::mt19937 random(11);
+  std::uniform_real_distribution<double> u(-1.0, 1.0);
+  for (int round = 0; round < 100; ++round) {
+    GroundShape shape{.profile = {{-3.0, u(random)}}};
+    for (double x = -2.0; x < 3.0; x += 0.3 + 0.3 * std::abs(u(random)))
+      shape.profile.push_back({x, 1.5 * u(random)});
+    shape.profile.push_back({3.5, u(random)});
+    ASSERT_TRUE(shape_faults(shape).empty());
+    const Ground ground(shape);
+    for (int i = 0; i < 300; ++i) {
+      const Vec2 p{2.5 * u(random), 2.5 * u(random)}, q = p + 1e-3 * Vec2{u(random), u(random)};
+      std::size_t k = 0;
+      while (shape.profile[k + 1].x < p.x) ++k;
+      const Vec2 a = shape.profile[k], b = shape.profile[k + 1];
+      const bool below = cross(b - a, p - a) < 0.0;
+      ASSERT_EQ(ground.distance(p) < 0.0, below) << round << " " << i;
+      ASSERT_EQ(ground.touches(p).count > 0, below);
+      ASSERT_LE(std::abs(ground.distance(p) - ground.distance(q)), norm(p - q) + 1e-15);
+    }
+  }
+}
+
 TEST(Ground, FaultsAreNamed) {
   const auto first = [](const GroundShape& shape) {
     const auto faults = shape_faults(shape);
@@ -107,10 +175,10 @@ TEST(Ground, FaultsAreNamed) {
   EXPECT_NE(first({.profile = {{0, 0}, {0, 0}}}).find("coincides"), std::string::npos);
   EXPECT_NE(first({.profile = {{0, 0}, {-1, 0}}}).find("left"), std::string::npos);
   EXPECT_NE(first({.profile = {{0, 0}, {0, 1}, {0, 0.5}}}).find("turns back"), std::string::npos);
-  EXPECT_NE(first({.profile = ledge.profile, .fillet = 0.0}).find("fillet > 0"), std::string::npos);
+  EXPECT_EQ(first({.profile = ledge.profile, .fillet = 0.0}), "none");  // sharp
+  EXPECT_NE(first({.profile = ledge.profile, .fillet = -0.1}).find(">= 0"), std::string::npos);
   EXPECT_NE(first({.profile = ledge.profile, .fillet = 0.11}).find("does not fit"),
             std::string::npos);
   EXPECT_EQ(first({.profile = ledge.profile, .fillet = 0.1}), "none");
-  // A valley has no convex corner and needs no fillet.
   EXPECT_EQ(first({.profile = {{-1, 1}, {0, 0}, {1, 1}}}), "none");
 }
