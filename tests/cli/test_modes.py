@@ -113,6 +113,45 @@ class Modes(ProgramTest):
         spins = {float(r["spin_rad_s"]) for r in table(out / "modes.csv")}
         self.assertEqual(spins, {0.0, 33.333333})
 
+    def test_stress_stiffening(self):
+        def frequencies(*settings):
+            out, _ = self.modes("--spin", 50, "--overwrite",
+                                settings=["--set", "disk.mesh.radial=16", "--set",
+                                          "disk.mesh.circumferential=240", *settings])
+            found = {}
+            for r in table(out / "modes.csv"):
+                found.setdefault((r["nodal_diameters"], r["wave"]), float(r["frequency_rad_s"]))
+            return found, [float(r["critical_spin_rad_s"])
+                           for r in table(out / "critical-speeds.csv")]
+
+        without, slow = frequencies()
+        with_, fast = frequencies("--set", "material.stress_stiffening=centrifugal")
+        # V11's; the error of this mesh is 3e-4, the same of both.
+        for key, before, after in ((("0", "standing"), 475.447, 485.400),
+                                   (("1", "backward"), 550.560, 559.592),
+                                   (("2", "forward"), 653.541, 661.333)):
+            self.assertAlmostEqual(without[key] / before, 1.0, delta=4e-4)
+            self.assertAlmostEqual(with_[key] / before, after / before, delta=4e-4)
+            self.assertAlmostEqual((with_[key] - without[key]) / (after - before), 1.0, delta=2e-3)
+        for a, b in zip(slow, fast):
+            self.assertGreater(b, 1.01 * a)
+
+    def test_critical_speeds_are_zeros_of_the_fixed_frame(self):
+        # Also with stiffening, where K depends on the spin: the mode at the speed found.
+        for kind in "none", "centrifugal":
+            settings = COARSE + ["--set", f"material.stress_stiffening={kind}"]
+            out, _ = self.modes("--overwrite", "--count", 1, settings=settings)
+            critical = {int(r["nodal_diameters"]): float(r["critical_spin_rad_s"])
+                        for r in table(out / "critical-speeds.csv")}
+            for n in 4, 6:
+                s = critical[n]
+                out, _ = self.modes("--overwrite", "--count", 60, "--spins", f"{s}:{s + 1}:2",
+                                    settings=settings)
+                fixed = [float(r["frequency_fixed_rad_s"]) for r in table(out / "campbell.csv")
+                         if float(r["spin_rad_s"]) == s and r["nodal_diameters"] == str(n)
+                         and r["wave"] == "backward"]
+                self.assertLess(min(fixed), 1e-7 * s, (kind, n))
+
     def test_free_disk_at_rest(self):
         # Only at rest by itself.
         out, _ = self.modes("--count", 4, case=self.free_disk(), settings=[])

@@ -12,6 +12,7 @@
 #include "rondo/io/files.hpp"
 #include "rondo/io/mode_files.hpp"
 #include "rondo/modal/residual.hpp"
+#include "rondo/statics/stationary_spin.hpp"
 #include "rondo/study/build.hpp"
 #include "rondo/study/modes_output.hpp"
 #include "rondo/study/pod_input.hpp"
@@ -88,7 +89,8 @@ std::vector<double> sweep_spins(const ModesRequest& request) {
   return spins;
 }
 
-void check_spins(const Body& b, const std::string& option, const std::vector<double>& spins) {
+void check_spins(const Case& c, const Body& b, const std::string& option,
+                 const std::vector<double>& spins) {
   const std::size_t sector_dofs =
       b.cyclic() ? 2 * b.mesh.n_nodes() / static_cast<std::size_t>(b.mesh.n_sectors) : 0;
   for (const double spin : spins) {
@@ -103,6 +105,10 @@ void check_spins(const Body& b, const std::string& option, const std::vector<dou
           option, found,
           fmt::format("nothing holds {} of the bodies: they are computed at rest", b.free),
           "0; or a mesh whose bodies are all clamped");
+    if (c.stress_stiffening != StressStiffening::none)
+      throw case_error(c, "material.stress_stiffening",
+                       "the stress of the spin is computed of bodies held at a rim only",
+                       "\"none\" for a free disk that spins");
     if (sector_dofs > modal::most_dofs_of_free_sector)
       throw request_error(
           option, found,
@@ -118,18 +124,29 @@ struct Solved {
   std::vector<double> residuals;
 };
 
-/// One mesh, several spins: the stiffness is assembled once.
+/// One mesh, several spins. The stress of a spin s, and so its stiffness, is s² that of a unit
+/// spin.
 class Solver {
  public:
-  explicit Solver(const Body& body) : body_(body) {
-    if (body.cyclic())
-      sector_ = fem::assemble_sector(body.mesh, body.materials);
-    else
-      stiffness_ = fem::assemble_stiffness(body.mesh, body.materials);
+  Solver(const Case& c, const Body& body) : body_(body) {
+    assemble(0.0);
+    if (c.stress_stiffening == StressStiffening::none || body.free > 0) return;
+    const std::vector<int> free = fem::free_nodes(body.mesh);
+    auto unit = body.cyclic()
+                    ? statics::centrifugal_prestress(sector_, body.mass, body.mesh.coordinates, 1.0)
+                    : statics::centrifugal_prestress(stiffness_, body.mass, body.mesh.coordinates,
+                                                     free, 1.0);
+    if (unit.status != statics::SpinStatus::solved)
+      throw case_error(c, "material.stress_stiffening",
+                       "the stress of the spin was not found: the stiffness is not positive "
+                       "definite to round-off",
+                       "\"none\", or a material and a mesh in SI units");
+    unit_prestress_ = std::move(unit.u);
   }
 
-  [[nodiscard]] Solved modes(double angular_velocity, int count) const {
+  [[nodiscard]] Solved modes(double angular_velocity, int count) {
     const double spin = -angular_velocity;
+    if (!unit_prestress_.empty()) assemble(spin);
     const auto solve = [&](const auto& body, auto&& modes_of) {
       Solved s{modes_of(body, spin, count), {}};
       for (const modal::Mode& mode : s.found.modes)
@@ -140,17 +157,37 @@ class Solver {
     return solve(modal::MeshBody{body_.mesh, stiffness_, body_.mass}, modal::mesh_modes);
   }
 
-  [[nodiscard]] std::vector<modal::CriticalSpeed> critical(int last) const {
+  [[nodiscard]] std::vector<modal::CriticalSpeed> critical(int last) {
     if (!body_.cyclic()) return {};
-    return modal::critical_speeds(cyclic(), nullptr, last);
+    if (unit_prestress_.empty()) return modal::critical_speeds(cyclic(), nullptr, last);
+    // Of a spin at which it is as large as the elastic stiffness, for the difference to be exact.
+    const double spin = body_.largest_frequency;
+    assemble(spin);
+    fem::SectorStiffness unit = std::move(sector_);
+    assemble(0.0);
+    for (std::size_t e = 0; e < unit.entries.size(); ++e)
+      for (std::size_t i = 0; i < 4; ++i)
+        unit.entries[e].block[i] =
+            (unit.entries[e].block[i] - sector_.entries[e].block[i]) / (spin * spin);
+    return modal::critical_speeds(cyclic(), &unit, last);
   }
 
  private:
+  void assemble(double spin) {
+    std::vector<Vec2> prestress;
+    if (spin != 0.0)
+      for (const Vec2 u : unit_prestress_) prestress.push_back(spin * spin * u);
+    if (body_.cyclic())
+      sector_ = fem::assemble_sector(body_.mesh, body_.materials, prestress);
+    else
+      stiffness_ = fem::assemble_stiffness(body_.mesh, body_.materials, prestress);
+  }
   [[nodiscard]] modal::CyclicBody cyclic() const {
     return {sector_, body_.mass, body_.mesh.coordinates};
   }
 
   const Body& body_;
+  std::vector<Vec2> unit_prestress_;  ///< (n) at 1 rad/s [m]; empty: no stiffening
   fem::SectorStiffness sector_;
   fem::BlockCsr stiffness_;
 };
@@ -227,8 +264,8 @@ ModesReport run_modes(const Case& c, const ModesRequest& request) {
   const Body body = make_body(c);
   const std::vector<double> spins = chosen_spins(c, body, request);
   const std::vector<double> sweep = sweep_spins(request);
-  check_spins(body, request.spins.empty() ? "motion.angular_velocity" : "--spin", spins);
-  check_spins(body, "--spins", sweep);
+  check_spins(c, body, request.spins.empty() ? "motion.angular_velocity" : "--spin", spins);
+  check_spins(c, body, "--spins", sweep);
   begin_modes_directory(c, request.directory, request.overwrite);
 
   ModesReport r;
@@ -236,7 +273,7 @@ ModesReport run_modes(const Case& c, const ModesRequest& request) {
   r.nodes = body.mesh.n_nodes();
   r.dofs = 2 * fem::free_nodes(body.mesh).size();
   if (body.cyclic()) r.outer_radius = c.disk.outer_radius;
-  const Solver solver(body);
+  Solver solver(c, body);
   std::vector<Solved> solved;
   for (const double spin : spins) {
     solved.push_back(solver.modes(spin, request.count));

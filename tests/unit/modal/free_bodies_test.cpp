@@ -82,7 +82,8 @@ TEST(FreeBodies, ASpinningFreeDiskIsThatOfADenseSolution) {
   EXPECT_TRUE(found.counted);
   // The rotation is not held back without stiffening, and the translations are a double root.
   EXPECT_GT(found.modes[0].growth, 0.9 * spin);
-  EXPECT_LT(modal::residual(b.cyclic(), spin, found.modes[0]), 1e-10);
+  // Round-off of a dense solution without symmetry: ε (ω_max/s)², 1e-11, times some tens.
+  EXPECT_LT(modal::residual(b.cyclic(), spin, found.modes[0]), 1e-8);
   std::vector<double> expected;
   int translations = 0;
   for (const double omega : test::dense_frequencies(b, spin)) {
