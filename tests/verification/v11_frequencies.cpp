@@ -63,10 +63,12 @@ void expect_convergence(const Frequencies& expected, bool with_stiffening) {
     testing::Test::RecordProperty("error_16_" + name, fmt::format("{:.2e}", coarse / omega - 1.0));
     testing::Test::RecordProperty("error_64_" + name, fmt::format("{:.2e}", fine / omega - 1.0));
     EXPECT_NEAR(limit / omega, 1.0, 2e-5) << name;  // of the reference; ours is left with 1e-6
-    // Where the errors along and across the layers nearly cancel, the order is not seen: the
-    // backward wave of n = 3 is right to 2e-6 on the finest mesh already.
-    if (std::abs(fine - middle) > 5e-6 * omega) {
-      EXPECT_NEAR(order, 2.0, 0.1) << name;
+    // The errors along and across the layers have opposite signs; where they nearly cancel, with
+    // n = 3, the h⁴ that is left disturbs the order, and the error is less than elsewhere.
+    if (std::abs(coarse - limit) > 1e-4 * omega) {
+      EXPECT_NEAR(order, 2.0, 0.02) << name;
+    } else {
+      EXPECT_LT(std::abs(fine - limit), 1e-5 * omega) << name;
     }
   }
 }
