@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// @file  Small models that several tests share.
 #pragma once
+#include <utility>
+
 #include "rondo/dynamics/critical_step.hpp"
 #include "rondo/dynamics/stepper.hpp"
 #include "rondo/mesh/disk.hpp"
@@ -71,9 +73,10 @@ inline void set_stiffness(Built& b, const DiskCase& c) {
   b.model.dt = c.safety * b.critical.step;
 }
 
-inline Built build(const DiskCase& c) {
+/// The case on another mesh than its own.
+inline Built build(const DiskCase& c, mesh::Mesh mesh) {
   Built b;
-  b.mesh = mesh::make_disk(c.disk);
+  b.mesh = std::move(mesh);
   b.material = c.material;
   b.model.reference = b.mesh.coordinates;
   b.model.mass = fem::lumped_mass(b.mesh, {&c.material, 1});
@@ -84,6 +87,10 @@ inline Built build(const DiskCase& c) {
   b.model.scheme = c.scheme;
   set_stiffness(b, c);
   return b;
+}
+
+inline Built build(const DiskCase& c) {
+  return build(c, mesh::make_disk(c.disk));
 }
 
 inline void add_ground(Built& b, const contact::GroundShape& shape, contact::Law law) {

@@ -47,7 +47,7 @@ int main(int, char** arguments) {
   dynamics::Ledger ledger;
   for (int n = 0; n < 100; ++n) static_cast<void>(dynamics::advance(model, state, ledger));
   bool same = true;
-  model.sector = fem::assemble_sector(mesh, material);
+  model.sector = fem::assemble_sector(mesh, {&material, 1});
   for (const auto of : {dynamics::StiffnessOperator::sparse, dynamics::StiffnessOperator::cyclic}) {
     model.stiffness_operator = of;
     same = same && difference(model, state) < 1e-10;  // round-off of 100 steps
