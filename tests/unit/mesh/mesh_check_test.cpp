@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <random>
 
@@ -114,7 +115,10 @@ TEST(EdgeTable, KnowsTheCellsOfEveryEdge) {
   EXPECT_NE(shared[0].rising, shared[1].rising);
   EXPECT_TRUE(table.find({0, 5}).empty());
   EXPECT_TRUE(crowded_edges(table).empty());
-  EXPECT_EQ(boundary_edges(table).size(), 10U);
+  const std::vector<Edge> boundary = boundary_edges(table);
+  EXPECT_EQ(boundary.size(), 10U);
+  for (const Edge& edge : {Edge{0, 1}, Edge{3, 7}, Edge{9, 8}, Edge{4, 0}})  // the body on the left
+    EXPECT_EQ(std::count(boundary.begin(), boundary.end(), edge), 1) << edge[0];
   const std::vector<char> flags = boundary_flags(table, m.n_nodes());
   for (const std::size_t k : {5U, 6U}) EXPECT_FALSE(flags[k]);
   EXPECT_EQ(std::count(flags.begin(), flags.end(), 1), 10);
