@@ -1,0 +1,102 @@
+// SPDX-License-Identifier: BSD-3-Clause
+/// @file  Upright bars, one element wide, over the ground y = 0: one-dimensional, since ν = 0.
+#pragma once
+#include <cmath>
+#include <utility>
+#include <vector>
+
+#include "support/blocks.hpp"
+#include "support/stepping.hpp"
+
+namespace rondo::test {
+
+struct Bar {
+  double youngs_modulus = 900.0, density = 1.0;  ///< [Pa], [kg/m³]
+  double length = 10.0;                          ///< [m]
+  double gap = 5.0;                              ///< under it                         [m]
+  int elements = 100;                            ///< over its length
+  double courant = 0.9;                          ///< c Δt/h
+  fem::Plane plane = fem::Plane::stress;         ///< the same at ν = 0
+  bool held = false;                             ///< its upper end is clamped
+
+  [[nodiscard]] double wave_speed() const { return std::sqrt(youngs_modulus / density); }
+  [[nodiscard]] double element() const { return length / elements; }
+  [[nodiscard]] double step() const { return courant * element() / wave_speed(); }
+  /// Ten lengths of an element. From one length on the fastest mode is the one that alternates
+  /// along the bar, of frequency 2c/h; the wider the bar, the slower are those across it, which
+  /// round-off would excite at a Courant number of 1.
+  [[nodiscard]] double width() const { return 10.0 * element(); }
+  [[nodiscard]] double mass() const { return density * length * width(); }  ///< [kg/m]
+};
+
+inline mesh::Mesh bar_mesh(const Bar& bar) {
+  mesh::Mesh mesh;
+  add_block(mesh, {.corner = {0.0, bar.gap},
+                   .width = bar.width(),
+                   .height = bar.length,
+                   .columns = 1,
+                   .rows = bar.elements});
+  const int n = static_cast<int>(mesh.n_nodes());
+  if (bar.held) mesh.clamped = {n - 2, n - 1};
+  // The foot alone may touch the ground.
+  mesh.boundary = {0, 1};
+  mesh.tributary.assign(2, 0.5 * bar.width());
+  mesh.contact_edges = {{0, 1}};
+  return mesh;
+}
+
+/// Over flat ground, without friction and restitution.
+inline dynamics::Model bar_model(const Bar& bar) {
+  const mesh::Mesh mesh = bar_mesh(bar);
+  const fem::Material material{bar.youngs_modulus, 0.0, bar.density, bar.plane};
+  dynamics::Model model = body_model(mesh, material, 0.0, 0.0, 1.0);
+  model.dt = bar.step();
+  add_ground(model, mesh, {}, {});
+  return model;
+}
+
+/// What a bar does over time, per unit area of its foot.
+struct BarCourse {
+  std::vector<double> time;      ///< t_{n+1}                                          [s]
+  std::vector<double> pressure;  ///< r_n/Δt of the step at t_{n+1}                    [Pa]
+  std::vector<double> energy;    ///< kinetic + strain, at t_{n+1/2}                   [J/m²]
+  std::vector<double> lost;      ///< in impacts before t_{n+1/2}                      [J/m²]
+  double relative = 0.0;         ///< largest residual of the ledger over the energy exchanged
+};
+
+inline BarCourse course_of(const Bar& bar, Stepping& run, double end) {
+  BarCourse course;
+  run.advance_to(end, [&](const dynamics::StepReport& step) {
+    course.time.push_back(step.frame.time);
+    course.pressure.push_back(step.contact.impulse.y / bar.step() / bar.width());
+    course.energy.push_back((step.balance.kinetic + step.balance.strain) / bar.width());
+    course.lost.push_back(step.balance.works.loss_impact / bar.width());
+  });
+  course.relative = run.balance().relative;
+  return course;
+}
+
+/// A time in contact: its first and its last step.
+struct Phase {
+  std::size_t first = 0, last = 0;
+};
+/// Steps with pressure above `least` [Pa]; those less than `apart` [s] from each other are of one
+/// phase.
+inline std::vector<Phase> phases(const BarCourse& course, double apart, double least = 0.0) {
+  std::vector<Phase> found;
+  for (std::size_t i = 0; i < course.time.size(); ++i) {
+    if (course.pressure[i] <= least) continue;
+    if (found.empty() || course.time[i] - course.time[found.back().last] > apart)
+      found.push_back({i, i});
+    found.back().last = i;
+  }
+  return found;
+}
+
+/// By how much a wave front is early or late on this mesh: short waves are slower, and spread the
+/// front over h^{2/3} L^{1/3} after a way L [s].
+inline double front_spread(const Bar& bar) {
+  return std::cbrt(bar.element() * bar.element() * bar.length) / bar.wave_speed();
+}
+
+}  // namespace rondo::test
