@@ -94,6 +94,12 @@ TEST(GmshProgram, ThatSaysNothingOrNonsense) {
   expect(read_with_script(std::string(start) + "exec yes"), "file", "no working mesh reader");
 }
 
+TEST(GmshProgram, OfAnotherVersion) {
+  const std::string why = "printf '\\1\\0\\0\\0\\5\\0\\0\\0\\0\\0\\0\\0wrong'";
+  expect(read_with_script("printf 'rondmsh1'; " + why), "input", "cannot be read: wrong");
+  expect(read_with_script("printf 'rondmsh9'; " + why), "file", "of this version of rondo");
+}
+
 TEST(GmshProgram, CountsAreNotBelieved) {
   // Nodes in the file, then no warnings, types, groups, entities: the absurd count is the k-th.
   for (int k = 0; k < 5; ++k) {
