@@ -13,14 +13,15 @@
 namespace rondo::contact {
 namespace {
 
-constexpr int first_sweeps = 4;  ///< before the first try of Newton's method
-constexpr int pair_sweeps = 5;   ///< after one that failed
-// Shifts of Newton's method: of the first try, which solves most problems; of the second, on which
-// all hold the law a little softly; then less after each that is solved, more after one that is
-// not.
+constexpr int first_sweeps = 4;            ///< before the first try of Newton's method
+constexpr int failures_before_sweeps = 2;  ///< tries that failed, one after the other
+constexpr int pair_sweeps = 2;             ///< with a sweep, after these
+// Shifts of Newton's method: of the first try, which solves most problems in a few whole steps; of
+// the second, which holds softly enough for any; from there on less, see Shift.
 constexpr double first_shift = 1e-10, second_shift = 1e-3, shift_factor = 10.0;
-constexpr int most_halvings = 10;  ///< of Newton steps, after the first try
 constexpr double least_shift = 1e-11, largest_shift = 1.0;
+constexpr int tries_before_less = 8;
+constexpr int most_halvings = 10;  ///< of Newton steps, after the first try
 
 /// One iteration of a solution: what is at hand, and the best so far.
 struct Iteration {
@@ -70,10 +71,11 @@ void sweep(Iteration& it) noexcept {
 }
 
 void sweep_pairs(Iteration& it) noexcept {
+  const double enough = 0.01 * it.limits.tolerance * it.scale;
   std::vector<Vec2>& r = it.work.current;
   for (std::size_t j = 0; j < it.problem.size(); ++j) {
     const int partner = partner_of(it.problem, j);
-    if (partner < 0 || !update_pair(it.problem, j, static_cast<std::size_t>(partner), r))
+    if (partner < 0 || !update_pair(it.problem, {j, static_cast<std::size_t>(partner)}, enough, r))
       update_contact(it.problem, j, r);
   }
   ++it.result.iterations;
@@ -94,23 +96,42 @@ bool try_newton(Iteration& it, int width, double shift, int halvings) {
   return found.solved;
 }
 
+/// Shift of the next try of Newton's method: less after one that solved its problem, but only after
+/// several that did since one that did not.
+struct Shift {
+  double value = second_shift;
+  int wait = 0;
+
+  void adapt(bool solved) noexcept {
+    if (!solved) {
+      value = std::min(value * shift_factor, largest_shift);
+      wait = tries_before_less;
+    } else if (wait > 0) {
+      --wait;
+    } else {
+      value = std::max(value / shift_factor, least_shift);
+    }
+  }
+};
+
 /// Sweeps and Newton's method in turn until the law holds or the iterations are used up.
 void iterate(Iteration& it) {
   for (int i = 0; i < first_sweeps && !it.finished(); ++i) sweep(it);
   if (it.finished()) return;
   const int width = order_contacts(it.problem, it.work);
   const bool fits = newton_fits(it.problem, width);
-  double shift = second_shift;
-  bool solved = fits && try_newton(it, width, first_shift, 0);
+  Shift shift;
+  int failures = fits && try_newton(it, width, first_shift, 0) ? 0 : failures_before_sweeps;
   while (!it.finished()) {
-    if (!solved) {
+    if (failures >= failures_before_sweeps) {
       sweep(it);
       for (int i = 0; i < pair_sweeps && !it.finished(); ++i) sweep_pairs(it);
+      failures = fits ? 0 : failures_before_sweeps;
     }
     if (!fits || it.finished()) continue;
-    solved = try_newton(it, width, shift, most_halvings);
-    shift = solved ? std::max(shift / shift_factor, least_shift)
-                   : std::min(shift * shift_factor, largest_shift);
+    const bool solved = try_newton(it, width, shift.value, most_halvings);
+    failures = solved ? 0 : failures + 1;
+    shift.adapt(solved);
   }
 }
 

@@ -10,8 +10,7 @@
 namespace rondo::contact {
 namespace {
 
-constexpr double shift = 1e-12;  ///< of the diagonal: redundant pairs are singular
-constexpr int refinements = 3;
+constexpr int refinements = 2;
 constexpr double much_nearer = 1e-3;
 
 using Vec4 = Eigen::Vector4d;
@@ -78,9 +77,8 @@ Vec4 try_statuses(const Pair& p, const Vec4& from, std::array<int, 2> status) no
     for (int i = 0; i < n; ++i) {
       const int at = row[static_cast<std::size_t>(i)];
       for (int k = 0; k < n; ++k) matrix(i, k) = product(at, k);
-      matrix(i, i) += shift * p.delassus(at, at);
     }
-    const Eigen::PartialPivLU<Small> factors(matrix);
+    const Eigen::CompleteOrthogonalDecomposition<Small> factors(matrix);
     for (int i = 0; i < refinements; ++i) {
       const Vec4 w = p.delassus * r + p.free;
       Eigen::Matrix<double, Eigen::Dynamic, 1, 0, 4, 1> lack(n);
@@ -113,22 +111,26 @@ int partner_of(const CoupledProblem& p, std::size_t j) noexcept {
   return partner;
 }
 
-bool update_pair(const CoupledProblem& p, std::size_t j, std::size_t l,
+bool update_pair(const CoupledProblem& p, std::array<std::size_t, 2> contacts, double enough,
                  std::span<Vec2> impulse) noexcept {
-  const Pair pair = pair_of(p, {j, l}, impulse);
-  const Vec4 from(impulse[j].x, impulse[j].y, impulse[l].x, impulse[l].y);
-  double least = much_nearer * residual_of(pair, from);
-  bool found = false;
-  for (int s = 0; s < 16; ++s) {
+  Vec2 &one = impulse[contacts[0]], &other = impulse[contacts[1]];
+  const Pair pair = pair_of(p, contacts, impulse);
+  const Vec4 from(one.x, one.y, other.x, other.y);
+  const double before = residual_of(pair, from);
+  if (before <= enough) return true;
+  double least = before;
+  Vec4 best = from;
+  for (int s = 0; s < 16 && least > enough; ++s) {
     const Vec4 r = try_statuses(pair, from, {s % 4, s / 4});
     const double residual = residual_of(pair, r);
     if (!(residual < least)) continue;
     least = residual;
-    found = true;
-    impulse[j] = {r[0], r[1]};
-    impulse[l] = {r[2], r[3]};
+    best = r;
   }
-  return found;
+  if (least > std::max(much_nearer * before, enough)) return false;
+  one = {best[0], best[1]};
+  other = {best[2], best[3]};
+  return true;
 }
 
 }  // namespace rondo::contact

@@ -13,9 +13,10 @@ namespace rondo::contact {
 /// would make the two redundant.
 int partner_of(const CoupledProblem& problem, std::size_t j) noexcept;
 
-/// Solves contacts j and l together, the others as they are, by trying all statuses of both; false,
-/// and nothing is changed, where none is much nearer to the law than they are.
-bool update_pair(const CoupledProblem& problem, std::size_t j, std::size_t l,
+/// Solves contacts j and l together, the others as they are, by trying all statuses of both until
+/// the law holds to `enough` [N·s/m]; false, and nothing is changed, where none is much nearer to
+/// the law than they are.
+bool update_pair(const CoupledProblem& problem, std::array<std::size_t, 2> contacts, double enough,
                  std::span<Vec2> impulse) noexcept;
 
 }  // namespace rondo::contact

@@ -1,0 +1,92 @@
+// SPDX-License-Identifier: BSD-3-Clause
+/// Coupled contact allocates nothing once its memory has held the largest problem: every allocation
+/// of this program is counted.
+#include <gtest/gtest.h>
+
+#include <cstdlib>
+#include <new>
+
+#include "rondo/contact/clusters.hpp"
+#include "rondo/contact/residual.hpp"
+#include "rondo/contact/search.hpp"
+#include "rondo/contact/segment.hpp"
+#include "support/contact_problems.hpp"
+
+namespace {
+long allocations = 0;
+}
+
+// Not inlined: where the compiler inlines one of a pair only, it takes them for a mismatch.
+[[gnu::noinline]] void* operator new(std::size_t size) {
+  ++allocations;
+  if (void* memory = std::malloc(size)) return memory;
+  throw std::bad_alloc();
+}
+[[gnu::noinline]] void operator delete(void* memory) noexcept {
+  std::free(memory);
+}
+[[gnu::noinline]] void operator delete(void* memory, std::size_t) noexcept {
+  std::free(memory);
+}
+
+using namespace rondo;
+using namespace rondo::contact;
+
+TEST(Allocation, NoneOnceTheMemoryIsLargeEnough) {
+  // The first takes sweeps and one Newton step, the second all that the solver has.
+  const std::vector<test::ChainShape> shapes{
+      {.upper = 60, .lower = 45},
+      {.upper = 20, .lower = 20, .offset = 0.0, .both_ways = true, .friction = 1.0}};
+  std::vector<test::Scene> scenes;
+  std::vector<CoupledProblem> problems(2);
+  DelassusBuilder builder;
+  for (const auto& shape : shapes) scenes.push_back(test::chain(shape));
+  for (std::size_t i = 0; i < 2; ++i) problems[i] = test::problem_of(scenes[i]);
+  CoupledWorkspace work;
+  std::vector<Vec2> impulse(60);
+  std::vector<Status> status(60);
+  const auto solve_all = [&] {
+    bool converged = true;
+    for (std::size_t i = 0; i < 2; ++i) {
+      builder.build(scenes[i].contacts, scenes[i].response, problems[i]);
+      const std::size_t nc = problems[i].size();
+      std::fill(impulse.begin(), impulse.end(), Vec2{});
+      converged = solve_coupled(problems[i], {}, {impulse.data(), nc}, {status.data(), nc}, work)
+                      .converged &&
+                  converged;
+    }
+    return converged;
+  };
+  EXPECT_TRUE(solve_all());
+  const long before = allocations;
+  EXPECT_TRUE(solve_all());
+  EXPECT_EQ(allocations - before, 0);
+}
+
+TEST(Allocation, NoneInSearchAndClusters) {
+  std::vector<Vec2> x;
+  std::vector<std::array<int, 2>> edges;
+  for (int i = 0; i <= 200; ++i) x.push_back(rotation(0.03 * i));
+  for (int i = 0; i < 200; ++i) edges.push_back({i, i + 1});
+  std::vector<int> starts, nodes;
+  for (int i = 0; i <= 200; ++i) starts.push_back(2 * i);
+  for (const auto& [a, b] : edges) nodes.insert(nodes.end(), {a, b});
+  const Boundary boundary = make_boundary(edges, {});
+  SegmentGrid grid;
+  ClusterFinder finder;
+  std::vector<int> near;
+  long found = 0;
+  const auto search = [&] {
+    grid.build(x, edges, 0.01, 0.02);
+    for (const Vec2 p : x) {
+      grid.near(0.99 * p, near);
+      found += touch_boundary({.position = 0.995 * p}, {boundary, x, near, 0.02}).count;
+    }
+    found += static_cast<long>(finder.find(starts, nodes, x.size()).size());
+  };
+  search();
+  const long before = allocations;
+  search();
+  EXPECT_EQ(allocations - before, 0);
+  EXPECT_GT(found, 100);
+}
