@@ -16,9 +16,20 @@
 namespace rondo::test {
 
 inline constexpr double radius = 0.3, load = 2000.0;  // m, N/m
-inline constexpr double modulus = 5.0e6 / (1.0 - 0.3 * 0.3);
-inline const double hertz_width = std::sqrt(4.0 * load * radius / (std::numbers::pi * modulus));
-inline const double hertz_pressure = std::sqrt(load * modulus / (std::numbers::pi * radius));
+inline const fem::Material compressible{5.0e6, 0.3, 1100.0, fem::Plane::strain};
+/// As rubber is; by B-bar.
+inline const fem::Material nearly_incompressible{5.0e6, 0.49, 1100.0, fem::Plane::strain,
+                                                 fem::Integration::b_bar};
+
+struct Hertz {
+  double half_width, pressure;  ///< [m], [Pa]
+};
+
+inline Hertz hertz(const fem::Material& m) {
+  const double modulus = m.youngs_modulus / (1.0 - m.poissons_ratio * m.poissons_ratio);
+  return {std::sqrt(4.0 * load * radius / (std::numbers::pi * modulus)),
+          std::sqrt(load * modulus / (std::numbers::pi * radius))};
+}
 
 struct HertzFit {
   double half_width = 0.0, pressure = 0.0;  ///< of p² = p0² (1 - x²/a²) by least squares [m], [Pa]
@@ -27,7 +38,7 @@ struct HertzFit {
 
 class HertzDisk {
  public:
-  HertzDisk(double inner_radius, int radial, int columns) {
+  HertzDisk(double inner_radius, int radial, int columns, const fem::Material& rubber) {
     mesh::Disk disk;
     disk.outer_radius = radius;
     disk.inner_radius = inner_radius;
@@ -36,7 +47,6 @@ class HertzDisk {
     disk.grading = 2.0;
     mesh_ = mesh::make_disk(disk);
     model_ = statics::make_crush_model(mesh_.coordinates, mesh_.boundary, 0.0);
-    const fem::Material rubber{5.0e6, 0.3, 1100.0, fem::Plane::strain};
     body_ = std::make_unique<statics::Condensation>(fem::assemble_stiffness(mesh_, {&rubber, 1}),
                                                     fem::free_nodes(mesh_), model_.nodes);
   }
@@ -105,13 +115,18 @@ struct Deviation {
 };
 
 /// Of a disk of `columns` columns, a/h = columns / 160, and `radial` layers graded with p = 2.
-inline Deviation deviation_from_hertz(double inner_radius, int radial, int columns) {
-  HertzDisk disk(inner_radius, radial, columns);
+inline Deviation deviation_from_hertz(double inner_radius, int radial, int columns,
+                                      const fem::Material& rubber = compressible) {
+  HertzDisk disk(inner_radius, radial, columns, rubber);
+  const Hertz exact = hertz(rubber);
   const HertzFit f = disk.fit(disk.loaded());
-  const Deviation d{f.half_width / hertz_width - 1.0, f.pressure / hertz_pressure - 1.0, f.misfit};
+  const Deviation d{f.half_width / exact.half_width - 1.0, f.pressure / exact.pressure - 1.0,
+                    f.misfit};
   const auto record = [&](const char* what, double value) {
     testing::Test::RecordProperty(
-        fmt::format("{}_{}x{}_{}", what, radial, columns, 1000.0 * inner_radius),
+        fmt::format("{}_{}x{}_{}_{}{}", what, radial, columns, 1000.0 * inner_radius,
+                    rubber.poissons_ratio,
+                    rubber.integration == fem::Integration::b_bar ? "_b_bar" : ""),
         fmt::format("{:.3e}", value));
   };
   record("half_width", d.half_width);

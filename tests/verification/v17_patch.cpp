@@ -50,16 +50,18 @@ bool on_edge(Vec2 p) {
   return p.x == 0.0 || p.x == 1.0 || p.y == 0.0 || p.y == 1.0;
 }
 
-class Patch : public testing::TestWithParam<std::tuple<Cells, fem::Plane>> {};
+using Law = std::tuple<fem::Plane, fem::Integration, double>;  ///< ν last
+class Patch : public testing::TestWithParam<std::tuple<Cells, Law>> {};
 
 }  // namespace
 
 /// Edge nodes given the linear field, inner nodes solved for: they take the same field, and the
 /// stress is the constant one everywhere.
 TEST_P(Patch, ConstantStrain) {
-  const auto [kind, plane] = GetParam();
+  const auto [kind, law] = GetParam();
+  const auto [plane, integration, nu] = law;
   const mesh::Mesh m = distorted_square(kind, 5);
-  const fem::Material material{2e7, 0.3, 1100.0, plane};
+  const fem::Material material{2e7, nu, 1100.0, plane, integration};
   const fem::BlockCsr k = fem::assemble_stiffness(m, {&material, 1});
   const std::vector<int> all = fem::free_nodes(m);  // nothing is clamped: all of them
   const Eigen::SparseMatrix<double> a = fem::free_matrix(k, all);
@@ -94,10 +96,14 @@ TEST_P(Patch, ConstantStrain) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(All, Patch,
-                         testing::Combine(testing::Values(Cells::quadrilaterals, Cells::triangles,
-                                                          Cells::mixed),
-                                          testing::Values(fem::Plane::strain, fem::Plane::stress)));
+INSTANTIATE_TEST_SUITE_P(
+    All, Patch,
+    testing::Combine(testing::Values(Cells::quadrilaterals, Cells::triangles, Cells::mixed),
+                     testing::Values(Law{fem::Plane::strain, fem::Integration::full, 0.3},
+                                     Law{fem::Plane::stress, fem::Integration::full, 0.3},
+                                     Law{fem::Plane::strain, fem::Integration::b_bar, 0.3},
+                                     Law{fem::Plane::strain, fem::Integration::b_bar, 0.49},
+                                     Law{fem::Plane::stress, fem::Integration::b_bar, 0.3})));
 
 TEST(Mass, SumsToDensityTimesArea) {
   const fem::Material rubber{2e7, 0.3, 1100.0, fem::Plane::strain};
