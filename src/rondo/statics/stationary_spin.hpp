@@ -26,7 +26,7 @@ struct StationarySpin {
                                              std::span<const Vec2> reference,
                                              std::span<const int> free, double spin);
 
-/// Displacement whose stress stiffens a body in stationary spin, (2.8b): K u = s² M X, without
+/// Displacement whose stress stiffens a body in stationary spin, (2.8a): K u = s² M X, without
 /// softening. @param k without geometric stiffness. @pre something is clamped.
 [[nodiscard]] StationarySpin centrifugal_prestress(const fem::BlockCsr& k,
                                                    std::span<const double> mass,

@@ -65,7 +65,7 @@ TEST(BBar, BendingHasNoPressure) {
   }
   const double energy = v.dot(element_stiffness(square, element_law(rubber)) * v);
   const double expected = 4.0 / 3.0 * (4.0 / 3.0 + 1.0) * shear;  // ∫ 4/3 μ y² + μ x²
-  EXPECT_NEAR(energy, expected, 1e-15 * hooke(rubber).d11);  // the size of the entries
+  EXPECT_NEAR(energy, expected, 1e-15 * hooke(rubber).d11);       // the size of the entries
   const auto s = element_stress(square, u, element_law(rubber));
   for (std::size_t a = 0; a < 4; ++a) {
     EXPECT_NEAR(s[a][0], 4.0 / 3.0 * shear * square[a].y, 1e-12 * shear);
