@@ -71,7 +71,7 @@ void contact_search_query(benchmark::State& state) {
 void contact_chain(benchmark::State& state, bool both_ways) {
   const int n = static_cast<int>(state.range(0));
   const contact::CoupledProblem p = test::problem_of(
-      test::chain({.upper = n, .lower = 3 * n / 4, .both_ways = both_ways, .friction = 0.3}));
+      test::chain({.upper = n, .lower = 3 * n / 4, .offset = 0.37, .both_ways = both_ways}));
   contact::CoupledWorkspace work;
   std::vector<Vec2> impulse(p.size());
   std::vector<contact::Status> status(p.size());
