@@ -4,7 +4,7 @@
 #include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
-#include <limits>
+#include <type_traits>
 
 #include "rondo/core/contract.hpp"
 
@@ -51,18 +51,31 @@ auto Krylov<Scalar>::random() -> Vector {
   return x;
 }
 
+/// Takes out of x its parts along the basis from column `first` on, and adds them to column `from`
+/// of the projected operator (-1: nowhere). Returns the norm of x after it.
+template <class Scalar>
+double Krylov<Scalar>::orthogonalise(Vector& x, Index first, Index from) {
+  const auto columns = basis_.middleCols(first, all_ - first);
+  const Vector parts = columns.adjoint() * op_.metric(x);
+  x.noalias() -= columns * parts;
+  if (from >= 0) projected_.col(from).segment(first, all_ - first) += parts;
+  return std::sqrt(std::max(0.0, real(x.dot(op_.metric(x)))));
+}
+
 /// Adds x, made P-orthonormal, to the basis; its parts along the basis go into column `from` of the
 /// projected operator (-1: nowhere). False where nothing new is left of it.
 template <class Scalar>
 bool Krylov<Scalar>::add(Vector x, Index from) {
-  const double before = std::sqrt(std::max(0.0, real(x.dot(op_.metric(x)))));
-  for (int pass = 0; pass < 2; ++pass) {
-    const Vector parts = basis_.leftCols(all_).adjoint() * op_.metric(x);
-    x.noalias() -= basis_.leftCols(all_) * parts;
-    if (from >= 0) projected_.col(from).head(all_) += parts;
+  const double start = std::sqrt(std::max(0.0, real(x.dot(op_.metric(x)))));
+  // T x lies in the last blocks but for round-off and what widen() added; then one pass over all of
+  // the basis is enough, unless much of x went with it.
+  double before = orthogonalise(x, std::max<Index>(0, all_ - 3 * block), from);
+  double norm = orthogonalise(x, 0, from);
+  for (int pass = 0; pass < 3 && norm < 0.7 * before; ++pass) {
+    before = norm;
+    norm = orthogonalise(x, 0, from);
   }
-  const double norm = std::sqrt(std::max(0.0, real(x.dot(op_.metric(x)))));
-  if (!(norm > dependent * before) || all_ >= op_.rank) return false;
+  if (!(norm > dependent * start) || all_ >= op_.rank) return false;
   reserve(all_ + 1);
   basis_.col(all_) = x / norm;
   if (from >= 0) projected_(all_, from) = norm;
@@ -105,8 +118,15 @@ Ritz Krylov<Scalar>::ritz() const {
 
 template <class Scalar>
 Eigen::VectorXcd Krylov<Scalar>::vector(const Ritz& ritz, Index column) const {
-  return basis_.leftCols(ritz.weights.rows()).template cast<std::complex<double>>() *
-         ritz.weights.col(column);
+  const auto columns = basis_.leftCols(ritz.weights.rows());
+  if constexpr (std::is_same_v<Scalar, double>) {
+    Eigen::VectorXcd x(columns.rows());
+    x.real() = columns * ritz.weights.col(column).real();
+    x.imag() = columns * ritz.weights.col(column).imag();
+    return x;
+  } else {
+    return columns * ritz.weights.col(column);
+  }
 }
 
 template class Krylov<double>;

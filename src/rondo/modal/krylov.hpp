@@ -54,6 +54,7 @@ class Krylov {
   [[nodiscard]] Eigen::VectorXcd vector(const Ritz& ritz, Eigen::Index column) const;
 
  private:
+  double orthogonalise(Vector& x, Eigen::Index first, Eigen::Index from);
   bool add(Vector x, Eigen::Index from);
   void reserve(Eigen::Index columns);
   Vector random();
