@@ -78,7 +78,8 @@ TEST(RodLetGo, LosesNothingButWhatImpactsTake) {
     ASSERT_EQ(rod.contacts.size(), 100u) << n;
     double gone = 0.0;
     for (std::size_t i = 0; i < rod.course.energy.size(); ++i)
-      gone = std::max(gone, std::abs(rod.course.energy[i] + rod.course.lost[i] - rod.course.energy[0]));
+      gone = std::max(gone,
+                      std::abs(rod.course.energy[i] + rod.course.lost[i] - rod.course.energy[0]));
     EXPECT_LT(gone, 1e-12 * energy) << n;
     const auto ten = static_cast<std::size_t>(30.0 / rod.bar.step());
     RecordProperty(fmt::format("left_{}", n),
