@@ -25,11 +25,11 @@ TIMEOUT = 900  # s for one call of a test program; what hangs has failed
 PROGRAMS = {"V": "verification/verification", "W": "verification/verification_slow",
             "R": "verification/verification_reducibility"}
 PROGRAMS |= {m: f"unit/unit_{m}" for m in ("core", "mesh", "fem", "contact", "dynamics", "statics",
-                                           "reduction", "io", "study")}
+                                           "modal", "reduction", "io", "study")}
 
 SCRIPTS = {"cli": "test_run.py", "disk": "test_full_disk.py", "crush": "test_crush.py",
            "pod": "test_pod.py", "paper": "test_paper.py", "calls": "test_paper_calls.py",
-           "ring": "test_ring.py"}
+           "ring": "test_ring.py", "modes": "test_modes.py"}
 
 # @file in src/rondo, then of each mutation in it: name | old text => new text | tests.
 # \n is a new line; a line that begins with spaces continues the one above. The tests are
