@@ -88,6 +88,8 @@ int check(const CommonArguments& arguments) {
   fmt::print("title              {}\n", c.title);
   fmt::print("nodes              {} ({} elements, {} free dofs, {} contact candidates)\n", r.nodes,
              r.elements, r.dofs, r.candidates);
+  if (study::may_be_free(c))
+    fmt::print("bodies             {} ({} free)\n", r.bodies, r.free_bodies);
   fmt::print("wave speeds        {:.6g} m/s pressure, {:.6g} m/s shear\n", r.wave_speeds.pressure,
              r.wave_speeds.shear);
   if (c.analysis.kind == study::AnalysisKind::crush) {

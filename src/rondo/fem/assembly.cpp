@@ -173,6 +173,7 @@ Eigen::SparseMatrix<double> free_matrix(const BlockCsr& k, std::span<const int> 
     for (auto at = k.row_start[row]; at < k.row_start[row + 1]; ++at) {
       const auto b = static_cast<std::size_t>(at);
       const int i = place[row], j = place[static_cast<std::size_t>(k.column[b])];
+      if (i < 0 || j < 0) continue;
       for (int c = 0; c < 4; ++c)
         entries.emplace_back(2 * i + c % 2, 2 * j + c / 2,
                              k.values[b][static_cast<std::size_t>(c)]);

@@ -53,7 +53,8 @@ double element_eigenvalue_bound(const mesh::Mesh& mesh, std::span<const Material
 double sector_eigenvalue_bound(const mesh::Mesh& mesh, std::span<const Material> materials,
                                std::span<const Vec2> prestress = {});
 
-/// K of the free nodes as a symmetric scalar matrix, numbered 2·(place in `free`) + component.
+/// K of the nodes in `free` as a symmetric scalar matrix, numbered 2·(place in `free`) + component;
+/// all others stay where they are.
 Eigen::SparseMatrix<double> free_matrix(const BlockCsr& k, std::span<const int> free);
 
 /// Nodes that are not clamped, ascending.

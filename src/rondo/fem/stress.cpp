@@ -44,6 +44,12 @@ std::span<const Stress> StressRecovery::operator()(std::span<const Vec2> u) {
   return nodal_;
 }
 
+Stress turned(const Stress& s, Vec2 r) noexcept {
+  const double cc = r.x * r.x, ss = r.y * r.y, cs = r.x * r.y;
+  return {cc * s[0] - 2.0 * cs * s[3] + ss * s[1], ss * s[0] + 2.0 * cs * s[3] + cc * s[1], s[2],
+          cs * (s[0] - s[1]) + (cc - ss) * s[3]};
+}
+
 double von_mises(const Stress& s) noexcept {
   const double a = s[0] - s[1], b = s[1] - s[2], c = s[2] - s[0];
   return std::sqrt(0.5 * (a * a + b * b + c * c) + 3.0 * s[3] * s[3]);

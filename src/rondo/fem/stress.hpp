@@ -26,6 +26,9 @@ class StressRecovery {
   std::vector<Stress> nodal_;
 };
 
+/// R σ Rᵀ: the stress along axes turned back by the angle of r = e^{iθ}.
+Stress turned(const Stress& stress, Vec2 r) noexcept;
+
 /// √(½[(σxx-σyy)² + (σyy-σzz)² + (σzz-σxx)²] + 3σxy²) [Pa].
 double von_mises(const Stress& stress) noexcept;
 

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <utility>
 
 #include "rondo/core/contract.hpp"
 
@@ -100,6 +101,14 @@ void add_boundary(Mesh& mesh, const Layout& l, const std::vector<Line>& lines) {
   }
 }
 
+/// "rim": the inner boundary, clockwise, so that the body is on the left. "tread": the tops.
+void add_curves(Mesh& mesh, const std::vector<Line>& lines) {
+  Curve rim{"rim", {}};
+  for (std::size_t i = 0; i < lines.size(); ++i)
+    rim.edges.push_back({lines[(i + 1) % lines.size()].first, lines[i].first});
+  mesh.curves = {std::move(rim), {"tread", mesh.contact_edges}};
+}
+
 }  // namespace
 
 std::size_t n_disk_nodes(const Disk& disk) noexcept {
@@ -128,6 +137,7 @@ Mesh make_disk(const Disk& disk) {
   const std::vector<Line> lines = add_nodes(mesh, l, layer_radii(disk, l));
   add_cells(mesh, l, lines);
   add_boundary(mesh, l, lines);
+  add_curves(mesh, lines);
   return mesh;
 }
 

@@ -11,82 +11,86 @@
 
 #include "rondo/dynamics/batch_integrator.hpp"
 #include "rondo/statics/stationary_spin.hpp"
+#include "rondo/study/case_keys.hpp"
 #include "rondo/study/estimate.hpp"
+#include "rondo/study/initial_state.hpp"
 
 namespace rondo::study {
 
-InputError case_error(const Case& c, const std::string& key, const std::string& message,
-                      const std::string& allowed) {
-  Fault fault;
-  fault.file = c.file.string();
-  fault.key = key;
-  fault.message = message;
-  fault.allowed = allowed;
-  const auto place = c.places.find(key);
-  if (place != c.places.end()) {
-    fault.file = place->second.file;
-    fault.line = place->second.line;
-    fault.column = place->second.column;
-    fault.found = place->second.written;
-  }
-  return InputError(fault);
-}
-
 namespace {
 
-/// Shortest edge of the cells around each node [m].
-std::vector<double> element_sizes(const mesh::Mesh& mesh) {
-  std::vector<double> size(mesh.n_nodes(), std::numeric_limits<double>::infinity());
-  for (const mesh::Cell& cell : mesh.cells) {
-    const int n = mesh::n_corners(cell);
-    double shortest = std::numeric_limits<double>::infinity();
-    const auto at = [&](int a) {
-      return mesh.coordinates[static_cast<std::size_t>(cell[static_cast<std::size_t>(a % n)])];
-    };
-    for (int a = 0; a < n; ++a) shortest = std::min(shortest, norm(at(a + 1) - at(a)));
-    for (int a = 0; a < n; ++a) {
-      double& s = size[static_cast<std::size_t>(cell[static_cast<std::size_t>(a)])];
-      s = std::min(s, shortest);
-    }
-  }
-  return size;
-}
-
-/// Layers that coincide in round-off, by grading or by radii that are nearly the same.
-void refuse_flat_elements(const Case& c, const std::vector<double>& size) {
-  const double shortest = *std::min_element(size.begin(), size.end());
-  if (shortest > 1e-9 * c.disk.outer_radius) return;
-  throw case_error(c, c.disk.grading > 1.0 ? "disk.mesh.grading" : "disk.inner_radius",
-                   fmt::format("the shortest edge of the mesh would be {:.3g} m", shortest),
-                   "a milder grading, fewer layers or columns, a thicker disk");
-}
-
-/// What can be done harmonic by harmonic is.
-bool by_harmonics(const dynamics::Model& model) {
-  return model.sector && 2 * model.free.size() > harmonic_setup_dofs;
-}
-
-dynamics::Model make_model(const Case& c, const mesh::Mesh& mesh) {
-  dynamics::Model model;
-  model.reference = mesh.coordinates;
-  model.mass = fem::lumped_mass(mesh, {&c.material, 1});
-  model.free = fem::free_nodes(mesh);
-  if (mesh.n_sectors > 0) model.sector = fem::assemble_sector(mesh, {&c.material, 1});
-  if (model.sector && c.solver_operator != "sparse")
-    model.stiffness_operator = dynamics::StiffnessOperator::cyclic;
-  if (model.stiffness_operator == dynamics::StiffnessOperator::sparse || !by_harmonics(model))
-    model.stiffness = fem::assemble_stiffness(mesh, {&c.material, 1});
-  model.mass_damping = c.damping.mass;
-  model.stiffness_damping = c.damping.stiffness;
-  model.motion = c.motion;
-  model.scheme = c.time.scheme;
+/// A node of the ground's or of another body's contact.
+void add_contacts(const Case& c, const mesh::Mesh& mesh, dynamics::Model& model) {
   if (c.ground)
     model.contact.emplace(dynamics::ContactModel{contact::Ground(c.ground->shape),
                                                  {c.ground->friction, c.ground->restitution},
                                                  mesh.boundary,
                                                  mesh.tributary,
                                                  mesh.contact_edges});
-  return model;
+  const BodyContactCase& between = c.body_contact;
+  if (between.between != BodyContact::none)
+    model.surfaces.emplace(dynamics::SurfaceContact{mesh.boundary,
+                                                    mesh.tributary,
+                                                    mesh.contact_edges,
+                                                    between.between == BodyContact::all,
+                                                    {between.friction, between.restitution}});
+  model.coupled = {c.contact_iterations, c.dump_contacts};
+}
+
+void add_pressures(const Case& c, const mesh::Mesh& mesh, dynamics::Model& model) {
+  for (std::size_t k = 0; k < c.pressures.size(); ++k) {
+    const std::string key = item_of("load.pressure", k) + ".curve";
+    model.pressures.push_back(
+        {curve_of(c, mesh, key, c.pressures[k].curve), c.pressures[k].pressure});
+  }
+}
+
+/// Bodies that nothing holds, where they start. They turn, and so do the sectors of a free disk,
+/// which are none then.
+void find_bodies(const Case& c, Setup& s) {
+  if (!may_be_free(c)) return;
+  dynamics::find_free_bodies(s.mesh, s.model);
+  place_free_bodies(c, s.mesh, s.model);
+  if (s.model.free_bodies.empty()) return;
+  s.mesh.n_sectors = 0;
+  s.mesh.sector.clear();
+  s.mesh.sector_node.clear();
+  if (c.time.scheme == Scheme::as_printed)
+    throw case_error(c, "time.scheme",
+                     fmt::format("{} of the bodies are free, and nothing turns them",
+                                 s.model.free_bodies.size()),
+                     "\"symplectic\", or bodies that mesh.clamped holds");
+}
+
+void make_model(const Case& c, Setup& s) {
+  dynamics::Model& model = s.model;
+  model.reference = s.mesh.coordinates;
+  model.mass = fem::lumped_mass(s.mesh, s.materials);
+  model.free = fem::free_nodes(s.mesh);
+  find_bodies(c, s);
+  add_contacts(c, s.mesh, model);
+  add_pressures(c, s.mesh, model);
+  if (s.mesh.n_sectors > 0) model.sector = fem::assemble_sector(s.mesh, s.materials);
+  if (model.sector && c.solver_operator != "sparse" && !is_general(model))
+    model.stiffness_operator = dynamics::StiffnessOperator::cyclic;
+  if (model.stiffness_operator == dynamics::StiffnessOperator::sparse || !by_harmonics(model))
+    model.stiffness = fem::assemble_stiffness(s.mesh, s.materials);
+  model.mass_damping = c.damping.mass;
+  model.stiffness_damping = c.damping.stiffness;
+  model.motion = c.motion;
+  model.scheme = c.time.scheme;
+}
+
+/// A mesh from a file is only known once it is read.
+void refuse_large_mesh(const Case& c, const mesh::Mesh& mesh) {
+  if (!c.mesh) return;
+  const std::size_t needed = estimated_memory(c, size_of(mesh)), there = physical_memory();
+  if (there > 0 && needed > there)
+    throw case_error(
+        c, "mesh.file",
+        fmt::format("the mesh of {} nodes needs about {} of memory, and this machine has {}",
+                    mesh.n_nodes(), readable_bytes(needed), readable_bytes(there)),
+        "a coarser mesh");
 }
 
 /// K := K + K_σ of the stress of the initial spin, in both forms as far as they are there.
@@ -98,18 +102,19 @@ void add_stress_stiffening(const Case& c, Setup& s) {
     s.warnings.emplace_back(
         "material.stress_stiffening: the initial angular velocity is 0, its stress stiffens "
         "nothing");
-  auto found = by_harmonics(m)
-                   ? statics::centrifugal_prestress(*m.sector, m.mass, m.reference, spin)
-                   : statics::centrifugal_prestress(m.stiffness, m.mass, m.reference, m.free, spin);
+  auto found =
+      by_harmonics(m)
+          ? statics::centrifugal_prestress(*m.sector, m.mass, m.reference, spin)
+          : statics::centrifugal_prestress(m.stiffness, m.mass, m.reference, held_nodes(m), spin);
   if (found.status != statics::SpinStatus::solved)
     throw case_error(c, "material.stress_stiffening",
                      "the stress of the spin was not found: the stiffness is not positive definite "
                      "to round-off",
                      "\"none\", or a material and a mesh in SI units");
   s.prestress = std::move(found.u);
-  if (m.sector) m.sector = fem::assemble_sector(s.mesh, {&c.material, 1}, s.prestress);
+  if (m.sector) m.sector = fem::assemble_sector(s.mesh, s.materials, s.prestress);
   if (!m.stiffness.row_start.empty())
-    m.stiffness = fem::assemble_stiffness(s.mesh, {&c.material, 1}, s.prestress);
+    m.stiffness = fem::assemble_stiffness(s.mesh, s.materials, s.prestress);
 }
 
 void choose_threads(Setup& s, int asked) {
@@ -159,69 +164,11 @@ dynamics::CriticalStep find_critical_step(const Case& c, const Setup& s) {
   const bool lagged = c.time.scheme == Scheme::as_printed;
   const dynamics::LaggedDamping damping{c.damping.stiffness, lagged ? c.damping.mass : 0.0};
   if (by_harmonics(m))
-    return dynamics::critical_step(
-        *m.sector, m.mass, damping,
-        fem::sector_eigenvalue_bound(s.mesh, {&c.material, 1}, s.prestress));
-  return dynamics::critical_step(
-      m.stiffness, m.mass, m.free, damping,
-      fem::element_eigenvalue_bound(s.mesh, {&c.material, 1}, s.prestress), m.threads);
-}
-
-statics::StationarySpin find_stationary_spin(const dynamics::Model& m, double spin) {
-  if (by_harmonics(m)) return statics::stationary_spin(*m.sector, m.mass, m.reference, spin);
-  return statics::stationary_spin(m.stiffness, m.mass, m.reference, m.free, spin);
-}
-
-void set_initial_fields(const Case& c, Setup& s) {
-  const dynamics::Model& model = s.model;
-  s.displacement.assign(model.n_nodes(), Vec2{});
-  s.velocity.assign(model.n_nodes(), Vec2{});
-  if (c.initial.state == InitialState::stationary) {
-    const double spin = -c.motion.angular_velocity.at(0.0);
-    auto stationary = find_stationary_spin(model, spin);
-    if (stationary.status != statics::SpinStatus::solved)
-      throw case_error(c, "motion.angular_velocity",
-                       "no stationary state: at this spin the centrifugal softening "
-                       "exceeds the stiffness",
-                       "a lower spin, or a stiffer material");
-    s.displacement = std::move(stationary.u);
-  }
-  const auto& g = c.initial.displacement_gradient;
-  for (const int node : model.free) {
-    const auto k = static_cast<std::size_t>(node);
-    const Vec2 x = model.reference[k];
-    s.displacement[k] += Vec2{g[0][0] * x.x + g[0][1] * x.y, g[1][0] * x.x + g[1][1] * x.y};
-    s.velocity[k] = c.initial.velocity;  // θ(0) = 0: both frames have the same axes
-  }
-}
-
-/// A node deeper than half an element would get an impulse that means nothing: refused. One less
-/// deep is held where it is, for the law acts on velocities: said.
-void check_start_inside(const Case& c, const std::vector<double>& size, Setup& s) {
-  if (!s.model.contact) return;
-  const Vec2 center = s.model.motion.center(0.0);
-  double deepest = 0.0, worst = 0.0, allowed = 0.0;
-  for (const int node : s.model.contact->nodes) {
-    const auto k = static_cast<std::size_t>(node);
-    const Vec2 x = center + s.model.reference[k] + s.displacement[k];
-    const double depth = -s.model.contact->ground.distance(x);
-    deepest = std::max(deepest, depth);
-    if (depth / size[k] <= worst) continue;
-    worst = depth / size[k];
-    allowed = 0.5 * size[k];
-  }
-  if (worst > 0.5)
-    throw case_error(
-        c, "motion.height",
-        fmt::format("the body starts {:.4g} m deep inside the ground, more than half an element "
-                    "({:.4g} m)",
-                    deepest, allowed),
-        "start above the ground (motion.height, motion.start_x) and come down by a table");
-  if (deepest > 1e-9 * c.disk.outer_radius)
-    s.warnings.push_back(
-        fmt::format("the body starts {:.4g} m inside the ground: contact keeps it "
-                    "from going deeper, but does not push it out",
-                    deepest));
+    return dynamics::critical_step(*m.sector, m.mass, damping,
+                                   fem::sector_eigenvalue_bound(s.mesh, s.materials, s.prestress));
+  return dynamics::critical_step(m.stiffness, m.mass, m.free, damping,
+                                 fem::element_eigenvalue_bound(s.mesh, s.materials, s.prestress),
+                                 m.threads);
 }
 
 /// Nothing where factorisations would take too long.
@@ -231,12 +178,12 @@ std::optional<bool> softens_little(const dynamics::Model& m, double spin) {
   if (!softening_is_checked(2 * m.free.size(), harmonics ? 2 * m.sector->n_local() : 0))
     return std::nullopt;
   if (harmonics) return statics::eigenvalues_above(*m.sector, m.mass, shift);
-  return statics::eigenvalues_above(m.stiffness, m.mass, m.free, shift);
+  return statics::eigenvalues_above(m.stiffness, m.mass, held_nodes(m), shift);
 }
 
 void warn_of_softening(const Case& c, Setup& s) {
   const double spin = c.motion.angular_velocity.largest();
-  if (spin == 0.0 || c.stress_stiffening != StressStiffening::none) return;
+  if (spin == 0.0 || c.stress_stiffening != StressStiffening::none || !is_held(c)) return;
   const std::optional<bool> little = softens_little(s.model, spin);
   if (!little)
     s.warnings.push_back(
@@ -252,20 +199,32 @@ void warn_of_softening(const Case& c, Setup& s) {
 
 }  // namespace
 
-mesh::Mesh build_mesh(const Case& c) {
-  mesh::Mesh mesh = mesh::make_disk(c.disk);
-  refuse_flat_elements(c, element_sizes(mesh));
-  return mesh;
+int count_bodies(const dynamics::Model& model) {
+  return model.body.empty() ? 1 : 1 + *std::max_element(model.body.begin(), model.body.end());
+}
+
+bool by_harmonics(const dynamics::Model& model) {
+  return model.sector && 2 * model.free.size() > harmonic_setup_dofs;
+}
+
+std::vector<int> held_nodes(const dynamics::Model& model) {
+  std::vector<int> held = model.free;
+  std::erase_if(held,
+                [&](int node) { return in_fixed_frame(model, static_cast<std::size_t>(node)); });
+  return held;
 }
 
 Setup build(const Case& c, int threads) {
   Setup s;
-  s.mesh = build_mesh(c);
-  s.model = make_model(c, s.mesh);
+  s.mesh = build_mesh(c, &s.warnings);
+  refuse_large_mesh(c, s.mesh);
+  s.materials = materials_of(c, s.mesh);
+  s.probes = find_probes(c, s.mesh);
+  make_model(c, s);
   add_stress_stiffening(c, s);
   choose_threads(s, threads);
   set_initial_fields(c, s);
-  check_start_inside(c, element_sizes(s.mesh), s);
+  check_start(c, s);
   s.critical = find_critical_step(c, s);
   s.model.dt = choose_step(c, s.critical);
   s.n_steps = count_steps(c, s.model.dt);

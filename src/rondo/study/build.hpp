@@ -5,15 +5,16 @@
 #include <string>
 #include <vector>
 
-#include "rondo/core/error.hpp"
 #include "rondo/dynamics/critical_step.hpp"
-#include "rondo/dynamics/model.hpp"
-#include "rondo/study/case.hpp"
+#include "rondo/study/bodies.hpp"
+#include "rondo/study/probes.hpp"
 
 namespace rondo::study {
 
 struct Setup {
-  mesh::Mesh mesh;
+  mesh::Mesh mesh;                       ///< free bodies where they are at t = 0
+  std::vector<fem::Material> materials;  ///< one for each region of the mesh
+  std::vector<ProbeSite> probes;         ///< of output.probes
   dynamics::Model model;
   dynamics::CriticalStep critical;
   long long n_steps = 0;              ///< ceil(end / step); the step is never fitted to the end
@@ -32,15 +33,22 @@ inline constexpr std::size_t single_thread_dofs = 20000;
 /// and time of one sector. Below it, with the assembled K, as they always did: to the same bits.
 inline constexpr std::size_t harmonic_setup_dofs = 200000;
 
-/// A fault that shows only once the case is put together, at the place where its key stands.
-InputError case_error(const Case& c, const std::string& key, const std::string& message,
-                      const std::string& allowed);
+/// Nodes of the mesh's boundary may touch something.
+inline bool has_candidates(const dynamics::Model& model) noexcept {
+  return model.contact || model.surfaces;
+}
 
-/// @throws InputError: layers that coincide in round-off.
-mesh::Mesh build_mesh(const Case& c);
+/// Parts that no cell joins.
+int count_bodies(const dynamics::Model& model);
 
-/// @param threads 0: chosen by size. @throws InputError: step above the critical one, spin beyond
-/// the softening limit with a stationary start, start inside the ground.
+/// What can be done harmonic by harmonic is.
+bool by_harmonics(const dynamics::Model& model);
+
+/// Nodes that move in the turning frame, ascending.
+std::vector<int> held_nodes(const dynamics::Model& model);
+
+/// @param threads 0: chosen by size. @throws InputError: what build_mesh() says, step above the
+/// critical one, spin beyond the softening limit with a stationary start, start inside the ground.
 Setup build(const Case& c, int threads);
 
 }  // namespace rondo::study

@@ -103,7 +103,7 @@ void check_size(CaseValues& in, const Case& c) {
   if (n_nodes >= most_nodes)
     return in.fault(key, fmt::format("the mesh would have {} nodes", n_nodes),
                     fmt::format("fewer than {} nodes", most_nodes));
-  const std::size_t needed = estimated_memory(c), there = physical_memory();
+  const std::size_t needed = estimated_memory(c, size_of(c.disk)), there = physical_memory();
   if (there > 0 && needed > there)
     in.fault(key,
              fmt::format("the mesh of {} nodes needs about {} of memory, and this machine has {}",
@@ -180,6 +180,9 @@ void read_ground(CaseValues& in, Case& c) {
   in.read("ground.fillet", ground.shape.fillet);
   in.read("ground.friction", ground.friction);
   in.read("ground.restitution", ground.restitution);
+  if (c.mesh && c.mesh->contact.empty())
+    in.fault("ground.profile", "no part of the mesh may touch the ground",
+             "mesh.contact, a physical curve, beside it");
   if (!in.good({"ground", "ground.profile", "ground.fillet"})) return;
   if (is_crush(c) && !check_flat(in, ground.shape.profile)) return;
   for (const contact::ShapeFault& fault : contact::shape_faults(ground.shape)) {

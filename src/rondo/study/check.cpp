@@ -45,17 +45,19 @@ CheckReport check_crush(const Case& c) {
   r.nodes = setup.mesh.n_nodes();
   r.elements = setup.mesh.cells.size();
   r.dofs = setup.n_dofs();
+  r.bodies = mesh::find_bodies(setup.mesh).count;
   r.candidates = setup.mesh.boundary.size();
   r.wave_speeds = fem::wave_speeds(c.material);
   r.increments = c.analysis.increments;
   r.condensed = setup.within_reach;
   r.snapshots = static_cast<std::size_t>(c.analysis.increments);
-  r.memory_bytes = estimated_memory(c);
+  r.memory_bytes = estimated_memory(c, size_of(setup.mesh));
   constexpr bool contact = true, quasi_static = true;
   r.disk_bytes = io::Results::bytes({&setup.mesh, setup.mass, r.snapshots, contact, c.output.stress,
                                      quasi_static}) +
                  r.snapshots * history_row_bytes;
   r.warnings = c.warnings;
+  r.warnings.insert(r.warnings.end(), setup.warnings.begin(), setup.warnings.end());
   return r;
 }
 
@@ -68,6 +70,8 @@ CheckReport check_case(const Case& c, int threads) {
   r.nodes = setup.mesh.n_nodes();
   r.elements = setup.mesh.cells.size();
   r.dofs = 2 * setup.model.free.size();
+  r.bodies = count_bodies(setup.model);
+  r.free_bodies = static_cast<int>(setup.model.free_bodies.size());
   r.candidates = setup.mesh.boundary.size();
   r.wave_speeds = fem::wave_speeds(c.material);
   r.largest_frequency = setup.critical.omega;
@@ -79,10 +83,11 @@ CheckReport check_case(const Case& c, int threads) {
   r.snapshots =
       snapshot_steps(c.output.snapshots, c.output.snapshots_from, setup.model.dt, setup.n_steps)
           .size();
-  r.memory_bytes = estimated_memory(c);
-  r.disk_bytes = io::Results::bytes({&setup.mesh, setup.model.mass, r.snapshots,
-                                     setup.model.contact.has_value(), c.output.stress}) +
-                 history_rows(c, setup) * history_row_bytes;
+  r.memory_bytes = estimated_memory(c, size_of(setup.mesh));
+  r.disk_bytes =
+      io::Results::bytes({&setup.mesh, setup.model.mass, r.snapshots, has_candidates(setup.model),
+                          c.output.stress, false, setup.model.free_body}) +
+      history_rows(c, setup) * history_row_bytes;
   r.seconds = seconds_per_step(setup) * static_cast<double>(setup.n_steps);
   r.warnings = c.warnings;
   r.warnings.insert(r.warnings.end(), setup.warnings.begin(), setup.warnings.end());

@@ -11,6 +11,7 @@ namespace rondo::study {
 
 struct CheckReport {
   std::size_t nodes = 0, elements = 0, dofs = 0, candidates = 0;
+  int bodies = 1, free_bodies = 0;
   fem::WaveSpeeds wave_speeds;     ///< [m/s]
   double largest_frequency = 0.0;  ///< ω_max                                           [rad/s]
   double element_bound = 0.0;      ///< of ω_max, by elements                           [rad/s]

@@ -1,19 +1,43 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "rondo/study/crush_build.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 
 #include "rondo/core/contract.hpp"
-#include "rondo/study/build.hpp"
+#include "rondo/study/bodies.hpp"
 
 namespace rondo::study {
+namespace {
+
+void refuse_free_bodies(const Case& c, const mesh::Mesh& mesh) {
+  const mesh::Bodies bodies = mesh::find_bodies(mesh);
+  std::vector<char> held(static_cast<std::size_t>(bodies.count), 0);
+  for (const int node : mesh.clamped)
+    held[static_cast<std::size_t>(bodies.of_node[static_cast<std::size_t>(node)])] = 1;
+  const auto free = std::count(held.begin(), held.end(), 0);
+  if (free > 0)
+    throw case_error(c, "mesh.clamped",
+                     fmt::format("holds {} of {} bodies, and a crush presses them down by what is "
+                                 "held",
+                                 bodies.count - free, bodies.count),
+                     "a physical curve of every body");
+  if (mesh.boundary.empty())
+    throw case_error(c, "mesh.contact", "no node may touch the ground",
+                     "a physical curve of the mesh");
+}
+
+}  // namespace
 
 CrushSetup build_crush(const Case& c) {
   RONDO_DEMAND(c.analysis.kind == AnalysisKind::crush && c.ground.has_value(),
                c.ground.has_value());
   CrushSetup s;
-  s.mesh = build_mesh(c);
-  s.mass = fem::lumped_mass(s.mesh, {&c.material, 1});
+  s.mesh = build_mesh(c, &s.warnings);
+  s.materials = materials_of(c, s.mesh);
+  refuse_free_bodies(c, s.mesh);
+  s.mass = fem::lumped_mass(s.mesh, s.materials);
   s.free = fem::free_nodes(s.mesh);
   s.model = statics::make_crush_model(s.mesh.coordinates, s.mesh.boundary, c.ground->friction);
   s.ground_height = c.ground->shape.profile.front().y;

@@ -8,13 +8,15 @@ namespace rondo::study {
 
 struct CrushSetup {
   mesh::Mesh mesh;
-  std::vector<double> mass;  ///< (n) [kg/m]
+  std::vector<fem::Material> materials;  ///< one for each region of the mesh
+  std::vector<double> mass;              ///< (n) [kg/m]
   std::vector<int> free;
   statics::CrushModel model;
   double ground_height = 0.0;  ///< y of the ground                                      [m]
   double touch_height = 0.0;   ///< of the centre above the ground at first touch        [m]
   double reach = 0.0;          ///< largest clearance of the candidates condensed at first [m]
   std::size_t within_reach = 0;
+  std::vector<std::string> warnings;  ///< of the reader of the mesh
 
   [[nodiscard]] std::size_t n_dofs() const noexcept { return 2 * free.size(); }
   [[nodiscard]] Vec2 center(double depth) const noexcept {

@@ -66,7 +66,7 @@ CrushRecord::CrushRecord(const std::filesystem::path& directory, const Case& c,
       results_(directory, layout(c, setup)),
       rate_(setup.mesh.n_nodes()),
       force_fixed_(setup.mesh.boundary.size()) {
-  if (c.output.stress) stress_.emplace(setup.mesh, std::span(&c.material, 1));
+  if (c.output.stress) stress_.emplace(setup.mesh, setup.materials);
   write_history(0.0, statics::start_crush(setup.model, setup.mesh.n_nodes()), {});
 }
 
@@ -112,6 +112,7 @@ void CrushRecord::write_history(double parameter, const statics::CrushState& sta
                                    none,
                                    none,
                                    w.residual,
+                                   none,
                                    state.depth,
                                    s.pressure,
                                    s.shear,

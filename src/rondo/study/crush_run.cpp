@@ -163,11 +163,12 @@ std::string crush_trouble(const statics::CrushReport& report, const statics::Cru
 RunReport run_crush(const Case& c, const RunOptions& options) {
   const CrushSetup setup = build_crush(c);
   const auto begin = Clock::now();
-  statics::Condensation body(fem::assemble_stiffness(setup.mesh, {&c.material, 1}), setup.free,
+  statics::Condensation body(fem::assemble_stiffness(setup.mesh, setup.materials), setup.free,
                              setup.model.nodes);
   condense(c, setup, body);
   Json json = describe(c, setup, seconds_since(begin));
   give_warnings(c.warnings, options);
+  give_warnings(setup.warnings, options);
   begin_directory(c, options, json);
   const Loop loop = record(c, setup, body, options, json);
   add_outcome(json, loop, body);

@@ -13,6 +13,7 @@
 #include <system_error>
 
 #include "rondo/study/build.hpp"
+#include "rondo/study/case_bodies.hpp"
 #include "rondo/study/run_output.hpp"
 
 namespace rondo::study {
@@ -26,39 +27,44 @@ std::size_t n_disk_cells(const mesh::Disk& disk) noexcept {
   return count(t.pitches) * (radial * (land + groove) + land * count(t.layers));
 }
 
-namespace {
-
-std::size_t n_disk_sectors(const mesh::Disk& disk) noexcept {
-  return static_cast<std::size_t>(disk.tread ? disk.tread->pitches : disk.circumferential);
+MeshSize size_of(const mesh::Mesh& mesh) noexcept {
+  return {mesh.n_nodes(), mesh.cells.size(), mesh.clamped.size(),
+          static_cast<std::size_t>(mesh.n_sectors)};
 }
 
-bool set_up_by_harmonics(const Case& c, std::size_t nodes) noexcept {
-  const auto on_the_rim = static_cast<std::size_t>(
-      c.disk.tread
-          ? c.disk.tread->pitches * (c.disk.tread->land_columns + c.disk.tread->groove_columns)
-          : c.disk.circumferential);
-  return c.analysis.kind == AnalysisKind::dynamic && 2 * (nodes - on_the_rim) > harmonic_setup_dofs;
+MeshSize size_of(const mesh::Disk& disk) noexcept {
+  const auto count = [](int n) { return static_cast<std::size_t>(n); };
+  const std::size_t sectors = count(disk.tread ? disk.tread->pitches : disk.circumferential);
+  const std::size_t of_a_sector =
+      disk.tread ? count(disk.tread->land_columns) + count(disk.tread->groove_columns) : 1;
+  return {mesh::n_disk_nodes(disk), n_disk_cells(disk), sectors * of_a_sector, sectors};
+}
+
+namespace {
+
+bool set_up_by_harmonics(const Case& c, const MeshSize& mesh) noexcept {
+  return mesh.sectors > 0 && !c.free_rim && c.analysis.kind == AnalysisKind::dynamic &&
+         2 * (mesh.nodes - mesh.clamped) > harmonic_setup_dofs;
 }
 
 /// Of the assembled stiffness: 9 blocks of 2 x 2 doubles and an index for a node of a grid of
 /// quadrilaterals, held twice while they are assembled. Large disks go without.
-std::size_t stiffness_memory(const Case& c, std::size_t nodes) noexcept {
-  if (set_up_by_harmonics(c, nodes) && c.solver_operator != "sparse") return 0;
+std::size_t stiffness_memory(const Case& c, const MeshSize& mesh) noexcept {
+  if (set_up_by_harmonics(c, mesh) && c.solver_operator != "sparse" && why_not_cyclic(c).empty())
+    return 0;
   constexpr std::size_t blocks = 9;
-  return nodes * 2 * blocks * (4 * sizeof(double) + sizeof(int));
+  return mesh.nodes * 2 * blocks * (4 * sizeof(double) + sizeof(int));
 }
 
 /// Of the Cholesky factors for a crush, the stationary start and the check of spin softening.
 /// Nested dissection of a plane grid fills in about n log2 n; the factor is fitted to runs of 10⁴
 /// to 4·10⁵ dofs.
-std::size_t factor_memory(const Case& c, std::size_t nodes) noexcept {
-  const double dofs =
-      2.0 *
-      static_cast<double>(set_up_by_harmonics(c, nodes) ? nodes / n_disk_sectors(c.disk) : nodes);
-  const std::size_t of_a_sector =
-      set_up_by_harmonics(c, nodes) ? 2 * nodes / n_disk_sectors(c.disk) : 0;
-  const bool checked =
-      c.motion.angular_velocity.largest() != 0.0 && softening_is_checked(2 * nodes, of_a_sector);
+std::size_t factor_memory(const Case& c, const MeshSize& mesh) noexcept {
+  const bool harmonics = set_up_by_harmonics(c, mesh);
+  const double dofs = 2.0 * static_cast<double>(harmonics ? mesh.nodes / mesh.sectors : mesh.nodes);
+  const std::size_t of_a_sector = harmonics ? 2 * mesh.nodes / mesh.sectors : 0;
+  const bool checked = c.motion.angular_velocity.largest() != 0.0 &&
+                       softening_is_checked(2 * mesh.nodes, of_a_sector);
   const bool crush = c.analysis.kind == AnalysisKind::crush;
   if (!checked && !crush && c.initial.state != InitialState::stationary) return 0;
   constexpr double bytes_per_entry = 60.0;
@@ -68,7 +74,7 @@ std::size_t factor_memory(const Case& c, std::size_t nodes) noexcept {
 /// Of a crush: the fields of the 32 columns that are condensed at once (loads, solution and copies
 /// within CHOLMOD), the compliance and its direct solves; candidates up to twice the depth.
 std::size_t compliance_memory(const Case& c, std::size_t nodes) noexcept {
-  if (c.analysis.kind != AnalysisKind::crush) return 0;
+  if (c.analysis.kind != AnalysisKind::crush || c.mesh) return 0;  // of a file: not known before
   const mesh::Disk& d = c.disk;
   const double columns = d.tread
                              ? static_cast<double>(d.tread->pitches) * (d.tread->land_columns + 1.0)
@@ -98,14 +104,13 @@ bool softening_is_checked(std::size_t dofs, std::size_t harmonic_dofs) noexcept 
          (harmonic_dofs > 0 && harmonic_dofs <= softening_check_harmonic_dofs);
 }
 
-std::size_t estimated_memory(const Case& c) noexcept {
+std::size_t estimated_memory(const Case& c, const MeshSize& mesh) noexcept {
   // Mesh, model, state and what is written; weights and nodal values of the stress.
   const std::size_t fields = (c.output.stress ? 38 : 30) * sizeof(double);
-  const std::size_t nodes = mesh::n_disk_nodes(c.disk);
   constexpr std::size_t program = 30'000'000;  // with its libraries
-  return program + nodes * fields + stiffness_memory(c, nodes) +
-         n_disk_cells(c.disk) * sizeof(mesh::Cell) + factor_memory(c, nodes) +
-         compliance_memory(c, nodes) + queue_memory(c, nodes);
+  return program + mesh.nodes * fields + stiffness_memory(c, mesh) +
+         mesh.cells * sizeof(mesh::Cell) + factor_memory(c, mesh) +
+         compliance_memory(c, mesh.nodes) + queue_memory(c, mesh.nodes);
 }
 
 std::size_t physical_memory() noexcept {

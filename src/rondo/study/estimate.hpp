@@ -20,8 +20,19 @@ inline constexpr std::size_t softening_check_harmonic_dofs = 20000;
 /// Whether the check is made. `harmonic_dofs`: as many as a sector has; 0: not by harmonics.
 bool softening_is_checked(std::size_t dofs, std::size_t harmonic_dofs) noexcept;
 
+/// What memory depends on.
+struct MeshSize {
+  std::size_t nodes = 0, cells = 0;
+  std::size_t clamped = 0;  ///< nodes
+  std::size_t sectors = 0;  ///< equal ones; 0: none
+};
+
+MeshSize size_of(const mesh::Mesh& mesh) noexcept;
+/// Of the mesh that mesh::make_disk would make.
+MeshSize size_of(const mesh::Disk& disk) noexcept;
+
 /// Memory of a run at its largest, while K is assembled or factorised; an estimate [B].
-std::size_t estimated_memory(const Case& c) noexcept;
+std::size_t estimated_memory(const Case& c, const MeshSize& mesh) noexcept;
 
 /// Physical memory of this machine [B]; 0: unknown.
 std::size_t physical_memory() noexcept;

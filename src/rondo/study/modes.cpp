@@ -34,8 +34,7 @@ struct Body {
 Body make_body(const Case& c) {
   Body b;
   b.mesh = build_mesh(c);
-  if (c.free_rim) b.mesh.clamped.clear();
-  b.materials = {c.material};
+  b.materials = materials_of(c, b.mesh);
   b.mass = fem::lumped_mass(b.mesh, b.materials);
   b.free = static_cast<int>(modal::free_bodies(b.mesh).size());
   b.largest_frequency = std::sqrt(b.cyclic() ? fem::sector_eigenvalue_bound(b.mesh, b.materials)

@@ -58,17 +58,17 @@ TEST(Estimate, CountsNodesAndCells) {
   Case c = read_text(base, {"motion.angular_velocity=0.0", "output.snapshots=0"});
   EXPECT_EQ(n_disk_cells(c.disk), 12U * 180U);
   constexpr std::size_t program = 30'000'000;
-  const std::size_t still = estimated_memory(c) - program;
+  const std::size_t still = estimated_memory(c, size_of(c.disk)) - program;
   EXPECT_EQ(still, 13U * 180U * (2 * 9 * 36 + 304) + 12U * 180U * 16U);
   c.initial.state = InitialState::stationary;  // needs the factors of K
-  EXPECT_GT(estimated_memory(c) - program, 2 * still);
+  EXPECT_GT(estimated_memory(c, size_of(c.disk)) - program, 2 * still);
   c.initial.state = InitialState::rest;
   c.output.snapshots = 7;  // all of them may wait to be written
-  EXPECT_EQ(estimated_memory(c) - program, still + 7U * 13U * 180U * 32U);
+  EXPECT_EQ(estimated_memory(c, size_of(c.disk)) - program, still + 7U * 13U * 180U * 32U);
   c.output.snapshots = 100'000;
-  EXPECT_LE(estimated_memory(c) - program, still + 64'000'000U);
+  EXPECT_LE(estimated_memory(c, size_of(c.disk)) - program, still + 64'000'000U);
   c.analysis = {AnalysisKind::crush, 0.02, 10};
-  EXPECT_GT(estimated_memory(c) - program, 2 * still);
+  EXPECT_GT(estimated_memory(c, size_of(c.disk)) - program, 2 * still);
   c = read_text(treaded());
   EXPECT_EQ(n_disk_cells(c.disk), mesh::make_disk(c.disk).cells.size());
 }

@@ -1,0 +1,16 @@
+// SPDX-License-Identifier: BSD-3-Clause
+/// @file  Displacements and velocities at t = 0, and whether bodies start where they may.
+#pragma once
+#include "rondo/study/build.hpp"
+
+namespace rondo::study {
+
+/// Fills u_0 and v_0. @throws InputError: spin beyond the softening limit with a stationary start,
+/// motions that the bodies cannot have
+void set_initial_fields(const Case& c, Setup& s);
+
+/// @throws InputError: bodies deeper than half an element inside the ground or each other. Less
+/// deep is warned of. @pre the fields are set
+void check_start(const Case& c, Setup& s);
+
+}  // namespace rondo::study
