@@ -23,9 +23,9 @@ namespace {
 constexpr std::array run_marks = {"run.json", "results.h5", "history.csv", "modes.json",
                                   "modes.h5"};
 constexpr std::array run_files = {
-    "case.toml",   "run.json",      "history.csv",        "contact.csv", "results.h5",
-    "fields.xdmf", "checkpoint.h5", "modes.json",         "modes.h5",    "modes.xdmf",
-    "modes.csv",   "campbell.csv",  "critical-speeds.csv"};
+    "case.toml",  "mesh.msh",    "run.json",      "history.csv",        "contact.csv",
+    "results.h5", "fields.xdmf", "checkpoint.h5", "modes.json",         "modes.h5",
+    "modes.xdmf", "modes.csv",   "campbell.csv",  "critical-speeds.csv"};
 constexpr std::array pod_files = {"pod.json", "pod.h5", "spectrum.csv", "modes.xdmf",
                                   "reconstruction.xdmf"};
 
@@ -56,9 +56,19 @@ void remove_pods(const fs::path& directory) {
   if (fs::is_empty(directory / "pod", error)) remove_one(directory / "pod");
 }
 
+/// Contact problems kept by a run that is no more.
+void remove_contact_problems(const fs::path& directory) {
+  const fs::path folder = directory / "contact-problems";
+  std::error_code error;
+  for (const auto& entry : fs::directory_iterator(folder, error))
+    if (entry.path().extension() == ".json") remove_one(entry.path());
+  if (fs::is_empty(folder, error)) remove_one(folder);
+}
+
 void remove_run(const fs::path& directory) {
   for (const char* name : run_files) remove_one(directory / name);
   remove_pods(directory);
+  remove_contact_problems(directory);
 }
 
 /// Descriptor of a file being written; removes it unless kept.

@@ -66,13 +66,21 @@ void write_cells(h5::File& file, const mesh::Mesh& m) {
 void write_mesh(h5::File& file, const mesh::Mesh& m, std::span<const double> mass) {
   const std::size_t n = m.n_nodes(), nb = m.boundary.size();
   file.write("/mesh/coordinates", {n, 2}, view(m.coordinates),
-             {"m", "reference position X of each node, turning frame, from the centre"});
+             {"m",
+              "reference position X of each node: turning frame, from the centre; of free bodies "
+              "fixed frame"});
   write_cells(file, m);
   file.write("/mesh/boundary", {nb}, view(m.boundary),
-             {"1", "nodes that may touch the ground, in order along the boundary"});
+             {"1", "nodes that may touch something, in order along the boundary"});
   file.write("/mesh/tributary", {nb}, view(m.tributary),
              {"m", "length of boundary that each node of /mesh/boundary stands for"});
   file.write("/mesh/mass", {n}, mass, {"kg/m", "lumped mass of each node, per unit thickness"});
+  if (!m.region.empty()) {
+    file.write("/mesh/region", {m.region.size()}, view(m.region),
+               {"1", "physical surface of each cell: its attributes name_0, name_1, ..."});
+    for (std::size_t k = 0; k < m.region_names.size(); ++k)
+      file.set_attribute("/mesh/region", fmt::format("name_{}", k), m.region_names[k]);
+  }
   if (m.n_sectors == 0) return;
   file.write("/mesh/sector", {n}, view(m.sector),
              {"1", "sector of each node, counter-clockwise from straight down, from 0"});
@@ -155,7 +163,7 @@ std::size_t mesh_bytes(const mesh::Mesh& m) noexcept {
   const CellCounts c = counts_of(m);
   const std::size_t cells = c.cells * c.corners + (c.mixed() ? c.n_mixed() : 0);
   return m.n_nodes() * (3 * real + (m.n_sectors > 0 ? 2 * whole : 0)) + cells * whole +
-         m.boundary.size() * (whole + real);
+         m.boundary.size() * (whole + real) + m.region.size() * whole;
 }
 
 XdmfTopology topology_of(const mesh::Mesh& m) {

@@ -33,7 +33,7 @@ Counts counts_of(const ResultsLayout& layout) noexcept {
 
 /// Of results.h5: what describes the datasets, and an entry for each row.
 std::size_t index_bytes(const Counts& c) noexcept {
-  constexpr std::size_t datasets = 19, description = 4096;
+  constexpr std::size_t datasets = 21, description = 4096;
   return datasets * (description + c.times * h5::File::bytes_of_entry);
 }
 
@@ -66,12 +66,9 @@ XdmfSeries series_of(const mesh::Mesh& mesh, const Counts& c) {
 }
 
 /// R σ R^T as xx, xy, xz, yy, yz, zz; r = e^{iθ}.
-std::array<float, 6> turned(const NodalStress& s, Vec2 r) noexcept {
-  const double cc = r.x * r.x, ss = r.y * r.y, cs = r.x * r.y;
-  const double xx = cc * s[0] - 2.0 * cs * s[3] + ss * s[1];
-  const double yy = ss * s[0] + 2.0 * cs * s[3] + cc * s[1];
-  const double xy = cs * (s[0] - s[1]) + (cc - ss) * s[3];
-  return {static_cast<float>(xx),  static_cast<float>(xy), 0.0F, static_cast<float>(yy), 0.0F,
+std::array<float, 6> turned_tensor(const NodalStress& stress, Vec2 r) noexcept {
+  const NodalStress s = fem::turned(stress, r);
+  return {static_cast<float>(s[0]), static_cast<float>(s[3]), 0.0F, static_cast<float>(s[1]), 0.0F,
           static_cast<float>(s[2])};
 }
 
@@ -91,7 +88,14 @@ struct Results::Impl {
   void resize(std::size_t rows);
   void check(const Snapshot& s) const;
   void write_fields(const Snapshot& s);
-  void write_stress(const Snapshot& s, Vec2 turn);
+  void write_stress(const Snapshot& s);
+  /// Of displacements and velocities, for descriptions.
+  [[nodiscard]] std::string frame() const {
+    return free_body.empty() ? "turning frame" : "turning frame, of free bodies fixed frame";
+  }
+  [[nodiscard]] bool is_free(std::size_t node) const {
+    return !free_body.empty() && free_body[node] >= 0;
+  }
   void write_contact(const Snapshot& s);
   void write_crush(const CrushRow& crush);
   void write_snapshot(const Snapshot& s);
@@ -109,6 +113,7 @@ struct Results::Impl {
   std::vector<Vec2> coordinates;
   std::vector<int> boundary;
   std::vector<double> tributary;
+  std::vector<int> free_body;
   std::size_t written = 0;
   std::vector<std::array<float, 3>> vectors, forces;
   std::vector<std::array<float, 6>> tensors;
@@ -128,6 +133,7 @@ Results::Impl::Impl(const std::filesystem::path& directory, const ResultsLayout&
       coordinates(layout.mesh->coordinates),
       boundary(layout.mesh->boundary),
       tributary(layout.mesh->tributary),
+      free_body(layout.free_body.begin(), layout.free_body.end()),
       vectors(c.nodes),
       forces(c.contact ? c.nodes : 0),
       tensors(c.stress ? c.nodes : 0),
@@ -140,6 +146,11 @@ Results::Impl::Impl(const std::filesystem::path& directory, const ResultsLayout&
   file.set_attribute("/", "format", "rondo results 1");
   file.set_attribute("/", "analysis", c.quasi_static ? "crush" : "dynamic");
   write_mesh(file, *layout.mesh, layout.mass);
+  if (!free_body.empty())
+    file.write("/mesh/free_body", {c.nodes}, view(free_body),
+               {"1",
+                "number of the free body of each node, in the order of their first nodes: such "
+                "a node moves in the fixed frame; -1: in the turning frame"});
   if (c.times > 0) {
     create_frame();
     create_snapshots();
@@ -175,9 +186,9 @@ void Results::Impl::create_frame() {
 
 void Results::Impl::create_snapshots() {
   d.displacement = file.create_rows("/snapshots/displacement", Type::float64, {c.times, c.nodes, 2},
-                                    {"m", "displacement u of each node, turning frame"});
-  h5::Label velocity = {
-      "m/s", "velocity du/dt of each node in the turning frame, at /frame/time_velocity"};
+                                    {"m", "displacement u of each node, " + frame()});
+  h5::Label velocity = {"m/s",
+                        "velocity du/dt of each node, " + frame() + ", at /frame/time_velocity"};
   if (c.quasi_static)
     velocity = {"m",
                 "rate of the displacement over the share of the depth, at /frame/time_velocity"};
@@ -202,10 +213,8 @@ void Results::Impl::create_fields() {
   d.field_displacement =
       file.create_rows("/fields/displacement", Type::float32, vector,
                        {"m", "displacement u of each node along the fixed axes"});
-  h5::Label velocity = {
-      "m/s",
-      "velocity du/dt in the turning frame of each node, along the fixed axes, at "
-      "/frame/time_velocity"};
+  h5::Label velocity = {"m/s", "velocity du/dt of each node, " + frame() +
+                                   ", along the fixed axes, at /frame/time_velocity"};
   if (c.quasi_static)
     velocity = {
         "m",
@@ -266,25 +275,32 @@ void Results::Impl::check(const Snapshot& s) const {
   RONDO_DEMAND(!c.contact || (s.contact_force.size() == nb && s.contact_force_fixed.size() == nb),
                s.contact_force.size(), s.contact_force_fixed.size(), nb);
   RONDO_DEMAND(!c.stress || s.stress.size() == c.nodes, s.stress.size(), c.nodes);
+  const int last = free_body.empty() ? -1 : *std::max_element(free_body.begin(), free_body.end());
+  RONDO_DEMAND(!c.stress || static_cast<int>(s.body_rotation.size()) > last, s.body_rotation.size(),
+               last);
 }
 
 void Results::Impl::write_fields(const Snapshot& s) {
   const Vec2 turn = rotation(s.angle);
+  const auto to_fixed = [&](std::size_t i, Vec2 a) { return is_free(i) ? a : turn * a; };
   for (std::size_t i = 0; i < c.nodes; ++i)
-    vectors[i] = in_space(s.center + turn * (coordinates[i] + s.displacement[i]));
+    vectors[i] = in_space((is_free(i) ? Vec2{} : s.center) +
+                          to_fixed(i, coordinates[i] + s.displacement[i]));
   row(d.position, vectors);
-  for (std::size_t i = 0; i < c.nodes; ++i) vectors[i] = in_space(turn * s.displacement[i]);
+  for (std::size_t i = 0; i < c.nodes; ++i) vectors[i] = in_space(to_fixed(i, s.displacement[i]));
   row(d.field_displacement, vectors);
-  for (std::size_t i = 0; i < c.nodes; ++i) vectors[i] = in_space(turn * s.velocity[i]);
+  for (std::size_t i = 0; i < c.nodes; ++i) vectors[i] = in_space(to_fixed(i, s.velocity[i]));
   row(d.field_velocity, vectors);
-  if (c.stress) write_stress(s, turn);
+  if (c.stress) write_stress(s);
   if (c.contact) write_contact(s);
 }
 
-void Results::Impl::write_stress(const Snapshot& s, Vec2 turn) {
+void Results::Impl::write_stress(const Snapshot& s) {
+  const Vec2 turn = rotation(s.angle);
   for (std::size_t i = 0; i < c.nodes; ++i) {
     scalars[i] = static_cast<float>(fem::von_mises(s.stress[i]));
-    tensors[i] = turned(s.stress[i], turn);
+    tensors[i] = turned_tensor(
+        s.stress[i], is_free(i) ? s.body_rotation[static_cast<std::size_t>(free_body[i])] : turn);
   }
   row(d.von_mises, scalars);
   row(d.stress, tensors);
@@ -359,7 +375,7 @@ std::size_t Results::bytes(const ResultsLayout& layout) noexcept {
   const std::size_t node = 4 * real + (9U + (c.contact ? 3U : 0U) + (c.stress ? 7U : 0U)) * single;
   const std::size_t candidate = c.contact ? 4 * real : 0,
                     frame = (6U + (c.quasi_static ? 5U : 0U)) * real;
-  return index_bytes(c) + mesh_bytes(*layout.mesh) +
+  return index_bytes(c) + mesh_bytes(*layout.mesh) + layout.free_body.size() * sizeof(int) +
          c.times * (frame + c.nodes * node + c.candidates * candidate);
 }
 

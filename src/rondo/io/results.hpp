@@ -24,9 +24,12 @@ struct ResultsLayout {
   const mesh::Mesh* mesh = nullptr;
   std::span<const double> mass;  ///< (n) lumped mass per unit thickness [kg/m]
   std::size_t n_snapshots = 0;   ///< planned
-  bool contact = false;          ///< a ground is there: /contact is written
+  bool contact = false;          ///< something may be touched: /contact is written
   bool stress = false;           ///< stress goes into the fields
   bool quasi_static = false;  ///< a crush: `time` is the share of the depth [1], /crush is written
+  /// (n) number of the free body that a node belongs to, which moves in the fixed frame; -1: it
+  /// moves in the turning frame. Empty: no free body.
+  std::span<const int> free_body = {};
 };
 
 /// Of a crush after an increment.
@@ -45,11 +48,12 @@ struct Snapshot {
   double angle = 0.0;           ///< θ at `time`, counter-clockwise                     [rad]
   double angle_velocity = 0.0;  ///< θ at `time_velocity`                      [rad]
   Vec2 center;                  ///< fixed frame                                        [m]
-  std::span<const Vec2> displacement;         ///< (n) turning frame                         [m]
-  std::span<const Vec2> velocity;             ///< (n) turning frame                         [m/s]
-  std::span<const Vec2> contact_force;        ///< (nb) normal, tangential; empty: no ground [N/m]
-  std::span<const Vec2> contact_force_fixed;  ///< (nb) x, y in the fixed frame        [N/m]
-  std::span<const NodalStress> stress;        ///< (n) turning frame; empty: not asked for   [Pa]
+  std::span<const Vec2> displacement;   ///< (n) turning frame; of free bodies fixed frame   [m]
+  std::span<const Vec2> velocity;       ///< (n) the same                                  [m/s]
+  std::span<const Vec2> contact_force;  ///< (nb) normal, tangential; empty: no contact    [N/m]
+  std::span<const Vec2> contact_force_fixed;  ///< (nb) x, y in the fixed frame           [N/m]
+  std::span<const NodalStress> stress;        ///< (n) frame of the body; empty: not asked for [Pa]
+  std::span<const Vec2> body_rotation = {};   ///< e^{iθ} of each free body
   CrushRow crush = {};                        ///< only written where quasi-static
 };
 

@@ -4,6 +4,9 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
+
+#include "rondo/dynamics/corotated.hpp"
 
 namespace rondo::study {
 
@@ -30,60 +33,117 @@ std::vector<std::string> history_columns() {
           "dissipation_mass",
           "dissipation_stiffness",
           "work_scheme",
-          "energy_residual"};
+          "energy_residual",
+          "work_load"};
 }
 
 std::vector<std::string> contact_columns() {
   return {"time_s", "node", "abscissa_m", "x_m", "y_m", "pressure_pa", "shear_pa"};
 }
 
+namespace {
+
+/// Of a disk; of a mesh the largest of the candidates that are held. 0: all of them are free.
+double rolling_radius(const Case& c, const Setup& setup) {
+  if (!is_held(c)) return 0.0;
+  if (!c.mesh) return c.disk.outer_radius;
+  double radius = 0.0;
+  for (const int node : setup.mesh.boundary) {
+    const auto k = static_cast<std::size_t>(node);
+    if (!in_fixed_frame(setup.model, k)) radius = std::max(radius, norm(setup.model.reference[k]));
+  }
+  return radius;
+}
+
+}  // namespace
+
 History::History(const Case& c, const Setup& setup)
-    : case_(c), dt_(setup.model.dt), interval_(c.output.history_interval) {}
+    : case_(c),
+      setup_(setup),
+      dt_(setup.model.dt),
+      interval_(c.output.history_interval),
+      radius_(rolling_radius(c, setup)) {}
+
+std::vector<std::string> History::columns() const {
+  std::vector<std::string> names = history_columns();
+  const std::vector<std::string> probes = probe_columns(case_.output.probes);
+  names.insert(names.end(), probes.begin(), probes.end());
+  return names;
+}
 
 double History::slip_ratio(double time) const {
-  const double rim = case_.motion.angular_velocity.at(time) * case_.disk.outer_radius;
+  if (radius_ == 0.0) return 0.0;
+  const double rim = case_.motion.angular_velocity.at(time) * radius_;
   const double speed = case_.motion.speed.at(time);
   const double scale = std::max(std::abs(speed), std::abs(rim));
   return scale > 0.0 ? (rim - speed) / scale : 0.0;
 }
 
-void History::observe(const dynamics::StepReport& step, bool last, std::vector<double>& rows) {
+/// The step nearest to a multiple of the interval writes the row.
+bool History::is_due(double time) const noexcept {
+  return time + 0.5 * dt_ > static_cast<double>(next_) * interval_;
+}
+
+long long History::next_probed() const noexcept {
+  if (setup_.probes.empty()) return std::numeric_limits<long long>::max();
+  if (interval_ == 0.0) return done_ + 1;
+  const auto time = [&](long long step) { return static_cast<double>(step) * dt_; };
+  // A guess, then the same comparison as that of the step itself.
+  auto step = static_cast<long long>(static_cast<double>(next_) * interval_ / dt_ - 0.5);
+  step = std::max(step, done_ + 1);
+  while (step > done_ + 1 && is_due(time(step - 1))) --step;
+  while (!is_due(time(step))) ++step;
+  return step;
+}
+
+void History::append_probes(const dynamics::State* state, std::vector<double>& rows) const {
+  if (setup_.probes.empty()) return;
+  if (state)
+    return study::append_probes({setup_.mesh, setup_.materials, setup_.model}, setup_.probes,
+                                *state, rows);
+  rows.insert(rows.end(), probe_columns(case_.output.probes).size(),
+              std::numeric_limits<double>::quiet_NaN());
+}
+
+void History::observe(const dynamics::StepReport& step, bool last, const dynamics::State* state,
+                      std::vector<double>& rows) {
+  done_ = step.step;
   const dynamics::ContactReport& report = step.contact;
   ++steps_;
   impulse_ += report.impulse;
   angular_impulse_ += report.angular_impulse;
   penetration_ = std::max(penetration_, report.penetration);
   const double time = step.frame.time;
-  // The step nearest to a multiple of the interval writes the row.
-  const bool due = time + 0.5 * dt_ > static_cast<double>(next_) * interval_;
-  if (!due && !last) return;
+  if (!is_due(time) && !last) return;
   const double span = static_cast<double>(steps_) * dt_;
   const dynamics::Balance& b = step.balance;
   const dynamics::Works& w = b.works;
-  const std::array<double, n_history_columns> row{time,
-                                                  step.frame.angle,
-                                                  step.frame.center.x,
-                                                  step.frame.center.y,
-                                                  impulse_.x / span,
-                                                  impulse_.y / span,
-                                                  angular_impulse_ / span,
-                                                  static_cast<double>(report.nodes),
-                                                  static_cast<double>(report.sticking),
-                                                  report.length,
-                                                  penetration_,
-                                                  slip_ratio(time),
-                                                  b.kinetic,
-                                                  b.strain,
-                                                  w.frame,
-                                                  w.contact,
-                                                  w.dissipation_friction,
-                                                  w.loss_impact,
-                                                  w.rim,
-                                                  w.dissipation_mass,
-                                                  w.dissipation_stiffness,
-                                                  w.scheme,
-                                                  b.residual};
+  const std::array row{time,
+                       step.frame.angle,
+                       step.frame.center.x,
+                       step.frame.center.y,
+                       impulse_.x / span,
+                       impulse_.y / span,
+                       angular_impulse_ / span,
+                       static_cast<double>(report.nodes),
+                       static_cast<double>(report.sticking),
+                       report.length,
+                       penetration_,
+                       slip_ratio(time),
+                       b.kinetic,
+                       b.strain,
+                       w.frame,
+                       w.contact,
+                       w.dissipation_friction,
+                       w.loss_impact,
+                       w.rim,
+                       w.dissipation_mass,
+                       w.dissipation_stiffness,
+                       w.scheme,
+                       b.residual,
+                       w.load};
   rows.insert(rows.end(), row.begin(), row.end());
+  append_probes(state, rows);
   if (interval_ > 0.0) next_ = static_cast<long long>((time + 0.5 * dt_) / interval_) + 1;
   steps_ = 0;
   impulse_ = {};
@@ -105,8 +165,9 @@ std::vector<long long> snapshot_steps(int count, double from, double dt, long lo
 namespace {
 
 io::ResultsLayout layout(const Case& c, const Setup& setup, std::size_t n_snapshots) {
-  return {&setup.mesh, setup.model.mass, n_snapshots, setup.model.contact.has_value(),
-          c.output.stress};
+  constexpr bool quasi_static = false;
+  return {&setup.mesh,     setup.model.mass, n_snapshots,          has_candidates(setup.model),
+          c.output.stress, quasi_static,     setup.model.free_body};
 }
 
 }  // namespace
@@ -116,8 +177,10 @@ Snapshots::Snapshots(const std::filesystem::path& directory, const Case& c, cons
     : setup_(setup),
       results_(directory, layout(c, setup, planned)),
       contact_csv_(directory / "contact.csv", contact_columns()) {
-  if (c.output.stress) stress_.emplace(setup.mesh, std::span(&c.material, 1));
-  const std::size_t nb = setup.model.contact ? setup.mesh.boundary.size() : 0;
+  if (c.output.stress) stress_.emplace(setup.mesh, setup.materials);
+  const std::size_t nb = has_candidates(setup.model) ? setup.mesh.boundary.size() : 0;
+  if (!setup.model.free_bodies.empty()) elastic_.resize(setup.mesh.n_nodes());
+  rotations_.resize(setup.model.free_bodies.size());
   force_.resize(nb);
   force_fixed_.resize(nb);
   rows_.reserve(7 * nb);
@@ -145,12 +208,21 @@ void Snapshots::write_contact_rows(const dynamics::State& state) {
     const int node = setup_.mesh.boundary[k];
     const Vec2 x = position(setup_.model, state, static_cast<std::size_t>(node));
     const Vec2 traction = force_[k] / setup_.mesh.tributary[k];
+    const auto& ground = setup_.model.contact;
+    const double abscissa =
+        ground ? ground->ground.abscissa(x) : std::numeric_limits<double>::quiet_NaN();
     for (const double value :
-         {state.frame.time, static_cast<double>(node), setup_.model.contact->ground.abscissa(x),
-          x.x, x.y, traction.x, traction.y})
+         {state.frame.time, static_cast<double>(node), abscissa, x.x, x.y, traction.x, traction.y})
       rows_.push_back(value);
   }
   contact_csv_.rows(rows_);
+}
+
+/// What a body's stress is of.
+std::span<const Vec2> Snapshots::elastic(const dynamics::State& state) {
+  if (elastic_.empty()) return state.u;
+  dynamics::elastic_displacements(setup_.model, state.u, state.poses, elastic_);
+  return elastic_;
 }
 
 void Snapshots::write(const dynamics::State& state) {
@@ -162,13 +234,15 @@ void Snapshots::write(const dynamics::State& state) {
   s.center = state.frame.center;
   s.displacement = state.u;
   s.velocity = state.v;
-  if (setup_.model.contact) {
+  if (has_candidates(setup_.model)) {
     collect_contact(state);
     s.contact_force = force_;
     s.contact_force_fixed = force_fixed_;
     write_contact_rows(state);
   }
-  if (stress_) s.stress = (*stress_)(state.u);
+  if (stress_) s.stress = (*stress_)(elastic(state));
+  for (std::size_t b = 0; b < rotations_.size(); ++b) rotations_[b] = state.poses[b].rotation;
+  s.body_rotation = rotations_;
   results_.write(s);
 }
 

@@ -12,30 +12,38 @@
 
 namespace rondo::study {
 
-/// Of history.csv and contact.csv, for every kind of analysis.
+/// Of history.csv and contact.csv, for every kind of analysis. A crush and probes add some.
 std::vector<std::string> history_columns();
 std::vector<std::string> contact_columns();
 
-/// As many as history_columns() has; a crush adds some.
-inline constexpr std::size_t n_history_columns = 23;
-
 /// Rows of history.csv: forces as means over the interval since the last row, the ledger at half a
-/// step before.
+/// step before, probes as they are at the row's time.
 class History {
  public:
-  /// c.output.history_interval 0: every step. The case must outlive the object.
+  /// c.output.history_interval 0: every step. Case and setup must outlive the object.
   History(const Case& c, const Setup& setup);
+  [[nodiscard]] std::vector<std::string> columns() const;
   /// Every step, in turn: appends a row where one is due.
   /// @param last no step comes after: a row is appended even where none is due.
-  void observe(const dynamics::StepReport& step, bool last, std::vector<double>& rows);
+  /// @param state of this step, where there are probes; null: their numbers are NaN
+  void observe(const dynamics::StepReport& step, bool last, const dynamics::State* state,
+               std::vector<double>& rows);
+  /// The next step that gives a row with probes: its state is wanted. The largest number where
+  /// there are none.
+  [[nodiscard]] long long next_probed() const noexcept;
 
  private:
   [[nodiscard]] double slip_ratio(double time) const;
+  [[nodiscard]] bool is_due(double time) const noexcept;
+  void append_probes(const dynamics::State* state, std::vector<double>& rows) const;
 
   const Case& case_;
+  const Setup& setup_;
   double dt_, interval_;
+  double radius_ = 0.0;  ///< of what rolls; 0: nothing does                       [m]
   long long next_ = 1;   ///< number of the next row's interval
   long long steps_ = 0;  ///< since the last row
+  long long done_ = 0;   ///< the last step seen
   Vec2 impulse_;         ///< since the last row [N·s/m]
   double angular_impulse_ = 0.0;
   double penetration_ = 0.0;
@@ -51,7 +59,7 @@ class Snapshots {
   /// @param planned snapshots, at the most. The setup must outlive the object. @throws FileError
   Snapshots(const std::filesystem::path& directory, const Case& c, const Setup& setup,
             std::size_t planned);
-  /// @param state step, frame, u, v and active are read. @throws FileError
+  /// @param state step, frame, u, v, poses and active are read. @throws FileError
   void write(const dynamics::State& state);
   /// @throws FileError
   void close();
@@ -59,12 +67,15 @@ class Snapshots {
 
  private:
   void collect_contact(const dynamics::State& state);
+  std::span<const Vec2> elastic(const dynamics::State& state);
   void write_contact_rows(const dynamics::State& state);
 
   const Setup& setup_;
   io::Results results_;
   io::Csv contact_csv_;
   std::optional<fem::StressRecovery> stress_;
+  std::vector<Vec2> elastic_;    ///< (n) displacement in the frame of its body; empty: no free body
+  std::vector<Vec2> rotations_;  ///< of the free bodies
   std::vector<Vec2> force_, force_fixed_;  ///< (nb)
   std::vector<double> rows_;
 };

@@ -65,7 +65,7 @@ bool run_is_there(const fs::path& directory, const PaperRun& run, const Case& c)
   try {
     const Json j = io::read_json(directory / "run.json");
     return ended(j, run.may_fail) && is_of_this_program(j) &&
-           text_of(directory / "case.toml") == write_case(c) && is_whole(directory, j);
+           text_of(directory / "case.toml") == write_case(kept_case(c)) && is_whole(directory, j);
   } catch (const std::exception&) {  // what cannot be read is made again
     return false;
   }

@@ -17,6 +17,7 @@
 #include "rondo/dynamics/stepper.hpp"
 #include "rondo/io/files.hpp"
 #include "rondo/study/build.hpp"
+#include "rondo/study/case_source.hpp"
 #include "rondo/study/crush_run.hpp"
 #include "rondo/study/observers.hpp"
 #include "rondo/study/run_files.hpp"
@@ -37,6 +38,11 @@ struct ContactStatistics {
   int nodes_max = 0;
   long long pairs = 0;
   long long pairs_not_converged = 0;
+  long long clusters = 0;
+  long long clusters_not_converged = 0;
+  int cluster_largest = 0;
+  int cluster_iterations = 0;  ///< most of one
+  int between_bodies = 0;      ///< most in a step
 
   void add(const dynamics::ContactReport& r) {
     free_velocity = std::max(free_velocity, r.free_velocity);
@@ -47,6 +53,11 @@ struct ContactStatistics {
     nodes_max = std::max(nodes_max, r.nodes);
     pairs += r.pairs;
     pairs_not_converged += r.pairs_not_converged;
+    clusters += r.clusters;
+    clusters_not_converged += r.clusters_not_converged;
+    cluster_largest = std::max(cluster_largest, r.cluster_largest);
+    cluster_iterations = std::max(cluster_iterations, r.cluster_iterations);
+    between_bodies = std::max(between_bodies, r.between_bodies);
   }
 };
 
@@ -59,6 +70,7 @@ struct Loop {
   double wall_s = 0.0;
   double cpu_s = 0.0;
   std::size_t snapshots = 0;
+  int dumped = 0;  ///< contact problems kept as files
   OutputCost output;
 };
 
@@ -83,7 +95,8 @@ std::string not_finite(const dynamics::State& state, const std::string& otherwis
   return found.empty() ? otherwise : found;
 }
 
-Trouble find_trouble(const dynamics::Balance& b, const ContactStatistics& contact) {
+Trouble find_trouble(const dynamics::Balance& b, const ContactStatistics& contact,
+                     double ledger_bound) {
   if (!std::isfinite(b.kinetic + b.strain) || !std::isfinite(b.residual))
     return {fmt::format("the energy is out of range (kinetic {:.3g}, strain {:.3g})", b.kinetic,
                         b.strain),
@@ -93,9 +106,9 @@ Trouble find_trouble(const dynamics::Balance& b, const ContactStatistics& contac
                         "otherwise ({:.6g} J/m): the scheme as printed has blown up",
                         b.works.scheme, b.otherwise),
             true};
-  if (b.relative > residual_bound)
+  if (b.relative > ledger_bound)
     return {fmt::format("the energy ledger does not close: relative residual {:.3g}, bound {:.0e}",
-                        b.relative, residual_bound),
+                        b.relative, ledger_bound),
             true};
   if (!(contact.residual <= residual_bound))
     return {fmt::format("contact residual {:.3g}, bound {:.0e}", contact.residual, residual_bound),
@@ -107,7 +120,9 @@ Trouble find_trouble(const dynamics::Balance& b, const ContactStatistics& contac
 /// before.
 void judge(const Setup& setup, const dynamics::StepReport& step,
            const dynamics::Integrator& integrator, Loop& loop) {
-  Trouble trouble = find_trouble(step.balance, loop.contact);
+  const double ledger_bound =
+      setup.model.free_bodies.empty() ? residual_bound : free_residual_bound;
+  Trouble trouble = find_trouble(step.balance, loop.contact, ledger_bound);
   if (trouble.what.empty()) return;
   if (trouble.not_finite) {
     dynamics::State now(setup.model);  // after the steps of this call
@@ -130,12 +145,16 @@ std::size_t steps_at_once(const Setup& setup) {
   return static_cast<std::size_t>(std::clamp(dof_steps / dofs, fewest, 64.0));
 }
 
+/// Contact problems kept as files, at the most.
+constexpr int most_dumped = 1000;
+
 /// The loop of a run and what it works with.
 class Runner {
  public:
   /// Takes the initial fields of the setup, which are not needed twice.
-  Runner(Setup& setup, const RunOptions& options, RunOutput& output)
-      : setup_(setup),
+  Runner(const Case& c, Setup& setup, const RunOptions& options, RunOutput& output)
+      : title_(c.title),
+        setup_(setup),
         options_(options),
         output_(output),
         reports_(steps_at_once(setup)),
@@ -159,29 +178,40 @@ class Runner {
   }
 
  private:
-  /// Steps up to the next snapshot, at most as many as there are reports.
+  /// Steps up to the next one whose state is wanted, at most as many as there are reports.
   void advance() {
-    const long long left = std::min(setup_.n_steps, output_.next_snapshot()) - loop_.steps;
+    const long long left = std::min(setup_.n_steps, output_.next_state()) - loop_.steps;
     const auto n =
         static_cast<std::size_t>(std::min(static_cast<long long>(reports_.size()), left));
     const std::span reports = std::span(reports_).first(n);
-    const bool seen = reports.size() == static_cast<std::size_t>(left);
+    // With probes a run that is interrupted has a last row of its own.
+    const bool seen = reports.size() == static_cast<std::size_t>(left) || !setup_.probes.empty();
     integrator_->advance(reports, seen ? &state_ : nullptr);
+    keep_difficult_contacts();
     const bool stop = options_.stop && options_.stop->load(std::memory_order_relaxed);
     for (std::size_t i = 0; i < n && loop_.status == RunStatus::done; ++i)
-      take(reports[i], stop && i + 1 == n);
+      take(reports[i], stop && i + 1 == n, seen && i + 1 == n ? &state_ : nullptr);
     if (seen && state_.step == loop_.steps) output_.observe(state_);
     output_.keep_up();
     if (options_.progress) options_.progress(loop_.steps, setup_.n_steps);
   }
 
-  void take(const dynamics::StepReport& step, bool stop) {
+  void take(const dynamics::StepReport& step, bool stop, const dynamics::State* state) {
     ++loop_.steps;
     loop_.contact.add(step.contact);
     loop_.balance = step.balance;
     judge(setup_, step, *integrator_, loop_);
     if (loop_.status == RunStatus::done && stop) loop_.status = RunStatus::interrupted;
-    output_.observe(step, loop_.steps == setup_.n_steps || loop_.status != RunStatus::done);
+    output_.observe(step, loop_.steps == setup_.n_steps || loop_.status != RunStatus::done, state);
+  }
+
+  void keep_difficult_contacts() {
+    if (setup_.model.coupled.dump_above == 0) return;
+    for (contact::ProblemFile& problem : integrator_->take_difficult()) {
+      if (loop_.dumped == most_dumped) return;
+      problem.about = fmt::format("{}, after step {}", title_, loop_.steps);
+      write_contact_problem(options_.directory, ++loop_.dumped, problem);
+    }
   }
 
   /// A step's works are compared once the next half step is known: one step more, which nobody
@@ -193,6 +223,7 @@ class Runner {
     judge(setup_, beyond, *integrator_, loop_);
   }
 
+  const std::string& title_;
   const Setup& setup_;
   const RunOptions& options_;
   RunOutput& output_;
@@ -204,6 +235,9 @@ class Runner {
 
 Json describe(const Case& c, const Setup& setup) {
   Json j = describe_run(c, "dynamic", setup.model.n_nodes(), 2 * setup.model.free.size());
+  if (c.mesh) j["mesh_file"] = as_utf8(c.mesh->file.string());
+  j["bodies"] = count_bodies(setup.model);
+  j["free_bodies"] = setup.model.free_bodies.size();
   j["operator"] = operator_name(setup.model.stiffness_operator);
   j["threads"] = setup.model.threads;
   j["critical_step"] = setup.critical.step;
@@ -241,7 +275,13 @@ void add_outcome(Json& j, const Setup& setup, const Loop& loop) {
                   {"nodes_max", loop.contact.nodes_max},
                   {"free_velocity_max", loop.contact.free_velocity},
                   {"pairs_solved", loop.contact.pairs},
-                  {"pairs_not_converged", loop.contact.pairs_not_converged}};
+                  {"pairs_not_converged", loop.contact.pairs_not_converged},
+                  {"clusters_solved", loop.contact.clusters},
+                  {"clusters_not_converged", loop.contact.clusters_not_converged},
+                  {"cluster_largest", loop.contact.cluster_largest},
+                  {"cluster_iterations_max", loop.contact.cluster_iterations},
+                  {"between_bodies_max", loop.contact.between_bodies},
+                  {"problems_kept", loop.dumped}};
   j["peak_memory_bytes"] = peak_memory_bytes();
   j["snapshots"] = loop.snapshots;
   j["output"] = describe(loop.output);
@@ -281,7 +321,7 @@ std::vector<std::string> all_warnings(const Case& c, const Setup& setup) {
 Loop record(const Case& c, Setup& setup, const RunOptions& options, const Json& json) {
   try {
     RunOutput output(options.directory, c, setup);
-    Loop loop = Runner(setup, options, output).run();
+    Loop loop = Runner(c, setup, options, output).run();
     output.close();
     loop.snapshots = output.written();
     loop.output = output.cost();

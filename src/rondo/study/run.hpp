@@ -42,6 +42,10 @@ struct RunReport {
 /// Bound of both residuals: beyond it a run stops.
 inline constexpr double residual_bound = 1e-9;
 
+/// Bound of the ledger's residual where bodies are free: in large rotation it closes to second
+/// order in the step only (docs/theory.md, section 9).
+inline constexpr double free_residual_bound = 1e-2;
+
 /// @throws InputError (the case cannot run; nothing is left behind), FileError.
 [[nodiscard]] RunReport run_case(const Case& c, const RunOptions& options);
 

@@ -1,12 +1,15 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "rondo/study/run_files.hpp"
 
+#include <fmt/format.h>
 #include <sys/resource.h>
 #include <unistd.h>
 
 #include <array>
+#include <cstdint>
 #include <system_error>
 
+#include "rondo/core/error.hpp"
 #include "rondo/dynamics/dispatch.hpp"
 #include "rondo/io/files.hpp"
 #include "rondo/study/build_id.hpp"
@@ -20,13 +23,37 @@ std::string host_name() {
   return gethostname(name.data(), name.size() - 1) == 0 ? name.data() : "unknown";
 }
 
-/// The case as run is written into the directory as case.toml: it must not replace the user's file.
-void keep_the_users_case(const Case& c, const std::filesystem::path& directory) {
+constexpr const char* mesh_copy = "mesh.msh";
+constexpr std::uintmax_t largest_copy = 50'000'000;  ///< bytes of a mesh file that is copied
+
+/// The case as run is written into the directory as case.toml, the mesh as mesh.msh: they must not
+/// replace the user's files.
+void keep_the_users_files(const Case& c, const std::filesystem::path& directory) {
+  const auto refuse_replacing = [&](const std::filesystem::path& file, const char* name,
+                                    const char* what) {
+    std::error_code error;
+    if (!std::filesystem::equivalent(file, directory / name, error) || error) return;
+    io::refuse_directory(
+        directory,
+        fmt::format("the {} is this directory's own {}, which a run there would replace", what,
+                    name),
+        "choose another -o");
+  };
+  refuse_replacing(c.file, "case.toml", "case file");
+  if (c.mesh) refuse_replacing(c.mesh->file, mesh_copy, "mesh file");
+}
+
+bool is_copied(const MeshCase& mesh) {
   std::error_code error;
-  if (!std::filesystem::equivalent(c.file, directory / "case.toml", error) || error) return;
-  io::refuse_directory(
-      directory, "the case file is this directory's own case.toml, which a run there would replace",
-      "choose another -o");
+  const auto size = std::filesystem::file_size(mesh.file, error);
+  return !error && size <= largest_copy;
+}
+
+void copy_mesh(const Case& c, const std::filesystem::path& directory) {
+  if (!c.mesh || !is_copied(*c.mesh)) return;
+  std::error_code error;
+  std::filesystem::copy_file(c.mesh->file, directory / mesh_copy, error);
+  if (error) throw FileError((directory / mesh_copy).string(), "cannot write: " + error.message());
 }
 
 }  // namespace
@@ -59,10 +86,29 @@ void give_warnings(const std::vector<std::string>& warnings, const RunOptions& o
   for (const std::string& warning : warnings) options.warn(warning);
 }
 
+Case kept_case(const Case& c) {
+  Case kept = c;
+  if (!c.mesh) return kept;
+  std::error_code error;
+  const std::filesystem::path whole = std::filesystem::absolute(c.mesh->file, error);
+  kept.mesh->file = is_copied(*c.mesh) ? std::filesystem::path(mesh_copy) : whole;
+  return kept;
+}
+
+void write_contact_problem(const std::filesystem::path& directory, int number,
+                           const contact::ProblemFile& problem) {
+  const std::filesystem::path folder = directory / "contact-problems";
+  std::error_code error;
+  std::filesystem::create_directories(folder, error);
+  if (error) throw FileError(folder.string(), "cannot create: " + error.message());
+  contact::write_problem(folder / fmt::format("{:04}.json", number), problem);
+}
+
 void begin_modes_directory(const Case& c, const std::filesystem::path& directory, bool overwrite) {
-  keep_the_users_case(c, directory);
+  keep_the_users_files(c, directory);
   io::prepare_results_directory(directory, overwrite);
-  io::write_file(directory / "case.toml", write_case(c));
+  copy_mesh(c, directory);
+  io::write_file(directory / "case.toml", write_case(kept_case(c)));
 }
 
 void begin_directory(const Case& c, const RunOptions& options, const Json& json) {

@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 #include <string_view>
 
+#include "rondo/contact/problem_file.hpp"
 #include "rondo/study/run.hpp"
 
 namespace rondo::study {
@@ -23,6 +24,14 @@ std::string text_in(const Json& json, const char* key);
 
 /// Gives the warnings, if there is somebody to take them.
 void give_warnings(const std::vector<std::string>& warnings, const RunOptions& options);
+
+/// The case as its results directory keeps it: with the copy of the mesh in it, or where the mesh
+/// is.
+Case kept_case(const Case& c);
+
+/// Keeps a contact problem as contact-problems/NUMBER.json. @throws FileError
+void write_contact_problem(const std::filesystem::path& directory, int number,
+                           const contact::ProblemFile& problem);
 
 /// From here on signals ask for a clean end and files are written: case.toml and run.json.
 /// @throws InputError (the directory holds a run), FileError

@@ -7,12 +7,12 @@
 namespace rondo::study {
 namespace {
 
-constexpr std::size_t numbers_at_once = 32 * n_history_columns;  ///< 32 rows
+constexpr std::size_t rows_at_once = 32;
 constexpr std::chrono::milliseconds longest_wait{200};  ///< of a row before it is handed over
 
-std::vector<double> no_rows() {
+std::vector<double> no_rows(std::size_t numbers) {
   std::vector<double> rows;
-  rows.reserve(numbers_at_once);
+  rows.reserve(numbers);
   return rows;
 }
 
@@ -33,8 +33,9 @@ RunOutput::RunOutput(const std::filesystem::path& directory, const Case& c, cons
     : steps_(snapshot_steps(c.output.snapshots, c.output.snapshots_from, setup.model.dt,
                             setup.n_steps)),
       history_(c, setup),
-      rows_(no_rows()),
-      history_csv_(directory / "history.csv", history_columns()),
+      numbers_at_once_(rows_at_once * history_.columns().size()),
+      rows_(no_rows(numbers_at_once_)),
+      history_csv_(directory / "history.csv", history_.columns()),
       snapshots_(directory, c, setup, steps_.size()),
       slots_(make_slots(setup)),
       writer_(slots_.size(), [this](std::size_t slot) { write(slots_[slot]); }) {}
@@ -51,12 +52,12 @@ RunOutput::~RunOutput() {
 std::vector<RunOutput::Slot> RunOutput::make_slots(const Setup& setup) const {
   const std::size_t nodes = steps_.empty() ? 0 : setup.model.n_nodes();
   const std::size_t contacts =
-      steps_.empty() || !setup.model.contact ? 0 : 2 * setup.model.contact->nodes.size();
-  const std::size_t bytes = numbers_at_once * sizeof(double) + 2 * nodes * sizeof(Vec2) +
+      steps_.empty() || !has_candidates(setup.model) ? 0 : 2 * setup.mesh.boundary.size();
+  const std::size_t bytes = numbers_at_once_ * sizeof(double) + 2 * nodes * sizeof(Vec2) +
                             contacts * sizeof(dynamics::ActiveContact);
   std::vector<Slot> slots(queue_length(steps_.size(), bytes));
   for (Slot& slot : slots) {
-    slot.rows = no_rows();
+    slot.rows = no_rows(numbers_at_once_);
     slot.state.u.reserve(nodes);
     slot.state.v.reserve(nodes);
     slot.state.active.reserve(contacts);
@@ -68,9 +69,9 @@ long long RunOutput::next_snapshot() const noexcept {
   return next_ < steps_.size() ? steps_[next_] : std::numeric_limits<long long>::max();
 }
 
-void RunOutput::observe(const dynamics::StepReport& step, bool last) {
-  history_.observe(step, last, rows_);
-  if (rows_.size() == numbers_at_once) push(nullptr);
+void RunOutput::observe(const dynamics::StepReport& step, bool last, const dynamics::State* state) {
+  history_.observe(step, last, state, rows_);
+  if (rows_.size() == numbers_at_once_) push(nullptr);
 }
 
 void RunOutput::observe(const dynamics::State& state) {
@@ -96,6 +97,7 @@ void RunOutput::push(const dynamics::State* state) {
     slot.state.frame = state->frame;
     slot.state.u = state->u;
     slot.state.v = state->v;
+    slot.state.poses = state->poses;
     slot.state.active = state->active;
   }
   writer_.hand_over(number);

@@ -2,6 +2,7 @@
 /// @file  All output of a run while it goes on, off its loop: the loop hands over numbers, a thread
 /// of its own recovers stresses, formats and writes (docs/decisions/014-writer-thread.md).
 #pragma once
+#include <algorithm>
 #include <chrono>
 #include <cstddef>
 #include <filesystem>
@@ -43,8 +44,13 @@ class RunOutput {
 
   /// The next step of which a snapshot is wanted; the largest number where none is left.
   [[nodiscard]] long long next_snapshot() const noexcept;
+  /// The next step of which the state is wanted, for a snapshot or for probes.
+  [[nodiscard]] long long next_state() const noexcept {
+    return std::min(next_snapshot(), history_.next_probed());
+  }
   /// Every step, in turn. @param last no step comes after: a row is written even where none is due.
-  void observe(const dynamics::StepReport& step, bool last);
+  /// @param state of this step, where there is one at hand: probes are read from it
+  void observe(const dynamics::StepReport& step, bool last, const dynamics::State* state = nullptr);
   /// A snapshot, if state.step is next_snapshot().
   void observe(const dynamics::State& state);
   /// To be called now and then: hands over rows that would else wait for a snapshot, or for more
@@ -65,7 +71,7 @@ class RunOutput {
   struct Slot {
     std::vector<double> rows;
     bool snapshot = false;
-    dynamics::State state;  ///< step, frame, u, v and active only
+    dynamics::State state;  ///< step, frame, u, v, poses and active only
   };
 
   [[nodiscard]] std::vector<Slot> make_slots(const Setup& setup) const;
@@ -75,7 +81,8 @@ class RunOutput {
   std::vector<long long> steps_;  ///< of the snapshots
   std::size_t next_ = 0;
   History history_;
-  std::vector<double> rows_;  ///< not yet handed over
+  std::size_t numbers_at_once_;  ///< of some rows
+  std::vector<double> rows_;     ///< not yet handed over
   Clock::time_point handed_over_ = Clock::now();
   double wait_s_ = 0.0, drain_s_ = 0.0;
   bool closed_ = false;
