@@ -2,6 +2,7 @@
 #include "rondo/dynamics/contact_finder.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 #include <numeric>
 
@@ -21,11 +22,16 @@ std::size_t at(int node) noexcept {
   return static_cast<std::size_t>(node);
 }
 
-double shortest_edge(const Model& model, const std::vector<mesh::Edge>& edges) noexcept {
-  double shortest = std::numeric_limits<double>::infinity();
+double longest_edge(const Model& model, const std::vector<mesh::Edge>& edges) noexcept {
+  double longest = 0.0;
   for (const mesh::Edge& e : edges)
-    shortest = std::min(shortest, norm(model.reference[at(e[1])] - model.reference[at(e[0])]));
-  return shortest;
+    longest = std::max(longest, norm(model.reference[at(e[1])] - model.reference[at(e[0])]));
+  return longest;
+}
+
+/// A point half an edge deep is in the body, not at its boundary.
+double depth_limit(double length) noexcept {
+  return 0.5 * length;
 }
 
 }  // namespace
@@ -37,14 +43,18 @@ ContactFinder::ContactFinder(const Model& model)
   all_edges_.resize(ground_side_.edges.size());
   std::iota(all_edges_.begin(), all_edges_.end(), 0);
   if (model.surfaces) surface_ = contact::make_boundary(model.surfaces->edges, model.body);
-  // A point half an edge deep is in the body, not at its boundary.
-  deepest_ = 0.5 * std::min(shortest_edge(model, ground_side_.edges),
-                            shortest_edge(model, surface_.edges));
+  deepest_ = depth_limit(
+      std::max(longest_edge(model, ground_side_.edges), longest_edge(model, surface_.edges)));
 }
 
 void ContactFinder::find(const State& state, std::vector<ContactRow>& rows) {
   rows.clear();
-  for (std::size_t k = 0; k < positions_.size(); ++k) positions_[k] = position(model_, state, k);
+  Vec2 sum;
+  for (std::size_t k = 0; k < positions_.size(); ++k) {
+    positions_[k] = position(model_, state, k);
+    sum += positions_[k];
+  }
+  if (!std::isfinite(sum.x) || !std::isfinite(sum.y)) return;  // the ledger will tell
   if (model_.contact) find_on_ground(rows);
   if (!ground_side_.edges.empty()) find_corners(rows);
   if (model_.surfaces) find_segments(rows);
@@ -69,18 +79,35 @@ void ContactFinder::find_on_ground(std::vector<ContactRow>& rows) const {
   }
 }
 
+Box ContactFinder::box_of_candidates() const {
+  constexpr double infinity = std::numeric_limits<double>::infinity();
+  Box box{{infinity, infinity}, {-infinity, -infinity}};
+  for (const int node : model_.contact->nodes) {
+    const Vec2 x = positions_[at(node)];
+    box.low = {std::min(box.low.x, x.x), std::min(box.low.y, x.y)};
+    box.high = {std::max(box.high.x, x.x), std::max(box.high.y, x.y)};
+  }
+  return box;
+}
+
+/// A profile may have many corners; few are where the bodies are, and these look at all edges.
 void ContactFinder::find_corners(std::vector<ContactRow>& rows) const {
+  const Box box = box_of_candidates();
   const auto corners = model_.contact->ground.corners();
   for (std::size_t c = 0; c < corners.size(); ++c) {
-    const contact::EdgeTouches touches = contact::touch_boundary(
-        {.position = corners[c].position}, {ground_side_, positions_, all_edges_, deepest_});
+    const Vec2 p = corners[c].position;
+    if (p.x < box.low.x || p.x > box.high.x || p.y < box.low.y || p.y > box.high.y) continue;
+    const contact::EdgeTouches touches =
+        contact::touch_boundary({.position = p}, {ground_side_, positions_, all_edges_, deepest_});
     for (int t = 0; t < touches.count; ++t) {
       const EdgeTouch& found = touches.at[at(t)];
       const mesh::Edge& e = ground_side_.edges[at(found.edge)];
+      const double length = norm(positions_[at(e[1])] - positions_[at(e[0])]);
+      if (-found.touch.gap > depth_limit(length)) continue;
       ContactRow row;
       row.kind = ContactKind::corner;
-      row.rows = contact::corner_rows(
-          found.touch, norm(positions_[at(e[1])] - positions_[at(e[0])]), e[0], e[1]);
+      row.rows = contact::corner_rows(found.touch, length, e[0], e[1]);
+      row.point = p;
       row.key = key_of(row.kind, c, at(found.edge));
       row.normal = found.touch.normal;
       row.gap = found.touch.gap;
@@ -105,9 +132,19 @@ bool ContactFinder::may_touch(std::size_t candidate, int edge) const {
   const SurfaceContact& s = *model_.surfaces;
   const auto node = at(s.nodes[candidate]);
   const mesh::Edge& e = surface_.edges[at(edge)];
-  if (!s.self && body_of(node) == body_of(at(e[0]))) return false;
+  const bool same = body_of(node) == body_of(at(e[0]));
+  if (same && (!s.self || across_a_wall(node, e))) return false;
   const Vec2 along = positions_[at(e[1])] - positions_[at(e[0])];
   return dot(outward_[node], -turn90(along)) < 0.0;
+}
+
+/// The edge is the other side of a wall at the node: undeformed, the node is behind it, and near.
+bool ContactFinder::across_a_wall(std::size_t node, const mesh::Edge& edge) const {
+  const Vec2 a = model_.reference[at(edge[0])];
+  const Vec2 along = model_.reference[at(edge[1])] - a, to = model_.reference[node] - a;
+  if (cross(along, to) < 0.0) return false;  // in front: the outward normal is on the right
+  const double on = std::clamp(dot(along, to) / dot(along, along), 0.0, 1.0);
+  return norm(to - on * along) < 2.0 * depth_limit(norm(along));
 }
 
 void ContactFinder::find_segments(std::vector<ContactRow>& rows) {
@@ -125,10 +162,12 @@ void ContactFinder::find_segments(std::vector<ContactRow>& rows) {
     for (int t = 0; t < touches.count; ++t) {
       const EdgeTouch& found = touches.at[at(t)];
       const mesh::Edge& e = surface_.edges[at(found.edge)];
+      const double length = norm(positions_[at(e[1])] - positions_[at(e[0])]);
+      if (-found.touch.gap > depth_limit(length)) continue;
       ContactRow row;
       row.kind = ContactKind::segment;
-      row.rows = contact::node_rows(found.touch, norm(positions_[at(e[1])] - positions_[at(e[0])]),
-                                    node, e[0], e[1]);
+      row.rows = contact::node_rows(found.touch, length, node, e[0], e[1]);
+      row.point = positions_[at(node)];
       row.key = key_of(row.kind, i, at(found.edge));
       row.normal = found.touch.normal;
       row.gap = found.touch.gap;

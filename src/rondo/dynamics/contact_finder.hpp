@@ -12,6 +12,11 @@
 
 namespace rondo::dynamics {
 
+/// Lower left and upper right corner [m].
+struct Box {
+  Vec2 low, high;
+};
+
 class ContactFinder {
  public:
   explicit ContactFinder(const Model& model);
@@ -31,11 +36,13 @@ class ContactFinder {
     return model_.body.empty() ? 0 : model_.body[node];
   }
   [[nodiscard]] bool may_touch(std::size_t candidate, int edge) const;
+  [[nodiscard]] bool across_a_wall(std::size_t node, const mesh::Edge& edge) const;
+  [[nodiscard]] Box box_of_candidates() const;
 
   const Model& model_;
   contact::Boundary ground_side_;  ///< edges that a corner of the ground may touch
   contact::Boundary surface_;      ///< edges that a node may touch
-  double deepest_ = 0.0;           ///< beyond it nothing is a touch                   [m]
+  double deepest_ = 0.0;           ///< half the longest edge: beyond it nothing is a touch [m]
   std::vector<Vec2> positions_;    ///< (n) fixed frame                                [m]
   std::vector<Vec2> outward_;      ///< (n) sum of the normals of a node's edges
   contact::SegmentGrid grid_;

@@ -73,6 +73,23 @@ ContactReport GeneralContact::solve(const BodyFrames& frames, Vec2 center, State
   return report;
 }
 
+/// (4.8c): the change of the gap that the free velocities would bring, less w_n Δt, over Δt.
+double GeneralContact::turning_of(const BodyFrames& frames, const ContactRow& row,
+                                  const State& state) const {
+  const auto travel = [&](int node) {
+    const auto k = at(node);
+    return model_.dt *
+           velocity_after(frames.of(model_, k).contact, arm_of(model_, state, k), state.v_next[k]);
+  };
+  const bool corner = row.kind == ContactKind::corner;
+  const int a = row.rows.node[corner ? 0 : 1], b = row.rows.node[corner ? 1 : 2];
+  const Vec2 to_a = finder_.positions()[at(a)] + travel(a);
+  const Vec2 to_b = finder_.positions()[at(b)] + travel(b);
+  const Vec2 to_p = row.point + (corner ? Vec2{} : travel(row.rows.node[0]));
+  const double gap = cross(to_p - to_a, to_b - to_a) / norm(to_b - to_a);
+  return (gap - row.gap) / model_.dt - row.free.x;
+}
+
 /// w⁻ and w without impulses of every row, and the Delassus operators of their nodes.
 void GeneralContact::set_velocities(const BodyFrames& frames, const State& state) {
   for (ContactRow& row : rows_) {
@@ -84,6 +101,7 @@ void GeneralContact::set_velocities(const BodyFrames& frames, const State& state
       response_[k] = step.turn / (model_.mass[k] * step.a);
       return velocity_after(step, arm_of(model_, state, k), state.v_next[k]);
     });
+    row.turning = row.kind == ContactKind::facet ? 0.0 : turning_of(frames, row, state);
     row.bounce = row.law.restitution * std::min(row.before.x, 0.0);
     row.impulse = {};
     row.status = Status::open;
@@ -118,7 +136,11 @@ void GeneralContact::solve_on_ground(const BodyFrames& frames, Rows rows, State&
   const ContactNode node{
       i,          model_.mass[k], model_.contact->tributary[i], arm_of(model_, state, k),
       state.v[k], state.v_next[k]};
-  state.v_next[k] = solve_contacts(frames.of(model_, k).contact, node, touches, active, report);
+  const ContactStep& step = frames.of(model_, k).contact;
+  const Vec2 before = report.impulse;
+  state.v_next[k] = solve_contacts(step, node, touches, active, report);
+  // The moment was taken about the centre of the node's frame.
+  report.angular_impulse += cross(step.center - center_, report.impulse - before);
   state.active.insert(state.active.end(), active.begin(), active.end());
   for (std::size_t j = 0; j < rows.size(); ++j) rows_[at(rows[j])].impulse = active[j].impulse;
 }
@@ -132,7 +154,7 @@ void GeneralContact::make_problem(Rows rows) {
   for (const int j : rows) {
     const ContactRow& row = rows_[at(j)];
     cluster_rows_.push_back(row.rows);
-    problem_.free.push_back(row.free);
+    problem_.free.push_back(row.free + Vec2{row.turning, 0.0});
     problem_.bounce.push_back(row.bounce);
     problem_.friction.push_back(row.law.friction);
     impulse_.push_back(warm_start(row.key));
@@ -212,8 +234,9 @@ void GeneralContact::finish_row(const BodyFrames& frames, ContactRow& row, doubl
   report.dissipation_friction -= row.impulse.y * mean.y;
   report.loss_impact -= row.impulse.x * mean.x;
   report.work_rim += work - dot(row.impulse, mean);
-  const double residual =
-      contact::law_residual(row.impulse, row.after, row.bounce, row.law.friction, mass) / mass;
+  const double residual = contact::law_residual(row.impulse, row.after + Vec2{row.turning, 0.0},
+                                                row.bounce, row.law.friction, mass) /
+                          mass;
   if (!(residual <= report.residual)) report.residual = residual;  // NaN comes through
   report.penetration = std::max(report.penetration, -row.gap);
   report.free_velocity = std::max(report.free_velocity, norm(row.free));

@@ -31,6 +31,8 @@ class GeneralContact {
  private:
   using Rows = std::span<const int>;  ///< of one cluster
 
+  [[nodiscard]] double turning_of(const BodyFrames& frames, const ContactRow& row,
+                                  const State& state) const;
   void set_velocities(const BodyFrames& frames, const State& state);
   void find_clusters();
   [[nodiscard]] bool one_node_on_ground(Rows rows) const;
