@@ -35,39 +35,42 @@ ContactRows ground_rows(int node, Vec2 normal) noexcept {
   return {1, {node, -1, -1}, {Block{normal.x, normal.y, t.x, t.y}, Block{}, Block{}}};
 }
 
+void DelassusBuilder::list_contacts(std::span<const ContactRows> contacts) {
+  next_.resize(3 * contacts.size());
+  for (std::size_t j = contacts.size(); j-- > 0;)
+    for (std::size_t a = 0; a < static_cast<std::size_t>(contacts[j].count); ++a) {
+      int& head = head_[static_cast<std::size_t>(contacts[j].node[a])];
+      next_[3 * j + a] = head;
+      head = static_cast<int>(3 * j + a);
+    }
+}
+
+void DelassusBuilder::find_sharing(const ContactRows& contact) {
+  sharing_.clear();
+  for (std::size_t a = 0; a < static_cast<std::size_t>(contact.count); ++a) {
+    int entry = head_[static_cast<std::size_t>(contact.node[a])];
+    for (; entry >= 0; entry = next_[static_cast<std::size_t>(entry)])
+      sharing_.push_back(entry / 3);
+  }
+  std::sort(sharing_.begin(), sharing_.end());
+  sharing_.erase(std::unique(sharing_.begin(), sharing_.end()), sharing_.end());
+}
+
 void DelassusBuilder::build(std::span<const ContactRows> contacts, std::span<const Vec2> response,
                             CoupledProblem& problem) {
-  const int nc = static_cast<int>(contacts.size());
   if (head_.size() < response.size()) head_.resize(response.size(), -1);
-  // Entry 3 j + a is node a of contact j; the contacts of a node are a linked list of entries.
-  next_.resize(3 * contacts.size());
-  for (int j = nc - 1; j >= 0; --j) {
-    const ContactRows& c = contacts[static_cast<std::size_t>(j)];
-    for (int a = 0; a < c.count; ++a) {
-      int& head = head_[static_cast<std::size_t>(c.node[static_cast<std::size_t>(a)])];
-      next_[static_cast<std::size_t>(3 * j + a)] = head;
-      head = 3 * j + a;
-    }
-  }
+  list_contacts(contacts);
   problem.row_start.assign(1, 0);
   problem.column.clear();
   problem.blocks.clear();
   problem.mass.clear();
-  for (int j = 0; j < nc; ++j) {
-    const ContactRows& c = contacts[static_cast<std::size_t>(j)];
-    sharing_.clear();
-    for (int a = 0; a < c.count; ++a) {
-      const int node = c.node[static_cast<std::size_t>(a)];
-      for (int e = head_[static_cast<std::size_t>(node)]; e >= 0;
-           e = next_[static_cast<std::size_t>(e)])
-        sharing_.push_back(e / 3);
-    }
-    std::sort(sharing_.begin(), sharing_.end());
-    sharing_.erase(std::unique(sharing_.begin(), sharing_.end()), sharing_.end());
+  for (std::size_t j = 0; j < contacts.size(); ++j) {
+    find_sharing(contacts[j]);
     for (const int l : sharing_) {
       problem.column.push_back(l);
-      problem.blocks.push_back(coupling(c, contacts[static_cast<std::size_t>(l)], response));
-      if (l != j) continue;
+      problem.blocks.push_back(
+          coupling(contacts[j], contacts[static_cast<std::size_t>(l)], response));
+      if (static_cast<std::size_t>(l) != j) continue;
       const Block& w = problem.blocks.back();
       RONDO_DEMAND(w[0] + w[3] > 0.0, j, w[0], w[3]);
       problem.mass.push_back(2.0 / (w[0] + w[3]));
@@ -75,8 +78,8 @@ void DelassusBuilder::build(std::span<const ContactRows> contacts, std::span<con
     problem.row_start.push_back(static_cast<int>(problem.column.size()));
   }
   for (const ContactRows& c : contacts)
-    for (int a = 0; a < c.count; ++a)
-      head_[static_cast<std::size_t>(c.node[static_cast<std::size_t>(a)])] = -1;
+    for (std::size_t a = 0; a < static_cast<std::size_t>(c.count); ++a)
+      head_[static_cast<std::size_t>(c.node[a])] = -1;
 }
 
 }  // namespace rondo::contact

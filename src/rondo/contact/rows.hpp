@@ -35,8 +35,12 @@ class DelassusBuilder {
              CoupledProblem& problem);
 
  private:
-  std::vector<int> head_, next_;  ///< contacts of each node, as linked lists
-  std::vector<int> sharing_;      ///< contacts that share a node with the one at hand
+  void list_contacts(std::span<const ContactRows> contacts);
+  void find_sharing(const ContactRows& contact);
+
+  /// Entry 3 j + a is node a of contact j; the contacts of a node are a linked list of entries.
+  std::vector<int> head_, next_;
+  std::vector<int> sharing_;  ///< contacts that share a node with the one at hand
 };
 
 }  // namespace rondo::contact

@@ -82,7 +82,7 @@ std::optional<EdgeTouch> across_joint(const BoundaryPoint& point, const Boundary
 
 std::optional<SegmentTouch> touch_segment(Vec2 p, const Segment& s, double deepest) noexcept {
   const SegmentTouch touch = line_touch(p, s.a, s.b);
-  if (!(touch.gap <= 0.0 && touch.gap >= -deepest)) return {};
+  if (!(touch.gap <= 0.0)) return {};
   if (s.before == s.a ? touch.at < 0.0 : !(beyond(s.before, s.a, s.b, p) > 0.0)) return {};
   if (s.after == s.b ? touch.at > 1.0 : beyond(s.a, s.b, s.after, p) > 0.0) return {};
   if (distance_from(touch, norm(s.b - s.a)) > deepest) return {};

@@ -167,6 +167,31 @@ TEST(Coupled, TheOrderOfContactsDoesNotMatter) {
   }
 }
 
+/// A heavy body under light nodes: what they share is 1e-5 of what each has to itself.
+TEST(Coupled, SweepsAloneAreEnoughWhereLittleIsShared) {
+  const CoupledProblem p =
+      problem_of(chain({.upper = 30, .lower = 20, .mass_ratio = 1e5, .friction = 0.3}));
+  const Solved s = solved(p);
+  EXPECT_TRUE(s.result.converged);
+  EXPECT_LE(s.result.iterations, 3);  // each takes 1e-5 off the error, or more
+}
+
+/// 700 nodes on one heavy segment: no band, and a matrix too large to be worth it.
+TEST(Coupled, SweepsGoOnWhereTheMatrixIsTooLarge) {
+  test::Scene scene;
+  std::mt19937 random(8);
+  std::uniform_real_distribution<double> u(-1.0, 1.0);
+  const int a = scene.add_node(1e4, {}), b = scene.add_node(1e4, {});
+  for (int i = 0; i < 700; ++i) {
+    const int p = scene.add_node(1.0, {u(random), -1.0 + 0.5 * u(random)});
+    const SegmentTouch touch{.gap = -1e-3, .at = i / 700.0, .normal = {0.0, 1.0}};
+    scene.add(node_rows(touch, 1.0, p, a, b), 0.4);
+  }
+  const Solved s = solved(problem_of(scene));
+  EXPECT_TRUE(s.result.converged);
+  EXPECT_LT(s.result.iterations, 100);
+}
+
 TEST(Coupled, ChainsOf200ContactsConverge) {
   for (const bool both_ways : {false, true})
     for (const double friction : {0.0, 0.3, 1.5})
@@ -185,6 +210,7 @@ TEST(Coupled, ChainsOf200ContactsConverge) {
 }
 
 TEST(Coupled, MeshesThatMatchConverge) {
+  int iterations = 0;
   for (const double offset : {0.0, 1e-3})
     for (const double friction : {0.0, 0.3, 1.0})
       for (unsigned seed = 1; seed <= 10; ++seed) {
@@ -197,7 +223,9 @@ TEST(Coupled, MeshesThatMatchConverge) {
         const Solved s = solved(p);
         EXPECT_TRUE(s.result.converged) << offset << " " << friction << " " << seed;
         EXPECT_LE(coupled_residual(p, s.impulse), 1e-12);
+        iterations += s.result.iterations;
       }
+  EXPECT_LT(iterations, 1800);  // 1433; without sweeps by pairs 5751, without slip in them 2213
 }
 
 TEST(Coupled, RedundantContactsMoveAsOne) {

@@ -110,7 +110,7 @@ TEST(ProblemFile, SaysWhatIsWrong) {
   EXPECT_EQ(message("", ""), "");
   EXPECT_NE(message("problem 1", "problem 9").find("problem 9"), std::string::npos);
   EXPECT_NE(message("\"mass\"", "\"moss\"").find("mass"), std::string::npos);
-  EXPECT_NE(message("\"column\": [\n    0,", "\"column\": [\n    99999,").find("column"),
+  EXPECT_NE(message("\"column\": [\n    0,", "\"column\": [\n    99999,").find("has column 99999"),
             std::string::npos);
   EXPECT_NE(message("\"row_start\": [\n    0,", "\"row_start\": [\n    1,").find("rows"),
             std::string::npos);

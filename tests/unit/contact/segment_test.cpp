@@ -136,7 +136,11 @@ TEST(Boundary, ANodeIsHeldWhereItIsLeastDeep) {
   EXPECT_EQ(at({0.1, 0.02}).at[0].edge, 0);
   EXPECT_EQ(at({1.5, 1.5}).count, 0);  // in the notch
   EXPECT_EQ(at({1.5, -0.1}).count, 0);
-  EXPECT_EQ(at({1.5, 0.9}).at[0].edge, 4);  // its bottom
+  EXPECT_EQ(at({1.5, 0.9}).at[0].edge, 4);                           // its bottom
+  const Body strip = body_of({{0, 0}, {3, 0}, {3, 0.3}, {0, 0.3}});  // thinner than the limit
+  EXPECT_EQ(touches(strip, {1.5, 0.1}).at[0].edge, 0);
+  EXPECT_EQ(touches(strip, {1.5, 0.25}).at[0].edge, 2);
+  EXPECT_EQ(touches(strip, {1.5, 0.25}).count, 1);
 }
 
 TEST(Boundary, AReflexJointHoldsByBothSegments) {
