@@ -25,6 +25,7 @@ namespace fs = std::filesystem;
 TEST(ShippedCases, AreTheFilesOfCases) {
   std::size_t files = 0;
   for (const auto& entry : fs::directory_iterator(RONDO_CASES)) {
+    if (entry.path().extension() != ".toml") continue;
     std::ifstream in(entry.path(), std::ios::binary);
     const std::string text{std::istreambuf_iterator<char>(in), {}};
     EXPECT_EQ(shipped_case(entry.path().stem().string()), text) << entry.path();
