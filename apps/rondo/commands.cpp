@@ -29,9 +29,14 @@ std::filesystem::path default_directory(const std::filesystem::path& case_file) 
   return case_file.parent_path() / case_file.stem();
 }
 
+std::string crush_target(long long increments, double depth, double slide) {
+  const std::string text = fmt::format("{} increments to a depth of {:.6g} m", increments, depth);
+  return slide == 0.0 ? text : fmt::format("{} and a slide of {:.6g} m", text, slide);
+}
+
 std::string reached(const study::RunReport& r) {
   return r.analysis == study::AnalysisKind::crush
-             ? fmt::format("{} increments to a depth of {:.6g} m", r.steps, r.depth)
+             ? crush_target(r.steps, r.depth, r.slide)
              : fmt::format("{} steps to t = {:.6g} s", r.steps, r.end_time);
 }
 
@@ -94,7 +99,8 @@ int check(const CommonArguments& arguments) {
              r.wave_speeds.shear);
   if (c.analysis.kind == study::AnalysisKind::crush) {
     fmt::print("condensed          {} candidates\n", r.condensed);
-    fmt::print("increments         {} to a depth of {:.6g} m\n", r.increments, c.analysis.depth);
+    fmt::print("increments         {}\n",
+               crush_target(r.increments, c.analysis.depth, c.analysis.slide));
     print_room(r);
     return exit_done;
   }

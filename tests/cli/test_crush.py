@@ -50,7 +50,7 @@ class Crush(RunTest):
         s = summary(self.out)
         self.assertEqual(
             sorted(s), sorted("status title version build build_id host analysis nodes dofs depth "
-                              "increments increments_done candidates_condensed contact_residual_max "
+                              "increments slide slide_increments increments_done candidates_condensed contact_residual_max "
                               "equilibrium_residual_max energy_residual_relative energy_exchanged "
                               "penetration_max_m sweeps_max pivoted_increments factor_wall_s loop_wall_s "
                               "peak_memory_bytes snapshots".split()))
@@ -122,6 +122,27 @@ class Crush(RunTest):
             self.assertEqual(len(last), h["contact_nodes"][-1])
             self.assertAlmostEqual(last["pressure_pa"].max(), h["pressure_max_pa"][-1])
             self.assertIn("von_mises", f["/fields"])
+
+    def test_slide(self):
+        self.text = CRUSH + "slide = 0.004\nslide_increments = 4\n"
+        done = self.run_ok()
+        self.assertIn("12 increments to a depth of 0.02 m and a slide of 0.004 m", done.stderr)
+        s, h = summary(self.out), history(self.out)
+        self.assertEqual((s["slide"], s["slide_increments"], s["increments_done"], s["snapshots"]),
+                         (0.004, 4, 12, 12))
+        np.testing.assert_array_equal(h["time_s"], np.arange(13) / 8)  # on beyond 1
+        np.testing.assert_allclose(h["center_x_m"], 0.001 * np.maximum(np.arange(13) - 8, 0),
+                                   rtol=1e-14)
+        np.testing.assert_array_equal(h["depth_m"][8:], 0.02)
+        self.assertTrue(np.all(np.diff(h["force_x"][8:]) < 0))  # against the way
+        self.assertGreaterEqual(h["force_x"].min(), -0.3 * h["force_y"][-1])
+        with h5py.File(self.out / "results.h5") as f:
+            np.testing.assert_array_equal(f["/frame/center"][:, 0], h["center_x_m"][1:])
+            np.testing.assert_allclose(-f["/crush/force"][:, 1], h["force_x"][1:], atol=1e-6)
+        again = self.folder / "again"
+        self.assertEqual(run("run", self.out / "case.toml", "-o", again, "--quiet").stderr, "")
+        self.assertEqual((self.out / "history.csv").read_bytes(),
+                         (again / "history.csv").read_bytes())
 
     def test_case_toml_gives_the_same_bits_without_a_warning(self):
         self.run_ok()

@@ -169,8 +169,8 @@ void Results::Impl::create_frame() {
   h5::Label time_velocity = {"s", "of velocity: half a step before /frame/time"};
   if (c.quasi_static) {
     time = {"1",
-            "share of the depth, of displacement, centre, contact and fields; NaN: snapshot not "
-            "written"};
+            "share of the depth, above 1 while the body slides, of displacement, centre, contact "
+            "and fields; NaN: snapshot not written"};
     time_velocity = {"1", "of velocity: half an increment before /frame/time"};
   }
   d.time = file.create_rows("/frame/time", Type::float64, times, time);

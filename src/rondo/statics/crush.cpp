@@ -25,19 +25,22 @@ Vec2 displaced(const CrushModel& model, std::size_t candidate, const std::vector
 /// What an increment is solved from and to, before it becomes the state.
 struct Trial {
   double depth = 0.0;  ///< [m]
+  double slide = 0.0;  ///< [m]
   CondensedSolution solution;
   CondensedField field;
   std::vector<Vec2> slip;  ///< (nb) gap, increment of slip [m]
 };
 
-CondensedProblem make_problem(const CrushModel& model, double depth, const Condensation& body,
+/// Along the tangent the centre's travel counts backwards: t = (-1, 0).
+CondensedProblem make_problem(const CrushModel& model, const Trial& trial, const Condensation& body,
                               const CrushState& state) {
   const auto& set = body.set();
   CondensedProblem p{body.compliance(), Eigen::VectorXd(static_cast<Index>(2 * set.size())),
                      model.friction};
   for (std::size_t j = 0; j < set.size(); ++j) {
-    p.free[static_cast<Index>(2 * j)] = model.clearance[set[j]] - depth;
-    p.free[static_cast<Index>(2 * j + 1)] = -displaced(model, set[j], state.u).y;
+    p.free[static_cast<Index>(2 * j)] = model.clearance[set[j]] - trial.depth;
+    p.free[static_cast<Index>(2 * j + 1)] =
+        -displaced(model, set[j], state.u).y - (trial.slide - state.slide);
   }
   return p;
 }
@@ -58,7 +61,8 @@ void find_field(const CrushModel& model, const Condensation& body, const CrushSt
   trial.slip.resize(model.nodes.size());
   for (std::size_t k = 0; k < model.nodes.size(); ++k) {
     const Vec2 now = displaced(model, k, trial.field.u), before = displaced(model, k, state.u);
-    trial.slip[k] = {model.clearance[k] - trial.depth + now.x, now.y - before.y};
+    trial.slip[k] = {model.clearance[k] - trial.depth + now.x,
+                     now.y - before.y - (trial.slide - state.slide)};
   }
 }
 
@@ -84,12 +88,12 @@ double field_residual(const CondensedProblem& problem, const Condensation& body,
 /// Works of the increment by mean forces, exact for a linear body (6.4e).
 void add_works(const CrushModel& model, const CrushState& before, CrushState& after) {
   CompensatedSum contact;
-  const double down = after.depth - before.depth;
+  const Vec2 travel = {after.depth - before.depth, after.slide - before.slide};
   for (std::size_t k = 0; k < after.force.size(); ++k) {
     const Vec2 mean = 0.5 * (before.force[k] + after.force[k]);
     if (mean == Vec2{}) continue;
     const double opening = after.slip[k].x - before.slip[k].x;
-    after.sums[0].add(mean.x * down);
+    after.sums[0].add(dot(mean, travel));
     after.sums[1].add(-mean.y * after.slip[k].y);
     after.sums[2].add(-mean.x * opening);
     contact.add(dot(mean, displaced(model, k, after.u) - displaced(model, k, before.u)));
@@ -110,6 +114,7 @@ CrushState accept(const CrushModel& model, const Condensation& body, const Crush
                   Trial& trial) {
   CrushState next = state;
   next.depth = trial.depth;
+  next.slide = trial.slide;
   next.u = std::move(trial.field.u);
   next.slip = std::move(trial.slip);
   std::fill(next.force.begin(), next.force.end(), Vec2{});
@@ -158,13 +163,15 @@ std::size_t append_within(const CrushModel& model, double reach, Condensation& b
   return added.size();
 }
 
-CrushReport press(const CrushModel& model, double depth, Condensation& body, CrushState& state) {
+namespace {
+
+/// To the trial's depth and slide.
+CrushReport solve_increment(const CrushModel& model, Trial& trial, Condensation& body,
+                            CrushState& state) {
   RONDO_DEMAND(body.factorised() && state.force.size() == model.nodes.size(), state.force.size());
   CrushReport report;
-  Trial trial;
-  trial.depth = depth;
   for (;;) {
-    const CondensedProblem problem = make_problem(model, depth, body, state);
+    const CondensedProblem problem = make_problem(model, trial, body, state);
     trial.solution.force = last_force(body, state);
     const CondensedReport solved = solve_condensed(problem, model.limits, trial.solution);
     report.sweeps += solved.sweeps;
@@ -182,6 +189,22 @@ CrushReport press(const CrushModel& model, double depth, Condensation& body, Cru
   for (const Vec2 w : trial.slip) report.penetration = std::max(report.penetration, -w.x);
   if (report.converged) state = accept(model, body, state, trial);
   return report;
+}
+
+}  // namespace
+
+CrushReport press(const CrushModel& model, double depth, Condensation& body, CrushState& state) {
+  Trial trial;
+  trial.depth = depth;
+  trial.slide = state.slide;
+  return solve_increment(model, trial, body, state);
+}
+
+CrushReport draw(const CrushModel& model, double slide, Condensation& body, CrushState& state) {
+  Trial trial;
+  trial.depth = state.depth;
+  trial.slide = slide;
+  return solve_increment(model, trial, body, state);
 }
 
 }  // namespace rondo::statics

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-/// @file  A body on a rigid rim, pressed without turning onto flat rigid ground, quasi-static:
+/// @file  A body on a rigid rim, pressed without turning onto flat rigid ground, then drawn along
+/// it, quasi-static:
 /// K u = Hᵀ r under Signorini's law on gaps and Coulomb's on increments of slip (docs/theory.md,
 /// 6.4). Contact frame: n = (0, 1), t = J n = (-1, 0).
 #pragma once
@@ -31,7 +32,7 @@ CrushModel make_crush_model(std::span<const Vec2> reference, std::span<const int
 struct CrushWorks {
   double strain = 0.0;     ///< ½ uᵀ K u, computed apart from the works
   double contact = 0.0;    ///< of the ground on the body, in u
-  double rim = 0.0;        ///< of the rim by coming down
+  double rim = 0.0;        ///< of the rim by coming down and by sliding
   double friction = 0.0;   ///< dissipated
   double impact = 0.0;     ///< the rest: gaps that close or open within an increment
   double residual = 0.0;   ///< strain - contact
@@ -42,6 +43,7 @@ struct CrushWorks {
 /// After an increment.
 struct CrushState {
   double depth = 0.0;                   ///< of the centre below first touch               [m]
+  double slide = 0.0;                   ///< of the centre along +x since first touch      [m]
   std::vector<Vec2> u;                  ///< (n) displacement, fixed axes                  [m]
   std::vector<Vec2> force;              ///< (nb) normal, tangential                       [N/m]
   std::vector<Vec2> slip;               ///< (nb) gap, increment of slip                   [m]
@@ -71,5 +73,9 @@ std::size_t append_within(const CrushModel& model, double reach, Condensation& b
 /// Brings the centre to `depth` [m] below first touch in one increment.
 [[nodiscard]] CrushReport press(const CrushModel& model, double depth, Condensation& body,
                                 CrushState& state);
+
+/// Brings the centre to `slide` [m] along +x in one increment, at the state's depth.
+[[nodiscard]] CrushReport draw(const CrushModel& model, double slide, Condensation& body,
+                               CrushState& state);
 
 }  // namespace rondo::statics

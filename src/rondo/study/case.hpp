@@ -67,8 +67,10 @@ enum class AnalysisKind { dynamic, crush };
 
 struct Analysis {
   AnalysisKind kind = AnalysisKind::dynamic;
-  double depth = 0.0;  ///< of a crush, below first touch: > 0                          [m]
-  int increments = 0;  ///< of a crush, >= 1
+  double depth = 0.0;        ///< of a crush, below first touch: > 0                          [m]
+  int increments = 0;        ///< of a crush, >= 1
+  double slide = 0.0;        ///< of a crush: travel of the centre along +x after the pressing  [m]
+  int slide_increments = 0;  ///< >= 1 where there is a slide, else 0
 };
 
 enum class InitialState { rest, stationary };

@@ -177,6 +177,10 @@ constexpr CaseKey keys[] = {
      "required if crush", "by which a crush lowers the centre, from first touch on"},
     {"analysis.increments", integer, "-", between(1, 1000000), "", "required if crush",
      "equal parts of the depth"},
+    {"analysis.slide", number, "m", any, "", "none",
+     "by which the centre of a crush moves along +x afterwards, at the full depth"},
+    {"analysis.slide_increments", integer, "-", between(1, 1000000), "", "required if slide",
+     "equal parts of the slide"},
 
     {"time.end", number, "s", positive, "", "required if dynamic",
      "end of the run, which starts at t = 0"},

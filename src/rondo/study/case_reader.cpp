@@ -42,12 +42,22 @@ void require(CaseValues& in, std::initializer_list<std::string_view> keys) {
 }
 
 void read_analysis(CaseValues& in, Case& c) {
-  constexpr std::string_view depth = "analysis.depth", increments = "analysis.increments";
+  constexpr std::string_view depth = "analysis.depth", increments = "analysis.increments",
+                             slide = "analysis.slide",
+                             slide_increments = "analysis.slide_increments";
   c.analysis.kind = static_cast<AnalysisKind>(in.choice("analysis.kind"));
   in.read(depth, c.analysis.depth);
   in.read(increments, c.analysis.increments);
-  if (is_crush(c)) return require(in, {depth, increments});
-  for (const std::string_view key : {depth, increments})
+  in.read(slide, c.analysis.slide);
+  in.read(slide_increments, c.analysis.slide_increments);
+  if (is_crush(c)) {
+    require(in, {depth, increments});
+    if (in.has(slide)) require(in, {slide_increments});
+    if (in.has(slide_increments)) require(in, {slide});
+    if (c.analysis.slide == 0.0) c.analysis.slide_increments = 0;
+    return;
+  }
+  for (const std::string_view key : {depth, increments, slide, slide_increments})
     if (in.good({"analysis.kind"}) && in.has(key))
       in.fault(key, "means nothing to a dynamic analysis", "analysis.kind = \"crush\" beside it");
 }

@@ -158,13 +158,17 @@ std::string output_text(const Output& o) {
 
 /// What means nothing to a crush is left out, so that reading it again brings no warning.
 std::string crush_text(const Case& c) {
+  const Analysis& a = c.analysis;
+  const std::string slide = a.slide_increments == 0
+                                ? ""
+                                : fmt::format("slide = {}\nslide_increments = {}\n",
+                                              toml_number(a.slide), a.slide_increments);
   return fmt::format(
       "\n[ground]\nprofile = {}\nfriction = {}\n"
-      "\n[analysis]\nkind = \"crush\"\ndepth = {}\nincrements = {}\n"
+      "\n[analysis]\nkind = \"crush\"\ndepth = {}\nincrements = {}\n{}"
       "\n[output]\nstress = {}\ncheckpoint_interval = {}\n",
-      profile_text(c.ground->shape.profile), toml_number(c.ground->friction),
-      toml_number(c.analysis.depth), c.analysis.increments, c.output.stress,
-      toml_number(c.output.checkpoint_interval));
+      profile_text(c.ground->shape.profile), toml_number(c.ground->friction), toml_number(a.depth),
+      a.increments, slide, c.output.stress, toml_number(c.output.checkpoint_interval));
 }
 
 }  // namespace

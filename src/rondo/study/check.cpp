@@ -48,9 +48,9 @@ CheckReport check_crush(const Case& c) {
   r.bodies = mesh::find_bodies(setup.mesh).count;
   r.candidates = setup.mesh.boundary.size();
   r.wave_speeds = fem::wave_speeds(c.material);
-  r.increments = c.analysis.increments;
+  r.increments = c.analysis.increments + c.analysis.slide_increments;
   r.condensed = setup.within_reach;
-  r.snapshots = static_cast<std::size_t>(c.analysis.increments);
+  r.snapshots = static_cast<std::size_t>(r.increments);
   r.memory_bytes = estimated_memory(c, size_of(setup.mesh));
   constexpr bool contact = true, quasi_static = true;
   r.disk_bytes = io::Results::bytes({&setup.mesh, setup.mass, r.snapshots, contact, c.output.stress,

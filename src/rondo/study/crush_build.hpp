@@ -19,8 +19,8 @@ struct CrushSetup {
   std::vector<std::string> warnings;  ///< of the reader of the mesh
 
   [[nodiscard]] std::size_t n_dofs() const noexcept { return 2 * free.size(); }
-  [[nodiscard]] Vec2 center(double depth) const noexcept {
-    return {0.0, ground_height + touch_height - depth};
+  [[nodiscard]] Vec2 center(const statics::CrushState& state) const noexcept {
+    return {state.slide, ground_height + touch_height - state.depth};
   }
 };
 

@@ -49,7 +49,8 @@ Sums sum_up(const CrushSetup& setup, const statics::CrushState& state) {
 }
 
 io::ResultsLayout layout(const Case& c, const CrushSetup& setup) {
-  const auto increments = static_cast<std::size_t>(c.analysis.increments);
+  const auto increments =
+      static_cast<std::size_t>(c.analysis.increments + c.analysis.slide_increments);
   constexpr bool contact = true, quasi_static = true;
   return {&setup.mesh, setup.mass, increments, contact, c.output.stress, quasi_static};
 }
@@ -80,13 +81,13 @@ void CrushRecord::observe(int k, const statics::CrushState& state, const std::ve
 
 Vec2 CrushRecord::position(const statics::CrushState& state, std::size_t candidate) const {
   const auto node = static_cast<std::size_t>(setup_.model.nodes[candidate]);
-  return setup_.center(state.depth) + setup_.mesh.coordinates[node] + state.u[node];
+  return setup_.center(state) + setup_.mesh.coordinates[node] + state.u[node];
 }
 
 void CrushRecord::write_history(double parameter, const statics::CrushState& state,
                                 const statics::CrushReport& report) {
   const Sums s = sum_up(setup_, state);
-  const Vec2 center = setup_.center(state.depth);
+  const Vec2 center = setup_.center(state);
   const statics::CrushWorks& w = state.works;
   constexpr double angle = 0.0, slip_ratio = 0.0, none = 0.0;  // of what a crush has not
   history_.row(std::vector<double>{parameter,
@@ -141,7 +142,7 @@ void CrushRecord::write_snapshot(int k, const statics::CrushState& state,
   io::Snapshot s;
   s.time = static_cast<double>(k) / increments_;
   s.time_velocity = (static_cast<double>(k) - 0.5) / increments_;
-  s.center = setup_.center(state.depth);
+  s.center = setup_.center(state);
   s.displacement = state.u;
   s.velocity = rate_;
   s.contact_force = state.force;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// @file  The files of a crush, those of a dynamic run, with the load parameter k/increments in
-/// place of time (docs/results.md).
+/// place of time, above 1 while it slides (docs/results.md).
 #pragma once
 #include <filesystem>
 #include <optional>

@@ -54,22 +54,42 @@ std::string not_solved(const statics::CrushReport& report, double bound) {
       report.residual, bound, report.sweeps, report.pivots, failed);
 }
 
+double depth_of(const Analysis& a, int k) {
+  return a.depth * std::min(k, a.increments) / a.increments;
+}
+
+double slide_of(const Analysis& a, int k) {
+  return k <= a.increments ? 0.0 : a.slide * (k - a.increments) / a.slide_increments;
+}
+
+/// What increment k brings the centre to.
+std::string target(const Analysis& a, int k) {
+  const std::string depth = fmt::format("depth {:.6g} m", depth_of(a, k));
+  return k <= a.increments ? depth : fmt::format("{}, slide {:.6g} m", depth, slide_of(a, k));
+}
+
+statics::CrushReport solve_increment(const Analysis& a, int k, const CrushSetup& setup,
+                                     statics::Condensation& body, statics::CrushState& state) {
+  return k <= a.increments ? statics::press(setup.model, depth_of(a, k), body, state)
+                           : statics::draw(setup.model, slide_of(a, k), body, state);
+}
+
 Loop run_loop(const Case& c, const CrushSetup& setup, statics::Condensation& body,
               const RunOptions& options, CrushRecord& record) {
   Loop loop;
   loop.state = statics::start_crush(setup.model, setup.mesh.n_nodes());
   const auto wall = Clock::now();
-  const int n = c.analysis.increments;
+  const int n = c.analysis.increments + c.analysis.slide_increments;
   while (loop.increments < n && loop.status == RunStatus::done) {
     const int k = loop.increments + 1;
-    const double depth = c.analysis.depth * k / n;
     const std::vector<Vec2> before = loop.state.u;
-    const statics::CrushReport report = statics::press(setup.model, depth, body, loop.state);
+    const statics::CrushReport report = solve_increment(c.analysis, k, setup, body, loop.state);
     loop.add(report);
     const std::string trouble = crush_trouble(report, loop.state.works, setup.model.bound);
     if (!trouble.empty()) {
       loop.status = RunStatus::failed;
-      loop.message = fmt::format("increment {} of {}, depth {:.6g} m: {}", k, n, depth, trouble);
+      loop.message =
+          fmt::format("increment {} of {}, {}: {}", k, n, target(c.analysis, k), trouble);
       break;
     }
     record.observe(k, loop.state, before, report);
@@ -95,6 +115,8 @@ Json describe(const Case& c, const CrushSetup& setup, double factor_s) {
   Json j = describe_run(c, "crush", setup.mesh.n_nodes(), setup.n_dofs());
   j["depth"] = c.analysis.depth;
   j["increments"] = c.analysis.increments;
+  j["slide"] = c.analysis.slide;
+  j["slide_increments"] = c.analysis.slide_increments;
   j["factor_wall_s"] = factor_s;
   return j;
 }
@@ -122,6 +144,7 @@ RunReport report_of(const Loop& loop) {
   r.message = loop.message;
   r.steps = loop.increments;
   r.depth = loop.state.depth;
+  r.slide = loop.state.slide;
   r.loop_wall_s = loop.wall_s;
   r.energy_residual_relative = loop.state.works.relative;
   r.contact_residual_max = loop.residual;

@@ -31,6 +31,7 @@ struct RunReport {
   long long steps = 0;    ///< done; of a crush: increments
   double end_time = 0.0;  ///< reached [s]; 0 of a crush
   double depth = 0.0;     ///< reached by a crush [m]
+  double slide = 0.0;     ///< likewise [m]
   double loop_wall_s = 0.0;
   double ns_per_dof_step = 0.0;
   double energy_residual_relative = 0.0;

@@ -155,6 +155,30 @@ TEST(Crush, BalanceSeesAWorkThatIsNotThere) {
   EXPECT_GT(state.works.relative, 1e-8);
 }
 
+/// Drawn far either way: it slips everywhere, the friction against the way; energy and works close.
+TEST(Crush, DrawnFarItCarriesFrictionTimesLoad) {
+  const Pressed p = make(0.3);
+  for (const double way : {0.02, -0.02}) {
+    statics::Condensation body(p.k, p.free, p.model.nodes);
+    statics::append_within(p.model, 0.04, body);
+    auto state = statics::start_crush(p.model, p.mesh.n_nodes());
+    for (int k = 1; k <= 4; ++k)
+      EXPECT_TRUE(statics::press(p.model, 0.005 * k, body, state).converged);
+    const double pressed = state.works.rim;
+    for (int k = 1; k <= 4; ++k)
+      EXPECT_TRUE(statics::draw(p.model, 0.25 * k * way, body, state).converged);
+    EXPECT_EQ(state.depth, 0.02);
+    EXPECT_EQ(state.slide, way);
+    const Vec2 force = total(state);  // +t is towards -x
+    EXPECT_NEAR(force.y, std::copysign(0.3, way) * force.x, 1e-10 * force.x);
+    const statics::CrushWorks& w = state.works;
+    EXPECT_LT(w.relative, 1e-13);
+    EXPECT_NEAR(w.rim - w.friction - w.impact, w.contact, 1e-12 * w.rim);
+    EXPECT_GT(w.rim - pressed, 0.08 * force.x * 0.02);  // of μP times the way
+    EXPECT_GT(w.friction, 0.08 * force.x * 0.02);
+  }
+}
+
 TEST(Crush, AnEvenDiskIsPressedEvenly) {
   const Ran ran = run(make(0.3), 0.02, 10, 0.02);
   for (const auto& state : ran.states) {

@@ -77,6 +77,13 @@ TEST(WrongCases, Crush) {
   EXPECT_NE(wrong({increments}).find("analysis.depth: is missing"), std::string::npos);
   EXPECT_NE(wrong({depth}).find("analysis.increments: is missing"), std::string::npos);
   EXPECT_NE(wrong({depth, "analysis.increments=0"}).find("1 to 1000000"), std::string::npos);
+  const std::string slide = "analysis.slide=0.001", slides = "analysis.slide_increments=4";
+  EXPECT_NE(wrong({depth, increments, slide}).find("analysis.slide_increments: is missing"),
+            std::string::npos);
+  EXPECT_NE(wrong({depth, increments, slides}).find("analysis.slide: is missing"),
+            std::string::npos);
+  EXPECT_NE(wrong({depth, increments, slide, "analysis.slide_increments=0"}).find("1 to 1000000"),
+            std::string::npos);
   EXPECT_NE(wrong({increments, "analysis.depth=0.15"}).find("the rim"), std::string::npos);
   EXPECT_NE(wrong({increments, "analysis.depth=-1"}).find("> 0 and <"), std::string::npos);
   EXPECT_NE(wrong({increments, depth, "ground.profile=[[0, 0], [1, 0.1]]"}).find("\"flat\""),
