@@ -73,13 +73,13 @@ ContactReport GeneralContact::solve(const BodyFrames& frames, Vec2 center, State
   return report;
 }
 
-/// (4.8c): the change of the gap that the free velocities would bring, less w_n Δt, over Δt.
+/// (4.8c): what one more step like the last would do to the gap, over Δt, less w_n⁻.
 double GeneralContact::turning_of(const BodyFrames& frames, const ContactRow& row,
                                   const State& state) const {
   const auto travel = [&](int node) {
     const auto k = at(node);
     return model_.dt *
-           velocity_after(frames.of(model_, k).contact, arm_of(model_, state, k), state.v_next[k]);
+           velocity_before(frames.of(model_, k).contact, arm_of(model_, state, k), state.v[k]);
   };
   const bool corner = row.kind == ContactKind::corner;
   const int a = row.rows.node[corner ? 0 : 1], b = row.rows.node[corner ? 1 : 2];
@@ -87,7 +87,7 @@ double GeneralContact::turning_of(const BodyFrames& frames, const ContactRow& ro
   const Vec2 to_b = finder_.positions()[at(b)] + travel(b);
   const Vec2 to_p = row.point + (corner ? Vec2{} : travel(row.rows.node[0]));
   const double gap = cross(to_p - to_a, to_b - to_a) / norm(to_b - to_a);
-  return (gap - row.gap) / model_.dt - row.free.x;
+  return (gap - row.gap) / model_.dt - row.before.x;
 }
 
 /// w⁻ and w without impulses of every row, and the Delassus operators of their nodes.
