@@ -2,8 +2,9 @@
 // Contacts of general models: free blocks on the ground, corners, blocks against each other.
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <array>
 #include <cmath>
-#include <limits>
 
 #include "support/blocks.hpp"
 #include "support/stepping.hpp"
@@ -164,6 +165,134 @@ TEST(GeneralContact, AStackComesToRest) {
   EXPECT_LT(seen.residual, 1e-11);
   EXPECT_EQ(seen.not_converged, 0);
   EXPECT_LT(seen.penetration, 2e-3);
+}
+
+/// The ground's torque is about the body's centre: none for a block that rests, wherever it is.
+TEST(GeneralContact, ABlockAtRestFeelsNoTorque) {
+  mesh::Mesh mesh;
+  test::add_block(mesh, {.corner = {5.0, 1e-4}, .columns = 4, .rows = 4});
+  Model model = test::body_model(mesh, rubber, 30.0, 0.0, 0.8);
+  model.motion.gravity = Table(9.81);
+  test::add_ground(model, mesh, {}, {0.5, 0.0});
+  test::Stepping stepping(
+      model, start(model, std::vector<Vec2>(model.n_nodes()), std::vector<Vec2>(model.n_nodes())));
+  stepping.advance_to(5.0);
+  EXPECT_NEAR(stepping.report().contact.impulse.y / model.dt, 9810.0, 0.1);
+  EXPECT_LT(std::abs(stepping.report().contact.angular_impulse / model.dt), 0.1);  // 5 m x 9810 N/m
+}
+
+/// A small block slides along the side of a large one that turns fast: it does not sink in.
+TEST(GeneralContact, SlidingOnATurningSegmentDoesNotDrift) {
+  std::array<double, 2> deepest{};
+  for (std::size_t i = 0; i < 2; ++i) {
+    mesh::Mesh mesh;
+    test::add_block(mesh, {.corner = {-2.0, -1.0}, .width = 4.0, .columns = 1, .rows = 1});
+    test::add_block(mesh, {.corner = {0.9, 1e-5}, .width = 0.2, .height = 0.2});
+    const fem::Material hard{1.0e9, 0.3, 1000.0, fem::Plane::strain};
+    Model model = test::body_model(mesh, hard, 0.0, 0.0, i == 0 ? 0.8 : 0.4);
+    test::add_surfaces(model, mesh, {0.0, 0.0});
+    std::vector<Vec2> v(model.n_nodes());
+    for (std::size_t k = 0; k < v.size(); ++k) {
+      const Vec2 x = model.reference[k];
+      v[k] = 20.0 * turn90(x - model.free_bodies[0].center);  // together, as one body
+      if (model.free_body[k] == 1) v[k].x += -8.0;            // and along it
+    }
+    test::Stepping stepping(model, start(model, std::vector<Vec2>(model.n_nodes()), v));
+    stepping.advance_to(0.03, [&](const StepReport& r) {
+      deepest[i] = std::max(deepest[i], r.contact.penetration);
+    });
+  }
+  // A first touch at some m/s goes a step deep; a drift of w_t φ' dt, 160 m/s² dt, would add 0.6 mm
+  // in a step of 0.13 ms over 0.03 s.
+  EXPECT_LT(deepest[0], 5e-4);
+  EXPECT_LT(deepest[1], 0.7 * deepest[0]);
+}
+
+/// A U whose legs are driven together: the inner sides meet, momentum is kept.
+TEST(GeneralContact, AGrooveCloses) {
+  mesh::Mesh u;
+  const int left = test::add_block(
+      u, {.corner = {0.0, 0.0}, .width = 0.4, .height = 1.0, .columns = 4, .rows = 10});
+  const int right = test::add_block(
+      u, {.corner = {0.5, 0.0}, .width = 0.4, .height = 1.0, .columns = 4, .rows = 10});
+  // The bottom that joins them: the two lowest rows, one column wide.
+  for (int j = 0; j < 2; ++j)
+    u.cells.push_back(
+        {left + 5 * j + 4, right + 5 * j, right + 5 * (j + 1), left + 5 * (j + 1) + 4});
+  std::erase_if(u.contact_edges, [&](const mesh::Edge& e) {
+    const auto inner = [&](int node) {
+      return (node <= left + 14 && (node - left) % 5 == 4) ||
+             (node >= right && node <= right + 10 && (node - right) % 5 == 0);
+    };
+    return inner(e[0]) && inner(e[1]);
+  });
+  const Model base = test::body_model(u, rubber, 0.0, 0.0, 0.8);
+  ASSERT_EQ(base.free_bodies.size(), 1U);
+  for (const bool self : {true, false}) {
+    Model model = base;
+    test::add_surfaces(model, u, {0.4, 0.0}, self);
+    std::vector<Vec2> v(model.n_nodes());
+    for (std::size_t k = 0; k < v.size(); ++k) {
+      const Vec2 x = model.reference[k];
+      v[k] = {(x.x < 0.45 ? 6.0 : -5.0) * x.y, x.x < 0.45 ? 1.0 : 0.0};
+    }
+    test::Stepping stepping(model, start(model, std::vector<Vec2>(model.n_nodes()), v));
+    stepping.advance(1);
+    const test::Momentum before = test::momentum(model, stepping.state());
+    Extremes seen;
+    stepping.advance_to(0.1, [&](const StepReport& r) { seen.see(r); });
+    const test::Momentum after = test::momentum(model, stepping.state());
+    EXPECT_LT(norm(after.linear - before.linear), 1e-11 * 1000.0) << self;
+    EXPECT_LT(std::abs(after.angular - before.angular), 1e-11 * 1000.0) << self;
+    const double overlap =  // of the legs' tops
+        position(model, stepping.state(), static_cast<std::size_t>(left + 54)).x -
+        position(model, stepping.state(), static_cast<std::size_t>(right + 50)).x;
+    if (self) {
+      EXPECT_GE(seen.between, 4);
+      EXPECT_LT(seen.residual, 1e-11);
+      EXPECT_LT(overlap, 0.0);
+    } else {
+      EXPECT_EQ(seen.between, 0);
+      EXPECT_GT(overlap, 0.0) << "they pass through each other";
+    }
+  }
+}
+
+/// Both sides of a thin ring are candidates: it does not touch itself across its wall.
+TEST(GeneralContact, AThinWallDoesNotTouchItself) {
+  mesh::Mesh mesh;
+  test::add_block(mesh,
+                  {.corner = {0.0, 0.0}, .width = 1.0, .height = 0.02, .columns = 10, .rows = 1});
+  Model model = test::body_model(mesh, rubber, 0.0, 0.0, 0.8);
+  test::add_surfaces(model, mesh, {0.5, 0.0}, true);
+  std::vector<Vec2> v(model.n_nodes());
+  for (std::size_t k = 0; k < v.size(); ++k)
+    v[k].y = model.reference[k].y > 0.01 ? 0.01 : -0.01;  // it breathes
+  test::Stepping stepping(model, start(model, std::vector<Vec2>(model.n_nodes()), v));
+  Extremes seen;
+  stepping.advance(500, [&](const StepReport& r) { seen.see(r); });
+  EXPECT_EQ(seen.between, 0);
+}
+
+/// Contact problems are kept where they took more iterations than asked, to be written to files.
+TEST(GeneralContact, KeepsDifficultProblems) {
+  for (const int above : {0, 1}) {
+    TwoBlocks t = two_blocks(0.6);
+    t.model.coupled.dump_above = above;
+    State state = start(t.model, std::vector<Vec2>(t.model.n_nodes()),
+                        velocities(t.model, {{0.5, 1.0}, {-0.5, -2.0}}));
+    const auto integrator = make_integrator(t.model, state);
+    std::vector<StepReport> reports(60);
+    integrator->advance(reports, nullptr);
+    const auto kept = integrator->take_difficult();
+    EXPECT_EQ(kept.empty(), above == 0);
+    for (const contact::ProblemFile& file : kept) {
+      EXPECT_GT(file.result.iterations, 1);
+      EXPECT_LT(file.result.residual, 1e-12);
+      EXPECT_EQ(file.impulse.size(), file.problem.size());
+    }
+    EXPECT_TRUE(integrator->take_difficult().empty());
+  }
 }
 
 }  // namespace
