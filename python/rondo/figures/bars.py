@@ -74,9 +74,9 @@ def draw_wall(run: Run, critical: Run) -> Figure:
     with style.paper():
         figure = plt.figure(figsize=(style.PAGE, 2.4))
         pressure, velocity = figure.subplots(1, 2)
-        _pressures(pressure, {"Courant number 0.9": run, "1": critical}, wall_pressure,
+        _pressures(pressure, {"Courant number 0.9": run, "Courant number 1": critical}, wall_pressure,
                    (TOUCH - TRANSIT / 2, TOUCH + 3 * TRANSIT))
-        pressure.legend(loc="lower center", fontsize=6.5)
+        pressure.legend(loc="center", fontsize=6.5)
         letter(pressure, "a", "pressure of the wall")
         _velocities(velocity, run)
         letter(velocity, "b", "velocities, Courant number 0.9")
