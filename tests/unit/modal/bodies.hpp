@@ -45,6 +45,21 @@ inline mesh::Mesh ring(int radial, int columns, bool clamped = true) {
   return mesh;
 }
 
+/// `b` beside `a`, nodes and cells after one another; no sectors.
+inline mesh::Mesh beside(mesh::Mesh a, const mesh::Mesh& b, Vec2 by) {
+  const int n = static_cast<int>(a.n_nodes());
+  for (const Vec2 x : b.coordinates) a.coordinates.push_back(x + by);
+  for (mesh::Cell cell : b.cells) {
+    for (int& node : cell) node += node >= 0 ? n : 0;
+    a.cells.push_back(cell);
+  }
+  for (const int node : b.clamped) a.clamped.push_back(n + node);
+  a.n_sectors = 0;
+  a.sector.clear();
+  a.sector_node.clear();
+  return a;
+}
+
 /// A' = M^-½ K M^-½ - s² on the free nodes.
 inline Eigen::MatrixXd dense(const ModalBody& b, double spin) {
   const std::vector<int> free = fem::free_nodes(b.mesh);

@@ -12,21 +12,6 @@ using modal::Wave;
 
 namespace {
 
-/// `b` beside `a`, nodes and cells after one another; no sectors.
-mesh::Mesh beside(mesh::Mesh a, const mesh::Mesh& b, Vec2 by) {
-  const int n = static_cast<int>(a.n_nodes());
-  for (const Vec2 x : b.coordinates) a.coordinates.push_back(x + by);
-  for (mesh::Cell cell : b.cells) {
-    for (int& node : cell) node += node >= 0 ? n : 0;
-    a.cells.push_back(cell);
-  }
-  for (const int node : b.clamped) a.clamped.push_back(n + node);
-  a.n_sectors = 0;
-  a.sector.clear();
-  a.sector_node.clear();
-  return a;
-}
-
 int count_rigid(const modal::Modes& found) {
   int rigid = 0;
   for (const modal::Mode& mode : found.modes) rigid += mode.wave == Wave::rigid ? 1 : 0;
@@ -60,8 +45,8 @@ TEST(FreeBodies, AFreeDiskAtRestHasThreeRigidMotions) {
 
 TEST(FreeBodies, TwoEqualFreeBodiesAndAClampedOne) {
   const mesh::Mesh free = test::ring(2, 12, false);
-  const auto b =
-      test::body_of(beside(beside(free, free, {1.0, 0.0}), test::ring(2, 12), {0.0, 1.0}));
+  const auto b = test::body_of(
+      test::beside(test::beside(free, free, {1.0, 0.0}), test::ring(2, 12), {0.0, 1.0}));
   const modal::Modes found = modal::mesh_modes(b.any(), 0.0, 24);
   EXPECT_EQ(modal::free_bodies(b.mesh), (std::vector<int>{0, 1}));
   EXPECT_EQ(count_rigid(found), 6);

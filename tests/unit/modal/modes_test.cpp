@@ -163,6 +163,23 @@ TEST(Modes, TreadedDiskOfBothWays) {
   }
 }
 
+TEST(Modes, OfEqualBodiesEachIsThere) {
+  const mesh::Mesh one = test::ring(4, 48);
+  const auto single = test::body_of(one);
+  mesh::Mesh row = one;
+  for (int k = 1; k < 6; ++k) row = test::beside(row, one, {1.0 * k, 0.0});
+  const auto b = test::body_of(row);
+  for (const double spin : {0.0, 60.0}) {
+    // About their own centres, all of them: the Coriolis and centrifugal terms know no place.
+    const modal::Modes found = modal::mesh_modes(b.any(), spin, 12);
+    const auto expected = test::frequencies(modal::cyclic_modes(single.cyclic(), spin, 12));
+    EXPECT_TRUE(found.counted);
+    ASSERT_GE(found.modes.size(), 12U);
+    for (std::size_t i = 0; i < found.modes.size(); ++i)
+      EXPECT_NEAR(found.modes[i].omega / expected[i / 6], 1.0, dense_error) << i;
+  }
+}
+
 TEST(Modes, TooMuchSpinIsCounted) {
   const auto b = test::body_of(test::ring(2, 9));
   const Eigen::VectorXd squares =
