@@ -4,10 +4,12 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
 #include "bodies.hpp"
+#include "rondo/modal/harmonic_problem.hpp"
 #include "rondo/modal/residual.hpp"
 
 using namespace rondo;
@@ -177,6 +179,33 @@ TEST(Modes, OfEqualBodiesEachIsThere) {
     ASSERT_GE(found.modes.size(), 12U);
     for (std::size_t i = 0; i < found.modes.size(); ++i)
       EXPECT_NEAR(found.modes[i].omega / expected[i / 6], 1.0, dense_error) << i;
+  }
+}
+
+TEST(Modes, RootsAreCountedBeforeTheyAreSought) {
+  const auto b = test::body_of(test::ring(3, 24));
+  const modal::CyclicBody body = b.cyclic();
+  for (const double spin : {60.0, -60.0}) {
+    modal::HarmonicProblem problem(body, spin);
+    for (const int n : {0, 2, 5, 12}) {
+      problem.choose(n);
+      const int all = problem.size();
+      const auto roots = problem.roots_below(1e6, {all, all});
+      ASSERT_EQ(roots.size(), static_cast<std::size_t>(2 * all));
+      int split = 0;
+      for (double sigma = 500.0; sigma < 4000.0; sigma *= 1.03) {
+        const modal::RootCounts counts = problem.count_below(sigma);
+        const auto within = [&](double sense) {
+          return std::count_if(roots.begin(), roots.end(), [&](const modal::HarmonicRoot& r) {
+            return sense * r.omega > 0.0 && sense * r.omega < sigma;
+          });
+        };
+        EXPECT_EQ(counts.positive, within(1.0)) << n << " " << sigma;
+        EXPECT_EQ(counts.negative, within(-1.0)) << n << " " << sigma;
+        split += counts.positive != counts.negative ? 1 : 0;
+      }
+      EXPECT_EQ(split > 0, problem.has_partner()) << n;  // waves against each other differ
+    }
   }
 }
 
