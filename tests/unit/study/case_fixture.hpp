@@ -54,7 +54,7 @@ inline std::vector<Fault> faults_of(const std::string& text,
 }
 
 inline std::filesystem::path source_folder() {
-  return std::filesystem::absolute(__FILE__).parent_path() / ".." / ".." / "..";
+  return std::filesystem::path(RONDO_CASES).parent_path();
 }
 
 inline std::string file_text(const std::filesystem::path& file) {

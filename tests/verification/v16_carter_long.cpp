@@ -1,0 +1,13 @@
+// SPDX-License-Identifier: BSD-3-Clause
+/// V16 with 8 elements to the half width, and up to tractions where little of the contact sticks.
+#include "support/carter.hpp"
+
+using namespace rondo;
+
+/// Near full sliding the zone comes out wide, because full sliding has 0.99 μP (the nodes swing a
+/// little): of the 0.15 μP spared there up to 0.01 μP lie in the slip zone, about 0.5 a from the
+/// zone's middle, and add up to 0.017 a² to a variance of c²/4 = 0.04 a², 0.08 a to c = 0.4 a.
+TEST(CarterLong, CreepAndStickZone) {
+  test::expect_carter({16, 900}, {-0.012, 0.008}, 0.015, 0.025);
+  test::expect_carter({16, 900}, {-0.0184, 0.0138}, 0.025, 0.065);
+}
