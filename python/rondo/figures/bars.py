@@ -74,9 +74,9 @@ def draw_wall(run: Run, critical: Run) -> Figure:
     with style.paper():
         figure = plt.figure(figsize=(style.PAGE, 2.4))
         pressure, velocity = figure.subplots(1, 2)
-        _pressures(pressure, {"Courant number 0.9": run, "Courant number 1": critical}, wall_pressure,
-                   (TOUCH - TRANSIT / 2, TOUCH + 3 * TRANSIT))
-        pressure.legend(loc="center", fontsize=6.5)
+        runs = {"Courant number 0.9": run, "Courant number 1": critical}
+        _pressures(pressure, runs, wall_pressure, (TOUCH - TRANSIT / 2, TOUCH + 3 * TRANSIT))
+        pressure.legend(loc="center", bbox_to_anchor=(0.46, 0.5), fontsize=6.5)
         letter(pressure, "a", "pressure of the wall")
         _velocities(velocity, run)
         letter(velocity, "b", "velocities, Courant number 0.9")
