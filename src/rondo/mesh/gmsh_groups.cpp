@@ -123,10 +123,6 @@ const NamedGroup* find_group(const std::vector<NamedGroup>& groups, int dimensio
                              std::string_view name) {
   for (const NamedGroup& group : groups)
     if (group.dimension == dimension && group.name == name) return &group;
-  // By its number, though it has a name.
-  for (const NamedGroup& group : groups)
-    for (const int tag : group.tags)
-      if (group.dimension == dimension && fmt::format("{}", tag) == name) return &group;
   return nullptr;
 }
 

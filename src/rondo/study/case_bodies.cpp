@@ -161,6 +161,10 @@ void read_body_contact(CaseValues& in, Case& c) {
   in.read("contact.restitution", contact.restitution);
   if (c.analysis.kind == AnalysisKind::crush && contact.between != BodyContact::none)
     in.fault("contact.between", "a crush knows no contact but with the ground", "\"none\"");
+  if (!c.mesh && contact.between != BodyContact::none)
+    in.fault("contact.between",
+             "a generated disk is one body, and the walls of its grooves are no candidates",
+             "\"none\", or a [mesh] whose contact curve has the walls");
   if (c.mesh && c.mesh->contact.empty() && contact.between != BodyContact::none)
     in.fault("contact.between", "no part of the mesh may touch anything",
              "mesh.contact, a physical curve, beside it");
