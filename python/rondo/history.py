@@ -18,13 +18,17 @@ UNITS = {
     "kinetic": "J/m", "strain": "J/m", "work_frame": "J/m", "work_contact": "J/m",
     "dissipation_friction": "J/m", "loss_impact": "J/m", "work_rim": "J/m",
     "dissipation_mass": "J/m", "dissipation_stiffness": "J/m", "work_scheme": "J/m",
-    "energy_residual": "J/m",
+    "energy_residual": "J/m", "work_load": "J/m",
     # of a crush
     "depth_m": "m", "pressure_max_pa": "Pa", "shear_max_pa": "Pa", "contact_residual": "1",
     "sweeps": "1",
 }
 
 
+PROBES = {  # endings of the columns of a probe, after its name
+    "_ux": "m", "_uy": "m", "_vx": "m/s", "_vy": "m/s",
+    "_sxx": "Pa", "_syy": "Pa", "_szz": "Pa", "_sxy": "Pa",
+}
 FORCES = ("force_x", "force_y", "torque")  # of the ground on the body
 
 
@@ -42,6 +46,10 @@ class History(Mapping[str, np.ndarray]):
         self.path, self.crush, self.ground = path, crush, ground
         self._columns = read_table(path)
         self.units = {name: UNITS[name] for name in self._columns if name in UNITS}
+        for name in self._columns:
+            for ending, unit in PROBES.items():
+                if name not in UNITS and name.endswith(ending):
+                    self.units[name] = unit
         if crush:
             self.units["time_s"] = "1"  # the share of the depth
 

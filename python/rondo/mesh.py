@@ -10,15 +10,27 @@ import numpy as np
 
 @dataclass(frozen=True)
 class Mesh:
-    """n nodes, e cells, nb candidates (nodes that may touch the ground); all numbered from 0."""
+    """n nodes, e cells, nb candidates (nodes that may touch something); all numbered from 0."""
 
-    coordinates: np.ndarray  # (n, 2) reference position X, turning frame [m]
+    coordinates: np.ndarray  # (n, 2) reference position X, turning frame; of free bodies fixed [m]
     cells: np.ndarray        # (e, 4) or (e, 3) corner nodes, counter-clockwise; -1: none
     boundary: np.ndarray     # (nb,) candidates, in order along the boundary
     tributary: np.ndarray    # (nb,) length of boundary that each candidate stands for [m]
     mass: np.ndarray         # (n,) lumped mass [kg/m]
     sector: np.ndarray | None       # (n,) counter-clockwise from straight down; None: not cyclic
     sector_node: np.ndarray | None  # (n,) number within the sector, the same in all; or None
+    free_body: np.ndarray | None = None  # (n,) free body that a node belongs to, which moves in the
+    #                                      fixed frame; -1: turning frame; None: all of them
+    region: np.ndarray | None = None     # (e,) place of a cell's physical surface in region_names
+    region_names: tuple[str, ...] = ()   # of the mesh file
+
+    @property
+    def free(self) -> np.ndarray:
+        """(n,) True where a node moves in the fixed frame."""
+        if self.free_body is None:
+            return np.zeros(self.n_nodes, dtype=bool)
+        free: np.ndarray = self.free_body >= 0
+        return free
 
     @property
     def n_nodes(self) -> int:
@@ -33,7 +45,12 @@ def read_mesh(file: h5py.File) -> Mesh:
     """/mesh of results.h5 or pod.h5."""
     mesh = file["mesh"]
     cyclic = "sector" in mesh
+    regions = mesh["region"].attrs if "region" in mesh else {}
     return Mesh(coordinates=mesh["coordinates"][:], cells=mesh["cells"][:],
                 boundary=mesh["boundary"][:], tributary=mesh["tributary"][:], mass=mesh["mass"][:],
                 sector=mesh["sector"][:] if cyclic else None,
-                sector_node=mesh["sector_node"][:] if cyclic else None)
+                sector_node=mesh["sector_node"][:] if cyclic else None,
+                free_body=mesh["free_body"][:] if "free_body" in mesh else None,
+                region=mesh["region"][:] if "region" in mesh else None,
+                region_names=tuple(str(regions[f"name_{k}"]) for k in range(len(regions))
+                                   if f"name_{k}" in regions))

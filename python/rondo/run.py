@@ -121,6 +121,7 @@ class Run:
             self.times: np.ndarray = times[:t]
             frame = {name: file[f"frame/{name}"][:t] if "frame" in file else np.empty(0)
                      for name in ("time_velocity", "angle", "angle_velocity", "center")}
+            self._has_contact = "contact" in file
             self._datasets = [f"{group}/{name}" for group in ("snapshots", "fields")
                               if group in file for name in file[group]]
         self.times_velocity: np.ndarray = frame["time_velocity"]
@@ -158,13 +159,15 @@ class Run:
 
     @property
     def outer_radius(self) -> float:
-        """R_o [m]."""
+        """R_o of a disk [m]; of a mesh from a file its largest distance from the origin."""
+        if "disk" not in self.case:
+            return float(np.linalg.norm(self.mesh.coordinates, axis=1).max())
         return float(self.case["disk"]["outer_radius"])
 
     @property
     def inner_radius(self) -> float:
-        """R_i [m]."""
-        return float(self.case["disk"]["inner_radius"])
+        """R_i of a disk [m]; 0 of a mesh from a file."""
+        return float(self.case.get("disk", {}).get("inner_radius", 0.0))
 
     @property
     def friction(self) -> float | None:
@@ -174,12 +177,13 @@ class Run:
     @property
     def pitches(self) -> int:
         """Of the tread; 0: smooth."""
-        return int(self.case["disk"].get("tread", {}).get("pitches", 0))
+        return int(self.case.get("disk", {}).get("tread", {}).get("pitches", 0))
 
     @property
     def spin(self) -> float:
-        """Angular velocity of the rim at the end [rad/s]; > 0 rolls towards +x; 0 in a crush."""
-        if self.is_crush:
+        """Angular velocity of the rim at the end [rad/s]; > 0 rolls towards +x; 0 in a crush and
+        where nothing is held."""
+        if self.is_crush or "angular_velocity" not in self.case["motion"]:
             return 0.0
         given = self.case["motion"]["angular_velocity"]
         if not isinstance(given, list):
@@ -203,7 +207,8 @@ class Run:
         return sorted(names)
 
     def field(self, name: str) -> LazyArray:
-        """A field of all snapshots: "displacement", "velocity" (t, n, 2) in the turning frame;
+        """A field of all snapshots: "displacement", "velocity" (t, n, 2) in the turning frame, of
+        free bodies in the fixed frame;
         "von_mises", "stress_xx", "stress_xy", ... (t, n) and "cauchy_stress" (t, n, 6) with stress;
         "position", "contact_force" (t, n, 3) for pictures. Stress, position and contact force are
         along the fixed axes. "fields/displacement", "fields/velocity": these along the fixed
@@ -230,11 +235,13 @@ class Run:
         return self.field("velocity")
 
     def position(self, k: int) -> np.ndarray:
-        """(n, 2) places of the nodes at snapshot k in the fixed frame: c + R(θ)(X + u) [m]."""
-        displacement = self.displacement[k]
+        """(n, 2) places of the nodes at snapshot k in the fixed frame: c + R(θ)(X + u), of free
+        bodies X + u [m]."""
+        arms = self.mesh.coordinates + self.displacement[k]
         cos, sin = np.cos(self.angle[k]), np.sin(self.angle[k])
         turn = np.array([[cos, -sin], [sin, cos]])
-        return self.center[k] + (self.mesh.coordinates + displacement) @ turn.T
+        places = self.center[k] + arms @ turn.T
+        return np.where(self.mesh.free[:, None], arms, places)
 
     def index(self, time: float) -> int:
         """The snapshot nearest to a time [s] (of a crush: share of the depth)."""
@@ -258,8 +265,8 @@ class Run:
 
     @cached_property
     def contact(self) -> Contact | None:
-        """None without ground, or without snapshots."""
-        if not self.n_snapshots or "ground" not in self.case:
+        """None where nothing may be touched, or without snapshots."""
+        if not self.n_snapshots or not self._has_contact:
             return None
         force, traction = (LazyArray(self.path, f"contact/{name}", self.n_snapshots)
                            for name in ("force", "traction"))

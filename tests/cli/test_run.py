@@ -47,7 +47,7 @@ class Run(RunTest):
             list(h), "time_s angle_rad center_x_m center_y_m force_x force_y torque contact_nodes "
             "sticking_nodes contact_length_m penetration_max_m slip_ratio kinetic strain work_frame "
             "work_contact dissipation_friction loss_impact work_rim dissipation_mass "
-            "dissipation_stiffness work_scheme energy_residual".split())
+            "dissipation_stiffness work_scheme energy_residual work_load".split())
         energy = h["kinetic"] + h["strain"]
         works = (h["work_frame"] + h["work_contact"] - h["dissipation_mass"]
                  - h["dissipation_stiffness"] + h["work_scheme"])

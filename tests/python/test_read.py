@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 
 import rondo
-from rondo.history import UNITS
+from rondo.history import PROBES, UNITS
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 
@@ -106,7 +106,9 @@ def test_units_are_those_of_the_manual():
         cells = [cell.strip() for cell in line.strip("|").split("|")]
         if line.startswith("| `"):
             found |= {name.strip(" `"): cells[1] for name in cells[0].split(",")}
+    probes = {name: found.pop(name) for name in list(found) if name.startswith("NAME_")}
     assert found == UNITS
+    assert {name.removeprefix("NAME"): unit for name, unit in probes.items()} == PROBES
 
 
 def test_means_are_weighted_by_intervals(copy):

@@ -49,7 +49,8 @@ def animate(run: Run, path: str | os.PathLike[str], quantity: str = "displacemen
     evenly over the snapshots of the window; at most one for each, by default at most 300. fps:
     pictures a second; by default such that a film of few pictures lasts about 10 s, at most 30.
     limits: of the colours, in the unit of the colour bar; by default those of the whole film.
-    follow: the picture moves along with the body; by default where it goes far. width: [px]."""
+    follow: the picture moves along with the body; by default where it goes far, and never with
+    bodies that nothing holds. width: [px]."""
     path = pathlib.Path(path)
     ending = path.suffix.lower()
     _check_place(path, ending)
@@ -66,6 +67,7 @@ def animate(run: Run, path: str | os.PathLike[str], quantity: str = "displacemen
     centers = run.center[chosen]
     if follow is None:
         follow = bool(np.ptp(centers[:, 0]) > FOLLOW_BEYOND * run.outer_radius)
+    follow = follow and not _is_free(run)
     with style.paper(), matplotlib.rc_context({"figure.constrained_layout.use": False}):
         film = _Film(run, chosen, quantity, limits, follow, width, SIZES[ending])
         _write(film, path, ending, fps)
@@ -101,6 +103,17 @@ def _snapshots(run: Run, from_time: float | None, to_time: float | None,
     return there[np.round(np.linspace(0, len(there) - 1, frames)).astype(int)]
 
 
+def _is_free(run: Run) -> bool:
+    """Some bodies move otherwise than the rim, if there is one."""
+    return bool(run.mesh.free.any())
+
+
+def _box(run: Run, chosen: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    """Lowest and highest x and y of all nodes of the snapshots [m]."""
+    boxes = [(places.min(axis=0), places.max(axis=0)) for places in map(run.position, chosen)]
+    return np.min([low for low, _ in boxes], axis=0), np.max([high for _, high in boxes], axis=0)
+
+
 def _even(pixels: float) -> int:
     """The nearest even number."""
     return 2 * round(pixels / 2)
@@ -118,6 +131,10 @@ class _Film:
         bottom = TOP if ground is None else BOTTOM
         low = centers.min(axis=0) - np.array([side, bottom]) * radius
         high = centers.max(axis=0) + np.array([side, TOP]) * radius
+        if _is_free(run):
+            low, high = _box(run, chosen)
+            margin = (SIDE - 1) * (high - low).max()
+            low, high = low - margin, high + margin
         self.window = np.array([-side, side, -bottom, TOP]) * radius  # about the centre
         size = np.array([2 * side, bottom + TOP]) * radius if follow else high - low
         self.ax, bar = _layout(size[1] / size[0], width, largest)
@@ -140,10 +157,12 @@ class _Film:
         index = int(self.chosen[frame])
         self.body.update(index)
         self.contact.update(index)
+        self.ax.set_title(snapshot_title(self.run, index))
+        if _is_free(self.run):
+            return
         center, angle = self.run.center[index], self.run.angle[index]
         spoke = self.run.inner_radius * np.array([np.sin(angle), -np.cos(angle)])
         self.mark.set_data(*np.stack([center + 0.6 * spoke, center + spoke], axis=1))
-        self.ax.set_title(snapshot_title(self.run, index))
         if self.follow:
             self.ax.set_xlim(*(center[0] + self.window[:2]))
             self.ax.set_ylim(*(center[1] + self.window[2:]))

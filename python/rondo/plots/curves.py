@@ -32,6 +32,7 @@ LABELS = {  # of columns, where their name does not say it
 TERMS: dict[str, tuple[int, str, dict[str, Any]]] = {
     "work_frame": (1, "work of the turning frame", {"color": style.BLUE, "linestyle": "--"}),
     "work_rim": (1, "work of the rim", {"color": style.SKY, "linestyle": "-", "linewidth": 1.8}),
+    "work_load": (1, "work of pressures", {"color": "0.3", "linestyle": "--"}),
     "dissipation_friction": (-1, "friction", {"color": style.VERMILLION, "linestyle": "-."}),
     "loss_impact": (-1, "impacts", {"color": style.PURPLE, "linestyle": ":"}),
     "dissipation_mass": (-1, "mass damping", {"color": style.GREEN, "linestyle": (0, (6, 1.5))}),
@@ -147,7 +148,8 @@ def plot_energy(run: Run, ax: Axes | None = None) -> Axes:
     total = energy(run)
     largest = np.abs(total).max(initial=0.0)
     drawn = {name: sign * run.history[name] for name, (sign, _, _) in TERMS.items()
-             if np.abs(run.history[name]).max(initial=0.0) > ROUND_OFF * largest}
+             if name in run.history
+             and np.abs(run.history[name]).max(initial=0.0) > ROUND_OFF * largest}
     size = max(np.abs(curve).max(initial=0.0) for curve in (total, *drawn.values()))
     factor, unit = _readable(size, "J/m")
     ax.axhline(0.0, color="0.8", linewidth=0.6, zorder=0)

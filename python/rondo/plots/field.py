@@ -73,7 +73,8 @@ def nodal(run: Run, index: int, quantity: str, frame: str = "fixed") -> Nodal:
         if signed:
             angles = run.angle if base == "displacement" else run.angle_velocity
             if frame == "fixed" and ending in ("x", "y"):
-                vectors = turned(vectors, float(angles[index]))
+                seen = turned(vectors, float(angles[index]))
+                vectors = np.where(run.mesh.free[:, None], vectors, seen)
             values = component(vectors, run.mesh.coordinates, ending)
             label = f"{base}, {ending}"
         else:
@@ -91,9 +92,13 @@ def nodal(run: Run, index: int, quantity: str, frame: str = "fixed") -> Nodal:
 
 
 def positions(run: Run, index: int, frame: str = "fixed", deformation: float = 1.0) -> Array:
-    """(n, 2) m: the nodes of a snapshot, the displacement magnified by `deformation`."""
+    """(n, 2) m: the nodes of a snapshot, the displacement magnified by `deformation`. Free bodies
+    are where they are, in both frames."""
     if frame not in FRAMES:
         raise Error(f'frame "{frame}": allowed are "fixed" and "turning"')
+    if deformation != 1.0 and run.mesh.free.any():
+        raise Error(f"deformation = {deformation:g}: nothing holds some bodies of this run, whose "
+                    "displacement is their whole motion; 1 alone is allowed")
     if frame == "fixed" and deformation == 1.0:
         return run.position(index)
     arms = run.mesh.coordinates + deformation * np.asarray(run.displacement[index])

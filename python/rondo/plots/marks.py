@@ -46,12 +46,14 @@ def energy(run: Run) -> Array:
     return run.history["kinetic"] + run.history["strain"]
 
 
-WORKS = ("work_frame", "work_contact", "dissipation_mass", "dissipation_stiffness", "work_scheme")
+WORKS = ("work_frame", "work_contact", "work_load", "dissipation_mass", "dissipation_stiffness",
+         "work_scheme")  # runs of earlier versions have no work_load
 
 
 def relative_residual(run: Run) -> Array:
     """(rows,): what the ledger leaves open, over the energy exchanged so far (theory, 5.6). The
     history has not each step, so the energy exchanged is that of its rows."""
-    exchanged = np.abs(energy(run)) + sum(np.abs(run.history[name]) for name in WORKS)
+    exchanged = np.abs(energy(run)) + sum(np.abs(run.history[name]) for name in WORKS
+                                        if name in run.history)
     so_far = np.maximum.accumulate(exchanged)
     return np.abs(run.history["energy_residual"]) / np.where(so_far > 0, so_far, 1.0)
