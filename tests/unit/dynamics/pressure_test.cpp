@@ -65,7 +65,7 @@ TEST(Pressure, PushesAgainstTheOutwardNormal) {
 /// work.
 TEST(Pressure, SqueezesABlockAsTheClosedFormSays) {
   mesh::Mesh mesh;
-  test::add_block(mesh, {.columns = 4, .rows = 4});
+  test::add_block(mesh, {.corner = {}, .columns = 4, .rows = 4});
   Model model = test::body_model(mesh, rubber, 0.0, 1e-3, 0.8);
   const double p = 1.0e3;
   model.pressures.push_back({mesh.contact_edges, Table({{0.0, 0.0}, {1.0, p}})});
