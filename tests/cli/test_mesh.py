@@ -128,6 +128,17 @@ class Meshes(ProgramTest):
             np.testing.assert_allclose(h[f"left_u{axis}"], u[:, k], atol=1e-14)
             np.testing.assert_allclose(h[f"left_v{axis}"], v[:, k], atol=1e-12)
 
+    def test_rows_between_snapshots_have_probes_too(self):
+        self.run_ok(TWO, "--set", "output.history_interval=1e-3", "--set", "output.snapshots=2")
+        coarse = history(self.out)
+        self.run_ok(TWO, "--overwrite", "--set", "output.history_interval=0")
+        fine = history(self.out)
+        self.assertGreater(len(fine["time_s"]), 10 * len(coarse["time_s"]))
+        at = np.searchsorted(fine["time_s"], coarse["time_s"])
+        np.testing.assert_array_equal(fine["time_s"][at], coarse["time_s"])
+        for name in list(coarse)[-16:]:
+            np.testing.assert_array_equal(coarse[name], fine[name][at], err_msg=name)
+
     def test_rows_with_probes_are_those_without(self):
         self.run_ok(TWO)
         with_probes = history(self.out)
