@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <map>
 #include <numeric>
 
 #include "rondo/contact/node_to_segment.hpp"
@@ -22,16 +23,19 @@ std::size_t at(int node) noexcept {
   return static_cast<std::size_t>(node);
 }
 
-double longest_edge(const Model& model, const std::vector<mesh::Edge>& edges) noexcept {
-  double longest = 0.0;
-  for (const mesh::Edge& e : edges)
-    longest = std::max(longest, norm(model.reference[at(e[1])] - model.reference[at(e[0])]));
-  return longest;
-}
-
-/// A point half an edge deep is in the body, not at its boundary.
-double depth_limit(double length) noexcept {
-  return 0.5 * length;
+/// How deep a point may be behind each edge [m]: half the shortest edge of the body, for what is
+/// deeper may be nearer to its other side.
+std::vector<double> depth_limits(const Model& model, const contact::Boundary& boundary) {
+  std::map<int, double> shortest;  // by body
+  for (std::size_t i = 0; i < boundary.edges.size(); ++i) {
+    const auto [a, b] = boundary.edges[i];
+    const double length = norm(model.reference[at(b)] - model.reference[at(a)]);
+    const auto [known, fresh] = shortest.try_emplace(boundary.body[i], length);
+    known->second = std::min(known->second, length);
+  }
+  std::vector<double> limits;
+  for (const int body : boundary.body) limits.push_back(0.5 * shortest[body]);
+  return limits;
 }
 
 }  // namespace
@@ -43,8 +47,10 @@ ContactFinder::ContactFinder(const Model& model)
   all_edges_.resize(ground_side_.edges.size());
   std::iota(all_edges_.begin(), all_edges_.end(), 0);
   if (model.surfaces) surface_ = contact::make_boundary(model.surfaces->edges, model.body);
-  deepest_ = depth_limit(
-      std::max(longest_edge(model, ground_side_.edges), longest_edge(model, surface_.edges)));
+  ground_side_limit_ = depth_limits(model, ground_side_);
+  surface_limit_ = depth_limits(model, surface_);
+  for (const double limit : ground_side_limit_) deepest_ = std::max(deepest_, limit);
+  for (const double limit : surface_limit_) deepest_ = std::max(deepest_, limit);
 }
 
 void ContactFinder::find(const State& state, std::vector<ContactRow>& rows) {
@@ -95,7 +101,7 @@ void ContactFinder::find_corners(std::vector<ContactRow>& rows) const {
   const Box box = box_of_candidates();
   const auto corners = model_.contact->ground.corners();
   for (std::size_t c = 0; c < corners.size(); ++c) {
-    const Vec2 p = corners[c].position;
+    const Vec2 p = corners[c].position, facing = corners[c].normals[0] + corners[c].normals[1];
     if (p.x < box.low.x || p.x > box.high.x || p.y < box.low.y || p.y > box.high.y) continue;
     const contact::EdgeTouches touches =
         contact::touch_boundary({.position = p}, {ground_side_, positions_, all_edges_, deepest_});
@@ -103,7 +109,9 @@ void ContactFinder::find_corners(std::vector<ContactRow>& rows) const {
       const EdgeTouch& found = touches.at[at(t)];
       const mesh::Edge& e = ground_side_.edges[at(found.edge)];
       const double length = norm(positions_[at(e[1])] - positions_[at(e[0])]);
-      if (-found.touch.gap > depth_limit(length)) continue;
+      if (-found.touch.gap > ground_side_limit_[at(found.edge)] ||
+          dot(found.touch.normal, facing) >= 0.0)
+        continue;
       ContactRow row;
       row.kind = ContactKind::corner;
       row.rows = contact::corner_rows(found.touch, length, e[0], e[1]);
@@ -144,7 +152,7 @@ bool ContactFinder::across_a_wall(std::size_t node, const mesh::Edge& edge) cons
   const Vec2 along = model_.reference[at(edge[1])] - a, to = model_.reference[node] - a;
   if (cross(along, to) < 0.0) return false;  // in front: the outward normal is on the right
   const double on = std::clamp(dot(along, to) / dot(along, along), 0.0, 1.0);
-  return norm(to - on * along) < 2.0 * depth_limit(norm(along));
+  return norm(to - on * along) < norm(along);
 }
 
 void ContactFinder::find_segments(std::vector<ContactRow>& rows) {
@@ -163,7 +171,7 @@ void ContactFinder::find_segments(std::vector<ContactRow>& rows) {
       const EdgeTouch& found = touches.at[at(t)];
       const mesh::Edge& e = surface_.edges[at(found.edge)];
       const double length = norm(positions_[at(e[1])] - positions_[at(e[0])]);
-      if (-found.touch.gap > depth_limit(length)) continue;
+      if (-found.touch.gap > surface_limit_[at(found.edge)]) continue;
       ContactRow row;
       row.kind = ContactKind::segment;
       row.rows = contact::node_rows(found.touch, length, node, e[0], e[1]);

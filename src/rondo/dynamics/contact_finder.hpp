@@ -42,9 +42,10 @@ class ContactFinder {
   const Model& model_;
   contact::Boundary ground_side_;  ///< edges that a corner of the ground may touch
   contact::Boundary surface_;      ///< edges that a node may touch
-  double deepest_ = 0.0;           ///< half the longest edge: beyond it nothing is a touch [m]
-  std::vector<Vec2> positions_;    ///< (n) fixed frame                                [m]
-  std::vector<Vec2> outward_;      ///< (n) sum of the normals of a node's edges
+  std::vector<double> ground_side_limit_, surface_limit_;  ///< (edges) depth of a touch  [m]
+  double deepest_ = 0.0;                                   ///< the largest of them       [m]
+  std::vector<Vec2> positions_;  ///< (n) fixed frame                                [m]
+  std::vector<Vec2> outward_;    ///< (n) sum of the normals of a node's edges
   contact::SegmentGrid grid_;
   std::vector<int> near_;
   std::vector<int> all_edges_;  ///< of the ground's side: few corners, each looks at them all
