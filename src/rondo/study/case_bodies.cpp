@@ -162,9 +162,9 @@ void read_body_contact(CaseValues& in, Case& c) {
   if (c.analysis.kind == AnalysisKind::crush && contact.between != BodyContact::none)
     in.fault("contact.between", "a crush knows no contact but with the ground", "\"none\"");
   if (!c.mesh && contact.between != BodyContact::none)
-    in.fault("contact.between",
-             "a generated disk is one body, and the walls of its grooves are no candidates",
-             "\"none\", or a [mesh] whose contact curve has the walls");
+    c.warnings.emplace_back(
+        "contact.between: a generated disk is one body, and the walls of its grooves are no "
+        "candidates: it touches nothing but the ground; for grooves that close take a [mesh]");
   if (c.mesh && c.mesh->contact.empty() && contact.between != BodyContact::none)
     in.fault("contact.between", "no part of the mesh may touch anything",
              "mesh.contact, a physical curve, beside it");

@@ -223,7 +223,8 @@ TEST(GmshFaults, CurveThatIsNoEdgeOfACell) {
   Msh msh = squares();
   msh.names.push_back("1 8 \"axis\"");
   msh.elements.push_back("1 2 8 8 1 6");
-  for (const MeshRequest& request : {MeshRequest{.clamped = "axis"}, MeshRequest{.contact = "axis"}})
+  for (const MeshRequest& request :
+       {MeshRequest{.clamped = "axis"}, MeshRequest{.contact = "axis"}})
     expect_refused(
         msh,
         {"1 lines of the physical curve \"axis\" are no edge of a cell", "line 10 from (0, 0)"},
