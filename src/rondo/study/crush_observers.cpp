@@ -49,8 +49,8 @@ Sums sum_up(const CrushSetup& setup, const statics::CrushState& state) {
 }
 
 io::ResultsLayout layout(const Case& c, const CrushSetup& setup) {
-  const auto increments =
-      static_cast<std::size_t>(c.analysis.increments + c.analysis.slide_increments);
+  const int rows = c.analysis.increments + c.analysis.slide_increments;
+  const auto increments = static_cast<std::size_t>(rows);
   constexpr bool contact = true, quasi_static = true;
   return {&setup.mesh, setup.mass, increments, contact, c.output.stress, quasi_static};
 }
