@@ -38,13 +38,6 @@ if(NOT TARGET rondo_cholmod)
   target_link_libraries(rondo_fftw INTERFACE ${FFTW_LIBRARY})
   target_include_directories(rondo_fftw SYSTEM INTERFACE ${FFTW_INCLUDE_DIR})
 
-  # Only rondo-mesh-reader is linked to it.
-  find_library(GMSH_LIBRARY gmsh REQUIRED)
-  find_path(GMSH_INCLUDE_DIR gmsh.h REQUIRED)
-  add_library(rondo_gmsh INTERFACE IMPORTED)
-  target_link_libraries(rondo_gmsh INTERFACE ${GMSH_LIBRARY})
-  target_include_directories(rondo_gmsh SYSTEM INTERFACE ${GMSH_INCLUDE_DIR})
-
   add_library(rondo_hdf5 INTERFACE IMPORTED)
   target_link_libraries(rondo_hdf5 INTERFACE ${HDF5_C_LIBRARIES})
   target_include_directories(rondo_hdf5 SYSTEM INTERFACE ${HDF5_C_INCLUDE_DIRS})

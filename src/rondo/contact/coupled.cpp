@@ -140,7 +140,7 @@ void start(Iteration& it) noexcept {
   std::fill(work.current.begin(), work.current.end(), Vec2{});
   for (std::size_t j = 0; j < it.problem.size(); ++j)
     work.candidate[j] = project_on_cone(it.best[j], it.problem.friction[j]);
-  it.scale = it.problem.least_scale;
+  it.scale = 0.0;
   for (std::size_t j = 0; j < it.problem.size(); ++j)
     it.scale = std::max(it.scale, it.problem.mass[j] * norm(it.problem.free[j]));
   it.result.residual = std::numeric_limits<double>::infinity();

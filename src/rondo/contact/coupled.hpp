@@ -30,7 +30,6 @@ struct CoupledProblem {
   std::vector<int> column;       ///< columns ascend; every row has its diagonal block
   std::vector<Block> blocks;     ///< nearly symmetric; W_nn > μ|W_nt| on the diagonal [m/kg]
   std::vector<double> mass;      ///< (nc) scale of the residual, 1/|W_jj|              [kg/m]
-  double least_scale = 0.0;      ///< residuals are measured against at least this [N·s/m]
 
   [[nodiscard]] std::size_t size() const noexcept { return free.size(); }
 };

@@ -95,8 +95,7 @@ void write_problem(const std::filesystem::path& path, const ProblemFile& f) {
       << fmt::format("  \"about\": {},\n", json(f.about).dump())
       << fmt::format("  \"iterations\": {},\n", f.result.iterations)
       << fmt::format("  \"residual\": {},\n", json(f.result.residual).dump())
-      << fmt::format("  \"converged\": {},\n", f.result.converged)
-      << fmt::format("  \"least_scale\": {},\n", text(p.least_scale)) << array_text("free", p.free)
+      << fmt::format("  \"converged\": {},\n", f.result.converged) << array_text("free", p.free)
       << array_text("bounce", p.bounce) << array_text("friction", p.friction)
       << array_text("mass", p.mass) << array_text("row_start", p.row_start)
       << array_text("column", p.column) << array_text("blocks", p.blocks)
@@ -122,7 +121,6 @@ ProblemFile read_problem(const std::filesystem::path& path) {
     f.result.residual = file.at("residual").get<double>();
     f.result.converged = file.at("converged").get<bool>();
     CoupledProblem& p = f.problem;
-    p.least_scale = file.at("least_scale").get<double>();
     read_array(file, "free", p.free);
     read_array(file, "bounce", p.bounce);
     read_array(file, "friction", p.friction);

@@ -22,7 +22,7 @@ double law_residual(Vec2 r, Vec2 w, double bounce, double friction, double mass)
 }
 
 double coupled_residual(const CoupledProblem& p, std::span<const Vec2> impulse) noexcept {
-  double worst = 0.0, scale = p.least_scale;
+  double worst = 0.0, scale = 0.0;
   for (std::size_t j = 0; j < p.size(); ++j) {
     Vec2 w = p.free[j];
     for (auto k = static_cast<std::size_t>(p.row_start[j]);

@@ -19,8 +19,8 @@ double law_residual(Vec2 impulse, Vec2 velocity, double bounce, double friction,
 
 struct CoupledProblem;
 
-/// Largest |r_j - P_K(r_j - m_j ŵ_j)| over the largest m_j |free_j|, or over `least_scale` if that
-/// is larger [-]; 0 where both are zero and the impulses too. `impulse` (nc).
+/// Largest |r_j - P_K(r_j - m_j ŵ_j)| over the largest m_j |free_j| [-]; 0 where both are
+/// zero and the impulses too. `impulse` (nc).
 double coupled_residual(const CoupledProblem& problem, std::span<const Vec2> impulse) noexcept;
 
 }  // namespace rondo::contact

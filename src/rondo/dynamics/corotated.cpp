@@ -18,6 +18,15 @@ void for_nodes(const FreeBody& body, Work&& work) noexcept {
   for (const int node : body.nodes) work(static_cast<std::size_t>(node));
 }
 
+/// Rᵀ(u - shift) + (Rᵀ - 1)(X - X_c): small differences of small numbers.
+Vec2 elastic_of(const Model& model, const FreeBody& body, const Pose& pose, std::size_t k,
+                Vec2 u) noexcept {
+  const double c = pose.rotation.x, s = pose.rotation.y;
+  const Vec2 back_minus_one = {c > 0.0 ? -s * s / (1.0 + c) : c - 1.0, -s};
+  return conj(pose.rotation) * (u - (pose.center - body.center)) +
+         back_minus_one * arm_of(model, body, k);
+}
+
 /// Of one body (9.5): R p less what the turning of the frame with the nodes takes away.
 void body_gradient(const Model& model, const FreeBody& body, const Pose& pose,
                    std::span<const Vec2> elastic, std::span<const Vec2> product,
@@ -59,20 +68,20 @@ void update_poses(const Model& model, std::span<const Vec2> u, std::span<Pose> p
     poses[b] = mean_pose(model, model.free_bodies[b], u, poses[b]);
 }
 
+Vec2 elastic_displacement(const Model& model, std::span<const Pose> poses, std::size_t node,
+                          Vec2 u) noexcept {
+  if (!in_fixed_frame(model, node)) return u;
+  const auto b = static_cast<std::size_t>(model.free_body[node]);
+  return elastic_of(model, model.free_bodies[b], poses[b], node, u);
+}
+
 void elastic_displacements(const Model& model, std::span<const Vec2> u, std::span<const Pose> poses,
                            std::span<Vec2> elastic) noexcept {
   std::copy(u.begin(), u.end(), elastic.begin());
-  for (std::size_t b = 0; b < poses.size(); ++b) {
-    const FreeBody& body = model.free_bodies[b];
-    const Pose& pose = poses[b];
-    const Vec2 shift = pose.center - body.center, back = conj(pose.rotation);
-    // e = Rᵀ(u - shift) + (Rᵀ - 1)(X - X_c): small differences of small numbers
-    const double c = pose.rotation.x, s = pose.rotation.y;
-    const Vec2 back_minus_one = {c > 0.0 ? -s * s / (1.0 + c) : c - 1.0, -s};
-    for_nodes(body, [&](std::size_t k) {
-      elastic[k] = back * (u[k] - shift) + back_minus_one * arm_of(model, body, k);
+  for (std::size_t b = 0; b < poses.size(); ++b)
+    for_nodes(model.free_bodies[b], [&](std::size_t k) {
+      elastic[k] = elastic_of(model, model.free_bodies[b], poses[b], k, u[k]);
     });
-  }
 }
 
 void to_gradient(const Model& model, std::span<const Vec2> elastic, std::span<const Vec2> product,

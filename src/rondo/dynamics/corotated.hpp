@@ -19,7 +19,12 @@ Pose mean_pose(const Model& model, const FreeBody& body, std::span<const Vec2> u
 /// Poses of all free bodies. @param poses (free_bodies) those of a step ago, replaced.
 void update_poses(const Model& model, std::span<const Vec2> u, std::span<Pose> poses) noexcept;
 
-/// e (n) = Rᵀ(x - x_c) - (X - X_c) of free bodies (9.3), u of all others               [m]
+/// e of a node (9.3): Rᵀ(x - x_c) - (X - X_c), its own u where it is held                   [m]
+/// @param u x - X of the node
+Vec2 elastic_displacement(const Model& model, std::span<const Pose> poses, std::size_t node,
+                          Vec2 u) noexcept;
+
+/// The same of all nodes (n)                                                              [m]
 void elastic_displacements(const Model& model, std::span<const Vec2> u, std::span<const Pose> poses,
                            std::span<Vec2> elastic) noexcept;
 

@@ -12,16 +12,6 @@
 namespace rondo::dynamics {
 namespace {
 
-template <class Body>
-void for_free_nodes(const Model& model, Body&& body) noexcept {
-  for (const int node : model.free) body(static_cast<std::size_t>(node));
-}
-
-/// (ṡJ - s²)(X + u) + Rᵀ(c̈ - g): acceleration of a node's frame (3.1).
-Vec2 frame_acceleration(const FrameStep& f, Vec2 arm) noexcept {
-  return Vec2{-f.spin * f.spin, f.spin_rate} * arm + f.pull;
-}
-
 /// ½ Σ eᵀ p of each free body.
 void body_energies(const Model& model, const std::vector<Vec2>& elastic,
                    const std::vector<Vec2>& product, std::vector<double>& energy) noexcept {
@@ -49,6 +39,7 @@ GeneralIntegrator::GeneralIntegrator(const Model& model, const State& start)
       load_(model.pressures.empty() ? 0 : model.n_nodes()),
       energy_(model.free_bodies.size()),
       energy_before_(model.free_bodies.size()) {
+  RONDO_DEMAND(model.free_bodies.empty() || model.scheme == Scheme::symplectic);
   RONDO_DEMAND(model.stiffness.row_start.size() == model.n_nodes() + 1, model.n_nodes());
   RONDO_DEMAND(state_.poses.size() == model.free_bodies.size(), state_.poses.size());
   state_.v.resize(model.n_nodes());
@@ -115,7 +106,6 @@ void GeneralIntegrator::add_works(const BodyFrames& frames, Works& w) const noex
     const double m = model_.mass[k];
     const FrameStep& frame = frames.of(model_, k).frame;
     const Vec2 v = state_.v[k], mean = 0.5 * (v + state_.v_next[k]);
-    // A free node's place is not an arm about anything: its frame does not turn.
     w.frame -= dt * m * dot(mean, frame_acceleration(frame, model_.reference[k] + state_.u[k]));
     w.dissipation_mass += dt * model_.mass_damping * m * dot(mean, printed ? v : mean);
     if (!damping_.empty()) w.dissipation_stiffness += dt * dot(mean, damping_[k]);

@@ -97,6 +97,11 @@ struct Pose {
   double angle = 0.0;       ///< θ, counter-clockwise, whole turns counted       [rad]
 };
 
+template <class Work>
+void for_free_nodes(const Model& model, Work&& work) {
+  for (const int node : model.free) work(static_cast<std::size_t>(node));
+}
+
 /// A contact of the step just done, in its frame (normal, tangential).
 struct ActiveContact {
   std::size_t candidate = 0;  ///< place in ContactModel::nodes
@@ -108,6 +113,7 @@ struct ActiveContact {
   Vec2 impulse;               ///< r of the ground on the node                  [N·s/m]
   double bounce = 0.0;        ///< e min(w_n⁻, 0)                               [m/s]
   contact::Status status = contact::Status::open;
+  bool on_ground = true;  ///< false: against a segment of a body
 };
 
 /// After step n: displacement and forces at t_{n+1}, velocities half a step before and after.

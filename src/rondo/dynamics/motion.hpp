@@ -66,6 +66,11 @@ struct FrameStep {
   Vec2 pull;                 ///< Rᵀ (c̈ - g) in the turning frame                       [m/s2]
 };
 
+/// (ṡJ - s²)(X + u) + Rᵀ(c̈ - g): acceleration of the frame at a place (3.1). @param arm X + u [m]
+constexpr Vec2 frame_acceleration(const FrameStep& f, Vec2 arm) noexcept {
+  return Vec2{-f.spin * f.spin, f.spin_rate} * arm + f.pull;
+}
+
 /// The frame at t = n dt.
 FrameStep frame_step(const Motion& motion, long long n, double dt) noexcept;
 

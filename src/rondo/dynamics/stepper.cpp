@@ -12,22 +12,11 @@
 namespace rondo::dynamics {
 namespace {
 
-template <class Body>
-void for_free_nodes(const Model& model, Body&& body) noexcept {
-  for (const int node : model.free) body(static_cast<std::size_t>(node));
-}
-
-/// (ṡJ - s²)(X + u) + Rᵀ(c̈ - g): acceleration of the frame at a node (3.1).
-Vec2 frame_acceleration(const Model& model, const State& state, const FrameStep& f,
-                        std::size_t k) noexcept {
-  return Vec2{-f.spin * f.spin, f.spin_rate} * (model.reference[k] + state.u[k]) + f.pull;
-}
-
 /// f/m at t_{n+1} (3.2).
 Vec2 acceleration(const Model& model, const State& state, const FrameStep& frame, std::size_t k,
                   Vec2 stiffness_rate) noexcept {
   const Vec2 elastic = state.force[k] + model.stiffness_damping * stiffness_rate;
-  return -(elastic / model.mass[k]) - frame_acceleration(model, state, frame, k);
+  return -(elastic / model.mass[k]) - frame_acceleration(frame, model.reference[k] + state.u[k]);
 }
 
 /// K v⁻, from the products of two steps.
@@ -80,7 +69,7 @@ void add_works(const Model& model, const State& state, Works& w) noexcept {
     const double m = model.mass[k];
     const Vec2 v = state.v[k];
     const Vec2 mean = 0.5 * (v + state.v_next[k]);
-    w.frame -= dt * m * dot(mean, frame_acceleration(model, state, state.frame, k));
+    w.frame -= dt * m * dot(mean, frame_acceleration(state.frame, model.reference[k] + state.u[k]));
     w.dissipation_mass += dt * model.mass_damping * m * dot(mean, printed ? v : mean);
     w.dissipation_stiffness +=
         dt * model.stiffness_damping * dot(mean, stiffness_rate(model, state, k));

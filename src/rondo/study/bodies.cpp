@@ -28,7 +28,7 @@ void refuse_flat_elements(const Case& c, const std::vector<double>& size) {
                    "a milder grading, fewer layers or columns, a thicker disk");
 }
 
-/// A key of the case that gives a name; `leaf`, of the tables of a list.
+/// A key of the case that gives the name of a physical group.
 struct NameKey {
   std::string key, name;
 };

@@ -19,7 +19,7 @@ namespace rondo::study {
 
 namespace {
 
-/// A node of the ground's or of another body's contact.
+/// What the candidates may touch: the ground, and bodies.
 void add_contacts(const Case& c, const mesh::Mesh& mesh, dynamics::Model& model) {
   if (c.ground)
     model.contact.emplace(dynamics::ContactModel{contact::Ground(c.ground->shape),

@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include "rondo/dynamics/corotated.hpp"
 #include "rondo/fem/stress.hpp"
 #include "rondo/mesh/locate.hpp"
 #include "rondo/study/bodies.hpp"
@@ -21,17 +22,6 @@ ProbeSite find_site(const Case& c, const mesh::CellGrid& grid, std::size_t k) {
                    "a point of the undeformed body, in metres");
 }
 
-/// Of a node, in the frame of its body (9.3) [m].
-Vec2 elastic_displacement(const dynamics::Model& model, const dynamics::State& state,
-                          std::size_t node) {
-  if (!in_fixed_frame(model, node)) return state.u[node];
-  const auto b = static_cast<std::size_t>(model.free_body[node]);
-  const dynamics::Pose& pose = state.poses[b];
-  const Vec2 reference = model.reference[node];
-  return conj(pose.rotation) * (reference + state.u[node] - pose.center) -
-         (reference - model.free_bodies[b].center);
-}
-
 struct ProbeValues {
   Vec2 displacement, velocity;  ///< [m], [m/s]
   fem::Stress stress{};         ///< [Pa]
@@ -47,7 +37,7 @@ ProbeValues look_at(const ProbedBody& body, const ProbeSite& site, const dynamic
     values.displacement += site.weight[a] * state.u[node];
     values.velocity += site.weight[a] * state.v[node];
     x[a] = body.mesh.coordinates[node];
-    elastic[a] = elastic_displacement(body.model, state, node);
+    elastic[a] = dynamics::elastic_displacement(body.model, state.poses, node, state.u[node]);
   }
   const fem::Material& material = fem::material_of(body.mesh, body.materials, site.cell);
   const auto corners =

@@ -40,7 +40,6 @@ CoupledProblem reordered(const CoupledProblem& p, const std::vector<std::size_t>
   std::vector<int> place(order.size());
   for (std::size_t j = 0; j < order.size(); ++j) place[order[j]] = static_cast<int>(j);
   CoupledProblem out;
-  out.least_scale = p.least_scale;
   out.row_start = {0};
   for (const std::size_t j : order) {
     out.free.push_back(p.free[j]);
@@ -68,7 +67,6 @@ TEST(ProblemFile, GivesBackEveryBit) {
       test::chain({.upper = 9, .lower = 7, .both_ways = true, .restitution = 0.3, .turn = 0.01}));
   const test::Solved s = test::solved(p);
   ProblemFile file{p, "a \"chain\" at 1/3 s", s.impulse, std::vector<Vec2>(p.size()), s.result};
-  file.problem.least_scale = 1.0 / 3.0;
   file.start[2] = {1e-300, -4.9e-324};
   const auto path = scratch("problem.json");
   write_problem(path, file);
@@ -81,7 +79,6 @@ TEST(ProblemFile, GivesBackEveryBit) {
   EXPECT_EQ(back.problem.row_start, p.row_start);
   EXPECT_EQ(back.problem.column, p.column);
   EXPECT_EQ(back.problem.blocks, p.blocks);
-  EXPECT_EQ(back.problem.least_scale, 1.0 / 3.0);
   EXPECT_EQ(back.impulse, s.impulse);
   EXPECT_EQ(back.start, file.start);
   EXPECT_EQ(back.result.iterations, s.result.iterations);
