@@ -38,6 +38,12 @@ if(NOT TARGET rondo_cholmod)
   target_link_libraries(rondo_fftw INTERFACE ${FFTW_LIBRARY})
   target_include_directories(rondo_fftw SYSTEM INTERFACE ${FFTW_INCLUDE_DIR})
 
+  find_library(XXHASH_LIBRARY xxhash REQUIRED)
+  find_path(XXHASH_INCLUDE_DIR xxhash.h REQUIRED)
+  add_library(rondo_xxhash INTERFACE IMPORTED)
+  target_link_libraries(rondo_xxhash INTERFACE ${XXHASH_LIBRARY})
+  target_include_directories(rondo_xxhash SYSTEM INTERFACE ${XXHASH_INCLUDE_DIR})
+
   add_library(rondo_hdf5 INTERFACE IMPORTED)
   target_link_libraries(rondo_hdf5 INTERFACE ${HDF5_C_LIBRARIES})
   target_include_directories(rondo_hdf5 SYSTEM INTERFACE ${HDF5_C_INCLUDE_DIRS})

@@ -7,7 +7,7 @@ packages=(
   build-essential cmake ninja-build ccache git       # build
   libeigen3-dev libsuitesparse-dev libspectra-dev    # linear algebra, sparse Cholesky, eigenvalues
   libopenblas-dev liblapacke-dev libfftw3-dev        # singular values, QR; Fourier transforms
-  libhdf5-dev nlohmann-json3-dev libtomlplusplus-dev # files
+  libhdf5-dev nlohmann-json3-dev libtomlplusplus-dev libxxhash-dev # files
   libgmsh-dev gmsh                                   # meshes from files; gmsh makes cases/meshes
   libcli11-dev libfmt-dev libspdlog-dev              # command line, text, log
   libgtest-dev clang-format clang-tidy libomp-dev    # tests (omp.h as clang-tidy wants it)

@@ -46,12 +46,19 @@ int finish(const study::RunReport& r, const std::filesystem::path& directory) {
       spdlog::error("{}; the results so far are in {}", r.message, directory.string());
       return exit_numerical;
     case study::RunStatus::interrupted:
-      spdlog::warn("interrupted after {}; the results so far are in {}", reached(r),
-                   directory.string());
+      spdlog::warn("interrupted after {}; the results so far are in {}{}", reached(r),
+                   directory.string(),
+                   r.analysis == study::AnalysisKind::crush ? "" : "; --resume goes on");
       return exit_interrupted;
     case study::RunStatus::done:
       break;
   }
+  if (r.was_complete) {
+    spdlog::info("{} has come to its end, {}: nothing to do; a later time.end goes on",
+                 directory.string(), reached(r));
+    return exit_done;
+  }
+  if (r.resumed_at > 0) spdlog::info("gone on with from step {}", r.resumed_at);
   if (r.analysis == study::AnalysisKind::crush)
     spdlog::info("{} in {:.2f} s", reached(r), r.loop_wall_s);
   else
@@ -70,14 +77,27 @@ void print_room(const study::CheckReport& r) {
   fmt::print("disk               about {}\n", study::readable_bytes(r.disk_bytes));
 }
 
+/// The case of a results directory is in it: with --resume the directory is all that is asked for.
+RunArguments completed(RunArguments arguments) {
+  std::error_code error;
+  if (!arguments.resume || !std::filesystem::is_directory(arguments.case_file, error))
+    return arguments;
+  const std::filesystem::path directory = arguments.case_file;
+  if (arguments.directory.empty()) arguments.directory = directory.string();
+  arguments.case_file = (directory / "case.toml").string();
+  return arguments;
+}
+
 }  // namespace
 
-int run(const RunArguments& arguments) {
+int run(const RunArguments& given) {
+  const RunArguments arguments = completed(given);
   if (arguments.quiet) spdlog::set_level(spdlog::level::warn);
   const study::Case c = study::read_case(arguments.case_file, arguments.settings);
   study::RunOptions options;
   options.directory = arguments.directory.empty() ? default_directory(arguments.case_file)
                                                   : std::filesystem::path(arguments.directory);
+  options.resume = arguments.resume;
   options.threads = arguments.threads;
   options.overwrite = arguments.overwrite;
   options.warn = [](const std::string& text) { spdlog::warn(text); };

@@ -15,6 +15,7 @@ struct CommonArguments {
 struct RunArguments : CommonArguments {
   std::string directory;  ///< empty: the case's name beside it
   bool overwrite = false;
+  bool resume = false;
   bool quiet = false;
 };
 

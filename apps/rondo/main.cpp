@@ -41,10 +41,16 @@ CLI::App* add_run(CLI::App& program, app::RunArguments& arguments) {
   add_common(*run, arguments);
   run->add_option("-o,--output", arguments.directory,
                   "results directory; the case's name beside it if left out");
-  run->add_flag("--overwrite", arguments.overwrite, "replaces another run's results there");
+  CLI::Option* overwrite =
+      run->add_flag("--overwrite", arguments.overwrite, "replaces another run's results there");
+  run->add_flag("--resume", arguments.resume,
+                "goes on with the run there from its last checkpoint, to the same bits; begins it "
+                "where there is none; with a later time.end a finished run goes on")
+      ->excludes(overwrite);
   run->add_flag("--quiet", arguments.quiet, "prints warnings and errors only");
   run->footer(
       "Example:\n  rondo run cases/ledge-smooth.toml -o results/mu06 --set ground.friction=0.6\n"
+      "  rondo run results/mu06 --resume --set time.end=0.5\n"
       "Exit codes: 0 done, 2 wrong input, 3 numerical failure, 4 files, 130 interrupted.");
   return run;
 }

@@ -26,7 +26,7 @@ ALLOWED["mesh_reader"] = {"mesh"}  # a program of its own; it shares the layout 
 # Libraries that only these modules may see.
 ONLY_IN = {"hdf5.h": {"io"}, "toml++/": {"study"}, "CLI/": {"apps"}, "cholmod": {"statics"},
            "CholmodSupport": {"modal", "statics"}, "Spectra/": {"dynamics"},
-           "lapacke": {"reduction"}, "fftw3": {"reduction"},
+           "lapacke": {"reduction"}, "xxhash": {"io"}, "fftw3": {"reduction"},
            "gmsh.h": {"mesh_reader"}}
 
 INCLUDE = re.compile(r'^\s*#\s*include\s*[<"]([^">]+)[">]', re.MULTILINE)

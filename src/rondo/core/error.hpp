@@ -38,6 +38,9 @@ class FileError : public std::runtime_error {
  public:
   FileError(const std::string& path, const std::string& what)
       : std::runtime_error(path + ": " + what) {}
+  /// The same with what is left, or what can be done.
+  FileError(const FileError& error, const std::string& more)
+      : std::runtime_error(std::string(error.what()) + "; " + more) {}
 };
 
 }  // namespace rondo

@@ -8,6 +8,8 @@ namespace rondo {
 
 class CompensatedSum {
  public:
+  CompensatedSum() = default;
+  CompensatedSum(double sum, double correction) noexcept : sum_(sum), correction_(correction) {}
   void add(double value) noexcept {
     const double total = sum_ + value;
     correction_ +=
@@ -15,6 +17,9 @@ class CompensatedSum {
     sum_ = total;
   }
   [[nodiscard]] double value() const noexcept { return sum_ + correction_; }
+  /// Its two parts: with both the sum goes on to the same bits.
+  [[nodiscard]] double sum() const noexcept { return sum_; }
+  [[nodiscard]] double correction() const noexcept { return correction_; }
 
  private:
   double sum_ = 0.0;

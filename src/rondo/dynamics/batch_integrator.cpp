@@ -81,6 +81,25 @@ void BatchIntegrator::fields(State& state) const noexcept {
   save_velocity(state.v_next);
 }
 
+SavedState BatchIntegrator::save() const {
+  SavedState saved;
+  saved.step = step_;
+  saved.u.resize(model_.n_nodes());
+  saved.v.resize(model_.n_nodes());
+  if (model_.stiffness_damping > 0.0) saved.force.resize(model_.n_nodes());
+  save_fields(saved);
+  saved.ledger = ledger_.save();
+  return saved;
+}
+
+void BatchIntegrator::restore(const SavedState& saved) {
+  RONDO_DEMAND(saved.u.size() == model_.n_nodes() && saved.v.size() == model_.n_nodes(),
+               saved.u.size(), saved.v.size());
+  step_ = saved.step;
+  restore_fields(saved);
+  ledger_.restore(saved.ledger);
+}
+
 int most_threads(const Model& model) noexcept {
   return static_cast<int>(model.stiffness_operator == StiffnessOperator::cyclic
                               ? n_cyclic_groups(model.sector->n_sectors)

@@ -15,6 +15,8 @@ class BatchIntegrator : public Integrator {
  public:
   void advance(std::span<StepReport> reports, State* last) noexcept final;
   void fields(State& state) const noexcept final;
+  [[nodiscard]] SavedState save() const final;
+  void restore(const SavedState& saved) final;
 
  protected:
   /// The thread in hand and how many there are: of n pieces of work it does [first(n), last(n)).
@@ -40,6 +42,9 @@ class BatchIntegrator : public Integrator {
   /// u_{n+1} and v_{n+1/2}, n the last step made, of the free nodes.
   virtual void save_displacement(std::vector<Vec2>& u) const noexcept = 0;
   virtual void save_velocity(std::vector<Vec2>& v) const noexcept = 0;
+  /// u, v and force of the free nodes, as they are held; the force where `saved` has room for it.
+  virtual void save_fields(SavedState& saved) const noexcept = 0;
+  virtual void restore_fields(const SavedState& saved) noexcept = 0;
   /// Adds the contacts of the last step made; the two of a node one after the other.
   virtual void save_active(std::vector<ActiveContact>& active) const noexcept = 0;
 

@@ -84,31 +84,51 @@ Vec2 CyclicChunk::initial_force(const std::vector<Vec2>& u, int a, int c) const 
   return force;
 }
 
-void CyclicChunk::load(const State& state) {
-  const fem::SectorStiffness& k = *model_.sector;
+template <class Visit>
+void CyclicChunk::for_own_nodes(Visit&& visit) const noexcept {
   for (int a = 0; a < plan_.n_local; ++a)
-    for (int c = 0; c < range_.columns; ++c) {
-      const int sector = range_.first + c;
-      const std::size_t node =
-          k.node(static_cast<std::size_t>(a), static_cast<std::size_t>(sector));
-      const Vec2 to_sector = conj(turn(c));
-      const Vec2 v = to_sector * state.v_next[node];
-      put(a, field_now(), c, to_sector * state.u[node] + model_.dt * v);
-      put(a, field_v, c, v);
-      if (plan_.keeps_force) put(a, field_force, c, initial_force(state.u, a, c));
-    }
-  if (plan_.halo == Halo::ring)
-    for (int a = 0; a < plan_.n_local; ++a) wrap(a, field_now());
+    for (int c = 0; c < range_.columns; ++c)
+      visit(a, c,
+            model_.sector->node(static_cast<std::size_t>(a),
+                                static_cast<std::size_t>(std::ptrdiff_t{range_.first} + c)));
+}
+
+void CyclicChunk::load(const State& state) {
+  for_own_nodes([&](int a, int c, std::size_t node) {
+    const Vec2 to_sector = conj(turn(c));
+    const Vec2 v = to_sector * state.v_next[node];
+    put(a, field_now(), c, to_sector * state.u[node] + model_.dt * v);
+    put(a, field_v, c, v);
+    if (plan_.keeps_force) put(a, field_force, c, initial_force(state.u, a, c));
+  });
+  show_to_others();
+}
+
+void CyclicChunk::restore(const SavedState& saved) noexcept {
+  for_own_nodes([&](int a, int c, std::size_t node) {
+    put(a, field_now(), c, saved.u[node]);
+    put(a, field_v, c, saved.v[node]);
+    if (plan_.keeps_force) put(a, field_force, c, saved.force[node]);
+  });
+  show_to_others();
+}
+
+/// What is right of the chunk's own nodes, where it is read for the next pass.
+void CyclicChunk::show_to_others() noexcept {
+  if (plan_.halo != Halo::ring) return give_edges();
+  for (int a = 0; a < plan_.n_local; ++a) wrap(a, field_now());
+}
+
+void CyclicChunk::save(SavedState& saved) const noexcept {
+  for_own_nodes([&](int a, int c, std::size_t node) {
+    saved.u[node] = at(a, field_now(), c);
+    saved.v[node] = at(a, field_v, c);
+    if (plan_.keeps_force) saved.force[node] = at(a, field_force, c);
+  });
 }
 
 void CyclicChunk::save_field(int field, std::vector<Vec2>& out) const noexcept {
-  const fem::SectorStiffness& k = *model_.sector;
-  for (int c = 0; c < range_.columns; ++c) {
-    const int sector = range_.first + c;
-    for (int a = 0; a < plan_.n_local; ++a)
-      out[k.node(static_cast<std::size_t>(a), static_cast<std::size_t>(sector))] =
-          turn(c) * at(a, field, c);
-  }
+  for_own_nodes([&](int a, int c, std::size_t node) { out[node] = turn(c) * at(a, field, c); });
 }
 
 void CyclicChunk::save_displacement(std::vector<Vec2>& u) const noexcept {

@@ -7,6 +7,7 @@
 
 #include "rondo/core/large_array.hpp"
 #include "rondo/dynamics/cyclic_plan.hpp"
+#include "rondo/dynamics/saved_state.hpp"
 #include "rondo/dynamics/step_context.hpp"
 
 namespace rondo::dynamics {
@@ -18,6 +19,9 @@ class CyclicChunk {
 
   /// From u_n and v_{n+1/2} (state.v_next): u_{n+1} and, with β, K u_n.
   void load(const State& state);
+  /// This chunk's own nodes, in polar components.
+  void save(SavedState& saved) const noexcept;
+  void restore(const SavedState& saved) noexcept;
   /// u_{n+1} of this chunk's own nodes into u, v_{n+1/2} into v, (n) each.
   void save_displacement(std::vector<Vec2>& u) const noexcept;
   void save_velocity(std::vector<Vec2>& v) const noexcept;
@@ -70,6 +74,10 @@ class CyclicChunk {
   void strip(const Work& work, int i) noexcept;
   void find_touching(const Work& work, int a) noexcept;
   void solve_node(const Work& work, const Touching& t) noexcept;
+  /// visit(row, column, node) of this chunk's own nodes.
+  template <class Visit>
+  void for_own_nodes(Visit&& visit) const noexcept;
+  void show_to_others() noexcept;
   void save_field(int field, std::vector<Vec2>& out) const noexcept;
   void wrap(int a, int field) noexcept;
   void hand_over(std::size_t n_steps, PartialStep* parts, std::size_t stride) const noexcept;

@@ -18,7 +18,6 @@ CyclicIntegrator::CyclicIntegrator(const Model& model, const State& start,
   for (const CyclicChunkRange& range : plan_.chunks) {
     chunks_.emplace_back(model_, plan_, table, range);
     chunks_.back().load(start);
-    if (plan_.halo != Halo::ring) chunks_.back().give_edges();
   }
 }
 
@@ -45,6 +44,14 @@ void CyclicIntegrator::save_displacement(std::vector<Vec2>& u) const noexcept {
 
 void CyclicIntegrator::save_velocity(std::vector<Vec2>& v) const noexcept {
   for (const CyclicChunk& chunk : chunks_) chunk.save_velocity(v);
+}
+
+void CyclicIntegrator::save_fields(SavedState& saved) const noexcept {
+  for (const CyclicChunk& chunk : chunks_) chunk.save(saved);
+}
+
+void CyclicIntegrator::restore_fields(const SavedState& saved) noexcept {
+  for (CyclicChunk& chunk : chunks_) chunk.restore(saved);
 }
 
 void CyclicIntegrator::save_active(std::vector<ActiveContact>& active) const noexcept {

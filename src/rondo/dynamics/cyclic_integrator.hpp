@@ -22,6 +22,8 @@ class CyclicIntegrator : public BatchIntegrator {
   void make_steps(const Batch& batch, Share share) noexcept override;
   void save_displacement(std::vector<Vec2>& u) const noexcept override;
   void save_velocity(std::vector<Vec2>& v) const noexcept override;
+  void save_fields(SavedState& saved) const noexcept override;
+  void restore_fields(const SavedState& saved) noexcept override;
   void save_active(std::vector<ActiveContact>& active) const noexcept override;
 
   CyclicPlan plan_;

@@ -28,6 +28,11 @@ class GeneralContact {
     return std::exchange(difficult_, {});
   }
 
+  /// Of the step before, by contact, ascending: from these the coupled contacts start.
+  using KeptImpulses = std::vector<std::pair<std::uint64_t, Vec2>>;
+  [[nodiscard]] const KeptImpulses& impulses() const noexcept { return kept_; }
+  void set_impulses(KeptImpulses impulses) noexcept { kept_ = std::move(impulses); }
+
  private:
   using Rows = std::span<const int>;  ///< of one cluster
 
@@ -61,7 +66,7 @@ class GeneralContact {
   contact::CoupledWorkspace workspace_;
   std::vector<Vec2> impulse_, start_;  ///< of a cluster: found, and warm start
   std::vector<contact::Status> status_;
-  std::vector<std::pair<std::uint64_t, Vec2>> kept_;  ///< impulses of the step before, by key
+  KeptImpulses kept_;
   std::vector<contact::ProblemFile> difficult_;
   Vec2 center_;
 };

@@ -170,4 +170,36 @@ void GeneralIntegrator::fields(State& state) const noexcept {
   state.v_next = state_.v_next;
 }
 
+SavedState GeneralIntegrator::save() const {
+  SavedState saved;
+  saved.step = state_.step;
+  saved.u = state_.u;
+  saved.v = state_.v_next;
+  saved.force = product_;
+  saved.gradient = gradient_;
+  saved.energy = energy_;
+  saved.poses = state_.poses;
+  saved.impulses = contact_.impulses();
+  saved.ledger = ledger_.save();
+  return saved;
+}
+
+void GeneralIntegrator::restore(const SavedState& saved) {
+  RONDO_DEMAND(saved.u.size() == model_.n_nodes() && saved.v.size() == model_.n_nodes() &&
+                   saved.force.size() == model_.n_nodes() &&
+                   saved.gradient.size() == model_.n_nodes(),
+               saved.u.size(), saved.v.size(), saved.force.size(), saved.gradient.size());
+  RONDO_DEMAND(saved.energy.size() == energy_.size() && saved.poses.size() == energy_.size(),
+               saved.energy.size(), saved.poses.size());
+  state_.step = saved.step;
+  state_.u = saved.u;
+  state_.v_next = saved.v;
+  product_ = saved.force;
+  gradient_ = saved.gradient;
+  energy_ = saved.energy;
+  state_.poses = saved.poses;
+  contact_.set_impulses(saved.impulses);
+  ledger_.restore(saved.ledger);
+}
+
 }  // namespace rondo::dynamics

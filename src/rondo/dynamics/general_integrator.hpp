@@ -19,6 +19,8 @@ class GeneralIntegrator final : public Integrator {
 
   void advance(std::span<StepReport> reports, State* last = nullptr) noexcept override;
   void fields(State& state) const noexcept override;
+  [[nodiscard]] SavedState save() const override;
+  void restore(const SavedState& saved) override;
   [[nodiscard]] std::vector<contact::ProblemFile> take_difficult() override {
     return contact_.take_difficult();
   }

@@ -11,6 +11,7 @@
 #include "rondo/dynamics/contact_node.hpp"
 #include "rondo/dynamics/ledger.hpp"
 #include "rondo/dynamics/model.hpp"
+#include "rondo/dynamics/saved_state.hpp"
 
 namespace rondo::dynamics {
 
@@ -40,6 +41,11 @@ class Integrator {
   /// Fields as they stand between two steps: u_{n+2} and v_{n+3/2}, n + 1 the last step made.
   /// Fills u and v_next.
   virtual void fields(State& state) const noexcept = 0;
+
+  /// Between two steps. What restore() gets must come from save() of an integrator of the same kind
+  /// and model, on however many threads: it then goes on to the same bits. @throws std::bad_alloc
+  [[nodiscard]] virtual SavedState save() const = 0;
+  virtual void restore(const SavedState& saved) = 0;
 
   /// Contact problems kept since the last call, as model.coupled says.
   [[nodiscard]] virtual std::vector<contact::ProblemFile> take_difficult() { return {}; }

@@ -48,4 +48,28 @@ void Ledger::add(const StepEnergy& step) noexcept {
   scheme_.add(w.scheme);
 }
 
+std::array<double, Ledger::n_numbers> Ledger::save() const noexcept {
+  std::array<double, n_numbers> numbers{};
+  std::size_t i = 0;
+  for (const CompensatedSum* sum :
+       {&frame_, &contact_, &load_, &friction_, &impact_, &rim_, &mass_, &stiffness_, &scheme_})
+    for (const double part : {sum->sum(), sum->correction()}) numbers[i++] = part;
+  for (const double number :
+       {started_ ? 1.0 : 0.0, start_, balance_.exchanged, balance_.otherwise, balance_.relative})
+    numbers[i++] = number;
+  return numbers;
+}
+
+void Ledger::restore(std::span<const double, n_numbers> numbers) noexcept {
+  std::size_t i = 0;
+  for (CompensatedSum* sum :
+       {&frame_, &contact_, &load_, &friction_, &impact_, &rim_, &mass_, &stiffness_, &scheme_}) {
+    *sum = {numbers[i], numbers[i + 1]};
+    i += 2;
+  }
+  started_ = numbers[i++] != 0.0;
+  for (double* number : {&start_, &balance_.exchanged, &balance_.otherwise, &balance_.relative})
+    *number = numbers[i++];
+}
+
 }  // namespace rondo::dynamics

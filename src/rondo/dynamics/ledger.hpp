@@ -2,6 +2,9 @@
 /// @file  Energy ledger of a run: closes to round-off at every step (docs/theory.md, section 5).
 /// The steppers give the sums over the nodes of each step; the ledger adds up and compares.
 #pragma once
+#include <array>
+#include <span>
+
 #include "rondo/core/sum.hpp"
 
 namespace rondo::dynamics {
@@ -45,6 +48,12 @@ class Ledger {
 
   /// Of the half step before the step added last.
   [[nodiscard]] const Balance& last() const noexcept { return balance_; }
+
+  /// All that it remembers: with these numbers another ledger goes on to the same bits. Its last()
+  /// is not among them, only the largest values in it.
+  static constexpr std::size_t n_numbers = 23;
+  [[nodiscard]] std::array<double, n_numbers> save() const noexcept;
+  void restore(std::span<const double, n_numbers> numbers) noexcept;
 
  private:
   void compare(double kinetic, double strain) noexcept;

@@ -74,6 +74,27 @@ void SparseIntegrator::save_velocity(std::vector<Vec2>& v) const noexcept {
     v[static_cast<std::size_t>(plan_.node[i])] = vector_at(motion_.data() + motion_at(i));
 }
 
+void SparseIntegrator::save_fields(SavedState& saved) const noexcept {
+  save_displacement(saved.u);
+  save_velocity(saved.v);
+  if (plan_.keeps_force)
+    for (std::size_t i = 0; i < plan_.node.size(); ++i)
+      saved.force[static_cast<std::size_t>(plan_.node[i])] =
+          vector_at(motion_.data() + motion_at(i) + force_at);
+}
+
+void SparseIntegrator::restore_fields(const SavedState& saved) noexcept {
+  double* now = u_[parity(step_)].data();
+  for (std::size_t i = 0; i < plan_.node.size(); ++i) {
+    const auto node = static_cast<std::size_t>(plan_.node[i]);
+    now[2 * i] = saved.u[node].x;
+    now[2 * i + 1] = saved.u[node].y;
+    double* motion = motion_.data() + motion_at(i);
+    put(motion, saved.v[node]);
+    if (plan_.keeps_force) put(motion + force_at, saved.force[node]);
+  }
+}
+
 void SparseIntegrator::save_active(std::vector<ActiveContact>& active) const noexcept {
   for (const Contacts& contacts : contacts_)
     active.insert(active.end(), contacts.active.begin(), contacts.active.end());

@@ -45,6 +45,8 @@ class SparseIntegrator : public BatchIntegrator {
   void make_steps(const Batch& batch, Share share) noexcept override;
   void save_displacement(std::vector<Vec2>& u) const noexcept override;
   void save_velocity(std::vector<Vec2>& v) const noexcept override;
+  void save_fields(SavedState& saved) const noexcept override;
+  void restore_fields(const SavedState& saved) noexcept override;
   void save_active(std::vector<ActiveContact>& active) const noexcept override;
   /// Where in motion_ a row's v_x is.
   [[nodiscard]] std::size_t motion_at(std::size_t row) const noexcept;

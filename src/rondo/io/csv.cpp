@@ -2,6 +2,7 @@
 #include "rondo/io/csv.hpp"
 
 #include <fmt/format.h>
+#include <unistd.h>
 
 #include <cerrno>
 #include <charconv>
@@ -23,19 +24,52 @@ namespace {
                   std::string("cannot ") + doing + ": " + std::generic_category().message(code));
 }
 
-/// Without a buffer of its own the stream passes a text on in one write.
-void put(std::FILE* file, const std::string& text, const std::filesystem::path& path) {
-  if (std::fwrite(text.data(), 1, text.size(), file) != text.size()) fail(path, "write");
+std::string header_of(const std::vector<std::string>& columns) {
+  RONDO_DEMAND(!columns.empty(), columns.size());
+  return fmt::format("{}\n", fmt::join(columns, ","));
 }
 
 }  // namespace
 
 Csv::Csv(const std::filesystem::path& file, const std::vector<std::string>& columns)
     : path_(file), n_columns_(columns.size()), file_(std::fopen(file.c_str(), "we")) {
-  RONDO_DEMAND(!columns.empty(), file.string());
   if (!file_) fail(path_, "create");
   std::setvbuf(file_.get(), nullptr, _IONBF, 0);
-  put(file_.get(), fmt::format("{}\n", fmt::join(columns, ",")), path_);
+  put(header_of(columns));
+}
+
+Csv::Csv(const std::filesystem::path& file, const std::vector<std::string>& columns,
+         std::size_t bytes)
+    : path_(file),
+      n_columns_(columns.size()),
+      bytes_(bytes),
+      file_(std::fopen(file.c_str(), "r+e")) {
+  if (!file_) fail(path_, "open");
+  std::setvbuf(file_.get(), nullptr, _IONBF, 0);
+  const std::string header = header_of(columns);
+  std::string found(header.size(), '\0');
+  if (std::fread(found.data(), 1, found.size(), file_.get()) != found.size() || found != header)
+    throw FileError(path_.string(), "does not begin with the columns of this run");
+  if (std::fseek(file_.get(), 0, SEEK_END) != 0) fail(path_, "measure");
+  if (const long size = std::ftell(file_.get()); size < static_cast<long>(bytes))
+    throw FileError(path_.string(),
+                    fmt::format("holds {} bytes where it held {}: damaged", size, bytes));
+  if (::ftruncate(::fileno(file_.get()), static_cast<off_t>(bytes)) != 0) fail(path_, "shorten");
+  if (std::fseek(file_.get(), 0, SEEK_END) != 0) fail(path_, "write");
+}
+
+/// Without a buffer of its own the stream passes a text on in one write. Where the disk has no room
+/// for all of it, the file ends with the last complete row.
+void Csv::put(const std::string& text) {
+  const std::size_t written = std::fwrite(text.data(), 1, text.size(), file_.get());
+  const int code = errno;
+  const bool whole = written == text.size();
+  const std::string_view there = std::string_view(text).substr(0, written);
+  bytes_ += whole ? written : there.rfind('\n') + 1;  // of no row npos + 1 = 0
+  if (whole) return;
+  static_cast<void>(::ftruncate(::fileno(file_.get()), static_cast<off_t>(bytes_)));
+  errno = code;
+  fail(path_, "write");
 }
 
 void Csv::row(std::span<const double> values) {
@@ -53,7 +87,7 @@ void Csv::rows(std::span<const double> values) {
     fmt::format_to(std::back_inserter(text_), "{}", value);
     text_ += (i + 1) % n_columns_ == 0 ? '\n' : ',';
   }
-  put(file_.get(), text_, path_);
+  put(text_);
 }
 
 void Csv::close() {

@@ -3,6 +3,7 @@
 /// returns, so that a killed run keeps its rows. Numbers are the shortest text that reads back the
 /// same bits.
 #pragma once
+#include <cstddef>
 #include <cstdio>
 #include <filesystem>
 #include <functional>
@@ -19,18 +20,28 @@ class Csv {
  public:
   /// Creates the file and writes the header. @throws FileError
   Csv(const std::filesystem::path& file, const std::vector<std::string>& columns);
+  /// Goes on with a file of the same columns, of which the first `bytes` are kept. @throws
+  /// FileError: it is shorter, or has other columns
+  Csv(const std::filesystem::path& file, const std::vector<std::string>& columns,
+      std::size_t bytes);
   /// @pre as many values as columns. @throws FileError
   void row(std::span<const double> values);
   /// Rows put together by the caller are flushed at once. @throws FileError
   void rows(std::span<const double> values);
   void close();
+  /// Of the file, all rows complete.
+  [[nodiscard]] std::size_t bytes() const noexcept { return bytes_; }
+  [[nodiscard]] const std::filesystem::path& path() const noexcept { return path_; }
 
  private:
+  void put(const std::string& text);
+
   struct Closer {
     void operator()(std::FILE* file) const noexcept { std::fclose(file); }
   };
   std::filesystem::path path_;
   std::size_t n_columns_ = 0;
+  std::size_t bytes_ = 0;
   std::unique_ptr<std::FILE, Closer> file_;
   std::string text_;  ///< reused
 };

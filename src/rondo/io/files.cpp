@@ -3,15 +3,11 @@
 
 #include <fcntl.h>
 #include <fmt/format.h>
-#include <sys/file.h>
 #include <unistd.h>
 
-#include <array>
 #include <cerrno>
-#include <chrono>
 #include <fstream>
 #include <system_error>
-#include <thread>
 
 #include "rondo/core/error.hpp"
 
@@ -19,56 +15,8 @@ namespace rondo::io {
 namespace fs = std::filesystem;
 namespace {
 
-/// Any of these: the directory holds a run.
-constexpr std::array run_marks = {"run.json", "results.h5", "history.csv", "modes.json",
-                                  "modes.h5"};
-constexpr std::array run_files = {
-    "case.toml",  "mesh.msh",    "run.json",      "history.csv",        "contact.csv",
-    "results.h5", "fields.xdmf", "checkpoint.h5", "modes.json",         "modes.h5",
-    "modes.xdmf", "modes.csv",   "campbell.csv",  "critical-speeds.csv"};
-constexpr std::array pod_files = {"pod.json", "pod.h5", "spectrum.csv", "modes.xdmf",
-                                  "reconstruction.xdmf"};
-
 std::string message(int code) {
   return std::generic_category().message(code);
-}
-
-/// There is something of that name, be it a link to nowhere.
-bool is_there(const fs::path& path) {
-  std::error_code error;
-  return fs::exists(fs::symlink_status(path, error));
-}
-
-void remove_one(const fs::path& file) {
-  std::error_code error;
-  fs::remove(file, error);
-  if (error) throw FileError(file.string(), "cannot remove: " + message(error.value()));
-}
-
-/// PODs of a run that is no more: in the run's own pod/, their files and folders that are then
-/// empty.
-void remove_pods(const fs::path& directory) {
-  std::error_code error;
-  for (const auto& entry : fs::directory_iterator(directory / "pod", error)) {
-    for (const char* name : pod_files) remove_one(entry.path() / name);
-    if (fs::is_empty(entry.path(), error)) remove_one(entry.path());
-  }
-  if (fs::is_empty(directory / "pod", error)) remove_one(directory / "pod");
-}
-
-/// Contact problems kept by a run that is no more.
-void remove_contact_problems(const fs::path& directory) {
-  const fs::path folder = directory / "contact-problems";
-  std::error_code error;
-  for (const auto& entry : fs::directory_iterator(folder, error))
-    if (entry.path().extension() == ".json") remove_one(entry.path());
-  if (fs::is_empty(folder, error)) remove_one(folder);
-}
-
-void remove_run(const fs::path& directory) {
-  for (const char* name : run_files) remove_one(directory / name);
-  remove_pods(directory);
-  remove_contact_problems(directory);
 }
 
 /// Descriptor of a file being written; removes it unless kept.
@@ -115,31 +63,6 @@ class Beside {
 
 }  // namespace
 
-void refuse_directory(const fs::path& directory, const std::string& what,
-                      const std::string& to_do) {
-  Fault fault;
-  fault.key = "-o";
-  fault.found = directory.string();
-  fault.message = what;
-  fault.allowed = to_do;
-  throw InputError(fault);
-}
-
-void prepare_results_directory(const fs::path& directory, bool overwrite) {
-  const std::string elsewhere = "choose another -o";
-  std::error_code error;
-  if (is_there(directory) && !fs::is_directory(directory, error))
-    refuse_directory(directory, "is there and is not a directory", elsewhere);
-  fs::create_directories(directory, error);
-  if (error)
-    throw FileError(directory.string(), "cannot create directory: " + message(error.value()));
-  if (overwrite) return remove_run(directory);
-  for (const char* name : run_marks)
-    if (is_there(directory / name))
-      refuse_directory(directory, fmt::format("holds another run ({} is there)", name),
-                       elsewhere + ", or give --overwrite");
-}
-
 void write_file(const fs::path& file, const std::string& text) {
   Beside beside(file);
   beside.write(text);
@@ -161,16 +84,22 @@ nlohmann::ordered_json read_json(const fs::path& file) {
   return json;
 }
 
-void replace_file(const fs::path& file, const fs::path& target) {
+void sync_file(const fs::path& file) {
   const auto fail = [&](const char* doing) {
-    throw FileError(target.string(), fmt::format("cannot {}: {}", doing, message(errno)));
+    throw FileError(file.string(), fmt::format("cannot {}: {}", doing, message(errno)));
   };
   const int descriptor = ::open(file.c_str(), O_RDONLY | O_CLOEXEC);
-  if (descriptor < 0) fail("open what replaces it");
+  if (descriptor < 0) fail("open");
   const bool written = ::fsync(descriptor) == 0;
   ::close(descriptor);
   if (!written) fail("write");
-  if (::rename(file.c_str(), target.c_str()) != 0) fail("replace");
+}
+
+void replace_file(const fs::path& file, const fs::path& target) {
+  sync_file(file);
+  if (::rename(file.c_str(), target.c_str()) != 0)
+    throw FileError(target.string(), "cannot replace: " + message(errno));
+  sync_file(target.has_parent_path() ? target.parent_path() : fs::path("."));
 }
 
 void demand_room(const fs::path& file, std::size_t bytes) {
@@ -195,27 +124,6 @@ bool overwrite_json(const fs::path& file, const nlohmann::ordered_json& json) no
   } catch (const std::exception&) {
     return false;
   }
-}
-
-DirectoryLock::DirectoryLock(const fs::path& directory)
-    : descriptor_(::open(directory.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC)) {
-  if (descriptor_ < 0)
-    throw FileError(directory.string(), "cannot open the directory: " + message(errno));
-  int code = 0;
-  for (int tries = 0; tries < 20; ++tries) {  // a second: processes of a killed one may be ending
-    if (::flock(descriptor_, LOCK_EX | LOCK_NB) == 0) return;
-    code = errno;
-    if (code != EWOULDBLOCK && code != EINTR) break;
-    std::this_thread::sleep_for(std::chrono::milliseconds(50));
-  }
-  ::close(descriptor_);
-  throw FileError(directory.string(), code == EWOULDBLOCK
-                                          ? "another rondo is at work here; wait until it ends"
-                                          : "cannot lock: " + message(code));
-}
-
-DirectoryLock::~DirectoryLock() {
-  ::close(descriptor_);
 }
 
 }  // namespace rondo::io

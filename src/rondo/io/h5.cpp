@@ -57,6 +57,8 @@ hid_t native(Type type) {
       return H5T_NATIVE_INT32;
     case Type::int64:
       return H5T_NATIVE_INT64;
+    case Type::uint8:
+      return H5T_NATIVE_UINT8;
   }
   return H5I_INVALID_HID;
 }
@@ -122,6 +124,7 @@ Handle file_access() {
 }  // namespace
 
 std::size_t bytes_of(Type type) noexcept {
+  if (type == Type::uint8) return 1;
   return type == Type::float64 || type == Type::int64 ? 8 : 4;
 }
 
@@ -242,6 +245,26 @@ void Dataset::resize(std::size_t rows) {
   find_spaces();
 }
 
+void Dataset::copy_rows(const File& from, std::size_t rows) {
+  Shape shape = shape_;
+  shape[0] = any;
+  const Dataset source = from.dataset(name_, shape);
+  const Handle type(H5Dget_type(id_.get())), other(H5Dget_type(source.id_.get()));
+  if (H5Tequal(type.get(), other.get()) <= 0 || source.shape_[0] < rows)
+    throw FileError(source.file_, name_ + " holds less than it did: damaged");
+  std::vector<unsigned char> row(n_in_row() * H5Tget_size(type.get()));
+  for (std::size_t r = 0; r < rows; ++r) {
+    source.select(r);
+    if (H5Dread(source.id_.get(), type.get(), source.row_space_.get(), source.file_space_.get(),
+                H5P_DEFAULT, row.data()) < 0)
+      source.fail("read");
+    select(r);
+    if (H5Dwrite(id_.get(), type.get(), row_space_.get(), file_space_.get(), H5P_DEFAULT,
+                 row.data()) < 0)
+      fail("write");
+  }
+}
+
 Label Dataset::label() const {
   Label label;
   if (!read_text(id_.get(), "units", label.units) ||
@@ -256,11 +279,23 @@ void File::fail(const std::string& doing) const {
 
 File File::create(const std::filesystem::path& path, std::size_t index_bytes) {
   be_quiet();
+  return create(path, Handle(H5Pcreate(H5P_FILE_CREATE)), index_bytes);
+}
+
+File File::create_after(const std::filesystem::path& path, std::size_t bytes) {
+  be_quiet();
+  const Handle creation(H5Pcreate(H5P_FILE_CREATE));
+  H5Pset_userblock(creation.get(), bytes);
+  return create(path, creation, 0);
+}
+
+File File::create(const std::filesystem::path& path, const Handle& creation,
+                  std::size_t index_bytes) {
   File file;
   file.path_ = path.string();
   const Handle access = file_access();
   if (index_bytes > 0) H5Pset_meta_block_size(access.get(), index_bytes);
-  file.id_ = Handle(H5Fcreate(path.c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, access.get()));
+  file.id_ = Handle(H5Fcreate(path.c_str(), H5F_ACC_TRUNC, creation.get(), access.get()));
   if (!file) file.fail("create");
   return file;
 }

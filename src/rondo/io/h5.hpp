@@ -18,7 +18,7 @@
 
 namespace rondo::io::h5 {
 
-enum class Type { float64, float32, int32, int64 };
+enum class Type { float64, float32, int32, int64, uint8 };
 
 using Shape = std::vector<std::size_t>;
 inline constexpr std::size_t any = ~std::size_t{0};  ///< a size that may be what it is
@@ -52,6 +52,11 @@ struct Element<std::int64_t> {
   static constexpr std::size_t count = 1;
 };
 template <>
+struct Element<std::uint8_t> {
+  static constexpr Type type = Type::uint8;
+  static constexpr std::size_t count = 1;
+};
+template <>
 struct Element<Vec2> {
   static constexpr Type type = Type::float64;
   static constexpr std::size_t count = 2;
@@ -81,6 +86,8 @@ class Handle {
  private:
   std::int64_t id_ = -1;
 };
+
+class File;
 
 class Dataset {
  public:
@@ -122,6 +129,10 @@ class Dataset {
   /// File::create_rows, at most the rows given there. @throws FileError
   void resize(std::size_t rows);
 
+  /// The first rows of a dataset of the same name, shape of a row and type in another file.
+  /// @pre that many rows here. @throws FileError: fewer there, or of another kind
+  void copy_rows(const File& from, std::size_t rows);
+
   [[nodiscard]] Label label() const;  ///< @throws FileError
 
  private:
@@ -151,6 +162,9 @@ class File {
   /// row of create_rows() takes about `bytes_of_entry`: with room for all, rows given up at the end
   /// leave nothing behind them and the file becomes shorter. @throws FileError
   static File create(const std::filesystem::path& path, std::size_t index_bytes = 0);
+  /// The same for a file that begins with so many bytes which are not HDF5's: a power of two, 512
+  /// at least.
+  static File create_after(const std::filesystem::path& path, std::size_t bytes);
   static constexpr std::size_t bytes_of_entry = 100;
   /// To read only, without copies of what is read. @throws FileError: missing, not HDF5, truncated
   static File open(const std::filesystem::path& path);
@@ -191,6 +205,8 @@ class File {
   void close();  ///< @pre no Dataset of it is alive. @throws FileError
 
  private:
+  static File create(const std::filesystem::path& path, const Handle& creation,
+                     std::size_t index_bytes);
   Dataset make(const std::string& name, Type type, const Shape& shape, const Label& label,
                bool rows);
   [[noreturn]] void fail(const std::string& doing) const;

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "rondo/core/error.hpp"
+#include "rondo/io/hash.hpp"
 
 namespace rondo::io {
 namespace {
@@ -164,6 +165,23 @@ std::size_t mesh_bytes(const mesh::Mesh& m) noexcept {
   const std::size_t cells = c.cells * c.corners + (c.mixed() ? c.n_mixed() : 0);
   return m.n_nodes() * (3 * real + (m.n_sectors > 0 ? 2 * whole : 0)) + cells * whole +
          m.boundary.size() * (whole + real) + m.region.size() * whole;
+}
+
+std::string mesh_hash(const mesh::Mesh& m) {
+  Hash hash;
+  const auto add = [&](const auto& values) {
+    const std::size_t size = values.size();
+    hash.add(std::span(&size, 1));
+    hash.add(std::span(values));
+  };
+  for (const auto* nodes : {&m.clamped, &m.boundary, &m.region, &m.sector, &m.sector_node})
+    add(*nodes);
+  add(m.coordinates);
+  add(m.cells);
+  add(m.tributary);
+  add(m.contact_edges);
+  for (const mesh::Curve& curve : m.curves) add(curve.edges);
+  return hash.text();
 }
 
 XdmfTopology topology_of(const mesh::Mesh& m) {

@@ -22,6 +22,9 @@ struct MeshWithMass {
 /// @throws FileError: no mesh, or one that cannot be right
 MeshWithMass read_mesh(const h5::File& file);
 
+/// Of all that the mesh holds but names, to tell whether two are the same bit by bit.
+std::string mesh_hash(const mesh::Mesh& mesh);
+
 /// Bytes of the datasets of write_mesh().
 std::size_t mesh_bytes(const mesh::Mesh& mesh) noexcept;
 

@@ -79,7 +79,10 @@ std::array<float, 3> in_space(Vec2 a) noexcept {
 }  // namespace
 
 struct Results::Impl {
-  Impl(const std::filesystem::path& directory, const ResultsLayout& layout);
+  Impl(const std::filesystem::path& directory, const ResultsLayout& layout, const char* name);
+  void go_on(std::size_t kept);
+  void begin_xdmf(const mesh::Mesh& mesh);
+  [[nodiscard]] std::array<h5::Dataset*, 19> all_rows();
   void create_frame();
   void create_snapshots();
   void create_fields();
@@ -110,6 +113,7 @@ struct Results::Impl {
   }
 
   Counts c;
+  std::filesystem::path directory;
   std::vector<Vec2> coordinates;
   std::vector<int> boundary;
   std::vector<double> tributary;
@@ -128,8 +132,13 @@ struct Results::Impl {
   std::unique_ptr<Xdmf> xdmf;
 };
 
-Results::Impl::Impl(const std::filesystem::path& directory, const ResultsLayout& layout)
+constexpr const char* results_name = "results.h5";
+constexpr const char* new_name = "results.h5.new";  // until it is whole
+
+Results::Impl::Impl(const std::filesystem::path& folder, const ResultsLayout& layout,
+                    const char* name)
     : c(counts_of(layout)),
+      directory(folder),
       coordinates(layout.mesh->coordinates),
       boundary(layout.mesh->boundary),
       tributary(layout.mesh->tributary),
@@ -141,8 +150,8 @@ Results::Impl::Impl(const std::filesystem::path& directory, const ResultsLayout&
       traction(c.contact ? c.candidates : 0) {
   RONDO_DEMAND(c.nodes > 0 && layout.mass.size() == c.nodes, c.nodes, layout.mass.size());
   RONDO_DEMAND(tributary.size() == c.candidates, tributary.size(), c.candidates);
-  demand_room(directory / "results.h5", bytes(layout));
-  file = h5::File::create(directory / "results.h5", index_bytes(c));
+  demand_room(directory / name, bytes(layout));
+  file = h5::File::create(directory / name, index_bytes(c));
   file.set_attribute("/", "format", "rondo results 1");
   file.set_attribute("/", "analysis", c.quasi_static ? "crush" : "dynamic");
   write_mesh(file, *layout.mesh, layout.mass);
@@ -159,7 +168,23 @@ Results::Impl::Impl(const std::filesystem::path& directory, const ResultsLayout&
     reserve();
   }
   file.flush();
-  xdmf = std::make_unique<Xdmf>(directory / "fields.xdmf", series_of(*layout.mesh, c));
+}
+
+void Results::Impl::go_on(std::size_t kept) {
+  RONDO_DEMAND(kept <= c.times, kept, c.times);
+  const h5::File before = h5::File::open(directory / results_name);
+  for (h5::Dataset* dataset : all_rows())
+    if (*dataset) dataset->copy_rows(before, kept);
+  written = kept;
+  file.flush();
+  replace_file(directory / new_name, directory / results_name);
+}
+
+/// With the grids of the snapshots that are there.
+void Results::Impl::begin_xdmf(const mesh::Mesh& mesh) {
+  std::vector<double> times = d.time ? d.time.read<double>() : std::vector<double>();
+  times.resize(written);
+  xdmf = std::make_unique<Xdmf>(directory / "fields.xdmf", series_of(mesh, c), std::move(times));
 }
 
 void Results::Impl::create_frame() {
@@ -247,12 +272,30 @@ void Results::Impl::create_crush() {
                                     {"Pa", "largest pressure of all candidates"});
 }
 
+std::array<h5::Dataset*, 19> Results::Impl::all_rows() {
+  return {&d.time,
+          &d.time_velocity,
+          &d.angle,
+          &d.angle_velocity,
+          &d.center,
+          &d.displacement,
+          &d.velocity,
+          &d.force,
+          &d.traction,
+          &d.position,
+          &d.field_displacement,
+          &d.field_velocity,
+          &d.field_force,
+          &d.von_mises,
+          &d.stress,
+          &d.depth,
+          &d.load,
+          &d.contact_length,
+          &d.pressure_max};
+}
+
 void Results::Impl::resize(std::size_t rows) {
-  for (h5::Dataset* dataset :
-       {&d.time, &d.time_velocity, &d.angle, &d.angle_velocity, &d.center, &d.displacement,
-        &d.velocity, &d.force, &d.traction, &d.position, &d.field_displacement, &d.field_velocity,
-        &d.field_force, &d.von_mises, &d.stress, &d.depth, &d.load, &d.contact_length,
-        &d.pressure_max})
+  for (h5::Dataset* dataset : all_rows())
     if (*dataset) dataset->resize(rows);
 }
 
@@ -349,7 +392,16 @@ void Results::Impl::close() {
 
 Results::Results(const std::filesystem::path& directory, const ResultsLayout& layout) {
   RONDO_DEMAND(layout.mesh != nullptr, layout.n_snapshots);
-  impl_ = std::make_unique<Impl>(directory, layout);
+  impl_ = std::make_unique<Impl>(directory, layout, results_name);
+  impl_->begin_xdmf(*layout.mesh);
+}
+
+Results::Results(const std::filesystem::path& directory, const ResultsLayout& layout,
+                 std::size_t kept) {
+  RONDO_DEMAND(layout.mesh != nullptr, layout.n_snapshots);
+  impl_ = std::make_unique<Impl>(directory, layout, new_name);
+  impl_->go_on(kept);
+  impl_->begin_xdmf(*layout.mesh);
 }
 
 Results::~Results() {
@@ -364,6 +416,9 @@ void Results::write(const Snapshot& snapshot) {
 }
 void Results::close() {
   impl_->close();
+}
+void Results::sync() const {
+  for (const char* name : {results_name, "fields.xdmf"}) sync_file(impl_->directory / name);
 }
 std::size_t Results::written() const noexcept {
   return impl_->written;

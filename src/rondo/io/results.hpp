@@ -61,6 +61,10 @@ class Results {
  public:
   /// Creates directory/results.h5 and directory/fields.xdmf. @throws FileError
   Results(const std::filesystem::path& directory, const ResultsLayout& layout);
+  /// Goes on with files that are there, after their first `kept` snapshots: these are copied into
+  /// a new results.h5, which takes the old one's place once it is whole. @pre the same mesh, at
+  /// most as many as planned. @throws FileError: damaged, or fewer snapshots there
+  Results(const std::filesystem::path& directory, const ResultsLayout& layout, std::size_t kept);
   ~Results();
   Results(const Results&) = delete;
   Results& operator=(const Results&) = delete;
@@ -71,6 +75,8 @@ class Results {
   /// Cuts to what was written and closes. @throws FileError
   void close();
   [[nodiscard]] std::size_t written() const noexcept;
+  /// All that was written is on the disk, whatever happens to the machine. @throws FileError
+  void sync() const;
 
   /// Bytes that results.h5 will take, for `rondo check`.
   [[nodiscard]] static std::size_t bytes(const ResultsLayout& layout) noexcept;

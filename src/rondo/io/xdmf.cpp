@@ -31,15 +31,23 @@ constexpr const char* tail = "</Grid>\n</Domain>\n</Xdmf>\n";
 
 }  // namespace
 
-Xdmf::Xdmf(std::filesystem::path file, XdmfSeries series)
-    : path_(std::move(file)), series_(std::move(series)) {
+Xdmf::Xdmf(std::filesystem::path file, XdmfSeries series, std::vector<double> times)
+    : path_(std::move(file)), series_(std::move(series)), times_(std::move(times)) {
   times_.reserve(series_.n_times);
-  descriptor_ = ::open(path_.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666);
-  if (descriptor_ < 0) fail(path_, "create");
+  end_ = write_whole();
+  descriptor_ = ::open(path_.c_str(), O_WRONLY | O_CLOEXEC);
+  if (descriptor_ < 0) fail(path_, "open");
+}
+
+/// The file anew, at once. Returns where the next grid goes.
+std::size_t Xdmf::write_whole() {
   text_ = head;
+  for (std::size_t row = 0; row < times_.size(); ++row) append_grid(row);
   const std::size_t end = text_.size();
-  append_reference_grid();
-  put(end);
+  if (times_.empty()) append_reference_grid();
+  text_ += tail;
+  write_file(path_, text_);
+  return end;
 }
 
 Xdmf::~Xdmf() {
@@ -116,8 +124,9 @@ void Xdmf::append_grid(std::size_t row) {
   text_ += "</Grid>\n";
 }
 
-/// Writes text_ and the closing tags over what follows the grids, which then end at `end`.
-void Xdmf::put(std::size_t end) {
+/// Writes text_, a grid, and the closing tags over what follows the grids.
+void Xdmf::put() {
+  const std::size_t end = end_ + text_.size();
   text_ += tail;
   for (std::size_t done = 0; done < text_.size();) {
     const ssize_t n = ::pwrite(descriptor_, text_.data() + done, text_.size() - done,
@@ -133,7 +142,7 @@ void Xdmf::add(double time) {
   times_.push_back(time);
   text_.clear();
   append_grid(times_.size() - 1);
-  put(end_ + text_.size());
+  put();
 }
 
 void Xdmf::close() {
@@ -141,11 +150,7 @@ void Xdmf::close() {
   if (::close(std::exchange(descriptor_, -1)) != 0) fail(path_, "close");
   if (times_.size() == series_.n_times) return;
   series_.n_times = times_.size();
-  text_ = head;
-  if (times_.empty()) append_reference_grid();
-  for (std::size_t row = 0; row < times_.size(); ++row) append_grid(row);
-  text_ += tail;
-  write_file(path_, text_);
+  write_whole();
 }
 
 }  // namespace rondo::io

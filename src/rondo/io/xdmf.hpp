@@ -39,8 +39,9 @@ struct XdmfSeries {
 
 class Xdmf {
  public:
-  /// Creates the file, with the reference mesh alone. @throws FileError
-  Xdmf(std::filesystem::path file, XdmfSeries series);
+  /// Creates or replaces the file: with the grids of the rows that are there already, by their
+  /// times, or the reference mesh alone. @throws FileError
+  Xdmf(std::filesystem::path file, XdmfSeries series, std::vector<double> times = {});
   ~Xdmf();
   Xdmf(const Xdmf&) = delete;
   Xdmf& operator=(const Xdmf&) = delete;
@@ -58,7 +59,8 @@ class Xdmf {
   void append_reference_geometry();
   void append_reference_grid();
   void append_array(std::size_t row, const XdmfField& field);
-  void put(std::size_t end);
+  void put();
+  std::size_t write_whole();
 
   std::filesystem::path path_;
   XdmfSeries series_;

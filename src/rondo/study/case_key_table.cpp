@@ -223,7 +223,7 @@ constexpr CaseKey keys[] = {
      "time of the first snapshot"},
     {"output.stress", boolean, "-", any, "", "true", "stress with the snapshots"},
     {"output.checkpoint_interval", number, "s", positive, "", "60.0",
-     "wall time between checkpoints; no effect in this version, which writes none"},
+     "wall time between checkpoints"},
     {"output.probe[].name", text, "-", any, "", "required",
      "of its columns in history.csv: letters, digits, _ and -"},
     {"output.probe[].position", vector, "m", any, "", "required",

@@ -241,9 +241,6 @@ void read_output(CaseValues& in, Case& c) {
   in.read("output.stress", output.stress);
   read_probes(in, c);
   in.read("output.checkpoint_interval", output.checkpoint_interval);
-  if (output.checkpoint_interval != Output{}.checkpoint_interval)
-    c.warnings.emplace_back(
-        "output.checkpoint_interval has no effect yet: this version writes no checkpoints");
 }
 
 /// What was given for nothing is named once, and has its default in the case as run.

@@ -5,12 +5,13 @@
 #include <array>
 #include <chrono>
 
+#include "rondo/dynamics/integrator.hpp"
 #include "rondo/dynamics/stepper.hpp"
 #include "rondo/io/results.hpp"
 #include "rondo/study/build.hpp"
 #include "rondo/study/crush_build.hpp"
 #include "rondo/study/estimate.hpp"
-#include "rondo/study/observers.hpp"
+#include "rondo/study/snapshot_schedule.hpp"
 
 namespace rondo::study {
 namespace {
@@ -80,9 +81,7 @@ CheckReport check_case(const Case& c, int threads) {
   r.step = setup.model.dt;
   r.steps = setup.n_steps;
   r.threads = setup.model.threads;
-  r.snapshots =
-      snapshot_steps(c.output.snapshots, c.output.snapshots_from, setup.model.dt, setup.n_steps)
-          .size();
+  r.snapshots = snapshot_schedule(c.output, setup.model.dt, setup.n_steps).steps.size();
   r.memory_bytes = estimated_memory(c, size_of(setup.mesh));
   r.disk_bytes =
       io::Results::bytes({&setup.mesh, setup.model.mass, r.snapshots, has_candidates(setup.model),

@@ -184,6 +184,9 @@ std::string crush_trouble(const statics::CrushReport& report, const statics::Cru
 }
 
 RunReport run_crush(const Case& c, const RunOptions& options) {
+  if (options.resume)
+    throw case_error(c, "analysis.kind", "a crush has no checkpoints to go on from",
+                     "\"dynamic\", or --overwrite instead of --resume");
   const CrushSetup setup = build_crush(c);
   const auto begin = Clock::now();
   statics::Condensation body(fem::assemble_stiffness(setup.mesh, setup.materials), setup.free,
@@ -192,7 +195,8 @@ RunReport run_crush(const Case& c, const RunOptions& options) {
   Json json = describe(c, setup, seconds_since(begin));
   give_warnings(c.warnings, options);
   give_warnings(setup.warnings, options);
-  begin_directory(c, options, json);
+  const io::DirectoryLock lock = take_directory(c, options);
+  begin_files(c, options, json);
   const Loop loop = record(c, setup, body, options, json);
   add_outcome(json, loop, body);
   io::write_json(options.directory / "run.json", json);

@@ -265,7 +265,7 @@ ModesReport run_modes(const Case& c, const ModesRequest& request) {
   const std::vector<double> sweep = sweep_spins(request);
   check_spins(c, body, request.spins.empty() ? "motion.angular_velocity" : "--spin", spins);
   check_spins(c, body, "--spins", sweep);
-  begin_modes_directory(c, request.directory, request.overwrite);
+  const io::DirectoryLock lock = take_modes_directory(c, request.directory, request.overwrite);
 
   ModesReport r;
   r.directory = request.directory;

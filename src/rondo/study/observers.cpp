@@ -7,6 +7,7 @@
 #include <limits>
 
 #include "rondo/dynamics/corotated.hpp"
+#include "rondo/io/files.hpp"
 
 namespace rondo::study {
 
@@ -57,12 +58,13 @@ double rolling_radius(const Case& c, const Setup& setup) {
 
 }  // namespace
 
-History::History(const Case& c, const Setup& setup)
+History::History(const Case& c, const Setup& setup, const HistoryPlace& place)
     : case_(c),
       setup_(setup),
       dt_(setup.model.dt),
       interval_(c.output.history_interval),
-      radius_(rolling_radius(c, setup)) {}
+      radius_(rolling_radius(c, setup)),
+      at_(place) {}
 
 std::vector<std::string> History::columns() const {
   std::vector<std::string> names = history_columns();
@@ -81,17 +83,17 @@ double History::slip_ratio(double time) const {
 
 /// The step nearest to a multiple of the interval writes the row.
 bool History::is_due(double time) const noexcept {
-  return time + 0.5 * dt_ > static_cast<double>(next_) * interval_;
+  return time + 0.5 * dt_ > static_cast<double>(at_.next) * interval_;
 }
 
 long long History::next_probed() const noexcept {
   if (setup_.probes.empty()) return std::numeric_limits<long long>::max();
-  if (interval_ == 0.0) return done_ + 1;
+  if (interval_ == 0.0) return at_.done + 1;
   const auto time = [&](long long step) { return static_cast<double>(step) * dt_; };
   // A guess, then the same comparison as that of the step itself.
-  auto step = static_cast<long long>(static_cast<double>(next_) * interval_ / dt_ - 0.5);
-  step = std::max(step, done_ + 1);
-  while (step > done_ + 1 && is_due(time(step - 1))) --step;
+  auto step = static_cast<long long>(static_cast<double>(at_.next) * interval_ / dt_ - 0.5);
+  step = std::max(step, at_.done + 1);
+  while (step > at_.done + 1 && is_due(time(step - 1))) --step;
   while (!is_due(time(step))) ++step;
   return step;
 }
@@ -105,30 +107,47 @@ void History::append_probes(const dynamics::State* state, std::vector<double>& r
               std::numeric_limits<double>::quiet_NaN());
 }
 
-void History::observe(const dynamics::StepReport& step, bool last, const dynamics::State* state,
+void History::observe(const dynamics::StepReport& step, const dynamics::State* state,
                       std::vector<double>& rows) {
-  done_ = step.step;
   const dynamics::ContactReport& report = step.contact;
-  ++steps_;
-  impulse_ += report.impulse;
-  angular_impulse_ += report.angular_impulse;
-  penetration_ = std::max(penetration_, report.penetration);
+  at_.done = step.step;
+  ++at_.steps;
+  at_.impulse += report.impulse;
+  at_.angular_impulse += report.angular_impulse;
+  at_.penetration = std::max(at_.penetration, report.penetration);
+  if (!is_due(step.frame.time)) return;
+  append_row(step, state, rows);
+  if (interval_ > 0.0)
+    at_.next = static_cast<long long>((step.frame.time + 0.5 * dt_) / interval_) + 1;
+  const long long next = at_.next;
+  at_ = {};
+  at_.next = next;
+  at_.done = step.step;
+}
+
+void History::finish(const dynamics::StepReport& step, const dynamics::State* state,
+                     std::vector<double>& rows) {
+  if (at_.steps > 0) append_row(step, state, rows);
+}
+
+void History::append_row(const dynamics::StepReport& step, const dynamics::State* state,
+                         std::vector<double>& rows) {
+  const dynamics::ContactReport& report = step.contact;
   const double time = step.frame.time;
-  if (!is_due(time) && !last) return;
-  const double span = static_cast<double>(steps_) * dt_;
+  const double span = static_cast<double>(at_.steps) * dt_;
   const dynamics::Balance& b = step.balance;
   const dynamics::Works& w = b.works;
   const std::array row{time,
                        step.frame.angle,
                        step.frame.center.x,
                        step.frame.center.y,
-                       impulse_.x / span,
-                       impulse_.y / span,
-                       angular_impulse_ / span,
+                       at_.impulse.x / span,
+                       at_.impulse.y / span,
+                       at_.angular_impulse / span,
                        static_cast<double>(report.nodes),
                        static_cast<double>(report.sticking),
                        report.length,
-                       penetration_,
+                       at_.penetration,
                        slip_ratio(time),
                        b.kinetic,
                        b.strain,
@@ -144,22 +163,6 @@ void History::observe(const dynamics::StepReport& step, bool last, const dynamic
                        w.load};
   rows.insert(rows.end(), row.begin(), row.end());
   append_probes(state, rows);
-  if (interval_ > 0.0) next_ = static_cast<long long>((time + 0.5 * dt_) / interval_) + 1;
-  steps_ = 0;
-  impulse_ = {};
-  angular_impulse_ = penetration_ = 0.0;
-}
-
-std::vector<long long> snapshot_steps(int count, double from, double dt, long long n_steps) {
-  std::vector<long long> steps;
-  const double end = static_cast<double>(n_steps) * dt;
-  for (int j = 0; j < count; ++j) {
-    const double share = count > 1 ? static_cast<double>(j) / (count - 1) : 1.0;
-    const auto step = static_cast<long long>(std::llround((from + share * (end - from)) / dt));
-    const long long within = std::clamp(step, 0LL, n_steps);
-    if (steps.empty() || within > steps.back()) steps.push_back(within);
-  }
-  return steps;
 }
 
 namespace {
@@ -177,6 +180,19 @@ Snapshots::Snapshots(const std::filesystem::path& directory, const Case& c, cons
     : setup_(setup),
       results_(directory, layout(c, setup, planned)),
       contact_csv_(directory / "contact.csv", contact_columns()) {
+  make_room(c);
+}
+
+Snapshots::Snapshots(const std::filesystem::path& directory, const Case& c, const Setup& setup,
+                     std::size_t planned, std::size_t kept, std::size_t contact_bytes)
+    : setup_(setup),
+      results_(directory, layout(c, setup, planned), kept),
+      contact_csv_(directory / "contact.csv", contact_columns(), contact_bytes) {
+  make_room(c);
+}
+
+void Snapshots::make_room(const Case& c) {
+  const Setup& setup = setup_;
   if (c.output.stress) stress_.emplace(setup.mesh, setup.materials);
   const std::size_t nb = has_candidates(setup.model) ? setup.mesh.boundary.size() : 0;
   if (!setup.model.free_bodies.empty()) elastic_.resize(setup.mesh.n_nodes());
@@ -244,6 +260,11 @@ void Snapshots::write(const dynamics::State& state) {
   for (std::size_t b = 0; b < rotations_.size(); ++b) rotations_[b] = state.poses[b].rotation;
   s.body_rotation = rotations_;
   results_.write(s);
+}
+
+void Snapshots::sync() const {
+  results_.sync();
+  io::sync_file(contact_csv_.path());
 }
 
 void Snapshots::close() {

@@ -16,18 +16,30 @@ namespace rondo::study {
 std::vector<std::string> history_columns();
 std::vector<std::string> contact_columns();
 
+/// Where the rows of history.csv stand between two steps.
+struct HistoryPlace {
+  long long next = 1;   ///< number of the next row's interval
+  long long steps = 0;  ///< since the last row
+  long long done = 0;   ///< the last step seen
+  Vec2 impulse;         ///< since the last row                                      [N·s/m]
+  double angular_impulse = 0.0, penetration = 0.0;
+};
+
 /// Rows of history.csv: forces as means over the interval since the last row, the ledger at half a
 /// step before, probes as they are at the row's time.
 class History {
  public:
   /// c.output.history_interval 0: every step. Case and setup must outlive the object.
-  History(const Case& c, const Setup& setup);
+  History(const Case& c, const Setup& setup, const HistoryPlace& place = {});
+  [[nodiscard]] const HistoryPlace& place() const noexcept { return at_; }
   [[nodiscard]] std::vector<std::string> columns() const;
   /// Every step, in turn: appends a row where one is due.
-  /// @param last no step comes after: a row is appended even where none is due.
   /// @param state of this step, where there are probes; null: their numbers are NaN
-  void observe(const dynamics::StepReport& step, bool last, const dynamics::State* state,
+  void observe(const dynamics::StepReport& step, const dynamics::State* state,
                std::vector<double>& rows);
+  /// No step comes after the one seen last: its row, where none was due.
+  void finish(const dynamics::StepReport& step, const dynamics::State* state,
+              std::vector<double>& rows);
   /// The next step that gives a row with probes: its state is wanted. The largest number where
   /// there are none.
   [[nodiscard]] long long next_probed() const noexcept;
@@ -35,23 +47,16 @@ class History {
  private:
   [[nodiscard]] double slip_ratio(double time) const;
   [[nodiscard]] bool is_due(double time) const noexcept;
+  void append_row(const dynamics::StepReport& step, const dynamics::State* state,
+                  std::vector<double>& rows);
   void append_probes(const dynamics::State* state, std::vector<double>& rows) const;
 
   const Case& case_;
   const Setup& setup_;
   double dt_, interval_;
   double radius_ = 0.0;  ///< of what rolls; 0: nothing does                       [m]
-  long long next_ = 1;   ///< number of the next row's interval
-  long long steps_ = 0;  ///< since the last row
-  long long done_ = 0;   ///< the last step seen
-  Vec2 impulse_;         ///< since the last row [N·s/m]
-  double angular_impulse_ = 0.0;
-  double penetration_ = 0.0;
+  HistoryPlace at_;
 };
-
-/// Steps at which snapshots are taken: `count` times evenly spread over [from, end], each at the
-/// nearest step, the last one at the last step. Fewer where steps are fewer.
-std::vector<long long> snapshot_steps(int count, double from, double dt, long long n_steps);
 
 /// results.h5, fields.xdmf and contact.csv. Made, used and closed by one thread at a time.
 class Snapshots {
@@ -59,13 +64,21 @@ class Snapshots {
   /// @param planned snapshots, at the most. The setup must outlive the object. @throws FileError
   Snapshots(const std::filesystem::path& directory, const Case& c, const Setup& setup,
             std::size_t planned);
+  /// Goes on with files that are there, after `kept` snapshots and so many bytes of contact.csv.
+  /// @throws FileError
+  Snapshots(const std::filesystem::path& directory, const Case& c, const Setup& setup,
+            std::size_t planned, std::size_t kept, std::size_t contact_bytes);
   /// @param state step, frame, u, v, poses and active are read. @throws FileError
   void write(const dynamics::State& state);
   /// @throws FileError
   void close();
   [[nodiscard]] std::size_t written() const { return results_.written(); }
+  [[nodiscard]] std::size_t contact_bytes() const { return contact_csv_.bytes(); }
+  /// All that was written is on the disk, whatever happens to the machine. @throws FileError
+  void sync() const;
 
  private:
+  void make_room(const Case& c);
   void collect_contact(const dynamics::State& state);
   std::span<const Vec2> elastic(const dynamics::State& state);
   void write_contact_rows(const dynamics::State& state);

@@ -14,8 +14,9 @@ enum class RunStatus { done, interrupted, failed };
 
 struct RunOptions {
   std::filesystem::path directory;
-  int threads = 0;                          ///< 0: chosen by size
-  bool overwrite = false;                   ///< replace another run's results in the directory
+  int threads = 0;         ///< 0: chosen by size
+  bool overwrite = false;  ///< replace another run's results in the directory
+  bool resume = false;     ///< go on with the run in the directory, if there is one
   const std::atomic<bool>* stop = nullptr;  ///< set: end cleanly after the step in hand
   /// Called now and then with steps done and steps in all; may be empty.
   std::function<void(long long, long long)> progress;
@@ -27,11 +28,13 @@ struct RunOptions {
 struct RunReport {
   AnalysisKind analysis = AnalysisKind::dynamic;
   RunStatus status = RunStatus::failed;
-  std::string message;    ///< of a failure: quantity, value, bound, step and time
-  long long steps = 0;    ///< done; of a crush: increments
-  double end_time = 0.0;  ///< reached [s]; 0 of a crush
-  double depth = 0.0;     ///< reached by a crush [m]
-  double slide = 0.0;     ///< likewise [m]
+  std::string message;        ///< of a failure: quantity, value, bound, step and time
+  long long steps = 0;        ///< done; of a crush: increments
+  bool was_complete = false;  ///< to be resumed, but already at its end: nothing was done
+  long long resumed_at = 0;   ///< step of the checkpoint that it went on from; 0: begun anew
+  double end_time = 0.0;      ///< reached [s]; 0 of a crush
+  double depth = 0.0;         ///< reached by a crush [m]
+  double slide = 0.0;         ///< likewise [m]
   double loop_wall_s = 0.0;
   double ns_per_dof_step = 0.0;
   double energy_residual_relative = 0.0;

@@ -11,17 +11,13 @@
 
 #include "rondo/core/error.hpp"
 #include "rondo/dynamics/dispatch.hpp"
+#include "rondo/io/directory.hpp"
 #include "rondo/io/files.hpp"
 #include "rondo/study/build_id.hpp"
 #include "rondo/study/version.hpp"
 
 namespace rondo::study {
 namespace {
-
-std::string host_name() {
-  std::array<char, 256> name{};
-  return gethostname(name.data(), name.size() - 1) == 0 ? name.data() : "unknown";
-}
 
 constexpr const char* mesh_copy = "mesh.msh";
 constexpr std::uintmax_t largest_copy = 50'000'000;  ///< bytes of a mesh file that is copied
@@ -52,8 +48,15 @@ bool is_copied(const MeshCase& mesh) {
 void copy_mesh(const Case& c, const std::filesystem::path& directory) {
   if (!c.mesh || !is_copied(*c.mesh)) return;
   std::error_code error;
+  if (std::filesystem::exists(directory / mesh_copy, error)) return;  // of a run gone on with
   std::filesystem::copy_file(c.mesh->file, directory / mesh_copy, error);
   if (error) throw FileError((directory / mesh_copy).string(), "cannot write: " + error.message());
+}
+
+/// The case as run, with its mesh.
+void write_kept_case(const Case& c, const std::filesystem::path& directory) {
+  copy_mesh(c, directory);
+  io::write_file(directory / "case.toml", write_case(kept_case(c)));
 }
 
 }  // namespace
@@ -62,7 +65,7 @@ void describe_program(Json& json) {
   json["version"] = version;
   json["build"] = build_options;
   json["build_id"] = build_id();
-  json["host"] = host_name();
+  json["host"] = io::host_name();
 }
 
 Json describe_run(const Case& c, std::string_view analysis, std::size_t nodes, std::size_t dofs) {
@@ -70,6 +73,7 @@ Json describe_run(const Case& c, std::string_view analysis, std::size_t nodes, s
   j["status"] = "running";
   j["title"] = c.title;
   describe_program(j);
+  j["process"] = ::getpid();
   j["analysis"] = analysis;
   j["nodes"] = nodes;
   j["dofs"] = dofs;
@@ -104,16 +108,26 @@ void write_contact_problem(const std::filesystem::path& directory, int number,
   contact::write_problem(folder / fmt::format("{:04}.json", number), problem);
 }
 
-void begin_modes_directory(const Case& c, const std::filesystem::path& directory, bool overwrite) {
+io::DirectoryLock take_modes_directory(const Case& c, const std::filesystem::path& directory,
+                                       bool overwrite) {
   keep_the_users_files(c, directory);
-  io::prepare_results_directory(directory, overwrite);
-  copy_mesh(c, directory);
-  io::write_file(directory / "case.toml", write_case(kept_case(c)));
+  io::DirectoryLock lock = io::take_results_directory(
+      directory, overwrite ? io::DirectoryUse::overwrite : io::DirectoryUse::begin);
+  write_kept_case(c, directory);
+  return lock;
 }
 
-void begin_directory(const Case& c, const RunOptions& options, const Json& json) {
+io::DirectoryLock take_directory(const Case& c, const RunOptions& options) {
   if (options.before_loop) options.before_loop();
-  begin_modes_directory(c, options.directory, options.overwrite);
+  if (!options.resume) keep_the_users_files(c, options.directory);
+  return io::take_results_directory(options.directory, options.resume ? io::DirectoryUse::go_on
+                                                       : options.overwrite
+                                                           ? io::DirectoryUse::overwrite
+                                                           : io::DirectoryUse::begin);
+}
+
+void begin_files(const Case& c, const RunOptions& options, const Json& json) {
+  write_kept_case(c, options.directory);
   io::write_json(options.directory / "run.json", json);
 }
 

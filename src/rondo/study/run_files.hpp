@@ -7,6 +7,7 @@
 #include <string_view>
 
 #include "rondo/contact/problem_file.hpp"
+#include "rondo/io/directory.hpp"
 #include "rondo/study/run.hpp"
 
 namespace rondo::study {
@@ -33,12 +34,18 @@ Case kept_case(const Case& c);
 void write_contact_problem(const std::filesystem::path& directory, int number,
                            const contact::ProblemFile& problem);
 
-/// From here on signals ask for a clean end and files are written: case.toml and run.json.
-/// @throws InputError (the directory holds a run), FileError
-void begin_directory(const Case& c, const RunOptions& options, const Json& json);
+/// The directory is the run's as long as the lock is held. From here on signals ask for a clean
+/// end.
+/// @throws InputError (it holds another run), FileError
+[[nodiscard]] io::DirectoryLock take_directory(const Case& c, const RunOptions& options);
+
+/// case.toml and run.json. @throws FileError
+void begin_files(const Case& c, const RunOptions& options, const Json& json);
 
 /// For `rondo modes`: the directory, with the case as read. @throws InputError, FileError
-void begin_modes_directory(const Case& c, const std::filesystem::path& directory, bool overwrite);
+[[nodiscard]] io::DirectoryLock take_modes_directory(const Case& c,
+                                                     const std::filesystem::path& directory,
+                                                     bool overwrite);
 
 /// After an error of files: run.json says so, where it can still be written itself.
 void note_failure(const RunOptions& options, Json json, const std::exception& error) noexcept;

@@ -3,14 +3,18 @@
 /// of its own recovers stresses, formats and writes (docs/decisions/014-writer-thread.md).
 #pragma once
 #include <algorithm>
+#include <atomic>
 #include <chrono>
 #include <cstddef>
 #include <filesystem>
+#include <optional>
+#include <span>
 #include <vector>
 
 #include "rondo/dynamics/integrator.hpp"
 #include "rondo/io/csv.hpp"
 #include "rondo/study/build.hpp"
+#include "rondo/study/checkpoint.hpp"
 #include "rondo/study/observers.hpp"
 #include "rondo/study/writer_thread.hpp"
 
@@ -35,8 +39,17 @@ struct OutputCost {
 /// (FileError, std::bad_alloc) since the last one.
 class RunOutput {
  public:
-  /// Creates the files. Case and setup must outlive it. @throws FileError
-  RunOutput(const std::filesystem::path& directory, const Case& c, const Setup& setup);
+  /// What a run writes, and where.
+  struct Plan {
+    const std::filesystem::path& directory;
+    const Case& c;
+    const Setup& setup;
+    const SnapshotSchedule& schedule;
+  };
+
+  /// Creates the files or, from a checkpoint, goes on with those that are there. Case and setup
+  /// must outlive it. @throws FileError
+  explicit RunOutput(const Plan& plan, const Checkpoint* from = nullptr);
   /// Writes what is there, as far as that is possible; errors are reported where close() is called.
   ~RunOutput();
   RunOutput(const RunOutput&) = delete;
@@ -48,11 +61,23 @@ class RunOutput {
   [[nodiscard]] long long next_state() const noexcept {
     return std::min(next_snapshot(), history_.next_probed());
   }
-  /// Every step, in turn. @param last no step comes after: a row is written even where none is due.
-  /// @param state of this step, where there is one at hand: probes are read from it
-  void observe(const dynamics::StepReport& step, bool last, const dynamics::State* state = nullptr);
+  /// Every step, in turn. @param state of this step, where there is one at hand: probes are read
+  /// from it
+  void observe(const dynamics::StepReport& step, const dynamics::State* state = nullptr);
   /// A snapshot, if state.step is next_snapshot().
   void observe(const dynamics::State& state);
+  /// The row of the last step, where none was due: else empty.
+  [[nodiscard]] std::vector<double> last_row(const dynamics::StepReport& step,
+                                             const dynamics::State* state);
+  /// After the last step, snapshot and checkpoint. @pre a row, or empty
+  void add_row(std::span<const double> row);
+  /// Writes directory/checkpoint.h5 once all before it is written; its `history`, `schedule` and
+  /// `files` are filled in. A run that goes on from it drops what add_row() adds.
+  void save(Checkpoint checkpoint);
+  /// One is not yet written: a second would take as much memory again.
+  [[nodiscard]] bool is_saving() const noexcept { return saving_.load(); }
+  /// Step of the last checkpoint written; 0: none.
+  [[nodiscard]] long long saved_step() const noexcept { return saved_step_.load(); }
   /// To be called now and then: hands over rows that would else wait for a snapshot, or for more
   /// rows.
   void keep_up();
@@ -72,13 +97,16 @@ class RunOutput {
     std::vector<double> rows;
     bool snapshot = false;
     dynamics::State state;  ///< step, frame, u, v, poses and active only
+    std::optional<Checkpoint> checkpoint;
   };
 
   [[nodiscard]] std::vector<Slot> make_slots(const Setup& setup) const;
-  void push(const dynamics::State* state);
-  void write(const Slot& slot);
+  void push(const dynamics::State* state, std::optional<Checkpoint> checkpoint = std::nullopt);
+  void write(Slot& slot);
+  void write(Checkpoint& checkpoint);
 
-  std::vector<long long> steps_;  ///< of the snapshots
+  const std::filesystem::path& directory_;
+  SnapshotSchedule schedule_;
   std::size_t next_ = 0;
   History history_;
   std::size_t numbers_at_once_;  ///< of some rows
@@ -86,6 +114,8 @@ class RunOutput {
   Clock::time_point handed_over_ = Clock::now();
   double wait_s_ = 0.0, drain_s_ = 0.0;
   bool closed_ = false;
+  std::atomic<bool> saving_{false};
+  std::atomic<long long> saved_step_{0};
   // The thread's from its start to its end.
   io::Csv history_csv_;
   Snapshots snapshots_;

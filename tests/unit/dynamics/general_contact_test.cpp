@@ -275,6 +275,43 @@ TEST(GeneralContact, AThinWallDoesNotTouchItself) {
 }
 
 /// Contact problems are kept where they took more iterations than asked, to be written to files.
+/// What a run carries after some steps in contact, stopped and gone on with after every `cut`.
+SavedState collided(const Model& model, std::size_t cut) {
+  const std::vector<Vec2> v = velocities(model, {{0.5, -1.0}, {-0.5, -4.0}}), none(v.size());
+  auto integrator = make_integrator(model, start(model, none, v));
+  std::vector<StepReport> reports(cut);
+  for (std::size_t done = 0; done < 12; done += cut) {
+    integrator->advance(reports);
+    const SavedState saved = integrator->save();
+    integrator = make_integrator(model, start(model, none, none));
+    integrator->restore(saved);
+  }
+  EXPECT_GT(reports.back().contact.nodes, 0);
+  return integrator->save();
+}
+
+TEST(GeneralContact, GoesOnFromASavedStateToTheSameBits) {
+  TwoBlocks t = two_blocks(0.6, 3.0);
+  t.model.stiffness_damping = 1e-6;
+  test::add_ground(t.model, t.mesh, {.profile = {{-10, -0.001}, {10, -0.001}}}, {0.4, 0.0});
+  const SavedState one = collided(t.model, 12);
+  EXPECT_FALSE(one.impulses.empty());
+  EXPECT_NE(one.poses[1].angle, 0.0);
+  for (const std::size_t cut : {1, 4}) {
+    const SavedState other = collided(t.model, cut);
+    EXPECT_EQ(one.step, other.step);
+    EXPECT_EQ(one.u, other.u);
+    EXPECT_EQ(one.v, other.v);
+    EXPECT_EQ(one.force, other.force);
+    EXPECT_EQ(one.gradient, other.gradient);
+    EXPECT_EQ(one.energy, other.energy);
+    EXPECT_EQ(one.impulses, other.impulses);
+    EXPECT_EQ(one.ledger, other.ledger);
+    for (std::size_t b = 0; b < one.poses.size(); ++b)
+      EXPECT_EQ(one.poses[b].angle, other.poses[b].angle);
+  }
+}
+
 TEST(GeneralContact, KeepsDifficultProblems) {
   for (const int above : {0, 1}) {
     TwoBlocks t = two_blocks(0.6);

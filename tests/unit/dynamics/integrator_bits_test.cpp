@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// What an integrator gives to the last bit: for any number of threads, however the steps are cut
-/// into calls. What it does with clamped nodes, and with numbers that are none.
+/// into calls, stopped and gone on with. What it does with clamped nodes, and with numbers that are
+/// none.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -69,13 +70,17 @@ struct Way {
   int threads = 1;
   std::size_t steps_a_call = 64;
   bool last_of_each_call = false;  ///< or of the last call only
+  int threads_after_restart = 0;   ///< another integrator goes on after each call; 0: the same
 };
 
 Record run(const test::Built& b, StiffnessOperator of, std::size_t steps, Way way) {
   Model model = test::model_with(b, of);
   model.threads = way.threads;
   State state = start(model, test::some_displacement(b), test::some_velocity(b));
-  const std::unique_ptr<Integrator> integrator = make_integrator(model, state);
+  Model other = model;
+  other.threads = way.threads_after_restart;
+  const std::vector<Vec2> rest(b.model.n_nodes());
+  std::unique_ptr<Integrator> integrator = make_integrator(model, state);
   std::vector<StepReport> reports(steps);
   Record out;
   for (std::size_t done = 0; done < steps;) {
@@ -84,6 +89,10 @@ Record run(const test::Built& b, StiffnessOperator of, std::size_t steps, Way wa
     const bool seen = way.last_of_each_call || done == steps;
     integrator->advance(std::span(reports).subspan(done - n, n), seen ? &state : nullptr);
     if (seen) out.states[state.step] = numbers(state);
+    if (way.threads_after_restart == 0) continue;
+    const SavedState saved = integrator->save();
+    integrator = make_integrator(other, start(other, rest, rest));
+    integrator->restore(saved);
   }
   int contacts = 0;
   for (const StepReport& report : reports) {
@@ -153,6 +162,21 @@ TEST_P(Integrators, SameBitsHoweverTheStepsAreCutIntoCalls) {
                           Way{1, 64, false}, Way{1, 1000, false}}) {
       SCOPED_TRACE(way.steps_a_call);
       ASSERT_NO_FATAL_FAILURE(assert_same_bits(one, run(b, GetParam(), 1000, way)));
+    }
+  }
+}
+
+TEST_P(Integrators, SameBitsFromASavedState) {
+  std::vector<test::Built> all = disks();
+  test::RollingCase undamped = test::everything("", 4, 61);
+  undamped.disk.beta = 0.0;
+  all.push_back(test::build(undamped));
+  all.push_back(test::build(test::everything("", 6, 240)));
+  for (const test::Built& b : all) {
+    const Record one = run(b, GetParam(), 100, {});
+    for (const Way way : {Way{1, 33, false, 1}, Way{1, 7, true, 3}, Way{3, 50, false, 1}}) {
+      SCOPED_TRACE(way.steps_a_call);
+      ASSERT_NO_FATAL_FAILURE(assert_same_bits(one, run(b, GetParam(), 100, way)));
     }
   }
 }

@@ -52,6 +52,50 @@ TEST(Csv, RowsReachTheFileAtOnce) {
   EXPECT_TRUE(text.ends_with("\n99\n"));
 }
 
+TEST(Csv, GoesOnAfterTheBytesThatAreKept) {
+  const Folder folder;
+  const auto path = folder / "a.csv";
+  Csv csv(path, {"a", "b"});
+  csv.row(std::vector<double>{1.0, 2.0});
+  const std::size_t bytes = csv.bytes();
+  csv.row(std::vector<double>{3.0, 4.0});
+  csv.close();
+  Csv again(path, {"a", "b"}, bytes);
+  again.row(std::vector<double>{5.0, 6.0});
+  EXPECT_EQ(again.bytes(), text_of(path).size());
+  again.close();
+  EXPECT_EQ(text_of(path), "a,b\n1,2\n5,6\n");
+}
+
+TEST(Csv, DoesNotGoOnWithAnotherFile) {
+  const Folder folder;
+  put_text(folder / "a.csv", "a,b\n1,2\n");
+  const auto error = [&](const std::vector<std::string>& columns, std::size_t bytes) {
+    return error_of<FileError>([&] { const Csv csv(folder / "a.csv", columns, bytes); });
+  };
+  EXPECT_NE(error({"a", "b"}, 9).find("holds 8 bytes where it held 9"), std::string::npos);
+  EXPECT_NE(error({"a", "c"}, 4).find("does not begin with the columns"), std::string::npos);
+  EXPECT_NE(error({"a", "b", "c and more"}, 4).find("does not begin"), std::string::npos);
+  EXPECT_EQ(text_of(folder / "a.csv"), "a,b\n1,2\n");
+}
+
+TEST(Csv, OfWhatHasNoRoomNothingIsLeft) {
+  const Folder folder;
+  const int status = in_child([&] {
+    Csv csv(folder / "a.csv", {"a"});
+    limit_files(1001);
+    const std::string what = error_of<FileError>([&] {
+      for (int i = 0; i < 1000; ++i) csv.row(std::vector<double>{0.125});
+    });
+    EXPECT_NE(what.find("File too large"), std::string::npos) << what;
+    if (::testing::Test::HasFailure()) std::_Exit(1);
+  });
+  EXPECT_TRUE(went_well(status));
+  const std::string text = text_of(folder / "a.csv");
+  EXPECT_GT(text.size(), 900U);
+  EXPECT_TRUE(text.ends_with("\n0.125\n")) << text.substr(text.size() - 10);
+}
+
 TEST(Csv, ErrorsNameTheFileAndTheReason) {
   const Folder folder;
   const std::string none = error_of<FileError>([&] { const Csv csv(folder / "no/a.csv", {"a"}); });

@@ -54,6 +54,36 @@ TEST(Results, EveryDatasetHasItsShapeUnitsAndDescription) {
   }
 }
 
+/// However the first run ended: the files are those of a run that did not stop.
+TEST(Results, GoOnAfterTheSnapshotsThatAreKept) {
+  SmallRun run;
+  const Folder whole;
+  write_all(whole, run, 5, 5);
+  for (const bool closed : {false, true}) {
+    const Folder folder;
+    auto first = std::make_unique<Results>(folder.path(), run.layout(5));
+    for (std::size_t k = 0; k < 3; ++k) first->write(run.snapshot(k));
+    if (closed) first->close();
+    Results again(folder.path(), run.layout(5), 2);
+    EXPECT_EQ(again.written(), 2U);
+    for (std::size_t k = 2; k < 5; ++k) again.write(run.snapshot(k));
+    again.close();
+    for (const char* name : {"results.h5", "fields.xdmf"})
+      EXPECT_EQ(text_of(folder / name), text_of(whole / name)) << name << closed;
+  }
+}
+
+TEST(Results, DoNotGoOnAfterSnapshotsThatAreNotThere) {
+  const Folder folder;
+  SmallRun run;
+  write_all(folder, run, 5, 2);
+  const std::string before = text_of(folder / "results.h5");
+  const std::string what =
+      error_of<FileError>([&] { const Results again(folder.path(), run.layout(5), 3); });
+  EXPECT_NE(what.find("holds less than it did: damaged"), std::string::npos) << what;
+  EXPECT_EQ(text_of(folder / "results.h5"), before);
+}
+
 TEST(Results, WhatWasGivenIsReadBack) {
   const Folder folder;
   SmallRun run;

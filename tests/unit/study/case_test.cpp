@@ -208,8 +208,7 @@ TEST(ReadCase, TakesEveryKeyOfTheRun) {
   EXPECT_EQ(c.output.snapshots_from, 0.07);
   EXPECT_FALSE(c.output.stress);
   EXPECT_EQ(c.output.checkpoint_interval, 30.0);
-  ASSERT_EQ(c.warnings.size(), 1U);
-  EXPECT_NE(c.warnings[0].find("output.checkpoint_interval"), std::string::npos);
+  EXPECT_TRUE(c.warnings.empty());
 }
 
 const std::string least = R"(schema = 1

@@ -1,0 +1,85 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "rondo/io/checkpoint_file.hpp"
+
+#include <fmt/format.h>
+
+#include <cerrno>
+#include <fstream>
+#include <span>
+#include <system_error>
+#include <vector>
+
+#include "rondo/core/error.hpp"
+#include "rondo/io/files.hpp"
+#include "rondo/io/hash.hpp"
+
+namespace rondo::io {
+namespace fs = std::filesystem;
+namespace {
+
+[[noreturn]] void fail(const fs::path& file, const char* doing) {
+  const int code = errno;
+  throw FileError(file.string(),
+                  fmt::format("cannot {}: {}", doing, std::generic_category().message(code)));
+}
+
+/// Of what follows the first block, from where the stream stands.
+std::string hash_of_rest(std::istream& in) {
+  Hash hash;
+  std::vector<char> piece(1U << 20U);
+  while (in.read(piece.data(), static_cast<std::streamsize>(piece.size())), in.gcount() > 0)
+    hash.add(std::span<const char>(piece).first(static_cast<std::size_t>(in.gcount())));
+  return hash.text();
+}
+
+std::string first_block(const std::string& hash) {
+  std::string text = fmt::format("rondo checkpoint 1\nxxh3-128 {} of the bytes from {} on\n", hash,
+                                 hash_block_bytes);
+  text.resize(hash_block_bytes, '\0');
+  return text;
+}
+
+/// Removes a file that was not moved to where it belongs.
+struct Beside {
+  fs::path path;
+  ~Beside() {
+    std::error_code error;
+    fs::remove(path, error);
+  }
+};
+
+void write_hash(const fs::path& file) {
+  std::fstream stream(file, std::ios::in | std::ios::out | std::ios::binary);
+  stream.seekg(hash_block_bytes);
+  const std::string block = first_block(hash_of_rest(stream));
+  stream.clear();  // of the end that was read
+  stream.seekp(0);
+  stream.write(block.data(), static_cast<std::streamsize>(block.size()));
+  stream.close();
+  if (!stream) fail(file, "write");
+}
+
+}  // namespace
+
+void write_checkpoint_file(const fs::path& file, const std::function<void(h5::File&)>& fill) {
+  const Beside beside{file.string() + ".new"};
+  h5::File content = h5::File::create_after(beside.path, hash_block_bytes);
+  fill(content);
+  content.close();
+  write_hash(beside.path);
+  replace_file(beside.path, file);
+}
+
+h5::File open_checkpoint_file(const fs::path& file) {
+  std::ifstream in(file, std::ios::binary);
+  std::string block(hash_block_bytes, '\0');
+  if (!in) fail(file, "read");
+  in.read(block.data(), static_cast<std::streamsize>(block.size()));
+  if (!in || !block.starts_with("rondo checkpoint "))
+    throw FileError(file.string(), "is damaged, or not a checkpoint of rondo's");
+  if (block != first_block(hash_of_rest(in)))
+    throw FileError(file.string(), "is damaged: its content is not what its hash was made of");
+  return h5::File::open(file);
+}
+
+}  // namespace rondo::io

@@ -1,0 +1,185 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "rondo/io/directory.hpp"
+
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <sys/file.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <array>
+#include <cerrno>
+#include <chrono>
+#include <csignal>
+#include <system_error>
+#include <thread>
+#include <utility>
+
+#include "rondo/core/error.hpp"
+#include "rondo/io/files.hpp"
+
+namespace rondo::io {
+namespace fs = std::filesystem;
+namespace {
+
+/// Any of these: the directory holds a run.
+constexpr std::array run_marks = {"run.json", "results.h5", "history.csv", "modes.json",
+                                  "modes.h5"};
+constexpr std::array run_files = {
+    "case.toml",   "mesh.msh",   "run.json",       "history.csv",
+    "contact.csv", "results.h5", "fields.xdmf",    "checkpoint.h5",
+    "modes.json",  "modes.h5",   "results.h5.new", "checkpoint.h5.new",
+    "modes.xdmf",  "modes.csv",  "campbell.csv",   "critical-speeds.csv"};
+constexpr std::array pod_files = {"pod.json", "pod.h5", "spectrum.csv", "modes.xdmf",
+                                  "reconstruction.xdmf"};
+
+std::string message(int code) {
+  return std::generic_category().message(code);
+}
+
+/// There is something of that name, be it a link to nowhere.
+bool is_there(const fs::path& path) {
+  std::error_code error;
+  return fs::exists(fs::symlink_status(path, error));
+}
+
+void remove_one(const fs::path& file) {
+  std::error_code error;
+  fs::remove(file, error);
+  if (error) throw FileError(file.string(), "cannot remove: " + message(error.value()));
+}
+
+/// PODs of a run that is no more: in the run's own pod/, their files and folders that are then
+/// empty.
+void remove_pods(const fs::path& directory) {
+  std::error_code error;
+  for (const auto& entry : fs::directory_iterator(directory / "pod", error)) {
+    for (const char* name : pod_files) remove_one(entry.path() / name);
+    if (fs::is_empty(entry.path(), error)) remove_one(entry.path());
+  }
+  if (fs::is_empty(directory / "pod", error)) remove_one(directory / "pod");
+}
+
+/// Contact problems kept by a run that is no more.
+void remove_contact_problems(const fs::path& directory) {
+  const fs::path folder = directory / "contact-problems";
+  std::error_code error;
+  for (const auto& entry : fs::directory_iterator(folder, error))
+    if (entry.path().extension() == ".json") remove_one(entry.path());
+  if (fs::is_empty(folder, error)) remove_one(folder);
+}
+
+/// The process that run.json says is at work: 0 where there is none.
+struct Holder {
+  pid_t process = 0;
+  std::string host;
+};
+
+Holder holder_of(const fs::path& directory) {
+  try {
+    const auto json = read_json(directory / "run.json");
+    if (json.value("status", "") != "running") return {};
+    return {json.value("process", 0), json.value("host", "")};
+  } catch (const std::exception&) {  // no run.json, or another one
+    return {};
+  }
+}
+
+[[noreturn]] void refuse_held(const fs::path& directory, const Holder& holder) {
+  const std::string who =
+      holder.process > 0 ? fmt::format(" (process {} on {})", holder.process, holder.host) : "";
+  throw FileError(directory.string(),
+                  fmt::format("another rondo is at work here{}; wait until it ends", who));
+}
+
+bool is_without_locks(int code) {
+  return code == ENOSYS || code == EOPNOTSUPP || code == ENOLCK || code == EINVAL;
+}
+
+/// Of another host nothing is known: it is believed to have ended.
+bool lives(const Holder& holder) {
+  return holder.process > 0 && holder.host == host_name() &&
+         (::kill(holder.process, 0) == 0 || errno == EPERM);
+}
+
+}  // namespace
+
+void refuse_directory(const fs::path& directory, const std::string& what,
+                      const std::string& to_do) {
+  Fault fault;
+  fault.key = "-o";
+  fault.found = directory.string();
+  fault.message = what;
+  fault.allowed = to_do;
+  throw InputError(fault);
+}
+
+std::string host_name() {
+  std::array<char, 256> name{};
+  return gethostname(name.data(), name.size() - 1) == 0 ? name.data() : "unknown";
+}
+
+DirectoryLock::DirectoryLock(const fs::path& directory)
+    : descriptor_(::open(directory.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC)) {
+  if (descriptor_ < 0)
+    throw FileError(directory.string(), "cannot open the directory: " + message(errno));
+  int code = 0;
+  for (int tries = 0; tries < 20; ++tries) {  // a second: processes of a killed one may be ending
+    if (::flock(descriptor_, LOCK_EX | LOCK_NB) == 0) return;
+    code = errno;
+    if (code != EWOULDBLOCK && code != EINTR) break;
+    std::this_thread::sleep_for(std::chrono::milliseconds(50));
+  }
+  const Holder holder = holder_of(directory);
+  if (is_without_locks(code) && !lives(holder)) return;
+  ::close(descriptor_);
+  if (code == EWOULDBLOCK || is_without_locks(code)) refuse_held(directory, holder);
+  throw FileError(directory.string(), "cannot lock: " + message(code));
+}
+
+DirectoryLock::DirectoryLock(DirectoryLock&& other) noexcept
+    : descriptor_(std::exchange(other.descriptor_, -1)) {}
+
+DirectoryLock::~DirectoryLock() {
+  if (descriptor_ >= 0) ::close(descriptor_);
+}
+
+void clear_results_directory(const fs::path& directory) {
+  for (const char* name : run_files) remove_one(directory / name);
+  remove_pods(directory);
+  remove_contact_problems(directory);
+}
+
+std::string mark_of_run(const fs::path& directory) {
+  const auto found = std::find_if(run_marks.begin(), run_marks.end(),
+                                  [&](const char* name) { return is_there(directory / name); });
+  return found != run_marks.end() ? *found : "";
+}
+
+bool is_cut_off(const fs::path& directory) {
+  try {
+    return read_json(directory / "run.json").value("status", "") == "running";
+  } catch (const std::exception&) {  // no run.json, or another one
+    return false;
+  }
+}
+
+DirectoryLock take_results_directory(const fs::path& directory, DirectoryUse use) {
+  const std::string elsewhere = "choose another -o";
+  std::error_code error;
+  if (is_there(directory) && !fs::is_directory(directory, error))
+    refuse_directory(directory, "is there and is not a directory", elsewhere);
+  fs::create_directories(directory, error);
+  if (error)
+    throw FileError(directory.string(), "cannot create directory: " + message(error.value()));
+  DirectoryLock lock(directory);
+  if (use == DirectoryUse::overwrite) clear_results_directory(directory);
+  if (use != DirectoryUse::begin) return lock;
+  const std::string go_on = is_there(directory / "checkpoint.h5") ? ", --resume to go on" : "";
+  if (const std::string mark = mark_of_run(directory); !mark.empty())
+    refuse_directory(directory, fmt::format("holds another run ({} is there)", mark),
+                     fmt::format("{}{}, or give --overwrite", elsewhere, go_on));
+  return lock;
+}
+
+}  // namespace rondo::io

@@ -1,0 +1,152 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "rondo/study/resume.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <fstream>
+#include <iterator>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "rondo/core/error.hpp"
+#include "rondo/io/directory.hpp"
+#include "rondo/io/files.hpp"
+#include "rondo/study/case_keys.hpp"
+#include "rondo/study/case_source.hpp"
+#include "rondo/study/run_files.hpp"
+#include "rondo/study/snapshot_schedule.hpp"
+
+namespace rondo::study {
+namespace {
+
+constexpr const char* or_begin_again = "; or --overwrite to begin again";
+
+bool same(const CaseValue& a, const CaseValue& b) {
+  return a.type == b.type && a.number == b.number && a.boolean == b.boolean && a.text == b.text &&
+         std::equal(a.items.begin(), a.items.end(), b.items.begin(), b.items.end(), same);
+}
+
+Fault differs(std::string key, std::string found, const std::string& message,
+              const std::string& allowed) {
+  Fault fault;
+  fault.key = std::move(key);
+  fault.found = std::move(found);
+  fault.message = message;
+  fault.allowed = allowed + or_begin_again;
+  return fault;
+}
+
+/// Of the keys of two cases as they are written out: all are there unless the kind of a thing
+/// differs.
+void compare_cases(const Checkpoint& k, const Case& c, std::vector<Fault>& faults) {
+  const CaseSource now = load_case_text("the case", write_case(c), {});
+  const CaseSource then = load_case_text("the checkpoint", k.identity.case_text, {});
+  constexpr std::array<std::string_view, 3> free = {"time.end", "output.checkpoint_interval",
+                                                    "mesh.file"};
+  for (const auto& [key, value] : now.values) {
+    if (std::find(free.begin(), free.end(), key) != free.end()) continue;
+    // A longer run keeps its interval: its kept case counts all of its snapshots.
+    if (key == "output.snapshots" &&
+        value.integer == static_cast<std::int64_t>(k.schedule.steps.size()))
+      continue;
+    const auto before = then.values.find(key);
+    if (before == then.values.end())
+      faults.push_back(differs(key, now.written(value.place), "is not in the checkpoint's case",
+                               "the case that the run began with"));
+    else if (!same(value, before->second))
+      faults.push_back(differs(key, now.written(value.place),
+                               "the run to go on with has another value",
+                               then.written(before->second.place)));
+  }
+  for (const auto& [key, value] : then.values)
+    if (!now.values.contains(key))
+      faults.push_back(
+          differs(key, "nothing", "the run to go on with has a value", then.written(value.place)));
+}
+
+void compare_programs(const RunIdentity& then, const RunIdentity& now, std::vector<Fault>& faults) {
+  const auto compare = [&](const char* what, const std::string& a, const std::string& b,
+                           const std::string& to_do) {
+    if (a != b)
+      faults.push_back(differs("--resume", fmt::format("{} {}", what, b),
+                               fmt::format("the checkpoint was written with {} {}", what, a),
+                               to_do));
+  };
+  compare("version", then.version, now.version, "that version of rondo");
+  compare("build", then.build_id, now.build_id, "the same program (its build id)");
+  compare("kernels", then.dispatch, now.dispatch,
+          fmt::format("RONDO_DISPATCH={} on a machine that has them", then.dispatch));
+}
+
+}  // namespace
+
+void demand_same_run(const Checkpoint& k, const Case& c, const Setup& setup) {
+  const RunIdentity now = identity_of(c, setup);
+  std::vector<Fault> faults;
+  compare_programs(k.identity, now, faults);
+  compare_cases(k, c, faults);
+  if (faults.empty() && k.identity.mesh_hash != now.mesh_hash)
+    faults.push_back(differs("mesh.file", c.mesh ? as_utf8(c.mesh->file.string()) : "",
+                             "is not the mesh that the run began with", "that mesh"));
+  if (faults.empty() && k.identity.step != now.step)
+    faults.push_back(differs("time.step", fmt::format("{}", now.step),
+                             "the step of the checkpoint is another one",
+                             fmt::format("{}", k.identity.step)));
+  if (faults.empty() && k.state.step > setup.n_steps)
+    faults.push_back(differs("time.end", fmt::format("{}", c.time.end),
+                             fmt::format("the run has come to t = {:.9g} s",
+                                         static_cast<double>(k.state.step) * now.step),
+                             "a later end"));
+  if (!faults.empty()) throw InputError(std::move(faults));
+}
+
+namespace {
+
+/// A run that was cut off before its first checkpoint begins anew, if it is this one.
+void clear_without_checkpoint(const Case& c, const std::filesystem::path& directory) {
+  const std::string mark = io::mark_of_run(directory);
+  if (mark.empty()) return;
+  const auto refuse = [&](const std::string& what) {
+    io::refuse_directory(directory, what, fmt::format("leave --resume out{}", or_begin_again));
+  };
+  const auto text = [&](const char* name) {
+    std::ifstream in(directory / name, std::ios::binary);
+    return std::string(std::istreambuf_iterator<char>(in), {});
+  };
+  if (!io::is_cut_off(directory))
+    refuse(fmt::format("holds a run without a checkpoint ({} is there)", mark));
+  if (text("case.toml") != write_case(kept_case(c)))
+    refuse("holds another case, cut off before its first checkpoint");
+  io::clear_results_directory(directory);
+}
+
+}  // namespace
+
+std::optional<Checkpoint> find_checkpoint(const Case& c, const Setup& setup,
+                                          const std::filesystem::path& directory) {
+  std::error_code error;
+  const bool there = std::filesystem::exists(directory / checkpoint_name, error);
+  if (!there) {
+    clear_without_checkpoint(c, directory);
+    return std::nullopt;
+  }
+  Checkpoint k = read_checkpoint(directory);
+  demand_same_run(k, c, setup);
+  if (k.n_steps != setup.n_steps)
+    k.schedule = with_end(std::move(k.schedule), c.output, setup.model.dt, setup.n_steps);
+  return k;
+}
+
+bool is_complete(const Checkpoint& k, const Setup& setup, const std::filesystem::path& directory) {
+  if (k.state.step < setup.n_steps) return false;
+  try {
+    return text_in(io::read_json(directory / "run.json"), "status") == "done";
+  } catch (const FileError&) {
+    return false;
+  }
+}
+
+}  // namespace rondo::study

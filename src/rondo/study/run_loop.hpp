@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: BSD-3-Clause
+/// @file  The steps of a run: from the start or from a checkpoint to the end, a signal or a
+/// failure.
+#pragma once
+#include <string>
+
+#include "rondo/dynamics/ledger.hpp"
+#include "rondo/study/checkpoint.hpp"
+#include "rondo/study/run.hpp"
+#include "rondo/study/run_output.hpp"
+
+namespace rondo::study {
+
+/// How the steps went, those before the checkpoint included.
+struct Loop {
+  RunStatus status = RunStatus::done;
+  std::string message;
+  ContactStatistics contact;
+  dynamics::Balance balance;
+  long long steps = 0;
+  double wall_s = 0.0;
+  double cpu_s = 0.0;
+  int dumped = 0;             ///< contact problems kept as files
+  std::size_t snapshots = 0;  ///< in the files, once these are closed
+  OutputCost output;          ///< likewise
+};
+
+struct LoopPlan {
+  const Case& c;
+  const RunOptions& options;
+  const RunIdentity& identity;       ///< for the checkpoints
+  const Checkpoint* from = nullptr;  ///< absent: from the start
+};
+
+/// Takes the initial fields of the setup, which are not needed twice. @throws FileError
+[[nodiscard]] Loop run_loop(const LoopPlan& plan, Setup& setup, RunOutput& output);
+
+}  // namespace rondo::study

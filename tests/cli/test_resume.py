@@ -1,0 +1,343 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""rondo run --resume: runs that were killed, interrupted or finished go on to the same bits as runs
+that were left alone; what is not the same run is refused; one program at a time in a directory."""
+import os
+import random
+import shutil
+import signal
+import subprocess
+import time
+import unittest
+
+import h5py
+import numpy as np
+
+from program import PROGRAM, ROOT, ProgramTest, SMALL, replaced, run, summary
+
+RESULTS = ("history.csv", "contact.csv", "results.h5", "fields.xdmf", "case.toml")
+# Some seconds of steps, a checkpoint every few hundred of them.
+LONG = replaced(replaced(SMALL, "end", "end = 12.0"), "snapshots",
+                "snapshots = 101\nhistory_interval = 1e-3\ncheckpoint_interval = 0.02\n"
+                '[[output.probe]]\nname = "top"\nposition = [0.0, 0.29]')
+# Nothing holds the ring: the general integrator, contacts that share nodes.
+RING = """schema = 1
+title = "a free ring over a sharp corner"
+[disk]
+outer_radius = 0.3
+inner_radius = 0.15
+rim = "free"
+[disk.mesh]
+radial = 3
+circumferential = 60
+[material]
+youngs_modulus = 2.0e6
+poissons_ratio = 0.3
+density = 1100.0
+[damping]
+stiffness = 1.0e-5
+[motion]
+gravity = 9.81
+[ground]
+profile = [[-10, 0.0], [0.05, 0.0], [0.1, -0.02], [10, -0.02]]
+friction = 0.5
+[initial]
+position = [0.0, 0.31]
+velocity = [2.0, -1.0]
+[time]
+end = 0.6
+[output]
+snapshots = 21
+checkpoint_interval = 0.02
+"""
+
+
+class ResumeTest(ProgramTest):
+    def setUp(self):
+        super().setUp()
+        self.whole = self.folder / "whole"
+        self.out = self.folder / "out"
+
+    def start(self, text, *extra):
+        """The run into self.out, with --resume."""
+        return subprocess.Popen([PROGRAM, "run", str(self.case(text)), "-o", str(self.out),
+                                 "--resume", "--quiet", *extra], stderr=subprocess.DEVNULL)
+
+    def rows(self):
+        try:
+            return (self.out / "history.csv").read_bytes().count(b"\n")
+        except FileNotFoundError:
+            return 0
+
+    def wait_for_rows(self, process, rows):
+        """Until history.csv has so many; false where the run ends before."""
+        deadline = time.time() + 100
+        while self.rows() < rows:
+            if process.poll() is not None:
+                return False
+            self.assertLess(time.time(), deadline, "the run does not go on")
+            time.sleep(0.002)
+        return True
+
+    def assert_same(self, other, names=RESULTS):
+        for name in names:
+            self.assertEqual((self.whole / name).read_bytes(), (other / name).read_bytes(), name)
+
+    def leave_alone(self, text, *extra):
+        done = run("run", self.case(text), "-o", self.whole, "--quiet", *extra)
+        self.assertEqual(done.returncode, 0, done.stderr)
+
+    def resume(self, text, *extra):
+        return run("run", self.case(text), "-o", self.out, "--resume", *extra)
+
+
+class Killed(ResumeTest):
+    def kill_at_random_moments(self, text, kills, seed):
+        """Kills soon after the start (setting up, copying what is kept) and far into the steps."""
+        chance = random.Random(seed)
+        total = (self.whole / "history.csv").read_bytes().count(b"\n")
+        for k in range(kills):
+            process = self.start(text)
+            if k % 4 == 0:
+                time.sleep(chance.uniform(0.0, 0.2))
+            else:
+                more = chance.uniform(0.0, 2.0) * total / kills
+                self.assertTrue(self.wait_for_rows(process, min(self.rows() + more, total - 2)),
+                                f"kill {k} came too late")
+                time.sleep(chance.uniform(0.0, 0.01))
+            process.kill()
+            process.wait()
+            self.assert_readable()
+
+    def assert_readable(self):
+        """Every file that is there, up to what was last written."""
+        if (self.out / "run.json").exists():
+            self.assertIn(summary(self.out)["status"], ("running", "done"))
+        if (self.out / "results.h5").exists():
+            with h5py.File(self.out / "results.h5") as f:
+                t = f["/frame/time"][:]
+                written = np.count_nonzero(~np.isnan(t))
+                self.assertTrue(np.isfinite(f["/snapshots/displacement"][:written]).all())
+        if (self.out / "fields.xdmf").exists():
+            self.assertTrue((self.out / "fields.xdmf").read_text().rstrip().endswith("</Xdmf>"))
+
+    def test_at_20_random_moments_it_goes_on_to_the_same_bits(self):
+        self.leave_alone(LONG)
+        self.kill_at_random_moments(LONG, 20, seed=7)
+        done = self.resume(LONG)
+        self.assertEqual(done.returncode, 0, done.stderr)
+        self.assert_same(self.out)
+        s, alone = summary(self.out), summary(self.whole)
+        self.assertGreater(len(s["resumed_at_steps"]), 3)
+        self.assertEqual(s["resumed_at_steps"], sorted(s["resumed_at_steps"]))
+        for key in ("status", "steps_done", "energy_residual_relative", "energy_exchanged",
+                    "contact_residual_max", "penetration_max_m", "contact", "snapshots"):
+            self.assertEqual(s[key], alone[key], key)
+
+    def test_a_free_body_goes_on_to_the_same_bits(self):
+        self.leave_alone(RING)
+        self.kill_at_random_moments(RING, 5, seed=11)
+        self.assertEqual(self.resume(RING).returncode, 0)
+        self.assert_same(self.out)
+        self.assertGreater(summary(self.out)["contact"]["clusters_solved"], 0)
+
+    def test_before_the_first_checkpoint_it_begins_anew(self):
+        text = LONG.replace("checkpoint_interval = 0.02", "checkpoint_interval = 1000")
+        process = self.start(text)
+        self.assertTrue(self.wait_for_rows(process, 100))
+        process.kill()
+        process.wait()
+        self.assertEqual(summary(self.out)["status"], "running")
+        other = self.resume(replaced(text, "friction", "friction = 0.4"))
+        self.assertEqual(other.returncode, 2, other.stderr)
+        self.assertIn("another case, cut off before its first checkpoint", other.stderr)
+        self.leave_alone(text)
+        self.assertEqual(self.resume(text).returncode, 0)
+        self.assert_same(self.out)
+        self.assertNotIn("resumed_at_steps", summary(self.out))
+
+
+class Interrupted(ResumeTest):
+    def test_with_other_threads_and_operator_the_same_bits(self):
+        for operator in ("cyclic", "sparse"):
+            text = LONG + f'[solver]\noperator = "{operator}"\n'
+            text = replaced(text, "end", "end = 2.0")
+            for folder in (self.out, self.whole):
+                shutil.rmtree(folder, ignore_errors=True)
+            self.leave_alone(text)
+            for number in (signal.SIGTERM, signal.SIGINT, signal.SIGHUP):
+                process = self.start(text, "--threads", "2")
+                self.assertTrue(self.wait_for_rows(process, self.rows() + 200))
+                process.send_signal(number)
+                self.assertEqual(process.wait(timeout=60), 130)
+                self.assertEqual(summary(self.out)["status"], "interrupted")
+            self.assertEqual(self.resume(text, "--threads", "1").returncode, 0)
+            self.assert_same(self.out)
+
+    def test_the_checkpoint_holds_the_last_step(self):
+        process = self.start(LONG.replace("checkpoint_interval = 0.02",
+                                          "checkpoint_interval = 1000"))
+        self.assertTrue(self.wait_for_rows(process, 100))
+        process.send_signal(signal.SIGTERM)
+        self.assertEqual(process.wait(timeout=60), 130)
+        with h5py.File(self.out / "checkpoint.h5") as f:
+            self.assertEqual(f["/run/steps_done"][0], summary(self.out)["steps_done"])
+            self.assertEqual(f["/run/step"].attrs["units"], "s")
+
+
+class Finished(ResumeTest):
+    # A step that is told: the ends are whole numbers of steps, and of snapshot intervals.
+    TEXT = replaced(SMALL, "end", "step = 5.0e-5\nend = 0.01")
+
+    def test_goes_on_to_a_later_end(self):
+        text = replaced(self.TEXT, "snapshots", "snapshots = 6\nhistory_interval = 3.3e-4")
+        later = ("--set", "time.end=0.02")
+        self.leave_alone(text, *later, "--set", "output.snapshots=11")
+        self.assertEqual(self.resume(text).returncode, 0)
+        done = self.resume(text, *later)
+        self.assertEqual(done.returncode, 0, done.stderr)
+        self.assertIn("gone on with from step 200", done.stderr)
+        self.assert_same(self.out)
+
+    def test_the_directory_alone_is_enough(self):
+        self.assertEqual(self.resume(self.TEXT).returncode, 0)
+        done = run("run", self.out, "--resume", "--set", "time.end=0.02")
+        self.assertEqual(done.returncode, 0, done.stderr)
+        again = run("run", self.out, "--resume", "--set", "time.end=0.03")
+        self.assertEqual(again.returncode, 0, again.stderr)
+        self.assertEqual(summary(self.out)["resumed_at_steps"], [200, 400])
+        with h5py.File(self.out / "results.h5") as f:
+            np.testing.assert_allclose(f["/frame/time"][:], np.arange(31) * 1e-3, atol=1e-12)
+
+    def test_with_nothing_left_to_do_nothing_is_touched(self):
+        self.assertEqual(self.resume(self.TEXT).returncode, 0)
+        before = {p.name: (p.stat().st_mtime_ns, p.stat().st_ino) for p in self.out.iterdir()}
+        done = self.resume(self.TEXT)
+        self.assertEqual(done.returncode, 0)
+        self.assertIn("nothing to do", done.stderr)
+        after = {p.name: (p.stat().st_mtime_ns, p.stat().st_ino) for p in self.out.iterdir()}
+        self.assertEqual(before, after)
+
+    def test_killed_between_the_last_checkpoint_and_the_end_it_is_finished(self):
+        self.leave_alone(self.TEXT)
+        self.assertEqual(self.resume(self.TEXT).returncode, 0)
+        text = (self.out / "run.json").read_text()
+        (self.out / "run.json").write_text(text.replace('"done"', '"running"'))
+        rows = (self.out / "history.csv").read_text().splitlines(keepends=True)
+        (self.out / "history.csv").write_text("".join(rows))
+        self.assertEqual(self.resume(self.TEXT).returncode, 0)
+        self.assert_same(self.out)
+        self.assertEqual(summary(self.out)["status"], "done")
+        self.assertEqual(summary(self.out)["energy_residual_relative"],
+                         summary(self.whole)["energy_residual_relative"])
+
+
+class Refused(ResumeTest):
+    TEXT = Finished.TEXT
+
+    def assert_refused(self, done, code, *texts):
+        self.assertEqual(done.returncode, code, done.stderr)
+        for text in texts:
+            self.assertIn(text, done.stderr)
+
+    def test_another_case_with_all_that_differs(self):
+        self.assertEqual(self.resume(self.TEXT).returncode, 0)
+        other = replaced(self.TEXT, "friction", "friction = 0.4\nrestitution = 0.1")
+        self.assert_refused(self.resume(other, "--set", "disk.mesh.radial=4"), 2,
+                            "ground.friction = 0.4", "(allowed: 0.3; or --overwrite",
+                            "ground.restitution = 0.1", "disk.mesh.radial = 4", "3 faults")
+        no_ground = self.TEXT[: self.TEXT.index("[ground]")] + self.TEXT[self.TEXT.index("[time]"):]
+        self.assert_refused(self.resume(no_ground), 2, "ground.friction = nothing",
+                            "the run to go on with has a value")
+
+    def test_an_end_that_lies_behind(self):
+        self.assertEqual(self.resume(self.TEXT).returncode, 0)
+        self.assert_refused(self.resume(self.TEXT, "--set", "time.end=0.005"), 2,
+                            "time.end = 0.005", "the run has come to t = 0.01 s")
+
+    def test_other_kernels(self):
+        self.assertEqual(self.resume(self.TEXT).returncode, 0)
+        level = summary(self.out)["dispatch"]
+        if level == "baseline":
+            self.skipTest("this machine has but one instruction set")
+        done = run("run", self.case(self.TEXT), "-o", self.out, "--resume", "--set",
+                   "time.end=0.02", env={**os.environ, "RONDO_DISPATCH": "baseline"})
+        self.assert_refused(done, 2, "kernels baseline", f"RONDO_DISPATCH={level}")
+
+    def test_a_damaged_checkpoint(self):
+        self.assertEqual(self.resume(self.TEXT).returncode, 0)
+        path = self.out / "checkpoint.h5"
+        content = bytearray(path.read_bytes())
+        content[len(content) // 2] ^= 1
+        path.write_bytes(content)
+        self.assert_refused(self.resume(self.TEXT), 4, "checkpoint.h5: is damaged")
+
+    def test_results_that_hold_less_than_the_checkpoint_says(self):
+        self.assertEqual(self.resume(self.TEXT).returncode, 0)
+        kept = self.folder / "kept"
+        shutil.copytree(self.out, kept)
+        for name in ("history.csv", "contact.csv", "results.h5"):
+            (self.out / name).write_bytes((kept / name).read_bytes()[:-50])
+            self.assert_refused(self.resume(self.TEXT, "--set", "time.end=0.02"), 4, name)
+            shutil.copyfile(kept / name, self.out / name)
+        self.assertEqual(self.resume(self.TEXT, "--set", "time.end=0.02").returncode, 0)
+
+    def test_another_mesh_of_the_same_name(self):
+        text = (ROOT / "cases" / "tyre-section.toml").read_text()
+        for path in (ROOT / "cases" / "meshes").glob("*.msh"):
+            (self.folder / "meshes").mkdir(exist_ok=True)
+            shutil.copy(path, self.folder / "meshes")
+        short = ("--set", "time.end=1e-4", "--set", "output.snapshots=2")
+        done = self.resume(text, *short)
+        self.assertEqual(done.returncode, 0, done.stderr)
+        name = [line.split('"')[1] for line in text.splitlines() if line.startswith("file")][0]
+        mesh = self.folder / name
+        entities, nodes = mesh.read_text().split("$Nodes", 1)
+        number = next(w for w in nodes.split() if len(w) > 12 and w[6].isdigit())
+        moved = number[:6] + str((int(number[6]) + 1) % 10) + number[7:]
+        mesh.write_text(entities + "$Nodes" + nodes.replace(number, moved, 1))
+        self.assert_refused(self.resume(text, *short, "--set", "time.end=2e-4"), 2, "mesh.file",
+                            "is not the mesh that the run began with")
+
+    def test_a_crush_and_contradictions(self):
+        self.assert_refused(run("run", ROOT / "cases" / "crush-smooth.toml", "-o", self.out,
+                                "--resume"), 2, "a crush has no checkpoints")
+        self.assert_refused(self.resume(self.TEXT, "--overwrite"), 2, "--resume")
+        self.assertFalse(self.out.exists())
+
+    def test_what_has_no_checkpoint(self):
+        self.assertEqual(self.resume(self.TEXT).returncode, 0)
+        (self.out / "checkpoint.h5").unlink()
+        self.assert_refused(self.resume(self.TEXT), 2, "holds a run without a checkpoint")
+
+
+class TwoPrograms(ResumeTest):
+    def test_the_second_is_refused_while_the_first_lives_and_takes_over_when_it_is_dead(self):
+        text = LONG.replace("end = 12.0", "end = 500.0")
+        process = self.start(text)
+        self.addCleanup(process.kill)
+        self.assertTrue(self.wait_for_rows(process, 200))
+        self.assertEqual(summary(self.out)["process"], process.pid)
+        case = self.case(text)
+        for way in ((), ("--resume",), ("--overwrite",)):
+            done = run("run", case, "-o", self.out, *way)
+            self.assertEqual(done.returncode, 4, done.stderr)
+            self.assertIn(f"another rondo is at work here (process {process.pid} on", done.stderr)
+        self.assertIsNone(process.poll())
+        rows = self.rows()
+        self.assertTrue(self.wait_for_rows(process, rows + 100), "the first one goes on")
+        process.kill()
+        process.wait()
+        self.assertEqual(summary(self.out)["status"], "running")
+        refused = run("run", case, "-o", self.out)
+        self.assertEqual(refused.returncode, 2)
+        self.assertIn("--resume to go on", refused.stderr)
+        with h5py.File(self.out / "checkpoint.h5") as f:
+            reached = f["/run/steps_done"][0] * f["/run/step"][0]
+        done = run("run", case, "-o", self.out, "--resume", "--set", f"time.end={reached + 0.01}")
+        self.assertEqual(done.returncode, 0, done.stderr)
+        self.assertEqual(summary(self.out)["status"], "done")
+        self.assertNotEqual(summary(self.out)["process"], process.pid)
+
+
+if __name__ == "__main__":
+    unittest.main()
