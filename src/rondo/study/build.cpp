@@ -14,6 +14,7 @@
 #include "rondo/study/case_keys.hpp"
 #include "rondo/study/estimate.hpp"
 #include "rondo/study/initial_state.hpp"
+#include "rondo/study/room.hpp"
 
 namespace rondo::study {
 
@@ -79,18 +80,6 @@ void make_model(const Case& c, Setup& s) {
   model.stiffness_damping = c.damping.stiffness;
   model.motion = c.motion;
   model.scheme = c.time.scheme;
-}
-
-/// A mesh from a file is only known once it is read.
-void refuse_large_mesh(const Case& c, const mesh::Mesh& mesh) {
-  if (!c.mesh) return;
-  const std::size_t needed = estimated_memory(c, size_of(mesh)), there = physical_memory();
-  if (there > 0 && needed > there)
-    throw case_error(
-        c, "mesh.file",
-        fmt::format("the mesh of {} nodes needs about {} of memory, and this machine has {}",
-                    mesh.n_nodes(), readable_bytes(needed), readable_bytes(there)),
-        "a coarser mesh");
 }
 
 /// K := K + K_σ of the stress of the initial spin, in both forms as far as they are there.
@@ -217,7 +206,7 @@ std::vector<int> held_nodes(const dynamics::Model& model) {
 Setup build(const Case& c, int threads) {
   Setup s;
   s.mesh = build_mesh(c, &s.warnings);
-  refuse_large_mesh(c, s.mesh);
+  if (c.mesh) demand_memory(c, s.mesh, estimated_memory(c, size_of(s.mesh)));
   s.materials = materials_of(c, s.mesh);
   s.probes = find_probes(c, s.mesh);
   make_model(c, s);

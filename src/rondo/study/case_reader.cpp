@@ -8,6 +8,7 @@
 #include "rondo/study/case.hpp"
 #include "rondo/study/case_bodies.hpp"
 #include "rondo/study/estimate.hpp"
+#include "rondo/study/room.hpp"
 
 namespace rondo::study {
 namespace {
@@ -113,12 +114,8 @@ void check_size(CaseValues& in, const Case& c) {
   if (n_nodes >= most_nodes)
     return in.fault(key, fmt::format("the mesh would have {} nodes", n_nodes),
                     fmt::format("fewer than {} nodes", most_nodes));
-  const std::size_t needed = estimated_memory(c, size_of(c.disk)), there = physical_memory();
-  if (there > 0 && needed > there)
-    in.fault(key,
-             fmt::format("the mesh of {} nodes needs about {} of memory, and this machine has {}",
-                         n_nodes, readable_bytes(needed), readable_bytes(there)),
-             "a coarser mesh");
+  const std::string shortage = memory_shortage(n_nodes, estimated_memory(c, size_of(c.disk)));
+  if (!shortage.empty()) in.fault(key, shortage, "a coarser mesh, or more memory");
 }
 
 void read_disk(CaseValues& in, Case& c) {

@@ -7,17 +7,16 @@
 
 #include "rondo/dynamics/integrator.hpp"
 #include "rondo/dynamics/stepper.hpp"
-#include "rondo/io/results.hpp"
 #include "rondo/study/build.hpp"
 #include "rondo/study/crush_build.hpp"
 #include "rondo/study/estimate.hpp"
+#include "rondo/study/room.hpp"
 #include "rondo/study/snapshot_schedule.hpp"
 
 namespace rondo::study {
 namespace {
 
 constexpr double trial_seconds = 0.2;  ///< of steps, to estimate the time of the whole
-constexpr std::size_t history_row_bytes = 350;
 
 double seconds_per_step(const Setup& setup) {
   using Clock = std::chrono::steady_clock;
@@ -35,11 +34,6 @@ double seconds_per_step(const Setup& setup) {
   return steps > 0 ? seconds / static_cast<double>(steps) : 0.0;
 }
 
-std::size_t history_rows(const Case& c, const Setup& setup) {
-  const double interval = std::max(c.output.history_interval, setup.model.dt);
-  return static_cast<std::size_t>(c.time.end / interval) + 1;
-}
-
 CheckReport check_crush(const Case& c) {
   const CrushSetup setup = build_crush(c);
   CheckReport r;
@@ -53,10 +47,7 @@ CheckReport check_crush(const Case& c) {
   r.condensed = setup.within_reach;
   r.snapshots = static_cast<std::size_t>(r.increments);
   r.memory_bytes = estimated_memory(c, size_of(setup.mesh));
-  constexpr bool contact = true, quasi_static = true;
-  r.disk_bytes = io::Results::bytes({&setup.mesh, setup.mass, r.snapshots, contact, c.output.stress,
-                                     quasi_static}) +
-                 r.snapshots * history_row_bytes;
+  r.disk_bytes = disk_needed(c, setup).all;
   r.warnings = c.warnings;
   r.warnings.insert(r.warnings.end(), setup.warnings.begin(), setup.warnings.end());
   return r;
@@ -83,10 +74,7 @@ CheckReport check_case(const Case& c, int threads) {
   r.threads = setup.model.threads;
   r.snapshots = snapshot_schedule(c.output, setup.model.dt, setup.n_steps).steps.size();
   r.memory_bytes = estimated_memory(c, size_of(setup.mesh));
-  r.disk_bytes =
-      io::Results::bytes({&setup.mesh, setup.model.mass, r.snapshots, has_candidates(setup.model),
-                          c.output.stress, false, setup.model.free_body}) +
-      history_rows(c, setup) * history_row_bytes;
+  r.disk_bytes = disk_needed(c, setup).all;
   r.seconds = seconds_per_step(setup) * static_cast<double>(setup.n_steps);
   r.warnings = c.warnings;
   r.warnings.insert(r.warnings.end(), setup.warnings.begin(), setup.warnings.end());

@@ -7,6 +7,8 @@
 
 #include "rondo/core/contract.hpp"
 #include "rondo/study/bodies.hpp"
+#include "rondo/study/estimate.hpp"
+#include "rondo/study/room.hpp"
 
 namespace rondo::study {
 namespace {
@@ -35,6 +37,7 @@ CrushSetup build_crush(const Case& c) {
                c.ground.has_value());
   CrushSetup s;
   s.mesh = build_mesh(c, &s.warnings);
+  if (c.mesh) demand_memory(c, s.mesh, estimated_memory(c, size_of(s.mesh)));
   s.materials = materials_of(c, s.mesh);
   refuse_free_bodies(c, s.mesh);
   s.mass = fem::lumped_mass(s.mesh, s.materials);

@@ -12,6 +12,7 @@
 #include "rondo/study/build.hpp"
 #include "rondo/study/crush_build.hpp"
 #include "rondo/study/crush_observers.hpp"
+#include "rondo/study/room.hpp"
 #include "rondo/study/run_files.hpp"
 
 namespace rondo::study {
@@ -195,6 +196,7 @@ RunReport run_crush(const Case& c, const RunOptions& options) {
   Json json = describe(c, setup, seconds_since(begin));
   give_warnings(c.warnings, options);
   give_warnings(setup.warnings, options);
+  demand_disk(options, disk_needed(c, setup));
   const io::DirectoryLock lock = take_directory(c, options);
   begin_files(c, options, json);
   const Loop loop = record(c, setup, body, options, json);

@@ -2,7 +2,6 @@
 #include "rondo/study/estimate.hpp"
 
 #include <fmt/format.h>
-#include <unistd.h>
 
 #include <algorithm>
 #include <cctype>
@@ -111,12 +110,6 @@ std::size_t estimated_memory(const Case& c, const MeshSize& mesh) noexcept {
   return program + mesh.nodes * fields + stiffness_memory(c, mesh) +
          mesh.cells * sizeof(mesh::Cell) + factor_memory(c, mesh) +
          compliance_memory(c, mesh.nodes) + queue_memory(c, mesh.nodes);
-}
-
-std::size_t physical_memory() noexcept {
-  const long pages = sysconf(_SC_PHYS_PAGES), page = sysconf(_SC_PAGESIZE);
-  return pages > 0 && page > 0 ? static_cast<std::size_t>(pages) * static_cast<std::size_t>(page)
-                               : 0;
 }
 
 std::optional<std::size_t> bytes_in(const std::string& text) {

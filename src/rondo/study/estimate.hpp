@@ -34,9 +34,6 @@ MeshSize size_of(const mesh::Disk& disk) noexcept;
 /// Memory of a run at its largest, while K is assembled or factorised; an estimate [B].
 std::size_t estimated_memory(const Case& c, const MeshSize& mesh) noexcept;
 
-/// Physical memory of this machine [B]; 0: unknown.
-std::size_t physical_memory() noexcept;
-
 /// 2.5e9 for "2.5GB"; B, kB, MB, GB, TB, or KiB, MiB, GiB, TiB; none where `text` is not that.
 std::optional<std::size_t> bytes_in(const std::string& text);
 

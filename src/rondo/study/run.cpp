@@ -14,6 +14,7 @@
 #include "rondo/study/case_source.hpp"
 #include "rondo/study/crush_run.hpp"
 #include "rondo/study/resume.hpp"
+#include "rondo/study/room.hpp"
 #include "rondo/study/run_files.hpp"
 #include "rondo/study/run_loop.hpp"
 #include "rondo/study/run_output.hpp"
@@ -191,6 +192,7 @@ RunReport run_case(const Case& c, const RunOptions& options) {
   const auto begin = Clock::now();
   static_cast<void>(dispatch_level());  // a wrong one is told before anything is built
   Setup setup = build(c, options.threads);
+  demand_disk(options, disk_needed(c, setup));
   const io::DirectoryLock lock = take_directory(c, options);
   const Run run = make_run(c, options, setup);
   if (run.from && is_complete(*run.from, setup, options.directory)) return nothing_to_do(*run.from);

@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: BSD-3-Clause
+/// @file  Whether the machine has room for a run, memory and disk, told before it begins.
+#pragma once
+#include <cstddef>
+#include <filesystem>
+#include <string>
+
+#include "rondo/study/build.hpp"
+#include "rondo/study/crush_build.hpp"
+#include "rondo/study/estimate.hpp"
+#include "rondo/study/run.hpp"
+
+namespace rondo::study {
+
+/// "9 nodes needs about 2 GB of memory, and this machine has 1 GB"; empty: there is enough.
+std::string memory_shortage(std::size_t nodes, std::size_t needed);
+
+/// For a mesh that is only known once its file is read. @param needed [B]
+/// @throws InputError: this process may not take that much memory
+void demand_memory(const Case& c, const mesh::Mesh& mesh, std::size_t needed);
+
+/// What a run writes [B]; estimated but for results.h5.
+struct DiskNeed {
+  std::size_t all = 0;           ///< checkpoints included
+  std::size_t largest_file = 0;  ///< of the files that grow
+};
+
+DiskNeed disk_needed(const Case& c, const Setup& setup);
+DiskNeed disk_needed(const Case& c, const CrushSetup& setup);
+
+/// Called before anything is written or removed. @throws FileError: less is free, or the limit of a
+/// file's size (ulimit -f) is smaller
+void demand_disk(const RunOptions& options, const DiskNeed& need);
+
+}  // namespace rondo::study
