@@ -19,6 +19,18 @@ std::size_t at(int index) noexcept {
   return static_cast<std::size_t>(index);
 }
 
+/// Edges whose areas and stiffnesses would leave the range of the numbers.
+void refuse_sizes_out_of_range(const Case& c, const std::vector<double>& size) {
+  constexpr double smallest = 1e-60, largest = 1e60;
+  const double shortest = *std::min_element(size.begin(), size.end());
+  if (shortest >= smallest && shortest <= largest) return;
+  throw case_error(c, c.mesh ? "mesh.scale" : "disk.outer_radius",
+                   fmt::format("the shortest edge of the mesh would be {:.3g} m, out of the range "
+                               "of the numbers",
+                               shortest),
+                   "lengths in metres");
+}
+
 /// Layers that coincide in round-off, by grading or by radii that are nearly the same.
 void refuse_flat_elements(const Case& c, const std::vector<double>& size) {
   const double shortest = *std::min_element(size.begin(), size.end());
@@ -147,10 +159,11 @@ InputError case_error(const Case& c, const std::string& key, const std::string& 
 }
 
 mesh::Mesh build_mesh(const Case& c, std::vector<std::string>* warnings) {
-  if (c.mesh) return read_mesh(c, warnings);
-  mesh::Mesh mesh = mesh::make_disk(c.disk);
-  refuse_flat_elements(c, element_sizes(mesh));
-  if (c.free_rim) mesh.clamped.clear();
+  mesh::Mesh mesh = c.mesh ? read_mesh(c, warnings) : mesh::make_disk(c.disk);
+  const std::vector<double> size = element_sizes(mesh);
+  if (!c.mesh) refuse_flat_elements(c, size);
+  refuse_sizes_out_of_range(c, size);
+  if (!c.mesh && c.free_rim) mesh.clamped.clear();
   return mesh;
 }
 

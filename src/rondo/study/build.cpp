@@ -6,7 +6,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <optional>
 #include <thread>
 
 #include "rondo/dynamics/batch_integrator.hpp"
@@ -15,6 +14,7 @@
 #include "rondo/study/estimate.hpp"
 #include "rondo/study/initial_state.hpp"
 #include "rondo/study/room.hpp"
+#include "rondo/study/stability.hpp"
 
 namespace rondo::study {
 
@@ -160,32 +160,6 @@ dynamics::CriticalStep find_critical_step(const Case& c, const Setup& s) {
                                  m.threads);
 }
 
-/// Nothing where factorisations would take too long.
-std::optional<bool> softens_little(const dynamics::Model& m, double spin) {
-  const double shift = 4.0 * spin * spin;
-  const bool harmonics = by_harmonics(m);
-  if (!softening_is_checked(2 * m.free.size(), harmonics ? 2 * m.sector->n_local() : 0))
-    return std::nullopt;
-  if (harmonics) return statics::eigenvalues_above(*m.sector, m.mass, shift);
-  return statics::eigenvalues_above(m.stiffness, m.mass, held_nodes(m), shift);
-}
-
-void warn_of_softening(const Case& c, Setup& s) {
-  const double spin = c.motion.angular_velocity.largest();
-  if (spin == 0.0 || c.stress_stiffening != StressStiffening::none || !is_held(c)) return;
-  const std::optional<bool> little = softens_little(s.model, spin);
-  if (!little)
-    s.warnings.push_back(
-        fmt::format("the check of spin softening is left out above {} degrees of freedom, unless "
-                    "one of equal sectors of the disk has at most {}",
-                    softening_check_dofs, softening_check_harmonic_dofs));
-  else if (!*little)
-    s.warnings.push_back(fmt::format(
-        "at {:.6g} rad/s the centrifugal softening takes more than a quarter of the lowest "
-        "stiffness (s² > ω₁²/4): a small-strain model without stress stiffening is soft there",
-        spin));
-}
-
 }  // namespace
 
 int count_bodies(const dynamics::Model& model) {
@@ -207,6 +181,7 @@ Setup build(const Case& c, int threads) {
   Setup s;
   s.mesh = build_mesh(c, &s.warnings);
   if (c.mesh) demand_memory(c, s.mesh, estimated_memory(c, size_of(s.mesh)));
+  check_places(c, s.mesh);
   s.materials = materials_of(c, s.mesh);
   s.probes = find_probes(c, s.mesh);
   make_model(c, s);
@@ -217,7 +192,7 @@ Setup build(const Case& c, int threads) {
   s.critical = find_critical_step(c, s);
   s.model.dt = choose_step(c, s.critical);
   s.n_steps = count_steps(c, s.model.dt);
-  warn_of_softening(c, s);
+  check_stability(c, s);
   return s;
 }
 

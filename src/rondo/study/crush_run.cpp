@@ -12,6 +12,7 @@
 #include "rondo/study/build.hpp"
 #include "rondo/study/crush_build.hpp"
 #include "rondo/study/crush_observers.hpp"
+#include "rondo/study/out_of_range.hpp"
 #include "rondo/study/room.hpp"
 #include "rondo/study/run_files.hpp"
 
@@ -86,7 +87,8 @@ Loop run_loop(const Case& c, const CrushSetup& setup, statics::Condensation& bod
     const std::vector<Vec2> before = loop.state.u;
     const statics::CrushReport report = solve_increment(c.analysis, k, setup, body, loop.state);
     loop.add(report);
-    const std::string trouble = crush_trouble(report, loop.state.works, setup.model.bound);
+    std::string trouble = crush_trouble(report, loop.state.works, setup.model.bound);
+    if (trouble.empty()) trouble = beyond_files(setup, loop.state);
     if (!trouble.empty()) {
       loop.status = RunStatus::failed;
       loop.message =

@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "rondo/dynamics/stepper.hpp"
+#include "rondo/study/out_of_range.hpp"
 #include "rondo/study/run_files.hpp"
 
 namespace rondo::study {
@@ -58,8 +59,14 @@ std::string not_finite(const dynamics::State& state, const std::string& otherwis
   return found.empty() ? otherwise : found;
 }
 
+/// Largest values that are no trouble.
+struct Bounds {
+  double ledger = 0.0;         ///< relative residual
+  double strain_energy = 0.0;  ///< [J/m]
+};
+
 Trouble find_trouble(const dynamics::Balance& b, const ContactStatistics& contact,
-                     double ledger_bound) {
+                     const Bounds& bounds) {
   if (!std::isfinite(b.kinetic + b.strain) || !std::isfinite(b.residual))
     return {fmt::format("the energy is out of range (kinetic {:.3g}, strain {:.3g})", b.kinetic,
                         b.strain),
@@ -69,9 +76,14 @@ Trouble find_trouble(const dynamics::Balance& b, const ContactStatistics& contac
                         "otherwise ({:.6g} J/m): the scheme as printed has blown up",
                         b.works.scheme, b.otherwise),
             true};
-  if (b.relative > ledger_bound)
+  if (std::abs(b.strain) > bounds.strain_energy)
+    return {fmt::format("the strain energy, {:.3g} J/m, is that of strains above 100: the body has "
+                        "left what small strains mean",
+                        b.strain),
+            true};
+  if (b.relative > bounds.ledger)
     return {fmt::format("the energy ledger does not close: relative residual {:.3g}, bound {:.0e}",
-                        b.relative, ledger_bound),
+                        b.relative, bounds.ledger),
             true};
   if (!(contact.residual <= residual_bound))
     return {fmt::format("contact residual {:.3g}, bound {:.0e}", contact.residual, residual_bound),
@@ -81,11 +93,9 @@ Trouble find_trouble(const dynamics::Balance& b, const ContactStatistics& contac
 
 /// The message names the step that made the trouble: what a half step shows came from the step
 /// before.
-void judge(const Setup& setup, const dynamics::StepReport& step,
+void judge(const Setup& setup, const Bounds& bounds, const dynamics::StepReport& step,
            const dynamics::Integrator& integrator, Loop& loop) {
-  const double ledger_bound =
-      setup.model.free_bodies.empty() ? residual_bound : free_residual_bound;
-  Trouble trouble = find_trouble(step.balance, loop.contact, ledger_bound);
+  Trouble trouble = find_trouble(step.balance, loop.contact, bounds);
   if (trouble.what.empty()) return;
   if (trouble.not_finite) {
     dynamics::State now(setup.model);  // after the steps of this call
@@ -118,11 +128,13 @@ class Runner {
       : plan_(plan),
         setup_(setup),
         output_(output),
+        bounds_{setup.model.free_bodies.empty() ? residual_bound : free_residual_bound,
+                largest_strain_energy(setup)},
         reports_(steps_at_once(setup)),
         state_(start(setup.model, std::move(setup.displacement), std::move(setup.velocity))) {}
 
   Loop run() {
-    if (!plan_.from) output_.observe(state_);
+    if (!plan_.from) observe_state();
     make_integrator();
     const auto wall = Clock::now();
     const std::clock_t cpu = std::clock();
@@ -179,7 +191,7 @@ class Runner {
     }
     if (loop_.status == RunStatus::done && stopped && loop_.steps < setup_.n_steps)
       loop_.status = RunStatus::interrupted;
-    if (seen && state_.step == loop_.steps) output_.observe(state_);
+    if (seen && state_.step == loop_.steps) observe_state();
     output_.keep_up();
     if (plan_.options.progress) plan_.options.progress(loop_.steps, setup_.n_steps);
   }
@@ -188,8 +200,19 @@ class Runner {
     ++loop_.steps;
     loop_.contact.add(step.contact);
     loop_.balance = step.balance;
-    judge(setup_, step, *integrator_, loop_);
+    judge(setup_, bounds_, step, *integrator_, loop_);
     output_.observe(step, state);
+  }
+
+  /// A snapshot, if one is due and the files can hold it.
+  void observe_state() {
+    const std::string beyond =
+        state_.step == output_.next_snapshot() ? beyond_files(setup_, state_) : std::string();
+    if (beyond.empty()) return output_.observe(state_);
+    if (loop_.status == RunStatus::failed) return;  // and that is why
+    loop_.status = RunStatus::failed;
+    loop_.message = fmt::format("step {} of {}, t = {:.9g} s: {}", state_.step, setup_.n_steps,
+                                state_.frame.time, beyond);
   }
 
   void keep_difficult_contacts() {
@@ -223,6 +246,7 @@ class Runner {
 
   /// A state that has failed is no place to go on from.
   void finish() {
+    if (!last_ && !plan_.from) return;  // the start itself is out of range
     const std::vector<double> row =
         last_ ? output_.last_row(*last_, last_state_) : plan_.from->last_row;
     if (loop_.status != RunStatus::failed) save(row);
@@ -236,12 +260,13 @@ class Runner {
     dynamics::StepReport beyond;
     integrator_->advance({&beyond, 1});
     loop_.balance = beyond.balance;
-    judge(setup_, beyond, *integrator_, loop_);
+    judge(setup_, bounds_, beyond, *integrator_, loop_);
   }
 
   const LoopPlan& plan_;
   const Setup& setup_;
   RunOutput& output_;
+  const Bounds bounds_;
   std::vector<dynamics::StepReport> reports_;
   dynamics::State state_;
   std::unique_ptr<dynamics::Integrator> integrator_;
