@@ -2,10 +2,12 @@
 #include <fmt/format.h>
 #include <spdlog/sinks/stdout_color_sinks.h>
 #include <spdlog/spdlog.h>
+#include <sys/resource.h>
 
 #include <CLI/CLI.hpp>
 #include <csignal>
 #include <cstdio>
+#include <cstdlib>
 #include <exception>
 
 #include "commands.hpp"
@@ -177,9 +179,7 @@ int dispatch_command(CLI::App& program, int argc, char** argv) {
   return app::exit_input;
 }
 
-}  // namespace
-
-int main(int argc, char** argv) {
+int run_program(int argc, char** argv) {
   spdlog::set_default_logger(spdlog::stderr_color_st("rondo"));
   spdlog::set_pattern("rondo: %^%l%$: %v");
   CLI::App program{"rondo: explicit non-smooth dynamics of rolling bodies", "rondo"};
@@ -209,4 +209,22 @@ int main(int argc, char** argv) {
     spdlog::error("unexpected failure, a bug of rondo's: {}", error.what());
     return app::exit_numerical;
   }
+}
+
+/// Under a limit of memory OpenBLAS's threads may wait for their buffers for ever, and so would
+/// exit(), which joins them (OpenBLAS 0.3.21). All files are closed by then.
+[[noreturn]] void leave(int code) {
+  for (const auto resource : {RLIMIT_AS, RLIMIT_DATA}) {
+    rlimit limit{};
+    if (getrlimit(resource, &limit) != 0 || limit.rlim_cur == RLIM_INFINITY) continue;
+    std::fflush(nullptr);
+    std::_Exit(code);
+  }
+  std::exit(code);
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  leave(run_program(argc, argv));
 }

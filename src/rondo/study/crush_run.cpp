@@ -164,7 +164,7 @@ Loop record(const Case& c, const CrushSetup& setup, statics::Condensation& body,
     files.close();
     loop.snapshots = files.written();
     return loop;
-  } catch (const FileError& error) {
+  } catch (const std::exception& error) {  // of files, or out of memory
     note_failure(options, json, error);
     throw;
   }

@@ -41,23 +41,35 @@ MeshSize size_of(const mesh::Disk& disk) noexcept {
 
 namespace {
 
+constexpr std::size_t program_memory = 30'000'000;  ///< with its libraries
+
 bool set_up_by_harmonics(const Case& c, const MeshSize& mesh) noexcept {
   return mesh.sectors > 0 && !c.free_rim && c.analysis.kind == AnalysisKind::dynamic &&
          2 * (mesh.nodes - mesh.clamped) > harmonic_setup_dofs;
 }
 
 /// Of the assembled stiffness: 9 blocks of 2 x 2 doubles and an index for a node of a grid of
-/// quadrilaterals, held twice while they are assembled. Large disks go without.
+/// quadrilaterals, held twice while they are assembled.
+std::size_t assembled_bytes(std::size_t nodes) noexcept {
+  constexpr std::size_t blocks = 9;
+  return nodes * 2 * blocks * (4 * sizeof(double) + sizeof(int));
+}
+
+/// Nested dissection of a plane grid fills in about n log2 n; the factor is fitted to runs of 10⁴
+/// to 4·10⁵ dofs.
+std::size_t factor_bytes(double dofs) noexcept {
+  constexpr double bytes_per_entry = 60.0;
+  return static_cast<std::size_t>(bytes_per_entry * dofs * std::log2(dofs));
+}
+
+/// Large disks go without an assembled stiffness.
 std::size_t stiffness_memory(const Case& c, const MeshSize& mesh) noexcept {
   if (set_up_by_harmonics(c, mesh) && c.solver_operator != "sparse" && why_not_cyclic(c).empty())
     return 0;
-  constexpr std::size_t blocks = 9;
-  return mesh.nodes * 2 * blocks * (4 * sizeof(double) + sizeof(int));
+  return assembled_bytes(mesh.nodes);
 }
 
 /// Of the Cholesky factors for a crush, the stationary start and the check of spin softening.
-/// Nested dissection of a plane grid fills in about n log2 n; the factor is fitted to runs of 10⁴
-/// to 4·10⁵ dofs.
 std::size_t factor_memory(const Case& c, const MeshSize& mesh) noexcept {
   const bool harmonics = set_up_by_harmonics(c, mesh);
   const double dofs = 2.0 * static_cast<double>(harmonics ? mesh.nodes / mesh.sectors : mesh.nodes);
@@ -66,8 +78,7 @@ std::size_t factor_memory(const Case& c, const MeshSize& mesh) noexcept {
                        softening_is_checked(2 * mesh.nodes, of_a_sector);
   const bool crush = c.analysis.kind == AnalysisKind::crush;
   if (!checked && !crush && c.initial.state != InitialState::stationary) return 0;
-  constexpr double bytes_per_entry = 60.0;
-  return static_cast<std::size_t>(bytes_per_entry * dofs * std::log2(dofs));
+  return factor_bytes(dofs);
 }
 
 /// Of a crush: the fields of the 32 columns that are condensed at once (loads, solution and copies
@@ -106,10 +117,23 @@ bool softening_is_checked(std::size_t dofs, std::size_t harmonic_dofs) noexcept 
 std::size_t estimated_memory(const Case& c, const MeshSize& mesh) noexcept {
   // Mesh, model, state and what is written; weights and nodal values of the stress.
   const std::size_t fields = (c.output.stress ? 38 : 30) * sizeof(double);
-  constexpr std::size_t program = 30'000'000;  // with its libraries
-  return program + mesh.nodes * fields + stiffness_memory(c, mesh) +
+  return program_memory + mesh.nodes * fields + stiffness_memory(c, mesh) +
          mesh.cells * sizeof(mesh::Cell) + factor_memory(c, mesh) +
          compliance_memory(c, mesh.nodes) + queue_memory(c, mesh.nodes);
+}
+
+std::size_t estimated_modes_memory(const MeshSize& mesh, std::size_t shapes,
+                                   std::size_t at_once) noexcept {
+  const std::size_t dofs = 2 * mesh.nodes;
+  // Mesh and masses; complex shapes, kept and as they are written.
+  std::size_t bytes = program_memory + mesh.nodes * 30 * sizeof(double) +
+                      (shapes + at_once) * mesh.nodes * 2 * sizeof(Vec2) +
+                      mesh.cells * sizeof(mesh::Cell);
+  if (mesh.sectors > 0) return bytes;  // those of one sector are small
+  bytes += assembled_bytes(mesh.nodes);
+  constexpr std::size_t spare = 50;  // vectors of the space beyond twice the modes
+  bytes += (2 * at_once + spare) * dofs * sizeof(double);
+  return bytes + factor_bytes(static_cast<double>(dofs));
 }
 
 std::optional<std::size_t> bytes_in(const std::string& text) {

@@ -34,6 +34,11 @@ MeshSize size_of(const mesh::Disk& disk) noexcept;
 /// Memory of a run at its largest, while K is assembled or factorised; an estimate [B].
 std::size_t estimated_memory(const Case& c, const MeshSize& mesh) noexcept;
 
+/// Memory of `rondo modes` at its largest; an estimate [B]. @param shapes modes of all spins
+/// @param at_once modes of one spin
+std::size_t estimated_modes_memory(const MeshSize& mesh, std::size_t shapes,
+                                   std::size_t at_once) noexcept;
+
 /// 2.5e9 for "2.5GB"; B, kB, MB, GB, TB, or KiB, MiB, GiB, TiB; none where `text` is not that.
 std::optional<std::size_t> bytes_in(const std::string& text);
 

@@ -51,10 +51,15 @@ std::array<std::size_t, 2> mapped_memory() {
   return {pages[0] * bytes, pages[5] * bytes};
 }
 
+/// What libraries will map besides, used or not: a buffer of OpenBLAS, 128 MiB, without which it
+/// waits for ever; the heap of the thread that writes, 128 MiB at its making; stacks of threads.
+constexpr std::size_t mapped_by_libraries = 320'000'000;
+
 std::size_t left_of(__rlimit_resource resource, std::size_t mapped) {
   rlimit limit{};
   if (getrlimit(resource, &limit) != 0 || limit.rlim_cur == RLIM_INFINITY) return no_limit;
-  return limit.rlim_cur > mapped ? limit.rlim_cur - mapped : 0;
+  const std::size_t taken = mapped + mapped_by_libraries;
+  return limit.rlim_cur > taken ? limit.rlim_cur - taken : 0;
 }
 
 std::string text_of(const fs::path& file) {

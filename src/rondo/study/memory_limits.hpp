@@ -13,8 +13,8 @@ struct AllowedMemory {
   std::string source = "nothing limits it to";  ///< as in "this machine has", before the bytes
 };
 
-/// The least of what limits this process now. What a process has mapped already counts against
-/// ulimit's limits, and is taken off them.
+/// The least of what limits this process now. What a process has mapped already, and what its
+/// libraries will map, counts against ulimit's limits, and is taken off them.
 AllowedMemory allowed_memory();
 
 /// Physical memory of this machine [B]; 0: unknown.

@@ -16,6 +16,7 @@
 #include "rondo/study/build.hpp"
 #include "rondo/study/modes_output.hpp"
 #include "rondo/study/pod_input.hpp"
+#include "rondo/study/room.hpp"
 
 namespace rondo::study {
 namespace {
@@ -265,6 +266,10 @@ ModesReport run_modes(const Case& c, const ModesRequest& request) {
   const std::vector<double> sweep = sweep_spins(request);
   check_spins(c, body, request.spins.empty() ? "motion.angular_velocity" : "--spin", spins);
   check_spins(c, body, "--spins", sweep);
+  demand_memory(c, body.mesh,
+                estimated_modes_memory(size_of(body.mesh),
+                                       spins.size() * static_cast<std::size_t>(request.count),
+                                       static_cast<std::size_t>(request.count)));
   const io::DirectoryLock lock = take_modes_directory(c, request.directory, request.overwrite);
 
   ModesReport r;

@@ -9,6 +9,7 @@
 
 #include "rondo/io/files.hpp"
 #include "rondo/study/estimate.hpp"
+#include "rondo/study/memory_limits.hpp"
 #include "rondo/study/pod_input.hpp"
 #include "rondo/study/pod_output.hpp"
 #include "rondo/study/pod_report.hpp"
@@ -49,6 +50,13 @@ void say_plan(const PodRequest& request, const reduction::DecomposePlan& plan, I
                     "and {:.2g} s",
                     rows, columns, readable_bytes(bytes), name_of(plan.method),
                     readable_bytes(plan.memory), plan.flops / measured_speed()));
+  const AllowedMemory allowed = allowed_memory();
+  if (plan.memory > allowed.bytes)
+    throw request_error(
+        "--memory", request.memory,
+        fmt::format("about {} are needed at least, and {} {}", readable_bytes(plan.memory),
+                    allowed.source, readable_bytes(allowed.bytes)),
+        "fewer snapshots (--from, --to), --method incremental with fewer --modes");
   if (request.warn && plan.memory > memory_of(request))
     request.warn(fmt::format("{} are not enough: about {} will be used (--memory)",
                              readable_bytes(memory_of(request)), readable_bytes(plan.memory)));

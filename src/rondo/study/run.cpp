@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <new>
 #include <optional>
 #include <vector>
 
@@ -117,33 +118,32 @@ struct Run {
   [[nodiscard]] const Checkpoint* checkpoint() const { return from ? &*from : nullptr; }
 };
 
-/// The loop with its output.
-Loop loop_and_close(const Run& run, Setup& setup, long long& saved_step) {
-  RunOutput output({run.options.directory, run.c, setup, run.schedule}, run.checkpoint());
-  try {
-    Loop loop = run_loop({run.c, run.options, run.identity, run.checkpoint()}, setup, output);
-    output.close();
-    loop.snapshots = output.written();
-    loop.output = output.cost();
-    return loop;
-  } catch (const FileError&) {
-    saved_step = output.saved_step();
-    throw;
-  }
+/// What can be done after an error of files.
+std::string way_on(long long saved_step) {
+  return saved_step > 0 ? fmt::format("--resume goes on from step {}", saved_step)
+                        : "there is no checkpoint yet to go on from";
 }
 
-/// A file that cannot be written ends the run: run.json says so, where it can still be written
-/// itself.
+/// The loop with its output. A file that cannot be written ends the run: run.json says so, where
+/// it can still be written itself.
 Loop record(const Run& run, Setup& setup, const Json& json) {
-  long long saved_step = run.from ? run.from->state.step : 0;
+  std::optional<RunOutput> output;
   try {
-    return loop_and_close(run, setup, saved_step);
+    const RunOutput::Plan plan{run.options.directory, run.c, setup, run.schedule};
+    output.emplace(plan, run.checkpoint());
+    Loop loop = run_loop({run.c, run.options, run.identity, run.checkpoint()}, setup, *output);
+    output->close();
+    loop.snapshots = output->written();
+    loop.output = output->cost();
+    return loop;
   } catch (const FileError& error) {
-    const FileError whole(error, saved_step > 0
-                                     ? fmt::format("--resume goes on from step {}", saved_step)
-                                     : "there is no checkpoint yet to go on from");
+    const long long before = run.from ? run.from->state.step : 0;
+    const FileError whole(error, way_on(output ? output->saved_step() : before));
     note_failure(run.options, json, whole);
     throw whole;
+  } catch (const std::bad_alloc& error) {
+    note_failure(run.options, json, error);
+    throw;
   }
 }
 

@@ -7,6 +7,7 @@
 
 #include <array>
 #include <cstdint>
+#include <new>
 #include <system_error>
 
 #include "rondo/core/error.hpp"
@@ -133,7 +134,8 @@ void begin_files(const Case& c, const RunOptions& options, const Json& json) {
 
 void note_failure(const RunOptions& options, Json json, const std::exception& error) noexcept {
   json["status"] = "failed";
-  json["message"] = error.what();
+  const bool memory = dynamic_cast<const std::bad_alloc*>(&error) != nullptr;
+  json["message"] = memory ? "not enough memory" : error.what();
   io::overwrite_json(options.directory / "run.json", json);  // the disk may be full
 }
 

@@ -47,7 +47,8 @@ void begin_files(const Case& c, const RunOptions& options, const Json& json);
                                                      const std::filesystem::path& directory,
                                                      bool overwrite);
 
-/// After an error of files: run.json says so, where it can still be written itself.
+/// After an error of files, or where memory ran out: run.json says so, where it can still be
+/// written itself.
 void note_failure(const RunOptions& options, Json json, const std::exception& error) noexcept;
 
 /// Adds how the run ended, for run.json.

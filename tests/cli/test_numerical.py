@@ -1,0 +1,150 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Runs that leave stability or the range of the numbers: warned of, refused (2) or ended (3) with
+the reason. None is called done with NaN or infinities in its results."""
+import math
+import unittest
+
+import h5py
+import numpy as np
+
+from program import ProgramTest, ROOT, SMALL, history, replaced, run, summary
+
+SPIN = (ROOT / "cases" / "spin-up-undamped.toml").read_text()
+SPIN = replaced(replaced(SPIN, "radial", "radial = 4"), "circumferential", "circumferential = 60")
+THROWN = (ROOT / "cases" / "thrown-disk.toml").read_text()
+THROWN = replaced(replaced(THROWN, "radial", "radial = 2"), "circumferential",
+                  "circumferential = 60")
+CRUSH = (ROOT / "cases" / "crush-smooth.toml").read_text()
+CRUSH = replaced(replaced(CRUSH, "radial", "radial = 3"), "circumferential", "circumferential = 60")
+
+# What (name, case, settings), exit code, fragments of the message.
+EXTREMES = [
+    ("velocity beyond doubles", SMALL, ["initial.velocity=[1e200,0]"], 3, ["velocity of node"]),
+    ("velocity beyond floats", SMALL, ["initial.velocity=[1e40,0]"], 3, ["velocity of node", "step 0"]),
+    ("a wild velocity", SMALL, ["initial.velocity=[1e20,0]"], 3, ["strain energy", "step "]),
+    ("a wild gradient", SMALL, ["initial.displacement_gradient=[[1e200,0],[0,0]]",
+                                "motion.height=10"], 3, ["displacement of node"]),
+    ("spin", SMALL, ["motion.angular_velocity=1e200"], 3, ["is not finite", "node"]),
+    ("pressure beyond doubles", SMALL, ["load.pressure[0].curve=tread",
+                                        "load.pressure[0].value=1e300"], 3, ["energy"]),
+    ("pressure", SMALL, ["load.pressure[0].curve=tread", "load.pressure[0].value=1e30"], 3,
+     ["strain energy"]),
+    ("far away", SMALL, ["motion.start_x=1e300"], 2, ["motion.start_x", "resolve"]),
+    ("fast", SMALL, ["motion.speed=1e308"], 2, ["motion.speed", "resolve"]),
+    ("high", SMALL, ["motion.height=[[0,0.31],[0.02,1e300]]"], 2, ["motion.height", "resolve"]),
+    ("a soft material", SMALL, ["material.youngs_modulus=1e-300"], 3, ["displacement of node"]),
+    ("a huge disk", SMALL, ["disk.outer_radius=3e200", "disk.inner_radius=1e200",
+                            "motion.height=4e200"], 2, ["disk.outer_radius", "range"]),
+    ("a tiny disk", SMALL, ["disk.outer_radius=3e-200", "disk.inner_radius=1e-200"], 2,
+     ["disk.outer_radius", "range"]),
+    ("thrown", THROWN, ["initial.velocity=[1e300,0]"], 2, ["initial.velocity", "resolve"]),
+    ("placed", THROWN, ["initial.position=[1e40,0.3]"], 2, ["initial.position", "resolve"]),
+    ("whirled", THROWN, ["initial.angular_velocity=1e6"], 2,
+     ["initial.angular_velocity", "rad in a step"]),
+    ("gravity", THROWN, ["motion.gravity=1e300"], 3, ["is not finite"]),
+    ("crush of a stiff disk", CRUSH, ["material.youngs_modulus=1e45"], 3, ["stress", "increment 1"]),
+    ("crush beyond doubles", CRUSH, ["material.youngs_modulus=1e300"], 3, ["range", "increment 1"]),
+    ("slide", CRUSH, ["analysis.slide=1e300", "analysis.slide_increments=3"], 3, ["increment"]),
+]
+
+
+def not_finite(folder):
+    """Names of what is NaN or infinite in the results of a run."""
+    found = []
+    with h5py.File(folder / "results.h5") as f:
+        f.visititems(lambda name, o: found.append(name) if isinstance(o, h5py.Dataset)
+                     and o.dtype.kind == "f" and not np.isfinite(o[...]).all() else None)
+    found += [name for name, column in history(folder).items() if not np.isfinite(column).all()]
+    return found
+
+
+class Extremes(ProgramTest):
+    def test_extremes(self):
+        for number, (what, text, settings, code, fragments) in enumerate(EXTREMES):
+            with self.subTest(what):
+                out = self.folder / f"out-{number}"
+                given = [word for s in settings for word in ("--set", s)]
+                done = run("run", self.case(text), "-o", out, "--quiet", *given)
+                self.assertEqual(done.returncode, code, done.stderr)
+                for fragment in fragments:
+                    self.assertIn(fragment, done.stderr)
+                self.assertEqual(out.exists(), code == 3)
+                if code == 3:
+                    s = summary(out)
+                    self.assertEqual(s["status"], "failed")
+                    self.assertIn(s["message"], done.stderr)
+                    with h5py.File(out / "results.h5") as f:  # it opens, and times are numbers
+                        self.assertTrue(np.isfinite(f["/frame/time"][...]).all())
+
+    def test_a_run_that_is_done_has_numbers_only(self):
+        for text in (SMALL, replaced(THROWN, "end", "end = 0.02"), CRUSH):
+            out = self.folder / "out"
+            done = run("run", self.case(text), "-o", out, "--quiet", "--overwrite")
+            self.assertEqual(done.returncode, 0, done.stderr)
+            self.assertEqual(not_finite(out), [])
+
+
+class Stability(ProgramTest):
+    def said(self, text, *settings):
+        """What `rondo check` warns of."""
+        done = run("check", self.case(text), *[w for s in settings for w in ("--set", s)])
+        self.assertEqual(done.returncode, 0, done.stderr)
+        return done.stderr
+
+    def test_beyond_the_softening_limit(self):
+        """The lowest frequency of the mesh is 476.1 rad/s (docs/reliability.md)."""
+        self.assertEqual(self.said(SPIN, "motion.angular_velocity=237"), "")
+        soft = self.said(SPIN, "motion.angular_velocity=300")
+        self.assertIn("more than a quarter", soft)
+        self.assertNotIn("beyond", soft)
+        beyond = self.said(SPIN, "motion.angular_velocity=500")
+        for fragment in ("500 rad/s", "beyond the softening limit", "exit code 3", "stress_stiffening"):
+            self.assertIn(fragment, beyond)
+        low, high = (float(word) for word in
+                     beyond.split("at rest is ")[1].split(" rad/s")[0].split(" to "))
+        self.assertLessEqual(low, 476.2)
+        self.assertGreaterEqual(high, 476.0)
+        self.assertLess(high - low, 5.0)
+        # A table that comes there later; one that would after the end of the run.
+        table = "motion.angular_velocity=[[0,0],[1,600]]"
+        self.assertIn("600 rad/s", self.said(SPIN, table, "time.end=1"))
+        self.assertNotIn("beyond", self.said(SPIN, table, "time.end=0.7"))
+        self.assertEqual(self.said(SPIN, "motion.angular_velocity=500",
+                                   "material.stress_stiffening=centrifugal"), "")
+
+    def test_the_run_beyond_it_ends_by_itself(self):
+        out = self.folder / "out"
+        text = replaced(replaced(SPIN, "angular_velocity", "angular_velocity = 500.0"), "end",
+                        "end = 2.0")
+        done = run("run", self.case(text), "-o", out, "--quiet")
+        self.assertEqual(done.returncode, 3, done.stderr)
+        self.assertIn("strain energy", done.stderr)
+        self.assertEqual(not_finite(out), [])
+        self.assertLess(summary(out)["end_time"], 0.5)
+
+    def test_steps_near_the_critical_one_with_contact(self):
+        undamped = replaced(SMALL, "stiffness", "stiffness = 0.0")
+        self.assertIn("of the critical one", self.said(undamped, "time.safety=0.99"))
+        self.assertEqual(self.said(undamped, "time.safety=0.98"), "")
+        self.assertEqual(self.said(SMALL, "time.safety=0.99"), "")  # damped
+        self.assertEqual(self.said(SPIN, "time.safety=0.99"), "")  # no contact
+
+    def test_growth_of_the_scheme_as_printed(self):
+        said = self.said(SPIN, "time.scheme=as-printed", "time.end=20")
+        self.assertIn("creates energy", said)
+        rate = float(said.split("grow at up to ")[1].split()[0])
+        critical = 2.0 / float(said.split("waves of ")[1].split()[0])
+        self.assertTrue(math.isclose(rate, 50.0 * 0.8, rel_tol=1e-2), rate)  # s ω Δt/2 at 0.8
+        self.assertGreater(critical, 0.0)
+        self.assertEqual(self.said(SPIN, "time.scheme=as-printed"), "")
+        self.assertEqual(self.said(SPIN, "time.scheme=as-printed", "time.end=20",
+                                   "damping.mass=100"), "")
+
+    def test_contact_at_the_speed_of_waves(self):
+        fast = self.said(SMALL, "motion.speed=500", "motion.angular_velocity=1666")
+        self.assertIn("half its shortest edge", fast)
+        self.assertNotIn("half its shortest edge", self.said(SMALL, "motion.speed=50"))
+
+
+if __name__ == "__main__":
+    unittest.main()
