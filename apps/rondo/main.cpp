@@ -1,14 +1,18 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include <fcntl.h>
 #include <fmt/format.h>
 #include <spdlog/sinks/stdout_color_sinks.h>
 #include <spdlog/spdlog.h>
 #include <sys/resource.h>
+#include <unistd.h>
 
 #include <CLI/CLI.hpp>
+#include <cerrno>
 #include <csignal>
 #include <cstdio>
 #include <cstdlib>
 #include <exception>
+#include <system_error>
 
 #include "commands.hpp"
 #include "exit_codes.hpp"
@@ -179,7 +183,17 @@ int dispatch_command(CLI::App& program, int argc, char** argv) {
   return app::exit_input;
 }
 
+/// A standard stream that was closed from the start gets one that takes or gives nothing: its
+/// descriptor must not become that of a file of results, into which messages would then go. What
+/// is asked for on a closed stdout is still an error, as that one is for reading only.
+void open_standard_streams() {
+  for (const int descriptor : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO})
+    if (fcntl(descriptor, F_GETFD) < 0 && errno == EBADF)
+      static_cast<void>(open("/dev/null", descriptor == STDERR_FILENO ? O_WRONLY : O_RDONLY));
+}
+
 int run_program(int argc, char** argv) {
+  open_standard_streams();
   spdlog::set_default_logger(spdlog::stderr_color_st("rondo"));
   spdlog::set_pattern("rondo: %^%l%$: %v");
   CLI::App program{"rondo: explicit non-smooth dynamics of rolling bodies", "rondo"};
@@ -204,6 +218,9 @@ int run_program(int argc, char** argv) {
     return app::exit_files;
   } catch (const std::bad_alloc&) {
     spdlog::error("not enough memory");
+    return app::exit_files;
+  } catch (const std::system_error& error) {  // of printing: files have their FileError
+    spdlog::error("standard output: {}", error.what());
     return app::exit_files;
   } catch (const std::exception& error) {
     spdlog::error("unexpected failure, a bug of rondo's: {}", error.what());
