@@ -5,13 +5,11 @@ folder that is lost in mid-run ends it with exit code 4 and files that can be re
 A full disk is a small file system of its own (tmpfs) where this user may mount one, itself or in a
 name space of its own; else the limit of a file's size stands in for it. Which of them is said."""
 import os
-import pathlib
+import re
 import resource
 import shutil
-import signal
 import subprocess
 import sys
-import tempfile
 import time
 import unittest
 
@@ -36,6 +34,43 @@ def started(case, out, **options):
         time.sleep(0.01)
     process.kill()
     raise AssertionError("the run did not start: " + process.communicate()[1])
+
+
+def fill(file):
+    """Writes until there is no room."""
+    descriptor = os.open(file, os.O_WRONLY | os.O_CREAT, 0o600)
+    try:
+        while True:
+            os.write(descriptor, bytes(4096))
+    except OSError:
+        os.close(descriptor)
+
+
+class DiskTest(ProgramTest):
+    def assert_ended(self, process, name):
+        """Exit 4, one line that names the file or folder."""
+        said = process.communicate(timeout=120)[1]
+        self.assertEqual(process.returncode, 4, said)
+        self.assertEqual(len(said.splitlines()), 1, said)
+        self.assertIn(str(name), said)
+
+    def assert_readable(self, out):
+        s = summary(out)
+        self.assertEqual(s["status"], "failed")
+        with h5py.File(out / "results.h5") as f:
+            times = f["/frame/time"][...]
+            n = np.count_nonzero(~np.isnan(times))
+            self.assertGreater(n, 0)
+            self.assertTrue(np.isfinite(f["/snapshots/displacement"][:n]).all())
+        lines = (out / "history.csv").read_text().splitlines()
+        self.assertGreater(len(lines), 10)
+        self.assertEqual(len(lines[-2].split(",")), len(lines[0].split(",")))
+        # What the message says is kept.
+        until, snapshots = re.search(r"history\.csv to t = (\S+) s and (\d+) snapshots",
+                                     s["message"]).groups()
+        self.assertEqual(int(snapshots), n)
+        times = [line.split(",")[0] for line in lines[1:]]
+        self.assertTrue(any(abs(float(t) / float(until) - 1) < 1e-8 for t in times), until)
 
 
 class Memory(ProgramTest):
@@ -81,7 +116,7 @@ class Memory(ProgramTest):
         self.assertEqual(done.returncode, 0)
 
 
-class Disk(ProgramTest):
+class Disk(DiskTest):
     def test_check_tells_what_a_run_writes(self):
         for text in (SMALL, replaced(SMALL, "end", "end = 2.0"),
                      SMALL.replace("snapshots = 11", "snapshots = 0\nhistory_interval = 0")):
@@ -120,34 +155,12 @@ class Disk(ProgramTest):
             self.assertIn(fragment, done.stderr)
         self.assertFalse(out.exists())
 
-    def assert_ended(self, process, out, name=None):
-        """Exit 4, one line that names the file, and what there is can be read."""
-        said = process.communicate(timeout=120)[1]
-        self.assertEqual(process.returncode, 4, said)
-        self.assertEqual(len(said.splitlines()), 1, said)
-        if name:
-            self.assertIn(name, said)
-        return said
-
-    def assert_readable(self, out):
-        s = summary(out)
-        self.assertEqual(s["status"], "failed")
-        with h5py.File(out / "results.h5") as f:
-            times = f["/frame/time"][...]
-            n = np.count_nonzero(~np.isnan(times))
-            self.assertGreater(n, 0)
-            self.assertTrue(np.isfinite(f["/snapshots/displacement"][:n]).all())
-        lines = (out / "history.csv").read_text().splitlines()
-        self.assertGreater(len(lines), 10)
-        self.assertEqual(len(lines[-2].split(",")), len(lines[0].split(",")))
-
     def test_a_folder_that_is_removed(self):
         """Files of the run live on without a name; the end finds no folder for run.json."""
         out = self.folder / "out"
         process = started(self.case(replaced(LONG, "end", "end = 20.0")), out)
         shutil.rmtree(out)
-        said = self.assert_ended(process, out)
-        self.assertIn(str(out), said)
+        self.assert_ended(process, out)
         self.assertFalse(out.exists())
 
     def test_a_folder_that_may_not_be_written(self):
@@ -166,7 +179,7 @@ class Disk(ProgramTest):
             self.assertIn(place, done.stderr)
 
 
-class FullDisk(Disk):
+class FullDisk(DiskTest):
     """On a file system of 4 MB, most of which something else takes while the run goes on."""
     SIZE = 4 * 1024 * 1024
 
@@ -200,15 +213,8 @@ class FullDisk(Disk):
         out = place / "out"
         text = LONG.replace("snapshots = 200", "snapshots = 5\nhistory_interval = 0.25\nstress = false")
         process = started(self.case(text), out)
-        with open(place / "other", "wb") as other:
-            try:
-                while True:
-                    other.write(bytes(4096))
-                    other.flush()
-            except OSError:
-                pass
-        said = self.assert_ended(process, out)
-        self.assertIn(str(out), said)
+        fill(place / "other")
+        self.assert_ended(process, out)
         self.assert_readable(out)
         self.assertIn("space", summary(out)["message"])
         # The same case does not begin where there is no room for it.
@@ -228,7 +234,7 @@ class FullDisk(Disk):
         process = started(self.case(LONG), out)
         most = (out / "history.csv").stat().st_size + 20000
         resource.prlimit(process.pid, resource.RLIMIT_FSIZE, (most, most))
-        self.assert_ended(process, out, "history.csv")
+        self.assert_ended(process, "history.csv")
         self.assert_readable(out)
 
 

@@ -118,10 +118,13 @@ struct Run {
   [[nodiscard]] const Checkpoint* checkpoint() const { return from ? &*from : nullptr; }
 };
 
-/// What can be done after an error of files.
-std::string way_on(long long saved_step) {
-  return saved_step > 0 ? fmt::format("--resume goes on from step {}", saved_step)
-                        : "there is no checkpoint yet to go on from";
+/// What is left after an error of files, and what can be done.
+std::string what_is_kept(const Run& run, std::optional<RunOutput>& output) {
+  const std::string kept = output ? output->kept() : "what was there is kept";
+  const long long before = run.from ? run.from->state.step : 0;
+  const long long step = output ? output->saved_step() : before;
+  return step > 0 ? fmt::format("{}; --resume goes on from step {}", kept, step)
+                  : kept + "; there is no checkpoint yet to go on from";
 }
 
 /// The loop with its output. A file that cannot be written ends the run: run.json says so, where
@@ -137,8 +140,7 @@ Loop record(const Run& run, Setup& setup, const Json& json) {
     loop.output = output->cost();
     return loop;
   } catch (const FileError& error) {
-    const long long before = run.from ? run.from->state.step : 0;
-    const FileError whole(error, way_on(output ? output->saved_step() : before));
+    const FileError whole(error, what_is_kept(run, output));
     note_failure(run.options, json, whole);
     throw whole;
   } catch (const std::bad_alloc& error) {

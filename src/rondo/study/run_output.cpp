@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "rondo/study/run_output.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <limits>
 #include <utility>
@@ -62,6 +64,7 @@ RunOutput::RunOutput(const Plan& plan, const Checkpoint* from)
       schedule_(plan.schedule),
       next_(n_taken(schedule_, from)),
       history_(plan.c, plan.setup, from ? from->history : HistoryPlace{}),
+      n_columns_(static_cast<std::ptrdiff_t>(history_.columns().size())),
       numbers_at_once_(rows_at_once * history_.columns().size()),
       rows_(no_rows(numbers_at_once_)),
       saved_step_(from ? from->state.step : 0),
@@ -157,6 +160,7 @@ void RunOutput::push(const dynamics::State* state, std::optional<Checkpoint> che
 
 void RunOutput::write(Slot& slot) {
   history_csv_.rows(slot.rows);
+  if (!slot.rows.empty()) kept_until_ = *(slot.rows.end() - n_columns_);  // starts the last row
   if (slot.snapshot) snapshots_.write(slot.state);
   if (!slot.checkpoint) return;
   write(*slot.checkpoint);
@@ -183,6 +187,15 @@ void RunOutput::close() {
   history_csv_.close();
   snapshots_.close();
   drain_s_ = seconds_since(begin);
+}
+
+std::string RunOutput::kept() {
+  try {
+    close();
+  } catch (...) {  // what is asked about
+  }
+  return fmt::format("kept are history.csv to t = {:.9g} s and {} snapshots", kept_until_,
+                     snapshots_.written());
 }
 
 OutputCost RunOutput::cost() const {

@@ -9,6 +9,7 @@
 #include <filesystem>
 #include <optional>
 #include <span>
+#include <string>
 #include <vector>
 
 #include "rondo/dynamics/integrator.hpp"
@@ -84,6 +85,8 @@ class RunOutput {
   /// Writes everything and closes the files.
   void close();
 
+  /// What the files hold, in words, after a call has thrown: for the message. Closes them.
+  [[nodiscard]] std::string kept();
   /// Complete once closed.
   [[nodiscard]] OutputCost cost() const;
   /// Snapshots in the files. @pre closed.
@@ -109,11 +112,13 @@ class RunOutput {
   SnapshotSchedule schedule_;
   std::size_t next_ = 0;
   History history_;
+  std::ptrdiff_t n_columns_;     ///< of history.csv
   std::size_t numbers_at_once_;  ///< of some rows
   std::vector<double> rows_;     ///< not yet handed over
   Clock::time_point handed_over_ = Clock::now();
   double wait_s_ = 0.0, drain_s_ = 0.0;
   bool closed_ = false;
+  double kept_until_ = 0.0;  ///< time of the last row written [s]; the thread's
   std::atomic<bool> saving_{false};
   std::atomic<long long> saved_step_{0};
   // The thread's from its start to its end.

@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include "rondo/study/estimate.hpp"
+#include "rondo/study/memory_limits.hpp"
 #include "unit/study/case_fixture.hpp"
 
 namespace rondo::study {
@@ -139,7 +140,7 @@ TEST(WrongCases, MeshLargerThanTheMachine) {
   ASSERT_EQ(faults.size(), 1U);
   EXPECT_EQ(faults[0].key, "disk.mesh.circumferential");
   EXPECT_NE(faults[0].message.find("768 GB"), std::string::npos) << faults[0].text();
-  EXPECT_NE(faults[0].message.find(readable_bytes(physical_memory())), std::string::npos);
+  EXPECT_NE(faults[0].message.find(readable_bytes(allowed_memory().bytes)), std::string::npos);
   const auto deep =
       faults_of(with_line(7, "radial = 100000", with_line(8, "circumferential = 9999")));
   ASSERT_EQ(deep.size(), 1U);

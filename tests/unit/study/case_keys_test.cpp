@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include "rondo/study/estimate.hpp"
+#include "rondo/study/memory_limits.hpp"
 #include "unit/study/case_fixture.hpp"
 
 namespace rondo::study {
