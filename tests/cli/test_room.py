@@ -223,11 +223,19 @@ class FullDisk(DiskTest):
         self.assertEqual(done.returncode, 4, done.stderr)
         self.assertIn("disk full", done.stderr)
         self.assertFalse((place / "again").exists())
-        # --overwrite counts what it will remove.
-        text = SMALL.replace("snapshots = 11", "snapshots = 50\nstress = false")
+
+    def test_overwrite_counts_what_it_will_remove(self):
+        """More than half of the file system: it has room once."""
+        place = self.mounted()
+        if place is None:
+            self.skipTest("no file system may be mounted here")
+        text = replaced(SMALL, "radial", "radial = 6").replace("snapshots = 11", "snapshots = 75")
         for _ in range(2):
-            done = run("run", self.case(text), "-o", out, "--quiet", "--overwrite")
+            done = run("run", self.case(text), "-o", place / "out", "--quiet", "--overwrite")
             self.assertEqual(done.returncode, 0, done.stderr)
+        self.assertGreater((place / "out" / "results.h5").stat().st_size, 0.5 * self.SIZE)
+        done = run("run", self.case(text), "-o", place / "second", "--quiet")
+        self.assertEqual(done.returncode, 4, done.stderr)
 
     def by_a_limit(self):
         out = self.folder / "out"
