@@ -128,7 +128,7 @@ class Disk(DiskTest):
             written = sum(p.stat().st_size for p in out.iterdir())
             # A checkpoint is counted twice, and small files by what they take at the most.
             self.assertGreater(estimate, written)
-            self.assertLess(estimate, 2.0 * written + 0.6e6)
+            self.assertLess(estimate, 1.5 * written + 0.2e6)
 
     def test_too_little_is_refused(self):
         out = self.folder / "out"

@@ -20,7 +20,7 @@ namespace {
 
 constexpr std::size_t bytes_of_a_number = 21;        ///< in a CSV file, with its comma
 constexpr std::size_t bytes_of_a_field = 600;        ///< of a snapshot in fields.xdmf
-constexpr std::size_t small_files = 200'000;         ///< case.toml, run.json
+constexpr std::size_t small_files = 20'000;          ///< case.toml, run.json
 constexpr std::size_t numbers_of_a_checkpoint = 10;  ///< for each node
 constexpr std::size_t checkpoints = 2;               ///< the new one is written beside the old
 
