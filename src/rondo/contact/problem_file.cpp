@@ -3,7 +3,11 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
 #include <fstream>
+#include <limits>
 #include <nlohmann/json.hpp>
 
 #include "rondo/core/error.hpp"
@@ -39,8 +43,10 @@ std::string array_text(const char* name, const std::vector<T>& values) {
 void read_into(const json& j, double& x) {
   x = j.get<double>();
 }
+/// -1, which is no place and no count, for all that is no int >= 0: json would convert it.
 void read_into(const json& j, int& x) {
-  x = j.get<int>();
+  const auto whole = j.is_number_integer() ? j.get<std::int64_t>() : -1;
+  x = whole >= 0 && whole <= std::numeric_limits<int>::max() ? static_cast<int>(whole) : -1;
 }
 void read_into(const json& j, Vec2& v) {
   const auto pair = j.get<std::array<double, 2>>();
@@ -55,6 +61,35 @@ void read_array(const json& file, const char* name, std::vector<T>& out) {
   for (const json& entry : file.at(name)) read_into(entry, out.emplace_back());
 }
 
+/// Products of three of them stay in range.
+constexpr double largest = 1e80;
+
+bool in_range(double x) noexcept {
+  return std::abs(x) <= largest;
+}
+bool in_range(Vec2 v) noexcept {
+  return in_range(v.x) && in_range(v.y);
+}
+bool in_range(const Block& b) noexcept {
+  return std::ranges::all_of(b, [](double x) { return in_range(x); });
+}
+
+/// Empty where all numbers are what they can be, else what is not.
+std::string bad_number(const ProblemFile& f) {
+  const CoupledProblem& p = f.problem;
+  const auto all_in_range = [](const auto& values) {
+    return std::ranges::all_of(values, [](const auto& value) { return in_range(value); });
+  };
+  if (!all_in_range(p.free) || !all_in_range(p.bounce) || !all_in_range(p.friction) ||
+      !all_in_range(p.mass) || !all_in_range(p.blocks) || !all_in_range(f.start) ||
+      !all_in_range(f.impulse))
+    return fmt::format("a number is larger than {:.0e}", largest);
+  for (std::size_t j = 0; j < p.size(); ++j)
+    if (p.bounce[j] > 0.0 || p.friction[j] < 0.0)
+      return fmt::format("contact {}: bounce <= 0 and friction >= 0 do not hold", j);
+  return f.result.iterations < 0 ? "iterations is no count" : "";
+}
+
 /// Empty where the arrays fit together, else what does not.
 std::string misfit(const ProblemFile& f) {
   const CoupledProblem& p = f.problem;
@@ -66,6 +101,7 @@ std::string misfit(const ProblemFile& f) {
   if (p.row_start.size() != nc + 1 || p.row_start.front() != 0 ||
       p.row_start.back() != static_cast<int>(p.column.size()) || p.blocks.size() != p.column.size())
     return "row_start, column and blocks are not compressed rows of a matrix";
+  if (const std::string bad = bad_number(f); !bad.empty()) return bad;
   for (std::size_t j = 0; j < nc; ++j) {
     bool diagonal = false;
     if (p.row_start[j + 1] < p.row_start[j] || p.row_start[j + 1] > p.row_start[nc])
@@ -117,7 +153,7 @@ ProblemFile read_problem(const std::filesystem::path& path) {
       throw FileError(path.string(), fmt::format("format is {}, \"{}\" is read",
                                                  file.at("format").dump(), format_name));
     f.about = file.at("about").get<std::string>();
-    f.result.iterations = file.at("iterations").get<int>();
+    read_into(file.at("iterations"), f.result.iterations);
     f.result.residual = file.at("residual").get<double>();
     f.result.converged = file.at("converged").get<bool>();
     CoupledProblem& p = f.problem;

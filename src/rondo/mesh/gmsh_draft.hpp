@@ -50,6 +50,9 @@ struct MeshFile {
 /// Opens it and looks at its first lines. Throws.
 MeshFile inspect(const std::filesystem::path& file);
 
+/// All the steps below. Throws InputError.
+ReadMesh mesh_of(const RawMesh& raw, bool version_22, const MeshRequest& request);
+
 // Physical groups -----------------------------------------------------------------------------
 
 /// Groups of one dimension and one name.

@@ -15,21 +15,14 @@
 namespace rondo::mesh {
 namespace {
 
-/// The stream ended early, or says what no stream of the program says.
-struct BadStream {
-  bool ended = false;
-};
-
-/// Nothing is believed: a count is taken only if a file of this size can hold as many things.
 class Stream {
  public:
-  Stream(ReaderProgram& program, std::uint64_t file_bytes)
-      : program_(program), file_bytes_(file_bytes) {}
+  Stream(const ReadBytes& read, std::uint64_t file_bytes) : read_(read), file_bytes_(file_bytes) {}
 
   void get(void* data, std::size_t size) {
     auto* at = static_cast<char*>(data);
     while (size > 0) {
-      const std::size_t got = program_.read(at, size);
+      const std::size_t got = read_(at, size);
       if (got == 0) throw BadStream{.ended = true};
       at += got;
       size -= got;
@@ -68,7 +61,7 @@ class Stream {
  private:
   static constexpr std::uint64_t longest_text = 1U << 16;
 
-  ReaderProgram& program_;
+  const ReadBytes& read_;
   std::uint64_t file_bytes_;
 };
 
@@ -150,14 +143,22 @@ Fault fault_of(const std::filesystem::path& file, std::string message) {
 
 }  // namespace
 
+RawStream read_stream(const ReadBytes& read, std::uint64_t file_bytes) {
+  Stream stream(read, file_bytes);
+  if (stream.get<std::uint64_t>() != stream_start) throw BadStream{};
+  if (stream.get<std::uint32_t>() == static_cast<std::uint32_t>(StreamStatus::mesh))
+    return {read_mesh(stream), {}};
+  return {std::nullopt, stream.text()};
+}
+
 RawMesh read_raw_mesh(const std::filesystem::path& file, std::uint64_t file_bytes) {
   ReaderProgram program(find_reader_program(), file);
-  Stream stream(program, file_bytes);
   std::string why;
   try {
-    if (stream.get<std::uint64_t>() != stream_start) throw BadStream{};
-    if (stream.get<StreamStatus>() == StreamStatus::mesh) return read_mesh(stream);
-    why = stream.text();
+    RawStream stream = read_stream(
+        [&](void* data, std::size_t size) { return program.read(data, size); }, file_bytes);
+    if (stream.mesh) return std::move(*stream.mesh);
+    why = std::move(stream.why);
   } catch (const BadStream& bad) {
     const std::string end = bad.ended ? program.wait() : (program.kill(), std::string{});
     constexpr const char* not_loaded = "exit code 127";

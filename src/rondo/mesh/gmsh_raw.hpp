@@ -4,6 +4,8 @@
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
+#include <functional>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -49,6 +51,24 @@ struct RawMesh {
   std::vector<double> places;            ///< (n, 3) in the file's unit of length
   std::vector<RawBlock> blocks;
 };
+
+/// The stream of rondo-mesh-reader ended early, or says what no such stream says.
+struct BadStream {
+  bool ended = false;
+};
+
+/// A mesh, or why there is none.
+struct RawStream {
+  std::optional<RawMesh> mesh;
+  std::string why;
+};
+
+/// Up to `size` bytes into `data`; @return how many, 0: no more.
+using ReadBytes = std::function<std::size_t(void* data, std::size_t size)>;
+
+/// Reads what gmsh_stream.hpp describes. Nothing is believed: a count is taken only if a file of
+/// `file_bytes` can hold as many things. Throws BadStream.
+RawStream read_stream(const ReadBytes& read, std::uint64_t file_bytes);
 
 /// Starts rondo-mesh-reader on a file and reads what it writes. The program is the one named by the
 /// environment variable RONDO_MESH_READER, or the one beside the running program, or the installed

@@ -104,7 +104,10 @@ MeshFile inspect(const std::filesystem::path& file) {
 ReadMesh read_gmsh(const MeshRequest& request) {
   check_request(request);
   const MeshFile file = inspect(request.file);
-  const RawMesh raw = read_raw_mesh(request.file, file.bytes);
+  return mesh_of(read_raw_mesh(request.file, file.bytes), file.version_22, request);
+}
+
+ReadMesh mesh_of(const RawMesh& raw, bool version_22, const MeshRequest& request) {
   Findings findings{.file = request.file.string(), .faults = {}, .warnings = {}};
   pass_on(raw.warnings, findings);
   const std::vector<NamedGroup> groups = named_groups(raw);
@@ -119,7 +122,7 @@ ReadMesh read_gmsh(const MeshRequest& request) {
   const EdgeTable table(draft.mesh);
   check_joints(draft, table, findings);
   add_regions(raw, groups, draft, findings);
-  const CurveInput curves{raw, index, groups, table, request, file.version_22};
+  const CurveInput curves{raw, index, groups, table, request, version_22};
   add_curves(curves, draft, findings);
   findings.throw_if_faulty();
 

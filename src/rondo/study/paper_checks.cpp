@@ -299,6 +299,13 @@ void check_modes(Study& s) {
 std::vector<PaperRow> check_paper(const fs::path& directory, const PaperPlan& plan, bool quick) {
   Study study{directory, plan, quick, {}};
   check_spin_up(study);
+  const std::vector<PaperRow> rolling = check_rolling(directory, plan, quick);
+  study.rows.insert(study.rows.end(), rolling.begin(), rolling.end());
+  return std::move(study.rows);
+}
+
+std::vector<PaperRow> check_rolling(const fs::path& directory, const PaperPlan& plan, bool quick) {
+  Study study{directory, plan, quick, {}};
   check_regimes(study);
   check_friction(study);
   check_reducibility(study);

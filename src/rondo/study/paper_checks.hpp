@@ -16,4 +16,8 @@ namespace rondo::study {
 [[nodiscard]] std::vector<PaperRow> check_paper(const std::filesystem::path& directory,
                                                 const PaperPlan& plan, bool quick);
 
+/// The rows of figures 3 to 6 alone: from the files, with nothing solved again. @throws FileError
+[[nodiscard]] std::vector<PaperRow> check_rolling(const std::filesystem::path& directory,
+                                                  const PaperPlan& plan, bool quick);
+
 }  // namespace rondo::study

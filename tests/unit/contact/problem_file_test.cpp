@@ -113,6 +113,14 @@ TEST(ProblemFile, SaysWhatIsWrong) {
             std::string::npos);
   EXPECT_NE(message("\"friction\": [\n", "\"friction\": [\n    1e9,\n").find("friction"),
             std::string::npos);
+  // Found by fuzzing (docs/reliability.md): numbers that no contact has.
+  EXPECT_NE(message("\"bounce\": [\n    -0,", "\"bounce\": [\n    1,").find("bounce <= 0"),
+            std::string::npos);
+  EXPECT_NE(message("\"friction\": [\n    ", "\"friction\": [\n    -").find("friction >= 0"),
+            std::string::npos);
+  EXPECT_NE(message("\"mass\": [\n    ", "\"mass\": [\n    1e90").find("1e+80"), std::string::npos);
+  EXPECT_NE(message("\"row_start\": [\n    0,", "\"row_start\": [\n    1e300,").find("rows"),
+            std::string::npos);
   EXPECT_NE(message("]", "").find("is not a contact problem"), std::string::npos);
   EXPECT_THROW(static_cast<void>(read_problem(scratch("no such file"))), FileError);
   EXPECT_THROW(write_problem(scratch("no such folder") / "x.json", {}), FileError);

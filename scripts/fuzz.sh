@@ -1,0 +1,59 @@
+#!/usr/bin/env bash
+# Fuzzes what reads files (docs/reliability.md, Fuzzing): builds the libFuzzer targets with clang and
+# runs each on its corpus and on all that was found before, two at a time.
+#   bash scripts/fuzz.sh [SECONDS] [TARGET...]      30 s and all targets by default
+# SECONDS 0 only reads corpus and findings again. Exit code 1: a finding, whose file is named.
+set -euo pipefail
+cd "$(dirname "$0")/.."
+
+seconds=${1:-30}
+[ $# -eq 0 ] || shift
+targets=("$@")
+if [ ${#targets[@]} -eq 0 ]; then
+  for source in tests/fuzz/targets/*_fuzz.cpp; do
+    targets+=("$(basename "$source" _fuzz.cpp)")
+  done
+fi
+
+cmake --preset fuzz >/dev/null
+cmake --build build/fuzz --target "${targets[@]/%/_fuzz}" rondo-mesh-reader
+
+export ASAN_OPTIONS=detect_stack_use_after_return=0:allocator_may_return_null=0
+export RONDO_FUZZ_MESHES=$PWD/cases/meshes
+export OPENBLAS_NUM_THREADS=1 OMP_NUM_THREADS=1
+ASAN_SYMBOLIZER_PATH=$(command -v llvm-symbolizer-14 || command -v llvm-symbolizer || true)
+export ASAN_SYMBOLIZER_PATH
+
+run_one() {
+  local seconds=$1 target=$2 options=() outcome=0
+  local work=build/fuzz/work/$target
+  rm -rf "$work/tmp"
+  mkdir -p "$work/tmp" "$work/corpus" "$work/found"
+  case $target in
+    case | build) options=(-dict=tests/fuzz/case.dict -max_len=4096) ;;
+    results) options=(-max_len=30000 -detect_leaks=0) ;; # what HDF5 keeps of a damaged file is its own
+    paper) options=(-max_len=12000) ;;
+    *) options=(-max_len=8192) ;;
+  esac
+  if [ "$seconds" -gt 0 ]; then
+    options+=("-max_total_time=$seconds")
+  else
+    options+=(-runs=0)
+  fi
+  local corpora=("$work/corpus" "tests/fuzz/corpus/$target")
+  [ ! -d "tests/fuzz/findings/$target" ] || corpora+=("tests/fuzz/findings/$target")
+  TMPDIR=$PWD/$work/tmp "build/fuzz/${target}_fuzz" -timeout=25 -rss_limit_mb=2048 \
+    -print_final_stats=1 "-artifact_prefix=$work/found/" "${options[@]}" "${corpora[@]}" \
+    >"$work/log.txt" 2>&1 || outcome=$?
+  rm -rf "$work/tmp"
+  if [ "$outcome" -ne 0 ]; then
+    echo "fuzz: $target: FINDING; the end of $work/log.txt:"
+    tail -n 60 "$work/log.txt"
+    echo "fuzz: again: build/fuzz/${target}_fuzz $(sed -n 's/.*Test unit written to //p' "$work/log.txt")"
+    return 1
+  fi
+  echo "fuzz: $target: $(grep -E 'DONE|INITED' "$work/log.txt" | tail -n 1)"
+}
+export -f run_one
+printf '%s\n' "${targets[@]}" | xargs -P 2 -I{} bash -c 'run_one "$1" "$2"' run "$seconds" {}
+echo "fuzz: ${#targets[@]} targets, $seconds s each: nothing found"
