@@ -26,9 +26,9 @@ export ASAN_SYMBOLIZER_PATH
 
 run_one() {
   local seconds=$1 target=$2 options=() outcome=0
-  local work=build/fuzz/work/$target
-  rm -rf "$work/tmp"
-  mkdir -p "$work/tmp" "$work/corpus" "$work/found"
+  local work=build/fuzz/work/$target scratch
+  mkdir -p "$work/corpus" "$work/found"
+  scratch=$(mktemp -d -p /dev/shm 2>/dev/null || mktemp -d) # in memory: a file for each input
   case $target in
     case | build) options=(-dict=tests/fuzz/case.dict -max_len=4096) ;;
     results) options=(-max_len=30000 -detect_leaks=0) ;; # what HDF5 keeps of a damaged file is its own
@@ -42,10 +42,10 @@ run_one() {
   fi
   local corpora=("$work/corpus" "tests/fuzz/corpus/$target")
   [ ! -d "tests/fuzz/findings/$target" ] || corpora+=("tests/fuzz/findings/$target")
-  TMPDIR=$PWD/$work/tmp "build/fuzz/${target}_fuzz" -timeout=25 -rss_limit_mb=2048 \
+  TMPDIR=$scratch "build/fuzz/${target}_fuzz" -timeout=25 -rss_limit_mb=2048 \
     -print_final_stats=1 "-artifact_prefix=$work/found/" "${options[@]}" "${corpora[@]}" \
     >"$work/log.txt" 2>&1 || outcome=$?
-  rm -rf "$work/tmp"
+  rm -rf "$scratch"
   if [ "$outcome" -ne 0 ]; then
     echo "fuzz: $target: FINDING; the end of $work/log.txt:"
     tail -n 60 "$work/log.txt"

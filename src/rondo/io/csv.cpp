@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cerrno>
 #include <charconv>
 #include <cmath>
@@ -117,6 +118,19 @@ void add_row(std::string_view row, std::vector<std::vector<double>>& columns,
   }
 }
 
+/// Each name of its own: two columns of one name would be one.
+std::vector<std::string> names_in(const std::string& header, const std::filesystem::path& path) {
+  std::vector<std::string> names;
+  std::istringstream fields(header + ",");  // the end of the last field as well
+  for (std::string name; std::getline(fields, name, ',');) {
+    if (name.empty() || std::find(names.begin(), names.end(), name) != names.end())
+      throw FileError(path.string(), fmt::format("line 1: column {} has {}", names.size() + 1,
+                                                 name.empty() ? "no name" : "the name of another"));
+    names.push_back(name);
+  }
+  return names;
+}
+
 }  // namespace
 
 std::map<std::string, std::vector<double>, std::less<>> read_columns(
@@ -131,8 +145,7 @@ std::map<std::string, std::vector<double>, std::less<>> read_columns(
       add_row(line, columns, file, number);
       continue;
     }
-    std::istringstream header(line);
-    for (std::string name; std::getline(header, name, ',');) names.push_back(name);
+    names = names_in(line, file);
     columns.resize(names.size());
   }
   if (in.bad()) fail(file, "read");

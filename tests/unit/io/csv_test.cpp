@@ -134,6 +134,9 @@ TEST(ReadColumns, SaysWhatIsWrongAndWhere) {
   EXPECT_NE(error("a,b\n1\n").find("line 2: not 2 fields"), std::string::npos);
   EXPECT_NE(error("a,b\n1,2,3\n").find("line 2: not 2 fields"), std::string::npos);
   EXPECT_NE(error("").find("no header"), std::string::npos);
+  EXPECT_NE(error("a,,c\n").find("column 2 has no name"), std::string::npos);
+  EXPECT_NE(error("a,\n").find("column 2 has no name"), std::string::npos);
+  EXPECT_NE(error("a,b,a\n").find("column 3 has the name of another"), std::string::npos);
   EXPECT_NE(error_of<FileError>([&] { read_columns(folder / "none.csv"); }).find("No such file"),
             std::string::npos);
 }
