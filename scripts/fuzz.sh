@@ -18,7 +18,6 @@ fi
 cmake --preset fuzz >/dev/null
 cmake --build build/fuzz --target "${targets[@]/%/_fuzz}" rondo-mesh-reader
 
-export ASAN_OPTIONS=detect_stack_use_after_return=0:allocator_may_return_null=0
 export RONDO_FUZZ_MESHES=$PWD/cases/meshes
 export OPENBLAS_NUM_THREADS=1 OMP_NUM_THREADS=1
 ASAN_SYMBOLIZER_PATH=$(command -v llvm-symbolizer-14 || command -v llvm-symbolizer || true)
@@ -31,7 +30,8 @@ run_one() {
   scratch=$(mktemp -d -p /dev/shm 2>/dev/null || mktemp -d) # in memory: a file for each input
   case $target in
     case | build) options=(-dict=tests/fuzz/case.dict -max_len=4096) ;;
-    results) options=(-max_len=30000 -detect_leaks=0) ;; # what HDF5 keeps of a damaged file is its own
+    results) options=(-max_len=8192) ;;
+    results_bytes) options=(-max_len=30000 -fork=1 -ignore_timeouts=1 -ignore_ooms=1) ;;
     paper) options=(-max_len=12000) ;;
     *) options=(-max_len=8192) ;;
   esac
@@ -40,6 +40,9 @@ run_one() {
   else
     options+=(-runs=0)
   fi
+  case $target in # what HDF5 keeps of a damaged file is its own
+    results* | checkpoint*) export ASAN_OPTIONS=detect_leaks=0 ;;
+  esac
   local corpora=("$work/corpus" "tests/fuzz/corpus/$target")
   [ ! -d "tests/fuzz/findings/$target" ] || corpora+=("tests/fuzz/findings/$target")
   TMPDIR=$scratch "build/fuzz/${target}_fuzz" -timeout=25 -rss_limit_mb=2048 \
@@ -52,7 +55,7 @@ run_one() {
     echo "fuzz: again: build/fuzz/${target}_fuzz $(sed -n 's/.*Test unit written to //p' "$work/log.txt")"
     return 1
   fi
-  echo "fuzz: $target: $(grep -E 'DONE|INITED' "$work/log.txt" | tail -n 1)"
+  echo "fuzz: $target: $(grep -E 'cov: ' "$work/log.txt" | tail -n 1)"
 }
 export -f run_one
 printf '%s\n' "${targets[@]}" | xargs -P 2 -I{} bash -c 'run_one "$1" "$2"' run "$seconds" {}

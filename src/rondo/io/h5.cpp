@@ -105,7 +105,9 @@ bool write_text(hid_t object, const std::string& name, const std::string& text) 
 bool read_text(hid_t object, const std::string& name, std::string& text) {
   const Handle attribute(H5Aopen(object, name.c_str(), H5P_DEFAULT));
   if (attribute.get() < 0) return false;
-  const Handle type = text_type();
+  // As many pointers come back as the attribute has texts: there is room for one.
+  const Handle space(H5Aget_space(attribute.get())), type = text_type();
+  if (H5Sget_simple_extent_npoints(space.get()) != 1) return false;
   char* value = nullptr;
   if (H5Aread(attribute.get(), type.get(), static_cast<void*>(&value)) < 0) return false;
   if (value != nullptr) text = value;

@@ -5,6 +5,7 @@
 #include <toml++/toml.h>
 
 #include <algorithm>
+#include <array>
 #include <cerrno>
 #include <cstring>
 #include <fstream>
@@ -49,10 +50,13 @@ std::string read_text(const std::filesystem::path& file) {
   std::ifstream in(file, std::ios::binary);
   if (!in)
     throw InputError(file_fault(name, std::string("cannot be read: ") + std::strerror(errno)));
-  std::string text(largest_file + 1, '\0');
-  in.read(text.data(), static_cast<std::streamsize>(text.size()));
+  std::string text;
+  std::array<char, 65536> part{};
+  do {
+    in.read(part.data(), part.size());
+    text.append(part.data(), static_cast<std::size_t>(in.gcount()));
+  } while (in && text.size() <= largest_file);
   if (in.bad()) throw InputError(file_fault(name, "cannot be read"));
-  text.resize(static_cast<std::size_t>(in.gcount()));
   if (text.size() > largest_file)
     throw InputError(file_fault(name, "is longer than a case file may be", "at most 16 MB"));
   if (text.find_first_not_of(" \t\r\n") == std::string::npos)

@@ -72,12 +72,18 @@ double number(const Json& value) {
   return value.is_number() ? value.get<double>() : std::nan("");
 }
 
+/// Null where `json` is no object or has no such key.
+Json value_in(const Json& json, const char* key) {
+  return json.is_object() && json.contains(key) ? json[key] : Json();
+}
+
 /// The largest of a key of run.json over the runs whose name begins so; not a number without any.
 double largest(const Study& s, std::initializer_list<const char*> begins, const char* key) {
   double found = -std::numeric_limits<double>::infinity();
   for (const PaperRun& run : s.plan.runs)
     for (const char* begin : begins)
-      if (run.name.starts_with(begin)) found = keep_larger(found, number(s.summary(run.name)[key]));
+      if (run.name.starts_with(begin))
+        found = keep_larger(found, number(value_in(s.summary(run.name), key)));
   return std::isinf(found) ? std::nan("") : found;
 }
 
@@ -222,7 +228,7 @@ void check_friction(Study& s) {
 constexpr std::array<const char*, 3> shares{"1e-02", "1e-04", "1e-06"};
 
 double count(const Study& s, const std::string& run, const std::string& name, const char* share) {
-  return number(s.pod(run, name)["modes_for"][share]);
+  return number(value_in(value_in(s.pod(run, name), "modes_for"), share));
 }
 
 /// Numbers of modes of an independent code: ± 1 below ten, ± 10 % above.
@@ -276,8 +282,9 @@ void check_modes(Study& s) {
   double orthonormality = 0.0, difference = 0.0;
   for (const PaperPod& pod : s.plan.pods) {
     const Json found = s.pod(pod.run, pod.field + "-" + pod.frame);
-    orthonormality = keep_larger(orthonormality, number(found["orthonormality"]));
-    difference = keep_larger(difference, number(found["error_identity"]["difference"]));
+    orthonormality = keep_larger(orthonormality, number(value_in(found, "orthonormality")));
+    difference =
+        keep_larger(difference, number(value_in(value_in(found, "error_identity"), "difference")));
   }
   for (const std::string body : {"smooth", "treaded"}) {
     const fs::path file = s.path("turn-" + body) / "pod" / "velocity-rotating" / "spectrum.csv";

@@ -34,12 +34,15 @@ bool is_of_this_program(const Json& j) {
   return !own.empty() && text_in(j, "build_id") == own;
 }
 
+/// -1 where it has no such number.
+double number_in(const Json& j, const char* key) {
+  return j.is_object() && j.contains(key) && j[key].is_number() ? j[key].get<double>() : -1.0;
+}
+
 /// The files hold what run.json says, as far as their ends and heads tell. @throws FileError,
 /// InputError: they cannot be read
 bool is_whole(const fs::path& directory, const Json& j) {
-  const auto number = [&](const char* key) {
-    return j.contains(key) && j[key].is_number() ? j[key].get<double>() : -1.0;
-  };
+  const auto number = [&](const char* key) { return number_in(j, key); };
   const Columns history = io::read_columns(directory / "history.csv");
   const std::vector<double>& time = column(history, "time_s", directory / "history.csv");
   if (text_in(j, "analysis") == "crush") {
@@ -85,13 +88,13 @@ JobOutcome outcome_of(const fs::path& directory) {
 
 /// What a POD of the study has by default, and of all snapshots of its run.
 bool is_asked_for(const Json& j, const PaperPod& pod, const Json& run) {
-  const long long modes = j.value("modes_kept", 0LL);
+  const double modes = number_in(j, "modes_kept"), snapshots = number_in(j, "snapshots");
   return text_in(j, "status") == "done" && text_in(j, "field") == pod.field &&
          text_in(j, "frame") == pod.frame &&
          text_in(j, "weight") == (pod.field == "contact" ? "delassus" : "mass") &&
-         text_in(j, "shift") == (pod.frame == "rectified" ? "fourier" : "") &&
-         j.value("snapshots", 0LL) == run.value("snapshots", -1LL) &&
-         (modes == paper_modes || modes == j.value("rank", 0LL));
+         text_in(j, "shift") == (pod.frame == "rectified" ? "fourier" : "") && snapshots >= 0.0 &&
+         snapshots == number_in(run, "snapshots") &&
+         (modes == paper_modes || (modes >= 0.0 && modes == number_in(j, "rank")));
 }
 
 bool pod_is_there(const fs::path& run, const PaperPod& pod) {

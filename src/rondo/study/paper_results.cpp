@@ -61,6 +61,9 @@ Intervals intervals(const Columns& history, std::string_view name, double from,
   Intervals found;
   double before = 0.0;
   for (std::size_t k = 0; k < time.size(); before = time[k++]) {
+    if (!std::isfinite(time[k]) || time[k] < 0.0 || (k > 0 && time[k] <= before))
+      throw FileError(file.string(), fmt::format("time_s is {} in row {}, after {}: damaged",
+                                                 time[k], k + 1, before));
     if (before < from) continue;
     found.middle.push_back(0.5 * (before + time[k]));
     found.length.push_back(time[k] - before);
@@ -105,8 +108,9 @@ double highest_line(const Intervals& f) {
     return best;
   };
   // A line is about 4 / span wide: steps of a quarter of 1 / span cannot miss it.
-  const double resolution = 1.0 / total(f.length), fine = 0.1;
+  const double resolution = 1.0 / total(f.length), fine = std::max(0.1, 1e-3 * resolution);
   const double nyquist = 0.5 * static_cast<double>(f.value.size()) * resolution;
+  if (!std::isfinite(nyquist)) return nyquist;  // rows at no distance in time
   const double near = best_of(4.0 * resolution, nyquist, 0.25 * resolution);
   return best_of(near - 0.25 * resolution, near + 0.25 * resolution, fine);
 }
@@ -122,6 +126,8 @@ Vec2 edge_displacement(const mesh::Mesh& mesh, std::span<const Vec2> u) {
 }
 
 EdgeMotion edge_motion(const io::RunReader& run) {
+  if (run.n_snapshots() == 0)
+    throw FileError(run.directory().string(), "holds no snapshot of the displacement");
   EdgeMotion edge;
   edge.time = run.times().time;
   std::vector<Vec2> u(run.n_points(io::Quantity::displacement));
@@ -145,6 +151,8 @@ double swing(const EdgeMotion& edge, double from, double to) {
 }
 
 double outside_cone(const io::RunReader& run, double friction) {
+  if (!run.has(io::Quantity::contact))
+    throw FileError(run.directory().string(), "holds no contact forces");
   std::vector<Vec2> force(run.n_points(io::Quantity::contact));
   double outside = -std::numeric_limits<double>::infinity(), largest = 0.0;
   for (std::size_t j = 0; j < run.n_snapshots(); ++j) {

@@ -33,7 +33,7 @@ struct Intervals {
 };
 
 /// The rows whose interval begins at `from` or later. @throws FileError naming `file`: no such
-/// column or no such rows
+/// column, no such rows, or times that do not rise
 [[nodiscard]] Intervals intervals(const Columns& history, std::string_view name, double from,
                                   const std::filesystem::path& file);
 
@@ -45,7 +45,7 @@ struct Intervals {
 /// whose gain is undone.
 [[nodiscard]] double line(const Intervals& f, double frequency);
 /// The frequency with the largest line, from four periods in the time of f up to the half of a row
-/// a period, to a tenth of a hertz [Hz].
+/// a period, to a tenth of a hertz, or to a thousandth of 1 / time where that is more [Hz].
 [[nodiscard]] double highest_line(const Intervals& f);
 
 /// Displacement of the outer edge, mean over the candidates, at each snapshot.
@@ -57,12 +57,13 @@ struct EdgeMotion {
 
 /// Radial and tangential (counter-clockwise) displacement of the edge, mean over the candidates [m]
 [[nodiscard]] Vec2 edge_displacement(const mesh::Mesh& mesh, std::span<const Vec2> u);
+/// @throws FileError: no snapshots
 [[nodiscard]] EdgeMotion edge_motion(const io::RunReader& run);
 /// Largest minus smallest radial displacement over the snapshots with from <= time <= to [m]
 [[nodiscard]] double swing(const EdgeMotion& edge, double from, double to);
 
 /// Largest |tangential| - μ · normal of all contact forces of all snapshots, over the largest
-/// normal one; not a number where there is no force.
+/// normal one; not a number where there is no force. @throws FileError: no contact in the results
 [[nodiscard]] double outside_cone(const io::RunReader& run, double friction);
 
 }  // namespace rondo::study

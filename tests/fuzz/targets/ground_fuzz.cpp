@@ -55,7 +55,9 @@ void check_place(const contact::Ground& ground, Vec2 x) {
   }
   fuzz::check(touches.count < 2 || touches.at[0].gap <= touches.at[1].gap,
               "touches that are not in order");
-  fuzz::check((touches.count == 0) == (distance > 0.0), "touches without a distance below 0");
+  // On the surface itself round-off may leave the place on either side.
+  fuzz::check(touches.count == 0 ? distance >= 0.0 : distance <= 0.0,
+              "touches and distance do not agree");
 }
 
 }  // namespace

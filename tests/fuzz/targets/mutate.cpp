@@ -229,4 +229,23 @@ std::size_t mutate_patches(std::uint8_t* data, std::size_t size, std::size_t max
   return LLVMFuzzerMutate(data, size, max);
 }
 
+std::size_t mutate_records(std::uint8_t* data, std::size_t size, std::size_t max, unsigned seed,
+                           std::size_t width) {
+  Random random(seed);
+  const std::size_t n = size / width, number = width - sizeof(double);
+  size = n * width;
+  if (n > 0 && random() % 4 == 0) {  // the last one takes the place of another
+    std::memmove(data + below(random, n) * width, data + size - width, width);
+    return size - width;
+  }
+  const bool more = n == 0 || random() % 2 == 0;
+  if (more && size + width > max) return size;
+  std::uint8_t* record = data + (more ? n : below(random, n)) * width;
+  for (std::size_t k = 0; k < number; ++k)
+    if (more || random() % 2 == 0) record[k] = static_cast<std::uint8_t>(random());
+  random() % 2 == 0 ? put_real(record + number, sizeof(double), random)
+                    : put_integer(record + number, sizeof(double), random);
+  return more ? size + width : size;
+}
+
 }  // namespace rondo::fuzz

@@ -24,4 +24,9 @@ std::string patched(std::string_view base, std::string_view patches);
 std::size_t mutate_patches(std::uint8_t* data, std::size_t size, std::size_t max, unsigned seed,
                            std::string_view base);
 
+/// A list of records of `width` bytes, of which the last 8 are a number: one of them changes, comes
+/// or goes.
+std::size_t mutate_records(std::uint8_t* data, std::size_t size, std::size_t max, unsigned seed,
+                           std::size_t width);
+
 }  // namespace rondo::fuzz

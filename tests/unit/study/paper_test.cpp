@@ -6,6 +6,7 @@
 #include <cmath>
 #include <fstream>
 #include <iterator>
+#include <limits>
 #include <numbers>
 #include <set>
 
@@ -112,6 +113,27 @@ TEST(PaperResults, MissingColumnsAndTimesAreNamed) {
   EXPECT_NE(message("y", 1.0).find("no rows after 1 s"), std::string::npos);
   const Columns empty{{"y", {}}};
   EXPECT_THROW(static_cast<void>(column(empty, "y", "h.csv")), FileError);
+}
+
+/// Found by fuzzing: the search of the highest line went on for ever.
+TEST(PaperResults, TimesThatDoNotRiseAreRefused) {
+  const double nan = std::nan(""), infinity = std::numeric_limits<double>::infinity();
+  for (const std::vector<double>& time : {std::vector{0.1, 0.3, 0.2},
+                                          {0.1, 0.1, 0.2},
+                                          {-0.1, 0.1, 0.2},
+                                          {0.1, nan, 0.2},
+                                          {0.1, 0.2, infinity}}) {
+    const Columns h{{"time_s", time}, {"y", {1.0, 2.0, 3.0}}};
+    EXPECT_THROW(static_cast<void>(intervals(h, "y", 0.0, "h.csv")), FileError) << time[1];
+  }
+}
+
+TEST(PaperResults, TheHighestLineIsFoundInTimesOfAnyLength) {
+  const auto highest = [](double length) {
+    return highest_line({{0.5 * length, 1.5 * length}, {length, length}, {1.0, 2.0}});
+  };
+  EXPECT_GE(highest(1e-6), 0.0);  // tenths of a hertz up to a gigahertz would take minutes
+  EXPECT_TRUE(std::isinf(highest(1e-310)));
 }
 
 TEST(PaperResults, ALineHasTheHeightAndFrequencyOfItsHarmonic) {
