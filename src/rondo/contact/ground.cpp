@@ -25,6 +25,8 @@ double turn_at(const std::vector<Vec2>& p, std::size_t i) {
   return std::atan2(cross(a, b), dot(a, b));
 }
 
+constexpr double farthest = 1e100;  ///< of points and radii: their products are in range [m]
+
 /// Length that the fillet at point i takes from each of the segments beside it.
 double fillet_reach(const GroundShape& shape, std::size_t i) {
   if (i == 0 || i + 1 == shape.profile.size()) return 0.0;
@@ -34,6 +36,11 @@ double fillet_reach(const GroundShape& shape, std::size_t i) {
 
 std::vector<ShapeFault> point_faults(const std::vector<Vec2>& p) {
   std::vector<ShapeFault> faults;
+  for (std::size_t i = 0; i < p.size(); ++i)
+    if (!(std::abs(p[i].x) <= farthest && std::abs(p[i].y) <= farthest))
+      faults.push_back({static_cast<int>(i), false,
+                        fmt::format("lies farther than {:.0e} m from the origin", farthest)});
+  if (!faults.empty()) return faults;
   for (std::size_t i = 0; i + 1 < p.size(); ++i) {
     const int point = static_cast<int>(i) + 1;
     if (p[i] == p[i + 1])
@@ -54,6 +61,8 @@ std::vector<ShapeFault> fillet_faults(const GroundShape& shape) {
   std::vector<ShapeFault> faults;
   const auto& p = shape.profile;
   if (!(shape.fillet >= 0.0)) return {{-1, true, "must be >= 0"}};
+  if (!(shape.fillet <= farthest))
+    return {{-1, true, fmt::format("must be at most {:.0e} m", farthest)}};
   // The end segments go on for ever, so a fillet always fits beside its outer end.
   for (std::size_t i = 1; i + 2 < p.size(); ++i) {
     const double length = norm(p[i + 1] - p[i]);

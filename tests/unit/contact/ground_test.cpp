@@ -175,6 +175,9 @@ TEST(Ground, FaultsAreNamed) {
   EXPECT_NE(first({.profile = {{0, 0}, {0, 0}}}).find("coincides"), std::string::npos);
   EXPECT_NE(first({.profile = {{0, 0}, {-1, 0}}}).find("left"), std::string::npos);
   EXPECT_NE(first({.profile = {{0, 0}, {0, 1}, {0, 0.5}}}).find("turns back"), std::string::npos);
+  // Found by fuzzing: the length between two points was not finite, nor any distance.
+  EXPECT_NE(first({.profile = {{-1.7e308, 0}, {1.7e308, 0}}}).find("origin"), std::string::npos);
+  EXPECT_NE(first({.profile = ledge.profile, .fillet = 1e300}).find("at most"), std::string::npos);
   EXPECT_EQ(first({.profile = ledge.profile, .fillet = 0.0}), "none");  // sharp
   EXPECT_NE(first({.profile = ledge.profile, .fillet = -0.1}).find(">= 0"), std::string::npos);
   EXPECT_NE(first({.profile = ledge.profile, .fillet = 0.11}).find("does not fit"),

@@ -376,6 +376,7 @@ TEST(RunReader, WhatDoesNotFitIsNamed) {
   expect("/mesh has node 3 at a place that is not",
          [](Hand& h) { h.run.mesh.coordinates[3].y = nan; });
   expect("/mesh has node 2 with the mass 0", [](Hand& h) { h.run.mass[2] = 0.0; });
+  expect("/mesh has node 2 with the mass 1e-320", [](Hand& h) { h.run.mass[2] = 1e-320; });
   expect("/mesh has 24 nodes in 9 sectors", [](Hand& h) { h.run.mesh.sector[4] = 8; });
   expect("/mesh has node 4 at place", [](Hand& h) { h.run.mesh.sector[4] = 0; });
   expect("/mesh has node 4 at place 3 of", [](Hand& h) { h.run.mesh.sector_node[4] = 3; });

@@ -166,6 +166,22 @@ TEST(Build, MassDampingShortensTheStepOfTheSchemeAsPrinted) {
   }
 }
 
+/// Found by fuzzing: on a very soft body the rim turned several times in a step, and the contact
+/// law had no solution. At a step of φ = 2 atan(1/μ) its normal and tangential terms balance.
+TEST(Build, ATurnTooWideForTheContactLawIsRefused) {
+  Case c = spinning(2, 24, 60.0);
+  c.initial.state = InitialState::rest;
+  c.motion.height = dynamics::Table(1.0);
+  c.ground.emplace().friction = 100.0;  // less than 0.02 rad a step
+  const double dt = build(c, 1).model.dt, limit = 2.0 * std::atan(1.0 / 100.0);
+  c.motion.angular_velocity = dynamics::Table(0.999 * limit / dt);
+  EXPECT_NO_THROW(static_cast<void>(build(c, 1)));
+  c.motion.angular_velocity = dynamics::Table(1.001 * limit / dt);
+  EXPECT_THROW(static_cast<void>(build(c, 1)), InputError);
+  c.ground.reset();
+  EXPECT_NO_THROW(static_cast<void>(build(c, 1)));
+}
+
 TEST(Build, SofteningIsCheckedWhereOneFactorIsSmall) {
   EXPECT_TRUE(softening_is_checked(500000, 0));
   EXPECT_FALSE(softening_is_checked(500001, 0));
