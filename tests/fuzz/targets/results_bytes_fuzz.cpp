@@ -1,16 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// The bytes of results.h5, which the HDF5 library reads first. Input: "P" and patches (mutate.hpp)
-/// of the results.h5 of a small run, or the bytes of such a file. A fault within the library is
-/// known and none of ours (docs/reliability.md): it ends this process, and nothing is said; so the
-/// target runs as jobs of libFuzzer (-fork).
-#include <dlfcn.h>
-#include <execinfo.h>
-#include <unistd.h>
-
-#include <array>
-#include <cstring>
-
+/// of the results.h5 of a small run, or the bytes of such a file. Faults within the library end the
+/// process (hdf5_faults.hpp).
 #include "fuzz.hpp"
+#include "hdf5_faults.hpp"
 #include "mutate.hpp"
 #include "results_checks.hpp"
 #include "tiny_run.hpp"
@@ -34,21 +27,6 @@ const std::string& base() {
 }
 
 }  // namespace
-
-/// The address sanitizer calls it before it reports.
-extern "C" void __asan_on_error() {
-  std::array<void*, 64> frames{};
-  const int n = backtrace(frames.data(), static_cast<int>(frames.size()));
-  for (int k = 0; k < n; ++k) {
-    Dl_info info{};
-    if (dladdr(frames[static_cast<std::size_t>(k)], &info) == 0 || info.dli_fname == nullptr ||
-        std::strstr(info.dli_fname, "libhdf5") == nullptr)
-      continue;
-    constexpr std::string_view said = "fault within the HDF5 library\n";
-    static_cast<void>(!write(STDERR_FILENO, said.data(), said.size()));
-    _exit(0);
-  }
-}
 
 extern "C" std::size_t LLVMFuzzerCustomMutator(std::uint8_t* data, std::size_t size,
                                                std::size_t max, unsigned seed) {

@@ -7,7 +7,7 @@
 namespace rondo::fuzz {
 namespace {
 
-constexpr const char* tiny_case = R"(schema = 1
+constexpr const char* case_text = R"(schema = 1
 title = "tiny"
 [disk]
 outer_radius = 0.5
@@ -34,13 +34,16 @@ history_interval = 0.001
 
 }  // namespace
 
+study::Case tiny_case() {
+  return study::read_case_text("tiny.toml", case_text);
+}
+
 void make_tiny_run(const std::filesystem::path& directory) {
   study::RunOptions options;
   options.directory = directory;
   options.threads = 1;
   options.overwrite = true;
-  const study::RunReport report =
-      study::run_case(study::read_case_text("tiny.toml", tiny_case), options);
+  const study::RunReport report = study::run_case(tiny_case(), options);
   check(report.status == study::RunStatus::done, "the run to begin with has failed");
 }
 

@@ -3,7 +3,11 @@
 #pragma once
 #include <filesystem>
 
+#include "rondo/study/case.hpp"
+
 namespace rondo::fuzz {
+
+study::Case tiny_case();
 
 /// Eighteen nodes that touch the ground, three snapshots. Replaces what is in the directory.
 void make_tiny_run(const std::filesystem::path& directory);

@@ -196,6 +196,15 @@ TEST(WrongMeshes, BodiesInTheGround) {
   EXPECT_EQ(build(file.read({"ground={profile = [[-9, 0.2], [9, 0.2]]}"}), 1).warnings.size(), 1U);
 }
 
+/// Found by fuzzing: the nodes of a cell were all at one place.
+TEST(WrongMeshes, BodiesTooFarAwayForTheNumbers) {
+  const MeshCaseFile file(squares);
+  const auto faults = faults_of_build(file, {"initial.position=[1e-9, 1e300]"});
+  ASSERT_EQ(faults.size(), 1U);
+  EXPECT_EQ(faults[0].key, "initial.position");
+  EXPECT_NE(faults[0].message.find("round-off"), std::string::npos) << faults[0].text();
+}
+
 TEST(WrongMeshes, BodiesInEachOther) {
   const MeshCaseFile deep(squares, -0.3), shallow(squares, -0.2), touching(squares, 0.0);
   const auto faults = faults_of_build(deep, {"contact.between=bodies"});
