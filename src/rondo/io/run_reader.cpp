@@ -115,6 +115,12 @@ void RunReader::read_times() {
   };
   times_.time.resize(n);
   read("/frame/time_velocity", times_.time_velocity);
+  for (std::size_t k = 1; k < n; ++k)
+    if (times_.time_velocity[k] <= times_.time_velocity[k - 1])
+      throw FileError(file_.path(),
+                      fmt::format("/frame/time_velocity[{}] = {} after {}: times must "
+                                  "rise: damaged",
+                                  k, times_.time_velocity[k], times_.time_velocity[k - 1]));
   read("/frame/angle", times_.angle);
   if (file_.contains("/frame/angle_velocity")) read("/frame/angle_velocity", times_.angle_velocity);
 }

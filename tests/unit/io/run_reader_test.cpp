@@ -317,7 +317,7 @@ TEST(RunReader, ForeignAndTruncatedFiles) {
 /// A file made by hand, with one thing wrong.
 struct Hand {
   SmallRun run;
-  std::vector<double> time = {0.0, 0.1, nan};
+  std::vector<double> time = {0.0, 0.1, nan}, time_velocity = {0.0, 0.05, nan};
   std::size_t angles = 3, displacements = 3, velocities = 3, nodes = 0;
   bool mesh = true, frame = true, snapshots = true;
 
@@ -333,7 +333,8 @@ struct Hand {
     };
     if (frame) {
       file.write("/frame/time", {time.size()}, std::span<const double>(time), {"s", "time"});
-      zeros("/frame/time_velocity", {3});
+      file.write("/frame/time_velocity", {3}, std::span<const double>(time_velocity),
+                 {"s", "time"});
       zeros("/frame/angle", {angles});
     }
     if (snapshots) zeros("/snapshots/displacement", {displacements, run.n() + nodes, 2});
@@ -371,6 +372,9 @@ TEST(RunReader, WhatDoesNotFitIsNamed) {
   expect("/snapshots/displacement has the shape (3, 25, 2)", [](Hand& h) { h.nodes = 1; });
   expect("/frame/time[1] = 0: times must rise", [](Hand& h) { h.time = {0.0, 0.0, 0.1}; });
   expect("/frame/time[2] = 0.1", [](Hand& h) { h.time = {0.0, nan, 0.1}; });
+  expect("/frame/time_velocity[1] = 0 after 0: times must rise", [](Hand& h) {
+    h.time_velocity = {0.0, 0.0, 0.1};
+  });
   expect("/mesh has cell 1 with a node", [](Hand& h) { h.run.mesh.cells[1][2] = 24; });
   expect("/mesh has candidate -1", [](Hand& h) { h.run.mesh.boundary[2] = -1; });
   expect("/mesh has node 3 at a place that is not",
