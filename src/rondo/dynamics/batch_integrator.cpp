@@ -8,6 +8,7 @@
 #include "rondo/core/contract.hpp"
 #include "rondo/dynamics/cyclic_plan.hpp"
 #include "rondo/dynamics/sparse_plan.hpp"
+#include "rondo/dynamics/step_traps.hpp"
 
 namespace rondo::dynamics {
 namespace {
@@ -41,9 +42,13 @@ void BatchIntegrator::advance_batch(std::span<StepReport> reports) noexcept {
   const Batch batch{std::span(steps_).first(reports.size()), parts_.data()};
   if (threads_ > 1) {
 #pragma omp parallel num_threads(threads_)
-    make_steps(batch, {static_cast<std::size_t>(omp_get_thread_num()),
-                       static_cast<std::size_t>(omp_get_num_threads())});
+    {
+      const StepTraps traps;
+      make_steps(batch, {static_cast<std::size_t>(omp_get_thread_num()),
+                         static_cast<std::size_t>(omp_get_num_threads())});
+    }
   } else {
+    const StepTraps traps;
     make_steps(batch, {});
   }
   for (std::size_t i = 0; i < reports.size(); ++i) {

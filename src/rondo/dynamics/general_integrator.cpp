@@ -8,6 +8,7 @@
 #include "rondo/dynamics/corotated.hpp"
 #include "rondo/dynamics/operator.hpp"
 #include "rondo/dynamics/pressure.hpp"
+#include "rondo/dynamics/step_traps.hpp"
 
 namespace rondo::dynamics {
 namespace {
@@ -125,6 +126,7 @@ void GeneralIntegrator::report_frame(StepReport& report) const noexcept {
 }
 
 StepReport GeneralIntegrator::step() noexcept {
+  const StepTraps traps;
   std::swap(state_.v, state_.v_next);
   std::swap(product_, before_);
   std::swap(gradient_, gradient_before_);

@@ -8,6 +8,7 @@
 #include "rondo/dynamics/corotated.hpp"
 #include "rondo/dynamics/operator.hpp"
 #include "rondo/dynamics/pressure.hpp"
+#include "rondo/dynamics/step_traps.hpp"
 
 namespace rondo::dynamics {
 namespace {
@@ -130,6 +131,7 @@ State start(const Model& model, std::vector<Vec2> u0, std::vector<Vec2> v0) {
 }
 
 ContactReport advance(const Model& model, State& state, Ledger& ledger) noexcept {
+  const StepTraps traps;
   std::swap(state.v, state.v_next);
   std::swap(state.force, state.force_before);
   state.frame = frame_step(model.motion, ++state.step, model.dt);
