@@ -89,13 +89,18 @@ template <int Width, bool Fused>
 }
 
 #if defined(__x86_64__)
-[[gnu::target("avx512f,prefer-vector-width=512")]] double pass_avx512(const Pointers& p) {
+#if defined(__clang__)  // knows the width of its vectors by an option of the command line only
+#define RONDO_AVX512 "avx512f"
+#else
+#define RONDO_AVX512 "avx512f,prefer-vector-width=512"
+#endif
+[[gnu::target(RONDO_AVX512)]] double pass_avx512(const Pointers& p) {
   return pass(p);
 }
 [[gnu::target("avx2")]] double pass_avx2(const Pointers& p) {
   return pass(p);
 }
-[[gnu::target("avx512f,prefer-vector-width=512")]] double multiply_add_avx512(long n) {
+[[gnu::target(RONDO_AVX512)]] double multiply_add_avx512(long n) {
   return multiply_add<8, true>(n);
 }
 [[gnu::target("avx2,fma")]] double multiply_add_avx2(long n) {
