@@ -10,9 +10,28 @@ function(rondo_compile_options target)
   # No contraction: the same source gives the same bits at every optimisation level.
   target_compile_options(${target} PRIVATE -ffp-contract=off)
   if(RONDO_SANITIZE)
-    target_compile_options(${target} PRIVATE -fsanitize=${RONDO_SANITIZE} -fno-omit-frame-pointer)
-    target_link_options(${target} PUBLIC -fsanitize=${RONDO_SANITIZE})
+    rondo_sanitize(${target} ${RONDO_SANITIZE})
   endif()
+  if(RONDO_COVERAGE)
+    rondo_count_lines(${target})
+  endif()
+endfunction()
+
+# Atomic: steps have threads. _exit: that of tests/support/coverage_exit.cpp.
+function(rondo_count_lines target)
+  target_compile_options(${target} PRIVATE --coverage -fprofile-update=atomic)
+  target_link_options(${target} PUBLIC --coverage -Wl,--wrap=_exit)
+endfunction()
+
+# Whatever a sanitizer finds ends the program. Left out: what tests each pointer before its use.
+# That takes as long to compile as all the rest, and what it finds, the address sanitizer or the
+# processor (aligned loads of the kernels) finds too.
+function(rondo_sanitize target sanitizers)
+  target_compile_options(${target} PRIVATE -fsanitize=${sanitizers}
+                                           -fno-sanitize=null,alignment,object-size,vptr
+                                           -fno-sanitize-recover=all
+                                           -fno-omit-frame-pointer)
+  target_link_options(${target} PUBLIC -fsanitize=${sanitizers})
 endfunction()
 
 function(rondo_module name)

@@ -11,7 +11,7 @@ packages=(
   libgmsh-dev gmsh                                   # meshes from files; gmsh makes cases/meshes
   libcli11-dev libfmt-dev libspdlog-dev              # command line, text, log
   libgtest-dev clang-format clang-tidy cppcheck      # tests
-  clang-14 libclang-rt-14-dev llvm-14 libomp-dev     # the other compiler, sanitizers, scripts/fuzz.sh
+  clang libclang-rt-14-dev llvm-14 libomp-dev        # the other compiler, sanitizers, scripts/fuzz.sh
   gcovr                                              # scripts/coverage.sh
   libbenchmark-dev valgrind                          # bench/; instructions of a step, a test
   python3 python3-numpy python3-h5py python3-matplotlib python3-pil # pictures; a second reader of the results

@@ -1,0 +1,59 @@
+#!/usr/bin/env bash
+# Builds with sanitizers and runs the tests that they are for:
+#   bash scripts/sanitize.sh asan     addresses, leaks, undefined behaviour: the whole fast suite
+#   bash scripts/sanitize.sh tsan     races: the threaded step, the writer thread, runs with both
+#   bash scripts/sanitize.sh clang    no test: warnings of clang are errors (asan is built with it too)
+#   bash scripts/sanitize.sh          asan and tsan
+# Whatever is found ends the process in question with exit code 99 and is kept in
+# build/PRESET/findings: a finding fails the job even where a test does not ask how a process ended.
+set -euo pipefail
+cd "$(dirname "$0")/.."
+suppressions=$PWD/scripts/sanitize
+
+build() { # PRESET TARGET...
+  cmake --preset "$1" >/dev/null
+  cmake --build --preset "$1" ${2:+--target "${@:2}"}
+  rm -rf "build/$1/findings"
+  mkdir -p "build/$1/findings"
+}
+
+no_findings() { # PRESET
+  local found
+  found=$(find "build/$1/findings" -type f -size +0)
+  [ -z "$found" ] && return
+  echo "sanitize: findings of preset $1:" >&2
+  xargs -d '\n' head -n 60 <<<"$found" >&2
+  return 1
+}
+
+asan() {
+  build asan
+  local common=exitcode=99:log_path=$PWD/build/asan/findings/report
+  # Signals that a test sends itself, and traps that a test springs, are no findings.
+  ASAN_OPTIONS=$common:detect_leaks=1:strict_string_checks=1:check_initialization_order=1:handle_segv=0:handle_sigbus=0:handle_sigfpe=0 \
+  UBSAN_OPTIONS=$common:print_stacktrace=1 \
+  LSAN_OPTIONS=suppressions=$suppressions/leaks.txt:print_suppressions=0 \
+    ctest --test-dir build/asan -L fast --output-on-failure -j "$(nproc)"
+  no_findings asan
+}
+
+tsan() {
+  build tsan unit_core unit_dynamics unit_study rondo
+  # libomp tells the sanitizer through Archer where threads wait for each other; without it each
+  # parallel loop would be a race.
+  local archer
+  archer=$(find /usr/lib/llvm-*/lib -name libarcher.so | sort -V | tail -n 1)
+  [ -n "$archer" ] || { echo "sanitize: no libarcher.so (package libomp-dev)" >&2; return 1; }
+  OMP_TOOL_LIBRARIES=$archer \
+  TSAN_OPTIONS=exitcode=99:log_path=$PWD/build/tsan/findings/report:suppressions=$suppressions/races.txt:print_suppressions=0:ignore_noninstrumented_modules=1 \
+    ctest --test-dir build/tsan -L threads --output-on-failure -j "$(nproc)"
+  no_findings tsan
+}
+
+case ${1:-all} in
+  asan) asan ;;
+  tsan) tsan ;;
+  clang) build clang ;;
+  all) asan && tsan ;;
+  *) sed -n '2,8s/^# \{0,1\}//p' "$0" >&2; exit 2 ;;
+esac
