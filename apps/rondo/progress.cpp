@@ -26,6 +26,10 @@ Progress::~Progress() {
 
 void Progress::operator()(long long done, long long total) {
   const auto now = Clock::now();
+  if (first_ < 0) {  // a run that is gone on with does not begin at 0
+    first_ = done;
+    decade_ = static_cast<int>(10 * done / total);
+  }
   const double seconds = std::chrono::duration<double>(now - start_).count();
   const bool last = done == total;
   if (terminal_) {
@@ -45,7 +49,7 @@ void Progress::draw_bar(long long done, long long total, double seconds) const {
   constexpr int width = 30;
   const double share = static_cast<double>(done) / static_cast<double>(total);
   const auto filled = static_cast<std::size_t>(share * width);
-  const double speed = seconds > 0.0 ? static_cast<double>(done) / seconds : 0.0;
+  const double speed = seconds > 0.0 ? static_cast<double>(done - first_) / seconds : 0.0;
   const double left = speed > 0.0 ? static_cast<double>(total - done) / speed : 0.0;
   print(fmt::format("\r[{:<{}}] {:3.0f} %  {:.0f} {}s/s  {:.1f} s left \033[K{}",
                     std::string(filled, '#'), width, 100.0 * share, speed, unit_, left,

@@ -23,7 +23,8 @@ class Progress {
   Clock::time_point start_ = Clock::now();
   Clock::time_point drawn_ = start_;
   int decade_ = 0;
-  bool open_ = false;  ///< a bar stands on the line
+  long long first_ = -1;  ///< done before the first call; -1: not called yet
+  bool open_ = false;     ///< a bar stands on the line
 };
 
 }  // namespace rondo::app

@@ -117,6 +117,15 @@ class Killed(ResumeTest):
                 t = f["/frame/time"][:]
                 written = np.count_nonzero(~np.isnan(t))
                 self.assertTrue(np.isfinite(f["/snapshots/displacement"][:written]).all())
+        if (self.out / "checkpoint.h5").exists():
+            with h5py.File(self.out / "checkpoint.h5") as f:
+                self.assertGreater(f["/run/steps_done"][0], 0)
+        if (self.out / "history.csv").exists():
+            lines = (self.out / "history.csv").read_text().splitlines(keepends=True)
+            for line in lines[1:]:  # the last one may be in the middle of being written
+                if line.endswith("\n"):
+                    self.assertEqual(line.count(","), lines[0].count(","))
+                    float(line.split(",")[0])
         if (self.out / "fields.xdmf").exists():
             self.assertTrue((self.out / "fields.xdmf").read_text().rstrip().endswith("</Xdmf>"))
 

@@ -14,9 +14,6 @@ namespace {
 
 static_assert(std::is_same_v<hid_t, std::int64_t>);
 
-constexpr std::size_t tiny_row = 512;        ///< rows below are put together in chunks [bytes]
-constexpr std::size_t rows_together = 1024;  ///< so many of them
-
 /// Innermost message of HDF5's error stack; of a system call only what the system said.
 std::string reason() {
   std::string text;
@@ -124,22 +121,6 @@ Handle file_access() {
 }
 
 }  // namespace
-
-std::size_t bytes_of(Type type) noexcept {
-  if (type == Type::uint8) return 1;
-  return type == Type::float64 || type == Type::int64 ? 8 : 4;
-}
-
-Shape chunk_shape(const Shape& shape, std::size_t bytes_per_number, std::size_t limit) {
-  Shape chunk = shape;
-  const std::size_t row = product(shape, 1) * bytes_per_number;
-  chunk[0] = row < tiny_row ? std::min(shape[0], rows_together) : 1;
-  if (row > limit && shape.size() > 1) {
-    const std::size_t parts = (row + limit - 1) / limit;
-    chunk[1] = (shape[1] + parts - 1) / parts;
-  }
-  return chunk;
-}
 
 Handle::~Handle() {
   if (id_ >= 0) H5Idec_ref(id_);

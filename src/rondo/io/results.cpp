@@ -12,19 +12,13 @@
 #include "rondo/io/files.hpp"
 #include "rondo/io/h5.hpp"
 #include "rondo/io/mesh_files.hpp"
+#include "rondo/io/results_impl.hpp"
 #include "rondo/io/xdmf.hpp"
 
 namespace rondo::io {
 namespace {
 
-using h5::Type;
-
-struct Counts {
-  std::size_t nodes, candidates, times;
-  bool contact, stress, quasi_static;
-};
-
-Counts counts_of(const ResultsLayout& layout) noexcept {
+ResultsCounts counts_of(const ResultsLayout& layout) noexcept {
   const mesh::Mesh& m = *layout.mesh;
   const bool contact = layout.contact && !m.boundary.empty();
   return {m.n_nodes(), m.boundary.size(), layout.n_snapshots,
@@ -32,17 +26,12 @@ Counts counts_of(const ResultsLayout& layout) noexcept {
 }
 
 /// Of results.h5: what describes the datasets, and an entry for each row.
-std::size_t index_bytes(const Counts& c) noexcept {
+std::size_t index_bytes(const ResultsCounts& c) noexcept {
   constexpr std::size_t datasets = 21, description = 4096;
   return datasets * (description + c.times * h5::File::bytes_of_entry);
 }
 
-template <class T>
-std::span<const T> view(const std::vector<T>& values) {
-  return values;
-}
-
-XdmfSeries series_of(const mesh::Mesh& mesh, const Counts& c) {
+XdmfSeries series_of(const mesh::Mesh& mesh, const ResultsCounts& c) {
   XdmfSeries s;
   s.data_file = "results.h5";
   s.topology = topology_of(mesh);
@@ -77,60 +66,6 @@ std::array<float, 3> in_space(Vec2 a) noexcept {
 }
 
 }  // namespace
-
-struct Results::Impl {
-  Impl(const std::filesystem::path& directory, const ResultsLayout& layout, const char* name);
-  void go_on(std::size_t kept);
-  void begin_xdmf(const mesh::Mesh& mesh);
-  [[nodiscard]] std::array<h5::Dataset*, 19> all_rows();
-  void create_frame();
-  void create_snapshots();
-  void create_fields();
-  void create_crush();
-  void reserve();
-  void resize(std::size_t rows);
-  void check(const Snapshot& s) const;
-  void write_fields(const Snapshot& s);
-  void write_stress(const Snapshot& s);
-  /// Of displacements and velocities, for descriptions.
-  [[nodiscard]] std::string frame() const {
-    return free_body.empty() ? "turning frame" : "turning frame, of free bodies fixed frame";
-  }
-  [[nodiscard]] bool is_free(std::size_t node) const {
-    return !free_body.empty() && free_body[node] >= 0;
-  }
-  void write_contact(const Snapshot& s);
-  void write_crush(const CrushRow& crush);
-  void write_snapshot(const Snapshot& s);
-  void close();
-
-  template <class T>
-  void row(h5::Dataset& dataset, const std::vector<T>& values) {
-    dataset.write_row(written, view(values));
-  }
-  void row(h5::Dataset& dataset, double value) {
-    dataset.write_row(written, std::span<const double>(&value, 1));
-  }
-
-  Counts c;
-  std::filesystem::path directory;
-  std::vector<Vec2> coordinates;
-  std::vector<int> boundary;
-  std::vector<double> tributary;
-  std::vector<int> free_body;
-  std::size_t written = 0;
-  std::vector<std::array<float, 3>> vectors, forces;
-  std::vector<std::array<float, 6>> tensors;
-  std::vector<float> scalars;
-  std::vector<Vec2> traction;
-  h5::File file;
-  struct {
-    h5::Dataset time, time_velocity, angle, angle_velocity, center, displacement, velocity, force,
-        traction, position, field_displacement, field_velocity, field_force, von_mises, stress,
-        depth, load, contact_length, pressure_max;
-  } d;
-  std::unique_ptr<Xdmf> xdmf;
-};
 
 constexpr const char* results_name = "results.h5";
 constexpr const char* new_name = "results.h5.new";  // until it is whole
@@ -185,91 +120,6 @@ void Results::Impl::begin_xdmf(const mesh::Mesh& mesh) {
   std::vector<double> times = d.time ? d.time.read<double>() : std::vector<double>();
   times.resize(written);
   xdmf = std::make_unique<Xdmf>(directory / "fields.xdmf", series_of(mesh, c), std::move(times));
-}
-
-void Results::Impl::create_frame() {
-  const h5::Shape times = {c.times};
-  h5::Label time = {
-      "s", "of displacement, angle, centre, contact and fields; NaN: snapshot not written"};
-  h5::Label time_velocity = {"s", "of velocity: half a step before /frame/time"};
-  if (c.quasi_static) {
-    time = {"1",
-            "share of the depth, above 1 while the body slides, of displacement, centre, contact "
-            "and fields; NaN: snapshot not written"};
-    time_velocity = {"1", "of velocity: half an increment before /frame/time"};
-  }
-  d.time = file.create_rows("/frame/time", Type::float64, times, time);
-  d.time_velocity = file.create_rows("/frame/time_velocity", Type::float64, times, time_velocity);
-  d.angle = file.create_rows("/frame/angle", Type::float64, times,
-                             {"rad", "angle of the turning frame, counter-clockwise"});
-  d.angle_velocity =
-      file.create_rows("/frame/angle_velocity", Type::float64, times,
-                       {"rad", "angle of the turning frame at /frame/time_velocity"});
-  d.center = file.create_rows("/frame/center", Type::float64, {c.times, 2},
-                              {"m", "centre of the turning frame, x, y in the fixed frame"});
-}
-
-void Results::Impl::create_snapshots() {
-  d.displacement = file.create_rows("/snapshots/displacement", Type::float64, {c.times, c.nodes, 2},
-                                    {"m", "displacement u of each node, " + frame()});
-  h5::Label velocity = {"m/s",
-                        "velocity du/dt of each node, " + frame() + ", at /frame/time_velocity"};
-  if (c.quasi_static)
-    velocity = {"m",
-                "rate of the displacement over the share of the depth, at /frame/time_velocity"};
-  d.velocity =
-      file.create_rows("/snapshots/velocity", Type::float64, {c.times, c.nodes, 2}, velocity);
-  if (!c.contact) return;
-  const h5::Shape shape = {c.times, c.candidates, 2};
-  d.force =
-      file.create_rows("/contact/force", Type::float64, shape,
-                       {"N/m", std::string("contact force on each node of /mesh/boundary: normal, "
-                                           "tangential; ") +
-                                   (c.quasi_static ? "of the equilibrium at /frame/time"
-                                                   : "impulse of the step over its length")});
-  d.traction = file.create_rows("/contact/traction", Type::float64, shape,
-                                {"Pa", "/contact/force over /mesh/tributary: pressure, shear"});
-}
-
-void Results::Impl::create_fields() {
-  const h5::Shape vector = {c.times, c.nodes, 3};
-  d.position = file.create_rows("/fields/position", Type::float32, vector,
-                                {"m", "current position of each node, fixed frame"});
-  d.field_displacement =
-      file.create_rows("/fields/displacement", Type::float32, vector,
-                       {"m", "displacement u of each node along the fixed axes"});
-  h5::Label velocity = {"m/s", "velocity du/dt of each node, " + frame() +
-                                   ", along the fixed axes, at /frame/time_velocity"};
-  if (c.quasi_static)
-    velocity = {
-        "m",
-        "rate of the displacement of each node over the share of the depth, along the fixed "
-        "axes, at /frame/time_velocity"};
-  d.field_velocity = file.create_rows("/fields/velocity", Type::float32, vector, velocity);
-  if (c.contact)
-    d.field_force = file.create_rows("/fields/contact_force", Type::float32, vector,
-                                     {"N/m", "contact force on each node along the fixed axes"});
-  if (!c.stress) return;
-  d.von_mises = file.create_rows("/fields/von_mises", Type::float32, {c.times, c.nodes},
-                                 {"Pa", "von Mises stress at each node, with zz"});
-  d.stress = file.create_rows("/fields/cauchy_stress", Type::float32, {c.times, c.nodes, 6},
-                              {"Pa",
-                               "Cauchy stress at each node along the fixed axes: "
-                               "xx, xy, xz, yy, yz, zz"});
-}
-
-/// The curve of force over depth, a row for each snapshot.
-void Results::Impl::create_crush() {
-  const h5::Shape rows = {c.times};
-  d.depth = file.create_rows("/crush/depth", Type::float64, rows,
-                             {"m", "depth of the centre below first touch"});
-  d.load = file.create_rows("/crush/force", Type::float64, {c.times, 2},
-                            {"N/m", "force of the ground on the body: normal, tangential"});
-  d.contact_length =
-      file.create_rows("/crush/contact_length", Type::float64, rows,
-                       {"m", "/mesh/tributary of the candidates in contact, summed"});
-  d.pressure_max = file.create_rows("/crush/pressure_max", Type::float64, rows,
-                                    {"Pa", "largest pressure of all candidates"});
 }
 
 std::array<h5::Dataset*, 19> Results::Impl::all_rows() {
@@ -425,7 +275,7 @@ std::size_t Results::written() const noexcept {
 }
 
 std::size_t Results::bytes(const ResultsLayout& layout) noexcept {
-  const Counts c = counts_of(layout);
+  const ResultsCounts c = counts_of(layout);
   constexpr std::size_t real = 8, single = 4;
   const std::size_t node = 4 * real + (9U + (c.contact ? 3U : 0U) + (c.stress ? 7U : 0U)) * single;
   const std::size_t candidate = c.contact ? 4 * real : 0,

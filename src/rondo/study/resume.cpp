@@ -125,6 +125,25 @@ void clear_without_checkpoint(const Case& c, const std::filesystem::path& direct
 
 }  // namespace
 
+namespace {
+
+/// All that the integrator of this model carries, and nothing else.
+void demand_whole_state(const dynamics::SavedState& s, const Setup& setup,
+                        const std::filesystem::path& directory) {
+  const dynamics::Model& model = setup.model;
+  const std::size_t n = model.n_nodes(), n_free = model.free_bodies.size();
+  const bool general = is_general(model);
+  const std::size_t force = general || model.stiffness_damping > 0.0 ? n : 0;
+  if (s.u.size() == n && s.v.size() == n && s.force.size() == force &&
+      s.gradient.size() == (general ? n : 0) && s.energy.size() == n_free &&
+      s.poses.size() == n_free && s.step > 0)
+    return;
+  throw FileError((directory / checkpoint_name).string(),
+                  "is damaged: its state is not one of this model");
+}
+
+}  // namespace
+
 std::optional<Checkpoint> find_checkpoint(const Case& c, const Setup& setup,
                                           const std::filesystem::path& directory) {
   std::error_code error;
@@ -135,6 +154,7 @@ std::optional<Checkpoint> find_checkpoint(const Case& c, const Setup& setup,
   }
   Checkpoint k = read_checkpoint(directory);
   demand_same_run(k, c, setup);
+  demand_whole_state(k.state, setup, directory);
   if (k.n_steps != setup.n_steps)
     k.schedule = with_end(std::move(k.schedule), c.output, setup.model.dt, setup.n_steps);
   return k;

@@ -136,6 +136,7 @@ class Runner {
   Loop run() {
     if (!plan_.from) observe_state();
     make_integrator();
+    if (plan_.options.progress) plan_.options.progress(loop_.steps, setup_.n_steps);
     const auto wall = Clock::now();
     const std::clock_t cpu = std::clock();
     saved_ = wall;
