@@ -32,8 +32,9 @@ asan() {
   # Signals that a test sends itself, and traps that a test springs, are no findings.
   ASAN_OPTIONS=$common:detect_leaks=1:strict_string_checks=1:check_initialization_order=1:handle_segv=0:handle_sigbus=0:handle_sigfpe=0 \
   UBSAN_OPTIONS=$common:print_stacktrace=1 \
-  LSAN_OPTIONS=suppressions=$suppressions/leaks.txt:print_suppressions=0 \
-    ctest --test-dir build/asan -L fast --output-on-failure -j "$(nproc)"
+  RONDO_TEST_TIMEOUT=900 LSAN_OPTIONS=suppressions=$suppressions/leaks.txt:print_suppressions=0 \
+    ctest --test-dir build/asan -L fast --output-on-failure -j "$(nproc)" ||
+    { no_findings asan; return 1; }
   no_findings asan
 }
 
@@ -44,9 +45,11 @@ tsan() {
   local archer
   archer=$(find /usr/lib/llvm-*/lib -name libarcher.so | sort -V | tail -n 1)
   [ -n "$archer" ] || { echo "sanitize: no libarcher.so (package libomp-dev)" >&2; return 1; }
-  OMP_TOOL_LIBRARIES=$archer \
-  TSAN_OPTIONS=exitcode=99:log_path=$PWD/build/tsan/findings/report:suppressions=$suppressions/races.txt:print_suppressions=0:ignore_noninstrumented_modules=1 \
-    ctest --test-dir build/tsan -L threads --output-on-failure -j "$(nproc)"
+  # The sanitizer of clang 14 sees no access of more than 16 bytes: no kernel for AVX.
+  RONDO_DISPATCH=baseline OMP_TOOL_LIBRARIES=$archer \
+  TSAN_OPTIONS=exitcode=99:log_path=$PWD/build/tsan/findings/report:ignore_noninstrumented_modules=1 \
+    ctest --test-dir build/tsan -L threads --output-on-failure -j "$(nproc)" ||
+    { no_findings tsan; return 1; }
   no_findings tsan
 }
 
@@ -54,6 +57,6 @@ case ${1:-all} in
   asan) asan ;;
   tsan) tsan ;;
   clang) build clang ;;
-  all) asan && tsan ;;
+  all) asan; tsan ;;
   *) sed -n '2,8s/^# \{0,1\}//p' "$0" >&2; exit 2 ;;
 esac

@@ -44,10 +44,13 @@ snapshots = 11
 """
 
 
-def run(*arguments, timeout=120, **options):
+def run(*arguments, timeout=float(os.environ.get("RONDO_TEST_TIMEOUT", "120")), **options):
     """Runs the program; returns its CompletedProcess with text output."""
     return subprocess.run([PROGRAM, *map(str, arguments)], capture_output=True, text=True,
                           errors="replace", timeout=timeout, **options)
+
+
+SANITIZED = "sanitizers" in run("--version").stdout  # the program, and what it takes is theirs too
 
 
 def estimated_memory(case):

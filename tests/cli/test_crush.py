@@ -8,7 +8,7 @@ import unittest
 import h5py
 import numpy as np
 
-from program import (LEDGE, PROGRAM, ProgramTest, ROOT, RunTest, SMALL, estimated_memory,
+from program import (LEDGE, PROGRAM, ProgramTest, ROOT, RunTest, SANITIZED, SMALL, estimated_memory,
                      history, line_of, replaced, run, summary)
 
 CRUSH = """schema = 1
@@ -193,6 +193,7 @@ class Crush(RunTest):
         self.assertNotIn("critical step", done.stdout)
         self.assertEqual([p.name for p in self.folder.iterdir()], ["case.toml"])
 
+    @unittest.skipIf(SANITIZED, "the memory of the sanitizer counts")
     def test_memory_estimate_is_what_a_run_takes(self):
         # Smaller runs are below the memory of this script, which the system counts to them.
         for radial in (24, 36, 48):
