@@ -6,8 +6,8 @@ import unittest
 
 import numpy as np
 
-from program import (PROGRAM, ProgramTest, ROOT, SMALL, estimated_memory, history, replaced, run,
-                     summary)
+from program import (PROGRAM, ProgramTest, ROOT, SANITIZED, SMALL, estimated_memory, history, replaced,
+                     run, summary)
 
 
 class Check(ProgramTest):
@@ -29,6 +29,7 @@ class Check(ProgramTest):
         checkpoints = 2 * (160 * 80 + 50e3)  # so short a run needs no room for two of them
         self.assertLess(estimate, 1.35 * size + checkpoints)
 
+    @unittest.skipIf(SANITIZED, "the memory of the sanitizer counts")
     def test_memory_estimate_is_what_a_run_takes(self):
         # A smaller run is below the memory of this script, which the system counts to it.
         # The largest is above the size from which no stiffness is assembled.
