@@ -63,5 +63,6 @@ run_one() {
   echo "fuzz: $target: $(grep -E 'cov: ' "$work/log.txt" | tail -n 1)"
 }
 export -f run_one
-printf '%s\n' "${targets[@]}" | xargs -P 2 -I{} bash -c 'run_one "$1" "$2"' run "$seconds" {}
+printf '%s\n' "${targets[@]}" | xargs -P 2 -I{} bash -c 'run_one "$1" "$2"' run "$seconds" {} ||
+  exit 1
 echo "fuzz: ${#targets[@]} targets, $seconds s each: nothing found"
