@@ -107,6 +107,8 @@ class CsrSteps final : public dynamics::Integrator {
       last->v[static_cast<std::size_t>(model_.free[i])] = at(v_, i);
   }
 
+  [[nodiscard]] dynamics::SavedState save() const override { return {}; }  // never gone on with
+  void restore(const dynamics::SavedState&) override {}
   void fields(State& state) const noexcept override {
     for (std::size_t i = 0; i < n_; ++i) {
       const auto k = static_cast<std::size_t>(model_.free[i]);
@@ -250,6 +252,8 @@ class ReferenceSteps final : public dynamics::Integrator {
     }
     if (last) *last = state_;
   }
+  [[nodiscard]] dynamics::SavedState save() const override { return {}; }  // never gone on with
+  void restore(const dynamics::SavedState&) override {}
   void fields(State& state) const noexcept override {
     state.u = state_.u;
     state.v_next = state_.v_next;
