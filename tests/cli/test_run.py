@@ -15,10 +15,10 @@ class Run(RunTest):
     def test_results_directory(self):
         self.run_ok()
         self.assertEqual(sorted(p.name for p in self.out.iterdir()),
-                         ["case.toml", "contact.csv", "fields.xdmf", "history.csv", "results.h5",
-                          "run.json"])
+                         ["case.toml", "checkpoint.h5", "contact.csv", "fields.xdmf", "history.csv",
+                          "results.h5", "run.json"])
         s = summary(self.out)
-        for key in ("status title version build host nodes dofs operator threads critical_step step "
+        for key in ("status title version build host process nodes dofs operator threads critical_step step "
                     "steps loop_wall_s loop_cpu_s ns_per_dof_step energy_residual_relative "
                     "contact_residual_max penetration_max_m peak_memory_bytes dispatch output "
                     "total_wall_s").split():

@@ -206,17 +206,12 @@ void place_free_bodies(const Case& c, mesh::Mesh& mesh, dynamics::Model& model) 
   if (model.free_bodies.empty()) return refuse_for_held_bodies(c);
   const Vec2 turn = rotation(c.initial.angle), position = c.initial.position;
   if (c.initial.angle == 0.0 && position == Vec2{}) return;
-  const double extent = extent_of(mesh);
   for (dynamics::FreeBody& body : model.free_bodies) {
     body.center = position + turn * body.center;
     for (const int node : body.nodes)
       mesh.coordinates[at(node)] = model.reference[at(node)] =
           position + turn * mesh.coordinates[at(node)];
   }
-  if (mesh::check_cells(mesh).count() > 0)
-    throw case_error(c, "initial.position",
-                     "is so far away that cells of the bodies vanish in round-off",
-                     fmt::format("far below 1e15 times {:.3g} m, the size of the bodies", extent));
 }
 
 std::vector<RigidMotion> motions_of(const Case& c, const mesh::Mesh& mesh,

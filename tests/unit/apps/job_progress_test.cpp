@@ -120,7 +120,7 @@ TEST(JobProgress, OnATerminalOneBarAndFailuresAboveIt) {
 
 TEST(JobProgress, UnknownWidthIsEighty) {
   const std::string text = on_terminal(0, [](app::JobProgress& progress) {
-    const std::array<std::size_t, 3> running{0, 1, 2};
+    const std::array<std::size_t, 3> running{2, 1, 2};  // too long, whatever the times say
     progress.draw({0.25, 0, running});
   });
   EXPECT_EQ(text.size(), std::string("\r").size() + 79 + std::string("\033[K\r\n").size());
