@@ -27,8 +27,9 @@ namespace {
 
 using namespace rondo;
 
-void add_case(CLI::App& command, std::string& case_file, std::vector<std::string>& settings) {
-  command.add_option("case", case_file, "case file (TOML, docs/cases.md)")->required();
+void add_case(CLI::App& command, std::string& case_file, std::vector<std::string>& settings,
+              const char* what = "case file (TOML, docs/cases.md)") {
+  command.add_option("case", case_file, what)->required();
   command
       .add_option("--set", settings,
                   "KEY=VALUE: overrides a key of the case, e.g. ground.friction=0.6; repeatable")
@@ -36,15 +37,17 @@ void add_case(CLI::App& command, std::string& case_file, std::vector<std::string
       ->expected(1);
 }
 
-void add_common(CLI::App& command, app::CommonArguments& arguments) {
-  add_case(command, arguments.case_file, arguments.settings);
+void add_common(CLI::App& command, app::CommonArguments& arguments,
+                const char* what = "case file (TOML, docs/cases.md)") {
+  add_case(command, arguments.case_file, arguments.settings, what);
   command.add_option("--threads", arguments.threads, "threads; chosen by size if left out")
       ->check(CLI::Range(1, 1024));
 }
 
 CLI::App* add_run(CLI::App& program, app::RunArguments& arguments) {
   CLI::App* run = program.add_subcommand("run", "runs a case into a results directory");
-  add_common(*run, arguments);
+  add_common(*run, arguments,
+             "case file (TOML, docs/cases.md); with --resume a results directory will do");
   run->add_option("-o,--output", arguments.directory,
                   "results directory; the case's name beside it if left out");
   CLI::Option* overwrite =

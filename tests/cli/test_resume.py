@@ -82,6 +82,11 @@ class ResumeTest(ProgramTest):
         for name in names:
             self.assertEqual((self.whole / name).read_bytes(), (other / name).read_bytes(), name)
 
+    def change_status(self, old, new):
+        text = (self.out / "run.json").read_text()
+        self.assertIn(f'"{old}"', text)
+        (self.out / "run.json").write_text(text.replace(f'"{old}"', f'"{new}"', 1))
+
     def leave_alone(self, text, *extra):
         done = run("run", self.case(text), "-o", self.whole, "--quiet", *extra)
         self.assertEqual(done.returncode, 0, done.stderr)
@@ -165,6 +170,69 @@ class Killed(ResumeTest):
         self.assertNotIn("resumed_at_steps", summary(self.out))
 
 
+    def test_while_it_is_prolonged_it_goes_on_by_its_directory(self):
+        short = replaced(LONG, "end", "step = 5.0e-5\nend = 1.0").replace("snapshots = 101",
+                                                                         "snapshots = 11")
+        short = short.replace("checkpoint_interval = 0.02", "checkpoint_interval = 1000")
+        later = "time.end=6.0"
+        self.leave_alone(short, "--set", later, "--set", "output.snapshots=61")
+        self.assertEqual(self.resume(short).returncode, 0)
+        rows = self.rows()
+        process = subprocess.Popen([PROGRAM, "run", str(self.out), "--resume", "--quiet", "--set",
+                                    later], stderr=subprocess.DEVNULL)
+        self.assertTrue(self.wait_for_rows(process, rows + 100))
+        process.kill()
+        process.wait()
+        self.assertIn("snapshots = 61", (self.out / "case.toml").read_text())
+        done = run("run", self.out, "--resume")
+        self.assertEqual(done.returncode, 0, done.stderr)
+        self.assert_same(self.out)
+
+    def test_while_its_files_are_made_they_can_be_read(self):
+        """Or are not there yet."""
+        text = replaced(LONG, "snapshots", "snapshots = 20000")
+        seen = 0
+        for wait in (0.0, 0.001, 0.003, 0.01, 0.02, 0.03):
+            shutil.rmtree(self.out, ignore_errors=True)
+            process = self.start(text)
+            deadline = time.time() + 60
+            while not any(self.out.glob("results.h5*")):
+                self.assertIsNone(process.poll(), "the run has ended")
+                self.assertLess(time.time(), deadline)
+                time.sleep(0.0002)
+            time.sleep(wait)
+            process.kill()
+            process.wait()
+            seen += (self.out / "results.h5.new").exists() or (self.out / "results.h5").exists()
+            self.assert_readable()
+        self.assertGreater(seen, 0)
+
+    def test_a_mesh_in_the_directory_stays(self):
+        """Begun anew by the directory alone, before there is a checkpoint."""
+        case = ROOT / "cases" / "tyre-section.toml"
+        short = ("--set", "time.end=1e-4", "--set", "output.snapshots=2")
+        done = run("run", case, "-o", self.out, *short)
+        self.assertEqual(done.returncode, 0, done.stderr)
+        mesh = (self.out / "mesh.msh").read_bytes()
+        (self.out / "checkpoint.h5").unlink()
+        for status in ("running", "failed"):
+            self.change_status("done", status)
+            done = run("run", self.out, "--resume")
+            self.assertEqual(done.returncode, 0, done.stderr)
+            self.assertEqual((self.out / "mesh.msh").read_bytes(), mesh)
+            self.assertIn('file = "mesh.msh"', (self.out / "case.toml").read_text())
+            (self.out / "checkpoint.h5").unlink()
+
+    def test_what_a_killed_program_left_beside_is_cleared(self):
+        self.assertEqual(self.resume(Finished.TEXT).returncode, 0)
+        (self.out / "run.json.4711.tmp").write_text("{")
+        (self.out / "mine.tmp").write_text("mine")
+        self.change_status("done", "running")
+        self.assertEqual(self.resume(Finished.TEXT).returncode, 0)
+        self.assertFalse((self.out / "run.json.4711.tmp").exists())
+        self.assertTrue((self.out / "mine.tmp").exists())
+
+
 class Interrupted(ResumeTest):
     def test_with_other_threads_and_operator_the_same_bits(self):
         for operator in ("cyclic", "sparse"):
@@ -226,14 +294,31 @@ class Finished(ResumeTest):
         after = {p.name: (p.stat().st_mtime_ns, p.stat().st_ino) for p in self.out.iterdir()}
         self.assertEqual(before, after)
 
+    def test_with_nothing_left_to_do_no_room_is_needed(self):
+        self.assertEqual(self.resume(self.TEXT).returncode, 0)
+        done = subprocess.run(["bash", "-c", 'ulimit -f 1; exec "$@"', "-", PROGRAM, "run",
+                               str(self.out), "--resume"], capture_output=True, text=True)
+        self.assertEqual(done.returncode, 0, done.stderr)
+
+    def test_a_prolonged_run_is_estimated_as_it_will_be(self):
+        text = replaced(self.TEXT, "snapshots", "snapshots = 6")
+        self.assertEqual(self.resume(text).returncode, 0)
+        before = {p.name: p.read_bytes() for p in self.out.iterdir()}
+        done = subprocess.run(["bash", "-c", 'ulimit -f 2000; exec "$@"', "-", PROGRAM, "run",
+                               str(self.out), "--resume", "--set", "time.end=10"],
+                              capture_output=True, text=True)
+        self.assertEqual(done.returncode, 4, done.stderr)
+        self.assertIn("nothing was written", done.stderr)
+        self.assertEqual({p.name: p.read_bytes() for p in self.out.iterdir()}, before)
+
     def test_killed_between_the_last_checkpoint_and_the_end_it_is_finished(self):
-        self.leave_alone(self.TEXT)
-        self.assertEqual(self.resume(self.TEXT).returncode, 0)
-        text = (self.out / "run.json").read_text()
-        (self.out / "run.json").write_text(text.replace('"done"', '"running"'))
+        text = replaced(self.TEXT, "snapshots", "snapshots = 6\nhistory_interval = 3.3e-4")
+        self.leave_alone(text)
+        self.assertEqual(self.resume(text).returncode, 0)
+        self.change_status("done", "running")
         rows = (self.out / "history.csv").read_text().splitlines(keepends=True)
-        (self.out / "history.csv").write_text("".join(rows))
-        self.assertEqual(self.resume(self.TEXT).returncode, 0)
+        (self.out / "history.csv").write_text("".join(rows[:-1]))  # the row of the end is not due
+        self.assertEqual(self.resume(text).returncode, 0)
         self.assert_same(self.out)
         self.assertEqual(summary(self.out)["status"], "done")
         self.assertEqual(summary(self.out)["energy_residual_relative"],
@@ -312,6 +397,44 @@ class Refused(ResumeTest):
                                 "--resume"), 2, "a crush has no checkpoints")
         self.assert_refused(self.resume(self.TEXT, "--overwrite"), 2, "--resume")
         self.assertFalse(self.out.exists())
+
+    def test_the_users_case_file_is_never_replaced(self):
+        self.out.mkdir()
+        (self.out / "case.toml").write_text("# mine\n" + self.TEXT)
+        self.assert_refused(run("run", self.out, "--resume"), 2, "this directory's own case.toml")
+        self.assertTrue((self.out / "case.toml").read_text().startswith("# mine"))
+
+    def test_a_mesh_that_lies_there_is_not_taken_for_the_runs(self):
+        self.out.mkdir()
+        (self.out / "mesh.msh").write_text("half a mesh")
+        done = run("run", ROOT / "cases" / "tyre-section.toml", "-o", self.out, "--set",
+                   "time.end=1e-4", "--set", "output.snapshots=2")
+        self.assertEqual(done.returncode, 0, done.stderr)
+        self.assertIn("$MeshFormat", (self.out / "mesh.msh").read_text())
+
+    def test_an_end_where_it_was_interrupted(self):
+        process = self.start(LONG)
+        self.assertTrue(self.wait_for_rows(process, 300))
+        process.send_signal(signal.SIGTERM)
+        self.assertEqual(process.wait(timeout=60), 130)
+        end = summary(self.out)["end_time"]
+        self.assert_refused(self.resume(LONG, "--set", f"time.end={end!r}"), 2, "time.end",
+                            "a later end")
+
+    def test_a_file_of_another_format(self):
+        self.assertEqual(self.resume(self.TEXT).returncode, 0)
+        path = self.out / "checkpoint.h5"
+        path.write_bytes(path.read_bytes().replace(b"rondo checkpoint 1", b"rondo checkpoint 9", 1))
+        self.assert_refused(self.resume(self.TEXT), 4, "is of another version of rondo",
+                            "rondo checkpoint 9")
+
+    def test_a_record_of_another_kind_is_no_failure(self):
+        self.assertEqual(self.resume(self.TEXT).returncode, 0)
+        text = (self.out / "run.json").read_text()
+        (self.out / "run.json").write_text(text.replace("{", '{"resumed_at_steps": 5,', 1))
+        done = self.resume(self.TEXT, "--set", "time.end=0.02")
+        self.assertEqual(done.returncode, 0, done.stderr)
+        self.assertEqual(summary(self.out)["resumed_at_steps"], [200])
 
     def test_what_has_no_checkpoint(self):
         self.assertEqual(self.resume(self.TEXT).returncode, 0)

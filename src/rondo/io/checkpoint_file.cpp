@@ -32,26 +32,20 @@ std::string hash_of_rest(std::istream& in) {
   return hash.text();
 }
 
+constexpr const char* format = "rondo checkpoint 1\n";
+
 std::string first_block(const std::string& hash) {
-  std::string text = fmt::format("rondo checkpoint 1\nxxh3-128 {} of the bytes from {} on\n", hash,
-                                 hash_block_bytes);
+  std::string text =
+      fmt::format("{}xxh3-128 {} of the bytes from {} on\n", format, hash, hash_block_bytes);
   text.resize(hash_block_bytes, '\0');
   return text;
 }
-
-/// Removes a file that was not moved to where it belongs.
-struct Beside {
-  fs::path path;
-  ~Beside() {
-    std::error_code error;
-    fs::remove(path, error);
-  }
-};
 
 void write_hash(const fs::path& file) {
   std::fstream stream(file, std::ios::in | std::ios::out | std::ios::binary);
   stream.seekg(hash_block_bytes);
   const std::string block = first_block(hash_of_rest(stream));
+  if (stream.bad()) fail(file, "read");
   stream.clear();  // of the end that was read
   stream.seekp(0);
   stream.write(block.data(), static_cast<std::streamsize>(block.size()));
@@ -62,7 +56,7 @@ void write_hash(const fs::path& file) {
 }  // namespace
 
 void write_checkpoint_file(const fs::path& file, const std::function<void(h5::File&)>& fill) {
-  const Beside beside{file.string() + ".new"};
+  const UnfinishedFile beside(file.string() + ".new");
   h5::File content = h5::File::create_after(beside.path, hash_block_bytes);
   fill(content);
   content.close();
@@ -77,6 +71,11 @@ h5::File open_checkpoint_file(const fs::path& file) {
   in.read(block.data(), static_cast<std::streamsize>(block.size()));
   if (!in || !block.starts_with("rondo checkpoint "))
     throw FileError(file.string(), "is damaged, or not a checkpoint of rondo's");
+  if (!block.starts_with(format))
+    throw FileError(file.string(), fmt::format("is of another version of rondo: it begins with "
+                                               "\"{}\", and this version reads \"{}\"",
+                                               block.substr(0, block.find('\n')),
+                                               std::string_view(format).substr(0, 18)));
   if (block != first_block(hash_of_rest(in)))
     throw FileError(file.string(), "is damaged: its content is not what its hash was made of");
   return h5::File::open(file);

@@ -25,11 +25,13 @@ namespace {
 /// Any of these: the directory holds a run.
 constexpr std::array run_marks = {"run.json", "results.h5", "history.csv", "modes.json",
                                   "modes.h5"};
-constexpr std::array run_files = {
-    "case.toml",   "mesh.msh",   "run.json",       "history.csv",
-    "contact.csv", "results.h5", "fields.xdmf",    "checkpoint.h5",
-    "modes.json",  "modes.h5",   "results.h5.new", "checkpoint.h5.new",
-    "modes.xdmf",  "modes.csv",  "campbell.csv",   "critical-speeds.csv"};
+/// What a run or modes write, in the order in which it is removed: where it stops on the way, the
+/// rest is still known as a run, and none goes on from a checkpoint without its files.
+constexpr std::array output_files = {
+    "checkpoint.h5", "checkpoint.h5.new",   "results.h5.new", "history.csv", "contact.csv",
+    "fields.xdmf",   "results.h5",          "modes.h5",       "modes.xdmf",  "modes.csv",
+    "campbell.csv",  "critical-speeds.csv", "modes.json"};
+constexpr std::array input_files = {"mesh.msh", "case.toml"};
 constexpr std::array pod_files = {"pod.json", "pod.h5", "spectrum.csv", "modes.xdmf",
                                   "reconstruction.xdmf"};
 
@@ -58,6 +60,19 @@ void remove_pods(const fs::path& directory) {
     if (fs::is_empty(entry.path(), error)) remove_one(entry.path());
   }
   if (fs::is_empty(directory / "pod", error)) remove_one(directory / "pod");
+}
+
+/// NAME.PROCESS.tmp, of a program that was killed before it could rename what it wrote.
+void remove_unfinished(const fs::path& directory) {
+  std::error_code error;
+  for (const auto& entry : fs::directory_iterator(directory, error)) {
+    const std::string name = entry.path().filename().string();
+    const auto begins = [&](const char* file) { return name.starts_with(std::string(file) + "."); };
+    if (name.ends_with(".tmp") &&
+        (begins("run.json") || std::any_of(input_files.begin(), input_files.end(), begins) ||
+         std::any_of(output_files.begin(), output_files.end(), begins)))
+      remove_one(entry.path());
+  }
 }
 
 /// Contact problems kept by a run that is no more.
@@ -145,7 +160,7 @@ DirectoryLock::~DirectoryLock() {
 }
 
 void clear_results_directory(const fs::path& directory) {
-  for (const char* name : run_files) remove_one(directory / name);
+  for (const char* name : output_files) remove_one(directory / name);
   remove_pods(directory);
   remove_contact_problems(directory);
 }
@@ -158,7 +173,8 @@ std::string mark_of_run(const fs::path& directory) {
 
 bool is_cut_off(const fs::path& directory) {
   try {
-    return read_json(directory / "run.json").value("status", "") == "running";
+    const std::string status = read_json(directory / "run.json").value("status", "");
+    return status == "running" || status == "failed";
   } catch (const std::exception&) {  // no run.json, or another one
     return false;
   }
@@ -173,7 +189,12 @@ DirectoryLock take_results_directory(const fs::path& directory, DirectoryUse use
   if (error)
     throw FileError(directory.string(), "cannot create directory: " + message(error.value()));
   DirectoryLock lock(directory);
-  if (use == DirectoryUse::overwrite) clear_results_directory(directory);
+  remove_unfinished(directory);
+  if (use == DirectoryUse::overwrite) {
+    clear_results_directory(directory);
+    for (const char* name : input_files) remove_one(directory / name);
+    remove_one(directory / "run.json");
+  }
   if (use != DirectoryUse::begin) return lock;
   const std::string go_on = is_there(directory / "checkpoint.h5") ? ", --resume to go on" : "";
   if (const std::string mark = mark_of_run(directory); !mark.empty())

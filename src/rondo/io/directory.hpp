@@ -42,10 +42,12 @@ enum class DirectoryUse {
 /// A file that says that there is a run or modes; empty: none.
 std::string mark_of_run(const std::filesystem::path& directory);
 
-/// By its run.json the run there has not ended: with the directory taken, it was cut off.
+/// By its run.json the run there has not come to an end: it was killed (with the directory taken, a
+/// run that is "running" is no more), or failed.
 bool is_cut_off(const std::filesystem::path& directory);
 
-/// As for DirectoryUse::overwrite. @pre the directory is taken. @throws FileError
+/// Removes what a run has written, but its inputs (case.toml, mesh.msh) and run.json, which are
+/// replaced when it begins anew. @pre the directory is taken. @throws FileError
 void clear_results_directory(const std::filesystem::path& directory);
 
 }  // namespace rondo::io

@@ -84,6 +84,11 @@ nlohmann::ordered_json read_json(const fs::path& file) {
   return json;
 }
 
+UnfinishedFile::~UnfinishedFile() {
+  std::error_code error;
+  fs::remove(path, error);
+}
+
 void sync_file(const fs::path& file) {
   const auto fail = [&](const char* doing) {
     throw FileError(file.string(), fmt::format("cannot {}: {}", doing, message(errno)));
@@ -114,13 +119,19 @@ void demand_room(const fs::path& file, std::size_t bytes) {
 
 bool overwrite_json(const fs::path& file, const nlohmann::ordered_json& json) noexcept {
   try {
-    const std::string text = json.dump(2) + "\n";
+    write_json(file, json);
+    return true;
+  } catch (const std::exception&) {  // in place, then
+  }
+  try {
+    std::error_code error;
+    const auto size = fs::file_size(file, error);
+    std::string text = json.dump(2) + "\n";
+    if (!error && text.size() < size) text.append(size - text.size(), ' ');  // over all of the old
     std::fstream stream(file, std::ios::in | std::ios::out | std::ios::binary);
     stream.write(text.data(), static_cast<std::streamsize>(text.size()));
     stream.close();
-    if (!stream) return false;
-    fs::resize_file(file, text.size());
-    return true;
+    return static_cast<bool>(stream);
   } catch (const std::exception&) {
     return false;
   }

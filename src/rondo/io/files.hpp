@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <filesystem>
 #include <string>
+#include <utility>
 
 #include <nlohmann/json.hpp>
 
@@ -17,6 +18,16 @@ nlohmann::ordered_json read_json(const std::filesystem::path& file);
 /// The file takes the place of `target` in the same file system, at once and for good.
 /// @throws FileError
 void replace_file(const std::filesystem::path& file, const std::filesystem::path& target);
+/// A file being written under a name of its own: removed at the end of its life, unless it was
+/// renamed by then.
+struct UnfinishedFile {
+  std::filesystem::path path;
+
+  explicit UnfinishedFile(std::filesystem::path file) : path(std::move(file)) {}
+  ~UnfinishedFile();
+  UnfinishedFile(const UnfinishedFile&) = delete;
+  UnfinishedFile& operator=(const UnfinishedFile&) = delete;
+};
 /// What the file holds is on the disk, whatever happens to the machine. @throws FileError
 void sync_file(const std::filesystem::path& file);
 /// Better before the work than after it: a file of that many bytes would fill the disk. File

@@ -130,13 +130,6 @@ void Dataset::fail(const char* doing) const {
   fail_in(file_, std::string("cannot ") + doing + " " + name_);
 }
 
-std::size_t Dataset::n_numbers() const noexcept {
-  return product(shape_, 0);
-}
-std::size_t Dataset::n_in_row() const noexcept {
-  return product(shape_, 1);
-}
-
 void Dataset::find_spaces() {
   file_space_ = Handle(H5Dget_space(id_.get()));
   const int rank = H5Sget_simple_extent_ndims(file_space_.get());

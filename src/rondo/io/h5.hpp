@@ -187,6 +187,8 @@ class File {
   }
 
   [[nodiscard]] const std::string& path() const noexcept { return path_; }
+  /// What errors of this file and of its datasets to come call it: its name once it is renamed.
+  void call_it(const std::filesystem::path& path) { path_ = path.string(); }
   [[nodiscard]] bool contains(const std::string& name) const;
   [[nodiscard]] Dataset dataset(const std::string& name) const;  ///< @throws FileError: none such
   /// Of a file that may be damaged or not ours. @param shape wanted, `any` where all will do.

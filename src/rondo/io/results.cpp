@@ -70,10 +70,10 @@ std::array<float, 3> in_space(Vec2 a) noexcept {
 constexpr const char* results_name = "results.h5";
 constexpr const char* new_name = "results.h5.new";  // until it is whole
 
-Results::Impl::Impl(const std::filesystem::path& folder, const ResultsLayout& layout,
-                    const char* name)
+Results::Impl::Impl(const std::filesystem::path& folder, const ResultsLayout& layout)
     : c(counts_of(layout)),
       directory(folder),
+      unfinished{folder / new_name},
       coordinates(layout.mesh->coordinates),
       boundary(layout.mesh->boundary),
       tributary(layout.mesh->tributary),
@@ -85,8 +85,9 @@ Results::Impl::Impl(const std::filesystem::path& folder, const ResultsLayout& la
       traction(c.contact ? c.candidates : 0) {
   RONDO_DEMAND(c.nodes > 0 && layout.mass.size() == c.nodes, c.nodes, layout.mass.size());
   RONDO_DEMAND(tributary.size() == c.candidates, tributary.size(), c.candidates);
-  demand_room(directory / name, bytes(layout));
-  file = h5::File::create(directory / name, index_bytes(c));
+  demand_room(directory / results_name, bytes(layout));
+  file = h5::File::create(unfinished.path, index_bytes(c));
+  file.call_it(directory / results_name);
   file.set_attribute("/", "format", "rondo results 1");
   file.set_attribute("/", "analysis", c.quasi_static ? "crush" : "dynamic");
   write_mesh(file, *layout.mesh, layout.mass);
@@ -102,7 +103,6 @@ Results::Impl::Impl(const std::filesystem::path& folder, const ResultsLayout& la
     if (c.quasi_static) create_crush();
     reserve();
   }
-  file.flush();
 }
 
 void Results::Impl::go_on(std::size_t kept) {
@@ -111,8 +111,13 @@ void Results::Impl::go_on(std::size_t kept) {
   for (h5::Dataset* dataset : all_rows())
     if (*dataset) dataset->copy_rows(before, kept);
   written = kept;
+}
+
+/// From here on the file is there, and at any moment whole.
+void Results::Impl::publish(const mesh::Mesh& mesh) {
   file.flush();
-  replace_file(directory / new_name, directory / results_name);
+  replace_file(unfinished.path, directory / results_name);
+  begin_xdmf(mesh);
 }
 
 /// With the grids of the snapshots that are there.
@@ -242,16 +247,16 @@ void Results::Impl::close() {
 
 Results::Results(const std::filesystem::path& directory, const ResultsLayout& layout) {
   RONDO_DEMAND(layout.mesh != nullptr, layout.n_snapshots);
-  impl_ = std::make_unique<Impl>(directory, layout, results_name);
-  impl_->begin_xdmf(*layout.mesh);
+  impl_ = std::make_unique<Impl>(directory, layout);
+  impl_->publish(*layout.mesh);
 }
 
 Results::Results(const std::filesystem::path& directory, const ResultsLayout& layout,
                  std::size_t kept) {
   RONDO_DEMAND(layout.mesh != nullptr, layout.n_snapshots);
-  impl_ = std::make_unique<Impl>(directory, layout, new_name);
+  impl_ = std::make_unique<Impl>(directory, layout);
   impl_->go_on(kept);
-  impl_->begin_xdmf(*layout.mesh);
+  impl_->publish(*layout.mesh);
 }
 
 Results::~Results() {

@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "rondo/io/files.hpp"
 #include "rondo/io/h5.hpp"
 #include "rondo/io/results.hpp"
 #include "rondo/io/xdmf.hpp"
@@ -26,8 +27,9 @@ std::span<const T> view(const std::vector<T>& values) {
 }
 
 struct Results::Impl {
-  Impl(const std::filesystem::path& directory, const ResultsLayout& layout, const char* name);
+  Impl(const std::filesystem::path& directory, const ResultsLayout& layout);
   void go_on(std::size_t kept);
+  void publish(const mesh::Mesh& mesh);
   void begin_xdmf(const mesh::Mesh& mesh);
   [[nodiscard]] std::array<h5::Dataset*, 19> all_rows();
   void create_frame();
@@ -61,6 +63,7 @@ struct Results::Impl {
 
   ResultsCounts c;
   std::filesystem::path directory;
+  UnfinishedFile unfinished;  ///< results.h5 until it is whole
   std::vector<Vec2> coordinates;
   std::vector<int> boundary;
   std::vector<double> tributary;

@@ -72,9 +72,10 @@ CheckReport check_case(const Case& c, int threads) {
   r.step = setup.model.dt;
   r.steps = setup.n_steps;
   r.threads = setup.model.threads;
-  r.snapshots = snapshot_schedule(c.output, setup.model.dt, setup.n_steps).steps.size();
+  const SnapshotSchedule schedule = snapshot_schedule(c.output, setup.model.dt, setup.n_steps);
+  r.snapshots = schedule.steps.size();
   r.memory_bytes = estimated_memory(c, size_of(setup.mesh));
-  r.disk_bytes = disk_needed(c, setup).all;
+  r.disk_bytes = disk_needed(c, setup, schedule).all;
   r.seconds = seconds_per_step(setup) * static_cast<double>(setup.n_steps);
   r.warnings = c.warnings;
   r.warnings.insert(r.warnings.end(), setup.warnings.begin(), setup.warnings.end());

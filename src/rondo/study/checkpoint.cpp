@@ -158,14 +158,26 @@ void write_checkpoint(const std::filesystem::path& directory, const Checkpoint& 
   });
 }
 
-Checkpoint read_checkpoint(const std::filesystem::path& directory) {
+namespace {
+
+RunIdentity get_identity(const File& file) {
+  RunIdentity identity;
+  identity.version = get_text(file, "/identity/version");
+  identity.build_id = get_text(file, "/identity/build_id");
+  identity.dispatch = get_text(file, "/identity/dispatch");
+  identity.case_text = get_text(file, "/identity/case");
+  identity.mesh_hash = get_text(file, "/identity/mesh_hash");
+  return identity;
+}
+
+}  // namespace
+
+Checkpoint read_checkpoint(const std::filesystem::path& directory,
+                           const std::function<void(const RunIdentity&)>& check) {
   const File file = io::open_checkpoint_file(directory / checkpoint_name);
   Checkpoint k;
-  k.identity.version = get_text(file, "/identity/version");
-  k.identity.build_id = get_text(file, "/identity/build_id");
-  k.identity.dispatch = get_text(file, "/identity/dispatch");
-  k.identity.case_text = get_text(file, "/identity/case");
-  k.identity.mesh_hash = get_text(file, "/identity/mesh_hash");
+  k.identity = get_identity(file);
+  if (check) check(k.identity);
   for_scalars(k, [&](const char* name, auto& value, const h5::Label&) {
     using Value = std::remove_reference_t<decltype(value)>;
     value = static_cast<Value>(get<decltype(stored(value))>(file, name, 1).front());

@@ -3,6 +3,7 @@
 #pragma once
 #include <cstdint>
 #include <filesystem>
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -49,7 +50,9 @@ RunIdentity identity_of(const Case& c, const Setup& setup);
 /// Takes the place of directory/checkpoint.h5. @throws FileError
 void write_checkpoint(const std::filesystem::path& directory, const Checkpoint& checkpoint);
 
-/// @throws FileError: missing, damaged, of a version that wrote other ones
-Checkpoint read_checkpoint(const std::filesystem::path& directory);
+/// @param check sees the identity first, and may throw: what another version wrote may be arranged
+/// in another way. @throws FileError: missing, damaged, of another format
+Checkpoint read_checkpoint(const std::filesystem::path& directory,
+                           const std::function<void(const RunIdentity&)>& check = {});
 
 }  // namespace rondo::study

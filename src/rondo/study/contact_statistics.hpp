@@ -19,6 +19,7 @@ struct ContactStatistics {
   int cluster_iterations = 0;  ///< most of one
   int between_bodies = 0;      ///< most in a step
 
+  bool operator==(const ContactStatistics&) const = default;
   /// The figures of a step.
   void add(const dynamics::ContactReport& r) noexcept;
 };

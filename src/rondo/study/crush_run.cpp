@@ -191,6 +191,7 @@ RunReport run_crush(const Case& c, const RunOptions& options) {
     throw case_error(c, "analysis.kind", "a crush has no checkpoints to go on from",
                      "\"dynamic\", or --overwrite instead of --resume");
   const CrushSetup setup = build_crush(c);
+  demand_disk(options, disk_needed(c, setup));  // before minutes of condensing
   const auto begin = Clock::now();
   statics::Condensation body(fem::assemble_stiffness(setup.mesh, setup.materials), setup.free,
                              setup.model.nodes);
@@ -198,7 +199,6 @@ RunReport run_crush(const Case& c, const RunOptions& options) {
   Json json = describe(c, setup, seconds_since(begin));
   give_warnings(c.warnings, options);
   give_warnings(setup.warnings, options);
-  demand_disk(options, disk_needed(c, setup));
   const io::DirectoryLock lock = take_directory(c, options);
   begin_files(c, options, json);
   const Loop loop = record(c, setup, body, options, json);

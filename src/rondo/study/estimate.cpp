@@ -99,6 +99,8 @@ std::size_t compliance_memory(const Case& c, std::size_t nodes) noexcept {
   return static_cast<std::size_t>((fields + matrices) * sizeof(double));
 }
 
+constexpr std::size_t numbers_of_a_checkpoint = 6;  ///< of a node: u, v, K u
+
 /// Of snapshots that wait to be written, displacement and velocity each.
 std::size_t queue_memory(const Case& c, std::size_t nodes) noexcept {
   if (c.analysis.kind == AnalysisKind::crush || c.output.snapshots == 0) return 0;
@@ -115,8 +117,10 @@ bool softening_is_checked(std::size_t dofs, std::size_t harmonic_dofs) noexcept 
 }
 
 std::size_t estimated_memory(const Case& c, const MeshSize& mesh) noexcept {
-  // Mesh, model, state and what is written; weights and nodal values of the stress.
-  const std::size_t fields = (c.output.stress ? 38 : 30) * sizeof(double);
+  // Mesh, model, state and what is written; weights and nodal values of the stress; a checkpoint.
+  const bool dynamic = c.analysis.kind == AnalysisKind::dynamic;
+  const std::size_t fields =
+      ((c.output.stress ? 38 : 30) + (dynamic ? numbers_of_a_checkpoint : 0)) * sizeof(double);
   return program_memory + mesh.nodes * fields + stiffness_memory(c, mesh) +
          mesh.cells * sizeof(mesh::Cell) + factor_memory(c, mesh) +
          compliance_memory(c, mesh.nodes) + queue_memory(c, mesh.nodes);

@@ -41,16 +41,20 @@ Fault differs(std::string key, std::string found, const std::string& message,
 
 /// Of the keys of two cases as they are written out: all are there unless the kind of a thing
 /// differs.
-void compare_cases(const Checkpoint& k, const Case& c, std::vector<Fault>& faults) {
+void compare_cases(const Checkpoint& k, const Case& c, const Setup& setup,
+                   std::vector<Fault>& faults) {
   const CaseSource now = load_case_text("the case", write_case(c), {});
   const CaseSource then = load_case_text("the checkpoint", k.identity.case_text, {});
   constexpr std::array<std::string_view, 3> free = {"time.end", "output.checkpoint_interval",
                                                     "mesh.file"};
+  const SnapshotSchedule longer = with_end(k.schedule, c.output, setup.model.dt, setup.n_steps);
+  const std::array snapshots{static_cast<std::int64_t>(k.schedule.steps.size()),
+                             static_cast<std::int64_t>(longer.steps.size())};
   for (const auto& [key, value] : now.values) {
     if (std::find(free.begin(), free.end(), key) != free.end()) continue;
-    // A longer run keeps its interval: its kept case counts all of its snapshots.
+    // A longer run keeps its interval: its case, as it is kept, counts all of its snapshots.
     if (key == "output.snapshots" &&
-        value.integer == static_cast<std::int64_t>(k.schedule.steps.size()))
+        std::find(snapshots.begin(), snapshots.end(), value.integer) != snapshots.end())
       continue;
     const auto before = then.values.find(key);
     if (before == then.values.end())
@@ -81,30 +85,6 @@ void compare_programs(const RunIdentity& then, const RunIdentity& now, std::vect
           fmt::format("RONDO_DISPATCH={} on a machine that has them", then.dispatch));
 }
 
-}  // namespace
-
-void demand_same_run(const Checkpoint& k, const Case& c, const Setup& setup) {
-  const RunIdentity now = identity_of(c, setup);
-  std::vector<Fault> faults;
-  compare_programs(k.identity, now, faults);
-  compare_cases(k, c, faults);
-  if (faults.empty() && k.identity.mesh_hash != now.mesh_hash)
-    faults.push_back(differs("mesh.file", c.mesh ? as_utf8(c.mesh->file.string()) : "",
-                             "is not the mesh that the run began with", "that mesh"));
-  if (faults.empty() && k.identity.step != now.step)
-    faults.push_back(differs("time.step", fmt::format("{}", now.step),
-                             "the step of the checkpoint is another one",
-                             fmt::format("{}", k.identity.step)));
-  if (faults.empty() && k.state.step > setup.n_steps)
-    faults.push_back(differs("time.end", fmt::format("{}", c.time.end),
-                             fmt::format("the run has come to t = {:.9g} s",
-                                         static_cast<double>(k.state.step) * now.step),
-                             "a later end"));
-  if (!faults.empty()) throw InputError(std::move(faults));
-}
-
-namespace {
-
 /// A run that was cut off before its first checkpoint begins anew, if it is this one.
 void clear_without_checkpoint(const Case& c, const std::filesystem::path& directory) {
   const std::string mark = io::mark_of_run(directory);
@@ -123,10 +103,6 @@ void clear_without_checkpoint(const Case& c, const std::filesystem::path& direct
   io::clear_results_directory(directory);
 }
 
-}  // namespace
-
-namespace {
-
 /// All that the integrator of this model carries, and nothing else.
 void demand_whole_state(const dynamics::SavedState& s, const Setup& setup,
                         const std::filesystem::path& directory) {
@@ -144,6 +120,33 @@ void demand_whole_state(const dynamics::SavedState& s, const Setup& setup,
 
 }  // namespace
 
+void demand_same_program(const RunIdentity& then, const RunIdentity& now) {
+  std::vector<Fault> faults;
+  compare_programs(then, now, faults);
+  if (!faults.empty()) throw InputError(std::move(faults));
+}
+
+void demand_same_run(const Checkpoint& k, const Case& c, const Setup& setup) {
+  const RunIdentity now = identity_of(c, setup);
+  std::vector<Fault> faults;
+  compare_cases(k, c, setup, faults);
+  if (faults.empty() && k.identity.mesh_hash != now.mesh_hash)
+    faults.push_back(differs("mesh.file", c.mesh ? as_utf8(c.mesh->file.string()) : "",
+                             "is not the mesh that the run began with", "that mesh"));
+  if (faults.empty() && k.identity.step != now.step)
+    faults.push_back(differs("time.step", fmt::format("{}", now.step),
+                             "the step of the checkpoint is another one",
+                             fmt::format("{}", k.identity.step)));
+  const bool behind =
+      k.state.step > setup.n_steps || (k.state.step == setup.n_steps && k.n_steps != setup.n_steps);
+  if (faults.empty() && behind)
+    faults.push_back(differs("time.end", fmt::format("{}", c.time.end),
+                             fmt::format("the run has come to t = {:.9g} s",
+                                         static_cast<double>(k.state.step) * now.step),
+                             "a later end"));
+  if (!faults.empty()) throw InputError(std::move(faults));
+}
+
 std::optional<Checkpoint> find_checkpoint(const Case& c, const Setup& setup,
                                           const std::filesystem::path& directory) {
   std::error_code error;
@@ -152,7 +155,9 @@ std::optional<Checkpoint> find_checkpoint(const Case& c, const Setup& setup,
     clear_without_checkpoint(c, directory);
     return std::nullopt;
   }
-  Checkpoint k = read_checkpoint(directory);
+  Checkpoint k = read_checkpoint(directory, [&](const RunIdentity& then) {
+    demand_same_program(then, identity_of(c, setup));
+  });
   demand_same_run(k, c, setup);
   demand_whole_state(k.state, setup, directory);
   if (k.n_steps != setup.n_steps)

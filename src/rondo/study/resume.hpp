@@ -8,8 +8,12 @@
 
 namespace rondo::study {
 
-/// Refuses to go on with another run: the case may only differ in time.end, which must not lie
-/// before the steps made, in output.checkpoint_interval and, with the same mesh, in mesh.file.
+/// Version, build and kernels. @throws InputError with all that differs
+void demand_same_program(const RunIdentity& then, const RunIdentity& now);
+
+/// Refuses to go on with another run: the case may only differ in time.end, which must lie
+/// beyond the steps made unless it is the end of before, in output.checkpoint_interval and, with
+/// the same mesh, in mesh.file.
 /// @throws InputError with all that differs
 void demand_same_run(const Checkpoint& checkpoint, const Case& c, const Setup& setup);
 

@@ -12,7 +12,6 @@
 #include "rondo/io/results.hpp"
 #include "rondo/study/memory_limits.hpp"
 #include "rondo/study/observers.hpp"
-#include "rondo/study/snapshot_schedule.hpp"
 
 namespace rondo::study {
 namespace fs = std::filesystem;
@@ -89,10 +88,9 @@ void demand_memory(const Case& c, const mesh::Mesh& mesh, std::size_t needed) {
                      "a coarser mesh, or more memory");
 }
 
-DiskNeed disk_needed(const Case& c, const Setup& setup) {
+DiskNeed disk_needed(const Case& c, const Setup& setup, const SnapshotSchedule& schedule) {
   const bool contact = has_candidates(setup.model);
-  const std::size_t snapshots =
-      snapshot_schedule(c.output, setup.model.dt, setup.n_steps).steps.size();
+  const std::size_t snapshots = schedule.steps.size();
   const std::size_t checkpoint =
       setup.mesh.n_nodes() * numbers_of_a_checkpoint * sizeof(double) + 50'000;
   return need_of({io::Results::bytes({&setup.mesh, setup.model.mass, snapshots, contact,

@@ -9,6 +9,7 @@
 #include "rondo/study/crush_build.hpp"
 #include "rondo/study/estimate.hpp"
 #include "rondo/study/run.hpp"
+#include "rondo/study/snapshot_schedule.hpp"
 
 namespace rondo::study {
 
@@ -25,7 +26,7 @@ struct DiskNeed {
   std::size_t largest_file = 0;  ///< of the files that grow
 };
 
-DiskNeed disk_needed(const Case& c, const Setup& setup);
+DiskNeed disk_needed(const Case& c, const Setup& setup, const SnapshotSchedule& schedule);
 DiskNeed disk_needed(const Case& c, const CrushSetup& setup);
 
 /// Called before anything is written or removed. @throws FileError: less is free, or the limit of a

@@ -99,7 +99,7 @@ std::vector<std::string> all_warnings(const Case& c, const Setup& setup,
                                       const SnapshotSchedule& schedule) {
   std::vector<std::string> warnings = c.warnings;
   warnings.insert(warnings.end(), setup.warnings.begin(), setup.warnings.end());
-  if (schedule.steps.size() < static_cast<std::size_t>(c.output.snapshots))
+  if (setup.n_steps + 1 < c.output.snapshots)
     warnings.push_back(
         fmt::format("{} snapshots instead of {}: the run has {} steps, and each gives one "
                     "at the most",
@@ -115,7 +115,7 @@ struct Run {
   std::optional<Checkpoint> from;
   SnapshotSchedule schedule;
 
-  [[nodiscard]] const Checkpoint* checkpoint() const { return from ? &*from : nullptr; }
+  [[nodiscard]] Checkpoint* checkpoint() { return from ? &*from : nullptr; }
 };
 
 /// What is left after an error of files, and what can be done.
@@ -129,7 +129,7 @@ std::string what_is_kept(const Run& run, std::optional<RunOutput>& output) {
 
 /// The loop with its output. A file that cannot be written ends the run: run.json says so, where
 /// it can still be written itself.
-Loop record(const Run& run, Setup& setup, const Json& json) {
+Loop record(Run& run, Setup& setup, const Json& json) {
   std::optional<RunOutput> output;
   try {
     const RunOutput::Plan plan{run.options.directory, run.c, setup, run.schedule};
@@ -162,7 +162,8 @@ void add_resumed(const Run& run, Json& json) {
   Json steps = Json::array();
   try {
     const Json before = io::read_json(run.options.directory / "run.json");
-    if (const auto found = before.find("resumed_at_steps"); found != before.end()) steps = *found;
+    const auto found = before.find("resumed_at_steps");
+    if (found != before.end() && found->is_array()) steps = *found;
   } catch (const FileError&) {  // a lost run.json loses nothing else
   }
   steps.push_back(run.from->state.step);
@@ -179,11 +180,14 @@ RunReport nothing_to_do(const Checkpoint& k) {
   return r;
 }
 
+SnapshotSchedule fresh_schedule(const Case& c, const Setup& setup) {
+  return snapshot_schedule(c.output, setup.model.dt, setup.n_steps);
+}
+
 Run make_run(const Case& c, const RunOptions& options, const Setup& setup) {
   Run run{c, options, identity_of(c, setup), std::nullopt, {}};
   if (options.resume) run.from = find_checkpoint(c, setup, options.directory);
-  run.schedule =
-      run.from ? run.from->schedule : snapshot_schedule(c.output, setup.model.dt, setup.n_steps);
+  run.schedule = run.from ? run.from->schedule : fresh_schedule(c, setup);
   return run;
 }
 
@@ -194,10 +198,14 @@ RunReport run_case(const Case& c, const RunOptions& options) {
   const auto begin = Clock::now();
   static_cast<void>(dispatch_level());  // a wrong one is told before anything is built
   Setup setup = build(c, options.threads);
-  demand_disk(options, disk_needed(c, setup));
+  // Before anything is removed; a run that is gone on with needs what its checkpoint says.
+  if (!options.resume) demand_disk(options, disk_needed(c, setup, fresh_schedule(c, setup)));
   const io::DirectoryLock lock = take_directory(c, options);
-  const Run run = make_run(c, options, setup);
+  Run run = make_run(c, options, setup);
   if (run.from && is_complete(*run.from, setup, options.directory)) return nothing_to_do(*run.from);
+  const std::string other = warning_of_another_host(options.directory);
+  if (!other.empty()) give_warnings({other}, options);
+  if (options.resume) demand_disk(options, disk_needed(c, setup, run.schedule));
   give_warnings(all_warnings(c, setup, run.schedule), options);
   Json json = describe(c, setup);
   add_resumed(run, json);

@@ -7,6 +7,8 @@
 
 #include <array>
 #include <cstdint>
+#include <fstream>
+#include <iterator>
 #include <new>
 #include <system_error>
 
@@ -49,9 +51,11 @@ bool is_copied(const MeshCase& mesh) {
 void copy_mesh(const Case& c, const std::filesystem::path& directory) {
   if (!c.mesh || !is_copied(*c.mesh)) return;
   std::error_code error;
-  if (std::filesystem::exists(directory / mesh_copy, error)) return;  // of a run gone on with
-  std::filesystem::copy_file(c.mesh->file, directory / mesh_copy, error);
-  if (error) throw FileError((directory / mesh_copy).string(), "cannot write: " + error.message());
+  if (std::filesystem::equivalent(c.mesh->file, directory / mesh_copy, error)) return;
+  std::ifstream in(c.mesh->file, std::ios::binary);
+  const std::string text(std::istreambuf_iterator<char>(in), {});
+  if (in.bad()) throw FileError(c.mesh->file.string(), "cannot be read again, to be copied");
+  io::write_file(directory / mesh_copy, text);
 }
 
 /// The case as run, with its mesh.
@@ -106,7 +110,10 @@ void write_contact_problem(const std::filesystem::path& directory, int number,
   std::error_code error;
   std::filesystem::create_directories(folder, error);
   if (error) throw FileError(folder.string(), "cannot create: " + error.message());
-  contact::write_problem(folder / fmt::format("{:04}.json", number), problem);
+  const std::filesystem::path file = folder / fmt::format("{:04}.json", number);
+  const io::UnfinishedFile beside(file.string() + ".new");
+  contact::write_problem(beside.path, problem);
+  io::replace_file(beside.path, file);
 }
 
 io::DirectoryLock take_modes_directory(const Case& c, const std::filesystem::path& directory,
@@ -120,11 +127,25 @@ io::DirectoryLock take_modes_directory(const Case& c, const std::filesystem::pat
 
 io::DirectoryLock take_directory(const Case& c, const RunOptions& options) {
   if (options.before_loop) options.before_loop();
-  if (!options.resume) keep_the_users_files(c, options.directory);
+  // What is there to be gone on with is the run's own.
+  if (!options.resume || io::mark_of_run(options.directory).empty())
+    keep_the_users_files(c, options.directory);
   return io::take_results_directory(options.directory, options.resume ? io::DirectoryUse::go_on
                                                        : options.overwrite
                                                            ? io::DirectoryUse::overwrite
                                                            : io::DirectoryUse::begin);
+}
+
+std::string warning_of_another_host(const std::filesystem::path& directory) {
+  if (!io::is_cut_off(directory)) return {};
+  const Json json = io::read_json(directory / "run.json");
+  const std::string host = text_in(json, "host");
+  if (text_in(json, "status") != "running" || host.empty() || host == io::host_name()) return {};
+  return fmt::format(
+      "{} was begun on {} and has not ended there by its run.json: make sure that it does not go "
+      "on "
+      "there, locks do not reach across machines",
+      directory.string(), host);
 }
 
 void begin_files(const Case& c, const RunOptions& options, const Json& json) {

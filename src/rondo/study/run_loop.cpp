@@ -165,7 +165,11 @@ class Runner {
       std::vector<Vec2>().swap(*field);
     state_.v.resize(state_.u.size());
     if (!plan_.from) return;
-    integrator_->restore(plan_.from->state);
+    dynamics::SavedState& state = plan_.from->state;
+    integrator_->restore(state);
+    const long long step = state.step;
+    state = {};  // as much memory as the steps have
+    state.step = step;
     loop_.contact = plan_.from->contact;
     loop_.steps = plan_.from->state.step;
     loop_.wall_s = plan_.from->loop_wall_s;

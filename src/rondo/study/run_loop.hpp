@@ -28,8 +28,8 @@ struct Loop {
 struct LoopPlan {
   const Case& c;
   const RunOptions& options;
-  const RunIdentity& identity;       ///< for the checkpoints
-  const Checkpoint* from = nullptr;  ///< absent: from the start
+  const RunIdentity& identity;  ///< for the checkpoints
+  Checkpoint* from = nullptr;   ///< absent: from the start; its fields are freed once taken
 };
 
 /// Takes the initial fields of the setup, which are not needed twice. @throws FileError

@@ -68,8 +68,8 @@ RunOutput::RunOutput(const Plan& plan, const Checkpoint* from)
       numbers_at_once_(rows_at_once * history_.columns().size()),
       rows_(no_rows(numbers_at_once_)),
       saved_step_(from ? from->state.step : 0),
-      history_csv_(history_file(plan.directory, history_.columns(), from)),
       snapshots_(snapshot_files(plan, from)),
+      history_csv_(history_file(plan.directory, history_.columns(), from)),
       slots_(make_slots(plan.setup)),
       writer_(slots_.size(), [this](std::size_t slot) { write(slots_[slot]); }) {}
 

@@ -122,8 +122,8 @@ class RunOutput {
   std::atomic<bool> saving_{false};
   std::atomic<long long> saved_step_{0};
   // The thread's from its start to its end.
+  Snapshots snapshots_;  ///< first: what fails while it copies leaves all files as they were
   io::Csv history_csv_;
-  Snapshots snapshots_;
   std::vector<Slot> slots_;
   WriterThread writer_;  ///< last: ends before what it works with
 };

@@ -27,7 +27,6 @@ class Resume : public testing::Test {
   }
   void TearDown() override { fs::remove_all(folder_); }
 
-  /// Of a run after some steps, with a number of its own in each place.
   Checkpoint after_steps() {
     const dynamics::State start =
         dynamics::start(setup_.model, setup_.displacement, setup_.velocity);
@@ -37,26 +36,34 @@ class Resume : public testing::Test {
     Checkpoint k;
     k.identity = identity_of(case_, setup_);
     k.state = integrator->save();
+    k.n_steps = setup_.n_steps;
+    k.history.done = k.state.step;
+    k.schedule = snapshot_schedule(case_.output, setup_.model.dt, setup_.n_steps);
+    return k;
+  }
+
+  /// The same with a number of its own in each place.
+  Checkpoint with_all_numbers() {
+    Checkpoint k = after_steps();
     k.state.gradient = {{0.5, 0.25}};
     k.state.energy = {1.5};
     k.state.poses = {{{1.0, 2.0}, {0.6, 0.8}, 7.0}};
     k.state.impulses = {{~0ULL, {3.0, 4.0}}};
-    k.n_steps = setup_.n_steps;
     k.history = {11, 12, k.state.step, {0.1, 0.2}, 0.3, 0.4};
     k.last_row = {0.7, 0.8};
     k.schedule = {{0, 5, 20}, 0.125};
-    k.contact.residual = 1e-17;
-    k.contact.pairs = 1LL << 40;
-    k.contact.between_bodies = 17;
+    k.contact = {1e-17, 2.0, 3e-5, 21, 22, 1LL << 40, 24, 25, 26, 27, 28, 29};
     k.problems_kept = 3;
     k.loop_wall_s = 1.0 / 3.0;
+    k.loop_cpu_s = 2.0 / 3.0;
     k.files = {100, 200, 2};
     return k;
   }
 
-  /// What demand_same_run says.
+  /// What is said of it.
   std::string refusal(const Checkpoint& k) {
     try {
+      demand_same_program(k.identity, identity_of(case_, setup_));
       demand_same_run(k, case_, setup_);
       return {};
     } catch (const InputError& error) {
@@ -74,7 +81,7 @@ class Resume : public testing::Test {
 }  // namespace
 
 TEST_F(Resume, ACheckpointIsReadBackToTheBit) {
-  const Checkpoint a = after_steps();
+  const Checkpoint a = with_all_numbers();
   write_checkpoint(folder_, a);
   const Checkpoint b = read_checkpoint(folder_);
   EXPECT_EQ(a.identity.version, b.identity.version);
@@ -103,11 +110,10 @@ TEST_F(Resume, ACheckpointIsReadBackToTheBit) {
   EXPECT_EQ(a.last_row, b.last_row);
   EXPECT_EQ(a.schedule.steps, b.schedule.steps);
   EXPECT_EQ(a.schedule.interval, b.schedule.interval);
-  EXPECT_EQ(a.contact.residual, b.contact.residual);
-  EXPECT_EQ(a.contact.pairs, b.contact.pairs);
-  EXPECT_EQ(a.contact.between_bodies, b.contact.between_bodies);
+  EXPECT_EQ(a.contact, b.contact);
   EXPECT_EQ(a.problems_kept, b.problems_kept);
   EXPECT_EQ(a.loop_wall_s, b.loop_wall_s);
+  EXPECT_EQ(a.loop_cpu_s, b.loop_cpu_s);
   EXPECT_EQ(a.files.history_bytes, b.files.history_bytes);
   EXPECT_EQ(a.files.contact_bytes, b.files.contact_bytes);
   EXPECT_EQ(a.files.snapshots, b.files.snapshots);
@@ -136,9 +142,34 @@ TEST_F(Resume, AnotherStepOrMeshIsRefused) {
 
 /// Which must fit the model, whatever the hash says: a program of the same build wrote it.
 TEST_F(Resume, AStateOfAnotherSizeIsDamaged) {
+  const Checkpoint whole = after_steps();
+  const auto is_taken = [&](const Checkpoint& k) {
+    write_checkpoint(folder_, k);
+    try {
+      return find_checkpoint(case_, setup_, folder_).has_value();
+    } catch (const FileError& error) {
+      EXPECT_NE(std::string(error.what()).find("damaged"), std::string::npos) << error.what();
+      return false;
+    }
+  };
+  EXPECT_TRUE(is_taken(whole));
+  for (const auto field : {&dynamics::SavedState::u, &dynamics::SavedState::v,
+                           &dynamics::SavedState::force, &dynamics::SavedState::gradient}) {
+    Checkpoint k = whole;
+    (k.state.*field).emplace_back();
+    EXPECT_FALSE(is_taken(k));
+  }
+  Checkpoint k = whole;
+  k.state.energy.push_back(0.0);
+  EXPECT_FALSE(is_taken(k));
+}
+
+TEST_F(Resume, AnEndAtTheStepsMadeIsNoLaterOne) {
   Checkpoint k = after_steps();
-  k.state.u.pop_back();
-  k.state.v.pop_back();
-  write_checkpoint(folder_, k);
-  EXPECT_THROW(static_cast<void>(find_checkpoint(case_, setup_, folder_)), FileError);
+  setup_.n_steps = k.state.step;
+  EXPECT_NE(refusal(k).find("time.end"), std::string::npos);
+  k.n_steps = k.state.step;  // it was the end before
+  EXPECT_EQ(refusal(k), "");
+  setup_.n_steps = k.state.step - 1;
+  EXPECT_NE(refusal(k).find("a later end"), std::string::npos);
 }
