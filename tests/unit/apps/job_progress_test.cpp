@@ -36,11 +36,14 @@ std::string on_terminal(unsigned short columns,
     app::JobProgress progress(jobs, out);
     body(progress);
   }
-  std::array<char, 4096> buffer{};
-  const ssize_t n = read(master, buffer.data(), buffer.size());
   std::fclose(out);
-  close(master);
-  return {buffer.data(), static_cast<std::size_t>(std::max<ssize_t>(n, 0))};
+  // The kernel hands over what was written in pieces, when it comes to it; then there is no more.
+  std::string text;
+  std::array<char, 4096> buffer{};
+  for (ssize_t n = 0; (n = read(master, buffer.data(), buffer.size())) > 0;)
+    text.append(buffer.data(), static_cast<std::size_t>(n));
+  ::close(master);
+  return text;
 }
 
 std::string in_file(const std::function<void(app::JobProgress&)>& body) {
