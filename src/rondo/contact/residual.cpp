@@ -9,8 +9,8 @@
 namespace rondo::contact {
 
 Vec2 project_on_cone(Vec2 r, double friction) noexcept {
-  if (std::abs(r.y) <= friction * r.x) return r;
-  if (friction * std::abs(r.y) <= -r.x) return {};  // in the polar cone
+  if (r.x >= 0.0 && std::abs(r.y) <= friction * r.x) return r;  // without friction 0 <= -0
+  if (friction * std::abs(r.y) <= -r.x) return {};              // in the polar cone
   const double side = r.y > 0.0 ? 1.0 : -1.0;
   const double x = (r.x + friction * std::abs(r.y)) / (1.0 + friction * friction);
   return {x, side * friction * x};

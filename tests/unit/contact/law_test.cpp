@@ -85,6 +85,14 @@ TEST(Residual, ProjectionIsTheNearestPointOfTheCone) {
   }
 }
 
+TEST(Residual, WithoutFrictionNothingPullsEither) {
+  for (const double y : {0.0, -0.0, 1e-9}) {
+    EXPECT_EQ(project_on_cone({-0.15, y}, 0.0), Vec2{});
+    EXPECT_EQ(project_on_cone({0.15, y}, 0.0), (Vec2{0.15, 0.0}));
+  }
+  EXPECT_GT(law_residual({-1.0, 0.0}, {0.0, 0.0}, 0.0, 0.0, 1.0), 0.2);  // adhesion
+}
+
 TEST(Pair, CornerOfARightAngleWithoutFriction) {
   // Floor (normal up) and wall (normal left): each stops its own component.
   PairProblem p;
