@@ -5,6 +5,7 @@
 
 #include "rondo/contact/pair.hpp"
 #include "rondo/contact/residual.hpp"
+#include "rondo/core/largest.hpp"
 
 namespace rondo::dynamics {
 namespace {
@@ -64,7 +65,7 @@ void report_node(const ContactStep& s, const ContactNode& node,
   for (const ActiveContact& c : contacts) {
     const double residual =
         contact::law_residual(c.impulse, c.after, c.bounce, s.law.friction, node.mass);
-    if (!(residual / node.mass <= report.residual)) report.residual = residual / node.mass;  // NaN
+    report.residual = largest(report.residual, residual / node.mass);
     report.penetration = std::max(report.penetration, -c.gap);
     report.free_velocity = std::max(report.free_velocity, norm(c.free));
     const Vec2 impulse = c.normal * c.impulse;
@@ -97,7 +98,7 @@ void ContactReport::add(const ContactReport& other) noexcept {
   length += other.length;
   penetration = std::max(penetration, other.penetration);
   free_velocity = std::max(free_velocity, other.free_velocity);
-  if (!(other.residual <= residual)) residual = other.residual;  // NaN comes through
+  residual = largest(residual, other.residual);
   work += other.work;
   dissipation_friction += other.dissipation_friction;
   loss_impact += other.loss_impact;

@@ -7,6 +7,7 @@
 #include <array>
 
 #include "rondo/contact/residual.hpp"
+#include "rondo/core/largest.hpp"
 
 namespace rondo::dynamics {
 namespace {
@@ -237,7 +238,7 @@ void GeneralContact::finish_row(const BodyFrames& frames, ContactRow& row, doubl
   const double residual = contact::law_residual(row.impulse, row.after + Vec2{row.turning, 0.0},
                                                 row.bounce, row.law.friction, mass) /
                           mass;
-  if (!(residual <= report.residual)) report.residual = residual;  // NaN comes through
+  report.residual = largest(report.residual, residual);
   report.penetration = std::max(report.penetration, -row.gap);
   report.free_velocity = std::max(report.free_velocity, norm(row.free));
   if (row.kind != ContactKind::segment) report_on_ground(row, report);

@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "rondo/core/contract.hpp"
+#include "rondo/core/largest.hpp"
 
 namespace rondo::statics {
 namespace {
@@ -106,8 +107,7 @@ void add_works(const CrushModel& model, const CrushState& before, CrushState& af
   w.residual = w.strain - w.contact;
   w.exchanged = std::max(w.exchanged, w.strain + std::abs(w.contact));
   const double relative = w.residual != 0.0 ? std::abs(w.residual) / w.exchanged : 0.0;
-  if (!(relative <= w.relative))
-    w.relative = relative;  // so that the caller sees what is no number
+  w.relative = largest(w.relative, relative);
 }
 
 CrushState accept(const CrushModel& model, const Condensation& body, const CrushState& state,

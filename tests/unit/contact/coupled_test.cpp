@@ -259,6 +259,15 @@ TEST(Coupled, SaysWhenItHasNotConverged) {
   EXPECT_EQ(one.residual, coupled_residual(p, r));
 }
 
+TEST(Coupled, AnImpulseThatIsNoNumberIsSeenWhereverItIs) {
+  const CoupledProblem p = problem_of(chain({.upper = 20, .lower = 15}));
+  for (std::size_t j = 0; j < p.size(); ++j) {
+    std::vector<Vec2> r(p.size());
+    r[j].x = std::nan("");
+    EXPECT_TRUE(std::isnan(coupled_residual(p, r))) << j;
+  }
+}
+
 /// Restitution with friction in an acute corner: there are velocities for which no impulses obey
 /// the law (docs/theory.md, 4.4).
 TEST(Coupled, AProblemWithoutASolutionIsReported) {

@@ -7,6 +7,7 @@
 #include "rondo/core/contract.hpp"
 #include "rondo/core/edit_distance.hpp"
 #include "rondo/core/error.hpp"
+#include "rondo/core/largest.hpp"
 #include "rondo/core/sum.hpp"
 #include "rondo/core/vec2.hpp"
 
@@ -74,4 +75,13 @@ TEST(EditDistance, OfNames) {
   EXPECT_EQ(edit_distance("height", "hieght"), 1U);
   EXPECT_EQ(edit_distance("height", "heigt"), 1U);
   EXPECT_EQ(edit_distance("kitten", "sitting"), 3U);
+}
+
+TEST(Largest, NeverLosesWhatIsNoNumber) {
+  const double none = std::nan("");
+  EXPECT_EQ(largest(1.0, 2.0), 2.0);
+  EXPECT_EQ(largest(2.0, 1.0), 2.0);
+  EXPECT_TRUE(std::isnan(largest(none, 1.0)));
+  EXPECT_TRUE(std::isnan(largest(1.0, none)));
+  EXPECT_TRUE(std::isnan(largest(largest(0.0, none), 1e300)));
 }
