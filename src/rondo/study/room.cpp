@@ -102,8 +102,8 @@ DiskNeed disk_needed(const Case& c, const Setup& setup, const SnapshotSchedule& 
 }
 
 DiskNeed disk_needed(const Case& c, const CrushSetup& setup) {
-  const auto increments =
-      static_cast<std::size_t>(c.analysis.increments + c.analysis.slide_increments);
+  const int all_increments = c.analysis.increments + c.analysis.slide_increments;
+  const auto increments = static_cast<std::size_t>(all_increments);
   constexpr bool contact = true, quasi_static = true;
   return need_of({io::Results::bytes({&setup.mesh, setup.mass, increments, contact, c.output.stress,
                                       quasi_static}),
