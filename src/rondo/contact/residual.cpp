@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "rondo/contact/coupled.hpp"
-#include "rondo/core/largest.hpp"
+#include "rondo/core/keep_larger.hpp"
 
 namespace rondo::contact {
 
@@ -30,7 +30,7 @@ double coupled_residual(const CoupledProblem& p, std::span<const Vec2> impulse) 
          k < static_cast<std::size_t>(p.row_start[j + 1]); ++k)
       w += apply(p.blocks[k], impulse[static_cast<std::size_t>(p.column[k])]);
     const double found = law_residual(impulse[j], w, p.bounce[j], p.friction[j], p.mass[j]);
-    worst = largest(worst, found);
+    worst = keep_larger(worst, found);
     scale = std::max(scale, p.mass[j] * norm(p.free[j]));
   }
   return scale > 0.0 ? worst / scale : worst;

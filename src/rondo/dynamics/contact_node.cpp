@@ -5,7 +5,7 @@
 
 #include "rondo/contact/pair.hpp"
 #include "rondo/contact/residual.hpp"
-#include "rondo/core/largest.hpp"
+#include "rondo/core/keep_larger.hpp"
 
 namespace rondo::dynamics {
 namespace {
@@ -65,7 +65,7 @@ void report_node(const ContactStep& s, const ContactNode& node,
   for (const ActiveContact& c : contacts) {
     const double residual =
         contact::law_residual(c.impulse, c.after, c.bounce, s.law.friction, node.mass);
-    report.residual = largest(report.residual, residual / node.mass);
+    report.residual = keep_larger(report.residual, residual / node.mass);
     report.penetration = std::max(report.penetration, -c.gap);
     report.free_velocity = std::max(report.free_velocity, norm(c.free));
     const Vec2 impulse = c.normal * c.impulse;
@@ -98,7 +98,7 @@ void ContactReport::add(const ContactReport& other) noexcept {
   length += other.length;
   penetration = std::max(penetration, other.penetration);
   free_velocity = std::max(free_velocity, other.free_velocity);
-  residual = largest(residual, other.residual);
+  residual = keep_larger(residual, other.residual);
   work += other.work;
   dissipation_friction += other.dissipation_friction;
   loss_impact += other.loss_impact;

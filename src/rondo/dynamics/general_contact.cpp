@@ -7,7 +7,7 @@
 #include <array>
 
 #include "rondo/contact/residual.hpp"
-#include "rondo/core/largest.hpp"
+#include "rondo/core/keep_larger.hpp"
 
 namespace rondo::dynamics {
 namespace {
@@ -238,7 +238,7 @@ void GeneralContact::finish_row(const BodyFrames& frames, ContactRow& row, doubl
   const double residual = contact::law_residual(row.impulse, row.after + Vec2{row.turning, 0.0},
                                                 row.bounce, row.law.friction, mass) /
                           mass;
-  report.residual = largest(report.residual, residual);
+  report.residual = keep_larger(report.residual, residual);
   report.penetration = std::max(report.penetration, -row.gap);
   report.free_velocity = std::max(report.free_velocity, norm(row.free));
   if (row.kind != ContactKind::segment) report_on_ground(row, report);
@@ -277,6 +277,7 @@ void GeneralContact::add_active(const ContactRow& row, State& state) const {
     a.bounce = row.bounce;
     a.impulse = conj(a.normal) * contact::transposed(row.rows.block[at(i)], row.impulse);
     a.status = row.status;
+    a.on_ground = row.kind != ContactKind::segment;
     state.active.push_back(a);
   }
 }

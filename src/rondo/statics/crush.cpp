@@ -6,7 +6,7 @@
 #include <limits>
 
 #include "rondo/core/contract.hpp"
-#include "rondo/core/largest.hpp"
+#include "rondo/core/keep_larger.hpp"
 
 namespace rondo::statics {
 namespace {
@@ -107,7 +107,7 @@ void add_works(const CrushModel& model, const CrushState& before, CrushState& af
   w.residual = w.strain - w.contact;
   w.exchanged = std::max(w.exchanged, w.strain + std::abs(w.contact));
   const double relative = w.residual != 0.0 ? std::abs(w.residual) / w.exchanged : 0.0;
-  w.relative = largest(w.relative, relative);
+  w.relative = keep_larger(w.relative, relative);
 }
 
 CrushState accept(const CrushModel& model, const Condensation& body, const CrushState& state,

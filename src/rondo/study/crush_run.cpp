@@ -8,7 +8,7 @@
 #include <cmath>
 
 #include "rondo/core/error.hpp"
-#include "rondo/core/largest.hpp"
+#include "rondo/core/keep_larger.hpp"
 #include "rondo/io/files.hpp"
 #include "rondo/study/build.hpp"
 #include "rondo/study/crush_build.hpp"
@@ -40,8 +40,8 @@ struct Loop {
   statics::CrushState state;
 
   void add(const statics::CrushReport& r) {
-    residual = largest(residual, r.residual);
-    equilibrium = largest(equilibrium, r.equilibrium);
+    residual = keep_larger(residual, r.residual);
+    equilibrium = keep_larger(equilibrium, r.equilibrium);
     penetration = std::max(penetration, r.penetration);
     sweeps = std::max(sweeps, r.sweeps);
     pivoted += r.pivoting != statics::Pivoting::none ? 1 : 0;

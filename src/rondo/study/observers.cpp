@@ -199,12 +199,14 @@ void Snapshots::make_room(const Case& c) {
   rotations_.resize(setup.model.free_bodies.size());
   force_.resize(nb);
   force_fixed_.resize(nb);
+  on_ground_.resize(nb);
   rows_.reserve(7 * nb);
 }
 
 void Snapshots::collect_contact(const dynamics::State& state) {
   std::fill(force_.begin(), force_.end(), Vec2{});
   std::fill(force_fixed_.begin(), force_fixed_.end(), Vec2{});
+  std::fill(on_ground_.begin(), on_ground_.end(), char{0});
   // A node held by two facets gives the sum of both, in the frame of the deeper one (listed first).
   std::size_t last = force_.size();
   Vec2 normal;
@@ -213,6 +215,7 @@ void Snapshots::collect_contact(const dynamics::State& state) {
     last = c.candidate;
     const Vec2 force = (c.normal * c.impulse) / setup_.model.dt;
     force_fixed_[c.candidate] += force;
+    if (c.on_ground) on_ground_[c.candidate] = 1;
     force_[c.candidate] += conj(normal) * force;
   }
 }
@@ -224,9 +227,8 @@ void Snapshots::write_contact_rows(const dynamics::State& state) {
     const int node = setup_.mesh.boundary[k];
     const Vec2 x = position(setup_.model, state, static_cast<std::size_t>(node));
     const Vec2 traction = force_[k] / setup_.mesh.tributary[k];
-    const auto& ground = setup_.model.contact;
-    const double abscissa =
-        ground ? ground->ground.abscissa(x) : std::numeric_limits<double>::quiet_NaN();
+    const double abscissa = on_ground_[k] ? setup_.model.contact->ground.abscissa(x)
+                                          : std::numeric_limits<double>::quiet_NaN();
     for (const double value :
          {state.frame.time, static_cast<double>(node), abscissa, x.x, x.y, traction.x, traction.y})
       rows_.push_back(value);

@@ -38,14 +38,6 @@ double one(std::size_t) {
 
 }  // namespace
 
-double keep_smaller(double a, double b) noexcept {
-  return a <= b || std::isnan(a) ? a : b;
-}
-
-double keep_larger(double a, double b) noexcept {
-  return a >= b || std::isnan(a) ? a : b;
-}
-
 const std::vector<double>& column(const Columns& history, std::string_view name,
                                   const std::filesystem::path& file) {
   const auto found = history.find(name);

@@ -8,15 +8,11 @@
 #include <string>
 #include <vector>
 
+#include "rondo/core/keep_larger.hpp"
 #include "rondo/core/vec2.hpp"
 #include "rondo/io/run_reader.hpp"
 
 namespace rondo::study {
-
-/// The smaller and the larger of two; a value that is not a number comes through, unlike in
-/// std::min and std::max.
-[[nodiscard]] double keep_smaller(double a, double b) noexcept;
-[[nodiscard]] double keep_larger(double a, double b) noexcept;
 
 /// Columns of a history.csv by name.
 using Columns = std::map<std::string, std::vector<double>, std::less<>>;

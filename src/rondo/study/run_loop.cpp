@@ -12,7 +12,7 @@
 #include <utility>
 #include <vector>
 
-#include "rondo/core/largest.hpp"
+#include "rondo/core/keep_larger.hpp"
 #include "rondo/dynamics/stepper.hpp"
 #include "rondo/study/out_of_range.hpp"
 #include "rondo/study/run_files.hpp"
@@ -22,7 +22,7 @@ namespace rondo::study {
 void ContactStatistics::add(const dynamics::ContactReport& r) noexcept {
   free_velocity = std::max(free_velocity, r.free_velocity);
   const double relative = r.residual / free_velocity;
-  if (r.residual != 0.0) residual = largest(residual, relative);
+  if (r.residual != 0.0) residual = keep_larger(residual, relative);
   penetration = std::max(penetration, r.penetration);
   contact_steps += r.nodes > 0 ? 1 : 0;
   nodes_max = std::max(nodes_max, r.nodes);

@@ -7,7 +7,7 @@
 #include "rondo/core/contract.hpp"
 #include "rondo/core/edit_distance.hpp"
 #include "rondo/core/error.hpp"
-#include "rondo/core/largest.hpp"
+#include "rondo/core/keep_larger.hpp"
 #include "rondo/core/sum.hpp"
 #include "rondo/core/vec2.hpp"
 
@@ -77,11 +77,15 @@ TEST(EditDistance, OfNames) {
   EXPECT_EQ(edit_distance("kitten", "sitting"), 3U);
 }
 
-TEST(Largest, NeverLosesWhatIsNoNumber) {
+TEST(KeepLarger, NeverLosesWhatIsNoNumber) {
   const double none = std::nan("");
-  EXPECT_EQ(largest(1.0, 2.0), 2.0);
-  EXPECT_EQ(largest(2.0, 1.0), 2.0);
-  EXPECT_TRUE(std::isnan(largest(none, 1.0)));
-  EXPECT_TRUE(std::isnan(largest(1.0, none)));
-  EXPECT_TRUE(std::isnan(largest(largest(0.0, none), 1e300)));
+  for (const auto keep : {keep_smaller, keep_larger}) {
+    EXPECT_TRUE(std::isnan(keep(none, 1.0)));
+    EXPECT_TRUE(std::isnan(keep(1.0, none)));
+    EXPECT_TRUE(std::isnan(keep(keep(0.0, none), 1e300)));
+  }
+  EXPECT_EQ(keep_larger(1.0, 2.0), 2.0);
+  EXPECT_EQ(keep_larger(2.0, 1.0), 2.0);
+  EXPECT_EQ(keep_smaller(1.0, 2.0), 1.0);
+  EXPECT_EQ(keep_smaller(2.0, 1.0), 1.0);
 }

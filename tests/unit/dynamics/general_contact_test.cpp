@@ -275,6 +275,27 @@ TEST(GeneralContact, AThinWallDoesNotTouchItself) {
 }
 
 /// Contact problems are kept where they took more iterations than asked, to be written to files.
+TEST(GeneralContact, TellsWhatPressesACandidate) {
+  TwoBlocks t = two_blocks(0.6);
+  const std::vector<Vec2> none(t.model.n_nodes());
+  const auto pressed = [&](const Model& model) {
+    State state = start(model, none, velocities(model, {{0.0, -1.0}, {0.0, -4.0}}));
+    const auto integrator = make_integrator(model, state);
+    std::vector<StepReport> reports(12);
+    integrator->advance(reports, &state);
+    int by_ground = 0, by_body = 0;
+    for (const ActiveContact& a : state.active) (a.on_ground ? by_ground : by_body) += 1;
+    return std::pair(by_ground, by_body);
+  };
+  const auto [no_ground, bodies] = pressed(t.model);
+  EXPECT_EQ(no_ground, 0);
+  EXPECT_GT(bodies, 0);
+  test::add_ground(t.model, t.mesh, {.profile = {{-10, -0.001}, {10, -0.001}}}, {0.4, 0.0});
+  const auto [by_ground, by_body] = pressed(t.model);
+  EXPECT_EQ(by_ground, 6) << "the lower edge";
+  EXPECT_GT(by_body, 0);
+}
+
 /// What a run carries after some steps in contact, stopped and gone on with after every `cut`.
 SavedState collided(const Model& model, std::size_t cut) {
   const std::vector<Vec2> v = velocities(model, {{0.5, -1.0}, {-0.5, -4.0}}), none(v.size());
