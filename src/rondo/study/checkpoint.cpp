@@ -34,15 +34,6 @@ std::vector<T> get(const File& file, const std::string& name, std::size_t rows =
   return file.dataset(name, shape).read<T>();
 }
 
-void put_text(File& file, const std::string& name, const std::string& text) {
-  put(file, name, std::vector<std::uint8_t>(text.begin(), text.end()), {"1", "UTF-8 text"});
-}
-
-std::string get_text(const File& file, const std::string& name) {
-  const auto bytes = get<std::uint8_t>(file, name);
-  return {bytes.begin(), bytes.end()};
-}
-
 double stored(double value) {
   return value;
 }
@@ -67,6 +58,16 @@ void for_contact(Known& c, Visit&& visit) {
   visit("/contact/cluster_largest", c.cluster_largest, {"1", "contacts of the largest"});
   visit("/contact/cluster_iterations", c.cluster_iterations, {"1", "most of a cluster"});
   visit("/contact/between_bodies", c.between_bodies, {"1", "most in a step"});
+}
+
+/// visit(name, text) of what a run is, but its step.
+template <class Known, class Visit>
+void for_texts(Known& identity, Visit&& visit) {
+  visit("/identity/version", identity.version);
+  visit("/identity/build_id", identity.build_id);
+  visit("/identity/dispatch", identity.dispatch);
+  visit("/identity/case", identity.case_text);
+  visit("/identity/mesh_hash", identity.mesh_hash);
 }
 
 /// visit(name, value, label) of all numbers that stand alone.
@@ -142,11 +143,9 @@ RunIdentity identity_of(const Case& c, const Setup& setup) {
 
 void write_checkpoint(const std::filesystem::path& directory, const Checkpoint& k) {
   io::write_checkpoint_file(directory / checkpoint_name, [&](File& file) {
-    put_text(file, "/identity/version", k.identity.version);
-    put_text(file, "/identity/build_id", k.identity.build_id);
-    put_text(file, "/identity/dispatch", k.identity.dispatch);
-    put_text(file, "/identity/case", k.identity.case_text);
-    put_text(file, "/identity/mesh_hash", k.identity.mesh_hash);
+    for_texts(k.identity, [&](const char* name, const std::string& text) {
+      put(file, name, std::vector<std::uint8_t>(text.begin(), text.end()), {"1", "UTF-8 text"});
+    });
     for_scalars(k, [&](const char* name, const auto& value, const h5::Label& label) {
       put(file, name, std::vector{stored(value)}, label);
     });
@@ -158,25 +157,14 @@ void write_checkpoint(const std::filesystem::path& directory, const Checkpoint& 
   });
 }
 
-namespace {
-
-RunIdentity get_identity(const File& file) {
-  RunIdentity identity;
-  identity.version = get_text(file, "/identity/version");
-  identity.build_id = get_text(file, "/identity/build_id");
-  identity.dispatch = get_text(file, "/identity/dispatch");
-  identity.case_text = get_text(file, "/identity/case");
-  identity.mesh_hash = get_text(file, "/identity/mesh_hash");
-  return identity;
-}
-
-}  // namespace
-
 Checkpoint read_checkpoint(const std::filesystem::path& directory,
                            const std::function<void(const RunIdentity&)>& check) {
   const File file = io::open_checkpoint_file(directory / checkpoint_name);
   Checkpoint k;
-  k.identity = get_identity(file);
+  for_texts(k.identity, [&](const char* name, std::string& text) {
+    const auto bytes = get<std::uint8_t>(file, name);
+    text.assign(bytes.begin(), bytes.end());
+  });
   if (check) check(k.identity);
   for_scalars(k, [&](const char* name, auto& value, const h5::Label&) {
     using Value = std::remove_reference_t<decltype(value)>;

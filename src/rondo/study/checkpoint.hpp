@@ -43,6 +43,9 @@ struct Checkpoint {
   FilePlaces files;
 };
 
+/// Of a node, at the most: u, v, K u, gradient.
+inline constexpr std::size_t numbers_of_a_checkpoint = 8;
+
 inline constexpr const char* checkpoint_name = "checkpoint.h5";
 
 RunIdentity identity_of(const Case& c, const Setup& setup);

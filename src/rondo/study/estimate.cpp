@@ -99,8 +99,6 @@ std::size_t compliance_memory(const Case& c, std::size_t nodes) noexcept {
   return static_cast<std::size_t>((fields + matrices) * sizeof(double));
 }
 
-constexpr std::size_t numbers_of_a_checkpoint = 6;  ///< of a node: u, v, K u
-
 /// Of snapshots that wait to be written, displacement and velocity each.
 std::size_t queue_memory(const Case& c, std::size_t nodes) noexcept {
   if (c.analysis.kind == AnalysisKind::crush || c.output.snapshots == 0) return 0;

@@ -5,7 +5,9 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <fstream>
+#include <functional>
 #include <iterator>
 #include <string>
 #include <string_view>
@@ -23,6 +25,8 @@ namespace rondo::study {
 namespace {
 
 constexpr const char* or_begin_again = "; or --overwrite to begin again";
+
+constexpr auto first_of = [](const auto& pair) { return pair.first; };
 
 bool same(const CaseValue& a, const CaseValue& b) {
   return a.type == b.type && a.number == b.number && a.boolean == b.boolean && a.text == b.text &&
@@ -104,18 +108,39 @@ void clear_without_checkpoint(const Case& c, const std::filesystem::path& direct
 }
 
 /// All that the integrator of this model carries, and nothing else.
-void demand_whole_state(const dynamics::SavedState& s, const Setup& setup,
-                        const std::filesystem::path& directory) {
+bool fits(const dynamics::SavedState& s, const Setup& setup) {
   const dynamics::Model& model = setup.model;
   const std::size_t n = model.n_nodes(), n_free = model.free_bodies.size();
   const bool general = is_general(model);
   const std::size_t force = general || model.stiffness_damping > 0.0 ? n : 0;
-  if (s.u.size() == n && s.v.size() == n && s.force.size() == force &&
-      s.gradient.size() == (general ? n : 0) && s.energy.size() == n_free &&
-      s.poses.size() == n_free && s.step > 0)
+  return s.u.size() == n && s.v.size() == n && s.force.size() == force &&
+         s.gradient.size() == (general ? n : 0) && s.energy.size() == n_free &&
+         s.poses.size() == n_free && s.step > 0 && std::ranges::is_sorted(s.impulses, {}, first_of);
+}
+
+/// Steps that rise within the run, and as many snapshots as of them have passed.
+bool fits(const SnapshotSchedule& schedule, const Checkpoint& k) {
+  const std::vector<long long>& steps = schedule.steps;
+  const auto passed = std::upper_bound(steps.begin(), steps.end(), k.state.step) - steps.begin();
+  return std::adjacent_find(steps.begin(), steps.end(), std::greater_equal<>()) == steps.end() &&
+         (steps.empty() || (steps.front() >= 0 && steps.back() <= k.n_steps)) &&
+         k.files.snapshots == static_cast<std::size_t>(passed) &&
+         std::isfinite(schedule.interval) && schedule.interval >= 0.0;
+}
+
+/// Its numbers do not contradict each other, the case, or the model.
+void demand_sound(const Checkpoint& k, const Case& c, const Setup& setup,
+                  const std::filesystem::path& directory) {
+  constexpr std::size_t longest = std::size_t{1} << 60U;
+  const HistoryPlace& h = k.history;
+  const std::size_t columns = History(c, setup).columns().size();
+  if (fits(k.state, setup) && fits(k.schedule, k) && k.state.step <= k.n_steps && h.next > 0 &&
+      h.done == k.state.step && h.steps >= 0 && h.steps <= h.done && k.problems_kept >= 0 &&
+      k.files.history_bytes < longest && k.files.contact_bytes < longest &&
+      (k.last_row.empty() || k.last_row.size() == columns))
     return;
   throw FileError((directory / checkpoint_name).string(),
-                  "is damaged: its state is not one of this model");
+                  "is damaged: its numbers contradict each other, or are not of this model");
 }
 
 }  // namespace
@@ -126,8 +151,8 @@ void demand_same_program(const RunIdentity& then, const RunIdentity& now) {
   if (!faults.empty()) throw InputError(std::move(faults));
 }
 
-void demand_same_run(const Checkpoint& k, const Case& c, const Setup& setup) {
-  const RunIdentity now = identity_of(c, setup);
+void demand_same_run(const Checkpoint& k, const RunIdentity& now, const Case& c,
+                     const Setup& setup) {
   std::vector<Fault> faults;
   compare_cases(k, c, setup, faults);
   if (faults.empty() && k.identity.mesh_hash != now.mesh_hash)
@@ -147,7 +172,7 @@ void demand_same_run(const Checkpoint& k, const Case& c, const Setup& setup) {
   if (!faults.empty()) throw InputError(std::move(faults));
 }
 
-std::optional<Checkpoint> find_checkpoint(const Case& c, const Setup& setup,
+std::optional<Checkpoint> find_checkpoint(const RunIdentity& now, const Case& c, const Setup& setup,
                                           const std::filesystem::path& directory) {
   std::error_code error;
   const bool there = std::filesystem::exists(directory / checkpoint_name, error);
@@ -155,11 +180,10 @@ std::optional<Checkpoint> find_checkpoint(const Case& c, const Setup& setup,
     clear_without_checkpoint(c, directory);
     return std::nullopt;
   }
-  Checkpoint k = read_checkpoint(directory, [&](const RunIdentity& then) {
-    demand_same_program(then, identity_of(c, setup));
-  });
-  demand_same_run(k, c, setup);
-  demand_whole_state(k.state, setup, directory);
+  Checkpoint k =
+      read_checkpoint(directory, [&](const RunIdentity& then) { demand_same_program(then, now); });
+  demand_same_run(k, now, c, setup);
+  demand_sound(k, c, setup, directory);
   if (k.n_steps != setup.n_steps)
     k.schedule = with_end(std::move(k.schedule), c.output, setup.model.dt, setup.n_steps);
   return k;

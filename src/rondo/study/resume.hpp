@@ -15,11 +15,12 @@ void demand_same_program(const RunIdentity& then, const RunIdentity& now);
 /// beyond the steps made unless it is the end of before, in output.checkpoint_interval and, with
 /// the same mesh, in mesh.file.
 /// @throws InputError with all that differs
-void demand_same_run(const Checkpoint& checkpoint, const Case& c, const Setup& setup);
+void demand_same_run(const Checkpoint& checkpoint, const RunIdentity& now, const Case& c,
+                     const Setup& setup);
 
 /// What --resume finds: the checkpoint of this run, its schedule up to this case's end; none where
 /// the run has not yet come to its first one. @throws InputError, FileError
-std::optional<Checkpoint> find_checkpoint(const Case& c, const Setup& setup,
+std::optional<Checkpoint> find_checkpoint(const RunIdentity& now, const Case& c, const Setup& setup,
                                           const std::filesystem::path& directory);
 
 /// The run has come to its end and its files are closed.

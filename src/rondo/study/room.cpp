@@ -10,6 +10,7 @@
 
 #include "rondo/core/error.hpp"
 #include "rondo/io/results.hpp"
+#include "rondo/study/checkpoint.hpp"
 #include "rondo/study/memory_limits.hpp"
 #include "rondo/study/observers.hpp"
 
@@ -17,11 +18,10 @@ namespace rondo::study {
 namespace fs = std::filesystem;
 namespace {
 
-constexpr std::size_t bytes_of_a_number = 21;        ///< in a CSV file, with its comma
-constexpr std::size_t bytes_of_a_field = 600;        ///< of a snapshot in fields.xdmf
-constexpr std::size_t small_files = 20'000;          ///< case.toml, run.json
-constexpr std::size_t numbers_of_a_checkpoint = 10;  ///< for each node
-constexpr std::size_t checkpoints = 2;               ///< the new one is written beside the old
+constexpr std::size_t bytes_of_a_number = 21;  ///< in a CSV file, with its comma
+constexpr std::size_t bytes_of_a_field = 600;  ///< of a snapshot in fields.xdmf
+constexpr std::size_t small_files = 20'000;    ///< case.toml, run.json
+constexpr std::size_t checkpoints = 2;         ///< the new one is written beside the old
 
 /// A candidate in four in contact at a time: more than any but a flat body that lies on its face.
 std::size_t contact_csv_bytes(std::size_t candidates, std::size_t snapshots) {

@@ -186,7 +186,7 @@ SnapshotSchedule fresh_schedule(const Case& c, const Setup& setup) {
 
 Run make_run(const Case& c, const RunOptions& options, const Setup& setup) {
   Run run{c, options, identity_of(c, setup), std::nullopt, {}};
-  if (options.resume) run.from = find_checkpoint(c, setup, options.directory);
+  if (options.resume) run.from = find_checkpoint(run.identity, c, setup, options.directory);
   run.schedule = run.from ? run.from->schedule : fresh_schedule(c, setup);
   return run;
 }

@@ -60,7 +60,7 @@ TEST(Estimate, CountsNodesAndCells) {
   EXPECT_EQ(n_disk_cells(c.disk), 12U * 180U);
   constexpr std::size_t program = 30'000'000;
   const std::size_t still = estimated_memory(c, size_of(c.disk)) - program;
-  EXPECT_EQ(still, 13U * 180U * (2 * 9 * 36 + 352) + 12U * 180U * 16U);
+  EXPECT_EQ(still, 13U * 180U * (2 * 9 * 36 + 368) + 12U * 180U * 16U);
   c.initial.state = InitialState::stationary;  // needs the factors of K
   EXPECT_GT(estimated_memory(c, size_of(c.disk)) - program, 2 * still);
   c.initial.state = InitialState::rest;

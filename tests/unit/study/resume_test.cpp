@@ -2,7 +2,9 @@
 /// What a checkpoint keeps, and what it refuses to go on with.
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <filesystem>
+#include <functional>
 
 #include "case_fixture.hpp"
 #include "rondo/core/error.hpp"
@@ -39,6 +41,7 @@ class Resume : public testing::Test {
     k.n_steps = setup_.n_steps;
     k.history.done = k.state.step;
     k.schedule = snapshot_schedule(case_.output, setup_.model.dt, setup_.n_steps);
+    for (const long long step : k.schedule.steps) k.files.snapshots += step <= k.state.step ? 1 : 0;
     return k;
   }
 
@@ -64,7 +67,7 @@ class Resume : public testing::Test {
   std::string refusal(const Checkpoint& k) {
     try {
       demand_same_program(k.identity, identity_of(case_, setup_));
-      demand_same_run(k, case_, setup_);
+      demand_same_run(k, identity_of(case_, setup_), case_, setup_);
       return {};
     } catch (const InputError& error) {
       std::string text;
@@ -140,28 +143,36 @@ TEST_F(Resume, AnotherStepOrMeshIsRefused) {
   EXPECT_NE(refusal(k).find("is not the mesh that the run began with"), std::string::npos);
 }
 
-/// Which must fit the model, whatever the hash says: a program of the same build wrote it.
-TEST_F(Resume, AStateOfAnotherSizeIsDamaged) {
+/// Whatever the hash says: a program of the same build wrote it.
+TEST_F(Resume, NumbersThatContradictEachOtherAreRefused) {
   const Checkpoint whole = after_steps();
-  const auto is_taken = [&](const Checkpoint& k) {
+  const auto is_taken = [&](const std::function<void(Checkpoint&)>& change) {
+    Checkpoint k = whole;
+    change(k);
     write_checkpoint(folder_, k);
     try {
-      return find_checkpoint(case_, setup_, folder_).has_value();
+      return find_checkpoint(identity_of(case_, setup_), case_, setup_, folder_).has_value();
     } catch (const FileError& error) {
       EXPECT_NE(std::string(error.what()).find("damaged"), std::string::npos) << error.what();
       return false;
     }
   };
-  EXPECT_TRUE(is_taken(whole));
+  EXPECT_TRUE(is_taken([](Checkpoint&) {}));
   for (const auto field : {&dynamics::SavedState::u, &dynamics::SavedState::v,
-                           &dynamics::SavedState::force, &dynamics::SavedState::gradient}) {
-    Checkpoint k = whole;
-    (k.state.*field).emplace_back();
-    EXPECT_FALSE(is_taken(k));
-  }
-  Checkpoint k = whole;
-  k.state.energy.push_back(0.0);
-  EXPECT_FALSE(is_taken(k));
+                           &dynamics::SavedState::force, &dynamics::SavedState::gradient})
+    EXPECT_FALSE(is_taken([&](Checkpoint& k) { (k.state.*field).emplace_back(); }));
+  EXPECT_FALSE(is_taken([](Checkpoint& k) { k.state.energy.push_back(0.0); }));
+  EXPECT_FALSE(is_taken([](Checkpoint& k) { k.state.impulses = {{2, {}}, {1, {}}}; }));
+  EXPECT_FALSE(is_taken([](Checkpoint& k) { ++k.files.snapshots; }));
+  EXPECT_FALSE(is_taken([](Checkpoint& k) { k.files.history_bytes = ~std::size_t{0}; }));
+  EXPECT_FALSE(
+      is_taken([](Checkpoint& k) { std::swap(k.schedule.steps[0], k.schedule.steps[1]); }));
+  EXPECT_FALSE(is_taken([](Checkpoint& k) { k.schedule.steps.back() = k.n_steps + 1; }));
+  EXPECT_FALSE(is_taken([](Checkpoint& k) { k.schedule.interval = std::nan(""); }));
+  EXPECT_FALSE(is_taken([](Checkpoint& k) { ++k.history.done; }));
+  EXPECT_FALSE(is_taken([](Checkpoint& k) { k.history.next = 0; }));
+  EXPECT_FALSE(is_taken([](Checkpoint& k) { k.last_row = {1.0}; }));
+  EXPECT_FALSE(is_taken([](Checkpoint& k) { k.problems_kept = -1; }));
 }
 
 TEST_F(Resume, AnEndAtTheStepsMadeIsNoLaterOne) {
