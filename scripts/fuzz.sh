@@ -27,7 +27,7 @@ run_one() {
   local seconds=$1 target=$2 options=() jobs=() outcome=0
   # What HDF5 does to a process with damaged bytes; libFuzzer then ends with the last job's code.
   local in_jobs=(-fork=1 -ignore_timeouts=1 -ignore_ooms=1) timeout_code=70 memory_code=71
-  local work=build/fuzz/work/$target scratch
+  local work=build/fuzz/runs/$target scratch
   mkdir -p "$work/corpus" "$work/found"
   scratch=$(mktemp -d -p /dev/shm 2>/dev/null || mktemp -d) # in memory: a file for each input
   case $target in

@@ -8,6 +8,8 @@
 
 #include <algorithm>
 
+#include "print.hpp"
+
 namespace rondo::app {
 namespace {
 
@@ -31,11 +33,6 @@ std::string indented(const std::string& message) {
     if (c == '\n') text += "    ";
   }
   return text;
-}
-
-void print(std::FILE* out, const std::string& text) {
-  std::fputs(text.c_str(), out);
-  std::fflush(out);
 }
 
 }  // namespace

@@ -8,6 +8,7 @@
 #include <cerrno>
 #include <fstream>
 #include <system_error>
+#include <utility>
 
 #include "rondo/core/error.hpp"
 
@@ -19,17 +20,16 @@ std::string message(int code) {
   return std::generic_category().message(code);
 }
 
-/// Descriptor of a file being written; removes it unless kept.
+/// Descriptor of a file being written beside `target`.
 class Beside {
  public:
   explicit Beside(const fs::path& target)
-      : target_(target), path_(target.string() + fmt::format(".{}.tmp", ::getpid())) {
-    descriptor_ = ::open(path_.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666);
+      : target_(target), file_(target.string() + fmt::format(".{}.tmp", ::getpid())) {
+    descriptor_ = ::open(file_.path.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666);
     if (descriptor_ < 0) fail("create");
   }
   ~Beside() {
     if (descriptor_ >= 0) ::close(descriptor_);
-    if (!kept_) ::unlink(path_.c_str());
   }
   Beside(const Beside&) = delete;
   Beside& operator=(const Beside&) = delete;
@@ -44,11 +44,8 @@ class Beside {
   }
   void keep() {
     if (::fsync(descriptor_) != 0) fail("write");
-    const int descriptor = descriptor_;
-    descriptor_ = -1;
-    if (::close(descriptor) != 0) fail("write");
-    if (::rename(path_.c_str(), target_.c_str()) != 0) fail("replace");
-    kept_ = true;
+    if (::close(std::exchange(descriptor_, -1)) != 0) fail("write");
+    if (::rename(file_.path.c_str(), target_.c_str()) != 0) fail("replace");
   }
 
  private:
@@ -56,9 +53,9 @@ class Beside {
     const int code = errno;
     throw FileError(target_.string(), fmt::format("cannot {}: {}", doing, message(code)));
   }
-  fs::path target_, path_;
+  fs::path target_;
+  UnfinishedFile file_;
   int descriptor_ = -1;
-  bool kept_ = false;
 };
 
 }  // namespace

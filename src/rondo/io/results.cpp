@@ -65,10 +65,10 @@ std::array<float, 3> in_space(Vec2 a) noexcept {
   return {static_cast<float>(a.x), static_cast<float>(a.y), 0.0F};
 }
 
-}  // namespace
-
 constexpr const char* results_name = "results.h5";
 constexpr const char* new_name = "results.h5.new";  // until it is whole
+
+}  // namespace
 
 Results::Impl::Impl(const std::filesystem::path& folder, const ResultsLayout& layout)
     : c(counts_of(layout)),

@@ -138,20 +138,6 @@ double choose_step(const Case& c, const dynamics::CriticalStep& critical) {
   return *c.time.step;
 }
 
-/// Impulses of one half step act on velocities of the next, whose frame has turned by half of φ,
-/// the turn in a step: with friction μ the law has one solution where μ tan(φ/2) < 1 (4.3).
-void refuse_wide_turns(const Case& c, double dt) {
-  if (!c.ground || !is_held(c)) return;
-  const double turn = c.motion.angular_velocity.largest() * dt;
-  const double most = 2.0 * std::atan2(1.0, c.ground->friction);
-  if (turn < most) return;
-  throw case_error(c, c.time.step ? "time.step" : "motion.angular_velocity",
-                   fmt::format("the rim turns by {:.3g} rad in a step of {:.3g} s: too far for the "
-                               "contact law, whose friction allows less than {:.3g} rad",
-                               turn, dt, most),
-                   fmt::format("time.step below {:.6g}", most / turn * dt));
-}
-
 long long count_steps(const Case& c, double dt) {
   const double steps = c.time.end / dt;
   if (steps > 1e12)
@@ -205,7 +191,6 @@ Setup build(const Case& c, int threads) {
   check_start(c, s);
   s.critical = find_critical_step(c, s);
   s.model.dt = choose_step(c, s.critical);
-  refuse_wide_turns(c, s.model.dt);
   s.n_steps = count_steps(c, s.model.dt);
   check_stability(c, s);
   return s;

@@ -128,6 +128,20 @@ void warn_of_printed_scheme(const Case& c, Setup& s) {
       spin, omega, rate, rate * c.time.end));
 }
 
+/// Impulses of one half step act on velocities of the next, whose frame has turned by half of φ,
+/// the turn in a step: with friction μ the law has one solution where μ tan(φ/2) < 1 (4.3).
+void refuse_wide_turns(const Case& c, double dt) {
+  if (!c.ground || !is_held(c)) return;
+  const double turn = largest_until(c.motion.angular_velocity, c.time.end) * dt;
+  const double most = 2.0 * std::atan2(1.0, c.ground->friction);
+  if (turn < most) return;
+  throw case_error(c, c.time.step ? "time.step" : "motion.angular_velocity",
+                   fmt::format("the rim turns by {:.3g} rad in a step of {:.3g} s: too far for the "
+                               "contact law, whose friction allows less than {:.3g} rad",
+                               turn, dt, most),
+                   fmt::format("time.step below {:.6g}", most / turn * dt));
+}
+
 void refuse_large_turns(const Case& c, const Setup& s) {
   if (s.model.free_bodies.empty()) return;
   double fastest = std::abs(c.initial.angular_velocity);
@@ -184,6 +198,7 @@ void warn_of_fast_contact(const Case& c, Setup& s) {
 }  // namespace
 
 void check_stability(const Case& c, Setup& s) {
+  refuse_wide_turns(c, s.model.dt);
   refuse_large_turns(c, s);
   warn_of_softening(c, s);
   warn_of_contact_step(s);
