@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# Fuzzes what reads files (docs/reliability.md, Fuzzing): builds the libFuzzer targets with clang and
-# runs each on its corpus and on all that was found before, two at a time.
+# Fuzzes what reads files (docs/reliability.md, Fuzzing): builds the libFuzzer targets of the preset
+# asan and runs each on its corpus and on all that was found before, two at a time.
 #   bash scripts/fuzz.sh [SECONDS] [TARGET...]      30 s and all targets by default
 # SECONDS 0 only reads corpus and findings again. Exit code 1: a finding, whose file is named.
 set -euo pipefail
@@ -15,11 +15,12 @@ if [ ${#targets[@]} -eq 0 ]; then
   done
 fi
 
-cmake --preset fuzz >/dev/null
-cmake --build build/fuzz --target "${targets[@]/%/_fuzz}" rondo-mesh-reader
+cmake --preset asan >/dev/null
+cmake --build build/asan --target "${targets[@]/%/_fuzz}" rondo-mesh-reader
 
 export RONDO_FUZZ_MESHES=$PWD/cases/meshes
 export OPENBLAS_NUM_THREADS=1 OMP_NUM_THREADS=1
+export RONDO_TRAPS=off # numbers out of range are to be refused, not to end the program
 ASAN_SYMBOLIZER_PATH=$(command -v llvm-symbolizer-14 || command -v llvm-symbolizer || true)
 export ASAN_SYMBOLIZER_PATH
 
@@ -27,7 +28,7 @@ run_one() {
   local seconds=$1 target=$2 options=() jobs=() outcome=0
   # What HDF5 does to a process with damaged bytes; libFuzzer then ends with the last job's code.
   local in_jobs=(-fork=1 -ignore_timeouts=1 -ignore_ooms=1) timeout_code=70 memory_code=71
-  local work=build/fuzz/runs/$target scratch
+  local work=build/fuzz/$target scratch
   mkdir -p "$work/corpus" "$work/found"
   scratch=$(mktemp -d -p /dev/shm 2>/dev/null || mktemp -d) # in memory: a file for each input
   case $target in
@@ -47,7 +48,7 @@ run_one() {
   esac
   local corpora=("$work/corpus" "tests/fuzz/corpus/$target")
   [ ! -d "tests/fuzz/findings/$target" ] || corpora+=("tests/fuzz/findings/$target")
-  TMPDIR=$scratch "build/fuzz/${target}_fuzz" -timeout=25 -rss_limit_mb=2048 \
+  TMPDIR=$scratch "build/asan/${target}_fuzz" -timeout=25 -rss_limit_mb=2048 \
     -print_final_stats=1 "-artifact_prefix=$work/found/" "${options[@]}" "${corpora[@]}" \
     >"$work/log.txt" 2>&1 || outcome=$?
   rm -rf "$scratch"
@@ -57,7 +58,7 @@ run_one() {
   if [ "$outcome" -ne 0 ]; then
     echo "fuzz: $target: FINDING; the end of $work/log.txt:"
     tail -n 60 "$work/log.txt"
-    echo "fuzz: again: build/fuzz/${target}_fuzz $(sed -n 's/.*Test unit written to //p' "$work/log.txt")"
+    echo "fuzz: again: build/asan/${target}_fuzz $(sed -n 's/.*Test unit written to //p' "$work/log.txt")"
     return 1
   fi
   echo "fuzz: $target: $(grep -E 'cov: ' "$work/log.txt" | tail -n 1)"
