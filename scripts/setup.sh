@@ -9,6 +9,7 @@ packages=(
   libopenblas-dev liblapacke-dev libfftw3-dev        # singular values, QR; Fourier transforms
   libhdf5-dev nlohmann-json3-dev libtomlplusplus-dev libxxhash-dev # files
   libgmsh-dev gmsh                                   # meshes from files; gmsh makes cases/meshes
+  libopenmpi-dev openmpi-bin                         # sweeps on clusters
   libcli11-dev libfmt-dev libspdlog-dev              # command line, text, log
   libgtest-dev clang-format clang-tidy cppcheck      # tests
   clang libclang-rt-14-dev llvm-14 libomp-dev        # the other compiler, sanitizers, scripts/fuzz.sh

@@ -108,7 +108,7 @@ int run(const RunArguments& given) {
 
 int check(const CommonArguments& arguments) {
   const study::Case c = study::read_case(arguments.case_file, arguments.settings);
-  const study::CheckReport r = study::check_case(c, arguments.threads);
+  const study::CheckReport r = study::check_case(c, {.threads = arguments.threads});
   for (const std::string& warning : r.warnings) spdlog::warn(warning);
   fmt::print("title              {}\n", c.title);
   fmt::print("nodes              {} ({} elements, {} free dofs, {} contact candidates)\n", r.nodes,

@@ -22,6 +22,7 @@
 #include "rondo/core/error.hpp"
 #include "rondo/study/run_files.hpp"
 #include "rondo/study/version.hpp"
+#include "sweep_command.hpp"
 
 namespace {
 
@@ -156,6 +157,36 @@ CLI::App* add_paper(CLI::App& program, app::PaperArguments& arguments) {
   return paper;
 }
 
+CLI::App* add_sweep(CLI::App& program, app::SweepArguments& arguments) {
+  CLI::App* sweep = program.add_subcommand(
+      "sweep", "a parametric study: many runs of one case, on all cores or under mpirun");
+  sweep->add_option("study", arguments.study, "study file (TOML, docs/studies.md)")->required();
+  sweep->add_option("-o,--output", arguments.directory,
+                    "directory of the study; its name beside it if left out");
+  sweep
+      ->add_option("--set", arguments.settings,
+                   "KEY=VALUE: a key of the base case, for all runs; repeatable")
+      ->take_all()
+      ->expected(1);
+  sweep
+      ->add_option("--jobs", arguments.jobs, "runs at once; as many as there are cores if left out")
+      ->check(CLI::Range(1, 1024));
+  sweep->add_flag("--dry-run", arguments.dry_run,
+                  "checks all runs and lists them with what they would cost; writes nothing");
+  CLI::Option* overwrite =
+      sweep->add_flag("--overwrite", arguments.overwrite, "replaces another sweep there");
+  sweep->add_flag("--resume", arguments.resume, "goes on with a sweep that was interrupted")
+      ->excludes(overwrite);
+  sweep->add_flag("--quiet", arguments.quiet, "prints warnings and errors only");
+  sweep->footer(
+      "Example:\n  rondo sweep cases/traction.study.toml -o results/traction\n"
+      "  mpirun -n 64 rondo sweep cases/traction.study.toml -o results/traction\n"
+      "A run that fails is recorded, and the others go on; the exit code is then that of the "
+      "worst\n"
+      "failure. The study file: docs/studies.md; clusters: docs/clusters.md.");
+  return sweep;
+}
+
 int report_input_error(const InputError& error) {
   for (const Fault& fault : error.faults()) spdlog::error("{}", fault.text());
   if (error.faults().size() > 1) spdlog::error("{} faults; nothing was run", error.faults().size());
@@ -173,6 +204,8 @@ int dispatch_command(CLI::App& program, int argc, char** argv) {
   const CLI::App* modes = add_modes(program, modes_arguments);
   app::PaperArguments paper_arguments;
   const CLI::App* paper = add_paper(program, paper_arguments);
+  app::SweepArguments sweep_arguments;
+  const CLI::App* sweep = add_sweep(program, sweep_arguments);
   try {
     program.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
@@ -183,6 +216,7 @@ int dispatch_command(CLI::App& program, int argc, char** argv) {
   if (pod->parsed()) return app::pod(pod_arguments.request, pod_arguments.quiet);
   if (modes->parsed()) return app::modes(modes_arguments);
   if (paper->parsed()) return app::paper(paper_arguments);
+  if (sweep->parsed()) return app::sweep(sweep_arguments);
   return app::exit_input;
 }
 

@@ -27,7 +27,7 @@ ALLOWED["mesh_reader"] = {"mesh"}  # a program of its own; it shares the layout 
 ONLY_IN = {"hdf5.h": {"io"}, "toml++/": {"study"}, "CLI/": {"apps"}, "cholmod": {"statics"},
            "CholmodSupport": {"modal", "statics"}, "Spectra/": {"dynamics"},
            "lapacke": {"reduction"}, "xxhash": {"io"}, "fftw3": {"reduction"},
-           "gmsh.h": {"mesh_reader"}}
+           "gmsh.h": {"mesh_reader"}, "mpi.h": {"apps"}}
 
 INCLUDE = re.compile(r'^\s*#\s*include\s*[<"]([^">]+)[">]', re.MULTILINE)
 

@@ -35,7 +35,6 @@ void add_contacts(const Case& c, const mesh::Mesh& mesh, dynamics::Model& model)
                                                     mesh.contact_edges,
                                                     between.between == BodyContact::all,
                                                     {between.friction, between.restitution}});
-  model.coupled = {c.contact_iterations, c.dump_contacts};
 }
 
 void add_pressures(const Case& c, const mesh::Mesh& mesh, dynamics::Model& model) {
@@ -76,10 +75,16 @@ void make_model(const Case& c, Setup& s) {
     model.stiffness_operator = dynamics::StiffnessOperator::cyclic;
   if (model.stiffness_operator == dynamics::StiffnessOperator::sparse || !by_harmonics(model))
     model.stiffness = fem::assemble_stiffness(s.mesh, s.materials);
-  model.mass_damping = c.damping.mass;
   model.stiffness_damping = c.damping.stiffness;
-  model.motion = c.motion;
   model.scheme = c.time.scheme;
+}
+
+/// What does not change the body: see body_key().
+void set_motion_and_friction(const Case& c, dynamics::Model& model) {
+  model.mass_damping = c.damping.mass;
+  model.motion = c.motion;
+  model.coupled = {c.contact_iterations, c.dump_contacts};
+  if (model.contact) model.contact->law = {c.ground->friction, c.ground->restitution};
 }
 
 /// K := K + K_σ of the stress of the initial spin, in both forms as far as they are there.
@@ -177,22 +182,62 @@ std::vector<int> held_nodes(const dynamics::Model& model) {
   return held;
 }
 
-Setup build(const Case& c, int threads) {
+std::string body_key(const Case& c) {
+  Case body = c;
+  body.title.clear();
+  body.motion = {};
+  if (c.stress_stiffening != StressStiffening::none)
+    body.motion.angular_velocity = dynamics::Table(c.motion.angular_velocity.at(0.0));
+  if (body.ground) body.ground->friction = body.ground->restitution = 0.0;
+  if (!may_be_free(c)) body.initial = {};
+  if (c.time.scheme != Scheme::as_printed) body.damping.mass = 0.0;
+  body.time = {};
+  body.time.scheme = c.time.scheme;
+  body.contact_iterations = Case{}.contact_iterations;
+  body.dump_contacts = 0;
+  body.output = {};
+  return write_case(body);
+}
+
+namespace {
+
+/// What takes time, and hangs on body_key() alone.
+Setup make_body(const Case& c, int threads) {
   Setup s;
   s.mesh = build_mesh(c, &s.warnings);
   if (c.mesh) demand_memory(c, s.mesh, estimated_memory(c, size_of(s.mesh)));
   check_places(c, s.mesh);
   s.materials = materials_of(c, s.mesh);
-  s.probes = find_probes(c, s.mesh);
   make_model(c, s);
   add_stress_stiffening(c, s);
   choose_threads(s, threads);
-  set_initial_fields(c, s);
-  check_start(c, s);
   s.critical = find_critical_step(c, s);
+  return s;
+}
+
+Setup shared_body(const Case& c, int threads, SharedBody& shared) {
+  std::string key = fmt::format("{}\nthreads = {}\n", body_key(c), threads);
+  if (shared.key != key) {
+    shared = {};
+    shared.setup = make_body(c, threads);
+    shared.key = std::move(key);
+  }
+  check_places(c, shared.setup.mesh);
+  return shared.setup;
+}
+
+}  // namespace
+
+Setup build(const Case& c, int threads, SharedBody* shared) {
+  Setup s = shared ? shared_body(c, threads, *shared) : make_body(c, threads);
+  set_motion_and_friction(c, s.model);
+  s.probes = find_probes(c, s.mesh);
+  set_initial_fields(c, s, shared);
+  check_start(c, s);
   s.model.dt = choose_step(c, s.critical);
   s.n_steps = count_steps(c, s.model.dt);
   check_stability(c, s);
+  if (shared) shared->setup.frequencies_above = s.frequencies_above;
   return s;
 }
 

@@ -21,8 +21,22 @@ struct Setup {
   std::vector<Vec2> prestress;        ///< (n) displacement whose stress stiffens the body [m]
   std::vector<Vec2> displacement;     ///< (n) u_0                          [m]
   std::vector<Vec2> velocity;         ///< (n) v_0                          [m/s]
+  double frequencies_above = 0.0;     ///< every ω² of the body is known to be above it [1/s²]
   std::vector<std::string> warnings;  ///< for the user: the caller prints them
 };
+
+/// What runs one after the other share as long as only friction, motion, mass damping, times and
+/// output differ: mesh, masses, stiffness, critical step, the last stationary state. A run built
+/// from it has the same bits as one built alone.
+struct SharedBody {
+  std::string key;  ///< the case without what may differ; empty: none yet
+  Setup setup;
+  double spin = 0.0;             ///< of the stationary state [rad/s]
+  std::vector<Vec2> stationary;  ///< (n) empty: none yet [m]
+};
+
+/// Equal for cases that share a body.
+std::string body_key(const Case& c);
 
 /// Threads used where the user names none: 1 below this many free degrees of freedom, where
 /// starting threads at every step costs more than it brings; all cores above.
@@ -49,6 +63,7 @@ std::vector<int> held_nodes(const dynamics::Model& model);
 
 /// @param threads 0: chosen by size. @throws InputError: what build_mesh() says, step above the
 /// critical one, spin beyond the softening limit with a stationary start, start inside the ground.
-Setup build(const Case& c, int threads);
+/// @param shared is used where it fits the case, and else replaced; null: nothing is kept
+Setup build(const Case& c, int threads, SharedBody* shared = nullptr);
 
 }  // namespace rondo::study

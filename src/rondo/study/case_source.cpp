@@ -12,6 +12,7 @@
 #include <system_error>
 #include <utility>
 
+#include "rondo/core/contract.hpp"
 #include "rondo/study/case_keys.hpp"
 #include "rondo/study/toml_text.hpp"
 
@@ -19,7 +20,8 @@ namespace rondo::study {
 namespace {
 
 constexpr std::size_t largest_file = 16'000'000;  ///< bytes
-constexpr std::size_t longest_found = 60;         ///< characters of a value repeated in a message
+constexpr TomlShape case_shape{"a case file", is_case_table, is_case_list};
+constexpr std::size_t longest_found = 60;  ///< characters of a value repeated in a message
 
 Fault file_fault(const std::string& name, std::string message, std::string allowed = {}) {
   return {name, 0, 0, "", "", std::move(message), std::move(allowed)};
@@ -38,14 +40,14 @@ bool nested_too_deeply(std::string_view text) {
   return false;
 }
 
-std::string read_text(const std::filesystem::path& file) {
+std::string read_text(const std::filesystem::path& file, std::string_view what) {
   const std::string name = file.string();
   std::error_code error;
   const auto status = std::filesystem::status(file, error);
   if (status.type() == std::filesystem::file_type::not_found)
     throw InputError(file_fault(name, "there is no such file"));
   if (std::filesystem::is_directory(status))
-    throw InputError(file_fault(name, "is a directory, not a case file"));
+    throw InputError(file_fault(name, fmt::format("is a directory, not {}", what)));
   errno = 0;
   std::ifstream in(file, std::ios::binary);
   if (!in)
@@ -58,13 +60,16 @@ std::string read_text(const std::filesystem::path& file) {
   } while (in && text.size() <= largest_file);
   if (in.bad()) throw InputError(file_fault(name, "cannot be read"));
   if (text.size() > largest_file)
-    throw InputError(file_fault(name, "is longer than a case file may be", "at most 16 MB"));
+    throw InputError(
+        file_fault(name, fmt::format("is longer than {} may be", what), "at most 16 MB"));
   if (text.find_first_not_of(" \t\r\n") == std::string::npos)
-    throw InputError(file_fault(name, "the file is empty", "a case in TOML"));
+    throw InputError(file_fault(name, "the file is empty", fmt::format("{} in TOML", what)));
   if (text.find('\0') != std::string::npos)
-    throw InputError(file_fault(name, "is not a text file: it holds NUL bytes", "a case in TOML"));
+    throw InputError(file_fault(name, "is not a text file: it holds NUL bytes",
+                                fmt::format("{} in TOML", what)));
   if (nested_too_deeply(text))
-    throw InputError(file_fault(name, "has keys nested more than 250 deep", "a case in TOML"));
+    throw InputError(
+        file_fault(name, "has keys nested more than 250 deep", fmt::format("{} in TOML", what)));
   return text;
 }
 
@@ -118,36 +123,43 @@ std::string joined(const std::string& table, std::string_view key) {
   return table.empty() ? part : table + "." + part;
 }
 
-void add_table(CaseSource& into, const std::string& path, const toml::table& table, int source);
+/// Where tables are opened: into what, of which kind of file, from which source.
+struct Opening {
+  CaseSource& into;
+  const TomlShape& shape;
+  int source = 0;
+};
+
+void add_table(const Opening& in, const std::string& path, const toml::table& table);
 
 /// A list of tables of a case is opened; anything else in the place of one is no list.
-bool add_list(CaseSource& into, const std::string& path, const toml::node& node, int source) {
+bool add_list(const Opening& in, const std::string& path, const toml::node& node) {
   const toml::array* list = node.as_array();
-  if (!is_case_list(path) || list == nullptr) return false;
+  if (!in.shape.is_list(path) || list == nullptr) return false;
   for (const toml::node& item : *list)
     if (!item.is_table()) return false;
-  into.lists[path] = list->size();
+  in.into.lists[path] = list->size();
   for (std::size_t k = 0; k < list->size(); ++k) {
     const std::string inner = item_of(path, k);
-    into.tables[inner] = place_of((*list)[k].source(), source);
-    add_table(into, inner, *(*list)[k].as_table(), source);
+    in.into.tables[inner] = place_of((*list)[k].source(), in.source);
+    add_table(in, inner, *(*list)[k].as_table());
   }
   return true;
 }
 
 /// Tables of a case are opened; any other table is a value, which the reader will refuse.
-void add_table(CaseSource& into, const std::string& path, const toml::table& table, int source) {
+void add_table(const Opening& in, const std::string& path, const toml::table& table) {
   for (const auto& [key, node] : table) {
     const std::string inner = joined(path, key.str());
-    if (node.is_table() && is_case_table(inner)) {
-      into.tables[inner] = place_of(node.source(), source);
-      add_table(into, inner, *node.as_table(), source);
+    if (node.is_table() && in.shape.is_table(inner)) {
+      in.into.tables[inner] = place_of(node.source(), in.source);
+      add_table(in, inner, *node.as_table());
       continue;
     }
-    if (add_list(into, inner, node, source)) continue;
-    CaseValue value = value_of(node, source);
-    value.key_place = place_of(key.source(), source);
-    into.values[inner] = std::move(value);
+    if (add_list(in, inner, node)) continue;
+    CaseValue value = value_of(node, in.source);
+    value.key_place = place_of(key.source(), in.source);
+    in.into.values[inner] = std::move(value);
   }
 }
 
@@ -247,10 +259,10 @@ void apply_setting(CaseSource& into, const std::string& setting) {
   const toml::node& node = *parsed.get("v");
   if (node.is_table() && is_case_table(path)) {
     into.tables[path] = place;
-    add_table(into, path, *node.as_table(), source);
+    add_table({into, case_shape, source}, path, *node.as_table());
     return;
   }
-  if (add_list(into, path, node, source)) return;
+  if (add_list({into, case_shape, source}, path, node)) return;
   CaseValue value = value_of(node, source);
   value.key_place = place;
   into.values[path] = std::move(value);
@@ -258,21 +270,30 @@ void apply_setting(CaseSource& into, const std::string& setting) {
 
 }  // namespace
 
-CaseSource load_case(const std::filesystem::path& file, const std::vector<std::string>& settings) {
-  return load_case_text(file.string(), read_text(file), settings);
+CaseSource load_toml(const std::filesystem::path& file, const TomlShape& shape) {
+  return load_toml_text(file.string(), read_text(file, shape.what), shape);
 }
 
-CaseSource load_case_text(const std::string& name, std::string text,
-                          const std::vector<std::string>& settings) {
+CaseSource load_toml_text(const std::string& name, std::string text, const TomlShape& shape) {
   CaseSource source;
   source.sources.push_back(source_text(name, std::move(text)));
   try {
-    add_table(source, "", toml::parse(source.sources[0].text), 0);
+    add_table({source, shape}, "", toml::parse(source.sources[0].text));
   } catch (const toml::parse_error& error) {
     const Place at = place_of(error.source(), 0);
     throw InputError(Fault{name, at.line, at.column, "", "",
                            "is not TOML: " + std::string(error.description()), ""});
   }
+  return source;
+}
+
+CaseSource load_case(const std::filesystem::path& file, const std::vector<std::string>& settings) {
+  return load_case_text(file.string(), read_text(file, case_shape.what), settings);
+}
+
+CaseSource load_case_text(const std::string& name, std::string text,
+                          const std::vector<std::string>& settings) {
+  CaseSource source = load_toml_text(name, std::move(text), case_shape);
   for (const std::string& setting : settings) apply_setting(source, setting);
   return source;
 }
@@ -312,6 +333,30 @@ std::string as_utf8(std::string text) {
       if (static_cast<unsigned char>(c) >= 0x80) c = '?';
   }
   return text;
+}
+
+std::string toml_text(const CaseValue& value) {
+  switch (value.type) {
+    case ValueType::text:
+      return toml_string(value.text);
+    case ValueType::integer:
+      return fmt::format("{}", value.integer);
+    case ValueType::boolean:
+      return value.boolean ? "true" : "false";
+    case ValueType::number:
+      return toml_number(value.number);
+    case ValueType::array: {
+      std::string text;
+      for (const CaseValue& item : value.items)
+        text += (text.empty() ? "" : ", ") + toml_text(item);
+      return "[" + text + "]";
+    }
+    case ValueType::date:
+    case ValueType::table:
+      break;
+  }
+  RONDO_DEMAND(false, type_word(value.type));
+  return {};
 }
 
 std::string_view type_word(ValueType type) noexcept {

@@ -52,6 +52,18 @@ struct CaseSource {
   [[nodiscard]] std::string written(const Place& place) const;
 };
 
+/// What of a kind of file is opened: tables, and lists of tables; anything else is a value.
+struct TomlShape {
+  std::string_view what;  ///< "a case file", for messages
+  bool (*is_table)(std::string_view path);
+  bool (*is_list)(std::string_view path);
+};
+
+/// A file of any kind, without settings. @throws InputError where it cannot be read or is not TOML.
+CaseSource load_toml(const std::filesystem::path& file, const TomlShape& shape);
+/// The same from a text that messages call `name`.
+CaseSource load_toml_text(const std::string& name, std::string text, const TomlShape& shape);
+
 /// Reads the file and applies the settings. @throws InputError where the file cannot be read or is
 /// not TOML.
 CaseSource load_case(const std::filesystem::path& file, const std::vector<std::string>& settings);
@@ -61,6 +73,9 @@ CaseSource load_case_text(const std::string& name, std::string text,
 
 /// The text itself if it is UTF-8, else with '?' for the bytes outside ASCII.
 std::string as_utf8(std::string text);
+
+/// The value as TOML that reads back to the same value. @pre no table, no date
+std::string toml_text(const CaseValue& value);
 
 /// "a string", "an integer", ...
 std::string_view type_word(ValueType type) noexcept;

@@ -16,9 +16,9 @@
 namespace rondo::study {
 namespace {
 
-constexpr double trial_seconds = 0.2;  ///< of steps, to estimate the time of the whole
-
-double seconds_per_step(const Setup& setup) {
+/// @param trial time to spend on it [s]
+double seconds_per_step(const Setup& setup, double trial) {
+  if (trial <= 0.0) return 0.0;
   using Clock = std::chrono::steady_clock;
   const auto integrator =
       make_integrator(setup.model, start(setup.model, setup.displacement, setup.velocity));
@@ -26,7 +26,7 @@ double seconds_per_step(const Setup& setup) {
   const auto begin = Clock::now();
   double seconds = 0.0;
   long long steps = 0;
-  while (steps < setup.n_steps && seconds < trial_seconds) {
+  while (steps < setup.n_steps && seconds < trial) {
     integrator->advance(reports);
     steps += static_cast<long long>(reports.size());
     seconds = std::chrono::duration<double>(Clock::now() - begin).count();
@@ -55,9 +55,9 @@ CheckReport check_crush(const Case& c) {
 
 }  // namespace
 
-CheckReport check_case(const Case& c, int threads) {
+CheckReport check_case(const Case& c, const CheckOptions& options) {
   if (c.analysis.kind == AnalysisKind::crush) return check_crush(c);
-  const Setup setup = build(c, threads);
+  const Setup setup = build(c, options.threads, options.shared);
   CheckReport r;
   r.nodes = setup.mesh.n_nodes();
   r.elements = setup.mesh.cells.size();
@@ -76,7 +76,7 @@ CheckReport check_case(const Case& c, int threads) {
   r.snapshots = schedule.steps.size();
   r.memory_bytes = estimated_memory(c, size_of(setup.mesh));
   r.disk_bytes = disk_needed(c, setup, schedule).all;
-  r.seconds = seconds_per_step(setup) * static_cast<double>(setup.n_steps);
+  r.seconds = seconds_per_step(setup, options.trial_s) * static_cast<double>(setup.n_steps);
   r.warnings = c.warnings;
   r.warnings.insert(r.warnings.end(), setup.warnings.begin(), setup.warnings.end());
   return r;

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "rondo/study/build.hpp"
 #include "rondo/study/case.hpp"
 
 namespace rondo::study {
@@ -29,7 +30,13 @@ struct CheckReport {
   std::vector<std::string> warnings;
 };
 
+struct CheckOptions {
+  int threads = 0;               ///< 0: chosen by size
+  double trial_s = 0.2;          ///< of steps made to estimate `seconds`; 0: none, which is 0 then
+  SharedBody* shared = nullptr;  ///< as for build()
+};
+
 /// @throws InputError as a run would.
-CheckReport check_case(const Case& c, int threads);
+CheckReport check_case(const Case& c, const CheckOptions& options);
 
 }  // namespace rondo::study

@@ -18,9 +18,13 @@ std::size_t at(int index) noexcept {
 }
 
 /// Of what is held; free bodies stay as they are.
-void set_stationary(const Case& c, Setup& s) {
+void set_stationary(const Case& c, Setup& s, SharedBody* shared) {
   const dynamics::Model& m = s.model;
   const double spin = -c.motion.angular_velocity.at(0.0);
+  if (shared && !shared->stationary.empty() && shared->spin == spin) {
+    s.displacement = shared->stationary;
+    return;
+  }
   auto stationary = by_harmonics(m) ? statics::stationary_spin(*m.sector, m.mass, m.reference, spin)
                                     : statics::stationary_spin(m.stiffness, m.mass, m.reference,
                                                                held_nodes(m), spin);
@@ -30,6 +34,9 @@ void set_stationary(const Case& c, Setup& s) {
                      "exceeds the stiffness",
                      "a lower spin, or a stiffer material");
   s.displacement = std::move(stationary.u);
+  if (!shared) return;
+  shared->spin = spin;
+  shared->stationary = s.displacement;
 }
 
 /// How deep the worst node is, compared with its elements.
@@ -122,11 +129,11 @@ void check_each_other(const Case& c, const std::vector<double>& size, const std:
 
 }  // namespace
 
-void set_initial_fields(const Case& c, Setup& s) {
+void set_initial_fields(const Case& c, Setup& s, SharedBody* shared) {
   const dynamics::Model& model = s.model;
   s.displacement.assign(model.n_nodes(), Vec2{});
   s.velocity.assign(model.n_nodes(), Vec2{});
-  if (c.initial.state == InitialState::stationary) set_stationary(c, s);
+  if (c.initial.state == InitialState::stationary) set_stationary(c, s, shared);
   const auto& g = c.initial.displacement_gradient;
   const std::vector<RigidMotion> motions = motions_of(c, s.mesh, model);
   for (const int node : model.free) {

@@ -3,15 +3,13 @@
 
 #include <algorithm>
 #include <cmath>
-#include <fstream>
-#include <iterator>
 #include <system_error>
 
 #include "rondo/core/error.hpp"
 #include "rondo/io/csv.hpp"
 #include "rondo/io/files.hpp"
 #include "rondo/io/h5.hpp"
-#include "rondo/study/build_id.hpp"
+#include "rondo/study/kept_runs.hpp"
 #include "rondo/study/paper_results.hpp"
 #include "rondo/study/pod.hpp"
 #include "rondo/study/run.hpp"
@@ -21,58 +19,6 @@ namespace rondo::study {
 namespace {
 
 namespace fs = std::filesystem;
-
-/// Empty where it cannot be read.
-std::string text_of(const fs::path& file) {
-  std::ifstream in(file, std::ios::binary);
-  return {std::istreambuf_iterator<char>(in), {}};
-}
-
-/// Written by this very program: one built anew may give other numbers.
-bool is_of_this_program(const Json& j) {
-  static const std::string own = build_id();
-  return !own.empty() && text_in(j, "build_id") == own;
-}
-
-/// -1 where it has no such number.
-double number_in(const Json& j, const char* key) {
-  return j.is_object() && j.contains(key) && j[key].is_number() ? j[key].get<double>() : -1.0;
-}
-
-/// The files hold what run.json says, as far as their ends and heads tell. @throws FileError,
-/// InputError: they cannot be read
-bool is_whole(const fs::path& directory, const Json& j) {
-  const auto number = [&](const char* key) { return number_in(j, key); };
-  const Columns history = io::read_columns(directory / "history.csv");
-  const std::vector<double>& time = column(history, "time_s", directory / "history.csv");
-  if (text_in(j, "analysis") == "crush") {
-    if (static_cast<double>(time.size()) != number("increments_done") + 1.0) return false;
-  } else if (std::abs(time.back() - number("end_time")) > 1e-9 * time.back()) {
-    return false;
-  }
-  if (number("snapshots") == 0.0) {
-    static_cast<void>(io::h5::File::open(directory / "results.h5"));  // it opens
-    return true;
-  }
-  return static_cast<double>(io::RunReader(directory).n_snapshots()) == number("snapshots") &&
-         fs::is_regular_file(directory / "fields.xdmf");
-}
-
-/// A run that may fail did so by itself, at a step: not for want of room on the disk.
-bool ended(const Json& j, bool may_fail) {
-  const std::string status = text_in(j, "status");
-  return status == "done" || (may_fail && status == "failed" && j.contains("steps_done"));
-}
-
-bool run_is_there(const fs::path& directory, const PaperRun& run, const Case& c) {
-  try {
-    const Json j = io::read_json(directory / "run.json");
-    return ended(j, run.may_fail) && is_of_this_program(j) &&
-           text_of(directory / "case.toml") == write_case(kept_case(c)) && is_whole(directory, j);
-  } catch (const std::exception&) {  // what cannot be read is made again
-    return false;
-  }
-}
 
 std::string wanted(const std::string& message) {
   return "failed, as it should: " + message;
@@ -123,13 +69,6 @@ JobReport report_of(const RunReport& r, bool may_fail) {
   return {job_failed, may_fail ? wanted(r.message) : r.message, may_fail};
 }
 
-/// What a program left that was killed while it wrote: files and folders of unfinished writes.
-void remove_unfinished(const fs::path& directory) {
-  std::error_code error;
-  for (const auto& entry : fs::directory_iterator(directory, error))
-    if (entry.path().extension() == ".tmp") fs::remove_all(entry.path(), error);
-}
-
 JobReport do_run(const fs::path& directory, const Case& c, bool may_fail, JobChannel& channel) {
   remove_unfinished(directory);
   RunOptions options;
@@ -178,7 +117,7 @@ std::vector<PaperJob> paper_jobs(const fs::path& directory, const PaperPlan& pla
     job.command = command_of(run, directory);
     job.of = k;
     const fs::path results = directory / job.directory;
-    job.there = !again && run_is_there(results, run, c);
+    job.there = !again && run_is_there(results, c, run.may_fail);
     if (job.there) job.found = outcome_of(results);
     job.job = {run.name, cost_of(c), {}, [=, may_fail = run.may_fail](JobChannel& channel) {
                  return do_run(results, c, may_fail, channel);

@@ -180,6 +180,13 @@ RunReport nothing_to_do(const Checkpoint& k) {
   return r;
 }
 
+/// One of the time before the end, of a run that keeps none.
+void drop_checkpoint(const RunOptions& options, RunStatus status) {
+  std::error_code error;  // it does no harm
+  if (!options.keeps_checkpoint && status == RunStatus::done)
+    std::filesystem::remove(options.directory / checkpoint_name, error);
+}
+
 SnapshotSchedule fresh_schedule(const Case& c, const Setup& setup) {
   return snapshot_schedule(c.output, setup.model.dt, setup.n_steps);
 }
@@ -197,7 +204,7 @@ RunReport run_case(const Case& c, const RunOptions& options) {
   if (c.analysis.kind == AnalysisKind::crush) return run_crush(c, options);
   const auto begin = Clock::now();
   static_cast<void>(dispatch_level());  // a wrong one is told before anything is built
-  Setup setup = build(c, options.threads);
+  Setup setup = build(c, options.threads, options.shared);
   // Before anything is removed; a run that is gone on with needs what its checkpoint says.
   if (!options.resume) demand_disk(options, disk_needed(c, setup, fresh_schedule(c, setup)));
   const io::DirectoryLock lock = take_directory(c, options);
@@ -215,6 +222,7 @@ RunReport run_case(const Case& c, const RunOptions& options) {
   add_outcome(json, setup, loop);
   json["total_wall_s"] = std::chrono::duration<double>(Clock::now() - begin).count();
   io::write_json(options.directory / "run.json", json);
+  drop_checkpoint(options, loop.status);
   RunReport report = report_of(setup, loop);
   if (run.from) report.resumed_at = run.from->state.step;
   return report;

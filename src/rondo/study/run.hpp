@@ -10,6 +10,8 @@
 
 namespace rondo::study {
 
+struct SharedBody;
+
 enum class RunStatus { done, interrupted, failed };
 
 struct RunOptions {
@@ -22,6 +24,8 @@ struct RunOptions {
   std::function<void(long long, long long)> progress;
   std::function<void()> before_loop;  ///< called once, before anything is written; may be empty
   std::function<void(const std::string&)> warn;  ///< takes warnings; may be empty
+  SharedBody* shared = nullptr;                  ///< as for build()
+  bool keeps_checkpoint = true;                  ///< of its end, once it is done
 };
 
 /// How a run ended. `failed` is an outcome of the numerics: not finite, or a residual out of bound.

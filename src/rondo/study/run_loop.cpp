@@ -255,7 +255,8 @@ class Runner {
     if (!last_ && !plan_.from) return;  // the start itself is out of range
     const std::vector<double> row =
         last_ ? output_.last_row(*last_, last_state_) : plan_.from->last_row;
-    if (loop_.status != RunStatus::failed) save(row);
+    const bool kept = loop_.status == RunStatus::interrupted || plan_.options.keeps_checkpoint;
+    if (loop_.status != RunStatus::failed && kept) save(row);
     output_.add_row(row);
     if (loop_.status == RunStatus::done) close_ledger();
   }

@@ -84,7 +84,11 @@ void warn_of_softening(const Case& c, Setup& s) {
                     softening_check_dofs, softening_check_harmonic_dofs));
     return;
   }
-  if (frequencies_above(m, 4.0 * spin * spin)) return;
+  if (4.0 * spin * spin <= s.frequencies_above) return;
+  if (frequencies_above(m, 4.0 * spin * spin)) {
+    s.frequencies_above = 4.0 * spin * spin;
+    return;
+  }
   const Interval omega = lowest_frequency(m, spin);
   if (omega.high <= spin)
     s.warnings.push_back(beyond_softening(c, spin, omega));

@@ -318,7 +318,7 @@ TEST(GeneralContact, GoesOnFromASavedStateToTheSameBits) {
   const SavedState one = collided(t.model, 12);
   EXPECT_FALSE(one.impulses.empty());
   EXPECT_NE(one.poses[1].angle, 0.0);
-  for (const std::size_t cut : {std::size_t{1}, std::size_t{4}}) {
+  for (const std::size_t cut : {1U, 4U}) {
     const SavedState other = collided(t.model, cut);
     EXPECT_EQ(one.step, other.step);
     EXPECT_EQ(one.u, other.u);

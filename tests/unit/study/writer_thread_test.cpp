@@ -45,7 +45,7 @@ std::string error_in_pushes(WriterThread& writer, std::vector<int>& slots, int n
 }  // namespace
 
 TEST(WriterThread, WorksOffManyInTheirOrderEachOnce) {
-  for (const std::size_t n_slots : {1, 2, 7}) {
+  for (const std::size_t n_slots : {1U, 2U, 7U}) {
     constexpr int n = 20000;
     std::vector<int> slots(n_slots), seen;
     WriterThread writer(n_slots, [&](std::size_t slot) { seen.push_back(slots[slot]); });

@@ -1,0 +1,19 @@
+// SPDX-License-Identifier: BSD-3-Clause
+/// @file  A sweep's team of MPI ranks: `mpirun -n N rondo sweep ...` (docs/clusters.md).
+#pragma once
+#include <memory>
+
+#include "rondo/study/sweep_team.hpp"
+
+namespace rondo::app {
+
+/// This process was started as one of several ranks, by mpirun or by a scheduler (its environment
+/// says so).
+[[nodiscard]] bool is_started_by_mpi();
+
+/// Starts MPI, which ends with the object. Ranks take pieces by a counter in the memory of rank 0
+/// that they raise by themselves; that needs rank 0 to call MPI now and then: see tick().
+/// @param stop set: no new piece is taken, those in hand are told
+[[nodiscard]] std::unique_ptr<study::Team> make_mpi_team(const std::atomic<bool>& stop);
+
+}  // namespace rondo::app

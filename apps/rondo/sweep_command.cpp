@@ -1,0 +1,111 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "sweep_command.hpp"
+
+#include <fmt/format.h>
+#include <spdlog/spdlog.h>
+
+#include <filesystem>
+#include <memory>
+#include <optional>
+
+#include "exit_codes.hpp"
+#include "mpi_team.hpp"
+#include "progress.hpp"
+#include "rondo/core/error.hpp"
+#include "rondo/study/estimate.hpp"
+#include "rondo/study/sweep.hpp"
+#include "signals.hpp"
+
+namespace rondo::app {
+namespace {
+
+std::string directory_of(const SweepArguments& arguments) {
+  if (!arguments.directory.empty()) return arguments.directory;
+  return std::filesystem::path(arguments.study).replace_extension().string();
+}
+
+/// Each run with what it would cost.
+void print_plan(const study::DrySweep& dry, int workers) {
+  double seconds = 0.0, longest = 0.0;
+  std::size_t disk = 0;
+  for (std::size_t m = 0; m < dry.plan.members.size(); ++m) {
+    const study::PlannedMember& member = dry.plan.members[m];
+    std::string found;
+    for (std::size_t k = 0; k < dry.study.parameters.size(); ++k)
+      if (dry.study.parameters[k].is_target)
+        found = fmt::format(" -> {} = {:.9g}", dry.study.parameters[k].key, member.targets[k]);
+    fmt::print("{}{}: {} nodes, {} steps, about {:.2g} s\n",
+               study::name_of(dry.study, member.member, m + 1), found, member.nodes, member.steps,
+               member.seconds);
+    seconds += member.seconds;
+    longest = std::max(longest, member.seconds);
+    disk += member.disk_bytes;
+  }
+  fmt::print("{} runs, {} at once: about {:.3g} s of stepping, {} on the disk\n",
+             dry.plan.members.size(), workers, std::max(longest, seconds / workers),
+             study::readable_bytes(disk));
+}
+
+int finish(const study::SweepReport& report, const std::string& directory) {
+  for (const std::string& failure : report.failures) spdlog::warn("{}", failure);
+  if (report.failed > report.failures.size())
+    spdlog::warn("and {} more: sweep.json", report.failed - report.failures.size());
+  if (report.interrupted > 0) {
+    spdlog::warn("interrupted with {} of {} runs done; --resume goes on", report.done,
+                 report.members);
+    return exit_interrupted;
+  }
+  spdlog::info("{} of {} runs done{}{} in {:.1f} s; results.csv and sweep.h5 in {}", report.done,
+               report.members, report.failed > 0 ? fmt::format(", {} failed", report.failed) : "",
+               report.kept > 0 ? fmt::format(", {} were there already", report.kept) : "",
+               report.wall_s, directory);
+  return report.code;
+}
+
+int run(const SweepArguments& arguments, study::Team& team) {
+  study::SweepRequest request;
+  const std::string directory = directory_of(arguments);
+  request.study = arguments.study;
+  request.settings = arguments.settings;
+  request.directory = directory;
+  request.resume = arguments.resume;
+  request.overwrite = arguments.overwrite;
+  request.stop = &stop_requested();
+  request.warn = [](const std::string& text) { spdlog::warn("{}", text); };
+  if (arguments.dry_run) {
+    const study::DrySweep dry = study::check_sweep(request, team);
+    if (team.leads()) print_plan(dry, team.workers());
+    return exit_done;
+  }
+  std::optional<Progress> progress;
+  request.begin = [&](const study::PlannedSweep& plan, int workers) {
+    spdlog::info("{} runs, {} at once", plan.members.size(), workers);
+    if (!arguments.quiet) progress.emplace("run");
+  };
+  request.progress = [&](long long ended, long long all) {
+    if (progress) (*progress)(ended, all);
+  };
+  const study::SweepReport report = study::run_sweep(request, team);
+  progress.reset();
+  return team.leads() ? finish(report, directory) : report.code;
+}
+
+}  // namespace
+
+int sweep(const SweepArguments& arguments) {
+  if (arguments.quiet) spdlog::set_level(spdlog::level::warn);
+  catch_stop_signals();
+  if (!is_started_by_mpi()) {
+    const int workers = arguments.jobs > 0 ? arguments.jobs : study::available_cores();
+    study::LocalTeam team(workers, &stop_requested());
+    return run(arguments, team);
+  }
+  if (arguments.jobs > 0)
+    throw InputError(Fault{"--jobs", 0, 0, "", "", "mpirun decides how many runs go on at once",
+                           "leave --jobs out"});
+  const std::unique_ptr<study::Team> team = make_mpi_team(stop_requested());
+  if (!team->leads()) spdlog::set_level(spdlog::level::off);  // all ranks fail in the same way
+  return run(arguments, *team);
+}
+
+}  // namespace rondo::app

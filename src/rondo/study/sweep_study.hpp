@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: BSD-3-Clause
+/// @file  The study file of a sweep (docs/studies.md): which keys of a case are varied, and how.
+#pragma once
+#include <array>
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "rondo/core/error.hpp"
+
+namespace rondo::study {
+
+/// What the crush of a member is to give (see sweep_target.hpp).
+inline constexpr const char* target_force_y = "force_y";
+
+/// One parameter: a key of the case file.
+struct Vary {
+  std::string key;                               ///< e.g. "ground.friction"
+  std::vector<std::string> values;               ///< as TOML, of `values` or `linspace`
+  std::optional<std::array<double, 2>> uniform;  ///< from, to: of a sample, instead of values
+  bool is_target = false;  ///< the values are forces [N/m] of which the key's own follow
+  int line = 0;            ///< of its table in the study file
+};
+
+/// How parameters given as `uniform` are sampled.
+struct Sample {
+  int count = 0;
+  std::uint64_t seed = 0;
+};
+
+/// Part of each run that means and peaks are taken over [s]; absent: its last half, up to its end.
+struct Window {
+  std::optional<double> from, to;
+};
+
+struct SweepStudy {
+  std::filesystem::path file;
+  std::string title;
+  std::filesystem::path base;         ///< case file, absolute or relative to the working directory
+  std::vector<std::string> settings;  ///< "a.b=value", the same for all members
+  std::vector<Vary> parameters;       ///< at least one
+  std::optional<Sample> sample;
+  Window window;
+  bool snapshots = false;  ///< members write those of the base case; else none
+};
+
+/// @throws InputError with every fault
+[[nodiscard]] SweepStudy read_study(const std::filesystem::path& file);
+/// The same from a text; `file` is what messages call it, and what `base` is relative to.
+[[nodiscard]] SweepStudy read_study_text(const std::filesystem::path& file, std::string text);
+
+/// More members are not listed.
+inline constexpr std::size_t most_members = 1'000'000;
+
+}  // namespace rondo::study
