@@ -133,8 +133,9 @@ void find(const PodRequest& request, RunSnapshots& snapshots, PodResult& found) 
 
 }  // namespace
 
-PodReport run_pod(const PodRequest& request) {
+PodReport run_pod(const PodRequest& asked) {
   const auto begin = Clock::now();
+  const PodRequest request = with_members(asked);
   const SnapshotChoice choice = choice_of(request);
   const reduction::DecomposeOptions options = options_of(request);
   const std::vector<io::RunReader> runs = open_runs(request, choice);

@@ -3,16 +3,19 @@
 
 #include <fmt/format.h>
 
+#include <sys/resource.h>
 #include <unistd.h>
 
 #include <array>
 #include <cerrno>
 #include <cmath>
 #include <limits>
+#include <set>
 #include <system_error>
 #include <utility>
 
 #include "rondo/study/estimate.hpp"
+#include "rondo/study/sweep.hpp"
 
 namespace rondo::study {
 namespace {
@@ -72,11 +75,21 @@ void say_if_unfinished(const PodRequest& request, const io::RunReader& run) {
 }
 
 void refuse_twice(const PodRequest& request) {
-  std::error_code error;
-  for (std::size_t k = 1; k < request.runs.size(); ++k)
-    for (std::size_t other = 0; other < k; ++other)
-      if (std::filesystem::equivalent(request.runs[k], request.runs[other], error))
-        throw request_error("RUN", request.runs[k].string(), "named twice", "each run once");
+  std::set<std::filesystem::path> seen;
+  for (const std::filesystem::path& run : request.runs) {
+    std::error_code error;
+    const std::filesystem::path whole = std::filesystem::canonical(run, error);
+    if (!error && !seen.insert(whole).second)
+      throw request_error("RUN", run.string(), "named twice", "each run once");
+  }
+}
+
+/// Each run stays open while its snapshots are read; as many files as the system lets us.
+void allow_open_files() {
+  rlimit limit{};
+  if (getrlimit(RLIMIT_NOFILE, &limit) != 0) return;
+  limit.rlim_cur = limit.rlim_max;
+  setrlimit(RLIMIT_NOFILE, &limit);
 }
 
 io::RunReader open_run(const std::filesystem::path& directory) {
@@ -166,6 +179,7 @@ const char* unit_of(io::Quantity quantity, const io::RunReader& run) noexcept {
 }
 
 std::vector<io::RunReader> open_runs(const PodRequest& request, const SnapshotChoice& choice) {
+  allow_open_files();
   std::vector<io::RunReader> runs;
   runs.reserve(request.runs.size());
   refuse_twice(request);
@@ -231,6 +245,25 @@ std::vector<Column> columns_of(const PodRequest& request, const SnapshotChoice& 
                       times.front(), times.back(), times.size()));
   }
   return columns;
+}
+
+PodRequest with_members(const PodRequest& asked) {
+  PodRequest request = asked;
+  request.runs.clear();
+  for (const std::filesystem::path& directory : asked.runs) {
+    std::error_code error;
+    if (!std::filesystem::exists(directory / "sweep.json", error)) {
+      request.runs.push_back(directory);
+      continue;
+    }
+    const std::vector<std::filesystem::path> runs = runs_of_sweep(directory);
+    if (runs.empty() || io::RunReader(runs.front()).n_snapshots() == 0)
+      throw request_error("RUN", directory.string(), "is a sweep without snapshots",
+                          "a sweep whose study file says snapshots = true");
+    request.runs.insert(request.runs.end(), runs.begin(), runs.end());
+    if (asked.directory.empty() && asked.runs.size() == 1) request.directory = directory / "pod";
+  }
+  return request;
 }
 
 std::filesystem::path make_directory(const PodRequest& request) {

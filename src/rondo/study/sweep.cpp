@@ -276,23 +276,32 @@ void warn_of_members(const SweepRequest& request, const PlannedSweep& plan) {
                      : fmt::format("run {} and {} others: {}", of.first, of.second - 1, text));
 }
 
+/// The fault itself has been told where it was found.
+[[noreturn]] void fail_with_leader(char kind) {
+  const std::string told = "the leader of the team has said why nothing is run";
+  if (kind == 'i') throw InputError(Fault{"", 0, 0, "", "", told, ""});
+  throw FileError("sweep", told);
+}
+
 /// The leader's part before the runs; what is wrong there, all are told.
 std::optional<io::DirectoryLock> begin(const SweepRequest& request, const PlannedSweep& plan,
                                        Team& team) {
   std::optional<io::DirectoryLock> lock;
-  std::string trouble;
   if (team.leads()) {
     try {
       prepare(request, hash_of(plan));
       lock.emplace(request.directory);
       clear(request);
-    } catch (const std::exception& error) {
-      static_cast<void>(team.from_leader(error.what()));
+    } catch (const InputError&) {
+      static_cast<void>(team.from_leader("i"));
+      throw;
+    } catch (const std::exception&) {
+      static_cast<void>(team.from_leader("f"));
       throw;
     }
   }
-  trouble = team.from_leader("");
-  if (!trouble.empty()) throw FileError(request.directory.string(), trouble);
+  const std::string trouble = team.from_leader("");
+  if (!trouble.empty()) fail_with_leader(trouble[0]);
   return lock;
 }
 

@@ -1,0 +1,416 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""rondo sweep: results, ranks, kills, resumption, wrong studies."""
+import collections
+import csv
+import json
+import os
+import shutil
+import signal
+import subprocess
+import time
+import unittest
+
+import h5py
+import numpy as np
+
+from program import PROGRAM, ProgramTest, SMALL, history, replaced, run, summary
+
+# Root may not start MPI without being told twice, and there may be fewer cores than ranks.
+MPI = {**os.environ, "OMPI_ALLOW_RUN_AS_ROOT": "1", "OMPI_ALLOW_RUN_AS_ROOT_CONFIRM": "1"}
+STUDY = """schema = 1
+title = "small study"
+base = "case.toml"
+[[vary]]
+key = "ground.friction"
+values = [0.0, 0.2, 0.4]
+[[vary]]
+key = "motion.speed"
+linspace = [9, 11, 3]
+"""
+LONG = replaced(SMALL, "end", "end = 1.0")
+
+
+def mpirun(ranks, *arguments, **options):
+    return subprocess.run(["mpirun", "--oversubscribe", "-n", str(ranks), PROGRAM, "sweep",
+                           *map(str, arguments)], capture_output=True, text=True, env=MPI,
+                          timeout=300, **options)
+
+
+def table(directory):
+    with open(directory / "results.csv", newline="") as file:
+        return list(csv.DictReader(file))
+
+
+def column(directory, name):
+    return np.array([float(row[name]) for row in table(directory)])
+
+
+class SweepTest(ProgramTest):
+    def setUp(self):
+        super().setUp()
+        self.case()
+        self.out = self.folder / "out"
+
+    def study(self, text=STUDY):
+        path = self.folder / "study.toml"
+        path.write_text(text)
+        return path
+
+    def sweep(self, *extra, text=STUDY, code=0):
+        done = run("sweep", self.study(text), "-o", self.out, *extra)
+        self.assertEqual(done.returncode, code, done.stderr)
+        return done
+
+
+class Results(SweepTest):
+    def test_a_row_is_what_the_run_alone_gives(self):
+        done = self.sweep()
+        self.assertEqual(done.stdout, "")
+        rows = table(self.out)
+        self.assertEqual([row["run"] for row in rows], [str(k) for k in range(1, 10)])
+        self.assertEqual([(row["ground.friction"], row["motion.speed"]) for row in rows[:4]],
+                         [("0.0", "9"), ("0.0", "10"), ("0.0", "11"), ("0.2", "9")])
+        alone = self.folder / "alone"
+        self.assertEqual(run("run", self.folder / "case.toml", "-o", alone, "--set",
+                             "ground.friction=0.2", "--set", "motion.speed=9").returncode, 0)
+        member = self.out / "runs" / "0004"
+        self.assertEqual((member / "history.csv").read_bytes(),
+                         (alone / "history.csv").read_bytes())
+        h, row = history(alone), rows[3]
+        time = np.concatenate([[0.0], h["time_s"]])
+        inside = time[:-1] >= 0.5 * time[-1]
+        length = np.diff(time)[inside]
+        for name in ("force_x", "force_y", "torque"):
+            f = h[name][inside]
+            mean = np.average(f, weights=length)
+            self.assertAlmostEqual(float(row[f"{name}_mean"]), mean, delta=1e-9 * abs(f).max())
+            self.assertEqual(float(row[f"{name}_peak"]), f[np.argmax(abs(f))])
+            self.assertAlmostEqual(float(row[f"{name}_fluctuation"]),
+                                   np.sqrt(np.average((f - mean) ** 2, weights=length)),
+                                   delta=1e-9 * abs(f).max())
+        d = h["dissipation_friction"]
+        before = np.argmax(inside) - 1
+        self.assertAlmostEqual(float(row["friction_power"]),
+                               (d[-1] - d[before]) / (h["time_s"][-1] - h["time_s"][before]),
+                               delta=1e-9 * d[-1] / h["time_s"][-1])
+        self.assertEqual(float(row["energy_residual_relative"]),
+                         summary(alone)["energy_residual_relative"])
+        self.assertEqual(int(row["steps"]), summary(alone)["steps_done"])
+
+    def test_the_files_say_the_same(self):
+        self.sweep()
+        with h5py.File(self.out / "sweep.h5") as f:
+            for name in f["figures"]:
+                np.testing.assert_array_equal(f["figures"][name][:], column(self.out, name))
+                self.assertIn("units", f["figures"][name].attrs)
+            np.testing.assert_array_equal(f["parameters/ground.friction"][:],
+                                          column(self.out, "ground.friction"))
+            self.assertTrue((f["status"][:] == 1).all())
+        said = json.loads((self.out / "sweep.json").read_text())
+        self.assertEqual((said["status"], said["members"], said["done"]), ("done", 9, 9))
+        self.assertEqual([p["key"] for p in said["parameters"]],
+                         ["ground.friction", "motion.speed"])
+        self.assertEqual(len((self.out / "timings.csv").read_text().splitlines()), 10)
+
+    def test_the_window_is_the_part_asked_for(self):
+        self.sweep(text=STUDY + "[window]\nfrom = 0.008\nto = 0.012\n")
+        h = history(self.out / "runs" / "0001")
+        time = np.concatenate([[0.0], h["time_s"]])
+        inside = (time[:-1] >= 0.008) & (h["time_s"] <= 0.012)
+        self.assertGreater(inside.sum(), 10)
+        self.assertAlmostEqual(column(self.out, "force_y_mean")[0],
+                               np.average(h["force_y"][inside], weights=np.diff(time)[inside]),
+                               places=6)
+
+    def test_text_and_table_parameters(self):
+        self.sweep(text="""schema = 1
+base = "case.toml"
+[[vary]]
+key = "solver.operator"
+values = ["cyclic", "sparse"]
+[[vary]]
+key = "motion.height"
+values = [[[0, 0.3], [0.004, 0.296]], [[0, 0.3], [0.004, 0.2965]]]
+""")
+        rows = table(self.out)
+        self.assertEqual([row["solver.operator"] for row in rows], ["cyclic"] * 2 + ["sparse"] * 2)
+        self.assertEqual(rows[1]["motion.height"], "[[0, 0.3], [0.004, 0.2965]]")
+        force = column(self.out, "force_y_mean")
+        np.testing.assert_allclose(force[:2], force[2:], rtol=1e-9)
+        self.assertGreater(force[0], force[1])
+        with h5py.File(self.out / "sweep.h5") as f:
+            self.assertEqual(f["parameters/solver.operator"].attrs["values"].split(),
+                             ["cyclic", "sparse"])
+            np.testing.assert_array_equal(f["parameters/solver.operator"][:], [0, 0, 1, 1])
+
+    def test_a_sample_and_geometry(self):
+        text = """schema = 1
+base = "case.toml"
+[sample]
+kind = "latin-hypercube"
+count = 6
+seed = 3
+[[vary]]
+key = "material.youngs_modulus"
+uniform = [1e7, 3e7]
+[[vary]]
+key = "disk.mesh.radial"
+uniform = [2, 3]
+"""
+        self.sweep(text=text)
+        e, radial = column(self.out, "material.youngs_modulus"), column(self.out, "disk.mesh.radial")
+        self.assertEqual(sorted((6 * (e - 1e7) / 2e7).astype(int)), list(range(6)))
+        self.assertEqual(sorted(radial), [2, 2, 2, 3, 3, 3])
+        first = (self.out / "results.csv").read_bytes()
+        self.sweep("--overwrite", text=text)
+        self.assertEqual((self.out / "results.csv").read_bytes(), first)
+
+    def test_crushes(self):
+        self.case(replaced(replaced(SMALL, "end", None), "[time]", None)
+                  .replace("snapshots = 11", "stress = false")
+                  + "[analysis]\nkind = \"crush\"\ndepth = 0.01\nincrements = 5\n")
+        self.sweep(text="""schema = 1
+base = "case.toml"
+[[vary]]
+key = "analysis.depth"
+values = [0.005, 0.01]
+[[vary]]
+key = "ground.friction"
+values = [0, 0.4]
+""")
+        np.testing.assert_allclose(column(self.out, "depth_m"), [0.005, 0.005, 0.01, 0.01])
+        h = history(self.out / "runs" / "0004")
+        self.assertEqual(column(self.out, "force_y")[3], h["force_y"][-1])
+        self.assertEqual(column(self.out, "pressure_max_pa")[3], h["pressure_max_pa"][-1])
+
+    def test_the_height_that_bears_a_load(self):
+        text = """schema = 1
+base = "case.toml"
+[[vary]]
+key = "motion.height"
+target = { force_y = [5e4, 1e5] }
+[[vary]]
+key = "ground.friction"
+values = [0.0, 0.3]
+"""
+        self.sweep(text=text)
+        rows = table(self.out)
+        self.assertEqual([float(row["target.force_y"]) for row in rows], [5e4, 5e4, 1e5, 1e5])
+        crush = self.case(replaced(replaced(SMALL, "end", None), "[time]", None)
+                          .replace("snapshots = 11", "stress = false"), "crush.toml")
+        for row in rows:
+            out = self.folder / "crush"
+            done = run("run", crush, "-o", out, "--overwrite", "--set", "analysis.kind=crush",
+                       "--set", f"analysis.depth={0.3 - float(row['motion.height'])!r}", "--set",
+                       "analysis.increments=20", "--set",
+                       f"ground.friction={row['ground.friction']}")
+            self.assertEqual(done.returncode, 0, done.stderr)
+            self.assertAlmostEqual(history(out)["force_y"][-1] / float(row["target.force_y"]), 1,
+                                   delta=1e-6)  # what docs/studies.md says
+        member = (self.out / "runs" / "0001" / "case.toml").read_text()
+        self.assertIn("[0.0, 0.3]", member)  # it still comes down by the base's table
+        self.assertIn(rows[0]["motion.height"], member)
+
+    def test_one_pod_of_all_runs(self):
+        self.sweep(text=STUDY.replace("base", "snapshots = true\nbase"))
+        done = run("pod", self.out, "--field", "velocity", "-o", self.folder / "pod")
+        self.assertEqual(done.returncode, 0, done.stderr)
+        found = json.loads((self.folder / "pod" / "velocity-rotating" / "pod.json").read_text())
+        self.assertEqual(found["snapshots"], 9 * 11)
+
+    def test_no_snapshots_unless_asked_for(self):
+        self.sweep()
+        self.assertEqual(summary(self.out / "runs" / "0001")["snapshots"], 0)
+        self.assertFalse((self.out / "runs" / "0001" / "checkpoint.h5").exists())
+        done = run("pod", self.out, "-o", self.folder / "pod")
+        self.assertEqual(done.returncode, 2)
+        self.assertIn("snapshots = true", done.stderr)
+
+    def test_dry_run_lists_and_writes_nothing(self):
+        done = self.sweep("--dry-run")
+        self.assertEqual(len(done.stdout.splitlines()), 10)
+        self.assertIn("run 4 (ground.friction = 0.2, motion.speed = 9): 160 nodes", done.stdout)
+        self.assertIn("9 runs", done.stdout.splitlines()[-1])
+        self.assertFalse(self.out.exists())
+
+
+class Failures(SweepTest):
+    FAILING = """schema = 1
+base = "case.toml"
+set = ["ground.profile=flat", "time.end=0.3"]
+[[vary]]
+key = "motion.angular_velocity"
+values = [33, 2000, 34]
+"""
+
+    def test_one_that_fails_is_recorded_and_the_others_go_on(self):
+        done = self.sweep(text=self.FAILING, code=3)
+        self.assertIn("run 2 (motion.angular_velocity = 2000)", done.stderr)
+        rows = table(self.out)
+        self.assertEqual([row["status"] for row in rows], ["done", "failed", "done"])
+        self.assertTrue(np.isnan(float(rows[1]["force_y_mean"])))
+        self.assertTrue(np.isfinite(float(rows[2]["force_y_mean"])))
+        said = json.loads((self.out / "sweep.json").read_text())
+        self.assertEqual((said["status"], said["done"], said["failed"]), ("failed", 2, 1))
+        self.assertEqual(said["failures"][0]["run"], 2)
+        before = (self.out / "results.csv").read_bytes()
+        done = self.sweep("--resume", text=self.FAILING, code=3)  # the same would come of it
+        self.assertIn("3 were there already", done.stderr)
+        self.assertEqual((self.out / "results.csv").read_bytes(), before)
+
+    def test_an_interrupted_sweep_goes_on(self):
+        self.case(LONG)
+        process = subprocess.Popen([PROGRAM, "sweep", str(self.study()), "-o", str(self.out)],
+                                   stderr=subprocess.DEVNULL)
+        self.wait_for_runs(3)
+        process.send_signal(signal.SIGINT)
+        self.assertEqual(process.wait(timeout=60), 130)
+        said = json.loads((self.out / "sweep.json").read_text())
+        self.assertEqual(said["status"], "interrupted")
+        status = collections.Counter(row["status"] for row in table(self.out))
+        self.assertGreaterEqual(status["done"], 1)
+        self.assertGreaterEqual(status["waiting"] + status["interrupted"], 1)
+        self.goes_on_to_the_same(said["done"])
+
+    def test_killed_with_all_its_workers(self):
+        self.case(LONG)
+        process = subprocess.Popen([PROGRAM, "sweep", str(self.study()), "-o", str(self.out)],
+                                   stderr=subprocess.DEVNULL)
+        self.wait_for_runs(3)
+        process.kill()
+        process.wait()
+        self.assertEqual(json.loads((self.out / "sweep.json").read_text())["status"], "running")
+        self.goes_on_to_the_same(2)
+
+    def test_a_rank_that_is_killed_ends_the_job_and_nothing_is_lost(self):
+        self.case(LONG)
+        process = subprocess.Popen(["mpirun", "--oversubscribe", "-n", "3", PROGRAM, "sweep",
+                                    str(self.study()), "-o", str(self.out)],
+                                   stderr=subprocess.DEVNULL, env=MPI)
+        self.wait_for_runs(4)
+        ranks = subprocess.run(["pgrep", "-P", str(process.pid)], capture_output=True, text=True)
+        os.kill(int(ranks.stdout.split()[1]), signal.SIGKILL)
+        self.assertNotEqual(process.wait(timeout=120), 0)
+        self.goes_on_to_the_same(1, ranks=3)
+
+    def wait_for_runs(self, n):
+        deadline = time.time() + 60
+        while len(list(self.out.glob("runs/*/run.json"))) < n:
+            self.assertLess(time.time(), deadline, "the runs did not start")
+            time.sleep(0.01)
+
+    def goes_on_to_the_same(self, least_kept, ranks=0):
+        """Runs that were done are left as they are; the table is that of an undisturbed sweep."""
+        whole = {path.parent: path.read_bytes() for path in self.out.glob("runs/*/run.json")
+                 if json.loads(path.read_text())["status"] == "done"}
+        self.assertGreaterEqual(len(whole), least_kept)
+        study = self.study()
+        if ranks:
+            done = mpirun(ranks, study, "-o", self.out, "--resume")
+        else:
+            done = run("sweep", study, "-o", self.out, "--resume")
+        self.assertEqual(done.returncode, 0, done.stderr)
+        self.assertIn(f"{len(whole)} were there already", done.stderr)
+        for path, text in whole.items():
+            self.assertEqual((path / "run.json").read_bytes(), text, path)
+        other = self.folder / "other"
+        self.assertEqual(run("sweep", study, "-o", other).returncode, 0)
+        self.assertEqual((self.out / "results.csv").read_bytes(),
+                         (other / "results.csv").read_bytes())
+
+
+class Ranks(SweepTest):
+    def test_results_do_not_depend_on_their_number(self):
+        self.sweep("--jobs", "1")
+        expected = {name: (self.out / name).read_bytes() for name in ("results.csv", "sweep.h5")}
+        self.sweep("--jobs", "3", "--overwrite")
+        for ranks in (0, 1, 2, 4):
+            if ranks:
+                shutil.rmtree(self.out)
+                done = mpirun(ranks, self.study(), "-o", self.out)
+                self.assertEqual(done.returncode, 0, done.stderr)
+                self.assertEqual(done.stderr.count("9 of 9 runs done"), 1)
+                workers = {row.split(",")[1] for row in
+                           (self.out / "timings.csv").read_text().splitlines()[1:]}
+                self.assertLessEqual(workers, {str(k + 1) for k in range(ranks)})
+            for name, text in expected.items():
+                self.assertEqual((self.out / name).read_bytes(), text, (ranks, name))
+
+    def test_all_ranks_end_where_the_study_is_wrong(self):
+        done = mpirun(3, self.study(STUDY.replace("friction\"", "frction\"")), "-o", self.out)
+        self.assertEqual(done.returncode, 2)
+        self.assertEqual(done.stderr.count("did you mean ground.friction?"), 1)
+
+    def test_all_ranks_end_where_the_directory_holds_something_else(self):
+        self.out.mkdir()
+        (self.out / "run.json").write_text("{}")
+        done = mpirun(2, self.study(), "-o", self.out)
+        self.assertEqual(done.returncode, 2, done.stderr)
+        self.assertEqual(done.stderr.count("no sweep"), 1)
+
+
+class Refused(SweepTest):
+    def refused(self, text, *expected):
+        done = self.sweep(text=text, code=2)
+        for piece in expected:
+            self.assertIn(piece, done.stderr)
+        self.assertFalse(self.out.exists())
+
+    def test_an_unknown_key_and_an_empty_range(self):
+        self.refused(STUDY.replace("ground.friction", "ground.frction")
+                     .replace("[9, 11, 3]", "[9, 11, 0]"),
+                     "study.toml:5:7: vary[0].key", "did you mean ground.friction?",
+                     "study.toml:9:12: vary[1].linspace = [9, 11, 0]: is an empty range")
+
+    def test_cases_that_are_wrong_for_some_members(self):
+        self.refused(STUDY.replace("[0.0, 0.2, 0.4]", "[0.0, -0.2, 0.4]")
+                     + "[[vary]]\nkey = \"motion.height\"\nvalues = [0.31, 0.2]\n",
+                     "run 7 (ground.friction = -0.2, motion.speed = 9, motion.height = 0.31) "
+                     "and 5 of 17 others: ")
+
+    def test_members_that_cannot_be_built(self):
+        self.refused(STUDY + "[[vary]]\nkey = \"motion.height\"\nvalues = [0.31, 0.2]\n",
+                     "run 2 (ground.friction = 0.0, motion.speed = 9, motion.height = 0.2) and 8 "
+                     "of 17 others: ", "deep inside the ground")
+
+    def test_loads_that_no_height_bears(self):
+        self.refused("schema = 1\nbase = \"case.toml\"\n[[vary]]\nkey = \"motion.height\"\n"
+                     "target = { force_y = [1e12] }\n", "at the largest depth tried", "N/m")
+
+    def test_a_window_without_rows(self):
+        self.refused(STUDY + "[window]\nfrom = 0.5\n", "there are not two rows")
+
+    def test_no_base(self):
+        self.refused(STUDY.replace("case.toml", "none.toml"), "none.toml: there is no such file")
+
+    def test_another_sweep_in_the_directory(self):
+        self.sweep()
+        done = self.sweep(code=2)
+        self.assertIn("--resume", done.stderr)
+        done = self.sweep("--resume", text=STUDY.replace("0.4]", "0.5]"), code=2)
+        self.assertIn("other members", done.stderr)
+        done = self.sweep("--resume", "--set", "time.end=0.01", code=2)
+        self.assertIn("other members", done.stderr)
+        self.sweep("--overwrite", text=STUDY.replace("0.4]", "0.5]"))
+
+    def test_a_run_in_the_directory(self):
+        run("run", self.folder / "case.toml", "-o", self.out)
+        self.assertIn("no sweep", self.sweep("--overwrite", code=2).stderr)
+        self.assertTrue((self.out / "history.csv").exists())
+
+    def test_two_at_once(self):
+        self.case(replaced(SMALL, "end", "end = 100.0"))
+        process = subprocess.Popen([PROGRAM, "sweep", str(self.study()), "-o", str(self.out)],
+                                   stderr=subprocess.DEVNULL)
+        deadline = time.time() + 60
+        while not list(self.out.glob("runs/*/run.json")) and time.time() < deadline:
+            time.sleep(0.01)
+        done = run("sweep", self.study(), "-o", self.out, "--resume")
+        process.kill()
+        process.wait()
+        self.assertEqual(done.returncode, 4, done.stderr)
+        self.assertIn("another rondo is at work here", done.stderr)
+
+
+if __name__ == "__main__":
+    unittest.main()
