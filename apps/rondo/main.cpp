@@ -179,8 +179,8 @@ CLI::App* add_sweep(CLI::App& program, app::SweepArguments& arguments) {
       ->excludes(overwrite);
   sweep->add_flag("--quiet", arguments.quiet, "prints warnings and errors only");
   sweep->footer(
-      "Example:\n  rondo sweep cases/traction.study.toml -o results/traction\n"
-      "  mpirun -n 64 rondo sweep cases/traction.study.toml -o results/traction\n"
+      "Example:\n  rondo sweep cases/studies/traction.toml -o results/traction\n"
+      "  mpirun -n 64 rondo sweep cases/studies/traction.toml -o results/traction\n"
       "A run that fails is recorded, and the others go on; the exit code is then that of the "
       "worst\n"
       "failure. The study file: docs/studies.md; clusters: docs/clusters.md.");

@@ -37,8 +37,8 @@ std::vector<io::RunReader> open_runs(const PodRequest& request, const SnapshotCh
 std::vector<Column> columns_of(const PodRequest& request, const SnapshotChoice& choice,
                                const std::vector<io::RunReader>& runs);
 
-/// The request with each sweep replaced by those of its runs that are done. @throws InputError: they
-/// have no snapshots; FileError
+/// The request with each sweep replaced by those of its runs that are done. @throws InputError:
+/// they have no snapshots; FileError
 PodRequest with_members(const PodRequest& asked);
 
 /// Where the results go, made if it is not there. @throws InputError: several runs and no
