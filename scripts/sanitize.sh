@@ -47,7 +47,7 @@ tsan() {
   [ -n "$archer" ] || { echo "sanitize: no libarcher.so (package libomp-dev)" >&2; return 1; }
   # It finds no race in the kernels for AVX (docs/reliability.md).
   RONDO_DISPATCH=baseline OMP_TOOL_LIBRARIES=$archer \
-  TSAN_OPTIONS=exitcode=99:log_path=$PWD/build/tsan/findings/report:ignore_noninstrumented_modules=1 \
+  TSAN_OPTIONS=exitcode=99:log_path=$PWD/build/tsan/findings/report:ignore_noninstrumented_modules=1:handle_segv=0:handle_sigbus=0:handle_sigfpe=0 \
     ctest --test-dir build/tsan -L threads --output-on-failure -j "$(nproc)" ||
     { no_findings tsan; return 1; }
   no_findings tsan

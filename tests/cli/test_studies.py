@@ -1,0 +1,74 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""The studies of docs/studies.md, run whole; the first prints its table."""
+import csv
+import json
+import unittest
+
+import numpy as np
+
+from program import ProgramTest, ROOT, run
+
+RADIUS = 0.3  # m
+
+
+def swept(folder, name, *extra):
+    done = run("sweep", ROOT / "cases" / "studies" / f"{name}.toml", "-o", folder, *extra,
+               timeout=600)
+    assert done.returncode == 0, done.stderr
+    with open(folder / "results.csv", newline="") as file:
+        rows = list(csv.DictReader(file))
+    assert all(row["status"] == "done" for row in rows)
+    return {key: np.array([float(row[key]) for row in rows]) for key in rows[0] if key != "status"}
+
+
+def carter(x):
+    """Traction over full friction, over creep over that of full sliding."""
+    return np.where(np.abs(x) < 1, np.sign(x) * (1 - (1 - np.abs(x)) ** 2), np.sign(x))
+
+
+class Traction(ProgramTest):
+    def test_against_carter(self):
+        t = swept(self.folder / "out", "traction")
+        self.assertLess(t["energy_residual_relative"].max(), 1e-12)
+        print("\n| μ | slip of free rolling | slope | 2R/a | traction at −6 %, +6 % | largest distance "
+              "from Carter |\n|---|---|---|---|---|---|")
+        for friction, slope_within, curve_within in ((0.1, 0.26, 0.26), (0.2, 0.06, 0.12),
+                                                     (0.4, 0.02, 0.10), (0.6, 0.02, 0.07)):
+            of = t["ground.friction"] == friction
+            slip = t["slip_ratio_mean"][of]
+            share = t["force_x_mean"][of] / t["force_y_mean"][of]  # F/N
+            self.assertLess(np.abs(share).max(), friction * (1 + 1e-12))
+            self.assertTrue((np.diff(share) > -1e-9).all(), friction)  # more slip, more force
+            free = np.interp(0.0, share, slip)
+            near = np.argmin(np.abs(slip - free))
+            slope = (share[near + 1] - share[near - 1]) / (slip[near + 1] - slip[near - 1])
+            half_length = 0.5 * t["contact_length_mean_m"][of].mean()
+            distance = share / friction - carter((slip - free) * RADIUS / (friction * half_length))
+            print(f"| {friction} | {100 * free:.2f} % | {slope:.2f} | {2 * RADIUS / half_length:.2f} | "
+                  f"{share[0] / friction:.3f} μ, {share[-1] / friction:.3f} μ | "
+                  f"{np.abs(distance).max():.3f} μ |")
+            self.assertAlmostEqual(slope * half_length / (2 * RADIUS), 1, delta=slope_within)
+            self.assertLess(np.abs(distance).max(), curve_within)
+            self.assertTrue(0.010 < free < 0.016, free)
+            if friction <= 0.2:  # it slides as a whole at both ends
+                self.assertAlmostEqual(share[0] / friction, -1, delta=1e-9)
+                self.assertAlmostEqual(share[-1] / friction, 1, delta=1e-9)
+
+
+class Tread(ProgramTest):
+    def test_trends(self):
+        t = swept(self.folder / "out", "tread")
+        pitches, depth = (np.unique(t[f"disk.tread.{key}"]) for key in ("pitches", "depth"))
+        shape = (len(pitches), len(depth))
+        mean, power = (t[key].reshape(shape) for key in ("force_y_mean", "friction_power"))
+        self.assertTrue((np.diff(mean, axis=1) < 0).all())  # deeper grooves: softer
+        self.assertTrue((np.diff(power, axis=1) > 0).all())  # and more sliding
+        lost = 1 - mean[:, -1] / mean[:, 0]
+        self.assertTrue(((0.05 < lost) & (lost < 0.07)).all(), lost)
+        noise = t["force_y_fluctuation"].reshape(shape)
+        self.assertTrue((noise[0] > noise[1:].mean(axis=0)).all())
+        self.assertEqual(json.loads((self.folder / "out" / "sweep.json").read_text())["done"], 24)
+
+
+if __name__ == "__main__":
+    unittest.main()
