@@ -33,6 +33,7 @@ run_one() {
   scratch=$(mktemp -d -p /dev/shm 2>/dev/null || mktemp -d) # in memory: a file for each input
   case $target in
     case | build) options=(-dict=tests/fuzz/case.dict -max_len=4096) ;;
+    study) options=(-dict=tests/fuzz/study.dict -max_len=4096) ;;
     results) options=(-max_len=8192) ;;
     results_bytes | checkpoint) options=(-max_len=30000) jobs=("${in_jobs[@]}") ;;
     paper) options=(-max_len=12000) ;;
