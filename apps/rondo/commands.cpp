@@ -9,6 +9,7 @@
 
 #include "exit_codes.hpp"
 #include "progress.hpp"
+#include "rondo/core/error.hpp"
 #include "rondo/study/check.hpp"
 #include "rondo/study/estimate.hpp"
 #include "rondo/study/run.hpp"
@@ -80,9 +81,13 @@ void print_room(const study::CheckReport& r) {
 /// The case of a results directory is in it: with --resume the directory is all that is asked for.
 RunArguments completed(RunArguments arguments) {
   std::error_code error;
-  if (!arguments.resume || !std::filesystem::is_directory(arguments.case_file, error))
-    return arguments;
   const std::filesystem::path directory = arguments.case_file;
+  if (!std::filesystem::is_directory(directory, error)) return arguments;
+  if (!arguments.resume && std::filesystem::exists(directory / "run.json", error))
+    throw InputError(Fault{directory.string(), 0, 0, "", "",
+                           "is the results directory of a run, not a case file",
+                           "--resume to go on with it, or case.toml in it with another -o"});
+  if (!arguments.resume) return arguments;
   if (arguments.directory.empty()) arguments.directory = directory.string();
   arguments.case_file = (directory / "case.toml").string();
   return arguments;

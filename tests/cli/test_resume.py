@@ -275,6 +275,12 @@ class Finished(ResumeTest):
         self.assertIn("gone on with from step 200", done.stderr)
         self.assert_same(self.out)
 
+    def test_a_directory_without_resume_says_what_to_give(self):
+        self.assertEqual(self.resume(self.TEXT).returncode, 0)
+        done = run("run", self.out)
+        self.assertEqual(done.returncode, 2)
+        self.assertIn("--resume", done.stderr)
+
     def test_the_directory_alone_is_enough(self):
         self.assertEqual(self.resume(self.TEXT).returncode, 0)
         done = run("run", self.out, "--resume", "--set", "time.end=0.02")
