@@ -368,7 +368,8 @@ class Refused(SweepTest):
         self.refused(STUDY.replace("[0.0, 0.2, 0.4]", "[0.0, -0.2, 0.4]")
                      + "[[vary]]\nkey = \"motion.height\"\nvalues = [0.31, 0.2]\n",
                      "run 7 (ground.friction = -0.2, motion.speed = 9, motion.height = 0.31) "
-                     "and 5 of 17 others: ")
+                     "and 5 of 17 others: ", "run 2 (ground.friction = 0.0, motion.speed = 9, "
+                     "motion.height = 0.2) and 5 of 17 others: ", "deep inside the ground")
 
     def test_members_that_cannot_be_built(self):
         self.refused(STUDY + "[[vary]]\nkey = \"motion.height\"\nvalues = [0.31, 0.2]\n",

@@ -36,6 +36,10 @@ class Faults {
     for (const Fault& fault : error.faults()) add(member, fault.text());
   }
   [[nodiscard]] bool any() const { return !order_.empty(); }
+  [[nodiscard]] bool has(std::size_t member) const {
+    return std::ranges::any_of(members_,
+                               [&](const auto& fault) { return fault.second.contains(member); });
+  }
 
   [[noreturn]] void raise(const std::vector<PlannedMember>& members) const {
     std::vector<Fault> faults;
@@ -268,7 +272,8 @@ void take_check(const Piece& piece, std::size_t m, PlannedMember& member, Faults
 }
 
 void build_members(const MembersRequest& request, Team& team, PlannedSweep& plan, Faults& faults) {
-  const std::vector<std::size_t> order = by_body(plan.members);
+  std::vector<std::size_t> order = by_body(plan.members);
+  std::erase_if(order, [&](std::size_t m) { return faults.has(m); });
   SharedBody shared;
   TeamWork work;
   work.count = order.size();
@@ -307,7 +312,6 @@ PlannedSweep plan_sweep(const MembersRequest& request, Team& team) {
   find_targets(study, team, plan.members, faults);
   if (faults.any()) faults.raise(plan.members);
   read_members(study, plan, faults);
-  if (faults.any()) faults.raise(plan.members);
   limit_workers(plan.members, team);
   build_members(request, team, plan, faults);
   if (faults.any()) faults.raise(plan.members);
