@@ -380,6 +380,16 @@ class Refused(SweepTest):
         self.refused("schema = 1\nbase = \"case.toml\"\n[[vary]]\nkey = \"motion.height\"\n"
                      "target = { force_y = [1e12] }\n", "at the largest depth tried", "N/m")
 
+    def test_a_target_of_the_other_analysis(self):
+        target = ("schema = 1\nbase = \"case.toml\"\n[[vary]]\nkey = \"%s\"\n"
+                  "target = { force_y = [1e5] }\n")
+        self.refused(target % "analysis.depth", "means nothing to a dynamic analysis",
+                     "motion.height")
+        self.case(replaced(replaced(SMALL, "end", None), "[time]", None)
+                  .replace("snapshots = 11", "stress = false")
+                  + "[analysis]\nkind = \"crush\"\ndepth = 0.01\nincrements = 5\n")
+        self.refused(target % "motion.height", "means nothing to a crush", "analysis.depth")
+
     def test_a_window_without_rows(self):
         self.refused(STUDY + "[window]\nfrom = 0.5\n", "there are not two rows")
 

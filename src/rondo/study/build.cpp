@@ -196,6 +196,7 @@ std::string body_key(const Case& c) {
   body.contact_iterations = Case{}.contact_iterations;
   body.dump_contacts = 0;
   body.output = {};
+  body.output.probes = c.output.probes;
   return write_case(body);
 }
 
@@ -208,6 +209,7 @@ Setup make_body(const Case& c, int threads) {
   if (c.mesh) demand_memory(c, s.mesh, estimated_memory(c, size_of(s.mesh)));
   check_places(c, s.mesh);
   s.materials = materials_of(c, s.mesh);
+  s.probes = find_probes(c, s.mesh);  // before free bodies are moved to where they start
   make_model(c, s);
   add_stress_stiffening(c, s);
   choose_threads(s, threads);
@@ -231,7 +233,6 @@ Setup shared_body(const Case& c, int threads, SharedBody& shared) {
 Setup build(const Case& c, int threads, SharedBody* shared) {
   Setup s = shared ? shared_body(c, threads, *shared) : make_body(c, threads);
   set_motion_and_friction(c, s.model);
-  s.probes = find_probes(c, s.mesh);
   set_initial_fields(c, s, shared);
   check_start(c, s);
   s.model.dt = choose_step(c, s.critical);

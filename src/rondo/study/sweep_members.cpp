@@ -78,6 +78,13 @@ void demand_one_target(const SweepStudy& study) {
 /// The crush of a case on flat ground, as deep as half of the body.
 Case crush_of(const SweepStudy& study, const std::vector<std::string>& settings) {
   const Case c = read_case(study.base, settings);
+  const bool is_crush = c.analysis.kind == AnalysisKind::crush;
+  const std::string& key = study.parameters[target_of(study)].key;
+  if (is_crush != (key == "analysis.depth"))
+    throw InputError(
+        Fault{study.file.string(), 0, 0, key, "",
+              is_crush ? "means nothing to a crush" : "means nothing to a dynamic analysis",
+              is_crush ? "target of analysis.depth" : "target of motion.height"});
   const double most = c.mesh ? c.analysis.depth : 0.5 * (c.disk.outer_radius - c.disk.inner_radius);
   if (!(most > 0.0))
     throw InputError(Fault{study.file.string(), 0, 0, "vary", "",

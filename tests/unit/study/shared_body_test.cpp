@@ -83,6 +83,25 @@ TEST(SharedBody, KeyOfAllThatTheBodyHangsOn) {
     EXPECT_NE(body_key(with({other})), key) << other;
 }
 
+/// They are points of the body as it is meshed, wherever it starts.
+TEST(SharedBody, ProbesOfABodyThatIsMoved) {
+  SharedBody shared;
+  Case c = test::read_text(test::base, small);
+  c.free_rim = true;
+  c.motion = {};
+  c.initial.position = {3.0, 0.4};
+  c.output.probes = {{"rim", {0.2, 0.0}}};
+  const auto alone = build(c, 1);
+  ASSERT_EQ(alone.probes.size(), 1U);
+  for (const double friction : {0.1, 0.2}) {
+    c.ground->friction = friction;
+    const auto mine = build(c, 1, &shared);
+    ASSERT_EQ(mine.probes.size(), 1U);
+    EXPECT_EQ(mine.probes[0].cell, alone.probes[0].cell);
+    EXPECT_EQ(mine.probes[0].weight, alone.probes[0].weight);
+  }
+}
+
 /// The spin stiffens the body, so that its stiffness hangs on it.
 TEST(SharedBody, KeyHoldsTheSpinThatStiffens) {
   const std::string stiff = "material.stress_stiffening=centrifugal";
