@@ -12,20 +12,11 @@ from matplotlib.ticker import LogLocator
 from rondo import style
 from rondo.errors import Error, unknown
 from rondo.history import between
+from rondo.plots.labels import axes_of, column_label, readable, steady_scale
 from rondo.plots.marks import energy, relative_residual
 
 if TYPE_CHECKING:
     from rondo.run import Run
-
-LABELS = {  # of columns, where their name does not say it
-    "angle_rad": "angle", "center_x_m": "centre, x", "center_y_m": "centre, y",
-    "force_x": "horizontal force", "force_y": "vertical force",
-    "torque": "torque about the centre", "contact_nodes": "nodes in contact",
-    "sticking_nodes": "nodes that stick", "contact_length_m": "contact length",
-    "penetration_max_m": "largest penetration", "kinetic": "kinetic energy",
-    "strain": "strain energy", "depth_m": "depth", "pressure_max_pa": "largest pressure",
-    "shear_max_pa": "largest shear",
-}
 
 # What changes the energy, with its sign in the ledger (docs/theory.md, 5); the same colours in all
 # figures.
@@ -42,19 +33,8 @@ TERMS: dict[str, tuple[int, str, dict[str, Any]]] = {
 }
 
 MIN_ROWS = 16  # for a spectrum
-CONSTANT = 1e-6  # span over size of a column that does not change
-LEVEL = 0.01  # least height of the axis on both sides of such a one, in its unit
 ROUND_OFF = 1e-13  # size over that of the energy of a part of the ledger that is zero
 FLOOR = 1e-18  # of the residual's axis
-
-
-def _axes(ax: Axes | None, height: float) -> Axes:
-    """The axes given, or those of a new figure, two columns wide."""
-    import matplotlib.pyplot as plt
-
-    if ax is not None:
-        return ax
-    return plt.figure(figsize=(style.PAGE, height)).add_subplot()
 
 
 def _abscissa(run: Run) -> tuple[np.ndarray, str]:
@@ -62,20 +42,6 @@ def _abscissa(run: Run) -> tuple[np.ndarray, str]:
     if run.is_crush:
         return run.history["depth_m"] * 1e3, "depth (mm)"
     return run.history["time_s"] * 1e3, "time (ms)"
-
-
-def _readable(size: float, unit: str) -> tuple[float, str]:
-    """Factor and unit for values up to `size`: 1.9e5 N/m is 190 kN/m."""
-    for factor, prefix in ((1e-6, "M"), (1e-3, "k")):
-        if unit in ("N/m", "J/m", "N", "Pa") and size * factor >= 1:
-            return factor, prefix + unit
-    if unit == "m" and 0 < size < 0.1:
-        return 1e3, "mm"
-    return 1.0, "–" if unit == "1" else unit
-
-
-def _label(column: str) -> str:
-    return LABELS.get(column, column.replace("_", " "))
 
 
 @style.paper()
@@ -95,14 +61,14 @@ def plot_history(run: Run, *columns: str, ax: Axes | None = None) -> Axes:
     if len(names) > len(style.CURVES):
         raise Error(f"{len(names)} columns: at most {len(style.CURVES)} can be told apart in one "
                     "axes")
-    factor, unit = _readable(max((np.abs(v).max(initial=0.0) for v in values)), units.pop())
-    ax = _axes(ax, 2.2)
+    factor, unit = readable(max((np.abs(v).max(initial=0.0) for v in values)), units.pop())
+    ax = axes_of(ax, 2.2)
     for name, value, line in zip(names, values, style.CURVES):
-        ax.plot(x, value * factor, label=_label(name), **line)
+        ax.plot(x, value * factor, label=column_label(name), **line)
     ax.set_ylabel(f"{_together(names, unit)} ({unit})")
     if len(names) > 1:
         ax.legend(loc="lower center", bbox_to_anchor=(0.5, 1.0), ncols=min(len(names), 3))
-    _steady_scale(ax, np.concatenate(values) * factor, unit)
+    steady_scale(ax, np.concatenate(values) * factor, unit)
     ax.set_xlabel(x_label)
     if len(x):
         ax.set_xlim(min(x[0], 0.0), x[-1])
@@ -112,7 +78,7 @@ def plot_history(run: Run, *columns: str, ax: Axes | None = None) -> Axes:
 def _together(names: Sequence[str], unit: str) -> str:
     """What the columns in one axes are."""
     if len(names) == 1:
-        return _label(names[0])
+        return column_label(names[0])
     if set(names) <= {"force_x", "force_y"}:
         return "force of the ground\non the disk"
     if set(names) <= {"contact_nodes", "sticking_nodes"}:
@@ -120,24 +86,12 @@ def _together(names: Sequence[str], unit: str) -> str:
     return "energy" if unit.endswith("J/m") else "value"
 
 
-def _steady_scale(ax: Axes, values: np.ndarray, unit: str) -> None:
-    """Numbers at the axis as they are, and columns that do not change drawn as level lines, not
-    magnified until round-off fills the axes."""
-    ax.ticklabel_format(axis="y", useOffset=False)
-    size = np.abs(values).max(initial=1.0 if unit == "–" else 0.0)  # 1e-8 of a ratio is nothing
-    if not len(values) or np.ptp(values) > CONSTANT * size:
-        return
-    middle = 0.5 * (values.min() + values.max())
-    around = max(0.1 * abs(middle), LEVEL)
-    ax.set_ylim(middle - around, middle + around)
-
-
 @style.paper()
 def plot_energy(run: Run, ax: Axes | None = None) -> Axes:
     """The energy ledger: the body's energy, kinetic and strain, and what has changed it, each with
     its sign: but for the energy at the start they sum up to it. Below, what the ledger leaves open
     over the energy exchanged. Given axes are divided in two. Returns the upper ones."""
-    ax = _axes(ax, 4.0)
+    ax = axes_of(ax, 4.0)
     spec = getattr(ax, "get_subplotspec", lambda: None)()  # not there before matplotlib 3.7
     if spec is None:
         raise Error("plot_energy divides its axes: give it some of a grid, as from plt.subplots()")
@@ -151,7 +105,7 @@ def plot_energy(run: Run, ax: Axes | None = None) -> Axes:
              if name in run.history
              and np.abs(run.history[name]).max(initial=0.0) > ROUND_OFF * largest}
     size = max(np.abs(curve).max(initial=0.0) for curve in (total, *drawn.values()))
-    factor, unit = _readable(size, "J/m")
+    factor, unit = readable(size, "J/m")
     ax.axhline(0.0, color="0.8", linewidth=0.6, zorder=0)
     ax.plot(x, total * factor, color=style.BLACK, linewidth=1.4, zorder=3,
             label="energy: kinetic and strain")
@@ -207,7 +161,7 @@ def plot_force_spectrum(run: Run, column: str = "force_y", from_time: float | No
         raise unknown(run.history.path, "column", column, run.history)
     run.history.need_ground(column)
     frequency, amplitude = force_spectrum(run, column, from_time, to_time)
-    ax = _axes(ax, 2.4)
+    ax = axes_of(ax, 2.4)
     pitch = run.pitch_frequency
     if pitch and pitch <= frequency[-1]:
         ax.vlines(np.arange(pitch, frequency[-1], pitch), 0, 1, transform=ax.get_xaxis_transform(),
@@ -223,5 +177,5 @@ def plot_force_spectrum(run: Run, column: str = "force_y", from_time: float | No
     ax.set_xlim(0, frequency[-1])
     ax.set_xlabel("frequency (Hz)")
     unit = run.history.units.get(column, "unknown")
-    ax.set_ylabel(f"amplitude of the\n{_label(column)} ({'–' if unit == '1' else unit})")
+    ax.set_ylabel(f"amplitude of the\n{column_label(column)} ({'–' if unit == '1' else unit})")
     return ax

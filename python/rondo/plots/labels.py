@@ -1,0 +1,55 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Names, units and scales at the axes of curves."""
+from __future__ import annotations
+
+import numpy as np
+from matplotlib.axes import Axes
+
+from .. import style
+
+LABELS = {  # of columns, where their name does not say it
+    "angle_rad": "angle", "center_x_m": "centre, x", "center_y_m": "centre, y",
+    "force_x": "horizontal force", "force_y": "vertical force",
+    "torque": "torque about the centre", "contact_nodes": "nodes in contact",
+    "sticking_nodes": "nodes that stick", "contact_length_m": "contact length",
+    "penetration_max_m": "largest penetration", "kinetic": "kinetic energy",
+    "strain": "strain energy", "depth_m": "depth", "pressure_max_pa": "largest pressure",
+    "shear_max_pa": "largest shear",
+}
+CONSTANT = 1e-6  # span over size of a column that does not change
+LEVEL = 0.01  # least height of the axis on both sides of such a one, in its unit
+
+
+def column_label(column: str) -> str:
+    return LABELS.get(column, column.replace("_", " "))
+
+
+def readable(size: float, unit: str) -> tuple[float, str]:
+    """Factor and unit for values up to `size`: 1.9e5 N/m is 190 kN/m."""
+    for factor, prefix in ((1e-6, "M"), (1e-3, "k")):
+        if unit in ("N/m", "J/m", "W/m", "N", "Pa") and size * factor >= 1:
+            return factor, prefix + unit
+    if unit == "m" and 0 < size < 0.1:
+        return 1e3, "mm"
+    return 1.0, "–" if unit == "1" else unit
+
+
+def axes_of(ax: Axes | None, height: float) -> Axes:
+    """The axes given, or those of a new figure, two columns wide."""
+    import matplotlib.pyplot as plt
+
+    if ax is not None:
+        return ax
+    return plt.figure(figsize=(style.PAGE, height)).add_subplot()
+
+
+def steady_scale(ax: Axes, values: np.ndarray, unit: str) -> None:
+    """Numbers at the axis as they are, and columns that do not change drawn as level lines, not
+    magnified until round-off fills the axes."""
+    ax.ticklabel_format(axis="y", useOffset=False)
+    size = np.abs(values).max(initial=1.0 if unit == "–" else 0.0)  # 1e-8 of a ratio is nothing
+    if not len(values) or np.ptp(values) > CONSTANT * size:
+        return
+    middle = 0.5 * (values.min() + values.max())
+    around = max(0.1 * abs(middle), LEVEL)
+    ax.set_ylim(middle - around, middle + around)
