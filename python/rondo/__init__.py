@@ -8,9 +8,10 @@ from .paper import Paper, open_paper
 from .pod import Pod, open_pod
 from .run import Run
 from .run import open_run as open
+from .sweep import Sweep, open_sweep
 
 __version__ = "0.1.0"
 
 __all__ = ["Error", "History", "Mesh", "Modes", "NewerSchemaError", "NotARunError", "Paper", "Pod",
-           "Run", "UnfinishedRunError", "UnknownNameError", "open", "open_modes", "open_paper",
-           "open_pod"]
+           "Run", "Sweep", "UnfinishedRunError", "UnknownNameError", "open", "open_modes",
+           "open_paper", "open_pod", "open_sweep"]

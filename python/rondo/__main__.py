@@ -10,7 +10,7 @@ from collections.abc import Sequence
 
 import matplotlib
 
-from rondo import __version__, open_modes, open_paper, style
+from rondo import __version__, open_modes, open_paper, open_sweep, style
 from rondo import open as open_run
 from rondo.errors import Error, UnfinishedRunError
 from rondo.run import Run
@@ -24,8 +24,10 @@ def _parser() -> argparse.ArgumentParser:
     parser.add_argument("--version", action="version", version=f"rondo {__version__}")
     commands = parser.add_subparsers(dest="command", required=True)
 
-    figures = commands.add_parser("figures", help="draw the figures of a run or of a paper study")
-    figures.add_argument("directory", type=pathlib.Path, help="of `rondo run` or `rondo paper`")
+    figures = commands.add_parser("figures",
+                                  help="draw the figures of a run, a paper study or a sweep")
+    figures.add_argument("directory", type=pathlib.Path,
+                         help="of `rondo run`, `rondo paper` or `rondo sweep`")
     figures.add_argument("-o", "--output", type=pathlib.Path, metavar="FOLDER",
                          help="where the .png and .svg files go; default DIRECTORY/figures")
 
@@ -45,6 +47,17 @@ def _parser() -> argparse.ArgumentParser:
     campbell.add_argument("-o", "--output", type=pathlib.Path, metavar="FOLDER",
                           help="where campbell-FRAME.png and .svg go; default DIRECTORY/figures")
 
+    sweep = commands.add_parser("sweep", help="draw main effects, spread, maps, curves of a sweep")
+    sweep.add_argument("directory", type=pathlib.Path, help="of `rondo sweep`")
+    sweep.add_argument("--figure", nargs="+", action="extend", default=[], metavar="NAME",
+                       help="columns of results.csv, as force_y_mean; default: the usual ones")
+    sweep.add_argument("--map", nargs=2, action="append", default=[], metavar=("X", "Y"),
+                       help="each figure over these two parameters; may be repeated")
+    sweep.add_argument("--curves", nargs=2, action="append", default=[], metavar=("X", "BY"),
+                       help="each figure over X, a curve for each value of BY; may be repeated")
+    sweep.add_argument("-o", "--output", type=pathlib.Path, metavar="FOLDER",
+                       help="where the .png and .svg files go; default DIRECTORY/figures")
+
     means = commands.add_parser("means", help="print the mean forces of the ground on the body")
     means.add_argument("directory", type=pathlib.Path, nargs="+", help="of `rondo run`")
     for command in film, means:
@@ -52,9 +65,9 @@ def _parser() -> argparse.ArgumentParser:
                              help="from this time on")
         command.add_argument("--to", dest="to_time", type=float, metavar="SECONDS",
                              help="up to this time")
-    for command in figures, film, means:
+    for command in figures, film, sweep, means:
         command.add_argument("--unfinished", action="store_true",
-                             help="also of a run that has not ended, was interrupted or has failed")
+                             help="also of what has not ended, was interrupted or has failed")
     return parser
 
 
@@ -68,6 +81,9 @@ def _figures(options: argparse.Namespace) -> None:
     if (options.directory / "paper.json").is_file():
         from rondo.figures import draw_paper
         written = draw_paper(open_paper(options.directory, options.unfinished), folder)
+    elif (options.directory / "sweep.json").is_file():
+        from rondo.figures.sweep_figures import draw_sweep
+        written = draw_sweep(open_sweep(options.directory, options.unfinished), folder)
     else:
         from rondo.figures.run_figures import draw_run
         written = draw_run(open_run(options.directory, options.unfinished), folder)
@@ -99,11 +115,19 @@ def _campbell(options: argparse.Namespace) -> None:
         print(path)
 
 
+def _sweep(options: argparse.Namespace) -> None:
+    from rondo.figures.sweep_figures import draw_sweep
+
+    for path in draw_sweep(open_sweep(options.directory, options.unfinished), _folder(options),
+                           options.figure, options.map, options.curves):
+        print(path)
+
+
 def main(arguments: Sequence[str] | None = None) -> int:
     options = _parser().parse_args(arguments)
     matplotlib.use("Agg")
     commands = {"figures": _figures, "animate": _animate, "means": _means,
-                "campbell": _campbell}
+                "campbell": _campbell, "sweep": _sweep}
     try:
         commands[options.command](options)
         sys.stdout.flush()
@@ -117,7 +141,8 @@ def main(arguments: Sequence[str] | None = None) -> int:
         print(f"rondo: {reason}", file=sys.stderr)
         return WRONG
     except OSError as reason:
-        figures = options.command in ("figures", "campbell")  # what else writes has said so itself
+        # What else writes has said so itself.
+        figures = options.command in ("figures", "campbell", "sweep")
         place = reason.filename or (_folder(options) if figures else "output")
         advice = "; choose another -o" if figures else ""
         print(f"rondo: {place}: {reason.strerror or reason}{advice}", file=sys.stderr)

@@ -10,7 +10,7 @@ class Error(Exception):
 
 
 class NotARunError(Error):
-    """The directory is no run (or no POD, or no paper study)."""
+    """The directory is no run (or no POD, paper study, sweep)."""
 
 
 class UnfinishedRunError(Error):

@@ -8,7 +8,7 @@ import os
 import pathlib
 import re
 import tomllib
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 from typing import Any
 
 import h5py
@@ -16,14 +16,16 @@ import numpy as np
 
 from .errors import Error, NewerSchemaError, NotARunError
 
-FORMAT = 1  # of results.h5, pod.h5, paper.json
+FORMAT = 1  # of results.h5, pod.h5, paper.json, sweep.json
 SCHEMA = 1  # of case.toml
+MOST_NAMED = 12  # names in a message
 
 KINDS = {  # what is in a directory with this file, and who opens it
     "paper.json": ("a paper study", "rondo.open_paper"),
     "pod.json": ("a POD", "rondo.open_pod"),
     "run.json": ("a run", "rondo.open"),
     "modes.json": ("modes of a body", "rondo.open_modes"),
+    "sweep.json": ("a sweep", "rondo.open_sweep"),
 }
 
 
@@ -36,6 +38,14 @@ def read_json(path: pathlib.Path) -> dict[str, Any]:
     if not isinstance(found, dict):
         raise Error(f"{path}: damaged: an object is expected, found {type(found).__name__}")
     return found
+
+
+def some(names: Iterable[object]) -> str:
+    """Names in a message; of many, the first ones."""
+    texts = [str(name) for name in names]
+    if len(texts) <= MOST_NAMED:
+        return ", ".join(texts)
+    return f"{', '.join(texts[:MOST_NAMED])}, ... ({len(texts)} in all)"
 
 
 def read_case(path: pathlib.Path) -> dict[str, Any]:
@@ -116,5 +126,5 @@ def require(path: str | os.PathLike[str], wanted: str, beside: str | None = None
             raise NotARunError(f"{directory}: is {other}, not {what}; "
                                f'{its_opener}("{directory}") opens it')
     inside = sorted(found.parent.name for found in directory.glob(f"*/{wanted}"))
-    hint = f"; it holds {', '.join(inside)}" if inside else ""
+    hint = f"; it holds {some(inside)}" if inside else ""
     raise NotARunError(f"{directory}: is not {what}: it has no {wanted}{hint}")

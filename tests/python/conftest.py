@@ -7,6 +7,7 @@ import sys
 import time
 
 import pytest
+import sweeps
 
 import rondo
 
@@ -98,3 +99,13 @@ def paper(tmp_path_factory):
     done = run("paper", "--quick", "-o", folder, timeout=300)
     assert (folder / "paper.json").exists(), done.stderr
     return rondo.open_paper(folder)
+
+
+@pytest.fixture(scope="session")
+def studies(tmp_path_factory):
+    """The folder of three sweeps, which the tests do not change: `grid`, `sampled`, `loaded`."""
+    folder = tmp_path_factory.mktemp("studies")
+    sweeps.grid(folder / "grid", schemes=("symplectic", "as-printed"), failed=(5, 18))
+    sweeps.sampled(folder / "sampled", failed=(7,))
+    sweeps.loaded(folder / "loaded")
+    return folder
