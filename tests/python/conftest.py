@@ -6,6 +6,7 @@ import subprocess
 import sys
 import time
 
+import numpy as np
 import pytest
 import sweeps
 
@@ -109,3 +110,32 @@ def studies(tmp_path_factory):
     sweeps.sampled(folder / "sampled", failed=(7,))
     sweeps.loaded(folder / "loaded")
     return folder
+
+
+@pytest.fixture
+def grid(studies):
+    """Friction by spin by scheme, 24 members, the 5th and the 18th failed."""
+    return rondo.open_sweep(studies / "grid")
+
+
+@pytest.fixture
+def sampled(studies):
+    """A Latin hypercube of 120 members, the 7th failed."""
+    return rondo.open_sweep(studies / "sampled")
+
+
+@pytest.fixture
+def loaded(studies):
+    """Crushes to three loads with two frictions."""
+    return rondo.open_sweep(studies / "loaded")
+
+
+@pytest.fixture
+def plane(tmp_path):
+    """60 members of two sampled parameters, over which force_y_mean is a plane."""
+    places = [(0.1 + 0.8 * np.mod(0.618 * k, 1.0), 30 + 10 * (k + 0.5) / 60) for k in range(60)]
+    rows = [{sweeps.FRICTION: a, sweeps.SPIN: b, **sweeps.forces(a, b)} for a, b in places]
+    for row in rows:
+        row["force_y_mean"] = 1e6 * row[sweeps.FRICTION] + 1e4 * row[sweeps.SPIN]
+    parameters = [(sweeps.FRICTION, "-", "uniform"), (sweeps.SPIN, "rad/s", "uniform")]
+    return rondo.open_sweep(sweeps.write(tmp_path / "plane", parameters, rows))

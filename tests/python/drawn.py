@@ -169,3 +169,16 @@ def arrows(ax: Axes) -> tuple[Array, Array]:
             tails.append(corners[along < along.min() + 1e-6 * np.ptp(along)].mean(axis=0))
     back = ax.transData.inverted()
     return back.transform(np.reshape(tips, (-1, 2))), back.transform(np.reshape(tails, (-1, 2)))
+
+
+def said(drawn: Figure | Axes) -> str:
+    """The title, in one line."""
+    title = drawn.get_title() if isinstance(drawn, Axes) else drawn._suptitle.get_text()
+    return title.replace("\n", " ")
+
+
+def crosses(ax: Axes) -> list[float]:
+    """x of the members of a sweep without a value."""
+    marks, = (line for line in ax.lines if line.get_label() == "_lost")
+    assert marks.get_marker() == "x"
+    return sorted(marks.get_xdata())

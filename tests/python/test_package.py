@@ -16,6 +16,7 @@ import venv
 import zipfile
 
 import pytest
+import sweeps
 from program import PROGRAM
 
 import rondo
@@ -128,9 +129,12 @@ def test_reading_does_not_need_matplotlib(smooth):
 
 
 def test_the_guide(runs, tmp_path, monkeypatch):
-    """Its examples run, in their order, where it says: beside the directories of two runs."""
+    """Its examples run, in their order, where it says: beside the directories of two runs and a
+    sweep."""
     for name in ("smooth", "crush"):
         shutil.copytree(runs / name, tmp_path / "results" / name)
+    traction = sweeps.grid(tmp_path / "results" / "traction")
+    shutil.copytree(runs / "smooth", traction / "runs" / "0001")
     monkeypatch.chdir(tmp_path)
     blocks = re.findall(r"^```python\n(.*?)^```$", GUIDE.read_text(), re.MULTILINE | re.DOTALL)
     assert len(blocks) > 5

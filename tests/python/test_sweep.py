@@ -17,7 +17,7 @@ TWO = ("symplectic", "as-printed")
 
 @pytest.fixture
 def grid(tmp_path: pathlib.Path) -> pathlib.Path:
-    """Friction by spin by scheme, 24 members, the 5th and the 18th failed."""
+    """The directory of 24 members that a test may change, the 5th and the 18th failed."""
     return sweeps.grid(tmp_path / "grid", schemes=TWO, failed=(5, 18))
 
 
@@ -243,7 +243,7 @@ def test_a_table_of_other_parameters(grid: pathlib.Path) -> None:
     (None, b"\xff\xfe", ["cannot be read"]), ("\n2,", "\n2,5,", ["line 3 has 25"]),
     ("\n3,0.1", "\n3", ["line 4 has 23"]), ("\n3,", "\n2,", ["numbered 1, 2, ... in order"]),
     ("\n3,", "\n2.5,", ["numbered"]), ("done,6000", "done,many", ["steps", "'many'"]),
-    ("\n2,0.1", '\n2,"0.1', ["damaged"])])
+    ("\n2,0.1", '\n2,"0.1', ["damaged"]), ("\n2,0.1", '\n2,"0.1"5', ["damaged"])])
 def test_a_damaged_table(grid: pathlib.Path, old: str | None, new: str | bytes, words: list
                          ) -> None:
     path = grid / "results.csv"

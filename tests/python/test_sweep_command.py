@@ -16,8 +16,7 @@ from rondo import style
 from rondo.figures import sweep_figures
 
 
-def test_draw_sweep(studies, tmp_path):
-    grid = rondo.open_sweep(studies / "grid")
+def test_draw_sweep(grid, tmp_path):
     written = sweep_figures.draw_sweep(grid, tmp_path, ["force_x_mean"], [(SPIN, FRICTION)],
                                        [("slip_ratio_mean", FRICTION)])
     stems = ["main-effects-force_x_mean", f"map-force_x_mean-{SPIN}-{FRICTION}",
@@ -27,8 +26,7 @@ def test_draw_sweep(studies, tmp_path):
     assert not plt.get_fignums()
 
 
-def test_the_usual_figures(studies, tmp_path, monkeypatch):
-    grid, loaded = (rondo.open_sweep(studies / name) for name in ("grid", "loaded"))
+def test_the_usual_figures(grid, loaded, tmp_path, monkeypatch):
     names: list = []
     monkeypatch.setattr(style, "save", lambda figure, path: names.append(path.name) or [])
     sweep_figures.draw_sweep(loaded, tmp_path)
@@ -75,7 +73,8 @@ def test_figures_command(tmp_path):
 
 
 @pytest.mark.parametrize("arguments, words", [
-    (["nowhere"], "nowhere: no such directory"), (["LOADED", "--figure", "x"], "no figure 'x'"),
+    (["nowhere"], "nowhere: no such directory"),
+    (["LOADED", "--figure", "force_y", "x"], "no figure 'x'"),
     (["LOADED", "--map", "x", LOAD], "no column 'x'"),
     (["LOADED", "--curves", LOAD, HEIGHT], "has another value in each member"),
     (["LOADED", "-o", "LOADED/sweep.json"], "File exists; choose another -o"),
@@ -84,3 +83,4 @@ def test_wrong_use(studies, arguments, words):
     done = rondo_module("sweep", *(text.replace("LOADED", str(studies / "loaded"))
                                    for text in arguments))
     assert done.returncode == 2 and words in done.stderr
+    assert not (studies / "loaded" / "figures").exists()  # names are looked at first
