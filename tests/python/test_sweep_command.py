@@ -17,13 +17,14 @@ from rondo.figures import sweep_figures
 
 
 def test_draw_sweep(grid, tmp_path):
+    before = plt.get_fignums()
     written = sweep_figures.draw_sweep(grid, tmp_path, ["force_x_mean"], [(SPIN, FRICTION)],
                                        [("slip_ratio_mean", FRICTION)])
     stems = ["main-effects-force_x_mean", f"map-force_x_mean-{SPIN}-{FRICTION}",
              f"curves-force_x_mean-slip_ratio_mean-{FRICTION}"]  # it has both signs: no spread
     assert written == [tmp_path / (stem + end) for stem in stems for end in (".png", ".svg")]
     check_files(*written[:2], style.PAGE, style.DPI)
-    assert not plt.get_fignums()
+    assert plt.get_fignums() == before
 
 
 def test_the_usual_figures(grid, loaded, tmp_path, monkeypatch):
