@@ -39,7 +39,7 @@ SAME = 1e-9  # relative: a number that is asked for and one of the table
 @dataclass(frozen=True)
 class Parameter:
     """What the members differ in. kind: "values"; "uniform", sampled between two bounds; "target",
-    found for each member such that the column "target.…" before it is reached."""
+    found for each member such that the force in the column "target.…" before it is reached."""
 
     key: str
     unit: str  # "1" without dimension
@@ -114,6 +114,12 @@ class Sweep:
         """ "dynamic" or "crush"."""
         return str(self.info.get("analysis"))
 
+    @property
+    def failures(self) -> dict[int, str]:
+        """What was the matter with the members that failed, by their number; of all members, in a
+        selection as well."""
+        return {int(told["run"]): str(told["message"]) for told in self.info.get("failures", [])}
+
     # Its columns
 
     @property
@@ -146,15 +152,9 @@ class Sweep:
                 if parameter.kind != "target" and len(np.unique(self[key])) > 1]
 
     def is_sampled(self, name: str) -> bool:
-        """Whether each member has a value of its own: of a sampled parameter, one that a target
-        decides, the target of a sampled study, a figure."""
-        if name not in self.parameters:
-            return True
-        kind = self.parameters[name].kind
-        if name.startswith(TARGET):
-            studied = any(parameter.kind == "uniform" for parameter in self.parameters.values())
-            return studied and len(np.unique(self[name])) == len(self) > 1
-        return kind in ("uniform", "target")
+        """Whether values are not shared by members: of a sampled parameter, one that a target
+        decides, a figure."""
+        return name not in self.parameters or self.parameters[name].kind in ("uniform", "target")
 
     # Its rows
 

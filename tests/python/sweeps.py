@@ -17,9 +17,10 @@ FIGURES = ["steps", "end_time_s", "force_x_mean", "force_x_peak", "force_x_fluct
            "torque_fluctuation", "contact_length_mean_m", "contact_length_peak_m",
            "slip_ratio_mean", "friction_power", "impact_power", "energy_residual_relative",
            "contact_residual_max", "penetration_max_m"]
-CRUSH_FIGURES = ["steps", "depth_m", "force_x", "force_y", "torque", "contact_length_m",
-                 "pressure_max_pa", "shear_max_pa", "strain", "dissipation_friction",
-                 "energy_residual_relative", "contact_residual_max", "penetration_max_m"]
+CRUSH_FIGURES = ["steps", "end_time_s", "depth_m", "force_x", "force_y", "torque",
+                 "contact_length_m", "pressure_max_pa", "shear_max_pa", "strain",
+                 "dissipation_friction", "energy_residual_relative", "contact_residual_max",
+                 "penetration_max_m"]
 
 Row = dict[str, Any]
 FRICTION, SPIN, SCHEME = "ground.friction", "motion.angular_velocity", "solver.scheme"
@@ -46,6 +47,8 @@ def write(directory: pathlib.Path, parameters: Sequence[tuple[str, str, str]], r
             "title": "a study", "version": "0.1.0", "analysis": "dynamic", "study": "study.toml",
             "base": "base.toml", "window": {"from": None, "to": None}, "members": len(rows),
             "done": status.count("done"), "failed": status.count("failed"), "wall_s": 1.5,
+            "failures": [{"run": number, "message": "it blew up"}
+                         for number, state in enumerate(status, 1) if state == "failed"],
             "parameters": [{"key": key, "unit": unit, "kind": kind}
                            for key, unit, kind in parameters]}
     (directory / "sweep.json").write_text(json.dumps({**said, **info}))
@@ -122,7 +125,8 @@ def loaded(directory: pathlib.Path) -> pathlib.Path:
     for load, friction in itertools.product((1e5, 2e5, 3e5), (0.0, 0.4)):
         depth = 0.01 * load / 2e5 - 0.001 * friction
         rows.append({LOAD: load, HEIGHT: 0.3 - depth, FRICTION: friction, "steps": 40,
-                     "depth_m": depth, "force_x": 0.0, "force_y": load * (1 + 1e-10), "torque": 0.0,
+                     "end_time_s": 0.0, "depth_m": depth, "force_x": 1e-10,
+                     "force_y": load * (1 + 1e-10), "torque": 0.0,
                      "contact_length_m": 0.2 * depth**0.5, "pressure_max_pa": 3e6,
                      "shear_max_pa": 1e6 * friction, "strain": load * depth / 2,
                      "dissipation_friction": friction, "energy_residual_relative": 1e-15,

@@ -8,6 +8,8 @@ import numpy as np
 import pytest
 import sweeps
 from sweeps import DEPTH, FRICTION, HEIGHT, LOAD, MODULUS, SCHEME, SPIN
+from conftest import SMALL, ok
+from drawn import said
 from test_errors import edit, says
 
 import rondo
@@ -45,6 +47,7 @@ def test_columns(grid: pathlib.Path) -> None:
             sweep.units["penetration_max_m"], sweep.units[SPIN]) == ("N/m", "N", "W/m", "m",
                                                                      "rad/s")
     assert sweep.timings["wall_s"].tolist() == [0.25] * 24
+    assert sweep.failures == {5: "it blew up", 18: "it blew up"}
 
 
 def test_all_figures_of_the_program_have_a_unit(tmp_path: pathlib.Path) -> None:
@@ -119,15 +122,6 @@ def test_sampled_and_targets(tmp_path: pathlib.Path) -> None:
     assert (loaded.units[LOAD], loaded.units[HEIGHT]) == ("N/m", "m")
     np.testing.assert_array_equal(loaded[LOAD], np.repeat([1e5, 2e5, 3e5], 2))
     assert LOAD not in loaded.figures and loaded.analysis == "crush"
-
-
-def test_the_target_of_a_sampled_study(tmp_path: pathlib.Path) -> None:
-    rows = [{LOAD: 1e5 + 1e3 * k, HEIGHT: 0.29 - 1e-4 * k, FRICTION: 0.1 * k} for k in range(5)]
-    for kind, sampled in ("uniform", True), ("values", False):
-        sweep = rondo.open_sweep(sweeps.write(
-            tmp_path / kind, [(HEIGHT, "m", "target"), (FRICTION, "-", kind)], rows,
-            targets=[LOAD]))
-        assert sweep.is_sampled(LOAD) is sampled
 
 
 def test_texts_with_commas_and_quotes(tmp_path: pathlib.Path) -> None:
@@ -257,6 +251,38 @@ def test_a_damaged_table(grid: pathlib.Path, old: str | None, new: str | bytes, 
 def test_more_members_than_there_are(grid: pathlib.Path) -> None:
     edit(grid / "sweep.json", members=23, status="running")
     says(rondo.Error, rondo.open_sweep, grid, True, words=["24 members, but there are 23"])
+
+
+def test_what_the_program_writes(tmp_path: pathlib.Path) -> None:
+    """A sample at each of two heights, which are found for loads; then crushes to these loads."""
+    (tmp_path / "base.toml").write_text(SMALL)
+    study = ('schema = 1\nbase = "base.toml"\n[[vary]]\nkey = "ground.friction"\n'
+             'uniform = [0.1, 0.5]\n[sample]\nkind = "latin-hypercube"\ncount = 3\n'
+             '[[vary]]\nkey = "motion.height"\ntarget = { force_y = [5.0e4, 1.0e5] }\n')
+    (tmp_path / "study.toml").write_text(study)
+    ok("sweep", tmp_path / "study.toml", "-o", tmp_path / "out")
+    sweep = rondo.open_sweep(tmp_path / "out")
+    assert (len(sweep), sweep.done.all(), sweep.analysis, sweep.failures) == (6, True, "dynamic",
+                                                                              {})
+    assert [(p.unit, p.kind) for p in sweep.parameters.values()] == [
+        ("1", "uniform"), ("N/m", "values"), ("m", "target")]
+    assert sweep.varied == [FRICTION, LOAD] and "unknown" not in sweep.units.values()
+    assert set(sweep[LOAD]) == {5e4, 1e5} and len(set(sweep[FRICTION])) == 3
+    run = sweep.run(4)
+    assert run.friction == sweep[FRICTION][3] and run.info["steps"] == sweep["steps"][3]
+    assert run.case["motion"]["height"][-1][1] == pytest.approx(sweep[HEIGHT][3], rel=1e-12)
+    assert sweep["force_y_mean"][3] == pytest.approx(run.history.mean("force_y", 0.01))
+    assert len(sweep.timings["run"]) == 6
+    (tmp_path / "study.toml").write_text(study.replace("motion.height", "analysis.depth"))
+    ok("sweep", tmp_path / "study.toml", "-o", tmp_path / "crushes", "--set",
+       "analysis.kind=crush", "--set", "analysis.depth=0.02", "--set", "analysis.increments=20")
+    crushes = rondo.open_sweep(tmp_path / "crushes")
+    assert crushes.figures == sweeps.CRUSH_FIGURES and sweep.figures == sweeps.FIGURES
+    assert crushes.analysis == "crush" and crushes.run(1).is_crush
+    # As far as the search for the depth goes, with as many increments.
+    np.testing.assert_allclose(crushes["force_y"], crushes[LOAD], rtol=1e-6)
+    np.testing.assert_array_equal(crushes["depth_m"], crushes["analysis.depth"])
+    assert "force_x, torque" in said(crushes.plot_spread())  # round-off beside the load
 
 
 def test_timings_that_are_gone(grid: pathlib.Path) -> None:

@@ -8,12 +8,11 @@ from collections.abc import Sequence
 from typing import TYPE_CHECKING
 
 import matplotlib.pyplot as plt
-import numpy as np
 from matplotlib.figure import Figure
 
 from .. import style
 from ..errors import Error
-from ..plots.sweep import figure_of, members_with
+from ..plots.sweep import figure_of, is_nothing, members_with
 from ..plots.sweep_curves import check_curves
 from ..plots.sweep_map import check_sides
 from ..plots.sweep_spread import SHOWN, rows_of
@@ -64,10 +63,9 @@ def _check(sweep: Sweep, figures: Sequence[str], maps: Sequence[Sequence[str]],
 
 
 def usual(sweep: Sweep) -> list[str]:
-    """Those of FIGURES that are not zero, or without a value, in all members that are done."""
+    """Those of FIGURES that are not nothing in all members that are done."""
     members_with(sweep, [])
-    names = [name for name in FIGURES if name in sweep
-             and np.any(np.nan_to_num(sweep[name][sweep.done]) != 0)]
+    names = [name for name in FIGURES if name in sweep and not is_nothing(sweep, name)]
     if not names:
         raise Error(f"{sweep.directory}: the ground does nothing in any member; there are: "
                     f"{', '.join(sweep.figures)}")

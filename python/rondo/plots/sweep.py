@@ -28,6 +28,7 @@ FIGURE_LABELS = {"energy_residual_relative": "imbalance of energy, relative",
                  "contact_residual_max": "largest contact residual", "end_time_s": "end time",
                  "dissipation_friction": "dissipated by friction",
                  "friction_power": "power of friction", "impact_power": "power of impacts"}
+ROUND_OFF = 1e-10  # of the greatest force: what is nothing beside it
 LONGEST = 18  # characters of a text at an axis
 NUMBER = 0.36  # in, for a number at an axis
 DECADE = 10.0  # least ratio of values for an axis with a logarithmic scale
@@ -105,6 +106,19 @@ def figure_of(sweep: Sweep, name: str) -> Quantity:
 
 
 CROSS = "×"  # of members without a value
+
+
+def is_nothing(sweep: Sweep, name: str) -> bool:
+    """Whether a figure is zero, or without a value, in all members that are done; a force or a
+    torque also if it is but round-off of the greatest force."""
+    def size(figure: str) -> float:
+        values = sweep[figure][sweep.done]
+        return float(np.abs(values[np.isfinite(values)]).max(initial=0.0))
+
+    if sweep.units[name] not in ("N/m", "N"):
+        return size(name) == 0.0
+    forces = [figure for figure in sweep.figures if sweep.units[figure] == "N/m"]
+    return size(name) <= ROUND_OFF * max(size(figure) for figure in [name, *forces])
 
 
 @dataclass(frozen=True)

@@ -73,7 +73,7 @@ def check_curves(sweep: Sweep, x: str, by: str | None) -> tuple[Quantity, Quanti
     parted = quantity(sweep, by)
     if parted.sampled:
         raise Error(f"{sweep.directory}: {by} has another value in each member: curves take a "
-                    "parameter whose values are shared; plot_map draws sampled ones")
+                    "parameter with values that members share; plot_map draws sampled ones")
     most = len(style.CURVES) if parted.texts else MOST
     if len(parted.levels) > most:
         raise Error(f"{sweep.directory}: {by} has {len(parted.levels)} values; at most {most} "

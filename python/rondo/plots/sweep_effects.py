@@ -21,6 +21,7 @@ if TYPE_CHECKING:
 ACROSS = 3  # panels in a row
 IN_BIN = 10  # least number of members in a mean of sampled ones
 MOST_BINS = 10
+MANY = 20  # values in a panel
 HEIGHT = 1.9  # in, of a panel
 
 
@@ -78,9 +79,10 @@ def _panel(ax: Axes, values: Array, parameter: Quantity, members: Members) -> No
         ax.plot(x, y, ".", color="0.65", markersize=3, zorder=1, rasterized=len(x) > 2000,
                 label="members")
     level = by_bin(x, y) if parameter.sampled else by_level(x, y)
-    ax.vlines(level.at, level.low, level.high, color=style.SKY, linewidth=2.0, zorder=2,
+    bar, dot = (2.0, 3.5) if len(level.at) < MANY else (1.0, 2.0)
+    ax.vlines(level.at, level.low, level.high, color=style.SKY, linewidth=bar, zorder=2,
               label="range")
-    ax.plot(level.at, level.mean, "o", color=style.BLUE, markersize=3.5, zorder=3,
+    ax.plot(level.at, level.mean, "o", color=style.BLUE, markersize=dot, zorder=3,
             linestyle="none" if parameter.texts else "-", label="mean")
 
 

@@ -12,7 +12,7 @@ from matplotlib.axes import Axes
 from .. import style
 from ..errors import Error
 from .marks import minus
-from .sweep import Array, Quantity, figure_of, heading, members_with
+from .sweep import Array, Quantity, figure_of, heading, is_nothing, members_with
 
 if TYPE_CHECKING:
     from ..sweep import Sweep
@@ -89,9 +89,10 @@ class Row:
 
 
 def rows_of(sweep: Sweep, names: Sequence[str]) -> list[Row]:
-    """Those of the figures that can be drawn over their median."""
+    """Those of the figures that can be drawn over their median: all but zero, both signs."""
     drawn = [figure_of(sweep, name) for name in names]
-    rows = [Row(q, q.values[sweep.done & np.isfinite(q.values)]) for q in drawn]
+    rows = [Row(q, q.values[sweep.done & np.isfinite(q.values)]) for q in drawn
+            if not is_nothing(sweep, q.name)]
     return [row for row in rows if row.is_divisible]
 
 
