@@ -4,6 +4,8 @@
 #define OMPI_SKIP_MPICXX 1
 #include <mpi.h>
 
+#include <algorithm>
+#include <chrono>
 #include <cstdlib>
 #include <limits>
 #include <utility>
@@ -66,13 +68,36 @@ class MpiTeam : public study::Team {
     MPI_Init_thread(nullptr, nullptr, MPI_THREAD_FUNNELED, &given);
     MPI_Comm_rank(MPI_COMM_WORLD, &rank_);
     MPI_Comm_size(MPI_COMM_WORLD, &size_);
+    MPI_Comm_dup(MPI_COMM_WORLD, &failed_);
   }
-  ~MpiTeam() override { MPI_Finalize(); }
+  ~MpiTeam() override {
+    MPI_Comm_free(&failed_);
+    MPI_Finalize();
+  }
+
+  /// A barrier that is not waited at for ever.
+  [[nodiscard]] bool have_all_failed() override {
+    constexpr auto patience = std::chrono::seconds(5);
+    MPI_Request barrier = MPI_REQUEST_NULL;
+    MPI_Ibarrier(failed_, &barrier);
+    const auto begin = std::chrono::steady_clock::now();
+    int all = 0;
+    while (all == 0 && std::chrono::steady_clock::now() - begin < patience)
+      MPI_Test(&barrier, &all, MPI_STATUS_IGNORE);
+    return all != 0;
+  }
+  void abort(int code) override { MPI_Abort(MPI_COMM_WORLD, code); }
 
   [[nodiscard]] bool leads() const override { return rank_ == 0; }
+  [[nodiscard]] int rank() const override { return rank_; }
   [[nodiscard]] int workers() const override { return size_; }
   void limit_workers(int) override {}  // mpirun has decided
-  [[nodiscard]] std::function<void()> tick() const override { return look_after_messages; }
+  [[nodiscard]] std::function<void()> tick() override {
+    return [this] {
+      look_after_messages();
+      if (watch_) watch_();
+    };
+  }
   [[nodiscard]] std::string from_leader(std::string text) override {
     return broadcast(std::move(text), 0, rank_);
   }
@@ -81,15 +106,17 @@ class MpiTeam : public study::Team {
     std::vector<std::pair<std::size_t, study::Piece>> mine;
     {
       Counter turn(rank_), ended(rank_);
+      if (work.watch && leads()) watch_ = [&] { work.watch(ended.add(0)); };
       while (!stop_.load()) {
         const std::size_t piece = turn.add(1);
         if (piece >= work.count) break;
         mine.emplace_back(piece, study::do_piece(work, piece, stop_, rank_));
-        const std::size_t before = ended.add(1);
-        if (work.watch && leads()) work.watch(before + 1);
+        ended.add(1);
+        if (watch_) watch_();
       }
       MPI_Barrier(MPI_COMM_WORLD);  // the counters live until all are through
-      if (work.watch && leads()) work.watch(ended.add(0));
+      if (watch_) watch_();
+      watch_ = nullptr;
     }
     return gather(study::packed(mine), work.count);
   }
@@ -104,6 +131,8 @@ class MpiTeam : public study::Team {
 
   const std::atomic<bool>& stop_;
   int rank_ = 0, size_ = 1;
+  MPI_Comm failed_ = MPI_COMM_NULL;  ///< for have_all_failed() alone
+  std::function<void()> watch_;      ///< of the work in hand; the leader's
 };
 
 }  // namespace

@@ -35,8 +35,13 @@ void Progress::operator()(long long done, long long total) {
   const int decade = static_cast<int>(10 * done / total);
   if (decade <= decade_) return;
   decade_ = decade;
-  print(stderr,
-        fmt::format("{:3d} %  {} {} of {}, {:.1f} s\n", 10 * decade, unit_, done, total, seconds));
+  const double speed = static_cast<double>(done - first_) / seconds;
+  const std::string left =
+      last || !(speed > 0.0)
+          ? ""
+          : fmt::format(", {:.1f} s left", static_cast<double>(total - done) / speed);
+  print(stderr, fmt::format("{:3d} %  {} {} of {}, {:.1f} s{}\n", 10 * decade, unit_, done, total,
+                            seconds, left));
 }
 
 void Progress::draw_bar(long long done, long long total, double seconds) const {

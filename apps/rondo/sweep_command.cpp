@@ -4,9 +4,13 @@
 #include <fmt/format.h>
 #include <spdlog/spdlog.h>
 
+#include <cstdlib>
+#include <exception>
 #include <filesystem>
 #include <memory>
+#include <new>
 #include <optional>
+#include <string_view>
 
 #include "exit_codes.hpp"
 #include "mpi_team.hpp"
@@ -19,9 +23,21 @@
 namespace rondo::app {
 namespace {
 
+/// Fewer members are checked before a bar is seen.
+constexpr long long spoken_of = 500;
+
 std::string directory_of(const SweepArguments& arguments) {
   if (!arguments.directory.empty()) return arguments.directory;
   return std::filesystem::path(arguments.study).replace_extension().string();
+}
+
+/// A task of a scheduler that did not start MPI: each would run the whole sweep by itself.
+void refuse_tasks_without_mpi() {
+  const char* task = std::getenv("SLURM_PROCID");
+  if (task != nullptr && std::string_view(task) != "0")
+    throw InputError(Fault{"rondo sweep", 0, 0, "", "",
+                           fmt::format("is task {} of a job, and MPI was not started", task),
+                           "srun --mpi=pmix, or mpirun"});
 }
 
 /// Each run with what it would cost.
@@ -34,15 +50,18 @@ void print_plan(const study::DrySweep& dry, int workers) {
     for (std::size_t k = 0; k < dry.study.parameters.size(); ++k)
       if (dry.study.parameters[k].is_target)
         found = fmt::format(" -> {} = {:.9g}", dry.study.parameters[k].key, member.targets[k]);
-    fmt::print("{}{}: {} nodes, {} steps, about {:.2g} s\n",
-               study::name_of(dry.study, member.member, m + 1), found, member.nodes, member.steps,
-               member.seconds);
+    const bool crush = dry.plan.kind == study::AnalysisKind::crush;
+    const std::string time = crush ? "" : fmt::format(", about {:.2g} s", member.seconds);
+    fmt::print("{}{}: {} nodes, {} {}{}\n", study::name_of(dry.study, member.member, m + 1), found,
+               member.nodes, member.steps, crush ? "increments" : "steps", time);
     seconds += member.seconds;
     longest = std::max(longest, member.seconds);
     disk += member.disk_bytes;
   }
-  fmt::print("{} runs, {} at once: about {:.3g} s of stepping, {} on the disk\n",
-             dry.plan.members.size(), workers, std::max(longest, seconds / workers),
+  const std::string time = seconds > 0.0
+                               ? fmt::format("about {:.3g} s", std::max(longest, seconds / workers))
+                               : std::string("the time of crushes is not estimated");
+  fmt::print("{} runs, {} at once: {}, {} on the disk\n", dry.plan.members.size(), workers, time,
              study::readable_bytes(disk));
 }
 
@@ -72,22 +91,56 @@ int run(const SweepArguments& arguments, study::Team& team) {
   request.overwrite = arguments.overwrite;
   request.stop = &stop_requested();
   request.warn = [](const std::string& text) { spdlog::warn("{}", text); };
+  std::optional<Progress> progress;
+  const bool quiet = arguments.quiet || !team.leads();
+  request.checking = [&](const char* what, long long done, long long all) {
+    if (quiet || all < spoken_of) return;
+    if (done == 0 || !progress) progress.emplace(what);
+    (*progress)(done, all);
+    if (done == all) progress.reset();
+  };
   if (arguments.dry_run) {
     const study::DrySweep dry = study::check_sweep(request, team);
+    progress.reset();
+    if (dry.plan.stopped) return exit_interrupted;
     if (team.leads()) print_plan(dry, team.workers());
     return exit_done;
   }
-  std::optional<Progress> progress;
   request.begin = [&](const study::PlannedSweep& plan, int workers) {
+    progress.reset();
     spdlog::info("{} runs, {} at once", plan.members.size(), workers);
-    if (!arguments.quiet) progress.emplace("run");
+    if (!quiet) progress.emplace("run");
   };
   request.progress = [&](long long ended, long long all) {
     if (progress) (*progress)(ended, all);
   };
   const study::SweepReport report = study::run_sweep(request, team);
   progress.reset();
-  return team.leads() ? finish(report, directory) : report.code;
+  return team.leads() ? finish(report, directory) : exit_done;  // mpirun takes the leader's
+}
+
+int exit_code_of(const std::exception& error) {
+  if (dynamic_cast<const InputError*>(&error) != nullptr) return exit_input;
+  const bool machine = dynamic_cast<const FileError*>(&error) != nullptr ||
+                       dynamic_cast<const std::bad_alloc*>(&error) != nullptr;
+  return machine ? exit_files : exit_numerical;
+}
+
+/// What fails on all ranks alike, the leader alone tells, as of any command. What fails on some
+/// ends the others, who wait for them.
+int run_ranks(const SweepArguments& arguments, study::Team& team) {
+  try {
+    return run(arguments, team);
+  } catch (const std::exception& error) {
+    if (team.have_all_failed()) {
+      if (!team.leads()) return exit_done;
+      throw;
+    }
+    spdlog::set_level(spdlog::level::info);
+    spdlog::error("rank {}: {}", team.rank(), error.what());
+    team.abort(exit_code_of(error));
+    return exit_code_of(error);
+  }
 }
 
 }  // namespace
@@ -96,6 +149,7 @@ int sweep(const SweepArguments& arguments) {
   if (arguments.quiet) spdlog::set_level(spdlog::level::warn);
   catch_stop_signals();
   if (!is_started_by_mpi()) {
+    refuse_tasks_without_mpi();
     const int workers = arguments.jobs > 0 ? arguments.jobs : study::available_cores();
     study::LocalTeam team(workers, &stop_requested());
     return run(arguments, team);
@@ -104,8 +158,8 @@ int sweep(const SweepArguments& arguments) {
     throw InputError(Fault{"--jobs", 0, 0, "", "", "mpirun decides how many runs go on at once",
                            "leave --jobs out"});
   const std::unique_ptr<study::Team> team = make_mpi_team(stop_requested());
-  if (!team->leads()) spdlog::set_level(spdlog::level::off);  // all ranks fail in the same way
-  return run(arguments, *team);
+  if (!team->leads()) spdlog::set_level(spdlog::level::off);  // all say the same
+  return run_ranks(arguments, *team);
 }
 
 }  // namespace rondo::app

@@ -13,7 +13,7 @@ import unittest
 import h5py
 import numpy as np
 
-from program import PROGRAM, ProgramTest, SMALL, history, replaced, run, summary
+from program import PROGRAM, ProgramTest, ROOT, SMALL, history, replaced, run, summary
 
 # Root may not start MPI without being told twice, and there may be fewer cores than ranks.
 MPI = {**os.environ, "OMPI_ALLOW_RUN_AS_ROOT": "1", "OMPI_ALLOW_RUN_AS_ROOT_CONFIRM": "1"}
@@ -171,7 +171,7 @@ uniform = [2, 3]
         self.case(replaced(replaced(SMALL, "end", None), "[time]", None)
                   .replace("snapshots = 11", "stress = false")
                   + "[analysis]\nkind = \"crush\"\ndepth = 0.01\nincrements = 5\n")
-        self.sweep(text="""schema = 1
+        done = self.sweep(text="""schema = 1
 base = "case.toml"
 [[vary]]
 key = "analysis.depth"
@@ -180,10 +180,22 @@ values = [0.005, 0.01]
 key = "ground.friction"
 values = [0, 0.4]
 """)
+        self.assertNotIn("output.snapshots", done.stderr)
         np.testing.assert_allclose(column(self.out, "depth_m"), [0.005, 0.005, 0.01, 0.01])
         h = history(self.out / "runs" / "0004")
         self.assertEqual(column(self.out, "force_y")[3], h["force_y"][-1])
         self.assertEqual(column(self.out, "pressure_max_pa")[3], h["pressure_max_pa"][-1])
+        alone = self.folder / "alone"
+        run("run", self.folder / "case.toml", "-o", alone, "--set", "ground.friction=0.4")
+        self.assertEqual((alone / "history.csv").read_bytes(),
+                         (self.out / "runs" / "0004" / "history.csv").read_bytes())
+        self.sweep("--overwrite", text="""schema = 1
+base = "case.toml"
+[[vary]]
+key = "analysis.depth"
+target = { force_y = [5e4, 8e4] }
+""")
+        np.testing.assert_allclose(column(self.out, "force_y"), [5e4, 8e4], rtol=1e-6)
 
     def test_the_height_that_bears_a_load(self):
         text = """schema = 1
@@ -295,6 +307,27 @@ values = [33, 2000, 34]
         self.assertNotEqual(process.wait(timeout=120), 0)
         self.goes_on_to_the_same(1, ranks=3)
 
+    def test_stopped_while_it_checks(self):
+        """What is there stays, whatever was asked for."""
+        many = STUDY.replace("[9, 11, 3]", "[9, 11, 200]")
+        small = ("--set", "time.end=0.001", "--set", "output.history_interval=1e-4")
+        self.sweep(*small, text=many)
+        kept = (self.out / "results.csv").read_bytes()
+        for extra in ("--overwrite", "--resume", "--dry-run"):
+            process = subprocess.Popen([PROGRAM, "sweep", str(self.study(many)), "-o", str(self.out),
+                                        *small, extra], stdout=subprocess.PIPE,
+                                       stderr=subprocess.PIPE, text=True)
+            for line in process.stderr:
+                if "check" in line:  # a tenth of them is checked
+                    process.send_signal(signal.SIGTERM)
+                    break
+            process.communicate()
+            if process.returncode == 0:
+                continue  # it was faster: nothing to see
+            self.assertEqual(process.returncode, 130)
+            self.assertEqual((self.out / "results.csv").read_bytes(), kept)
+            self.assertEqual(json.loads((self.out / "sweep.json").read_text())["status"], "done")
+
     def wait_for_runs(self, n):
         deadline = time.time() + 60
         while len(list(self.out.glob("runs/*/run.json"))) < n:
@@ -342,6 +375,23 @@ class Ranks(SweepTest):
         done = mpirun(3, self.study(STUDY.replace("friction\"", "frction\"")), "-o", self.out)
         self.assertEqual(done.returncode, 2)
         self.assertEqual(done.stderr.count("did you mean ground.friction?"), 1)
+
+    def test_a_rank_that_fails_alone_ends_all(self):
+        """It reads another study, of another place, which is none."""
+        script = self.folder / "rank.sh"
+        script.write_text(f"[ $OMPI_COMM_WORLD_RANK = 1 ] && cd /\nexec {PROGRAM} sweep \"$@\"\n")
+        self.study()
+        done = subprocess.run(["mpirun", "--oversubscribe", "-n", "3", "bash", script, "study.toml",
+                               "-o", "out"], capture_output=True, text=True, env=MPI, timeout=60,
+                              cwd=self.folder)
+        self.assertNotEqual(done.returncode, 0)
+        self.assertIn("rank 1: study.toml: there is no such file", done.stderr)
+
+    def test_all_ranks_end_where_the_leader_cannot_write(self):
+        (self.out / "sweep.json").mkdir(parents=True)
+        done = mpirun(2, self.study(), "-o", self.out)
+        self.assertEqual(done.returncode, 4, done.stderr)
+        self.assertIn("sweep.json", done.stderr)
 
     def test_all_ranks_end_where_the_directory_holds_something_else(self):
         self.out.mkdir()
@@ -392,6 +442,7 @@ class Refused(SweepTest):
 
     def test_a_window_without_rows(self):
         self.refused(STUDY + "[window]\nfrom = 0.5\n", "there are not two rows")
+        self.refused(STUDY + "[window]\nto = 0.5\n", "after time.end = 0.02 s")
 
     def test_no_base(self):
         self.refused(STUDY.replace("case.toml", "none.toml"), "none.toml: there is no such file")
@@ -401,10 +452,50 @@ class Refused(SweepTest):
         done = self.sweep(code=2)
         self.assertIn("--resume", done.stderr)
         done = self.sweep("--resume", text=STUDY.replace("0.4]", "0.5]"), code=2)
-        self.assertIn("other members", done.stderr)
+        self.assertIn("another sweep", done.stderr)
         done = self.sweep("--resume", "--set", "time.end=0.01", code=2)
-        self.assertIn("other members", done.stderr)
+        self.assertIn("another sweep", done.stderr)
         self.sweep("--overwrite", text=STUDY.replace("0.4]", "0.5]"))
+
+    def test_what_has_changed_since(self):
+        mesh = self.folder / "two-disks.msh"
+        shutil.copy(ROOT / "cases" / "meshes" / "two-disks.msh", mesh)
+        text = (ROOT / "cases" / "two-disks.toml").read_text()
+        case = self.case(replaced(replaced(text, "file", 'file = "two-disks.msh"'), "end", "end = 2e-4"))
+        study = ("schema = 1\nbase = \"case.toml\"\nset = [\"output.history_interval=1e-5\"]\n"
+                 "[[vary]]\nkey = \"contact.friction\"\n"
+                 "values = [0.1, 0.2]\n")
+        self.sweep(text=study)
+        kept = (self.out / "results.csv").read_bytes()
+        for path, edit in ((case, lambda t: replaced(t, "end", "end = 3e-4")),
+                           (mesh, lambda t: t + "$Comments\nmoved\n$EndComments\n"),
+                           (self.folder / "study.toml", lambda t: t + "[window]\nto = 1e-4\n"),
+                           (self.out / "sweep.json",
+                            lambda t: t.replace('"build_id": "', '"build_id": "0'))):
+            with self.subTest(path.name):
+                before = path.read_text()
+                path.write_text(edit(before))
+                done = run("sweep", self.folder / "study.toml", "-o", self.out, "--resume")
+                path.write_text(before)
+                self.assertEqual(done.returncode, 2, done.stderr)
+                self.assertIn("--overwrite", done.stderr)
+                self.assertEqual((self.out / "results.csv").read_bytes(), kept)
+        done = run("sweep", self.folder / "study.toml", "-o", self.out, "--resume")
+        self.assertIn("2 were there already", done.stderr)
+
+    def test_files_that_are_not_its_own(self):
+        for name in ("results.csv", "sweep.h5", "timings.csv", "runs"):
+            self.out.mkdir()
+            (self.out / name).write_text("precious")
+            for extra in ((), ("--overwrite",), ("--resume",)):
+                self.assertIn("and no sweep", self.sweep(*extra, code=2).stderr)
+            self.assertEqual((self.out / name).read_text(), "precious")
+            shutil.rmtree(self.out)
+
+    def test_settings_of_what_is_varied(self):
+        self.assertIn("is varied", self.sweep("--set", "ground.friction=0.5", code=2).stderr)
+        self.assertIn("snapshots = true",
+                      self.sweep("--set", "output.snapshots=5", code=2).stderr)
 
     def test_a_run_in_the_directory(self):
         run("run", self.folder / "case.toml", "-o", self.out)

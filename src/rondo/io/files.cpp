@@ -75,6 +75,8 @@ void write_json(const fs::path& file, const nlohmann::ordered_json& json) {
 nlohmann::ordered_json read_json(const fs::path& file) {
   std::ifstream in(file, std::ios::binary);
   if (!in) throw FileError(file.string(), "cannot read: " + message(errno));
+  std::error_code error;
+  if (fs::is_directory(file, error)) throw FileError(file.string(), "is a directory");
   constexpr bool exceptions = false;
   auto json = nlohmann::ordered_json::parse(in, nullptr, exceptions);
   if (json.is_discarded()) throw FileError(file.string(), "is damaged: not JSON");

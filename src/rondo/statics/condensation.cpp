@@ -94,6 +94,11 @@ void Condensation::append(std::span<const std::size_t> candidates) {
   m.compliance.bottomRightCorner(size - old, size - old) = 0.5 * (added + added.transpose());
 }
 
+void Condensation::clear() {
+  impl_->set.clear();
+  impl_->compliance.resize(0, 0);
+}
+
 const std::vector<std::size_t>& Condensation::set() const noexcept {
   return impl_->set;
 }

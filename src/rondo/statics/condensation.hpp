@@ -33,6 +33,8 @@ class Condensation {
   [[nodiscard]] bool factorised() const noexcept;
   /// Adds candidates to the set, with two solves each. @pre not in the set.
   void append(std::span<const std::size_t> candidates);
+  /// Empties the set; the factor stays.
+  void clear();
   /// (m) Places in `nodes`, in the order of the compliance's rows.
   [[nodiscard]] const std::vector<std::size_t>& set() const noexcept;
   /// (2m, 2m) G = H K⁻¹ Hᵀ                                                            [m²/N]

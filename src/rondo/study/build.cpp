@@ -195,6 +195,8 @@ std::string body_key(const Case& c) {
   body.time.scheme = c.time.scheme;
   body.contact_iterations = Case{}.contact_iterations;
   body.dump_contacts = 0;
+  body.analysis = {};
+  body.analysis.kind = c.analysis.kind;
   body.output = {};
   body.output.probes = c.output.probes;
   return write_case(body);

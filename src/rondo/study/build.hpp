@@ -9,6 +9,10 @@
 #include "rondo/study/bodies.hpp"
 #include "rondo/study/probes.hpp"
 
+namespace rondo::statics {
+class Condensation;
+}
+
 namespace rondo::study {
 
 struct Setup {
@@ -33,6 +37,8 @@ struct SharedBody {
   Setup setup;
   double spin = 0.0;             ///< of the stationary state [rad/s]
   std::vector<Vec2> stationary;  ///< (n) empty: none yet [m]
+  std::string crush_key;         ///< of a crush, whose factorised stiffness is kept instead
+  std::shared_ptr<statics::Condensation> condensation;
 };
 
 /// Equal for cases that share a body.

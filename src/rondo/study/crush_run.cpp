@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <memory>
 
 #include "rondo/core/error.hpp"
 #include "rondo/core/keep_larger.hpp"
@@ -115,6 +116,23 @@ void condense(const Case& c, const CrushSetup& setup, statics::Condensation& bod
                      "a modulus in SI units, a Poisson's ratio farther from 0.5 and -1");
 }
 
+/// Factorised, and nothing condensed: that of the run before where it fits.
+std::shared_ptr<statics::Condensation> factorised(const Case& c, const CrushSetup& setup,
+                                                  SharedBody* shared) {
+  const std::string key = shared ? body_key(c) : std::string();
+  if (shared && shared->condensation && shared->crush_key == key) {
+    shared->condensation->clear();
+    return shared->condensation;
+  }
+  auto body = std::make_shared<statics::Condensation>(
+      fem::assemble_stiffness(setup.mesh, setup.materials), setup.free, setup.model.nodes);
+  if (shared) {
+    shared->crush_key = key;
+    shared->condensation = body;
+  }
+  return body;
+}
+
 Json describe(const Case& c, const CrushSetup& setup, double factor_s) {
   Json j = describe_run(c, "crush", setup.mesh.n_nodes(), setup.n_dofs());
   j["depth"] = c.analysis.depth;
@@ -194,8 +212,8 @@ RunReport run_crush(const Case& c, const RunOptions& options) {
   const CrushSetup setup = build_crush(c);
   demand_disk(options, disk_needed(c, setup));  // before minutes of condensing
   const auto begin = Clock::now();
-  statics::Condensation body(fem::assemble_stiffness(setup.mesh, setup.materials), setup.free,
-                             setup.model.nodes);
+  const std::shared_ptr<statics::Condensation> kept = factorised(c, setup, options.shared);
+  statics::Condensation& body = *kept;
   condense(c, setup, body);
   Json json = describe(c, setup, seconds_since(begin));
   give_warnings(c.warnings, options);

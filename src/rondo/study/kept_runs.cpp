@@ -62,7 +62,10 @@ double number_in(const Json& j, const char* key) {
 }
 
 bool is_case_of(const fs::path& directory, const Case& c) {
-  return text_of(directory / "case.toml") == write_case(kept_case(c));
+  const Case kept = kept_case(c);
+  if (text_of(directory / "case.toml") != write_case(kept)) return false;
+  const bool is_copy = c.mesh && kept.mesh->file.is_relative();
+  return !is_copy || text_of(directory / kept.mesh->file) == text_of(c.mesh->file);
 }
 
 bool run_is_there(const fs::path& directory, const Case& c, bool may_fail) {

@@ -14,7 +14,7 @@ namespace rondo::study {
 /// -1 where it has no such number.
 [[nodiscard]] double number_in(const Json& j, const char* key);
 
-/// Its case.toml is this case's.
+/// Its case.toml is this case's, and so is its copy of the mesh.
 [[nodiscard]] bool is_case_of(const std::filesystem::path& directory, const Case& c);
 
 /// The run in the directory came to its end, or failed there by itself where it may; its files are

@@ -4,9 +4,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <chrono>
 #include <map>
 #include <optional>
+#include <stdexcept>
 #include <system_error>
 
 #include "rondo/core/error.hpp"
@@ -28,6 +30,7 @@ namespace fs = std::filesystem;
 using Clock = std::chrono::steady_clock;
 
 constexpr const char* format_name = "rondo sweep 1";
+constexpr const char* leader_failed = "failed";
 
 fs::path run_directory(const fs::path& sweep, std::size_t member, std::size_t n) {
   const std::size_t digits = std::max<std::size_t>(4, fmt::formatted_size("{}", n));
@@ -36,36 +39,50 @@ fs::path run_directory(const fs::path& sweep, std::size_t member, std::size_t n)
 
 // The directory ---------------------------------------------------------------------------------
 
-/// Equal for studies whose members are the same.
-std::string hash_of(const PlannedSweep& plan) {
+/// Equal for studies that give the same table.
+std::string hash_of(const SweepStudy& study, const PlannedSweep& plan) {
   io::Hash hash;
-  for (const PlannedMember& member : plan.members) {
-    std::string all;
-    for (const std::string& setting : member.settings) all += setting + "\n";
-    hash.add(std::span<const char>(all));
-    hash.add(std::span<const char>(member.body));
-  }
+  const auto time = [](const std::optional<double>& t) {
+    return t ? fmt::format("{}", *t) : std::string("-");
+  };
+  const std::string window = time(study.window.from) + " " + time(study.window.to);
+  hash.add(std::span<const char>(window));
+  for (const PlannedMember& member : plan.members) hash.add(std::span<const char>(member.hash));
   return hash.text();
 }
 
+constexpr std::array files_written{"results.csv", "sweep.h5", "timings.csv"};
+
 /// What sweep.json says that is there. @throws InputError, FileError
 void accept(const SweepRequest& request, const std::string& hash) {
-  const fs::path file = request.directory / "sweep.json";
-  const Json found = io::read_json(file);
+  const fs::path& directory = request.directory;
+  Json found;
+  try {
+    found = io::read_json(directory / "sweep.json");
+  } catch (const FileError& error) {
+    throw FileError(error, "remove it, or choose another -o");
+  }
   if (text_in(found, "format") != format_name)
-    io::refuse_directory(request.directory,
+    io::refuse_directory(directory,
                          fmt::format("holds a sweep of format \"{}\", not \"{}\"",
                                      text_in(found, "format"), format_name),
                          "choose another -o");
   if (request.overwrite) return;
   if (!request.resume)
-    io::refuse_directory(request.directory, "holds a sweep",
+    io::refuse_directory(directory, "holds a sweep",
                          "give --resume to go on with it or --overwrite to begin anew, or choose "
                          "another -o");
   if (text_in(found, "members_hash") != hash)
-    io::refuse_directory(request.directory,
-                         "holds a sweep of other members: study, base case or --set have changed",
+    io::refuse_directory(directory,
+                         "holds another sweep: study, base case, mesh or --set have changed since",
                          "choose another -o, or give --overwrite to begin anew");
+  if (!is_of_this_program(found))
+    io::refuse_directory(directory,
+                         fmt::format("holds a sweep of another build of rondo ({}, build id {}), "
+                                     "whose runs this one would all make again",
+                                     text_in(found, "version"), text_in(found, "build_id")),
+                         "go on with that program, choose another -o, or give --overwrite to begin "
+                         "anew");
 }
 
 void prepare(const SweepRequest& request, const std::string& hash) {
@@ -73,22 +90,34 @@ void prepare(const SweepRequest& request, const std::string& hash) {
   std::error_code error;
   if (fs::exists(directory, error) && !fs::is_directory(directory, error))
     io::refuse_directory(directory, "is there and is not a directory", "choose another -o");
-  if (fs::exists(directory / "sweep.json", error))
-    accept(request, hash);
-  else if (fs::exists(directory / "run.json", error) || fs::exists(directory / "runs", error))
-    io::refuse_directory(directory, "holds results that are no sweep", "choose another -o");
+  if (fs::exists(directory / "sweep.json", error)) return accept(request, hash);
+  for (const char* name :
+       {"run.json", "runs", files_written[0], files_written[1], files_written[2]})
+    if (fs::exists(directory / name, error))
+      io::refuse_directory(directory, fmt::format("holds {}, and no sweep", name),
+                           "choose another -o");
   fs::create_directories(directory, error);
   if (error)
     throw FileError(directory.string(),
                     "cannot create directory: " + error.message() + "; choose another -o");
 }
 
-/// @pre the directory is taken
+/// What a sweep has left, and PODs of it. @pre the directory is taken
 void clear(const SweepRequest& request) {
   if (!request.overwrite) return;
   std::error_code error;
-  for (const char* name : {"runs", "results.csv", "sweep.h5", "timings.csv"})
+  for (const char* name : {"runs", "pod", files_written[0], files_written[1], files_written[2]})
     fs::remove_all(request.directory / name, error);
+}
+
+/// Of the runs that are not there yet. @throws FileError
+void demand_room(const SweepRequest& request, const PlannedSweep& plan) {
+  std::size_t bytes = 0;
+  std::error_code error;
+  for (std::size_t m = 0; m < plan.members.size(); ++m)
+    if (!fs::exists(run_directory(request.directory, m, plan.members.size()), error))
+      bytes += plan.members[m].disk_bytes;
+  io::demand_room(request.directory / "sweep.h5", bytes);
 }
 
 // One run ---------------------------------------------------------------------------------------
@@ -108,6 +137,13 @@ MemberRow row_of(const fs::path& directory, AnalysisKind kind, const Window& win
   return row;
 }
 
+MemberRow interrupted_row(const fs::path& directory, AnalysisKind kind) {
+  MemberRow row = row_of(directory, kind, {});
+  row.status = MemberStatus::interrupted;
+  row.code = job_interrupted;
+  return row;
+}
+
 struct Runner {
   const SweepStudy& study;
   const PlannedSweep& plan;
@@ -121,11 +157,7 @@ struct Runner {
     const bool kept = run_is_there(directory, c, true);
     if (!kept) {
       const RunStatus status = make(c, directory, stop);
-      if (status == RunStatus::interrupted) {
-        MemberRow row;
-        row.status = MemberStatus::interrupted;
-        return packed(row);
-      }
+      if (status == RunStatus::interrupted) return packed(interrupted_row(directory, plan.kind));
     }
     MemberRow row = row_of(directory, plan.kind, study.window);
     row.kept = kept;
@@ -179,6 +211,20 @@ class Sweep {
         row.message = pieces[k].text;
       }
       row.worker = pieces[k].worker;
+    }
+  }
+
+  /// Of members that were not reached, as far as they were done before.
+  void take_what_is_there() {
+    for (std::size_t m = 0; m < rows_.size(); ++m) {
+      if (rows_[m].status != MemberStatus::waiting) continue;
+      const fs::path directory = run_directory(request_.directory, m, rows_.size());
+      std::error_code error;
+      if (!fs::exists(directory / "run.json", error) ||
+          !run_is_there(directory, case_of(study_, plan_.members[m]), true))
+        continue;
+      rows_[m] = row_of(directory, plan_.kind, study_.window);
+      rows_[m].kept = true;
     }
   }
 
@@ -238,7 +284,7 @@ class Sweep {
     j["parameters"] = describe_parameters();
     j["window"] = {{"from", time(study_.window.from)}, {"to", time(study_.window.to)}};
     j["members"] = rows_.size();
-    j["members_hash"] = hash_of(plan_);
+    j["members_hash"] = hash_of(study_, plan_);
     const SweepReport r = report();
     j["done"] = r.done;
     j["failed"] = r.failed;
@@ -260,6 +306,7 @@ class Sweep {
 SweepStudy study_of(const SweepRequest& request) {
   SweepStudy study = read_study(request.study);
   study.settings.insert(study.settings.end(), request.settings.begin(), request.settings.end());
+  check_settings(study);
   return study;
 }
 
@@ -276,53 +323,51 @@ void warn_of_members(const SweepRequest& request, const PlannedSweep& plan) {
                      : fmt::format("run {} and {} others: {}", of.first, of.second - 1, text));
 }
 
-/// The fault itself has been told where it was found.
-[[noreturn]] void fail_with_leader(char kind) {
-  const std::string told = "the leader of the team has said why nothing is run";
-  if (kind == 'i') throw InputError(Fault{"", 0, 0, "", "", told, ""});
-  throw FileError("sweep", told);
-}
-
-/// The leader's part before the runs; what is wrong there, all are told.
-std::optional<io::DirectoryLock> begin(const SweepRequest& request, const PlannedSweep& plan,
+/// The leader's part before the runs; where it fails, all do.
+std::optional<io::DirectoryLock> begin(const SweepRequest& request, const Sweep& sweep,
+                                       const SweepStudy& study, const PlannedSweep& plan,
                                        Team& team) {
   std::optional<io::DirectoryLock> lock;
   if (team.leads()) {
     try {
-      prepare(request, hash_of(plan));
+      prepare(request, hash_of(study, plan));
       lock.emplace(request.directory);
       clear(request);
-    } catch (const InputError&) {
-      static_cast<void>(team.from_leader("i"));
-      throw;
+      demand_room(request, plan);
+      sweep.write("running");
+      warn_of_members(request, plan);
+      if (request.begin) request.begin(plan, team.workers());
     } catch (const std::exception&) {
-      static_cast<void>(team.from_leader("f"));
+      static_cast<void>(team.from_leader(leader_failed));
       throw;
     }
   }
-  const std::string trouble = team.from_leader("");
-  if (!trouble.empty()) fail_with_leader(trouble[0]);
+  if (team.from_leader("") == leader_failed)
+    throw std::runtime_error("the leader of the team has failed");
   return lock;
+}
+
+SweepReport interrupted_report(std::size_t members) {
+  SweepReport report;
+  report.members = report.interrupted = members;
+  report.code = job_interrupted;
+  return report;
 }
 
 }  // namespace
 
 DrySweep check_sweep(const SweepRequest& request, Team& team) {
   DrySweep dry{study_of(request), {}};
-  dry.plan = plan_sweep({dry.study, true}, team);
+  dry.plan = plan_sweep({dry.study, true, request.checking}, team);
   return dry;
 }
 
 SweepReport run_sweep(const SweepRequest& request, Team& team) {
   const SweepStudy study = study_of(request);
-  const PlannedSweep plan = plan_sweep({study, false}, team);
-  const std::optional<io::DirectoryLock> lock = begin(request, plan, team);
+  const PlannedSweep plan = plan_sweep({study, false, request.checking}, team);
+  if (plan.stopped) return interrupted_report(plan.members.size());
   Sweep sweep(request, study, plan);
-  if (team.leads()) {
-    warn_of_members(request, plan);
-    sweep.write("running");
-    if (request.begin) request.begin(plan, team.workers());
-  }
+  const std::optional<io::DirectoryLock> lock = begin(request, sweep, study, plan, team);
   Runner runner{study, plan, request, team.tick(), {}};
   TeamWork work;
   work.count = plan.order.size();
@@ -334,12 +379,13 @@ SweepReport run_sweep(const SweepRequest& request, Team& team) {
       request.progress(static_cast<long long>(ended), static_cast<long long>(work.count));
     };
   sweep.take(team.each(work));
-  const SweepReport report = sweep.report();
   if (team.leads()) {
+    sweep.take_what_is_there();
+    const SweepReport report = sweep.report();
     sweep.write_tables();
     sweep.write(report.interrupted > 0 ? "interrupted" : report.failed > 0 ? "failed" : "done");
   }
-  return report;
+  return sweep.report();
 }
 
 std::vector<fs::path> runs_of_sweep(const fs::path& directory) {

@@ -20,6 +20,9 @@ struct SweepRequest {
   bool resume = false;     ///< a study there is gone on with
   const std::atomic<bool>* stop = nullptr;
   std::function<void(const std::string&)> warn;  ///< takes warnings; may be empty
+  /// Takes what is checked or searched ("check", "load"), how many are done, of how many; may be
+  /// empty.
+  std::function<void(const char* what, long long done, long long all)> checking;
   /// Called once all is checked, before the first run; may be empty.
   std::function<void(const PlannedSweep& plan, int workers)> begin;
   /// Runs that have ended, and all of them; may be empty.

@@ -86,7 +86,6 @@ std::vector<std::string> settings_of(const SweepStudy& study, const Member& memb
   for (std::size_t k = 0; k < study.parameters.size(); ++k)
     if (!study.parameters[k].is_target)
       settings.push_back(study.parameters[k].key + "=" + member.values[k]);
-  if (!study.snapshots) settings.emplace_back("output.snapshots=0");
   return settings;
 }
 

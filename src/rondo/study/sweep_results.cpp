@@ -7,6 +7,7 @@
 #include <charconv>
 #include <cmath>
 #include <limits>
+#include <map>
 
 #include "rondo/io/files.hpp"
 #include "rondo/io/h5.hpp"
@@ -66,7 +67,7 @@ std::string line_of(const SweepTables& t, std::size_t m) {
 }
 
 /// The number that a text is as a whole; NaN: it is none.
-double number_in(const std::string& text) {
+double number_of(const std::string& text) {
   double value = none;
   const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
   return error == std::errc() && end == text.data() + text.size() ? value : none;
@@ -86,12 +87,9 @@ std::string unit_of(const Vary& vary) {
 void write_parameter(io::h5::File& file, const SweepTables& t, std::size_t k) {
   const Vary& vary = t.study.parameters[k];
   std::vector<double> values, found;
-  std::vector<std::string> texts;
   for (const PlannedMember& member : t.plan.members) {
-    const std::string& text = member.member.values[k];
-    values.push_back(number_in(text));
+    values.push_back(number_of(member.member.values[k]));
     found.push_back(member.targets[k]);
-    if (std::ranges::find(texts, text) == texts.end()) texts.push_back(text);
   }
   const std::string name = "/parameters/" + vary.key;
   if (vary.is_target) {
@@ -101,12 +99,15 @@ void write_parameter(io::h5::File& file, const SweepTables& t, std::size_t k) {
   }
   const bool numbers = std::ranges::none_of(values, [](double value) { return std::isnan(value); });
   if (numbers) return write_column(file, name, values, {unit_of(vary), "key of the case file"});
-  for (std::size_t m = 0; m < values.size(); ++m)
-    values[m] = static_cast<double>(std::ranges::find(texts, t.plan.members[m].member.values[k]) -
-                                    texts.begin());
-  write_column(file, name, values, {"1", "key of the case file; place in the attribute values"});
+  std::map<std::string, std::size_t> places;
   std::string list;
-  for (const std::string& text : texts) list += plain(text) + '\n';
+  for (std::size_t m = 0; m < values.size(); ++m) {
+    const std::string& text = t.plan.members[m].member.values[k];
+    const auto [place, is_new] = places.try_emplace(text, places.size());
+    if (is_new) list += plain(text) + '\n';
+    values[m] = static_cast<double>(place->second);
+  }
+  write_column(file, name, values, {"1", "key of the case file; place in the attribute values"});
   file.set_attribute(name, "values", list);
 }
 

@@ -179,7 +179,9 @@ void read_top(Reader& in, SweepStudy& study) {
 /// Values of equal distance, the ends as they are written; integers where all are.
 std::vector<std::string> linspace(const CaseValue& of, std::int64_t n) {
   const CaseValue &from = of.items[0], &to = of.items[1];
+  constexpr double exact = 0x1p53;  // of the differences below
   const bool whole = from.type == ValueType::integer && to.type == ValueType::integer &&
+                     std::abs(from.number) < exact && std::abs(to.number) < exact &&
                      (to.integer - from.integer) % (n - 1) == 0;
   std::vector<std::string> values;
   for (std::int64_t k = 0; k < n; ++k) {
@@ -211,6 +213,11 @@ void read_uniform(Reader& in, const std::string& path, Vary& vary) {
   if (!value) return;
   if (!(value->items[0].number < value->items[1].number))
     return in.fault(path, "is an empty range", "[from, to], from < to");
+  const CaseKey* key = find_case_key(vary.key);
+  if (key && key->type == KeyType::integer &&
+      (value->items[0].type != ValueType::integer || value->items[1].type != ValueType::integer))
+    return in.fault(path, "samples an integer key between ends that are not whole",
+                    "[from, to], integers");
   vary.uniform = {value->items[0].number, value->items[1].number};
 }
 
@@ -224,7 +231,8 @@ void read_values(Reader& in, const std::string& path, Vary& vary) {
     if (other)
       return in.fault(path, fmt::format("holds {}", type_word(item.type)), "values of the key");
     vary.values.push_back(toml_text(item));
-    if (!seen.insert(vary.values.back()).second)
+    const bool number = item.type == ValueType::integer || item.type == ValueType::number;
+    if (!seen.insert(number ? fmt::format("{}", item.number) : vary.values.back()).second)
       return in.fault(path, fmt::format("{} stands there twice", vary.values.back()),
                       "each value once");
   }
@@ -296,6 +304,13 @@ void read_parameters(Reader& in, SweepStudy& study) {
   }
 }
 
+/// The key that a setting is of.
+std::string key_of(const std::string& setting) {
+  std::string key = setting.substr(0, setting.find('='));
+  std::erase(key, ' ');
+  return key;
+}
+
 void read_sample(Reader& in, SweepStudy& study) {
   const bool uniform = std::ranges::any_of(
       study.parameters, [](const Vary& vary) { return vary.uniform.has_value(); });
@@ -333,10 +348,25 @@ SweepStudy read(const std::filesystem::path& file, CaseSource source) {
   read_sample(in, study);
   read_window(in, study);
   in.finish();
+  check_settings(study);
   return study;
 }
 
 }  // namespace
+
+void check_settings(const SweepStudy& study) {
+  std::vector<Fault> faults;
+  const std::string file = study.file.string();
+  for (const std::string& setting : study.settings)
+    if (std::ranges::find(study.parameters, key_of(setting), &Vary::key) != study.parameters.end())
+      faults.push_back({file, 0, 0, "", setting, "sets a key that is varied", "another key"});
+  const auto is_snapshots = [](const std::string& key) { return key == "output.snapshots"; };
+  if (!study.snapshots && (std::ranges::any_of(study.parameters, is_snapshots, &Vary::key) ||
+                           std::ranges::any_of(study.settings, is_snapshots, key_of)))
+    faults.push_back({file, 0, 0, "output.snapshots", "", "the runs write no snapshots",
+                      "snapshots = true at the top of the study"});
+  if (!faults.empty()) throw InputError(std::move(faults));
+}
 
 SweepStudy read_study(const std::filesystem::path& file) {
   return read(file, load_toml(file, study_shape));

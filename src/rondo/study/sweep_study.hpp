@@ -51,6 +51,9 @@ struct SweepStudy {
 /// The same from a text; `file` is what messages call it, and what `base` is relative to.
 [[nodiscard]] SweepStudy read_study_text(const std::filesystem::path& file, std::string text);
 
+/// Settings that what is varied would hide, or that mean nothing. @throws InputError
+void check_settings(const SweepStudy& study);
+
 /// More members are not listed.
 inline constexpr std::size_t most_members = 1'000'000;
 

@@ -19,7 +19,8 @@ class Press {
   explicit Press(const Case& c)
       : setup_(build_crush(c)),
         body_(fem::assemble_stiffness(setup_.mesh, setup_.materials), setup_.free,
-              setup_.model.nodes) {
+              setup_.model.nodes),
+        increments_(c.analysis.increments) {
     if (body_.factorised()) statics::append_within(setup_.model, setup_.reach, body_);
     if (!body_.factorised() || !body_.compliance().allFinite())
       throw case_error(c, "material.youngs_modulus",
@@ -32,9 +33,9 @@ class Press {
   /// The ground's force at a depth [N/m]; none: not solved, and why is in trouble().
   std::optional<double> force(double depth) {
     statics::CrushState state = statics::start_crush(setup_.model, setup_.mesh.n_nodes());
-    for (int k = 1; k <= target_increments; ++k) {
+    for (int k = 1; k <= increments_; ++k) {
       const statics::CrushReport report =
-          statics::press(setup_.model, depth * k / target_increments, body_, state);
+          statics::press(setup_.model, depth * k / increments_, body_, state);
       trouble_ = crush_trouble(report, state.works, setup_.model.bound);
       if (!trouble_.empty()) return std::nullopt;
     }
@@ -47,6 +48,7 @@ class Press {
  private:
   CrushSetup setup_;
   statics::Condensation body_;
+  int increments_;
   std::string trouble_;
 };
 
@@ -111,10 +113,10 @@ void search(Press& press, double most, TargetFound& found) {
 
 }  // namespace
 
-std::vector<std::string> crush_settings(double depth) {
+std::vector<std::string> crush_settings(double depth, int increments) {
   return {"analysis.kind=crush", fmt::format("analysis.depth={}", depth),
-          fmt::format("analysis.increments={}", target_increments), "ground.profile=flat",
-          "output.snapshots=0"};
+          fmt::format("analysis.increments={}", increments > 0 ? increments : target_increments),
+          "ground.profile=flat"};
 }
 
 std::vector<TargetFound> find_depths(const Case& c, std::span<const double> forces) {

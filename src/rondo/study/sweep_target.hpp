@@ -14,7 +14,8 @@ namespace rondo::study {
 
 /// What the ground's force is to agree to, relative to it.
 inline constexpr double target_tolerance = 1e-6;
-/// Increments of each crush of the search: with friction the force hangs on the path.
+/// Increments of each crush of the search for a dynamic case: with friction the force hangs on the
+/// path.
 inline constexpr int target_increments = 20;
 
 struct TargetFound {
@@ -26,7 +27,8 @@ struct TargetFound {
 };
 
 /// Settings that make a crush on flat ground of a case. @param depth that the search may go to [m]
-[[nodiscard]] std::vector<std::string> crush_settings(double depth);
+/// @param increments of the case, if it is a crush; 0: target_increments
+[[nodiscard]] std::vector<std::string> crush_settings(double depth, int increments);
 
 /// @param c a crush on flat ground, whose depth is the largest that is tried
 /// @param forces each > 0 [N/m]

@@ -10,6 +10,7 @@
 #include <limits>
 #include <memory>
 #include <new>
+#include <stdexcept>
 #include <utility>
 
 #include "rondo/core/error.hpp"
@@ -132,6 +133,13 @@ Piece do_piece(const TeamWork& work, std::size_t piece, const std::atomic<bool>&
             fmt::format("unexpected failure, a bug of rondo's: {}", error.what()), job_failed,
             worker};
   }
+}
+
+void demand_done(const Piece& piece) {
+  if (piece.state != Piece::State::failed) return;
+  if (piece.code == job_input) throw InputError(Fault{"", 0, 0, "", "", piece.text, ""});
+  if (piece.code == job_machine) throw FileError("sweep", piece.text);
+  throw std::runtime_error(piece.text);
 }
 
 std::string packed(const std::vector<std::pair<std::size_t, Piece>>& pieces) {

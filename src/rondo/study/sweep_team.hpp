@@ -39,13 +39,19 @@ class Team {
   virtual ~Team() = default;
   /// Writes what concerns the sweep as a whole; true of one only.
   [[nodiscard]] virtual bool leads() const = 0;
+  [[nodiscard]] virtual int rank() const { return 0; }
   [[nodiscard]] virtual int workers() const = 0;
   /// No more than that many at once, if that is the team's to decide. @param workers at least 1
   virtual void limit_workers(int workers) = 0;
   /// All members of the team call it with the same pieces, and get the same back.
   [[nodiscard]] virtual std::vector<Piece> each(const TeamWork& work) = 0;
   /// To be called now and then within a long piece, so that others need not wait; may be empty.
-  [[nodiscard]] virtual std::function<void()> tick() const { return {}; }
+  [[nodiscard]] virtual std::function<void()> tick() { return {}; }
+  /// Called by who cannot go on. True: all have failed, by the same cause. False after some
+  /// seconds: others wait for this one.
+  [[nodiscard]] virtual bool have_all_failed() { return true; }
+  /// Ends the processes of all.
+  virtual void abort(int /*code*/) {}
   /// A text of the leader's, to all.
   [[nodiscard]] virtual std::string from_leader(std::string text) = 0;
 };
@@ -53,6 +59,9 @@ class Team {
 /// The piece as the worker does it: what it throws becomes a failure.
 [[nodiscard]] Piece do_piece(const TeamWork& work, std::size_t piece, const std::atomic<bool>& stop,
                              int worker);
+
+/// @throws InputError, FileError, std::runtime_error: what made the piece fail
+void demand_done(const Piece& piece);
 
 /// Pieces with their numbers, to be sent, and back.
 [[nodiscard]] std::string packed(const std::vector<std::pair<std::size_t, Piece>>& pieces);

@@ -60,9 +60,8 @@ TEST(SharedBody, GivesTheSetupOfARunAlone) {
 TEST(SharedBody, IsBuiltOnceWhereOnlyFrictionOrMotionDiffer) {
   SharedBody shared;
   static_cast<void>(build(with({}), 1, &shared));
-  shared.setup.critical.step *= 0.5;  // a mark
-  EXPECT_EQ(build(with({"ground.friction=0.9"}), 1, &shared).critical.step,
-            shared.setup.critical.step);
+  const double mark = shared.setup.critical.step *= 0.5;
+  EXPECT_EQ(build(with({"ground.friction=0.9"}), 1, &shared).critical.step, mark);
   const double whole = build(with({}), 1).critical.step;
   EXPECT_EQ(build(with({"material.density=1101"}), 1, &shared).critical.step,
             build(with({"material.density=1101"}), 1).critical.step);

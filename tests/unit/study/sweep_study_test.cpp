@@ -79,6 +79,7 @@ target = { force_y = [1e5, 200000] }
 TEST(SweepStudy, LinspaceHasItsEndsAndWholeNumbersWhereTheyFit) {
   EXPECT_EQ(friction("linspace = [0, 0.9, 10]").values.at(2), "0.2");
   EXPECT_EQ(friction("linspace = [0.1, 0.3, 3]").values, (Texts{"0.1", "0.2", "0.3"}));
+  EXPECT_EQ(friction("linspace = [0.0, 0.1, 4]").values.back(), "0.1");  // 0.3 / 3 is above it
   EXPECT_EQ(friction("linspace = [10, 30, 3]").values, (Texts{"10", "20", "30"}));
   EXPECT_EQ(friction("linspace = [30, 10, 3]").values, (Texts{"30", "20", "10"}));
   EXPECT_EQ(friction("linspace = [10, 11, 3]").values, (Texts{"10.0", "10.5", "11.0"}));
@@ -121,6 +122,9 @@ TEST(SweepStudy, EveryFaultIsNamedAtItsPlace) {
            {top + vary + "uniform = [1, 0]\n[sample]\ncount = 3\nkind = \"latin-hypercube\"\n",
             "vary[0].uniform", "empty range", 5},
            {top + vary + "uniform = [0, 1]\n", "sample", "is missing", 0},
+           {top + vary + "values = [1, 1.0]\n", "vary[0].values", "stands there twice", 5},
+           {top + "[[vary]]\nkey = \"disk.mesh.radial\"\nuniform = [2.5, 4]\n", "vary[0].uniform",
+            "not whole", 5},
            {top + values + "[sample]\ncount = 3\n", "sample", "samples nothing", 6},
            {top + vary + "uniform = [0, 1]\n[sample]\ncount = 3\nkind = \"sobol\"\n", "sample.kind",
             "no kind of sample", 8},
@@ -178,8 +182,7 @@ values = [1, 2, 3]
   EXPECT_EQ(members[0].values, (Texts{"0.1", "1"}));
   EXPECT_EQ(members[1].values, (Texts{"0.1", "2"}));
   EXPECT_EQ(members[5].values, (Texts{"0.2", "3"}));
-  EXPECT_EQ(settings_of(study, members[5]),
-            (Texts{"ground.friction=0.2", "motion.speed=3", "output.snapshots=0"}));
+  EXPECT_EQ(settings_of(study, members[5]), (Texts{"ground.friction=0.2", "motion.speed=3"}));
   EXPECT_EQ(name_of(study, members[5], 6), "run 6 (ground.friction = 0.2, motion.speed = 3)");
 }
 
