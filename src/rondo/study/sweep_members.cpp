@@ -123,23 +123,35 @@ std::vector<std::size_t> by_cost(const std::vector<PlannedMember>& members) {
   return order;
 }
 
+/// What a worker keeps from one member to the next.
+struct Checker {
+  SharedBody shared;
+  std::string body;       ///< whose steps were timed
+  double per_step = 0.0;  ///< [s]
+};
+
 /// One member, built on the body of the one before where it fits.
 std::string check_member(const MembersRequest& request, const PlannedMember& member,
-                         SharedBody& shared) {
+                         Checker& checker) {
   using Clock = std::chrono::steady_clock;
-  const double trial = request.seconds ? 0.02 : 0.0;
+  const bool timed = request.seconds && checker.body != member.body;
+  const double trial = timed ? 0.05 : 0.0;
   Json j;
   try {
     const Case c = case_of(request.study, member);
     const auto begin = Clock::now();
-    const CheckReport r = check_case(c, {.threads = 1, .trial_s = trial, .shared = &shared});
+    const CheckReport r =
+        check_case(c, {.threads = 1, .trial_s = trial, .shared = &checker.shared});
     const double built = std::chrono::duration<double>(Clock::now() - begin).count() - trial;
+    if (timed && r.steps > 0) checker.per_step = r.seconds / static_cast<double>(r.steps);
+    checker.body = member.body;
+    const double stepping = checker.per_step * static_cast<double>(r.steps);
     constexpr double files = 0.01;  // of a run: measured, docs/studies.md
     const bool crush = c.analysis.kind == AnalysisKind::crush;
     j = {{"steps", crush ? r.increments : r.steps},
          {"nodes", r.nodes},
          {"dofs", r.dofs},
-         {"seconds", crush ? 0.0 : r.seconds + std::max(0.0, built) + files},
+         {"seconds", crush ? 0.0 : stepping + std::max(0.0, built) + files},
          {"memory", r.memory_bytes},
          {"disk", r.disk_bytes},
          {"warnings", r.warnings}};
@@ -171,11 +183,11 @@ bool build_members(const MembersRequest& request, Team& team, PlannedSweep& plan
                    MemberFaults& faults) {
   std::vector<std::size_t> order = by_body(plan.members);
   std::erase_if(order, [&](std::size_t m) { return faults.has(m); });
-  SharedBody shared;
+  Checker checker;
   TeamWork work;
   work.count = order.size();
   work.work = [&](std::size_t k, const std::atomic<bool>&) {
-    return check_member(request, plan.members[order[k]], shared);
+    return check_member(request, plan.members[order[k]], checker);
   };
   work.watch = request.watch("check", order.size());
   const std::vector<Piece> pieces = team.each(work);
