@@ -357,8 +357,12 @@ SweepStudy read(const std::filesystem::path& file, CaseSource source) {
 void check_settings(const SweepStudy& study) {
   std::vector<Fault> faults;
   const std::string file = study.file.string();
+  const auto is_hidden = [&](const std::string& key) {  // a target needs a value to begin with
+    return std::ranges::any_of(
+        study.parameters, [&](const Vary& vary) { return vary.key == key && !vary.is_target; });
+  };
   for (const std::string& setting : study.settings)
-    if (std::ranges::find(study.parameters, key_of(setting), &Vary::key) != study.parameters.end())
+    if (is_hidden(key_of(setting)))
       faults.push_back({file, 0, 0, "", setting, "sets a key that is varied", "another key"});
   const auto is_snapshots = [](const std::string& key) { return key == "output.snapshots"; };
   if (!study.snapshots && (std::ranges::any_of(study.parameters, is_snapshots, &Vary::key) ||
