@@ -87,8 +87,7 @@ std::string solve(const SweepStudy& study, const Group& of,
   for (const std::size_t m : of) forces.push_back(std::stod(members[m].member.values[parameter]));
   std::vector<double> different = forces;
   std::ranges::sort(different);
-  const auto same = std::ranges::unique(different);
-  different.erase(same.begin(), same.end());
+  different.erase(std::unique(different.begin(), different.end()), different.end());
   const std::vector<TargetFound> found =
       find_depths(crush_of(study, members[of.front()].settings), different);
   Json all = Json::array();
