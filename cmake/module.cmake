@@ -21,6 +21,10 @@ endfunction()
 function(rondo_count_lines target)
   target_compile_options(${target} PRIVATE --coverage -fprofile-update=atomic)
   target_link_options(${target} PUBLIC --coverage -Wl,--wrap=_exit)
+  get_target_property(type ${target} TYPE)
+  if(type STREQUAL "EXECUTABLE")
+    target_sources(${target} PRIVATE ${PROJECT_SOURCE_DIR}/tests/support/coverage_exit.cpp)
+  endif()
 endfunction()
 
 # Whatever a sanitizer finds ends the program. Left out: what tests each pointer before its use.

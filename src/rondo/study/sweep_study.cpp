@@ -221,15 +221,20 @@ void read_uniform(Reader& in, const std::string& path, Vary& vary) {
   vary.uniform = {value->items[0].number, value->items[1].number};
 }
 
+bool is_value_of_a_key(const CaseValue& value) {
+  if (value.type == ValueType::table || value.type == ValueType::date) return false;
+  return std::isfinite(value.number) && std::ranges::all_of(value.items, is_value_of_a_key);
+}
+
 void read_values(Reader& in, const std::string& path, Vary& vary) {
   const CaseValue* value = in.typed(path, ValueType::array, "[value, ...]");
   if (!value) return;
   if (value->items.empty()) return in.fault(path, "is empty", "at least one value");
   std::set<std::string> seen;
   for (const CaseValue& item : value->items) {
-    const bool other = item.type == ValueType::table || item.type == ValueType::date;
-    if (other)
-      return in.fault(path, fmt::format("holds {}", type_word(item.type)), "values of the key");
+    if (!is_value_of_a_key(item))
+      return in.fault(path, "holds what no key of a case file can be",
+                      "finite numbers, strings, booleans, and arrays of these");
     vary.values.push_back(toml_text(item));
     const bool number = item.type == ValueType::integer || item.type == ValueType::number;
     if (!seen.insert(number ? fmt::format("{}", item.number) : vary.values.back()).second)
