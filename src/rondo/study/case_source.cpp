@@ -207,6 +207,8 @@ std::string_view without_index(std::string_view part) {
 }
 
 bool is_dotted_key(std::string_view path) {
+  constexpr std::size_t longest = 1000;  // no key is a tenth as long
+  if (path.size() > longest) return false;
   while (true) {
     const auto dot = path.find('.');
     if (!is_bare(without_index(path.substr(0, dot)))) return false;
