@@ -47,9 +47,9 @@ int finish(const study::RunReport& r, const std::filesystem::path& directory) {
       spdlog::error("{}; the results so far are in {}", r.message, directory.string());
       return exit_numerical;
     case study::RunStatus::interrupted:
-      spdlog::warn("interrupted after {}; the results so far are in {}{}", reached(r),
-                   directory.string(),
-                   r.analysis == study::AnalysisKind::crush ? "" : "; --resume goes on");
+      spdlog::warn(
+          "interrupted after {}; the results so far are in {}{}", reached(r), directory.string(),
+          r.analysis == study::AnalysisKind::crush || !r.resumable ? "" : "; --resume goes on");
       return exit_interrupted;
     case study::RunStatus::done:
       break;
@@ -104,6 +104,8 @@ int run(const RunArguments& given) {
                                                   : std::filesystem::path(arguments.directory);
   options.resume = arguments.resume;
   options.threads = arguments.threads;
+  options.reduced = arguments.reduced;
+  options.step_factor = arguments.step_factor;
   options.overwrite = arguments.overwrite;
   options.warn = [](const std::string& text) { spdlog::warn(text); };
   options.stop = &stop_requested();

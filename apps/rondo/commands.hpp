@@ -17,6 +17,8 @@ struct RunArguments : CommonArguments {
   bool overwrite = false;
   bool resume = false;
   bool quiet = false;
+  std::string reduced;        ///< model's file; empty: the mesh
+  double step_factor = 20.0;  ///< with it
 };
 
 int run(const RunArguments& arguments);

@@ -19,6 +19,7 @@
 #include "modes_command.hpp"
 #include "paper_command.hpp"
 #include "pod_command.hpp"
+#include "reduce_command.hpp"
 #include "rondo/core/error.hpp"
 #include "rondo/study/run_files.hpp"
 #include "rondo/study/version.hpp"
@@ -57,6 +58,13 @@ CLI::App* add_run(CLI::App& program, app::RunArguments& arguments) {
                 "goes on with the run there from its last checkpoint, to the same bits; begins it "
                 "where there is none; with a later time.end a finished run goes on")
       ->excludes(overwrite);
+  CLI::Option* reduced = run->add_option(
+      "--reduced", arguments.reduced,
+      "runs on the modes of this model (rondo reduce) instead of the mesh; docs/reduced.md");
+  run->add_option("--step-factor", arguments.step_factor,
+                  "of a reduced run: its step over that of the full run")
+      ->capture_default_str()
+      ->needs(reduced);
   run->add_flag("--quiet", arguments.quiet, "prints warnings and errors only");
   run->footer(
       "Example:\n  rondo run cases/ledge-smooth.toml -o results/mu06 --set ground.friction=0.6\n"
@@ -71,6 +79,40 @@ CLI::App* add_check(CLI::App& program, app::CommonArguments& arguments) {
   add_common(*check, arguments);
   check->footer("Example:\n  rondo check cases/ledge-smooth.toml --set disk.mesh.radial=24");
   return check;
+}
+
+CLI::App* add_reduce(CLI::App& program, app::ReduceArguments& arguments) {
+  CLI::App* reduce = program.add_subcommand(
+      "reduce", "a reduced model of a rolling disk from the snapshots of runs");
+  study::ReduceRequest& r = arguments.request;
+  reduce
+      ->add_option("run", r.runs,
+                   "results directories of one disk: other frictions, speeds, heights, spins")
+      ->required();
+  reduce->add_option("-o,--output", r.output, "file of the model, e.g. model.h5")->required();
+  reduce->add_option("--displacement-modes", r.displacement_modes,
+                     "modes of the displacements; each brings its derivative by the angle");
+  reduce->add_option("--velocity-modes", r.velocity_modes, "modes of the velocities");
+  reduce
+      ->add_option("--tolerance", r.displacement_tolerance,
+                   "share of the displacements' energy left out, where no number of modes is given")
+      ->capture_default_str();
+  reduce->add_option("--velocity-tolerance", r.velocity_tolerance, "the same of the velocities")
+      ->capture_default_str();
+  reduce->add_option("--from", r.from, "time of the first snapshot taken [s]");
+  reduce->add_option("--to", r.to, "time of the last snapshot taken [s]");
+  reduce
+      ->add_option("--contact-stride", r.contact_stride,
+                   "nodes of the boundary to a contact point; divides their number")
+      ->capture_default_str();
+  reduce->add_option("--memory", r.memory, "memory allowed to the decompositions")
+      ->capture_default_str();
+  reduce->add_flag("--quiet", arguments.quiet, "prints warnings and the figures only");
+  reduce->footer(
+      "Example:\n  rondo reduce results/mu0 results/mu06 -o model.h5\n"
+      "  rondo run cases/rolling-flat.toml --reduced model.h5 -o results/reduced\n"
+      "What it can do and where it fails: docs/reduced.md.");
+  return reduce;
 }
 
 struct PodArguments {
@@ -200,6 +242,8 @@ int dispatch_command(CLI::App& program, int argc, char** argv) {
   const CLI::App* check = add_check(program, check_arguments);
   PodArguments pod_arguments;
   const CLI::App* pod = add_pod(program, pod_arguments);
+  app::ReduceArguments reduce_arguments;
+  const CLI::App* reduce = add_reduce(program, reduce_arguments);
   app::ModesArguments modes_arguments;
   const CLI::App* modes = add_modes(program, modes_arguments);
   app::PaperArguments paper_arguments;
@@ -214,6 +258,7 @@ int dispatch_command(CLI::App& program, int argc, char** argv) {
   if (run->parsed()) return app::run(run_arguments);
   if (check->parsed()) return app::check(check_arguments);
   if (pod->parsed()) return app::pod(pod_arguments.request, pod_arguments.quiet);
+  if (reduce->parsed()) return app::reduce(reduce_arguments);
   if (modes->parsed()) return app::modes(modes_arguments);
   if (paper->parsed()) return app::paper(paper_arguments);
   if (sweep->parsed()) return app::sweep(sweep_arguments);

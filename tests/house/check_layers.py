@@ -17,6 +17,7 @@ ALLOWED = {
     "statics": {"core", "mesh", "fem", "contact"},
     "modal": {"core", "mesh", "fem"},
     "reduction": {"core", "mesh"},
+    "reduced": {"core", "mesh", "contact", "dynamics", "reduction"},
 }
 ALLOWED["io"] = set(ALLOWED)
 ALLOWED["study"] = set(ALLOWED)

@@ -36,7 +36,10 @@ void Ledger::compare(double kinetic, double strain) noexcept {
 
 void Ledger::add(const StepEnergy& step) noexcept {
   compare(step.kinetic, step.strain);
-  const Works& w = step.works;
+  add_works(step.works);
+}
+
+void Ledger::add_works(const Works& w) noexcept {
   frame_.add(w.frame);
   contact_.add(w.contact);
   friction_.add(w.dissipation_friction);

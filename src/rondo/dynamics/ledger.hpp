@@ -45,6 +45,9 @@ class Ledger {
  public:
   /// Compares the energy before the step with the works so far, then adds the works of the step.
   void add(const StepEnergy& step) noexcept;
+  /// The two parts of add(), for a scheme that knows energies at the ends of its steps.
+  void compare(double kinetic, double strain) noexcept;
+  void add_works(const Works& step) noexcept;
 
   /// Of the half step before the step added last.
   [[nodiscard]] const Balance& last() const noexcept { return balance_; }
@@ -56,8 +59,6 @@ class Ledger {
   void restore(std::span<const double, n_numbers> numbers) noexcept;
 
  private:
-  void compare(double kinetic, double strain) noexcept;
-
   CompensatedSum frame_, contact_, load_, friction_, impact_, rim_, mass_, stiffness_, scheme_;
   double start_ = 0.0;
   bool started_ = false;

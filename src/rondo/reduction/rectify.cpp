@@ -84,14 +84,20 @@ struct Rectifier::Impl {
     fftw_destroy_plan(backward);
   }
 
+  [[nodiscard]] double harmonic(std::size_t k) const noexcept {
+    return 2 * k <= n ? static_cast<double>(k) : static_cast<double>(k) - static_cast<double>(n);
+  }
+
   void set_phases(double theta) {
     const double share = 1.0 / static_cast<double>(n);
-    for (std::size_t k = 0; k < n; ++k) {
-      const bool nyquist = 2 * k == n;
-      const double harmonic =
-          2 * k <= n ? static_cast<double>(k) : static_cast<double>(k) - static_cast<double>(n);
-      phase[k] = nyquist ? Vec2{share, 0.0} : share * rotation(-harmonic * theta);
-    }
+    for (std::size_t k = 0; k < n; ++k)
+      phase[k] = 2 * k == n ? Vec2{share, 0.0} : share * rotation(-harmonic(k) * theta);
+  }
+
+  void set_rates() {
+    const double share = 1.0 / static_cast<double>(n);
+    for (std::size_t k = 0; k < n; ++k)
+      phase[k] = 2 * k == n ? Vec2{} : Vec2{0.0, -share * harmonic(k)};
   }
 
   void move_by_harmonics(std::span<Vec2> ring) {
@@ -107,8 +113,21 @@ struct Rectifier::Impl {
     std::rotate(ring.begin(), ring.end() - static_cast<std::ptrdiff_t>(sectors), ring.end());
   }
 
-  void apply(double theta, std::span<Vec2> values) {
+  /// Each ring in its polar frames, where they turn with the field.
+  template <class Move>
+  void move(std::span<Vec2> values, Move&& move_ring) {
     RONDO_DEMAND(values.size() == n * n_rings, values.size(), n, n_rings);
+    for (std::size_t r = 0; r < n_rings; ++r) {
+      const std::span<Vec2> ring = values.subspan(r * n, n);
+      if (components == Components::cartesian)
+        for (std::size_t k = 0; k < n; ++k) ring[k] = to_polar[k] * ring[k];
+      move_ring(ring);
+      if (components == Components::cartesian)
+        for (std::size_t k = 0; k < n; ++k) ring[k] = conj(to_polar[k]) * ring[k];
+    }
+  }
+
+  void apply(double theta, std::span<Vec2> values) {
     // In (-π, π] by way of the direction: a remainder by the rounded 2π is wrong by 1e-16 each
     // turn.
     const Vec2 direction = rotation(theta);
@@ -117,17 +136,18 @@ struct Rectifier::Impl {
     const auto sectors =
         static_cast<std::size_t>(pitches + (pitches < 0 ? static_cast<long>(n) : 0));
     if (shift == Shift::fourier) set_phases(angle);
-    for (std::size_t r = 0; r < n_rings; ++r) {
-      const std::span<Vec2> ring = values.subspan(r * n, n);
-      if (components == Components::cartesian)
-        for (std::size_t k = 0; k < n; ++k) ring[k] = to_polar[k] * ring[k];
+    move(values, [&](std::span<Vec2> ring) {
       if (shift == Shift::fourier)
         move_by_harmonics(ring);
       else
         move_by_sectors(ring, sectors);
-      if (components == Components::cartesian)
-        for (std::size_t k = 0; k < n; ++k) ring[k] = conj(to_polar[k]) * ring[k];
-    }
+    });
+  }
+
+  void differentiate(std::span<Vec2> values) {
+    RONDO_DEMAND(shift == Shift::fourier, n);
+    set_rates();
+    move(values, [&](std::span<Vec2> ring) { move_by_harmonics(ring); });
   }
 };
 
@@ -139,6 +159,10 @@ Rectifier& Rectifier::operator=(Rectifier&&) noexcept = default;
 
 void Rectifier::apply(double theta, std::span<Vec2> values) {
   impl_->apply(theta, values);
+}
+
+void Rectifier::differentiate(std::span<Vec2> values) {
+  impl_->differentiate(values);
 }
 
 }  // namespace rondo::reduction

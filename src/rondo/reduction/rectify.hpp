@@ -52,6 +52,10 @@ class Rectifier {
   /// @param values (n_rings * n_sectors) ring after ring, as Rings::point
   void apply(double theta, std::span<Vec2> values);
 
+  /// D, the generator of T: dT/dθ = D T, harmonic k times -ik, Nyquist's times 0. Skew in the M
+  /// product; commutes with T, J and K (docs/theory.md, 7.3). @pre Shift::fourier
+  void differentiate(std::span<Vec2> values);
+
  private:
   struct Impl;
   std::unique_ptr<Impl> impl_;

@@ -143,16 +143,6 @@ double choose_step(const Case& c, const dynamics::CriticalStep& critical) {
   return *c.time.step;
 }
 
-long long count_steps(const Case& c, double dt) {
-  const double steps = c.time.end / dt;
-  if (steps > 1e12)
-    throw case_error(c, "time.end", fmt::format("the run would take {:.3g} steps", steps),
-                     "at most 1e+12 steps");
-  const double nearest = std::round(steps);  // 0.1 / 1e-5 is 10000, whatever its last bit says
-  return static_cast<long long>(std::abs(steps - nearest) < 1e-9 * nearest ? nearest
-                                                                           : std::ceil(steps));
-}
-
 dynamics::CriticalStep find_critical_step(const Case& c, const Setup& s) {
   const dynamics::Model& m = s.model;
   const bool lagged = c.time.scheme == Scheme::as_printed;
@@ -166,6 +156,16 @@ dynamics::CriticalStep find_critical_step(const Case& c, const Setup& s) {
 }
 
 }  // namespace
+
+long long count_steps(const Case& c, double dt) {
+  const double steps = c.time.end / dt;
+  if (steps > 1e12)
+    throw case_error(c, "time.end", fmt::format("the run would take {:.3g} steps", steps),
+                     "at most 1e+12 steps");
+  const double nearest = std::round(steps);  // 0.1 / 1e-5 is 10000, whatever its last bit says
+  return static_cast<long long>(std::abs(steps - nearest) < 1e-9 * nearest ? nearest
+                                                                           : std::ceil(steps));
+}
 
 int count_bodies(const dynamics::Model& model) {
   return model.body.empty() ? 1 : 1 + *std::max_element(model.body.begin(), model.body.end());

@@ -44,6 +44,9 @@ struct SharedBody {
 /// Equal for cases that share a body.
 std::string body_key(const Case& c);
 
+/// ceil(end / step), where that is not a whole number by the last bit. @throws InputError: too many
+long long count_steps(const Case& c, double dt);
+
 /// Threads used where the user names none: 1 below this many free degrees of freedom, where
 /// starting threads at every step costs more than it brings; all cores above.
 inline constexpr std::size_t single_thread_dofs = 20000;

@@ -14,6 +14,7 @@
 #include "rondo/study/build.hpp"
 #include "rondo/study/case_source.hpp"
 #include "rondo/study/crush_run.hpp"
+#include "rondo/study/reduced_run.hpp"
 #include "rondo/study/resume.hpp"
 #include "rondo/study/room.hpp"
 #include "rondo/study/run_files.hpp"
@@ -114,6 +115,7 @@ struct Run {
   RunIdentity identity;
   std::optional<Checkpoint> from;
   SnapshotSchedule schedule;
+  std::optional<ReducedRun> reduced;
 
   [[nodiscard]] Checkpoint* checkpoint() { return from ? &*from : nullptr; }
 };
@@ -134,7 +136,9 @@ Loop record(Run& run, Setup& setup, const Json& json) {
   try {
     const RunOutput::Plan plan{run.options.directory, run.c, setup, run.schedule};
     output.emplace(plan, run.checkpoint());
-    Loop loop = run_loop({run.c, run.options, run.identity, run.checkpoint()}, setup, *output);
+    Loop loop = run_loop(
+        {run.c, run.options, run.identity, run.checkpoint(), run.reduced ? &*run.reduced : nullptr},
+        setup, *output);
     output->close();
     loop.snapshots = output->written();
     loop.output = output->cost();
@@ -192,7 +196,7 @@ SnapshotSchedule fresh_schedule(const Case& c, const Setup& setup) {
 }
 
 Run make_run(const Case& c, const RunOptions& options, const Setup& setup) {
-  Run run{c, options, identity_of(c, setup), std::nullopt, {}};
+  Run run{c, options, identity_of(c, setup), std::nullopt, {}, std::nullopt};
   if (options.resume) run.from = find_checkpoint(run.identity, c, setup, options.directory);
   run.schedule = run.from ? run.from->schedule : fresh_schedule(c, setup);
   return run;
@@ -205,25 +209,32 @@ RunReport run_case(const Case& c, const RunOptions& options) {
   const auto begin = Clock::now();
   static_cast<void>(dispatch_level());  // a wrong one is told before anything is built
   Setup setup = build(c, options.threads, options.shared);
+  std::optional<ReducedRun> reduced;
+  if (!options.reduced.empty()) reduced = prepare_reduced(c, options, setup);
   // Before anything is removed; a run that is gone on with needs what its checkpoint says.
   if (!options.resume) demand_disk(options, disk_needed(c, setup, fresh_schedule(c, setup)));
   const io::DirectoryLock lock = take_directory(c, options);
   Run run = make_run(c, options, setup);
+  run.reduced = std::move(reduced);
   if (run.from && is_complete(*run.from, setup, options.directory)) return nothing_to_do(*run.from);
   const std::string other = warning_of_another_host(options.directory);
   if (!other.empty()) give_warnings({other}, options);
   if (options.resume) demand_disk(options, disk_needed(c, setup, run.schedule));
   give_warnings(all_warnings(c, setup, run.schedule), options);
+  if (run.reduced) give_warnings(run.reduced->warnings, options);
   Json json = describe(c, setup);
+  if (run.reduced) describe_reduced(*run.reduced, options, json);
   add_resumed(run, json);
   begin_files(recorded_case(run), options, json);
 
   const Loop loop = record(run, setup, json);
   add_outcome(json, setup, loop);
+  if (run.reduced) add_figures(*run.reduced, json);
   json["total_wall_s"] = std::chrono::duration<double>(Clock::now() - begin).count();
   io::write_json(options.directory / "run.json", json);
   drop_checkpoint(options, loop.status);
   RunReport report = report_of(setup, loop);
+  report.resumable = !run.reduced;
   if (run.from) report.resumed_at = run.from->state.step;
   return report;
 }

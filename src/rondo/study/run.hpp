@@ -26,6 +26,8 @@ struct RunOptions {
   std::function<void(const std::string&)> warn;  ///< takes warnings; may be empty
   SharedBody* shared = nullptr;                  ///< as for build()
   bool keeps_checkpoint = true;                  ///< of its end, once it is done
+  std::filesystem::path reduced;  ///< model to run on instead of the mesh; empty: the mesh
+  double step_factor = 20.0;      ///< with it: step over that of the full run
 };
 
 /// How a run ended. `failed` is an outcome of the numerics: not finite, or a residual out of bound.
@@ -34,6 +36,7 @@ struct RunReport {
   RunStatus status = RunStatus::failed;
   std::string message;        ///< of a failure: quantity, value, bound, step and time
   long long steps = 0;        ///< done; of a crush: increments
+  bool resumable = true;      ///< it kept a checkpoint, unless it is a crush
   bool was_complete = false;  ///< to be resumed, but already at its end: nothing was done
   long long resumed_at = 0;   ///< step of the checkpoint that it went on from; 0: begun anew
   double end_time = 0.0;      ///< reached [s]; 0 of a crush

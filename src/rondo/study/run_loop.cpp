@@ -15,6 +15,7 @@
 #include "rondo/core/keep_larger.hpp"
 #include "rondo/dynamics/stepper.hpp"
 #include "rondo/study/out_of_range.hpp"
+#include "rondo/study/reduced_run.hpp"
 #include "rondo/study/run_files.hpp"
 
 namespace rondo::study {
@@ -159,9 +160,10 @@ class Runner {
  private:
   /// Memory that the integrator has as well is given back.
   void make_integrator() {
-    for (std::vector<Vec2>* field : {&state_.v, &state_.force_before})
-      std::vector<Vec2>().swap(*field);
-    integrator_ = dynamics::make_integrator(setup_.model, state_);
+    std::vector<Vec2>().swap(state_.force_before);
+    if (!plan_.reduced) std::vector<Vec2>().swap(state_.v);
+    integrator_ = plan_.reduced ? study::make_integrator(*plan_.reduced, setup_, state_)
+                                : dynamics::make_integrator(setup_.model, state_);
     for (std::vector<Vec2>* field : {&state_.force, &state_.v_next})
       std::vector<Vec2>().swap(*field);
     state_.v.resize(state_.u.size());
@@ -232,7 +234,7 @@ class Runner {
 
   [[nodiscard]] bool is_save_due() const {
     const std::chrono::duration<double> since = Clock::now() - saved_;
-    return loop_.status == RunStatus::done && loop_.steps < setup_.n_steps &&
+    return !plan_.reduced && loop_.status == RunStatus::done && loop_.steps < setup_.n_steps &&
            since.count() >= plan_.c.output.checkpoint_interval && !output_.is_saving();
   }
 
@@ -256,7 +258,7 @@ class Runner {
     const std::vector<double> row =
         last_ ? output_.last_row(*last_, last_state_) : plan_.from->last_row;
     const bool kept = loop_.status == RunStatus::interrupted || plan_.options.keeps_checkpoint;
-    if (loop_.status != RunStatus::failed && kept) save(row);
+    if (loop_.status != RunStatus::failed && kept && !plan_.reduced) save(row);
     output_.add_row(row);
     if (loop_.status == RunStatus::done) close_ledger();
   }

@@ -11,6 +11,8 @@
 
 namespace rondo::study {
 
+struct ReducedRun;
+
 /// How the steps went, those before the checkpoint included.
 struct Loop {
   RunStatus status = RunStatus::done;
@@ -28,8 +30,9 @@ struct Loop {
 struct LoopPlan {
   const Case& c;
   const RunOptions& options;
-  const RunIdentity& identity;  ///< for the checkpoints
-  Checkpoint* from = nullptr;   ///< absent: from the start; its fields are freed once taken
+  const RunIdentity& identity;    ///< for the checkpoints
+  Checkpoint* from = nullptr;     ///< absent: from the start; its fields are freed once taken
+  ReducedRun* reduced = nullptr;  ///< absent: the full model
 };
 
 /// Takes the initial fields of the setup, which are not needed twice. @throws FileError

@@ -1,0 +1,255 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "rondo/study/reduce.hpp"
+
+#include <fmt/format.h>
+
+#include <Eigen/Eigenvalues>
+#include <algorithm>
+#include <array>
+#include <chrono>
+#include <cmath>
+#include <system_error>
+#include <utility>
+
+#include "rondo/reduction/spectrum.hpp"
+#include "rondo/study/build.hpp"
+#include "rondo/study/pod_input.hpp"
+#include "rondo/study/reduced_file.hpp"
+
+namespace rondo::study {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+using Eigen::Index;
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+
+void check_options(const ReduceRequest& r) {
+  if (r.output.empty()) throw request_error("-o", "", "the model needs a file", "-o MODEL.h5");
+  for (const auto& [option, modes] : {std::pair{"--displacement-modes", r.displacement_modes},
+                                      {"--velocity-modes", r.velocity_modes}})
+    if (modes && *modes < 1)
+      throw request_error(option, fmt::to_string(*modes), "no modes to keep", "1 or more");
+  for (const auto& [option, share] : {std::pair{"--tolerance", r.displacement_tolerance},
+                                      {"--velocity-tolerance", r.velocity_tolerance}})
+    if (!(share > 0.0 && share < 1.0))
+      throw request_error(option, fmt::format("{:.9g}", share), "not a share of the energy",
+                          "between 0 and 1, e.g. 1e-5");
+}
+
+/// What can be reduced: a smooth disk in one piece, held by its rim, that rolled to its end.
+void check_run(const io::RunReader& run, const Case& c) {
+  const std::string name = run.directory().string();
+  if (run.analysis() != "dynamic")
+    throw request_error("RUN", name, "a crush does not roll: there is no motion to reduce",
+                        "runs of analysis.kind = \"dynamic\"");
+  if (c.mesh || c.free_rim || run.mesh().n_sectors == 0)
+    throw request_error("RUN", name,
+                        "the body has no equal sectors round a rim that holds it: its fields "
+                        "cannot be moved to the fixed frame",
+                        "runs of a [disk] whose rim is held");
+  if (c.disk.tread)
+    throw request_error("RUN", name,
+                        "the disk has a tread: reduced models are of smooth disks so far",
+                        "runs without [disk.tread]");
+  if (run.status() != "done")
+    throw request_error("RUN", name,
+                        fmt::format("the run is not finished (status {})", run.status()),
+                        "finish it (rondo run RUN --resume), or leave it out");
+  if (!run.has(io::Quantity::velocity))
+    throw request_error("RUN", name, "holds no velocities: displacements alone cannot roll",
+                        "a run whose results.h5 has /snapshots/velocity");
+  if (run.n_snapshots() < 2)
+    throw request_error("RUN", name, fmt::format("{} snapshots make no model", run.n_snapshots()),
+                        "a run with output.snapshots of 2 or more, some hundreds better");
+}
+
+struct Source {
+  std::vector<io::RunReader> runs;
+  std::vector<Case> cases;
+};
+
+PodRequest pod_request(const ReduceRequest& r, const char* field) {
+  PodRequest pod;
+  pod.runs = r.runs;
+  pod.field = field;
+  pod.frame = "rectified";
+  pod.from = r.from;
+  pod.to = r.to;
+  pod.warn = r.warn;
+  return with_members(pod);
+}
+
+Source open_source(const ReduceRequest& r) {
+  const PodRequest pod = pod_request(r, "velocity");
+  Source source;
+  for (const std::filesystem::path& directory : pod.runs) {
+    const Case& c = source.cases.emplace_back(read_case(directory / "case.toml"));
+    check_run(io::RunReader(directory), c);
+    const std::string difference = body_difference(body_text(c), body_text(source.cases.front()));
+    if (!difference.empty())
+      throw request_error(
+          "RUN", directory.string(),
+          fmt::format("not the body of {}: {}", pod.runs.front().string(), difference),
+          "runs of one mesh and material together");
+  }
+  source.runs = open_runs(pod, choice_of(pod));
+  return source;
+}
+
+/// Modes of one field in the order of the mesh, times √M.
+struct Part {
+  ReducePart report;
+  MatrixXd modes;  ///< (2n, modes) orthonormal
+  double energy = 0.0;
+};
+
+Index modes_for(const VectorXd& sigma, double tolerance) {
+  double tail = 0.0;
+  const double all = sigma.squaredNorm();
+  Index count = sigma.size();
+  while (count > 1 && tail + sigma[count - 1] * sigma[count - 1] <= tolerance * all) {
+    --count;
+    tail += sigma[count] * sigma[count];
+  }
+  return count;
+}
+
+RunSnapshots snapshots_of(const ReduceRequest& r, const Source& source, const char* field) {
+  const PodRequest pod = pod_request(r, field);
+  const SnapshotChoice choice = choice_of(pod);
+  return {source.runs, columns_of(pod, choice, source.runs), choice};
+}
+
+Part part_of(const ReduceRequest& r, const Source& source, const char* field, const VectorXd& roots,
+             std::optional<long long> asked, double tolerance) {
+  RunSnapshots snapshots = snapshots_of(r, source, field);
+  reduction::DecomposeOptions options;
+  PodRequest memory;
+  memory.memory = r.memory;
+  options.memory = memory_of(memory);
+  options.progress = r.progress;
+  options.modes = std::min<Index>(std::min(snapshots.rows(), snapshots.columns()),
+                                  asked ? static_cast<Index>(*asked) : 400);
+  const reduction::Decomposition found = decompose(snapshots, options);
+  if (found.rank == 0)
+    throw request_error("RUN", r.runs.front().string(),
+                        fmt::format("every {} is zero: nothing moves", field),
+                        "runs in which the disk is loaded or spins");
+  Index keep = asked ? static_cast<Index>(*asked) : modes_for(found.sigma, tolerance);
+  keep = std::min(keep, found.modes.cols());
+  Part part;
+  part.report = {field, snapshots.columns(), keep, 0.0};
+  part.energy = found.energy;
+  const double kept = found.sigma.head(keep).squaredNorm();
+  const double tail = found.sigma.tail(found.sigma.size() - keep).squaredNorm();
+  part.report.discarded = (tail + found.lost_energy) / (kept + tail + found.lost_energy);
+  part.modes = found.modes.leftCols(keep);
+  for (Index j = 0; j < keep; ++j) {
+    snapshots.unweight(part.modes.col(j));
+    part.modes.col(j).array() *= roots.array();
+  }
+  return part;
+}
+
+/// Share of the energy of the snapshots outside of the modes.
+double energy_left(RunSnapshots snapshots, const MatrixXd& modes, const VectorXd& roots) {
+  double left = 0.0, all = 0.0;
+  MatrixXd column(snapshots.rows(), 1);
+  for (Index j = 0; j < snapshots.columns(); ++j) {
+    snapshots.read_columns(j, column);
+    all += column.squaredNorm();
+    snapshots.unweight(column.col(0));
+    column.array() *= roots.array();
+    const VectorXd inside = modes.transpose() * column.col(0);
+    left += std::max(0.0, column.squaredNorm() - inside.squaredNorm());
+  }
+  return left / all;
+}
+
+ModelRanges ranges_of(const ReduceRequest& r, const Source& source) {
+  const PodRequest pod = pod_request(r, "displacement");
+  ModelRanges ranges;
+  for (const Case& c : source.cases)
+    if (c.ground) ranges.friction.take(c.ground->friction);
+  for (const Column& column : columns_of(pod, choice_of(pod), source.runs)) {
+    const Case& c = source.cases[column.run];
+    ranges.angular_velocity.take(c.motion.angular_velocity.at(column.time));
+    ranges.speed.take(c.motion.speed.at(column.time));
+    ranges.height.take(c.motion.height.at(column.time));
+    ranges.slip_ratio.take(slip_ratio_at(c, column.time));
+  }
+  return ranges;
+}
+
+double critical_step(const MatrixXd& stiffness, double beta) {
+  const Eigen::SelfAdjointEigenSolver<MatrixXd> solver(stiffness, Eigen::EigenvaluesOnly);
+  const double omega = std::sqrt(solver.eigenvalues().maxCoeff());
+  const double damping = 0.5 * beta * omega;
+  return 2.0 / omega * (std::sqrt(1.0 + damping * damping) - damping);
+}
+
+/// The modes of displacement, their derivatives by the angle (a pattern that stands still in space
+/// has the velocity -s D u), the modes of velocity.
+MatrixXd basis_of(const mesh::Mesh& mesh, const VectorXd& roots, const Part& u, const Part& v) {
+  const MatrixXd fields = roots.cwiseInverse().asDiagonal() * u.modes;
+  const MatrixXd derived = roots.asDiagonal() * reduction::differentiate(mesh, fields);
+  return reduction::join(std::array{u.modes, derived, v.modes});
+}
+
+}  // namespace
+
+ReduceReport run_reduce(const ReduceRequest& request) {
+  const auto begin = Clock::now();
+  check_options(request);
+  const Source source = open_source(request);
+  const Case& c = source.cases.front();
+  const Setup setup = build(c, 1);
+  const mesh::Mesh& mesh = setup.mesh;
+  if (request.contact_stride < 1 || mesh.n_sectors % request.contact_stride != 0)
+    throw request_error("--contact-stride", fmt::to_string(request.contact_stride),
+                        "does not share out the columns of the mesh",
+                        fmt::format("a divisor of {}", mesh.n_sectors));
+  const VectorXd roots = reduction::mass_roots(setup.model.mass);
+  const Part u = part_of(request, source, "displacement", roots, request.displacement_modes,
+                         request.displacement_tolerance);
+  const Part v = part_of(request, source, "velocity", roots, request.velocity_modes,
+                         request.velocity_tolerance);
+  const MatrixXd basis = basis_of(mesh, roots, u, v);
+  ReducedFile file;
+  file.model = reduction::make_reduced_model({mesh, setup.model.mass,
+                                              [&](std::span<const Vec2> in, std::span<Vec2> out) {
+                                                fem::apply(*setup.model.sector, in, out);
+                                              }},
+                                             basis, request.contact_stride);
+  file.mesh = mesh;
+  file.mass = setup.model.mass;
+  file.body = body_text(c);
+  file.ranges = ranges_of(request, source);
+  for (const io::RunReader& run : source.runs) file.runs.push_back(run.directory().string());
+  file.displacement_modes = u.report.modes;
+  file.velocity_modes = v.report.modes;
+  write_reduced_file(request.output, file);
+
+  ReduceReport report;
+  report.dofs = static_cast<long long>(2 * setup.model.free.size());
+  report.modes = file.model.size();
+  report.displacement = u.report;
+  report.velocity = v.report;
+  report.displacement_left =
+      energy_left(snapshots_of(request, source, "displacement"), basis, roots);
+  report.velocity_left = energy_left(snapshots_of(request, source, "velocity"), basis, roots);
+  report.full_critical_step = setup.critical.step;
+  report.reduced_critical_step = critical_step(file.model.stiffness, c.damping.stiffness);
+  report.contact_points = static_cast<long long>(file.model.contact_points.size());
+  const double spin = std::max(std::abs(file.ranges.angular_velocity.low),
+                               std::abs(file.ranges.angular_velocity.high));
+  constexpr double turn = 6.283185307179586;
+  if (spin > 0.0) report.contact_step = turn / static_cast<double>(report.contact_points) / spin;
+  std::error_code error;
+  report.file_bytes = std::filesystem::file_size(request.output, error);
+  report.wall_s = std::chrono::duration<double>(Clock::now() - begin).count();
+  return report;
+}
+
+}  // namespace rondo::study

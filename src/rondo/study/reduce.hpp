@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: BSD-3-Clause
+/// @file  `rondo reduce`: from the snapshots of one or several runs to a reduced model that
+/// `rondo run --reduced` runs (docs/reduced.md).
+#pragma once
+#include <filesystem>
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace rondo::study {
+
+/// What the user asks for, in the command line's words.
+struct ReduceRequest {
+  std::vector<std::filesystem::path> runs;  ///< results directories of one mesh and material
+  std::filesystem::path output;             ///< the model's file
+  std::optional<long long> displacement_modes, velocity_modes;  ///< of the two PODs
+  double displacement_tolerance = 5e-6;  ///< energy that may be left out, where no number is given
+  double velocity_tolerance = 2e-3;      ///< likewise
+  std::optional<double> from, to;        ///< window of the snapshots [s]
+  int contact_stride = 1;                ///< nodes of the boundary to a contact point
+  std::string memory = "2GB";
+  std::function<void(const std::string&)> warn;        ///< may be empty
+  std::function<void(long long, long long)> progress;  ///< done, of all; may be empty
+};
+
+/// Of one of the two PODs.
+struct ReducePart {
+  std::string field;
+  long long snapshots = 0, modes = 0;
+  double discarded = 0.0;  ///< share of the energy that the modes leave out
+};
+
+struct ReduceReport {
+  long long dofs = 0;   ///< of the full model
+  long long modes = 0;  ///< r: displacement modes, their derivatives by the angle, velocity modes
+  ReducePart displacement, velocity;
+  double displacement_left = 0.0;      ///< share of the energy that all r modes leave out
+  double velocity_left = 0.0;          ///< likewise
+  double full_critical_step = 0.0;     ///< [s]
+  double reduced_critical_step = 0.0;  ///< of explicit central differences on the modes [s]
+  double contact_step = 0.0;  ///< in which the fastest spin passes one contact point [s]; 0: none
+  long long contact_points = 0;
+  std::size_t file_bytes = 0;
+  double wall_s = 0.0;
+};
+
+/// @throws InputError: runs that cannot be reduced, together or at all; FileError
+[[nodiscard]] ReduceReport run_reduce(const ReduceRequest& request);
+
+}  // namespace rondo::study

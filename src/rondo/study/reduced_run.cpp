@@ -1,0 +1,167 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "rondo/study/reduced_run.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "rondo/core/error.hpp"
+#include "rondo/study/bodies.hpp"
+#include "rondo/study/pod_input.hpp"
+
+namespace rondo::study {
+namespace {
+
+void check_case(const Case& c, const RunOptions& options, const Setup& setup) {
+  if (options.resume)
+    throw request_error("--resume", "",
+                        "a reduced run keeps no checkpoints, it is too short for them",
+                        "--overwrite to run it again, or another -o");
+  if (!(options.step_factor > 0.0 && std::isfinite(options.step_factor)))
+    throw request_error("--step-factor", fmt::format("{:.9g}", options.step_factor),
+                        "not a factor for the step of the full run", "a number above 0, e.g. 20");
+  if (c.time.scheme == Scheme::as_printed)
+    throw case_error(c, "time.scheme", "a reduced run has a scheme of its own",
+                     "\"symplectic\", which it stands for");
+  if (dynamics::is_general(setup.model))
+    throw case_error(c, "ground.profile",
+                     "a reduced run knows one held disk on ground without sharp convex corners; "
+                     "here are such corners, pressures, free bodies or contact of bodies",
+                     "ground.fillet > 0, and none of the others");
+}
+
+void check_model(const Case& c, const RunOptions& options, const ReducedFile& file,
+                 const Setup& setup) {
+  const std::string difference = body_difference(body_text(c), file.body);
+  if (!difference.empty())
+    throw request_error("--reduced", options.reduced.string(),
+                        fmt::format("the model is of another mesh or material: the case has {} of "
+                                    "the model",
+                                    difference),
+                        "a model built from runs of this mesh and material (rondo reduce)");
+  const bool same = file.mesh.n_nodes() == setup.mesh.n_nodes() &&
+                    file.mesh.coordinates == setup.mesh.coordinates &&
+                    file.mass == setup.model.mass;
+  if (!same)
+    throw request_error("--reduced", options.reduced.string(),
+                        "the mesh in the model is not the one this program makes of the case",
+                        "a model built anew by this version (rondo reduce)");
+}
+
+/// A thousandth of the range, and of the value, is no news.
+void warn_outside(const char* what, const ModelRange& built, const ModelRange& wanted,
+                  std::vector<std::string>& warnings) {
+  if (built.empty() || wanted.empty()) return;
+  const double margin =
+      1e-3 * std::max({built.high - built.low, std::abs(built.low), std::abs(built.high)});
+  if (wanted.low >= built.low - margin && wanted.high <= built.high + margin) return;
+  warnings.push_back(
+      fmt::format("{} is {:.6g} to {:.6g} in this case, and was {:.6g} to {:.6g} in the runs that "
+                  "the model was built from: what it says beyond is not known to be right",
+                  what, wanted.low, wanted.high, built.low, built.high));
+}
+
+void warn_of_range(const Case& c, const Setup& setup, ReducedRun& run) {
+  const ModelRanges& built = run.file.ranges;
+  ModelRanges wanted;
+  if (c.ground) wanted.friction.take(c.ground->friction);
+  constexpr long long most = 10000;
+  const long long samples = std::min(most, setup.n_steps);
+  for (long long k = 0; k <= samples; ++k) {
+    const double t = c.time.end * static_cast<double>(k) / static_cast<double>(samples);
+    wanted.angular_velocity.take(c.motion.angular_velocity.at(t));
+    wanted.speed.take(c.motion.speed.at(t));
+    wanted.height.take(c.motion.height.at(t));
+    wanted.slip_ratio.take(slip_ratio_at(c, t));
+  }
+  warn_outside("ground.friction", built.friction, wanted.friction, run.warnings);
+  warn_outside("motion.angular_velocity", built.angular_velocity, wanted.angular_velocity,
+               run.warnings);
+  warn_outside("motion.speed", built.speed, wanted.speed, run.warnings);
+  warn_outside("motion.height", built.height, wanted.height, run.warnings);
+  warn_outside("the slip ratio", built.slip_ratio, wanted.slip_ratio, run.warnings);
+  if (c.ground && built.friction.empty())
+    run.warnings.emplace_back(
+        "the model was built from runs without ground: its modes know no contact");
+}
+
+/// A point must not be passed in one step.
+void warn_of_step(const Case& c, const Setup& setup, ReducedRun& run) {
+  const double points = static_cast<double>(run.file.model.contact_points.size());
+  const double turned = c.motion.angular_velocity.largest() * setup.model.dt;
+  const double spacing = 2.0 * std::numbers::pi / points;
+  if (c.ground && turned > spacing)
+    run.warnings.push_back(
+        fmt::format("--step-factor: the disk turns by {:.3g} contact points in a step; contact "
+                    "wants 1 at the most, a factor of {:.3g}",
+                    turned / spacing, run.step_factor * spacing / turned));
+}
+
+/// Start that the modes do not hold.
+void warn_of_start(const Setup& setup, ReducedRun& run) {
+  reduction::Lift lift(setup.mesh, run.file.model);
+  const auto check = [&](const std::vector<Vec2>& field, const char* name) {
+    double all = 0.0;
+    for (std::size_t i = 0; i < field.size(); ++i)
+      all += setup.model.mass[i] * dot(field[i], field[i]);
+    if (all == 0.0) return;
+    const double inside = lift.restrict_to_modes(0.0, field, setup.model.mass).squaredNorm();
+    const double left = std::sqrt(std::max(0.0, 1.0 - inside / all));
+    if (left > 0.01)
+      run.warnings.push_back(fmt::format(
+          "[initial]: the modes hold all but {:.2g} % of the initial {}", 100.0 * left, name));
+  };
+  check(setup.displacement, "displacement");
+  check(setup.velocity, "velocity");
+}
+
+}  // namespace
+
+ReducedRun prepare_reduced(const Case& c, const RunOptions& options, Setup& setup) {
+  check_case(c, options, setup);
+  ReducedRun run;
+  run.file = read_reduced_file(options.reduced);
+  check_model(c, options, run.file, setup);
+  run.step_factor = options.step_factor;
+  run.full_step = setup.model.dt;
+  setup.model.dt *= options.step_factor;
+  setup.n_steps = count_steps(c, setup.model.dt);
+  warn_of_range(c, setup, run);
+  warn_of_step(c, setup, run);
+  warn_of_start(setup, run);
+  return run;
+}
+
+std::unique_ptr<dynamics::Integrator> make_integrator(ReducedRun& run, const Setup& setup,
+                                                      const dynamics::State& start) {
+  return std::make_unique<reduced::ReducedIntegrator>(
+      reduced::IntegratorInput{setup.mesh, setup.model, run.file.model, run.figures}, start);
+}
+
+void describe_reduced(const ReducedRun& run, const RunOptions& options, Json& json) {
+  json["reduced_model"] = options.reduced.string();
+  json["reduced_modes"] = run.file.model.size();
+  json["displacement_modes"] = run.file.displacement_modes;
+  json["velocity_modes"] = run.file.velocity_modes;
+  json["contact_points"] = run.file.model.contact_points.size();
+  json["step_factor"] = run.step_factor;
+  json["full_step"] = run.full_step;
+  json["lifted"] = true;
+}
+
+void add_figures(const ReducedRun& run, Json& json) {
+  const reduced::StepFigures& f = run.figures;
+  const double steps = static_cast<double>(std::max(1LL, f.contact_steps));
+  json["reduced"] = {{"matrices_factored", f.factored},
+                     {"factor_wall_s", f.factor_wall_s},
+                     {"contact_steps", f.contact_steps},
+                     {"contact_iterations_mean", static_cast<double>(f.iterations) / steps},
+                     {"contact_iterations_max", f.iterations_max},
+                     {"contacts_max", f.contacts_max},
+                     {"steps_with_more_rows_than_modes", f.more_rows_than_modes},
+                     {"steps_not_converged", f.not_converged}};
+}
+
+}  // namespace rondo::study

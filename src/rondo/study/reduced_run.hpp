@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: BSD-3-Clause
+/// @file  `rondo run --reduced`: a case on the modes of a reduced model instead of its mesh. The
+/// loop, the files and the figures are those of any run (docs/reduced.md, "Runs").
+#pragma once
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "rondo/reduced/integrator.hpp"
+#include "rondo/study/build.hpp"
+#include "rondo/study/reduced_file.hpp"
+#include "rondo/study/run_files.hpp"
+
+namespace rondo::study {
+
+struct ReducedRun {
+  ReducedFile file;
+  double step_factor = 1.0;
+  double full_step = 0.0;             ///< of the full run [s]
+  std::vector<std::string> warnings;  ///< for the user
+  reduced::StepFigures figures;       ///< filled while it runs
+};
+
+/// Reads the model, checks that it is one of this case, gives the setup its step.
+/// @throws InputError: no such file, another body, what a reduced run cannot do; FileError
+[[nodiscard]] ReducedRun prepare_reduced(const Case& c, const RunOptions& options, Setup& setup);
+
+/// Run and setup must outlive it.
+[[nodiscard]] std::unique_ptr<dynamics::Integrator> make_integrator(ReducedRun& run,
+                                                                    const Setup& setup,
+                                                                    const dynamics::State& start);
+
+/// For run.json, before and after the run.
+void describe_reduced(const ReducedRun& run, const RunOptions& options, Json& json);
+void add_figures(const ReducedRun& run, Json& json);
+
+}  // namespace rondo::study
