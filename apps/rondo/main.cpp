@@ -90,21 +90,22 @@ CLI::App* add_reduce(CLI::App& program, app::ReduceArguments& arguments) {
                    "results directories of one disk: other frictions, speeds, heights, spins")
       ->required();
   reduce->add_option("-o,--output", r.output, "file of the model, e.g. model.h5")->required();
-  reduce->add_option("--displacement-modes", r.displacement_modes,
-                     "modes of the displacements; each brings its derivative by the angle");
-  reduce->add_option("--velocity-modes", r.velocity_modes, "modes of the velocities");
-  reduce
-      ->add_option("--tolerance", r.displacement_tolerance,
-                   "share of the displacements' energy left out, where no number of modes is given")
-      ->capture_default_str();
-  reduce->add_option("--velocity-tolerance", r.velocity_tolerance, "the same of the velocities")
-      ->capture_default_str();
+  reduce->add_option(
+      "--displacement-modes", r.displacement_modes,
+      "modes of the displacements, each with its derivative by the angle; 25 if left out");
+  reduce->add_option("--velocity-modes", r.velocity_modes,
+                     "modes of the velocities; 35 if left out");
+  reduce->add_option("--tolerance", r.displacement_tolerance,
+                     "instead of their number: share of the displacements' energy left out");
+  reduce->add_option("--velocity-tolerance", r.velocity_tolerance, "the same of the velocities");
   reduce->add_option("--from", r.from, "time of the first snapshot taken [s]");
   reduce->add_option("--to", r.to, "time of the last snapshot taken [s]");
   reduce
-      ->add_option("--contact-stride", r.contact_stride,
-                   "nodes of the boundary to a contact point; divides their number")
-      ->capture_default_str();
+      ->add_option(
+          "--contact-stride", r.contact_stride,
+          "nodes of the boundary to a contact point; divides their number; as many as leave "
+          "180 points if left out")
+      ->check(CLI::Range(1, 1000000));
   reduce->add_option("--memory", r.memory, "memory allowed to the decompositions")
       ->capture_default_str();
   reduce->add_flag("--quiet", arguments.quiet, "prints warnings and the figures only");

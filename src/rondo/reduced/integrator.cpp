@@ -211,7 +211,7 @@ void ReducedIntegrator::fill_contacts(double angle,
     const double place = c.point * stride - sectors_back;
     const auto first = static_cast<long long>(std::ceil(place - stride));
     for (long long sector = first; static_cast<double>(sector) < place + stride; ++sector) {
-      const double share = (1.0 - std::abs(static_cast<double>(sector) - place) / stride) / stride;
+      const double share = reduction::contact_weight(static_cast<double>(sector) - place, stride);
       if (share <= 0.0) continue;
       dynamics::ActiveContact a;
       const auto within = static_cast<std::size_t>(((sector % n) + n) % n);

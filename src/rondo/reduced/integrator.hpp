@@ -4,6 +4,7 @@
 /// known at whole steps; the velocity of a state is, as there, the one half a step before, P̄.
 #pragma once
 #include <memory>
+#include <span>
 #include <vector>
 
 #include "rondo/dynamics/integrator.hpp"
@@ -44,6 +45,11 @@ class ReducedIntegrator final : public dynamics::Integrator {
   [[nodiscard]] dynamics::SavedState save() const override;
   void restore(const dynamics::SavedState& saved) override;
 
+  /// Contacts of the last step, with their impulses.
+  [[nodiscard]] std::span<const PointContact> contacts() const noexcept {
+    if (!contact_) return {};
+    return contact_->contacts();
+  }
   /// (r) coefficients of rectified displacement and velocity, after the last step.
   [[nodiscard]] const VectorXd& displacement() const noexcept { return q_; }
   [[nodiscard]] const VectorXd& velocity() const noexcept { return p_; }

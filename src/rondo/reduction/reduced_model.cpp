@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "rondo/reduction/reduced_model.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 #include "rondo/core/contract.hpp"
@@ -84,20 +85,30 @@ MatrixXd join(std::span<const MatrixXd> parts, double dependent) {
   return q.leftCols(rank);
 }
 
+double contact_weight(double distance, int stride) noexcept {
+  return std::max(0.0, 1.0 - std::abs(distance) / stride) / stride;
+}
+
 void take_contact_rows(const mesh::Mesh& mesh, ReducedModel& model) {
   const Rings ring = boundary_rings(mesh);
   RONDO_DEMAND(ring.n_rings() == 1 && mesh.n_sectors % model.stride == 0, ring.n_rings(),
                mesh.n_sectors, model.stride);
-  const int points = mesh.n_sectors / model.stride;
-  model.rows.resize(2 * points, model.size());
-  for (int k = 0; k < points; ++k) {
-    const auto candidate = static_cast<std::size_t>(
-        ring.point[static_cast<std::size_t>(k) * static_cast<std::size_t>(model.stride)]);
-    const auto node = static_cast<std::size_t>(mesh.boundary[candidate]);
-    model.rows.middleRows(2 * k, 2) = model.basis.middleRows(static_cast<Index>(2 * node), 2);
-    model.contact_points.push_back(mesh.coordinates[node]);
-    model.contact_share.push_back(mesh.tributary[candidate] * model.stride);
-  }
+  const int n = mesh.n_sectors, points = n / model.stride;
+  model.rows.setZero(2 * points, model.size());
+  model.contact_points.assign(static_cast<std::size_t>(points), Vec2{});
+  model.contact_share.assign(static_cast<std::size_t>(points), 0.0);
+  for (int k = 0; k < points; ++k)
+    for (int d = 1 - model.stride; d < model.stride; ++d) {
+      const int sector = (k * model.stride + d + n) % n;
+      const auto candidate = static_cast<std::size_t>(ring.point[static_cast<std::size_t>(sector)]);
+      const auto node = static_cast<std::size_t>(mesh.boundary[candidate]);
+      const double weight = contact_weight(d, model.stride);
+      const auto at = static_cast<std::size_t>(k);
+      model.rows.middleRows(2 * k, 2) +=
+          weight * model.basis.middleRows(static_cast<Index>(2 * node), 2);
+      model.contact_points[at] += weight * mesh.coordinates[node];
+      model.contact_share[at] += weight * model.stride * mesh.tributary[candidate];
+    }
 }
 
 ReducedModel make_reduced_model(const FullModel& full, const MatrixXd& weighted, int stride) {

@@ -29,7 +29,8 @@ struct ReducedModel {
   std::vector<Vec2> contact_points;   ///< (m) X of these, at angles fixed in space         [m]
   std::vector<double> contact_share;  ///< (m) length of boundary each stands for           [m]
   int n_sectors = 0;
-  int stride = 1;  ///< a contact point at every stride-th node of the boundary, from straight down
+  int stride = 1;  ///< a contact point every so many nodes of the boundary, from straight down:
+                   ///<     their mean with contact_weight()
 
   [[nodiscard]] Eigen::Index size() const noexcept { return basis.cols(); }
 };
@@ -54,6 +55,10 @@ struct FullModel {
 /// @param weighted (2n, r) orthonormal: √M Φ. @param stride divides the number of sectors
 /// @pre the candidates are one ring
 ReducedModel make_reduced_model(const FullModel& full, const Eigen::MatrixXd& weighted, int stride);
+
+/// Share that a node of the boundary has in a contact point `distance` nodes away: a hat over
+/// `stride` nodes to either side, of sum 1. With stride 1 the point is the node.
+double contact_weight(double distance, int stride) noexcept;
 
 /// Fills the contact points and their rows from the basis. @pre stride divides the sectors
 void take_contact_rows(const mesh::Mesh& mesh, ReducedModel& model);

@@ -8,6 +8,7 @@
 #include <array>
 #include <chrono>
 #include <cmath>
+#include <numbers>
 #include <system_error>
 #include <utility>
 
@@ -32,8 +33,8 @@ void check_options(const ReduceRequest& r) {
       throw request_error(option, fmt::to_string(*modes), "no modes to keep", "1 or more");
   for (const auto& [option, share] : {std::pair{"--tolerance", r.displacement_tolerance},
                                       {"--velocity-tolerance", r.velocity_tolerance}})
-    if (!(share > 0.0 && share < 1.0))
-      throw request_error(option, fmt::format("{:.9g}", share), "not a share of the energy",
+    if (share && !(*share > 0.0 && *share < 1.0))
+      throw request_error(option, fmt::format("{:.9g}", *share), "not a share of the energy",
                           "between 0 and 1, e.g. 1e-5");
 }
 
@@ -56,12 +57,21 @@ void check_run(const io::RunReader& run, const Case& c) {
     throw request_error("RUN", name,
                         fmt::format("the run is not finished (status {})", run.status()),
                         "finish it (rondo run RUN --resume), or leave it out");
-  if (!run.has(io::Quantity::velocity))
-    throw request_error("RUN", name, "holds no velocities: displacements alone cannot roll",
-                        "a run whose results.h5 has /snapshots/velocity");
   if (run.n_snapshots() < 2)
     throw request_error("RUN", name, fmt::format("{} snapshots make no model", run.n_snapshots()),
                         "a run with output.snapshots of 2 or more, some hundreds better");
+}
+
+/// Told before the whole file is looked at, to which it is damage.
+void check_velocities(const std::filesystem::path& directory) {
+  const std::filesystem::path results = directory / "results.h5";
+  std::error_code error;
+  if (!std::filesystem::exists(results, error)) return;  // the reader says what is missing
+  const io::h5::File file = io::h5::File::open(results);
+  if (file.contains("/snapshots/displacement") && !file.contains("/snapshots/velocity"))
+    throw request_error("RUN", directory.string(),
+                        "holds no velocities: displacements alone cannot roll",
+                        "a run whose results.h5 has /snapshots/velocity");
 }
 
 struct Source {
@@ -84,8 +94,10 @@ Source open_source(const ReduceRequest& r) {
   const PodRequest pod = pod_request(r, "velocity");
   Source source;
   for (const std::filesystem::path& directory : pod.runs) {
+    check_velocities(directory);
+    const io::RunReader run(directory);
     const Case& c = source.cases.emplace_back(read_case(directory / "case.toml"));
-    check_run(io::RunReader(directory), c);
+    check_run(run, c);
     const std::string difference = body_difference(body_text(c), body_text(source.cases.front()));
     if (!difference.empty())
       throw request_error(
@@ -96,6 +108,18 @@ Source open_source(const ReduceRequest& r) {
   source.runs = open_runs(pod, choice_of(pod));
   return source;
 }
+
+/// How many modes of a field are asked for.
+struct Wanted {
+  const char* field;
+  std::optional<long long> modes;
+  std::optional<double> tolerance;
+  long long otherwise;
+
+  [[nodiscard]] std::optional<long long> number() const {
+    return modes || tolerance ? modes : otherwise;
+  }
+};
 
 /// Modes of one field in the order of the mesh, times √M.
 struct Part {
@@ -121,8 +145,10 @@ RunSnapshots snapshots_of(const ReduceRequest& r, const Source& source, const ch
   return {source.runs, columns_of(pod, choice, source.runs), choice};
 }
 
-Part part_of(const ReduceRequest& r, const Source& source, const char* field, const VectorXd& roots,
-             std::optional<long long> asked, double tolerance) {
+Part part_of(const ReduceRequest& r, const Source& source, const VectorXd& roots,
+             const Wanted& wanted) {
+  const char* field = wanted.field;
+  const std::optional<long long> asked = wanted.number();
   RunSnapshots snapshots = snapshots_of(r, source, field);
   reduction::DecomposeOptions options;
   PodRequest memory;
@@ -136,7 +162,7 @@ Part part_of(const ReduceRequest& r, const Source& source, const char* field, co
     throw request_error("RUN", r.runs.front().string(),
                         fmt::format("every {} is zero: nothing moves", field),
                         "runs in which the disk is loaded or spins");
-  Index keep = asked ? static_cast<Index>(*asked) : modes_for(found.sigma, tolerance);
+  Index keep = asked ? static_cast<Index>(*asked) : modes_for(found.sigma, *wanted.tolerance);
   keep = std::min(keep, found.modes.cols());
   Part part;
   part.report = {field, snapshots.columns(), keep, 0.0};
@@ -189,6 +215,20 @@ double critical_step(const MatrixXd& stiffness, double beta) {
   return 2.0 / omega * (std::sqrt(1.0 + damping * damping) - damping);
 }
 
+/// The largest divisor that leaves enough contact points, where none is asked for.
+int contact_stride(const ReduceRequest& request, int n_sectors) {
+  int stride = request.contact_stride;
+  if (stride == 0) {
+    stride = std::max(1, n_sectors / enough_contact_points);
+    while (n_sectors % stride != 0) --stride;
+  }
+  if (stride < 1 || n_sectors % stride != 0)
+    throw request_error("--contact-stride", fmt::to_string(stride),
+                        "does not share out the columns of the mesh",
+                        fmt::format("a divisor of {}", n_sectors));
+  return stride;
+}
+
 /// The modes of displacement, their derivatives by the angle (a pattern that stands still in space
 /// has the velocity -s D u), the modes of velocity.
 MatrixXd basis_of(const mesh::Mesh& mesh, const VectorXd& roots, const Part& u, const Part& v) {
@@ -197,55 +237,66 @@ MatrixXd basis_of(const mesh::Mesh& mesh, const VectorXd& roots, const Part& u, 
   return reduction::join(std::array{u.modes, derived, v.modes});
 }
 
+ReducedFile make_file(const ReduceRequest& request, const Source& source, const Setup& setup,
+                      const MatrixXd& basis) {
+  ReducedFile file;
+  file.model = reduction::make_reduced_model({setup.mesh, setup.model.mass,
+                                              [&](std::span<const Vec2> in, std::span<Vec2> out) {
+                                                fem::apply(*setup.model.sector, in, out);
+                                              }},
+                                             basis, contact_stride(request, setup.mesh.n_sectors));
+  file.mesh = setup.mesh;
+  file.mass = setup.model.mass;
+  file.body = body_text(source.cases.front());
+  file.ranges = ranges_of(request, source);
+  for (const io::RunReader& run : source.runs) file.runs.push_back(run.directory().string());
+  return file;
+}
+
+/// Sizes and steps of the model.
+ReduceReport describe(const Source& source, const Setup& setup, const ReducedFile& file) {
+  ReduceReport report;
+  report.dofs = static_cast<long long>(2 * setup.model.free.size());
+  report.modes = file.model.size();
+  report.full_critical_step = setup.critical.step;
+  report.reduced_critical_step =
+      critical_step(file.model.stiffness, source.cases.front().damping.stiffness);
+  report.contact_points = static_cast<long long>(file.model.contact_points.size());
+  const double spin = std::max(std::abs(file.ranges.angular_velocity.low),
+                               std::abs(file.ranges.angular_velocity.high));
+  if (spin > 0.0)
+    report.contact_step =
+        2.0 * std::numbers::pi / static_cast<double>(report.contact_points) / spin;
+  return report;
+}
+
 }  // namespace
 
 ReduceReport run_reduce(const ReduceRequest& request) {
   const auto begin = Clock::now();
   check_options(request);
   const Source source = open_source(request);
-  const Case& c = source.cases.front();
-  const Setup setup = build(c, 1);
-  const mesh::Mesh& mesh = setup.mesh;
-  if (request.contact_stride < 1 || mesh.n_sectors % request.contact_stride != 0)
-    throw request_error("--contact-stride", fmt::to_string(request.contact_stride),
-                        "does not share out the columns of the mesh",
-                        fmt::format("a divisor of {}", mesh.n_sectors));
+  const Setup setup = build(source.cases.front(), 1);
+  static_cast<void>(contact_stride(request, setup.mesh.n_sectors));  // told before the work
   const VectorXd roots = reduction::mass_roots(setup.model.mass);
-  const Part u = part_of(request, source, "displacement", roots, request.displacement_modes,
-                         request.displacement_tolerance);
-  const Part v = part_of(request, source, "velocity", roots, request.velocity_modes,
-                         request.velocity_tolerance);
-  const MatrixXd basis = basis_of(mesh, roots, u, v);
-  ReducedFile file;
-  file.model = reduction::make_reduced_model({mesh, setup.model.mass,
-                                              [&](std::span<const Vec2> in, std::span<Vec2> out) {
-                                                fem::apply(*setup.model.sector, in, out);
-                                              }},
-                                             basis, request.contact_stride);
-  file.mesh = mesh;
-  file.mass = setup.model.mass;
-  file.body = body_text(c);
-  file.ranges = ranges_of(request, source);
-  for (const io::RunReader& run : source.runs) file.runs.push_back(run.directory().string());
+  const Part u = part_of(request, source, roots,
+                         {"displacement", request.displacement_modes,
+                          request.displacement_tolerance, default_displacement_modes});
+  const Part v = part_of(
+      request, source, roots,
+      {"velocity", request.velocity_modes, request.velocity_tolerance, default_velocity_modes});
+  const MatrixXd basis = basis_of(setup.mesh, roots, u, v);
+  ReducedFile file = make_file(request, source, setup, basis);
   file.displacement_modes = u.report.modes;
   file.velocity_modes = v.report.modes;
   write_reduced_file(request.output, file);
 
-  ReduceReport report;
-  report.dofs = static_cast<long long>(2 * setup.model.free.size());
-  report.modes = file.model.size();
+  ReduceReport report = describe(source, setup, file);
   report.displacement = u.report;
   report.velocity = v.report;
   report.displacement_left =
       energy_left(snapshots_of(request, source, "displacement"), basis, roots);
   report.velocity_left = energy_left(snapshots_of(request, source, "velocity"), basis, roots);
-  report.full_critical_step = setup.critical.step;
-  report.reduced_critical_step = critical_step(file.model.stiffness, c.damping.stiffness);
-  report.contact_points = static_cast<long long>(file.model.contact_points.size());
-  const double spin = std::max(std::abs(file.ranges.angular_velocity.low),
-                               std::abs(file.ranges.angular_velocity.high));
-  constexpr double turn = 6.283185307179586;
-  if (spin > 0.0) report.contact_step = turn / static_cast<double>(report.contact_points) / spin;
   std::error_code error;
   report.file_bytes = std::filesystem::file_size(request.output, error);
   report.wall_s = std::chrono::duration<double>(Clock::now() - begin).count();

@@ -10,15 +10,22 @@
 
 namespace rondo::study {
 
+/// Measured to be enough for forces on three meshes (docs/reduced.md, 8).
+inline constexpr long long default_displacement_modes = 25, default_velocity_modes = 35;
+
+/// Round the disk: more resolve a contact that spans a twentieth of it no better, and cost more.
+inline constexpr int enough_contact_points = 180;
+
 /// What the user asks for, in the command line's words.
 struct ReduceRequest {
   std::vector<std::filesystem::path> runs;  ///< results directories of one mesh and material
   std::filesystem::path output;             ///< the model's file
-  std::optional<long long> displacement_modes, velocity_modes;  ///< of the two PODs
-  double displacement_tolerance = 5e-6;  ///< energy that may be left out, where no number is given
-  double velocity_tolerance = 2e-3;      ///< likewise
-  std::optional<double> from, to;        ///< window of the snapshots [s]
-  int contact_stride = 1;                ///< nodes of the boundary to a contact point
+  /// Of the two PODs; none: by the tolerances, and without these the default numbers.
+  std::optional<long long> displacement_modes, velocity_modes;
+  std::optional<double> displacement_tolerance, velocity_tolerance;  ///< energy left out
+  std::optional<double> from, to;  ///< window of the snapshots [s]
+  int contact_stride = 0;  ///< nodes of the boundary to a contact point; 0: as many as leave
+                           ///<     enough_contact_points
   std::string memory = "2GB";
   std::function<void(const std::string&)> warn;        ///< may be empty
   std::function<void(long long, long long)> progress;  ///< done, of all; may be empty

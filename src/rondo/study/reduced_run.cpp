@@ -8,6 +8,7 @@
 #include <numbers>
 
 #include "rondo/core/error.hpp"
+#include "rondo/io/files.hpp"
 #include "rondo/study/bodies.hpp"
 #include "rondo/study/pod_input.hpp"
 
@@ -50,12 +51,12 @@ void check_model(const Case& c, const RunOptions& options, const ReducedFile& fi
                         "a model built anew by this version (rondo reduce)");
 }
 
-/// A thousandth of the range, and of the value, is no news.
+/// A thousandth of the range, of the value or of the scale is no news.
 void warn_outside(const char* what, const ModelRange& built, const ModelRange& wanted,
-                  std::vector<std::string>& warnings) {
+                  std::vector<std::string>& warnings, double scale = 0.0) {
   if (built.empty() || wanted.empty()) return;
   const double margin =
-      1e-3 * std::max({built.high - built.low, std::abs(built.low), std::abs(built.high)});
+      1e-3 * std::max({scale, built.high - built.low, std::abs(built.low), std::abs(built.high)});
   if (wanted.low >= built.low - margin && wanted.high <= built.high + margin) return;
   warnings.push_back(
       fmt::format("{} is {:.6g} to {:.6g} in this case, and was {:.6g} to {:.6g} in the runs that "
@@ -81,7 +82,7 @@ void warn_of_range(const Case& c, const Setup& setup, ReducedRun& run) {
                run.warnings);
   warn_outside("motion.speed", built.speed, wanted.speed, run.warnings);
   warn_outside("motion.height", built.height, wanted.height, run.warnings);
-  warn_outside("the slip ratio", built.slip_ratio, wanted.slip_ratio, run.warnings);
+  warn_outside("the slip ratio", built.slip_ratio, wanted.slip_ratio, run.warnings, 1.0);
   if (c.ground && built.friction.empty())
     run.warnings.emplace_back(
         "the model was built from runs without ground: its modes know no contact");
@@ -138,6 +139,15 @@ std::unique_ptr<dynamics::Integrator> make_integrator(ReducedRun& run, const Set
                                                       const dynamics::State& start) {
   return std::make_unique<reduced::ReducedIntegrator>(
       reduced::IntegratorInput{setup.mesh, setup.model, run.file.model, run.figures}, start);
+}
+
+void refuse_reduced(const std::filesystem::path& directory) {
+  std::error_code error;
+  if (!std::filesystem::exists(directory / "run.json", error)) return;
+  if (!io::read_json(directory / "run.json").contains("reduced_modes")) return;
+  throw request_error("--resume", directory.string(),
+                      "holds the results of a reduced run, which keeps no checkpoints",
+                      "--reduced MODEL.h5 --overwrite to run it again, or another -o");
 }
 
 void describe_reduced(const ReducedRun& run, const RunOptions& options, Json& json) {

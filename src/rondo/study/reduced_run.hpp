@@ -30,6 +30,9 @@ struct ReducedRun {
                                                                     const Setup& setup,
                                                                     const dynamics::State& start);
 
+/// @throws InputError: the directory holds a reduced run, which nothing goes on with
+void refuse_reduced(const std::filesystem::path& directory);
+
 /// For run.json, before and after the run.
 void describe_reduced(const ReducedRun& run, const RunOptions& options, Json& json);
 void add_figures(const ReducedRun& run, Json& json);

@@ -213,6 +213,7 @@ RunReport run_case(const Case& c, const RunOptions& options) {
   if (!options.reduced.empty()) reduced = prepare_reduced(c, options, setup);
   // Before anything is removed; a run that is gone on with needs what its checkpoint says.
   if (!options.resume) demand_disk(options, disk_needed(c, setup, fresh_schedule(c, setup)));
+  if (options.resume) refuse_reduced(options.directory);
   const io::DirectoryLock lock = take_directory(c, options);
   Run run = make_run(c, options, setup);
   run.reduced = std::move(reduced);
