@@ -92,9 +92,9 @@ CLI::App* add_reduce(CLI::App& program, app::ReduceArguments& arguments) {
   reduce->add_option("-o,--output", r.output, "file of the model, e.g. model.h5")->required();
   reduce->add_option(
       "--displacement-modes", r.displacement_modes,
-      "modes of the displacements, each with its derivative by the angle; 25 if left out");
+      "modes of the displacements, each with its derivative by the angle; 30 if left out");
   reduce->add_option("--velocity-modes", r.velocity_modes,
-                     "modes of the velocities; 35 if left out");
+                     "modes of the velocities; 30 if left out");
   reduce->add_option("--tolerance", r.displacement_tolerance,
                      "instead of their number: share of the displacements' energy left out");
   reduce->add_option("--velocity-tolerance", r.velocity_tolerance, "the same of the velocities");

@@ -11,7 +11,7 @@
 namespace rondo::study {
 
 /// Measured to be enough for forces on three meshes (docs/reduced.md, 8).
-inline constexpr long long default_displacement_modes = 25, default_velocity_modes = 35;
+inline constexpr long long default_displacement_modes = 30, default_velocity_modes = 30;
 
 /// Round the disk: more resolve a contact that spans a twentieth of it no better, and cost more.
 inline constexpr int enough_contact_points = 180;
