@@ -174,7 +174,7 @@ dynamics::StepEnergy ReducedIntegrator::energy() const {
   return e;
 }
 
-/// The balance (R.8): exact for the midpoint rule, as all energies are quadratic.
+/// The balance (R.5): exact for the midpoint rule, as all energies are quadratic.
 void ReducedIntegrator::balance(const Motion& m, StepReport& report) {
   const reduction::ReducedModel& rm = input_.reduced;
   const dynamics::Model& model = input_.model;

@@ -27,7 +27,7 @@ struct StepMatrixKey {
 
 /// Law's velocities at a point from a unit impulse at another, both along x and y of the fixed
 /// frame: normal parts are those of the place at the end of the step, tangential parts those of the
-/// material there (R.6).
+/// material there (R.4).
 struct DelassusPair {
   Eigen::Matrix2d normal, tangential;  ///< [m/kg]
 };

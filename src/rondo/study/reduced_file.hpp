@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// @file  MODEL.h5 of `rondo reduce`: a reduced model, the body it is of, and what it was built
-/// from (docs/reduced.md, "The model file").
+/// from (docs/reduced.md, 7).
 #pragma once
 #include <filesystem>
 #include <string>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// @file  `rondo run --reduced`: a case on the modes of a reduced model instead of its mesh. The
-/// loop, the files and the figures are those of any run (docs/reduced.md, "Runs").
+/// loop, the files and the figures are those of any run (docs/reduced.md, 7).
 #pragma once
 #include <memory>
 #include <string>
