@@ -130,6 +130,35 @@ class Reduced(ProgramTest):
         self.assertAlmostEqual(j["reduced"]["matrices_factored"], half, delta=3)
         self.assertLess(j["energy_residual_relative"], 1e-11)
 
+    def test_hard_contacts(self):
+        few = self.folder / "few.h5"
+        self.made("reduce", self.shared / "0.2", self.shared / "0.4", "-o", few,
+                  "--displacement-modes", 3, "--velocity-modes", 3)
+        rolling = {}
+        lifted = {"motion.height": "[[0, 0.3], [0.004, 0.296], [0.008, 0.296], [0.01, 0.304], "
+                                   "[0.012, 0.304], [0.016, 0.296]]"}
+        bouncing = {"ground.restitution": 1, "damping.mass": 0, "damping.stiffness": 0}
+        standing = {"motion.speed": 0, "motion.angular_velocity": 0}
+        locked = {"motion.angular_velocity": 0, "motion.gravity": 9.81}
+        for model in (few, self.model):
+            for changes in (rolling, lifted, bouncing, standing, locked):
+                settings = [x for k, v in changes.items() for x in ("--set", f"{k}={v}")]
+                out, _ = self.reduced("--overwrite", "--step-factor", 8, *settings, model=model)
+                j = summary(out)
+                self.assertLess(j["contact_residual_max"], 1e-11, changes)
+                self.assertLess(j["energy_residual_relative"], 1e-11, changes)
+                self.assertEqual(j["reduced"]["steps_not_converged"], 0, changes)
+                crowded = j["reduced"]["steps_with_more_rows_than_modes"]
+                self.assertEqual(crowded > 0, model == few, changes)
+                h = history(out)
+                if changes is lifted:
+                    self.assertEqual(h["contact_nodes"][abs(h["time_s"] - 0.0115) < 4e-4].max(), 0)
+                    self.assertGreater(h["contact_nodes"][-1], 3)
+                if changes is locked:  # every point slips forwards: μ everywhere
+                    late = h["time_s"] > 0.012
+                    np.testing.assert_allclose(h["force_x"][late], -0.3 * h["force_y"][late],
+                                               rtol=1e-9)
+
     def test_warns_outside_of_its_range(self):
         _, done = self.reduced("--set", "ground.friction=0.9")
         self.assertIn("ground.friction is 0.9", done.stderr)
