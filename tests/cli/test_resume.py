@@ -237,7 +237,7 @@ class Interrupted(ResumeTest):
     def test_with_other_threads_and_operator_the_same_bits(self):
         for operator in ("cyclic", "sparse"):
             text = LONG + f'[solver]\noperator = "{operator}"\n'
-            text = replaced(text, "end", "end = 2.0")
+            text = replaced(text, "end", "end = 6.0")
             for folder in (self.out, self.whole):
                 shutil.rmtree(folder, ignore_errors=True)
             self.leave_alone(text)
