@@ -123,6 +123,8 @@ TEST(SweepStudy, EveryFaultIsNamedAtItsPlace) {
            {top + vary + "linspace = [1, 1, 3]\n", "vary[0].linspace", "are the same", 5},
            {top + vary + "linspace = [0, 1]\n", "vary[0].linspace", "3 finite numbers", 5},
            {top + vary + "linspace = [0, inf, 3]\n", "vary[0].linspace", "3 finite numbers", 5},
+           {top + vary + "linspace = [1.7e308, 11, 5]\n", "vary[0].linspace", "3 finite numbers",
+            5},
            {top + vary + "uniform = [1, 0]\n[sample]\ncount = 3\nkind = \"latin-hypercube\"\n",
             "vary[0].uniform", "empty range", 5},
            {top + vary + "uniform = [0, 1]\n", "sample", "is missing", 0},
