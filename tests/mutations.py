@@ -32,7 +32,7 @@ SCRIPTS = {"cli": "test_run.py", "disk": "test_full_disk.py", "crush": "test_cru
            "pod": "test_pod.py", "paper": "test_paper.py", "calls": "test_paper_calls.py",
            "ring": "test_ring.py", "modes": "test_modes.py", "room": "test_room.py",
            "numerical": "test_numerical.py", "resume": "test_resume.py",
-           "terminal": "test_terminal.py", "sweep": "test_sweep.py",
+           "terminal": "test_terminal.py", "sweep": "test_sweep.py", "team": "test_sweep_team.py",
            "rom": "test_reduced.py", "romtable": "test_reduced_table.py"}
 
 # @file in src/rondo, then of each mutation in it: name | old text => new text | tests.

@@ -119,13 +119,6 @@ int run(const SweepArguments& arguments, study::Team& team) {
   return team.leads() ? finish(report, directory) : exit_done;  // mpirun takes the leader's
 }
 
-int exit_code_of(const std::exception& error) {
-  if (dynamic_cast<const InputError*>(&error) != nullptr) return exit_input;
-  const bool machine = dynamic_cast<const FileError*>(&error) != nullptr ||
-                       dynamic_cast<const std::bad_alloc*>(&error) != nullptr;
-  return machine ? exit_files : exit_numerical;
-}
-
 /// What fails on all ranks alike, the leader alone tells, as of any command. What fails on some
 /// ends the others, who wait for them.
 int run_ranks(const SweepArguments& arguments, study::Team& team) {
@@ -137,9 +130,10 @@ int run_ranks(const SweepArguments& arguments, study::Team& team) {
       throw;
     }
     spdlog::set_level(spdlog::level::info);
-    spdlog::error("rank {}: {}", team.rank(), error.what());
-    team.abort(exit_code_of(error));
-    return exit_code_of(error);
+    const study::JobReport failed = study::failed_by(error);
+    spdlog::error("rank {}: {}", team.rank(), failed.message);
+    team.abort(failed.code);
+    return failed.code;
   }
 }
 

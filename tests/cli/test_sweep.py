@@ -1,11 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""rondo sweep: results, ranks, kills, resumption, wrong studies."""
-import collections
-import csv
+"""rondo sweep: its table against runs made alone, and studies that are refused."""
 import json
-import os
 import shutil
-import signal
 import subprocess
 import time
 import unittest
@@ -13,55 +9,8 @@ import unittest
 import h5py
 import numpy as np
 
-from program import PROGRAM, ProgramTest, ROOT, SMALL, history, replaced, run, summary
-
-# Root may not start MPI without being told twice, and there may be fewer cores than ranks.
-MPI = {**os.environ, "OMPI_ALLOW_RUN_AS_ROOT": "1", "OMPI_ALLOW_RUN_AS_ROOT_CONFIRM": "1"}
-# What Open MPI takes at its start it keeps, which a sanitizer of leaks would tell of.
-MPI["ASAN_OPTIONS"] = ":".join(filter(None, (os.environ.get("ASAN_OPTIONS"), "detect_leaks=0")))
-STUDY = """schema = 1
-title = "small study"
-base = "case.toml"
-[[vary]]
-key = "ground.friction"
-values = [0.0, 0.2, 0.4]
-[[vary]]
-key = "motion.speed"
-linspace = [9, 11, 3]
-"""
-LONG = replaced(SMALL, "end", "end = 1.0")
-
-
-def mpirun(ranks, *arguments, **options):
-    return subprocess.run(["mpirun", "--oversubscribe", "-n", str(ranks), PROGRAM, "sweep",
-                           *map(str, arguments)], capture_output=True, text=True, env=MPI,
-                          timeout=300, **options)
-
-
-def table(directory):
-    with open(directory / "results.csv", newline="") as file:
-        return list(csv.DictReader(file))
-
-
-def column(directory, name):
-    return np.array([float(row[name]) for row in table(directory)])
-
-
-class SweepTest(ProgramTest):
-    def setUp(self):
-        super().setUp()
-        self.case()
-        self.out = self.folder / "out"
-
-    def study(self, text=STUDY):
-        path = self.folder / "study.toml"
-        path.write_text(text)
-        return path
-
-    def sweep(self, *extra, text=STUDY, code=0):
-        done = run("sweep", self.study(text), "-o", self.out, *extra)
-        self.assertEqual(done.returncode, code, done.stderr)
-        return done
+from program import PROGRAM, ROOT, SMALL, history, replaced, run, summary
+from sweep_program import STUDY, SweepTest, column, table
 
 
 class Results(SweepTest):
@@ -247,159 +196,6 @@ values = [0.0, 0.3]
         self.assertIn("run 4 (ground.friction = 0.2, motion.speed = 9): 160 nodes", done.stdout)
         self.assertIn("9 runs", done.stdout.splitlines()[-1])
         self.assertFalse(self.out.exists())
-
-
-class Failures(SweepTest):
-    FAILING = """schema = 1
-base = "case.toml"
-set = ["ground.profile=flat", "time.end=0.3"]
-[[vary]]
-key = "motion.angular_velocity"
-values = [33, 2000, 34]
-"""
-
-    def test_one_that_fails_is_recorded_and_the_others_go_on(self):
-        done = self.sweep(text=self.FAILING, code=3)
-        self.assertIn("run 2 (motion.angular_velocity = 2000)", done.stderr)
-        rows = table(self.out)
-        self.assertEqual([row["status"] for row in rows], ["done", "failed", "done"])
-        self.assertTrue(np.isnan(float(rows[1]["force_y_mean"])))
-        self.assertTrue(np.isfinite(float(rows[2]["force_y_mean"])))
-        said = json.loads((self.out / "sweep.json").read_text())
-        self.assertEqual((said["status"], said["done"], said["failed"]), ("failed", 2, 1))
-        self.assertEqual(said["failures"][0]["run"], 2)
-        before = (self.out / "results.csv").read_bytes()
-        done = self.sweep("--resume", text=self.FAILING, code=3)  # the same would come of it
-        self.assertIn("3 were there already", done.stderr)
-        self.assertEqual((self.out / "results.csv").read_bytes(), before)
-
-    def test_an_interrupted_sweep_goes_on(self):
-        self.case(LONG)
-        process = subprocess.Popen([PROGRAM, "sweep", str(self.study()), "-o", str(self.out)],
-                                   stderr=subprocess.DEVNULL)
-        self.wait_for_runs(3)
-        process.send_signal(signal.SIGINT)
-        self.assertEqual(process.wait(timeout=60), 130)
-        said = json.loads((self.out / "sweep.json").read_text())
-        self.assertEqual(said["status"], "interrupted")
-        status = collections.Counter(row["status"] for row in table(self.out))
-        self.assertGreaterEqual(status["done"], 1)
-        self.assertGreaterEqual(status["waiting"] + status["interrupted"], 1)
-        self.goes_on_to_the_same(said["done"])
-
-    def test_killed_with_all_its_workers(self):
-        self.case(LONG)
-        process = subprocess.Popen([PROGRAM, "sweep", str(self.study()), "-o", str(self.out)],
-                                   stderr=subprocess.DEVNULL)
-        self.wait_for_runs(3)
-        process.kill()
-        process.wait()
-        self.assertEqual(json.loads((self.out / "sweep.json").read_text())["status"], "running")
-        self.goes_on_to_the_same(1)  # two are in hand
-
-    def test_a_rank_that_is_killed_ends_the_job_and_nothing_is_lost(self):
-        self.case(LONG)
-        process = subprocess.Popen(["mpirun", "--oversubscribe", "-n", "3", PROGRAM, "sweep",
-                                    str(self.study()), "-o", str(self.out)],
-                                   stderr=subprocess.DEVNULL, env=MPI)
-        self.wait_for_runs(4)
-        ranks = subprocess.run(["pgrep", "-P", str(process.pid)], capture_output=True, text=True)
-        os.kill(int(ranks.stdout.split()[1]), signal.SIGKILL)
-        self.assertNotEqual(process.wait(timeout=120), 0)
-        self.goes_on_to_the_same(1, ranks=3)
-
-    def test_stopped_while_it_checks(self):
-        """What is there stays, whatever was asked for."""
-        many = STUDY.replace("[9, 11, 3]", "[9, 11, 200]")
-        small = ("--set", "time.end=0.001", "--set", "output.history_interval=1e-4")
-        self.sweep(*small, text=many)
-        kept = (self.out / "results.csv").read_bytes()
-        for extra in ("--overwrite", "--resume", "--dry-run"):
-            process = subprocess.Popen([PROGRAM, "sweep", str(self.study(many)), "-o", str(self.out),
-                                        *small, extra], stdout=subprocess.PIPE,
-                                       stderr=subprocess.PIPE, text=True)
-            for line in process.stderr:
-                if "check" in line:  # a tenth of them is checked
-                    process.send_signal(signal.SIGTERM)
-                    break
-            process.communicate()
-            if process.returncode == 0:
-                continue  # it was faster: nothing to see
-            self.assertEqual(process.returncode, 130)
-            self.assertEqual((self.out / "results.csv").read_bytes(), kept)
-            self.assertEqual(json.loads((self.out / "sweep.json").read_text())["status"], "done")
-
-    def wait_for_runs(self, n):
-        deadline = time.time() + 60
-        while len(list(self.out.glob("runs/*/run.json"))) < n:
-            self.assertLess(time.time(), deadline, "the runs did not start")
-            time.sleep(0.01)
-
-    def goes_on_to_the_same(self, least_kept, ranks=0):
-        """Runs that were done are left as they are; the table is that of an undisturbed sweep."""
-        whole = {path.parent: path.read_bytes() for path in self.out.glob("runs/*/run.json")
-                 if json.loads(path.read_text())["status"] == "done"}
-        self.assertGreaterEqual(len(whole), least_kept)
-        study = self.study()
-        if ranks:
-            done = mpirun(ranks, study, "-o", self.out, "--resume")
-        else:
-            done = run("sweep", study, "-o", self.out, "--resume")
-        self.assertEqual(done.returncode, 0, done.stderr)
-        self.assertIn(f"{len(whole)} were there already", done.stderr)
-        for path, text in whole.items():
-            self.assertEqual((path / "run.json").read_bytes(), text, path)
-        other = self.folder / "other"
-        self.assertEqual(run("sweep", study, "-o", other).returncode, 0)
-        self.assertEqual((self.out / "results.csv").read_bytes(),
-                         (other / "results.csv").read_bytes())
-
-
-class Ranks(SweepTest):
-    def test_results_do_not_depend_on_their_number(self):
-        self.sweep("--jobs", "1")
-        expected = {name: (self.out / name).read_bytes() for name in ("results.csv", "sweep.h5")}
-        self.sweep("--jobs", "3", "--overwrite")
-        for ranks in (0, 1, 2, 4):
-            if ranks:
-                shutil.rmtree(self.out)
-                done = mpirun(ranks, self.study(), "-o", self.out)
-                self.assertEqual(done.returncode, 0, done.stderr)
-                self.assertEqual(done.stderr.count("9 of 9 runs done"), 1)
-                workers = {row.split(",")[1] for row in
-                           (self.out / "timings.csv").read_text().splitlines()[1:]}
-                self.assertLessEqual(workers, {str(k + 1) for k in range(ranks)})
-            for name, text in expected.items():
-                self.assertEqual((self.out / name).read_bytes(), text, (ranks, name))
-
-    def test_all_ranks_end_where_the_study_is_wrong(self):
-        done = mpirun(3, self.study(STUDY.replace("friction\"", "frction\"")), "-o", self.out)
-        self.assertEqual(done.returncode, 2)
-        self.assertEqual(done.stderr.count("did you mean ground.friction?"), 1)
-
-    def test_a_rank_that_fails_alone_ends_all(self):
-        """It reads another study, of another place, which is none."""
-        script = self.folder / "rank.sh"
-        script.write_text(f"[ $OMPI_COMM_WORLD_RANK = 1 ] && cd /\nexec {PROGRAM} sweep \"$@\"\n")
-        self.study()
-        done = subprocess.run(["mpirun", "--oversubscribe", "-n", "3", "bash", script, "study.toml",
-                               "-o", "out"], capture_output=True, text=True, env=MPI, timeout=60,
-                              cwd=self.folder)
-        self.assertNotEqual(done.returncode, 0)
-        self.assertIn("rank 1: study.toml: there is no such file", done.stderr)
-
-    def test_all_ranks_end_where_the_leader_cannot_write(self):
-        (self.out / "sweep.json").mkdir(parents=True)
-        done = mpirun(2, self.study(), "-o", self.out)
-        self.assertEqual(done.returncode, 4, done.stderr)
-        self.assertIn("sweep.json", done.stderr)
-
-    def test_all_ranks_end_where_the_directory_holds_something_else(self):
-        self.out.mkdir()
-        (self.out / "run.json").write_text("{}")
-        done = mpirun(2, self.study(), "-o", self.out)
-        self.assertEqual(done.returncode, 2, done.stderr)
-        self.assertEqual(done.stderr.count("no sweep"), 1)
 
 
 class Refused(SweepTest):

@@ -114,4 +114,9 @@ FrameStep frame_step(const Motion& motion, long long n, double dt) noexcept {
   return f;
 }
 
+double slip_ratio(double rim_speed, double speed) noexcept {
+  const double scale = std::max(std::abs(speed), std::abs(rim_speed));
+  return scale > 0.0 ? (rim_speed - speed) / scale : 0.0;
+}
+
 }  // namespace rondo::dynamics

@@ -51,6 +51,9 @@ struct Motion {
   [[nodiscard]] Vec2 advance(double from, double length) const noexcept;
 };
 
+/// (ω R - V) / max(|V|, |ω R|), of the speeds of rim and centre; 0 where both vanish.
+double slip_ratio(double rim_speed, double speed) noexcept;
+
 /// All that a step at t_{n+1} needs to know of the frame.
 struct FrameStep {
   double time = 0.0;       ///< t_{n+1}                                               [s]

@@ -51,7 +51,7 @@ void SpinMatrices::add(int point) {
   response_.middleCols(2 * slot, 2) =
       inverse_.rightCols(r) * model_.rows.middleRows(2 * point, 2).transpose();
   const auto make = [&](Index to, Index from) {
-    const auto at = static_cast<Index>(2 * known_[static_cast<std::size_t>(to)]);
+    const Index at = 2 * static_cast<Index>(known_[static_cast<std::size_t>(to)]);
     const auto q = response_.block(0, 2 * from, r, 2);
     const Eigen::Matrix2d material =
         model_.rows.middleRows(at, 2) * response_.block(r, 2 * from, r, 2);

@@ -107,15 +107,6 @@ Loop run_loop(const Case& c, const CrushSetup& setup, statics::Condensation& bod
   return loop;
 }
 
-/// The stiffness condensed on the candidates within reach.
-void condense(const Case& c, const CrushSetup& setup, statics::Condensation& body) {
-  if (body.factorised()) statics::append_within(setup.model, setup.reach, body);
-  if (!body.factorised() || !body.compliance().allFinite())
-    throw case_error(c, "material.youngs_modulus",
-                     "with this mesh the stiffness is not positive definite in numbers",
-                     "a modulus in SI units, a Poisson's ratio farther from 0.5 and -1");
-}
-
 /// Factorised, and nothing condensed: that of the run before where it fits.
 std::shared_ptr<statics::Condensation> factorised(const Case& c, const CrushSetup& setup,
                                                   SharedBody* shared) {
@@ -190,6 +181,14 @@ Loop record(const Case& c, const CrushSetup& setup, statics::Condensation& body,
 }
 
 }  // namespace
+
+void condense(const Case& c, const CrushSetup& setup, statics::Condensation& body) {
+  if (body.factorised()) statics::append_within(setup.model, setup.reach, body);
+  if (!body.factorised() || !body.compliance().allFinite())
+    throw case_error(c, "material.youngs_modulus",
+                     "with this mesh the stiffness is not positive definite in numbers",
+                     "a modulus in SI units, a Poisson's ratio farther from 0.5 and -1");
+}
 
 std::string crush_trouble(const statics::CrushReport& report, const statics::CrushWorks& works,
                           double bound) {

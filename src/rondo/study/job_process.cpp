@@ -69,14 +69,8 @@ void catch_stop_signals() {
 JobReport work_guarded(const Job& job, JobChannel& channel) {
   try {
     return job.work(channel);
-  } catch (const InputError& error) {
-    return {job_input, error.what(), {}};
-  } catch (const FileError& error) {
-    return {job_machine, error.what(), {}};
-  } catch (const std::bad_alloc&) {
-    return {job_machine, "not enough memory", {}};
   } catch (const std::exception& error) {
-    return {job_failed, fmt::format("unexpected failure, a bug of rondo's: {}", error.what()), {}};
+    return failed_by(error);
   } catch (...) {
     return {job_failed, "unexpected failure, a bug of rondo's: an exception of unknown type", {}};
   }
@@ -164,6 +158,14 @@ std::optional<int> wait_for(pid_t pid) {
 }
 
 }  // namespace
+
+JobReport failed_by(const std::exception& error) {
+  if (dynamic_cast<const InputError*>(&error) != nullptr) return {job_input, error.what(), {}};
+  if (dynamic_cast<const FileError*>(&error) != nullptr) return {job_machine, error.what(), {}};
+  if (dynamic_cast<const std::bad_alloc*>(&error) != nullptr)
+    return {job_machine, "not enough memory", {}};
+  return {job_failed, fmt::format("unexpected failure, a bug of rondo's: {}", error.what()), {}};
+}
 
 void JobChannel::progress(long long done, long long total) noexcept {
   if (total > 0)

@@ -4,7 +4,6 @@
 #include <fmt/format.h>
 #include <poll.h>
 #include <sched.h>
-#include <sys/mman.h>
 
 #include <algorithm>
 #include <cerrno>
@@ -20,6 +19,7 @@
 #include "rondo/core/contract.hpp"
 #include "rondo/core/error.hpp"
 #include "rondo/study/job_process.hpp"
+#include "rondo/study/shared_numbers.hpp"
 
 namespace rondo::study {
 namespace {
@@ -28,28 +28,6 @@ using Clock = std::chrono::steady_clock;
 
 /// Between two reports of progress, and two looks at the caller's stop flag [ms].
 constexpr int period_ms = 100;
-
-/// One number a job that its process writes and the parent reads: shares of work done.
-class SharedShares {
- public:
-  static_assert(std::atomic<double>::is_always_lock_free, "no lock works across processes here");
-
-  explicit SharedShares(std::size_t n) : bytes_(std::max<std::size_t>(n, 1) * sizeof *shares_) {
-    void* memory = mmap(nullptr, bytes_, PROT_READ | PROT_WRITE, MAP_SHARED | MAP_ANONYMOUS, -1, 0);
-    if (memory == MAP_FAILED) throw std::bad_alloc();
-    shares_ = static_cast<std::atomic<double>*>(memory);
-    std::uninitialized_value_construct_n(shares_, n);
-  }
-  ~SharedShares() { munmap(shares_, bytes_); }
-  SharedShares(const SharedShares&) = delete;
-  SharedShares& operator=(const SharedShares&) = delete;
-
-  std::atomic<double>& operator[](std::size_t job) { return shares_[job]; }
-
- private:
-  std::size_t bytes_;
-  std::atomic<double>* shares_ = nullptr;
-};
 
 class Pool {
  public:
@@ -72,7 +50,7 @@ class Pool {
   std::span<const Job> jobs_;
   const JobsOptions& options_;
   std::size_t at_once_;
-  SharedShares shared_;
+  SharedNumbers<double> shared_;
   std::vector<double> shares_;  ///< of each job, as reported last; never fall
   std::vector<JobOutcome> outcomes_;
   std::vector<JobProcess> running_;

@@ -5,6 +5,7 @@
 #pragma once
 #include <atomic>
 #include <cstddef>
+#include <exception>
 #include <functional>
 #include <optional>
 #include <span>
@@ -28,6 +29,9 @@ struct JobReport {
   std::string message;     ///< of any length
   std::optional<bool> ok;  ///< counts as done for the jobs that come after; unset: code is 0
 };
+
+/// Of a job that an exception ended.
+[[nodiscard]] JobReport failed_by(const std::exception& error);
 
 /// What a job gets in its process.
 class JobChannel {

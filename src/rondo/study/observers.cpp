@@ -75,10 +75,8 @@ std::vector<std::string> History::columns() const {
 
 double History::slip_ratio(double time) const {
   if (radius_ == 0.0) return 0.0;
-  const double rim = case_.motion.angular_velocity.at(time) * radius_;
-  const double speed = case_.motion.speed.at(time);
-  const double scale = std::max(std::abs(speed), std::abs(rim));
-  return scale > 0.0 ? (rim - speed) / scale : 0.0;
+  return dynamics::slip_ratio(case_.motion.angular_velocity.at(time) * radius_,
+                              case_.motion.speed.at(time));
 }
 
 /// The step nearest to a multiple of the interval writes the row.

@@ -12,6 +12,7 @@
 #include <system_error>
 #include <utility>
 
+#include "rondo/dynamics/critical_step.hpp"
 #include "rondo/reduction/spectrum.hpp"
 #include "rondo/study/build.hpp"
 #include "rondo/study/pod_input.hpp"
@@ -109,6 +110,9 @@ Source open_source(const ReduceRequest& r) {
   return source;
 }
 
+/// Looked for where a tolerance is given.
+constexpr Index most_modes = 400;
+
 /// How many modes of a field are asked for.
 struct Wanted {
   const char* field;
@@ -156,7 +160,7 @@ Part part_of(const ReduceRequest& r, const Source& source, const VectorXd& roots
   options.memory = memory_of(memory);
   options.progress = r.progress;
   options.modes = std::min<Index>(std::min(snapshots.rows(), snapshots.columns()),
-                                  asked ? static_cast<Index>(*asked) : 400);
+                                  asked ? static_cast<Index>(*asked) : most_modes);
   const reduction::Decomposition found = decompose(snapshots, options);
   if (found.rank == 0)
     throw request_error("RUN", r.runs.front().string(),
@@ -170,6 +174,11 @@ Part part_of(const ReduceRequest& r, const Source& source, const VectorXd& roots
   const double kept = found.sigma.head(keep).squaredNorm();
   const double tail = found.sigma.tail(found.sigma.size() - keep).squaredNorm();
   part.report.discarded = (tail + found.lost_energy) / (kept + tail + found.lost_energy);
+  if (wanted.tolerance && part.report.discarded > *wanted.tolerance && r.warn)
+    r.warn(
+        fmt::format("{} modes, as many as are looked for, leave out {:.3g} of the energy of the "
+                    "{}s, more than the tolerance of {:.3g}",
+                    keep, part.report.discarded, field, *wanted.tolerance));
   part.modes = found.modes.leftCols(keep);
   for (Index j = 0; j < keep; ++j) {
     snapshots.unweight(part.modes.col(j));
@@ -210,9 +219,7 @@ ModelRanges ranges_of(const ReduceRequest& r, const Source& source) {
 
 double critical_step(const MatrixXd& stiffness, double beta) {
   const Eigen::SelfAdjointEigenSolver<MatrixXd> solver(stiffness, Eigen::EigenvaluesOnly);
-  const double omega = std::sqrt(solver.eigenvalues().maxCoeff());
-  const double damping = 0.5 * beta * omega;
-  return 2.0 / omega * (std::sqrt(1.0 + damping * damping) - damping);
+  return dynamics::critical_step_of(std::sqrt(solver.eigenvalues().maxCoeff()), {beta, 0.0});
 }
 
 /// The largest divisor that leaves enough contact points, where none is asked for.
@@ -256,7 +263,7 @@ ReducedFile make_file(const ReduceRequest& request, const Source& source, const 
 /// Sizes and steps of the model.
 ReduceReport describe(const Source& source, const Setup& setup, const ReducedFile& file) {
   ReduceReport report;
-  report.dofs = static_cast<long long>(2 * setup.model.free.size());
+  report.dofs = 2 * static_cast<long long>(setup.model.free.size());
   report.modes = file.model.size();
   report.full_critical_step = setup.critical.step;
   report.reduced_critical_step =

@@ -28,8 +28,8 @@ std::size_t size(Index n) {
 }
 
 /// Columns lie in memory as rows do in the file.
-void write_columns(File& file, const std::string& name, const MatrixXd& m, io::h5::Shape shape,
-                   const io::h5::Label& label) {
+void write_columns(File& file, const std::string& name, const MatrixXd& m,
+                   const io::h5::Shape& shape, const io::h5::Label& label) {
   file.write(name, shape, std::span<const double>(m.data(), size(m.size())), label);
 }
 
@@ -118,8 +118,9 @@ std::vector<std::string> lines_of(const std::string& text) {
 }  // namespace
 
 void ModelRange::take(double value) noexcept {
-  low = empty() ? value : std::min(low, value);
-  high = low > high ? value : std::max(high, value);
+  const bool first = empty();
+  low = first ? value : std::min(low, value);
+  high = first ? value : std::max(high, value);
 }
 
 std::string body_text(const Case& c) {
@@ -144,10 +145,8 @@ std::string body_difference(const std::string& of_case, const std::string& of_mo
 }
 
 double slip_ratio_at(const Case& c, double time) {
-  const double rim = c.motion.angular_velocity.at(time) * c.disk.outer_radius;
-  const double speed = c.motion.speed.at(time);
-  const double scale = std::max(std::abs(speed), std::abs(rim));
-  return scale > 0.0 ? (rim - speed) / scale : 0.0;
+  return dynamics::slip_ratio(c.motion.angular_velocity.at(time) * c.disk.outer_radius,
+                              c.motion.speed.at(time));
 }
 
 void write_reduced_file(const std::filesystem::path& file, const ReducedFile& content) {

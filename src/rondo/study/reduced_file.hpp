@@ -38,7 +38,7 @@ std::string body_text(const Case& c);
 /// "radial = 24, the model has radial = 12"; empty: the same body.
 std::string body_difference(const std::string& of_case, const std::string& of_model);
 
-/// Slip ratio (ω R - V) / max(|V|, |ω R|); 0 where both vanish.
+/// dynamics::slip_ratio of the motion at a time.
 double slip_ratio_at(const Case& c, double time);
 
 /// Takes the place of `file` at once. @throws FileError

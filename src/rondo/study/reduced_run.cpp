@@ -10,6 +10,7 @@
 #include "rondo/core/error.hpp"
 #include "rondo/io/files.hpp"
 #include "rondo/study/bodies.hpp"
+#include "rondo/study/case_source.hpp"
 #include "rondo/study/pod_input.hpp"
 
 namespace rondo::study {
@@ -144,14 +145,18 @@ std::unique_ptr<dynamics::Integrator> make_integrator(ReducedRun& run, const Set
 void refuse_reduced(const std::filesystem::path& directory) {
   std::error_code error;
   if (!std::filesystem::exists(directory / "run.json", error)) return;
-  if (!io::read_json(directory / "run.json").contains("reduced_modes")) return;
+  try {
+    if (!io::read_json(directory / "run.json").contains("reduced_modes")) return;
+  } catch (const FileError&) {
+    return;  // a damaged one says nothing: what goes on from there looks for itself
+  }
   throw request_error("--resume", directory.string(),
                       "holds the results of a reduced run, which keeps no checkpoints",
                       "--reduced MODEL.h5 --overwrite to run it again, or another -o");
 }
 
 void describe_reduced(const ReducedRun& run, const RunOptions& options, Json& json) {
-  json["reduced_model"] = options.reduced.string();
+  json["reduced_model"] = as_utf8(options.reduced.string());
   json["reduced_modes"] = run.file.model.size();
   json["displacement_modes"] = run.file.displacement_modes;
   json["velocity_modes"] = run.file.velocity_modes;

@@ -4,7 +4,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <chrono>
 #include <map>
 #include <optional>
@@ -13,13 +12,13 @@
 
 #include "rondo/core/error.hpp"
 #include "rondo/io/files.hpp"
-#include "rondo/io/hash.hpp"
 #include "rondo/study/build.hpp"
 #include "rondo/study/case_keys.hpp"
 #include "rondo/study/case_source.hpp"
 #include "rondo/study/kept_runs.hpp"
 #include "rondo/study/run.hpp"
 #include "rondo/study/run_files.hpp"
+#include "rondo/study/sweep_directory.hpp"
 #include "rondo/study/sweep_figures.hpp"
 #include "rondo/study/sweep_results.hpp"
 
@@ -29,96 +28,7 @@ namespace {
 namespace fs = std::filesystem;
 using Clock = std::chrono::steady_clock;
 
-constexpr const char* format_name = "rondo sweep 1";
 constexpr const char* leader_failed = "failed";
-
-fs::path run_directory(const fs::path& sweep, std::size_t member, std::size_t n) {
-  const std::size_t digits = std::max<std::size_t>(4, fmt::formatted_size("{}", n));
-  return sweep / "runs" / fmt::format("{:0{}}", member + 1, digits);
-}
-
-// The directory ---------------------------------------------------------------------------------
-
-/// Equal for studies that give the same table.
-std::string hash_of(const SweepStudy& study, const PlannedSweep& plan) {
-  io::Hash hash;
-  const auto time = [](const std::optional<double>& t) {
-    return t ? fmt::format("{}", *t) : std::string("-");
-  };
-  const std::string window = time(study.window.from) + " " + time(study.window.to);
-  hash.add(std::span<const char>(window));
-  for (const PlannedMember& member : plan.members) hash.add(std::span<const char>(member.hash));
-  return hash.text();
-}
-
-constexpr std::array files_written{"results.csv", "sweep.h5", "timings.csv"};
-
-/// What sweep.json says that is there. @throws InputError, FileError
-void accept(const SweepRequest& request, const std::string& hash) {
-  const fs::path& directory = request.directory;
-  Json found;
-  try {
-    found = io::read_json(directory / "sweep.json");
-  } catch (const FileError& error) {
-    throw FileError(error, "remove it, or choose another -o");
-  }
-  if (text_in(found, "format") != format_name)
-    io::refuse_directory(directory,
-                         fmt::format("holds a sweep of format \"{}\", not \"{}\"",
-                                     text_in(found, "format"), format_name),
-                         "choose another -o");
-  if (request.overwrite) return;
-  if (!request.resume)
-    io::refuse_directory(directory, "holds a sweep",
-                         "give --resume to go on with it or --overwrite to begin anew, or choose "
-                         "another -o");
-  if (text_in(found, "members_hash") != hash)
-    io::refuse_directory(directory,
-                         "holds another sweep: study, base case, mesh or --set have changed since",
-                         "choose another -o, or give --overwrite to begin anew");
-  if (!is_of_this_program(found))
-    io::refuse_directory(directory,
-                         fmt::format("holds a sweep of another build of rondo ({}, build id {}), "
-                                     "whose runs this one would all make again",
-                                     text_in(found, "version"), text_in(found, "build_id")),
-                         "go on with that program, choose another -o, or give --overwrite to begin "
-                         "anew");
-}
-
-void prepare(const SweepRequest& request, const std::string& hash) {
-  const fs::path& directory = request.directory;
-  std::error_code error;
-  if (fs::exists(directory, error) && !fs::is_directory(directory, error))
-    io::refuse_directory(directory, "is there and is not a directory", "choose another -o");
-  if (fs::exists(directory / "sweep.json", error)) return accept(request, hash);
-  for (const char* name :
-       {"run.json", "runs", files_written[0], files_written[1], files_written[2]})
-    if (fs::exists(directory / name, error))
-      io::refuse_directory(directory, fmt::format("holds {}, and no sweep", name),
-                           "choose another -o");
-  fs::create_directories(directory, error);
-  if (error)
-    throw FileError(directory.string(),
-                    "cannot create directory: " + error.message() + "; choose another -o");
-}
-
-/// What a sweep has left, and PODs of it. @pre the directory is taken
-void clear(const SweepRequest& request) {
-  if (!request.overwrite) return;
-  std::error_code error;
-  for (const char* name : {"runs", "pod", files_written[0], files_written[1], files_written[2]})
-    fs::remove_all(request.directory / name, error);
-}
-
-/// Of the runs that are not there yet. @throws FileError
-void demand_room(const SweepRequest& request, const PlannedSweep& plan) {
-  std::size_t bytes = 0;
-  std::error_code error;
-  for (std::size_t m = 0; m < plan.members.size(); ++m)
-    if (!fs::exists(run_directory(request.directory, m, plan.members.size()), error))
-      bytes += plan.members[m].disk_bytes;
-  io::demand_room(request.directory / "sweep.h5", bytes);
-}
 
 // One run ---------------------------------------------------------------------------------------
 
@@ -179,11 +89,12 @@ struct Runner {
     return run_case(c, options).status;
   }
 
-  /// A run of this case and this program was cut off there; anything else is made anew.
+  /// A run of this case and this program was killed or interrupted there; anything else is made
+  /// anew.
   static bool can_go_on(const fs::path& directory, const Case& c) {
     try {
-      return io::is_cut_off(directory) &&
-             is_of_this_program(io::read_json(directory / "run.json")) && is_case_of(directory, c);
+      const Json j = io::read_json(directory / "run.json");
+      return text_in(j, "status") != "done" && is_of_this_program(j) && is_case_of(directory, c);
     } catch (const FileError&) {
       return false;
     }
@@ -274,7 +185,7 @@ class Sweep {
   [[nodiscard]] Json describe(const char* status) const {
     const auto time = [](const std::optional<double>& t) { return t ? Json(*t) : Json(); };
     Json j;
-    j["format"] = format_name;
+    j["format"] = sweep_format;
     j["status"] = status;
     j["title"] = study_.title;
     describe_program(j);
@@ -330,10 +241,10 @@ std::optional<io::DirectoryLock> begin(const SweepRequest& request, const Sweep&
   std::optional<io::DirectoryLock> lock;
   if (team.leads()) {
     try {
-      prepare(request, hash_of(study, plan));
+      prepare_sweep(request, hash_of(study, plan));
       lock.emplace(request.directory);
-      clear(request);
-      demand_room(request, plan);
+      demand_room(request, plan);  // before anything is removed
+      clear_sweep(request);
       sweep.write("running");
       warn_of_members(request, plan);
       if (request.begin) request.begin(plan, team.workers());
@@ -379,27 +290,13 @@ SweepReport run_sweep(const SweepRequest& request, Team& team) {
       request.progress(static_cast<long long>(ended), static_cast<long long>(work.count));
     };
   sweep.take(team.each(work));
+  if (team.leads()) sweep.take_what_is_there();
+  const SweepReport report = sweep.report();
   if (team.leads()) {
-    sweep.take_what_is_there();
-    const SweepReport report = sweep.report();
     sweep.write_tables();
     sweep.write(report.interrupted > 0 ? "interrupted" : report.failed > 0 ? "failed" : "done");
   }
-  return sweep.report();
-}
-
-std::vector<fs::path> runs_of_sweep(const fs::path& directory) {
-  std::vector<fs::path> runs;
-  std::error_code error;
-  if (!fs::exists(directory / "sweep.json", error)) return runs;
-  const Json sweep = io::read_json(directory / "sweep.json");
-  const auto n = static_cast<std::size_t>(std::max(0.0, number_in(sweep, "members")));
-  for (std::size_t m = 0; m < n; ++m) {
-    const fs::path run = run_directory(directory, m, n);
-    if (!fs::exists(run / "run.json", error)) continue;
-    if (text_in(io::read_json(run / "run.json"), "status") == "done") runs.push_back(run);
-  }
-  return runs;
+  return report;
 }
 
 }  // namespace rondo::study

@@ -47,8 +47,9 @@ std::vector<std::vector<double>> latin_hypercube(int dimensions, int n, std::uin
     for (std::size_t k = part.size(); k > 1; --k)  // Fisher and Yates
       std::swap(part[k - 1],
                 part[static_cast<std::size_t>(uniform(random) * static_cast<double>(k))]);
-    std::vector<double>& row = points.emplace_back();
+    std::vector<double> row;
     for (const int p : part) row.push_back((p + uniform(random)) / n);
+    points.push_back(std::move(row));
   }
   return points;
 }

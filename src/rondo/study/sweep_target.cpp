@@ -21,11 +21,7 @@ class Press {
         body_(fem::assemble_stiffness(setup_.mesh, setup_.materials), setup_.free,
               setup_.model.nodes),
         increments_(c.analysis.increments) {
-    if (body_.factorised()) statics::append_within(setup_.model, setup_.reach, body_);
-    if (!body_.factorised() || !body_.compliance().allFinite())
-      throw case_error(c, "material.youngs_modulus",
-                       "with this mesh the stiffness is not positive definite in numbers",
-                       "a modulus in SI units, a Poisson's ratio farther from 0.5 and -1");
+    condense(c, setup_, body_);
   }
 
   [[nodiscard]] const CrushSetup& setup() const noexcept { return setup_; }

@@ -2,43 +2,21 @@
 #include "rondo/study/sweep_team.hpp"
 
 #include <fmt/format.h>
-#include <sys/mman.h>
 
 #include <algorithm>
 #include <cstdint>
 #include <cstring>
 #include <limits>
-#include <memory>
-#include <new>
 #include <stdexcept>
 #include <utility>
 
 #include "rondo/core/error.hpp"
+#include "rondo/study/shared_numbers.hpp"
 
 namespace rondo::study {
 namespace {
 
 constexpr std::size_t nothing = std::numeric_limits<std::size_t>::max();
-
-/// Numbers that the processes share.
-class Shared {
- public:
-  explicit Shared(std::size_t n) : bytes_(n * sizeof *numbers_) {
-    void* memory = mmap(nullptr, bytes_, PROT_READ | PROT_WRITE, MAP_SHARED | MAP_ANONYMOUS, -1, 0);
-    if (memory == MAP_FAILED) throw std::bad_alloc();
-    numbers_ = static_cast<std::atomic<std::size_t>*>(memory);
-    std::uninitialized_value_construct_n(numbers_, n);
-  }
-  ~Shared() { munmap(numbers_, bytes_); }
-  Shared(const Shared&) = delete;
-  Shared& operator=(const Shared&) = delete;
-
-  std::atomic<std::size_t>& operator[](std::size_t k) { return numbers_[k]; }
-
- private:
-  std::size_t bytes_;
-  std::atomic<std::size_t>* numbers_ = nullptr;
-};
 
 struct Header {
   std::uint64_t piece = 0, length = 0;
@@ -96,7 +74,7 @@ class Round {
       in_hand(worker) = todo_[turn];
       mine.emplace_back(todo_[turn], do_piece(work_, todo_[turn], *channel.stop(), worker));
       in_hand(worker) = nothing;
-      channel.progress(static_cast<long long>(ended().fetch_add(1) + 1),
+      channel.progress(1 + static_cast<long long>(ended().fetch_add(1)),
                        static_cast<long long>(todo_.size()));
     }
     return {job_done, packed(mine), {}};
@@ -114,7 +92,7 @@ class Round {
   std::vector<Piece>& pieces_;
   std::vector<std::size_t> todo_;
   int workers_ = 1;
-  Shared shared_;  ///< next turn, pieces ended, what each worker has in hand
+  SharedNumbers<std::size_t> shared_;  ///< next turn, pieces ended, what each worker has in hand
 };
 
 }  // namespace
@@ -122,16 +100,9 @@ class Round {
 Piece do_piece(const TeamWork& work, std::size_t piece, const std::atomic<bool>& stop, int worker) {
   try {
     return {Piece::State::done, work.work(piece, stop), job_done, worker};
-  } catch (const InputError& error) {
-    return {Piece::State::failed, error.what(), job_input, worker};
-  } catch (const FileError& error) {
-    return {Piece::State::failed, error.what(), job_machine, worker};
-  } catch (const std::bad_alloc&) {
-    return {Piece::State::failed, "not enough memory", job_machine, worker};
   } catch (const std::exception& error) {
-    return {Piece::State::failed,
-            fmt::format("unexpected failure, a bug of rondo's: {}", error.what()), job_failed,
-            worker};
+    const JobReport failed = failed_by(error);
+    return {Piece::State::failed, failed.message, failed.code, worker};
   }
 }
 
