@@ -105,6 +105,7 @@ int run(const RunArguments& given) {
   options.resume = arguments.resume;
   options.threads = arguments.threads;
   options.reduced = arguments.reduced;
+  options.reduced_step = arguments.reduced_step;
   options.step_factor = arguments.step_factor;
   options.overwrite = arguments.overwrite;
   options.warn = [](const std::string& text) { spdlog::warn(text); };

@@ -65,6 +65,10 @@ CLI::App* add_run(CLI::App& program, app::RunArguments& arguments) {
                   "of a reduced run: its step over that of the full run")
       ->capture_default_str()
       ->needs(reduced);
+  run->add_option("--reduced-step", arguments.reduced_step,
+                  "of a reduced run: midpoint (implicit), or explicit (central differences)")
+      ->capture_default_str()
+      ->needs(reduced);
   run->add_flag("--quiet", arguments.quiet, "prints warnings and errors only");
   run->footer(
       "Example:\n  rondo run cases/ledge-smooth.toml -o results/mu06 --set ground.friction=0.6\n"
@@ -106,6 +110,14 @@ CLI::App* add_reduce(CLI::App& program, app::ReduceArguments& arguments) {
           "nodes of the boundary to a contact point; divides their number; as many as leave "
           "180 points if left out")
       ->check(CLI::Range(1, 1000000));
+  reduce
+      ->add_option("--contact", r.contact,
+                   "points of contact: places that stand still in space, or the nodes that come by; "
+                   "places on a smooth disk if left out, nodes otherwise");
+  reduce
+      ->add_option("--frame", r.frame,
+                   "frame of the modes: rectified, or turning (with the disk), to compare with")
+      ->capture_default_str();
   reduce->add_option("--memory", r.memory, "memory allowed to the decompositions")
       ->capture_default_str();
   reduce->add_flag("--quiet", arguments.quiet, "prints warnings and the figures only");

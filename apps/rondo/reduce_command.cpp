@@ -23,7 +23,7 @@ void print_report(const study::ReduceRequest& request, const study::ReduceReport
   fmt::print("modes              {} for {} dofs\n", r.modes, r.dofs);
   print_part(r.displacement, r.displacement_left);
   print_part(r.velocity, r.velocity_left);
-  fmt::print("contact points     {} round the disk{}\n", r.contact_points,
+  fmt::print("contact points     {} {} round the disk{}\n", r.contact_points, r.contact,
              r.contact_step > 0.0 ? fmt::format(", one passed in {:.6g} s", r.contact_step) : "");
   fmt::print("critical steps     {:.6g} s of the mesh, {:.6g} s of the modes (explicit)\n",
              r.full_critical_step, r.reduced_critical_step);

@@ -59,7 +59,7 @@ class Reduced(ProgramTest):
     def test_model_file(self):
         self.assertIn("modes", self.said.stdout)
         with h5py.File(self.model) as f:
-            self.assertEqual(f.attrs["format"], "rondo reduced model 1")
+            self.assertEqual(f.attrs["format"], "rondo reduced model 2")
             basis, mass = f["/model/basis"][:], f["/mesh/mass"][:]
             r = len(basis)
             self.assertLessEqual(r, 20 + 20 + 20)
@@ -248,12 +248,6 @@ class Reduced(ProgramTest):
         self.made("run", self.case_file, "-o", crush, "--set", "analysis.kind=crush", "--set",
                   "analysis.depth=0.004", "--set", "analysis.increments=4")
         self.assertIn("crush", self.fails(crush))
-        tread = self.folder / "tread"
-        case = self.case(replaced(replaced(SMALL, "circumferential", None), "[material]",
-                                  "[disk.tread]\npitches = 12\ndepth = 0.02\n"
-                                  "land_columns = 3\ngroove_columns = 1\nlayers = 1\n[material]"), "tread.toml")
-        self.made("run", case, "-o", tread)
-        self.assertIn("tread", self.fails(tread))
         free = self.folder / "free"
         text = replaced(SMALL, "inner_radius", 'inner_radius = 0.15\nrim = "free"')
         kept = "\n".join(line for line in text.splitlines() if not line.startswith(

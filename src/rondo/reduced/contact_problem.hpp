@@ -2,31 +2,41 @@
 /// @file  Contact of a reduced step (docs/reduced.md, 5): which points touch, what the law sees at
 /// them, and their impulses, all together as every mode moves all of them.
 #pragma once
+#include <memory>
 #include <vector>
 
 #include "rondo/contact/coupled.hpp"
 #include "rondo/contact/ground.hpp"
-#include "rondo/dynamics/contact_node.hpp"
-#include "rondo/reduced/spin_matrices.hpp"
+#include "rondo/reduced/contact_table.hpp"
 
 namespace rondo::reduced {
 
-/// Centre and spin of one step, and where it would lead without contact.
-struct FreeStep {
-  double dt = 0.0;                 ///< [s]
-  double spin = 0.0;               ///< s̄ [rad/s]
-  Vec2 center;                     ///< c at the end                       [m]
-  Vec2 advance;                    ///< of the centre over the step        [m]
-  Vec2 velocity_before, velocity;  ///< ċ at the beginning and just after the end [m/s]
-  const VectorXd *q_before, *p_before, *q, *p;  ///< (r) at the beginning; free, at the end
+/// The body at one time, as contact sees it.
+struct BodyState {
+  double angle = 0.0;  ///< θ [rad]
+  Vec2 center;         ///< c, fixed frame                                         [m]
+  Vec2 velocity;       ///< ċ likewise                                             [m/s]
+  /// A point of the material at arm a, fields v there, moves with ċ + turn_rate a + turn v,
+  /// complex: i s and 1, or what they are in the mean over a step of central differences (4.2).
+  Vec2 turn_rate, turn{1.0, 0.0};
+  const VectorXd* q = nullptr;  ///< (r)
+  const VectorXd* p = nullptr;  ///< (r)
 };
 
-/// A point of the rim, at an angle fixed in space, against a facet.
+/// A step without contact.
+struct FreeStep {
+  double dt = 0.0;    ///< [s]
+  double spin = 0.0;  ///< s, of the fields at places that stand still [rad/s]
+  BodyState before, end;
+};
+
+/// A point of the rim against a facet.
 struct PointContact {
-  int point = 0;
-  Vec2 normal;       ///< out of the ground, fixed frame
-  double gap = 0.0;  ///< at the end of the step, without contact           [m]
-  Vec2 impulse;      ///< r: normal, tangential                             [N·s/m]
+  int point = 0;     ///< in the table of the step
+  int material = 0;  ///< the point that stands still, or place in Rings::point of the candidates
+  Vec2 normal;       ///< out of the ground, frame of the model
+  double gap = 0.0;  ///< at the end of the step, without contact                  [m]
+  Vec2 impulse;      ///< r: normal, tangential                                    [N·s/m]
   contact::Status status = contact::Status::open;
 };
 
@@ -40,27 +50,59 @@ struct ContactOutcome {
 class ContactSolver {
  public:
   /// All must outlive it.
-  ContactSolver(const reduction::ReducedModel& model, const contact::Ground& ground,
-                contact::CoupledLimits limits);
+  ContactSolver(const mesh::Mesh& mesh, const reduction::ReducedModel& model,
+                const contact::Ground& ground, contact::CoupledLimits limits);
   /// Finds the contacts of the step and their impulses.
   [[nodiscard]] ContactOutcome solve(const FreeStep& step, const contact::Law& law,
-                                     SpinMatrices& matrices);
+                                     const StepMatrices& matrices);
+  /// The matrices of the steps to come are others.
+  void forget_matrices() noexcept;
+
   /// Of the last step, by point.
   [[nodiscard]] const std::vector<PointContact>& contacts() const noexcept { return contacts_; }
+  /// Its points at its end.
+  [[nodiscard]] const ContactTable& table() const noexcept { return *end_.table; }
+  /// R of the model's frame at an angle: 1 in the rectified frame.
+  [[nodiscard]] Vec2 frame_rotation(double angle) const noexcept;
+  /// Tables of nodes made so far: as many as there are phases.
+  [[nodiscard]] long long tables_made() const noexcept { return made_; }
 
  private:
-  void find(const FreeStep& step);
-  void make_problem(const FreeStep& step, const contact::Law& law, SpinMatrices& matrices);
-  [[nodiscard]] Vec2 at(int point, const VectorXd& coefficients) const;
-  [[nodiscard]] Vec2 place_velocity(int point, const FreeStep& step, bool end) const;
+  /// Points at one time: a table, and by how many sectors the nodes are on from there.
+  struct Points {
+    ContactTable* table = nullptr;
+    int sectors = 0;
+  };
+  struct Phase {
+    double share = 0.0;  ///< in sectors
+    long long used = 0;  ///< step of the last use
+    std::unique_ptr<ContactTable> table;
+  };
 
+  [[nodiscard]] Points points_at(double angle);
+  [[nodiscard]] ContactTable* table_of(double share);
+  [[nodiscard]] int material_of(int point, int sectors) const noexcept;
+  [[nodiscard]] int point_of(int material, int sectors) const noexcept;
+  /// @param next by the gaps one step further on, which the velocities lead to
+  void find(const FreeStep& step, bool next);
+  void make_problem(const FreeStep& step, const contact::Law& law, const StepMatrices& matrices);
+  [[nodiscard]] Vec2 opening(const BodyState& body, const Points& points, int point,
+                             double spin) const;
+  [[nodiscard]] Vec2 material_velocity(const BodyState& body, const Points& points,
+                                       int point) const;
+
+  const mesh::Mesh& mesh_;
   const reduction::ReducedModel& model_;
   const contact::Ground& ground_;
   contact::CoupledLimits limits_;
-  MatrixXd derived_rows_;      ///< (2m, r) H D
-  std::vector<double> reach_;  ///< (m) norm of the rows: |u| <= reach |q|
+  bool nodes_;    ///< the points are nodes
+  bool turning_;  ///< of the turning frame
+  std::vector<Phase> phases_;
+  std::size_t most_phases_ = 2;
+  long long steps_ = 0, made_ = 0;
+  Points before_, end_;
   std::vector<PointContact> contacts_;
-  std::vector<Vec2> warm_;  ///< (m) impulses of the step before              [N·s/m]
+  std::vector<Vec2> warm_;  ///< by material: impulses of the step before             [N·s/m]
   std::vector<int> points_;
   contact::CoupledProblem problem_;
   contact::CoupledWorkspace work_;

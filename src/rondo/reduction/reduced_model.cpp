@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "rondo/core/contract.hpp"
 
@@ -85,48 +86,25 @@ MatrixXd join(std::span<const MatrixXd> parts, double dependent) {
   return q.leftCols(rank);
 }
 
-double contact_weight(double distance, int stride) noexcept {
-  return std::max(0.0, 1.0 - std::abs(distance) / stride) / stride;
-}
-
-void take_contact_rows(const mesh::Mesh& mesh, ReducedModel& model) {
-  const Rings ring = boundary_rings(mesh);
-  RONDO_DEMAND(ring.n_rings() == 1 && mesh.n_sectors % model.stride == 0, ring.n_rings(),
-               mesh.n_sectors, model.stride);
-  const int n = mesh.n_sectors, points = n / model.stride;
-  model.rows.setZero(2 * points, model.size());
-  model.contact_points.assign(static_cast<std::size_t>(points), Vec2{});
-  model.contact_share.assign(static_cast<std::size_t>(points), 0.0);
-  for (int k = 0; k < points; ++k)
-    for (int d = 1 - model.stride; d < model.stride; ++d) {
-      const int sector = (k * model.stride + d + n) % n;
-      const auto candidate = static_cast<std::size_t>(ring.point[static_cast<std::size_t>(sector)]);
-      const auto node = static_cast<std::size_t>(mesh.boundary[candidate]);
-      const double weight = contact_weight(d, model.stride);
-      const auto at = static_cast<std::size_t>(k);
-      model.rows.middleRows(2 * k, 2) +=
-          weight * model.basis.middleRows(static_cast<Index>(2 * node), 2);
-      model.contact_points[at] += weight * mesh.coordinates[node];
-      model.contact_share[at] += weight * model.stride * mesh.tributary[candidate];
-    }
-}
-
-ReducedModel make_reduced_model(const FullModel& full, const MatrixXd& weighted, int stride) {
+ReducedModel make_reduced_model(const FullModel& full, const MatrixXd& weighted,
+                                ModelFrame frame) {
   const auto n = static_cast<Index>(full.mesh.n_nodes());
   RONDO_DEMAND(weighted.rows() == 2 * n && full.mass.size() == full.mesh.n_nodes(), weighted.rows(),
                n, full.mass.size());
   const VectorXd roots = mass_roots(full.mass);
   ReducedModel m;
   m.n_sectors = full.mesh.n_sectors;
-  m.stride = stride;
+  m.frame = frame;
   m.basis = roots.cwiseInverse().asDiagonal() * weighted;
   MatrixXd of_basis(2 * n, m.size());
   for (Index j = 0; j < m.size(); ++j)
     full.stiffness(as_field(m.basis.col(j).data(), 2 * n), as_field(of_basis.col(j).data(), 2 * n));
   m.stiffness = m.basis.transpose() * of_basis;
   m.stiffness = 0.5 * (m.stiffness + m.stiffness.transpose()).eval();
-  m.generator =
-      skew_part(weighted.transpose() * (roots.asDiagonal() * differentiate(full.mesh, m.basis)));
+  m.generator.setZero(m.size(), m.size());
+  if (frame == ModelFrame::rectified)
+    m.generator =
+        skew_part(weighted.transpose() * (roots.asDiagonal() * differentiate(full.mesh, m.basis)));
   MatrixXd turned(2 * n, m.size());
   for (Index i = 0; i < n; ++i) {
     turned.row(2 * i) = -weighted.row(2 * i + 1);
@@ -142,12 +120,18 @@ ReducedModel make_reduced_model(const FullModel& full, const MatrixXd& weighted,
     std::fill(field.begin(), field.end(), k == 0 ? Vec2{1.0, 0.0} : Vec2{0.0, 1.0});
     m.translation.col(k) = weighted.transpose() * weighted_field(field, roots);
   }
-  take_contact_rows(full.mesh, m);
   return m;
+}
+
+void set_contact(const mesh::Mesh& mesh, ContactForm form, MatrixXd weights, ReducedModel& model) {
+  model.form = form;
+  model.weights = std::move(weights);
+  model.contact = form == ContactForm::nodes ? ContactRows{} : standing_rows(mesh, model);
 }
 
 Lift::Lift(const mesh::Mesh& mesh, const ReducedModel& model)
     : model_(model),
+      moves_(model.frame == ModelFrame::rectified),
       rings_(node_rings(mesh)),
       rectifier_(rings_.n_sectors, rings_.n_rings(), Components::cartesian, Shift::fourier),
       ordered_(mesh.n_nodes()),
@@ -157,16 +141,18 @@ void Lift::lift(double theta, const VectorXd& q, std::span<Vec2> out) {
   field_.noalias() = model_.basis * q;
   const std::span<Vec2> rectified = as_field(field_.data(), field_.size());
   std::copy(rectified.begin(), rectified.end(), out.begin());
-  in_rings(rings_, out, ordered_,
-           [&](std::span<Vec2> values) { rectifier_.apply(-theta, values); });
+  if (moves_)
+    in_rings(rings_, out, ordered_,
+             [&](std::span<Vec2> values) { rectifier_.apply(-theta, values); });
 }
 
 VectorXd Lift::restrict_to_modes(double theta, std::span<const Vec2> field,
                                  std::span<const double> mass) {
   const std::span<Vec2> rectified = as_field(field_.data(), field_.size());
   std::copy(field.begin(), field.end(), rectified.begin());
-  in_rings(rings_, rectified, ordered_,
-           [&](std::span<Vec2> values) { rectifier_.apply(theta, values); });
+  if (moves_)
+    in_rings(rings_, rectified, ordered_,
+             [&](std::span<Vec2> values) { rectifier_.apply(theta, values); });
   for (std::size_t i = 0; i < mass.size(); ++i) rectified[i] = mass[i] * rectified[i];
   return model_.basis.transpose() * field_;
 }

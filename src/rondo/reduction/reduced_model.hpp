@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-/// @file  A rolling body in a few modes of the rectified frame, as plain data: the basis and what
-/// the equations of motion are in it (docs/reduced.md, 2 and 3).
+/// @file  A rolling body in a few modes, as plain data: the basis and what the equations of motion
+/// are in it (docs/reduced.md, 2 and 3).
 #pragma once
 #include <Eigen/Core>
 #include <functional>
@@ -9,12 +9,18 @@
 
 #include "rondo/core/vec2.hpp"
 #include "rondo/mesh/mesh.hpp"
+#include "rondo/reduction/contact_rows.hpp"
 #include "rondo/reduction/rectify.hpp"
 
 namespace rondo::reduction {
 
-/// r modes. With q the coefficients of the rectified displacement and p those of the rectified
-/// material velocity, in kg^1/2 m and kg^1/2 m/s per square root of the thickness:
+enum class ModelFrame {
+  rectified,  ///< modes of T(θ)u: what stays near the ground stays in them
+  turning,    ///< modes of u itself, as in any other reduced model: D = 0
+};
+
+/// r modes. With q the coefficients of the displacement and p those of the material velocity in
+/// the frame of the model, in kg^1/2 m and kg^1/2 m/s per square root of the thickness:
 ///     q̇ = p + s D q,
 ///     ṗ = -(α + 2sJ - sD + βK) p - (K - s²) q - ṡ (J q + j) + s² x - Eᵀ(c̈ - g) + Hᵀ λ   (R.2)
 struct ReducedModel {
@@ -25,12 +31,11 @@ struct ReducedModel {
   Eigen::VectorXd reference;  ///< (r) x = ΦᵀM X
   Eigen::VectorXd turned_reference;   ///< (r) j = ΦᵀMJ X
   Eigen::MatrixXd translation;        ///< (r, 2) Eᵀ: ΦᵀM of unit accelerations along x and y
-  Eigen::MatrixXd rows;               ///< (2m, r) H: Φ at the contact points, x and y of each
-  std::vector<Vec2> contact_points;   ///< (m) X of these, at angles fixed in space         [m]
-  std::vector<double> contact_share;  ///< (m) length of boundary each stands for           [m]
+  ModelFrame frame = ModelFrame::rectified;
+  ContactForm form = ContactForm::places;
+  Eigen::MatrixXd weights;  ///< (sectors, m) of the places in the points that stand still
+  ContactRows contact;      ///< of these points; none where the points are nodes
   int n_sectors = 0;
-  int stride = 1;  ///< a contact point every so many nodes of the boundary, from straight down:
-                   ///<     their mean with contact_weight()
 
   [[nodiscard]] Eigen::Index size() const noexcept { return basis.cols(); }
 };
@@ -47,21 +52,19 @@ Eigen::MatrixXd join(std::span<const Eigen::MatrixXd> parts, double dependent = 
 
 /// What of a mesh a reduced model is made of.
 struct FullModel {
-  const mesh::Mesh& mesh;        ///< of equal sectors, with one ring of candidates
+  const mesh::Mesh& mesh;        ///< of equal sectors
   std::span<const double> mass;  ///< (n) [kg/m]
   std::function<void(std::span<const Vec2>, std::span<Vec2>)> stiffness;  ///< out = K in
 };
 
-/// @param weighted (2n, r) orthonormal: √M Φ. @param stride divides the number of sectors
-/// @pre the candidates are one ring
-ReducedModel make_reduced_model(const FullModel& full, const Eigen::MatrixXd& weighted, int stride);
+/// Without contact points: they are for the caller to choose (form, weights, contact).
+/// @param weighted (2n, r) orthonormal: √M Φ
+ReducedModel make_reduced_model(const FullModel& full, const Eigen::MatrixXd& weighted,
+                                ModelFrame frame = ModelFrame::rectified);
 
-/// Share that a node of the boundary has in a contact point `distance` nodes away: a hat over
-/// `stride` nodes to either side, of sum 1. With stride 1 the point is the node.
-double contact_weight(double distance, int stride) noexcept;
-
-/// Fills the contact points and their rows from the basis. @pre stride divides the sectors
-void take_contact_rows(const mesh::Mesh& mesh, ReducedModel& model);
+/// Contact at points that stand still (contact_rows.hpp). @param weights (sectors, m)
+void set_contact(const mesh::Mesh& mesh, ContactForm form, Eigen::MatrixXd weights,
+                 ReducedModel& model);
 
 /// Fields of the turning frame from coefficients, and back. Owns the work space of its moves: one
 /// object a thread.
@@ -69,14 +72,15 @@ class Lift {
  public:
   /// The model must outlive it. @pre node_rings(mesh) has sectors
   Lift(const mesh::Mesh& mesh, const ReducedModel& model);
-  /// out = T(-θ) Φ q. @param out (n)
+  /// out = T(-θ) Φ q; Φ q in the turning frame. @param out (n)
   void lift(double theta, const Eigen::VectorXd& q, std::span<Vec2> out);
-  /// ΦᵀM T(θ) u: of fields in the span of the modes, the inverse. @param mass (n)
+  /// ΦᵀM T(θ) u, or ΦᵀM u: of fields in the span of the modes, the inverse. @param mass (n)
   [[nodiscard]] Eigen::VectorXd restrict_to_modes(double theta, std::span<const Vec2> field,
                                                   std::span<const double> mass);
 
  private:
   const ReducedModel& model_;
+  bool moves_;
   Rings rings_;
   Rectifier rectifier_;
   std::vector<Vec2> ordered_;  ///< (n) ring after ring

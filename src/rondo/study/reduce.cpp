@@ -3,7 +3,6 @@
 
 #include <fmt/format.h>
 
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <array>
 #include <chrono>
@@ -12,7 +11,7 @@
 #include <system_error>
 #include <utility>
 
-#include "rondo/dynamics/critical_step.hpp"
+#include "rondo/reduced/step_matrices.hpp"
 #include "rondo/reduction/spectrum.hpp"
 #include "rondo/study/build.hpp"
 #include "rondo/study/pod_input.hpp"
@@ -27,6 +26,16 @@ using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
 void check_options(const ReduceRequest& r) {
+  const auto demand_one_of = [](const char* option, const std::string& name, const auto& names) {
+    std::string allowed;
+    for (const auto& [known, value] : names) {
+      if (name == known) return;
+      allowed += (allowed.empty() ? "" : ", ") + std::string(known);
+    }
+    throw request_error(option, name, "not one of those there are", allowed);
+  };
+  demand_one_of("--frame", r.frame, frame_names);
+  if (!r.contact.empty()) demand_one_of("--contact", r.contact, contact_names);
   if (r.output.empty()) throw request_error("-o", "", "the model needs a file", "-o MODEL.h5");
   for (const auto& [option, modes] : {std::pair{"--displacement-modes", r.displacement_modes},
                                       {"--velocity-modes", r.velocity_modes}})
@@ -39,7 +48,7 @@ void check_options(const ReduceRequest& r) {
                           "between 0 and 1, e.g. 1e-5");
 }
 
-/// What can be reduced: a smooth disk in one piece, held by its rim, that rolled to its end.
+/// What can be reduced: a disk in one piece, held by its rim, that rolled to its end.
 void check_run(const io::RunReader& run, const Case& c) {
   const std::string name = run.directory().string();
   if (run.analysis() != "dynamic")
@@ -50,10 +59,6 @@ void check_run(const io::RunReader& run, const Case& c) {
                         "the body has no equal sectors round a rim that holds it: its fields "
                         "cannot be moved to the fixed frame",
                         "runs of a [disk] whose rim is held");
-  if (c.disk.tread)
-    throw request_error("RUN", name,
-                        "the disk has a tread: reduced models are of smooth disks so far",
-                        "runs without [disk.tread]");
   if (run.status() != "done")
     throw request_error("RUN", name,
                         fmt::format("the run is not finished (status {})", run.status()),
@@ -80,11 +85,15 @@ struct Source {
   std::vector<Case> cases;
 };
 
+bool is_turning(const ReduceRequest& r) {
+  return r.frame == "turning";
+}
+
 PodRequest pod_request(const ReduceRequest& r, const char* field) {
   PodRequest pod;
   pod.runs = r.runs;
   pod.field = field;
-  pod.frame = "rectified";
+  pod.frame = is_turning(r) ? "rotating" : "rectified";
   pod.from = r.from;
   pod.to = r.to;
   pod.warn = r.warn;
@@ -217,9 +226,22 @@ ModelRanges ranges_of(const ReduceRequest& r, const Source& source) {
   return ranges;
 }
 
-double critical_step(const MatrixXd& stiffness, double beta) {
-  const Eigen::SelfAdjointEigenSolver<MatrixXd> solver(stiffness, Eigen::EigenvaluesOnly);
-  return dynamics::critical_step_of(std::sqrt(solver.eigenvalues().maxCoeff()), {beta, 0.0});
+/// The form of contact that is asked for, or the one that suits (docs/reduced.md, 5).
+reduction::ContactForm contact_form(const ReduceRequest& r, const mesh::Mesh& mesh) {
+  const bool smooth = reduction::boundary_rings(mesh).n_rings() == 1;
+  const bool standing = smooth && !is_turning(r);
+  auto form = standing ? reduction::ContactForm::places : reduction::ContactForm::nodes;
+  for (const auto& [name, known] : contact_names)
+    if (r.contact == name) form = known;
+  if (form != reduction::ContactForm::nodes && !standing)
+    throw request_error("--contact", r.contact,
+                        smooth ? "in the turning frame nothing stands still in space"
+                               : "between the blocks of a tread there is no place to stand still",
+                        "nodes");
+  if (r.contact_stride != 0 && form != reduction::ContactForm::places)
+    throw request_error("--contact-stride", fmt::to_string(r.contact_stride),
+                        "only places have a stride", "--contact places, or no stride");
+  return form;
 }
 
 /// The largest divisor that leaves enough contact points, where none is asked for.
@@ -238,10 +260,21 @@ int contact_stride(const ReduceRequest& request, int n_sectors) {
 
 /// The modes of displacement, their derivatives by the angle (a pattern that stands still in space
 /// has the velocity -s D u), the modes of velocity.
-MatrixXd basis_of(const mesh::Mesh& mesh, const VectorXd& roots, const Part& u, const Part& v) {
+MatrixXd basis_of(const ReduceRequest& r, const mesh::Mesh& mesh, const VectorXd& roots,
+                  const Part& u, const Part& v) {
+  if (is_turning(r)) return reduction::join(std::array{u.modes, v.modes});
   const MatrixXd fields = roots.cwiseInverse().asDiagonal() * u.modes;
   const MatrixXd derived = roots.asDiagonal() * reduction::differentiate(mesh, fields);
   return reduction::join(std::array{u.modes, derived, v.modes});
+}
+
+void set_contact(const ReduceRequest& request, const mesh::Mesh& mesh,
+                 reduction::ReducedModel& model) {
+  const reduction::ContactForm form = contact_form(request, mesh);
+  MatrixXd weights;
+  if (form == reduction::ContactForm::places)
+    weights = reduction::hat_weights(mesh.n_sectors, contact_stride(request, mesh.n_sectors));
+  reduction::set_contact(mesh, form, weights, model);
 }
 
 ReducedFile make_file(const ReduceRequest& request, const Source& source, const Setup& setup,
@@ -251,7 +284,11 @@ ReducedFile make_file(const ReduceRequest& request, const Source& source, const 
                                               [&](std::span<const Vec2> in, std::span<Vec2> out) {
                                                 fem::apply(*setup.model.sector, in, out);
                                               }},
-                                             basis, contact_stride(request, setup.mesh.n_sectors));
+                                             basis,
+                                             is_turning(request)
+                                                 ? reduction::ModelFrame::turning
+                                                 : reduction::ModelFrame::rectified);
+  set_contact(request, setup.mesh, file.model);
   file.mesh = setup.mesh;
   file.mass = setup.model.mass;
   file.body = body_text(source.cases.front());
@@ -267,8 +304,11 @@ ReduceReport describe(const Source& source, const Setup& setup, const ReducedFil
   report.modes = file.model.size();
   report.full_critical_step = setup.critical.step;
   report.reduced_critical_step =
-      critical_step(file.model.stiffness, source.cases.front().damping.stiffness);
-  report.contact_points = static_cast<long long>(file.model.contact_points.size());
+      reduced::critical_step(file.model, source.cases.front().damping.stiffness);
+  const bool nodes = file.model.form == reduction::ContactForm::nodes;
+  report.contact = name_in(contact_names, file.model.form);
+  report.contact_points = static_cast<long long>(nodes ? setup.mesh.boundary.size()
+                                                       : file.model.contact.points.size());
   const double spin = std::max(std::abs(file.ranges.angular_velocity.low),
                                std::abs(file.ranges.angular_velocity.high));
   if (spin > 0.0)
@@ -284,7 +324,9 @@ ReduceReport run_reduce(const ReduceRequest& request) {
   check_options(request);
   const Source source = open_source(request);
   const Setup setup = build(source.cases.front(), 1);
-  static_cast<void>(contact_stride(request, setup.mesh.n_sectors));  // told before the work
+  // Told before the work.
+  if (contact_form(request, setup.mesh) == reduction::ContactForm::places)
+    static_cast<void>(contact_stride(request, setup.mesh.n_sectors));
   const VectorXd roots = reduction::mass_roots(setup.model.mass);
   const Part u = part_of(request, source, roots,
                          {"displacement", request.displacement_modes,
@@ -292,7 +334,7 @@ ReduceReport run_reduce(const ReduceRequest& request) {
   const Part v = part_of(
       request, source, roots,
       {"velocity", request.velocity_modes, request.velocity_tolerance, default_velocity_modes});
-  const MatrixXd basis = basis_of(setup.mesh, roots, u, v);
+  const MatrixXd basis = basis_of(request, setup.mesh, roots, u, v);
   ReducedFile file = make_file(request, source, setup, basis);
   file.displacement_modes = u.report.modes;
   file.velocity_modes = v.report.modes;

@@ -26,6 +26,8 @@ struct ReduceRequest {
   std::optional<double> from, to;  ///< window of the snapshots [s]
   int contact_stride = 0;  ///< nodes of the boundary to a contact point; 0: as many as leave
                            ///<     enough_contact_points
+  std::string frame = "rectified";  ///< frame_names
+  std::string contact;              ///< contact_names; empty: what suits the disk and the frame
   std::string memory = "2GB";
   std::function<void(const std::string&)> warn;        ///< may be empty
   std::function<void(long long, long long)> progress;  ///< done, of all; may be empty
@@ -47,6 +49,7 @@ struct ReduceReport {
   double full_critical_step = 0.0;     ///< [s]
   double reduced_critical_step = 0.0;  ///< of explicit central differences on the modes [s]
   double contact_step = 0.0;  ///< in which the fastest spin passes one contact point [s]; 0: none
+  std::string contact;        ///< its form
   long long contact_points = 0;
   std::size_t file_bytes = 0;
   double wall_s = 0.0;

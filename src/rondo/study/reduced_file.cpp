@@ -21,7 +21,10 @@ using Eigen::Index;
 using Eigen::MatrixXd;
 using io::h5::File;
 
-constexpr const char* format = "rondo reduced model 1";
+constexpr const char* format = "rondo reduced model 2";
+
+using reduction::ContactForm;
+using reduction::ModelFrame;
 
 std::size_t size(Index n) {
   return static_cast<std::size_t>(n);
@@ -80,12 +83,44 @@ void read_numbers(const File& file, ReducedFile& content) {
 }
 
 void write_counts(File& file, const ReducedFile& content) {
-  const std::array<std::int64_t, 3> counts{content.model.stride, content.displacement_modes,
-                                           content.velocity_modes};
-  file.write("/model/counts", {3}, std::span<const std::int64_t>(counts),
-             {"1",
-              "nodes of the boundary to a contact point; modes of the POD of displacements, of "
-              "velocities"});
+  const std::array<std::int64_t, 2> counts{content.displacement_modes, content.velocity_modes};
+  file.write("/model/counts", {2}, std::span<const std::int64_t>(counts),
+             {"1", "modes of the POD of displacements, of velocities"});
+}
+
+void write_contact(File& file, const reduction::ReducedModel& m) {
+  if (m.form == ContactForm::nodes) return;
+  write_columns(file, "/model/contact_weights", m.weights,
+                {size(m.weights.cols()), size(m.weights.rows())},
+                {"1", "row i: shares of the sectors' places in contact point i, of sum 1"});
+}
+
+template <class Value, std::size_t n>
+Value named(const std::array<std::pair<const char*, Value>, n>& names, const std::string& name,
+            const std::string& path) {
+  for (const auto& [text, value] : names)
+    if (name == text) return value;
+  throw FileError(path, fmt::format("has a frame or contact \"{}\" that is not known", name));
+}
+
+void read_contact(const File& file, const std::string& path, ReducedFile& content) {
+  reduction::ReducedModel& m = content.model;
+  m.n_sectors = content.mesh.n_sectors;
+  m.frame = named(frame_names, file.attribute("/", "frame"), path);
+  m.form = named(contact_names, file.attribute("/", "contact"), path);
+  if (m.n_sectors < 1 || reduction::node_rings(content.mesh).n_sectors < 1)
+    throw FileError(path, "its mesh has no equal sectors");
+  if (m.form == ContactForm::nodes) return;
+  const std::size_t sectors = static_cast<std::size_t>(m.n_sectors);
+  const auto shape = file.dataset("/model/contact_weights", {io::h5::any, sectors}).shape();
+  const MatrixXd weights =
+      read_columns(file, "/model/contact_weights", static_cast<Index>(sectors),
+                   static_cast<Index>(shape[0]), {shape[0], sectors});
+  const bool fits = reduction::boundary_rings(content.mesh).n_rings() == 1 &&
+                    m.frame == ModelFrame::rectified && weights.allFinite() &&
+                    (weights.array() >= 0.0).all();
+  if (!fits) throw FileError(path, "its contact points do not fit its mesh");
+  reduction::set_contact(content.mesh, m.form, weights, m);
 }
 
 void write_ranges(File& file, ModelRanges ranges) {
@@ -98,6 +133,8 @@ void write_ranges(File& file, ModelRanges ranges) {
 
 void write_all(File& file, const ReducedFile& content) {
   file.set_attribute("/", "format", format);
+  file.set_attribute("/", "frame", name_in(frame_names, content.model.frame));
+  file.set_attribute("/", "contact", name_in(contact_names, content.model.form));
   file.set_attribute("/", "body", content.body);
   std::string runs;
   for (const std::string& run : content.runs) runs += run + "\n";
@@ -105,6 +142,7 @@ void write_all(File& file, const ReducedFile& content) {
   io::write_mesh(file, content.mesh, content.mass);
   write_numbers(file, content);
   write_counts(file, content);
+  write_contact(file, content.model);
   write_ranges(file, content.ranges);
 }
 
@@ -168,15 +206,10 @@ ReducedFile read_reduced_file(const std::filesystem::path& path) {
   content.mesh = std::move(body.mesh);
   content.mass = std::move(body.mass);
   read_numbers(file, content);
-  const auto counts = file.dataset("/model/counts", {3}).read<std::int64_t>();
-  content.displacement_modes = counts[1];
-  content.velocity_modes = counts[2];
-  const auto sectors = static_cast<std::int64_t>(content.mesh.n_sectors);
-  if (counts[0] < 1 || sectors < 1 || sectors % counts[0] != 0)
-    throw FileError(path.string(), "its contact points do not fit its mesh");
-  content.model.n_sectors = content.mesh.n_sectors;
-  content.model.stride = static_cast<int>(counts[0]);
-  reduction::take_contact_rows(content.mesh, content.model);
+  const auto counts = file.dataset("/model/counts", {2}).read<std::int64_t>();
+  content.displacement_modes = counts[0];
+  content.velocity_modes = counts[1];
+  read_contact(file, path.string(), content);
   for (const auto& [name, range] : ranges_of(content.ranges)) {
     const auto ends = file.dataset(std::string("/ranges/") + name, {2}).read<double>();
     *range = {ends[0], ends[1]};

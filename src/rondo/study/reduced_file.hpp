@@ -2,8 +2,10 @@
 /// @file  MODEL.h5 of `rondo reduce`: a reduced model, the body it is of, and what it was built
 /// from (docs/reduced.md, 7).
 #pragma once
+#include <array>
 #include <filesystem>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "rondo/reduction/reduced_model.hpp"
@@ -21,6 +23,21 @@ struct ModelRange {
 struct ModelRanges {
   ModelRange friction, angular_velocity, speed, height, slip_ratio;
 };
+
+/// Names of the command line and of the file.
+inline constexpr std::array<std::pair<const char*, reduction::ModelFrame>, 2> frame_names{
+    {{"rectified", reduction::ModelFrame::rectified}, {"turning", reduction::ModelFrame::turning}}};
+inline constexpr std::array<std::pair<const char*, reduction::ContactForm>, 3> contact_names{
+    {{"places", reduction::ContactForm::places},
+     {"nodes", reduction::ContactForm::nodes},
+     {"patterns", reduction::ContactForm::patterns}}};
+
+template <class Names, class Value>
+const char* name_in(const Names& names, Value value) noexcept {
+  for (const auto& [name, known] : names)
+    if (known == value) return name;
+  return "";
+}
 
 struct ReducedFile {
   reduction::ReducedModel model;

@@ -24,6 +24,11 @@ void check_case(const Case& c, const RunOptions& options, const Setup& setup) {
   if (!(options.step_factor > 0.0 && std::isfinite(options.step_factor)))
     throw request_error("--step-factor", fmt::format("{:.9g}", options.step_factor),
                         "not a factor for the step of the full run", "a number above 0, e.g. 20");
+  const bool known = std::ranges::any_of(
+      step_names, [&](const auto& step) { return options.reduced_step == step.first; });
+  if (!known)
+    throw request_error("--reduced-step", options.reduced_step, "no such step",
+                        "midpoint or explicit");
   if (c.time.scheme == Scheme::as_printed)
     throw case_error(c, "time.scheme", "a reduced run has a scheme of its own",
                      "\"symplectic\", which it stands for");
@@ -91,7 +96,12 @@ void warn_of_range(const Case& c, const Setup& setup, ReducedRun& run) {
 
 /// A point must not be passed in one step.
 void warn_of_step(const Case& c, const Setup& setup, ReducedRun& run) {
-  const double points = static_cast<double>(run.file.model.contact_points.size());
+  const reduction::ReducedModel& m = run.file.model;
+  const bool standing = m.form != reduction::ContactForm::nodes;
+  if (m.form == reduction::ContactForm::patterns) return;  // they overlap all along the contact
+  // Nodes of a tread are not evenly spaced; in the mean they are.
+  const double points =
+      static_cast<double>(standing ? m.contact.points.size() : setup.mesh.boundary.size());
   const double turned = c.motion.angular_velocity.largest() * setup.model.dt;
   const double spacing = 2.0 * std::numbers::pi / points;
   if (c.ground && turned > spacing)
@@ -99,6 +109,33 @@ void warn_of_step(const Case& c, const Setup& setup, ReducedRun& run) {
         fmt::format("--step-factor: the disk turns by {:.3g} contact points in a step; contact "
                     "wants 1 at the most, a factor of {:.3g}",
                     turned / spacing, run.step_factor * spacing / turned));
+}
+
+/// The step that is asked for; where nodes come by at a constant spin, so much less that a whole
+/// number of steps goes to a sector: the phases of the disk are then as many, and known.
+double step_of(const Case& c, const Setup& setup, const ReducedRun& run) {
+  const double dt = run.full_step * run.step_factor;
+  const dynamics::Table& spin = c.motion.angular_velocity;
+  const bool phases = c.ground && run.file.model.form == reduction::ContactForm::nodes &&
+                      run.file.model.frame == reduction::ModelFrame::rectified;
+  if (!phases || spin.points().size() != 1 || spin.largest() == 0.0) return dt;
+  const double sector = 2.0 * std::numbers::pi / setup.mesh.n_sectors / spin.largest();
+  return dt < sector ? sector / std::ceil(sector / dt * (1.0 - 1e-9))
+                     : sector * std::floor(dt / sector * (1.0 + 1e-9));
+}
+
+/// Central differences have a limit.
+void check_step(const Case& c, const ReducedRun& run, double dt) {
+  if (run.scheme != reduced::StepScheme::central) return;
+  const double limit =
+      reduced::critical_step(run.file.model, c.damping.stiffness);
+  if (dt <= c.time.safety * limit) return;
+  throw request_error(
+      "--step-factor", fmt::format("{:.6g}", run.step_factor),
+      fmt::format("a step of {:.6g} s; the explicit step is stable up to {:.6g} s with these modes",
+                  dt, limit),
+      fmt::format("up to {:.4g} with time.safety = {:.6g}, or --reduced-step midpoint",
+                  c.time.safety * limit / run.full_step, c.time.safety));
 }
 
 /// Start that the modes do not hold.
@@ -126,9 +163,13 @@ ReducedRun prepare_reduced(const Case& c, const RunOptions& options, Setup& setu
   ReducedRun run;
   run.file = read_reduced_file(options.reduced);
   check_model(c, options, run.file, setup);
+  for (const auto& [name, scheme] : step_names)
+    if (options.reduced_step == name) run.scheme = scheme;
   run.step_factor = options.step_factor;
   run.full_step = setup.model.dt;
-  setup.model.dt *= options.step_factor;
+  setup.model.dt = step_of(c, setup, run);
+  run.step_factor = setup.model.dt / run.full_step;
+  check_step(c, run, setup.model.dt);
   setup.n_steps = count_steps(c, setup.model.dt);
   warn_of_range(c, setup, run);
   warn_of_step(c, setup, run);
@@ -139,7 +180,8 @@ ReducedRun prepare_reduced(const Case& c, const RunOptions& options, Setup& setu
 std::unique_ptr<dynamics::Integrator> make_integrator(ReducedRun& run, const Setup& setup,
                                                       const dynamics::State& start) {
   return std::make_unique<reduced::ReducedIntegrator>(
-      reduced::IntegratorInput{setup.mesh, setup.model, run.file.model, run.figures}, start);
+      reduced::IntegratorInput{setup.mesh, setup.model, run.file.model, run.figures, run.scheme},
+      start);
 }
 
 void refuse_reduced(const std::filesystem::path& directory) {
@@ -160,7 +202,11 @@ void describe_reduced(const ReducedRun& run, const RunOptions& options, Json& js
   json["reduced_modes"] = run.file.model.size();
   json["displacement_modes"] = run.file.displacement_modes;
   json["velocity_modes"] = run.file.velocity_modes;
-  json["contact_points"] = run.file.model.contact_points.size();
+  json["reduced_frame"] = name_in(frame_names, run.file.model.frame);
+  json["reduced_contact"] = name_in(contact_names, run.file.model.form);
+  json["reduced_step"] = options.reduced_step;
+  if (run.file.model.form != reduction::ContactForm::nodes)
+    json["contact_points"] = run.file.model.contact.points.size();
   json["step_factor"] = run.step_factor;
   json["full_step"] = run.full_step;
   json["lifted"] = true;
@@ -171,6 +217,10 @@ void add_figures(const ReducedRun& run, Json& json) {
   const double steps = static_cast<double>(std::max(1LL, f.contact_steps));
   json["reduced"] = {{"matrices_factored", f.factored},
                      {"factor_wall_s", f.factor_wall_s},
+                     {"step_wall_s", f.wall_s},
+                     {"contact_wall_s", f.contact_wall_s},
+                     {"slowest_step_s", f.slowest_step_s},
+                     {"contact_tables", f.tables},
                      {"contact_steps", f.contact_steps},
                      {"contact_iterations_mean", static_cast<double>(f.iterations) / steps},
                      {"contact_iterations_max", f.iterations_max},

@@ -2,8 +2,10 @@
 /// @file  `rondo run --reduced`: a case on the modes of a reduced model instead of its mesh. The
 /// loop, the files and the figures are those of any run (docs/reduced.md, 7).
 #pragma once
+#include <array>
 #include <memory>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "rondo/reduced/integrator.hpp"
@@ -13,9 +15,14 @@
 
 namespace rondo::study {
 
+/// Names of the command line.
+inline constexpr std::array<std::pair<const char*, reduced::StepScheme>, 2> step_names{
+    {{"midpoint", reduced::StepScheme::midpoint}, {"explicit", reduced::StepScheme::central}}};
+
 struct ReducedRun {
   ReducedFile file;
-  double step_factor = 1.0;
+  reduced::StepScheme scheme = reduced::StepScheme::midpoint;
+  double step_factor = 1.0;           ///< taken
   double full_step = 0.0;             ///< of the full run [s]
   std::vector<std::string> warnings;  ///< for the user
   reduced::StepFigures figures;       ///< filled while it runs

@@ -28,6 +28,7 @@ struct RunOptions {
   bool keeps_checkpoint = true;                  ///< of its end, once it is done
   std::filesystem::path reduced;  ///< model to run on instead of the mesh; empty: the mesh
   double step_factor = 20.0;      ///< with it: step over that of the full run
+  std::string reduced_step = "midpoint";  ///< with it: step_names of reduced_run.hpp
 };
 
 /// How a run ended. `failed` is an outcome of the numerics: not finite, or a residual out of bound.

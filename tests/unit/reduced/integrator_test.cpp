@@ -4,56 +4,20 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <unsupported/Eigen/MatrixFunctions>
 
-#include "rondo/fem/sector_stiffness.hpp"
 #include "rondo/statics/stationary_spin.hpp"
-#include "support/models.hpp"
+#include "whole_space.hpp"
 
 using namespace rondo;
 using namespace rondo::reduced;
+using namespace rondo::reduced::test;
 
 namespace {
 
 using dynamics::Table;
-
-struct Reduced {
-  test::Built full;
-  reduction::ReducedModel model;
-  StepFigures figures;
-
-  [[nodiscard]] ReducedIntegrator start(const dynamics::State& state) {
-    return {IntegratorInput{full.mesh, full.model, model, figures}, state};
-  }
-};
-
-/// The whole space of a small disk as modes: what is reduced is then the frame and the step only.
-/// @param left_out every so-manieth column of it; 0: none
-Reduced whole_space(const test::DiskCase& c, int stride = 1, Index left_out = 0) {
-  Reduced r{test::build(c), {}, {}};
-  const auto sector = fem::assemble_sector(r.full.mesh, {&c.material, 1});
-  const auto n = static_cast<Index>(r.full.model.free.size());
-  const Index columns = 2 * n - (left_out > 0 ? 2 * n / left_out : 0);
-  MatrixXd basis = MatrixXd::Zero(static_cast<Index>(2 * r.full.mesh.n_nodes()), columns);
-  for (Index k = 0, column = 0; k < 2 * n; ++k)
-    if (left_out == 0 || (k + 1) % left_out != 0)
-      basis(2 * r.full.model.free[static_cast<std::size_t>(k / 2)] + k % 2, column++) = 1.0;
-  r.model = reduction::make_reduced_model(
-      {r.full.mesh, r.full.model.mass,
-       [&](std::span<const Vec2> in, std::span<Vec2> out) { fem::apply(sector, in, out); }},
-      basis, stride);
-  return r;
-}
-
-double difference(const std::vector<Vec2>& a, const std::vector<Vec2>& b) {
-  double sum = 0.0, all = 0.0;
-  for (std::size_t i = 0; i < a.size(); ++i) {
-    sum += dot(a[i] - b[i], a[i] - b[i]);
-    all += dot(a[i], a[i]);
-  }
-  return std::sqrt(sum / all);
-}
 
 MatrixXd system_matrix(const reduction::ReducedModel& m, const StepMatrixKey& k) {
   const Index r = m.size();
@@ -68,8 +32,9 @@ MatrixXd system_matrix(const reduction::ReducedModel& m, const StepMatrixKey& k)
 }
 
 TEST(MidpointStep, ConvergesToTheExactSolutionWithTheSquareOfTheStep) {
-  const Reduced r = whole_space(test::rolling_disk(2, 9));
-  StepMatrixKey key{.dt = 4e-5, .mass_damping = 50.0, .stiffness_damping = 1e-6, .spin = -300.0};
+  const Reduced r = whole_space(rondo::test::rolling_disk(2, 9));
+  StepMatrixKey key{
+      .dt = 4e-5, .mass_damping = 50.0, .stiffness_damping = 1e-6, .carry = -300.0, .spin = -300.0};
   const Index n = 2 * r.model.size();
   // Soft shapes, so that the longer step resolves all that moves.
   VectorXd y0 = VectorXd::Zero(n);
@@ -79,9 +44,14 @@ TEST(MidpointStep, ConvergesToTheExactSolutionWithTheSquareOfTheStep) {
   std::vector<double> errors;
   for (const int steps : {80, 160}) {
     key.dt = end / steps;
-    const SpinMatrices matrices(r.model, key);
+    StepMatrices matrices(r.model, key);
+    const VectorXd no_push = VectorXd::Zero(n / 2);
     VectorXd y = y0;
-    for (int k = 0; k < steps; ++k) y = 2.0 * (matrices.inverse() * y) - y;
+    for (int k = 0; k < steps; ++k) {
+      VectorXd q_end = no_push, p_end = no_push, carried = no_push;
+      matrices.advance(y.head(n / 2), y.tail(n / 2), no_push, q_end, p_end, carried);
+      y << q_end, p_end;
+    }
     errors.push_back((y - exact).norm() / exact.norm());
   }
   EXPECT_LT(errors[0], 0.05);
@@ -89,7 +59,7 @@ TEST(MidpointStep, ConvergesToTheExactSolutionWithTheSquareOfTheStep) {
 }
 
 TEST(ReducedIntegrator, WithAllModesMovesAsTheFullModelDoes) {
-  test::DiskCase c = test::rolling_disk(3, 24);
+  DiskCase c = rondo::test::rolling_disk(3, 24);
   c.motion.angular_velocity = Table({{0.0, 20.0}, {0.01, 220.0}});
   c.motion.speed = Table({{0.0, 4.0}, {0.01, 84.0}});
   c.motion.height = Table({{0.0, 0.4}, {0.01, 0.5}});
@@ -99,7 +69,7 @@ TEST(ReducedIntegrator, WithAllModesMovesAsTheFullModelDoes) {
   for (const double safety : {0.4, 0.2}) {
     c.safety = safety;
     Reduced r = whole_space(c);
-    dynamics::State state = test::start_at_rest(r.full.model);
+    dynamics::State state = rondo::test::start_at_rest(r.full.model);
     ReducedIntegrator reduced = r.start(state);
     dynamics::Ledger ledger;
     const auto steps = static_cast<std::size_t>(0.004 / r.full.model.dt);
@@ -119,7 +89,7 @@ TEST(ReducedIntegrator, WithAllModesMovesAsTheFullModelDoes) {
 }
 
 TEST(ReducedIntegrator, StaysInTheStationaryStateOfTheFullModel) {
-  test::DiskCase c = test::rolling_disk(3, 24);
+  DiskCase c = rondo::test::rolling_disk(3, 24);
   c.motion.height = Table(1.0);
   c.motion.speed = Table(0.0);
   c.motion.angular_velocity = Table(80.0);
@@ -137,68 +107,83 @@ TEST(ReducedIntegrator, StaysInTheStationaryStateOfTheFullModel) {
   EXPECT_EQ(r.figures.factored, 1);
 }
 
-/// A disk that is pressed on a ledge with both dampings while its spin changes.
-Reduced pressed(int stride, Index left_out = 0) {
-  test::DiskCase c = test::rolling_disk(3, 48);
-  c.motion.start_x = -0.1;
-  c.motion.angular_velocity = Table({{0.0, 33.0}, {0.005, 36.0}});
-  c.motion.height = Table({{0.0, 0.3}, {0.01, 0.29}});
-  Reduced r = whole_space(c, stride, left_out);
-  test::add_ground(r.full, test::ledge(), {0.4, 0.2});
-  r.full.model.dt *= 10.0;
-  return r;
+constexpr auto nodes = reduction::ContactForm::nodes;
+constexpr auto turning = reduction::ModelFrame::turning;
+constexpr auto central = StepScheme::central;
+
+const std::array<Form, 8> every_form{{
+    {.stride = 1},
+    {.stride = 2},
+    {.scheme = central, .stride = 1},
+    {.scheme = central, .stride = 2},
+    {.contact = nodes},
+    {.contact = nodes, .scheme = central},
+    {.contact = nodes, .frame = turning},
+    {.contact = nodes, .frame = turning, .scheme = central},
+}};
+
+/// Steps to the same time.
+std::size_t steps_of(const Form& form) {
+  return form.scheme == central ? 1500 : 150;
 }
 
 TEST(ReducedIntegrator, ClosesItsLedgerInContact) {
-  for (const int stride : {1, 2}) {
-    Reduced r = pressed(stride);
-    ReducedIntegrator reduced = r.start(test::start_at_rest(r.full.model));
-    std::vector<dynamics::StepReport> reports(300);
+  for (const Form& form : every_form) {
+    SCOPED_TRACE(&form - every_form.data());
+    Reduced r = pressed(form);
+    ReducedIntegrator reduced = r.start(rondo::test::start_at_rest(r.full.model));
+    std::vector<dynamics::StepReport> reports(steps_of(form));
     reduced.advance(reports);
     const dynamics::Balance& b = reports.back().balance;
     EXPECT_LT(b.relative, 1e-12);
     EXPECT_GT(b.works.dissipation_friction, 0.01 * b.exchanged);
     EXPECT_GT(b.works.dissipation_mass, 0.0);
     EXPECT_GT(b.works.dissipation_stiffness, 0.0);
+    EXPECT_LT(std::abs(b.works.scheme), 1e-12 * b.exchanged);  // the whole space has K D skew
     EXPECT_NEAR(b.works.contact, b.works.rim - b.works.dissipation_friction - b.works.loss_impact,
                 1e-12 * b.exchanged);
-    EXPECT_GT(r.figures.contact_steps, 100);
+    EXPECT_GT(r.figures.contact_steps, 50);
   }
 }
 
 TEST(ReducedIntegrator, ClosesItsLedgerWithFewerModes) {
-  Reduced r = pressed(1, 5);
-  ReducedIntegrator reduced = r.start(test::start_at_rest(r.full.model));
-  std::vector<dynamics::StepReport> reports(300);
-  reduced.advance(reports);
-  const dynamics::Balance& b = reports.back().balance;
-  EXPECT_LT(b.relative, 1e-12);
-  EXPECT_GT(std::abs(b.works.scheme), 1e-6 * b.exchanged);  // the modes do not hold D of themselves
+  for (const Form& form : every_form) {
+    if (form.frame == turning) continue;  // nothing is carried there
+    SCOPED_TRACE(&form - every_form.data());
+    Reduced r = pressed(form, 5);
+    ReducedIntegrator reduced = r.start(rondo::test::start_at_rest(r.full.model));
+    std::vector<dynamics::StepReport> reports(steps_of(form));
+    reduced.advance(reports);
+    const dynamics::Balance& b = reports.back().balance;
+    EXPECT_LT(b.relative, 1e-12);
+    EXPECT_GT(std::abs(b.works.scheme), 1e-6 * b.exchanged);  // modes without D of themselves
+  }
 }
 
 /// The law anew from the motion alone, without the Delassus blocks.
 TEST(ReducedIntegrator, ObeysTheLawInTheMotionItMakes) {
   for (const int stride : {1, 2}) {
-    Reduced r = pressed(stride);
+    Reduced r = pressed({.stride = stride});
     r.full.model.contact->law.restitution = 0.0;
-    ReducedIntegrator reduced = r.start(test::start_at_rest(r.full.model));
+    ReducedIntegrator reduced = r.start(rondo::test::start_at_rest(r.full.model));
     const reduction::ReducedModel& m = r.model;
     const dynamics::Motion& motion = r.full.model.motion;
     const double dt = r.full.model.dt, friction = r.full.model.contact->law.friction;
     int pressed = 0, slipping = 0;
     for (int k = 0; k < 300; ++k) {
       const double t = k * dt, end = (k + 1) * dt, spin = motion.turn(t, dt) / dt;
-      const VectorXd before = m.rows * reduced.displacement();
+      const VectorXd before = m.contact.rows * reduced.displacement();
       dynamics::StepReport report;
       reduced.advance({&report, 1});
-      const VectorXd u = m.rows * reduced.displacement(), v = m.rows * reduced.velocity();
-      const VectorXd carried = m.rows * (m.generator * reduced.displacement());
+      const VectorXd u = m.contact.rows * reduced.displacement(),
+                     v = m.contact.rows * reduced.velocity();
+      const VectorXd carried = m.contact.rows * (m.generator * reduced.displacement());
       const auto at = [](const VectorXd& rows, int point) {
         return Vec2{rows[2 * point], rows[2 * point + 1]};
       };
       const Vec2 center_rate{motion.speed.at(end), motion.height.slope(end)};
       for (const PointContact& c : reduced.contacts()) {
-        const Vec2 arm = m.contact_points[static_cast<std::size_t>(c.point)] + at(u, c.point);
+        const Vec2 arm = m.contact.points[static_cast<std::size_t>(c.point)] + at(u, c.point);
         const Vec2 moved = motion.advance(t, dt) + at(u, c.point) - at(before, c.point);
         // c.gap is that of the free step: the facet is found from its place there.
         const Vec2 place = motion.center(end) + arm;
@@ -232,10 +217,129 @@ TEST(ReducedIntegrator, ObeysTheLawInTheMotionItMakes) {
   }
 }
 
+/// The same for nodes, whose motion is that of the lifted fields.
+TEST(ReducedIntegrator, ObeysTheLawAtTheNodesThatComeBy) {
+  for (const reduction::ModelFrame frame : {reduction::ModelFrame::rectified, turning}) {
+    SCOPED_TRACE(frame == turning);
+    Reduced r = pressed({.contact = nodes, .frame = frame});
+    r.full.model.contact->law.restitution = 0.0;
+    ReducedIntegrator reduced = r.start(rondo::test::start_at_rest(r.full.model));
+    const dynamics::Motion& motion = r.full.model.motion;
+    const double dt = r.full.model.dt, friction = r.full.model.contact->law.friction;
+    dynamics::State before(r.full.model), after(r.full.model), found(r.full.model);
+    reduced.fields(before);
+    int pressed = 0, slipping = 0;
+    for (int k = 0; k < 300; ++k) {
+      const double t = k * dt, end = (k + 1) * dt, spin = motion.turn(t, dt) / dt;
+      dynamics::StepReport report;
+      reduced.advance({&report, 1}, &found);
+      reduced.fields(after);
+      const Vec2 turned = rotation(motion.angle(end)), earlier = rotation(motion.angle(t));
+      const Vec2 center_rate{motion.speed.at(end), motion.height.slope(end)};
+      Vec2 sum;
+      for (const dynamics::ActiveContact& c : found.active) {
+        const auto node = static_cast<std::size_t>(r.full.mesh.boundary[c.candidate]);
+        const Vec2 x = r.full.mesh.coordinates[node];
+        const Vec2 arm = turned * (x + after.u[node]), arm_before = earlier * (x + before.u[node]);
+        const double gap = r.full.model.contact->ground.distance(motion.center(end) + arm);
+        const Vec2 moved = motion.advance(t, dt) + arm - arm_before;
+        const Vec2 w = center_rate + spin * turn90(arm) + turned * after.v_next[node];
+        sum += c.normal * c.impulse;
+        EXPECT_GT(c.impulse.x, 0.0);
+        EXPECT_LE(std::abs(c.impulse.y), friction * c.impulse.x * (1.0 + 1e-12));
+        ++pressed;
+        if (std::abs(c.normal.x) > 1e-15) continue;  // the fillet's normal turns with the place
+        EXPECT_NEAR(dot(c.normal, w) + (gap - dot(c.normal, moved)) / dt, 0.0, 1e-8) << k;
+        const double slip = dot(turn90(c.normal), w);
+        if (c.status == contact::Status::stick) {
+          EXPECT_NEAR(slip, 0.0, 1e-8) << k;
+        } else {
+          ++slipping;
+          EXPECT_LE(slip * c.impulse.y, 0.0);
+        }
+      }
+      EXPECT_NEAR(norm(sum - report.contact.impulse), 0.0, 1e-12 * norm(sum) + 1e-15);
+      std::swap(before.u, after.u);
+    }
+    EXPECT_GT(pressed, 200);
+    EXPECT_GT(slipping, 30);
+  }
+}
+
+/// With all modes, the turning frame and central differences it is the full model's scheme, to
+/// round-off.
+TEST(ReducedIntegrator, CentralDifferencesInTheTurningFrameAreTheFullScheme) {
+  DiskCase c = rondo::test::rolling_disk(3, 24);
+  c.motion.angular_velocity = Table({{0.0, 20.0}, {0.01, 220.0}});
+  c.motion.speed = Table({{0.0, 4.0}, {0.01, 84.0}});
+  c.motion.height = Table({{0.0, 0.4}, {0.01, 0.5}});
+  c.motion.gravity = Table(50.0);
+  for (const reduction::ModelFrame frame : {turning, reduction::ModelFrame::rectified}) {
+    Reduced r = whole_space(c, {.contact = nodes, .frame = frame, .scheme = central});
+    dynamics::State state = rondo::test::start_at_rest(r.full.model);
+    ReducedIntegrator reduced = r.start(state);
+    dynamics::Ledger ledger;
+    std::vector<dynamics::StepReport> reports(400);
+    dynamics::State found(r.full.model);
+    reduced.advance(reports, &found);
+    for (std::size_t k = 0; k < reports.size(); ++k)
+      static_cast<void>(dynamics::advance(r.full.model, state, ledger));
+    // Fields are carried by Cayley's turn, off by (s Δt k)³/12 in each step at harmonic k <= 12.
+    const double bound = frame == turning ? 1e-10 : 1e-3;
+    EXPECT_LT(difference(state.u, found.u), bound);
+    EXPECT_LT(difference(state.v, found.v), bound);
+  }
+}
+
+TEST(ReducedIntegrator, CentralDifferencesAtNodesAreTheFullSchemeInContact) {
+  Reduced r = pressed({.contact = nodes, .frame = turning, .scheme = central});
+  dynamics::State state = rondo::test::start_at_rest(r.full.model);
+  ReducedIntegrator reduced = r.start(state);
+  dynamics::Ledger ledger;
+  std::vector<dynamics::StepReport> reports(1500);
+  dynamics::State found(r.full.model);
+  reduced.advance(reports, &found);
+  int contacts = 0;
+  for (const dynamics::StepReport& report : reports) {
+    const dynamics::ContactReport full = dynamics::advance(r.full.model, state, ledger);
+    ASSERT_EQ(full.nodes, report.contact.nodes) << report.step;
+    contacts += full.nodes;
+    // A touch that comes with round-off may come a step later: none does here.
+    EXPECT_NEAR(norm(full.impulse - report.contact.impulse), 0.0, 1e-8 * norm(full.impulse));
+    EXPECT_NEAR(full.penetration, report.contact.penetration, 1e-12);
+  }
+  EXPECT_GT(contacts, 1000);
+  EXPECT_LT(difference(state.u, found.u), 1e-9);
+  EXPECT_LT(difference(state.v, found.v), 1e-9);
+}
+
+Vec2 impulse_of(const Form& form) {
+  Reduced r = pressed(form);
+  r.full.model.contact->law.restitution = 0.0;
+  ReducedIntegrator reduced = r.start(rondo::test::start_at_rest(r.full.model));
+  std::vector<dynamics::StepReport> reports(2 * steps_of(form));
+  reduced.advance(reports);
+  Vec2 sum;
+  for (const dynamics::StepReport& report : reports) sum += report.contact.impulse;
+  return sum;
+}
+
+/// All forms of contact come near that of the full scheme: here, impulses over a time.
+TEST(ReducedIntegrator, EveryFormPressesAsTheFullModelDoes) {
+  const Vec2 expected = impulse_of(every_form.back());
+  for (const Form& form : every_form) {
+    if (form.stride != 1) continue;
+    SCOPED_TRACE(&form - every_form.data());
+    // Longer steps, and places instead of nodes, change when contacts begin and end: the contact
+    // spans six columns.
+    EXPECT_LT(norm(impulse_of(form) - expected), 0.05 * norm(expected));
+  }
+}
+
 TEST(ReducedIntegrator, GivesItsImpulsesToTheNodes) {
   for (const int stride : {1, 2}) {
-    Reduced r = pressed(stride);
-    ReducedIntegrator reduced = r.start(test::start_at_rest(r.full.model));
+    Reduced r = pressed({.stride = stride});
+    ReducedIntegrator reduced = r.start(rondo::test::start_at_rest(r.full.model));
     std::vector<dynamics::StepReport> reports(250);
     dynamics::State state(r.full.model);
     reduced.advance(reports, &state);

@@ -5,6 +5,7 @@
 
 #include <Eigen/LU>
 #include <array>
+#include <numbers>
 #include <random>
 
 #include "rondo/fem/assembly.hpp"
@@ -69,10 +70,12 @@ MatrixXd stiffness_times(const Body& b, const MatrixXd& fields) {
 }
 
 ReducedModel reduced(const Body& b, const MatrixXd& basis, int stride = 1) {
-  return make_reduced_model(
+  ReducedModel m = make_reduced_model(
       {b.mesh, b.mass,
        [&](std::span<const Vec2> in, std::span<Vec2> out) { fem::apply(b.stiffness, in, out); }},
-      basis, stride);
+      basis);
+  set_contact(b.mesh, ContactForm::places, hat_weights(b.mesh.n_sectors, stride), m);
+  return m;
 }
 
 /// T(θ) of fields, by way of lift() on a basis of themselves: T(-θ) there.
@@ -174,26 +177,73 @@ TEST(ContactRows, AreMeansOfTheNodes) {
   const Body b = body(24);
   const MatrixXd w = join(std::array{weighted(b, random_fields(b, 4))});
   const ReducedModel fine = reduced(b, w, 1), coarse = reduced(b, w, 3);
-  ASSERT_EQ(fine.contact_points.size(), 24U);
-  ASSERT_EQ(coarse.contact_points.size(), 8U);
-  const Vec2 lowest = fine.contact_points[0];
+  ASSERT_EQ(fine.contact.points.size(), 24U);
+  ASSERT_EQ(coarse.contact.points.size(), 8U);
+  const Vec2 lowest = fine.contact.points[0];
   EXPECT_NEAR(lowest.x, 0.0, 1e-16);
   EXPECT_NEAR(lowest.y, -0.3, 1e-16);
   const VectorXd q = VectorXd::LinSpaced(4, 1.0, 2.0);
-  const VectorXd at_nodes = fine.rows * q, at_points = coarse.rows * q;
+  const VectorXd at_nodes = fine.contact.rows * q, at_points = coarse.contact.rows * q;
   for (Index k = 0; k < 8; ++k) {
     double mean = 0.0, place = 0.0, weight = 0.0;
     for (int d = -2; d <= 2; ++d) {
       const Index node = (3 * k + d + 24) % 24;
       const double share = (3.0 - std::abs(d)) / 9.0;
       mean += share * at_nodes[2 * node + 1];
-      place += share * fine.contact_points[static_cast<std::size_t>(node)].y;
+      place += share * fine.contact.points[static_cast<std::size_t>(node)].y;
       weight += share;
     }
     EXPECT_NEAR(weight, 1.0, 1e-15);
     EXPECT_NEAR(at_points[2 * k + 1], mean, 1e-14 * at_nodes.norm());
-    EXPECT_NEAR(coarse.contact_points[static_cast<std::size_t>(k)].y, place, 1e-15);
-    EXPECT_NEAR(coarse.contact_share[0], 3.0 * fine.contact_share[0], 1e-15);
+    EXPECT_NEAR(coarse.contact.points[static_cast<std::size_t>(k)].y, place, 1e-15);
+    EXPECT_NEAR(coarse.contact.share[0], 3.0 * fine.contact.share[0], 1e-15);
+  }
+}
+
+/// The rows at a phase are those of the lifted field at the nodes, where these are then.
+TEST(ContactRows, OfNodesAreTheLiftedField) {
+  mesh::Disk treaded;
+  treaded.radial = 2;
+  treaded.tread = mesh::Tread{
+      .pitches = 12, .depth = 0.02, .land_columns = 2, .groove_columns = 1, .layers = 2};
+  for (const bool with_tread : {false, true}) {
+    Body b = body(24);
+    if (with_tread) {
+      b.mesh = mesh::make_disk(treaded);
+      const fem::Material rubber{2.0e7, 0.3, 1100.0, fem::Plane::strain};
+      b.mass = fem::lumped_mass(b.mesh, {&rubber, 1});
+      b.stiffness = fem::assemble_sector(b.mesh, {&rubber, 1});
+    }
+    const MatrixXd w = join(std::array{weighted(b, random_fields(b, 3))});
+    const ReducedModel m = make_reduced_model(
+        {b.mesh, b.mass,
+         [&](std::span<const Vec2> in, std::span<Vec2> out) { fem::apply(b.stiffness, in, out); }},
+        w);
+    const Rings rings = boundary_rings(b.mesh);
+    ASSERT_EQ(rings.n_rings() > 1, with_tread);
+    const double sector = 2.0 * std::numbers::pi / b.mesh.n_sectors, phase = 0.3 * sector;
+    const int whole = 6;  // even: the highest harmonic stays on the material, and turns its sign
+    const ContactRows rows = node_rows(b.mesh, m, phase);
+    Lift lift(b.mesh, m);
+    const VectorXd q = VectorXd::LinSpaced(3, 1.0, -2.0);
+    const VectorXd moved = rows.rows * q;
+    std::vector<Vec2> field(b.mesh.n_nodes());
+    const double theta = phase + whole * sector;
+    lift.lift(theta, q, field);
+    for (std::size_t k = 0; k < rings.point.size(); ++k) {
+      // The node that was `whole` sectors back when the disk had not turned.
+      const int n = b.mesh.n_sectors, within = static_cast<int>(k) % n;
+      const auto material =
+          k - static_cast<std::size_t>(within) + static_cast<std::size_t>((within - whole + n) % n);
+      const auto candidate = static_cast<std::size_t>(rings.point[material]);
+      const auto node = static_cast<std::size_t>(b.mesh.boundary[candidate]);
+      const Vec2 u = rotation(theta) * field[node];
+      const Vec2 x = rotation(theta) * b.mesh.coordinates[node];
+      const auto row = static_cast<Index>(2 * k);
+      EXPECT_NEAR(moved[row], u.x, 1e-12 * moved.norm());
+      EXPECT_NEAR(moved[row + 1], u.y, 1e-12 * moved.norm());
+      EXPECT_NEAR(norm(rows.points[k] - x), 0.0, 1e-14);
+    }
   }
 }
 

@@ -1,0 +1,105 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "rondo/reduced/step_matrices.hpp"
+
+#include <Eigen/Eigenvalues>
+#include <Eigen/LU>
+#include <cmath>
+
+#include "rondo/dynamics/critical_step.hpp"
+
+namespace rondo::reduced {
+namespace {
+
+/// L = K - s² + ṡJ.
+MatrixXd restoring(const reduction::ReducedModel& m, const StepMatrixKey& k) {
+  MatrixXd l = m.stiffness + k.spin_rate * m.turn;
+  l.diagonal().array() -= k.spin * k.spin;
+  return l;
+}
+
+/// N = (I - Δt/2 s D)⁻¹; D = 0 is common: nothing is carried in the turning frame.
+MatrixXd carrying(const reduction::ReducedModel& m, const StepMatrixKey& k) {
+  const MatrixXd unit = MatrixXd::Identity(m.size(), m.size());
+  if (m.frame == reduction::ModelFrame::turning || k.carry == 0.0) return unit;
+  return (unit - 0.5 * k.dt * k.carry * m.generator).partialPivLu().inverse();
+}
+
+}  // namespace
+
+double critical_step(const reduction::ReducedModel& model, double stiffness_damping) {
+  const Eigen::SelfAdjointEigenSolver<MatrixXd> solver(model.stiffness, Eigen::EigenvaluesOnly);
+  return dynamics::critical_step_of(std::sqrt(solver.eigenvalues().maxCoeff()),
+                                    {stiffness_damping, 0.0});
+}
+
+StepMatrices::StepMatrices(const reduction::ReducedModel& model, const StepMatrixKey& key)
+    : key_(key), carry_(carrying(model, key)), work_(model.size()), other_(model.size()) {
+  if (key.scheme == StepScheme::midpoint)
+    make_midpoint(model);
+  else
+    make_central(model);
+}
+
+void StepMatrices::make_midpoint(const reduction::ReducedModel& m) {
+  const double h = 0.5 * key_.dt;
+  from_q_.noalias() = h * restoring(m, key_) * carry_;
+  MatrixXd g = h * (2.0 * key_.spin * m.turn - key_.spin * m.generator +
+                    key_.stiffness_damping * m.stiffness + from_q_);
+  g.diagonal().array() += 1.0 + h * key_.mass_damping;
+  push_ = g.partialPivLu().inverse();
+}
+
+void StepMatrices::make_central(const reduction::ReducedModel& m) {
+  const double h = 0.5 * key_.dt;
+  const MatrixXd unit = MatrixXd::Identity(m.size(), m.size());
+  const MatrixXd turning = h * (2.0 * key_.spin * m.turn + key_.mass_damping * unit);
+  push_ = (unit + turning).partialPivLu().inverse();
+  from_q_.noalias() = -key_.dt * push_ * restoring(m, key_);
+  from_p_.noalias() = push_ * (unit - turning - key_.dt * key_.stiffness_damping * m.stiffness);
+  carry_ = 2.0 * carry_ - unit;
+}
+
+void StepMatrices::advance(const VectorXd& q, const VectorXd& p, const VectorXd& push,
+                           VectorXd& q_end, VectorXd& p_end, VectorXd& carried) {
+  if (key_.scheme == StepScheme::central) {
+    work_ = q + key_.dt * p;
+    q_end.noalias() = carry_ * work_;
+    carried.noalias() = carry_ * p;
+    kick(q_end, carried, push, p_end);
+    return;
+  }
+  const double h = 0.5 * key_.dt;
+  carried = p;
+  work_ = p + 0.5 * push;
+  work_.noalias() -= from_q_ * q;
+  p_end.noalias() = push_ * work_;  // p̄
+  work_ = q + h * p_end;
+  q_end.noalias() = carry_ * work_;  // q̄
+  q_end = 2.0 * q_end - q;
+  p_end = 2.0 * p_end - p;
+}
+
+void StepMatrices::kick(const VectorXd& q, const VectorXd& p, const VectorXd& push,
+                        VectorXd& p_end) const {
+  p_end.noalias() = from_p_ * p;
+  p_end.noalias() += from_q_ * q;
+  p_end.noalias() += push_ * push;
+}
+
+void StepMatrices::respond(const MatrixXd& pushes, MatrixXd& dq, MatrixXd& dp) const {
+  dp.noalias() = push_ * pushes;
+  if (key_.scheme == StepScheme::midpoint)
+    dq.noalias() = 0.5 * key_.dt * carry_ * dp;
+  else
+    dq.setZero(pushes.rows(), pushes.cols());
+}
+
+void StepMatrices::add_response(const VectorXd& push, VectorXd& q, VectorXd& p) {
+  work_.noalias() = push_ * push;
+  p += work_;
+  if (key_.scheme == StepScheme::central) return;
+  other_.noalias() = carry_ * work_;
+  q += 0.5 * key_.dt * other_;
+}
+
+}  // namespace rondo::reduced

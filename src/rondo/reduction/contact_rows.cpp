@@ -1,0 +1,83 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "rondo/reduction/contact_rows.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "rondo/core/contract.hpp"
+#include "rondo/reduction/rectify.hpp"
+#include "rondo/reduction/reduced_model.hpp"
+
+namespace rondo::reduction {
+
+using Eigen::Index;
+using Eigen::MatrixXd;
+
+double contact_weight(double distance, int stride) noexcept {
+  return std::max(0.0, 1.0 - std::abs(distance) / stride) / stride;
+}
+
+MatrixXd hat_weights(int n_sectors, int stride) {
+  RONDO_DEMAND(stride > 0 && n_sectors % stride == 0, n_sectors, stride);
+  MatrixXd weights = MatrixXd::Zero(n_sectors, n_sectors / stride);
+  for (Index k = 0; k < weights.cols(); ++k)
+    for (int d = 1 - stride; d < stride; ++d)
+      weights((k * stride + d + n_sectors) % n_sectors, k) += contact_weight(d, stride);
+  return weights;
+}
+
+ContactRows standing_rows(const mesh::Mesh& mesh, const ReducedModel& model) {
+  const Rings ring = boundary_rings(mesh);
+  RONDO_DEMAND(ring.n_rings() == 1 && model.weights.rows() == mesh.n_sectors, ring.n_rings(),
+               model.weights.rows());
+  const auto points = static_cast<std::size_t>(model.weights.cols());
+  ContactRows out{MatrixXd::Zero(2 * model.weights.cols(), model.size()),
+                  std::vector<Vec2>(points), std::vector<double>(points)};
+  // A place that k points have a part in counts for each of them with its part.
+  const Eigen::VectorXd all = model.weights.rowwise().sum();
+  for (std::size_t k = 0; k < points; ++k)
+    for (int sector = 0; sector < mesh.n_sectors; ++sector) {
+      const auto column = static_cast<Index>(k);
+      const double weight = model.weights(sector, column);
+      if (weight == 0.0) continue;
+      const auto candidate = static_cast<std::size_t>(ring.point[static_cast<std::size_t>(sector)]);
+      const auto node = static_cast<std::size_t>(mesh.boundary[candidate]);
+      out.rows.middleRows(2 * column, 2) +=
+          weight * model.basis.middleRows(static_cast<Index>(2 * node), 2);
+      out.points[k] += weight * mesh.coordinates[node];
+      out.share[k] += weight / all[sector] * mesh.tributary[candidate];
+    }
+  return out;
+}
+
+ContactRows node_rows(const mesh::Mesh& mesh, const ReducedModel& model, double phase) {
+  const Rings rings = boundary_rings(mesh);
+  const std::size_t m = rings.point.size();
+  RONDO_DEMAND(m == mesh.boundary.size(), m, mesh.boundary.size());
+  const bool moves = model.frame == ModelFrame::rectified && phase != 0.0;
+  const Vec2 turned = moves ? rotation(phase) : Vec2{1.0, 0.0};
+  ContactRows out{MatrixXd(static_cast<Index>(2 * m), model.size()), std::vector<Vec2>(m),
+                  std::vector<double>(m)};
+  std::vector<Index> node(m);
+  for (std::size_t k = 0; k < m; ++k) {
+    const auto candidate = static_cast<std::size_t>(rings.point[k]);
+    node[k] = mesh.boundary[candidate];
+    out.points[k] = turned * mesh.coordinates[static_cast<std::size_t>(node[k])];
+    out.share[k] = mesh.tributary[candidate];
+  }
+  Rectifier rectifier(rings.n_sectors, rings.n_rings(), Components::cartesian, Shift::fourier);
+  std::vector<Vec2> values(m);
+  for (Index j = 0; j < model.size(); ++j) {
+    for (std::size_t k = 0; k < m; ++k)
+      values[k] = {model.basis(2 * node[k], j), model.basis(2 * node[k] + 1, j)};
+    if (moves) rectifier.apply(-phase, values);
+    for (std::size_t k = 0; k < m; ++k) {
+      const Vec2 v = turned * values[k];
+      out.rows(static_cast<Index>(2 * k), j) = v.x;
+      out.rows(static_cast<Index>(2 * k + 1), j) = v.y;
+    }
+  }
+  return out;
+}
+
+}  // namespace rondo::reduction
