@@ -17,7 +17,7 @@ struct RunArguments : CommonArguments {
   bool overwrite = false;
   bool resume = false;
   bool quiet = false;
-  std::string reduced;        ///< model's file; empty: the mesh
+  std::string reduced;  ///< model's file; empty: the mesh
   std::string reduced_step = "midpoint";
   double step_factor = 20.0;  ///< with it
 };

@@ -110,10 +110,10 @@ CLI::App* add_reduce(CLI::App& program, app::ReduceArguments& arguments) {
           "nodes of the boundary to a contact point; divides their number; as many as leave "
           "180 points if left out")
       ->check(CLI::Range(1, 1000000));
-  reduce
-      ->add_option("--contact", r.contact,
-                   "points of contact: places that stand still in space, or the nodes that come by; "
-                   "places on a smooth disk if left out, nodes otherwise");
+  reduce->add_option(
+      "--contact", r.contact,
+      "points of contact: places that stand still in space, or the nodes that come by; "
+      "places on a smooth disk if left out, nodes otherwise");
   reduce
       ->add_option("--frame", r.frame,
                    "frame of the modes: rectified, or turning (with the disk), to compare with")

@@ -31,8 +31,8 @@ ContactRows standing_rows(const mesh::Mesh& mesh, const ReducedModel& model) {
   RONDO_DEMAND(ring.n_rings() == 1 && model.weights.rows() == mesh.n_sectors, ring.n_rings(),
                model.weights.rows());
   const auto points = static_cast<std::size_t>(model.weights.cols());
-  ContactRows out{MatrixXd::Zero(2 * model.weights.cols(), model.size()),
-                  std::vector<Vec2>(points), std::vector<double>(points)};
+  ContactRows out{MatrixXd::Zero(2 * model.weights.cols(), model.size()), std::vector<Vec2>(points),
+                  std::vector<double>(points)};
   // A place that k points have a part in counts for each of them with its part.
   const Eigen::VectorXd all = model.weights.rowwise().sum();
   for (std::size_t k = 0; k < points; ++k)

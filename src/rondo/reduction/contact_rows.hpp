@@ -20,8 +20,8 @@ enum class ContactForm {
 
 /// m points: those of a reduced model that stand still, or nodes at one phase of the disk.
 struct ContactRows {
-  Eigen::MatrixXd rows;      ///< (2m, r) H: the modes at the points, x and y of each
-  std::vector<Vec2> points;  ///< (m) X of these, in the frame of the model                 [m]
+  Eigen::MatrixXd rows;       ///< (2m, r) H: the modes at the points, x and y of each
+  std::vector<Vec2> points;   ///< (m) X of these, in the frame of the model                 [m]
   std::vector<double> share;  ///< (m) length of boundary each stands for                   [m]
 };
 
@@ -37,8 +37,8 @@ Eigen::MatrixXd hat_weights(int n_sectors, int stride);
 ContactRows standing_rows(const mesh::Mesh& mesh, const ReducedModel& model);
 
 /// The candidates when the disk has turned by `phase` [rad], in the order of boundary_rings(mesh).
-/// In the rectified frame the rows move with the phase, T(-phase) of the modes there; in the turning
-/// frame they are the modes at the nodes.
+/// In the rectified frame the rows move with the phase, T(-phase) of the modes there; in the
+/// turning frame they are the modes at the nodes.
 ContactRows node_rows(const mesh::Mesh& mesh, const ReducedModel& model, double phase);
 
 }  // namespace rondo::reduction

@@ -86,8 +86,7 @@ MatrixXd join(std::span<const MatrixXd> parts, double dependent) {
   return q.leftCols(rank);
 }
 
-ReducedModel make_reduced_model(const FullModel& full, const MatrixXd& weighted,
-                                ModelFrame frame) {
+ReducedModel make_reduced_model(const FullModel& full, const MatrixXd& weighted, ModelFrame frame) {
   const auto n = static_cast<Index>(full.mesh.n_nodes());
   RONDO_DEMAND(weighted.rows() == 2 * n && full.mass.size() == full.mesh.n_nodes(), weighted.rows(),
                n, full.mass.size());

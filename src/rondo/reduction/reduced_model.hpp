@@ -29,8 +29,8 @@ struct ReducedModel {
   Eigen::MatrixXd generator;  ///< (r, r) D = ΦᵀM𝒟Φ, skew to the last bit
   Eigen::MatrixXd turn;       ///< (r, r) J = ΦᵀMJΦ, likewise
   Eigen::VectorXd reference;  ///< (r) x = ΦᵀM X
-  Eigen::VectorXd turned_reference;   ///< (r) j = ΦᵀMJ X
-  Eigen::MatrixXd translation;        ///< (r, 2) Eᵀ: ΦᵀM of unit accelerations along x and y
+  Eigen::VectorXd turned_reference;  ///< (r) j = ΦᵀMJ X
+  Eigen::MatrixXd translation;       ///< (r, 2) Eᵀ: ΦᵀM of unit accelerations along x and y
   ModelFrame frame = ModelFrame::rectified;
   ContactForm form = ContactForm::places;
   Eigen::MatrixXd weights;  ///< (sectors, m) of the places in the points that stand still
@@ -52,8 +52,8 @@ Eigen::MatrixXd join(std::span<const Eigen::MatrixXd> parts, double dependent = 
 
 /// What of a mesh a reduced model is made of.
 struct FullModel {
-  const mesh::Mesh& mesh;        ///< of equal sectors
-  std::span<const double> mass;  ///< (n) [kg/m]
+  const mesh::Mesh& mesh;                                                 ///< of equal sectors
+  std::span<const double> mass;                                           ///< (n) [kg/m]
   std::function<void(std::span<const Vec2>, std::span<Vec2>)> stiffness;  ///< out = K in
 };
 

@@ -280,14 +280,13 @@ void set_contact(const ReduceRequest& request, const mesh::Mesh& mesh,
 ReducedFile make_file(const ReduceRequest& request, const Source& source, const Setup& setup,
                       const MatrixXd& basis) {
   ReducedFile file;
-  file.model = reduction::make_reduced_model({setup.mesh, setup.model.mass,
-                                              [&](std::span<const Vec2> in, std::span<Vec2> out) {
-                                                fem::apply(*setup.model.sector, in, out);
-                                              }},
-                                             basis,
-                                             is_turning(request)
-                                                 ? reduction::ModelFrame::turning
-                                                 : reduction::ModelFrame::rectified);
+  file.model = reduction::make_reduced_model(
+      {setup.mesh, setup.model.mass,
+       [&](std::span<const Vec2> in, std::span<Vec2> out) {
+         fem::apply(*setup.model.sector, in, out);
+       }},
+      basis,
+      is_turning(request) ? reduction::ModelFrame::turning : reduction::ModelFrame::rectified);
   set_contact(request, setup.mesh, file.model);
   file.mesh = setup.mesh;
   file.mass = setup.model.mass;
@@ -307,8 +306,8 @@ ReduceReport describe(const Source& source, const Setup& setup, const ReducedFil
       reduced::critical_step(file.model, source.cases.front().damping.stiffness);
   const bool nodes = file.model.form == reduction::ContactForm::nodes;
   report.contact = name_in(contact_names, file.model.form);
-  report.contact_points = static_cast<long long>(nodes ? setup.mesh.boundary.size()
-                                                       : file.model.contact.points.size());
+  report.contact_points =
+      static_cast<long long>(nodes ? setup.mesh.boundary.size() : file.model.contact.points.size());
   const double spin = std::max(std::abs(file.ranges.angular_velocity.low),
                                std::abs(file.ranges.angular_velocity.high));
   if (spin > 0.0)

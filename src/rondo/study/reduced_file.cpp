@@ -113,9 +113,8 @@ void read_contact(const File& file, const std::string& path, ReducedFile& conten
   if (m.form == ContactForm::nodes) return;
   const std::size_t sectors = static_cast<std::size_t>(m.n_sectors);
   const auto shape = file.dataset("/model/contact_weights", {io::h5::any, sectors}).shape();
-  const MatrixXd weights =
-      read_columns(file, "/model/contact_weights", static_cast<Index>(sectors),
-                   static_cast<Index>(shape[0]), {shape[0], sectors});
+  const MatrixXd weights = read_columns(file, "/model/contact_weights", static_cast<Index>(sectors),
+                                        static_cast<Index>(shape[0]), {shape[0], sectors});
   const bool fits = reduction::boundary_rings(content.mesh).n_rings() == 1 &&
                     m.frame == ModelFrame::rectified && weights.allFinite() &&
                     (weights.array() >= 0.0).all();

@@ -127,8 +127,7 @@ double step_of(const Case& c, const Setup& setup, const ReducedRun& run) {
 /// Central differences have a limit.
 void check_step(const Case& c, const ReducedRun& run, double dt) {
   if (run.scheme != reduced::StepScheme::central) return;
-  const double limit =
-      reduced::critical_step(run.file.model, c.damping.stiffness);
+  const double limit = reduced::critical_step(run.file.model, c.damping.stiffness);
   if (dt <= c.time.safety * limit) return;
   throw request_error(
       "--step-factor", fmt::format("{:.6g}", run.step_factor),

@@ -26,8 +26,8 @@ struct RunOptions {
   std::function<void(const std::string&)> warn;  ///< takes warnings; may be empty
   SharedBody* shared = nullptr;                  ///< as for build()
   bool keeps_checkpoint = true;                  ///< of its end, once it is done
-  std::filesystem::path reduced;  ///< model to run on instead of the mesh; empty: the mesh
-  double step_factor = 20.0;      ///< with it: step over that of the full run
+  std::filesystem::path reduced;          ///< model to run on instead of the mesh; empty: the mesh
+  double step_factor = 20.0;              ///< with it: step over that of the full run
   std::string reduced_step = "midpoint";  ///< with it: step_names of reduced_run.hpp
 };
 
