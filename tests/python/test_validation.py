@@ -129,6 +129,7 @@ def test_command(directory: pathlib.Path, tmp_path: pathlib.Path) -> None:
     png, svg = (tmp_path / f"validation{ending}" for ending in (".png", ".svg"))
     assert done.stdout.splitlines() == [str(png), str(svg)]
     check_files(png, svg, style.PAGE, style.DPI)
+    assert "(a) 0.2" in svg.read_text() and "(b) 0.3" not in svg.read_text()
     done = command(directory.parent)
     assert done.returncode == 2
     assert "has no validation.json; it holds model-validation" in done.stderr
