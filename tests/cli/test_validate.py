@@ -4,13 +4,16 @@ results directories, wrong input."""
 import csv
 import json
 import pathlib
+import signal
+import subprocess
 import tempfile
+import time
 import unittest
 
 import h5py
 import numpy as np
 
-from program import ProgramTest, SMALL, history, replaced, run, summary
+from program import PROGRAM, ProgramTest, SMALL, history, replaced, run, summary
 
 TEXT = SMALL
 for key, line in (("radial", "radial = 8"), ("circumferential", "circumferential = 120"),
@@ -269,6 +272,8 @@ class Validate(ProgramTest):
         fails("named twice", held, held)
         fails("nowhere", self.folder / "nowhere")
         fails("no snapshot", held, options=["--validate-from", "1"])
+        _, done = self.validated(held, "--step-factor", "400", code=2)
+        self.assertIn("history.csv lies in this window", done.stderr)
         fails("not a factor", held, options=["--step-factor", "0"])
         done = run("reduce", "-o", model)
         self.assertEqual(done.returncode, 2)
@@ -277,6 +282,25 @@ class Validate(ProgramTest):
         done = run("reduce", "-o", model, "--validate", held)
         self.assertEqual(done.returncode, 2)
         self.assertIn("no such file", done.stderr)
+
+    def test_interrupt(self):
+        out, _ = self.validated(self.shared / "0.3")
+        said = [PROGRAM, "reduce", "-o", self.folder / "model.h5", "--validate",
+                self.shared / "0.3", "--validate", self.shared / "0.2", "--step-factor", "0.001"]
+        rows = out / "0.3" / "history.csv"
+        rows.unlink()
+        process = subprocess.Popen(said, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
+        until = time.monotonic() + 60
+        while time.monotonic() < until and not rows.exists():
+            time.sleep(0.01)
+        process.send_signal(signal.SIGINT)
+        table_said, warned = process.communicate(timeout=60)
+        self.assertEqual((process.returncode, table_said), (130, ""), warned)
+        self.assertIn("without RUN validates it", warned)
+        self.assertEqual(summary(out / "0.3")["status"], "interrupted")
+        self.assertFalse((out / "0.2").exists())
+        for name in ("validation.json", "validation.csv"):  # of the validation before
+            self.assertFalse((out / name).exists())
 
     def test_replaces_predictions_only(self):
         there = self.folder / "model-validation" / "0.3"

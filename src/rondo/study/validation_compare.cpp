@@ -10,7 +10,9 @@
 #include <utility>
 
 #include "rondo/core/contract.hpp"
+#include "rondo/io/csv.hpp"
 #include "rondo/io/files.hpp"
+#include "rondo/study/paper_results.hpp"
 #include "rondo/study/pod_input.hpp"
 #include "rondo/study/sweep_figures.hpp"
 
@@ -38,7 +40,8 @@ struct FieldOfRun {
   }
 
  private:
-  FieldOfRun(std::span<const io::RunReader> run, io::Quantity quantity, std::vector<Column> columns)
+  FieldOfRun(std::span<const io::RunReader> run, io::Quantity quantity,
+             const std::vector<Column>& columns)
       : snapshots(run, columns, {quantity, Weight::mass, reduction::Shift::fourier}) {
     for (const Column& column : columns) time.push_back(column.time);
   }
@@ -158,8 +161,22 @@ void compare_profiles(const ValidationWindow& window, const Readers& runs, Valid
   run.reduced_profile = reduced;
 }
 
+/// Steps, or rows, longer than the window leave nothing to take means of.
+void demand_rows(const std::filesystem::path& directory, const ValidationWindow& window) {
+  const std::filesystem::path file = directory / "history.csv";
+  const Columns history = io::read_columns(file);
+  const std::vector<double>& time = column(history, "time_s", file);
+  for (std::size_t k = 1; k < time.size(); ++k)
+    if (time[k - 1] >= window.from && time[k] <= window.to) return;
+  throw request_error("--validate-from, --validate-to",
+                      fmt::format("{:.9g} to {:.9g} s", window.from, window.to),
+                      fmt::format("no row of {} lies in this window", file.string()),
+                      "a longer window; a smaller --step-factor, where it is that of a prediction");
+}
+
 void take_history(const std::filesystem::path& directory, const ValidationWindow& window,
                   double FullReduced::*side, ValidationFigures& c) {
+  demand_rows(directory, window);
   const std::vector<double> figures =
       figures_of(directory, AnalysisKind::dynamic, {window.from, window.to});
   const std::span<const FigureColumn> columns = figure_columns(AnalysisKind::dynamic);

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <utility>
 
 #include "rondo/io/csv.hpp"
 #include "rondo/io/files.hpp"
@@ -184,10 +185,10 @@ std::string validation_text(const ValidationReport& report) {
   columns[0] = {"held out"};
   for (const Line& line : lines) columns[0].emplace_back(line.what);
   for (const Validated& run : report.runs) {
-    std::vector<std::string>& column = columns.emplace_back();
-    column.push_back(run.name);
+    std::vector<std::string> column{run.name};
     for (const Line& line : lines)
       column.push_back(run.status == RunStatus::done ? line.text(run.figures) : "failed");
+    columns.push_back(std::move(column));
   }
   std::string text;
   for (std::size_t row = 0; row <= lines.size(); ++row) {
