@@ -34,7 +34,7 @@ SCRIPTS = {"cli": "test_run.py", "disk": "test_full_disk.py", "crush": "test_cru
            "numerical": "test_numerical.py", "resume": "test_resume.py",
            "terminal": "test_terminal.py", "sweep": "test_sweep.py", "team": "test_sweep_team.py",
            "rom": "test_reduced.py", "rom_forms": "test_reduced_forms.py",
-           "romtable": "test_reduced_table.py"}
+           "romtable": "test_reduced_table.py", "validate": "test_validate.py"}
 
 # @file in src/rondo, then of each mutation in it: name | old text => new text | tests.
 # \n is a new line; a line that begins with spaces continues the one above. The tests are

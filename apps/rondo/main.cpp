@@ -85,14 +85,32 @@ CLI::App* add_check(CLI::App& program, app::CommonArguments& arguments) {
   return check;
 }
 
+void add_validation(CLI::App& reduce, study::ValidationRequest& r) {
+  CLI::Option* validate = reduce
+                              .add_option("--validate", r.held_out,
+                                          "RUN: a run of the full model that this one predicts, "
+                                          "into MODEL-validation; repeatable")
+                              ->take_all()
+                              ->expected(1);
+  reduce
+      .add_option("--step-factor", r.step_factor,
+                  "of the predictions: their step over that of the full run")
+      ->capture_default_str()
+      ->needs(validate);
+  reduce
+      .add_option("--validate-from", r.from,
+                  "begin of the comparison [s]; the last quarter of each run if left out")
+      ->needs(validate);
+  reduce.add_option("--validate-to", r.to, "its end [s]")->needs(validate);
+}
+
 CLI::App* add_reduce(CLI::App& program, app::ReduceArguments& arguments) {
   CLI::App* reduce = program.add_subcommand(
       "reduce", "a reduced model of a rolling disk from the snapshots of runs");
   study::ReduceRequest& r = arguments.request;
-  reduce
-      ->add_option("run", r.runs,
-                   "results directories of one disk: other frictions, speeds, heights, spins")
-      ->required();
+  reduce->add_option("run", r.runs,
+                     "results directories of one disk: other frictions, speeds, heights, spins; "
+                     "none: validates the model that is there");
   reduce->add_option("-o,--output", r.output, "file of the model, e.g. model.h5")->required();
   reduce->add_option(
       "--displacement-modes", r.displacement_modes,
@@ -120,10 +138,12 @@ CLI::App* add_reduce(CLI::App& program, app::ReduceArguments& arguments) {
       ->capture_default_str();
   reduce->add_option("--memory", r.memory, "memory allowed to the decompositions")
       ->capture_default_str();
+  add_validation(*reduce, arguments.validation);
   reduce->add_flag("--quiet", arguments.quiet, "prints warnings and the figures only");
   reduce->footer(
       "Example:\n  rondo reduce results/mu0 results/mu06 -o model.h5\n"
       "  rondo run cases/rolling-flat.toml --reduced model.h5 -o results/reduced\n"
+      "  rondo reduce --validate results/mu03 -o model.h5\n"
       "What it can do and where it fails: docs/reduced.md.");
   return reduce;
 }

@@ -2,12 +2,14 @@
 /// @file  rondo reduce: calls the library, prints the figures on stdout, returns an exit code.
 #pragma once
 #include "rondo/study/reduce.hpp"
+#include "rondo/study/validation.hpp"
 
 namespace rondo::app {
 
 struct ReduceArguments {
-  study::ReduceRequest request;
-  bool quiet = false;  ///< no progress, only warnings and the figures
+  study::ReduceRequest request;         ///< without runs: validates the model that is there
+  study::ValidationRequest validation;  ///< without runs: validates nothing
+  bool quiet = false;                   ///< no progress, only warnings and the figures
 };
 
 int reduce(ReduceArguments arguments);

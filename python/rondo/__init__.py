@@ -9,9 +9,10 @@ from .pod import Pod, open_pod
 from .run import Run
 from .run import open_run as open
 from .sweep import Sweep, open_sweep
+from .validation import Validation, open_validation
 
 __version__ = "0.1.0"
 
 __all__ = ["Error", "History", "Mesh", "Modes", "NewerSchemaError", "NotARunError", "Paper", "Pod",
-           "Run", "Sweep", "UnfinishedRunError", "UnknownNameError", "open", "open_modes",
-           "open_paper", "open_pod", "open_sweep"]
+           "Run", "Sweep", "UnfinishedRunError", "UnknownNameError", "Validation", "open",
+           "open_modes", "open_paper", "open_pod", "open_sweep", "open_validation"]

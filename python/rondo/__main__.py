@@ -10,7 +10,7 @@ from collections.abc import Sequence
 
 import matplotlib
 
-from rondo import __version__, open_modes, open_paper, open_sweep, style
+from rondo import __version__, open_modes, open_paper, open_sweep, open_validation, style
 from rondo import open as open_run
 from rondo.errors import Error, UnfinishedRunError
 from rondo.run import Run
@@ -57,6 +57,15 @@ def _parser() -> argparse.ArgumentParser:
                        help="each figure over X, a curve for each value of BY; may be repeated")
     sweep.add_argument("-o", "--output", type=pathlib.Path, metavar="FOLDER",
                        help="where the .png and .svg files go; default DIRECTORY/figures")
+
+    validation = commands.add_parser("validation",
+                                     help="draw how far off a reduced model's predictions are")
+    validation.add_argument("directory", type=pathlib.Path,
+                            help="MODEL-validation of `rondo reduce --validate`")
+    validation.add_argument("--run", nargs="+", action="extend", default=[], metavar="NAME",
+                            help="of these runs only; default: all")
+    validation.add_argument("-o", "--output", type=pathlib.Path, metavar="FOLDER",
+                            help="where validation.png and .svg go; default DIRECTORY/figures")
 
     means = commands.add_parser("means", help="print the mean forces of the ground on the body")
     means.add_argument("directory", type=pathlib.Path, nargs="+", help="of `rondo run`")
@@ -115,6 +124,12 @@ def _campbell(options: argparse.Namespace) -> None:
         print(path)
 
 
+def _validation(options: argparse.Namespace) -> None:
+    figure = open_validation(options.directory).plot(options.run)
+    for path in style.save(figure, _folder(options) / "validation"):
+        print(path)
+
+
 def _sweep(options: argparse.Namespace) -> None:
     from rondo.figures.sweep_figures import draw_sweep
 
@@ -127,7 +142,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
     options = _parser().parse_args(arguments)
     matplotlib.use("Agg")
     commands = {"figures": _figures, "animate": _animate, "means": _means,
-                "campbell": _campbell, "sweep": _sweep}
+                "campbell": _campbell, "sweep": _sweep, "validation": _validation}
     try:
         commands[options.command](options)
         sys.stdout.flush()
@@ -142,7 +157,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
         return WRONG
     except OSError as reason:
         # What else writes has said so itself.
-        figures = options.command in ("figures", "campbell", "sweep")
+        figures = options.command in ("figures", "campbell", "sweep", "validation")
         place = reason.filename or (_folder(options) if figures else "output")
         advice = "; choose another -o" if figures else ""
         print(f"rondo: {place}: {reason.strerror or reason}{advice}", file=sys.stderr)

@@ -16,7 +16,7 @@ import numpy as np
 
 from .errors import Error, NewerSchemaError, NotARunError
 
-FORMAT = 1  # of results.h5, pod.h5, paper.json, sweep.json
+FORMAT = 1  # of results.h5, pod.h5, paper.json, sweep.json, validation.json
 SCHEMA = 1  # of case.toml
 MOST_NAMED = 12  # names in a message
 
@@ -26,6 +26,7 @@ KINDS = {  # what is in a directory with this file, and who opens it
     "run.json": ("a run", "rondo.open"),
     "modes.json": ("modes of a body", "rondo.open_modes"),
     "sweep.json": ("a sweep", "rondo.open_sweep"),
+    "validation.json": ("a validation of a reduced model", "rondo.open_validation"),
 }
 
 
