@@ -93,6 +93,19 @@ RunArguments completed(RunArguments arguments) {
   return arguments;
 }
 
+/// Of what this program did: a run that goes on counts from there.
+void print_realtime_factor(const study::RunReport& r) {
+  if (r.analysis == study::AnalysisKind::crush || !(r.step_wall_s > 0.0)) {
+    fmt::print("real time          no motion was computed\n");
+    return;
+  }
+  fmt::print("real time          {:.4g} times: {:.6g} s of motion, {:.4g} s of steps{}\n",
+             r.simulated_s / r.step_wall_s, r.simulated_s, r.step_wall_s,
+             r.slowest_step > 0.0
+                 ? fmt::format("; the slowest step took {:.3g} of its time", r.slowest_step)
+                 : " and output");
+}
+
 }  // namespace
 
 int run(const RunArguments& given) {
@@ -111,7 +124,9 @@ int run(const RunArguments& given) {
   options.warn = [](const std::string& text) { spdlog::warn(text); };
   options.stop = &stop_requested();
   options.before_loop = catch_stop_signals;
-  return finish(run_with_progress(c, options, arguments.quiet), options.directory);
+  const study::RunReport report = run_with_progress(c, options, arguments.quiet);
+  if (arguments.realtime_factor) print_realtime_factor(report);
+  return finish(report, options.directory);
 }
 
 int check(const CommonArguments& arguments) {

@@ -19,6 +19,7 @@ struct RunArguments : CommonArguments {
   bool quiet = false;
   std::string reduced;  ///< model's file; empty: the mesh
   std::string reduced_step = "midpoint";
+  bool realtime_factor = false;
   double step_factor = 20.0;  ///< with it
 };
 

@@ -69,6 +69,8 @@ CLI::App* add_run(CLI::App& program, app::RunArguments& arguments) {
                   "of a reduced run: midpoint (implicit), or explicit (central differences)")
       ->capture_default_str()
       ->needs(reduced);
+  run->add_flag("--realtime-factor", arguments.realtime_factor,
+                "says how much faster than the motion itself the steps were");
   run->add_flag("--quiet", arguments.quiet, "prints warnings and errors only");
   run->footer(
       "Example:\n  rondo run cases/ledge-smooth.toml -o results/mu06 --set ground.friction=0.6\n"
@@ -100,6 +102,10 @@ void add_validation(CLI::App& reduce, study::ValidationRequest& r) {
   reduce
       .add_option("--validate-from", r.from,
                   "begin of the comparison [s]; the last quarter of each run if left out")
+      ->needs(validate);
+  reduce
+      .add_option("--reduced-step", r.reduced_step, "of the predictions: midpoint, or explicit")
+      ->capture_default_str()
       ->needs(validate);
   reduce.add_option("--validate-to", r.to, "its end [s]")->needs(validate);
 }

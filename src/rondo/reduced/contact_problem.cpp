@@ -35,7 +35,10 @@ ContactSolver::ContactSolver(const mesh::Mesh& mesh, const reduction::ReducedMod
   warm_.resize(m);
   const double each = ContactTable::bytes(m, model.size(), m / 16);
   most_phases_ = static_cast<std::size_t>(std::clamp(table_room / each, 4.0, 1024.0));
-  if (nodes_) return;
+  if (nodes_) {
+    node_rows_ = std::make_unique<reduction::NodeRows>(mesh, model);
+    return;
+  }
   phases_.push_back(
       {0.0, 0,
        std::make_unique<ContactTable>(model.contact, model.contact.rows * model.generator)});
@@ -56,8 +59,7 @@ ContactTable* ContactSolver::table_of(double share) {
   const double turned = 2.0 * std::numbers::pi / mesh_.n_sectors * share;
   ++made_;
   phases_.push_back(
-      {share, steps_,
-       std::make_unique<ContactTable>(reduction::node_rows(mesh_, model_, turned), MatrixXd())});
+      {share, steps_, std::make_unique<ContactTable>(node_rows_->at(turned), MatrixXd())});
   return phases_.back().table.get();
 }
 
@@ -87,6 +89,8 @@ int ContactSolver::point_of(int material, int sectors) const noexcept {
 }
 
 void ContactSolver::forget_matrices() noexcept {
+  // With another spin other phases come: all but those of the step before.
+  if (nodes_) std::erase_if(phases_, [&](const Phase& phase) { return phase.used < steps_; });
   for (Phase& phase : phases_) phase.table->forget();
 }
 

@@ -95,8 +95,9 @@ class ContactSolver {
   const reduction::ReducedModel& model_;
   const contact::Ground& ground_;
   contact::CoupledLimits limits_;
-  bool nodes_;    ///< the points are nodes
-  bool turning_;  ///< of the turning frame
+  bool nodes_;                                      ///< the points are nodes
+  bool turning_;                                    ///< of the turning frame
+  std::unique_ptr<reduction::NodeRows> node_rows_;  ///< none: points that stand still
   std::vector<Phase> phases_;
   std::size_t most_phases_ = 2;
   long long steps_ = 0, made_ = 0;

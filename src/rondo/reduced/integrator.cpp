@@ -7,11 +7,13 @@
 #include <numbers>
 
 #include "rondo/core/contract.hpp"
+#include "rondo/reduction/dense.hpp"
 
 namespace rondo::reduced {
 
 using dynamics::ContactReport;
 using dynamics::StepReport;
+using reduction::multiply;
 
 /// The frame over one step. The midpoint rule sees its means over the step, central differences
 /// what it is at the end.
@@ -83,9 +85,8 @@ void ReducedIntegrator::start_central() {
   m.pull = f.rotation * f.pull;
   if (input_.reduced.frame == reduction::ModelFrame::turning) m.pull = f.pull;
   set_load(m);
-  const StepMatrices half(input_.reduced,
-                          {StepScheme::central, m.dt, input_.model.mass_damping,
-                           input_.model.stiffness_damping, 0.0, m.spin, m.spin_rate});
+  StepMatrices half(input_.reduced, {StepScheme::central, m.dt, input_.model.mass_damping,
+                                     input_.model.stiffness_damping, 0.0, m.spin, m.spin_rate});
   half.kick(q_, p_, load_, p_end_);
   p_ = p_end_;
 }
@@ -245,7 +246,7 @@ dynamics::StepEnergy ReducedIntegrator::energy() {
   dynamics::StepEnergy e;
   other_ = q_;
   if (input_.scheme == StepScheme::central) other_ += input_.model.dt * p_;
-  work_.noalias() = input_.reduced.stiffness * other_;
+  multiply(input_.reduced.stiffness, other_, work_);
   e.kinetic = 0.5 * p_.squaredNorm();
   e.strain = 0.5 * q_.dot(work_);
   return e;
@@ -265,20 +266,20 @@ void ReducedIntegrator::balance(const Motion& m, StepReport& report) {
   w.rim = report.contact.work_rim;
   w.dissipation_friction = report.contact.dissipation_friction;
   w.loss_impact = report.contact.loss_impact;
-  work_.noalias() = rm.turn * q_mid_;
+  multiply(rm.turn, q_mid_, work_);
   w.frame = load_.dot(p_mid_) +
             m.dt * (m.spin * m.spin * p_mid_.dot(q_mid_) - m.spin_rate * p_mid_.dot(work_));
   w.dissipation_mass = m.dt * model.mass_damping * p_mid_.squaredNorm();
-  work_.noalias() = rm.stiffness * (central ? carried_ : p_mid_);
+  multiply(rm.stiffness, central ? carried_ : p_mid_, work_);
   w.dissipation_stiffness = m.dt * model.stiffness_damping * p_mid_.dot(work_);
   // What carrying the fields does to the strain energy: nothing, had the modes K D skew.
   if (central) {
-    work_.noalias() = rm.stiffness * q_end_;
+    multiply(rm.stiffness, q_end_, work_);
     other_ = q_end_ - m.dt * carried_;
     w.scheme = 0.5 * other_.dot(work_) - strain_before;
   } else {
-    work_.noalias() = rm.generator * q_mid_;
-    other_.noalias() = rm.stiffness * q_mid_;
+    multiply(rm.generator, q_mid_, work_);
+    multiply(rm.stiffness, q_mid_, other_);
     w.scheme = m.dt * m.spin * other_.dot(work_);
   }
   q_.swap(q_end_);

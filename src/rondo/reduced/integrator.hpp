@@ -8,6 +8,7 @@
 #include <span>
 #include <vector>
 
+#include "rondo/core/blas_threads.hpp"
 #include "rondo/dynamics/integrator.hpp"
 #include "rondo/reduced/contact_problem.hpp"
 
@@ -76,6 +77,7 @@ class ReducedIntegrator final : public dynamics::Integrator {
   void fill(dynamics::State& state);
   void fill_contacts(double angle, std::vector<dynamics::ActiveContact>& active) const;
 
+  const OneBlasThread one_blas_thread_;  ///< products too small for more
   const IntegratorInput input_;
   std::vector<int> candidates_;  ///< (N) place in mesh.boundary, ring after ring
   mutable reduction::Lift lift_;

@@ -2,13 +2,25 @@
 #include "rondo/reduced/step_matrices.hpp"
 
 #include <Eigen/Eigenvalues>
-#include <Eigen/LU>
 #include <cmath>
+#include <utility>
 
 #include "rondo/dynamics/critical_step.hpp"
+#include "rondo/reduction/dense.hpp"
+#include "rondo/reduction/svd.hpp"
 
 namespace rondo::reduced {
+
+using reduction::inverse;
+using reduction::multiply;
+
 namespace {
+
+MatrixXd product(const MatrixXd& a, const MatrixXd& b) {
+  MatrixXd c(a.rows(), b.cols());
+  multiply(a, b, c);
+  return c;
+}
 
 /// L = K - s² + ṡJ.
 MatrixXd restoring(const reduction::ReducedModel& m, const StepMatrixKey& k) {
@@ -21,7 +33,7 @@ MatrixXd restoring(const reduction::ReducedModel& m, const StepMatrixKey& k) {
 MatrixXd carrying(const reduction::ReducedModel& m, const StepMatrixKey& k) {
   const MatrixXd unit = MatrixXd::Identity(m.size(), m.size());
   if (m.frame == reduction::ModelFrame::turning || k.carry == 0.0) return unit;
-  return (unit - 0.5 * k.dt * k.carry * m.generator).partialPivLu().inverse();
+  return inverse(unit - 0.5 * k.dt * k.carry * m.generator);
 }
 
 }  // namespace
@@ -42,20 +54,20 @@ StepMatrices::StepMatrices(const reduction::ReducedModel& model, const StepMatri
 
 void StepMatrices::make_midpoint(const reduction::ReducedModel& m) {
   const double h = 0.5 * key_.dt;
-  from_q_.noalias() = h * restoring(m, key_) * carry_;
+  from_q_ = h * product(restoring(m, key_), carry_);
   MatrixXd g = h * (2.0 * key_.spin * m.turn - key_.spin * m.generator +
                     key_.stiffness_damping * m.stiffness + from_q_);
   g.diagonal().array() += 1.0 + h * key_.mass_damping;
-  push_ = g.partialPivLu().inverse();
+  push_ = inverse(std::move(g));
 }
 
 void StepMatrices::make_central(const reduction::ReducedModel& m) {
   const double h = 0.5 * key_.dt;
   const MatrixXd unit = MatrixXd::Identity(m.size(), m.size());
   const MatrixXd turning = h * (2.0 * key_.spin * m.turn + key_.mass_damping * unit);
-  push_ = (unit + turning).partialPivLu().inverse();
-  from_q_.noalias() = -key_.dt * push_ * restoring(m, key_);
-  from_p_.noalias() = push_ * (unit - turning - key_.dt * key_.stiffness_damping * m.stiffness);
+  push_ = inverse(unit + turning);
+  from_q_ = -key_.dt * product(push_, restoring(m, key_));
+  from_p_ = product(push_, unit - turning - key_.dt * key_.stiffness_damping * m.stiffness);
   carry_ = 2.0 * carry_ - unit;
 }
 
@@ -63,42 +75,43 @@ void StepMatrices::advance(const VectorXd& q, const VectorXd& p, const VectorXd&
                            VectorXd& q_end, VectorXd& p_end, VectorXd& carried) {
   if (key_.scheme == StepScheme::central) {
     work_ = q + key_.dt * p;
-    q_end.noalias() = carry_ * work_;
-    carried.noalias() = carry_ * p;
+    multiply(carry_, work_, q_end);
+    multiply(carry_, p, carried);
     kick(q_end, carried, push, p_end);
     return;
   }
   const double h = 0.5 * key_.dt;
   carried = p;
-  work_ = p + 0.5 * push;
-  work_.noalias() -= from_q_ * q;
-  p_end.noalias() = push_ * work_;  // p̄
+  multiply(from_q_, q, other_);
+  work_ = p + 0.5 * push - other_;
+  multiply(push_, work_, p_end);  // p̄
   work_ = q + h * p_end;
-  q_end.noalias() = carry_ * work_;  // q̄
+  multiply(carry_, work_, q_end);  // q̄
   q_end = 2.0 * q_end - q;
   p_end = 2.0 * p_end - p;
 }
 
 void StepMatrices::kick(const VectorXd& q, const VectorXd& p, const VectorXd& push,
-                        VectorXd& p_end) const {
-  p_end.noalias() = from_p_ * p;
-  p_end.noalias() += from_q_ * q;
-  p_end.noalias() += push_ * push;
+                        VectorXd& p_end) {
+  multiply(from_p_, p, p_end);
+  multiply(from_q_, q, work_);
+  multiply(push_, push, other_);
+  p_end += work_ + other_;
 }
 
 void StepMatrices::respond(const MatrixXd& pushes, MatrixXd& dq, MatrixXd& dp) const {
-  dp.noalias() = push_ * pushes;
+  dp = product(push_, pushes);
   if (key_.scheme == StepScheme::midpoint)
-    dq.noalias() = 0.5 * key_.dt * carry_ * dp;
+    dq = 0.5 * key_.dt * product(carry_, dp);
   else
     dq.setZero(pushes.rows(), pushes.cols());
 }
 
 void StepMatrices::add_response(const VectorXd& push, VectorXd& q, VectorXd& p) {
-  work_.noalias() = push_ * push;
+  multiply(push_, push, work_);
   p += work_;
   if (key_.scheme == StepScheme::central) return;
-  other_.noalias() = carry_ * work_;
+  multiply(carry_, work_, other_);
   q += 0.5 * key_.dt * other_;
 }
 

@@ -47,7 +47,7 @@ class StepMatrices {
                VectorXd& p_end, VectorXd& carried);
 
   /// Velocity alone, of `central`: from p at the time of q to half a step later.
-  void kick(const VectorXd& q, const VectorXd& p, const VectorXd& push, VectorXd& p_end) const;
+  void kick(const VectorXd& q, const VectorXd& p, const VectorXd& push, VectorXd& p_end);
 
   /// How the end of the step changes with impulses: pushes (r, k) on the modes -> dq, dp (r, k).
   void respond(const MatrixXd& pushes, MatrixXd& dq, MatrixXd& dp) const;

@@ -5,7 +5,6 @@
 #include <cmath>
 
 #include "rondo/core/contract.hpp"
-#include "rondo/reduction/rectify.hpp"
 #include "rondo/reduction/reduced_model.hpp"
 
 namespace rondo::reduction {
@@ -50,33 +49,36 @@ ContactRows standing_rows(const mesh::Mesh& mesh, const ReducedModel& model) {
   return out;
 }
 
-ContactRows node_rows(const mesh::Mesh& mesh, const ReducedModel& model, double phase) {
-  const Rings rings = boundary_rings(mesh);
-  const std::size_t m = rings.point.size();
-  RONDO_DEMAND(m == mesh.boundary.size(), m, mesh.boundary.size());
-  const bool moves = model.frame == ModelFrame::rectified && phase != 0.0;
+NodeRows::NodeRows(const mesh::Mesh& mesh, const ReducedModel& model)
+    : mesh_(mesh),
+      model_(model),
+      rings_(boundary_rings(mesh)),
+      rectifier_(rings_.n_sectors, rings_.n_rings() * static_cast<std::size_t>(model.size()),
+                 Components::cartesian, Shift::fourier),
+      modes_(static_cast<Index>(2 * rings_.point.size()), model.size()) {
+  RONDO_DEMAND(rings_.point.size() == mesh.boundary.size(), rings_.point.size(),
+               mesh.boundary.size());
+  for (std::size_t k = 0; k < rings_.point.size(); ++k) {
+    const Index node = mesh.boundary[static_cast<std::size_t>(rings_.point[k])];
+    modes_.middleRows(static_cast<Index>(2 * k), 2) = model.basis.middleRows(2 * node, 2);
+  }
+}
+
+ContactRows NodeRows::at(double phase) {
+  const std::size_t m = rings_.point.size();
+  const bool moves = model_.frame == ModelFrame::rectified && phase != 0.0;
   const Vec2 turned = moves ? rotation(phase) : Vec2{1.0, 0.0};
-  ContactRows out{MatrixXd(static_cast<Index>(2 * m), model.size()), std::vector<Vec2>(m),
-                  std::vector<double>(m)};
-  std::vector<Index> node(m);
+  ContactRows out{modes_, std::vector<Vec2>(m), std::vector<double>(m)};
   for (std::size_t k = 0; k < m; ++k) {
-    const auto candidate = static_cast<std::size_t>(rings.point[k]);
-    node[k] = mesh.boundary[candidate];
-    out.points[k] = turned * mesh.coordinates[static_cast<std::size_t>(node[k])];
-    out.share[k] = mesh.tributary[candidate];
+    const auto candidate = static_cast<std::size_t>(rings_.point[k]);
+    out.points[k] = turned * mesh_.coordinates[static_cast<std::size_t>(mesh_.boundary[candidate])];
+    out.share[k] = mesh_.tributary[candidate];
   }
-  Rectifier rectifier(rings.n_sectors, rings.n_rings(), Components::cartesian, Shift::fourier);
-  std::vector<Vec2> values(m);
-  for (Index j = 0; j < model.size(); ++j) {
-    for (std::size_t k = 0; k < m; ++k)
-      values[k] = {model.basis(2 * node[k], j), model.basis(2 * node[k] + 1, j)};
-    if (moves) rectifier.apply(-phase, values);
-    for (std::size_t k = 0; k < m; ++k) {
-      const Vec2 v = turned * values[k];
-      out.rows(static_cast<Index>(2 * k), j) = v.x;
-      out.rows(static_cast<Index>(2 * k + 1), j) = v.y;
-    }
-  }
+  if (!moves) return out;
+  const std::span<Vec2> values(reinterpret_cast<Vec2*>(out.rows.data()),
+                               static_cast<std::size_t>(out.rows.size() / 2));
+  rectifier_.apply(-phase, values);  // mode after mode, ring after ring
+  for (Vec2& v : values) v = turned * v;
   return out;
 }
 

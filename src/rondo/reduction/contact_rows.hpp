@@ -7,6 +7,7 @@
 
 #include "rondo/core/vec2.hpp"
 #include "rondo/mesh/mesh.hpp"
+#include "rondo/reduction/rectify.hpp"
 
 namespace rondo::reduction {
 
@@ -36,9 +37,22 @@ Eigen::MatrixXd hat_weights(int n_sectors, int stride);
 /// @pre the rectified frame, one ring of candidates
 ContactRows standing_rows(const mesh::Mesh& mesh, const ReducedModel& model);
 
-/// The candidates when the disk has turned by `phase` [rad], in the order of boundary_rings(mesh).
-/// In the rectified frame the rows move with the phase, T(-phase) of the modes there; in the
-/// turning frame they are the modes at the nodes.
-ContactRows node_rows(const mesh::Mesh& mesh, const ReducedModel& model, double phase);
+/// The candidates, as the disk turns. Owns the work space of its moves: one object a thread.
+class NodeRows {
+ public:
+  /// Both must outlive it. @pre the candidates are rings
+  NodeRows(const mesh::Mesh& mesh, const ReducedModel& model);
+  /// When the disk has turned by `phase` [rad], in the order of boundary_rings(mesh). In the
+  /// rectified frame the rows move with the phase, T(-phase) of the modes there; in the turning
+  /// frame they are the modes at the nodes.
+  [[nodiscard]] ContactRows at(double phase);
+
+ private:
+  const mesh::Mesh& mesh_;
+  const ReducedModel& model_;
+  Rings rings_;
+  Rectifier rectifier_;    ///< of all modes at once
+  Eigen::MatrixXd modes_;  ///< (2m, r) at the nodes, in the order of the rings
+};
 
 }  // namespace rondo::reduction

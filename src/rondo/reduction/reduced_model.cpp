@@ -1,14 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "rondo/reduction/reduced_model.hpp"
 
-#include <cblas.h>
-
 #include <algorithm>
 #include <cmath>
 #include <utility>
 
 #include "rondo/core/blas_threads.hpp"
 #include "rondo/core/contract.hpp"
+#include "rondo/reduction/dense.hpp"
 
 namespace rondo::reduction {
 namespace {
@@ -142,9 +141,7 @@ Lift::Lift(const mesh::Mesh& mesh, const ReducedModel& model)
 void Lift::lift(double theta, const VectorXd& q, std::span<Vec2> out) {
   // The library knows the processor: this product is most of what a snapshot costs.
   const OneBlasThread one;
-  const auto rows = static_cast<int>(model_.basis.rows());
-  cblas_dgemv(CblasColMajor, CblasNoTrans, rows, static_cast<int>(model_.basis.cols()), 1.0,
-              model_.basis.data(), rows, q.data(), 1, 0.0, field_.data(), 1);
+  multiply(model_.basis, q, field_);
   const std::span<Vec2> rectified = as_field(field_.data(), field_.size());
   std::copy(rectified.begin(), rectified.end(), out.begin());
   if (moves_)

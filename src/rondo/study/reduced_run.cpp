@@ -211,7 +211,7 @@ void describe_reduced(const ReducedRun& run, const RunOptions& options, Json& js
   json["lifted"] = true;
 }
 
-void add_figures(const ReducedRun& run, Json& json) {
+void add_figures(const ReducedRun& run, double time, Json& json) {
   const reduced::StepFigures& f = run.figures;
   const double steps = static_cast<double>(std::max(1LL, f.contact_steps));
   json["reduced"] = {{"matrices_factored", f.factored},
@@ -219,6 +219,7 @@ void add_figures(const ReducedRun& run, Json& json) {
                      {"step_wall_s", f.wall_s},
                      {"contact_wall_s", f.contact_wall_s},
                      {"slowest_step_s", f.slowest_step_s},
+                     {"realtime_factor", f.wall_s > 0.0 ? time / f.wall_s : 0.0},
                      {"contact_tables", f.tables},
                      {"contact_steps", f.contact_steps},
                      {"contact_iterations_mean", static_cast<double>(f.iterations) / steps},

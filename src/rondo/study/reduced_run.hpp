@@ -42,6 +42,7 @@ void refuse_reduced(const std::filesystem::path& directory);
 
 /// For run.json, before and after the run.
 void describe_reduced(const ReducedRun& run, const RunOptions& options, Json& json);
-void add_figures(const ReducedRun& run, Json& json);
+/// @param time simulated [s]
+void add_figures(const ReducedRun& run, double time, Json& json);
 
 }  // namespace rondo::study

@@ -230,13 +230,16 @@ RunReport run_case(const Case& c, const RunOptions& options) {
 
   const Loop loop = record(run, setup, json);
   add_outcome(json, setup, loop);
-  if (run.reduced) add_figures(*run.reduced, json);
+  if (run.reduced) add_figures(*run.reduced, static_cast<double>(loop.steps) * setup.model.dt, json);
   json["total_wall_s"] = std::chrono::duration<double>(Clock::now() - begin).count();
   io::write_json(options.directory / "run.json", json);
   drop_checkpoint(options, loop.status);
   RunReport report = report_of(setup, loop);
   report.resumable = !run.reduced;
   if (run.from) report.resumed_at = run.from->state.step;
+  report.simulated_s = static_cast<double>(report.steps - report.resumed_at) * setup.model.dt;
+  report.step_wall_s = run.reduced ? run.reduced->figures.wall_s : report.loop_wall_s;
+  if (run.reduced) report.slowest_step = run.reduced->figures.slowest_step_s / setup.model.dt;
   return report;
 }
 

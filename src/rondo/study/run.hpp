@@ -44,6 +44,9 @@ struct RunReport {
   double depth = 0.0;         ///< reached by a crush [m]
   double slide = 0.0;         ///< likewise [m]
   double loop_wall_s = 0.0;
+  double simulated_s = 0.0;   ///< of motion, in this call
+  double step_wall_s = 0.0;   ///< of a reduced run: its steps alone; else the loop
+  double slowest_step = 0.0;  ///< of a reduced run: over the time that it stands for
   double ns_per_dof_step = 0.0;
   double energy_residual_relative = 0.0;
   double contact_residual_max = 0.0;

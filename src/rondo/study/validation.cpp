@@ -113,6 +113,7 @@ void predict(const ValidationRequest& request, Validated& run) {
   options.overwrite = true;
   options.reduced = request.model;
   options.step_factor = request.step_factor;
+  options.reduced_step = request.reduced_step;
   options.warn = request.warn;
   options.progress = request.progress;
   options.before_loop = request.before_loop;

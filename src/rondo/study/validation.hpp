@@ -21,6 +21,7 @@ struct ValidationRequest {
   std::vector<std::filesystem::path> held_out;    ///< results directories, or sweeps of such
   std::vector<std::filesystem::path> built_from;  ///< where the model is still to be built
   double step_factor = 20.0;
+  std::string reduced_step = "midpoint";  ///< as of a run
   std::optional<double> from, to;  ///< window of the comparison [s]; none: last quarter of each run
   std::function<void(const std::string&)> warn;        ///< may be empty
   std::function<void(const std::string&)> begins;      ///< a prediction of that name; may be empty

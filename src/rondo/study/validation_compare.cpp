@@ -25,13 +25,15 @@ using Eigen::VectorXd;
 
 using Readers = std::vector<io::RunReader>;
 
-/// One field of one run, rectified, times √M, ring after ring.
+/// One field of one run, rectified or, without a shift, in the turning frame, times √M.
 struct FieldOfRun {
   std::vector<double> time;
   RunSnapshots snapshots;
 
-  FieldOfRun(const io::RunReader& run, io::Quantity quantity)
-      : FieldOfRun(std::span(&run, 1), quantity, all_columns(run, quantity)) {}
+  FieldOfRun(const io::RunReader& run, io::Quantity quantity,
+             std::optional<reduction::Shift> shift = reduction::Shift::fourier)
+      : FieldOfRun(std::span(&run, 1), {quantity, Weight::mass, shift},
+                   all_columns(run, quantity)) {}
 
   VectorXd at(std::size_t snapshot) {
     MatrixXd column(snapshots.rows(), 1);
@@ -40,9 +42,9 @@ struct FieldOfRun {
   }
 
  private:
-  FieldOfRun(std::span<const io::RunReader> run, io::Quantity quantity,
+  FieldOfRun(std::span<const io::RunReader> run, const SnapshotChoice& choice,
              const std::vector<Column>& columns)
-      : snapshots(run, columns, {quantity, Weight::mass, reduction::Shift::fourier}) {
+      : snapshots(run, columns, choice) {
     for (const Column& column : columns) time.push_back(column.time);
   }
 
@@ -106,17 +108,21 @@ struct FieldErrors {
 FieldErrors field_errors(const ReducedFile& model, const ValidationWindow& window,
                          const Readers& runs, io::Quantity quantity) {
   FieldOfRun full(runs[0], quantity), reduced(runs[1], quantity);
+  std::optional<reduction::Shift> shift = reduction::Shift::fourier;
+  if (model.model.frame == reduction::ModelFrame::turning) shift.reset();
+  FieldOfRun own(runs[0], quantity, shift);  // in the frame of the modes
   Interpolated predicted(reduced);
   const VectorXd roots = reduction::mass_roots(model.mass);
   FieldErrors found;
   for (std::size_t j = 0; j < full.time.size(); ++j) {
     if (full.time[j] < window.from || full.time[j] > window.to) continue;
-    VectorXd field = full.at(j);
+    const VectorXd field = full.at(j);
     const double norm = field.squaredNorm();
     if (const std::optional<Between> place = between(reduced.time, full.time[j]))
       found.take(field, predicted.at(*place));
-    full.snapshots.unweight(field);
-    const VectorXd weighted = (roots.array().square() * field.array()).matrix();
+    VectorXd weighted = own.at(j);
+    own.snapshots.unweight(weighted);
+    weighted.array() *= roots.array().square();
     const VectorXd inside = model.model.basis.transpose() * weighted;
     found.left.difference += std::max(0.0, norm - inside.squaredNorm());
     found.left.of += norm;

@@ -223,7 +223,7 @@ TEST(ContactRows, OfNodesAreTheLiftedField) {
     ASSERT_EQ(rings.n_rings() > 1, with_tread);
     const double sector = 2.0 * std::numbers::pi / b.mesh.n_sectors, phase = 0.3 * sector;
     const int whole = 6;  // even: the highest harmonic stays on the material, and turns its sign
-    const ContactRows rows = node_rows(b.mesh, m, phase);
+    const ContactRows rows = NodeRows(b.mesh, m).at(phase);
     Lift lift(b.mesh, m);
     const VectorXd q = VectorXd::LinSpaced(3, 1.0, -2.0);
     const VectorXd moved = rows.rows * q;
