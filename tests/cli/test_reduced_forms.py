@@ -122,6 +122,20 @@ class Smooth(Disk):
         allowed = float(said.split("up to ")[-1].split(" ")[0])
         self.predicted(model, "--reduced-step", "explicit", "--step-factor", 0.999 * allowed)
 
+    def test_says_how_fast_it_is(self):
+        said = made("run", self.case_file, "--reduced", self.model(), "-o", self.folder / "out",
+                    "--realtime-factor").stdout
+        j = summary(self.folder / "out")
+        words = said.split()
+        self.assertEqual(words[:2], ["real", "time"])
+        motion = j["steps"] * j["step"]
+        self.assertAlmostEqual(float(words[2]), motion / j["reduced"]["step_wall_s"],
+                               delta=1e-3 * float(words[2]))
+        self.assertIn(f"{motion:.6g} s of motion", said)
+        self.assertGreaterEqual(j["reduced"]["step_wall_s"], j["reduced"]["contact_wall_s"])
+        self.assertIn("real time", made("run", self.case_file, "-o", self.folder / "full",
+                                        "--realtime-factor").stdout)
+
     def test_wrong_words(self):
         model = self.model()
         out = self.folder / "out"
