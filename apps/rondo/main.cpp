@@ -103,8 +103,7 @@ void add_validation(CLI::App& reduce, study::ValidationRequest& r) {
       .add_option("--validate-from", r.from,
                   "begin of the comparison [s]; the last quarter of each run if left out")
       ->needs(validate);
-  reduce
-      .add_option("--reduced-step", r.reduced_step, "of the predictions: midpoint, or explicit")
+  reduce.add_option("--reduced-step", r.reduced_step, "of the predictions: midpoint, or explicit")
       ->capture_default_str()
       ->needs(validate);
   reduce.add_option("--validate-to", r.to, "its end [s]")->needs(validate);
@@ -126,6 +125,12 @@ CLI::App* add_reduce(CLI::App& program, app::ReduceArguments& arguments) {
   reduce->add_option("--tolerance", r.displacement_tolerance,
                      "instead of their number: share of the displacements' energy left out");
   reduce->add_option("--velocity-tolerance", r.velocity_tolerance, "the same of the velocities");
+  reduce
+      ->add_option(
+          "--contact-weight", r.contact_weight,
+          "what the motion of the boundary near the contact counts in choosing modes, over "
+          "that of the mass; 0: nothing")
+      ->capture_default_str();
   reduce->add_option("--from", r.from, "time of the first snapshot taken [s]");
   reduce->add_option("--to", r.to, "time of the last snapshot taken [s]");
   reduce

@@ -12,9 +12,9 @@
 #include <utility>
 
 #include "rondo/reduced/step_matrices.hpp"
-#include "rondo/reduction/spectrum.hpp"
 #include "rondo/study/build.hpp"
 #include "rondo/study/pod_input.hpp"
+#include "rondo/study/reduce_modes.hpp"
 #include "rondo/study/reduced_file.hpp"
 
 namespace rondo::study {
@@ -36,6 +36,9 @@ void check_options(const ReduceRequest& r) {
   };
   demand_one_of("--frame", r.frame, frame_names);
   if (!r.contact.empty()) demand_one_of("--contact", r.contact, contact_names);
+  if (!(r.contact_weight >= 0.0 && std::isfinite(r.contact_weight)))
+    throw request_error("--contact-weight", fmt::format("{:.9g}", r.contact_weight),
+                        "not a share of the mass", "0 or more, e.g. 10");
   if (r.output.empty()) throw request_error("-o", "", "the model needs a file", "-o MODEL.h5");
   for (const auto& [option, modes] : {std::pair{"--displacement-modes", r.displacement_modes},
                                       {"--velocity-modes", r.velocity_modes}})
@@ -119,96 +122,10 @@ Source open_source(const ReduceRequest& r) {
   return source;
 }
 
-/// Looked for where a tolerance is given.
-constexpr Index most_modes = 400;
-
-/// How many modes of a field are asked for.
-struct Wanted {
-  const char* field;
-  std::optional<long long> modes;
-  std::optional<double> tolerance;
-  long long otherwise;
-
-  [[nodiscard]] std::optional<long long> number() const {
-    return modes || tolerance ? modes : otherwise;
-  }
-};
-
-/// Modes of one field in the order of the mesh, times √M.
-struct Part {
-  ReducePart report;
-  MatrixXd modes;  ///< (2n, modes) orthonormal
-  double energy = 0.0;
-};
-
-Index modes_for(const VectorXd& sigma, double tolerance) {
-  double tail = 0.0;
-  const double all = sigma.squaredNorm();
-  Index count = sigma.size();
-  while (count > 1 && tail + sigma[count - 1] * sigma[count - 1] <= tolerance * all) {
-    --count;
-    tail += sigma[count] * sigma[count];
-  }
-  return count;
-}
-
 RunSnapshots snapshots_of(const ReduceRequest& r, const Source& source, const char* field) {
   const PodRequest pod = pod_request(r, field);
   const SnapshotChoice choice = choice_of(pod);
   return {source.runs, columns_of(pod, choice, source.runs), choice};
-}
-
-Part part_of(const ReduceRequest& r, const Source& source, const VectorXd& roots,
-             const Wanted& wanted) {
-  const char* field = wanted.field;
-  const std::optional<long long> asked = wanted.number();
-  RunSnapshots snapshots = snapshots_of(r, source, field);
-  reduction::DecomposeOptions options;
-  PodRequest memory;
-  memory.memory = r.memory;
-  options.memory = memory_of(memory);
-  options.progress = r.progress;
-  options.modes = std::min<Index>(std::min(snapshots.rows(), snapshots.columns()),
-                                  asked ? static_cast<Index>(*asked) : most_modes);
-  const reduction::Decomposition found = decompose(snapshots, options);
-  if (found.rank == 0)
-    throw request_error("RUN", r.runs.front().string(),
-                        fmt::format("every {} is zero: nothing moves", field),
-                        "runs in which the disk is loaded or spins");
-  Index keep = asked ? static_cast<Index>(*asked) : modes_for(found.sigma, *wanted.tolerance);
-  keep = std::min(keep, found.modes.cols());
-  Part part;
-  part.report = {field, snapshots.columns(), keep, 0.0};
-  part.energy = found.energy;
-  const double kept = found.sigma.head(keep).squaredNorm();
-  const double tail = found.sigma.tail(found.sigma.size() - keep).squaredNorm();
-  part.report.discarded = (tail + found.lost_energy) / (kept + tail + found.lost_energy);
-  if (wanted.tolerance && part.report.discarded > *wanted.tolerance && r.warn)
-    r.warn(
-        fmt::format("{} modes, as many as are looked for, leave out {:.3g} of the energy of the "
-                    "{}s, more than the tolerance of {:.3g}",
-                    keep, part.report.discarded, field, *wanted.tolerance));
-  part.modes = found.modes.leftCols(keep);
-  for (Index j = 0; j < keep; ++j) {
-    snapshots.unweight(part.modes.col(j));
-    part.modes.col(j).array() *= roots.array();
-  }
-  return part;
-}
-
-/// Share of the energy of the snapshots outside of the modes.
-double energy_left(RunSnapshots snapshots, const MatrixXd& modes, const VectorXd& roots) {
-  double left = 0.0, all = 0.0;
-  MatrixXd column(snapshots.rows(), 1);
-  for (Index j = 0; j < snapshots.columns(); ++j) {
-    snapshots.read_columns(j, column);
-    all += column.squaredNorm();
-    snapshots.unweight(column.col(0));
-    column.array() *= roots.array();
-    const VectorXd inside = modes.transpose() * column.col(0);
-    left += std::max(0.0, column.squaredNorm() - inside.squaredNorm());
-  }
-  return left / all;
 }
 
 ModelRanges ranges_of(const ReduceRequest& r, const Source& source) {
@@ -261,7 +178,7 @@ int contact_stride(const ReduceRequest& request, int n_sectors) {
 /// The modes of displacement, their derivatives by the angle (a pattern that stands still in space
 /// has the velocity -s D u), the modes of velocity.
 MatrixXd basis_of(const ReduceRequest& r, const mesh::Mesh& mesh, const VectorXd& roots,
-                  const Part& u, const Part& v) {
+                  const FieldModes& u, const FieldModes& v) {
   if (is_turning(r)) return reduction::join(std::array{u.modes, v.modes});
   const MatrixXd fields = roots.cwiseInverse().asDiagonal() * u.modes;
   const MatrixXd derived = roots.asDiagonal() * reduction::differentiate(mesh, fields);
@@ -327,11 +244,14 @@ ReduceReport run_reduce(const ReduceRequest& request) {
   if (contact_form(request, setup.mesh) == reduction::ContactForm::places)
     static_cast<void>(contact_stride(request, setup.mesh.n_sectors));
   const VectorXd roots = reduction::mass_roots(setup.model.mass);
-  const Part u = part_of(request, source, roots,
-                         {"displacement", request.displacement_modes,
-                          request.displacement_tolerance, default_displacement_modes});
-  const Part v = part_of(
-      request, source, roots,
+  const TouchedNodes touched =
+      touched_nodes(setup, source.runs, is_turning(request), request.contact_weight);
+  const FieldModes u =
+      modes_of_field(request, snapshots_of(request, source, "displacement"), roots, touched,
+                     {"displacement", request.displacement_modes, request.displacement_tolerance,
+                      default_displacement_modes});
+  const FieldModes v = modes_of_field(
+      request, snapshots_of(request, source, "velocity"), roots, touched,
       {"velocity", request.velocity_modes, request.velocity_tolerance, default_velocity_modes});
   const MatrixXd basis = basis_of(request, setup.mesh, roots, u, v);
   ReducedFile file = make_file(request, source, setup, basis);

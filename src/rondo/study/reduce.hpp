@@ -23,6 +23,7 @@ struct ReduceRequest {
   /// Of the two PODs; none: by the tolerances, and without these the default numbers.
   std::optional<long long> displacement_modes, velocity_modes;
   std::optional<double> displacement_tolerance, velocity_tolerance;  ///< energy left out
+  double contact_weight = 10.0;  ///< of what touches in the norm of the PODs, over that of the mass
   std::optional<double> from, to;  ///< window of the snapshots [s]
   int contact_stride = 0;  ///< nodes of the boundary to a contact point; 0: as many as leave
                            ///<     enough_contact_points
