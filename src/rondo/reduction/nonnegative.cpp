@@ -13,8 +13,8 @@ using Eigen::VectorXd;
 /// What is left of A below this share of ‖A‖ is round-off.
 constexpr double nothing = 1e-12;
 
-/// Of the coefficients alone, for each pattern of the start: they need not be the best yet.
-constexpr int start_sweeps = 20;
+/// Of the coefficients alone, for each pattern of the start.
+constexpr int start_sweeps = 100;
 
 /// Each row of H in turn: the best with W and the other rows fixed. A pattern that is zero has a
 /// row of zeros.
@@ -42,7 +42,7 @@ void sweep_columns(const MatrixXd& a, const MatrixXd& h, MatrixXd& w) {
 }
 
 /// Columns of A one by one: the one that those so far hold worst.
-void start(const MatrixXd& a, Index k, MatrixXd& w, MatrixXd& h) {
+void start(const MatrixXd& a, Index k, double held, MatrixXd& w, MatrixXd& h) {
   w.resize(a.rows(), 0);
   h.resize(0, a.cols());
   const double norm = a.norm();
@@ -52,7 +52,7 @@ void start(const MatrixXd& a, Index k, MatrixXd& w, MatrixXd& h) {
     for (Index j = 0; j < a.cols(); ++j)
       if (taken[static_cast<std::size_t>(j)]) left[j] = 0.0;
     Index worst = 0;
-    if (a.size() == 0 || left.maxCoeff(&worst) <= nothing * norm) return;
+    if (a.size() == 0 || left.maxCoeff(&worst) <= held * norm) return;
     taken[static_cast<std::size_t>(worst)] = 1;
     const Index i = w.cols();
     w.conservativeResize(Eigen::NoChange, i + 1);
@@ -98,7 +98,7 @@ void finish(NonnegativeFactors& f) {
 NonnegativeFactors factor_nonnegative(const MatrixXd& a, Index k, const NonnegativeLimits& limits) {
   RONDO_DEMAND(k >= 1 && a.allFinite() && (a.array() >= 0.0).all(), k);
   NonnegativeFactors f;
-  start(a, k, f.w, f.h);
+  start(a, k, limits.held, f.w, f.h);
   const double norm = a.norm();
   const auto residual = [&] { return norm > 0.0 ? (a - f.w * f.h).norm() / norm : 0.0; };
   f.residuals.push_back(residual());

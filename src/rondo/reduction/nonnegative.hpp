@@ -10,6 +10,7 @@ namespace rondo::reduction {
 struct NonnegativeLimits {
   int most_sweeps = 1000;
   double change = 1e-5;  ///< of the residual in a sweep, over the residual: less ends the sweeps
+  double held = 1e-6;    ///< a column of A held to this share of ‖A‖ starts no pattern
 };
 
 /// k patterns, as many as were asked for or fewer: none is zero or without a part in A.
