@@ -133,7 +133,7 @@ CLI::App* add_reduce(CLI::App& program, app::ReduceArguments& arguments) {
       "points of contact: places that stand still in space, the nodes that come by, or patterns "
       "of places learned from the runs; places on a smooth disk if left out, nodes otherwise");
   reduce->add_option("--contact-patterns", r.contact_patterns,
-                     "number of the patterns of --contact patterns; 6 if left out");
+                     "number of the patterns of --contact patterns; 10 if left out");
   reduce
       ->add_option("--frame", r.frame,
                    "frame of the modes: rectified, or turning (with the disk), to compare with")

@@ -19,7 +19,7 @@ inline constexpr long long default_displacement_modes = 30, default_velocity_mod
 inline constexpr int enough_contact_points = 180;
 
 /// Measured (docs/reduced.md, 11).
-inline constexpr long long default_contact_patterns = 6;
+inline constexpr long long default_contact_patterns = 10;
 
 /// What the user asks for, in the command line's words.
 struct ReduceRequest {
