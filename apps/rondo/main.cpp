@@ -141,8 +141,10 @@ CLI::App* add_reduce(CLI::App& program, app::ReduceArguments& arguments) {
       ->check(CLI::Range(1, 1000000));
   reduce->add_option(
       "--contact", r.contact,
-      "points of contact: places that stand still in space, or the nodes that come by; "
-      "places on a smooth disk if left out, nodes otherwise");
+      "points of contact: places that stand still in space, the nodes that come by, or patterns "
+      "of places learned from the runs; places on a smooth disk if left out, nodes otherwise");
+  reduce->add_option("--contact-patterns", r.contact_patterns,
+                     "number of the patterns of --contact patterns; 10 if left out");
   reduce
       ->add_option("--frame", r.frame,
                    "frame of the modes: rectified, or turning (with the disk), to compare with")

@@ -29,6 +29,11 @@ void print_report(const study::ReduceRequest& request, const study::ReduceReport
   print_part(r.velocity, r.velocity_left);
   fmt::print("contact points     {} {} round the disk{}\n", r.contact_points, r.contact,
              r.contact_step > 0.0 ? fmt::format(", one passed in {:.6g} s", r.contact_step) : "");
+  if (r.patterns)
+    fmt::print(
+        "patterns           of {} snapshots with contact; they leave {:.2e} of the forces, "
+        "{} sweeps\n",
+        r.patterns->snapshots, r.patterns->left, r.patterns->sweeps);
   fmt::print("critical steps     {:.6g} s of the mesh, {:.6g} s of the modes (explicit)\n",
              r.full_critical_step, r.reduced_critical_step);
   fmt::print("time               {:.2f} s\n", r.wall_s);

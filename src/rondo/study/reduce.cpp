@@ -39,6 +39,12 @@ void check_options(const ReduceRequest& r) {
   if (!(r.contact_weight >= 0.0 && std::isfinite(r.contact_weight)))
     throw request_error("--contact-weight", fmt::format("{:.9g}", r.contact_weight),
                         "not a share of the mass", "0 or more, e.g. 10");
+  if (r.contact_patterns && r.contact != "patterns")
+    throw request_error("--contact-patterns", fmt::to_string(*r.contact_patterns),
+                        "only contact by patterns has a number of them", "--contact patterns");
+  if (r.contact_patterns && *r.contact_patterns < 1)
+    throw request_error("--contact-patterns", fmt::to_string(*r.contact_patterns),
+                        "no patterns to touch the ground with", "1 or more");
   if (r.output.empty()) throw request_error("-o", "", "the model needs a file", "-o MODEL.h5");
   for (const auto& [option, modes] : {std::pair{"--displacement-modes", r.displacement_modes},
                                       {"--velocity-modes", r.velocity_modes}})
@@ -185,17 +191,31 @@ MatrixXd basis_of(const ReduceRequest& r, const mesh::Mesh& mesh, const VectorXd
   return reduction::join(std::array{u.modes, derived, v.modes});
 }
 
-void set_contact(const ReduceRequest& request, const mesh::Mesh& mesh,
-                 reduction::ReducedModel& model) {
-  const reduction::ContactForm form = contact_form(request, mesh);
-  MatrixXd weights;
-  if (form == reduction::ContactForm::places)
-    weights = reduction::hat_weights(mesh.n_sectors, contact_stride(request, mesh.n_sectors));
-  reduction::set_contact(mesh, form, weights, model);
+/// Where the model will touch the ground.
+struct ContactChoice {
+  reduction::ContactForm form;
+  MatrixXd weights;  ///< (sectors, points); empty: nodes
+  std::optional<PatternFigures> patterns;
+};
+
+ContactChoice choose_contact(const ReduceRequest& request, const Source& source,
+                             const mesh::Mesh& mesh) {
+  ContactChoice contact{contact_form(request, mesh), {}, {}};
+  if (contact.form == reduction::ContactForm::places)
+    contact.weights =
+        reduction::hat_weights(mesh.n_sectors, contact_stride(request, mesh.n_sectors));
+  if (contact.form != reduction::ContactForm::patterns) return contact;
+  const PodRequest pod = pod_request(request, "displacement");
+  ContactPatterns learned =
+      learn_patterns(source.runs, columns_of(pod, choice_of(pod), source.runs),
+                     request.contact_patterns.value_or(default_contact_patterns), request.warn);
+  contact.weights = std::move(learned.weights);
+  contact.patterns = learned.figures;
+  return contact;
 }
 
 ReducedFile make_file(const ReduceRequest& request, const Source& source, const Setup& setup,
-                      const MatrixXd& basis) {
+                      const MatrixXd& basis, const ContactChoice& contact) {
   ReducedFile file;
   file.model = reduction::make_reduced_model(
       {setup.mesh, setup.model.mass,
@@ -204,7 +224,7 @@ ReducedFile make_file(const ReduceRequest& request, const Source& source, const 
        }},
       basis,
       is_turning(request) ? reduction::ModelFrame::turning : reduction::ModelFrame::rectified);
-  set_contact(request, setup.mesh, file.model);
+  reduction::set_contact(setup.mesh, contact.form, contact.weights, file.model);
   file.mesh = setup.mesh;
   file.mass = setup.model.mass;
   file.body = body_text(source.cases.front());
@@ -227,7 +247,8 @@ ReduceReport describe(const Source& source, const Setup& setup, const ReducedFil
       static_cast<long long>(nodes ? setup.mesh.boundary.size() : file.model.contact.points.size());
   const double spin = std::max(std::abs(file.ranges.angular_velocity.low),
                                std::abs(file.ranges.angular_velocity.high));
-  if (spin > 0.0)
+  const bool patterns = file.model.form == reduction::ContactForm::patterns;
+  if (spin > 0.0 && !patterns)
     report.contact_step =
         2.0 * std::numbers::pi / static_cast<double>(report.contact_points) / spin;
   return report;
@@ -241,8 +262,7 @@ ReduceReport run_reduce(const ReduceRequest& request) {
   const Source source = open_source(request);
   const Setup setup = build(source.cases.front(), 1);
   // Told before the work.
-  if (contact_form(request, setup.mesh) == reduction::ContactForm::places)
-    static_cast<void>(contact_stride(request, setup.mesh.n_sectors));
+  const ContactChoice contact = choose_contact(request, source, setup.mesh);
   const VectorXd roots = reduction::mass_roots(setup.model.mass);
   const TouchedNodes touched =
       touched_nodes(setup, source.runs, is_turning(request), request.contact_weight);
@@ -254,7 +274,7 @@ ReduceReport run_reduce(const ReduceRequest& request) {
       request, snapshots_of(request, source, "velocity"), roots, touched,
       {"velocity", request.velocity_modes, request.velocity_tolerance, default_velocity_modes});
   const MatrixXd basis = basis_of(request, setup.mesh, roots, u, v);
-  ReducedFile file = make_file(request, source, setup, basis);
+  ReducedFile file = make_file(request, source, setup, basis, contact);
   file.displacement_modes = u.report.modes;
   file.velocity_modes = v.report.modes;
   write_reduced_file(request.output, file);
@@ -262,6 +282,7 @@ ReduceReport run_reduce(const ReduceRequest& request) {
   ReduceReport report = describe(source, setup, file);
   report.displacement = u.report;
   report.velocity = v.report;
+  report.patterns = contact.patterns;
   report.displacement_left =
       energy_left(snapshots_of(request, source, "displacement"), basis, roots);
   report.velocity_left = energy_left(snapshots_of(request, source, "velocity"), basis, roots);
