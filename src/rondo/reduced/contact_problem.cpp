@@ -26,7 +26,6 @@ double form(Vec2 a, const Eigen::Matrix2d& matrix, Vec2 b) noexcept {
 ContactSolver::ContactSolver(const mesh::Mesh& mesh, const reduction::ReducedModel& model,
                              const contact::Ground& ground, contact::CoupledLimits limits)
     : mesh_(mesh),
-      model_(model),
       ground_(ground),
       limits_(limits),
       nodes_(model.form == reduction::ContactForm::nodes),

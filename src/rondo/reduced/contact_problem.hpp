@@ -92,7 +92,6 @@ class ContactSolver {
                                        int point) const;
 
   const mesh::Mesh& mesh_;
-  const reduction::ReducedModel& model_;
   const contact::Ground& ground_;
   contact::CoupledLimits limits_;
   bool nodes_;                                      ///< the points are nodes

@@ -22,14 +22,10 @@ using Eigen::VectorXd;
 /// Looked for where a tolerance is given, and at least where the norm chooses among them.
 constexpr Index most_modes = 400;
 
-Index modes_for(const VectorXd& sigma, double tolerance) {
-  double tail = 0.0;
-  const double all = sigma.squaredNorm();
-  Index count = sigma.size();
-  while (count > 1 && tail + sigma[count - 1] * sigma[count - 1] <= tolerance * all) {
-    --count;
-    tail += sigma[count] * sigma[count];
-  }
+/// The first that leave out no more than the tolerance, or all.
+Index modes_for(const VectorXd& left, double tolerance) {
+  Index count = 1;
+  while (count + 1 < left.size() && left[count] > tolerance * left[0]) ++count;
   return count;
 }
 
@@ -129,12 +125,10 @@ FieldModes modes_of_field(const ReduceRequest& r, RunSnapshots snapshots, const 
   const reduction::ChosenModes chosen =
       choose_modes(found, at_touched(touched, found.modes, roots), options.modes);
   const Index keep =
-      std::min(asked ? *asked : modes_for(chosen.sigma, *wanted.tolerance), chosen.modes.cols());
+      std::min(asked ? *asked : modes_for(chosen.left, *wanted.tolerance), chosen.modes.cols());
+  const double missed = chosen.left[keep] / chosen.left[0];
   FieldModes out;
-  out.report = {wanted.field, snapshots.columns(), keep, chosen.left[keep] / found.energy};
-  const double tail = chosen.sigma.tail(chosen.sigma.size() - keep).squaredNorm();
-  const double missed =
-      (tail + found.lost_energy) / (chosen.sigma.squaredNorm() + found.lost_energy);
+  out.report = {wanted.field, snapshots.columns(), keep, missed};
   if (wanted.tolerance && missed > *wanted.tolerance && r.warn)
     r.warn(
         fmt::format("{} modes, as many as are looked for, leave out {:.3g} of the energy of the "

@@ -14,7 +14,7 @@ namespace rondo::study {
 struct WantedModes {
   const char* field = "";
   std::optional<long long> modes;
-  std::optional<double> tolerance;  ///< share of the energy, in the norm of the choice
+  std::optional<double> tolerance;  ///< share of the energy left out, in the norm of the mass
   long long otherwise = 0;
 };
 

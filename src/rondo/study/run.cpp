@@ -230,7 +230,8 @@ RunReport run_case(const Case& c, const RunOptions& options) {
 
   const Loop loop = record(run, setup, json);
   add_outcome(json, setup, loop);
-  if (run.reduced) add_figures(*run.reduced, static_cast<double>(loop.steps) * setup.model.dt, json);
+  if (run.reduced)
+    add_figures(*run.reduced, static_cast<double>(loop.steps) * setup.model.dt, json);
   json["total_wall_s"] = std::chrono::duration<double>(Clock::now() - begin).count();
   io::write_json(options.directory / "run.json", json);
   drop_checkpoint(options, loop.status);
