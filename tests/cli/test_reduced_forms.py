@@ -203,6 +203,30 @@ class Smooth(Disk):
         allowed = float(said.split("up to ")[-1].split(" ")[0])
         self.predicted(model, "--reduced-step", "explicit", "--step-factor", 0.999 * allowed)
 
+    def test_weight_of_what_touches(self):
+        def said(weight):
+            return made("reduce", self.shared / "0.2", "-o", self.folder / "m.h5",
+                        "--contact-weight", weight).stdout.splitlines()[2].split()
+        plain, weighted = said(0), said(10)
+        self.assertEqual(plain[:3], ["velocity", "30", "modes"])
+        # Best in another norm: more of the mass norm's energy is left out.
+        self.assertGreater(float(weighted[8]), 1.02 * float(plain[8]))
+        for wrong in ("-1", "1e100"):
+            self.assertIn("0 to 1e6", self.fails("reduce", self.shared / "0.2", "-o",
+                                                 self.folder / "none.h5", "--contact-weight", wrong))
+
+    def test_too_little_to_make_a_model_of(self):
+        one = self.fails("reduce", self.shared / "0.2", "-o", self.folder / "none.h5", "--from",
+                         0.0199, "--to", 0.0201)
+        self.assertIn("1 snapshots of the runs lie between", one)
+        coarse = self.fails("reduce", self.shared / "0.2", "-o", self.folder / "none.h5",
+                            "--contact-stride", 40)
+        self.assertIn("leaves 3 contact points", coarse)
+        typo = self.fails("reduce", self.shared / "0.2", "-o", self.folder / "none.h5",
+                          "--validate", self.shared / "0.3", "--reduced-step", "euler")
+        self.assertIn("midpoint or explicit", typo)
+        self.assertFalse((self.folder / "none.h5").exists())
+
     def test_says_how_fast_it_is(self):
         said = made("run", self.case_file, "--reduced", self.model(), "-o", self.folder / "out",
                     "--realtime-factor").stdout

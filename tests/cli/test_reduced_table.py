@@ -88,6 +88,8 @@ class Table(ProgramTest):
               f"N/m; {j['reduced']['step_wall_s']:.3f} s", flush=True)
         self.assertLess(abs(y[0] / fy[0] - 1), bounds[0])
         self.assertLess(abs(x[0] - fx[0]) / fy[0], bounds[1])
+        if "nodes" in form or "turning" in form:  # they fluctuate as the full model's nodes do
+            self.assertLess(y[1], 3 * fy[1])
         # Points that stand still in space are not passed one by one: it is quieter.
         if form == "places":
             self.assertEqual(j["step_factor"], 20)
@@ -134,6 +136,7 @@ class Table(ProgramTest):
         self.assertLess(abs(y[0] / fy[0] - 1), 0.006)
         self.assertLess(abs(x[0] - fx[0]) / fy[0], 0.025)
         self.assertLess(abs(found - full), 0.2 * full)
+        self.assertLess(abs(y[1] - fy[1]), 0.3 * fy[1])
 
     def test_result_does_not_depend_on_the_step(self):
         runs = [self.folder / name for name in ("a", "b")]

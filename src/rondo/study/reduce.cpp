@@ -36,9 +36,9 @@ void check_options(const ReduceRequest& r) {
   };
   demand_one_of("--frame", r.frame, frame_names);
   if (!r.contact.empty()) demand_one_of("--contact", r.contact, contact_names);
-  if (!(r.contact_weight >= 0.0 && std::isfinite(r.contact_weight)))
+  if (!(r.contact_weight >= 0.0 && r.contact_weight <= 1e6))
     throw request_error("--contact-weight", fmt::format("{:.9g}", r.contact_weight),
-                        "not a share of the mass", "0 or more, e.g. 10");
+                        "not a share of the mass that can be", "0 to 1e6, e.g. 10");
   if (r.contact_patterns && r.contact != "patterns")
     throw request_error("--contact-patterns", fmt::to_string(*r.contact_patterns),
                         "only contact by patterns has a number of them", "--contact patterns");
@@ -125,6 +125,11 @@ Source open_source(const ReduceRequest& r) {
           "runs of one mesh and material together");
   }
   source.runs = open_runs(pod, choice_of(pod));
+  const std::size_t snapshots = columns_of(pod, choice_of(pod), source.runs).size();
+  if (snapshots < 2)
+    throw request_error("--from, --to", "",
+                        fmt::format("{} snapshots of the runs lie between: no model", snapshots),
+                        "a window with 2 snapshots or more, some hundreds better");
   return source;
 }
 
@@ -178,6 +183,12 @@ int contact_stride(const ReduceRequest& request, int n_sectors) {
     throw request_error("--contact-stride", fmt::to_string(stride),
                         "does not share out the columns of the mesh",
                         fmt::format("a divisor of {}", n_sectors));
+  if (stride > 1 && n_sectors / stride < least_contact_points)
+    throw request_error("--contact-stride", fmt::to_string(stride),
+                        fmt::format("leaves {} contact points: each would be the mean of an arc "
+                                    "that does not touch as a whole",
+                                    n_sectors / stride),
+                        fmt::format("a divisor that leaves {} or more", least_contact_points));
   return stride;
 }
 
@@ -264,8 +275,7 @@ ReduceReport run_reduce(const ReduceRequest& request) {
   // Told before the work.
   const ContactChoice contact = choose_contact(request, source, setup.mesh);
   const VectorXd roots = reduction::mass_roots(setup.model.mass);
-  const TouchedNodes touched =
-      touched_nodes(setup, source.runs, is_turning(request), request.contact_weight);
+  const TouchedNodes touched = touched_nodes(setup, source.runs, request);
   const FieldModes u =
       modes_of_field(request, snapshots_of(request, source, "displacement"), roots, touched,
                      {"displacement", request.displacement_modes, request.displacement_tolerance,

@@ -17,6 +17,8 @@ inline constexpr long long default_displacement_modes = 30, default_velocity_mod
 
 /// Round the disk: more resolve a contact that spans a twentieth of it no better, and cost more.
 inline constexpr int enough_contact_points = 180;
+/// Fewer means of several nodes lie too far inside of the rim.
+inline constexpr int least_contact_points = 48;
 
 /// Measured (docs/reduced.md, 11).
 inline constexpr long long default_contact_patterns = 10;

@@ -29,23 +29,32 @@ Index modes_for(const VectorXd& left, double tolerance) {
   return count;
 }
 
+/// The nearest of n places round the disk, the first straight down.
+std::size_t place_of(Vec2 x, std::size_t n) {
+  const double turns = std::atan2(x.x, -x.y) / (2.0 * std::numbers::pi);
+  const auto count = static_cast<long>(n);
+  const long place = std::lround(turns * static_cast<double>(n));
+  return static_cast<std::size_t>(((place % count) + count) % count);
+}
+
 /// Places round the disk, one a candidate, at which a force was found in any snapshot.
-std::vector<char> touched_places(const Setup& setup, std::span<const io::RunReader> runs) {
+std::vector<char> touched_places(const Setup& setup, std::span<const io::RunReader> runs,
+                                 const ReduceRequest& r) {
   const std::size_t n = setup.mesh.boundary.size();
   std::vector<char> touched(n, 0);
   std::vector<Vec2> force(n);
   for (const io::RunReader& run : runs) {
     if (!run.has(io::Quantity::contact)) continue;
     for (std::size_t j = 0; j < run.n_snapshots(); ++j) {
+      const double time = run.times().time[j];
+      if ((r.from && time < *r.from) || (r.to && time > *r.to)) continue;
       run.read(io::Quantity::contact, j, 0, force);
       const Vec2 turned = rotation(run.times().angle[j]);
       for (std::size_t i = 0; i < n; ++i) {
         if (force[i] == Vec2{}) continue;
         const auto node = static_cast<std::size_t>(setup.mesh.boundary[i]);
         const Vec2 x = turned * setup.mesh.coordinates[node];
-        const double turns = std::atan2(x.x, -x.y) / (2.0 * std::numbers::pi);
-        const double place = (turns - std::floor(turns)) * static_cast<double>(n);
-        touched[static_cast<std::size_t>(place) % n] = 1;
+        touched[place_of(x, n)] = 1;
       }
     }
   }
@@ -76,21 +85,20 @@ MatrixXd at_touched(const TouchedNodes& touched, const MatrixXd& modes, const Ve
 
 }  // namespace
 
-TouchedNodes touched_nodes(const Setup& setup, std::span<const io::RunReader> runs, bool turning,
-                           double share) {
+TouchedNodes touched_nodes(const Setup& setup, std::span<const io::RunReader> runs,
+                           const ReduceRequest& r) {
+  const double share = r.contact_weight;
+  const bool turning = r.frame == "turning";
   TouchedNodes nodes;
   if (share == 0.0) return nodes;
-  std::vector<char> places = touched_places(setup, runs);
+  std::vector<char> places = touched_places(setup, runs, r);
   const bool any = std::ranges::count(places, 1) > 0;
   if (!any) return nodes;
   places = turning ? std::vector<char>(places.size(), 1) : widened(places);
-  const auto n = static_cast<double>(places.size());
   for (std::size_t i = 0; i < setup.mesh.boundary.size(); ++i) {
     const auto node = static_cast<std::size_t>(setup.mesh.boundary[i]);
     const Vec2 x = setup.mesh.coordinates[node];
-    const double turns = std::atan2(x.x, -x.y) / (2.0 * std::numbers::pi);
-    const auto place = static_cast<std::size_t>((turns - std::floor(turns)) * n) % places.size();
-    if (!places[place]) continue;
+    if (!places[place_of(x, places.size())]) continue;
     nodes.node.push_back(node);
     nodes.weight.push_back(setup.mesh.tributary[i]);
   }

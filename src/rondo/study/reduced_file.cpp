@@ -82,6 +82,13 @@ void read_numbers(const File& file, ReducedFile& content) {
   m.translation = read_columns(file, "/model/translation", r, 2, {2, modes});
 }
 
+void demand_finite(const reduction::ReducedModel& m, const std::string& path) {
+  const bool finite = m.size() > 0 && m.basis.allFinite() && m.stiffness.allFinite() &&
+                      m.generator.allFinite() && m.turn.allFinite() && m.reference.allFinite() &&
+                      m.turned_reference.allFinite() && m.translation.allFinite();
+  if (!finite) throw FileError(path, "has no modes, or numbers that are not finite");
+}
+
 void write_counts(File& file, const ReducedFile& content) {
   const std::array<std::int64_t, 2> counts{content.displacement_modes, content.velocity_modes};
   file.write("/model/counts", {2}, std::span<const std::int64_t>(counts),
@@ -116,8 +123,9 @@ void read_contact(const File& file, const std::string& path, ReducedFile& conten
   const MatrixXd weights = read_columns(file, "/model/contact_weights", static_cast<Index>(sectors),
                                         static_cast<Index>(shape[0]), {shape[0], sectors});
   const bool fits = reduction::boundary_rings(content.mesh).n_rings() == 1 &&
-                    m.frame == ModelFrame::rectified && weights.allFinite() &&
-                    (weights.array() >= 0.0).all();
+                    m.frame == ModelFrame::rectified && weights.cols() > 0 && weights.allFinite() &&
+                    (weights.array() >= 0.0).all() &&
+                    ((weights.colwise().sum().array() - 1.0).abs() < 1e-9).all();
   if (!fits) throw FileError(path, "its contact points do not fit its mesh");
   reduction::set_contact(content.mesh, m.form, weights, m);
 }
@@ -205,6 +213,7 @@ ReducedFile read_reduced_file(const std::filesystem::path& path) {
   content.mesh = std::move(body.mesh);
   content.mass = std::move(body.mass);
   read_numbers(file, content);
+  demand_finite(content.model, path.string());
   const auto counts = file.dataset("/model/counts", {2}).read<std::int64_t>();
   content.displacement_modes = counts[0];
   content.velocity_modes = counts[1];

@@ -24,11 +24,7 @@ void check_case(const Case& c, const RunOptions& options, const Setup& setup) {
   if (!(options.step_factor > 0.0 && std::isfinite(options.step_factor)))
     throw request_error("--step-factor", fmt::format("{:.9g}", options.step_factor),
                         "not a factor for the step of the full run", "a number above 0, e.g. 20");
-  const bool known = std::ranges::any_of(
-      step_names, [&](const auto& step) { return options.reduced_step == step.first; });
-  if (!known)
-    throw request_error("--reduced-step", options.reduced_step, "no such step",
-                        "midpoint or explicit");
+  demand_step_name(options.reduced_step);
   if (c.time.scheme == Scheme::as_printed)
     throw case_error(c, "time.scheme", "a reduced run has a scheme of its own",
                      "\"symplectic\", which it stands for");
@@ -48,9 +44,12 @@ void check_model(const Case& c, const RunOptions& options, const ReducedFile& fi
                                     "the model",
                                     difference),
                         "a model built from runs of this mesh and material (rondo reduce)");
-  const bool same = file.mesh.n_nodes() == setup.mesh.n_nodes() &&
-                    file.mesh.coordinates == setup.mesh.coordinates &&
-                    file.mass == setup.model.mass;
+  const bool same =
+      file.mesh.n_nodes() == setup.mesh.n_nodes() &&
+      file.mesh.coordinates == setup.mesh.coordinates &&
+      file.mesh.boundary == setup.mesh.boundary && file.mesh.n_sectors == setup.mesh.n_sectors &&
+      file.mesh.sector == setup.mesh.sector && file.mesh.sector_node == setup.mesh.sector_node &&
+      file.mass == setup.model.mass;
   if (!same)
     throw request_error("--reduced", options.reduced.string(),
                         "the mesh in the model is not the one this program makes of the case",
@@ -156,6 +155,12 @@ void warn_of_start(const Setup& setup, ReducedRun& run) {
 }
 
 }  // namespace
+
+void demand_step_name(const std::string& name) {
+  const bool known =
+      std::ranges::any_of(step_names, [&](const auto& step) { return name == step.first; });
+  if (!known) throw request_error("--reduced-step", name, "no such step", "midpoint or explicit");
+}
 
 ReducedRun prepare_reduced(const Case& c, const RunOptions& options, Setup& setup) {
   check_case(c, options, setup);

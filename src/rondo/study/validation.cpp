@@ -11,6 +11,7 @@
 #include "rondo/io/files.hpp"
 #include "rondo/io/run_reader.hpp"
 #include "rondo/study/pod_input.hpp"
+#include "rondo/study/reduced_run.hpp"
 #include "rondo/study/validation_compare.hpp"
 #include "rondo/study/validation_table.hpp"
 
@@ -69,6 +70,7 @@ void check_options(const ValidationRequest& r) {
   if (!(r.step_factor > 0.0 && std::isfinite(r.step_factor)))
     throw request_error("--step-factor", fmt::format("{:.9g}", r.step_factor),
                         "not a factor for the step of the full run", "a number above 0, e.g. 20");
+  demand_step_name(r.reduced_step);
   std::set<fs::path> seen;
   for (const fs::path& run : members(r.held_out))
     if (!seen.insert(fs::weakly_canonical(run)).second)
