@@ -11,6 +11,7 @@
 #include <system_error>
 #include <utility>
 
+#include "rondo/core/blas_threads.hpp"
 #include "rondo/reduced/step_matrices.hpp"
 #include "rondo/study/build.hpp"
 #include "rondo/study/pod_input.hpp"
@@ -269,6 +270,7 @@ ReduceReport describe(const Source& source, const Setup& setup, const ReducedFil
 
 ReduceReport run_reduce(const ReduceRequest& request) {
   const auto begin = Clock::now();
+  const OneBlasThread one;  // the same model on any number of cores
   check_options(request);
   const Source source = open_source(request);
   const Setup setup = build(source.cases.front(), 1);
