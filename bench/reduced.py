@@ -3,7 +3,7 @@
 where the speed-up comes from.
 
     /usr/bin/python3 bench/reduced.py [--meshes 12x180,24x360,48x720] [--modes 30] [--contact nodes]
-        [--frame rectified] [--factor F] [--folder DIR] [--program build/release/rondo]
+        [--contact-weight 10] [--frame rectified] [--factor F] [--folder DIR] [--program build/release/rondo]
 
 Prints tables in Markdown. Six runs teach: friction 0 and 0.6, heights 0.285 and 0.295 m, speeds 8 and
 12 m/s. Errors of both forces are means over the last quarter, over the mean vertical force. Times are
@@ -69,6 +69,7 @@ class Bench:
         file = self.folder / f"{name}.h5".replace(" ", "-")
         self.rondo("reduce", *runs, "-o", file, "--displacement-modes", self.options.modes,
                    "--velocity-modes", self.options.modes, "--frame", self.options.frame,
+                   "--contact-weight", self.options.contact_weight,
                    *(["--contact", self.options.contact] if self.options.contact else []))
         return file
 
@@ -130,6 +131,7 @@ def main():
     parser.add_argument("--meshes", default="12x180,24x360,48x720")
     parser.add_argument("--modes", type=int, default=30)
     parser.add_argument("--contact", help="what suits the frame if left out")
+    parser.add_argument("--contact-weight", type=float, default=10.0)
     parser.add_argument("--frame", default="rectified")
     parser.add_argument("--reduced-step", default="midpoint")
     parser.add_argument("--factor", type=float)

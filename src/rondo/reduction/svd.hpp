@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// @file  The dense algebra of the decompositions, by OpenBLAS and LAPACK: products, Householder
-/// QR, small singular value decompositions. For this module's own sources.
+/// QR, small singular value decompositions. For this module and the reduced steps.
 #pragma once
 #include <Eigen/Core>
 
