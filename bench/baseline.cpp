@@ -7,8 +7,8 @@
 
 #include "rondo/core/contract.hpp"
 #include "rondo/core/threads.hpp"
-#include "rondo/dynamics/contact_node.hpp"
-#include "rondo/dynamics/stepper.hpp"
+#include "rondo/integrators/stepper.hpp"
+#include "rondo/model/contact_node.hpp"
 
 namespace rondo::bench {
 namespace {

@@ -5,7 +5,7 @@
 #include <memory>
 #include <span>
 
-#include "rondo/dynamics/integrator.hpp"
+#include "rondo/integrators/integrator.hpp"
 
 namespace rondo::bench {
 

@@ -8,7 +8,7 @@
 #include <cmath>
 
 #include "problem.hpp"
-#include "rondo/dynamics/operator.hpp"
+#include "rondo/model/operator.hpp"
 
 using namespace rondo;
 using benchmark::Counter;

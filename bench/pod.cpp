@@ -8,10 +8,10 @@
 #include <fstream>
 #include <string>
 
-#include "rondo/reduction/decompose.hpp"
-#include "rondo/reduction/svd.hpp"
+#include "rondo/pod/decompose.hpp"
+#include "rondo/pod/svd.hpp"
 
-using namespace rondo::reduction;
+using namespace rondo::pod;
 
 namespace {
 

@@ -6,8 +6,8 @@
 #include <utility>
 
 #include "rondo/core/contract.hpp"
-#include "rondo/dynamics/critical_step.hpp"
-#include "rondo/dynamics/stepper.hpp"
+#include "rondo/integrators/stepper.hpp"
+#include "rondo/model/critical_step.hpp"
 #include "support/models.hpp"
 
 namespace rondo::bench {

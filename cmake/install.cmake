@@ -14,8 +14,8 @@ install(FILES ${PROJECT_BINARY_DIR}/rondo-config.cmake
               ${PROJECT_BINARY_DIR}/rondo-config-version.cmake cmake/dependencies.cmake
         DESTINATION ${CMAKE_INSTALL_LIBDIR}/cmake/rondo)
 install(DIRECTORY cases DESTINATION ${CMAKE_INSTALL_DATADIR}/rondo)
-install(FILES ${PROJECT_BINARY_DIR}/generated/rondo/study/version.hpp
-        DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/rondo/study)
+install(FILES ${PROJECT_BINARY_DIR}/generated/rondo/core/version.hpp
+        DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/rondo/core)
 
 # The Python package, where Debian's python3 looks when the prefix is /usr/local.
 find_program(SYSTEM_PYTHON NAMES python3 PATHS /usr/bin NO_DEFAULT_PATH)

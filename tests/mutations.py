@@ -24,9 +24,9 @@ TIMEOUT = 900  # s for one call of a test program; what hangs has failed
 
 PROGRAMS = {"V": "verification/verification", "W": "verification/verification_slow",
             "R": "verification/verification_reducibility"}
-PROGRAMS |= {m: f"unit/unit_{m}" for m in ("core", "mesh", "fem", "contact", "dynamics", "statics",
-                                           "modal", "reduction", "reduced", "io",
-                                           "study")}
+PROGRAMS |= {m: f"unit/unit_{m}" for m in ("core", "mesh", "fem", "contact", "model", "integrators",
+                                           "statics", "modal", "pod", "rom", "case", "io",
+                                           "output", "analysis", "study")}
 
 SCRIPTS = {"cli": "test_run.py", "disk": "test_full_disk.py", "crush": "test_crush.py",
            "pod": "test_pod.py", "paper": "test_paper.py", "calls": "test_paper_calls.py",

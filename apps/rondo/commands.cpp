@@ -9,10 +9,10 @@
 
 #include "exit_codes.hpp"
 #include "progress.hpp"
+#include "rondo/analysis/check.hpp"
+#include "rondo/analysis/run.hpp"
+#include "rondo/core/bytes.hpp"
 #include "rondo/core/error.hpp"
-#include "rondo/study/check.hpp"
-#include "rondo/study/estimate.hpp"
-#include "rondo/study/run.hpp"
 #include "signals.hpp"
 
 namespace rondo::app {
@@ -74,8 +74,8 @@ int finish(const study::RunReport& r, const std::filesystem::path& directory) {
 
 void print_room(const study::CheckReport& r) {
   fmt::print("snapshots          {}\n", r.snapshots);
-  fmt::print("memory             about {}\n", study::readable_bytes(r.memory_bytes));
-  fmt::print("disk               about {}\n", study::readable_bytes(r.disk_bytes));
+  fmt::print("memory             about {}\n", readable_bytes(r.memory_bytes));
+  fmt::print("disk               about {}\n", readable_bytes(r.disk_bytes));
 }
 
 /// The case of a results directory is in it: with --resume the directory is all that is asked for.

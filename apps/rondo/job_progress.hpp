@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-#include "rondo/study/jobs.hpp"
+#include "rondo/study/sweep/jobs.hpp"
 
 namespace rondo::app {
 

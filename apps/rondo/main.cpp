@@ -21,8 +21,8 @@
 #include "pod_command.hpp"
 #include "reduce_command.hpp"
 #include "rondo/core/error.hpp"
-#include "rondo/study/run_files.hpp"
-#include "rondo/study/version.hpp"
+#include "rondo/core/version.hpp"
+#include "rondo/output/run_files.hpp"
 #include "sweep_command.hpp"
 
 namespace {

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "rondo/study/modes.hpp"
+#include "rondo/analysis/modes.hpp"
 
 namespace rondo::app {
 

@@ -3,7 +3,7 @@
 #pragma once
 #include <memory>
 
-#include "rondo/study/sweep_team.hpp"
+#include "rondo/study/sweep/sweep_team.hpp"
 
 namespace rondo::app {
 

@@ -9,7 +9,7 @@
 
 #include "exit_codes.hpp"
 #include "job_progress.hpp"
-#include "rondo/study/paper.hpp"
+#include "rondo/study/paper/paper.hpp"
 #include "signals.hpp"
 
 namespace rondo::app {

@@ -9,8 +9,8 @@
 
 #include "exit_codes.hpp"
 #include "progress.hpp"
-#include "rondo/study/estimate.hpp"
-#include "rondo/study/pod.hpp"
+#include "rondo/core/bytes.hpp"
+#include "rondo/study/pod/pod.hpp"
 
 namespace rondo::app {
 namespace {
@@ -48,7 +48,7 @@ void print_report(const study::PodRequest& q, const study::PodReport& r) {
              r.runs.size() > 1 ? fmt::format("from {} runs", r.runs.size())
                                : times(r, r.runs.front().from, r.runs.front().to));
   fmt::print("method             {}, {:.2f} s, {}\n", r.method, r.wall_s,
-             study::readable_bytes(r.peak_memory));
+             readable_bytes(r.peak_memory));
   fmt::print("rank               {}{} (first singular value {:.6g}{})\n",
              r.rank_is_known ? "" : "at least ", r.rank, r.sigma_1,
              r.sigma_bound > 0.0 ? fmt::format(", all right to {:.1e} of it", r.sigma_bound) : "");

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// @file  rondo pod: calls the library, prints the figures on stdout, returns an exit code.
 #pragma once
-#include "rondo/study/pod.hpp"
+#include "rondo/study/pod/pod.hpp"
 
 namespace rondo::app {
 

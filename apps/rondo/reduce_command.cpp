@@ -10,9 +10,9 @@
 
 #include "exit_codes.hpp"
 #include "progress.hpp"
-#include "rondo/study/estimate.hpp"
-#include "rondo/study/pod_input.hpp"
-#include "rondo/study/validation_table.hpp"
+#include "rondo/core/bytes.hpp"
+#include "rondo/study/paper/validation_table.hpp"
+#include "rondo/study/pod/pod_input.hpp"
 #include "signals.hpp"
 
 namespace rondo::app {
@@ -38,7 +38,7 @@ void print_report(const study::ReduceRequest& request, const study::ReduceReport
              r.full_critical_step, r.reduced_critical_step);
   fmt::print("time               {:.2f} s\n", r.wall_s);
   fmt::print("model              {} ({})\n", request.output.string(),
-             study::readable_bytes(r.file_bytes));
+             readable_bytes(r.file_bytes));
 }
 
 void build(study::ReduceRequest& request, bool quiet) {
@@ -85,7 +85,7 @@ int reduce(ReduceArguments arguments) {
   study::ValidationRequest& validation = arguments.validation;
   if (arguments.quiet) spdlog::set_level(spdlog::level::warn);
   if (request.runs.empty() && validation.held_out.empty())
-    throw study::request_error("RUN", "", "no runs to build a model from",
+    throw request_error("RUN", "", "no runs to build a model from",
                                "results directories; or --validate RUN alone, for a model that "
                                "is there");
   validation.model = request.output;

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// @file  rondo reduce: calls the library, prints the figures on stdout, returns an exit code.
 #pragma once
-#include "rondo/study/reduce.hpp"
-#include "rondo/study/validation.hpp"
+#include "rondo/study/paper/validation.hpp"
+#include "rondo/study/reduce/reduce.hpp"
 
 namespace rondo::app {
 

@@ -15,9 +15,10 @@
 #include "exit_codes.hpp"
 #include "mpi_team.hpp"
 #include "progress.hpp"
+#include "rondo/analysis/estimate.hpp"
+#include "rondo/core/bytes.hpp"
 #include "rondo/core/error.hpp"
-#include "rondo/study/estimate.hpp"
-#include "rondo/study/sweep.hpp"
+#include "rondo/study/sweep/sweep.hpp"
 #include "signals.hpp"
 
 namespace rondo::app {
@@ -62,7 +63,7 @@ void print_plan(const study::DrySweep& dry, int workers) {
                                ? fmt::format("about {:.3g} s", std::max(longest, seconds / workers))
                                : std::string("the time of crushes is not estimated");
   fmt::print("{} runs, {} at once: {}, {} on the disk\n", dry.plan.members.size(), workers, time,
-             study::readable_bytes(disk));
+             readable_bytes(disk));
 }
 
 int finish(const study::SweepReport& report, const std::string& directory) {

@@ -6,4 +6,4 @@ set -euo pipefail
 cd "$1"
 cppcheck --enable=warning,performance,portability --std=c++20 --language=c++ --quiet -j "$(nproc)" \
   --template='{file}:{line}: {severity}: {id}: {message}' --error-exitcode=1 -I src \
-  --suppress=constStatement --suppress='passedByValue:src/rondo/dynamics/kernels/*' src apps
+  --suppress=constStatement --suppress='passedByValue:src/rondo/integrators/fused/kernels/*' src apps

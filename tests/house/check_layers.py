@@ -7,27 +7,36 @@ import pathlib
 import re
 import sys
 
-# Direct and indirect: what a module may include besides itself.
+# Direct and indirect: what a room may include besides itself. A room is a folder of src/rondo, or
+# of one of those in SUB_ROOMS.
+BELOW_MODEL = {"core", "mesh", "fem", "contact"}
 ALLOWED = {
     "core": set(),
     "mesh": {"core"},
     "fem": {"core", "mesh"},
     "contact": {"core"},
-    "dynamics": {"core", "mesh", "fem", "contact"},
-    "statics": {"core", "mesh", "fem", "contact"},
+    "model": BELOW_MODEL,
+    "integrators": BELOW_MODEL | {"model"},
+    "statics": BELOW_MODEL,
     "modal": {"core", "mesh", "fem"},
-    "reduction": {"core", "mesh"},
-    "reduced": {"core", "mesh", "contact", "dynamics", "reduction"},
+    "pod": {"core", "mesh"},
+    "rom": BELOW_MODEL | {"model", "integrators", "pod"},
+    "case": BELOW_MODEL | {"model"},
 }
-ALLOWED["io"] = set(ALLOWED)
-ALLOWED["study"] = set(ALLOWED)
-ALLOWED["apps"] = {"core", "study"}
+ALLOWED["io"] = set(ALLOWED) - {"case"}
+ALLOWED["output"] = BELOW_MODEL | {"model", "integrators", "case", "io"}
+ALLOWED["analysis"] = set(ALLOWED)
+ALLOWED["study/sweep"] = set(ALLOWED["analysis"]) | {"analysis"}
+ALLOWED["study/pod"] = ALLOWED["study/sweep"] | {"study/sweep"}
+ALLOWED["study/reduce"] = ALLOWED["study/pod"] | {"study/pod"}
+ALLOWED["apps"] = {"core", "analysis", "output", "case", "study/pod", "study/sweep", "study/reduce"}
 ALLOWED["mesh_reader"] = {"mesh"}  # a program of its own; it shares the layout of its output
+SUB_ROOMS = {"study"}
 
 # Libraries that only these modules may see.
-ONLY_IN = {"hdf5.h": {"io"}, "toml++/": {"study"}, "CLI/": {"apps"}, "cholmod": {"statics"},
-           "CholmodSupport": {"modal", "statics"}, "Spectra/": {"dynamics"},
-           "lapacke": {"reduction"}, "xxhash": {"io"}, "fftw3": {"reduction"},
+ONLY_IN = {"hdf5.h": {"io"}, "toml++/": {"case"}, "CLI/": {"apps"}, "cholmod": {"statics"},
+           "CholmodSupport": {"modal", "statics"}, "Spectra/": {"model"},
+           "lapacke": {"pod"}, "xxhash": {"io"}, "fftw3": {"pod"},
            "gmsh.h": {"mesh_reader"}, "mpi.h": {"apps"}}
 
 INCLUDE = re.compile(r'^\s*#\s*include\s*[<"]([^">]+)[">]', re.MULTILINE)
@@ -37,7 +46,12 @@ def module_of(path, root):
     parts = path.relative_to(root).parts
     if parts[:2] == ("apps", "mesh_reader"):
         return "mesh_reader"
-    return "apps" if parts[0] == "apps" else parts[2]
+    return "apps" if parts[0] == "apps" else room_of(parts[2:])
+
+
+def room_of(parts):
+    """Of a path below src/rondo, or of the name of an include behind "rondo/"."""
+    return "/".join(parts[:2]) if parts[0] in SUB_ROOMS else parts[0]
 
 
 def faults(root):
@@ -49,7 +63,7 @@ def faults(root):
         for name in INCLUDE.findall(path.read_text()):
             place = f"{path.relative_to(root)} includes {name}"
             if name.startswith("rondo/"):
-                other = name.split("/")[1]
+                other = room_of(name.split("/")[1:])
                 if other != module and other not in ALLOWED.get(module, set()):
                     yield f"{place}: {module} may not see {other}"
             for library, homes in ONLY_IN.items():

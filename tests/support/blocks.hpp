@@ -5,10 +5,10 @@
 #include <utility>
 #include <vector>
 
-#include "rondo/dynamics/critical_step.hpp"
-#include "rondo/dynamics/integrator.hpp"
-#include "rondo/dynamics/stepper.hpp"
 #include "rondo/fem/assembly.hpp"
+#include "rondo/integrators/integrator.hpp"
+#include "rondo/integrators/stepper.hpp"
+#include "rondo/model/critical_step.hpp"
 
 namespace rondo::test {
 

@@ -14,7 +14,7 @@
 #include <utility>
 #include <vector>
 
-#include "rondo/dynamics/integrator.hpp"
+#include "rondo/integrators/integrator.hpp"
 #include "support/models.hpp"
 
 namespace rondo::dynamics {

@@ -6,7 +6,7 @@
 
 #include <cmath>
 
-#include "rondo/dynamics/corotated.hpp"
+#include "rondo/model/corotated.hpp"
 #include "support/incline.hpp"
 #include "support/traps.hpp"
 

@@ -11,7 +11,7 @@
 #include <numbers>
 #include <random>
 
-#include "rondo/dynamics/operator.hpp"
+#include "rondo/model/operator.hpp"
 #include "support/models.hpp"
 #include "support/stepping.hpp"
 

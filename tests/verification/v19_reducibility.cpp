@@ -14,8 +14,8 @@
 #include <ostream>
 #include <string>
 
-#include "rondo/study/pod.hpp"
-#include "rondo/study/run.hpp"
+#include "rondo/analysis/run.hpp"
+#include "rondo/study/pod/pod.hpp"
 
 using namespace rondo;
 using namespace rondo::study;

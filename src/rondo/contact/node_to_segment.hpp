@@ -4,7 +4,7 @@
 /// The segment's body is on the left of a→b; n points out of it, to the right; t = J n is along
 /// a→b. w = (w_n, w_t) of the point against the segment as if rigid: w_n > 0 separates.
 #pragma once
-#include "rondo/contact/rows.hpp"
+#include "rondo/contact/coupled/rows.hpp"
 #include "rondo/contact/segment.hpp"
 
 namespace rondo::contact {

@@ -6,7 +6,7 @@
 #include <span>
 #include <string>
 
-#include "rondo/contact/coupled.hpp"
+#include "rondo/contact/coupled/coupled.hpp"
 
 namespace rondo::contact {
 

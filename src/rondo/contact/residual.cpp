@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "rondo/contact/coupled.hpp"
+#include "rondo/contact/coupled/coupled.hpp"
 #include "rondo/core/keep_larger.hpp"
 
 namespace rondo::contact {

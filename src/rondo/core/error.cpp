@@ -36,4 +36,14 @@ InputError::InputError(std::vector<Fault> faults)
 
 InputError::InputError(Fault fault) : InputError(std::vector<Fault>{std::move(fault)}) {}
 
+InputError request_error(const std::string& option, const std::string& found,
+                         const std::string& message, const std::string& allowed) {
+  Fault fault;
+  fault.key = option;
+  fault.found = found;
+  fault.message = message;
+  fault.allowed = allowed;
+  return InputError(fault);
+}
+
 }  // namespace rondo

@@ -33,6 +33,10 @@ class InputError : public std::runtime_error {
   std::vector<Fault> faults_;
 };
 
+/// A fault of the command line: the option, what it was given, what is wrong, what to give.
+InputError request_error(const std::string& option, const std::string& found,
+                         const std::string& message, const std::string& allowed);
+
 /// A file that cannot be written or read, or is damaged (exit code 4).
 class FileError : public std::runtime_error {
  public:

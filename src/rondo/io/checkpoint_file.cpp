@@ -11,7 +11,7 @@
 
 #include "rondo/core/error.hpp"
 #include "rondo/io/files.hpp"
-#include "rondo/io/hash.hpp"
+#include "rondo/io/h5/hash.hpp"
 
 namespace rondo::io {
 namespace fs = std::filesystem;

@@ -5,7 +5,7 @@
 #include <filesystem>
 #include <functional>
 
-#include "rondo/io/h5.hpp"
+#include "rondo/io/h5/h5.hpp"
 
 namespace rondo::io {
 

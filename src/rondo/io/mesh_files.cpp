@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "rondo/core/error.hpp"
-#include "rondo/io/hash.hpp"
+#include "rondo/io/h5/hash.hpp"
 
 namespace rondo::io {
 namespace {

@@ -5,7 +5,7 @@
 #include <span>
 #include <vector>
 
-#include "rondo/io/h5.hpp"
+#include "rondo/io/h5/h5.hpp"
 #include "rondo/io/xdmf.hpp"
 #include "rondo/mesh/mesh.hpp"
 

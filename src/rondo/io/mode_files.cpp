@@ -6,7 +6,7 @@
 #include <cstdint>
 
 #include "rondo/io/files.hpp"
-#include "rondo/io/h5.hpp"
+#include "rondo/io/h5/h5.hpp"
 #include "rondo/io/mesh_files.hpp"
 #include "rondo/io/xdmf.hpp"
 

@@ -13,7 +13,7 @@
 #include "rondo/core/error.hpp"
 #include "rondo/io/csv.hpp"
 #include "rondo/io/files.hpp"
-#include "rondo/io/h5.hpp"
+#include "rondo/io/h5/h5.hpp"
 #include "rondo/io/mesh_files.hpp"
 #include "rondo/io/xdmf.hpp"
 

@@ -12,8 +12,8 @@
 
 #include "rondo/core/vec2.hpp"
 #include "rondo/mesh/mesh.hpp"
-#include "rondo/reduction/decompose.hpp"
-#include "rondo/reduction/spectrum.hpp"
+#include "rondo/pod/decompose.hpp"
+#include "rondo/pod/spectrum.hpp"
 
 namespace rondo::io {
 
@@ -28,9 +28,9 @@ struct PodContent {
   std::string time_unit = "s";   ///< "1": shares of the load of a crush
   std::string frame, shift;      ///< of the analysis
   std::string weight;            ///< "mass" [kg/m], "delassus" [m/kg], "none" [1]
-  std::span<const double> point_weight;                     ///< (n_points)
-  const reduction::Decomposition* decomposition = nullptr;  ///< its `modes` are not read
-  const reduction::Spectrum* spectrum = nullptr;
+  std::span<const double> point_weight;               ///< (n_points)
+  const pod::Decomposition* decomposition = nullptr;  ///< its `modes` are not read
+  const pod::Spectrum* spectrum = nullptr;
   const Eigen::MatrixXd* modes =
       nullptr;                        ///< (2 n_points, r) Φ, unweighted; row 2 point + component
   std::span<const double> time;       ///< (t) [s]

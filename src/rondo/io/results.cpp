@@ -10,7 +10,7 @@
 #include "rondo/core/contract.hpp"
 #include "rondo/fem/stress.hpp"
 #include "rondo/io/files.hpp"
-#include "rondo/io/h5.hpp"
+#include "rondo/io/h5/h5.hpp"
 #include "rondo/io/mesh_files.hpp"
 #include "rondo/io/results_impl.hpp"
 #include "rondo/io/xdmf.hpp"

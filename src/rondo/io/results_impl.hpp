@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "rondo/io/files.hpp"
-#include "rondo/io/h5.hpp"
+#include "rondo/io/h5/h5.hpp"
 #include "rondo/io/results.hpp"
 #include "rondo/io/xdmf.hpp"
 

@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "rondo/core/vec2.hpp"
-#include "rondo/io/h5.hpp"
+#include "rondo/io/h5/h5.hpp"
 #include "rondo/mesh/mesh.hpp"
 
 namespace rondo::io {

@@ -7,10 +7,10 @@
 
 #include "case_input.hpp"
 #include "mutate.hpp"
-#include "rondo/dynamics/integrator.hpp"
-#include "rondo/dynamics/stepper.hpp"
-#include "rondo/study/build.hpp"
-#include "rondo/study/crush_build.hpp"
+#include "rondo/analysis/build.hpp"
+#include "rondo/analysis/crush_build.hpp"
+#include "rondo/integrators/integrator.hpp"
+#include "rondo/integrators/stepper.hpp"
 
 using namespace rondo;
 

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "fuzz.hpp"
-#include "rondo/study/case.hpp"
+#include "rondo/case/case.hpp"
 
 namespace rondo::fuzz {
 

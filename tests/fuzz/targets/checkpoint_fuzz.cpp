@@ -8,10 +8,10 @@
 #include "fuzz.hpp"
 #include "hdf5_faults.hpp"
 #include "mutate.hpp"
+#include "rondo/analysis/run.hpp"
 #include "rondo/io/checkpoint_file.hpp"
-#include "rondo/io/hash.hpp"
-#include "rondo/study/checkpoint.hpp"
-#include "rondo/study/run.hpp"
+#include "rondo/io/h5/hash.hpp"
+#include "rondo/output/checkpoint.hpp"
 #include "tiny_run.hpp"
 
 using namespace rondo;

@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "rondo/io/h5.hpp"
+#include "rondo/io/h5/h5.hpp"
 
 namespace rondo::fuzz {
 namespace {

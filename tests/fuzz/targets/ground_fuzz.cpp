@@ -9,8 +9,8 @@
 
 #include "fuzz.hpp"
 #include "mutate.hpp"
+#include "rondo/case/case.hpp"
 #include "rondo/contact/ground.hpp"
-#include "rondo/study/case.hpp"
 
 using namespace rondo;
 

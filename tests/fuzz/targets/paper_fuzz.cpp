@@ -6,10 +6,10 @@
 
 #include "fuzz.hpp"
 #include "mutate.hpp"
-#include "rondo/study/build_id.hpp"
-#include "rondo/study/paper_checks.hpp"
-#include "rondo/study/paper_jobs.hpp"
-#include "rondo/study/run_files.hpp"
+#include "rondo/core/build_id.hpp"
+#include "rondo/output/run_files.hpp"
+#include "rondo/study/paper/paper_checks.hpp"
+#include "rondo/study/paper/paper_jobs.hpp"
 #include "tiny_run.hpp"
 
 using namespace rondo;

@@ -6,9 +6,9 @@
 #include <optional>
 
 #include "fuzz.hpp"
-#include "rondo/reduction/decompose.hpp"
-#include "rondo/study/paper_results.hpp"
-#include "rondo/study/pod_input.hpp"
+#include "rondo/pod/decompose.hpp"
+#include "rondo/study/paper/paper_results.hpp"
+#include "rondo/study/pod/pod_input.hpp"
 
 namespace rondo::fuzz {
 namespace {
@@ -39,7 +39,7 @@ void decompose(const study::PodRequest& request) {
   const study::SnapshotChoice choice = study::choice_of(request);
   const std::vector<io::RunReader> runs = study::open_runs(request, choice);
   study::RunSnapshots snapshots(runs, study::columns_of(request, choice, runs), choice);
-  const reduction::Decomposition found = reduction::decompose(snapshots, {});
+  const pod::Decomposition found = pod::decompose(snapshots, {});
   for (const double sigma : found.sigma)
     check(std::isfinite(sigma) && sigma >= 0.0, "a singular value that is none");
 }

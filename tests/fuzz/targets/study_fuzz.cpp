@@ -5,7 +5,7 @@
 
 #include "case_input.hpp"
 #include "mutate.hpp"
-#include "rondo/study/sweep_plan.hpp"
+#include "rondo/study/sweep/sweep_plan.hpp"
 
 using namespace rondo;
 

@@ -2,7 +2,7 @@
 #include "tiny_run.hpp"
 
 #include "fuzz.hpp"
-#include "rondo/study/run.hpp"
+#include "rondo/analysis/run.hpp"
 
 namespace rondo::fuzz {
 namespace {

@@ -3,7 +3,7 @@
 #pragma once
 #include <filesystem>
 
-#include "rondo/study/case.hpp"
+#include "rondo/case/case.hpp"
 
 namespace rondo::fuzz {
 

@@ -6,7 +6,7 @@
 #include <cstdlib>
 #include <new>
 
-#include "rondo/contact/clusters.hpp"
+#include "rondo/contact/coupled/clusters.hpp"
 #include "rondo/contact/residual.hpp"
 #include "rondo/contact/search.hpp"
 #include "rondo/contact/segment.hpp"

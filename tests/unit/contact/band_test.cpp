@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "rondo/contact/band.hpp"
+#include "rondo/contact/coupled/band.hpp"
 
 #include <gtest/gtest.h>
 

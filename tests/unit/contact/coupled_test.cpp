@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "rondo/contact/coupled.hpp"
+#include "rondo/contact/coupled/coupled.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "rondo/contact/rows.hpp"
+#include "rondo/contact/coupled/rows.hpp"
 
 #include <gtest/gtest.h>
 
 #include <random>
 
-#include "rondo/contact/clusters.hpp"
+#include "rondo/contact/coupled/clusters.hpp"
 #include "rondo/contact/node_to_segment.hpp"
 #include "support/contact_oracles.hpp"
 

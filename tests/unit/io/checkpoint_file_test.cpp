@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "rondo/io/checkpoint_file.hpp"
 
-#include "rondo/io/hash.hpp"
+#include "rondo/io/h5/hash.hpp"
 #include "unit/io/support.hpp"
 
 namespace rondo::io::test {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "rondo/io/h5.hpp"
+#include "rondo/io/h5/h5.hpp"
 
 #include "unit/io/support.hpp"
 

@@ -9,7 +9,7 @@
 #include <tuple>
 
 #include "rondo/io/files.hpp"
-#include "rondo/io/h5.hpp"
+#include "rondo/io/h5/h5.hpp"
 #include "rondo/io/mesh_files.hpp"
 #include "unit/io/support.hpp"
 
@@ -66,8 +66,8 @@ class SmallPod {
   }
 
   SmallRun run;
-  reduction::Decomposition d;
-  reduction::Spectrum s;
+  pod::Decomposition d;
+  pod::Spectrum s;
   Eigen::MatrixXd modes;
   std::vector<double> time, angle, error, weight;
   std::vector<int> place;

@@ -5,7 +5,7 @@
 #include <cstring>
 #include <thread>
 
-#include "rondo/io/h5.hpp"
+#include "rondo/io/h5/h5.hpp"
 #include "rondo/io/results.hpp"
 #include "unit/io/support.hpp"
 

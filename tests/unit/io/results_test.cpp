@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "rondo/io/results.hpp"
 
-#include "rondo/io/h5.hpp"
+#include "rondo/io/h5/h5.hpp"
 #include "unit/io/support.hpp"
 
 namespace rondo::io::test {

@@ -14,7 +14,7 @@
 #include <functional>
 #include <new>
 
-#include "rondo/study/jobs.hpp"
+#include "rondo/study/sweep/jobs.hpp"
 
 namespace rondo::study {
 

@@ -4,10 +4,10 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
-#include "case_fixture.hpp"
-#include "jobs_fixture.hpp"
-#include "rondo/study/pod.hpp"
-#include "rondo/study/run.hpp"
+#include "rondo/analysis/run.hpp"
+#include "rondo/study/pod/pod.hpp"
+#include "unit/case/case_fixture.hpp"
+#include "unit/study/jobs_fixture.hpp"
 
 using namespace rondo;
 using namespace rondo::study;

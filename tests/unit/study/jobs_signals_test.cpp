@@ -14,8 +14,8 @@
 #include <stdexcept>
 #include <utility>
 
-#include "jobs_fixture.hpp"
 #include "rondo/core/error.hpp"
+#include "unit/study/jobs_fixture.hpp"
 
 using namespace rondo;
 using namespace rondo::study;

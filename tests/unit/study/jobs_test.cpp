@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// Jobs in processes: order, dependencies, bounds, outcomes, progress.
-#include "rondo/study/jobs.hpp"
+#include "rondo/study/sweep/jobs.hpp"
 
 #include <gtest/gtest.h>
 
@@ -11,8 +11,8 @@
 #include <new>
 #include <stdexcept>
 
-#include "jobs_fixture.hpp"
 #include "rondo/core/error.hpp"
+#include "unit/study/jobs_fixture.hpp"
 
 using namespace rondo;
 using namespace rondo::study;

@@ -10,13 +10,13 @@
 #include <numbers>
 #include <set>
 
+#include "rondo/core/build_id.hpp"
 #include "rondo/core/error.hpp"
 #include "rondo/mesh/disk.hpp"
-#include "rondo/study/build_id.hpp"
-#include "rondo/study/paper_plan.hpp"
-#include "rondo/study/paper_results.hpp"
-#include "rondo/study/paper_table.hpp"
-#include "rondo/study/shipped_cases.hpp"
+#include "rondo/study/paper/paper_plan.hpp"
+#include "rondo/study/paper/paper_results.hpp"
+#include "rondo/study/paper/paper_table.hpp"
+#include "rondo/study/paper/shipped_cases.hpp"
 
 namespace rondo::study {
 namespace {

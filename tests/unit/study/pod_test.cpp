@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// Snapshots of a run as the matrix of a POD: by rows as by columns, windows, frames, weights.
-#include "rondo/study/pod.hpp"
+#include "rondo/study/pod/pod.hpp"
 
 #include <gtest/gtest.h>
 #include <unistd.h>
@@ -14,8 +14,8 @@
 #include "rondo/fem/assembly.hpp"
 #include "rondo/io/results.hpp"
 #include "rondo/mesh/disk.hpp"
-#include "rondo/study/pod_report.hpp"
-#include "rondo/study/pod_snapshots.hpp"
+#include "rondo/study/pod/pod_report.hpp"
+#include "rondo/study/pod/pod_snapshots.hpp"
 
 using namespace rondo;
 using namespace rondo::study;
@@ -23,7 +23,7 @@ using namespace rondo::study;
 namespace {
 
 namespace fs = std::filesystem;
-using reduction::Index;
+using pod::Index;
 
 /// A run with random fields: `n` snapshots at t = 0, 1, ...; velocities half a second before.
 class PodSnapshots : public testing::Test {
@@ -85,9 +85,8 @@ TEST_F(PodSnapshots, RowsAreThoseOfTheColumns) {
   std::vector<Column> columns = all_columns(runs[0], 0);
   for (const Column& c : all_columns(runs[1], 1)) columns.push_back(c);
   for (const auto quantity : {io::Quantity::displacement, io::Quantity::contact})
-    for (const auto& rectified :
-         {std::optional<reduction::Shift>{}, std::optional{reduction::Shift::fourier},
-          std::optional{reduction::Shift::pitch}}) {
+    for (const auto& rectified : {std::optional<pod::Shift>{}, std::optional{pod::Shift::fourier},
+                                  std::optional{pod::Shift::pitch}}) {
       const Weight weight = quantity == io::Quantity::contact ? Weight::delassus : Weight::mass;
       RunSnapshots snapshots(runs, columns, {quantity, weight, rectified});
       Eigen::MatrixXd whole(snapshots.rows(), snapshots.columns());
@@ -114,7 +113,7 @@ TEST_F(PodSnapshots, UnweightGivesTheFieldInTheOrderOfTheMesh) {
   runs.emplace_back(make("a", 1, 3));
   std::vector<Column> columns = all_columns(runs[0], 0);  // at θ = 0 both frames are the same
   RunSnapshots snapshots(runs, columns,
-                         {io::Quantity::displacement, Weight::mass, reduction::Shift::fourier});
+                         {io::Quantity::displacement, Weight::mass, pod::Shift::fourier});
   Eigen::MatrixXd column(snapshots.rows(), 1);
   snapshots.read_columns(0, column);
   snapshots.unweight(column.col(0));

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// Study files of sweeps: what is read, what is refused, and which members they have.
-#include "rondo/study/sweep_study.hpp"
+#include "rondo/study/sweep/sweep_study.hpp"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <set>
 
-#include "rondo/study/sweep_plan.hpp"
+#include "rondo/study/sweep/sweep_plan.hpp"
 
 using namespace rondo;
 using namespace rondo::study;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// Pieces of work that processes take as they come.
-#include "rondo/study/sweep_team.hpp"
+#include "rondo/study/sweep/sweep_team.hpp"
 
 #include <gtest/gtest.h>
 #include <unistd.h>

@@ -9,8 +9,8 @@
 #include <vector>
 
 #include "rondo/mesh/disk.hpp"
-#include "rondo/study/validation_measures.hpp"
-#include "rondo/study/validation_table.hpp"
+#include "rondo/study/paper/validation_measures.hpp"
+#include "rondo/study/paper/validation_table.hpp"
 
 using namespace rondo;
 using namespace rondo::study;

@@ -1,0 +1,300 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "rondo/analysis/modes.hpp"
+#include "rondo/core/error.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <charconv>
+#include <chrono>
+#include <cmath>
+
+#include "rondo/analysis/build.hpp"
+#include "rondo/analysis/modes_output.hpp"
+#include "rondo/analysis/room.hpp"
+#include "rondo/io/files.hpp"
+#include "rondo/io/mode_files.hpp"
+#include "rondo/modal/residual.hpp"
+#include "rondo/statics/stationary_spin.hpp"
+
+namespace rondo::study {
+namespace {
+
+/// What the modes depend on.
+struct Body {
+  mesh::Mesh mesh;
+  std::vector<double> mass;
+  std::vector<fem::Material> materials;
+  double largest_frequency = 0.0;  ///< an upper bound [rad/s]
+  int free = 0;                    ///< bodies that nothing holds
+
+  [[nodiscard]] bool cyclic() const noexcept { return mesh.n_sectors > 0; }
+};
+
+Body make_body(const Case& c) {
+  Body b;
+  b.mesh = build_mesh(c);
+  b.materials = materials_of(c, b.mesh);
+  b.mass = fem::lumped_mass(b.mesh, b.materials);
+  b.free = static_cast<int>(modal::free_bodies(b.mesh).size());
+  b.largest_frequency = std::sqrt(b.cyclic() ? fem::sector_eigenvalue_bound(b.mesh, b.materials)
+                                             : fem::element_eigenvalue_bound(b.mesh, b.materials));
+  if (!(b.largest_frequency > 0.0) || !std::isfinite(b.largest_frequency))
+    throw case_error(c, "material.youngs_modulus",
+                     fmt::format("with this density and mesh the largest frequency is {} rad/s, "
+                                 "out of the range of the numbers",
+                                 b.largest_frequency),
+                     "a modulus and a density in SI units");
+  return b;
+}
+
+/// The spins of the modes whose shapes are kept: each once, in the order given.
+std::vector<double> chosen_spins(const Case& c, const Body& b, const ModesRequest& request) {
+  std::vector<double> spins = request.spins;
+  if (spins.empty()) {
+    spins.push_back(0.0);
+    if (b.free == 0) spins.push_back(c.motion.angular_velocity.at(0.0));
+  }
+  std::vector<double> once;
+  for (const double spin : spins)
+    if (std::find(once.begin(), once.end(), spin) == once.end()) once.push_back(spin + 0.0);
+  return once;
+}
+
+InputError bad_sweep(const ModesRequest& request) {
+  return request_error("--spins", request.sweep, "is no sweep",
+                       "FROM:TO:NUMBER in rad/s with NUMBER from 2 to 10000, e.g. 0:200:41");
+}
+
+std::vector<double> sweep_spins(const ModesRequest& request) {
+  if (request.sweep.empty()) return {};
+  std::array<double, 3> part{};
+  const char* at = request.sweep.data();
+  const char* const end = at + request.sweep.size();
+  for (std::size_t k = 0; k < 3; ++k) {
+    const auto [next, error] = std::from_chars(at, end, part[k]);
+    const bool more = k < 2;
+    if (error != std::errc() || (more ? next == end || *next != ':' : next != end))
+      throw bad_sweep(request);
+    at = next + (more ? 1 : 0);
+  }
+  const auto [from, to, number] = part;
+  if (!(number >= 2.0) || number > 10000.0 || number != std::floor(number) ||
+      !std::isfinite(from) || !std::isfinite(to) || from == to)
+    throw bad_sweep(request);
+  std::vector<double> spins;
+  for (int k = 0; k < static_cast<int>(number); ++k)
+    spins.push_back(from + (to - from) * k / (number - 1.0));
+  return spins;
+}
+
+void check_spins(const Case& c, const Body& b, const std::string& option,
+                 const std::vector<double>& spins) {
+  const std::size_t sector_dofs =
+      b.cyclic() ? 2 * b.mesh.n_nodes() / static_cast<std::size_t>(b.mesh.n_sectors) : 0;
+  for (const double spin : spins) {
+    const std::string found = fmt::format("{}", spin);
+    if (!(std::abs(spin) <= b.largest_frequency))
+      throw request_error(option, found, "no spin of this body",
+                          fmt::format("a number of at most the largest frequency, {:.4g} rad/s",
+                                      b.largest_frequency));
+    if (spin == 0.0 || b.free == 0) continue;
+    if (!b.cyclic())
+      throw request_error(
+          option, found,
+          fmt::format("nothing holds {} of the bodies: they are computed at rest", b.free),
+          "0; or a mesh whose bodies are all clamped");
+    if (c.stress_stiffening != StressStiffening::none)
+      throw case_error(c, "material.stress_stiffening",
+                       "the stress of the spin is computed of bodies held at a rim only",
+                       "\"none\" for a free disk that spins");
+    if (sector_dofs > modal::most_dofs_of_free_sector)
+      throw request_error(
+          option, found,
+          fmt::format("a sector of this free disk has {} degrees of freedom", sector_dofs),
+          fmt::format("at most {} for a free disk that spins: fewer layers",
+                      modal::most_dofs_of_free_sector));
+  }
+}
+
+/// Modes at one spin, with their residuals.
+struct Solved {
+  modal::Modes found;
+  std::vector<double> residuals;
+};
+
+/// One mesh, several spins. The stress of a spin s, and so its stiffness, is s² that of a unit
+/// spin.
+class Solver {
+ public:
+  Solver(const Case& c, const Body& body) : body_(body) {
+    assemble(0.0);
+    if (c.stress_stiffening == StressStiffening::none || body.free > 0) return;
+    const std::vector<int> free = fem::free_nodes(body.mesh);
+    auto unit = body.cyclic()
+                    ? statics::centrifugal_prestress(sector_, body.mass, body.mesh.coordinates, 1.0)
+                    : statics::centrifugal_prestress(stiffness_, body.mass, body.mesh.coordinates,
+                                                     free, 1.0);
+    if (unit.status != statics::SpinStatus::solved)
+      throw case_error(c, "material.stress_stiffening",
+                       "the stress of the spin was not found: the stiffness is not positive "
+                       "definite to round-off",
+                       "\"none\", or a material and a mesh in SI units");
+    unit_prestress_ = std::move(unit.u);
+  }
+
+  [[nodiscard]] Solved modes(double angular_velocity, int count) {
+    const double spin = -angular_velocity;
+    if (!unit_prestress_.empty()) assemble(spin);
+    const auto solve = [&](const auto& body, auto&& modes_of) {
+      Solved s{modes_of(body, spin, count), {}};
+      for (const modal::Mode& mode : s.found.modes)
+        s.residuals.push_back(modal::residual(body, spin, mode));
+      return s;
+    };
+    if (body_.cyclic()) return solve(cyclic(), modal::cyclic_modes);
+    return solve(modal::MeshBody{body_.mesh, stiffness_, body_.mass}, modal::mesh_modes);
+  }
+
+  [[nodiscard]] std::vector<modal::CriticalSpeed> critical(int last) {
+    if (!body_.cyclic()) return {};
+    if (unit_prestress_.empty()) return modal::critical_speeds(cyclic(), nullptr, last);
+    // Of a spin at which it is as large as the elastic stiffness, for the difference to be exact.
+    const double spin = body_.largest_frequency;
+    assemble(spin);
+    fem::SectorStiffness unit = std::move(sector_);
+    assemble(0.0);
+    for (std::size_t e = 0; e < unit.entries.size(); ++e)
+      for (std::size_t i = 0; i < 4; ++i)
+        unit.entries[e].block[i] =
+            (unit.entries[e].block[i] - sector_.entries[e].block[i]) / (spin * spin);
+    return modal::critical_speeds(cyclic(), &unit, last);
+  }
+
+ private:
+  void assemble(double spin) {
+    std::vector<Vec2> prestress;
+    if (spin != 0.0)
+      for (const Vec2 u : unit_prestress_) prestress.push_back(spin * spin * u);
+    if (body_.cyclic())
+      sector_ = fem::assemble_sector(body_.mesh, body_.materials, prestress);
+    else
+      stiffness_ = fem::assemble_stiffness(body_.mesh, body_.materials, prestress);
+  }
+  [[nodiscard]] modal::CyclicBody cyclic() const {
+    return {sector_, body_.mass, body_.mesh.coordinates};
+  }
+
+  const Body& body_;
+  std::vector<Vec2> unit_prestress_;  ///< (n) at 1 rad/s [m]; empty: no stiffening
+  fem::SectorStiffness sector_;
+  fem::BlockCsr stiffness_;
+};
+
+SpinSummary summarise(double angular_velocity, const modal::Modes& found) {
+  SpinSummary s;
+  s.angular_velocity = angular_velocity;
+  s.modes = static_cast<int>(found.modes.size());
+  for (const modal::Mode& mode : found.modes) {
+    s.rigid += mode.wave == modal::Wave::rigid ? 1 : 0;
+    s.growth = std::max(s.growth, mode.growth);
+  }
+  s.unstable = found.unstable;
+  s.dimension = found.dimension;
+  s.counted = found.counted;
+  return s;
+}
+
+void add_lines(double angular_velocity, const Solved& s, ModesReport& report,
+               std::vector<ModeLine>& lines) {
+  for (std::size_t i = 0; i < s.found.modes.size(); ++i) {
+    const modal::Mode& mode = s.found.modes[i];
+    lines.push_back({angular_velocity, mode.omega, mode.diameters, mode.wave, s.residuals[i]});
+    report.residual_max = std::max(report.residual_max, s.residuals[i]);
+  }
+}
+
+/// What went wrong, or less well than the user may think.
+void judge(const ModesRequest& request, ModesReport& r) {
+  const auto say = [&](const std::string& text) {
+    if (request.warn) request.warn(text);
+  };
+  for (const auto* spins : {&r.spins, &r.sweep})
+    for (const SpinSummary& s : *spins) {
+      if (s.unstable > 0 && r.trouble.empty())
+        r.trouble = fmt::format(
+            "at {} rad/s the spin softens the body more than it is stiff: K - s²M has {} negative "
+            "eigenvalue{}, there is no stable state and there are no modes; a lower spin",
+            s.angular_velocity, s.unstable, s.unstable == 1 ? "" : "s");
+      else if (s.unstable == 0 && !s.counted)
+        say(fmt::format("at {} rad/s the modes are not counted: some may be missing",
+                        s.angular_velocity));
+      if (s.growth > 1e-3 * std::abs(s.angular_velocity))
+        say(fmt::format(
+            "at {} rad/s nothing holds back the rotation of the free disk against its "
+            "frame: in this model without the stress of the spin it grows at {:.4g} 1/s",
+            s.angular_velocity, s.growth));
+    }
+  if (r.trouble.empty() && !(r.residual_max <= mode_residual_bound))
+    r.trouble = fmt::format("a mode fulfils its equation to {:.1e} only, bound {:.0e}",
+                            r.residual_max, mode_residual_bound);
+}
+
+void write_files(const Case& c, const ModesRequest& request, const Body& body,
+                 const std::vector<Solved>& solved, const std::vector<ModeLine>& sweep,
+                 const ModesReport& r) {
+  const std::filesystem::path& directory = request.directory;
+  std::vector<io::SpinModes> shapes;
+  for (std::size_t k = 0; k < solved.size(); ++k)
+    shapes.push_back({r.spins[k].angular_velocity, &solved[k].found.modes});
+  io::write_mode_shapes(directory, body.mesh, body.mass, shapes);
+  io::write_file(directory / "modes.csv", modes_table(r.modes));
+  if (body.cyclic()) io::write_file(directory / "critical-speeds.csv", critical_table(r));
+  std::vector<ModeLine> campbell = sweep.empty() ? r.modes : sweep;
+  if (!sweep.empty() || r.spins.size() > 1)
+    io::write_file(directory / "campbell.csv", campbell_table(campbell, body.mesh.n_sectors));
+  io::write_json(directory / "modes.json", modes_json(c, request, r));
+}
+
+}  // namespace
+
+ModesReport run_modes(const Case& c, const ModesRequest& request) {
+  const auto begin = std::chrono::steady_clock::now();
+  const Body body = make_body(c);
+  const std::vector<double> spins = chosen_spins(c, body, request);
+  const std::vector<double> sweep = sweep_spins(request);
+  check_spins(c, body, request.spins.empty() ? "motion.angular_velocity" : "--spin", spins);
+  check_spins(c, body, "--spins", sweep);
+  demand_memory(c, body.mesh.n_nodes(),
+                estimated_modes_memory(size_of(body.mesh),
+                                       spins.size() * static_cast<std::size_t>(request.count),
+                                       static_cast<std::size_t>(request.count)));
+  const io::DirectoryLock lock = take_modes_directory(c, request.directory, request.overwrite);
+
+  ModesReport r;
+  r.directory = request.directory;
+  r.nodes = body.mesh.n_nodes();
+  r.dofs = 2 * fem::free_nodes(body.mesh).size();
+  if (body.cyclic()) r.outer_radius = c.disk.outer_radius;
+  Solver solver(c, body);
+  std::vector<Solved> solved;
+  for (const double spin : spins) {
+    solved.push_back(solver.modes(spin, request.count));
+    r.spins.push_back(summarise(spin, solved.back().found));
+    add_lines(spin, solved.back(), r, r.modes);
+  }
+  std::vector<ModeLine> lines;
+  for (const double spin : sweep) {
+    const Solved s = solver.modes(spin, request.count);
+    r.sweep.push_back(summarise(spin, s.found));
+    add_lines(spin, s, r, lines);
+  }
+  r.critical = solver.critical(request.diameters);
+  judge(request, r);
+  r.wall_s = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+  write_files(c, request, body, solved, lines, r);
+  return r;
+}
+
+}  // namespace rondo::study

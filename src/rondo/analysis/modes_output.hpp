@@ -1,0 +1,22 @@
+// SPDX-License-Identifier: BSD-3-Clause
+/// @file  The tables of rondo modes, and its modes.json (docs/modes.md).
+#pragma once
+#include <string>
+#include <vector>
+
+#include "rondo/analysis/modes.hpp"
+#include "rondo/output/run_files.hpp"
+
+namespace rondo::study {
+
+/// modes.csv.
+std::string modes_table(const std::vector<ModeLine>& modes);
+/// critical-speeds.csv.
+std::string critical_table(const ModesReport& report);
+/// campbell.csv. A pair at rest is the limit of a backward and a forward wave, and named so.
+/// @param n_sectors 0: not cyclic
+std::string campbell_table(const std::vector<ModeLine>& modes, int n_sectors);
+
+Json modes_json(const Case& c, const ModesRequest& request, const ModesReport& report);
+
+}  // namespace rondo::study

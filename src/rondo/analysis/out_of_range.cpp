@@ -1,0 +1,96 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "rondo/analysis/out_of_range.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+#include <span>
+
+#include "rondo/analysis/bodies.hpp"
+
+namespace rondo::study {
+namespace {
+
+/// Below the largest number of single precision, 3.4e38, by what sums of a few may add.
+constexpr double largest_written = 1e37;
+
+struct Largest {
+  double value = 0.0;
+  std::size_t node = 0;
+
+  /// NaN stays.
+  void add(double magnitude, std::size_t of_node) {
+    if (magnitude <= value || std::isnan(value)) return;
+    value = magnitude;
+    node = of_node;
+  }
+};
+
+Largest largest_of(std::span<const Vec2> field) {
+  Largest largest;
+  for (std::size_t k = 0; k < field.size(); ++k) largest.add(norm(field[k]), k);
+  return largest;
+}
+
+std::string too_large(const char* name, const Largest& largest, const char* unit) {
+  if (largest.value <= largest_written) return {};
+  return fmt::format("the {} of node {}, {:.3g} {}, is out of the range of the result files", name,
+                     largest.node, largest.value, unit);
+}
+
+double stiffest(std::span<const fem::Material> materials) {
+  double modulus = 0.0;
+  for (const fem::Material& m : materials) modulus = std::max(modulus, fem::hooke(m).d11);
+  return modulus;
+}
+
+/// No stress is above the modulus times the largest difference of displacements over the shortest
+/// edge. Rigid motion counts as well, which matters to astronomical figures only.
+std::string stress_too_large(const mesh::Mesh& mesh, std::span<const fem::Material> materials,
+                             const Largest& displacement) {
+  const double modulus = stiffest(materials), change = 4.0 * displacement.value;
+  if (modulus * change < 1e25) return {};  // edges are not that short
+  const std::vector<double> size = element_sizes(mesh);
+  const double shortest = *std::min_element(size.begin(), size.end());
+  return too_large("stress near that", {modulus * change / shortest, displacement.node}, "Pa");
+}
+
+}  // namespace
+
+double largest_strain_energy(const Setup& setup) {
+  constexpr double strain = 100.0;
+  double speed = 0.0;
+  for (const fem::Material& m : setup.materials)
+    speed = std::max(speed, fem::wave_speeds(m).pressure);
+  const auto& mass = setup.model.mass;
+  return 0.5 * strain * strain * speed * speed * std::accumulate(mass.begin(), mass.end(), 0.0);
+}
+
+std::string beyond_files(const Setup& setup, const dynamics::State& state) {
+  const Largest displacement = largest_of(state.u);
+  std::string found = too_large("displacement", displacement, "m");
+  if (found.empty()) found = too_large("velocity", largest_of(state.v), "m/s");
+  if (found.empty() && !(norm(state.frame.center) <= largest_written))
+    found = fmt::format("the centre, {:.3g} m away, is out of the range of the result files",
+                        norm(state.frame.center));
+  if (found.empty()) found = stress_too_large(setup.mesh, setup.materials, displacement);
+  Largest force;
+  for (const dynamics::ActiveContact& a : state.active)
+    force.add(norm(a.impulse) / setup.model.dt,
+              static_cast<std::size_t>(setup.mesh.boundary[a.candidate]));
+  return found.empty() ? too_large("contact force", force, "N/m") : found;
+}
+
+std::string beyond_files(const CrushSetup& setup, const statics::CrushState& state) {
+  const Largest displacement = largest_of(state.u);
+  std::string found = too_large("displacement", displacement, "m");
+  if (found.empty()) found = stress_too_large(setup.mesh, setup.materials, displacement);
+  Largest force;
+  for (std::size_t k = 0; k < state.force.size(); ++k)
+    force.add(norm(state.force[k]), static_cast<std::size_t>(setup.mesh.boundary[k]));
+  return found.empty() ? too_large("contact force", force, "N/m") : found;
+}
+
+}  // namespace rondo::study

@@ -1,0 +1,228 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "rondo/analysis/reduced_file.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <span>
+#include <sstream>
+#include <utility>
+
+#include "rondo/core/error.hpp"
+#include "rondo/io/checkpoint_file.hpp"
+#include "rondo/io/mesh_files.hpp"
+
+namespace rondo::study {
+namespace {
+
+using Eigen::Index;
+using Eigen::MatrixXd;
+using io::h5::File;
+
+constexpr const char* format = "rondo reduced model 2";
+
+using rom::ContactForm;
+using rom::ModelFrame;
+
+std::size_t size(Index n) {
+  return static_cast<std::size_t>(n);
+}
+
+/// Columns lie in memory as rows do in the file.
+void write_columns(File& file, const std::string& name, const MatrixXd& m,
+                   const io::h5::Shape& shape, const io::h5::Label& label) {
+  file.write(name, shape, std::span<const double>(m.data(), size(m.size())), label);
+}
+
+MatrixXd read_columns(const File& file, const std::string& name, Index rows, Index columns,
+                      const io::h5::Shape& shape) {
+  const std::vector<double> numbers = file.dataset(name, shape).read<double>();
+  return Eigen::Map<const MatrixXd>(numbers.data(), rows, columns);
+}
+
+using NamedRange = std::pair<const char*, ModelRange*>;
+
+std::array<NamedRange, 5> ranges_of(ModelRanges& r) {
+  return {NamedRange{"friction", &r.friction}, NamedRange{"angular_velocity", &r.angular_velocity},
+          NamedRange{"speed", &r.speed}, NamedRange{"height", &r.height},
+          NamedRange{"slip_ratio", &r.slip_ratio}};
+}
+
+void write_numbers(File& file, const ReducedFile& content) {
+  const rom::ReducedModel& m = content.model;
+  const std::size_t r = size(m.size()), n = size(m.basis.rows() / 2);
+  write_columns(file, "/model/basis", m.basis, {r, n, 2},
+                {"kg^(-1/2)", "modes of the rectified frame, node: x, y; orthonormal in the mass"});
+  write_columns(file, "/model/stiffness", m.stiffness, {r, r}, {"1/s2", "stiffness of the modes"});
+  write_columns(file, "/model/generator", m.generator.transpose(), {r, r},
+                {"1", "row i, column j: mode i · M · derivative of mode j by the angle"});
+  write_columns(file, "/model/turn", m.turn.transpose(), {r, r},
+                {"1", "row i, column j: mode i · M · mode j turned by 90 degrees"});
+  write_columns(file, "/model/reference", m.reference, {r}, {"kg^(1/2) m", "modes · M · X"});
+  write_columns(file, "/model/turned_reference", m.turned_reference, {r},
+                {"kg^(1/2) m", "modes · M · X turned by 90 degrees"});
+  write_columns(file, "/model/translation", m.translation, {2, r},
+                {"kg^(1/2)", "modes · M · unit fields along x and y"});
+}
+
+void read_numbers(const File& file, ReducedFile& content) {
+  rom::ReducedModel& m = content.model;
+  const std::size_t n = content.mesh.n_nodes();
+  const io::h5::Dataset basis = file.dataset("/model/basis", {io::h5::any, n, 2});
+  const std::size_t modes = basis.shape()[0];
+  const auto r = static_cast<Index>(modes);
+  m.basis = read_columns(file, "/model/basis", static_cast<Index>(2 * n), r, {modes, n, 2});
+  m.stiffness = read_columns(file, "/model/stiffness", r, r, {modes, modes});
+  m.generator = read_columns(file, "/model/generator", r, r, {modes, modes}).transpose().eval();
+  m.turn = read_columns(file, "/model/turn", r, r, {modes, modes}).transpose().eval();
+  m.reference = read_columns(file, "/model/reference", r, 1, {modes});
+  m.turned_reference = read_columns(file, "/model/turned_reference", r, 1, {modes});
+  m.translation = read_columns(file, "/model/translation", r, 2, {2, modes});
+}
+
+void demand_finite(const rom::ReducedModel& m, const std::string& path) {
+  const bool finite = m.size() > 0 && m.basis.allFinite() && m.stiffness.allFinite() &&
+                      m.generator.allFinite() && m.turn.allFinite() && m.reference.allFinite() &&
+                      m.turned_reference.allFinite() && m.translation.allFinite();
+  if (!finite) throw FileError(path, "has no modes, or numbers that are not finite");
+}
+
+void write_counts(File& file, const ReducedFile& content) {
+  const std::array<std::int64_t, 2> counts{content.displacement_modes, content.velocity_modes};
+  file.write("/model/counts", {2}, std::span<const std::int64_t>(counts),
+             {"1", "modes of the POD of displacements, of velocities"});
+}
+
+void write_contact(File& file, const rom::ReducedModel& m) {
+  if (m.form == ContactForm::nodes) return;
+  write_columns(file, "/model/contact_weights", m.weights,
+                {size(m.weights.cols()), size(m.weights.rows())},
+                {"1", "row i: shares of the sectors' places in contact point i, of sum 1"});
+}
+
+template <class Value, std::size_t n>
+Value named(const std::array<std::pair<const char*, Value>, n>& names, const std::string& name,
+            const std::string& path) {
+  for (const auto& [text, value] : names)
+    if (name == text) return value;
+  throw FileError(path, fmt::format("has a frame or contact \"{}\" that is not known", name));
+}
+
+void read_contact(const File& file, const std::string& path, ReducedFile& content) {
+  rom::ReducedModel& m = content.model;
+  m.n_sectors = content.mesh.n_sectors;
+  m.frame = named(frame_names, file.attribute("/", "frame"), path);
+  m.form = named(contact_names, file.attribute("/", "contact"), path);
+  if (m.n_sectors < 1 || pod::node_rings(content.mesh).n_sectors < 1)
+    throw FileError(path, "its mesh has no equal sectors");
+  if (m.form == ContactForm::nodes) return;
+  const std::size_t sectors = static_cast<std::size_t>(m.n_sectors);
+  const auto shape = file.dataset("/model/contact_weights", {io::h5::any, sectors}).shape();
+  const MatrixXd weights = read_columns(file, "/model/contact_weights", static_cast<Index>(sectors),
+                                        static_cast<Index>(shape[0]), {shape[0], sectors});
+  const bool fits = pod::boundary_rings(content.mesh).n_rings() == 1 &&
+                    m.frame == ModelFrame::rectified && weights.cols() > 0 && weights.allFinite() &&
+                    (weights.array() >= 0.0).all() &&
+                    ((weights.colwise().sum().array() - 1.0).abs() < 1e-9).all();
+  if (!fits) throw FileError(path, "its contact points do not fit its mesh");
+  rom::set_contact(content.mesh, m.form, weights, m);
+}
+
+void write_ranges(File& file, ModelRanges ranges) {
+  for (const auto& [name, range] : ranges_of(ranges)) {
+    const std::array<double, 2> ends{range->low, range->high};
+    file.write(std::string("/ranges/") + name, {2}, std::span<const double>(ends),
+               {"SI", "smallest and largest of the snapshots; none where they are the other way"});
+  }
+}
+
+void write_all(File& file, const ReducedFile& content) {
+  file.set_attribute("/", "format", format);
+  file.set_attribute("/", "frame", name_in(frame_names, content.model.frame));
+  file.set_attribute("/", "contact", name_in(contact_names, content.model.form));
+  file.set_attribute("/", "body", content.body);
+  std::string runs;
+  for (const std::string& run : content.runs) runs += run + "\n";
+  file.set_attribute("/", "runs", runs);
+  io::write_mesh(file, content.mesh, content.mass);
+  write_numbers(file, content);
+  write_counts(file, content);
+  write_contact(file, content.model);
+  write_ranges(file, content.ranges);
+}
+
+std::vector<std::string> lines_of(const std::string& text) {
+  std::vector<std::string> lines;
+  std::istringstream in(text);
+  for (std::string line; std::getline(in, line);) lines.push_back(line);
+  return lines;
+}
+
+}  // namespace
+
+void ModelRange::take(double value) noexcept {
+  const bool first = empty();
+  low = first ? value : std::min(low, value);
+  high = first ? value : std::max(high, value);
+}
+
+std::string body_text(const Case& c) {
+  Case body;
+  body.disk = c.disk;
+  body.free_rim = c.free_rim;
+  body.mesh = c.mesh;
+  body.material = c.material;
+  body.regions = c.regions;
+  body.stress_stiffening = c.stress_stiffening;
+  if (c.stress_stiffening != StressStiffening::none)
+    body.motion.angular_velocity = dynamics::Table(c.motion.angular_velocity.at(0.0));
+  return write_case(body);
+}
+
+std::string body_difference(const std::string& of_case, const std::string& of_model) {
+  if (of_case == of_model) return {};
+  const std::vector<std::string> a = lines_of(of_case), b = lines_of(of_model);
+  for (std::size_t i = 0; i < std::min(a.size(), b.size()); ++i)
+    if (a[i] != b[i]) return fmt::format("{} against {}", a[i], b[i]);
+  return "one has settings that the other has not";
+}
+
+double slip_ratio_at(const Case& c, double time) {
+  return dynamics::slip_ratio(c.motion.angular_velocity.at(time) * c.disk.outer_radius,
+                              c.motion.speed.at(time));
+}
+
+void write_reduced_file(const std::filesystem::path& file, const ReducedFile& content) {
+  io::write_checkpoint_file(file, [&](File& h5) { write_all(h5, content); });
+}
+
+ReducedFile read_reduced_file(const std::filesystem::path& path) {
+  std::error_code error;
+  if (!std::filesystem::exists(path, error))
+    throw InputError(Fault{path.string(), 0, 0, "", "", "no such file",
+                           "a model that `rondo reduce RUN... -o MODEL.h5` has written"});
+  const File file = io::open_checkpoint_file(path);
+  if (file.attribute("/", "format") != format)
+    throw FileError(path.string(), fmt::format("is not a reduced model (\"{}\")", format));
+  ReducedFile content;
+  content.body = file.attribute("/", "body");
+  content.runs = lines_of(file.attribute("/", "runs"));
+  io::MeshWithMass body = io::read_mesh(file);
+  content.mesh = std::move(body.mesh);
+  content.mass = std::move(body.mass);
+  read_numbers(file, content);
+  demand_finite(content.model, path.string());
+  const auto counts = file.dataset("/model/counts", {2}).read<std::int64_t>();
+  content.displacement_modes = counts[0];
+  content.velocity_modes = counts[1];
+  read_contact(file, path.string(), content);
+  for (const auto& [name, range] : ranges_of(content.ranges)) {
+    const auto ends = file.dataset(std::string("/ranges/") + name, {2}).read<double>();
+    *range = {ends[0], ends[1]};
+  }
+  return content;
+}
+
+}  // namespace rondo::study

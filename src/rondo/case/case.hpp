@@ -1,0 +1,177 @@
+// SPDX-License-Identifier: BSD-3-Clause
+/// @file  A case: what the user's file says, validated, as plain structs (docs/cases.md).
+#pragma once
+#include <array>
+#include <filesystem>
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "rondo/contact/ground.hpp"
+#include "rondo/core/error.hpp"
+#include "rondo/fem/elasticity.hpp"
+#include "rondo/mesh/disk.hpp"
+#include "rondo/model/motion.hpp"
+#include "rondo/model/scheme.hpp"
+
+namespace rondo::study {
+
+struct Damping {
+  double mass = 0.0;       ///< α >= 0 [1/s]
+  double stiffness = 0.0;  ///< β >= 0 [s]
+};
+
+/// A Gmsh file instead of a generated disk; names are those of physical groups.
+struct MeshCase {
+  std::filesystem::path file;  ///< absolute, or relative to the working directory
+  double scale = 1.0;          ///< m per unit of length of the file
+  std::string clamped;         ///< physical curve held in the turning frame; empty: none
+  std::string contact;         ///< physical curve of candidates; empty: none
+};
+
+/// Material of a physical surface, where it differs from [material].
+struct MaterialRegion {
+  std::string surface;
+  fem::Material material;
+};
+
+enum class StressStiffening { none, centrifugal };
+
+/// Which boundaries of bodies touch each other.
+enum class BodyContact { none, bodies, all };  ///< all: a body may touch itself
+
+struct BodyContactCase {
+  BodyContact between = BodyContact::none;
+  double friction = 0.0;     ///< μ >= 0
+  double restitution = 0.0;  ///< e in [0, 1]
+};
+
+struct PressureCase {
+  std::string curve;         ///< physical curve
+  dynamics::Table pressure;  ///< against the outward normal [Pa]
+};
+
+/// A point of the reference configuration whose motion and stress go into history.csv.
+struct Probe {
+  std::string name;  ///< of its columns
+  Vec2 position;     ///< [m]
+};
+
+struct GroundCase {
+  contact::GroundShape shape;
+  double friction = 0.0;     ///< μ >= 0
+  double restitution = 0.0;  ///< e in [0, 1]
+};
+
+enum class AnalysisKind { dynamic, crush };
+
+struct Analysis {
+  AnalysisKind kind = AnalysisKind::dynamic;
+  double depth = 0.0;        ///< of a crush, below first touch: > 0                          [m]
+  int increments = 0;        ///< of a crush, >= 1
+  double slide = 0.0;        ///< of a crush: travel of the centre along +x after the pressing  [m]
+  int slide_increments = 0;  ///< >= 1 where there is a slide, else 0
+};
+
+enum class InitialState { rest, stationary };
+
+/// Rigid motion of the free bodies of a physical surface at t = 0, instead of that of [initial].
+struct InitialRegion {
+  std::string surface;
+  Vec2 velocity;                  ///< of the centre of mass [m/s]
+  double angular_velocity = 0.0;  ///< about it, counter-clockwise [rad/s]
+};
+
+struct Initial {
+  InitialState state = InitialState::rest;
+  Vec2 velocity;  ///< added to every free node, fixed frame [m/s]
+  std::array<std::array<double, 2>, 2> displacement_gradient{};  ///< u0 += G X on free nodes [-]
+  // Of free bodies only: the mesh is turned by `angle` about the origin, then moved by `position`.
+  Vec2 position;                  ///< [m]
+  double angle = 0.0;             ///< [rad]
+  double angular_velocity = 0.0;  ///< of each about its centre of mass, counter-clockwise [rad/s]
+  std::vector<InitialRegion> regions;
+};
+
+using dynamics::Scheme;
+
+struct Time {
+  double end = 0.0;            ///< > 0 [s]
+  double safety = 0.8;         ///< step / critical step, 0 < safety <= 1
+  std::optional<double> step;  ///< given step [s]; excludes safety
+  Scheme scheme = Scheme::symplectic;
+};
+
+struct Output {
+  double history_interval = 1.0e-4;  ///< [s]; 0: every step
+  int snapshots = 400;               ///< >= 0
+  double snapshots_from = 0.0;       ///< [s], in [0, end]
+  bool stress = true;
+  std::vector<Probe> probes;
+  double checkpoint_interval = 60.0;  ///< [s of wall time]
+};
+
+/// Where a key stands that was given; line 0: by --set.
+struct KeyPlace {
+  std::string file;
+  int line = 0, column = 0;
+  std::string written;  ///< the value, as written
+};
+
+/// What means nothing to a crush (damping, motion, initial state, time, restitution, fillet, the
+/// times of the output) has its defaults there, whatever the file says.
+struct Case {
+  std::filesystem::path file;
+  std::map<std::string, KeyPlace> places;  ///< of the keys given, by dotted key
+  std::string title;
+  mesh::Disk disk;               ///< unused where there is a mesh
+  bool free_rim = false;         ///< of a disk: nothing holds its inner boundary
+  std::optional<MeshCase> mesh;  ///< instead of the disk
+  fem::Material material;
+  std::vector<MaterialRegion> regions;
+  StressStiffening stress_stiffening = StressStiffening::none;
+  std::vector<PressureCase> pressures;
+  Damping damping;
+  dynamics::Motion motion;
+  std::optional<GroundCase> ground;  ///< absent: no contact
+  BodyContactCase body_contact;
+  Initial initial;
+  Analysis analysis;
+  Time time;
+  std::string solver_operator = "auto";  ///< "auto" | "cyclic" | "sparse"
+  int contact_iterations = 10000;        ///< most that a coupled contact problem may take
+  int dump_contacts = 0;  ///< contact problems that took more iterations are kept as files; 0: none
+  Output output;
+  std::vector<std::string> warnings;  ///< said while reading; the caller prints them
+};
+
+/// Something is held in the turning frame, so that there is a motion of the rim.
+inline bool is_held(const Case& c) {
+  return c.mesh ? !c.mesh->clamped.empty() : !c.free_rim;
+}
+
+/// There may be a body that nothing holds: of a mesh, only its cells tell.
+inline bool may_be_free(const Case& c) {
+  return c.mesh.has_value() || c.free_rim;
+}
+
+/// Reads and validates. `settings` are the "a.b=value" of --set, applied before validation; a value
+/// that is not TOML is taken as a string. @throws InputError with every fault, in the file's order.
+Case read_case(const std::filesystem::path& file, const std::vector<std::string>& settings = {});
+/// The same from the text of a file that need not be there; `file` is what messages call it.
+Case read_case_text(const std::filesystem::path& file, std::string text,
+                    const std::vector<std::string>& settings = {});
+
+/// The case as TOML with all defaults written out; reading it again gives the same case to the bit.
+std::string write_case(const Case& c);
+
+/// The key of the largest of the disk's numbers of layers and columns.
+std::string_view largest_count(const mesh::Disk& disk) noexcept;
+
+/// A fault that shows only once the case is put together, at the place where its key stands, else
+/// at that of its table.
+InputError case_error(const Case& c, const std::string& key, const std::string& message,
+                      const std::string& allowed);
+
+}  // namespace rondo::study

@@ -1,0 +1,332 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "rondo/case/case_values.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <tuple>
+#include <utility>
+
+#include "rondo/core/contract.hpp"
+
+namespace rondo::study {
+namespace {
+
+constexpr std::size_t most_faults_of_a_key = 5;
+
+const CaseKey& spec(std::string_view key) {
+  const CaseKey* found = find_case_key(key);
+  RONDO_DEMAND(found != nullptr, key);
+  return *found;
+}
+
+std::string unknown_text(const std::string& path, const CaseValue& value) {
+  std::string said = value.type == ValueType::table ? "unknown table" : "unknown key";
+  const std::string_view near = nearest_key(path);
+  if (!near.empty()) said += fmt::format("; did you mean {}?", near);
+  return said;
+}
+
+std::string keys_beside(std::string_view path) {
+  std::string_view table = table_of(path);
+  while (!table.empty() && !is_case_table(table)) table = table_of(table);
+  const std::string where = table.empty() ? "at the top" : fmt::format("in [{}]", table);
+  return fmt::format("{}: {}", where, keys_text(table));
+}
+
+std::string_view asked_type(KeyType type) {
+  switch (type) {
+    case KeyType::history:
+      return "a float or an array of pairs";
+    case KeyType::profile:
+      return "\"flat\" or an array of pairs";
+    case KeyType::vector:
+    case KeyType::matrix:
+      return "an array";
+    default:
+      return "a float";
+  }
+}
+
+}  // namespace
+
+CaseValues::CaseValues(CaseSource source) : source_(std::move(source)) {
+  for (const auto& [path, value] : source_.values) check_key(path, value);
+}
+
+void CaseValues::check_key(const std::string& path, const CaseValue& value) {
+  const std::string found =
+      value.type == ValueType::table ? std::string{} : source_.written(value.place);
+  const CaseKey* key = find_case_key(path);
+  if (is_case_table(path))
+    fault(path, fmt::format("must be a table, not {}", type_word(value.type)), keys_text(path));
+  else if (is_case_list(path))
+    not_a_list(path, value);
+  else if (key == nullptr)
+    add(value.key_place, path, found, unknown_text(path, value), keys_beside(path));
+}
+
+/// At the first item that is no table, if it is an array.
+void CaseValues::not_a_list(const std::string& path, const CaseValue& value) {
+  const auto item = std::find_if(value.items.begin(), value.items.end(),
+                                 [](const CaseValue& v) { return v.type != ValueType::table; });
+  const CaseValue& wrong = item == value.items.end() ? value : *item;
+  add(wrong.place, path, wrong.type == ValueType::table ? "" : source_.written(wrong.place),
+      fmt::format("must be a list of tables, not {}{}", type_word(wrong.type),
+                  item == value.items.end() ? "" : " in it"),
+      fmt::format("[[{}]] before each table, with {}", path, keys_text(path + "[]")));
+}
+
+bool CaseValues::has_table(std::string_view table) const {
+  return source_.tables.contains(table) || source_.values.contains(table);
+}
+
+std::size_t CaseValues::n_items(std::string_view list) const {
+  const auto found = source_.lists.find(list);
+  return found == source_.lists.end() ? 0 : found->second;
+}
+
+bool CaseValues::good(std::initializer_list<std::string_view> keys) const {
+  return std::none_of(keys.begin(), keys.end(),
+                      [&](std::string_view key) { return bad_keys_.contains(key); });
+}
+
+void CaseValues::add(const Place& place, std::string_view key, std::string found,
+                     std::string message, std::string allowed) {
+  bad_keys_.emplace(key);
+  const std::string& file = source_.sources[static_cast<std::size_t>(place.source)].name;
+  const bool in_file = place.source == 0;
+  faults_.push_back({place,
+                     {file, in_file ? place.line : 0, in_file ? place.column : 0, std::string(key),
+                      std::move(found), std::move(message), std::move(allowed)}});
+}
+
+Place CaseValues::place_of_table(std::string_view table) const {
+  for (; !table.empty(); table = table_of(table)) {
+    const auto found = source_.tables.find(table);
+    if (found != source_.tables.end()) return found->second;
+  }
+  return {};
+}
+
+void CaseValues::bad_value(std::string_view key, const CaseValue& value, std::string message) {
+  add(value.place, key, source_.written(value.place), std::move(message), allowed_text(spec(key)));
+}
+
+void CaseValues::wrong_type(std::string_view key, const CaseValue& value, std::string_view asked) {
+  bad_value(key, value, fmt::format("must be {}, not {}", asked, type_word(value.type)));
+}
+
+void CaseValues::fault(std::string_view key, std::string message, std::string allowed) {
+  const auto found = source_.values.find(key);
+  if (found == source_.values.end())
+    add(place_of_table(key), key, "", std::move(message), std::move(allowed));
+  else
+    add(found->second.place, key, source_.written(found->second.place), std::move(message),
+        std::move(allowed));
+}
+
+void CaseValues::fault_at_item(std::string_view key, int item, std::string message) {
+  const auto found = source_.values.find(key);
+  if (found == source_.values.end() || item < 0 ||
+      static_cast<std::size_t>(item) >= found->second.items.size())
+    return fault(key, std::move(message));
+  const Place place = found->second.items[static_cast<std::size_t>(item)].place;
+  add(place, key, source_.written(place), std::move(message), {});
+}
+
+void CaseValues::missing(std::string_view key) {
+  bad_keys_.emplace(key);
+  std::string_view absent;  // the outermost table that is not there
+  for (std::string_view table = table_of(key); !table.empty(); table = table_of(table)) {
+    if (source_.values.contains(table)) return;  // has its fault already: is no table
+    if (!source_.tables.contains(table)) absent = table;
+  }
+  if (absent.empty())
+    fault(key, "is missing", allowed_text(spec(key)));
+  else
+    missing_[std::string(absent)].emplace_back(key);
+}
+
+void CaseValues::add_missing_tables() {
+  for (const auto& [table, keys] : missing_) {
+    std::string list;
+    for (const std::string& key : keys) list += (list.empty() ? "" : ", ") + key;
+    add(place_of_table(table_of(table)), table, "", "the table is missing; it must give " + list,
+        table == "disk" ? "[disk], or [mesh] with a file in its place" : "");
+  }
+  missing_.clear();
+}
+
+void CaseValues::finish() {
+  add_missing_tables();
+  const auto order = [](const Located& a) {
+    const int line = a.fault.line > 0 ? a.fault.line : std::numeric_limits<int>::max();
+    return std::tuple(a.place.source, line, a.fault.column);
+  };
+  std::stable_sort(faults_.begin(), faults_.end(),
+                   [&](const Located& a, const Located& b) { return order(a) < order(b); });
+  std::vector<Fault> faults;
+  for (Located& located : faults_) faults.push_back(std::move(located.fault));
+  faults.insert(faults.end(), source_.bad_settings.begin(), source_.bad_settings.end());
+  if (!faults.empty()) throw InputError(std::move(faults));
+}
+
+const CaseValue* CaseValues::start(std::string_view key) {
+  const auto found = source_.values.find(key);
+  if (found != source_.values.end()) return &found->second;
+  if (spec(key).required()) missing(key);
+  return nullptr;
+}
+
+bool CaseValues::finite(std::string_view key, const CaseValue& value, double& target) {
+  if (value.type != ValueType::number && value.type != ValueType::integer)
+    return wrong_type(key, value, "a float"), false;
+  if (!std::isfinite(value.number)) return bad_value(key, value, "must be a finite number"), false;
+  target = value.number;
+  return true;
+}
+
+void CaseValues::read(std::string_view key, double& target) {
+  const CaseValue* value = start(key);
+  double number = 0.0;
+  if (value == nullptr || !finite(key, *value, number)) return;
+  if (!spec(key).range.contains(number)) return bad_value(key, *value, "is out of bounds");
+  target = number;
+}
+
+void CaseValues::read(std::string_view key, int& target) {
+  const CaseValue* value = start(key);
+  if (value == nullptr) return;
+  if (value->type == ValueType::number)
+    return bad_value(key, *value,
+                     "must be an integer, not a float: write it without point and exponent");
+  if (value->type != ValueType::integer) return wrong_type(key, *value, "an integer");
+  if (!spec(key).range.contains(value->number) ||
+      value->integer < std::numeric_limits<int>::min() ||
+      value->integer > std::numeric_limits<int>::max())
+    return bad_value(key, *value, "is out of bounds");
+  target = static_cast<int>(value->integer);
+}
+
+void CaseValues::read(std::string_view key, bool& target) {
+  const CaseValue* value = start(key);
+  if (value == nullptr) return;
+  if (value->type != ValueType::boolean) return wrong_type(key, *value, "a boolean");
+  target = value->boolean;
+}
+
+void CaseValues::read(std::string_view key, std::string& target) {
+  const CaseValue* value = start(key);
+  if (value == nullptr) return;
+  if (value->type != ValueType::text) return wrong_type(key, *value, "a string");
+  target = value->text;
+}
+
+std::size_t CaseValues::choice(std::string_view key) {
+  const CaseValue* value = start(key);
+  if (value == nullptr) return 0;
+  const CaseKey& k = spec(key);
+  if (value->type != ValueType::text) return wrong_type(key, *value, "a string"), 0;
+  const auto chosen = std::find(k.choices.begin(), k.choices.end(), value->text);
+  if (chosen != k.choices.end() && !chosen->empty())
+    return static_cast<std::size_t>(chosen - k.choices.begin());
+  bad_value(key, *value, "is not one of the choices");
+  return 0;
+}
+
+bool CaseValues::pair(std::string_view key, const CaseValue& value, std::array<double, 2>& target) {
+  if (value.type != ValueType::array) return wrong_type(key, value, "a pair of floats"), false;
+  if (value.items.size() != 2)
+    return bad_value(key, value, fmt::format("must have 2 items, not {}", value.items.size())),
+           false;
+  const bool first = finite(key, value.items[0], target[0]);
+  return finite(key, value.items[1], target[1]) && first;
+}
+
+/// Empty where any of the pairs is at fault; the first few faults are told.
+std::vector<std::array<double, 2>> CaseValues::pairs(std::string_view key, const CaseValue& value) {
+  std::vector<std::array<double, 2>> points;
+  std::size_t n_bad = 0;
+  for (const CaseValue& item : value.items) {
+    std::array<double, 2> point{};
+    if (pair(key, item, point))
+      points.push_back(point);
+    else if (++n_bad == most_faults_of_a_key)
+      break;
+  }
+  if (n_bad > 0) points.clear();
+  return points;
+}
+
+void CaseValues::read(std::string_view key, Vec2& target) {
+  const CaseValue* value = start(key);
+  if (value == nullptr) return;
+  std::array<double, 2> components{};
+  if (value->type != ValueType::array) return wrong_type(key, *value, asked_type(spec(key).type));
+  if (pair(key, *value, components)) target = {components[0], components[1]};
+}
+
+void CaseValues::read(std::string_view key, std::array<std::array<double, 2>, 2>& target) {
+  const CaseValue* value = start(key);
+  if (value == nullptr) return;
+  if (value->type != ValueType::array) return wrong_type(key, *value, asked_type(spec(key).type));
+  if (value->items.size() != 2)
+    return bad_value(key, *value, fmt::format("must have 2 rows, not {}", value->items.size()));
+  const auto rows = pairs(key, *value);
+  if (rows.size() == 2) target = {rows[0], rows[1]};
+}
+
+void CaseValues::read(std::string_view key, dynamics::Table& target) {
+  const CaseValue* value = start(key);
+  if (value == nullptr) return;
+  if (value->type != ValueType::array) {
+    double constant = 0.0;
+    if (value->type != ValueType::number && value->type != ValueType::integer)
+      return wrong_type(key, *value, asked_type(spec(key).type));
+    if (finite(key, *value, constant)) target = dynamics::Table(constant);
+    return;
+  }
+  if (value->items.empty()) return bad_value(key, *value, "must have at least one point");
+  auto points = pairs(key, *value);
+  std::size_t n_bad = 0;
+  for (std::size_t i = 1; i < points.size() && n_bad < most_faults_of_a_key; ++i)
+    if (points[i][0] <= points[i - 1][0]) {
+      bad_value(key, value->items[i],
+                fmt::format("the times must increase, but {} follows {}", points[i][0],
+                            points[i - 1][0]));
+      ++n_bad;
+    }
+  if (!points.empty() && n_bad == 0) target = dynamics::Table(std::move(points));
+}
+
+void CaseValues::read_profile(std::string_view key, std::vector<Vec2>& target) {
+  const CaseValue* value = start(key);
+  if (value == nullptr) return;
+  if (value->type == ValueType::text && value->text == "flat") return;
+  if (value->type == ValueType::text) return bad_value(key, *value, "is not one of the choices");
+  if (value->type != ValueType::array) return wrong_type(key, *value, asked_type(spec(key).type));
+  if (value->items.size() < 2) return bad_value(key, *value, "must have at least two points");
+  const auto points = pairs(key, *value);
+  if (points.empty()) return;
+  target.clear();
+  for (const auto& [x, y] : points) target.push_back({x, y});
+}
+
+std::map<std::string, KeyPlace> CaseValues::places() const {
+  std::map<std::string, KeyPlace> places;
+  const auto put = [&](const std::string& key, const Place& place, const std::string& written) {
+    const bool in_file = place.source == 0;
+    places[key] = {source_.sources[static_cast<std::size_t>(place.source)].name,
+                   in_file ? place.line : 0, in_file ? place.column : 0, written};
+  };
+  for (const auto& [table, place] : source_.tables) put(table, place, "");
+  for (const auto& [key, value] : source_.values) {
+    put(key, value.place, source_.written(value.place));
+  }
+  return places;
+}
+
+}  // namespace rondo::study

@@ -1,0 +1,81 @@
+// SPDX-License-Identifier: BSD-3-Clause
+/// @file  Typed access to a case's values: each read checks type and bounds against the table of
+/// keys and collects faults, so that one reading reports them all.
+#pragma once
+#include <array>
+#include <initializer_list>
+#include <map>
+#include <set>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "rondo/case/case.hpp"
+#include "rondo/case/case_keys.hpp"
+#include "rondo/case/case_source.hpp"
+#include "rondo/core/vec2.hpp"
+#include "rondo/model/motion.hpp"
+
+namespace rondo::study {
+
+class CaseValues {
+ public:
+  /// Finds keys that do not exist, or stand for a table or a list of tables but are none.
+  explicit CaseValues(CaseSource source);
+
+  [[nodiscard]] bool has(std::string_view key) const { return source_.values.contains(key); }
+  [[nodiscard]] bool has_table(std::string_view table) const;
+  /// Tables in a list; they are item_of(list, 0) and so on.
+  [[nodiscard]] std::size_t n_items(std::string_view list) const;
+  /// None of the keys has a fault so far, nor is it required and missing.
+  [[nodiscard]] bool good(std::initializer_list<std::string_view> keys) const;
+
+  /// Reads into a target, which keeps its default where the key is absent or at fault.
+  void read(std::string_view key, int& target);
+  void read(std::string_view key, double& target);
+  void read(std::string_view key, bool& target);
+  void read(std::string_view key, std::string& target);
+  void read(std::string_view key, Vec2& target);
+  void read(std::string_view key, std::array<std::array<double, 2>, 2>& target);
+  void read(std::string_view key, dynamics::Table& target);
+  /// Index into the key's choices; 0, the default, where the key is absent or at fault.
+  std::size_t choice(std::string_view key);
+  /// "flat" leaves the target as it is.
+  void read_profile(std::string_view key, std::vector<Vec2>& target);
+
+  /// A fault of a key: at its value, else at its table; or at an item of its array.
+  void fault(std::string_view key, std::string message, std::string allowed = {});
+  void fault_at_item(std::string_view key, int item, std::string message);
+  void missing(std::string_view key);
+
+  /// Of every value and table given, for faults that only show once the case is put together.
+  [[nodiscard]] std::map<std::string, KeyPlace> places() const;
+
+  /// @throws InputError if there are faults, in the file's order, then those of the settings.
+  void finish();
+
+ private:
+  struct Located {
+    Place place;
+    Fault fault;
+  };
+  const CaseValue* start(std::string_view key);
+  void add(const Place& place, std::string_view key, std::string found, std::string message,
+           std::string allowed);
+  void bad_value(std::string_view key, const CaseValue& value, std::string message);
+  void wrong_type(std::string_view key, const CaseValue& value, std::string_view asked);
+  bool finite(std::string_view key, const CaseValue& value, double& target);
+  bool pair(std::string_view key, const CaseValue& value, std::array<double, 2>& target);
+  std::vector<std::array<double, 2>> pairs(std::string_view key, const CaseValue& value);
+  void check_key(const std::string& path, const CaseValue& value);
+  void not_a_list(const std::string& path, const CaseValue& value);
+  void add_missing_tables();
+  [[nodiscard]] Place place_of_table(std::string_view table) const;
+
+  CaseSource source_;
+  std::vector<Located> faults_;
+  std::set<std::string, std::less<>> bad_keys_;
+  std::map<std::string, std::vector<std::string>, std::less<>> missing_;  ///< by absent table
+};
+
+}  // namespace rondo::study

@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: BSD-3-Clause
+/// @file  What a case is built into: all that its steps need and its results are made of.
+#pragma once
+#include <array>
+#include <string>
+#include <vector>
+
+#include "rondo/case/case.hpp"
+#include "rondo/model/critical_step.hpp"
+#include "rondo/model/model.hpp"
+
+namespace rondo::study {
+
+/// Where a probe is in the mesh.
+struct ProbeSite {
+  std::size_t cell = 0;
+  std::array<double, 4> weight{};  ///< shape functions of its corners
+};
+
+struct Setup {
+  mesh::Mesh mesh;                       ///< free bodies where they are at t = 0
+  std::vector<fem::Material> materials;  ///< one for each region of the mesh
+  std::vector<ProbeSite> probes;         ///< of output.probes
+  dynamics::Model model;
+  dynamics::CriticalStep critical;
+  long long n_steps = 0;              ///< ceil(end / step); the step is never fitted to the end
+  std::vector<Vec2> prestress;        ///< (n) displacement whose stress stiffens the body [m]
+  std::vector<Vec2> displacement;     ///< (n) u_0                          [m]
+  std::vector<Vec2> velocity;         ///< (n) v_0                          [m/s]
+  double frequencies_above = 0.0;     ///< every ω² of the body is known to be above it [1/s²]
+  std::vector<std::string> warnings;  ///< for the user: the caller prints them
+};
+
+}  // namespace rondo::study

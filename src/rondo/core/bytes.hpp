@@ -1,0 +1,16 @@
+// SPDX-License-Identifier: BSD-3-Clause
+/// @file  Amounts of memory and disk as people write them.
+#pragma once
+#include <cstddef>
+#include <optional>
+#include <string>
+
+namespace rondo {
+
+/// 2.5e9 for "2.5GB"; B, kB, MB, GB, TB, or KiB, MiB, GiB, TiB; none where `text` is not that.
+std::optional<std::size_t> bytes_in(const std::string& text);
+
+/// "512 MB", "1.8 TB".
+std::string readable_bytes(std::size_t bytes);
+
+}  // namespace rondo

@@ -1,0 +1,110 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "rondo/core/memory_limits.hpp"
+
+#include <sys/resource.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <array>
+#include <fstream>
+#include <sstream>
+
+namespace rondo {
+namespace fs = std::filesystem;
+namespace {
+
+constexpr std::size_t no_limit = std::numeric_limits<std::size_t>::max();
+
+/// "max", and what cannot be read, is no limit.
+std::size_t limit_in(const fs::path& file) {
+  std::ifstream in(file);
+  std::size_t bytes = 0;
+  return in >> bytes ? bytes : no_limit;
+}
+
+/// Of a group and all above it. In a container the group's own path may not be seen, but the mount
+/// is that of the container.
+std::size_t least_above(const fs::path& mount, const std::string& group, const char* file) {
+  std::size_t least = limit_in(mount / file);
+  fs::path at = mount;
+  for (const fs::path& part : fs::path(group).relative_path())
+    least = std::min(least, limit_in((at /= part) / file));
+  return least;
+}
+
+/// "memory" in "cpu,memory".
+bool names_memory(const std::string& controllers) {
+  std::istringstream list(controllers);
+  for (std::string name; std::getline(list, name, ',');)
+    if (name == "memory") return true;
+  return false;
+}
+
+/// What this process has mapped, in all and as data [B]; 0 where that cannot be read.
+std::array<std::size_t, 2> mapped_memory() {
+  std::ifstream in("/proc/self/statm");
+  std::array<std::size_t, 6> pages{};  // size, resident, shared, text, library, data
+  for (std::size_t& n : pages)
+    if (!(in >> n)) return {};
+  const long page = sysconf(_SC_PAGESIZE);
+  const std::size_t bytes = page > 0 ? static_cast<std::size_t>(page) : 0;
+  return {pages[0] * bytes, pages[5] * bytes};
+}
+
+/// What libraries will map besides, used or not: a buffer of OpenBLAS, 128 MiB, without which it
+/// waits for ever; the heap of the thread that writes, 128 MiB at its making; stacks of threads.
+constexpr std::size_t mapped_by_libraries = 320'000'000;
+
+std::size_t left_of(__rlimit_resource resource, std::size_t mapped) {
+  rlimit limit{};
+  if (getrlimit(resource, &limit) != 0 || limit.rlim_cur == RLIM_INFINITY) return no_limit;
+  const std::size_t taken = mapped + mapped_by_libraries;
+  return limit.rlim_cur > taken ? limit.rlim_cur - taken : 0;
+}
+
+std::string text_of(const fs::path& file) {
+  std::ostringstream text;
+  text << std::ifstream(file).rdbuf();
+  return text.str();
+}
+
+}  // namespace
+
+std::size_t control_group_limit(const std::string& groups, const fs::path& mount) {
+  std::istringstream lines(groups);
+  std::size_t least = no_limit;
+  for (std::string line; std::getline(lines, line);) {  // number:controllers:path
+    const std::size_t first = line.find(':'), second = line.find(':', first + 1);
+    if (first == std::string::npos || second == std::string::npos) continue;
+    const std::string controllers = line.substr(first + 1, second - first - 1);
+    const std::string group = line.substr(second + 1);
+    if (controllers.empty())
+      least = std::min(least, least_above(mount, group, "memory.max"));
+    else if (names_memory(controllers))
+      least = std::min(least, least_above(mount / "memory", group, "memory.limit_in_bytes"));
+  }
+  return least;
+}
+
+std::size_t physical_memory() noexcept {
+  const long pages = sysconf(_SC_PHYS_PAGES), page = sysconf(_SC_PAGESIZE);
+  return pages > 0 && page > 0 ? static_cast<std::size_t>(pages) * static_cast<std::size_t>(page)
+                               : 0;
+}
+
+AllowedMemory allowed_memory() {
+  AllowedMemory allowed;
+  const auto limit = [&](std::size_t bytes, const char* source) {
+    if (bytes < allowed.bytes) allowed = {bytes, source};
+  };
+  const std::size_t physical = physical_memory();
+  limit(physical > 0 ? physical : no_limit, "this machine has");
+  limit(control_group_limit(text_of("/proc/self/cgroup"), "/sys/fs/cgroup"),
+        "the control group of this process allows");
+  const auto [mapped, data] = mapped_memory();
+  limit(left_of(RLIMIT_AS, mapped), "the limit of the address space (ulimit -v) leaves");
+  limit(left_of(RLIMIT_DATA, data), "the limit of data (ulimit -d) leaves");
+  return allowed;
+}
+
+}  // namespace rondo

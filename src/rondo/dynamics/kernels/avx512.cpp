@@ -1,8 +1,0 @@
-// SPDX-License-Identifier: BSD-3-Clause
-#include "rondo/dynamics/kernels/pack_avx512.hpp"
-
-#include "rondo/dynamics/kernels/table.hpp"
-
-namespace rondo::dynamics::kernels {
-constinit const Table avx512_table = table("avx512");
-}  // namespace rondo::dynamics::kernels

@@ -1,8 +1,0 @@
-// SPDX-License-Identifier: BSD-3-Clause
-#include "rondo/dynamics/kernels/pack_baseline.hpp"
-
-#include "rondo/dynamics/kernels/table.hpp"
-
-namespace rondo::dynamics::kernels {
-constinit const Table baseline_table = table("baseline");
-}  // namespace rondo::dynamics::kernels

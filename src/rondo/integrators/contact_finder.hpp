@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: BSD-3-Clause
+/// @file  Where a step has contacts (docs/theory.md, 4.1 and 4.8): candidates on the ground, sharp
+/// corners of the ground on segments, candidates on segments of other bodies or of their own.
+#pragma once
+#include <cstddef>
+#include <vector>
+
+#include "rondo/contact/search.hpp"
+#include "rondo/contact/segment.hpp"
+#include "rondo/integrators/contact_row.hpp"
+#include "rondo/model/model.hpp"
+
+namespace rondo::dynamics {
+
+/// Lower left and upper right corner [m].
+struct Box {
+  Vec2 low, high;
+};
+
+class ContactFinder {
+ public:
+  explicit ContactFinder(const Model& model);
+
+  /// Rows with kind, nodes, key, normal, gap, tributary and law, in an order that only depends on
+  /// the model and the places. @param rows replaced; its memory is kept
+  void find(const State& state, std::vector<ContactRow>& rows);
+  /// (n) of all nodes when `find` was called, fixed frame [m]
+  [[nodiscard]] std::span<const Vec2> positions() const noexcept { return positions_; }
+
+ private:
+  void find_on_ground(std::vector<ContactRow>& rows) const;
+  void find_corners(std::vector<ContactRow>& rows) const;
+  void find_segments(std::vector<ContactRow>& rows);
+  void find_normals();
+  [[nodiscard]] int body_of(std::size_t node) const {
+    return model_.body.empty() ? 0 : model_.body[node];
+  }
+  [[nodiscard]] bool may_touch(std::size_t candidate, int edge) const;
+  [[nodiscard]] bool across_a_wall(std::size_t node, const mesh::Edge& edge) const;
+  [[nodiscard]] Box box_of_candidates() const;
+
+  const Model& model_;
+  contact::Boundary ground_side_;  ///< edges that a corner of the ground may touch
+  contact::Boundary surface_;      ///< edges that a node may touch
+  std::vector<double> ground_side_limit_, surface_limit_;  ///< (edges) depth of a touch  [m]
+  double deepest_ = 0.0;                                   ///< the largest of them       [m]
+  std::vector<Vec2> positions_;  ///< (n) fixed frame                                [m]
+  std::vector<Vec2> outward_;    ///< (n) sum of the normals of a node's edges
+  contact::SegmentGrid grid_;
+  std::vector<int> near_;
+  std::vector<int> all_edges_;  ///< of the ground's side: few corners, each looks at them all
+};
+
+}  // namespace rondo::dynamics

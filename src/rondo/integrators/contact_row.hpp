@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: BSD-3-Clause
+/// @file  A contact of any kind in one step (docs/theory.md, 4.7 and 4.8): rows on the velocities
+/// that its nodes have in the fixed frame over a step, w = Σ H_i V_i.
+#pragma once
+#include <cstdint>
+
+#include "rondo/contact/coupled/rows.hpp"
+#include "rondo/contact/law.hpp"
+
+namespace rondo::dynamics {
+
+enum class ContactKind : std::uint8_t {
+  facet,    ///< a node on a facet of the ground: r acts on the node
+  corner,   ///< a sharp corner of the ground on a segment of a body: r acts on the ground
+  segment,  ///< a node on a segment of a body: r acts on the node, the first of three
+};
+
+struct ContactRow {
+  ContactKind kind = ContactKind::facet;
+  contact::ContactRows rows;
+  std::uint64_t key = 0;   ///< the same contact has the same in the next step
+  Vec2 normal;             ///< fixed frame; what r acts on is pushed along it
+  Vec2 point;              ///< that touches the segment, fixed frame               [m]
+  double turning = 0.0;    ///< by which the gap opens faster than w_n, as the segment turns during
+                           ///< the step (4.8c); joins w_n in the law               [m/s]
+  double gap = 0.0;        ///< <= 0                                                [m]
+  double tributary = 0.0;  ///< boundary that it stands for                         [m]
+  contact::Law law;
+  Vec2 before, free, after;  ///< w⁻, w without impulses, w⁺                          [m/s]
+  double bounce = 0.0;       ///< e min(w_n⁻, 0)                                      [m/s]
+  Vec2 impulse;              ///< r                                                   [N·s/m]
+  contact::Status status = contact::Status::open;
+};
+
+}  // namespace rondo::dynamics

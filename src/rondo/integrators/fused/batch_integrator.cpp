@@ -1,0 +1,114 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "rondo/integrators/fused/batch_integrator.hpp"
+
+#include <omp.h>
+
+#include <algorithm>
+
+#include "rondo/core/contract.hpp"
+#include "rondo/integrators/fused/cyclic_plan.hpp"
+#include "rondo/integrators/fused/sparse_plan.hpp"
+#include "rondo/integrators/step_traps.hpp"
+
+namespace rondo::dynamics {
+namespace {
+
+constexpr std::size_t most_steps_in_a_batch = 64;
+
+/// Insertion, for it keeps the two contacts of a node in their order and takes no memory; what
+/// comes is nearly sorted, and short.
+void sort_by_candidate(std::vector<ActiveContact>& active) noexcept {
+  for (auto at = active.begin(); at != active.end(); ++at)
+    std::rotate(
+        std::upper_bound(active.begin(), at, at->candidate,
+                         [](std::size_t k, const ActiveContact& c) { return k < c.candidate; }),
+        at, at + 1);
+}
+
+}  // namespace
+
+BatchIntegrator::BatchIntegrator(const Model& model, long long step, std::size_t n_parts,
+                                 std::size_t n_pieces)
+    : model_(model),
+      n_parts_(n_parts),
+      step_(step),
+      threads_(std::min(model.threads, static_cast<int>(n_pieces))),
+      steps_(most_steps_in_a_batch),
+      parts_(most_steps_in_a_batch * n_parts) {}
+
+void BatchIntegrator::advance_batch(std::span<StepReport> reports) noexcept {
+  for (std::size_t i = 0; i < reports.size(); ++i)
+    steps_[i] = step_context(model_, step_ + 1 + static_cast<long long>(i));
+  const Batch batch{std::span(steps_).first(reports.size()), parts_.data()};
+  if (threads_ > 1) {
+#pragma omp parallel num_threads(threads_)
+    {
+      const StepTraps traps;
+      make_steps(batch, {static_cast<std::size_t>(omp_get_thread_num()),
+                         static_cast<std::size_t>(omp_get_num_threads())});
+    }
+  } else {
+    const StepTraps traps;
+    make_steps(batch, {});
+  }
+  for (std::size_t i = 0; i < reports.size(); ++i) {
+    const std::span parts = std::span<const PartialStep>(parts_).subspan(i * n_parts_, n_parts_);
+    const WholeStep whole = whole_step(model_, steps_[i].frame, parts);
+    ledger_.add(whole.energy);
+    reports[i] = {++step_, steps_[i].frame, whole.contact, ledger_.last()};
+  }
+}
+
+void BatchIntegrator::advance(std::span<StepReport> reports, State* last) noexcept {
+  RONDO_DEMAND(!reports.empty());
+  const std::size_t contacts = model_.contact ? 2 * model_.contact->nodes.size() : 0;
+  if (last) RONDO_DEMAND(last->active.capacity() >= contacts, last->active.capacity(), contacts);
+  std::span before = reports.first(reports.size() - (last ? 1 : 0));
+  while (!before.empty()) {
+    const std::size_t n = std::min(before.size(), most_steps_in_a_batch);
+    advance_batch(before.first(n));
+    before = before.subspan(n);
+  }
+  if (!last) return;
+  save_displacement(last->u);
+  save_velocity(last->v);
+  advance_batch(reports.last(1));
+  if (!last->v_next.empty()) save_velocity(last->v_next);
+  last->active.clear();
+  save_active(last->active);
+  sort_by_candidate(last->active);
+  last->step = step_;
+  last->frame = reports.back().frame;
+}
+
+void BatchIntegrator::fields(State& state) const noexcept {
+  save_displacement(state.u);
+  save_velocity(state.v_next);
+}
+
+SavedState BatchIntegrator::save() const {
+  SavedState saved;
+  saved.step = step_;
+  saved.u.resize(model_.n_nodes());
+  saved.v.resize(model_.n_nodes());
+  if (model_.stiffness_damping > 0.0) saved.force.resize(model_.n_nodes());
+  save_fields(saved);
+  saved.ledger = ledger_.save();
+  return saved;
+}
+
+void BatchIntegrator::restore(const SavedState& saved) {
+  RONDO_DEMAND(saved.u.size() == model_.n_nodes() && saved.v.size() == model_.n_nodes(),
+               saved.u.size(), saved.v.size());
+  step_ = saved.step;
+  restore_fields(saved);
+  ledger_.restore(saved.ledger);
+}
+
+int most_threads(const Model& model) noexcept {
+  return static_cast<int>(model.stiffness_operator == StiffnessOperator::cyclic
+                              ? n_cyclic_groups(model.sector->n_sectors)
+                              : n_sparse_blocks(model.free.size()));
+}
+
+}  // namespace rondo::dynamics

@@ -1,0 +1,74 @@
+// SPDX-License-Identifier: BSD-3-Clause
+/// @file  What both operators share: the steps of a call in batches, which the threads make without
+/// coming back in between; the ledger of them.
+#pragma once
+#include <span>
+#include <vector>
+
+#include "rondo/core/barrier.hpp"
+#include "rondo/integrators/fused/step_context.hpp"
+#include "rondo/integrators/integrator.hpp"
+
+namespace rondo::dynamics {
+
+class BatchIntegrator : public Integrator {
+ public:
+  void advance(std::span<StepReport> reports, State* last) noexcept final;
+  void fields(State& state) const noexcept final;
+  [[nodiscard]] SavedState save() const final;
+  void restore(const SavedState& saved) final;
+
+ protected:
+  /// The thread in hand and how many there are: of n pieces of work it does [first(n), last(n)).
+  struct Share {
+    std::size_t thread = 0, n_threads = 1;
+
+    [[nodiscard]] std::size_t first(std::size_t n) const noexcept { return n * thread / n_threads; }
+    [[nodiscard]] std::size_t last(std::size_t n) const noexcept {
+      return n * (thread + 1) / n_threads;
+    }
+  };
+  struct Batch {
+    std::span<const StepContext> steps;
+    PartialStep* parts;  ///< (steps, n_parts): to be filled
+  };
+
+  /// @param n_parts of the body, of which each step has sums
+  /// @param n_pieces of work that threads share: no more threads are started
+  BatchIntegrator(const Model& model, long long step, std::size_t n_parts, std::size_t n_pieces);
+
+  /// A thread's share of a batch; all threads are in it at the same time.
+  virtual void make_steps(const Batch& batch, Share share) noexcept = 0;
+  /// u_{n+1} and v_{n+1/2}, n the last step made, of the free nodes.
+  virtual void save_displacement(std::vector<Vec2>& u) const noexcept = 0;
+  virtual void save_velocity(std::vector<Vec2>& v) const noexcept = 0;
+  /// u, v and force of the free nodes, as they are held; the force where `saved` has room for it.
+  virtual void save_fields(SavedState& saved) const noexcept = 0;
+  virtual void restore_fields(const SavedState& saved) noexcept = 0;
+  /// Adds the contacts of the last step made; the two of a node one after the other.
+  virtual void save_active(std::vector<ActiveContact>& active) const noexcept = 0;
+
+  /// In make_steps(): until all threads are here.
+  void wait_for_others(Share share) noexcept {
+    if (share.n_threads > 1) barrier_.wait(static_cast<unsigned>(share.n_threads));
+  }
+
+  const Model& model_;
+  const std::size_t n_parts_;
+  long long step_;  ///< number of the last step made; in make_steps(), before the batch
+
+ private:
+  void advance_batch(std::span<StepReport> reports) noexcept;
+
+  const int threads_;
+  std::vector<StepContext> steps_;  ///< of a batch
+  std::vector<PartialStep> parts_;  ///< (steps of a batch, n_parts)
+  Barrier barrier_;
+  Ledger ledger_;
+};
+
+/// Threads that the steps of model.stiffness_operator can be shared among: more have no work.
+/// @pre its stiffness is there.
+[[nodiscard]] int most_threads(const Model& model) noexcept;
+
+}  // namespace rondo::dynamics

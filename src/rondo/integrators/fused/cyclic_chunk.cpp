@@ -1,0 +1,345 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "rondo/integrators/fused/cyclic_chunk.hpp"
+
+#include <algorithm>
+
+namespace rondo::dynamics {
+namespace {
+
+constexpr int group_columns = kernels::group_packs * kernels::lanes;
+enum Field { field_u_even = 0, field_u_odd = 2, field_v = 4, field_force = 6 };
+
+/// The block of a mirrored row on the layer below (-1), at (0) or above it, `shift` sectors on.
+std::array<double, 4> mirrored_block(const kernels::MirrorRow& row, int layer, int shift) noexcept {
+  const kernels::MirrorBlock& m = layer < 0 ? row.below : layer == 0 ? row.here : row.above;
+  if (shift == 0) return {m.rr, 0.0, 0.0, m.tt};
+  return {m.rr1, shift * m.tr1, shift * m.rt1, m.tt1};
+}
+
+}  // namespace
+
+CyclicChunk::CyclicChunk(const Model& model, const CyclicPlan& plan, const kernels::Table& table,
+                         const CyclicChunkRange& range)
+    : model_(model),
+      plan_(plan),
+      table_(table),
+      range_(range),
+      fields_(plan.chunk_size()),
+      sums_(static_cast<std::size_t>(plan.depth * kernels::n_sums * kernels::lanes) *
+            range.n_groups),
+      contact_(model.contact ? static_cast<std::size_t>(plan.depth) * range.n_groups : 0) {
+  const int n = plan.n_sectors;
+  const auto columns = static_cast<int>(plan.stride) - 2 * halo_columns;
+  for (int c = -halo_columns; c < columns + halo_columns; ++c) {
+    const int sector = ((range.first + c) % n + n) % n;
+    turn_x_.push_back(model.sector->turn[static_cast<std::size_t>(sector)].x);
+    turn_y_.push_back(model.sector->turn[static_cast<std::size_t>(sector)].y);
+  }
+  if (plan.halo != Halo::ring)
+    for (auto& parity : edges_)
+      for (LargeArray& edge : parity)
+        edge =
+            LargeArray(static_cast<std::size_t>(plan.n_local * edge_width() * 2) * n_edge_fields());
+  if (!model.contact) return;
+  const auto most = static_cast<std::size_t>(range.columns) + 2 * halo_columns;
+  low_.resize(most + kernels::lanes);
+  touching_.reserve(most * kernels::most_rows);
+  active_.reserve(2 * most * plan.candidate.size());
+}
+
+double* CyclicChunk::field(int row, int field) noexcept {
+  return fields_.data() + CyclicPlan::lead + row * plan_.row_size() + field * plan_.stride;
+}
+
+Vec2 CyclicChunk::at(int row, int field, int column) const noexcept {
+  const double* x =
+      fields_.data() + CyclicPlan::lead + row * plan_.row_size() + field * plan_.stride + column;
+  return {x[0], x[plan_.stride]};
+}
+
+void CyclicChunk::put(int row, int field, int column, Vec2 value) noexcept {
+  double* x = this->field(row, field) + column;
+  x[0] = value.x;
+  x[plan_.stride] = value.y;
+}
+
+int CyclicChunk::field_now() const noexcept {
+  return steps_ % 2 == 0 ? field_u_even : field_u_odd;
+}
+
+/// K u_0 by the very blocks of the steps: with others, alike to round-off, the ledger would begin
+/// with their difference.
+Vec2 CyclicChunk::initial_force(const std::vector<Vec2>& u, int a, int c) const noexcept {
+  const fem::SectorStiffness& k = *model_.sector;
+  const int n = plan_.n_sectors, sector = range_.first + c;
+  Vec2 force;
+  for (const fem::SectorStiffness::Entry& e : k.row(static_cast<std::size_t>(a))) {
+    const auto there = static_cast<std::size_t>((sector + e.shift + n) % n);
+    const Vec2 x = conj(k.turn[there]) * u[k.node(static_cast<std::size_t>(e.column), there)];
+    std::array<double, 4> block = e.block;
+    if (!plan_.mirror.empty())
+      block = mirrored_block(plan_.mirror[static_cast<std::size_t>(a)], e.column - a, e.shift);
+    force += {block[0] * x.x + block[2] * x.y, block[1] * x.x + block[3] * x.y};
+  }
+  return force;
+}
+
+template <class Visit>
+void CyclicChunk::for_own_nodes(Visit&& visit) const noexcept {
+  for (int a = 0; a < plan_.n_local; ++a)
+    for (int c = 0; c < range_.columns; ++c)
+      visit(a, c,
+            model_.sector->node(static_cast<std::size_t>(a),
+                                static_cast<std::size_t>(std::ptrdiff_t{range_.first} + c)));
+}
+
+void CyclicChunk::load(const State& state) {
+  for_own_nodes([&](int a, int c, std::size_t node) {
+    const Vec2 to_sector = conj(turn(c));
+    const Vec2 v = to_sector * state.v_next[node];
+    put(a, field_now(), c, to_sector * state.u[node] + model_.dt * v);
+    put(a, field_v, c, v);
+    if (plan_.keeps_force) put(a, field_force, c, initial_force(state.u, a, c));
+  });
+  show_to_others();
+}
+
+void CyclicChunk::restore(const SavedState& saved) noexcept {
+  for_own_nodes([&](int a, int c, std::size_t node) {
+    put(a, field_now(), c, saved.u[node]);
+    put(a, field_v, c, saved.v[node]);
+    if (plan_.keeps_force) put(a, field_force, c, saved.force[node]);
+  });
+  show_to_others();
+}
+
+/// What is right of the chunk's own nodes, where it is read for the next pass.
+void CyclicChunk::show_to_others() noexcept {
+  if (plan_.halo != Halo::ring) return give_edges();
+  for (int a = 0; a < plan_.n_local; ++a) wrap(a, field_now());
+}
+
+void CyclicChunk::save(SavedState& saved) const noexcept {
+  for_own_nodes([&](int a, int c, std::size_t node) {
+    saved.u[node] = at(a, field_now(), c);
+    saved.v[node] = at(a, field_v, c);
+    if (plan_.keeps_force) saved.force[node] = at(a, field_force, c);
+  });
+}
+
+void CyclicChunk::save_field(int field, std::vector<Vec2>& out) const noexcept {
+  for_own_nodes([&](int a, int c, std::size_t node) { out[node] = turn(c) * at(a, field, c); });
+}
+
+void CyclicChunk::save_displacement(std::vector<Vec2>& u) const noexcept {
+  save_field(field_now(), u);
+}
+
+void CyclicChunk::save_velocity(std::vector<Vec2>& v) const noexcept {
+  save_field(field_v, v);
+}
+
+void CyclicChunk::wrap(int a, int field) noexcept {
+  for (int component = 0; component < 2; ++component) {
+    double* u = this->field(a, field) + component * plan_.stride;
+    u[-1] = u[range_.columns - 1];
+    u[range_.columns] = u[0];
+  }
+}
+
+int CyclicChunk::edge_width() const noexcept {
+  return plan_.halo == Halo::wide ? halo_columns : 1;
+}
+
+/// A wide halo is advanced with all its fields, a narrow one only read.
+std::size_t CyclicChunk::n_edge_fields() const noexcept {
+  return plan_.halo == Halo::wide ? (plan_.keeps_force ? 3 : 2) : 1;
+}
+
+std::array<int, 3> CyclicChunk::edge_fields() const noexcept {
+  return {field_now(), field_v, field_force};
+}
+
+void CyclicChunk::give_edges() noexcept {
+  const int width = edge_width();
+  double* left = edges_[passes_ % 2][0].data();
+  double* right = edges_[passes_ % 2][1].data();
+  const std::array<int, 3> fields = edge_fields();
+  for (int a = 0; a < plan_.n_local; ++a)
+    for (std::size_t i = 0; i < n_edge_fields(); ++i)
+      for (int component = 0; component < 2; ++component) {
+        const double* x = field(a, fields[i]) + component * plan_.stride;
+        left = std::copy_n(x, width, left);
+        right = std::copy_n(x + range_.columns - width, width, right);
+      }
+}
+
+/// What fills up the last pack behind a wide halo is advanced too: afresh in every pass, for
+/// nothing holds it.
+void CyclicChunk::take_halo(const CyclicChunk& left, const CyclicChunk& right) noexcept {
+  const int width = edge_width();
+  const int end = range_.columns + width;
+  const int filling =
+      plan_.halo == Halo::wide ? (kernels::lanes - end % kernels::lanes) % kernels::lanes : 0;
+  const double* from_left = left.edges_[passes_ % 2][1].data();
+  const double* from_right = right.edges_[passes_ % 2][0].data();
+  const std::array<int, 3> fields = edge_fields();
+  for (int a = 0; a < plan_.n_local; ++a)
+    for (std::size_t i = 0; i < n_edge_fields(); ++i)
+      for (int component = 0; component < 2; ++component) {
+        double* x = field(a, fields[i]) + component * plan_.stride;
+        std::copy_n(from_left, width, x - width);
+        std::fill_n(std::copy_n(from_right, width, x + range_.columns), filling, 0.0);
+        from_left += width;
+        from_right += width;
+      }
+}
+
+/// With a wide halo, step i of k leaves k - 1 - i columns of it right on each side.
+CyclicChunk::Extent CyclicChunk::extent(std::size_t step, std::size_t n_steps) const noexcept {
+  const int own = (range_.columns + kernels::lanes - 1) / kernels::lanes;
+  const int beyond = static_cast<int>(n_steps - 1 - step);
+  if (plan_.halo != Halo::wide || beyond == 0) return {0, own, 0, range_.columns};
+  const int last = (range_.columns + beyond + kernels::lanes - 1) / kernels::lanes;
+  return {-1, last, -beyond, range_.columns + beyond};
+}
+
+void CyclicChunk::find_touching(const Work& work, int a) noexcept {
+  const kernels::CyclicRow& row = plan_.rows[static_cast<std::size_t>(a)];
+  const ContactStep& contact = *work.step->contact;
+  const contact::Ground& ground = model_.contact->ground;
+  constexpr double margin = 1e-9;  // m: the nodes found are looked at again, exactly
+  const int n = table_.low_columns({.u = field(a, work.now),
+                                    .stride = plan_.stride,
+                                    .x = row.x,
+                                    .y = row.y,
+                                    .turn_x = turn_x_.data() + halo_columns,
+                                    .turn_y = turn_y_.data() + halo_columns,
+                                    .rotation_x = contact.rotation.x,
+                                    .rotation_y = contact.rotation.y,
+                                    .limit = ground.top() - contact.center.y + margin,
+                                    .first = work.extent.first_column,
+                                    .last = work.extent.last_column},
+                                   low_.data());
+  for (int i = 0; i < n; ++i) {
+    const int c = low_[static_cast<std::size_t>(i)];
+    const Vec2 arm = turn(c) * (Vec2{row.x, row.y} + at(a, work.now, c));
+    const contact::Touches touches = ground.touches(contact.center + contact.rotation * arm);
+    if (touches.count == 0) continue;
+    touching_.push_back(
+        {a, c, touches, at(a, field_v, c), plan_.keeps_force ? at(a, field_force, c) : Vec2{}});
+  }
+}
+
+void CyclicChunk::solve_node(const Work& work, const Touching& t) noexcept {
+  const kernels::CyclicRow& row = plan_.rows[static_cast<std::size_t>(t.row)];
+  const auto contact_row =
+      static_cast<std::size_t>(plan_.contact_row[static_cast<std::size_t>(t.row)]);
+  const int sector = (range_.first + t.column + plan_.n_sectors) % plan_.n_sectors;
+  const auto k =
+      static_cast<std::size_t>(plan_.candidate[contact_row][static_cast<std::size_t>(sector)]);
+  const Vec2 frame = turn(t.column), u = at(t.row, work.now, t.column);
+  const ContactNode node{k,
+                         row.mass,
+                         model_.contact->tributary[k],
+                         frame * (Vec2{row.x, row.y} + u),
+                         frame * t.v,
+                         frame * at(t.row, field_v, t.column)};
+  std::array<ActiveContact, 2> contacts;
+  const std::span active(contacts.data(), static_cast<std::size_t>(t.touches.count));
+  ContactReport report;
+  const Vec2 after = solve_contacts(*work.step->contact, node, t.touches, active, report);
+  const Vec2 v = conj(frame) * after;
+  put(t.row, field_v, t.column, v);
+  put(t.row, work.next, t.column, u + model_.dt * v);
+  if (t.column < 0 || t.column >= range_.columns) return;  // a neighbour's, who reports it
+  PartialStep& part =
+      contact_[work.place * range_.n_groups + static_cast<std::size_t>(t.column / group_columns)];
+  part.contact.add(report);
+  const Vec2 change =
+      plan_.keeps_force ? frame * (at(t.row, field_force, t.column) - t.force) : Vec2{};
+  correct_sums(*work.step, node, after, change, part.sums);
+  if (work.last) active_.insert(active_.end(), active.begin(), active.end());
+}
+
+void CyclicChunk::strip(const Work& work, int i) noexcept {
+  const int first = i * kernels::most_rows;
+  const int n = std::min(kernels::most_rows, plan_.n_local - first);
+  touching_.clear();
+  if (work.step->contact)
+    for (int a = first; a < first + n; ++a)
+      if (plan_.contact_row[static_cast<std::size_t>(a)] >= 0) find_touching(work, a);
+  kernels::CyclicStrip s;
+  s.rows = plan_.rows.data() + first;
+  s.n_rows = n;
+  s.mirror = plan_.mirror.empty() ? nullptr : plan_.mirror.data() + first;
+  s.row_size = plan_.row_size();
+  s.now = field(0, work.now);
+  s.next = field(0, work.next);
+  s.velocity = field(0, field_v);
+  s.force = field(0, field_force);
+  s.stride = plan_.stride;
+  s.turn_x = turn_x_.data() + halo_columns;
+  s.turn_y = turn_y_.data() + halo_columns;
+  s.first_pack = work.extent.first_pack;
+  s.last_pack = work.extent.last_pack;
+  s.columns = range_.columns;
+  s.keep_tail = plan_.halo != Halo::wide;
+  s.lowest = first == 0;
+  s.highest = first + n == plan_.n_local;
+  s.step = &work.step->factors;
+  s.sums = sums_.data() + work.place * range_.n_groups * kernels::n_sums * kernels::lanes;
+  const kernels::Terms& terms = work.step->terms;
+  table_.cyclic_strip[terms.stiffness_damping][terms.printed][terms.unsteady](s);
+  for (const Touching& t : touching_) solve_node(work, t);
+  if (plan_.halo == Halo::ring)
+    for (int a = first; a < first + n; ++a) wrap(a, work.next);
+}
+
+void CyclicChunk::pass(std::span<const StepContext> steps, PartialStep* parts,
+                       std::size_t stride) noexcept {
+  std::fill_n(sums_.data(), sums_.size(), 0.0);
+  std::fill(contact_.begin(), contact_.end(), PartialStep{});
+  active_.clear();
+  const std::size_t n = steps.size();
+  std::array<Work, most_steps_in_a_pass> work;
+  for (std::size_t i = 0; i < n; ++i) {
+    const bool even = (steps_ + static_cast<long long>(i)) % 2 == 0;
+    work[i] = {&steps[i],
+               extent(i, n),
+               i,
+               even ? field_u_even : field_u_odd,
+               even ? field_u_odd : field_u_even,
+               i + 1 == n};
+  }
+  std::array<int, most_steps_in_a_pass> done{};  // strips done by each step
+  const int n_strips = plan_.n_strips();
+  while (done[n - 1] < n_strips) {
+    if (done[0] < n_strips) strip(work[0], done[0]++);
+    // The others follow as far as they can.
+    for (std::size_t i = 1; i < n; ++i)
+      while (done[i] < n_strips && plan_.needs[static_cast<std::size_t>(done[i])] < done[i - 1])
+        strip(work[i], done[i]++);
+  }
+  steps_ += static_cast<long long>(n);
+  ++passes_;
+  hand_over(n, parts, stride);
+}
+
+void CyclicChunk::hand_over(std::size_t n_steps, PartialStep* parts,
+                            std::size_t stride) const noexcept {
+  for (std::size_t i = 0; i < n_steps; ++i)
+    for (std::size_t g = 0; g < range_.n_groups; ++g) {
+      const std::size_t place = i * range_.n_groups + g;
+      PartialStep& part = parts[i * stride + range_.first_group + g];
+      part = contact_.empty() ? PartialStep{} : contact_[place];
+      const double* sums = sums_.data() + place * kernels::n_sums * kernels::lanes;
+      for (double& sum : part.sums) {
+        double lanes = 0.0;
+        for (int lane = 0; lane < kernels::lanes; ++lane) lanes += *sums++;
+        sum += lanes;
+      }
+    }
+}
+
+}  // namespace rondo::dynamics

@@ -1,0 +1,105 @@
+// SPDX-License-Identifier: BSD-3-Clause
+/// @file  Fields of some sectors of a disk, in polar components, and their steps.
+#pragma once
+#include <array>
+#include <span>
+#include <vector>
+
+#include "rondo/core/large_array.hpp"
+#include "rondo/integrators/fused/cyclic_plan.hpp"
+#include "rondo/integrators/fused/step_context.hpp"
+#include "rondo/model/saved_state.hpp"
+
+namespace rondo::dynamics {
+
+class CyclicChunk {
+ public:
+  CyclicChunk(const Model& model, const CyclicPlan& plan, const kernels::Table& table,
+              const CyclicChunkRange& range);
+
+  /// From u_n and v_{n+1/2} (state.v_next): u_{n+1} and, with β, K u_n.
+  void load(const State& state);
+  /// This chunk's own nodes, in polar components.
+  void save(SavedState& saved) const noexcept;
+  void restore(const SavedState& saved) noexcept;
+  /// u_{n+1} of this chunk's own nodes into u, v_{n+1/2} into v, (n) each.
+  void save_displacement(std::vector<Vec2>& u) const noexcept;
+  void save_velocity(std::vector<Vec2>& v) const noexcept;
+
+  /// What neighbours need of this chunk for the pass to come.
+  void give_edges() noexcept;
+  /// @pre the neighbours have made as many passes, or one more, and given their edges after each.
+  void take_halo(const CyclicChunk& left, const CyclicChunk& right) noexcept;
+
+  /// Makes the steps; parts[i * stride + g] gets what group g of the ring gives in step i.
+  /// @pre at most plan.depth steps, the halo taken.
+  void pass(std::span<const StepContext> steps, PartialStep* parts, std::size_t stride) noexcept;
+
+  /// Contacts of the last step of the last pass, this chunk's own.
+  [[nodiscard]] std::span<const ActiveContact> active() const noexcept { return active_; }
+
+ private:
+  /// Columns of the chunk that a step of a pass works on.
+  struct Extent {
+    int first_pack, last_pack;
+    int first_column, last_column;  ///< whose values are right: contact is looked for there
+  };
+  /// A column that touches, and what its row held before the update.
+  struct Touching {
+    int row, column;
+    contact::Touches touches;
+    Vec2 v;
+    Vec2 force;
+  };
+
+  [[nodiscard]] Extent extent(std::size_t step, std::size_t n_steps) const noexcept;
+  [[nodiscard]] double* field(int row, int field) noexcept;
+  [[nodiscard]] Vec2 at(int row, int field, int column) const noexcept;
+  void put(int row, int field, int column, Vec2 value) noexcept;
+  [[nodiscard]] Vec2 turn(int column) const noexcept {
+    return {turn_x_[padded(column)], turn_y_[padded(column)]};
+  }
+  static std::size_t padded(int column) noexcept {
+    return static_cast<std::size_t>(std::ptrdiff_t{column} + halo_columns);
+  }
+  /// The step in hand of a pass.
+  struct Work {
+    const StepContext* step;
+    Extent extent;
+    std::size_t place;  ///< of the step in the pass
+    int now, next;      ///< fields of u before and after the step
+    bool last;          ///< of the pass
+  };
+  [[nodiscard]] Vec2 initial_force(const std::vector<Vec2>& u, int a, int c) const noexcept;
+  void strip(const Work& work, int i) noexcept;
+  void find_touching(const Work& work, int a) noexcept;
+  void solve_node(const Work& work, const Touching& t) noexcept;
+  /// visit(row, column, node) of this chunk's own nodes.
+  template <class Visit>
+  void for_own_nodes(Visit&& visit) const noexcept;
+  void show_to_others() noexcept;
+  void save_field(int field, std::vector<Vec2>& out) const noexcept;
+  void wrap(int a, int field) noexcept;
+  void hand_over(std::size_t n_steps, PartialStep* parts, std::size_t stride) const noexcept;
+  [[nodiscard]] int field_now() const noexcept;
+  [[nodiscard]] std::array<int, 3> edge_fields() const noexcept;
+  [[nodiscard]] std::size_t n_edge_fields() const noexcept;
+  [[nodiscard]] int edge_width() const noexcept;
+
+  const Model& model_;
+  const CyclicPlan& plan_;
+  const kernels::Table& table_;
+  CyclicChunkRange range_;
+  LargeArray fields_;
+  std::vector<double> turn_x_, turn_y_;  ///< of the columns, from the halo on the left
+  LargeArray sums_;                      ///< (depth, groups, n_sums, lanes)
+  std::vector<PartialStep> contact_;     ///< (depth, groups): of these the contacts' part
+  std::array<std::array<LargeArray, 2>, 2> edges_;  ///< [parity of the pass][left, right]
+  std::vector<int> low_;
+  std::vector<Touching> touching_;
+  std::vector<ActiveContact> active_;
+  long long steps_ = 0;  ///< made so far: tells which field u is in
+  std::size_t passes_ = 0;
+};
+
+}  // namespace rondo::dynamics

@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "rondo/integrators/fused/cyclic_integrator.hpp"
+
+#include <algorithm>
+#include <utility>
+
+namespace rondo::dynamics {
+
+CyclicIntegrator::CyclicIntegrator(const Model& model, const State& start,
+                                   const kernels::Table& table, const CyclicTuning& tuning)
+    : CyclicIntegrator(model, start, table, make_cyclic_plan(model, tuning)) {}
+
+CyclicIntegrator::CyclicIntegrator(const Model& model, const State& start,
+                                   const kernels::Table& table, CyclicPlan plan)
+    : BatchIntegrator(model, start.step, plan.n_groups, plan.chunks.size()),
+      plan_(std::move(plan)) {
+  chunks_.reserve(plan_.chunks.size());
+  for (const CyclicChunkRange& range : plan_.chunks) {
+    chunks_.emplace_back(model_, plan_, table, range);
+    chunks_.back().load(start);
+  }
+}
+
+/// A thread's chunks are the same in every pass; the others' edges are read only between two
+/// barriers, and written for the pass after.
+void CyclicIntegrator::make_steps(const Batch& batch, Share share) noexcept {
+  const std::size_t n = chunks_.size(), n_steps = batch.steps.size();
+  const auto depth = static_cast<std::size_t>(plan_.depth);
+  for (std::size_t done = 0; done < n_steps; done += depth) {
+    const std::span steps = batch.steps.subspan(done, std::min(depth, n_steps - done));
+    for (std::size_t c = share.first(n); c < share.last(n); ++c) {
+      if (plan_.halo != Halo::ring)
+        chunks_[c].take_halo(chunks_[(c + n - 1) % n], chunks_[(c + 1) % n]);
+      chunks_[c].pass(steps, batch.parts + done * n_parts_, n_parts_);
+      if (plan_.halo != Halo::ring) chunks_[c].give_edges();
+    }
+    wait_for_others(share);
+  }
+}
+
+void CyclicIntegrator::save_displacement(std::vector<Vec2>& u) const noexcept {
+  for (const CyclicChunk& chunk : chunks_) chunk.save_displacement(u);
+}
+
+void CyclicIntegrator::save_velocity(std::vector<Vec2>& v) const noexcept {
+  for (const CyclicChunk& chunk : chunks_) chunk.save_velocity(v);
+}
+
+void CyclicIntegrator::save_fields(SavedState& saved) const noexcept {
+  for (const CyclicChunk& chunk : chunks_) chunk.save(saved);
+}
+
+void CyclicIntegrator::restore_fields(const SavedState& saved) noexcept {
+  for (CyclicChunk& chunk : chunks_) chunk.restore(saved);
+}
+
+void CyclicIntegrator::save_active(std::vector<ActiveContact>& active) const noexcept {
+  for (const CyclicChunk& chunk : chunks_)
+    active.insert(active.end(), chunk.active().begin(), chunk.active().end());
+}
+
+}  // namespace rondo::dynamics

@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: BSD-3-Clause
+/// @file  Steps on a mesh of equal sectors: one sector's blocks, fields in polar components, sector
+/// by sector contiguous, product, update and ledger in one pass over memory, many steps in one pass
+/// where the fields are larger than the cache (docs/performance.md).
+#pragma once
+#include <vector>
+
+#include "rondo/integrators/fused/batch_integrator.hpp"
+#include "rondo/integrators/fused/cyclic_chunk.hpp"
+
+namespace rondo::dynamics {
+
+class CyclicIntegrator : public BatchIntegrator {
+ public:
+  /// @pre model.sector is there. @throws std::bad_alloc
+  CyclicIntegrator(const Model& model, const State& start, const kernels::Table& table,
+                   const CyclicTuning& tuning = {});
+
+ private:
+  CyclicIntegrator(const Model& model, const State& start, const kernels::Table& table,
+                   CyclicPlan plan);
+  void make_steps(const Batch& batch, Share share) noexcept override;
+  void save_displacement(std::vector<Vec2>& u) const noexcept override;
+  void save_velocity(std::vector<Vec2>& v) const noexcept override;
+  void save_fields(SavedState& saved) const noexcept override;
+  void restore_fields(const SavedState& saved) noexcept override;
+  void save_active(std::vector<ActiveContact>& active) const noexcept override;
+
+  CyclicPlan plan_;
+  std::vector<CyclicChunk> chunks_;
+};
+
+}  // namespace rondo::dynamics

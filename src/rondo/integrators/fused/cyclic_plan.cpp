@@ -1,0 +1,187 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "rondo/integrators/fused/cyclic_plan.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <utility>
+
+#include "rondo/core/contract.hpp"
+
+namespace rondo::dynamics {
+namespace {
+
+using fem::SectorStiffness;
+
+constexpr int group_columns = kernels::group_packs * kernels::lanes;
+
+void cut(CyclicPlan& plan, int n_chunks) {
+  const int groups = static_cast<int>(plan.n_groups);
+  for (int c = 0; c < n_chunks; ++c) {
+    const int from = groups * c / n_chunks, to = groups * (c + 1) / n_chunks;
+    CyclicChunkRange range;
+    range.first = from * group_columns;
+    range.columns = std::min(to * group_columns, plan.n_sectors) - range.first;
+    range.first_group = static_cast<std::size_t>(from);
+    range.n_groups = static_cast<std::size_t>(to - from);
+    plan.chunks.push_back(range);
+  }
+}
+
+/// Chunks for the threads and for the cache; many steps in a pass where the fields are larger than
+/// it.
+void choose_chunks(CyclicPlan& plan, int threads, const CyclicTuning& tuning) {
+  plan.n_groups = n_cyclic_groups(plan.n_sectors);
+  const int groups = static_cast<int>(plan.n_groups);
+  const std::size_t bytes = static_cast<std::size_t>(plan.n_local) *
+                            static_cast<std::size_t>(plan.n_sectors * plan.n_fields()) *
+                            sizeof(double);
+  const bool in_cache = bytes < tuning.cache_bytes * static_cast<std::size_t>(threads);
+  const int for_threads = std::min(threads, groups);
+  const int for_cache = in_cache ? 1 : std::max(1, plan.n_sectors / tuning.chunk_columns);
+  const int n_chunks =
+      (std::max(for_threads, for_cache) + for_threads - 1) / for_threads * for_threads;
+  cut(plan, std::min(n_chunks, groups));
+  const auto narrowest =
+      std::min_element(plan.chunks.begin(), plan.chunks.end(),
+                       [](const auto& a, const auto& b) { return a.columns < b.columns; });
+  if (plan.chunks.size() == 1)
+    plan.halo = Halo::ring;
+  else
+    plan.halo = narrowest->columns >= tuning.wide_halo_columns ? Halo::wide : Halo::narrow;
+  const bool one_by_one = plan.halo == Halo::ring ? in_cache : plan.halo == Halo::narrow;
+  plan.depth = one_by_one ? 1 : most_steps_in_a_pass;
+}
+
+void add_rows(const Model& model, const SectorStiffness& k, CyclicPlan& plan) {
+  for (const SectorStiffness::Entry& e : k.entries) {
+    kernels::CyclicEntry entry{e.column * plan.row_size() + e.shift, {}};
+    std::copy(e.block.begin(), e.block.end(), entry.k);
+    plan.entries.push_back(entry);
+  }
+  for (std::size_t a = 0; a < k.n_local(); ++a) {
+    const double mass = model.mass[k.node(a, 0)];
+    const Vec2 reference = model.reference[k.node(a, 0)];
+    plan.rows.push_back({.entries = plan.entries.data() + k.row_start[a],
+                         .n_entries = static_cast<int>(k.row(a).size()),
+                         .at = static_cast<std::ptrdiff_t>(a) * plan.row_size(),
+                         .mass = mass,
+                         .dt_over_mass = model.dt / mass,
+                         .x = reference.x,
+                         .y = reference.y});
+  }
+}
+
+/// The mirrored part of a row's blocks on one layer: D k(-s) D is k(s), D = diag(1, -1). Summed so
+/// that symmetry is kept to the last bit. `left` and `right` are the blocks of the last and the
+/// next sector.
+kernels::MirrorBlock mirrored(const std::array<double, 4>& here, const std::array<double, 4>& left,
+                              const std::array<double, 4>& right) noexcept {
+  return {.rr = here[0],
+          .tt = here[3],
+          .rr1 = 0.5 * (left[0] + right[0]),
+          .tt1 = 0.5 * (left[3] + right[3]),
+          .rt1 = 0.5 * (right[2] - left[2]),
+          .tr1 = 0.5 * (right[1] - left[1])};
+}
+
+/// Largest part of the blocks that is not mirrored.
+double deviation(const std::array<double, 4>& here, const std::array<double, 4>& left,
+                 const std::array<double, 4>& right) noexcept {
+  return std::max({std::abs(here[1]), std::abs(here[2]), std::abs(left[0] - right[0]),
+                   std::abs(left[3] - right[3]), std::abs(left[1] + right[1]),
+                   std::abs(left[2] + right[2])});
+}
+
+/// Where a sector is one line of nodes and its own mirror, as that of a smooth disk, a row needs
+/// half of the products.
+void add_mirror(const SectorStiffness& k, CyclicPlan& plan) {
+  const int n = plan.n_local;
+  std::vector<kernels::MirrorRow> rows(static_cast<std::size_t>(n));
+  double largest = 0.0, worst = 0.0;
+  for (int a = 0; a < n; ++a) {
+    std::array<std::array<std::array<double, 4>, 3>, 3> blocks{};  // [layer][shift]
+    for (const SectorStiffness::Entry& e : k.row(static_cast<std::size_t>(a))) {
+      if (std::abs(e.column - a) > 1) return;
+      const int layer = e.column - a + 1, place = e.shift + 1;
+      blocks[static_cast<std::size_t>(layer)][static_cast<std::size_t>(place)] = e.block;
+      largest = std::max(largest, std::abs(e.block[0]));
+    }
+    const auto block = [&](std::size_t layer) {
+      const auto& [left, here, right] = blocks[layer];
+      worst = std::max(worst, deviation(here, left, right));
+      return mirrored(here, left, right);
+    };
+    rows[static_cast<std::size_t>(a)] = {block(0), block(1), block(2)};
+  }
+  constexpr double round_off = 1e-11;  // of the coordinates, over the size of an element
+  if (worst <= round_off * largest) plan.mirror = std::move(rows);
+}
+
+/// A strip reads u of the rows that couple with its own, and overwrites what these read in the step
+/// before: that step must have done them.
+void add_order(const SectorStiffness& k, CyclicPlan& plan) {
+  plan.needs.assign(static_cast<std::size_t>(plan.n_strips()), 0);
+  for (std::size_t a = 0; a < k.n_local(); ++a)
+    for (const SectorStiffness::Entry& e : k.row(a)) {
+      int& needed = plan.needs[a / kernels::most_rows];
+      needed = std::max(needed, e.column / kernels::most_rows);
+    }
+}
+
+void add_contact(const Model& model, const SectorStiffness& k, CyclicPlan& plan) {
+  plan.contact_row.assign(k.n_local(), -1);
+  if (!model.contact) return;
+  std::vector<std::size_t> row_of(static_cast<std::size_t>(k.nodes_per_sector), k.n_local());
+  for (std::size_t a = 0; a < k.n_local(); ++a) row_of[static_cast<std::size_t>(k.nodes[a])] = a;
+  for (std::size_t i = 0; i < model.contact->nodes.size(); ++i) {
+    const int node = model.contact->nodes[i];
+    const std::size_t a = row_of[static_cast<std::size_t>(node % k.nodes_per_sector)];
+    RONDO_DEMAND(a < k.n_local(), node);
+    int& row = plan.contact_row[a];
+    if (row < 0) {
+      row = static_cast<int>(plan.candidate.size());
+      plan.candidate.emplace_back(static_cast<std::size_t>(k.n_sectors), -1);
+    }
+    plan.candidate[static_cast<std::size_t>(row)]
+                  [static_cast<std::size_t>(node / k.nodes_per_sector)] = static_cast<int>(i);
+  }
+  for (const std::vector<int>& ring : plan.candidate)  // the same nodes in every sector
+    RONDO_DEMAND(std::find(ring.begin(), ring.end(), -1) == ring.end(), ring.size());
+}
+
+/// Room for the columns of the widest chunk, whole packs, and the halo on both sides. Fields whose
+/// distance is near a multiple of 4096 B would hinder each other in the first cache.
+std::ptrdiff_t choose_stride(const CyclicPlan& plan) {
+  int widest = 0;
+  for (const CyclicChunkRange& chunk : plan.chunks) widest = std::max(widest, chunk.columns);
+  std::ptrdiff_t stride =
+      (widest + 2 * kernels::lanes - 1) / kernels::lanes * kernels::lanes + 2 * halo_columns;
+  constexpr std::ptrdiff_t page = 4096 / sizeof(double), apart = page / 8;
+  while (stride % page < apart || stride % page > page - apart) stride += kernels::lanes;
+  return stride;
+}
+
+}  // namespace
+
+std::size_t n_cyclic_groups(int n_sectors) noexcept {
+  return static_cast<std::size_t>((n_sectors + group_columns - 1) / group_columns);
+}
+
+CyclicPlan make_cyclic_plan(const Model& model, const CyclicTuning& tuning) {
+  RONDO_DEMAND(model.sector.has_value());
+  const SectorStiffness& k = *model.sector;
+  CyclicPlan plan;
+  plan.n_local = static_cast<int>(k.n_local());
+  plan.n_sectors = k.n_sectors;
+  plan.keeps_force = model.stiffness_damping > 0.0;
+  choose_chunks(plan, model.threads, tuning);
+  plan.stride = choose_stride(plan);
+  add_rows(model, k, plan);
+  add_mirror(k, plan);
+  add_order(k, plan);
+  add_contact(model, k, plan);
+  return plan;
+}
+
+}  // namespace rondo::dynamics

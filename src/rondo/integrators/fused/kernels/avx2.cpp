@@ -1,0 +1,8 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "rondo/integrators/fused/kernels/pack_avx2.hpp"
+
+#include "rondo/integrators/fused/kernels/table.hpp"
+
+namespace rondo::dynamics::kernels {
+constinit const Table avx2_table = table("avx2");
+}  // namespace rondo::dynamics::kernels

@@ -1,0 +1,8 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "rondo/integrators/fused/kernels/pack_baseline.hpp"
+
+#include "rondo/integrators/fused/kernels/table.hpp"
+
+namespace rondo::dynamics::kernels {
+constinit const Table baseline_table = table("baseline");
+}  // namespace rondo::dynamics::kernels

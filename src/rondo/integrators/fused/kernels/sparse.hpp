@@ -1,0 +1,76 @@
+// SPDX-License-Identifier: BSD-3-Clause
+/// @file  Loops of the sparse operator over packs of rows. Included after a pack_*.hpp.
+#pragma once
+#include "rondo/integrators/fused/kernels/update.hpp"
+
+namespace {
+
+using rondo::dynamics::kernels::lanes;
+using rondo::dynamics::kernels::SparseRows;
+
+/// K u of a pack of rows.
+inline Vectors sparse_product(const SparseRows& s, std::ptrdiff_t pack) noexcept {
+  const std::int64_t first = s.start[pack];
+  Vectors product;
+  row_products(s.start[pack + 1] - first, s.blocks + first * 4 * lanes, s.column + first * lanes,
+               s.now, product.x, product.y);
+  return product;
+}
+
+template <bool Beta, bool Unsteady>
+inline Nodes sparse_nodes(const SparseRows& s, const Factors& f, std::ptrdiff_t pack,
+                          const double* motion) noexcept {
+  const double* constants = s.constants + pack * 4 * lanes;
+  const Vectors reference = load_vectors(constants, lanes);
+  Nodes n;
+  load_pairs(s.now + pack * 2 * lanes, n.u.x, n.u.y);
+  n.v = load_vectors(motion, lanes);
+  n.force = sparse_product(s, pack);
+  n.before = Beta ? load_vectors(motion + 2 * lanes, lanes) : n.force;
+  n.frame = {f.rate.x * reference.x, f.rate.x * reference.y};
+  if constexpr (Unsteady) {
+    n.frame = {fnma(f.rate.y, reference.y, n.frame.x), fma(f.rate.y, reference.x, n.frame.y)};
+    n.frame = {n.frame.x + all(s.step->pull_x), n.frame.y + all(s.step->pull_y)};
+  }
+  n.dt_over_mass = load(constants + 3 * lanes);
+  return n;
+}
+
+/// Nodes of a pack have masses of their own.
+inline void add_sums(Pack mass, const Sums& pack, Sums& sums) noexcept {
+  sums.kinetic = fma(mass, pack.kinetic, sums.kinetic);
+  sums.strain = sums.strain + pack.strain;
+  sums.frame = fma(mass, pack.frame, sums.frame);
+  sums.mass = fma(mass, pack.mass, sums.mass);
+  sums.stiffness = sums.stiffness + pack.stiffness;
+  sums.scheme = fma(mass, pack.scheme, sums.scheme);
+}
+
+inline void store_sums(const Sums& sums, double* to) noexcept {
+  using namespace rondo::dynamics::kernels;
+  store(to + sum_kinetic * lanes, sums.kinetic);
+  store(to + sum_strain * lanes, sums.strain);
+  store(to + sum_frame * lanes, sums.frame);
+  store(to + sum_mass * lanes, sums.mass);
+  store(to + sum_stiffness * lanes, sums.stiffness);
+  store(to + sum_scheme * lanes, sums.scheme);
+}
+
+template <bool Beta, bool Printed, bool Unsteady>
+void sparse_rows(const SparseRows& s) noexcept {
+  const Factors f(*s.step);
+  Sums sums = no_sums();
+  for (std::ptrdiff_t pack = s.first_pack; pack < s.last_pack; ++pack) {
+    double* motion = s.motion + pack * (Beta ? 4 : 2) * lanes;
+    const Nodes n = sparse_nodes<Beta, Unsteady>(s, f, pack, motion);
+    Sums own = no_sums();
+    const Vectors after = update<Beta, Printed, Unsteady>(f, n, own);
+    add_sums(load(s.constants + (pack * 4 + 2) * lanes), own, sums);
+    store_vectors(motion, lanes, after);
+    if constexpr (Beta) store_vectors(motion + 2 * lanes, lanes, n.force);
+    store_pairs(s.next + pack * 2 * lanes, fma(f.dt, after.x, n.u.x), fma(f.dt, after.y, n.u.y));
+  }
+  store_sums(sums, s.sums);
+}
+
+}  // namespace

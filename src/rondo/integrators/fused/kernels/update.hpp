@@ -1,0 +1,89 @@
+// SPDX-License-Identifier: BSD-3-Clause
+/// @file  Velocity update and ledger terms of a pack of nodes (docs/theory.md, 3.2, 3.4, 5.1, 5.3),
+/// for both operators. Included after a pack_*.hpp.
+#pragma once
+#include "rondo/integrators/fused/kernels/kernels.hpp"
+
+namespace {
+
+using rondo::dynamics::kernels::StepFactors;
+
+/// Plane vectors, or complex numbers, of eight nodes.
+struct Vectors {
+  Pack x, y;
+};
+
+inline Vectors load_vectors(const double* x, std::ptrdiff_t stride) noexcept {
+  return {load(x), load(x + stride)};
+}
+inline void store_vectors(double* x, std::ptrdiff_t stride, Vectors v) noexcept {
+  store(x, v.x);
+  store(x + stride, v.y);
+}
+/// a·b + c, lane by lane.
+inline Pack add_dot(Vectors a, Vectors b, Pack c) noexcept {
+  return fma(a.x, b.x, fma(a.y, b.y, c));
+}
+
+/// Sums of the row in hand; those with the mass are multiplied by it when the row is done.
+struct Sums {
+  Pack kinetic, strain, frame, mass, stiffness, scheme;
+};
+
+inline Sums no_sums() noexcept {
+  const Pack zero = all(0.0);
+  return {zero, zero, zero, zero, zero, zero};
+}
+
+/// StepFactors in every lane.
+struct Factors {
+  explicit Factors(const StepFactors& f) noexcept
+      : dt(all(f.dt)),
+        beta_over_dt(all(f.beta_over_dt)),
+        rate{all(f.rate_x), all(f.rate_y)},
+        inverse{all(f.inverse_x), all(f.inverse_y)},
+        drag{all(f.drag_x), all(f.drag_y)} {}
+  Pack dt, beta_over_dt;
+  Vectors rate, inverse, drag;
+};
+
+/// What the update of a pack reads. `before` is K u_n, with β only; `frame` what the acceleration
+/// of the frame is without u: Δt[(ṡJ - s²)X + Rᵀ(c̈ - g)].
+struct Nodes {
+  Vectors u, v, force, before, frame;
+  Pack dt_over_mass;
+};
+
+/// v⁺ of (3.4) and its part of the sums.
+template <bool Beta, bool Printed, bool Unsteady>
+inline Vectors update(const Factors& f, const Nodes& n, Sums& sums) noexcept {
+  Vectors frame = {fma(f.rate.x, n.u.x, n.frame.x), fma(f.rate.x, n.u.y, n.frame.y)};
+  if constexpr (Unsteady) frame = {fnma(f.rate.y, n.u.y, frame.x), fma(f.rate.y, n.u.x, frame.y)};
+  Vectors elastic = n.force;
+  const Vectors change = {n.force.x - n.before.x, n.force.y - n.before.y};
+  if constexpr (Beta)
+    elastic = {fma(f.beta_over_dt, change.x, elastic.x), fma(f.beta_over_dt, change.y, elastic.y)};
+  // -[Δt f/m - drag v⁻]
+  Vectors t = {fma(n.dt_over_mass, elastic.x, frame.x), fma(n.dt_over_mass, elastic.y, frame.y)};
+  t = {fma(f.drag.x, n.v.x, t.x), fma(f.drag.x, n.v.y, t.y)};
+  t = {fnma(f.drag.y, n.v.y, t.x), fma(f.drag.y, n.v.x, t.y)};
+  Vectors after = {fnma(f.inverse.x, t.x, n.v.x), fnma(f.inverse.x, t.y, n.v.y)};
+  after = {fma(f.inverse.y, t.y, after.x), fnma(f.inverse.y, t.x, after.y)};
+
+  const Vectors twice_mean = {n.v.x + after.x, n.v.y + after.y};
+  sums.kinetic = add_dot(n.v, n.v, sums.kinetic);
+  sums.frame = add_dot(twice_mean, frame, sums.frame);
+  sums.mass = add_dot(twice_mean, Printed ? n.v : twice_mean, sums.mass);
+  if constexpr (Beta) {
+    sums.strain = add_dot(n.u, n.before, sums.strain);
+    sums.stiffness = add_dot(twice_mean, change, sums.stiffness);
+  } else {  // u_nᵀ K u_{n+1} is the same, for K is symmetric
+    const Vectors u_before = {fnma(f.dt, n.v.x, n.u.x), fnma(f.dt, n.v.y, n.u.y)};
+    sums.strain = add_dot(u_before, n.force, sums.strain);
+  }
+  if constexpr (Printed)
+    sums.scheme = fma(twice_mean.y, n.v.x, fnma(twice_mean.x, n.v.y, sums.scheme));
+  return after;
+}
+
+}  // namespace

@@ -1,0 +1,208 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "rondo/integrators/fused/sparse_integrator.hpp"
+
+#include <utility>
+
+namespace rondo::dynamics {
+namespace {
+
+constexpr std::size_t lanes = kernels::lanes;
+constexpr std::size_t force_at = 2 * lanes;  ///< K u of a row, from its v
+
+Vec2 pair_at(const double* u, int row) noexcept {
+  return {u[2 * row], u[2 * row + 1]};
+}
+/// A vector of a pack, its components in two lines of lanes.
+Vec2 vector_at(const double* x) noexcept {
+  return {x[0], x[lanes]};
+}
+void put(double* x, Vec2 value) noexcept {
+  x[0] = value.x;
+  x[lanes] = value.y;
+}
+/// Of all lanes, in pairs, so that few sums wait for others.
+double sum_of(const double* x) noexcept {
+  return ((x[0] + x[4]) + (x[2] + x[6])) + ((x[1] + x[5]) + (x[3] + x[7]));
+}
+
+}  // namespace
+
+SparseIntegrator::SparseIntegrator(const Model& model, const State& start,
+                                   const kernels::Table& table)
+    : SparseIntegrator(model, start, table, make_sparse_plan(model)) {}
+
+SparseIntegrator::SparseIntegrator(const Model& model, const State& start,
+                                   const kernels::Table& table, SparsePlan plan)
+    : BatchIntegrator(model, start.step, plan.n_blocks, plan.n_blocks),
+      table_(table),
+      plan_(std::move(plan)),
+      u_{LargeArray(plan_.n_packs * 2 * lanes), LargeArray(plan_.n_packs * 2 * lanes)},
+      motion_(plan_.n_packs * plan_.motion_size()),
+      contacts_(static_cast<std::size_t>(model.threads)) {
+  for (Contacts& contacts : contacts_) {
+    contacts.touching.reserve(plan_.candidates.size());
+    contacts.active.reserve(2 * plan_.candidates.size());
+  }
+  load(start);
+}
+
+std::size_t SparseIntegrator::motion_at(std::size_t row) const noexcept {
+  return row / lanes * plan_.motion_size() + row % lanes;
+}
+
+void SparseIntegrator::load(const State& start) {
+  double* now = u_[parity(step_)].data();
+  for (std::size_t i = 0; i < plan_.node.size(); ++i) {
+    const auto node = static_cast<std::size_t>(plan_.node[i]);
+    const Vec2 u = start.u[node] + model_.dt * start.v_next[node];
+    now[2 * i] = u.x;
+    now[2 * i + 1] = u.y;
+    double* motion = motion_.data() + motion_at(i);
+    put(motion, start.v_next[node]);
+    if (plan_.keeps_force) put(motion + force_at, start.force[node]);
+  }
+}
+
+void SparseIntegrator::save_displacement(std::vector<Vec2>& u) const noexcept {
+  const double* now = u_[parity(step_)].data();
+  for (std::size_t i = 0; i < plan_.node.size(); ++i)
+    u[static_cast<std::size_t>(plan_.node[i])] = pair_at(now, static_cast<int>(i));
+}
+
+void SparseIntegrator::save_velocity(std::vector<Vec2>& v) const noexcept {
+  for (std::size_t i = 0; i < plan_.node.size(); ++i)
+    v[static_cast<std::size_t>(plan_.node[i])] = vector_at(motion_.data() + motion_at(i));
+}
+
+void SparseIntegrator::save_fields(SavedState& saved) const noexcept {
+  save_displacement(saved.u);
+  save_velocity(saved.v);
+  if (plan_.keeps_force)
+    for (std::size_t i = 0; i < plan_.node.size(); ++i)
+      saved.force[static_cast<std::size_t>(plan_.node[i])] =
+          vector_at(motion_.data() + motion_at(i) + force_at);
+}
+
+void SparseIntegrator::restore_fields(const SavedState& saved) noexcept {
+  double* now = u_[parity(step_)].data();
+  for (std::size_t i = 0; i < plan_.node.size(); ++i) {
+    const auto node = static_cast<std::size_t>(plan_.node[i]);
+    now[2 * i] = saved.u[node].x;
+    now[2 * i + 1] = saved.u[node].y;
+    double* motion = motion_.data() + motion_at(i);
+    put(motion, saved.v[node]);
+    if (plan_.keeps_force) put(motion + force_at, saved.force[node]);
+  }
+}
+
+void SparseIntegrator::save_active(std::vector<ActiveContact>& active) const noexcept {
+  for (const Contacts& contacts : contacts_)
+    active.insert(active.end(), contacts.active.begin(), contacts.active.end());
+}
+
+void SparseIntegrator::find_touching(const Work& work, std::size_t block) const noexcept {
+  work.contacts->touching.clear();
+  const ContactStep& contact = *work.step->contact;
+  constexpr double margin = 1e-9;  // m: the nodes found are looked at again, exactly
+  const double limit = model_.contact->ground.top() - contact.center.y + margin;
+  const Vec2 up = {contact.rotation.y, contact.rotation.x};
+  const double* u = work.now;
+  const SparseCandidate* candidates = plan_.candidates.data();
+  const std::size_t last = plan_.first_candidate[block + 1];
+  for (std::size_t i = plan_.first_candidate[block]; i < last; ++i) {
+    const SparseCandidate& c = candidates[i];
+    if (dot(up, c.reference + pair_at(u, c.row)) <= limit) look_at(work, c);
+  }
+}
+
+void SparseIntegrator::look_at(const Work& work, const SparseCandidate& c) const noexcept {
+  const ContactStep& contact = *work.step->contact;
+  const Vec2 u = pair_at(work.now, c.row);
+  const contact::Touches touches =
+      model_.contact->ground.touches(contact.center + contact.rotation * (c.reference + u));
+  if (touches.count == 0) return;
+  const double* motion = motion_.data() + motion_at(static_cast<std::size_t>(c.row));
+  work.contacts->touching.push_back({c, touches, u, vector_at(motion),
+                                     plan_.keeps_force ? vector_at(motion + force_at) : Vec2{}});
+}
+
+void SparseIntegrator::solve_node(const Work& work, const Touching& t, PartialStep& part) noexcept {
+  const SparseCandidate& c = t.candidate;
+  const auto k = static_cast<std::size_t>(c.candidate);
+  double* motion = motion_.data() + motion_at(static_cast<std::size_t>(c.row));
+  const ContactNode node{k,
+                         model_.mass[static_cast<std::size_t>(model_.contact->nodes[k])],
+                         model_.contact->tributary[k],
+                         c.reference + t.u,
+                         t.v,
+                         vector_at(motion)};
+  std::array<ActiveContact, 2> contacts;
+  const std::span active(contacts.data(), static_cast<std::size_t>(t.touches.count));
+  const Vec2 after = solve_contacts(*work.step->contact, node, t.touches, active, part.contact);
+  put(motion, after);
+  const Vec2 u = t.u + model_.dt * after;
+  work.next[2 * c.row] = u.x;
+  work.next[2 * c.row + 1] = u.y;
+  const Vec2 change = plan_.keeps_force ? vector_at(motion + force_at) - t.force : Vec2{};
+  correct_sums(*work.step, node, after, change, part.sums);
+  std::vector<ActiveContact>& all = work.contacts->active;
+  if (work.last) all.insert(all.end(), active.begin(), active.end());
+}
+
+void SparseIntegrator::update_rows(const Work& work, std::size_t block,
+                                   PartialStep& part) noexcept {
+  std::array<double, kernels::n_sums * lanes> sums;
+  kernels::SparseRows rows;
+  rows.start = plan_.start.data();
+  rows.blocks = plan_.blocks.data();
+  rows.column = plan_.column.data();
+  rows.constants = plan_.constants.data();
+  rows.now = work.now;
+  rows.next = work.next;
+  rows.motion = motion_.data();
+  rows.first_pack = static_cast<std::ptrdiff_t>(plan_.first_pack(block));
+  rows.last_pack = static_cast<std::ptrdiff_t>(plan_.first_pack(block + 1));
+  rows.step = &work.step->factors;
+  rows.sums = sums.data();
+  const kernels::Terms& terms = work.step->terms;
+  table_.sparse_rows[terms.stiffness_damping][terms.printed][terms.unsteady](rows);
+  for (std::size_t k = 0; k < part.sums.size(); ++k) part.sums[k] = sum_of(sums.data() + k * lanes);
+}
+
+/// What fills up the last pack has no mass and no stiffness, but the pull and the frame move it:
+/// without end, as nothing holds it.
+void SparseIntegrator::rest_padding(double* next) noexcept {
+  for (std::size_t i = plan_.node.size(); i < plan_.n_packs * lanes; ++i) {
+    put(motion_.data() + motion_at(i), {});
+    next[2 * i] = next[2 * i + 1] = 0.0;
+  }
+}
+
+void SparseIntegrator::make_block(const Work& work, std::size_t block) noexcept {
+  PartialStep& part = work.parts[block];
+  part.contact = {};
+  if (work.step->contact) find_touching(work, block);
+  update_rows(work, block, part);
+  if (work.step->contact)
+    for (const Touching& t : work.contacts->touching) solve_node(work, t, part);
+  if (block + 1 == plan_.n_blocks) rest_padding(work.next);
+}
+
+/// A thread's blocks are the same in every step. A product reads u of other threads' blocks: all of
+/// it must be there.
+void SparseIntegrator::make_steps(const Batch& batch, Share share) noexcept {
+  const std::size_t n = plan_.n_blocks;
+  // Of this thread, and of those that are not there this time.
+  for (std::size_t k = share.thread; k < contacts_.size(); k += share.n_threads)
+    contacts_[k].active.clear();
+  for (std::size_t i = 0; i < batch.steps.size(); ++i) {
+    const long long step = step_ + static_cast<long long>(i);
+    const Work work{&batch.steps[i],     u_[parity(step)].data(),  u_[parity(step + 1)].data(),
+                    batch.parts + i * n, &contacts_[share.thread], i + 1 == batch.steps.size()};
+    for (std::size_t block = share.first(n); block < share.last(n); ++block)
+      make_block(work, block);
+    wait_for_others(share);
+  }
+}
+
+}  // namespace rondo::dynamics

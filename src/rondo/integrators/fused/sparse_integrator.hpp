@@ -1,0 +1,72 @@
+// SPDX-License-Identifier: BSD-3-Clause
+/// @file  Steps on any mesh: assembled 2×2 blocks in a good order, product, update and ledger in
+/// one pass over memory (docs/performance.md).
+#pragma once
+#include <array>
+#include <vector>
+
+#include "rondo/core/large_array.hpp"
+#include "rondo/integrators/fused/batch_integrator.hpp"
+#include "rondo/integrators/fused/sparse_plan.hpp"
+
+namespace rondo::dynamics {
+
+class SparseIntegrator : public BatchIntegrator {
+ public:
+  /// From u_n, v_{n+1/2} (start.v_next) and, with β, K u_n (start.force).
+  /// @pre model.stiffness is there. @throws std::bad_alloc
+  SparseIntegrator(const Model& model, const State& start, const kernels::Table& table);
+
+ private:
+  /// A candidate that touches, and what its row held before the update.
+  struct Touching {
+    SparseCandidate candidate;
+    contact::Touches touches;
+    Vec2 u, v, force;
+  };
+  /// Contacts of a thread's blocks.
+  struct Contacts {
+    std::vector<Touching> touching;     ///< of the block in hand
+    std::vector<ActiveContact> active;  ///< of the last step of the batch
+  };
+  /// The step in hand.
+  struct Work {
+    const StepContext* step;
+    const double* now;   ///< u_{n+1}
+    double* next;        ///< u_{n+2}
+    PartialStep* parts;  ///< (blocks)
+    Contacts* contacts;
+    bool last;  ///< of the batch
+  };
+
+  SparseIntegrator(const Model& model, const State& start, const kernels::Table& table,
+                   SparsePlan plan);
+  void load(const State& start);
+  void make_steps(const Batch& batch, Share share) noexcept override;
+  void save_displacement(std::vector<Vec2>& u) const noexcept override;
+  void save_velocity(std::vector<Vec2>& v) const noexcept override;
+  void save_fields(SavedState& saved) const noexcept override;
+  void restore_fields(const SavedState& saved) noexcept override;
+  void save_active(std::vector<ActiveContact>& active) const noexcept override;
+  /// Where in motion_ a row's v_x is.
+  [[nodiscard]] std::size_t motion_at(std::size_t row) const noexcept;
+  /// Which u is u_{n+1}.
+  [[nodiscard]] static std::size_t parity(long long n) noexcept {
+    return static_cast<std::size_t>(n) % 2;
+  }
+
+  void make_block(const Work& work, std::size_t block) noexcept;
+  void update_rows(const Work& work, std::size_t block, PartialStep& part) noexcept;
+  void find_touching(const Work& work, std::size_t block) const noexcept;
+  void look_at(const Work& work, const SparseCandidate& c) const noexcept;
+  void solve_node(const Work& work, const Touching& t, PartialStep& part) noexcept;
+  void rest_padding(double* next) noexcept;
+
+  const kernels::Table& table_;
+  SparsePlan plan_;
+  std::array<LargeArray, 2> u_;     ///< (rows, 2) of even and of odd steps
+  LargeArray motion_;               ///< as in kernels::SparseRows
+  std::vector<Contacts> contacts_;  ///< of each thread
+};
+
+}  // namespace rondo::dynamics

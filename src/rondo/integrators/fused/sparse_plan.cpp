@@ -1,0 +1,138 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "rondo/integrators/fused/sparse_plan.hpp"
+
+#include <algorithm>
+#include <array>
+#include <span>
+
+#include "rondo/core/contract.hpp"
+#include "rondo/integrators/fused/numbering.hpp"
+
+namespace rondo::dynamics {
+namespace {
+
+constexpr std::size_t lanes = kernels::lanes;
+/// Packs of a block: few enough that threads share a small body evenly, and on large bodies so many
+/// that the sums of blocks are few.
+constexpr std::size_t fewest_packs = 16, most_blocks = 512;
+/// Rows of a length are brought together within so many rows: whole packs.
+constexpr std::size_t window = 8 * lanes;
+
+std::size_t row_length(const fem::BlockCsr& k, int node) noexcept {
+  const auto row = static_cast<std::size_t>(node);
+  return static_cast<std::size_t>(k.row_start[row + 1] - k.row_start[row]);
+}
+
+/// Rows of a length are brought together, over a distance that the cache does not feel; long ones
+/// first.
+void sort_by_length(const fem::BlockCsr& k, std::vector<int>& order) {
+  for (std::size_t i = 0; i < order.size(); i += window) {
+    const std::span rows = std::span(order).subspan(i, std::min(window, order.size() - i));
+    std::stable_sort(rows.begin(), rows.end(),
+                     [&](int a, int b) { return row_length(k, a) > row_length(k, b); });
+  }
+}
+
+/// (n) row of each node; -1: clamped.
+std::vector<int> row_of(const Model& model, const SparsePlan& plan) {
+  std::vector<int> row(model.n_nodes(), -1);
+  for (std::size_t i = 0; i < plan.node.size(); ++i)
+    row[static_cast<std::size_t>(plan.node[i])] = static_cast<int>(i);
+  return row;
+}
+
+/// A pack is as long as its first row: sort_by_length has put the longest there.
+void add_starts(const fem::BlockCsr& k, SparsePlan& plan) {
+  plan.start.assign(1, 0);
+  for (std::size_t i = 0; i < plan.node.size(); i += lanes)
+    plan.start.push_back(plan.start.back() +
+                         static_cast<std::int64_t>(row_length(k, plan.node[i])));
+}
+
+/// Zero blocks on their own nodes, which the rows' blocks then take the places of.
+void add_matrix(const fem::BlockCsr& k, const std::vector<int>& row, SparsePlan& plan) {
+  add_starts(k, plan);
+  const std::size_t n = static_cast<std::size_t>(plan.start.back()) * lanes;
+  plan.blocks = LargeArray(4 * n);
+  plan.column = LargeArrayOf<std::int32_t>(n);
+  for (std::size_t i = 0; i < plan.n_packs * lanes; ++i) {
+    const auto first = static_cast<std::size_t>(plan.start[i / lanes]);
+    const auto last = static_cast<std::size_t>(plan.start[i / lanes + 1]);
+    for (std::size_t at = first; at < last; ++at)
+      plan.column.data()[at * lanes + i % lanes] = static_cast<std::int32_t>(2 * i);
+  }
+  for (std::size_t i = 0; i < plan.node.size(); ++i) {
+    const auto node = static_cast<std::size_t>(plan.node[i]);
+    std::size_t place = static_cast<std::size_t>(plan.start[i / lanes]) * lanes + i % lanes;
+    for (auto at = k.row_start[node]; at < k.row_start[node + 1]; ++at, place += lanes) {
+      const auto b = static_cast<std::size_t>(at);
+      const auto [xx, yx, xy, yy] = k.values[b];
+      plan.column.data()[place] = 2 * row[static_cast<std::size_t>(k.column[b])];
+      std::ranges::copy(std::array{xx, xy, yx, yy}, plan.blocks.data() + 4 * place);
+    }
+  }
+}
+
+void add_constants(const Model& model, SparsePlan& plan) {
+  plan.constants = LargeArray(plan.n_packs * 4 * lanes);
+  for (std::size_t i = 0; i < plan.node.size(); ++i) {
+    const auto node = static_cast<std::size_t>(plan.node[i]);
+    double* c = plan.constants.data() + i / lanes * 4 * lanes + i % lanes;
+    c[0] = model.reference[node].x;
+    c[lanes] = model.reference[node].y;
+    c[2 * lanes] = model.mass[node];
+    c[3 * lanes] = model.dt / model.mass[node];
+  }
+}
+
+std::size_t packs_of(std::size_t n_rows) noexcept {
+  return (n_rows + lanes - 1) / lanes;
+}
+
+void add_contact(const Model& model, const std::vector<int>& row, SparsePlan& plan) {
+  if (!model.contact) return;
+  const std::vector<int>& nodes = model.contact->nodes;
+  for (std::size_t i = 0; i < nodes.size(); ++i) {
+    const auto node = static_cast<std::size_t>(nodes[i]);
+    RONDO_DEMAND(row[node] >= 0, nodes[i]);
+    plan.candidates.push_back({model.reference[node], row[node], static_cast<int>(i)});
+  }
+  std::sort(plan.candidates.begin(), plan.candidates.end(),
+            [](const auto& a, const auto& b) { return a.row < b.row; });
+  plan.first_candidate.resize(plan.n_blocks + 1);
+  std::size_t c = 0;
+  for (std::size_t b = 0; b <= plan.n_blocks; ++b) {
+    while (c < plan.candidates.size() &&
+           static_cast<std::size_t>(plan.candidates[c].row) < plan.first_pack(b) * lanes)
+      ++c;
+    plan.first_candidate[b] = c;
+  }
+}
+
+}  // namespace
+
+/// A multiple of four, where there are so many: of two or four threads none has one block more.
+std::size_t n_sparse_blocks(std::size_t n_rows) noexcept {
+  const std::size_t n = std::clamp(packs_of(n_rows) / fewest_packs, std::size_t{1}, most_blocks);
+  return n < 4 ? n : n / 4 * 4;
+}
+
+SparsePlan make_sparse_plan(const Model& model) {
+  const fem::BlockCsr& k = model.stiffness;
+  RONDO_DEMAND(k.row_start.size() == model.n_nodes() + 1, k.row_start.size(), model.n_nodes());
+  constexpr std::size_t most_nodes = 1U << 30U;  // twice the node is a column
+  RONDO_DEMAND(model.free.size() < most_nodes, model.free.size());
+  SparsePlan plan;
+  plan.keeps_force = model.stiffness_damping > 0.0;
+  plan.node = row_order(k, model.free);
+  sort_by_length(k, plan.node);
+  plan.n_packs = packs_of(plan.node.size());
+  plan.n_blocks = n_sparse_blocks(plan.node.size());
+  const std::vector<int> row = row_of(model, plan);
+  add_matrix(k, row, plan);
+  add_constants(model, plan);
+  add_contact(model, row, plan);
+  return plan;
+}
+
+}  // namespace rondo::dynamics

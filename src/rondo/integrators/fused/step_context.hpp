@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: BSD-3-Clause
+/// @file  What the parts of a body share in one step, and how their sums become the ledger's.
+#pragma once
+#include <array>
+#include <optional>
+#include <span>
+
+#include "rondo/integrators/fused/kernels/kernels.hpp"
+#include "rondo/model/contact_node.hpp"
+
+namespace rondo::dynamics {
+
+/// Frame, factors and contact of the step at t_n.
+struct StepContext {
+  FrameStep frame;
+  kernels::StepFactors factors{};
+  kernels::Terms terms;
+  std::optional<ContactStep> contact;
+};
+
+StepContext step_context(const Model& model, long long n) noexcept;
+
+/// What a part of the body gives in one step: raw sums (kernels::Sum), and its contacts.
+struct PartialStep {
+  std::array<double, kernels::n_sums> sums{};
+  ContactReport contact;
+};
+
+/// Adds to the sums, which were made with the velocity free of contact, what the impulse changed.
+/// @param node  arm, velocities before and without impulse; `after`: v⁺.
+/// @param force_change K u_{n+1} - K u_n of the node (with β only)                   [N/m]
+void correct_sums(const StepContext& step, const ContactNode& node, Vec2 after, Vec2 force_change,
+                  std::array<double, kernels::n_sums>& sums) noexcept;
+
+/// The whole from its parts, in their order: compensated sums, as energies (5.1) and works (5.3).
+struct WholeStep {
+  StepEnergy energy;
+  ContactReport contact;
+};
+WholeStep whole_step(const Model& model, const FrameStep& frame,
+                     std::span<const PartialStep> parts) noexcept;
+
+}  // namespace rondo::dynamics

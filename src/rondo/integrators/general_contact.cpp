@@ -1,0 +1,298 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "rondo/integrators/general_contact.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+
+#include "rondo/contact/residual.hpp"
+#include "rondo/core/keep_larger.hpp"
+
+namespace rondo::dynamics {
+namespace {
+
+using contact::ContactRows;
+using contact::Status;
+
+std::size_t at(int index) noexcept {
+  return static_cast<std::size_t>(index);
+}
+
+/// Σ H_i value(node i).
+template <class Value>
+Vec2 row_sum(const ContactRows& rows, Value&& value) {
+  Vec2 w;
+  for (int i = 0; i < rows.count; ++i)
+    w += contact::apply(rows.block[at(i)], value(at(rows.node[at(i)])));
+  return w;
+}
+
+Vec2 arm_of(const Model& model, const State& state, std::size_t k) noexcept {
+  return model.reference[k] + state.u[k];
+}
+
+/// (x_{n+2} - x_{n+1})/Δt that a velocity v⁺ means, fixed frame.
+Vec2 velocity_after(const ContactStep& step, Vec2 arm, Vec2 v) noexcept {
+  return drive_of(step, arm) + step.rotation_next * v;
+}
+
+}  // namespace
+
+GeneralContact::GeneralContact(const Model& model)
+    : model_(model), finder_(model), candidate_(model.n_nodes(), -1), response_(model.n_nodes()) {
+  const std::vector<int>* nodes = model.contact    ? &model.contact->nodes
+                                  : model.surfaces ? &model.surfaces->nodes
+                                                   : nullptr;
+  if (!nodes) return;
+  for (std::size_t i = 0; i < nodes->size(); ++i) candidate_[at((*nodes)[i])] = static_cast<int>(i);
+}
+
+ContactReport GeneralContact::solve(const BodyFrames& frames, Vec2 center, State& state) {
+  ContactReport report;
+  state.active.clear();
+  if (!model_.contact && !model_.surfaces) return report;
+  center_ = center;
+  finder_.find(state, rows_);
+  if (rows_.empty()) {
+    kept_.clear();
+    return report;
+  }
+  set_velocities(frames, state);
+  find_clusters();
+  const contact::Clusters& clusters = cluster_finder_.find(node_start_, nodes_, model_.n_nodes());
+  for (std::size_t k = 0; k < clusters.size(); ++k) {
+    if (one_node_on_ground(clusters[k]))
+      solve_on_ground(frames, clusters[k], state, report);
+    else
+      solve_together(frames, clusters[k], state, report);
+  }
+  keep_impulses();
+  // What a candidate feels stands together, for those who add it up.
+  std::stable_sort(state.active.begin(), state.active.end(),
+                   [](const auto& a, const auto& b) { return a.candidate < b.candidate; });
+  return report;
+}
+
+/// (4.8c): what one more step like the last would do to the gap, over Δt, less w_n⁻.
+double GeneralContact::turning_of(const BodyFrames& frames, const ContactRow& row,
+                                  const State& state) const {
+  const auto travel = [&](int node) {
+    const auto k = at(node);
+    return model_.dt *
+           velocity_before(frames.of(model_, k).contact, arm_of(model_, state, k), state.v[k]);
+  };
+  const bool corner = row.kind == ContactKind::corner;
+  const int a = row.rows.node[corner ? 0 : 1], b = row.rows.node[corner ? 1 : 2];
+  const Vec2 to_a = finder_.positions()[at(a)] + travel(a);
+  const Vec2 to_b = finder_.positions()[at(b)] + travel(b);
+  const Vec2 to_p = row.point + (corner ? Vec2{} : travel(row.rows.node[0]));
+  const double gap = cross(to_p - to_a, to_b - to_a) / norm(to_b - to_a);
+  return (gap - row.gap) / model_.dt - row.before.x;
+}
+
+/// w⁻ and w without impulses of every row, and the Delassus operators of their nodes.
+void GeneralContact::set_velocities(const BodyFrames& frames, const State& state) {
+  for (ContactRow& row : rows_) {
+    row.before = row_sum(row.rows, [&](std::size_t k) {
+      return velocity_before(frames.of(model_, k).contact, arm_of(model_, state, k), state.v[k]);
+    });
+    row.free = row_sum(row.rows, [&](std::size_t k) {
+      const ContactStep& step = frames.of(model_, k).contact;
+      response_[k] = step.turn / (model_.mass[k] * step.a);
+      return velocity_after(step, arm_of(model_, state, k), state.v_next[k]);
+    });
+    row.turning = row.kind == ContactKind::facet ? 0.0 : turning_of(frames, row, state);
+    row.bounce = row.law.restitution * std::min(row.before.x, 0.0);
+    row.impulse = {};
+    row.status = Status::open;
+  }
+}
+
+void GeneralContact::find_clusters() {
+  node_start_.assign(1, 0);
+  nodes_.clear();
+  for (const ContactRow& row : rows_) {
+    nodes_.insert(nodes_.end(), row.rows.node.begin(), row.rows.node.begin() + row.rows.count);
+    node_start_.push_back(static_cast<int>(nodes_.size()));
+  }
+}
+
+bool GeneralContact::one_node_on_ground(Rows rows) const {
+  const int node = rows_[at(rows[0])].rows.node[0];
+  return std::all_of(rows.begin(), rows.end(), [&](int j) {
+    return rows_[at(j)].kind == ContactKind::facet && rows_[at(j)].rows.node[0] == node;
+  });
+}
+
+void GeneralContact::solve_on_ground(const BodyFrames& frames, Rows rows, State& state,
+                                     ContactReport& report) {
+  const auto k = at(rows_[at(rows[0])].rows.node[0]);
+  const auto i = at(candidate_[k]);
+  contact::Touches touches;
+  for (const int j : rows)
+    touches.at[at(touches.count++)] = {rows_[at(j)].gap, rows_[at(j)].normal};
+  std::array<ActiveContact, 2> contacts;
+  const std::span active(contacts.data(), rows.size());
+  const ContactNode node{
+      i,          model_.mass[k], model_.contact->tributary[i], arm_of(model_, state, k),
+      state.v[k], state.v_next[k]};
+  const ContactStep& step = frames.of(model_, k).contact;
+  const Vec2 before = report.impulse;
+  state.v_next[k] = solve_contacts(step, node, touches, active, report);
+  // The moment was taken about the centre of the node's frame.
+  report.angular_impulse += cross(step.center - center_, report.impulse - before);
+  state.active.insert(state.active.end(), active.begin(), active.end());
+  for (std::size_t j = 0; j < rows.size(); ++j) rows_[at(rows[j])].impulse = active[j].impulse;
+}
+
+void GeneralContact::make_problem(Rows rows) {
+  cluster_rows_.clear();
+  problem_.free.clear();
+  problem_.bounce.clear();
+  problem_.friction.clear();
+  impulse_.clear();
+  for (const int j : rows) {
+    const ContactRow& row = rows_[at(j)];
+    cluster_rows_.push_back(row.rows);
+    problem_.free.push_back(row.free + Vec2{row.turning, 0.0});
+    problem_.bounce.push_back(row.bounce);
+    problem_.friction.push_back(row.law.friction);
+    impulse_.push_back(warm_start(row.key));
+  }
+  start_ = impulse_;
+  status_.assign(rows.size(), Status::open);
+  delassus_.build(cluster_rows_, response_, problem_);
+}
+
+void GeneralContact::solve_together(const BodyFrames& frames, Rows rows, State& state,
+                                    ContactReport& report) {
+  make_problem(rows);
+  const contact::CoupledLimits limits{.most_iterations = model_.coupled.most_iterations};
+  const contact::CoupledResult result =
+      contact::solve_coupled(problem_, limits, impulse_, status_, workspace_);
+  keep_if_difficult(result);
+  for (std::size_t j = 0; j < rows.size(); ++j) {
+    rows_[at(rows[j])].impulse = impulse_[j];
+    rows_[at(rows[j])].status = status_[j];
+  }
+  add_impulses(frames, rows, result.converged, state);
+  for (std::size_t j = 0; j < rows.size(); ++j)
+    finish_row(frames, rows_[at(rows[j])], problem_.mass[j], state, report);
+  if (rows.size() > 1) ++report.clusters;
+  report.clusters_not_converged += result.converged ? 0 : 1;
+  report.cluster_largest = std::max(report.cluster_largest, static_cast<int>(rows.size()));
+  report.cluster_iterations = std::max(report.cluster_iterations, result.iterations);
+}
+
+void GeneralContact::keep_if_difficult(const contact::CoupledResult& result) {
+  constexpr std::size_t most = 16;  // of those nobody has taken
+  const int above = model_.coupled.dump_above;
+  if (above == 0 || result.iterations <= above || difficult_.size() == most) return;
+  difficult_.push_back({problem_, "", impulse_, start_, result});
+}
+
+/// v⁺ = v_free + Σ Rᵀ Hᵀ r/(m a). A node that sticks to the ground gets the velocity that w =
+/// (-bounce, 0) means, so that sticking is exact (4.6).
+void GeneralContact::add_impulses(const BodyFrames& frames, Rows rows, bool converged,
+                                  State& state) {
+  for (const int j : rows) {
+    const ContactRow& row = rows_[at(j)];
+    if (row.impulse == Vec2{}) continue;
+    for (int i = 0; i < row.rows.count; ++i) {
+      const auto k = at(row.rows.node[at(i)]);
+      const ContactStep& step = frames.of(model_, k).contact;
+      const Vec2 impulse = contact::transposed(row.rows.block[at(i)], row.impulse);
+      state.v_next[k] += conj(step.rotation) * impulse / (model_.mass[k] * step.a);
+    }
+  }
+  if (!converged) return;
+  for (const int j : rows) {
+    const ContactRow& row = rows_[at(j)];
+    if (row.kind != ContactKind::facet || row.status != Status::stick) continue;
+    const auto k = at(row.rows.node[0]);
+    const ContactStep& step = frames.of(model_, k).contact;
+    state.v_next[k] = conj(step.rotation_next) * (row.normal * Vec2{-row.bounce, 0.0} -
+                                                  drive_of(step, arm_of(model_, state, k)));
+  }
+}
+
+/// w⁺, works (5.3) and figures of a row of a cluster.
+void GeneralContact::finish_row(const BodyFrames& frames, ContactRow& row, double mass,
+                                State& state, ContactReport& report) {
+  row.after = row_sum(row.rows, [&](std::size_t k) {
+    return velocity_after(frames.of(model_, k).contact, arm_of(model_, state, k), state.v_next[k]);
+  });
+  double work = 0.0;
+  for (int i = 0; i < row.rows.count; ++i) {
+    const auto k = at(row.rows.node[at(i)]);
+    const Vec2 impulse = conj(frames.of(model_, k).contact.rotation) *
+                         contact::transposed(row.rows.block[at(i)], row.impulse);
+    work += dot(impulse, 0.5 * (state.v[k] + state.v_next[k]));
+  }
+  const Vec2 mean = 0.5 * (row.before + row.after);
+  report.work += work;
+  report.dissipation_friction -= row.impulse.y * mean.y;
+  report.loss_impact -= row.impulse.x * mean.x;
+  report.work_rim += work - dot(row.impulse, mean);
+  const double residual = contact::law_residual(row.impulse, row.after + Vec2{row.turning, 0.0},
+                                                row.bounce, row.law.friction, mass) /
+                          mass;
+  report.residual = keep_larger(report.residual, residual);
+  report.penetration = std::max(report.penetration, -row.gap);
+  report.free_velocity = std::max(report.free_velocity, norm(row.free));
+  if (row.kind != ContactKind::segment) report_on_ground(row, report);
+  if (row.impulse.x > 0.0) {
+    ++report.nodes;
+    report.sticking += row.status == Status::stick ? 1 : 0;
+    report.between_bodies += row.kind == ContactKind::segment ? 1 : 0;
+    report.length += row.tributary;
+  }
+  add_active(row, state);
+}
+
+void GeneralContact::report_on_ground(const ContactRow& row, ContactReport& report) const {
+  const auto& rows = row.rows;
+  for (int i = 0; i < rows.count; ++i) {
+    const Vec2 impulse = contact::transposed(rows.block[at(i)], row.impulse);
+    report.impulse += impulse;
+    report.angular_impulse += cross(finder_.positions()[at(rows.node[at(i)])] - center_, impulse);
+  }
+}
+
+/// On each candidate of the row: the first node of a node's contact is pushed along the normal,
+/// the nodes of a segment against it.
+void GeneralContact::add_active(const ContactRow& row, State& state) const {
+  for (int i = 0; i < row.rows.count; ++i) {
+    const int candidate = candidate_[at(row.rows.node[at(i)])];
+    if (candidate < 0) continue;
+    const bool pushed = row.kind != ContactKind::corner && i == 0;
+    ActiveContact a;
+    a.candidate = at(candidate);
+    a.normal = pushed ? row.normal : -row.normal;
+    a.gap = row.gap;
+    a.before = row.before;
+    a.free = row.free;
+    a.after = row.after;
+    a.bounce = row.bounce;
+    a.impulse = conj(a.normal) * contact::transposed(row.rows.block[at(i)], row.impulse);
+    a.status = row.status;
+    a.on_ground = row.kind != ContactKind::segment;
+    state.active.push_back(a);
+  }
+}
+
+Vec2 GeneralContact::warm_start(std::uint64_t key) const {
+  const auto found = std::lower_bound(kept_.begin(), kept_.end(), key,
+                                      [](const auto& kept, auto k) { return kept.first < k; });
+  return found != kept_.end() && found->first == key ? found->second : Vec2{};
+}
+
+void GeneralContact::keep_impulses() {
+  kept_.clear();
+  for (const ContactRow& row : rows_) kept_.emplace_back(row.key, row.impulse);
+  std::sort(kept_.begin(), kept_.end(),
+            [](const auto& a, const auto& b) { return a.first < b.first; });
+}
+
+}  // namespace rondo::dynamics

@@ -1,0 +1,74 @@
+// SPDX-License-Identifier: BSD-3-Clause
+/// @file  All contacts of a step of a general model, solved (docs/theory.md, 4.7). Contacts that
+/// share nodes are solved together; a node that only the ground holds as in contact_node.hpp, to
+/// the same bits.
+#pragma once
+#include <utility>
+#include <vector>
+
+#include "rondo/contact/coupled/clusters.hpp"
+#include "rondo/contact/coupled/coupled.hpp"
+#include "rondo/contact/problem_file.hpp"
+#include "rondo/integrators/body_frames.hpp"
+#include "rondo/integrators/contact_finder.hpp"
+
+namespace rondo::dynamics {
+
+class GeneralContact {
+ public:
+  explicit GeneralContact(const Model& model);
+
+  /// Corrects v_next of `state` by the impulses at its places; `active` gets what each candidate
+  /// feels. @param center about which the ground's angular impulse is taken              [m]
+  ContactReport solve(const BodyFrames& frames, Vec2 center, State& state);
+
+  /// Problems that took more than model.coupled.dump_above iterations since the last call, the
+  /// first few of them.
+  [[nodiscard]] std::vector<contact::ProblemFile> take_difficult() {
+    return std::exchange(difficult_, {});
+  }
+
+  /// Of the step before, by contact, ascending: from these the coupled contacts start.
+  using KeptImpulses = std::vector<std::pair<std::uint64_t, Vec2>>;
+  [[nodiscard]] const KeptImpulses& impulses() const noexcept { return kept_; }
+  void set_impulses(KeptImpulses impulses) noexcept { kept_ = std::move(impulses); }
+
+ private:
+  using Rows = std::span<const int>;  ///< of one cluster
+
+  [[nodiscard]] double turning_of(const BodyFrames& frames, const ContactRow& row,
+                                  const State& state) const;
+  void set_velocities(const BodyFrames& frames, const State& state);
+  void find_clusters();
+  [[nodiscard]] bool one_node_on_ground(Rows rows) const;
+  void solve_on_ground(const BodyFrames& frames, Rows rows, State& state, ContactReport& report);
+  void solve_together(const BodyFrames& frames, Rows rows, State& state, ContactReport& report);
+  void make_problem(Rows rows);
+  void keep_if_difficult(const contact::CoupledResult& result);
+  void add_impulses(const BodyFrames& frames, Rows rows, bool converged, State& state);
+  void finish_row(const BodyFrames& frames, ContactRow& row, double mass, State& state,
+                  ContactReport& report);
+  void report_on_ground(const ContactRow& row, ContactReport& report) const;
+  void add_active(const ContactRow& row, State& state) const;
+  [[nodiscard]] Vec2 warm_start(std::uint64_t key) const;
+  void keep_impulses();
+
+  const Model& model_;
+  ContactFinder finder_;
+  std::vector<ContactRow> rows_;
+  std::vector<int> candidate_;  ///< (n) place among the candidates, -1: none
+  std::vector<Vec2> response_;  ///< (n) complex Delassus operator of the nodes in contact [m/kg]
+  std::vector<int> node_start_, nodes_;
+  contact::ClusterFinder cluster_finder_;
+  std::vector<contact::ContactRows> cluster_rows_;
+  contact::DelassusBuilder delassus_;
+  contact::CoupledProblem problem_;
+  contact::CoupledWorkspace workspace_;
+  std::vector<Vec2> impulse_, start_;  ///< of a cluster: found, and warm start
+  std::vector<contact::Status> status_;
+  KeptImpulses kept_;
+  std::vector<contact::ProblemFile> difficult_;
+  Vec2 center_;
+};
+
+}  // namespace rondo::dynamics

@@ -1,0 +1,18 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "rondo/integrators/integrator.hpp"
+
+#include "rondo/integrators/fused/cyclic_integrator.hpp"
+#include "rondo/integrators/fused/dispatch.hpp"
+#include "rondo/integrators/fused/sparse_integrator.hpp"
+#include "rondo/integrators/general_integrator.hpp"
+
+namespace rondo::dynamics {
+
+std::unique_ptr<Integrator> make_integrator(const Model& model, const State& start) {
+  if (is_general(model)) return std::make_unique<GeneralIntegrator>(model, start);
+  if (model.stiffness_operator == StiffnessOperator::cyclic)
+    return std::make_unique<CyclicIntegrator>(model, start, kernel_table());
+  return std::make_unique<SparseIntegrator>(model, start, kernel_table());
+}
+
+}  // namespace rondo::dynamics

@@ -1,0 +1,395 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "rondo/io/h5/h5.hpp"
+
+#include <hdf5.h>
+
+#include <algorithm>
+#include <type_traits>
+
+#include "rondo/core/contract.hpp"
+#include "rondo/core/error.hpp"
+
+namespace rondo::io::h5 {
+namespace {
+
+static_assert(std::is_same_v<hid_t, std::int64_t>);
+
+/// Innermost message of HDF5's error stack; of a system call only what the system said.
+std::string reason() {
+  std::string text;
+  const auto visit = [](unsigned, const H5E_error2_t* error, void* out) -> herr_t {
+    if (error->desc != nullptr) *static_cast<std::string*>(out) = error->desc;
+    return 0;
+  };
+  H5Ewalk2(H5E_DEFAULT, H5E_WALK_DOWNWARD, visit, &text);
+  H5Eclear2(H5E_DEFAULT);
+  const std::string mark = "error message = '";
+  if (const auto begin = text.find(mark); begin != std::string::npos) {
+    const auto from = begin + mark.size();
+    return text.substr(from, text.find('\'', from) - from);
+  }
+  return text.empty() ? "HDF5 gives no reason" : text;
+}
+
+[[noreturn]] void fail_in(const std::string& path, const std::string& doing) {
+  throw FileError(path, doing + ": " + reason());
+}
+
+/// Errors are thrown, never printed. HDF5 may keep that setting for each thread. What could not be
+/// written is not tried again when the program ends: HDF5 would crash on a file that cannot grow.
+void be_quiet() {
+  static const herr_t no_work_at_exit = H5dont_atexit();
+  static_cast<void>(no_work_at_exit);
+  thread_local const herr_t done = H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);
+  static_cast<void>(done);
+}
+
+hid_t native(Type type) {
+  switch (type) {
+    case Type::float64:
+      return H5T_NATIVE_DOUBLE;
+    case Type::float32:
+      return H5T_NATIVE_FLOAT;
+    case Type::int32:
+      return H5T_NATIVE_INT32;
+    case Type::int64:
+      return H5T_NATIVE_INT64;
+    case Type::uint8:
+      return H5T_NATIVE_UINT8;
+  }
+  return H5I_INVALID_HID;
+}
+
+std::vector<hsize_t> extents(const Shape& shape) {
+  return {shape.begin(), shape.end()};
+}
+
+std::size_t product(const Shape& shape, std::size_t from) {
+  std::size_t n = 1;
+  for (std::size_t i = from; i < shape.size(); ++i) n *= shape[i];
+  return n;
+}
+
+Handle make_space(const Shape& shape, const Shape& most) {
+  const auto dims = extents(shape), max = extents(most);
+  return Handle(H5Screate_simple(static_cast<int>(dims.size()), dims.data(), max.data()));
+}
+
+/// Layout of a dataset written row by row (results.hpp: readable after a kill at any moment).
+bool set_rows_layout(hid_t properties, const Shape& shape, Type type) {
+  const auto chunk = extents(chunk_shape(shape, bytes_of(type)));
+  return H5Pset_chunk(properties, static_cast<int>(chunk.size()), chunk.data()) >= 0 &&
+         H5Pset_alloc_time(properties, H5D_ALLOC_TIME_EARLY) >= 0 &&
+         H5Pset_fill_time(properties, H5D_FILL_TIME_NEVER) >= 0;
+}
+
+/// Of any length, UTF-8: what h5py reads as str.
+Handle text_type() {
+  Handle type(H5Tcopy(H5T_C_S1));
+  H5Tset_size(type.get(), H5T_VARIABLE);
+  H5Tset_cset(type.get(), H5T_CSET_UTF8);
+  return type;
+}
+
+bool write_text(hid_t object, const std::string& name, const std::string& text) {
+  const Handle type = text_type(), space(H5Screate(H5S_SCALAR));
+  const Handle attribute(
+      H5Acreate2(object, name.c_str(), type.get(), space.get(), H5P_DEFAULT, H5P_DEFAULT));
+  const char* const value = text.c_str();
+  return attribute.get() >= 0 && H5Awrite(attribute.get(), type.get(), &value) >= 0;
+}
+
+bool read_text(hid_t object, const std::string& name, std::string& text) {
+  const Handle attribute(H5Aopen(object, name.c_str(), H5P_DEFAULT));
+  if (attribute.get() < 0) return false;
+  // As many pointers come back as the attribute has texts: there is room for one.
+  const Handle space(H5Aget_space(attribute.get())), type = text_type();
+  if (H5Sget_simple_extent_npoints(space.get()) != 1) return false;
+  char* value = nullptr;
+  if (H5Aread(attribute.get(), type.get(), static_cast<void*>(&value)) < 0) return false;
+  if (value != nullptr) text = value;
+  H5free_memory(value);
+  return true;
+}
+
+/// Oldest file layout (no consistency flags that a kill would leave set), no file locks.
+Handle file_access() {
+  Handle access(H5Pcreate(H5P_FILE_ACCESS));
+  H5Pset_libver_bounds(access.get(), H5F_LIBVER_EARLIEST, H5F_LIBVER_LATEST);
+  H5Pset_file_locking(access.get(), false, true);
+  return access;
+}
+
+}  // namespace
+
+Handle::~Handle() {
+  if (id_ >= 0) H5Idec_ref(id_);
+}
+
+void Dataset::fail(const char* doing) const {
+  fail_in(file_, std::string("cannot ") + doing + " " + name_);
+}
+
+void Dataset::find_spaces() {
+  file_space_ = Handle(H5Dget_space(id_.get()));
+  const int rank = H5Sget_simple_extent_ndims(file_space_.get());
+  if (rank < 0) fail("open");
+  std::vector<hsize_t> dims(static_cast<std::size_t>(rank));
+  H5Sget_simple_extent_dims(file_space_.get(), dims.data(), nullptr);
+  shape_.assign(dims.begin(), dims.end());
+  Shape row = shape_;  // of the file's rank: HDF5 then copies at once, else number by number
+  if (!row.empty()) row[0] = 1;
+  row_space_ = make_space(row, row);
+  part_space_ = make_space(row, row);
+}
+
+void Dataset::select(std::size_t row) const {
+  be_quiet();  // rows may be written by another thread than the one that made the file
+  RONDO_DEMAND(!shape_.empty() && row < shape_[0], name_, row);
+  constexpr std::size_t most = 8;
+  RONDO_DEMAND(shape_.size() <= most, name_, shape_.size());
+  std::array<hsize_t, most> start{}, count{};
+  std::copy(shape_.begin(), shape_.end(), count.begin());
+  start[0] = row;
+  count[0] = 1;
+  if (H5Sselect_hyperslab(file_space_.get(), H5S_SELECT_SET, start.data(), nullptr, count.data(),
+                          nullptr) < 0)
+    fail("select in");
+}
+
+void Dataset::write_all(const void* values, Type type, std::size_t n) {
+  RONDO_DEMAND(n == n_numbers(), name_, n, n_numbers());
+  if (n == 0) return;
+  if (H5Dwrite(id_.get(), native(type), H5S_ALL, H5S_ALL, H5P_DEFAULT, values) < 0) fail("write");
+}
+
+void Dataset::write_one(std::size_t row, const void* values, Type type, std::size_t n) {
+  RONDO_DEMAND(n == n_in_row(), name_, n, n_in_row());
+  select(row);
+  if (H5Dwrite(id_.get(), native(type), row_space_.get(), file_space_.get(), H5P_DEFAULT, values) <
+      0)
+    fail("write");
+}
+
+void Dataset::read_all(void* values, Type type, std::size_t n) const {
+  RONDO_DEMAND(n == n_numbers(), name_, n, n_numbers());
+  if (n == 0) return;
+  if (H5Dread(id_.get(), native(type), H5S_ALL, H5S_ALL, H5P_DEFAULT, values) < 0) fail("read");
+}
+
+void Dataset::read_one(std::size_t row, void* values, Type type, std::size_t n) const {
+  RONDO_DEMAND(n == n_in_row(), name_, n, n_in_row());
+  select(row);
+  if (H5Dread(id_.get(), native(type), row_space_.get(), file_space_.get(), H5P_DEFAULT, values) <
+      0)
+    fail("read");
+}
+
+void Dataset::select_part(std::size_t row, std::size_t first, std::size_t n) const {
+  constexpr std::size_t most = 8;
+  RONDO_DEMAND(shape_.size() > 1 && shape_.size() <= most, name_, shape_.size());
+  RONDO_DEMAND(row < shape_[0] && n > 0 && n <= shape_[1] && first <= shape_[1] - n, name_, row,
+               first, n);
+  std::array<hsize_t, most> start{}, count{};
+  std::copy(shape_.begin(), shape_.end(), count.begin());
+  start[0] = row, count[0] = 1;
+  start[1] = first, count[1] = n;
+  if (H5Sselect_hyperslab(file_space_.get(), H5S_SELECT_SET, start.data(), nullptr, count.data(),
+                          nullptr) < 0 ||
+      H5Sset_extent_simple(part_space_.get(), static_cast<int>(shape_.size()), count.data(),
+                           nullptr) < 0)
+    fail("select in");
+}
+
+void Dataset::read_some(std::size_t row, std::size_t first, void* values, Type type,
+                        std::size_t n) const {
+  if (n == 0) return;
+  const std::size_t place = product(shape_, 2);
+  RONDO_DEMAND(n % place == 0, name_, n, place);
+  select_part(row, first, n / place);
+  if (H5Dread(id_.get(), native(type), part_space_.get(), file_space_.get(), H5P_DEFAULT, values) <
+      0)
+    fail("read");
+}
+
+void Dataset::resize(std::size_t rows) {
+  RONDO_DEMAND(!shape_.empty(), name_, rows);
+  if (rows == shape_[0]) return;
+  auto dims = extents(shape_);
+  dims[0] = rows;
+  if (H5Dset_extent(id_.get(), dims.data()) < 0) fail("resize");
+  find_spaces();
+}
+
+void Dataset::copy_rows(const File& from, std::size_t rows) {
+  Shape shape = shape_;
+  shape[0] = any;
+  const Dataset source = from.dataset(name_, shape);
+  const Handle type(H5Dget_type(id_.get())), other(H5Dget_type(source.id_.get()));
+  if (H5Tequal(type.get(), other.get()) <= 0 || source.shape_[0] < rows)
+    throw FileError(source.file_, name_ + " holds less than it did: damaged");
+  std::vector<unsigned char> row(n_in_row() * H5Tget_size(type.get()));
+  for (std::size_t r = 0; r < rows; ++r) {
+    source.select(r);
+    if (H5Dread(source.id_.get(), type.get(), source.row_space_.get(), source.file_space_.get(),
+                H5P_DEFAULT, row.data()) < 0)
+      source.fail("read");
+    select(r);
+    if (H5Dwrite(id_.get(), type.get(), row_space_.get(), file_space_.get(), H5P_DEFAULT,
+                 row.data()) < 0)
+      fail("write");
+  }
+}
+
+Label Dataset::label() const {
+  Label label;
+  if (!read_text(id_.get(), "units", label.units) ||
+      !read_text(id_.get(), "description", label.description))
+    fail("read units and description of");
+  return label;
+}
+
+void File::fail(const std::string& doing) const {
+  fail_in(path_, "cannot " + doing);
+}
+
+File File::create(const std::filesystem::path& path, std::size_t index_bytes) {
+  be_quiet();
+  return create(path, Handle(H5Pcreate(H5P_FILE_CREATE)), index_bytes);
+}
+
+File File::create_after(const std::filesystem::path& path, std::size_t bytes) {
+  be_quiet();
+  const Handle creation(H5Pcreate(H5P_FILE_CREATE));
+  H5Pset_userblock(creation.get(), bytes);
+  return create(path, creation, 0);
+}
+
+File File::create(const std::filesystem::path& path, const Handle& creation,
+                  std::size_t index_bytes) {
+  File file;
+  file.path_ = path.string();
+  const Handle access = file_access();
+  if (index_bytes > 0) H5Pset_meta_block_size(access.get(), index_bytes);
+  file.id_ = Handle(H5Fcreate(path.c_str(), H5F_ACC_TRUNC, creation.get(), access.get()));
+  if (!file) file.fail("create");
+  return file;
+}
+
+File File::open(const std::filesystem::path& path) {
+  be_quiet();
+  File file;
+  file.path_ = path.string();
+  const Handle access = file_access();
+  file.id_ = Handle(H5Fopen(path.c_str(), H5F_ACC_RDONLY, access.get()));
+  if (!file) file.fail("open");
+  return file;
+}
+
+void File::create_group(const std::string& name) {
+  const Handle links(H5Pcreate(H5P_LINK_CREATE));
+  H5Pset_create_intermediate_group(links.get(), 1);
+  const Handle group(H5Gcreate2(id_.get(), name.c_str(), links.get(), H5P_DEFAULT, H5P_DEFAULT));
+  if (group.get() < 0) fail("create group " + name);
+}
+
+Dataset File::make(const std::string& name, Type type, const Shape& shape, const Label& label,
+                   bool rows) {
+  RONDO_DEMAND(!rows || (!shape.empty() && product(shape, 0) > 0), name);
+  const Handle links(H5Pcreate(H5P_LINK_CREATE));
+  const Handle creation(H5Pcreate(H5P_DATASET_CREATE));
+  const Handle access(H5Pcreate(H5P_DATASET_ACCESS));
+  H5Pset_create_intermediate_group(links.get(), 1);
+  H5Pset_obj_track_times(creation.get(), false);
+  if (rows) {
+    if (!set_rows_layout(creation.get(), shape, type)) fail("lay out " + name);
+    H5Pset_chunk_cache(access.get(), 0, 0, H5D_CHUNK_CACHE_W0_DEFAULT);
+  }
+  Dataset dataset;
+  dataset.file_ = path_;
+  dataset.name_ = name;
+  Shape first = shape;
+  if (rows) first[0] = 0;
+  const Handle space = make_space(first, shape);
+  dataset.id_ = Handle(H5Dcreate2(id_.get(), name.c_str(), native(type), space.get(), links.get(),
+                                  creation.get(), access.get()));
+  if (!dataset || !write_text(dataset.id_.get(), "units", label.units) ||
+      !write_text(dataset.id_.get(), "description", label.description))
+    dataset.fail("create");
+  dataset.find_spaces();
+  return dataset;
+}
+
+Dataset File::create(const std::string& name, Type type, const Shape& shape, const Label& label) {
+  return make(name, type, shape, label, false);
+}
+
+Dataset File::create_rows(const std::string& name, Type type, const Shape& shape,
+                          const Label& label) {
+  return make(name, type, shape, label, true);
+}
+
+bool File::contains(const std::string& name) const {
+  for (auto slash = name.find('/', 1); slash != std::string::npos;
+       slash = name.find('/', slash + 1))
+    if (H5Lexists(id_.get(), name.substr(0, slash).c_str(), H5P_DEFAULT) <= 0) return false;
+  return H5Lexists(id_.get(), name.c_str(), H5P_DEFAULT) > 0;
+}
+
+Dataset File::dataset(const std::string& name) const {
+  Dataset dataset;
+  dataset.file_ = path_;
+  dataset.name_ = name;
+  const Handle access(H5Pcreate(H5P_DATASET_ACCESS));
+  H5Pset_chunk_cache(access.get(), 0, 0, H5D_CHUNK_CACHE_W0_DEFAULT);
+  dataset.id_ = Handle(H5Dopen2(id_.get(), name.c_str(), access.get()));
+  if (!dataset) dataset.fail("open");
+  dataset.find_spaces();
+  return dataset;
+}
+
+Dataset File::dataset(const std::string& name, const Shape& shape) const {
+  Dataset found = dataset(name);
+  const auto text = [](const Shape& s) {
+    std::string list;
+    for (const std::size_t n : s)
+      list += (list.empty() ? "" : ", ") + (n == any ? "any" : std::to_string(n));
+    return "(" + list + ")";
+  };
+  const bool fits = std::equal(shape.begin(), shape.end(), found.shape_.begin(), found.shape_.end(),
+                               [](std::size_t a, std::size_t b) { return a == any || a == b; });
+  if (!fits)
+    throw FileError(path_, name + " has the shape " + text(found.shape_) + " where " + text(shape) +
+                               " is expected: damaged, or not of this program");
+  hsize_t bytes = 0;
+  if (H5Fget_filesize(id_.get(), &bytes) < 0) fail("measure");
+  const Handle type(H5Dget_type(found.id_.get()));
+  double wanted = static_cast<double>(H5Tget_size(type.get()));
+  for (const std::size_t n : found.shape_) wanted *= static_cast<double>(n);
+  if (wanted > static_cast<double>(bytes))
+    throw FileError(path_, name + " is larger than the file: damaged");
+  return found;
+}
+
+void File::set_attribute(const std::string& object, const std::string& name,
+                         const std::string& text) {
+  const Handle at(H5Oopen(id_.get(), object.c_str(), H5P_DEFAULT));
+  if (at.get() < 0 || !write_text(at.get(), name, text)) fail("write attribute " + name);
+}
+
+std::string File::attribute(const std::string& object, const std::string& name) const {
+  const Handle at(H5Oopen(id_.get(), object.c_str(), H5P_DEFAULT));
+  std::string text;
+  if (at.get() < 0 || !read_text(at.get(), name, text)) fail("read attribute " + name);
+  return text;
+}
+
+void File::flush() {
+  if (H5Fflush(id_.get(), H5F_SCOPE_GLOBAL) < 0) fail("flush");
+}
+
+void File::close() {
+  if (id_.get() >= 0 && H5Fclose(id_.release()) < 0) fail("close");
+}
+
+}  // namespace rondo::io::h5

@@ -1,0 +1,80 @@
+// SPDX-License-Identifier: BSD-3-Clause
+/// @file  Contact of one candidate in one step: the velocity that the law sees, the impulse, and
+/// the velocity corrected by it (docs/theory.md, section 4). Every stepper solves its contacts
+/// here.
+#pragma once
+#include <span>
+
+#include "rondo/model/ledger.hpp"
+#include "rondo/model/model.hpp"
+
+namespace rondo::dynamics {
+
+/// What the contacts of a step found. Sums are over the active contacts.
+struct ContactReport {
+  Vec2 impulse;                  ///< of the ground on the body, fixed frame             [N·s/m]
+  double angular_impulse = 0.0;  ///< about the centre                                [N·s]
+  int nodes = 0;                 ///< candidates with r_n > 0
+  int sticking = 0;              ///< of these, those that stick
+  int pairs = 0;                 ///< nodes held by two facets
+  int pairs_not_converged = 0;   ///< of these, no case met the law to 1e-12
+  int clusters = 0;              ///< groups of two contacts and more that share nodes
+  int clusters_not_converged = 0;
+  int cluster_largest = 0;     ///< contacts of the largest
+  int cluster_iterations = 0;  ///< most that one took
+  int between_bodies = 0;      ///< nodes pressed against a segment of a body
+  double length = 0.0;         ///< Σ tributary lengths of nodes with r_n > 0           [m]
+  double penetration = 0.0;    ///< largest -gap of an active contact, >= 0             [m]
+  double free_velocity = 0.0;  ///< largest |w_free|                                    [m/s]
+  double residual = 0.0;       ///< largest law residual over the node's mass           [m/s]
+  // Works of the impulses (5.3), (5.5) [J/m].
+  double work = 0.0;
+  double dissipation_friction = 0.0;
+  double loss_impact = 0.0;
+  double work_rim = 0.0;
+
+  /// Takes in what another part of the body found in the same step.
+  void add(const ContactReport& other) noexcept;
+};
+
+/// What the contacts of one step share.
+struct ContactStep {
+  ContactStep(const Model& model, const FrameStep& frame, const VelocityUpdate& update) noexcept;
+
+  Vec2 rotation;            ///< R(θ_{n+1})
+  Vec2 rotation_next;       ///< R(θ_{n+2})
+  Vec2 turn;                ///< e^{iΔθ}
+  Vec2 turn_minus_one;      ///< e^{iΔθ} - 1
+  Vec2 turn_back;           ///< e^{-iΔθ⁻} - 1
+  Vec2 center;              ///< c_{n+1}                                               [m]
+  Vec2 center_rate;         ///< (c_{n+2} - c_{n+1})/Δt                                [m/s]
+  Vec2 center_rate_before;  ///< (c_{n+1} - c_n)/Δt                                    [m/s]
+  Vec2 a;                   ///< of the velocity update (3.5)
+  double dt;                ///< [s]
+  contact::Law law;
+};
+
+/// A candidate at t_{n+1}, vectors in the turning frame.
+struct ContactNode {
+  std::size_t candidate = 0;  ///< place in ContactModel::nodes
+  double mass = 0.0;          ///< [kg/m]
+  double tributary = 0.0;     ///< [m]
+  Vec2 arm;                   ///< X + u_{n+1}                                        [m]
+  Vec2 before;                ///< v_{n+1/2}                                          [m/s]
+  Vec2 free;                  ///< v_{n+3/2} without impulse                          [m/s]
+};
+
+/// Velocity of the step to come without v⁺: b of (4.2), fixed frame. @param arm X + u_{n+1}  [m]
+[[nodiscard]] Vec2 drive_of(const ContactStep& step, Vec2 arm) noexcept;
+
+/// (x_{n+1} - x_n)/Δt (4.2a), fixed frame. @param before v_{n+1/2}, turning frame           [m/s]
+[[nodiscard]] Vec2 velocity_before(const ContactStep& step, Vec2 arm, Vec2 before) noexcept;
+
+/// Solves the contacts of a node, one a touch, into `contacts` (as many), adds them to the report,
+/// and returns v_{n+3/2}. @pre touches.count is 1 or 2. Allocates nothing.
+[[nodiscard]] Vec2 solve_contacts(const ContactStep& step, const ContactNode& node,
+                                  const contact::Touches& touches,
+                                  std::span<ActiveContact> contacts,
+                                  ContactReport& report) noexcept;
+
+}  // namespace rondo::dynamics

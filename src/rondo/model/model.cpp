@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "rondo/model/model.hpp"
+
+namespace rondo::dynamics {
+
+State::State(const Model& model) : u(model.n_nodes()), v(model.n_nodes()), v_next(model.n_nodes()) {
+  if (model.contact) active.reserve(2 * model.contact->nodes.size());
+  for (const FreeBody& body : model.free_bodies) poses.push_back({body.center});
+}
+
+void find_free_bodies(const mesh::Mesh& mesh, Model& model) {
+  const mesh::Bodies bodies = mesh::find_bodies(mesh);
+  std::vector<char> held(static_cast<std::size_t>(bodies.count), 0);
+  for (const int node : mesh.clamped) {
+    const int body = bodies.of_node[static_cast<std::size_t>(node)];
+    if (body >= 0) held[static_cast<std::size_t>(body)] = 1;
+  }
+  std::vector<int> place(held.size(), -1);
+  model.free_bodies.clear();
+  for (std::size_t b = 0; b < held.size(); ++b) {
+    if (held[b]) continue;
+    place[b] = static_cast<int>(model.free_bodies.size());
+    model.free_bodies.emplace_back();
+  }
+  model.free_body.clear();
+  model.body = bodies.of_node;
+  if (model.free_bodies.empty()) return;
+  model.free_body.assign(mesh.n_nodes(), -1);
+  for (std::size_t k = 0; k < mesh.n_nodes(); ++k) {
+    const int body = bodies.of_node[k];
+    if (body < 0 || held[static_cast<std::size_t>(body)]) continue;
+    model.free_body[k] = place[static_cast<std::size_t>(body)];
+    FreeBody& free = model.free_bodies[static_cast<std::size_t>(model.free_body[k])];
+    free.nodes.push_back(static_cast<int>(k));
+    free.mass += model.mass[k];
+    free.center += model.mass[k] * model.reference[k];
+  }
+  for (FreeBody& free : model.free_bodies) free.center = free.center / free.mass;
+}
+
+bool is_general(const Model& model) noexcept {
+  return !model.free_bodies.empty() || model.surfaces.has_value() || !model.pressures.empty() ||
+         (model.contact && !model.contact->ground.corners().empty());
+}
+
+}  // namespace rondo::dynamics

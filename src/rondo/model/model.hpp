@@ -1,0 +1,159 @@
+// SPDX-License-Identifier: BSD-3-Clause
+/// @file  Model and state of a run. The model is fixed while the run goes on; the state is sized
+/// once.
+#pragma once
+#include <cstddef>
+#include <optional>
+#include <vector>
+
+#include "rondo/contact/ground.hpp"
+#include "rondo/contact/law.hpp"
+#include "rondo/fem/assembly.hpp"
+#include "rondo/fem/sector_stiffness.hpp"
+#include "rondo/mesh/mesh.hpp"
+#include "rondo/model/motion.hpp"
+#include "rondo/model/scheme.hpp"
+
+namespace rondo::dynamics {
+
+/// Contact candidates and what they may touch.
+struct ContactModel {
+  contact::Ground ground;
+  contact::Law law;
+  std::vector<int> nodes;           ///< (nb) candidates; none is clamped
+  std::vector<double> tributary;    ///< (nb) length of boundary each stands for [m]
+  std::vector<mesh::Edge> edges{};  ///< between candidates, for sharp corners of the ground; nodes
+};
+
+/// A body that nothing holds. It moves in the fixed frame, where u is its whole displacement x - X;
+/// strains are taken in the frame of its mean rotation (docs/theory.md, section 9).
+struct FreeBody {
+  std::vector<int> nodes;  ///< ascending
+  double mass = 0.0;       ///< [kg/m]
+  Vec2 center;             ///< centre of mass of X                             [m]
+};
+
+/// Contact of boundaries of deformable bodies, node to segment.
+struct SurfaceContact {
+  std::vector<int> nodes;         ///< (nb) candidates, numbered as those of the ground
+  std::vector<double> tributary;  ///< (nb)                                           [m]
+  std::vector<mesh::Edge> edges;  ///< between candidates
+  bool self = false;              ///< a body's boundary may touch itself as well
+  contact::Law law;
+};
+
+/// Pressure on a part of the boundary, against the outward normal of the edges.
+struct PressureLoad {
+  std::vector<mesh::Edge> edges;
+  Table pressure;  ///< [Pa]
+};
+
+/// When a coupled contact problem counts as difficult, and how long it is worked at.
+struct CoupledSettings {
+  int most_iterations = 10000;
+  int dump_above = 0;  ///< keep problems that took more iterations than this; 0: none
+};
+
+/// Which product with K a run takes.
+enum class StiffnessOperator {
+  cyclic,  ///< one sector's blocks, on meshes of equal sectors
+  sparse,  ///< assembled 2×2 block rows, on any mesh
+};
+
+/// "cyclic" or "sparse".
+inline const char* operator_name(StiffnessOperator which) noexcept {
+  return which == StiffnessOperator::cyclic ? "cyclic" : "sparse";
+}
+
+struct Model {
+  std::vector<Vec2> reference;                 ///< (n) X                        [m]
+  std::vector<double> mass;                    ///< (n) lumped, > 0              [kg/m]
+  std::vector<int> free;                       ///< nodes that move, ascending
+  fem::BlockCsr stiffness;                     ///< K on the free nodes, or empty [N/m²]
+  std::optional<fem::SectorStiffness> sector;  ///< K of one sector; absent: not cyclic
+  StiffnessOperator stiffness_operator = StiffnessOperator::sparse;
+  double mass_damping = 0.0;       ///< α                            [1/s]
+  double stiffness_damping = 0.0;  ///< β                            [s]
+  Motion motion;
+  std::optional<ContactModel> contact;
+  std::vector<FreeBody> free_bodies;       ///< none: everything moves in the turning frame
+  std::vector<int> free_body;              ///< (n) place in free_bodies, -1: in the turning frame;
+                                           ///< empty: no free body
+  std::vector<int> body;                   ///< (n) number of each node's body; empty: there is one
+  std::optional<SurfaceContact> surfaces;  ///< absent: bodies do not touch each other
+  std::vector<PressureLoad> pressures;
+  CoupledSettings coupled;
+  Scheme scheme = Scheme::symplectic;
+  double dt = 0.0;  ///< Δt                           [s]
+  int threads = 1;
+
+  [[nodiscard]] std::size_t n_nodes() const noexcept { return reference.size(); }
+};
+
+/// Mean place and rotation of a free body.
+struct Pose {
+  Vec2 center;              ///< of mass                                         [m]
+  Vec2 rotation{1.0, 0.0};  ///< e^{iθ}
+  double angle = 0.0;       ///< θ, counter-clockwise, whole turns counted       [rad]
+};
+
+template <class Work>
+void for_free_nodes(const Model& model, Work&& work) {
+  for (const int node : model.free) work(static_cast<std::size_t>(node));
+}
+
+/// A contact of the step just done, in its frame (normal, tangential).
+struct ActiveContact {
+  std::size_t candidate = 0;  ///< place in ContactModel::nodes
+  Vec2 normal;                ///< out of the ground, fixed frame
+  double gap = 0.0;           ///< at t_{n+1}, <= 0                             [m]
+  Vec2 before;                ///< w⁻: relative velocity of the step that came  [m/s]
+  Vec2 free;                  ///< w without impulse                            [m/s]
+  Vec2 after;                 ///< w⁺: of the step to come                      [m/s]
+  Vec2 impulse;               ///< r of the ground on the node                  [N·s/m]
+  double bounce = 0.0;        ///< e min(w_n⁻, 0)                               [m/s]
+  contact::Status status = contact::Status::open;
+  bool on_ground = true;  ///< false: against a segment of a body
+};
+
+/// After step n: displacement and forces at t_{n+1}, velocities half a step before and after.
+struct State {
+  State() = default;
+  explicit State(const Model& model);
+
+  long long step = 0;                 ///< n + 1: number of the displacement
+  FrameStep frame;                    ///< of t_{n+1}
+  std::vector<Vec2> u;                ///< (n) u_{n+1}, turning frame                [m]
+  std::vector<Vec2> v;                ///< (n) v_{n+1/2} (at step 0: v_0)            [m/s]
+  std::vector<Vec2> v_next;           ///< (n) v_{n+3/2}                             [m/s]
+  std::vector<Vec2> force;            ///< (n) K u_{n+1}, of the reference step      [N/m]
+  std::vector<Vec2> force_before;     ///< (n) K u_n, of the reference step          [N/m]
+  std::vector<Pose> poses;            ///< (free_bodies) at t_{n+1}
+  std::vector<ActiveContact> active;  ///< capacity for every candidate twice
+};
+
+/// The node belongs to a body that nothing holds: its u and v are those of the fixed frame.
+inline bool in_fixed_frame(const Model& model, std::size_t node) noexcept {
+  return !model.free_body.empty() && model.free_body[node] >= 0;
+}
+
+/// Fills body, free_bodies and free_body: a body of the mesh without a clamped node is free.
+/// @pre reference and mass are there.
+void find_free_bodies(const mesh::Mesh& mesh, Model& model);
+
+/// Nodes of the mesh's boundary may touch something.
+inline bool has_candidates(const Model& model) noexcept {
+  return model.contact || model.surfaces;
+}
+
+/// The model has something that only the general integrator does: a free body, contact between
+/// bodies, a sharp corner of the ground, a pressure.
+[[nodiscard]] bool is_general(const Model& model) noexcept;
+
+/// Position of a node in the fixed frame at t_{n+1} [m].
+inline Vec2 position(const Model& model, const State& state, std::size_t node) noexcept {
+  if (in_fixed_frame(model, node)) return model.reference[node] + state.u[node];
+  return state.frame.center + state.frame.rotation * (model.reference[node] + state.u[node]);
+}
+
+}  // namespace rondo::dynamics

@@ -1,0 +1,122 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "rondo/model/motion.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "rondo/core/contract.hpp"
+
+namespace rondo::dynamics {
+
+Table::Table(std::vector<std::array<double, 2>> points) : points_(std::move(points)) {
+  RONDO_DEMAND(!points_.empty());
+  for (std::size_t i = 1; i < points_.size(); ++i)
+    RONDO_DEMAND(points_[i - 1][0] < points_[i][0], points_[i - 1][0], points_[i][0]);
+}
+
+namespace {
+
+using Points = std::vector<std::array<double, 2>>;
+
+/// Number of points at or before t.
+std::size_t points_until(const Points& points, double t) noexcept {
+  const auto after = std::upper_bound(points.begin(), points.end(), t,
+                                      [](double x, const auto& p) { return x < p[0]; });
+  return static_cast<std::size_t>(after - points.begin());
+}
+
+/// piece(from, length) for each part of [from, from + length] that holds no knot in its inside.
+template <class Piece>
+void for_pieces(const Points& points, double from, double length, Piece&& piece) noexcept {
+  const double sense = length < 0.0 ? -1.0 : 1.0;
+  const double begin = std::min(from, from + length), whole = std::abs(length);
+  double done = 0.0;
+  for (std::size_t k = points_until(points, begin); k < points.size(); ++k) {
+    const double knot = points[k][0] - begin;
+    if (knot >= whole) break;
+    piece(begin + done, sense * (knot - done));
+    done = knot;
+  }
+  piece(begin + done, sense * (whole - done));
+}
+
+}  // namespace
+
+double Table::at(double t) const noexcept {
+  const std::size_t k = points_until(points_, t);
+  if (k == 0) return points_.front()[1];
+  if (k == points_.size()) return points_.back()[1];
+  return points_[k - 1][1] + slope(t) * (t - points_[k - 1][0]);
+}
+
+double Table::slope(double t) const noexcept {
+  const std::size_t k = points_until(points_, t);
+  if (k == 0 || k == points_.size()) return 0.0;
+  return (points_[k][1] - points_[k - 1][1]) / (points_[k][0] - points_[k - 1][0]);
+}
+
+double Table::integral(double from, double length) const noexcept {
+  double sum = 0.0;
+  for_pieces(points_, from, length, [&](double begin, double part) {
+    sum += part * (at(begin) + 0.5 * slope(begin) * std::abs(part));
+  });
+  return sum;
+}
+
+double Table::change(double from, double length) const noexcept {
+  double sum = 0.0;
+  for_pieces(points_, from, length, [&](double begin, double part) { sum += slope(begin) * part; });
+  return sum;
+}
+
+double Table::largest() const noexcept {
+  double largest = 0.0;
+  for (const auto& point : points_) largest = std::max(largest, std::abs(point[1]));
+  return largest;
+}
+
+namespace {
+
+/// ∫ of a table that is prolonged before t = 0 by its first slope, from `from` < 0.
+double prolonged_integral(const Table& table, double from, double length) noexcept {
+  return length * (table.at(0.0) + (from + 0.5 * length) * table.slope(0.0));
+}
+
+}  // namespace
+
+double Motion::turn(double from, double length) const noexcept {
+  return from < 0.0 ? -prolonged_integral(angular_velocity, from, length)
+                    : -angular_velocity.integral(from, length);
+}
+
+Vec2 Motion::advance(double from, double length) const noexcept {
+  if (from < 0.0) return {prolonged_integral(speed, from, length), length * height.slope(0.0)};
+  return {speed.integral(from, length), height.change(from, length)};
+}
+
+FrameStep frame_step(const Motion& motion, long long n, double dt) noexcept {
+  const double t = static_cast<double>(n) * dt;
+  const double before = static_cast<double>(n - 1) * dt;
+  FrameStep f;
+  f.time = t;
+  f.spin = -motion.angular_velocity.at(t);
+  f.angle = motion.angle(t);
+  f.turn = motion.turn(t, dt);
+  f.turn_before = motion.turn(before, dt);
+  f.spin_rate = (f.turn - f.turn_before) / (dt * dt);
+  f.rotation = rotation(f.angle);
+  f.center = motion.center(t);
+  f.advance = motion.advance(t, dt);
+  f.advance_before = motion.advance(before, dt);
+  const Vec2 acceleration = (f.advance - f.advance_before) / (dt * dt);
+  f.pull = conj(f.rotation) * (acceleration + Vec2{0.0, motion.gravity.at(t)});
+  return f;
+}
+
+double slip_ratio(double rim_speed, double speed) noexcept {
+  const double scale = std::max(std::abs(speed), std::abs(rim_speed));
+  return scale > 0.0 ? (rim_speed - speed) / scale : 0.0;
+}
+
+}  // namespace rondo::dynamics

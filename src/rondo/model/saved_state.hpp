@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: BSD-3-Clause
+/// @file  All that an integrator carries from one step to the next, to the last bit: what it goes
+/// on with after a restart. In the integrator's own components (those of the cyclic one are polar)
+/// and its own moments, so that nothing is computed anew; what it does not carry is empty.
+#pragma once
+#include <array>
+#include <cstdint>
+#include <utility>
+#include <vector>
+
+#include "rondo/model/ledger.hpp"
+#include "rondo/model/model.hpp"
+
+namespace rondo::dynamics {
+
+struct SavedState {
+  long long step = 0;          ///< the last step made
+  std::vector<Vec2> u;         ///< (n) displacement                                  [m]
+  std::vector<Vec2> v;         ///< (n) velocity                                      [m/s]
+  std::vector<Vec2> force;     ///< (n) K u; with stiffness damping, or free bodies   [N/m]
+  std::vector<Vec2> gradient;  ///< (n) derivative of the energy, general model       [N/m]
+  std::vector<double> energy;  ///< (free_bodies)                                     [J/m]
+  std::vector<Pose> poses;     ///< (free_bodies)
+  /// By contact, ascending: coupled contacts start from the impulses of the step before [N·s/m].
+  std::vector<std::pair<std::uint64_t, Vec2>> impulses;
+  std::array<double, Ledger::n_numbers> ledger{};
+};
+
+}  // namespace rondo::dynamics

@@ -1,0 +1,180 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "rondo/output/checkpoint.hpp"
+
+#include <algorithm>
+#include <array>
+#include <span>
+#include <type_traits>
+#include <utility>
+
+#include "rondo/core/build_id.hpp"
+#include "rondo/core/version.hpp"
+#include "rondo/io/checkpoint_file.hpp"
+#include "rondo/io/mesh_files.hpp"
+#include "rondo/output/run_files.hpp"
+
+namespace rondo::study {
+namespace {
+
+namespace h5 = io::h5;
+using h5::File;
+
+template <class T>
+void put(File& file, const std::string& name, const std::vector<T>& values,
+         const h5::Label& label) {
+  h5::Shape shape{values.size()};
+  if (h5::Element<T>::count > 1) shape.push_back(h5::Element<T>::count);
+  file.write(name, shape, std::span<const T>(values), label);
+}
+
+template <class T>
+std::vector<T> get(const File& file, const std::string& name, std::size_t rows = h5::any) {
+  h5::Shape shape{rows};
+  if (h5::Element<T>::count > 1) shape.push_back(h5::Element<T>::count);
+  return file.dataset(name, shape).read<T>();
+}
+
+double stored(double value) {
+  return value;
+}
+/// All whole numbers are kept with 64 bits.
+template <class Whole>
+std::int64_t stored(Whole value) {
+  return static_cast<std::int64_t>(value);
+}
+
+/// Of the contact's figures in run.json.
+template <class Known, class Visit>
+void for_contact(Known& c, Visit&& visit) {
+  visit("/contact/residual", c.residual, {"1", "largest relative residual of the law"});
+  visit("/contact/free_velocity", c.free_velocity, {"m/s", "largest"});
+  visit("/contact/penetration", c.penetration, {"m", "largest"});
+  visit("/contact/steps", c.contact_steps, {"1", "steps in contact"});
+  visit("/contact/nodes_max", c.nodes_max, {"1", "most nodes in contact"});
+  visit("/contact/pairs", c.pairs, {"1", "pairs solved"});
+  visit("/contact/pairs_not_converged", c.pairs_not_converged, {"1", "of these not"});
+  visit("/contact/clusters", c.clusters, {"1", "clusters solved"});
+  visit("/contact/clusters_not_converged", c.clusters_not_converged, {"1", "of these not"});
+  visit("/contact/cluster_largest", c.cluster_largest, {"1", "contacts of the largest"});
+  visit("/contact/cluster_iterations", c.cluster_iterations, {"1", "most of a cluster"});
+  visit("/contact/between_bodies", c.between_bodies, {"1", "most in a step"});
+}
+
+/// visit(name, text) of what a run is, but its step.
+template <class Known, class Visit>
+void for_texts(Known& identity, Visit&& visit) {
+  visit("/identity/version", identity.version);
+  visit("/identity/build_id", identity.build_id);
+  visit("/identity/dispatch", identity.dispatch);
+  visit("/identity/case", identity.case_text);
+  visit("/identity/mesh_hash", identity.mesh_hash);
+}
+
+/// visit(name, value, label) of all numbers that stand alone.
+template <class Known, class Visit>
+void for_scalars(Known& k, Visit&& visit) {
+  const std::string row = "since the last row of history.csv", loop = "of the loop so far, ";
+  auto& [next, since, done, impulse, angular_impulse, penetration] = k.history;
+  visit("/run/step", k.identity.step, {"s", "length of a step"});
+  visit("/run/steps_done", k.state.step, {"1", "steps made"});
+  visit("/run/steps", k.n_steps, {"1", "steps of the whole run"});
+  visit("/run/snapshot_interval", k.schedule.interval, {"s", "time between snapshots"});
+  visit("/run/problems_kept", k.problems_kept, {"1", "files in contact-problems"});
+  visit("/run/loop_wall", k.loop_wall_s, {"s", loop + "wall clock"});
+  visit("/run/loop_cpu", k.loop_cpu_s, {"s", loop + "processor"});
+  visit("/files/snapshots", k.files.snapshots, {"1", "snapshots in results.h5"});
+  visit("/files/history", k.files.history_bytes, {"1", "bytes of history.csv"});
+  visit("/files/contact", k.files.contact_bytes, {"1", "bytes of contact.csv"});
+  visit("/history/next", next, {"1", "interval of the next row"});
+  visit("/history/since", since, {"1", "steps " + row});
+  visit("/history/done", done, {"1", "the last step seen"});
+  visit("/history/impulse_x", impulse.x, {"N*s/m", row});
+  visit("/history/impulse_y", impulse.y, {"N*s/m", row});
+  visit("/history/angular_impulse", angular_impulse, {"N*s", row});
+  visit("/history/penetration", penetration, {"m", "largest " + row});
+  for_contact(k.contact, visit);
+}
+
+void put_state(File& file, const dynamics::SavedState& s) {
+  put(file, "/state/u", s.u, {"m", "displacement, in the integrator's own components"});
+  put(file, "/state/v", s.v, {"m/s", "velocity, in the integrator's own components"});
+  put(file, "/state/force", s.force, {"N/m", "K u, in the integrator's own components"});
+  put(file, "/state/gradient", s.gradient, {"N/m", "derivative of the energy of free bodies"});
+  put(file, "/state/energy", s.energy, {"J/m", "energy of each free body"});
+  std::vector<std::array<double, 5>> poses;
+  for (const dynamics::Pose& p : s.poses)
+    poses.push_back({p.center.x, p.center.y, p.rotation.x, p.rotation.y, p.angle});
+  put(file, "/state/poses", poses,
+      {"1", "of each free body: centre [m], e^(i angle), angle [rad]"});
+  std::vector<std::int64_t> keys;
+  std::vector<Vec2> impulses;
+  for (const auto& [key, impulse] : s.impulses) {
+    keys.push_back(static_cast<std::int64_t>(key));
+    impulses.push_back(impulse);
+  }
+  put(file, "/state/contact", keys, {"1", "contacts that share nodes, by number"});
+  put(file, "/state/impulse", impulses, {"N*s/m", "their impulses in the last step"});
+  put(file, "/state/ledger", std::vector<double>(s.ledger.begin(), s.ledger.end()),
+      {"J/m", "sums of the energy ledger and what their rounding left"});
+}
+
+void get_state(const File& file, dynamics::SavedState& s) {
+  s.u = get<Vec2>(file, "/state/u");
+  s.v = get<Vec2>(file, "/state/v", s.u.size());
+  s.force = get<Vec2>(file, "/state/force");
+  s.gradient = get<Vec2>(file, "/state/gradient");
+  s.energy = get<double>(file, "/state/energy");
+  for (const auto& p : get<std::array<double, 5>>(file, "/state/poses", s.energy.size()))
+    s.poses.push_back({{p[0], p[1]}, {p[2], p[3]}, p[4]});
+  const auto keys = get<std::int64_t>(file, "/state/contact");
+  const auto impulses = get<Vec2>(file, "/state/impulse", keys.size());
+  for (std::size_t i = 0; i < keys.size(); ++i)
+    s.impulses.emplace_back(static_cast<std::uint64_t>(keys[i]), impulses[i]);
+  const auto ledger = get<double>(file, "/state/ledger", s.ledger.size());
+  std::copy(ledger.begin(), ledger.end(), s.ledger.begin());
+}
+
+}  // namespace
+
+RunIdentity identity_of(const Case& c, const Setup& setup) {
+  return {version,       build_id(), dispatch_level(), write_case(c), io::mesh_hash(setup.mesh),
+          setup.model.dt};
+}
+
+void write_checkpoint(const std::filesystem::path& directory, const Checkpoint& k) {
+  io::write_checkpoint_file(directory / checkpoint_name, [&](File& file) {
+    for_texts(k.identity, [&](const char* name, const std::string& text) {
+      put(file, name, std::vector<std::uint8_t>(text.begin(), text.end()), {"1", "UTF-8 text"});
+    });
+    for_scalars(k, [&](const char* name, const auto& value, const h5::Label& label) {
+      put(file, name, std::vector{stored(value)}, label);
+    });
+    put(file, "/run/last_row", k.last_row, {"1", "last row of history.csv, if none was due there"});
+    put(file, "/run/snapshot_steps",
+        std::vector<std::int64_t>(k.schedule.steps.begin(), k.schedule.steps.end()),
+        {"1", "steps at which snapshots are taken"});
+    put_state(file, k.state);
+  });
+}
+
+Checkpoint read_checkpoint(const std::filesystem::path& directory,
+                           const std::function<void(const RunIdentity&)>& check) {
+  const File file = io::open_checkpoint_file(directory / checkpoint_name);
+  Checkpoint k;
+  for_texts(k.identity, [&](const char* name, std::string& text) {
+    const auto bytes = get<std::uint8_t>(file, name);
+    text.assign(bytes.begin(), bytes.end());
+  });
+  if (check) check(k.identity);
+  for_scalars(k, [&](const char* name, auto& value, const h5::Label&) {
+    using Value = std::remove_reference_t<decltype(value)>;
+    value = static_cast<Value>(get<decltype(stored(value))>(file, name, 1).front());
+  });
+  k.last_row = get<double>(file, "/run/last_row");
+  const auto steps = get<std::int64_t>(file, "/run/snapshot_steps");
+  k.schedule.steps.assign(steps.begin(), steps.end());
+  get_state(file, k.state);
+  return k;
+}
+
+}  // namespace rondo::study

@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: BSD-3-Clause
+/// @file  checkpoint.h5 of a run (docs/results.md): all that it needs to go on to the same bits.
+#pragma once
+#include <cstdint>
+#include <filesystem>
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "rondo/case/setup.hpp"
+#include "rondo/model/saved_state.hpp"
+#include "rondo/output/contact_statistics.hpp"
+#include "rondo/output/observers.hpp"
+#include "rondo/output/snapshot_schedule.hpp"
+
+namespace rondo::study {
+
+/// What a run is: it goes on only where all of this is the same.
+struct RunIdentity {
+  std::string version, build_id;
+  std::string dispatch;   ///< instruction set of the inner loops
+  std::string case_text;  ///< as read, all defaults written out
+  std::string mesh_hash;  ///< of nodes, cells, boundary: a mesh file may have changed
+  double step = 0.0;      ///< Δt [s]
+};
+
+/// Where its files stood.
+struct FilePlaces {
+  std::size_t history_bytes = 0, contact_bytes = 0;  ///< of history.csv, contact.csv
+  std::size_t snapshots = 0;                         ///< in results.h5
+};
+
+struct Checkpoint {
+  RunIdentity identity;
+  dynamics::SavedState state;
+  long long n_steps = 0;  ///< of the whole run
+  HistoryPlace history;
+  std::vector<double> last_row;  ///< of history.csv, at the end of a run: only kept if it stays so
+  SnapshotSchedule schedule;
+  ContactStatistics contact;
+  int problems_kept = 0;  ///< in contact-problems/
+  double loop_wall_s = 0.0, loop_cpu_s = 0.0;
+  FilePlaces files;
+};
+
+/// Of a node, at the most: u, v, K u, gradient.
+inline constexpr std::size_t numbers_of_a_checkpoint = 8;
+
+inline constexpr const char* checkpoint_name = "checkpoint.h5";
+
+RunIdentity identity_of(const Case& c, const Setup& setup);
+
+/// Takes the place of directory/checkpoint.h5. @throws FileError
+void write_checkpoint(const std::filesystem::path& directory, const Checkpoint& checkpoint);
+
+/// @param check sees the identity first, and may throw: what another version wrote may be arranged
+/// in another way. @throws FileError: missing, damaged, of another format
+Checkpoint read_checkpoint(const std::filesystem::path& directory,
+                           const std::function<void(const RunIdentity&)>& check = {});
+
+}  // namespace rondo::study

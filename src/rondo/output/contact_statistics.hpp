@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: BSD-3-Clause
+/// @file  Largest and total figures of the contact over a run.
+#pragma once
+#include "rondo/model/contact_node.hpp"
+
+namespace rondo::study {
+
+struct ContactStatistics {
+  double residual = 0.0;       ///< largest law residual over the largest |w_free| so far
+  double free_velocity = 0.0;  ///< largest |w_free| so far                            [m/s]
+  double penetration = 0.0;    ///< [m]
+  long long contact_steps = 0;
+  int nodes_max = 0;
+  long long pairs = 0;
+  long long pairs_not_converged = 0;
+  long long clusters = 0;
+  long long clusters_not_converged = 0;
+  int cluster_largest = 0;
+  int cluster_iterations = 0;  ///< most of one
+  int between_bodies = 0;      ///< most in a step
+
+  bool operator==(const ContactStatistics&) const = default;
+  /// The figures of a step.
+  void add(const dynamics::ContactReport& r) noexcept;
+};
+
+}  // namespace rondo::study

@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "rondo/output/probes.hpp"
+
+#include "rondo/fem/stress.hpp"
+#include "rondo/model/corotated.hpp"
+
+namespace rondo::study {
+namespace {
+
+struct ProbeValues {
+  Vec2 displacement, velocity;  ///< [m], [m/s]
+  fem::Stress stress{};         ///< [Pa]
+};
+
+ProbeValues look_at(const ProbedBody& body, const ProbeSite& site, const dynamics::State& state) {
+  const mesh::Cell& cell = body.mesh.cells[site.cell];
+  const auto n = static_cast<std::size_t>(mesh::n_corners(cell));
+  ProbeValues values;
+  std::array<Vec2, 4> x, elastic;
+  for (std::size_t a = 0; a < n; ++a) {
+    const auto node = static_cast<std::size_t>(cell[a]);
+    values.displacement += site.weight[a] * state.u[node];
+    values.velocity += site.weight[a] * state.v[node];
+    x[a] = body.mesh.coordinates[node];
+    elastic[a] = dynamics::elastic_displacement(body.model, state.poses, node, state.u[node]);
+  }
+  const fem::Material& material = fem::material_of(body.mesh, body.materials, site.cell);
+  const auto corners =
+      fem::element_stress({x.data(), n}, {elastic.data(), n}, fem::element_law(material));
+  for (std::size_t a = 0; a < n; ++a)
+    for (std::size_t k = 0; k < values.stress.size(); ++k)
+      values.stress[k] += site.weight[a] * corners[a][k];
+  const auto first = static_cast<std::size_t>(cell[0]);
+  if (in_fixed_frame(body.model, first)) {
+    const auto b = static_cast<std::size_t>(body.model.free_body[first]);
+    values.stress = fem::turned(values.stress, state.poses[b].rotation);
+  }
+  return values;
+}
+
+}  // namespace
+
+std::vector<std::string> probe_columns(const std::vector<Probe>& probes) {
+  std::vector<std::string> columns;
+  for (const Probe& probe : probes)
+    for (const char* quantity : {"ux", "uy", "vx", "vy", "sxx", "syy", "szz", "sxy"})
+      columns.push_back(probe.name + "_" + quantity);
+  return columns;
+}
+
+void append_probes(const ProbedBody& body, std::span<const ProbeSite> sites,
+                   const dynamics::State& state, std::vector<double>& row) {
+  for (const ProbeSite& site : sites) {
+    const ProbeValues v = look_at(body, site, state);
+    for (const Vec2 a : {v.displacement, v.velocity}) row.insert(row.end(), {a.x, a.y});
+    row.insert(row.end(), v.stress.begin(), v.stress.end());
+  }
+}
+
+}  // namespace rondo::study

@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: BSD-3-Clause
+/// @file  Points of a body that are looked at: motion and stress by the shape functions of the cell
+/// that holds them.
+#pragma once
+#include <array>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "rondo/case/setup.hpp"
+#include "rondo/fem/elasticity.hpp"
+#include "rondo/model/model.hpp"
+
+namespace rondo::study {
+
+/// Columns of history.csv: u, v and stress of each probe.
+std::vector<std::string> probe_columns(const std::vector<Probe>& probes);
+
+/// What is looked at; all must outlive the call.
+struct ProbedBody {
+  const mesh::Mesh& mesh;
+  std::span<const fem::Material> materials;
+  const dynamics::Model& model;
+};
+
+/// Appends the columns of each site: u [m] and v [m/s], turning frame or, of a free body, fixed
+/// frame (there u = x - X), then the stress xx, yy, zz, xy in the same frame [Pa].
+/// @param state step, u, v and poses are read
+void append_probes(const ProbedBody& body, std::span<const ProbeSite> sites,
+                   const dynamics::State& state, std::vector<double>& row);
+
+}  // namespace rondo::study

@@ -1,0 +1,201 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "rondo/output/resume.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <fstream>
+#include <functional>
+#include <iterator>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "rondo/case/case_keys.hpp"
+#include "rondo/case/case_source.hpp"
+#include "rondo/core/error.hpp"
+#include "rondo/io/directory.hpp"
+#include "rondo/io/files.hpp"
+#include "rondo/output/run_files.hpp"
+#include "rondo/output/snapshot_schedule.hpp"
+
+namespace rondo::study {
+namespace {
+
+constexpr const char* or_begin_again = "; or --overwrite to begin again";
+
+constexpr auto first_of = [](const auto& pair) { return pair.first; };
+
+bool same(const CaseValue& a, const CaseValue& b) {
+  return a.type == b.type && a.number == b.number && a.boolean == b.boolean && a.text == b.text &&
+         std::equal(a.items.begin(), a.items.end(), b.items.begin(), b.items.end(), same);
+}
+
+Fault differs(std::string key, std::string found, const std::string& message,
+              const std::string& allowed) {
+  Fault fault;
+  fault.key = std::move(key);
+  fault.found = std::move(found);
+  fault.message = message;
+  fault.allowed = allowed + or_begin_again;
+  return fault;
+}
+
+/// Of the keys of two cases as they are written out: all are there unless the kind of a thing
+/// differs.
+void compare_cases(const Checkpoint& k, const Case& c, const Setup& setup,
+                   std::vector<Fault>& faults) {
+  const CaseSource now = load_case_text("the case", write_case(c), {});
+  const CaseSource then = load_case_text("the checkpoint", k.identity.case_text, {});
+  constexpr std::array<std::string_view, 3> free = {"time.end", "output.checkpoint_interval",
+                                                    "mesh.file"};
+  const SnapshotSchedule longer = with_end(k.schedule, c.output, setup.model.dt, setup.n_steps);
+  const std::array snapshots{static_cast<std::int64_t>(k.schedule.steps.size()),
+                             static_cast<std::int64_t>(longer.steps.size())};
+  for (const auto& [key, value] : now.values) {
+    if (std::find(free.begin(), free.end(), key) != free.end()) continue;
+    // A longer run keeps its interval: its case, as it is kept, counts all of its snapshots.
+    if (key == "output.snapshots" &&
+        std::find(snapshots.begin(), snapshots.end(), value.integer) != snapshots.end())
+      continue;
+    const auto before = then.values.find(key);
+    if (before == then.values.end())
+      faults.push_back(differs(key, now.written(value.place), "is not in the checkpoint's case",
+                               "the case that the run began with"));
+    else if (!same(value, before->second))
+      faults.push_back(differs(key, now.written(value.place),
+                               "the run to go on with has another value",
+                               then.written(before->second.place)));
+  }
+  for (const auto& [key, value] : then.values)
+    if (!now.values.contains(key))
+      faults.push_back(
+          differs(key, "nothing", "the run to go on with has a value", then.written(value.place)));
+}
+
+void compare_programs(const RunIdentity& then, const RunIdentity& now, std::vector<Fault>& faults) {
+  const auto compare = [&](const char* what, const std::string& a, const std::string& b,
+                           const std::string& to_do) {
+    if (a != b)
+      faults.push_back(differs("--resume", fmt::format("{} {}", what, b),
+                               fmt::format("the checkpoint was written with {} {}", what, a),
+                               to_do));
+  };
+  compare("version", then.version, now.version, "that version of rondo");
+  compare("build", then.build_id, now.build_id, "the same program (its build id)");
+  compare("kernels", then.dispatch, now.dispatch,
+          fmt::format("RONDO_DISPATCH={} on a machine that has them", then.dispatch));
+}
+
+/// A run that was cut off before its first checkpoint begins anew, if it is this one.
+void clear_without_checkpoint(const Case& c, const std::filesystem::path& directory) {
+  const std::string mark = io::mark_of_run(directory);
+  if (mark.empty()) return;
+  const auto refuse = [&](const std::string& what) {
+    io::refuse_directory(directory, what, fmt::format("leave --resume out{}", or_begin_again));
+  };
+  const auto text = [&](const char* name) {
+    std::ifstream in(directory / name, std::ios::binary);
+    return std::string(std::istreambuf_iterator<char>(in), {});
+  };
+  if (!io::is_cut_off(directory))
+    refuse(fmt::format("holds a run without a checkpoint ({} is there)", mark));
+  if (text("case.toml") != write_case(kept_case(c)))
+    refuse("holds another case, cut off before its first checkpoint");
+  io::clear_results_directory(directory);
+}
+
+/// All that the integrator of this model carries, and nothing else.
+bool fits(const dynamics::SavedState& s, const Setup& setup) {
+  const dynamics::Model& model = setup.model;
+  const std::size_t n = model.n_nodes(), n_free = model.free_bodies.size();
+  const bool general = is_general(model);
+  const std::size_t force = general || model.stiffness_damping > 0.0 ? n : 0;
+  return s.u.size() == n && s.v.size() == n && s.force.size() == force &&
+         s.gradient.size() == (general ? n : 0) && s.energy.size() == n_free &&
+         s.poses.size() == n_free && s.step > 0 && std::ranges::is_sorted(s.impulses, {}, first_of);
+}
+
+/// Steps that rise within the run, and as many snapshots as of them have passed.
+bool fits(const SnapshotSchedule& schedule, const Checkpoint& k) {
+  const std::vector<long long>& steps = schedule.steps;
+  const auto passed = std::upper_bound(steps.begin(), steps.end(), k.state.step) - steps.begin();
+  return std::adjacent_find(steps.begin(), steps.end(), std::greater_equal<>()) == steps.end() &&
+         (steps.empty() || (steps.front() >= 0 && steps.back() <= k.n_steps)) &&
+         k.files.snapshots == static_cast<std::size_t>(passed) &&
+         std::isfinite(schedule.interval) && schedule.interval >= 0.0;
+}
+
+/// Its numbers do not contradict each other, the case, or the model.
+void demand_sound(const Checkpoint& k, const Case& c, const Setup& setup,
+                  const std::filesystem::path& directory) {
+  constexpr std::size_t longest = std::size_t{1} << 60U;
+  const HistoryPlace& h = k.history;
+  const std::size_t columns = History(c, setup).columns().size();
+  if (fits(k.state, setup) && fits(k.schedule, k) && k.state.step <= k.n_steps && h.next > 0 &&
+      h.done == k.state.step && h.steps >= 0 && h.steps <= h.done && k.problems_kept >= 0 &&
+      k.files.history_bytes < longest && k.files.contact_bytes < longest &&
+      (k.last_row.empty() || k.last_row.size() == columns))
+    return;
+  throw FileError((directory / checkpoint_name).string(),
+                  "is damaged: its numbers contradict each other, or are not of this model");
+}
+
+}  // namespace
+
+void demand_same_program(const RunIdentity& then, const RunIdentity& now) {
+  std::vector<Fault> faults;
+  compare_programs(then, now, faults);
+  if (!faults.empty()) throw InputError(std::move(faults));
+}
+
+void demand_same_run(const Checkpoint& k, const RunIdentity& now, const Case& c,
+                     const Setup& setup) {
+  std::vector<Fault> faults;
+  compare_cases(k, c, setup, faults);
+  if (faults.empty() && k.identity.mesh_hash != now.mesh_hash)
+    faults.push_back(differs("mesh.file", c.mesh ? as_utf8(c.mesh->file.string()) : "",
+                             "is not the mesh that the run began with", "that mesh"));
+  if (faults.empty() && k.identity.step != now.step)
+    faults.push_back(differs("time.step", fmt::format("{}", now.step),
+                             "the step of the checkpoint is another one",
+                             fmt::format("{}", k.identity.step)));
+  const bool behind =
+      k.state.step > setup.n_steps || (k.state.step == setup.n_steps && k.n_steps != setup.n_steps);
+  if (faults.empty() && behind)
+    faults.push_back(differs("time.end", fmt::format("{}", c.time.end),
+                             fmt::format("the run has come to t = {:.9g} s",
+                                         static_cast<double>(k.state.step) * now.step),
+                             "a later end"));
+  if (!faults.empty()) throw InputError(std::move(faults));
+}
+
+std::optional<Checkpoint> find_checkpoint(const RunIdentity& now, const Case& c, const Setup& setup,
+                                          const std::filesystem::path& directory) {
+  std::error_code error;
+  const bool there = std::filesystem::exists(directory / checkpoint_name, error);
+  if (!there) {
+    clear_without_checkpoint(c, directory);
+    return std::nullopt;
+  }
+  Checkpoint k =
+      read_checkpoint(directory, [&](const RunIdentity& then) { demand_same_program(then, now); });
+  demand_same_run(k, now, c, setup);
+  demand_sound(k, c, setup, directory);
+  if (k.n_steps != setup.n_steps)
+    k.schedule = with_end(std::move(k.schedule), c.output, setup.model.dt, setup.n_steps);
+  return k;
+}
+
+bool is_complete(const Checkpoint& k, const Setup& setup, const std::filesystem::path& directory) {
+  if (k.state.step < setup.n_steps) return false;
+  try {
+    return text_in(io::read_json(directory / "run.json"), "status") == "done";
+  } catch (const FileError&) {
+    return false;
+  }
+}
+
+}  // namespace rondo::study

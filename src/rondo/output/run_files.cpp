@@ -1,0 +1,179 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "rondo/output/run_files.hpp"
+
+#include <fmt/format.h>
+#include <sys/resource.h>
+#include <unistd.h>
+
+#include <array>
+#include <cstdint>
+#include <fstream>
+#include <iterator>
+#include <new>
+#include <system_error>
+
+#include "rondo/core/build_id.hpp"
+#include "rondo/core/error.hpp"
+#include "rondo/core/version.hpp"
+#include "rondo/integrators/fused/dispatch.hpp"
+#include "rondo/io/directory.hpp"
+#include "rondo/io/files.hpp"
+
+namespace rondo::study {
+namespace {
+
+constexpr const char* mesh_copy = "mesh.msh";
+constexpr std::uintmax_t largest_copy = 50'000'000;  ///< bytes of a mesh file that is copied
+
+/// The case as run is written into the directory as case.toml, the mesh as mesh.msh: they must not
+/// replace the user's files.
+void keep_the_users_files(const Case& c, const std::filesystem::path& directory) {
+  const auto refuse_replacing = [&](const std::filesystem::path& file, const char* name,
+                                    const char* what) {
+    std::error_code error;
+    if (!std::filesystem::equivalent(file, directory / name, error) || error) return;
+    io::refuse_directory(
+        directory,
+        fmt::format("the {} is this directory's own {}, which a run there would replace", what,
+                    name),
+        "choose another -o");
+  };
+  refuse_replacing(c.file, "case.toml", "case file");
+  if (c.mesh) refuse_replacing(c.mesh->file, mesh_copy, "mesh file");
+}
+
+bool is_copied(const MeshCase& mesh) {
+  std::error_code error;
+  const auto size = std::filesystem::file_size(mesh.file, error);
+  return !error && size <= largest_copy;
+}
+
+void copy_mesh(const Case& c, const std::filesystem::path& directory) {
+  if (!c.mesh || !is_copied(*c.mesh)) return;
+  std::error_code error;
+  if (std::filesystem::equivalent(c.mesh->file, directory / mesh_copy, error)) return;
+  std::ifstream in(c.mesh->file, std::ios::binary);
+  const std::string text(std::istreambuf_iterator<char>(in), {});
+  if (in.bad()) throw FileError(c.mesh->file.string(), "cannot be read again, to be copied");
+  io::write_file(directory / mesh_copy, text);
+}
+
+/// The case as run, with its mesh.
+void write_kept_case(const Case& c, const std::filesystem::path& directory) {
+  copy_mesh(c, directory);
+  io::write_file(directory / "case.toml", write_case(kept_case(c)));
+}
+
+}  // namespace
+
+void describe_program(Json& json) {
+  json["version"] = version;
+  json["build"] = build_options;
+  json["build_id"] = build_id();
+  json["host"] = io::host_name();
+}
+
+Json describe_run(const Case& c, std::string_view analysis, std::size_t nodes, std::size_t dofs) {
+  Json j;
+  j["status"] = "running";
+  j["title"] = c.title;
+  describe_program(j);
+  j["process"] = ::getpid();
+  j["analysis"] = analysis;
+  j["nodes"] = nodes;
+  j["dofs"] = dofs;
+  return j;
+}
+
+std::string text_in(const Json& json, const char* key) {
+  const auto found = json.find(key);
+  return found != json.end() && found->is_string() ? found->get<std::string>() : std::string();
+}
+
+void give_warnings(const std::vector<std::string>& warnings, const RunOptions& options) {
+  if (!options.warn) return;
+  for (const std::string& warning : warnings) options.warn(warning);
+}
+
+Case kept_case(const Case& c) {
+  Case kept = c;
+  if (!c.mesh) return kept;
+  std::error_code error;
+  const std::filesystem::path whole = std::filesystem::absolute(c.mesh->file, error);
+  kept.mesh->file = is_copied(*c.mesh) ? std::filesystem::path(mesh_copy) : whole;
+  return kept;
+}
+
+void write_contact_problem(const std::filesystem::path& directory, int number,
+                           const contact::ProblemFile& problem) {
+  const std::filesystem::path folder = directory / "contact-problems";
+  std::error_code error;
+  std::filesystem::create_directories(folder, error);
+  if (error) throw FileError(folder.string(), "cannot create: " + error.message());
+  const std::filesystem::path file = folder / fmt::format("{:04}.json", number);
+  const io::UnfinishedFile beside(file.string() + ".new");
+  contact::write_problem(beside.path, problem);
+  io::replace_file(beside.path, file);
+}
+
+io::DirectoryLock take_modes_directory(const Case& c, const std::filesystem::path& directory,
+                                       bool overwrite) {
+  keep_the_users_files(c, directory);
+  io::DirectoryLock lock = io::take_results_directory(
+      directory, overwrite ? io::DirectoryUse::overwrite : io::DirectoryUse::begin);
+  write_kept_case(c, directory);
+  return lock;
+}
+
+io::DirectoryLock take_directory(const Case& c, const RunOptions& options) {
+  if (options.before_loop) options.before_loop();
+  // What is there to be gone on with is the run's own.
+  if (!options.resume || io::mark_of_run(options.directory).empty())
+    keep_the_users_files(c, options.directory);
+  return io::take_results_directory(options.directory, options.resume ? io::DirectoryUse::go_on
+                                                       : options.overwrite
+                                                           ? io::DirectoryUse::overwrite
+                                                           : io::DirectoryUse::begin);
+}
+
+std::string warning_of_another_host(const std::filesystem::path& directory) {
+  if (!io::is_cut_off(directory)) return {};
+  const Json json = io::read_json(directory / "run.json");
+  const std::string host = text_in(json, "host");
+  if (text_in(json, "status") != "running" || host.empty() || host == io::host_name()) return {};
+  return fmt::format(
+      "{} was begun on {} and has not ended there by its run.json: make sure that it does not go "
+      "on "
+      "there, locks do not reach across machines",
+      directory.string(), host);
+}
+
+void begin_files(const Case& c, const RunOptions& options, const Json& json) {
+  write_kept_case(c, options.directory);
+  io::write_json(options.directory / "run.json", json);
+}
+
+void note_failure(const RunOptions& options, Json json, const std::exception& error) noexcept {
+  json["status"] = "failed";
+  const bool memory = dynamic_cast<const std::bad_alloc*>(&error) != nullptr;
+  json["message"] = memory ? "not enough memory" : error.what();
+  io::overwrite_json(options.directory / "run.json", json);  // the disk may be full
+}
+
+void add_status(Json& json, RunStatus status, const std::string& message) {
+  static constexpr std::array<const char*, 3> names{"done", "interrupted", "failed"};
+  json["status"] = names[static_cast<std::size_t>(status)];
+  if (!message.empty()) json["message"] = message;
+}
+
+const char* dispatch_level() {
+  return dynamics::kernel_table().name;
+}
+
+long long peak_memory_bytes() {
+  rusage usage{};
+  getrusage(RUSAGE_SELF, &usage);
+  return usage.ru_maxrss * 1024LL;
+}
+
+}  // namespace rondo::study

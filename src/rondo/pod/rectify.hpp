@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: BSD-3-Clause
+/// @file  The rectified frame: a field of the turning frame moved round the disk to the fixed one,
+/// on a mesh of equal sectors, by an exact isometry (docs/theory.md, 7.3).
+#pragma once
+#include <cstddef>
+#include <memory>
+#include <span>
+#include <vector>
+
+#include "rondo/core/vec2.hpp"
+#include "rondo/mesh/mesh.hpp"
+
+namespace rondo::pod {
+
+/// Points of a cyclic mesh that follow one another round the disk, ring by ring.
+struct Rings {
+  int n_sectors = 0;
+  std::vector<int>
+      point;  ///< (n_rings * n_sectors) place in the field, [ring * n_sectors + sector]
+
+  [[nodiscard]] std::size_t n_rings() const noexcept {
+    return n_sectors > 0 ? point.size() / static_cast<std::size_t>(n_sectors) : 0;
+  }
+};
+
+/// Rings of all nodes; places are nodes. None (n_sectors 0) where the sectors do not all hold the
+/// same nodes. @pre mesh.n_sectors > 0
+Rings node_rings(const mesh::Mesh& mesh);
+/// The same of the contact candidates; places are places in mesh.boundary. @pre mesh.n_sectors > 0
+Rings boundary_rings(const mesh::Mesh& mesh);
+
+enum class Components {
+  cartesian,  ///< x, y in the turning frame: turned with the field
+  scalars,    ///< (normal, tangential): moved only
+};
+
+enum class Shift {
+  fourier,  ///< by the angle itself: harmonic k over the sectors times e^{-ikθ}, Nyquist's times 1
+  pitch,    ///< by the nearest whole number of sectors
+};
+
+/// T(θ): an isometry of the M norm, a group in θ (Shift::fourier), T(θ)⁻¹ = T(-θ) = its adjoint;
+/// commutes with K. Owns the plans and work space of its transforms: one object a thread.
+class Rectifier {
+ public:
+  Rectifier(int n_sectors, std::size_t n_rings, Components components, Shift shift);
+  ~Rectifier();
+  Rectifier(Rectifier&&) noexcept;
+  Rectifier& operator=(Rectifier&&) noexcept;
+
+  /// In place. @param theta counter-clockwise angle of the turning frame [rad]
+  /// @param values (n_rings * n_sectors) ring after ring, as Rings::point
+  void apply(double theta, std::span<Vec2> values);
+
+  /// D, the generator of T: dT/dθ = D T, harmonic k times -ik, Nyquist's times 0. Skew in the M
+  /// product; commutes with T, J and K (docs/theory.md, 7.3). @pre Shift::fourier
+  void differentiate(std::span<Vec2> values);
+
+ private:
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace rondo::pod

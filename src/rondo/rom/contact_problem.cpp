@@ -1,0 +1,218 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "rondo/rom/contact_problem.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <utility>
+
+namespace rondo::rom {
+namespace {
+
+/// For the tables of all phases [bytes], with blocks between a sixteenth of the points in each.
+constexpr double table_room = 256e6;
+
+/// Phases nearer than this are the same: sums of turns differ by round-off.
+constexpr double same_phase = 1e-8;
+
+/// a · B b
+double form(Vec2 a, const Eigen::Matrix2d& matrix, Vec2 b) noexcept {
+  return a.x * (matrix(0, 0) * b.x + matrix(0, 1) * b.y) +
+         a.y * (matrix(1, 0) * b.x + matrix(1, 1) * b.y);
+}
+
+}  // namespace
+
+ContactSolver::ContactSolver(const mesh::Mesh& mesh, const rom::ReducedModel& model,
+                             const contact::Ground& ground, contact::CoupledLimits limits)
+    : mesh_(mesh),
+      ground_(ground),
+      limits_(limits),
+      nodes_(model.form == rom::ContactForm::nodes),
+      turning_(model.frame == rom::ModelFrame::turning) {
+  const std::size_t m = nodes_ ? mesh.boundary.size() : model.contact.points.size();
+  warm_.resize(m);
+  const double each = ContactTable::bytes(m, model.size(), m / 16);
+  most_phases_ = static_cast<std::size_t>(std::clamp(table_room / each, 4.0, 1024.0));
+  if (nodes_) {
+    node_rows_ = std::make_unique<rom::NodeRows>(mesh, model);
+    return;
+  }
+  phases_.push_back(
+      {0.0, 0,
+       std::make_unique<ContactTable>(model.contact, model.contact.rows * model.generator)});
+}
+
+Vec2 ContactSolver::frame_rotation(double angle) const noexcept {
+  return turning_ ? rotation(angle) : Vec2{1.0, 0.0};
+}
+
+ContactTable* ContactSolver::table_of(double share) {
+  for (Phase& phase : phases_)
+    if (std::abs(phase.share - share) < same_phase) {
+      phase.used = steps_;
+      return phase.table.get();
+    }
+  if (phases_.size() >= most_phases_)
+    phases_.erase(std::ranges::min_element(phases_, {}, &Phase::used));
+  const double turned = 2.0 * std::numbers::pi / mesh_.n_sectors * share;
+  ++made_;
+  phases_.push_back(
+      {share, steps_, std::make_unique<ContactTable>(node_rows_->at(turned), MatrixXd())});
+  return phases_.back().table.get();
+}
+
+ContactSolver::Points ContactSolver::points_at(double angle) {
+  if (!nodes_) return {phases_.front().table.get(), 0};
+  if (turning_) return {table_of(0.0), 0};
+  const double sectors = angle / (2.0 * std::numbers::pi) * mesh_.n_sectors;
+  // Nyquist's harmonic stays where it is on the material: it is the same after two sectors.
+  const double n = mesh_.n_sectors, period = mesh_.n_sectors % 2 == 0 ? 2.0 : 1.0;
+  double whole = period * std::floor(sectors / period), share = sectors - whole;
+  if (share > period - same_phase) {
+    whole += period;
+    share = 0.0;
+  }
+  return {table_of(share), static_cast<int>(whole - n * std::floor(whole / n))};
+}
+
+/// Points follow one another by sectors within a ring.
+int ContactSolver::material_of(int point, int sectors) const noexcept {
+  const int n = mesh_.n_sectors, within = point % n;
+  return nodes_ ? point - within + (within - sectors + n) % n : point;
+}
+
+int ContactSolver::point_of(int material, int sectors) const noexcept {
+  const int n = mesh_.n_sectors, within = material % n;
+  return nodes_ ? material - within + (within + sectors) % n : material;
+}
+
+void ContactSolver::forget_matrices() noexcept {
+  // With another spin other phases come: all but those of the step before.
+  if (nodes_) std::erase_if(phases_, [&](const Phase& phase) { return phase.used < steps_; });
+  for (Phase& phase : phases_) phase.table->forget();
+}
+
+/// In the model's frame, as all velocities here.
+Vec2 ContactSolver::material_velocity(const BodyState& body, const Points& points,
+                                      int point) const {
+  const ContactTable& t = *points.table;
+  const Vec2 arm = t.point(point) + t.at(point, *body.q);
+  return conj(frame_rotation(body.angle)) * body.velocity + body.turn_rate * arm +
+         body.turn * t.at(point, *body.p);
+}
+
+/// What approaches the ground: a place that stands still in space, or the material.
+Vec2 ContactSolver::opening(const BodyState& body, const Points& points, int point,
+                            double spin) const {
+  const ContactTable& t = *points.table;
+  if (!t.stands_still()) return material_velocity(body, points, point);
+  return conj(frame_rotation(body.angle)) * body.velocity + t.at(point, *body.p) +
+         spin * t.carried(point, *body.q);
+}
+
+void ContactSolver::find(const FreeStep& step, bool next) {
+  contacts_.clear();
+  points_.clear();
+  const ContactTable& t = *end_.table;
+  const Vec2 turned = frame_rotation(step.end.angle);
+  const double norm = step.end.q->norm(), top = ground_.top();
+  for (int k = 0; k < static_cast<int>(t.size()); ++k) {
+    const Vec2 x = step.end.center + turned * t.point(k);
+    if (x.y - t.reach(k) * norm > top) continue;
+    Vec2 place = x + turned * t.at(k, *step.end.q);
+    // A place stays in contact for ever, and its gap must not drift: the next one counts.
+    if (next) place += step.dt * opening(step.end, end_, k, step.spin);
+    const contact::Touches touches = ground_.touches(place);
+    if (touches.count > 0) points_.push_back(k);
+    const int material = material_of(k, end_.sectors);
+    for (int i = 0; i < touches.count; ++i) {
+      const contact::Touch& touch = touches.at[static_cast<std::size_t>(i)];
+      const Vec2 warm = i == 0 ? warm_[static_cast<std::size_t>(material)] : Vec2{};
+      contacts_.push_back({k, material, conj(turned) * touch.normal, touch.gap, warm});
+    }
+  }
+}
+
+void ContactSolver::make_problem(const FreeStep& step, const contact::Law& law,
+                                 const StepMatrices& matrices) {
+  const std::size_t n = contacts_.size();
+  contact::CoupledProblem& p = problem_;
+  p.free.resize(n);
+  p.bounce.resize(n);
+  p.mass.resize(n);
+  p.friction.assign(n, law.friction);
+  p.row_start.resize(n + 1);
+  p.column.resize(n * n);
+  p.blocks.resize(n * n);
+  impulse_.resize(n);
+  status_.resize(n);
+  p.row_start[0] = 0;
+  const bool implicit = matrices.key().scheme == StepScheme::midpoint;
+  const ContactTable& now = *end_.table;
+  const Vec2 back = conj(frame_rotation(step.end.angle));
+  const Vec2 from_before = back * frame_rotation(step.before.angle);
+  const Vec2 back_turn = conj(step.end.turn);
+  const Vec2 advance = back * (step.end.center - step.before.center);
+  for (std::size_t i = 0; i < n; ++i) {
+    const PointContact& c = contacts_[i];
+    const Vec2 normal = c.normal, tangent = turn90(normal);
+    const int earlier = point_of(c.material, before_.sectors);
+    const Vec2 arm = now.point(c.point) + now.at(c.point, *step.end.q);
+    const Vec2 arm_before =
+        before_.table->point(earlier) + before_.table->at(earlier, *step.before.q);
+    const double gap_before = c.gap - dot(normal, advance + arm - from_before * arm_before);
+    p.free[i] = {dot(normal, opening(step.end, end_, c.point, step.spin)),
+                 dot(tangent, material_velocity(step.end, end_, c.point))};
+    if (implicit) p.free[i].x += gap_before / step.dt;
+    if (!implicit && now.stands_still()) p.free[i].x = c.gap / step.dt;
+    p.bounce[i] = 0.0;
+    if (law.restitution != 0.0) {
+      const Vec2 before = from_before * opening(step.before, before_, earlier, step.spin);
+      p.bounce[i] = law.restitution * std::min(dot(normal, before), 0.0);
+    }
+    for (std::size_t j = 0; j < n; ++j) {
+      const DelassusPair w = now.pair(c.point, contacts_[j].point);
+      const Vec2 from = contacts_[j].normal, side = turn90(from);
+      p.column[i * n + j] = static_cast<int>(j);
+      const Vec2 n_back = now.stands_still() ? normal : back_turn * normal;
+      const Vec2 t_back = back_turn * tangent;
+      p.blocks[i * n + j] = {form(n_back, w.normal, from), form(n_back, w.normal, side),
+                             form(t_back, w.tangential, from), form(t_back, w.tangential, side)};
+    }
+    const contact::Block& own = p.blocks[i * n + i];
+    p.mass[i] = 1.0 / std::max(own[0], own[3]);
+    p.row_start[i + 1] = static_cast<int>((i + 1) * n);
+    impulse_[i] = c.impulse;
+  }
+}
+
+ContactOutcome ContactSolver::solve(const FreeStep& step, const contact::Law& law,
+                                    const StepMatrices& matrices) {
+  ++steps_;
+  before_ = points_at(step.before.angle);
+  end_ = points_at(step.end.angle);
+  const bool central = matrices.key().scheme == StepScheme::central;
+  find(step, central && end_.table->stands_still());
+  std::fill(warm_.begin(), warm_.end(), Vec2{});
+  ContactOutcome outcome;
+  if (contacts_.empty()) return outcome;
+  end_.table->prepare(points_, matrices);
+  make_problem(step, law, matrices);
+  const contact::CoupledResult result =
+      contact::solve_coupled(problem_, limits_, impulse_, status_, work_);
+  outcome.iterations = result.iterations;
+  outcome.residual = result.residual;
+  outcome.converged = result.converged;
+  for (std::size_t i = 0; i < contacts_.size(); ++i) {
+    PointContact& c = contacts_[i];
+    c.impulse = impulse_[i];
+    c.status = status_[i];
+    outcome.free_velocity = std::max(outcome.free_velocity, norm(problem_.free[i]));
+    Vec2& warm = warm_[static_cast<std::size_t>(c.material)];
+    if (warm == Vec2{}) warm = c.impulse;
+  }
+  return outcome;
+}
+
+}  // namespace rondo::rom

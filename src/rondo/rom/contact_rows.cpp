@@ -1,0 +1,85 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "rondo/rom/contact_rows.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "rondo/core/contract.hpp"
+#include "rondo/rom/reduced_model.hpp"
+
+namespace rondo::rom {
+
+using Eigen::Index;
+using Eigen::MatrixXd;
+
+double contact_weight(double distance, int stride) noexcept {
+  return std::max(0.0, 1.0 - std::abs(distance) / stride) / stride;
+}
+
+MatrixXd hat_weights(int n_sectors, int stride) {
+  RONDO_DEMAND(stride > 0 && n_sectors % stride == 0, n_sectors, stride);
+  MatrixXd weights = MatrixXd::Zero(n_sectors, n_sectors / stride);
+  for (Index k = 0; k < weights.cols(); ++k)
+    for (int d = 1 - stride; d < stride; ++d)
+      weights((k * stride + d + n_sectors) % n_sectors, k) += contact_weight(d, stride);
+  return weights;
+}
+
+ContactRows standing_rows(const mesh::Mesh& mesh, const ReducedModel& model) {
+  const pod::Rings ring = pod::boundary_rings(mesh);
+  RONDO_DEMAND(ring.n_rings() == 1 && model.weights.rows() == mesh.n_sectors, ring.n_rings(),
+               model.weights.rows());
+  const auto points = static_cast<std::size_t>(model.weights.cols());
+  ContactRows out{MatrixXd::Zero(2 * model.weights.cols(), model.size()), std::vector<Vec2>(points),
+                  std::vector<double>(points)};
+  // A place that k points have a part in counts for each of them with its part.
+  const Eigen::VectorXd all = model.weights.rowwise().sum();
+  for (std::size_t k = 0; k < points; ++k)
+    for (int sector = 0; sector < mesh.n_sectors; ++sector) {
+      const auto column = static_cast<Index>(k);
+      const double weight = model.weights(sector, column);
+      if (weight == 0.0) continue;
+      const auto candidate = static_cast<std::size_t>(ring.point[static_cast<std::size_t>(sector)]);
+      const auto node = static_cast<std::size_t>(mesh.boundary[candidate]);
+      out.rows.middleRows(2 * column, 2) +=
+          weight * model.basis.middleRows(static_cast<Index>(2 * node), 2);
+      out.points[k] += weight * mesh.coordinates[node];
+      out.share[k] += weight / all[sector] * mesh.tributary[candidate];
+    }
+  return out;
+}
+
+NodeRows::NodeRows(const mesh::Mesh& mesh, const ReducedModel& model)
+    : mesh_(mesh),
+      model_(model),
+      rings_(pod::boundary_rings(mesh)),
+      rectifier_(rings_.n_sectors, rings_.n_rings() * static_cast<std::size_t>(model.size()),
+                 pod::Components::cartesian, pod::Shift::fourier),
+      modes_(static_cast<Index>(2 * rings_.point.size()), model.size()) {
+  RONDO_DEMAND(rings_.point.size() == mesh.boundary.size(), rings_.point.size(),
+               mesh.boundary.size());
+  for (std::size_t k = 0; k < rings_.point.size(); ++k) {
+    const Index node = mesh.boundary[static_cast<std::size_t>(rings_.point[k])];
+    modes_.middleRows(static_cast<Index>(2 * k), 2) = model.basis.middleRows(2 * node, 2);
+  }
+}
+
+ContactRows NodeRows::at(double phase) {
+  const std::size_t m = rings_.point.size();
+  const bool moves = model_.frame == ModelFrame::rectified && phase != 0.0;
+  const Vec2 turned = moves ? rotation(phase) : Vec2{1.0, 0.0};
+  ContactRows out{modes_, std::vector<Vec2>(m), std::vector<double>(m)};
+  for (std::size_t k = 0; k < m; ++k) {
+    const auto candidate = static_cast<std::size_t>(rings_.point[k]);
+    out.points[k] = turned * mesh_.coordinates[static_cast<std::size_t>(mesh_.boundary[candidate])];
+    out.share[k] = mesh_.tributary[candidate];
+  }
+  if (!moves) return out;
+  const std::span<Vec2> values(reinterpret_cast<Vec2*>(out.rows.data()),
+                               static_cast<std::size_t>(out.rows.size() / 2));
+  rectifier_.apply(-phase, values);  // mode after mode, ring after ring
+  for (Vec2& v : values) v = turned * v;
+  return out;
+}
+
+}  // namespace rondo::rom

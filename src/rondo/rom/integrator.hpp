@@ -1,0 +1,98 @@
+// SPDX-License-Identifier: BSD-3-Clause
+/// @file  The steps of a reduced run (docs/reduced.md, 4 to 6), for whoever drives those of a full
+/// one: reports and fields are those of dynamics::Integrator. The midpoint rule knows displacements
+/// and velocities both at whole steps; the velocity of a state is, as there, the one half a step
+/// before, P̄.
+#pragma once
+#include <memory>
+#include <span>
+#include <vector>
+
+#include "rondo/core/blas_threads.hpp"
+#include "rondo/integrators/integrator.hpp"
+#include "rondo/rom/contact_problem.hpp"
+
+namespace rondo::rom {
+
+/// What the steps so far took.
+struct StepFigures {
+  long long factored = 0;  ///< matrices made anew, as the spin had changed
+  double factor_wall_s = 0.0;
+  double contact_wall_s = 0.0;  ///< points, law and impulses of all steps
+  double wall_s = 0.0;          ///< of all steps, without their observers
+  double slowest_step_s = 0.0;
+  long long tables = 0;  ///< of contact nodes, one a phase of the disk between two sectors
+  long long contact_steps = 0;
+  long long iterations = 0;  ///< of the contact solver, all steps
+  int iterations_max = 0;
+  int contacts_max = 0;
+  long long more_rows_than_modes = 0;  ///< steps with more rows of contact than modes
+  long long not_converged = 0;         ///< steps whose contact missed the solver's tolerance
+};
+
+/// What a reduced integrator works with; all must outlive it.
+struct IntegratorInput {
+  const mesh::Mesh& mesh;
+  const dynamics::Model& model;  ///< dt: of the reduced step
+  const rom::ReducedModel& reduced;
+  StepFigures& figures;  ///< counted here
+  StepScheme scheme = StepScheme::midpoint;
+};
+
+class ReducedIntegrator final : public dynamics::Integrator {
+ public:
+  /// @param start u and v at t = 0, turning frame: what the modes do not hold of them is lost
+  ReducedIntegrator(const IntegratorInput& input, const dynamics::State& start);
+  ~ReducedIntegrator() override;
+
+  void advance(std::span<dynamics::StepReport> reports,
+               dynamics::State* last = nullptr) noexcept override;
+  void fields(dynamics::State& state) const noexcept override;
+  /// A reduced run keeps no checkpoints: neither may be called.
+  [[nodiscard]] dynamics::SavedState save() const override;
+  void restore(const dynamics::SavedState& saved) override;
+
+  /// Contacts of the last step, with their impulses.
+  [[nodiscard]] std::span<const PointContact> contacts() const noexcept {
+    if (!contact_) return {};
+    return contact_->contacts();
+  }
+  /// (r) coefficients of displacement and velocity, after the last step.
+  [[nodiscard]] const VectorXd& displacement() const noexcept { return q_; }
+  [[nodiscard]] const VectorXd& velocity() const noexcept { return p_; }
+
+ private:
+  struct Motion;
+  void step(dynamics::StepReport& report);
+  void start_central();
+  [[nodiscard]] Motion motion_of_step() const;
+  void set_load(const Motion& motion);
+  void use_matrices(const Motion& motion);
+  void solve_contact(const Motion& motion, dynamics::ContactReport& report);
+  void find_middle();
+  void count_solver(const ContactOutcome& outcome, dynamics::ContactReport& report);
+  void count_contacts(const Motion& motion, dynamics::ContactReport& report);
+  void balance(const Motion& motion, dynamics::StepReport& report);
+  [[nodiscard]] dynamics::StepEnergy energy();
+  void fill(dynamics::State& state);
+  void fill_contacts(double angle, std::vector<dynamics::ActiveContact>& active) const;
+
+  const OneBlasThread one_blas_thread_;  ///< products too small for more
+  const IntegratorInput input_;
+  std::vector<int> candidates_;  ///< (N) place in mesh.boundary, ring after ring
+  mutable rom::Lift lift_;
+  std::unique_ptr<ContactSolver> contact_;  ///< none: no ground
+  std::unique_ptr<StepMatrices> matrices_;
+  dynamics::Ledger ledger_;
+  long long n_ = 0;  ///< steps made
+  VectorXd q_, p_;   ///< (r) at the end of the last step; central: p half a step later
+  VectorXd q_end_, p_end_;
+  VectorXd carried_;        ///< (r) p before the push: of the beginning; central: moved to the end
+  VectorXd q_mid_, p_mid_;  ///< (r) q̄; central: q at the end; p̄
+  VectorXd load_;           ///< (r) Δt F
+  VectorXd push_;           ///< (r) Hᵀ r of the last step
+  VectorXd work_, other_;   ///< (r)
+  dynamics::FrameStep frame_;
+};
+
+}  // namespace rondo::rom

@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: BSD-3-Clause
+/// @file  The files of a POD, from what was found (docs/results.md).
+#pragma once
+#include <filesystem>
+#include <vector>
+
+#include "rondo/pod/spectrum.hpp"
+#include "rondo/study/pod/pod.hpp"
+#include "rondo/study/pod/pod_snapshots.hpp"
+
+namespace rondo::study {
+
+/// What a POD found, apart from the snapshots themselves.
+struct PodResult {
+  std::vector<Column> columns;
+  pod::Decomposition d;
+  pod::Spectrum spectrum;
+  pod::Identity identity;
+};
+
+/// All files but pod.json. The modes of `result` become those of the field, Φ = W^{-1/2} U, in the
+/// order of the mesh. @throws FileError
+void write_pod_files(const PodRequest& request, const PodReport& report, RunSnapshots& snapshots,
+                     PodResult& result);
+
+}  // namespace rondo::study

@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: BSD-3-Clause
+/// @file  The snapshots of runs as the matrix of a POD: chosen by time, moved to the frame asked
+/// for, weighted, read when needed (docs/theory.md, 7.1 and 7.3).
+#pragma once
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "rondo/io/run_reader.hpp"
+#include "rondo/pod/rectify.hpp"
+#include "rondo/pod/snapshots.hpp"
+
+namespace rondo::study {
+
+enum class Weight { mass, delassus, none };
+
+/// One snapshot of one run.
+struct Column {
+  std::size_t run = 0, snapshot = 0;
+  double time = 0.0;   ///< the field's own                                               [s]
+  double angle = 0.0;  ///< of the turning frame at that time                             [rad]
+};
+
+struct SnapshotChoice {
+  io::Quantity quantity = io::Quantity::displacement;
+  Weight weight = Weight::mass;
+  std::optional<pod::Shift> rectified;  ///< none: the rotating frame
+};
+
+/// Rows are 2·i + component, i the place of a point in order(): ring after ring in the rectified
+/// frame, so that blocks of rows can be rectified by themselves.
+class RunSnapshots final : public pod::SnapshotMatrix {
+ public:
+  /// @pre all runs have the same mesh and outlive this; rectified only where it has sectors.
+  RunSnapshots(std::span<const io::RunReader> runs, std::vector<Column> columns,
+               const SnapshotChoice& choice);
+
+  [[nodiscard]] pod::Index rows() const noexcept override;
+  [[nodiscard]] pod::Index columns() const noexcept override;
+  [[nodiscard]] pod::Index row_grain() const noexcept override;
+  /// @throws InputError: a number that is not finite; FileError
+  void read_columns(pod::Index first, Eigen::Ref<Eigen::MatrixXd> out) override;
+  void read_rows(pod::Index first, Eigen::Ref<Eigen::MatrixXd> out) override;
+
+  /// The first run: its mesh is that of all.
+  [[nodiscard]] const io::RunReader& run() const noexcept { return runs_.front(); }
+  /// (n_points) W of each point, in the order of the mesh (or of its boundary).
+  [[nodiscard]] const std::vector<double>& weight() const noexcept { return weight_; }
+  /// Rows of a weighted field become numbers (2·point + component) of the field itself, in place.
+  void unweight(Eigen::Ref<Eigen::VectorXd> rows);
+
+ private:
+  void read_order(const Column& column, std::size_t first, std::size_t count);
+  void store(Eigen::Ref<Eigen::VectorXd> out, std::size_t first, std::size_t count) const;
+
+  std::span<const io::RunReader> runs_;
+  std::vector<Column> columns_;
+  SnapshotChoice choice_;
+  pod::Rings rings_;               ///< empty: rotating
+  std::vector<int> order_;         ///< (n_points) point at each place
+  std::vector<double> weight_;     ///< (n_points)
+  std::vector<double> root_;       ///< (n_points) √W in order
+  std::vector<Vec2> row_, field_;  ///< (n_points) as read; in order
+  std::optional<pod::Rectifier> rectifier_;
+  std::size_t rectifier_rings_ = 0;
+  Eigen::VectorXd scratch_;  ///< (rows)
+};
+
+}  // namespace rondo::study

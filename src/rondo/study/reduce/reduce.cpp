@@ -1,0 +1,305 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "rondo/study/reduce/reduce.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <chrono>
+#include <cmath>
+#include <numbers>
+#include <system_error>
+#include <utility>
+
+#include "rondo/analysis/build.hpp"
+#include "rondo/analysis/reduced_file.hpp"
+#include "rondo/core/blas_threads.hpp"
+#include "rondo/rom/step_matrices.hpp"
+#include "rondo/study/pod/pod_input.hpp"
+#include "rondo/study/reduce/reduce_modes.hpp"
+
+namespace rondo::study {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+using Eigen::Index;
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+
+void check_options(const ReduceRequest& r) {
+  const auto demand_one_of = [](const char* option, const std::string& name, const auto& names) {
+    std::string allowed;
+    for (const auto& [known, value] : names) {
+      if (name == known) return;
+      allowed += (allowed.empty() ? "" : ", ") + std::string(known);
+    }
+    throw request_error(option, name, "not one of those there are", allowed);
+  };
+  demand_one_of("--frame", r.frame, frame_names);
+  if (!r.contact.empty()) demand_one_of("--contact", r.contact, contact_names);
+  if (!(r.contact_weight >= 0.0 && r.contact_weight <= 1e6))
+    throw request_error("--contact-weight", fmt::format("{:.9g}", r.contact_weight),
+                        "not a share of the mass that can be", "0 to 1e6, e.g. 10");
+  if (r.contact_patterns && r.contact != "patterns")
+    throw request_error("--contact-patterns", fmt::to_string(*r.contact_patterns),
+                        "only contact by patterns has a number of them", "--contact patterns");
+  if (r.contact_patterns && *r.contact_patterns < 1)
+    throw request_error("--contact-patterns", fmt::to_string(*r.contact_patterns),
+                        "no patterns to touch the ground with", "1 or more");
+  if (r.output.empty()) throw request_error("-o", "", "the model needs a file", "-o MODEL.h5");
+  for (const auto& [option, modes] : {std::pair{"--displacement-modes", r.displacement_modes},
+                                      {"--velocity-modes", r.velocity_modes}})
+    if (modes && *modes < 1)
+      throw request_error(option, fmt::to_string(*modes), "no modes to keep", "1 or more");
+  for (const auto& [option, share] : {std::pair{"--tolerance", r.displacement_tolerance},
+                                      {"--velocity-tolerance", r.velocity_tolerance}})
+    if (share && !(*share > 0.0 && *share < 1.0))
+      throw request_error(option, fmt::format("{:.9g}", *share), "not a share of the energy",
+                          "between 0 and 1, e.g. 1e-5");
+}
+
+/// What can be reduced: a disk in one piece, held by its rim, that rolled to its end.
+void check_run(const io::RunReader& run, const Case& c) {
+  const std::string name = run.directory().string();
+  if (run.analysis() != "dynamic")
+    throw request_error("RUN", name, "a crush does not roll: there is no motion to reduce",
+                        "runs of analysis.kind = \"dynamic\"");
+  if (c.mesh || c.free_rim || run.mesh().n_sectors == 0)
+    throw request_error("RUN", name,
+                        "the body has no equal sectors round a rim that holds it: its fields "
+                        "cannot be moved to the fixed frame",
+                        "runs of a [disk] whose rim is held");
+  if (run.status() != "done")
+    throw request_error("RUN", name,
+                        fmt::format("the run is not finished (status {})", run.status()),
+                        "finish it (rondo run RUN --resume), or leave it out");
+  if (run.n_snapshots() < 2)
+    throw request_error("RUN", name, fmt::format("{} snapshots make no model", run.n_snapshots()),
+                        "a run with output.snapshots of 2 or more, some hundreds better");
+}
+
+/// Told before the whole file is looked at, to which it is damage.
+void check_velocities(const std::filesystem::path& directory) {
+  const std::filesystem::path results = directory / "results.h5";
+  std::error_code error;
+  if (!std::filesystem::exists(results, error)) return;  // the reader says what is missing
+  const io::h5::File file = io::h5::File::open(results);
+  if (file.contains("/snapshots/displacement") && !file.contains("/snapshots/velocity"))
+    throw request_error("RUN", directory.string(),
+                        "holds no velocities: displacements alone cannot roll",
+                        "a run whose results.h5 has /snapshots/velocity");
+}
+
+struct Source {
+  std::vector<io::RunReader> runs;
+  std::vector<Case> cases;
+};
+
+bool is_turning(const ReduceRequest& r) {
+  return r.frame == "turning";
+}
+
+PodRequest pod_request(const ReduceRequest& r, const char* field) {
+  PodRequest pod;
+  pod.runs = r.runs;
+  pod.field = field;
+  pod.frame = is_turning(r) ? "rotating" : "rectified";
+  pod.from = r.from;
+  pod.to = r.to;
+  pod.warn = r.warn;
+  return with_members(pod);
+}
+
+Source open_source(const ReduceRequest& r) {
+  const PodRequest pod = pod_request(r, "velocity");
+  Source source;
+  for (const std::filesystem::path& directory : pod.runs) {
+    check_velocities(directory);
+    const io::RunReader run(directory);
+    const Case& c = source.cases.emplace_back(read_case(directory / "case.toml"));
+    check_run(run, c);
+    const std::string difference = body_difference(body_text(c), body_text(source.cases.front()));
+    if (!difference.empty())
+      throw request_error(
+          "RUN", directory.string(),
+          fmt::format("not the body of {}: {}", pod.runs.front().string(), difference),
+          "runs of one mesh and material together");
+  }
+  source.runs = open_runs(pod, choice_of(pod));
+  const std::size_t snapshots = columns_of(pod, choice_of(pod), source.runs).size();
+  if (snapshots < 2)
+    throw request_error("--from, --to", "",
+                        fmt::format("{} snapshots of the runs lie between: no model", snapshots),
+                        "a window with 2 snapshots or more, some hundreds better");
+  return source;
+}
+
+RunSnapshots snapshots_of(const ReduceRequest& r, const Source& source, const char* field) {
+  const PodRequest pod = pod_request(r, field);
+  const SnapshotChoice choice = choice_of(pod);
+  return {source.runs, columns_of(pod, choice, source.runs), choice};
+}
+
+ModelRanges ranges_of(const ReduceRequest& r, const Source& source) {
+  const PodRequest pod = pod_request(r, "displacement");
+  ModelRanges ranges;
+  for (const Case& c : source.cases)
+    if (c.ground) ranges.friction.take(c.ground->friction);
+  for (const Column& column : columns_of(pod, choice_of(pod), source.runs)) {
+    const Case& c = source.cases[column.run];
+    ranges.angular_velocity.take(c.motion.angular_velocity.at(column.time));
+    ranges.speed.take(c.motion.speed.at(column.time));
+    ranges.height.take(c.motion.height.at(column.time));
+    ranges.slip_ratio.take(slip_ratio_at(c, column.time));
+  }
+  return ranges;
+}
+
+/// The form of contact that is asked for, or the one that suits (docs/reduced.md, 5).
+rom::ContactForm contact_form(const ReduceRequest& r, const mesh::Mesh& mesh) {
+  const bool smooth = pod::boundary_rings(mesh).n_rings() == 1;
+  const bool standing = smooth && !is_turning(r);
+  auto form = standing ? rom::ContactForm::places : rom::ContactForm::nodes;
+  for (const auto& [name, known] : contact_names)
+    if (r.contact == name) form = known;
+  if (form != rom::ContactForm::nodes && !standing)
+    throw request_error("--contact", r.contact,
+                        smooth ? "in the turning frame nothing stands still in space"
+                               : "between the blocks of a tread there is no place to stand still",
+                        "nodes");
+  if (r.contact_stride != 0 && form != rom::ContactForm::places)
+    throw request_error("--contact-stride", fmt::to_string(r.contact_stride),
+                        "only places have a stride", "--contact places, or no stride");
+  return form;
+}
+
+/// The largest divisor that leaves enough contact points, where none is asked for.
+int contact_stride(const ReduceRequest& request, int n_sectors) {
+  int stride = request.contact_stride;
+  if (stride == 0) {
+    stride = std::max(1, n_sectors / enough_contact_points);
+    while (n_sectors % stride != 0) --stride;
+  }
+  if (stride < 1 || n_sectors % stride != 0)
+    throw request_error("--contact-stride", fmt::to_string(stride),
+                        "does not share out the columns of the mesh",
+                        fmt::format("a divisor of {}", n_sectors));
+  if (stride > 1 && n_sectors / stride < least_contact_points)
+    throw request_error("--contact-stride", fmt::to_string(stride),
+                        fmt::format("leaves {} contact points: each would be the mean of an arc "
+                                    "that does not touch as a whole",
+                                    n_sectors / stride),
+                        fmt::format("a divisor that leaves {} or more", least_contact_points));
+  return stride;
+}
+
+/// The modes of displacement, their derivatives by the angle (a pattern that stands still in space
+/// has the velocity -s D u), the modes of velocity.
+MatrixXd basis_of(const ReduceRequest& r, const mesh::Mesh& mesh, const VectorXd& roots,
+                  const FieldModes& u, const FieldModes& v) {
+  if (is_turning(r)) return rom::join(std::array{u.modes, v.modes});
+  const MatrixXd fields = roots.cwiseInverse().asDiagonal() * u.modes;
+  const MatrixXd derived = roots.asDiagonal() * rom::differentiate(mesh, fields);
+  return rom::join(std::array{u.modes, derived, v.modes});
+}
+
+/// Where the model will touch the ground.
+struct ContactChoice {
+  rom::ContactForm form;
+  MatrixXd weights;  ///< (sectors, points); empty: nodes
+  std::optional<PatternFigures> patterns;
+};
+
+ContactChoice choose_contact(const ReduceRequest& request, const Source& source,
+                             const mesh::Mesh& mesh) {
+  ContactChoice contact{contact_form(request, mesh), {}, {}};
+  if (contact.form == rom::ContactForm::places)
+    contact.weights = rom::hat_weights(mesh.n_sectors, contact_stride(request, mesh.n_sectors));
+  if (contact.form != rom::ContactForm::patterns) return contact;
+  const PodRequest pod = pod_request(request, "displacement");
+  ContactPatterns learned =
+      learn_patterns(source.runs, columns_of(pod, choice_of(pod), source.runs),
+                     request.contact_patterns.value_or(default_contact_patterns), request.warn);
+  contact.weights = std::move(learned.weights);
+  contact.patterns = learned.figures;
+  return contact;
+}
+
+ReducedFile make_file(const ReduceRequest& request, const Source& source, const Setup& setup,
+                      const MatrixXd& basis, const ContactChoice& contact) {
+  ReducedFile file;
+  file.model = rom::make_reduced_model(
+      {setup.mesh, setup.model.mass,
+       [&](std::span<const Vec2> in, std::span<Vec2> out) {
+         fem::apply(*setup.model.sector, in, out);
+       }},
+      basis, is_turning(request) ? rom::ModelFrame::turning : rom::ModelFrame::rectified);
+  rom::set_contact(setup.mesh, contact.form, contact.weights, file.model);
+  file.mesh = setup.mesh;
+  file.mass = setup.model.mass;
+  file.body = body_text(source.cases.front());
+  file.ranges = ranges_of(request, source);
+  for (const io::RunReader& run : source.runs) file.runs.push_back(run.directory().string());
+  return file;
+}
+
+/// Sizes and steps of the model.
+ReduceReport describe(const Source& source, const Setup& setup, const ReducedFile& file) {
+  ReduceReport report;
+  report.dofs = 2 * static_cast<long long>(setup.model.free.size());
+  report.modes = file.model.size();
+  report.full_critical_step = setup.critical.step;
+  report.reduced_critical_step =
+      rom::critical_step(file.model, source.cases.front().damping.stiffness);
+  const bool nodes = file.model.form == rom::ContactForm::nodes;
+  report.contact = name_in(contact_names, file.model.form);
+  report.contact_points =
+      static_cast<long long>(nodes ? setup.mesh.boundary.size() : file.model.contact.points.size());
+  const double spin = std::max(std::abs(file.ranges.angular_velocity.low),
+                               std::abs(file.ranges.angular_velocity.high));
+  const bool patterns = file.model.form == rom::ContactForm::patterns;
+  if (spin > 0.0 && !patterns)
+    report.contact_step =
+        2.0 * std::numbers::pi / static_cast<double>(report.contact_points) / spin;
+  return report;
+}
+
+}  // namespace
+
+ReduceReport run_reduce(const ReduceRequest& request) {
+  const auto begin = Clock::now();
+  const OneBlasThread one;  // the same model on any number of cores
+  check_options(request);
+  const Source source = open_source(request);
+  const Setup setup = build(source.cases.front(), 1);
+  // Told before the work.
+  const ContactChoice contact = choose_contact(request, source, setup.mesh);
+  const VectorXd roots = rom::mass_roots(setup.model.mass);
+  const TouchedNodes touched = touched_nodes(setup, source.runs, request);
+  const FieldModes u =
+      modes_of_field(request, snapshots_of(request, source, "displacement"), roots, touched,
+                     {"displacement", request.displacement_modes, request.displacement_tolerance,
+                      default_displacement_modes});
+  const FieldModes v = modes_of_field(
+      request, snapshots_of(request, source, "velocity"), roots, touched,
+      {"velocity", request.velocity_modes, request.velocity_tolerance, default_velocity_modes});
+  const MatrixXd basis = basis_of(request, setup.mesh, roots, u, v);
+  ReducedFile file = make_file(request, source, setup, basis, contact);
+  file.displacement_modes = u.report.modes;
+  file.velocity_modes = v.report.modes;
+  write_reduced_file(request.output, file);
+
+  ReduceReport report = describe(source, setup, file);
+  report.displacement = u.report;
+  report.velocity = v.report;
+  report.patterns = contact.patterns;
+  report.displacement_left =
+      energy_left(snapshots_of(request, source, "displacement"), basis, roots);
+  report.velocity_left = energy_left(snapshots_of(request, source, "velocity"), basis, roots);
+  std::error_code error;
+  report.file_bytes = std::filesystem::file_size(request.output, error);
+  report.wall_s = std::chrono::duration<double>(Clock::now() - begin).count();
+  return report;
+}
+
+}  // namespace rondo::study

@@ -1,0 +1,87 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "rondo/study/sweep/kept_runs.hpp"
+
+#include <cmath>
+#include <fstream>
+#include <iterator>
+#include <system_error>
+
+#include "rondo/core/build_id.hpp"
+#include "rondo/core/error.hpp"
+#include "rondo/io/csv.hpp"
+#include "rondo/io/files.hpp"
+#include "rondo/io/h5/h5.hpp"
+#include "rondo/study/paper/paper_results.hpp"
+
+namespace rondo::study {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// Empty where it cannot be read.
+std::string text_of(const fs::path& file) {
+  std::ifstream in(file, std::ios::binary);
+  return {std::istreambuf_iterator<char>(in), {}};
+}
+
+/// The files hold what run.json says, as far as their ends and heads tell. @throws FileError,
+/// InputError: they cannot be read
+bool is_whole(const fs::path& directory, const Json& j) {
+  const auto number = [&](const char* key) { return number_in(j, key); };
+  const Columns history = io::read_columns(directory / "history.csv");
+  const std::vector<double>& time = column(history, "time_s", directory / "history.csv");
+  if (text_in(j, "analysis") == "crush") {
+    if (static_cast<double>(time.size()) != number("increments_done") + 1.0) return false;
+  } else if (std::abs(time.back() - number("end_time")) > 1e-9 * time.back()) {
+    return false;
+  }
+  if (number("snapshots") == 0.0) {
+    static_cast<void>(io::h5::File::open(directory / "results.h5"));  // it opens
+    return true;
+  }
+  return static_cast<double>(io::RunReader(directory).n_snapshots()) == number("snapshots") &&
+         fs::is_regular_file(directory / "fields.xdmf");
+}
+
+/// A run that may fail did so by itself, at a step: not for want of room on the disk.
+bool ended(const Json& j, bool may_fail) {
+  const std::string status = text_in(j, "status");
+  return status == "done" || (may_fail && status == "failed" &&
+                              (j.contains("steps_done") || j.contains("increments_done")));
+}
+
+}  // namespace
+
+bool is_of_this_program(const Json& j) {
+  static const std::string own = build_id();
+  return !own.empty() && text_in(j, "build_id") == own;
+}
+
+double number_in(const Json& j, const char* key) {
+  return j.is_object() && j.contains(key) && j[key].is_number() ? j[key].get<double>() : -1.0;
+}
+
+bool is_case_of(const fs::path& directory, const Case& c) {
+  const Case kept = kept_case(c);
+  if (text_of(directory / "case.toml") != write_case(kept)) return false;
+  const bool is_copy = c.mesh && kept.mesh->file.is_relative();
+  return !is_copy || text_of(directory / kept.mesh->file) == text_of(c.mesh->file);
+}
+
+bool run_is_there(const fs::path& directory, const Case& c, bool may_fail) {
+  try {
+    const Json j = io::read_json(directory / "run.json");
+    return ended(j, may_fail) && is_of_this_program(j) && is_case_of(directory, c) &&
+           is_whole(directory, j);
+  } catch (const std::exception&) {  // what cannot be read is made again
+    return false;
+  }
+}
+
+void remove_unfinished(const fs::path& directory) {
+  std::error_code error;
+  for (const auto& entry : fs::directory_iterator(directory, error))
+    if (entry.path().extension() == ".tmp") fs::remove_all(entry.path(), error);
+}
+
+}  // namespace rondo::study

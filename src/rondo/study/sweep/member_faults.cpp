@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "rondo/study/sweep/member_faults.hpp"
+
+#include <fmt/format.h>
+
+namespace rondo::study {
+namespace {
+
+constexpr std::size_t most_told = 20;
+
+}  // namespace
+
+void MemberFaults::add(std::size_t member, const std::string& kind, const std::string& text) {
+  faulty_[member] = true;
+  const auto [place, is_new] = place_.try_emplace(kind, found_.size());
+  if (is_new) found_.push_back({text, member, 1, member});
+  Found& found = found_[place->second];
+  if (is_new || found.last == member) return;
+  ++found.members;
+  found.last = member;
+}
+
+void MemberFaults::add(std::size_t member, const InputError& error) {
+  for (const Fault& fault : error.faults())
+    add(member, fault.key + '\n' + fault.message, fault.text());
+}
+
+void MemberFaults::raise(const std::vector<Member>& members) const {
+  std::vector<Fault> faults;
+  const std::string file = study_.file.string();
+  for (const Found& found : found_) {
+    if (faults.size() == most_told) {
+      faults.push_back({file, 0, 0, "", "",
+                        fmt::format("and {} more kinds of faults", found_.size() - most_told), ""});
+      break;
+    }
+    const std::string whom = name_of(study_, members[found.first], found.first + 1);
+    const std::string more =
+        found.members == 1
+            ? ""
+            : fmt::format(" and {} of {} others", found.members - 1, members.size() - 1);
+    faults.push_back({file, 0, 0, "", "", whom + more + ": " + found.text, ""});
+  }
+  throw InputError(std::move(faults));
+}
+
+}  // namespace rondo::study

@@ -1,0 +1,302 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "rondo/study/sweep/sweep.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <chrono>
+#include <map>
+#include <optional>
+#include <stdexcept>
+#include <system_error>
+
+#include "rondo/analysis/build.hpp"
+#include "rondo/analysis/run.hpp"
+#include "rondo/case/case_keys.hpp"
+#include "rondo/case/case_source.hpp"
+#include "rondo/core/error.hpp"
+#include "rondo/io/files.hpp"
+#include "rondo/output/run_files.hpp"
+#include "rondo/study/sweep/kept_runs.hpp"
+#include "rondo/study/sweep/sweep_directory.hpp"
+#include "rondo/study/sweep/sweep_figures.hpp"
+#include "rondo/study/sweep/sweep_results.hpp"
+
+namespace rondo::study {
+namespace {
+
+namespace fs = std::filesystem;
+using Clock = std::chrono::steady_clock;
+
+constexpr const char* leader_failed = "failed";
+
+// One run ---------------------------------------------------------------------------------------
+
+/// What run.json and history.csv say of a run that has ended.
+MemberRow row_of(const fs::path& directory, AnalysisKind kind, const Window& window) {
+  const Json j = io::read_json(directory / "run.json");
+  MemberRow row;
+  row.status = text_in(j, "status") == "done" ? MemberStatus::done : MemberStatus::failed;
+  row.message = text_in(j, "message");
+  row.code = row.status == MemberStatus::done ? job_done : job_failed;
+  const bool crush = kind == AnalysisKind::crush;
+  row.steps = static_cast<long long>(number_in(j, crush ? "increments_done" : "steps_done"));
+  row.end_time = crush ? 0.0 : number_in(j, "end_time");
+  row.wall_s = std::max(0.0, number_in(j, crush ? "loop_wall_s" : "total_wall_s"));
+  if (row.status == MemberStatus::done) row.figures = figures_of(directory, kind, window);
+  return row;
+}
+
+MemberRow interrupted_row(const fs::path& directory, AnalysisKind kind) {
+  MemberRow row = row_of(directory, kind, {});
+  row.status = MemberStatus::interrupted;
+  row.code = job_interrupted;
+  return row;
+}
+
+struct Runner {
+  const SweepStudy& study;
+  const PlannedSweep& plan;
+  const SweepRequest& request;
+  std::function<void()> tick;  ///< called now and then within a run; may be empty
+  SharedBody shared;
+
+  std::string run(std::size_t m, const std::atomic<bool>& stop) {
+    const Case c = case_of(study, plan.members[m]);
+    const fs::path directory = run_directory(request.directory, m, plan.members.size());
+    const bool kept = run_is_there(directory, c, true);
+    if (!kept) {
+      const RunStatus status = make(c, directory, stop);
+      if (status == RunStatus::interrupted) return packed(interrupted_row(directory, plan.kind));
+    }
+    MemberRow row = row_of(directory, plan.kind, study.window);
+    row.kept = kept;
+    return packed(row);
+  }
+
+  RunStatus make(const Case& c, const fs::path& directory, const std::atomic<bool>& stop) {
+    remove_unfinished(directory);
+    RunOptions options;
+    options.directory = directory;
+    options.threads = 1;
+    const bool crush = c.analysis.kind == AnalysisKind::crush;
+    options.resume = !crush && can_go_on(directory, c);
+    options.overwrite = !options.resume;
+    options.stop = &stop;
+    options.shared = &shared;
+    options.keeps_checkpoint = false;
+    if (tick) options.progress = [&](long long, long long) { tick(); };
+    return run_case(c, options).status;
+  }
+
+  /// A run of this case and this program was killed or interrupted there; anything else is made
+  /// anew.
+  static bool can_go_on(const fs::path& directory, const Case& c) {
+    try {
+      const Json j = io::read_json(directory / "run.json");
+      return text_in(j, "status") != "done" && is_of_this_program(j) && is_case_of(directory, c);
+    } catch (const FileError&) {
+      return false;
+    }
+  }
+};
+
+// The whole -------------------------------------------------------------------------------------
+
+class Sweep {
+ public:
+  Sweep(const SweepRequest& request, const SweepStudy& study, const PlannedSweep& plan)
+      : request_(request), study_(study), plan_(plan), rows_(plan.members.size()) {}
+
+  void write(const char* status) const {
+    io::write_json(request_.directory / "sweep.json", describe(status));
+  }
+
+  void take(const std::vector<Piece>& pieces) {
+    for (std::size_t k = 0; k < pieces.size(); ++k) {
+      MemberRow& row = rows_[plan_.order[k]];
+      if (pieces[k].state == Piece::State::done) row = unpacked(pieces[k].text);
+      if (pieces[k].state == Piece::State::failed) {
+        row.status = MemberStatus::failed;
+        row.code = pieces[k].code;
+        row.message = pieces[k].text;
+      }
+      row.worker = pieces[k].worker;
+    }
+  }
+
+  /// Of members that were not reached, as far as they were done before.
+  void take_what_is_there() {
+    for (std::size_t m = 0; m < rows_.size(); ++m) {
+      if (rows_[m].status != MemberStatus::waiting) continue;
+      const fs::path directory = run_directory(request_.directory, m, rows_.size());
+      std::error_code error;
+      if (!fs::exists(directory / "run.json", error) ||
+          !run_is_there(directory, case_of(study_, plan_.members[m]), true))
+        continue;
+      rows_[m] = row_of(directory, plan_.kind, study_.window);
+      rows_[m].kept = true;
+    }
+  }
+
+  void write_tables() const { study::write_tables(request_.directory, {study_, plan_, rows_}); }
+
+  [[nodiscard]] SweepReport report() const {
+    SweepReport r;
+    r.members = rows_.size();
+    for (std::size_t m = 0; m < rows_.size(); ++m) {
+      const MemberRow& row = rows_[m];
+      r.kept += row.kept ? 1 : 0;
+      r.done += row.status == MemberStatus::done ? 1 : 0;
+      const bool unfinished =
+          row.status == MemberStatus::interrupted || row.status == MemberStatus::waiting;
+      r.interrupted += unfinished ? 1 : 0;
+      if (unfinished) r.code = job_interrupted;
+      if (row.status != MemberStatus::failed) continue;
+      ++r.failed;
+      if (r.code != job_interrupted) r.code = std::max(r.code, row.code);
+      if (r.failures.size() < most_told)
+        r.failures.push_back(name_of(study_, plan_.members[m].member, m + 1) + ": " + row.message);
+    }
+    r.wall_s = wall();
+    return r;
+  }
+
+ private:
+  static constexpr std::size_t most_told = 5;
+
+  [[nodiscard]] double wall() const {
+    return std::chrono::duration<double>(Clock::now() - begin_).count();
+  }
+
+  [[nodiscard]] Json describe_parameters() const {
+    Json all = Json::array();
+    for (const Vary& vary : study_.parameters) {
+      const CaseKey* key = find_case_key(vary.key);
+      all.push_back({{"key", vary.key},
+                     {"unit", std::string(key ? key->unit : "-")},
+                     {"kind", vary.is_target ? "target"
+                              : vary.uniform ? "uniform"
+                                             : "values"}});
+    }
+    return all;
+  }
+
+  [[nodiscard]] Json describe(const char* status) const {
+    const auto time = [](const std::optional<double>& t) { return t ? Json(*t) : Json(); };
+    Json j;
+    j["format"] = sweep_format;
+    j["status"] = status;
+    j["title"] = study_.title;
+    describe_program(j);
+    j["analysis"] = plan_.kind == AnalysisKind::crush ? "crush" : "dynamic";
+    j["study"] = as_utf8(study_.file.filename().string());
+    j["base"] = as_utf8(study_.base.filename().string());
+    j["parameters"] = describe_parameters();
+    j["window"] = {{"from", time(study_.window.from)}, {"to", time(study_.window.to)}};
+    j["members"] = rows_.size();
+    j["members_hash"] = hash_of(study_, plan_);
+    const SweepReport r = report();
+    j["done"] = r.done;
+    j["failed"] = r.failed;
+    j["failures"] = Json::array();
+    for (std::size_t m = 0; m < rows_.size(); ++m)
+      if (rows_[m].status == MemberStatus::failed)
+        j["failures"].push_back({{"run", m + 1}, {"message", as_utf8(rows_[m].message)}});
+    j["wall_s"] = r.wall_s;
+    return j;
+  }
+
+  const SweepRequest& request_;
+  const SweepStudy& study_;
+  const PlannedSweep& plan_;
+  std::vector<MemberRow> rows_;
+  Clock::time_point begin_ = Clock::now();
+};
+
+SweepStudy study_of(const SweepRequest& request) {
+  SweepStudy study = read_study(request.study);
+  study.settings.insert(study.settings.end(), request.settings.begin(), request.settings.end());
+  check_settings(study);
+  return study;
+}
+
+/// Each text once, with the number of members that it is said of.
+void warn_of_members(const SweepRequest& request, const PlannedSweep& plan) {
+  if (!request.warn) return;
+  std::map<std::string, std::pair<std::size_t, std::size_t>> said;  // first member, how many
+  for (std::size_t m = 0; m < plan.members.size(); ++m)
+    for (const std::string& warning : plan.members[m].warnings)
+      ++said.try_emplace(warning, m + 1, 0).first->second.second;
+  for (const auto& [text, of] : said)
+    request.warn(of.second == 1
+                     ? fmt::format("run {}: {}", of.first, text)
+                     : fmt::format("run {} and {} others: {}", of.first, of.second - 1, text));
+}
+
+/// The leader's part before the runs; where it fails, all do.
+std::optional<io::DirectoryLock> begin(const SweepRequest& request, const Sweep& sweep,
+                                       const SweepStudy& study, const PlannedSweep& plan,
+                                       Team& team) {
+  std::optional<io::DirectoryLock> lock;
+  if (team.leads()) {
+    try {
+      prepare_sweep(request, hash_of(study, plan));
+      lock.emplace(request.directory);
+      demand_room(request, plan);  // before anything is removed
+      clear_sweep(request);
+      sweep.write("running");
+      warn_of_members(request, plan);
+      if (request.begin) request.begin(plan, team.workers());
+    } catch (const std::exception&) {
+      static_cast<void>(team.from_leader(leader_failed));
+      throw;
+    }
+  }
+  if (team.from_leader("") == leader_failed)
+    throw std::runtime_error("the leader of the team has failed");
+  return lock;
+}
+
+SweepReport interrupted_report(std::size_t members) {
+  SweepReport report;
+  report.members = report.interrupted = members;
+  report.code = job_interrupted;
+  return report;
+}
+
+}  // namespace
+
+DrySweep check_sweep(const SweepRequest& request, Team& team) {
+  DrySweep dry{study_of(request), {}};
+  dry.plan = plan_sweep({dry.study, true, request.checking}, team);
+  return dry;
+}
+
+SweepReport run_sweep(const SweepRequest& request, Team& team) {
+  const SweepStudy study = study_of(request);
+  const PlannedSweep plan = plan_sweep({study, false, request.checking}, team);
+  if (plan.stopped) return interrupted_report(plan.members.size());
+  Sweep sweep(request, study, plan);
+  const std::optional<io::DirectoryLock> lock = begin(request, sweep, study, plan, team);
+  Runner runner{study, plan, request, team.tick(), {}};
+  TeamWork work;
+  work.count = plan.order.size();
+  work.work = [&](std::size_t k, const std::atomic<bool>& stop) {
+    return runner.run(plan.order[k], stop);
+  };
+  if (request.progress)
+    work.watch = [&](std::size_t ended) {
+      request.progress(static_cast<long long>(ended), static_cast<long long>(work.count));
+    };
+  sweep.take(team.each(work));
+  if (team.leads()) sweep.take_what_is_there();
+  const SweepReport report = sweep.report();
+  if (team.leads()) {
+    sweep.write_tables();
+    sweep.write(report.interrupted > 0 ? "interrupted" : report.failed > 0 ? "failed" : "done");
+  }
+  return report;
+}
+
+}  // namespace rondo::study

@@ -1,0 +1,122 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "rondo/study/sweep/sweep_directory.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <optional>
+#include <span>
+#include <system_error>
+
+#include "rondo/core/error.hpp"
+#include "rondo/io/files.hpp"
+#include "rondo/io/h5/hash.hpp"
+#include "rondo/output/run_files.hpp"
+#include "rondo/study/sweep/kept_runs.hpp"
+
+namespace rondo::study {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr std::array files_written{"results.csv", "sweep.h5", "timings.csv"};
+
+/// What sweep.json says that is there. @throws InputError, FileError
+void accept(const SweepRequest& request, const std::string& hash) {
+  const fs::path& directory = request.directory;
+  Json found;
+  try {
+    found = io::read_json(directory / "sweep.json");
+  } catch (const FileError& error) {
+    throw FileError(error, "remove it, or choose another -o");
+  }
+  if (text_in(found, "format") != sweep_format)
+    io::refuse_directory(directory,
+                         fmt::format("holds a sweep of format \"{}\", not \"{}\"",
+                                     text_in(found, "format"), sweep_format),
+                         "choose another -o");
+  if (request.overwrite) return;
+  if (!request.resume)
+    io::refuse_directory(directory, "holds a sweep",
+                         "give --resume to go on with it or --overwrite to begin anew, or choose "
+                         "another -o");
+  if (text_in(found, "members_hash") != hash)
+    io::refuse_directory(directory,
+                         "holds another sweep: study, base case, mesh or --set have changed since",
+                         "choose another -o, or give --overwrite to begin anew");
+  if (!is_of_this_program(found))
+    io::refuse_directory(directory,
+                         fmt::format("holds a sweep of another build of rondo ({}, build id {}), "
+                                     "whose runs this one would all make again",
+                                     text_in(found, "version"), text_in(found, "build_id")),
+                         "go on with that program, choose another -o, or give --overwrite to begin "
+                         "anew");
+}
+
+}  // namespace
+
+fs::path run_directory(const fs::path& sweep, std::size_t member, std::size_t n) {
+  const std::size_t digits = std::max<std::size_t>(4, fmt::formatted_size("{}", n));
+  return sweep / "runs" / fmt::format("{:0{}}", member + 1, digits);
+}
+
+std::string hash_of(const SweepStudy& study, const PlannedSweep& plan) {
+  io::Hash hash;
+  const auto time = [](const std::optional<double>& t) {
+    return t ? fmt::format("{}", *t) : std::string("-");
+  };
+  const std::string window = time(study.window.from) + " " + time(study.window.to);
+  hash.add(std::span<const char>(window));
+  for (const PlannedMember& member : plan.members) hash.add(std::span<const char>(member.hash));
+  return hash.text();
+}
+
+void prepare_sweep(const SweepRequest& request, const std::string& hash) {
+  const fs::path& directory = request.directory;
+  std::error_code error;
+  if (fs::exists(directory, error) && !fs::is_directory(directory, error))
+    io::refuse_directory(directory, "is there and is not a directory", "choose another -o");
+  if (fs::exists(directory / "sweep.json", error)) return accept(request, hash);
+  for (const char* name :
+       {"run.json", "runs", files_written[0], files_written[1], files_written[2]})
+    if (fs::exists(directory / name, error))
+      io::refuse_directory(directory, fmt::format("holds {}, and no sweep", name),
+                           "choose another -o");
+  fs::create_directories(directory, error);
+  if (error)
+    throw FileError(directory.string(),
+                    "cannot create directory: " + error.message() + "; choose another -o");
+}
+
+void clear_sweep(const SweepRequest& request) {
+  if (!request.overwrite) return;
+  std::error_code error;
+  for (const char* name : {"runs", "pod", files_written[0], files_written[1], files_written[2]})
+    fs::remove_all(request.directory / name, error);
+}
+
+void demand_room(const SweepRequest& request, const PlannedSweep& plan) {
+  std::size_t bytes = 0;
+  std::error_code error;
+  for (std::size_t m = 0; m < plan.members.size(); ++m)
+    if (!fs::exists(run_directory(request.directory, m, plan.members.size()), error))
+      bytes += plan.members[m].disk_bytes;
+  io::demand_room(request.directory / "sweep.h5", bytes);
+}
+
+std::vector<fs::path> runs_of_sweep(const fs::path& directory) {
+  std::vector<fs::path> runs;
+  std::error_code error;
+  if (!fs::exists(directory / "sweep.json", error)) return runs;
+  const Json sweep = io::read_json(directory / "sweep.json");
+  const auto n = static_cast<std::size_t>(std::max(0.0, number_in(sweep, "members")));
+  for (std::size_t m = 0; m < n; ++m) {
+    const fs::path run = run_directory(directory, m, n);
+    if (!fs::exists(run / "run.json", error)) continue;
+    if (text_in(io::read_json(run / "run.json"), "status") == "done") runs.push_back(run);
+  }
+  return runs;
+}
+
+}  // namespace rondo::study

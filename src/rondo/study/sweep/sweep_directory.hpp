@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: BSD-3-Clause
+/// @file  The directory of a sweep: what is in it, and whether a sweep may begin or go on there.
+#pragma once
+#include <cstddef>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "rondo/study/sweep/sweep.hpp"
+
+namespace rondo::study {
+
+/// Of sweep.json.
+inline constexpr const char* sweep_format = "rondo sweep 1";
+
+/// SWEEP/runs/0012 for member 11 of n.
+[[nodiscard]] std::filesystem::path run_directory(const std::filesystem::path& sweep,
+                                                  std::size_t member, std::size_t n);
+
+/// Equal for studies that give the same table.
+[[nodiscard]] std::string hash_of(const SweepStudy& study, const PlannedSweep& plan);
+
+/// Makes the directory, or finds there what the request allows: nothing, or this sweep to go on
+/// with, or one to be replaced. Nothing else is touched. @throws InputError, FileError
+void prepare_sweep(const SweepRequest& request, const std::string& hash);
+
+/// @throws FileError: no room for the runs that are not there yet
+void demand_room(const SweepRequest& request, const PlannedSweep& plan);
+
+/// With --overwrite, what a sweep has left, and PODs of it. @pre the directory is taken
+void clear_sweep(const SweepRequest& request);
+
+}  // namespace rondo::study

@@ -1,0 +1,251 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "rondo/study/sweep/sweep_members.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <chrono>
+#include <fstream>
+#include <map>
+#include <numeric>
+#include <string_view>
+#include <system_error>
+#include <tuple>
+#include <utility>
+
+#include "rondo/analysis/build.hpp"
+#include "rondo/analysis/check.hpp"
+#include "rondo/analysis/estimate.hpp"
+#include "rondo/core/memory_limits.hpp"
+#include "rondo/io/h5/hash.hpp"
+#include "rondo/output/run_files.hpp"
+#include "rondo/study/sweep/member_faults.hpp"
+#include "rondo/study/sweep/member_targets.hpp"
+
+namespace rondo::study {
+namespace {
+
+namespace fs = std::filesystem;
+
+void check_window(const SweepStudy& study, const Case& c) {
+  const auto wrong = [&](const std::string& message, const char* allowed) {
+    throw InputError(Fault{study.file.string(), 0, 0, "window", "", message, allowed});
+  };
+  if (c.analysis.kind == AnalysisKind::crush) {
+    if (study.window.from || study.window.to)
+      wrong("means nothing to crushes, whose ends are compared", "no [window]");
+    return;
+  }
+  const double to = study.window.to.value_or(c.time.end);
+  const double from = study.window.from.value_or(0.5 * to);
+  if (to > c.time.end * (1.0 + 1e-12))
+    wrong(fmt::format("ends at {:.6g} s, after time.end = {:.6g} s", to, c.time.end),
+          "to <= time.end of every run, or leave it out");
+  if (!(from >= 0.0 && to - from > 2.0 * c.output.history_interval))
+    wrong(fmt::format("from {:.6g} to {:.6g} s there are not two rows of history.csv "
+                      "(output.history_interval = {:.6g} s)",
+                      from, to, c.output.history_interval),
+          "a longer part of the run, or rows that are closer");
+}
+
+std::string hash_of(const std::string& text) {
+  io::Hash hash;
+  hash.add(std::span<const char>(text));
+  return hash.text();
+}
+
+/// Of mesh files, each read once.
+class MeshHashes {
+ public:
+  /// Empty where the case has a disk.
+  const std::string& of(const Case& c) {
+    if (!c.mesh) return none_;
+    const auto [found, is_new] = hashes_.try_emplace(c.mesh->file);
+    if (is_new) {
+      std::ifstream in(c.mesh->file, std::ios::binary);
+      found->second = hash_of({std::istreambuf_iterator<char>(in), {}});
+    }
+    return found->second;
+  }
+
+ private:
+  std::map<fs::path, std::string> hashes_;
+  const std::string none_;
+};
+
+/// Before a mesh file is read: some bytes of memory for each of its own.
+std::size_t guessed_memory(const Case& c) {
+  constexpr std::size_t per_byte = 60;
+  if (!c.mesh) return estimated_memory(c, size_of(c.disk));
+  std::error_code error;
+  const auto size = fs::file_size(c.mesh->file, error);
+  return error ? 0 : per_byte * static_cast<std::size_t>(size);
+}
+
+void read_members(const SweepStudy& study, PlannedSweep& plan, MemberFaults& faults) {
+  MeshHashes meshes;
+  for (std::size_t m = 0; m < plan.members.size(); ++m) {
+    PlannedMember& member = plan.members[m];
+    try {
+      const Case c = case_of(study, member);
+      check_window(study, c);
+      plan.kind = c.analysis.kind;
+      member.hash = hash_of(write_case(c) + meshes.of(c));
+      member.body = hash_of(body_key(c) + meshes.of(c));
+      member.memory_bytes = guessed_memory(c);
+    } catch (const InputError& error) {
+      faults.add(m, error);
+    }
+  }
+}
+
+/// Members that share a body one after the other.
+std::vector<std::size_t> by_body(const std::vector<PlannedMember>& members) {
+  std::vector<std::size_t> order(members.size());
+  std::iota(order.begin(), order.end(), 0);
+  std::ranges::stable_sort(order, {},
+                           [&](std::size_t m) -> const std::string& { return members[m].body; });
+  return order;
+}
+
+/// The longest bodies first, and their longest members.
+std::vector<std::size_t> by_cost(const std::vector<PlannedMember>& members) {
+  const auto cost = [&](std::size_t m) {
+    return static_cast<double>(members[m].steps) * static_cast<double>(members[m].dofs);
+  };
+  std::map<std::string_view, double> longest;
+  for (std::size_t m = 0; m < members.size(); ++m)
+    longest[members[m].body] = std::max(longest[members[m].body], cost(m));
+  std::vector<std::size_t> order = by_body(members);
+  std::ranges::stable_sort(order, std::greater<>(), [&](std::size_t m) {
+    return std::tuple(longest[members[m].body], std::string_view(members[m].body), cost(m));
+  });
+  return order;
+}
+
+/// What a worker keeps from one member to the next.
+struct Checker {
+  SharedBody shared;
+  std::string body;       ///< whose steps were timed
+  double per_step = 0.0;  ///< [s]
+};
+
+/// One member, built on the body of the one before where it fits.
+std::string check_member(const MembersRequest& request, const PlannedMember& member,
+                         Checker& checker) {
+  using Clock = std::chrono::steady_clock;
+  const bool timed = request.seconds && checker.body != member.body;
+  const double trial = timed ? 0.05 : 0.0;
+  Json j;
+  try {
+    const Case c = case_of(request.study, member);
+    const auto begin = Clock::now();
+    const CheckReport r =
+        check_case(c, {.threads = 1, .trial_s = trial, .shared = &checker.shared});
+    const double built = std::chrono::duration<double>(Clock::now() - begin).count() - trial;
+    if (timed && r.steps > 0) checker.per_step = r.seconds / static_cast<double>(r.steps);
+    checker.body = member.body;
+    const double stepping = checker.per_step * static_cast<double>(r.steps);
+    constexpr double files = 0.01;  // of a run: measured, docs/studies.md
+    const bool crush = c.analysis.kind == AnalysisKind::crush;
+    j = {{"steps", crush ? r.increments : r.steps},
+         {"nodes", r.nodes},
+         {"dofs", r.dofs},
+         {"seconds", crush ? 0.0 : stepping + std::max(0.0, built) + files},
+         {"memory", r.memory_bytes},
+         {"disk", r.disk_bytes},
+         {"warnings", r.warnings}};
+  } catch (const InputError& error) {
+    j["faults"] = Json::array();
+    for (const Fault& fault : error.faults())
+      j["faults"].push_back({{"kind", fault.key + '\n' + fault.message}, {"text", fault.text()}});
+  }
+  return j.dump(-1, ' ', false, Json::error_handler_t::replace);
+}
+
+void take_check(const Json& j, std::size_t m, PlannedMember& member, MemberFaults& faults) {
+  if (j.contains("faults")) {
+    for (const Json& fault : j["faults"])
+      faults.add(m, text_in(fault, "kind"), text_in(fault, "text"));
+    return;
+  }
+  member.steps = j["steps"].get<long long>();
+  member.nodes = j["nodes"].get<std::size_t>();
+  member.dofs = j["dofs"].get<std::size_t>();
+  member.seconds = j["seconds"].get<double>();
+  member.memory_bytes = j["memory"].get<std::size_t>();
+  member.disk_bytes = j["disk"].get<std::size_t>();
+  member.warnings = j["warnings"].get<std::vector<std::string>>();
+}
+
+/// False: a stop was asked for.
+bool build_members(const MembersRequest& request, Team& team, PlannedSweep& plan,
+                   MemberFaults& faults) {
+  std::vector<std::size_t> order = by_body(plan.members);
+  std::erase_if(order, [&](std::size_t m) { return faults.has(m); });
+  Checker checker;
+  TeamWork work;
+  work.count = order.size();
+  work.work = [&](std::size_t k, const std::atomic<bool>&) {
+    return check_member(request, plan.members[order[k]], checker);
+  };
+  work.watch = request.watch("check", order.size());
+  const std::vector<Piece> pieces = team.each(work);
+  for (std::size_t k = 0; k < order.size(); ++k) {
+    if (pieces[k].state == Piece::State::missing) return false;
+    demand_done(pieces[k]);
+    take_check(Json::parse(pieces[k].text), order[k], plan.members[order[k]], faults);
+  }
+  return true;
+}
+
+/// As many workers as there is memory for.
+void limit_workers(const std::vector<PlannedMember>& members, Team& team) {
+  std::size_t most = 1;
+  for (const PlannedMember& member : members) most = std::max(most, member.memory_bytes);
+  const std::size_t at_once = allowed_memory().bytes / most;
+  team.limit_workers(static_cast<int>(std::clamp<std::size_t>(at_once, 1, 100'000)));
+}
+
+}  // namespace
+
+std::function<void(std::size_t)> MembersRequest::watch(const char* what, std::size_t all) const {
+  if (!progress) return {};
+  return [this, what, all](std::size_t done) {
+    progress(what, static_cast<long long>(done), static_cast<long long>(all));
+  };
+}
+
+Case case_of(const SweepStudy& study, const PlannedMember& member) {
+  Case c = read_case(study.base, member.settings);
+  if (!study.snapshots && c.analysis.kind == AnalysisKind::dynamic) c.output.snapshots = 0;
+  return c;
+}
+
+PlannedSweep plan_sweep(const MembersRequest& request, Team& team) {
+  const SweepStudy& study = request.study;
+  PlannedSweep plan;
+  const std::vector<Member> members = members_of(study);
+  for (const Member& member : members) {
+    PlannedMember& planned = plan.members.emplace_back();
+    planned.member = member;
+    planned.settings = settings_of(study, member);
+    planned.targets.assign(study.parameters.size(), 0.0);
+  }
+  MemberFaults faults(study, members.size());
+  const auto stopped = [&] {
+    plan.stopped = true;
+    return std::move(plan);
+  };
+  if (!find_targets(request, team, plan.members, faults)) return stopped();
+  if (faults.any()) faults.raise(members);
+  read_members(study, plan, faults);
+  limit_workers(plan.members, team);
+  if (!build_members(request, team, plan, faults)) return stopped();
+  if (faults.any()) faults.raise(members);
+  limit_workers(plan.members, team);
+  plan.order = by_cost(plan.members);
+  return plan;
+}
+
+}  // namespace rondo::study

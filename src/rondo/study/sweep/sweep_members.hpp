@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: BSD-3-Clause
+/// @file  The members of a study as they will be run, checked before the first of them begins.
+#pragma once
+#include <cstddef>
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "rondo/case/case.hpp"
+#include "rondo/study/sweep/sweep_plan.hpp"
+#include "rondo/study/sweep/sweep_team.hpp"
+
+namespace rondo::study {
+
+struct PlannedMember {
+  Member member;
+  std::vector<std::string> settings;  ///< all of them, targets solved
+  std::vector<double> targets;        ///< (parameters) value found of a target; else 0
+  std::string hash;                   ///< of the case as run and its mesh
+  std::string body;                   ///< likewise of what members share: see body_key()
+  std::size_t memory_bytes = 0;       ///< at its largest
+  std::size_t disk_bytes = 0;
+  std::size_t nodes = 0, dofs = 0;
+  long long steps = 0;   ///< of a crush: increments
+  double seconds = 0.0;  ///< expected; 0: not asked for, or a crush
+  std::vector<std::string> warnings;
+};
+
+struct MembersRequest {
+  const SweepStudy& study;
+  bool seconds = false;  ///< estimate them
+  /// Takes what is counted, how many of them are done, how many there are; may be empty.
+  std::function<void(const char* what, long long done, long long all)> progress;
+
+  /// For TeamWork::watch.
+  [[nodiscard]] std::function<void(std::size_t)> watch(const char* what, std::size_t all) const;
+};
+
+struct PlannedSweep {
+  AnalysisKind kind = AnalysisKind::dynamic;
+  std::vector<PlannedMember> members;  ///< in the order of their numbers
+  /// Members in the order in which they are done: those that share a body one after the other, the
+  /// longest first.
+  std::vector<std::size_t> order;
+  bool stopped = false;  ///< before all was checked
+};
+
+/// Reads every member's case, solves targets, builds every member once. @throws InputError with all
+/// faults of all members, each once, with the members that it concerns; FileError
+[[nodiscard]] PlannedSweep plan_sweep(const MembersRequest& request, Team& team);
+
+/// @throws InputError
+[[nodiscard]] Case case_of(const SweepStudy& study, const PlannedMember& member);
+
+}  // namespace rondo::study

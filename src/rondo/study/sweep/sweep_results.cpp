@@ -1,0 +1,185 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "rondo/study/sweep/sweep_results.hpp"
+
+#include <fmt/format.h>
+
+#include <array>
+#include <charconv>
+#include <cmath>
+#include <limits>
+#include <map>
+
+#include "rondo/case/case_keys.hpp"
+#include "rondo/io/files.hpp"
+#include "rondo/io/h5/h5.hpp"
+#include "rondo/output/run_files.hpp"
+#include "rondo/study/sweep/sweep_figures.hpp"
+
+namespace rondo::study {
+namespace {
+
+constexpr double none = std::numeric_limits<double>::quiet_NaN();
+
+/// A field of a CSV file.
+std::string quoted(const std::string& text) {
+  if (text.find_first_of(",\"\n") == std::string::npos) return text;
+  std::string said(1, '"');
+  for (const char c : text) said.append(c == '"' ? 2 : 1, c);
+  said.push_back('"');
+  return said;
+}
+
+/// A string of TOML without its quotes.
+std::string plain(const std::string& toml) {
+  return toml.size() >= 2 && toml.front() == '"' ? toml.substr(1, toml.size() - 2) : toml;
+}
+
+std::string number_text(double value) {
+  return std::isnan(value) ? "nan" : fmt::format("{}", value);
+}
+
+std::string header(const SweepTables& t) {
+  std::string text = "run";
+  for (const Vary& vary : t.study.parameters) {
+    if (vary.is_target) text += fmt::format(",target.{}", target_force_y);
+    text += fmt::format(",{}", vary.key);
+  }
+  text += ",status,steps,end_time_s";
+  for (const FigureColumn& column : figure_columns(t.plan.kind))
+    text += fmt::format(",{}", column.name);
+  text.push_back('\n');
+  return text;
+}
+
+std::string line_of(const SweepTables& t, std::size_t m) {
+  const PlannedMember& member = t.plan.members[m];
+  const MemberRow& row = t.rows[m];
+  std::string text = fmt::format("{}", m + 1);
+  for (std::size_t k = 0; k < t.study.parameters.size(); ++k) {
+    text += fmt::format(",{}", quoted(plain(member.member.values[k])));
+    if (t.study.parameters[k].is_target) text += fmt::format(",{}", number_text(member.targets[k]));
+  }
+  text += fmt::format(",{},{},{}", name_of(row.status), row.steps, row.end_time);
+  for (std::size_t k = 0; k < figure_columns(t.plan.kind).size(); ++k)
+    text += fmt::format(",{}", number_text(row.figures.empty() ? none : row.figures[k]));
+  text.push_back('\n');
+  return text;
+}
+
+/// The number that a text is as a whole; NaN: it is none.
+double number_of(const std::string& text) {
+  double value = none;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+  return error == std::errc() && end == text.data() + text.size() ? value : none;
+}
+
+void write_column(io::h5::File& file, const std::string& name, const std::vector<double>& values,
+                  const io::h5::Label& label) {
+  file.write<double>(name, {values.size()}, values, label);
+}
+
+std::string unit_of(const Vary& vary) {
+  const CaseKey* key = find_case_key(vary.key);
+  return key && key->unit != "-" ? std::string(key->unit) : "1";
+}
+
+/// Numbers as they are; of texts and tables the place in a list, which is the attribute `values`.
+void write_parameter(io::h5::File& file, const SweepTables& t, std::size_t k) {
+  const Vary& vary = t.study.parameters[k];
+  std::vector<double> values, found;
+  for (const PlannedMember& member : t.plan.members) {
+    values.push_back(number_of(member.member.values[k]));
+    found.push_back(member.targets[k]);
+  }
+  const std::string name = "/parameters/" + vary.key;
+  if (vary.is_target) {
+    write_column(file, fmt::format("/parameters/target.{}", target_force_y), values,
+                 {"N/m", "vertical force of the ground asked for"});
+    return write_column(file, name, found, {unit_of(vary), "found for the target"});
+  }
+  const bool numbers = std::ranges::none_of(values, [](double value) { return std::isnan(value); });
+  if (numbers) return write_column(file, name, values, {unit_of(vary), "key of the case file"});
+  std::map<std::string, std::size_t> places;
+  std::string list;
+  for (std::size_t m = 0; m < values.size(); ++m) {
+    const std::string& text = t.plan.members[m].member.values[k];
+    const auto [place, is_new] = places.try_emplace(text, places.size());
+    if (is_new) list += plain(text) + '\n';
+    values[m] = static_cast<double>(place->second);
+  }
+  write_column(file, name, values, {"1", "key of the case file; place in the attribute values"});
+  file.set_attribute(name, "values", list);
+}
+
+void write_h5(const std::filesystem::path& path, const SweepTables& t) {
+  const io::UnfinishedFile beside(path.string() + ".new");
+  io::h5::File file = io::h5::File::create(beside.path);
+  file.set_attribute("/", "title", t.study.title);
+  for (std::size_t k = 0; k < t.study.parameters.size(); ++k) write_parameter(file, t, k);
+  std::vector<double> status, steps, end_time;
+  for (const MemberRow& row : t.rows) {
+    status.push_back(static_cast<double>(row.status));
+    steps.push_back(static_cast<double>(row.steps));
+    end_time.push_back(row.end_time);
+  }
+  write_column(file, "/status", status, {"1", "0 waiting, 1 done, 2 failed, 3 interrupted"});
+  write_column(file, "/steps", steps, {"1", "done; increments of a crush"});
+  write_column(file, "/end_time", end_time, {"s", "reached"});
+  const std::span<const FigureColumn> columns = figure_columns(t.plan.kind);
+  for (std::size_t k = 0; k < columns.size(); ++k) {
+    std::vector<double> values;
+    for (const MemberRow& row : t.rows)
+      values.push_back(row.figures.empty() ? none : row.figures[k]);
+    write_column(file, fmt::format("/figures/{}", columns[k].name), values,
+                 {std::string(columns[k].unit), std::string(columns[k].meaning)});
+  }
+  file.close();
+  io::replace_file(beside.path, path);
+}
+
+}  // namespace
+
+const char* name_of(MemberStatus status) noexcept {
+  static constexpr std::array names{"waiting", "done", "failed", "interrupted"};
+  return names[static_cast<std::size_t>(status)];
+}
+
+std::string packed(const MemberRow& row) {
+  Json j{{"status", static_cast<int>(row.status)},
+         {"code", row.code},
+         {"message", row.message},
+         {"kept", row.kept},
+         {"steps", row.steps},
+         {"end_time", row.end_time},
+         {"figures", row.figures},
+         {"wall_s", row.wall_s}};
+  return j.dump(-1, ' ', false, Json::error_handler_t::replace);
+}
+
+MemberRow unpacked(const std::string& text) {
+  const Json j = Json::parse(text);
+  MemberRow row;
+  row.status = static_cast<MemberStatus>(j["status"].get<int>());
+  row.code = j["code"].get<int>();
+  row.message = j["message"].get<std::string>();
+  row.kept = j["kept"].get<bool>();
+  row.steps = j["steps"].get<long long>();
+  row.end_time = j["end_time"].get<double>();
+  for (const Json& value : j["figures"])  // JSON has no NaN
+    row.figures.push_back(value.is_number() ? value.get<double>() : none);
+  row.wall_s = j["wall_s"].get<double>();
+  return row;
+}
+
+void write_tables(const std::filesystem::path& directory, const SweepTables& t) {
+  std::string table = header(t), timings = "run,worker,wall_s\n";
+  for (std::size_t m = 0; m < t.rows.size(); ++m) {
+    table += line_of(t, m);
+    timings += fmt::format("{},{},{:.6f}\n", m + 1, t.rows[m].worker + 1, t.rows[m].wall_s);
+  }
+  io::write_file(directory / "results.csv", table);
+  io::write_file(directory / "timings.csv", timings);
+  write_h5(directory / "sweep.h5", t);
+}
+
+}  // namespace rondo::study

@@ -1,0 +1,389 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "rondo/study/sweep/sweep_study.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <set>
+#include <string_view>
+#include <utility>
+
+#include "rondo/case/case_keys.hpp"
+#include "rondo/case/case_source.hpp"
+#include "rondo/case/toml_text.hpp"
+
+namespace rondo::study {
+namespace {
+
+constexpr std::array top_keys{"schema", "title", "base", "set", "snapshots"};
+constexpr std::array vary_keys{"key", "values", "linspace", "uniform", "target"};
+constexpr std::array sample_keys{"kind", "count", "seed"};
+constexpr std::array window_keys{"from", "to"};
+
+bool is_study_table(std::string_view path) {
+  const std::string any = without_indices(path);
+  return any == "sample" || any == "window" || any == "vary[].target";
+}
+
+bool is_study_list(std::string_view path) {
+  return path == "vary";
+}
+
+constexpr TomlShape study_shape{"a study file", is_study_table, is_study_list};
+
+template <std::size_t N>
+std::string list_of(const std::array<const char*, N>& words) {
+  std::string text;
+  for (const char* word : words) text += (text.empty() ? "" : ", ") + std::string(word);
+  return text;
+}
+
+/// The keys allowed beside one, in words.
+std::string allowed_beside(std::string_view path) {
+  const std::string table = without_indices(table_of(path));
+  if (table == "vary[]") return "in [[vary]]: " + list_of(vary_keys);
+  if (table == "vary[].target") return fmt::format("in target: {}", target_force_y);
+  if (table == "sample") return "in [sample]: " + list_of(sample_keys);
+  if (table == "window") return "in [window]: " + list_of(window_keys);
+  return "at the top: " + list_of(top_keys) + ", [[vary]], [sample], [window]";
+}
+
+bool is_known(std::string_view path) {
+  const std::string any = without_indices(path);
+  const auto in = [&](const auto& words, const std::string& table) {
+    return std::ranges::any_of(words, [&](const char* word) { return any == table + word; });
+  };
+  return in(top_keys, "") || in(vary_keys, "vary[].") || in(sample_keys, "sample.") ||
+         in(window_keys, "window.") || any == fmt::format("vary[].target.{}", target_force_y);
+}
+
+/// Reads the values of a study, and gathers all faults.
+class Reader {
+ public:
+  explicit Reader(CaseSource source) : source_(std::move(source)) {
+    for (const auto& [path, value] : source_.values)
+      if (!is_known(path)) fault(path, "unknown key", allowed_beside(path));
+  }
+
+  [[nodiscard]] const CaseValue* find(const std::string& path) const {
+    const auto found = source_.values.find(path);
+    return found == source_.values.end() ? nullptr : &found->second;
+  }
+  [[nodiscard]] bool has_table(const std::string& path) const {
+    return source_.tables.contains(path);
+  }
+  [[nodiscard]] std::size_t n_parameters() const {
+    const auto found = source_.lists.find("vary");
+    return found == source_.lists.end() ? 0 : found->second;
+  }
+  [[nodiscard]] int line_of(const std::string& path) const {
+    const auto found = source_.tables.find(path);
+    return found == source_.tables.end() ? 0 : found->second.line;
+  }
+
+  void fault(const std::string& path, std::string message, std::string allowed) {
+    const CaseValue* value = find(path);
+    Place place = value ? value->place : Place{};
+    if (!value) place.line = line_of(path);
+    const std::string found =
+        value && value->type != ValueType::table ? source_.written(place) : std::string();
+    faults_.push_back({source_.sources[0].name, place.line, place.column, path, found,
+                       std::move(message), std::move(allowed)});
+  }
+
+  /// Null, and a fault, where it is of another type.
+  const CaseValue* typed(const std::string& path, ValueType type, std::string_view allowed) {
+    const CaseValue* value = find(path);
+    if (!value || value->type == type) return value;
+    fault(path, fmt::format("must be {}, not {}", type_word(type), type_word(value->type)),
+          std::string(allowed));
+    return nullptr;
+  }
+
+  std::string text(const std::string& path, std::string_view allowed) {
+    const CaseValue* value = typed(path, ValueType::text, allowed);
+    if (value && value->text.empty()) fault(path, "is empty", std::string(allowed));
+    return value ? value->text : std::string();
+  }
+
+  std::optional<double> number(const std::string& path, std::string_view allowed) {
+    const CaseValue* value = find(path);
+    if (!value) return std::nullopt;
+    const bool right = value->type == ValueType::number || value->type == ValueType::integer;
+    if (right && std::isfinite(value->number)) return value->number;
+    fault(path, "must be a finite number", std::string(allowed));
+    return std::nullopt;
+  }
+
+  std::optional<std::int64_t> integer(const std::string& path, std::int64_t least,
+                                      std::int64_t most) {
+    const std::string allowed = fmt::format("an integer from {} to {}", least, most);
+    const CaseValue* value = typed(path, ValueType::integer, allowed);
+    if (!value) return std::nullopt;
+    if (value->integer >= least && value->integer <= most) return value->integer;
+    fault(path, "is out of bounds", allowed);
+    return std::nullopt;
+  }
+
+  /// `n` finite numbers; null, and a fault, where it is something else.
+  const CaseValue* numbers(const std::string& path, std::size_t n, std::string_view allowed) {
+    const CaseValue* value = find(path);
+    if (!value) return nullptr;
+    constexpr double most = 1e300;  // what lies between is a number too
+    const auto right = [](const CaseValue& v) {
+      return (v.type == ValueType::number || v.type == ValueType::integer) &&
+             std::abs(v.number) <= most;
+    };
+    if (value->type == ValueType::array && value->items.size() == n &&
+        std::ranges::all_of(value->items, right))
+      return value;
+    fault(path, fmt::format("must be {} finite numbers", n), std::string(allowed));
+    return nullptr;
+  }
+
+  void finish() {
+    std::ranges::stable_sort(faults_, {},
+                             [](const Fault& f) { return std::pair(f.line, f.column); });
+    if (!faults_.empty()) throw InputError(std::move(faults_));
+  }
+
+ private:
+  CaseSource source_;
+  std::vector<Fault> faults_;
+};
+
+void read_top(Reader& in, SweepStudy& study) {
+  constexpr std::string_view schema_allowed = "1";
+  const CaseValue* schema = in.typed("schema", ValueType::integer, schema_allowed);
+  if (!in.find("schema")) in.fault("schema", "is missing", "schema = 1");
+  if (schema && schema->integer != 1)
+    in.fault("schema", "is from another version of rondo; this one reads 1", "1");
+  if (!in.find("base"))
+    in.fault("base", "is missing", "base = \"case.toml\", relative to the study");
+  const std::string base = in.text("base", "a case file, relative to the study");
+  if (!base.empty()) study.base = study.file.parent_path() / base;
+  study.title = in.find("title") ? in.text("title", "any text") : study.file.stem().string();
+  if (const CaseValue* snapshots = in.typed("snapshots", ValueType::boolean, "true or false"))
+    study.snapshots = snapshots->boolean;
+  const CaseValue* set = in.typed("set", ValueType::array, "[\"a.b=value\", ...]");
+  if (!set) return;
+  for (const CaseValue& item : set->items) {
+    if (item.type == ValueType::text && item.text.find('=') != std::string::npos)
+      study.settings.push_back(item.text);
+    else
+      in.fault("set", "an item is not a setting", "[\"a.b=value\", ...]");
+  }
+}
+
+/// Values of equal distance, the ends as they are written; integers where all are.
+std::vector<std::string> linspace(const CaseValue& of, std::int64_t n) {
+  const CaseValue &from = of.items[0], &to = of.items[1];
+  constexpr double exact = 0x1p53;  // of the differences below
+  const bool whole = from.type == ValueType::integer && to.type == ValueType::integer &&
+                     std::abs(from.number) < exact && std::abs(to.number) < exact &&
+                     (to.integer - from.integer) % (n - 1) == 0;
+  std::vector<std::string> values;
+  for (std::int64_t k = 0; k < n; ++k) {
+    const double inner = from.number + (to.number - from.number) * static_cast<double>(k) /
+                                           static_cast<double>(n - 1);
+    const double value = k == n - 1 ? to.number : inner;
+    values.push_back(
+        whole ? fmt::format("{}", from.integer + (to.integer - from.integer) / (n - 1) * k)
+              : toml_number(value));
+  }
+  return values;
+}
+
+void read_linspace(Reader& in, const std::string& path, Vary& vary) {
+  constexpr std::string_view allowed = "[from, to, n], n an integer of at least 2";
+  const CaseValue* value = in.numbers(path, 3, allowed);
+  if (!value) return;
+  const CaseValue& n = value->items[2];
+  if (n.type != ValueType::integer || n.integer < 2 ||
+      n.integer > static_cast<std::int64_t>(most_members))
+    return in.fault(path, "is an empty range", std::string(allowed));
+  if (value->items[0].number == value->items[1].number)
+    return in.fault(path, "both ends are the same", "two different ends, or values = [...]");
+  vary.values = linspace(*value, n.integer);
+}
+
+void read_uniform(Reader& in, const std::string& path, Vary& vary) {
+  const CaseValue* value = in.numbers(path, 2, "[from, to], from < to");
+  if (!value) return;
+  if (!(value->items[0].number < value->items[1].number))
+    return in.fault(path, "is an empty range", "[from, to], from < to");
+  const CaseKey* key = find_case_key(vary.key);
+  if (key && key->type == KeyType::integer &&
+      (value->items[0].type != ValueType::integer || value->items[1].type != ValueType::integer))
+    return in.fault(path, "samples an integer key between ends that are not whole",
+                    "[from, to], integers");
+  vary.uniform = {value->items[0].number, value->items[1].number};
+}
+
+bool is_value_of_a_key(const CaseValue& value) {
+  if (value.type == ValueType::table || value.type == ValueType::date) return false;
+  return std::isfinite(value.number) && std::ranges::all_of(value.items, is_value_of_a_key);
+}
+
+void read_values(Reader& in, const std::string& path, Vary& vary) {
+  const CaseValue* value = in.typed(path, ValueType::array, "[value, ...]");
+  if (!value) return;
+  if (value->items.empty()) return in.fault(path, "is empty", "at least one value");
+  std::set<std::string> seen;
+  for (const CaseValue& item : value->items) {
+    if (!is_value_of_a_key(item))
+      return in.fault(path, "holds what no key of a case file can be",
+                      "finite numbers, strings, booleans, and arrays of these");
+    vary.values.push_back(toml_text(item));
+    const bool number = item.type == ValueType::integer || item.type == ValueType::number;
+    if (!seen.insert(number ? fmt::format("{}", item.number) : vary.values.back()).second)
+      return in.fault(path, fmt::format("{} stands there twice", vary.values.back()),
+                      "each value once");
+  }
+}
+
+void read_target(Reader& in, const std::string& table, Vary& vary) {
+  const std::string path = fmt::format("{}.target.{}", table, target_force_y);
+  vary.is_target = true;
+  if (vary.key != "motion.height" && vary.key != "analysis.depth")
+    in.fault(table + ".key", "has no target", "motion.height or analysis.depth");
+  if (!in.find(path))
+    return in.fault(table + ".target", "is missing a list of forces",
+                    fmt::format("target = {{ {} = [F, ...] }}, N/m", target_force_y));
+  read_values(in, path, vary);
+  const CaseValue* value = in.find(path);
+  if (value->type != ValueType::array) return;
+  for (const CaseValue& item : value->items)
+    if (!(item.number > 0.0) || !std::isfinite(item.number))
+      return in.fault(path, "holds what is no force", "numbers > 0, N/m");
+}
+
+void check_key(Reader& in, const std::string& path, const Vary& vary) {
+  if (vary.key.empty()) return;
+  const std::string_view near = nearest_key(vary.key);
+  if (vary.key == "schema" || vary.key == "title" || vary.key == "analysis.kind")
+    in.fault(path, "is the same in all members", "another key of the case file");
+  else if (vary.key.starts_with("output.probe"))
+    in.fault(path, "gives the columns of history.csv, which are the same in all members",
+             "another key of the case file");
+  else if (find_case_key(vary.key) == nullptr)
+    in.fault(path, "is no key of a case file",
+             near.empty() ? "a key, e.g. ground.friction" : fmt::format("did you mean {}?", near));
+}
+
+Vary read_vary(Reader& in, const std::string& table) {
+  Vary vary;
+  vary.line = in.line_of(table);
+  const std::string key = table + ".key";
+  if (!in.find(key)) in.fault(table, "has no key", "key = \"ground.friction\"");
+  vary.key = in.text(key, "a key of a case file, e.g. ground.friction");
+  check_key(in, key, vary);
+  int kinds = 0;
+  for (const char* kind : {"values", "linspace", "uniform"})
+    kinds += in.find(table + "." + kind) != nullptr ? 1 : 0;
+  const bool target = in.has_table(table + ".target");
+  if (in.find(table + ".target"))
+    in.fault(table + ".target", "must be a table", "target = { force_y = [F, ...] }");
+  if (kinds + (target ? 1 : 0) != 1)
+    in.fault(table, kinds == 0 && !target ? "has no values" : "has values twice",
+             "one of values, linspace, uniform, target");
+  if (in.find(table + ".values")) read_values(in, table + ".values", vary);
+  if (in.find(table + ".linspace")) read_linspace(in, table + ".linspace", vary);
+  if (in.find(table + ".uniform")) read_uniform(in, table + ".uniform", vary);
+  if (target) read_target(in, table, vary);
+  return vary;
+}
+
+void read_parameters(Reader& in, SweepStudy& study) {
+  if (in.n_parameters() == 0)
+    return in.fault("vary", in.find("vary") ? "must be a list of tables" : "nothing is varied",
+                    "[[vary]] with key and values");
+  std::set<std::string> seen;
+  for (std::size_t k = 0; k < in.n_parameters(); ++k) {
+    const std::string table = item_of("vary", k);
+    study.parameters.push_back(read_vary(in, table));
+    const std::string& key = study.parameters.back().key;
+    if (!key.empty() && !seen.insert(key).second)
+      in.fault(table + ".key", "is varied twice", "each key once");
+  }
+}
+
+/// The key that a setting is of.
+std::string key_of(const std::string& setting) {
+  std::string key = setting.substr(0, setting.find('='));
+  std::erase(key, ' ');
+  return key;
+}
+
+void read_sample(Reader& in, SweepStudy& study) {
+  const bool uniform = std::ranges::any_of(
+      study.parameters, [](const Vary& vary) { return vary.uniform.has_value(); });
+  if (!in.has_table("sample")) {
+    if (uniform)
+      in.fault("sample", "is missing: a parameter is uniform",
+               "[sample] with kind = \"latin-hypercube\", count, seed");
+    return;
+  }
+  if (!uniform)
+    in.fault("sample", "samples nothing", "uniform = [from, to] in a [[vary]], or no [sample]");
+  const std::string kind = in.text("sample.kind", "\"latin-hypercube\"");
+  if (in.find("sample.kind") && kind != "latin-hypercube")
+    in.fault("sample.kind", "is no kind of sample", "\"latin-hypercube\"");
+  if (!in.find("sample.count")) in.fault("sample.count", "is missing", "count = 200");
+  const auto count = in.integer("sample.count", 1, static_cast<std::int64_t>(most_members));
+  const auto seed = in.integer("sample.seed", 0, std::numeric_limits<std::int64_t>::max());
+  if (count)
+    study.sample = Sample{static_cast<int>(*count), static_cast<std::uint64_t>(seed.value_or(1))};
+}
+
+void read_window(Reader& in, SweepStudy& study) {
+  study.window.from = in.number("window.from", "a time, s");
+  study.window.to = in.number("window.to", "a time, s");
+  if (study.window.from && study.window.to && !(*study.window.from < *study.window.to))
+    in.fault("window.to", "is not after window.from", "from < to");
+}
+
+SweepStudy read(const std::filesystem::path& file, CaseSource source) {
+  Reader in(std::move(source));
+  SweepStudy study;
+  study.file = file;
+  read_top(in, study);
+  read_parameters(in, study);
+  read_sample(in, study);
+  read_window(in, study);
+  in.finish();
+  check_settings(study);
+  return study;
+}
+
+}  // namespace
+
+void check_settings(const SweepStudy& study) {
+  std::vector<Fault> faults;
+  const std::string file = study.file.string();
+  const auto is_hidden = [&](const std::string& key) {  // a target needs a value to begin with
+    return std::ranges::any_of(
+        study.parameters, [&](const Vary& vary) { return vary.key == key && !vary.is_target; });
+  };
+  for (const std::string& setting : study.settings)
+    if (is_hidden(key_of(setting)))
+      faults.push_back({file, 0, 0, "", setting, "sets a key that is varied", "another key"});
+  const auto is_snapshots = [](const std::string& key) { return key == "output.snapshots"; };
+  if (!study.snapshots && (std::ranges::any_of(study.parameters, is_snapshots, &Vary::key) ||
+                           std::ranges::any_of(study.settings, is_snapshots, key_of)))
+    faults.push_back({file, 0, 0, "output.snapshots", "", "the runs write no snapshots",
+                      "snapshots = true at the top of the study"});
+  if (!faults.empty()) throw InputError(std::move(faults));
+}
+
+SweepStudy read_study(const std::filesystem::path& file) {
+  return read(file, load_toml(file, study_shape));
+}
+
+SweepStudy read_study_text(const std::filesystem::path& file, std::string text) {
+  return read(file, load_toml_text(file.string(), std::move(text), study_shape));
+}
+
+}  // namespace rondo::study

@@ -1,0 +1,254 @@
+// SPDX-License-Identifier: BSD-3-Clause
+/// From a case with a mesh from a file to a setup.
+#include <gtest/gtest.h>
+
+#include <numeric>
+
+#include "rondo/analysis/build.hpp"
+#include "rondo/analysis/crush_build.hpp"
+#include "unit/analysis/mesh_fixture.hpp"
+
+namespace rondo::study {
+namespace {
+
+using namespace test;
+
+std::vector<Fault> faults_of_build(const MeshCaseFile& file,
+                                   const std::vector<std::string>& settings) {
+  try {
+    build(file.read(settings), 1);
+  } catch (const InputError& error) {
+    return error.faults();
+  }
+  return {};
+}
+
+double sum(const std::vector<double>& values) {
+  return std::accumulate(values.begin(), values.end(), 0.0);
+}
+
+TEST(BuildMesh, FreeBodiesAndTheirMaterials) {
+  const MeshCaseFile file(squares);
+  const auto s = build(file.read({"material.region=[{surface = 'right', density = 3000}]"}), 1);
+  ASSERT_EQ(s.model.free_bodies.size(), 2U);
+  EXPECT_NEAR(s.model.free_bodies[0].mass, 1000.0, 1e-10);
+  EXPECT_NEAR(s.model.free_bodies[1].mass, 3000.0, 1e-10);
+  EXPECT_NEAR(norm(s.model.free_bodies[1].center - Vec2{1.6, 0.5}), 0.0, 1e-14);
+  EXPECT_EQ(s.model.free.size(), 18U);
+  EXPECT_NEAR(sum(s.model.mass), 4000.0, 1e-10);
+  EXPECT_FALSE(s.model.contact);
+  EXPECT_FALSE(s.model.surfaces);
+  EXPECT_EQ(s.model.stiffness_operator, dynamics::StiffnessOperator::sparse);
+  EXPECT_TRUE(s.warnings.empty());
+}
+
+TEST(BuildMesh, ContactsAndPressuresGoIntoTheModel) {
+  const MeshCaseFile file(squares);
+  const auto s = build(file.read({"ground={profile = [[-9, -1], [9, -1]], friction = 0.25}",
+                                  "contact={between = 'all', friction = 0.5, restitution = 0.1}",
+                                  "load.pressure=[{curve = 'top', value = [[0, 0], [1, 7]]}]",
+                                  "solver={contact_iterations = 3, dump_contacts = 2}"}),
+                       1);
+  ASSERT_TRUE(s.model.contact);
+  EXPECT_EQ(s.model.contact->law.friction, 0.25);
+  EXPECT_EQ(s.model.contact->nodes, s.mesh.boundary);
+  ASSERT_TRUE(s.model.surfaces);
+  EXPECT_TRUE(s.model.surfaces->self);
+  EXPECT_EQ(s.model.surfaces->law.friction, 0.5);
+  EXPECT_EQ(s.model.surfaces->nodes, s.mesh.boundary);
+  EXPECT_EQ(s.model.surfaces->edges.size(), 16U);
+  ASSERT_EQ(s.model.pressures.size(), 1U);
+  EXPECT_EQ(s.model.pressures[0].edges.size(), 4U);
+  EXPECT_EQ(s.model.pressures[0].pressure.at(0.5), 3.5);
+  EXPECT_EQ(s.model.coupled.most_iterations, 3);
+  EXPECT_EQ(s.model.coupled.dump_above, 2);
+  EXPECT_FALSE(build(file.read({"contact.between=bodies"}), 1).model.surfaces->self);
+}
+
+/// Turned about the origin of the file, then moved; each turns about its own centre of mass.
+TEST(BuildMesh, FreeBodiesArePlacedAndMove) {
+  const MeshCaseFile file(squares);
+  const auto s = build(
+      file.read({"initial={position = [10.0, 20.0], angle = 1.5707963267948966, velocity = [1.0, "
+                 "2.0], angular_velocity = 3.0}",
+                 "initial.region=[{surface = 'right', velocity = [-4.0, 0.0]}]"}),
+      1);
+  const auto& right = s.model.free_bodies[1];
+  EXPECT_NEAR(norm(s.model.free_bodies[0].center - Vec2{9.5, 20.5}), 0.0, 1e-14);
+  EXPECT_NEAR(norm(right.center - Vec2{9.5, 21.6}), 0.0, 1e-14);
+  EXPECT_EQ(s.mesh.coordinates, s.model.reference);
+  Vec2 momentum;
+  double spin = 0.0;
+  for (const int node : right.nodes) {
+    const auto k = static_cast<std::size_t>(node);
+    const Vec2 arm = s.model.reference[k] - right.center;
+    momentum += s.model.mass[k] * s.velocity[k];
+    EXPECT_NEAR(norm(s.velocity[k] - Vec2{-4.0, 0.0} - 3.0 * turn90(arm)), 0.0, 1e-13);
+    spin += s.model.mass[k] * cross(arm, s.velocity[k]);
+  }
+  EXPECT_NEAR(norm(momentum / right.mass - Vec2{-4.0, 0.0}), 0.0, 1e-13);
+  EXPECT_GT(spin, 0.0);  // counter-clockwise
+  EXPECT_NEAR(norm(s.velocity[0] - (Vec2{1.0, 2.0} + 3.0 * turn90(s.model.reference[0] -
+                                                                  s.model.free_bodies[0].center))),
+              0.0, 1e-13);
+}
+
+/// Only "left" has a node on the line that is held: it turns with the rim, "right" is free.
+TEST(BuildMesh, HeldAndFreeTogether) {
+  std::string text = two_squares(0.1);
+  text.replace(text.find("\n1 1 2 1 1 1 2\n"), 15, "\n1 1 2 6 6 1 2\n");
+  text.replace(text.find("$PhysicalNames\n5\n"), 17, "$PhysicalNames\n6\n1 6 \"rim\"\n");
+  const MeshCaseFile file(squares);
+  std::ofstream(file.mesh()) << text;
+  const auto s =
+      build(file.read({"mesh.clamped=rim", "initial.state=stationary",
+                       "motion={angular_velocity = 5, speed = 0, height = 0}",
+                       "initial.position=[0.0, 0.5]", "material.stress_stiffening=centrifugal"}),
+            1);
+  ASSERT_EQ(s.model.free_bodies.size(), 1U);
+  EXPECT_EQ(s.model.free_body[0], -1);
+  EXPECT_EQ(s.model.free_body[9], 0);
+  EXPECT_EQ(held_nodes(s.model).size(), 7U);  // two of nine are held
+  EXPECT_EQ(s.model.reference[9], (Vec2{1.1, 0.5}));
+  EXPECT_GT(norm(s.displacement[8]), 1e-6);  // the spin stretches what is held...
+  EXPECT_GT(norm(s.prestress[8]), 1e-6);
+  EXPECT_EQ(s.displacement[17], Vec2{});  // ... and nothing else
+  EXPECT_EQ(s.prestress[17], Vec2{});
+  const auto faults = faults_of_build(
+      file, {"mesh.clamped=rim", "motion={angular_velocity = 5, speed = 0, height = 0}",
+             "time.scheme=as-printed"});
+  ASSERT_EQ(faults.size(), 1U);
+  EXPECT_EQ(faults[0].key, "time.scheme");
+}
+
+TEST(BuildMesh, AFreeDiskTurnsAsAWhole) {
+  const auto s = build(read_text("schema = 1\n"
+                                 "disk = {outer_radius = 0.3, inner_radius = 0.1, rim = 'free', "
+                                 "mesh = {radial = 3, circumferential = 20}}\n"
+                                 "material = {youngs_modulus = 1e6, poissons_ratio = 0.3, "
+                                 "density = 1000}\ninitial.angular_velocity = 2\n"
+                                 "load.pressure = [{curve = 'rim', value = 1}]\ntime.end = 0.01\n"),
+                       1);
+  EXPECT_EQ(s.model.free_bodies.size(), 1U);
+  EXPECT_EQ(s.model.free.size(), s.model.n_nodes());
+  EXPECT_EQ(s.mesh.n_sectors, 0);
+  EXPECT_FALSE(s.model.sector);
+  EXPECT_NEAR(s.velocity[0].x, 0.2, 1e-15);  // node 0 is at (0, -0.1)
+  // Clockwise, so that the outward normal, on the right, points to the centre.
+  ASSERT_EQ(s.model.pressures[0].edges.size(), 20U);
+  const auto& edge = s.model.pressures[0].edges[0];
+  const Vec2 a = s.model.reference[static_cast<std::size_t>(edge[0])],
+             b = s.model.reference[static_cast<std::size_t>(edge[1])];
+  EXPECT_GT(dot(-turn90(b - a), -0.5 * (a + b)), 0.0);
+}
+
+TEST(WrongMeshes, NamesAreToldAtTheirKeys) {
+  const MeshCaseFile file(squares);
+  const auto told = [&](const std::vector<std::string>& settings) {
+    const auto faults = faults_of_build(file, settings);
+    EXPECT_EQ(faults.size(), 1U) << settings[0];
+    return faults.empty() ? Fault{} : faults[0];
+  };
+  const Fault contact = told({"mesh.contact=skn"});
+  EXPECT_EQ(contact.key, "mesh.contact");
+  EXPECT_EQ(contact.file, "--set mesh.contact=skn");
+  EXPECT_NE(contact.message.find("squares.msh"), std::string::npos);
+  EXPECT_NE(contact.allowed.find("did you mean \"skin\"?"), std::string::npos);
+  EXPECT_EQ(told({"mesh.clamped=rim", "motion={angular_velocity = 5, speed = 0, height = 0}"}).key,
+            "mesh.clamped");
+  EXPECT_EQ(told({"load.pressure=[{curve = 'top', value = 1}, {curve = 'x', value = 1}]"}).key,
+            "load.pressure[1].curve");
+  EXPECT_EQ(told({"material.region=[{surface = 'x'}]"}).key, "material.region[0].surface");
+  EXPECT_EQ(told({"initial.region=[{surface = 'skin'}]"}).key, "initial.region[0].surface");
+  EXPECT_EQ(told({"mesh.file=other.msh"}).key, "mesh.file");
+}
+
+TEST(WrongMeshes, TheFileItselfIsNamed) {
+  const MeshCaseFile file(squares);
+  std::ofstream(file.mesh()) << "no mesh";
+  const auto faults = faults_of_build(file, {});
+  ASSERT_EQ(faults.size(), 1U);
+  EXPECT_EQ(faults[0].file, file.mesh().string());
+}
+
+TEST(WrongMeshes, WhatIsOfFreeBodiesAlone) {
+  const MeshCaseFile file(squares);
+  const std::vector<std::string> held{"mesh.clamped=foot", "mesh.contact=top",
+                                      "motion={angular_velocity = 5, speed = 0, height = 0}"};
+  EXPECT_TRUE(faults_of_build(file, held).empty());
+  for (const char* setting :
+       {"initial.position=[0, 1]", "initial.angle=1", "initial.angular_velocity=1",
+        "initial.region=[{surface = 'left'}]"}) {
+    auto settings = held;
+    settings.emplace_back(setting);
+    const auto faults = faults_of_build(file, settings);
+    ASSERT_EQ(faults.size(), 1U) << setting;
+    EXPECT_NE(faults[0].message.find("the mesh has none"), std::string::npos);
+  }
+}
+
+TEST(WrongMeshes, BodiesInTheGround) {
+  const MeshCaseFile file(squares);
+  const auto faults = faults_of_build(file, {"ground={profile = [[-9, 0.3], [9, 0.3]]}"});
+  ASSERT_EQ(faults.size(), 1U);  // cells are 0.5 m
+  EXPECT_EQ(faults[0].key, "initial.position");
+  EXPECT_NE(faults[0].message.find("0.3 m deep"), std::string::npos) << faults[0].text();
+  EXPECT_EQ(build(file.read({"ground={profile = [[-9, 0.2], [9, 0.2]]}"}), 1).warnings.size(), 1U);
+}
+
+/// Found by fuzzing: the nodes of a cell were all at one place.
+TEST(WrongMeshes, BodiesTooFarAwayForTheNumbers) {
+  const MeshCaseFile file(squares);
+  const auto faults = faults_of_build(file, {"initial.position=[1e-9, 1e300]"});
+  ASSERT_EQ(faults.size(), 1U);
+  EXPECT_EQ(faults[0].key, "initial.position");
+  EXPECT_NE(faults[0].message.find("do not resolve"), std::string::npos) << faults[0].text();
+}
+
+TEST(WrongMeshes, BodiesInEachOther) {
+  const MeshCaseFile deep(squares, -0.3), shallow(squares, -0.2), touching(squares, 0.0);
+  const auto faults = faults_of_build(deep, {"contact.between=bodies"});
+  ASSERT_EQ(faults.size(), 1U);
+  EXPECT_EQ(faults[0].key, "contact.between");
+  EXPECT_NE(faults[0].message.find("0.3 m inside each other"), std::string::npos);
+  EXPECT_TRUE(faults_of_build(deep, {}).empty());  // they do not touch each other
+  EXPECT_EQ(build(shallow.read({"contact.between=bodies"}), 1).warnings.size(), 1U);
+  for (const auto& warning : build(touching.read({"contact.between=bodies"}), 1).warnings)
+    EXPECT_EQ(warning.find("inside"), std::string::npos) << warning;
+}
+
+TEST(WrongMeshes, OneBodyWithTwoMotions) {
+  std::string text = two_squares(0.1);
+  const auto at = text.rfind(" 3 2 4 4 ");  // the last cell of the left square goes to "right"
+  text.replace(at, 9, " 3 2 5 5 ");
+  const MeshCaseFile file(squares);
+  std::ofstream(file.mesh()) << text;
+  const std::string regions =
+      "initial.region=[{{surface = 'left', velocity = [1, 0]}}, {{surface "
+      "= 'right', velocity = [{}, 0]}}]";
+  EXPECT_TRUE(faults_of_build(file, {fmt::format(fmt::runtime(regions), 1)}).empty());
+  const auto faults = faults_of_build(file, {fmt::format(fmt::runtime(regions), 2)});
+  ASSERT_EQ(faults.size(), 1U);
+  EXPECT_EQ(faults[0].key, "initial.region[1].surface");
+  EXPECT_NE(faults[0].message.find("\"left\", which moves otherwise"), std::string::npos);
+}
+
+TEST(WrongMeshes, ACrushNeedsEveryBodyHeld) {
+  const MeshCaseFile file(squares);
+  const std::vector<std::string> crush{"analysis={kind = 'crush', depth = 0.01, increments = 2}",
+                                       "ground.profile=flat", "mesh.clamped=top",
+                                       "mesh.contact=foot"};
+  const auto setup = build_crush(file.read(crush));
+  EXPECT_EQ(setup.model.nodes.size(), 6U);
+  EXPECT_EQ(setup.within_reach, 6U);
+  auto free = crush;
+  free[2] = "mesh.clamped=rim";
+  std::string text = two_squares(0.1);
+  text.replace(text.find("\n1 1 2 1 1 1 2\n"), 15, "\n1 1 2 6 6 1 2\n");
+  text.replace(text.find("$PhysicalNames\n5\n"), 17, "$PhysicalNames\n6\n1 6 \"rim\"\n");
+  std::ofstream(file.mesh()) << text;
+  EXPECT_THROW(build_crush(file.read(free)), InputError);
+}
+
+}  // namespace
+}  // namespace rondo::study

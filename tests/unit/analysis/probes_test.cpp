@@ -1,0 +1,97 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "rondo/output/probes.hpp"
+
+#include <gtest/gtest.h>
+
+#include "rondo/analysis/build.hpp"
+#include "unit/analysis/mesh_fixture.hpp"
+
+namespace rondo::study {
+namespace {
+
+using namespace test;
+
+TEST(Probes, OutsideIsRefusedWithTheDistance) {
+  const MeshCaseFile file(squares, 0.5);
+  try {
+    build(file.read({"output.probe=[{name = 'a', position = [0.5, 0.5]}, {name = 'b', position = "
+                     "[1.2, 0.5]}]"}),
+          1);
+    FAIL() << "a probe between the bodies";
+  } catch (const InputError& error) {
+    ASSERT_EQ(error.faults().size(), 1U);
+    EXPECT_EQ(error.faults()[0].key, "output.probe[1].position");
+    EXPECT_NE(error.faults()[0].message.find("0.2 m away"), std::string::npos);
+  }
+}
+
+/// A probe stays with its body, which is turned by a quarter and moved.
+TEST(Probes, AreInTheMeshBeforeBodiesArePlaced) {
+  const MeshCaseFile file(squares);
+  const auto s =
+      build(file.read({"output.probe[0].name=p", "output.probe[0].position=[0.2, 0.9]",
+                       "initial.angle=1.5707963267948966", "initial.position=[3.0, 0.0]"}),
+            1);
+  ASSERT_EQ(s.probes.size(), 1U);
+  Vec2 x;
+  for (std::size_t a = 0; a < 4; ++a)
+    x += s.probes[0].weight[a] *
+         s.model.reference[static_cast<std::size_t>(s.mesh.cells[s.probes[0].cell][a])];
+  EXPECT_NEAR(norm(x - Vec2{3.0 - 0.9, 0.2}), 0.0, 1e-14);  // round-off of 3 m
+}
+
+/// Linear displacement and velocity: exact everywhere, stress too.
+TEST(Probes, OfAHeldBodyAreInTheTurningFrame) {
+  const MeshCaseFile file(squares);
+  const auto s = build(file.read({"output.probe[0].name=p", "output.probe[0].position=[0.2, 0.9]",
+                                  "mesh.clamped=foot", "mesh.contact=top",
+                                  "motion={angular_velocity = 5, speed = 0, height = 0}"}),
+                       1);
+  dynamics::State state(s.model);
+  for (std::size_t k = 0; k < s.model.n_nodes(); ++k) {
+    state.u[k] = {1e-3 * s.model.reference[k].x, 0.0};
+    state.v[k] = {0.0, s.model.reference[k].y};
+  }
+  std::vector<double> row;
+  append_probes({s.mesh, s.materials, s.model}, s.probes, state, row);
+  const fem::Hooke d = fem::hooke(s.materials[0]);
+  const std::vector<double> expected{
+      2e-4, 0.0, 0.0, 0.9, 1e-3 * d.d11, 1e-3 * d.d12, 1e-3 * d.zz * (d.d11 + d.d12), 0.0};
+  ASSERT_EQ(row.size(), expected.size());
+  for (std::size_t i = 0; i < row.size(); ++i)
+    EXPECT_NEAR(row[i], expected[i], 1e-14 * std::max(1.0, d.d11 * 1e-3)) << i;
+}
+
+/// A stretched body, turned by a quarter: its stress has turned with it.
+TEST(Probes, OfAFreeBodyAreInTheFixedFrame) {
+  const MeshCaseFile file(squares);
+  const auto s =
+      build(file.read({"output.probe[0].name=p", "output.probe[0].position=[0.5, 0.5]"}), 1);
+  dynamics::State state(s.model);
+  const Vec2 center = s.model.free_bodies[0].center, moved{7.0, 8.0};
+  state.poses[0] = {moved, {0.0, 1.0}, 0.0};
+  for (const int node : s.model.free_bodies[0].nodes) {
+    const auto k = static_cast<std::size_t>(node);
+    const Vec2 arm = s.model.reference[k] - center;
+    state.u[k] = moved + turn90({1.001 * arm.x, arm.y}) - s.model.reference[k];
+  }
+  std::vector<double> row;
+  append_probes({s.mesh, s.materials, s.model}, s.probes, state, row);
+  const fem::Hooke d = fem::hooke(s.materials[0]);
+  ASSERT_EQ(row.size(), 8U);
+  EXPECT_NEAR(row[0], 6.5, 1e-14);
+  EXPECT_NEAR(row[1], 7.5, 1e-14);
+  const double bound = 1e-9 * d.d11;  // round-off of places of 8 m in strains of 1e-3
+  EXPECT_NEAR(row[4], 1e-3 * d.d12, bound);
+  EXPECT_NEAR(row[5], 1e-3 * d.d11, bound);
+  EXPECT_NEAR(row[7], 0.0, bound);
+}
+
+TEST(Probes, ColumnsAreNamed) {
+  EXPECT_EQ(probe_columns({{"a-1", {}}}),
+            (std::vector<std::string>{"a-1_ux", "a-1_uy", "a-1_vx", "a-1_vy", "a-1_sxx", "a-1_syy",
+                                      "a-1_szz", "a-1_sxy"}));
+}
+
+}  // namespace
+}  // namespace rondo::study

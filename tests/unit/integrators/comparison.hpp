@@ -1,0 +1,127 @@
+// SPDX-License-Identifier: BSD-3-Clause
+/// @file  Steps of the reference beside those of an operator: how far two runs differ.
+#pragma once
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+#include <vector>
+
+#include "rondo/integrators/integrator.hpp"
+#include "rondo/integrators/stepper.hpp"
+
+namespace rondo::test {
+
+/// One step of the reference, reported as an integrator does.
+inline dynamics::StepReport reference_step(const dynamics::Model& model, dynamics::State& state,
+                                           dynamics::Ledger& ledger) {
+  dynamics::StepReport report;
+  report.contact = advance(model, state, ledger);
+  report.step = state.step;
+  report.frame = state.frame;
+  report.balance = ledger.last();
+  return report;
+}
+
+/// The largest difference of quantities of a kind, and their largest size.
+struct Difference {
+  double error = 0.0, size = 0.0;
+
+  void see(double a, double b) {
+    size = std::max(size, std::abs(a));
+    if (!(std::abs(a - b) <= error)) error = std::abs(a - b);  // NaN comes through
+  }
+  void see(Vec2 a, Vec2 b) {
+    see(a.x, b.x);
+    see(a.y, b.y);
+  }
+  void see(const std::vector<Vec2>& a, const std::vector<Vec2>& b) {
+    ASSERT_EQ(a.size(), b.size());
+    for (std::size_t i = 0; i < a.size(); ++i) see(a[i], b[i]);
+  }
+};
+
+/// Two runs: decisions are the same, quantities differ by round-off.
+class Comparison {
+ public:
+  void see(const dynamics::StepReport& a, const dynamics::StepReport& b) {
+    ASSERT_EQ(a.step, b.step);
+    ASSERT_EQ(a.frame.time, b.frame.time);
+    ASSERT_EQ(a.frame.rotation, b.frame.rotation);
+    ASSERT_EQ(a.frame.center, b.frame.center);
+    const dynamics::ContactReport &c = a.contact, &d = b.contact;
+    ASSERT_EQ(c.nodes, d.nodes) << "step " << a.step;
+    ASSERT_EQ(c.sticking, d.sticking) << "step " << a.step;
+    ASSERT_EQ(c.pairs, d.pairs) << "step " << a.step;
+    ASSERT_EQ(c.pairs_not_converged, d.pairs_not_converged) << "step " << a.step;
+    impulse_.see(c.impulse, d.impulse);
+    impulse_.see(c.angular_impulse / radius, d.angular_impulse / radius);
+    length_.see(c.length, d.length);
+    gap_.see(c.penetration, d.penetration);
+    slip_.see(c.free_velocity, d.free_velocity);
+    work_.see(c.work, d.work);
+    work_.see(c.dissipation_friction, d.dissipation_friction);
+    work_.see(c.loss_impact, d.loss_impact);
+    work_.see(c.work_rim, d.work_rim);
+    see(a.balance, b.balance);
+  }
+  void see(const dynamics::State& a, const dynamics::State& b) {
+    ASSERT_EQ(a.step, b.step);
+    ASSERT_EQ(a.frame.angle, b.frame.angle);
+    u_.see(a.u, b.u);
+    v_.see(a.v, b.v);
+    v_.see(a.v_next, b.v_next);
+    ASSERT_EQ(a.active.size(), b.active.size());
+    for (std::size_t i = 0; i < a.active.size(); ++i) see(a.active[i], b.active[i]);
+  }
+  void expect_within(double bound) const {
+    for (const auto& [kind, d] : {std::pair{"displacement", u_},
+                                  {"velocity", v_},
+                                  {"impulse", impulse_},
+                                  {"length in contact", length_},
+                                  {"gap", gap_},
+                                  {"normal", normal_},
+                                  {"relative velocity", slip_},
+                                  {"work of a step", work_},
+                                  {"energy", energy_}})
+      EXPECT_LE(d.error, bound * d.size) << kind;
+  }
+
+ private:
+  static constexpr double radius = 0.3;  // of the disk [m]
+
+  void see(const dynamics::Balance& a, const dynamics::Balance& b) {
+    const dynamics::Works &w = a.works, &x = b.works;
+    for (const auto& [of_a, of_b] : {std::pair{a.kinetic, b.kinetic},
+                                     {a.strain, b.strain},
+                                     {w.frame, x.frame},
+                                     {w.contact, x.contact},
+                                     {w.dissipation_friction, x.dissipation_friction},
+                                     {w.loss_impact, x.loss_impact},
+                                     {w.rim, x.rim},
+                                     {w.dissipation_mass, x.dissipation_mass},
+                                     {w.dissipation_stiffness, x.dissipation_stiffness},
+                                     {w.scheme, x.scheme},
+                                     {a.exchanged, b.exchanged},
+                                     {a.otherwise, b.otherwise},
+                                     {a.residual, b.residual}})
+      energy_.see(of_a, of_b);
+  }
+  void see(const dynamics::ActiveContact& a, const dynamics::ActiveContact& b) {
+    ASSERT_EQ(a.candidate, b.candidate);
+    ASSERT_EQ(a.status, b.status);
+    normal_.see(a.normal, b.normal);
+    gap_.see(a.gap, b.gap);
+    slip_.see(a.before, b.before);
+    slip_.see(a.free, b.free);
+    slip_.see(a.after, b.after);
+    slip_.see(a.bounce, b.bounce);
+    impulse_.see(a.impulse, b.impulse);
+  }
+
+  Difference u_, v_, impulse_, length_, normal_, slip_, work_, energy_;
+  Difference gap_{0.0, radius};  // a difference of positions of that size
+};
+
+}  // namespace rondo::test

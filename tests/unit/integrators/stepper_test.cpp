@@ -1,0 +1,184 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "rondo/integrators/stepper.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <random>
+
+#include "integrator_cases.hpp"
+#include "support/models.hpp"
+#include "support/traps.hpp"
+
+using namespace rondo;
+using namespace rondo::dynamics;
+
+namespace {
+
+/// One particle without stiffness, held by nothing.
+Model particle(const Motion& motion, Vec2 place, double dt) {
+  Model m;
+  m.reference = {place};
+  m.mass = {2.0};
+  m.free = {0};
+  m.stiffness.row_start = {0, 0};
+  m.motion = motion;
+  m.dt = dt;
+  return m;
+}
+
+double distance_after(const Motion& motion, double end, int steps) {
+  const Vec2 place{0.3, -0.1};
+  const Model model = particle(motion, place, end / steps);
+  const std::vector<Vec2> u0{{0.01, 0.02}}, v0{{0.5, -0.3}};
+  State state = start(model, u0, v0);
+  Ledger ledger;
+  for (int n = 0; n < steps; ++n) static_cast<void>(advance(model, state, ledger));
+  // In the fixed frame: a parabola, whatever the frame does.
+  const FrameStep f = frame_step(motion, 0, model.dt);
+  const Vec2 x0 = f.center + place + u0[0];
+  const Vec2 speed = f.advance / model.dt;
+  const Vec2 v = Vec2{motion.speed.at(0.0), speed.y} + turn90(f.spin * (place + u0[0])) + v0[0];
+  const Vec2 expected = x0 + end * v + 0.5 * end * end * Vec2{0.0, -motion.gravity.at(0.0)};
+  return norm(position(model, state, 0) - expected);
+}
+
+}  // namespace
+
+/// Centrifugal, Coriolis, Euler and translation terms and gravity in one, knots of the tables
+/// included: second order in Δt.
+TEST(Stepper, AFreeParticleFallsOnAParabolaInAnyFrame) {
+  Motion motion;
+  motion.angular_velocity = Table({{0.0, 3.0}, {0.333, 20.0}, {1.0, 9.0}});
+  motion.speed = Table({{0.0, 2.0}, {0.417, 5.0}, {1.0, -3.0}});
+  motion.height = Table({{0.0, 1.0}, {1.0, 0.4}});
+  motion.gravity = Table(9.81);
+  const double coarse = distance_after(motion, 0.8, 8000),
+               fine = distance_after(motion, 0.8, 16000);
+  EXPECT_LT(coarse, 1e-4);  // of some 3 m, at up to 20 rad/s
+  EXPECT_NEAR(std::log2(coarse / fine), 2.0, 0.05);
+}
+
+TEST(Stepper, MassDampingIsTheMidpointDecay) {
+  Model model = particle({}, {0.0, 0.0}, 1e-3);
+  model.mass_damping = 50.0;
+  const std::vector<Vec2> u0{{0.0, 0.0}}, v0{{1.0, 0.0}};
+  State state = start(model, u0, v0);
+  Ledger ledger;
+  for (int n = 0; n < 100; ++n) static_cast<void>(advance(model, state, ledger));
+  const double x = 0.5 * 1e-3 * 50.0;
+  const double expected = (1 - x / 2) / (1 + x / 2) * std::pow((1 - x) / (1 + x), 100);
+  EXPECT_NEAR(state.v_next[0].x, expected, 1e-15);
+}
+
+/// What the law sees is what the body does: w⁺ Δt is the increment of the position in the next
+/// step.
+TEST(Stepper, LawVelocityIsTheDiscreteMotion) {
+  auto b = test::build(test::rolling_disk(4, 40));
+  test::add_ground(b, test::ledge(), {0.3, 0.0});
+  State state = test::start_at_rest(b.model);
+  Ledger ledger;
+  const test::FloatingPointTraps traps;
+  int seen = 0, stuck = 0;
+  for (int n = 0; n < 600; ++n) {
+    static_cast<void>(advance(b.model, state, ledger));
+    const auto active = state.active;
+    std::vector<Vec2> before;
+    for (const auto& c : active)
+      before.push_back(
+          position(b.model, state, static_cast<std::size_t>(b.model.contact->nodes[c.candidate])));
+    static_cast<void>(advance(b.model, state, ledger));
+    for (std::size_t i = 0; i < active.size(); ++i) {
+      const auto node = static_cast<std::size_t>(b.model.contact->nodes[active[i].candidate]);
+      const Vec2 move = position(b.model, state, node) - before[i];
+      // Two positions of about 0.5 m, each the sum of three products: some 16 roundings of 6e-17.
+      ASSERT_LT(norm(conj(active[i].normal) * move - b.model.dt * active[i].after), 2e-15);
+      ++seen;
+      if (active[i].status != contact::Status::stick) continue;
+      ASSERT_LT(norm(move), 2e-15);  // it sticks: it does not creep
+      ++stuck;
+    }
+  }
+  EXPECT_GT(seen, 500);
+  EXPECT_GT(stuck, 100);
+}
+
+TEST(Stepper, ABallBouncesWithItsRestitution) {
+  Motion motion;
+  motion.gravity = Table(9.81);
+  Model model = particle(motion, {0.0, 1.0}, 1e-5);
+  model.contact.emplace(
+      ContactModel{contact::Ground(contact::GroundShape{}), {0.0, 0.5}, {0}, {1.0}});
+  const std::vector<Vec2> zero(1);
+  State state = start(model, zero, zero);
+  Ledger ledger;
+  double impact = 0.0, apex = 0.0;
+  for (int n = 0; n < 90000; ++n) {
+    const ContactReport r = advance(model, state, ledger);
+    if (r.nodes > 0 && impact == 0.0) impact = state.frame.time;
+    if (impact > 0.0 && state.frame.time < impact + 0.45)
+      apex = std::max(apex, position(model, state, 0).y);
+  }
+  EXPECT_NEAR(impact, 0.451524, 2e-5);  // √(2h/g), seen at the next step
+  EXPECT_NEAR(apex, 0.25, 1e-4);        // e² h; the impact is late by up to a step: v Δt
+}
+
+/// Two facets at once, the foot of a wall: the bounce is that of both, with friction it stays.
+TEST(Stepper, AConcaveCornerStopsByBothFacets) {
+  const contact::GroundShape foot{.profile = {{-9, 0}, {0, 0}, {0, 1}, {9, 1}}, .fillet = 0.1};
+  for (const contact::Law law : {contact::Law{0.0, 0.5}, contact::Law{0.3, 0.0}}) {
+    Model model = particle({}, {-0.199, 0.0995}, 1e-3);
+    model.contact.emplace(ContactModel{contact::Ground(foot), law, {0}, {1.0}});
+    const std::vector<Vec2> zero(1), v0{{2.0, -1.0}};
+    State state = start(model, zero, v0);
+    Ledger ledger;
+    int pairs = 0;
+    for (int n = 0; n < 150; ++n) {
+      const ContactReport r = advance(model, state, ledger);
+      pairs += r.pairs;
+      EXPECT_EQ(r.pairs_not_converged, 0);
+      if (r.pairs == 0 || pairs > 1) continue;
+      EXPECT_LT(norm(r.impulse - 2.0 * (1.0 + law.restitution) * Vec2{-2.0, 1.0}), 1e-14);
+      EXPECT_LT(norm(state.v_next[0] + law.restitution * v0[0]), 1e-15);
+    }
+    EXPECT_GT(pairs, 0);
+    EXPECT_LT(norm(state.v_next[0] + law.restitution * v0[0]), 1e-15);
+    EXPECT_LT(ledger.last().relative, 1e-14);
+  }
+}
+
+/// What V1 asks of the operators, of the reference: every term, contacts, both schemes.
+TEST(Stepper, ClosesItsLedger) {
+  for (const Scheme scheme : {Scheme::symplectic, Scheme::as_printed}) {
+    test::RollingCase c = test::everything("", 3, 60);
+    c.disk.scheme = scheme;
+    const test::Built b = test::build(c);
+    State state = start(b.model, test::some_displacement(b), test::some_velocity(b));
+    Ledger ledger;
+    const test::FloatingPointTraps traps;
+    int contacts = 0;
+    for (int n = 0; n < 1000; ++n) contacts += advance(b.model, state, ledger).nodes;
+    const Works& w = ledger.last().works;
+    EXPECT_GT(contacts, 500);
+    EXPECT_LT(ledger.last().relative, 2e-14);  // √(1,000 × 20) roundings of 1e-16
+    EXPECT_LT(std::abs(w.contact - (w.rim - w.dissipation_friction - w.loss_impact)),
+              1e-12 * ledger.last().exchanged);
+    EXPECT_GT(w.dissipation_friction, 1.0);
+    EXPECT_GT(w.dissipation_mass, 0.1);
+    EXPECT_GT(w.dissipation_stiffness, 0.1);
+    EXPECT_EQ(w.scheme == 0.0, scheme == Scheme::symplectic);
+  }
+}
+
+TEST(Stepper, ClampedNodesStayClamped) {
+  auto b = test::build(test::rolling_disk(3, 30));
+  test::add_ground(b, test::ledge(), {0.6, 0.0});
+  const std::vector<Vec2> ones(b.model.n_nodes(), Vec2{1.0, 1.0});
+  State state = start(b.model, std::vector<Vec2>(b.model.n_nodes()), ones);
+  Ledger ledger;
+  for (int n = 0; n < 500; ++n) static_cast<void>(advance(b.model, state, ledger));
+  for (const int node : b.mesh.clamped) {
+    EXPECT_EQ(state.u[static_cast<std::size_t>(node)], Vec2{});
+    EXPECT_EQ(state.v_next[static_cast<std::size_t>(node)], Vec2{});
+  }
+}
