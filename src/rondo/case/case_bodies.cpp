@@ -99,7 +99,6 @@ std::string_view why_not_cyclic(const Case& c) {
   if (c.mesh) return "a mesh from a file is not known to be of equal sectors";
   if (c.free_rim) return "a free disk does not stay in the turning frame of its sectors";
   if (c.body_contact.between != BodyContact::none) return "there is a [contact] of bodies";
-  if (!c.pressures.empty()) return "there is a [[load.pressure]]";
   if (c.ground && has_sharp_corner(c.ground->shape)) return "the ground has a sharp convex corner";
   return {};
 }

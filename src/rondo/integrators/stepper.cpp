@@ -15,8 +15,8 @@ namespace {
 
 /// f/m at t_{n+1} (3.2).
 Vec2 acceleration(const Model& model, const State& state, const FrameStep& frame, std::size_t k,
-                  Vec2 stiffness_rate) noexcept {
-  const Vec2 elastic = state.force[k] + model.stiffness_damping * stiffness_rate;
+                  Vec2 stiffness_rate, Vec2 load = {}) noexcept {
+  const Vec2 elastic = state.force[k] - load + model.stiffness_damping * stiffness_rate;
   return -(elastic / model.mass[k]) - frame_acceleration(frame, model.reference[k] + state.u[k]);
 }
 
@@ -88,16 +88,13 @@ void clear_clamped(const Model& model, State& state) noexcept {
   }
 }
 
-/// K u_0 and what pressures add, in `force`; poses of the free bodies.
+/// K u_0 in `force`; poses of the free bodies.
 void find_start_forces(const Model& model, State& state) {
   update_poses(model, state.u, state.poses);
   std::vector<Vec2> elastic(model.n_nodes()), product(model.n_nodes());
   elastic_displacements(model, state.u, state.poses, elastic);
   apply_stiffness(model, elastic, product);
   to_gradient(model, elastic, product, state.poses, state.force);
-  if (model.pressures.empty()) return;
-  pressure_forces(model, state.u, 0.0, product);
-  for_free_nodes(model, [&](std::size_t k) { state.force[k] -= product[k]; });
 }
 
 }  // namespace
@@ -117,6 +114,8 @@ State start(const Model& model, std::vector<Vec2> u0, std::vector<Vec2> v0) {
   state.force_before.resize(model.n_nodes());
   find_start_forces(model, state);
   apply_stiffness(model, state.v, state.force_before);  // K v_0, for now
+  std::vector<Vec2> load(model.n_nodes());
+  pressure_forces(model, state.u, 0.0, load);
   const double half = 0.5 * model.dt;
   const FrameStep fixed = fixed_frame_step(model, 0);
   for_free_nodes(model, [&](std::size_t k) {
@@ -124,7 +123,7 @@ State start(const Model& model, std::vector<Vec2> u0, std::vector<Vec2> v0) {
     const VelocityUpdate update =
         velocity_update(model.scheme, half, model.mass_damping, frame.spin);
     const Vec2 v = state.v[k];
-    const Vec2 f = acceleration(model, state, frame, k, state.force_before[k]);
+    const Vec2 f = acceleration(model, state, frame, k, state.force_before[k], load[k]);
     state.v_next[k] = v + (half * f - update.drag * v) / update.a;
   });
   return state;

@@ -39,8 +39,11 @@ void find_free_bodies(const mesh::Mesh& mesh, Model& model) {
 }
 
 bool is_general(const Model& model) noexcept {
-  return !model.free_bodies.empty() || model.surfaces.has_value() || !model.pressures.empty() ||
-         (model.contact && !model.contact->ground.corners().empty());
+  return !model.free_bodies.empty() || model.surfaces.has_value() || has_sharp_corners(model);
+}
+
+bool has_sharp_corners(const Model& model) noexcept {
+  return model.contact && !model.contact->ground.corners().empty();
 }
 
 }  // namespace rondo::dynamics

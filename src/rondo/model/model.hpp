@@ -146,9 +146,12 @@ inline bool has_candidates(const Model& model) noexcept {
   return model.contact || model.surfaces;
 }
 
-/// The model has something that only the general integrator does: a free body, contact between
-/// bodies, a sharp corner of the ground, a pressure.
+/// The model has something that only the general integrator does: a free body, or contact between
+/// bodies.
 [[nodiscard]] bool is_general(const Model& model) noexcept;
+
+/// The ground has corners that may touch the body between two candidates.
+[[nodiscard]] bool has_sharp_corners(const Model& model) noexcept;
 
 /// Position of a node in the fixed frame at t_{n+1} [m].
 inline Vec2 position(const Model& model, const State& state, std::size_t node) noexcept {

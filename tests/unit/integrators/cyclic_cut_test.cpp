@@ -50,6 +50,7 @@ void expect_same(const Outcome& a, const Outcome& b) {
     ASSERT_EQ(a.reports[i].contact.nodes, b.reports[i].contact.nodes) << i;
     ASSERT_EQ(a.reports[i].balance.kinetic, b.reports[i].balance.kinetic) << i;
     ASSERT_EQ(a.reports[i].balance.works.frame, b.reports[i].balance.works.frame) << i;
+    ASSERT_EQ(a.reports[i].balance.works.load, b.reports[i].balance.works.load) << i;
     ASSERT_EQ(a.reports[i].balance.works.dissipation_stiffness,
               b.reports[i].balance.works.dissipation_stiffness)
         << i;
@@ -70,6 +71,7 @@ std::vector<test::RollingCase> cases() {
   all.back().disk.scheme = Scheme::as_printed;
   all.push_back(test::everything("pitches_70", 4, mesh::Tread{70, 0.02, 3, 1, 2}));
   all.push_back(test::everything("pitches_13", 4, mesh::Tread{13, 0.02, 5, 3, 2}));
+  for (const std::size_t pressed : {0, 5, 7}) all.push_back(test::pressed(all[pressed]));
   for (test::RollingCase& c : all) c.disk.motion.start_x = 0.02;  // in contact from the start
   return all;
 }

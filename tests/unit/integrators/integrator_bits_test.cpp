@@ -43,7 +43,7 @@ std::vector<double> numbers(const StepReport& s) {
   append(out, {c.angular_impulse, c.length, c.penetration, c.free_velocity, c.residual});
   append(out, {c.work, c.dissipation_friction, c.loss_impact, c.work_rim});
   append(out, {w.frame, w.contact, w.dissipation_friction, w.loss_impact, w.rim});
-  append(out, {w.dissipation_mass, w.dissipation_stiffness, w.scheme});
+  append(out, {w.dissipation_mass, w.dissipation_stiffness, w.scheme, w.load});
   append(out, {b.kinetic, b.strain, b.residual, b.exchanged, b.otherwise, b.relative});
   return out;
 }
@@ -146,6 +146,7 @@ class Integrators : public testing::TestWithParam<StiffnessOperator> {};
 TEST_P(Integrators, SameBitsForAnyNumberOfThreadsAndFromRunToRun) {
   std::vector<test::Built> all = disks();
   all.push_back(test::build(test::everything("", 6, 240)));  // work for every thread
+  for (test::Built& b : all) test::add_pressures(b);
   for (const test::Built& b : all) {
     const Record one = run(b, GetParam(), 100, {});
     for (const Way way : {Way{1, 64}, Way{2, 7}, Way{3, 64}, Way{7, 64}}) {
@@ -172,6 +173,7 @@ TEST_P(Integrators, SameBitsFromASavedState) {
   test::RollingCase undamped = test::everything("", 4, 61);
   undamped.disk.beta = 0.0;
   all.push_back(test::build(undamped));
+  test::add_pressures(all.back());
   all.push_back(test::build(test::everything("", 6, 240)));
   for (const test::Built& b : all) {
     const Record one = run(b, GetParam(), 100, {});

@@ -34,11 +34,19 @@ BatchIntegrator::BatchIntegrator(const Model& model, long long step, std::size_t
       step_(step),
       threads_(std::min(model.threads, static_cast<int>(n_pieces))),
       steps_(most_steps_in_a_batch),
+      pressures_(most_steps_in_a_batch * model.pressures.size()),
       parts_(most_steps_in_a_batch * n_parts) {}
 
+void BatchIntegrator::set_step(std::size_t i) noexcept {
+  steps_[i] = step_context(model_, step_ + 1 + static_cast<long long>(i));
+  const std::size_t n = model_.pressures.size();
+  for (std::size_t l = 0; l < n; ++l)
+    pressures_[i * n + l] = model_.pressures[l].pressure.at(steps_[i].frame.time);
+  steps_[i].pressures = pressures_.data() + i * n;
+}
+
 void BatchIntegrator::advance_batch(std::span<StepReport> reports) noexcept {
-  for (std::size_t i = 0; i < reports.size(); ++i)
-    steps_[i] = step_context(model_, step_ + 1 + static_cast<long long>(i));
+  for (std::size_t i = 0; i < reports.size(); ++i) set_step(i);
   const Batch batch{std::span(steps_).first(reports.size()), parts_.data()};
   if (threads_ > 1) {
 #pragma omp parallel num_threads(threads_)

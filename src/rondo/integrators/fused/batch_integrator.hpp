@@ -59,9 +59,11 @@ class BatchIntegrator : public Integrator {
 
  private:
   void advance_batch(std::span<StepReport> reports) noexcept;
+  void set_step(std::size_t i) noexcept;
 
   const int threads_;
   std::vector<StepContext> steps_;  ///< of a batch
+  std::vector<double> pressures_;   ///< (steps of a batch, pressures of the model)        [Pa]
   std::vector<PartialStep> parts_;  ///< (steps of a batch, n_parts)
   Barrier barrier_;
   Ledger ledger_;

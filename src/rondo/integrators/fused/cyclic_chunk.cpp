@@ -25,6 +25,9 @@ CyclicChunk::CyclicChunk(const Model& model, const CyclicPlan& plan, const kerne
       table_(table),
       range_(range),
       fields_(plan.chunk_size()),
+      loads_(plan.loads.empty() ? 0
+                                : static_cast<std::size_t>(
+                                      CyclicPlan::lead + plan.stride * 2 * std::ssize(plan.loads))),
       sums_(static_cast<std::size_t>(plan.depth * kernels::n_sums * kernels::lanes) *
             range.n_groups),
       contact_(model.contact ? static_cast<std::size_t>(plan.depth) * range.n_groups : 0) {
@@ -35,6 +38,7 @@ CyclicChunk::CyclicChunk(const Model& model, const CyclicPlan& plan, const kerne
     turn_x_.push_back(model.sector->turn[static_cast<std::size_t>(sector)].x);
     turn_y_.push_back(model.sector->turn[static_cast<std::size_t>(sector)].y);
   }
+  fill_loads();
   if (plan.halo != Halo::ring)
     for (auto& parity : edges_)
       for (LargeArray& edge : parity)
@@ -45,6 +49,33 @@ CyclicChunk::CyclicChunk(const Model& model, const CyclicPlan& plan, const kerne
   low_.resize(most + kernels::lanes);
   touching_.reserve(most * kernels::most_rows);
   active_.reserve(2 * most * plan.candidate.size());
+}
+
+/// The halo's too: it may be advanced along.
+void CyclicChunk::fill_loads() {
+  const int n = plan_.n_sectors, columns = static_cast<int>(plan_.stride) - 2 * halo_columns;
+  double* x = loads_.data() + CyclicPlan::lead;
+  for (const CyclicLoad& load : plan_.loads) {
+    for (int c = -halo_columns; c < columns; ++c) {
+      const Vec2 force = load.force[static_cast<std::size_t>(((range_.first + c) % n + n) % n)];
+      x[c] = force.x;
+      x[c + plan_.stride] = force.y;
+    }
+    x += 2 * plan_.stride;
+  }
+}
+
+/// Force on a node, in the sector's frame.
+Vec2 CyclicChunk::load_on(const Work& work, int row, int column) const noexcept {
+  const kernels::CyclicRow& r = plan_.rows[static_cast<std::size_t>(row)];
+  const auto first = static_cast<std::ptrdiff_t>(plan_.first_load(row / kernels::most_rows));
+  Vec2 load;
+  for (std::ptrdiff_t i = first + r.first_load; i < first + r.first_load + r.n_loads; ++i) {
+    const double* x = loads_.data() + CyclicPlan::lead + 2 * i * plan_.stride + column;
+    load += work.step->pressures[plan_.load_of[static_cast<std::size_t>(i)]] *
+            Vec2{x[0], x[plan_.stride]};
+  }
+  return load;
 }
 
 double* CyclicChunk::field(int row, int field) noexcept {
@@ -258,7 +289,8 @@ void CyclicChunk::solve_node(const Work& work, const Touching& t) noexcept {
   part.contact.add(report);
   const Vec2 change =
       plan_.keeps_force ? frame * (at(t.row, field_force, t.column) - t.force) : Vec2{};
-  correct_sums(*work.step, node, after, change, part.sums);
+  correct_sums(*work.step, node, after, {change, frame * load_on(work, t.row, t.column)},
+               part.sums);
   if (work.last) active_.insert(active_.end(), active.begin(), active.end());
 }
 
@@ -289,8 +321,13 @@ void CyclicChunk::strip(const Work& work, int i) noexcept {
   s.highest = first + n == plan_.n_local;
   s.step = &work.step->factors;
   s.sums = sums_.data() + work.place * range_.n_groups * kernels::n_sums * kernels::lanes;
+  const std::size_t load = plan_.first_load(i);
+  const bool loaded = load < plan_.first_load(i + 1);
+  s.loads = loaded ? loads_.data() + CyclicPlan::lead + 2 * load * plan_.stride : nullptr;
+  s.load_of = plan_.load_of.data() + load;
+  s.pressures = work.step->pressures;
   const kernels::Terms& terms = work.step->terms;
-  table_.cyclic_strip[terms.stiffness_damping][terms.printed][terms.unsteady](s);
+  table_.cyclic_strip[loaded][terms.stiffness_damping][terms.printed][terms.unsteady](s);
   for (const Touching& t : touching_) solve_node(work, t);
   if (plan_.halo == Halo::ring)
     for (int a = first; a < first + n; ++a) wrap(a, work.next);

@@ -70,6 +70,8 @@ class CyclicChunk {
     int now, next;      ///< fields of u before and after the step
     bool last;          ///< of the pass
   };
+  void fill_loads();
+  [[nodiscard]] Vec2 load_on(const Work& work, int row, int column) const noexcept;
   [[nodiscard]] Vec2 initial_force(const std::vector<Vec2>& u, int a, int c) const noexcept;
   void strip(const Work& work, int i) noexcept;
   void find_touching(const Work& work, int a) noexcept;
@@ -92,6 +94,7 @@ class CyclicChunk {
   CyclicChunkRange range_;
   LargeArray fields_;
   std::vector<double> turn_x_, turn_y_;  ///< of the columns, from the halo on the left
+  LargeArray loads_;                     ///< (loads, 2) `stride` apart, as the plan has them  [m]
   LargeArray sums_;                      ///< (depth, groups, n_sums, lanes)
   std::vector<PartialStep> contact_;     ///< (depth, groups): of these the contacts' part
   std::array<std::array<LargeArray, 2>, 2> edges_;  ///< [parity of the pass][left, right]

@@ -144,9 +144,22 @@ void SparseIntegrator::solve_node(const Work& work, const Touching& t, PartialSt
   work.next[2 * c.row] = u.x;
   work.next[2 * c.row + 1] = u.y;
   const Vec2 change = plan_.keeps_force ? vector_at(motion + force_at) - t.force : Vec2{};
-  correct_sums(*work.step, node, after, change, part.sums);
+  correct_sums(*work.step, node, after, {change, load_on(work, c.row)}, part.sums);
   std::vector<ActiveContact>& all = work.contacts->active;
   if (work.last) all.insert(all.end(), active.begin(), active.end());
+}
+
+/// Force on a row.
+Vec2 SparseIntegrator::load_on(const Work& work, int row) const noexcept {
+  Vec2 load;
+  if (plan_.first_load.empty()) return load;
+  const auto i = static_cast<std::size_t>(row);
+  for (int l = plan_.first_load[i / lanes]; l < plan_.first_load[i / lanes + 1]; ++l) {
+    const auto at = static_cast<std::size_t>(l);
+    load += work.step->pressures[plan_.load_of[at]] *
+            vector_at(plan_.loads.data() + at * 2 * lanes + i % lanes);
+  }
+  return load;
 }
 
 void SparseIntegrator::update_rows(const Work& work, std::size_t block,
@@ -164,8 +177,13 @@ void SparseIntegrator::update_rows(const Work& work, std::size_t block,
   rows.last_pack = static_cast<std::ptrdiff_t>(plan_.first_pack(block + 1));
   rows.step = &work.step->factors;
   rows.sums = sums.data();
+  const bool loaded = !plan_.first_load.empty();
+  rows.first_load = plan_.first_load.data();
+  rows.loads = plan_.loads.data();
+  rows.load_of = plan_.load_of.data();
+  rows.pressures = work.step->pressures;
   const kernels::Terms& terms = work.step->terms;
-  table_.sparse_rows[terms.stiffness_damping][terms.printed][terms.unsteady](rows);
+  table_.sparse_rows[loaded][terms.stiffness_damping][terms.printed][terms.unsteady](rows);
   for (std::size_t k = 0; k < part.sums.size(); ++k) part.sums[k] = sum_of(sums.data() + k * lanes);
 }
 

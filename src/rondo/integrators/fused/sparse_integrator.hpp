@@ -60,6 +60,7 @@ class SparseIntegrator : public BatchIntegrator {
   void find_touching(const Work& work, std::size_t block) const noexcept;
   void look_at(const Work& work, const SparseCandidate& c) const noexcept;
   void solve_node(const Work& work, const Touching& t, PartialStep& part) noexcept;
+  [[nodiscard]] Vec2 load_on(const Work& work, int row) const noexcept;
   void rest_padding(double* next) noexcept;
 
   const kernels::Table& table_;

@@ -30,6 +30,9 @@ struct SparsePlan {
   LargeArray blocks;
   LargeArrayOf<std::int32_t> column;
   LargeArray constants;
+  // Of loads on nodes; empty: there are none.
+  std::vector<int> first_load, load_of;
+  LargeArray loads;
   std::vector<SparseCandidate> candidates;   ///< ascending rows
   std::vector<std::size_t> first_candidate;  ///< (n_blocks + 1) of each block; empty: no contact
 

@@ -27,15 +27,16 @@ StepContext step_context(const Model& model, long long n) noexcept {
   return s;
 }
 
-void correct_sums(const StepContext& step, const ContactNode& node, Vec2 after, Vec2 force_change,
-                  std::array<double, kernels::n_sums>& sums) noexcept {
+void correct_sums(const StepContext& step, const ContactNode& node, Vec2 after,
+                  const NodeForces& forces, std::array<double, kernels::n_sums>& sums) noexcept {
   const kernels::StepFactors& f = step.factors;
   const Vec2 change = after - node.free;
   const Vec2 frame = Vec2{f.rate_x, f.rate_y} * node.arm + Vec2{f.pull_x, f.pull_y};
   const Vec2 other = step.terms.printed ? node.before : after + node.free + 2.0 * node.before;
   sums[kernels::sum_frame] += node.mass * dot(change, frame);
   sums[kernels::sum_mass] += node.mass * dot(change, other);  // a² - b² = (a - b)(a + b)
-  sums[kernels::sum_stiffness] += dot(change, force_change);
+  sums[kernels::sum_stiffness] += dot(change, forces.change);
+  sums[kernels::sum_load] += dot(change, forces.load);
   if (step.terms.printed) sums[kernels::sum_scheme] += node.mass * dot(change, turn90(node.before));
 }
 
@@ -54,6 +55,7 @@ StepEnergy energy_of(const Model& model, const FrameStep& frame, const Totals& t
   e.works.dissipation_mass = (printed ? 0.5 : 0.25) * dt * alpha * total[kernels::sum_mass];
   e.works.dissipation_stiffness = 0.5 * beta * total[kernels::sum_stiffness];
   e.works.scheme = printed ? -dt * frame.spin * total[kernels::sum_scheme] : 0.0;
+  e.works.load = 0.5 * dt * total[kernels::sum_load];
   e.works.contact = contact.work;
   e.works.dissipation_friction = contact.dissipation_friction;
   e.works.loss_impact = contact.loss_impact;

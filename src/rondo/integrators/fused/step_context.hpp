@@ -16,6 +16,7 @@ struct StepContext {
   kernels::StepFactors factors{};
   kernels::Terms terms;
   std::optional<ContactStep> contact;
+  const double* pressures = nullptr;  ///< of Model::pressures at t_n                     [Pa]
 };
 
 StepContext step_context(const Model& model, long long n) noexcept;
@@ -26,11 +27,16 @@ struct PartialStep {
   ContactReport contact;
 };
 
+/// Forces on a node, in the frame of its vectors [N/m].
+struct NodeForces {
+  Vec2 change;  ///< K u_{n+1} - K u_n, with β only
+  Vec2 load;
+};
+
 /// Adds to the sums, which were made with the velocity free of contact, what the impulse changed.
 /// @param node  arm, velocities before and without impulse; `after`: v⁺.
-/// @param force_change K u_{n+1} - K u_n of the node (with β only)                   [N/m]
-void correct_sums(const StepContext& step, const ContactNode& node, Vec2 after, Vec2 force_change,
-                  std::array<double, kernels::n_sums>& sums) noexcept;
+void correct_sums(const StepContext& step, const ContactNode& node, Vec2 after,
+                  const NodeForces& forces, std::array<double, kernels::n_sums>& sums) noexcept;
 
 /// The whole from its parts, in their order: compensated sums, as energies (5.1) and works (5.3).
 struct WholeStep {

@@ -23,6 +23,7 @@ enum Sum {
   sum_mass,       ///< m |v̂|²;  as printed m v̂·v⁻
   sum_stiffness,  ///< v̂·(K u_{n+1} - K u_n)
   sum_scheme,     ///< as printed only: m v̂·J v⁻
+  sum_load,       ///< v̂·f of the loads
   n_sums
 };
 
@@ -69,6 +70,8 @@ struct CyclicRow {
   double mass;          ///< m                                                        [kg/m]
   double dt_over_mass;  ///< Δt/m
   double x, y;          ///< X in the sector's frame                                    [m]
+  int first_load = 0;   ///< its loads among the strip's
+  int n_loads = 0;
 };
 
 /// Some rows, one above the other, over the sectors of a chunk: product, velocity update and sums
@@ -93,6 +96,11 @@ struct CyclicStrip {
   bool lowest, highest;  ///< no free row below the first, none above the last
   const StepFactors* step;
   double* sums;  ///< (groups, n_sums, lanes): added to
+  // Loads on nodes, unused by kernels without: f = Σ pressure · force, in the sector's frame.
+  const double* loads;      ///< force per pressure of the first, sector 0; components and loads are
+                            ///< `stride` apart                                           [m]
+  const int* load_of;       ///< (loads) whose pressure it is of
+  const double* pressures;  ///< [Pa]
 };
 
 /// Sectors of a row that may touch: y of the node <= limit.
@@ -122,17 +130,22 @@ struct SparseRows {
   std::ptrdiff_t first_pack, last_pack;
   const StepFactors* step;
   double* sums;  ///< (n_sums, lanes) of these packs: set
+  // Loads on nodes, unused by kernels without: f = Σ pressure · force.
+  const int* first_load;    ///< (packs + 1) of a pack
+  const double* loads;      ///< (loads, 2, lanes) force per pressure                     [m]
+  const int* load_of;       ///< (loads) whose pressure it is of
+  const double* pressures;  ///< [Pa]
 };
 
 /// The loops of one instruction set.
 struct Table {
   const char* name;
-  /// [stiffness_damping][printed][unsteady]
-  void (*cyclic_strip[2][2][2])(const CyclicStrip&) noexcept;
+  /// [loaded][stiffness_damping][printed][unsteady]
+  void (*cyclic_strip[2][2][2][2])(const CyclicStrip&) noexcept;
   /// Columns that are low enough, ascending; returns how many.
   int (*low_columns)(const CyclicHeight&, int* columns) noexcept;
-  /// [stiffness_damping][printed][unsteady]
-  void (*sparse_rows[2][2][2])(const SparseRows&) noexcept;
+  /// [loaded][stiffness_damping][printed][unsteady]
+  void (*sparse_rows[2][2][2][2])(const SparseRows&) noexcept;
 };
 
 extern const Table avx512_table, avx2_table, baseline_table;
