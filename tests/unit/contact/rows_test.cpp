@@ -60,7 +60,8 @@ TEST(NodeToSegment, ImpulsesHaveNoResultantAndNoMoment) {
     ASSERT_LT(norm(on_p + on_a + on_b), 1e-15);
     // Roundings of arms up to 1.5 and impulses up to 2.
     ASSERT_LT(std::abs(cross(x.p, on_p) + cross(x.a, on_a) + cross(x.b, on_b)), 4e-15);
-    ASSERT_LT(norm(on_p - from_frame(x.touch.normal, r)), 1e-15);  // r acts on the point, in its frame
+    ASSERT_LT(norm(on_p - from_frame(x.touch.normal, r)),
+              1e-15);  // r acts on the point, in its frame
   }
 }
 
