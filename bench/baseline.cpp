@@ -7,7 +7,7 @@
 
 #include "rondo/core/contract.hpp"
 #include "rondo/core/threads.hpp"
-#include "rondo/integrators/stepper.hpp"
+#include "rondo/integrators/start.hpp"
 #include "rondo/model/contact_node.hpp"
 
 namespace rondo::bench {

@@ -39,7 +39,8 @@ void find_free_bodies(const mesh::Mesh& mesh, Model& model) {
 }
 
 bool is_general(const Model& model) noexcept {
-  return !model.free_bodies.empty() || model.surfaces.has_value() || !model.pressures.empty() ||
+  return model.scheme != Scheme::symplectic || !model.free_bodies.empty() ||
+         model.surfaces.has_value() || !model.pressures.empty() ||
          (model.contact && !model.contact->ground.corners().empty());
 }
 

@@ -147,7 +147,7 @@ inline bool has_candidates(const Model& model) noexcept {
 }
 
 /// The model has something that only the general integrator does: a free body, contact between
-/// bodies, a sharp corner of the ground, a pressure.
+/// bodies, a sharp corner of the ground, a pressure, another scheme than the symplectic one.
 [[nodiscard]] bool is_general(const Model& model) noexcept;
 
 /// Position of a node in the fixed frame at t_{n+1} [m].

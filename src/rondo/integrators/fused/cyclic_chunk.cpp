@@ -291,7 +291,7 @@ void CyclicChunk::strip(const Work& work, int i) noexcept {
   s.step = &work.step->factors;
   s.sums = sums_.data() + work.place * range_.n_groups * kernels::n_sums * kernels::lanes;
   const kernels::Terms& terms = work.step->terms;
-  table_.cyclic_strip[terms.stiffness_damping][terms.printed][terms.unsteady](s);
+  table_.cyclic_strip[terms.stiffness_damping][terms.unsteady](s);
   for (const Touching& t : touching_) solve_node(work, t);
   if (plan_.halo == Halo::ring)
     for (int a = first; a < first + n; ++a) wrap(a, work.next);

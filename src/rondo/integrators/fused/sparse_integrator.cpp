@@ -165,7 +165,7 @@ void SparseIntegrator::update_rows(const Work& work, std::size_t block,
   rows.step = &work.step->factors;
   rows.sums = sums.data();
   const kernels::Terms& terms = work.step->terms;
-  table_.sparse_rows[terms.stiffness_damping][terms.printed][terms.unsteady](rows);
+  table_.sparse_rows[terms.stiffness_damping][terms.unsteady](rows);
   for (std::size_t k = 0; k < part.sums.size(); ++k) part.sums[k] = sum_of(sums.data() + k * lanes);
 }
 

@@ -132,7 +132,6 @@ inline void add_first_lanes(int n, const Sums& part, Sums& sums) noexcept {
   sums.frame = sums.frame + first_lanes(n, part.frame, zero);
   sums.mass = sums.mass + first_lanes(n, part.mass, zero);
   sums.stiffness = sums.stiffness + first_lanes(n, part.stiffness, zero);
-  sums.scheme = sums.scheme + first_lanes(n, part.scheme, zero);
 }
 
 inline Vectors first_of(int n, Vectors a, Vectors b) noexcept {
@@ -147,7 +146,7 @@ struct RowInHand {
 };
 
 /// Update and sums of one pack of a row. Tail: the last own pack, of which only `columns` count.
-template <bool Tail, bool Beta, bool Printed, bool Unsteady>
+template <bool Tail, bool Beta, bool Unsteady>
 inline void update_pack(const CyclicStrip& s, const Factors& f, const RowInHand& row,
                         std::ptrdiff_t column, Vectors force, Sums& sums) noexcept {
   const std::ptrdiff_t at = row.at + column;
@@ -167,14 +166,14 @@ inline void update_pack(const CyclicStrip& s, const Factors& f, const RowInHand&
     n.frame = {n.frame.x + fma(py, sine, px * cosine), n.frame.y + fnma(px, sine, py * cosine)};
   }
   if constexpr (!Tail) {
-    const Vectors after = update<Beta, Printed, Unsteady>(f, n, sums);
+    const Vectors after = update<Beta, Unsteady>(f, n, sums);
     store_vectors(v, s.stride, after);
     store_vectors(u_next, s.stride, {fma(f.dt, after.x, n.u.x), fma(f.dt, after.y, n.u.y)});
     if constexpr (Beta) store_vectors(p, s.stride, n.force);
   } else {
     const int own = s.columns - static_cast<int>(column);
     Sums part = no_sums();
-    Vectors after = update<Beta, Printed, Unsteady>(f, n, part);
+    Vectors after = update<Beta, Unsteady>(f, n, part);
     add_first_lanes(own, part, sums);
     if (s.keep_tail) {
       after = first_of(own, after, n.v);
@@ -198,11 +197,10 @@ inline void add_sums(double* to, double mass, const Sums& s) noexcept {
   add_mass(sum_frame, s.frame);
   add_mass(sum_mass, s.mass);
   add(sum_stiffness, s.stiffness);
-  add_mass(sum_scheme, s.scheme);
 }
 
 /// All rows of the strip on packs [first, last), at most a group. `sums` null: the halo.
-template <bool Beta, bool Printed, bool Unsteady>
+template <bool Beta, bool Unsteady>
 inline void group(const CyclicStrip& s, const Factors& f, int first, int last,
                   double* sums) noexcept {
   Forces force;
@@ -219,24 +217,23 @@ inline void group(const CyclicStrip& s, const Factors& f, int first, int last,
       const std::ptrdiff_t column = static_cast<std::ptrdiff_t>(pack) * lanes;
       const Vectors g = force[r][pack - first];
       if (sums && (pack + 1) * lanes > s.columns)
-        update_pack<true, Beta, Printed, Unsteady>(s, f, in_hand, column, g, own);
+        update_pack<true, Beta, Unsteady>(s, f, in_hand, column, g, own);
       else
-        update_pack<false, Beta, Printed, Unsteady>(s, f, in_hand, column, g, own);
+        update_pack<false, Beta, Unsteady>(s, f, in_hand, column, g, own);
     }
     if (sums) add_sums(sums, row.mass, own);
   }
 }
 
-template <bool Beta, bool Printed, bool Unsteady>
+template <bool Beta, bool Unsteady>
 void cyclic_strip(const CyclicStrip& s) noexcept {
   const Factors f(*s.step);
   const int own = (s.columns + lanes - 1) / lanes;
-  if (s.first_pack < 0) group<Beta, Printed, Unsteady>(s, f, -1, 0, nullptr);
+  if (s.first_pack < 0) group<Beta, Unsteady>(s, f, -1, 0, nullptr);
   double* sums = s.sums;
   for (int pack = 0; pack < own; pack += group_packs, sums += n_sums * lanes)
-    group<Beta, Printed, Unsteady>(s, f, pack, pack + group_packs < own ? pack + group_packs : own,
-                                   sums);
-  if (own < s.last_pack) group<Beta, Printed, Unsteady>(s, f, own, s.last_pack, nullptr);
+    group<Beta, Unsteady>(s, f, pack, pack + group_packs < own ? pack + group_packs : own, sums);
+  if (own < s.last_pack) group<Beta, Unsteady>(s, f, own, s.last_pack, nullptr);
 }
 
 int low_columns(const CyclicHeight& h, int* columns) noexcept {

@@ -8,15 +8,11 @@ namespace {
 
 constexpr rondo::dynamics::kernels::Table table(const char* name) noexcept {
   return {name,
-          {{{cyclic_strip<false, false, false>, cyclic_strip<false, false, true>},
-            {cyclic_strip<false, true, false>, cyclic_strip<false, true, true>}},
-           {{cyclic_strip<true, false, false>, cyclic_strip<true, false, true>},
-            {cyclic_strip<true, true, false>, cyclic_strip<true, true, true>}}},
+          {{cyclic_strip<false, false>, cyclic_strip<false, true>},
+           {cyclic_strip<true, false>, cyclic_strip<true, true>}},
           low_columns,
-          {{{sparse_rows<false, false, false>, sparse_rows<false, false, true>},
-            {sparse_rows<false, true, false>, sparse_rows<false, true, true>}},
-           {{sparse_rows<true, false, false>, sparse_rows<true, false, true>},
-            {sparse_rows<true, true, false>, sparse_rows<true, true, true>}}}};
+          {{sparse_rows<false, false>, sparse_rows<false, true>},
+           {sparse_rows<true, false>, sparse_rows<true, true>}}};
 }
 
 }  // namespace
