@@ -6,7 +6,7 @@
 #include <utility>
 
 #include "rondo/core/contract.hpp"
-#include "rondo/integrators/stepper.hpp"
+#include "rondo/integrators/start.hpp"
 #include "rondo/model/critical_step.hpp"
 #include "support/models.hpp"
 

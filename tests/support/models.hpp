@@ -3,7 +3,7 @@
 #pragma once
 #include <utility>
 
-#include "rondo/integrators/stepper.hpp"
+#include "rondo/integrators/start.hpp"
 #include "rondo/mesh/disk.hpp"
 #include "rondo/model/critical_step.hpp"
 

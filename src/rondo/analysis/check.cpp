@@ -10,7 +10,7 @@
 #include "rondo/analysis/estimate.hpp"
 #include "rondo/analysis/room.hpp"
 #include "rondo/integrators/integrator.hpp"
-#include "rondo/integrators/stepper.hpp"
+#include "rondo/integrators/start.hpp"
 #include "rondo/output/snapshot_schedule.hpp"
 
 namespace rondo::study {

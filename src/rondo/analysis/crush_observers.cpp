@@ -37,8 +37,8 @@ Sums sum_up(const CrushSetup& setup, const statics::CrushState& state) {
     const auto node = static_cast<std::size_t>(setup.model.nodes[k]);
     const double tributary = setup.mesh.tributary[k];
     s.contact += r;
-    s.force += normal * r;
-    s.torque += cross(setup.mesh.coordinates[node] + state.u[node], normal * r);
+    s.force += from_frame(normal, r);
+    s.torque += cross(setup.mesh.coordinates[node] + state.u[node], from_frame(normal, r));
     s.nodes += 1.0;
     s.sticking += state.status[k] == contact::Status::stick ? 1.0 : 0.0;
     s.length += tributary;
@@ -138,7 +138,8 @@ void CrushRecord::write_snapshot(int k, const statics::CrushState& state,
                                  const std::vector<Vec2>& before) {
   for (std::size_t i = 0; i < rate_.size(); ++i)
     rate_[i] = static_cast<double>(increments_) * (state.u[i] - before[i]);
-  for (std::size_t i = 0; i < force_fixed_.size(); ++i) force_fixed_[i] = normal * state.force[i];
+  for (std::size_t i = 0; i < force_fixed_.size(); ++i)
+    force_fixed_[i] = from_frame(normal, state.force[i]);
   io::Snapshot s;
   s.time = static_cast<double>(k) / increments_;
   s.time_velocity = (static_cast<double>(k) - 0.5) / increments_;

@@ -15,7 +15,7 @@
 #include "rondo/analysis/out_of_range.hpp"
 #include "rondo/analysis/reduced_run.hpp"
 #include "rondo/core/keep_larger.hpp"
-#include "rondo/integrators/stepper.hpp"
+#include "rondo/integrators/start.hpp"
 #include "rondo/output/run_files.hpp"
 
 namespace rondo::study {
@@ -169,7 +169,7 @@ class Runner {
     state_.v.resize(state_.u.size());
     if (!plan_.from) return;
     dynamics::SavedState& state = plan_.from->state;
-    integrator_->restore(state);
+    integrator_->resumable()->restore(state);
     const long long step = state.step;
     state = {};  // as much memory as the steps have
     state.step = step;
@@ -234,15 +234,16 @@ class Runner {
 
   [[nodiscard]] bool is_save_due() const {
     const std::chrono::duration<double> since = Clock::now() - saved_;
-    return !plan_.reduced && loop_.status == RunStatus::done && loop_.steps < setup_.n_steps &&
-           since.count() >= plan_.c.output.checkpoint_interval && !output_.is_saving();
+    return integrator_->resumable() && loop_.status == RunStatus::done &&
+           loop_.steps < setup_.n_steps && since.count() >= plan_.c.output.checkpoint_interval &&
+           !output_.is_saving();
   }
 
   void save(std::vector<double> last_row = {}) {
     Checkpoint checkpoint;
     checkpoint.last_row = std::move(last_row);
     checkpoint.identity = plan_.identity;
-    checkpoint.state = integrator_->save();
+    checkpoint.state = integrator_->resumable()->save();
     checkpoint.n_steps = setup_.n_steps;
     checkpoint.contact = loop_.contact;
     checkpoint.problems_kept = loop_.dumped;
@@ -258,7 +259,7 @@ class Runner {
     const std::vector<double> row =
         last_ ? output_.last_row(*last_, last_state_) : plan_.from->last_row;
     const bool kept = loop_.status == RunStatus::interrupted || plan_.options.keeps_checkpoint;
-    if (loop_.status != RunStatus::failed && kept && !plan_.reduced) save(row);
+    if (loop_.status != RunStatus::failed && kept && integrator_->resumable()) save(row);
     output_.add_row(row);
     if (loop_.status == RunStatus::done) close_ledger();
   }

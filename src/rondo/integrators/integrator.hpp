@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-/// @file  The steps of a run, many at a time. Two operators do the same step (stepper.hpp is the
-/// reference of both): `cyclic` on meshes of equal sectors, `sparse` on any mesh. What comes out is
+/// @file  The steps of a run, many at a time. The general integrator is the readable reference;
+/// two operators do the same step fused: `cyclic` on meshes of equal sectors, `sparse` on any mesh.
+/// What comes out is
 /// the same to the last bit for any number of threads and however the steps are cut into calls.
 #pragma once
 #include <memory>
@@ -23,6 +24,18 @@ struct StepReport {
   Balance balance;        ///< of t_{n+1/2}
 };
 
+/// What goes on to the same bits from what it was before.
+class Resumable {
+ public:
+  /// Between two steps. What restore() gets must come from save() of an integrator of the same kind
+  /// and model, on however many threads. @throws std::bad_alloc
+  [[nodiscard]] virtual SavedState save() const = 0;
+  virtual void restore(const SavedState& saved) = 0;
+
+ protected:
+  ~Resumable() = default;
+};
+
 class Integrator {
  public:
   virtual ~Integrator() = default;
@@ -42,17 +55,15 @@ class Integrator {
   /// Fills u and v_next.
   virtual void fields(State& state) const noexcept = 0;
 
-  /// Between two steps. What restore() gets must come from save() of an integrator of the same kind
-  /// and model, on however many threads: it then goes on to the same bits. @throws std::bad_alloc
-  [[nodiscard]] virtual SavedState save() const = 0;
-  virtual void restore(const SavedState& saved) = 0;
+  /// None: it cannot go on from where it was.
+  [[nodiscard]] virtual Resumable* resumable() noexcept { return nullptr; }
 
   /// Contact problems kept since the last call, as model.coupled says.
   [[nodiscard]] virtual std::vector<contact::ProblemFile> take_difficult() { return {}; }
 };
 
 /// The integrator of model.stiffness_operator. The model must outlive it.
-/// @param start at t = 0 (stepper.hpp). @throws InputError (RONDO_DISPATCH), std::bad_alloc
+/// @param start at t = 0 (start.hpp). @throws InputError (RONDO_DISPATCH), std::bad_alloc
 [[nodiscard]] std::unique_ptr<Integrator> make_integrator(const Model& model, const State& start);
 
 }  // namespace rondo::dynamics

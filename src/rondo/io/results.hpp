@@ -12,7 +12,8 @@
 #include <memory>
 #include <span>
 
-#include "rondo/core/vec2.hpp"
+#include "rondo/core/complex.hpp"
+#include "rondo/core/field.hpp"
 #include "rondo/mesh/mesh.hpp"
 
 namespace rondo::io {
@@ -30,6 +31,7 @@ struct ResultsLayout {
   /// (n) number of the free body that a node belongs to, which moves in the fixed frame; -1: it
   /// moves in the turning frame. Empty: no free body.
   std::span<const int> free_body = {};
+  std::size_t components = 2;  ///< of the vectors of a snapshot
 };
 
 /// Of a crush after an increment.
@@ -43,18 +45,18 @@ struct CrushRow {
 /// One snapshot, as the stepper leaves it; spans are only read during the call. Where quasi-static,
 /// the times are shares of the depth [1] and the velocity is the rate over that share [m].
 struct Snapshot {
-  double time = 0.0;            ///< of displacement and contact                        [s]
-  double time_velocity = 0.0;   ///< of velocity: half a step before `time`             [s]
-  double angle = 0.0;           ///< θ at `time`, counter-clockwise                     [rad]
-  double angle_velocity = 0.0;  ///< θ at `time_velocity`                      [rad]
-  Vec2 center;                  ///< fixed frame                                        [m]
-  std::span<const Vec2> displacement;   ///< (n) turning frame; of free bodies fixed frame   [m]
-  std::span<const Vec2> velocity;       ///< (n) the same                                  [m/s]
-  std::span<const Vec2> contact_force;  ///< (nb) normal, tangential; empty: no contact    [N/m]
-  std::span<const Vec2> contact_force_fixed;  ///< (nb) x, y in the fixed frame           [N/m]
-  std::span<const NodalStress> stress;        ///< (n) frame of the body; empty: not asked for [Pa]
-  std::span<const Vec2> body_rotation = {};   ///< e^{iθ} of each free body
-  CrushRow crush = {};                        ///< only written where quasi-static
+  double time = 0.0;              ///< of displacement and contact                        [s]
+  double time_velocity = 0.0;     ///< of velocity: half a step before `time`             [s]
+  double angle = 0.0;             ///< θ at `time`, counter-clockwise                     [rad]
+  double angle_velocity = 0.0;    ///< θ at `time_velocity`                      [rad]
+  Vec2 center;                    ///< fixed frame                                        [m]
+  FieldView displacement;         ///< (n) turning frame; of free bodies fixed frame   [m]
+  FieldView velocity;             ///< (n) the same                                  [m/s]
+  FieldView contact_force;        ///< (nb) normal, tangential; empty: no contact    [N/m]
+  FieldView contact_force_fixed;  ///< (nb) x, y in the fixed frame           [N/m]
+  std::span<const NodalStress> stress;  ///< (n) frame of the body; empty: not asked for [Pa]
+  std::span<const Complex> body_rotation = {};  ///< e^{iθ} of each free body
+  CrushRow crush = {};                          ///< only written where quasi-static
 };
 
 class Results {

@@ -39,7 +39,8 @@ void find_free_bodies(const mesh::Mesh& mesh, Model& model) {
 }
 
 bool is_general(const Model& model) noexcept {
-  return !model.free_bodies.empty() || model.surfaces.has_value() || has_sharp_corners(model);
+  return model.scheme != Scheme::symplectic || !model.free_bodies.empty() ||
+         model.surfaces.has_value();
 }
 
 bool has_sharp_corners(const Model& model) noexcept {

@@ -92,9 +92,9 @@ struct Model {
 
 /// Mean place and rotation of a free body.
 struct Pose {
-  Vec2 center;              ///< of mass                                         [m]
-  Vec2 rotation{1.0, 0.0};  ///< e^{iθ}
-  double angle = 0.0;       ///< θ, counter-clockwise, whole turns counted       [rad]
+  Vec2 center;                 ///< of mass                                         [m]
+  Complex rotation{1.0, 0.0};  ///< e^{iθ}
+  double angle = 0.0;          ///< θ, counter-clockwise, whole turns counted       [rad]
 };
 
 template <class Work>
@@ -146,8 +146,8 @@ inline bool has_candidates(const Model& model) noexcept {
   return model.contact || model.surfaces;
 }
 
-/// The model has something that only the general integrator does: a free body, or contact between
-/// bodies.
+/// The model has something that only the general integrator does: a free body, contact between
+/// bodies, another scheme than the symplectic one.
 [[nodiscard]] bool is_general(const Model& model) noexcept;
 
 /// The ground has corners that may touch the body between two candidates.

@@ -212,10 +212,10 @@ void Snapshots::collect_contact(const dynamics::State& state) {
   for (const dynamics::ActiveContact& c : state.active) {
     if (c.candidate != last) normal = c.normal;
     last = c.candidate;
-    const Vec2 force = (c.normal * c.impulse) / setup_.model.dt;
+    const Vec2 force = from_frame(c.normal, c.impulse) / setup_.model.dt;
     force_fixed_[c.candidate] += force;
     if (c.on_ground) on_ground_[c.candidate] = 1;
-    force_[c.candidate] += conj(normal) * force;
+    force_[c.candidate] += to_frame(normal, force);
   }
 }
 

@@ -10,7 +10,7 @@
 #include "rondo/analysis/build.hpp"
 #include "rondo/analysis/crush_build.hpp"
 #include "rondo/integrators/integrator.hpp"
-#include "rondo/integrators/stepper.hpp"
+#include "rondo/integrators/start.hpp"
 
 using namespace rondo;
 

@@ -8,21 +8,29 @@
 #include <utility>
 #include <vector>
 
+#include "rondo/integrators/general_integrator.hpp"
 #include "rondo/integrators/integrator.hpp"
-#include "rondo/integrators/stepper.hpp"
+#include "rondo/integrators/start.hpp"
 
 namespace rondo::test {
 
-/// One step of the reference, reported as an integrator does.
-inline dynamics::StepReport reference_step(const dynamics::Model& model, dynamics::State& state,
-                                           dynamics::Ledger& ledger) {
-  dynamics::StepReport report;
-  report.contact = advance(model, state, ledger);
-  report.step = state.step;
-  report.frame = state.frame;
-  report.balance = ledger.last();
-  return report;
-}
+/// The reference, step by step.
+class Reference {
+ public:
+  Reference(const dynamics::Model& model, dynamics::State start)
+      : state(std::move(start)), steps_(model, state) {}
+
+  const dynamics::StepReport& step() {
+    steps_.advance({&last, 1}, &state);
+    return last;
+  }
+
+  dynamics::State state;  ///< after the last step
+  dynamics::StepReport last;
+
+ private:
+  dynamics::GeneralIntegrator steps_;
+};
 
 /// The largest difference of quantities of a kind, and their largest size.
 struct Difference {

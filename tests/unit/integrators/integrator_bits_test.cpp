@@ -37,7 +37,8 @@ std::vector<double> numbers(const StepReport& s) {
   const Works& w = b.works;
   std::vector<double> out{static_cast<double>(s.step)};
   append(out, {f.time, f.spin, f.spin_rate, f.angle, f.turn, f.turn_before});
-  append(out, std::array{f.rotation, f.center, f.advance, f.advance_before, f.pull, c.impulse});
+  append(out, {f.rotation.re, f.rotation.im});
+  append(out, std::array{f.center, f.advance, f.advance_before, f.pull, c.impulse});
   for (const int count : {c.nodes, c.sticking, c.pairs, c.pairs_not_converged})
     out.push_back(static_cast<double>(count));
   append(out, {c.angular_impulse, c.length, c.penetration, c.free_velocity, c.residual});
@@ -91,9 +92,9 @@ Record run(const test::Built& b, StiffnessOperator of, std::size_t steps, Way wa
     integrator->advance(std::span(reports).subspan(done - n, n), seen ? &state : nullptr);
     if (seen) out.states[state.step] = numbers(state);
     if (way.threads_after_restart == 0) continue;
-    const SavedState saved = integrator->save();
+    const SavedState saved = integrator->resumable()->save();
     integrator = make_integrator(other, start(other, rest, rest));
-    integrator->restore(saved);
+    integrator->resumable()->restore(saved);
   }
   int contacts = 0;
   for (const StepReport& report : reports) {

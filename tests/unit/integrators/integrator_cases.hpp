@@ -74,7 +74,6 @@ inline std::vector<RollingCase> rolling_cases() {
     return all.emplace_back(everything(name, 6, 90));
   };
   smooth("smooth");
-  smooth("smooth_as_printed").disk.scheme = dynamics::Scheme::as_printed;
   smooth("smooth_graded").disk.disk.grading = 1.8;
   smooth("smooth_frictionless").law = {};
   smooth("smooth_without_contact").ground.reset();
@@ -104,7 +103,6 @@ inline std::vector<RollingCase> rolling_cases() {
     return all.emplace_back(everything(name, 3, of));
   };
   treaded("treaded", tread);
-  treaded("treaded_as_printed", tread).disk.scheme = dynamics::Scheme::as_printed;
   RollingCase& all_of_it = treaded("treaded_b_bar_stiffened", tread);
   rubber(all_of_it);
   all_of_it.stiffened = true;

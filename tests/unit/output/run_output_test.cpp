@@ -8,7 +8,7 @@
 #include <filesystem>
 #include <string>
 
-#include "rondo/integrators/stepper.hpp"
+#include "rondo/integrators/start.hpp"
 #include "rondo/output/run_output.hpp"
 #include "unit/case/case_fixture.hpp"
 #include "unit/study/jobs_fixture.hpp"

@@ -13,8 +13,6 @@
 namespace rondo::dynamics {
 namespace {
 
-constexpr std::size_t most_steps_in_a_batch = 64;
-
 /// Insertion, for it keeps the two contacts of a node in their order and takes no memory; what
 /// comes is nearly sorted, and short.
 void sort_by_candidate(std::vector<ActiveContact>& active) noexcept {
@@ -33,12 +31,15 @@ BatchIntegrator::BatchIntegrator(const Model& model, long long step, std::size_t
       n_parts_(n_parts),
       step_(step),
       threads_(std::min(model.threads, static_cast<int>(n_pieces))),
-      steps_(most_steps_in_a_batch),
-      pressures_(most_steps_in_a_batch * model.pressures.size()),
-      parts_(most_steps_in_a_batch * n_parts) {}
+      rim_(make_rim(model)),
+      steps_(static_cast<std::size_t>(rim_->steps_ahead())),
+      pressures_(steps_.size() * model.pressures.size()),
+      parts_(steps_.size() * n_parts) {
+  rim_->restore(step, {});
+}
 
 void BatchIntegrator::set_step(std::size_t i) noexcept {
-  steps_[i] = step_context(model_, step_ + 1 + static_cast<long long>(i));
+  steps_[i] = step_context(model_, rim_->next());
   const std::size_t n = model_.pressures.size();
   for (std::size_t l = 0; l < n; ++l)
     pressures_[i * n + l] = model_.pressures[l].pressure.at(steps_[i].frame.time);
@@ -61,7 +62,7 @@ void BatchIntegrator::advance_batch(std::span<StepReport> reports) noexcept {
   }
   for (std::size_t i = 0; i < reports.size(); ++i) {
     const std::span parts = std::span<const PartialStep>(parts_).subspan(i * n_parts_, n_parts_);
-    const WholeStep whole = whole_step(model_, steps_[i].frame, parts);
+    const WholeStep whole = whole_step(model_, parts);
     ledger_.add(whole.energy);
     reports[i] = {++step_, steps_[i].frame, whole.contact, ledger_.last()};
   }
@@ -73,7 +74,7 @@ void BatchIntegrator::advance(std::span<StepReport> reports, State* last) noexce
   if (last) RONDO_DEMAND(last->active.capacity() >= contacts, last->active.capacity(), contacts);
   std::span before = reports.first(reports.size() - (last ? 1 : 0));
   while (!before.empty()) {
-    const std::size_t n = std::min(before.size(), most_steps_in_a_batch);
+    const std::size_t n = std::min(before.size(), steps_.size());
     advance_batch(before.first(n));
     before = before.subspan(n);
   }
@@ -97,6 +98,7 @@ void BatchIntegrator::fields(State& state) const noexcept {
 SavedState BatchIntegrator::save() const {
   SavedState saved;
   saved.step = step_;
+  saved.rim = rim_->save();
   saved.u.resize(model_.n_nodes());
   saved.v.resize(model_.n_nodes());
   if (model_.stiffness_damping > 0.0) saved.force.resize(model_.n_nodes());
@@ -109,6 +111,7 @@ void BatchIntegrator::restore(const SavedState& saved) {
   RONDO_DEMAND(saved.u.size() == model_.n_nodes() && saved.v.size() == model_.n_nodes(),
                saved.u.size(), saved.v.size());
   step_ = saved.step;
+  rim_->restore(step_, saved.rim);
   restore_fields(saved);
   ledger_.restore(saved.ledger);
 }

@@ -2,19 +2,22 @@
 /// @file  What both operators share: the steps of a call in batches, which the threads make without
 /// coming back in between; the ledger of them.
 #pragma once
+#include <memory>
 #include <span>
 #include <vector>
 
 #include "rondo/core/barrier.hpp"
 #include "rondo/integrators/fused/step_context.hpp"
 #include "rondo/integrators/integrator.hpp"
+#include "rondo/model/rim.hpp"
 
 namespace rondo::dynamics {
 
-class BatchIntegrator : public Integrator {
+class BatchIntegrator : public Integrator, public Resumable {
  public:
   void advance(std::span<StepReport> reports, State* last) noexcept final;
   void fields(State& state) const noexcept final;
+  [[nodiscard]] Resumable* resumable() noexcept final { return this; }
   [[nodiscard]] SavedState save() const final;
   void restore(const SavedState& saved) final;
 
@@ -62,7 +65,8 @@ class BatchIntegrator : public Integrator {
   void set_step(std::size_t i) noexcept;
 
   const int threads_;
-  std::vector<StepContext> steps_;  ///< of a batch
+  const std::unique_ptr<Rim> rim_;
+  std::vector<StepContext> steps_;  ///< of a batch: as many as the rim knows ahead
   std::vector<double> pressures_;   ///< (steps of a batch, pressures of the model)        [Pa]
   std::vector<PartialStep> parts_;  ///< (steps of a batch, n_parts)
   Barrier barrier_;

@@ -105,7 +105,7 @@ void SparseIntegrator::find_touching(const Work& work, std::size_t block) const 
   const ContactStep& contact = *work.step->contact;
   constexpr double margin = 1e-9;  // m: the nodes found are looked at again, exactly
   const double limit = model_.contact->ground.top() - contact.center.y + margin;
-  const Vec2 up = {contact.rotation.y, contact.rotation.x};
+  const Vec2 up = {contact.rotation.im, contact.rotation.re};
   const double* u = work.now;
   const SparseCandidate* candidates = plan_.candidates.data();
   const std::size_t last = plan_.first_candidate[block + 1];
@@ -183,7 +183,7 @@ void SparseIntegrator::update_rows(const Work& work, std::size_t block,
   rows.load_of = plan_.load_of.data();
   rows.pressures = work.step->pressures;
   const kernels::Terms& terms = work.step->terms;
-  table_.sparse_rows[loaded][terms.stiffness_damping][terms.printed][terms.unsteady](rows);
+  table_.sparse_rows[loaded][terms.stiffness_damping][terms.unsteady](rows);
   for (std::size_t k = 0; k < part.sums.size(); ++k) part.sums[k] = sum_of(sums.data() + k * lanes);
 }
 

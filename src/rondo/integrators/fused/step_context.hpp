@@ -10,7 +10,7 @@
 
 namespace rondo::dynamics {
 
-/// Frame, factors and contact of the step at t_n.
+/// Frame, factors and contact of a step.
 struct StepContext {
   FrameStep frame;
   kernels::StepFactors factors{};
@@ -19,7 +19,8 @@ struct StepContext {
   const double* pressures = nullptr;  ///< of Model::pressures at t_n                     [Pa]
 };
 
-StepContext step_context(const Model& model, long long n) noexcept;
+/// @param frame of the step, by the rim
+StepContext step_context(const Model& model, const FrameStep& frame) noexcept;
 
 /// What a part of the body gives in one step: raw sums (kernels::Sum), and its contacts.
 struct PartialStep {
@@ -43,7 +44,6 @@ struct WholeStep {
   StepEnergy energy;
   ContactReport contact;
 };
-WholeStep whole_step(const Model& model, const FrameStep& frame,
-                     std::span<const PartialStep> parts) noexcept;
+WholeStep whole_step(const Model& model, std::span<const PartialStep> parts) noexcept;
 
 }  // namespace rondo::dynamics

@@ -132,7 +132,6 @@ inline void add_first_lanes(int n, const Sums& part, Sums& sums) noexcept {
   sums.frame = sums.frame + first_lanes(n, part.frame, zero);
   sums.mass = sums.mass + first_lanes(n, part.mass, zero);
   sums.stiffness = sums.stiffness + first_lanes(n, part.stiffness, zero);
-  sums.scheme = sums.scheme + first_lanes(n, part.scheme, zero);
   sums.load = sums.load + first_lanes(n, part.load, zero);
 }
 
@@ -160,7 +159,7 @@ inline Vectors load_on(const CyclicStrip& s, const RowInHand& row, std::ptrdiff_
 }
 
 /// Update and sums of one pack of a row. Tail: the last own pack, of which only `columns` count.
-template <bool Tail, bool Loaded, bool Beta, bool Printed, bool Unsteady>
+template <bool Tail, bool Loaded, bool Beta, bool Unsteady>
 inline void update_pack(const CyclicStrip& s, const Factors& f, const RowInHand& row,
                         std::ptrdiff_t column, Vectors force, Sums& sums) noexcept {
   const std::ptrdiff_t at = row.at + column;
@@ -181,14 +180,14 @@ inline void update_pack(const CyclicStrip& s, const Factors& f, const RowInHand&
   }
   if constexpr (Loaded) n.load = load_on(s, row, column);
   if constexpr (!Tail) {
-    const Vectors after = update<Loaded, Beta, Printed, Unsteady>(f, n, sums);
+    const Vectors after = update<Loaded, Beta, Unsteady>(f, n, sums);
     store_vectors(v, s.stride, after);
     store_vectors(u_next, s.stride, {fma(f.dt, after.x, n.u.x), fma(f.dt, after.y, n.u.y)});
     if constexpr (Beta) store_vectors(p, s.stride, n.force);
   } else {
     const int own = s.columns - static_cast<int>(column);
     Sums part = no_sums();
-    Vectors after = update<Loaded, Beta, Printed, Unsteady>(f, n, part);
+    Vectors after = update<Loaded, Beta, Unsteady>(f, n, part);
     add_first_lanes(own, part, sums);
     if (s.keep_tail) {
       after = first_of(own, after, n.v);
@@ -213,12 +212,11 @@ inline void add_sums(double* to, double mass, const Sums& s) noexcept {
   add_mass(sum_frame, s.frame);
   add_mass(sum_mass, s.mass);
   add(sum_stiffness, s.stiffness);
-  add_mass(sum_scheme, s.scheme);
   if constexpr (Loaded) add(sum_load, s.load);
 }
 
 /// All rows of the strip on packs [first, last), at most a group. `sums` null: the halo.
-template <bool Loaded, bool Beta, bool Printed, bool Unsteady>
+template <bool Loaded, bool Beta, bool Unsteady>
 inline void group(const CyclicStrip& s, const Factors& f, int first, int last,
                   double* sums) noexcept {
   Forces force;
@@ -237,24 +235,24 @@ inline void group(const CyclicStrip& s, const Factors& f, int first, int last,
       const std::ptrdiff_t column = static_cast<std::ptrdiff_t>(pack) * lanes;
       const Vectors g = force[r][pack - first];
       if (sums && (pack + 1) * lanes > s.columns)
-        update_pack<true, Loaded, Beta, Printed, Unsteady>(s, f, in_hand, column, g, own);
+        update_pack<true, Loaded, Beta, Unsteady>(s, f, in_hand, column, g, own);
       else
-        update_pack<false, Loaded, Beta, Printed, Unsteady>(s, f, in_hand, column, g, own);
+        update_pack<false, Loaded, Beta, Unsteady>(s, f, in_hand, column, g, own);
     }
     if (sums) add_sums<Loaded>(sums, row.mass, own);
   }
 }
 
-template <bool Loaded, bool Beta, bool Printed, bool Unsteady>
+template <bool Loaded, bool Beta, bool Unsteady>
 void cyclic_strip(const CyclicStrip& s) noexcept {
   const Factors f(*s.step);
   const int own = (s.columns + lanes - 1) / lanes;
-  if (s.first_pack < 0) group<Loaded, Beta, Printed, Unsteady>(s, f, -1, 0, nullptr);
+  if (s.first_pack < 0) group<Loaded, Beta, Unsteady>(s, f, -1, 0, nullptr);
   double* sums = s.sums;
   for (int pack = 0; pack < own; pack += group_packs, sums += n_sums * lanes)
-    group<Loaded, Beta, Printed, Unsteady>(
+    group<Loaded, Beta, Unsteady>(
         s, f, pack, pack + group_packs < own ? pack + group_packs : own, sums);
-  if (own < s.last_pack) group<Loaded, Beta, Printed, Unsteady>(s, f, own, s.last_pack, nullptr);
+  if (own < s.last_pack) group<Loaded, Beta, Unsteady>(s, f, own, s.last_pack, nullptr);
 }
 
 int low_columns(const CyclicHeight& h, int* columns) noexcept {

@@ -20,9 +20,8 @@ enum Sum {
   sum_kinetic,    ///< m |v⁻|²
   sum_strain,     ///< u_{n+1}·K u_n
   sum_frame,      ///< m v̂·Δt[(ṡJ - s²)(X + u) + Rᵀ(c̈ - g)]
-  sum_mass,       ///< m |v̂|²;  as printed m v̂·v⁻
+  sum_mass,       ///< m |v̂|²
   sum_stiffness,  ///< v̂·(K u_{n+1} - K u_n)
-  sum_scheme,     ///< as printed only: m v̂·J v⁻
   sum_load,       ///< v̂·f of the loads
   n_sums
 };
@@ -33,14 +32,13 @@ struct StepFactors {
   double rate_x, rate_y;        ///< Δt (ṡJ - s²)                                     [1/s]
   double pull_x, pull_y;        ///< Δt Rᵀ(c̈ - g)                                     [m/s]
   double inverse_x, inverse_y;  ///< 1/a
-  double drag_x, drag_y;        ///< of the velocity update (3.5), (3.6)
+  double drag_x, drag_y;        ///< of the velocity update (3.5)
   double beta_over_dt;          ///< β/Δt [-]
 };
 
 /// Which terms a step has.
 struct Terms {
   bool stiffness_damping = false;  ///< β > 0: K u_n is kept
-  bool printed = false;            ///< the scheme as printed
   bool unsteady = false;           ///< the spin changes, or some pull is not zero
 };
 
@@ -140,12 +138,12 @@ struct SparseRows {
 /// The loops of one instruction set.
 struct Table {
   const char* name;
-  /// [loaded][stiffness_damping][printed][unsteady]
-  void (*cyclic_strip[2][2][2][2])(const CyclicStrip&) noexcept;
+  /// [loaded][stiffness_damping][unsteady]
+  void (*cyclic_strip[2][2][2])(const CyclicStrip&) noexcept;
   /// Columns that are low enough, ascending; returns how many.
   int (*low_columns)(const CyclicHeight&, int* columns) noexcept;
-  /// [loaded][stiffness_damping][printed][unsteady]
-  void (*sparse_rows[2][2][2][2])(const SparseRows&) noexcept;
+  /// [loaded][stiffness_damping][unsteady]
+  void (*sparse_rows[2][2][2])(const SparseRows&) noexcept;
 };
 
 extern const Table avx512_table, avx2_table, baseline_table;

@@ -55,7 +55,6 @@ inline void add_sums(Pack mass, const Sums& pack, Sums& sums) noexcept {
   sums.frame = fma(mass, pack.frame, sums.frame);
   sums.mass = fma(mass, pack.mass, sums.mass);
   sums.stiffness = sums.stiffness + pack.stiffness;
-  sums.scheme = fma(mass, pack.scheme, sums.scheme);
   sums.load = sums.load + pack.load;
 }
 
@@ -66,11 +65,10 @@ inline void store_sums(const Sums& sums, double* to) noexcept {
   store(to + sum_frame * lanes, sums.frame);
   store(to + sum_mass * lanes, sums.mass);
   store(to + sum_stiffness * lanes, sums.stiffness);
-  store(to + sum_scheme * lanes, sums.scheme);
   store(to + sum_load * lanes, sums.load);
 }
 
-template <bool Loaded, bool Beta, bool Printed, bool Unsteady>
+template <bool Loaded, bool Beta, bool Unsteady>
 void sparse_rows(const SparseRows& s) noexcept {
   const Factors f(*s.step);
   Sums sums = no_sums();
@@ -78,7 +76,7 @@ void sparse_rows(const SparseRows& s) noexcept {
     double* motion = s.motion + pack * (Beta ? 4 : 2) * lanes;
     const Nodes n = sparse_nodes<Loaded, Beta, Unsteady>(s, f, pack, motion);
     Sums own = no_sums();
-    const Vectors after = update<Loaded, Beta, Printed, Unsteady>(f, n, own);
+    const Vectors after = update<Loaded, Beta, Unsteady>(f, n, own);
     add_sums(load(s.constants + (pack * 4 + 2) * lanes), own, sums);
     store_vectors(motion, lanes, after);
     if constexpr (Beta) store_vectors(motion + 2 * lanes, lanes, n.force);

@@ -27,12 +27,12 @@ inline Pack add_dot(Vectors a, Vectors b, Pack c) noexcept {
 
 /// Sums of the row in hand; those with the mass are multiplied by it when the row is done.
 struct Sums {
-  Pack kinetic, strain, frame, mass, stiffness, scheme, load;
+  Pack kinetic, strain, frame, mass, stiffness, load;
 };
 
 inline Sums no_sums() noexcept {
   const Pack zero = all(0.0);
-  return {zero, zero, zero, zero, zero, zero, zero};
+  return {zero, zero, zero, zero, zero, zero};
 }
 
 /// StepFactors in every lane.
@@ -55,7 +55,7 @@ struct Nodes {
 };
 
 /// v⁺ of (3.4) and its part of the sums.
-template <bool Loaded, bool Beta, bool Printed, bool Unsteady>
+template <bool Loaded, bool Beta, bool Unsteady>
 inline Vectors update(const Factors& f, const Nodes& n, Sums& sums) noexcept {
   Vectors frame = {fma(f.rate.x, n.u.x, n.frame.x), fma(f.rate.x, n.u.y, n.frame.y)};
   if constexpr (Unsteady) frame = {fnma(f.rate.y, n.u.y, frame.x), fma(f.rate.y, n.u.x, frame.y)};
@@ -74,7 +74,7 @@ inline Vectors update(const Factors& f, const Nodes& n, Sums& sums) noexcept {
   const Vectors twice_mean = {n.v.x + after.x, n.v.y + after.y};
   sums.kinetic = add_dot(n.v, n.v, sums.kinetic);
   sums.frame = add_dot(twice_mean, frame, sums.frame);
-  sums.mass = add_dot(twice_mean, Printed ? n.v : twice_mean, sums.mass);
+  sums.mass = add_dot(twice_mean, twice_mean, sums.mass);
   if constexpr (Beta) {
     sums.strain = add_dot(n.u, n.before, sums.strain);
     sums.stiffness = add_dot(twice_mean, change, sums.stiffness);
@@ -82,8 +82,6 @@ inline Vectors update(const Factors& f, const Nodes& n, Sums& sums) noexcept {
     const Vectors u_before = {fnma(f.dt, n.v.x, n.u.x), fnma(f.dt, n.v.y, n.u.y)};
     sums.strain = add_dot(u_before, n.force, sums.strain);
   }
-  if constexpr (Printed)
-    sums.scheme = fma(twice_mean.y, n.v.x, fnma(twice_mean.x, n.v.y, sums.scheme));
   if constexpr (Loaded) sums.load = add_dot(twice_mean, n.load, sums.load);
   return after;
 }
