@@ -2,16 +2,10 @@
 /// @file  rondo reduce: calls the library, prints the figures on stdout, returns an exit code.
 #pragma once
 #include "rondo/study/reduce.hpp"
-#include "rondo/study/validation.hpp"
 
 namespace rondo::app {
 
-struct ReduceArguments {
-  study::ReduceRequest request;         ///< without runs: validates the model that is there
-  study::ValidationRequest validation;  ///< without runs: validates nothing
-  bool quiet = false;                   ///< no progress, only warnings and the figures
-};
-
-int reduce(ReduceArguments arguments);
+/// @param quiet no progress, only warnings and the figures
+int reduce(study::ReduceRequest request, bool quiet);
 
 }  // namespace rondo::app

@@ -27,10 +27,8 @@ struct ModelRanges {
 /// Names of the command line and of the file.
 inline constexpr std::array<std::pair<const char*, reduction::ModelFrame>, 2> frame_names{
     {{"rectified", reduction::ModelFrame::rectified}, {"turning", reduction::ModelFrame::turning}}};
-inline constexpr std::array<std::pair<const char*, reduction::ContactForm>, 3> contact_names{
-    {{"places", reduction::ContactForm::places},
-     {"nodes", reduction::ContactForm::nodes},
-     {"patterns", reduction::ContactForm::patterns}}};
+inline constexpr std::array<std::pair<const char*, reduction::ContactForm>, 2> contact_names{
+    {{"places", reduction::ContactForm::places}, {"nodes", reduction::ContactForm::nodes}}};
 
 template <class Names, class Value>
 const char* name_in(const Names& names, Value value) noexcept {

@@ -19,9 +19,6 @@ namespace rondo::study {
 inline constexpr std::array<std::pair<const char*, reduced::StepScheme>, 2> step_names{
     {{"midpoint", reduced::StepScheme::midpoint}, {"explicit", reduced::StepScheme::central}}};
 
-/// @throws InputError: none of step_names
-void demand_step_name(const std::string& name);
-
 struct ReducedRun {
   ReducedFile file;
   reduced::StepScheme scheme = reduced::StepScheme::midpoint;

@@ -12,7 +12,7 @@
 #include "rondo/core/error.hpp"
 #include "rondo/io/csv.hpp"
 #include "rondo/io/files.hpp"
-#include "rondo/study/paper_results.hpp"
+#include "rondo/study/history_statistics.hpp"
 #include "rondo/study/run_files.hpp"
 
 namespace rondo::study {

@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-#include "rondo/study/jobs.hpp"
+#include "rondo/study/worker_processes.hpp"
 
 namespace rondo::study {
 

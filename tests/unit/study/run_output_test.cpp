@@ -9,7 +9,7 @@
 #include <string>
 
 #include "case_fixture.hpp"
-#include "jobs_fixture.hpp"
+#include "processes.hpp"
 #include "rondo/dynamics/stepper.hpp"
 #include "rondo/study/run_output.hpp"
 

@@ -13,7 +13,7 @@
 #include <semaphore>
 #include <vector>
 
-#include "jobs_fixture.hpp"
+#include "processes.hpp"
 #include "rondo/core/error.hpp"
 #include "rondo/study/writer_thread.hpp"
 
