@@ -89,14 +89,6 @@ class Smooth(Disk):
                 self.assertEqual(j["reduced_frame"], "turning" if turning else "rectified")
                 self.assertEqual(j["reduced_step"], "explicit" if of_run else "midpoint")
 
-    def test_a_model_with_patterns_is_refused(self):
-        model = self.model()
-        with h5py.File(model, "r+") as f:
-            f.attrs["contact"] = "patterns"
-        self.assertIn("build the model again",
-                      self.fails("run", self.case_file, "--reduced", model, "-o",
-                                 self.folder / "out", code=4))
-
     def test_nodes_take_a_whole_number_of_steps_a_sector(self):
         out, j = self.predicted(self.model("--contact", "nodes"))
         sector = 2 * np.pi / 120 / 33.333333

@@ -114,10 +114,6 @@ void read_contact(const File& file, const std::string& path, ReducedFile& conten
   reduction::ReducedModel& m = content.model;
   m.n_sectors = content.mesh.n_sectors;
   m.frame = named(frame_names, file.attribute("/", "frame"), path);
-  if (file.attribute("/", "contact") == "patterns")
-    throw FileError(path,
-                    "touches the ground by patterns, which lose the friction and are no longer "
-                    "run: build the model again with rondo reduce RUN... -o MODEL.h5");
   m.form = named(contact_names, file.attribute("/", "contact"), path);
   if (m.n_sectors < 1 || reduction::node_rings(content.mesh).n_sectors < 1)
     throw FileError(path, "its mesh has no equal sectors");
@@ -210,6 +206,10 @@ ReducedFile read_reduced_file(const std::filesystem::path& path) {
   const File file = io::open_checkpoint_file(path);
   if (file.attribute("/", "format") != format)
     throw FileError(path.string(), fmt::format("is not a reduced model (\"{}\")", format));
+  if (file.attribute("/", "contact") == "patterns")
+    throw FileError(path.string(),
+                    "touches the ground by patterns, which lose the friction and are no longer "
+                    "run: build the model again with rondo reduce RUN... -o MODEL.h5");
   ReducedFile content;
   content.body = file.attribute("/", "body");
   content.runs = lines_of(file.attribute("/", "runs"));

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import os
 import pathlib
+from collections.abc import Callable
 from functools import cached_property
 from typing import TYPE_CHECKING, Any
 
@@ -31,6 +32,10 @@ class Pod:
     directory; info: pod.json; mesh; field: "displacement", "velocity" or "contact"; frame:
     "rotating" or "rectified"; weight: "mass", "delassus" or "none"; unit: [q];
     time_unit: "s" or "1"."""
+
+    # Pictures: what rondo/pictures.py gives this class, as nothing here knows how to draw.
+    plot_spectrum: Callable[..., Axes]
+    plot_modes: Callable[..., Figure]
 
     def __init__(self, directory: pathlib.Path) -> None:
         self.directory = directory
@@ -135,13 +140,3 @@ class Pod:
             raise Error(f"{self.directory}: {self.n_modes} modes are kept; {count} were asked for: "
                         "rondo pod --modes keeps more")
         return np.tensordot(self.coefficients[k, :count], self.spatial[:count], axes=1)
-
-    def plot_spectrum(self, ax: Axes | None = None) -> Axes:
-        """Energy left out over modes kept."""
-        from .plots.modes import plot_pod_spectrum
-        return plot_pod_spectrum([self], ax=ax)
-
-    def plot_modes(self, count: int = 6) -> Figure:
-        """The first modes with their course in time."""
-        from .plots.modes import plot_modes
-        return plot_modes(self, count)

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import os
 import pathlib
-from collections.abc import Iterator, Mapping
+from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass
 from functools import cached_property
 from typing import TYPE_CHECKING, Any
@@ -104,6 +104,14 @@ class Run:
     directory; info: run.json; case: case.toml; times, times_velocity: (t,) [s], of a crush the
     share of its depth; angle, angle_velocity: (t,) of the turning frame at these times [rad];
     center: (t, 2) in the fixed frame [m]; mesh."""
+
+    # Pictures: what rondo/pictures.py gives this class, as nothing here knows how to draw.
+    plot_field: Callable[..., Axes]
+    plot_history: Callable[..., Axes]
+    plot_energy: Callable[..., Axes]
+    plot_spectrum: Callable[..., Axes]
+    plot_modes: Callable[..., Figure]
+    animate: Callable[..., pathlib.Path]
 
     def __init__(self, directory: pathlib.Path) -> None:
         self.directory = directory
@@ -307,35 +315,3 @@ class Run:
                           [*self.pods, f"to make it: rondo pod {self.directory} --field {field} "
                                        f"--frame {frame}"])
         return self.pods[name]
-
-    # Pictures
-
-    def plot_field(self, time: float, quantity: str = "displacement", **options: Any) -> Axes:
-        """The body at the snapshot nearest to `time`; options: see rondo.plots.field.plot_field."""
-        from .plots.field import plot_field
-        return plot_field(self, time, quantity, **options)
-
-    def plot_history(self, *columns: str, ax: Axes | None = None) -> Axes:
-        """Columns of the history over time; without any, the ground's forces."""
-        from .plots.curves import plot_history
-        return plot_history(self, *columns, ax=ax)
-
-    def plot_energy(self, ax: Axes | None = None) -> Axes:
-        """The energy ledger."""
-        from .plots.curves import plot_energy
-        return plot_energy(self, ax=ax)
-
-    def plot_spectrum(self, column: str = "force_y", from_time: float | None = None,
-                      to_time: float | None = None, ax: Axes | None = None) -> Axes:
-        """Amplitude spectrum of a column of the history, by default of the vertical force."""
-        from .plots.curves import plot_force_spectrum
-        return plot_force_spectrum(self, column, from_time, to_time, ax)
-
-    def plot_modes(self, field: str, frame: str = "rotating", count: int = 6) -> Figure:
-        """The first modes of a POD of this run."""
-        return self.pod(field, frame).plot_modes(count)
-
-    def animate(self, path: str | os.PathLike[str], **options: Any) -> pathlib.Path:
-        """A film (.mp4, .gif) of the body; options: see rondo.plots.animation.animate."""
-        from .plots.animation import animate
-        return animate(self, path, **options)

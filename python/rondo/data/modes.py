@@ -5,6 +5,7 @@ from __future__ import annotations
 import csv
 import os
 import pathlib
+from collections.abc import Callable
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
@@ -15,7 +16,6 @@ from . import files
 from .errors import Error
 
 if TYPE_CHECKING:
-    from matplotlib.axes import Axes
     from matplotlib.figure import Figure
 
 Array = NDArray[np.float64]
@@ -36,6 +36,9 @@ class Branch:
 class Modes:
     """A directory of `rondo modes`."""
 
+    # Pictures: what rondo/pictures.py gives this class, as nothing here knows how to draw.
+    plot_campbell: Callable[..., Figure]
+
     def __init__(self, directory: pathlib.Path) -> None:
         self.directory = directory
         self.summary = files.read_json(directory / "modes.json")
@@ -49,11 +52,6 @@ class Modes:
     def spins(self) -> Array:
         """(k,) rad/s, ascending: all for which there is a frequency."""
         return np.unique(np.concatenate([b.spin for b in self.branches]))
-
-    def plot_campbell(self, frame: str = "turning", ax: Axes | None = None) -> Figure:
-        """Frequencies over the spin; see `rondo.plots.campbell.plot_campbell`."""
-        from .plots.campbell import plot_campbell
-        return plot_campbell(self, frame, ax)
 
 
 def _branches(path: pathlib.Path) -> list[Branch]:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import os
 import pathlib
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from functools import cached_property
 from typing import TYPE_CHECKING, Any
@@ -78,6 +78,12 @@ class Sweep:
 
     directory; info: sweep.json; parameters: by their key, with those of targets; figures: names;
     units: of each column but the status, "1" without dimension."""
+
+    # Pictures: what rondo/pictures.py gives this class, as nothing here knows how to draw.
+    plot_main_effects: Callable[..., Figure]
+    plot_map: Callable[..., Axes]
+    plot_curves: Callable[..., Axes]
+    plot_spread: Callable[..., Axes]
 
     def __init__(self, directory: pathlib.Path, info: dict[str, Any],
                  parameters: dict[str, Parameter], columns: dict[str, np.ndarray],
@@ -227,30 +233,6 @@ class Sweep:
         """timings.csv: "run", "worker", "wall_s", a row for each member computed so far; all of
         them, of a selection as well."""
         return read_table(self.directory / "timings.csv")
-
-    # Pictures
-
-    def plot_main_effects(self, figure: str) -> Figure:
-        """A figure over each parameter; see rondo.plots.sweep_effects.plot_main_effects."""
-        from .plots.sweep_effects import plot_main_effects
-        return plot_main_effects(self, figure)
-
-    def plot_map(self, figure: str, x: str, y: str, ax: Axes | None = None) -> Axes:
-        """A figure over two parameters; see rondo.plots.sweep_map.plot_map."""
-        from .plots.sweep_map import plot_map
-        return plot_map(self, figure, x, y, ax)
-
-    def plot_curves(self, figure: str, x: str, by: str | None = None,
-                    ax: Axes | None = None) -> Axes:
-        """A figure over a column, a curve for each value of another; see
-        rondo.plots.sweep_curves.plot_curves."""
-        from .plots.sweep_curves import plot_curves
-        return plot_curves(self, figure, x, by, ax)
-
-    def plot_spread(self, figures: Sequence[str] | None = None, ax: Axes | None = None) -> Axes:
-        """How far figures differ among the members; see rondo.plots.sweep_spread.plot_spread."""
-        from .plots.sweep_spread import plot_spread
-        return plot_spread(self, figures, ax)
 
 
 def _extent(values: np.ndarray, parameter: Parameter) -> str:

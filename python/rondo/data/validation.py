@@ -1,11 +1,11 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""A validation of a reduced model: the directory that `rondo reduce --validate` writes."""
+"""A validation of a reduced model: the directory that `python3 -m rondo validate` writes."""
 from __future__ import annotations
 
 import csv
 import os
 import pathlib
-from collections.abc import Sequence
+from collections.abc import Callable
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -19,16 +19,19 @@ if TYPE_CHECKING:
 
 
 def open_validation(path: str | os.PathLike[str]) -> Validation:
-    """Opens MODEL-validation, beside the model."""
+    """Opens the directory of a validation."""
     return Validation(require(path, "validation.json", beside="validation.csv"))
 
 
 class Validation:
-    """A row for each run held out, r rows: validation["force_y_error"] is a column (r,). Figures of
-    a prediction that failed are NaN.
+    """A row for each run held out, r rows: validation["force_y_error"] is a column (r,). What
+    there is nothing to measure by is NaN.
 
-    directory; info: validation.json; names: (r) of the predictions' directories; units: of each
+    directory; info: validation.json; names: (r) of the full runs' directories; units: of each
     column, "1" without dimension."""
+
+    # Pictures: what rondo/pictures.py gives this class, as nothing here knows how to draw.
+    plot: Callable[..., Figure]
 
     def __init__(self, directory: pathlib.Path) -> None:
         self.directory = directory
@@ -37,6 +40,7 @@ class Validation:
         check_format(path, "validation", self.info.get("format"))
         try:
             self.units = {str(name): str(unit) for name, unit in self.info["units"].items()}
+            self._reduced = {str(run["name"]): str(run["reduced"]) for run in self.info["runs"]}
             self._has_profiles = {str(run["name"]): bool(run["profiles"])
                                   for run in self.info["runs"]}
         except (KeyError, TypeError, AttributeError) as reason:
@@ -44,7 +48,7 @@ class Validation:
         self.names, self._columns = _read(directory / "validation.csv")
         if self.names != list(self._has_profiles) or set(self.units) != set(self._columns):
             raise Error(f"{directory}: validation.json and validation.csv are not of one "
-                        "validation; rondo reduce --validate writes both anew")
+                        "validation; python3 -m rondo validate writes both anew")
 
     def __repr__(self) -> str:
         return (f"Validation({self.directory}: of {self.info.get('model')} "
@@ -63,21 +67,15 @@ class Validation:
     def prediction(self, name: str) -> Run:
         """The reduced run."""
         self._place(name)
-        return open_run(self.directory / name)
+        return open_run(self.directory / self._reduced[name])
 
     def profiles(self, name: str) -> dict[str, np.ndarray] | None:
         """Mean tractions over the angle in space: angle_rad, pressure_full_pa,
-        pressure_reduced_pa, shear_full_pa, shear_reduced_pa, (m,) each. None without contact, and
-        of a prediction that failed."""
+        pressure_reduced_pa, shear_full_pa, shear_reduced_pa, (m,) each. None without contact."""
         self._place(name)
         if not self._has_profiles[name]:
             return None
         return read_table(self.directory / name / "profiles.csv")
-
-    def plot(self, names: Sequence[str] = ()) -> Figure:
-        """Profiles and errors; see `rondo.plots.validation.plot_validation`."""
-        from .plots.validation import plot_validation
-        return plot_validation(self, names)
 
     def _place(self, name: str) -> int:
         if name not in self.names:
