@@ -143,10 +143,6 @@ std::size_t memory_of(const PodRequest& request) {
   return *bytes;
 }
 
-bool is_crush(const io::RunReader& run) noexcept {
-  return run.analysis() == "crush";
-}
-
 const char* name_of(pod::Method method) noexcept {
   return word_of(method, methods);
 }

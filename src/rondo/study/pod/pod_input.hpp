@@ -22,9 +22,6 @@ std::size_t memory_of(const PodRequest& request);
 const char* name_of(pod::Method method) noexcept;
 const char* name_of(Weight weight) noexcept;
 const char* unit_of(io::Quantity quantity, const io::RunReader& run) noexcept;
-/// The times of a crush are shares of its load.
-bool is_crush(const io::RunReader& run) noexcept;
-
 /// Opens the runs and says which are unfinished. @throws InputError: no snapshots, no such field,
 /// no sectors, different meshes; FileError
 std::vector<io::RunReader> open_runs(const PodRequest& request, const SnapshotChoice& choice);
