@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """The study of the paper in full: its table against numbers written here, so that no bound of the
-study itself can be widened unseen (docs/paper.md, docs/validation.md). Some 20 s, 1.2 GB on the disk;
+study itself can be widened unseen (docs/paper.md, docs/validation.md). Some 20 s, 1.2 GB of disk;
 by hand: RONDO=... PYTHONPATH=python python3 -m pytest tests/python/paper_in_full.py"""
 import pytest
 from studies import paper, table

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Which module of the package imports which: data draws nothing, and nothing goes round in a circle.
-Imports inside functions and those for types alone count as all others do."""
+"""Which module of the package imports which: data draws nothing, and nothing goes round in a
+circle. Imports inside functions and those for types alone count as all others do."""
 import ast
 import pathlib
 

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""The study of the paper, quick: its table against numbers computed here from its files; the measures
-that it is made with, on data made by hand."""
+"""The study of the paper, quick: its table against numbers computed here from its files; the
+measures that it is made with, on data made by hand."""
 import math
 import pathlib
 import shlex
