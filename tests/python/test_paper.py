@@ -87,7 +87,8 @@ def test_killed_interrupted_and_gone_on_with(tmp_path):
           and json.loads((folder / "runs/long/run.json").read_text())["status"] == "running"
           and processes_of(folder / "runs/long"))
     busy = paper("--study", study, "-o", folder)
-    assert busy.returncode == 4 and "another rondo is at work here" in busy.stderr
+    assert busy.returncode == 4
+    assert f"rondo: error: {folder}: another rondo is at work here" in busy.stderr
     process.send_signal(signal.SIGTERM)
     said = process.communicate()[1]
     assert process.returncode == 130, said
