@@ -50,7 +50,7 @@ asan() { # [--short]
 }
 
 tsan() {
-  build tsan unit_core unit_dynamics unit_study rondo
+  build tsan thread_tests
   # libomp tells the sanitizer through Archer where threads wait for each other; without it each
   # parallel loop would be a race.
   local archer
