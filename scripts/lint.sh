@@ -4,6 +4,7 @@
 #   bash scripts/lint.sh                   the whole tree
 #   bash scripts/lint.sh --changed [REV]   only what differs from REV, or is new; REV: where the branch
 #                                          left origin/main, or else the commit before
+#                                          ends within about 40 s and says what it did not come to
 # clang-tidy keeps what it found clean in build/lint and looks again only where something changed.
 # Exit code 1: findings, which are printed. Exit code 2: wrong arguments.
 set -euo pipefail
@@ -13,7 +14,7 @@ changed=no
 case ${1:-} in
   '') ;;
   --changed) changed=yes ;;
-  *) sed -n '2,9s/^# \{0,1\}//p' "$0" >&2; exit 2 ;;
+  *) sed -n '2,10s/^# \{0,1\}//p' "$0" >&2; exit 2 ;;
 esac
 if [ "$changed" = yes ]; then
   rev=${2:-$(git merge-base HEAD origin/main 2>/dev/null || true)}
@@ -41,14 +42,25 @@ work=build/lint
 mkdir -p "$work"
 failed=()
 part() { # NAME COMMAND...
-  local name=$1 begin=$SECONDS
+  local name=$1 begin=$SECONDS outcome=0
   shift
-  if "$@"; then
-    echo "lint: $name: clean, $((SECONDS - begin)) s"
-  else
-    failed+=("$name")
-    echo "lint: $name: FINDINGS above, $((SECONDS - begin)) s"
-  fi
+  "$@" || outcome=$?
+  case $outcome in
+    0) echo "lint: $name: clean, $((SECONDS - begin)) s" ;;
+    124) echo "lint: $name: NOT FINISHED in the time of --changed: bash scripts/lint.sh" ;;
+    *)
+      failed+=("$name")
+      echo "lint: $name: FINDINGS above, $((SECONDS - begin)) s"
+      ;;
+  esac
+}
+
+seconds_left() { # of the time of --changed, for what should end at second $1
+  echo $(($1 > SECONDS ? $1 - SECONDS : 1))
+}
+
+limited() { # COMMAND..., exit code 124 where the time of --changed ran out
+  if [ "$changed" = yes ]; then timeout "$(seconds_left 35)" "$@"; else "$@"; fi
 }
 
 format() {
@@ -66,7 +78,7 @@ cppcheck_() {
   mapfile -t sources < <(those '^(src|apps)/.*\.cpp$')
   [ ${#sources[@]} -gt 0 ] || return 0
   mkdir -p "$work/cppcheck"
-  cppcheck --enable=warning,performance,portability --std=c++20 --language=c++ --quiet \
+  limited cppcheck --enable=warning,performance,portability --std=c++20 --language=c++ --quiet \
     -j "$(nproc)" --template='{file}:{line}: {severity}: {id}: {message}' --error-exitcode=1 -I src \
     --cppcheck-build-dir="$work/cppcheck" --suppress=constStatement \
     --suppress='passedByValue:*/kernels/*' "${sources[@]}"
@@ -74,7 +86,7 @@ cppcheck_() {
 
 types() {
   [ -n "$(those '^python/.*\.py$')" ] || return 0
-  (cd python && /usr/bin/python3 -m mypy --ignore-missing-imports --disallow-untyped-defs \
+  (cd python && limited /usr/bin/python3 -m mypy --ignore-missing-imports --disallow-untyped-defs \
     --cache-dir "$OLDPWD/$work/mypy" rondo)
 }
 
@@ -86,16 +98,16 @@ tidy() {
     -DCMAKE_DISABLE_PRECOMPILE_HEADERS=ON >"$work/cmake.log" ||
     { cat "$work/cmake.log"; return 1; }
   local seconds=0
-  [ "$changed" = no ] || seconds=30
+  [ "$changed" = no ] || seconds=$(seconds_left 28)
   /usr/bin/python3 scripts/lint/tidy.py "$work/clang" "$work/tidy" "$seconds" <"$work/files.txt"
 }
 
 part format format
 part layers layers
 part clocks clocks
-part types types
-part cppcheck cppcheck_
 part clang-tidy tidy
+part cppcheck cppcheck_
+part types types
 [ ${#failed[@]} -eq 0 ] && exit 0
 echo "lint: findings of: ${failed[*]}" >&2
 exit 1
