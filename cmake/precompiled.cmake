@@ -1,7 +1,7 @@
 # What most sources include of other libraries is read once: by rondo_precompiled for the library and
 # the programs, with the test framework by rondo_precompiled_tests. Every source still names what it
 # includes: the presets of clang, and clang-tidy, compile without (CMAKE_DISABLE_PRECOMPILE_HEADERS).
-file(WRITE ${PROJECT_BINARY_DIR}/generated/precompiled.cpp "// only to have a target\n")
+file(CONFIGURE OUTPUT ${PROJECT_BINARY_DIR}/generated/precompiled.cpp CONTENT "// only to have a target\n")
 function(rondo_precompiled_headers target)
   add_library(${target} OBJECT EXCLUDE_FROM_ALL ${PROJECT_BINARY_DIR}/generated/precompiled.cpp)
   target_link_libraries(${target} PRIVATE fmt::fmt Eigen3::Eigen OpenMP::OpenMP_CXX)
