@@ -40,8 +40,8 @@ Sums sum_up(const CrushSetup& setup, const statics::CrushState& state) {
     const auto node = static_cast<std::size_t>(setup.model.nodes[k]);
     const double tributary = setup.mesh.tributary[k];
     s.contact += r;
-    s.force += normal * r;
-    s.torque += cross(setup.mesh.coordinates[node] + state.u[node], normal * r);
+    s.force += from_frame(normal, r);
+    s.torque += cross(setup.mesh.coordinates[node] + state.u[node], from_frame(normal, r));
     ++s.nodes;
     s.sticking += state.status[k] == contact::Status::stick ? 1 : 0;
     s.length += tributary;
@@ -319,7 +319,7 @@ void CrushAnalysis::fill(const std::vector<Vec2>& before, const Sums& sums, Snap
     s.v[i] = static_cast<double>(increments) * (state_.u[i] - before[i]);
   s.contacts.clear();
   for (std::size_t k = 0; k < state_.force.size(); ++k)
-    s.contacts.push_back({k, state_.force[k], normal * state_.force[k], true});
+    s.contacts.push_back({k, state_.force[k], from_frame(normal, state_.force[k]), true});
   s.series = {state_.depth, sums.contact.x, sums.contact.y, sums.length, sums.pressure};
 }
 

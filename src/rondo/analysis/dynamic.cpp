@@ -40,8 +40,8 @@ void take_contacts(const dynamics::State& state, double dt, std::vector<ContactF
   Vec2 normal;
   for (const dynamics::ActiveContact& c : state.active) {
     if (contacts.empty() || c.candidate != contacts.back().candidate) normal = c.normal;
-    const Vec2 force = (c.normal * c.impulse) / dt;
-    contacts.push_back({c.candidate, conj(normal) * force, force, c.on_ground});
+    const Vec2 force = from_frame(c.normal, c.impulse) / dt;
+    contacts.push_back({c.candidate, to_frame(normal, force), force, c.on_ground});
   }
 }
 

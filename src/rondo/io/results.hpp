@@ -14,7 +14,8 @@
 #include <string>
 #include <vector>
 
-#include "rondo/core/vec2.hpp"
+#include "rondo/core/complex.hpp"
+#include "rondo/core/field.hpp"
 #include "rondo/mesh/mesh.hpp"
 
 namespace rondo::io {
@@ -50,6 +51,7 @@ struct ResultsLayout {
   /// (n) number of the free body that a node belongs to, which moves in the fixed frame; -1: it
   /// moves in the turning frame. Empty: no free body.
   std::span<const int> free_body = {};
+  std::size_t components = 2;  ///< of the vectors of a snapshot
   ResultsWords words = {};
   std::vector<Series> series = {};
 };
@@ -57,18 +59,18 @@ struct ResultsLayout {
 /// One snapshot; spans are only read during the call. Times and rates are in the units of the
 /// layout's words.
 struct Snapshot {
-  double time = 0.0;            ///< of displacement and contact                        [s]
-  double time_velocity = 0.0;   ///< of velocity: half a step before `time`             [s]
-  double angle = 0.0;           ///< θ at `time`, counter-clockwise                     [rad]
-  double angle_velocity = 0.0;  ///< θ at `time_velocity`                      [rad]
-  Vec2 center;                  ///< fixed frame                                        [m]
-  std::span<const Vec2> displacement;   ///< (n) turning frame; of free bodies fixed frame   [m]
-  std::span<const Vec2> velocity;       ///< (n) the same                                  [m/s]
-  std::span<const Vec2> contact_force;  ///< (nb) normal, tangential; empty: no contact    [N/m]
-  std::span<const Vec2> contact_force_fixed;  ///< (nb) x, y in the fixed frame           [N/m]
-  std::span<const NodalStress> stress;        ///< (n) frame of the body; empty: not asked for [Pa]
-  std::span<const Vec2> body_rotation = {};   ///< e^{iθ} of each free body
-  std::span<const double> series = {};  ///< components of the layout's series, one after another
+  double time = 0.0;              ///< of displacement and contact                        [s]
+  double time_velocity = 0.0;     ///< of velocity: half a step before `time`             [s]
+  double angle = 0.0;             ///< θ at `time`, counter-clockwise                     [rad]
+  double angle_velocity = 0.0;    ///< θ at `time_velocity`                      [rad]
+  Vec2 center;                    ///< fixed frame                                        [m]
+  FieldView displacement;         ///< (n) turning frame; of free bodies fixed frame   [m]
+  FieldView velocity;             ///< (n) the same                                  [m/s]
+  FieldView contact_force;        ///< (nb) normal, tangential; empty: no contact    [N/m]
+  FieldView contact_force_fixed;  ///< (nb) x, y in the fixed frame           [N/m]
+  std::span<const NodalStress> stress;  ///< (n) frame of the body; empty: not asked for [Pa]
+  std::span<const Complex> body_rotation = {};  ///< e^{iθ} of each free body
+  std::span<const double> series = {};  ///< values of the layout's series, one after another
 };
 
 class Results {

@@ -22,16 +22,17 @@ void Results::Impl::create_frame() {
 }
 
 void Results::Impl::create_snapshots() {
-  d.displacement = file.create_rows("/snapshots/displacement", Type::float64, {c.times, c.nodes, 2},
-                                    {"m", "displacement u of each node, " + frame()});
+  d.displacement =
+      file.create_rows("/snapshots/displacement", Type::float64, {c.times, c.nodes, c.components},
+                       {"m", "displacement u of each node, " + frame()});
   const h5::Label velocity = {words.velocity_unit, words.velocity.empty()
                                                        ? "velocity du/dt of each node, " + frame() +
                                                              ", at /frame/time_velocity"
                                                        : words.velocity};
-  d.velocity =
-      file.create_rows("/snapshots/velocity", Type::float64, {c.times, c.nodes, 2}, velocity);
+  d.velocity = file.create_rows("/snapshots/velocity", Type::float64,
+                                {c.times, c.nodes, c.components}, velocity);
   if (!c.contact) return;
-  const h5::Shape shape = {c.times, c.candidates, 2};
+  const h5::Shape shape = {c.times, c.candidates, c.components};
   d.force = file.create_rows(
       "/contact/force", Type::float64, shape,
       {"N/m", "contact force on each node of /mesh/boundary: normal, tangential; " + words.force});

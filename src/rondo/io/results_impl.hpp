@@ -17,7 +17,7 @@
 namespace rondo::io {
 
 struct ResultsCounts {
-  std::size_t nodes, candidates, times;
+  std::size_t nodes, candidates, times, components;
   bool contact, stress;
 };
 
@@ -72,7 +72,7 @@ struct Results::Impl {
   std::vector<std::array<float, 3>> vectors, forces;
   std::vector<std::array<float, 6>> tensors;
   std::vector<float> scalars;
-  std::vector<Vec2> traction;
+  std::vector<double> traction;
   h5::File file;
   struct {
     h5::Dataset time, time_velocity, angle, angle_velocity, center, displacement, velocity, force,

@@ -147,9 +147,10 @@ std::size_t RunReader::n_points(Quantity quantity) const noexcept {
 }
 
 void RunReader::read(Quantity quantity, std::size_t snapshot, std::size_t first,
-                     std::span<Vec2> out) const {
+                     MutableFieldView out) const {
   RONDO_DEMAND(has(quantity) && snapshot < n_snapshots(), snapshot, n_snapshots());
-  dataset(quantity).read_part(snapshot, first, out);
+  RONDO_DEMAND(out.components == dataset(quantity).shape().back(), out.components);
+  dataset(quantity).read_part(snapshot, first, out.values);
 }
 
 namespace {

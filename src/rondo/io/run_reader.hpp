@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "rondo/core/vec2.hpp"
+#include "rondo/core/field.hpp"
 #include "rondo/io/h5/h5.hpp"
 #include "rondo/mesh/mesh.hpp"
 
@@ -55,8 +55,9 @@ class RunReader {
   [[nodiscard]] bool has(Quantity quantity) const noexcept;
   [[nodiscard]] std::size_t n_points(Quantity quantity) const noexcept;  ///< nodes or candidates
   /// The points [first, first + out.size()) of a snapshot, straight into `out`; one thread at a
-  /// time. @pre has(quantity), snapshot < n_snapshots(). @throws FileError
-  void read(Quantity quantity, std::size_t snapshot, std::size_t first, std::span<Vec2> out) const;
+  /// time. @pre has(quantity), snapshot < n_snapshots(), as many components as there. @throws
+  /// FileError
+  void read(Quantity quantity, std::size_t snapshot, std::size_t first, MutableFieldView out) const;
 
  private:
   void read_summary();

@@ -42,8 +42,8 @@ class SnapshotFiles {
   ///< as they were
   io::Csv contact_csv_;
   std::optional<fem::StressRecovery> stress_;
-  std::vector<Vec2> elastic_;    ///< (n) displacement in the frame of its body; empty: no free body
-  std::vector<Vec2> rotations_;  ///< of the free bodies
+  std::vector<Vec2> elastic_;  ///< (n) displacement in the frame of its body; empty: no free body
+  std::vector<Complex> rotations_;         ///< of the free bodies
   std::vector<Vec2> force_, force_fixed_;  ///< (nb)
   std::vector<char> on_ground_;            ///< (nb) 1: the ground presses it
   std::vector<double> rows_;

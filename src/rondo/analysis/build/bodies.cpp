@@ -197,7 +197,8 @@ std::vector<double> element_sizes(const mesh::Mesh& mesh) {
 
 void place_free_bodies(const Case& c, mesh::Mesh& mesh, dynamics::Model& model) {
   if (model.free_bodies.empty()) return refuse_for_held_bodies(c);
-  const Vec2 turn = rotation(c.initial.angle), position = c.initial.position;
+  const Complex turn = rotation(c.initial.angle);
+  const Vec2 position = c.initial.position;
   if (c.initial.angle == 0.0 && position == Vec2{}) return;
   for (dynamics::FreeBody& body : model.free_bodies) {
     body.center = position + turn * body.center;
