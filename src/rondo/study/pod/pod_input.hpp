@@ -27,8 +27,8 @@ const char* unit_of(io::Quantity quantity, const io::RunReader& run) noexcept;
 std::vector<io::RunReader> open_runs(const PodRequest& request, const SnapshotChoice& choice);
 
 /// The snapshots of all runs within the window, in the order of the runs. @throws InputError: none
-std::vector<Column> columns_of(const PodRequest& request, const SnapshotChoice& choice,
-                               const std::vector<io::RunReader>& runs);
+std::vector<SnapshotColumn> columns_of(const PodRequest& request, const SnapshotChoice& choice,
+                                       const std::vector<io::RunReader>& runs);
 
 /// The request with each sweep replaced by those of its runs that are done. @throws InputError:
 /// they have no snapshots; FileError

@@ -142,7 +142,7 @@ ModelRanges ranges_of(const ReduceRequest& r, const Source& source) {
   ModelRanges ranges;
   for (const Case& c : source.cases)
     if (c.ground) ranges.friction.take(c.ground->friction);
-  for (const Column& column : columns_of(pod, choice_of(pod), source.runs)) {
+  for (const SnapshotColumn& column : columns_of(pod, choice_of(pod), source.runs)) {
     const Case& c = source.cases[column.run];
     ranges.angular_velocity.take(c.motion.angular_velocity.at(column.time));
     ranges.speed.take(c.motion.speed.at(column.time));
