@@ -158,7 +158,7 @@ std::string output_text(const Output& o) {
 
 /// What means nothing to a crush is left out, so that reading it again brings no warning.
 std::string crush_text(const Case& c) {
-  const Analysis& a = c.analysis;
+  const AnalysisCase& a = c.analysis;
   const std::string slide = a.slide_increments == 0
                                 ? ""
                                 : fmt::format("slide = {}\nslide_increments = {}\n",

@@ -21,8 +21,8 @@ namespace {
 ResultsCounts counts_of(const ResultsLayout& layout) noexcept {
   const mesh::Mesh& m = *layout.mesh;
   const bool contact = layout.contact && !m.boundary.empty();
-  return {m.n_nodes(), m.boundary.size(), layout.n_snapshots, layout.components,
-          contact,     layout.stress,     layout.quasi_static};
+  return {m.n_nodes(),       m.boundary.size(), layout.n_snapshots,
+          layout.components, contact,           layout.stress};
 }
 
 /// Of results.h5: what describes the datasets, and an entry for each row.
@@ -98,14 +98,17 @@ Results::Impl::Impl(const std::filesystem::path& folder, const ResultsLayout& la
       forces(c.contact ? c.nodes : 0),
       tensors(c.stress ? c.nodes : 0),
       scalars(c.stress ? c.nodes : 0),
-      traction(c.contact ? c.candidates * c.components : 0) {
+      traction(c.contact ? c.candidates * c.components : 0),
+      words(layout.words),
+      series(layout.series),
+      series_rows(layout.series.size()) {
   RONDO_DEMAND(c.nodes > 0 && layout.mass.size() == c.nodes, c.nodes, layout.mass.size());
   RONDO_DEMAND(tributary.size() == c.candidates, tributary.size(), c.candidates);
   demand_room(directory / results_name, bytes(layout));
   file = h5::File::create(unfinished.path, index_bytes(c));
   file.call_it(directory / results_name);
   file.set_attribute("/", "format", "rondo results 1");
-  file.set_attribute("/", "analysis", c.quasi_static ? "crush" : "dynamic");
+  file.set_attribute("/", "analysis", words.analysis);
   write_mesh(file, *layout.mesh, layout.mass);
   if (!free_body.empty())
     file.write("/mesh/free_body", {c.nodes}, view(free_body),
@@ -116,7 +119,7 @@ Results::Impl::Impl(const std::filesystem::path& folder, const ResultsLayout& la
     create_frame();
     create_snapshots();
     create_fields();
-    if (c.quasi_static) create_crush();
+    create_series();
     reserve();
   }
 }
@@ -143,26 +146,24 @@ void Results::Impl::begin_xdmf(const mesh::Mesh& mesh) {
   xdmf = std::make_unique<Xdmf>(directory / "fields.xdmf", series_of(mesh, c), std::move(times));
 }
 
-std::array<h5::Dataset*, 19> Results::Impl::all_rows() {
-  return {&d.time,
-          &d.time_velocity,
-          &d.angle,
-          &d.angle_velocity,
-          &d.center,
-          &d.displacement,
-          &d.velocity,
-          &d.force,
-          &d.traction,
-          &d.position,
-          &d.field_displacement,
-          &d.field_velocity,
-          &d.field_force,
-          &d.von_mises,
-          &d.stress,
-          &d.depth,
-          &d.load,
-          &d.contact_length,
-          &d.pressure_max};
+std::vector<h5::Dataset*> Results::Impl::all_rows() {
+  std::vector<h5::Dataset*> all = {&d.time,
+                                   &d.time_velocity,
+                                   &d.angle,
+                                   &d.angle_velocity,
+                                   &d.center,
+                                   &d.displacement,
+                                   &d.velocity,
+                                   &d.force,
+                                   &d.traction,
+                                   &d.position,
+                                   &d.field_displacement,
+                                   &d.field_velocity,
+                                   &d.field_force,
+                                   &d.von_mises,
+                                   &d.stress};
+  for (h5::Dataset& dataset : series_rows) all.push_back(&dataset);
+  return all;
 }
 
 void Results::Impl::resize(std::size_t rows) {
@@ -237,18 +238,20 @@ void Results::Impl::write_contact(const Snapshot& s) {
   row(d.traction, traction);
 }
 
-void Results::Impl::write_crush(const CrushRow& crush) {
-  row(d.depth, crush.depth);
-  d.load.write_row(written, std::span<const Vec2>(&crush.force, 1));
-  row(d.contact_length, crush.contact_length);
-  row(d.pressure_max, crush.pressure_max);
+void Results::Impl::write_series(std::span<const double> values) {
+  std::size_t at = 0;
+  for (std::size_t k = 0; k < series.size(); ++k) {
+    RONDO_DEMAND(at + series[k].components <= values.size(), at, values.size());
+    series_rows[k].write_row(written, values.subspan(at, series[k].components));
+    at += series[k].components;
+  }
 }
 
 /// The time comes last: where it is a number, the snapshot is complete.
 void Results::Impl::write_snapshot(const Snapshot& s) {
   check(s);
   write_fields(s);
-  if (c.quasi_static) write_crush(s.crush);
+  write_series(s.series);
   d.displacement.write_row(written, s.displacement.values);
   d.velocity.write_row(written, s.velocity.values);
   d.center.write_row(written, std::span<const Vec2>(&s.center, 1));
@@ -264,6 +267,7 @@ void Results::Impl::close() {
   if (!file) return;
   resize(written);
   d = {};
+  series_rows.clear();
   file.close();
   xdmf->close();
 }
@@ -307,8 +311,9 @@ std::size_t Results::bytes(const ResultsLayout& layout) noexcept {
   constexpr std::size_t real = 8, single = 4;
   const std::size_t node =
       2 * c.components * real + (9U + (c.contact ? 3U : 0U) + (c.stress ? 7U : 0U)) * single;
-  const std::size_t candidate = c.contact ? 2 * c.components * real : 0,
-                    frame = (6U + (c.quasi_static ? 5U : 0U)) * real;
+  const std::size_t candidate = c.contact ? 2 * c.components * real : 0;
+  std::size_t frame = 6 * real;
+  for (const Series& s : layout.series) frame += s.components * real;
   return index_bytes(c) + mesh_bytes(*layout.mesh) + layout.free_body.size() * sizeof(int) +
          c.times * (frame + c.nodes * node + c.candidates * candidate);
 }

@@ -6,12 +6,13 @@
 #include <iterator>
 #include <system_error>
 
+#include "rondo/analysis/history_statistics.hpp"
 #include "rondo/core/build_id.hpp"
 #include "rondo/core/error.hpp"
 #include "rondo/io/csv.hpp"
 #include "rondo/io/files.hpp"
 #include "rondo/io/h5/h5.hpp"
-#include "rondo/study/paper/paper_results.hpp"
+#include "rondo/io/run_reader.hpp"
 
 namespace rondo::study {
 namespace {
@@ -30,11 +31,7 @@ bool is_whole(const fs::path& directory, const Json& j) {
   const auto number = [&](const char* key) { return number_in(j, key); };
   const Columns history = io::read_columns(directory / "history.csv");
   const std::vector<double>& time = column(history, "time_s", directory / "history.csv");
-  if (text_in(j, "analysis") == "crush") {
-    if (static_cast<double>(time.size()) != number("increments_done") + 1.0) return false;
-  } else if (std::abs(time.back() - number("end_time")) > 1e-9 * time.back()) {
-    return false;
-  }
+  if (std::abs(time.back() - number("last_time")) > 1e-9 * time.back()) return false;
   if (number("snapshots") == 0.0) {
     static_cast<void>(io::h5::File::open(directory / "results.h5"));  // it opens
     return true;
@@ -43,11 +40,10 @@ bool is_whole(const fs::path& directory, const Json& j) {
          fs::is_regular_file(directory / "fields.xdmf");
 }
 
-/// A run that may fail did so by itself, at a step: not for want of room on the disk.
-bool ended(const Json& j, bool may_fail) {
+/// A run that failed did so by itself, at a step: not for want of space on the disk.
+bool ended(const Json& j) {
   const std::string status = text_in(j, "status");
-  return status == "done" || (may_fail && status == "failed" &&
-                              (j.contains("steps_done") || j.contains("increments_done")));
+  return status == "done" || (status == "failed" && j.contains("steps_done"));
 }
 
 }  // namespace
@@ -68,11 +64,10 @@ bool is_case_of(const fs::path& directory, const Case& c) {
   return !is_copy || text_of(directory / kept.mesh->file) == text_of(c.mesh->file);
 }
 
-bool run_is_there(const fs::path& directory, const Case& c, bool may_fail) {
+bool run_is_there(const fs::path& directory, const Case& c) {
   try {
     const Json j = io::read_json(directory / "run.json");
-    return ended(j, may_fail) && is_of_this_program(j) && is_case_of(directory, c) &&
-           is_whole(directory, j);
+    return ended(j) && is_of_this_program(j) && is_case_of(directory, c) && is_whole(directory, j);
   } catch (const std::exception&) {  // what cannot be read is made again
     return false;
   }
