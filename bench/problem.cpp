@@ -87,7 +87,7 @@ std::unique_ptr<dynamics::Integrator> Problem::integrator(Steps steps, const Var
     case Steps::eigen:
       return make_csr_steps(model_, csr(), start);
     case Steps::reference:
-      return make_reference_steps(model_, std::move(start));
+      return std::make_unique<dynamics::GeneralIntegrator>(model_, start);
   }
   RONDO_DEMAND(false, static_cast<int>(steps));
   return nullptr;

@@ -39,7 +39,8 @@ std::vector<double> numbers(const StepReport& s) {
   append(out, {f.time, f.spin, f.spin_rate, f.angle, f.turn, f.turn_before});
   append(out, {f.rotation.re, f.rotation.im});
   append(out, std::array{f.center, f.advance, f.advance_before, f.pull, c.impulse});
-  for (const int count : {c.nodes, c.sticking, c.pairs, c.pairs_not_converged})
+  for (const int count : {c.nodes, c.sticking, c.pairs, c.pairs_not_converged, c.clusters,
+                          c.clusters_not_converged, c.cluster_largest, c.cluster_iterations})
     out.push_back(static_cast<double>(count));
   append(out, {c.angular_impulse, c.length, c.penetration, c.free_velocity, c.residual});
   append(out, {c.work, c.dissipation_friction, c.loss_impact, c.work_rim});
@@ -132,11 +133,14 @@ void assert_same_bits(const Record& a, const Record& b) {
   ASSERT_TRUE(same(a.fields, b.fields));
 }
 
-/// Down to the fewest sectors there can be.
+/// Down to the fewest sectors there can be; on a sharp ledge.
 std::vector<test::Built> disks() {
+  test::RollingCase ledge = test::sharp(test::everything("", 4, 61));
+  ledge.disk.motion.start_x = -0.02;
   return {test::build(test::everything("", 4, 61)),
           test::build(test::everything("", 3, mesh::Tread{20, 0.02, 3, 1, 2})),
-          test::build(test::everything("", 3, mesh::Tread{3, 0.02, 20, 10, 2}))};
+          test::build(test::everything("", 3, mesh::Tread{3, 0.02, 20, 10, 2})),
+          test::build(ledge)};
 }
 
 class Integrators : public testing::TestWithParam<StiffnessOperator> {};

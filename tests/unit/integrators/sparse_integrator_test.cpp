@@ -134,7 +134,7 @@ INSTANTIATE_TEST_SUITE_P(, Sparse, testing::Bool(),
 /// which the stiffness damping keeps the body itself from.
 TEST(SparsePadding, StaysWhereItIs) {
   test::DiskCase c = test::rolling_disk(1, 9);
-  c.alpha = -500.0;
+  c.alpha = -40.0;
   c.beta = 1e-3;
   c.motion = {};
   c.motion.angular_velocity = Table(400.0);
@@ -143,7 +143,7 @@ TEST(SparsePadding, StaysWhereItIs) {
   EXPECT_NE(model.free.size() % 8, 0);
   SparseIntegrator integrator(model, test::start_at_rest(model), kernel_table());
   std::vector<StepReport> reports(1000);
-  for (int call = 0; call < 50; ++call) integrator.advance(reports, nullptr);
+  for (int call = 0; call < 1000; ++call) integrator.advance(reports, nullptr);
   EXPECT_TRUE(std::isfinite(reports.back().balance.kinetic));
   EXPECT_TRUE(std::isfinite(reports.back().balance.strain));
 }

@@ -28,13 +28,14 @@ void sort_by_candidate(std::vector<ActiveContact>& active) noexcept {
 BatchIntegrator::BatchIntegrator(const Model& model, long long step, std::size_t n_parts,
                                  std::size_t n_pieces)
     : model_(model),
-      n_parts_(n_parts),
+      n_parts_(n_parts + (has_sharp_corners(model) ? 1 : 0)),
       step_(step),
       threads_(std::min(model.threads, static_cast<int>(n_pieces))),
       rim_(make_rim(model)),
       steps_(static_cast<std::size_t>(rim_->steps_ahead())),
       pressures_(steps_.size() * model.pressures.size()),
-      parts_(steps_.size() * n_parts) {
+      parts_(steps_.size() * n_parts_) {
+  if (has_sharp_corners(model)) corners_.emplace(model);
   rim_->restore(step, {});
 }
 
@@ -48,23 +49,46 @@ void BatchIntegrator::set_step(std::size_t i) noexcept {
 
 void BatchIntegrator::advance_batch(std::span<StepReport> reports) noexcept {
   for (std::size_t i = 0; i < reports.size(); ++i) set_step(i);
-  const Batch batch{std::span(steps_).first(reports.size()), parts_.data()};
+  const std::span steps = std::span(steps_).first(reports.size());
+  if (corners_) {
+    corners_->look_out(steps, *this);
+    for (std::size_t i = 0; i < steps.size(); ++i) parts_[(i + 1) * n_parts_ - 1] = {};
+  }
+  const Batch batch{steps, parts_.data(), step_};
   if (threads_ > 1) {
 #pragma omp parallel num_threads(threads_)
     {
       const StepTraps traps;
-      make_steps(batch, {static_cast<std::size_t>(omp_get_thread_num()),
+      make_batch(batch, {static_cast<std::size_t>(omp_get_thread_num()),
                          static_cast<std::size_t>(omp_get_num_threads())});
     }
   } else {
     const StepTraps traps;
-    make_steps(batch, {});
+    make_batch(batch, {});
   }
   for (std::size_t i = 0; i < reports.size(); ++i) {
     const std::span parts = std::span<const PartialStep>(parts_).subspan(i * n_parts_, n_parts_);
     const WholeStep whole = whole_step(model_, parts);
     ledger_.add(whole.energy);
-    reports[i] = {++step_, steps_[i].frame, whole.contact, ledger_.last()};
+    reports[i] = {batch.first + static_cast<long long>(i) + 1, steps_[i].frame, whole.contact,
+                  ledger_.last()};
+  }
+  step_ = batch.first + static_cast<long long>(reports.size());
+}
+
+/// Where corners are near, step by step: what they hold is found before a step and solved after it.
+void BatchIntegrator::make_batch(const Batch& batch, Share share) noexcept {
+  if (!corners_ || !corners_->any_near()) return make_steps(batch, share);
+  for (std::size_t i = 0; i < batch.steps.size(); ++i) {
+    const StepContext& step = batch.steps[i];
+    PartialStep* parts = batch.parts + i * n_parts_;
+    const long long before = batch.first + static_cast<long long>(i);
+    if (share.thread == 0) corners_->find(step, *this);
+    wait_for_others(share);
+    make_steps({batch.steps.subspan(i, 1), parts, before}, share);
+    if (share.thread > 0) continue;
+    step_ = before + 1;  // the others do not look at it
+    corners_->solve(step, *this, parts[n_parts_ - 1]);
   }
 }
 
@@ -85,6 +109,7 @@ void BatchIntegrator::advance(std::span<StepReport> reports, State* last) noexce
   if (!last->v_next.empty()) save_velocity(last->v_next);
   last->active.clear();
   save_active(last->active);
+  if (corners_) corners_->save_active(last->active);
   sort_by_candidate(last->active);
   last->step = step_;
   last->frame = reports.back().frame;
@@ -103,6 +128,7 @@ SavedState BatchIntegrator::save() const {
   saved.v.resize(model_.n_nodes());
   if (model_.stiffness_damping > 0.0) saved.force.resize(model_.n_nodes());
   save_fields(saved);
+  if (corners_) saved.impulses = corners_->impulses();
   saved.ledger = ledger_.save();
   return saved;
 }
@@ -113,7 +139,12 @@ void BatchIntegrator::restore(const SavedState& saved) {
   step_ = saved.step;
   rim_->restore(step_, saved.rim);
   restore_fields(saved);
+  if (corners_) corners_->set_impulses(saved.impulses);
   ledger_.restore(saved.ledger);
+}
+
+std::vector<contact::ProblemFile> BatchIntegrator::take_difficult() {
+  return corners_ ? corners_->take_difficult() : std::vector<contact::ProblemFile>{};
 }
 
 int most_threads(const Model& model) noexcept {

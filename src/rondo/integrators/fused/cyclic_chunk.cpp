@@ -205,13 +205,8 @@ void CyclicChunk::give_edges() noexcept {
       }
 }
 
-/// What fills up the last pack behind a wide halo is advanced too: afresh in every pass, for
-/// nothing holds it.
 void CyclicChunk::take_halo(const CyclicChunk& left, const CyclicChunk& right) noexcept {
   const int width = edge_width();
-  const int end = range_.columns + width;
-  const int filling =
-      plan_.halo == Halo::wide ? (kernels::lanes - end % kernels::lanes) % kernels::lanes : 0;
   const double* from_left = left.edges_[passes_ % 2][1].data();
   const double* from_right = right.edges_[passes_ % 2][0].data();
   const std::array<int, 3> fields = edge_fields();
@@ -220,7 +215,7 @@ void CyclicChunk::take_halo(const CyclicChunk& left, const CyclicChunk& right) n
       for (int component = 0; component < 2; ++component) {
         double* x = field(a, fields[i]) + component * plan_.stride;
         std::copy_n(from_left, width, x - width);
-        std::fill_n(std::copy_n(from_right, width, x + range_.columns), filling, 0.0);
+        std::copy_n(from_right, width, x + range_.columns);
         from_left += width;
         from_right += width;
       }
@@ -233,6 +228,31 @@ CyclicChunk::Extent CyclicChunk::extent(std::size_t step, std::size_t n_steps) c
   if (plan_.halo != Halo::wide || beyond == 0) return {0, own, 0, range_.columns};
   const int last = (range_.columns + beyond + kernels::lanes - 1) / kernels::lanes;
   return {-1, last, -beyond, range_.columns + beyond};
+}
+
+/// Place in ContactModel::nodes of a node of a contact row.
+std::size_t CyclicChunk::candidate_at(int row, int column) const noexcept {
+  const auto contact_row =
+      static_cast<std::size_t>(plan_.contact_row[static_cast<std::size_t>(row)]);
+  const int sector = (range_.first + column + plan_.n_sectors) % plan_.n_sectors;
+  return static_cast<std::size_t>(plan_.candidate[contact_row][static_cast<std::size_t>(sector)]);
+}
+
+CandidateMotion CyclicChunk::motion_of(CyclicPlace place) const noexcept {
+  const int c = place.sector - range_.first;
+  const Complex frame = turn(c);
+  return {frame * at(place.row, field_now(), c), frame * at(place.row, field_v, c),
+          plan_.keeps_force ? frame * at(place.row, field_force, c) : Vec2{}};
+}
+
+void CyclicChunk::move(CyclicPlace place, Vec2 v, Vec2 u) noexcept {
+  const int c = place.sector - range_.first;
+  put(place.row, field_v, c, conj(turn(c)) * v);
+  put(place.row, field_now(), c, conj(turn(c)) * u);
+  if (plan_.halo == Halo::ring)
+    wrap(place.row, field_now());
+  else
+    give_edges();
 }
 
 void CyclicChunk::find_touching(const Work& work, int a) noexcept {
@@ -257,6 +277,7 @@ void CyclicChunk::find_touching(const Work& work, int a) noexcept {
     const Vec2 arm = turn(c) * (Vec2{row.x, row.y} + at(a, work.now, c));
     const contact::Touches touches = ground.touches(contact.center + contact.rotation * arm);
     if (touches.count == 0) continue;
+    if (work.step->held && work.step->held[candidate_at(a, c)]) continue;
     touching_.push_back(
         {a, c, touches, at(a, field_v, c), plan_.keeps_force ? at(a, field_force, c) : Vec2{}});
   }
@@ -264,11 +285,7 @@ void CyclicChunk::find_touching(const Work& work, int a) noexcept {
 
 void CyclicChunk::solve_node(const Work& work, const Touching& t) noexcept {
   const kernels::CyclicRow& row = plan_.rows[static_cast<std::size_t>(t.row)];
-  const auto contact_row =
-      static_cast<std::size_t>(plan_.contact_row[static_cast<std::size_t>(t.row)]);
-  const int sector = (range_.first + t.column + plan_.n_sectors) % plan_.n_sectors;
-  const auto k =
-      static_cast<std::size_t>(plan_.candidate[contact_row][static_cast<std::size_t>(sector)]);
+  const std::size_t k = candidate_at(t.row, t.column);
   const Complex frame = turn(t.column);
   const Vec2 u = at(t.row, work.now, t.column);
   const ContactNode node{k,

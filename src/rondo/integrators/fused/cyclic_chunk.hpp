@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "rondo/core/large_array.hpp"
+#include "rondo/integrators/fused/corner_contact.hpp"
 #include "rondo/integrators/fused/cyclic_plan.hpp"
 #include "rondo/integrators/fused/step_context.hpp"
 #include "rondo/model/saved_state.hpp"
@@ -34,6 +35,10 @@ class CyclicChunk {
   /// Makes the steps; parts[i * stride + g] gets what group g of the ring gives in step i.
   /// @pre at most plan.depth steps, the halo taken.
   void pass(std::span<const StepContext> steps, PartialStep* parts, std::size_t stride) noexcept;
+
+  /// One of this chunk's own nodes, by row and sector, between two passes.
+  [[nodiscard]] CandidateMotion motion_of(CyclicPlace place) const noexcept;
+  void move(CyclicPlace place, Vec2 v, Vec2 u) noexcept;
 
   /// Contacts of the last step of the last pass, this chunk's own.
   [[nodiscard]] std::span<const ActiveContact> active() const noexcept { return active_; }
@@ -74,6 +79,7 @@ class CyclicChunk {
   [[nodiscard]] Vec2 load_on(const Work& work, int row, int column) const noexcept;
   [[nodiscard]] Vec2 initial_force(const std::vector<Vec2>& u, int a, int c) const noexcept;
   void strip(const Work& work, int i) noexcept;
+  [[nodiscard]] std::size_t candidate_at(int row, int column) const noexcept;
   void find_touching(const Work& work, int a) noexcept;
   void solve_node(const Work& work, const Touching& t) noexcept;
   /// visit(row, column, node) of this chunk's own nodes.

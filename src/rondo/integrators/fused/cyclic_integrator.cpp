@@ -54,6 +54,23 @@ void CyclicIntegrator::restore_fields(const SavedState& saved) noexcept {
   for (CyclicChunk& chunk : chunks_) chunk.restore(saved);
 }
 
+std::size_t CyclicIntegrator::chunk_of(int sector) const noexcept {
+  const auto after =
+      std::upper_bound(plan_.chunks.begin(), plan_.chunks.end(), sector,
+                       [](int s, const CyclicChunkRange& chunk) { return s < chunk.first; });
+  return static_cast<std::size_t>(after - plan_.chunks.begin()) - 1;
+}
+
+CandidateMotion CyclicIntegrator::motion_of(std::size_t candidate) const noexcept {
+  const CyclicPlace place = plan_.place[candidate];
+  return chunks_[chunk_of(place.sector)].motion_of(place);
+}
+
+void CyclicIntegrator::move(std::size_t candidate, Vec2 v, Vec2 u) noexcept {
+  const CyclicPlace place = plan_.place[candidate];
+  chunks_[chunk_of(place.sector)].move(place, v, u);
+}
+
 void CyclicIntegrator::save_active(std::vector<ActiveContact>& active) const noexcept {
   for (const CyclicChunk& chunk : chunks_)
     active.insert(active.end(), chunk.active().begin(), chunk.active().end());

@@ -175,8 +175,10 @@ void add_contact(const Model& model, const SectorStiffness& k, CyclicPlan& plan)
       row = static_cast<int>(plan.candidate.size());
       plan.candidate.emplace_back(static_cast<std::size_t>(k.n_sectors), -1);
     }
-    plan.candidate[static_cast<std::size_t>(row)]
-                  [static_cast<std::size_t>(node / k.nodes_per_sector)] = static_cast<int>(i);
+    const int sector = node / k.nodes_per_sector;
+    plan.candidate[static_cast<std::size_t>(row)][static_cast<std::size_t>(sector)] =
+        static_cast<int>(i);
+    plan.place.push_back({static_cast<int>(a), sector});
   }
   for (const std::vector<int>& ring : plan.candidate)  // the same nodes in every sector
     RONDO_DEMAND(std::find(ring.begin(), ring.end(), -1) == ring.end(), ring.size());

@@ -38,6 +38,11 @@ struct CyclicLoad {
   std::vector<Vec2> force;  ///< (N) per pressure, in the sectors' frames             [m]
 };
 
+/// Where a candidate is.
+struct CyclicPlace {
+  int row = 0, sector = 0;
+};
+
 struct CyclicPlan {
   int n_local = 0, n_sectors = 0;
   bool keeps_force = false;              ///< K u_n is a field: β > 0
@@ -48,6 +53,7 @@ struct CyclicPlan {
   std::vector<int> needs;        ///< strip that the step before must have done before strip i
   std::vector<int> contact_row;  ///< (n_local) place in `candidate`; -1: no contact candidates
   std::vector<std::vector<int>> candidate;  ///< (contact rows, N) place in ContactModel::nodes
+  std::vector<CyclicPlace> place;           ///< (nb) the reverse
   std::vector<CyclicLoad> loads;            ///< by rows; those of a strip are one after the other
   std::vector<int> load_of;                 ///< (loads) CyclicLoad::load
   Halo halo = Halo::ring;

@@ -48,6 +48,8 @@ class SparseIntegrator : public BatchIntegrator {
   void save_fields(SavedState& saved) const noexcept override;
   void restore_fields(const SavedState& saved) noexcept override;
   void save_active(std::vector<ActiveContact>& active) const noexcept override;
+  [[nodiscard]] CandidateMotion motion_of(std::size_t candidate) const noexcept override;
+  void move(std::size_t candidate, Vec2 v, Vec2 u) noexcept override;
   /// Where in motion_ a row's v_x is.
   [[nodiscard]] std::size_t motion_at(std::size_t row) const noexcept;
   /// Which u is u_{n+1}.

@@ -100,6 +100,7 @@ void add_contact(const Model& model, const std::vector<int>& row, SparsePlan& pl
     const auto node = static_cast<std::size_t>(nodes[i]);
     RONDO_DEMAND(row[node] >= 0, nodes[i]);
     plan.candidates.push_back({model.reference[node], row[node], static_cast<int>(i)});
+    plan.row.push_back(row[node]);
   }
   std::sort(plan.candidates.begin(), plan.candidates.end(),
             [](const auto& a, const auto& b) { return a.row < b.row; });

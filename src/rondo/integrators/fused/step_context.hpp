@@ -17,6 +17,8 @@ struct StepContext {
   kernels::Terms terms;
   std::optional<ContactStep> contact;
   const double* pressures = nullptr;  ///< of Model::pressures at t_n                     [Pa]
+  /// (nb) candidates whose contacts are solved by CornerContact; null: none.
+  const char* held = nullptr;
 };
 
 /// @param frame of the step, by the rim
