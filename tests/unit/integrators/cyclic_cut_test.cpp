@@ -71,6 +71,11 @@ std::vector<test::RollingCase> cases() {
     all.push_back(test::pressed(all[i]));
     all.push_back(test::sharp(all[i]));
   }
+  // Lands of many rows, all of which a step must have done before the next one reads any.
+  all.push_back(test::sharp(test::everything("pitches_12", 4, mesh::Tread{12, 0.02, 20, 8, 2})));
+  // A step up to the middle of a chunk: its corner is held within a pass of several steps.
+  all.push_back(test::sharp(test::everything("columns_390_step", 4, 390)));
+  all.back().ground->profile = {{-10, 0}, {0.1665, 0}, {0.1665, 0.03}, {10, 0.03}};
   for (test::RollingCase& c : all) c.disk.motion.start_x = 0.02;  // in contact from the start
   return all;
 }
@@ -95,8 +100,8 @@ TEST_P(CyclicCuts, GiveTheSameBits) {
   EXPECT_GT(contacts, 0);
   EXPECT_EQ(clusters > 0, GetParam().ground->fillet == 0.0);
   EXPECT_LT(whole.reports.back().balance.relative, 3e-14);
-  const CyclicTuning ring{0, 1 << 20, 8}, wide{0, 32, 8}, narrow{0, 32, 1 << 20};
-  for (const CyclicTuning& tuning : {ring, wide, narrow})
+  const CyclicTuning ring{0, 1 << 20, 8}, wide{0, 32, 8}, wider{0, 96, 8}, narrow{0, 32, 1 << 20};
+  for (const CyclicTuning& tuning : {ring, wide, wider, narrow})
     for (const int threads : {1, 2, 3}) {
       model.threads = threads;
       const CyclicPlan plan = make_cyclic_plan(model, tuning);

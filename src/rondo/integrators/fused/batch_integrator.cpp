@@ -52,6 +52,7 @@ void BatchIntegrator::advance_batch(std::span<StepReport> reports) noexcept {
   const std::span steps = std::span(steps_).first(reports.size());
   if (corners_) {
     corners_->look_out(steps, *this);
+    within_ = corners_->any_near() && hold_within(corners_->nodes());
     for (std::size_t i = 0; i < steps.size(); ++i) parts_[(i + 1) * n_parts_ - 1] = {};
   }
   const Batch batch{steps, parts_.data(), step_};
@@ -76,9 +77,13 @@ void BatchIntegrator::advance_batch(std::span<StepReport> reports) noexcept {
   step_ = batch.first + static_cast<long long>(reports.size());
 }
 
+bool BatchIntegrator::hold_within(std::span<const int>) noexcept {
+  return false;
+}
+
 /// Where corners are near, step by step: what they hold is found before a step and solved after it.
 void BatchIntegrator::make_batch(const Batch& batch, Share share) noexcept {
-  if (!corners_ || !corners_->any_near()) return make_steps(batch, share);
+  if (!corners_ || !corners_->any_near() || within_) return make_steps(batch, share);
   for (std::size_t i = 0; i < batch.steps.size(); ++i) {
     const StepContext& step = batch.steps[i];
     PartialStep* parts = batch.parts + i * n_parts_;

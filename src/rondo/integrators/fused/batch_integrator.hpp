@@ -55,6 +55,12 @@ class BatchIntegrator : public Integrator, public Resumable, protected Candidate
   /// Adds the contacts of the last step made; the two of a node one after the other.
   virtual void save_active(std::vector<ActiveContact>& active) const noexcept = 0;
 
+  /// The candidates, and all that is near corners with them, can be held within make_steps() by the
+  /// one who makes their steps: corners_within() then tells of whom. Else steps are made one by
+  /// one.
+  virtual bool hold_within(std::span<const int> candidates) noexcept;
+  [[nodiscard]] CornerContact* corners_within() noexcept { return within_ ? &*corners_ : nullptr; }
+
   /// In make_steps(): until all threads are here.
   void wait_for_others(Share share) noexcept {
     if (share.n_threads > 1) barrier_.wait(static_cast<unsigned>(share.n_threads));
@@ -75,6 +81,7 @@ class BatchIntegrator : public Integrator, public Resumable, protected Candidate
   std::vector<double> pressures_;   ///< (steps of a batch, pressures of the model)        [Pa]
   std::vector<PartialStep> parts_;  ///< (steps of a batch, n_parts_)
   std::optional<CornerContact> corners_;
+  bool within_ = false;  ///< corners are near, and make_steps() takes care of them
   Barrier barrier_;
   Ledger ledger_;
 };

@@ -196,7 +196,9 @@ void CornerContact::solve(const StepContext& step, CandidateFields& fields,
     state_.v_next[h.candidate] = h.free = motion.v;
     h.change = motion.force - h.change;
   }
-  const BodyFrames frames(boundary_, step.frame);
+  const VelocityUpdate update =
+      velocity_update(boundary_.scheme, boundary_.dt, boundary_.mass_damping, step.frame.spin);
+  const BodyFrames frames({step.frame, update, *step.contact});
   part.contact = contact_.solve_found(frames, step.frame.center, state_);
   for (const Held& h : held_) {
     const std::size_t k = h.candidate;

@@ -41,6 +41,8 @@ class CornerContact {
   /// where the held candidates are marked.
   void look_out(std::span<StepContext> steps, const CandidateFields& fields) noexcept;
   [[nodiscard]] bool any_near() const noexcept { return n_near_ > 0; }
+  /// Candidates that may be held in the batch, and their neighbours.
+  [[nodiscard]] std::span<const int> nodes() const noexcept { return nodes_; }
 
   // Where corners are near, around each step:
   /// What corners touch, and who is held by them.

@@ -238,22 +238,44 @@ std::size_t CyclicChunk::candidate_at(int row, int column) const noexcept {
   return static_cast<std::size_t>(plan_.candidate[contact_row][static_cast<std::size_t>(sector)]);
 }
 
-CandidateMotion CyclicChunk::motion_of(CyclicPlace place) const noexcept {
+CandidateMotion CyclicChunk::motion_of(CyclicPlace place, int field_u) const noexcept {
   const int c = place.sector - range_.first;
   const Complex frame = turn(c);
-  return {frame * at(place.row, field_now(), c), frame * at(place.row, field_v, c),
+  return {frame * at(place.row, field_u, c), frame * at(place.row, field_v, c),
           plan_.keeps_force ? frame * at(place.row, field_force, c) : Vec2{}};
 }
 
-void CyclicChunk::move(CyclicPlace place, Vec2 v, Vec2 u) noexcept {
+void CyclicChunk::set_motion(CyclicPlace place, int field_u, Vec2 v, Vec2 u) noexcept {
   const int c = place.sector - range_.first;
   put(place.row, field_v, c, conj(turn(c)) * v);
-  put(place.row, field_now(), c, conj(turn(c)) * u);
-  if (plan_.halo == Halo::ring)
-    wrap(place.row, field_now());
-  else
-    give_edges();
+  put(place.row, field_u, c, conj(turn(c)) * u);
+  if (plan_.halo == Halo::ring) wrap(place.row, field_u);
 }
+
+CandidateMotion CyclicChunk::motion_of(CyclicPlace place) const noexcept {
+  return motion_of(place, field_now());
+}
+
+void CyclicChunk::move(CyclicPlace place, Vec2 v, Vec2 u) noexcept {
+  set_motion(place, field_now(), v, u);
+  if (plan_.halo != Halo::ring) give_edges();
+}
+
+class CyclicChunk::InPass final : public CandidateFields {
+ public:
+  InPass(CyclicChunk& chunk, const Work& work) : chunk_(chunk), work_(work) {}
+
+  [[nodiscard]] CandidateMotion motion_of(std::size_t candidate) const noexcept override {
+    return chunk_.motion_of(chunk_.plan_.place[candidate], work_.now);
+  }
+  void move(std::size_t candidate, Vec2 v, Vec2 u) noexcept override {
+    chunk_.set_motion(chunk_.plan_.place[candidate], work_.next, v, u);
+  }
+
+ private:
+  CyclicChunk& chunk_;
+  const Work& work_;
+};
 
 void CyclicChunk::find_touching(const Work& work, int a) noexcept {
   const kernels::CyclicRow& row = plan_.rows[static_cast<std::size_t>(a)];
@@ -315,6 +337,8 @@ void CyclicChunk::solve_node(const Work& work, const Touching& t) noexcept {
 void CyclicChunk::strip(const Work& work, int i) noexcept {
   const int first = i * kernels::most_rows;
   const int n = std::min(kernels::most_rows, plan_.n_local - first);
+  InPass fields(*this, work);
+  if (work.corners && i == plan_.first_contact_strip) work.corners->find(*work.step, fields);
   touching_.clear();
   if (work.step->contact)
     for (int a = first; a < first + n; ++a)
@@ -349,10 +373,12 @@ void CyclicChunk::strip(const Work& work, int i) noexcept {
   for (const Touching& t : touching_) solve_node(work, t);
   if (plan_.halo == Halo::ring)
     for (int a = first; a < first + n; ++a) wrap(a, work.next);
+  if (work.corners && i == plan_.last_contact_strip)
+    work.corners->solve(*work.step, fields, *work.held);
 }
 
-void CyclicChunk::pass(std::span<const StepContext> steps, PartialStep* parts,
-                       std::size_t stride) noexcept {
+void CyclicChunk::pass(std::span<const StepContext> steps, PartialStep* parts, std::size_t stride,
+                       CornerContact* corners) noexcept {
   std::fill_n(sums_.data(), sums_.size(), 0.0);
   std::fill(contact_.begin(), contact_.end(), PartialStep{});
   active_.clear();
@@ -365,7 +391,9 @@ void CyclicChunk::pass(std::span<const StepContext> steps, PartialStep* parts,
                i,
                even ? field_u_even : field_u_odd,
                even ? field_u_odd : field_u_even,
-               i + 1 == n};
+               i + 1 == n,
+               corners,
+               parts + (i + 1) * stride - 1};
   }
   std::array<int, most_steps_in_a_pass> done{};  // strips done by each step
   const int n_strips = plan_.n_strips();

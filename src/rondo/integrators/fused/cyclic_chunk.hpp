@@ -33,8 +33,10 @@ class CyclicChunk {
   void take_halo(const CyclicChunk& left, const CyclicChunk& right) noexcept;
 
   /// Makes the steps; parts[i * stride + g] gets what group g of the ring gives in step i.
+  /// @param corners which hold nodes of this chunk alone; null: none. They fill the last part.
   /// @pre at most plan.depth steps, the halo taken.
-  void pass(std::span<const StepContext> steps, PartialStep* parts, std::size_t stride) noexcept;
+  void pass(std::span<const StepContext> steps, PartialStep* parts, std::size_t stride,
+            CornerContact* corners) noexcept;
 
   /// One of this chunk's own nodes, by row and sector, between two passes.
   [[nodiscard]] CandidateMotion motion_of(CyclicPlace place) const noexcept;
@@ -71,10 +73,15 @@ class CyclicChunk {
   struct Work {
     const StepContext* step;
     Extent extent;
-    std::size_t place;  ///< of the step in the pass
-    int now, next;      ///< fields of u before and after the step
-    bool last;          ///< of the pass
+    std::size_t place;       ///< of the step in the pass
+    int now, next;           ///< fields of u before and after the step
+    bool last;               ///< of the pass
+    CornerContact* corners;  ///< null: none hold nodes of this chunk
+    PartialStep* held;       ///< their part of the step
   };
+  class InPass;  ///< the candidates during a step of a pass
+  [[nodiscard]] CandidateMotion motion_of(CyclicPlace place, int field_u) const noexcept;
+  void set_motion(CyclicPlace place, int field_u, Vec2 v, Vec2 u) noexcept;
   void fill_loads();
   [[nodiscard]] Vec2 load_on(const Work& work, int row, int column) const noexcept;
   [[nodiscard]] Vec2 initial_force(const std::vector<Vec2>& u, int a, int c) const noexcept;

@@ -180,6 +180,15 @@ void add_contact(const Model& model, const SectorStiffness& k, CyclicPlan& plan)
         static_cast<int>(i);
     plan.place.push_back({static_cast<int>(a), sector});
   }
+  for (int a = 0; a < plan.n_local; ++a) {
+    if (plan.contact_row[static_cast<std::size_t>(a)] < 0) continue;
+    const int strip = a / kernels::most_rows;
+    if (plan.last_contact_strip < 0) plan.first_contact_strip = strip;
+    plan.last_contact_strip = strip;
+  }
+  if (has_sharp_corners(model))  // these are held after the last one: before, none is read again
+    for (int& needed : plan.needs)
+      if (needed >= plan.first_contact_strip) needed = plan.last_contact_strip;
   for (const std::vector<int>& ring : plan.candidate)  // the same nodes in every sector
     RONDO_DEMAND(std::find(ring.begin(), ring.end(), -1) == ring.end(), ring.size());
 }

@@ -54,8 +54,9 @@ struct CyclicPlan {
   std::vector<int> contact_row;  ///< (n_local) place in `candidate`; -1: no contact candidates
   std::vector<std::vector<int>> candidate;  ///< (contact rows, N) place in ContactModel::nodes
   std::vector<CyclicPlace> place;           ///< (nb) the reverse
-  std::vector<CyclicLoad> loads;            ///< by rows; those of a strip are one after the other
-  std::vector<int> load_of;                 ///< (loads) CyclicLoad::load
+  int first_contact_strip = 0, last_contact_strip = -1;
+  std::vector<CyclicLoad> loads;  ///< by rows; those of a strip are one after the other
+  std::vector<int> load_of;       ///< (loads) CyclicLoad::load
   Halo halo = Halo::ring;
   int depth = 1;  ///< steps in a pass
   std::vector<CyclicChunkRange> chunks;
