@@ -81,25 +81,14 @@ bool is_word(std::string_view name) {
   });
 }
 
-/// A convex corner that no fillet rounds. @pre the shape has no faults
-bool has_sharp_corner(const contact::GroundShape& shape) {
-  constexpr double straight = 1e-12;  // sine of a turn that is no corner
-  if (shape.fillet > 0.0) return false;
-  const std::vector<Vec2>& p = shape.profile;
-  for (std::size_t i = 1; i + 1 < p.size(); ++i) {
-    const Vec2 before = p[i] - p[i - 1], after = p[i + 1] - p[i];
-    if (cross(before, after) < -straight * norm(before) * norm(after)) return true;
-  }
-  return false;
-}
-
 }  // namespace
 
 std::string_view why_not_cyclic(const Case& c) {
   if (c.mesh) return "a mesh from a file is not known to be of equal sectors";
   if (c.free_rim) return "a free disk does not stay in the turning frame of its sectors";
   if (c.body_contact.between != BodyContact::none) return "there is a [contact] of bodies";
-  if (c.ground && has_sharp_corner(c.ground->shape)) return "the ground has a sharp convex corner";
+  if (c.time.scheme == Scheme::as_printed)
+    return "the scheme \"as-printed\" is one of the general step alone";
   return {};
 }
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// @file  Sharp corners of the ground in the fused steps: the few nodes that a corner holds are
 /// left out of a step's own contact and solved after it, all contacts that share nodes together, as
-/// the general step does (docs/decisions/0013-local-exceptions.md). Where no corner is near, a
+/// the general step does (docs/decisions/026-local-exceptions.md). Where no corner is near, a
 /// batch of steps goes on without any of it.
 #pragma once
 #include <span>
