@@ -61,7 +61,7 @@ TEST(Estimate, MeshLargerThanTheMachineIsRefused) {
       faults_when_built(with_line(7, "radial = 10000", with_line(8, "circumferential = 200000")));
   ASSERT_EQ(faults.size(), 1U);
   EXPECT_EQ(faults[0].key, "disk.mesh.circumferential");
-  EXPECT_NE(faults[0].message.find("896 GB"), std::string::npos) << faults[0].text();
+  EXPECT_NE(faults[0].message.find("768 GB"), std::string::npos) << faults[0].text();
   EXPECT_NE(faults[0].message.find(readable_bytes(allowed_memory().bytes)), std::string::npos);
   const auto deep =
       faults_when_built(with_line(7, "radial = 100000", with_line(8, "circumferential = 9999")));
