@@ -6,7 +6,7 @@
 #include <numbers>
 
 #include "rondo/analysis/build.hpp"
-#include "rondo/case/case_bodies.hpp"
+#include "rondo/case/case_rules.hpp"
 #include "rondo/output/run_output.hpp"
 
 namespace rondo::study {
