@@ -1,5 +1,6 @@
-# rondo_module(NAME SOURCES a.cpp ... [PUBLIC libs] [PRIVATE libs])
-# One static library per folder of src/rondo; rondo::NAME is its alias, inside and after install.
+# rondo_module(NAME [FOLDERS a ...] [SOURCES b.cpp ...] [PUBLIC libs] [PRIVATE libs])
+# One static library for a room of src/rondo: all sources of the folders (its own where none is
+# named), and those that are named. rondo::NAME is its alias, inside and after install.
 function(rondo_warnings target)
   target_compile_options(${target} PRIVATE -Wall -Wextra -Wconversion -Wshadow -Wpedantic
                                            $<$<BOOL:${RONDO_WERROR}>:-Werror>)
@@ -39,9 +40,14 @@ function(rondo_sanitize target sanitizers)
 endfunction()
 
 function(rondo_module name)
-  cmake_parse_arguments(ARG "" "" "SOURCES;PUBLIC;PRIVATE" ${ARGN})
+  cmake_parse_arguments(ARG "" "" "FOLDERS;SOURCES;PUBLIC;PRIVATE" ${ARGN})
+  if(NOT ARG_FOLDERS)
+    set(ARG_FOLDERS .)
+  endif()
+  list(TRANSFORM ARG_FOLDERS APPEND /*.cpp)
+  file(GLOB sources CONFIGURE_DEPENDS ${ARG_FOLDERS})
   set(target rondo_${name})
-  add_library(${target} STATIC ${ARG_SOURCES})
+  add_library(${target} STATIC ${sources} ${ARG_SOURCES})
   add_library(rondo::${name} ALIAS ${target})
   set_target_properties(${target} PROPERTIES EXPORT_NAME ${name})
   target_include_directories(${target} PUBLIC $<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}/src>

@@ -36,7 +36,6 @@ run_one() {
     study) options=(-dict=tests/fuzz/study.dict -max_len=4096) ;;
     results) options=(-max_len=8192) ;;
     results_bytes | checkpoint) options=(-max_len=30000) jobs=("${in_jobs[@]}") ;;
-    paper) options=(-max_len=12000) ;;
     *) options=(-max_len=8192) ;;
   esac
   if [ "$seconds" -gt 0 ]; then

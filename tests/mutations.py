@@ -29,12 +29,11 @@ PROGRAMS |= {m: f"unit/unit_{m}" for m in ("core", "mesh", "fem", "contact", "mo
                                            "output", "analysis", "study")}
 
 SCRIPTS = {"cli": "test_run.py", "disk": "test_full_disk.py", "crush": "test_crush.py",
-           "pod": "test_pod.py", "paper": "test_paper.py", "calls": "test_paper_calls.py",
-           "ring": "test_ring.py", "modes": "test_modes.py", "room": "test_room.py",
+           "pod": "test_pod.py", "ring": "test_ring.py", "modes": "test_modes.py", "room": "test_room.py",
            "numerical": "test_numerical.py", "resume": "test_resume.py",
            "terminal": "test_terminal.py", "sweep": "test_sweep.py", "team": "test_sweep_team.py",
            "rom": "test_reduced.py", "rom_forms": "test_reduced_forms.py",
-           "romtable": "test_reduced_table.py", "validate": "test_validate.py"}
+           "romtable": "test_reduced_table.py"}
 
 # @file in src/rondo, then of each mutation in it: name | old text => new text | tests.
 # \n is a new line; a line that begins with spaces continues the one above. The tests are

@@ -17,9 +17,9 @@
 #include "commands.hpp"
 #include "exit_codes.hpp"
 #include "modes_command.hpp"
-#include "paper_command.hpp"
 #include "pod_command.hpp"
 #include "reduce_command.hpp"
+#include "rondo/core/build_id.hpp"
 #include "rondo/core/error.hpp"
 #include "rondo/core/version.hpp"
 #include "rondo/output/run_files.hpp"
@@ -87,35 +87,25 @@ CLI::App* add_check(CLI::App& program, app::CommonArguments& arguments) {
   return check;
 }
 
-void add_validation(CLI::App& reduce, study::ValidationRequest& r) {
-  CLI::Option* validate = reduce
-                              .add_option("--validate", r.held_out,
-                                          "RUN: a run of the full model that this one predicts, "
-                                          "into MODEL-validation; repeatable")
-                              ->take_all()
-                              ->expected(1);
-  reduce
-      .add_option("--step-factor", r.step_factor,
-                  "of the predictions: their step over that of the full run")
-      ->capture_default_str()
-      ->needs(validate);
-  reduce
-      .add_option("--validate-from", r.from,
-                  "begin of the comparison [s]; the last quarter of each run if left out")
-      ->needs(validate);
-  reduce.add_option("--reduced-step", r.reduced_step, "of the predictions: midpoint, or explicit")
-      ->capture_default_str()
-      ->needs(validate);
-  reduce.add_option("--validate-to", r.to, "its end [s]")->needs(validate);
+/// What is done in Python now: to be told, with what to call.
+[[noreturn]] void refuse_moved(const char* what, const char* now) {
+  throw InputError(Fault{what, 0, 0, "", "", "is no part of this program any more",
+                         fmt::format("{} (docs/python.md)", now)});
 }
 
-CLI::App* add_reduce(CLI::App& program, app::ReduceArguments& arguments) {
+struct ReduceArguments {
+  study::ReduceRequest request;
+  bool quiet = false;
+};
+
+CLI::App* add_reduce(CLI::App& program, ReduceArguments& arguments) {
   CLI::App* reduce = program.add_subcommand(
       "reduce", "a reduced model of a rolling disk from the snapshots of runs");
   study::ReduceRequest& r = arguments.request;
-  reduce->add_option("run", r.runs,
-                     "results directories of one disk: other frictions, speeds, heights, spins; "
-                     "none: validates the model that is there");
+  reduce
+      ->add_option("run", r.runs,
+                   "results directories of one disk: other frictions, speeds, heights, spins")
+      ->required();
   reduce->add_option("-o,--output", r.output, "file of the model, e.g. model.h5")->required();
   reduce->add_option(
       "--displacement-modes", r.displacement_modes,
@@ -141,22 +131,28 @@ CLI::App* add_reduce(CLI::App& program, app::ReduceArguments& arguments) {
       ->check(CLI::Range(1, 1000000));
   reduce->add_option(
       "--contact", r.contact,
-      "points of contact: places that stand still in space, the nodes that come by, or patterns "
-      "of places learned from the runs; places on a smooth disk if left out, nodes otherwise");
-  reduce->add_option("--contact-patterns", r.contact_patterns,
-                     "number of the patterns of --contact patterns; 10 if left out");
+      "points of contact: places that stand still in space, or the nodes that come by; places on "
+      "a smooth disk if left out, nodes otherwise");
   reduce
       ->add_option("--frame", r.frame,
                    "frame of the modes: rectified, or turning (with the disk), to compare with")
       ->capture_default_str();
   reduce->add_option("--memory", r.memory, "memory allowed to the decompositions")
       ->capture_default_str();
-  add_validation(*reduce, arguments.validation);
+  reduce
+      ->add_option_function<std::string>(
+          "--validate",
+          [](const std::string&) {
+            refuse_moved("rondo reduce --validate",
+                         "rondo run CASE --reduced MODEL -o REDUCED, then python3 -m rondo "
+                         "validate REDUCED RUN");
+          })
+      ->group("");  // not in the help
   reduce->add_flag("--quiet", arguments.quiet, "prints warnings and the figures only");
   reduce->footer(
       "Example:\n  rondo reduce results/mu0 results/mu06 -o model.h5\n"
       "  rondo run cases/rolling-flat.toml --reduced model.h5 -o results/reduced\n"
-      "  rondo reduce --validate results/mu03 -o model.h5\n"
+      "  python3 -m rondo validate results/reduced results/full\n"
       "What it can do and where it fails: docs/reduced.md.");
   return reduce;
 }
@@ -226,23 +222,10 @@ CLI::App* add_modes(CLI::App& program, app::ModesArguments& arguments) {
   return modes;
 }
 
-CLI::App* add_paper(CLI::App& program, app::PaperArguments& arguments) {
-  CLI::App* paper = program.add_subcommand(
-      "paper", "the study of the paper: all runs behind its figures, ours against expected");
-  paper->add_option("-o,--output", arguments.directory,
-                    "directory of the study; \"paper\", or \"paper-quick\", if left out");
-  paper->add_flag("--quick", arguments.quick, "coarse meshes, a few seconds");
-  paper
-      ->add_option("--jobs", arguments.jobs, "runs at once; as many as there are cores if left out")
-      ->check(CLI::Range(1, 1024));
-  paper->add_flag("--overwrite", arguments.overwrite, "does again what is there");
-  paper->add_flag("--quiet", arguments.quiet, "prints warnings and the table only");
-  paper->footer(
-      "Example:\n  rondo paper -o results/paper\n  python3 -m rondo figures results/paper\n"
-      "A study that was interrupted or killed goes on with the same command. Exit code 3: a row "
-      "of\n"
-      "the table is not as expected. The study is walked through in docs/paper.md.");
-  return paper;
+void add_paper(CLI::App& program) {
+  program.add_subcommand("paper", "the study of the paper: python3 -m rondo paper -o DIRECTORY")
+      ->allow_extras()
+      ->callback([] { refuse_moved("rondo paper", "python3 -m rondo paper -o DIRECTORY"); });
 }
 
 CLI::App* add_sweep(CLI::App& program, app::SweepArguments& arguments) {
@@ -288,12 +271,11 @@ int dispatch_command(CLI::App& program, int argc, char** argv) {
   const CLI::App* check = add_check(program, check_arguments);
   PodArguments pod_arguments;
   const CLI::App* pod = add_pod(program, pod_arguments);
-  app::ReduceArguments reduce_arguments;
+  ReduceArguments reduce_arguments;
   const CLI::App* reduce = add_reduce(program, reduce_arguments);
   app::ModesArguments modes_arguments;
   const CLI::App* modes = add_modes(program, modes_arguments);
-  app::PaperArguments paper_arguments;
-  const CLI::App* paper = add_paper(program, paper_arguments);
+  add_paper(program);
   app::SweepArguments sweep_arguments;
   const CLI::App* sweep = add_sweep(program, sweep_arguments);
   try {
@@ -304,9 +286,8 @@ int dispatch_command(CLI::App& program, int argc, char** argv) {
   if (run->parsed()) return app::run(run_arguments);
   if (check->parsed()) return app::check(check_arguments);
   if (pod->parsed()) return app::pod(pod_arguments.request, pod_arguments.quiet);
-  if (reduce->parsed()) return app::reduce(reduce_arguments);
+  if (reduce->parsed()) return app::reduce(reduce_arguments.request, reduce_arguments.quiet);
   if (modes->parsed()) return app::modes(modes_arguments);
-  if (paper->parsed()) return app::paper(paper_arguments);
   if (sweep->parsed()) return app::sweep(sweep_arguments);
   return app::exit_input;
 }
@@ -326,7 +307,7 @@ int run_program(int argc, char** argv) {
   spdlog::set_pattern("rondo: %^%l%$: %v");
   CLI::App program{"rondo: explicit non-smooth dynamics of rolling bodies", "rondo"};
   program.set_version_flag("--version", [] {
-    return fmt::format("rondo {} ({}; kernels {})", version, build_options,
+    return fmt::format("rondo {} ({}; build id {}; kernels {})", version, build_options, build_id(),
                        study::dispatch_level());
   });
   program.require_subcommand(1);

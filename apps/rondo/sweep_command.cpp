@@ -131,8 +131,8 @@ int run_ranks(const SweepArguments& arguments, study::Team& team) {
       throw;
     }
     spdlog::set_level(spdlog::level::info);
-    const study::JobReport failed = study::failed_by(error);
-    spdlog::error("rank {}: {}", team.rank(), failed.message);
+    const study::WorkerOutcome failed = study::failed_by(error);
+    spdlog::error("rank {}: {}", team.rank(), failed.text);
     team.abort(failed.code);
     return failed.code;
   }

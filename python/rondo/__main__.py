@@ -6,14 +6,14 @@ import argparse
 import os
 import pathlib
 import sys
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 
 import matplotlib
 
 from rondo import __version__, open_modes, open_paper, open_sweep, open_validation, style
 from rondo import open as open_run
-from rondo.errors import Error, UnfinishedRunError
-from rondo.run import Run
+from rondo.data.errors import Error, UnfinishedRunError
+from rondo.data.run import Run
 
 WRONG = 2  # exit code of wrong input, as the program's
 BROKEN_PIPE = 141  # as a shell has it of a program that is killed by SIGPIPE
@@ -24,10 +24,24 @@ def _parser() -> argparse.ArgumentParser:
     parser.add_argument("--version", action="version", version=f"rondo {__version__}")
     commands = parser.add_subparsers(dest="command", required=True)
 
+    paper = commands.add_parser(
+        "paper", help="the study of the paper: its runs, ours against expected",
+        epilog="A study that was interrupted or killed goes on with the same command. Exit code "
+               "3: a row of the table is not as expected. docs/paper.md walks through it.")
+    paper.add_argument("-o", "--output", type=pathlib.Path, metavar="DIRECTORY",
+                       help='of the study; default "paper", or "paper-quick"')
+    paper.add_argument("--quick", action="store_true", help="coarse meshes, a third of the work")
+    paper.add_argument("--jobs", type=_count, metavar="N",
+                       help="runs at once; default as many as there are cores")
+    paper.add_argument("--overwrite", action="store_true", help="does again what is there")
+    paper.add_argument("--quiet", action="store_true", help="prints failures and the table only")
+    paper.add_argument("--study", type=pathlib.Path, metavar="FOLDER",
+                       help="of another study.toml; default studies/paper")
+
     figures = commands.add_parser("figures",
                                   help="draw the figures of a run, a paper study or a sweep")
     figures.add_argument("directory", type=pathlib.Path,
-                         help="of `rondo run`, `rondo paper` or `rondo sweep`")
+                         help="of `rondo run`, `rondo sweep` or `python3 -m rondo paper`")
     figures.add_argument("-o", "--output", type=pathlib.Path, metavar="FOLDER",
                          help="where the .png and .svg files go; default DIRECTORY/figures")
 
@@ -58,10 +72,22 @@ def _parser() -> argparse.ArgumentParser:
     sweep.add_argument("-o", "--output", type=pathlib.Path, metavar="FOLDER",
                        help="where the .png and .svg files go; default DIRECTORY/figures")
 
+    validate = commands.add_parser(
+        "validate", help="compare reduced runs with the full runs that they are to predict",
+        epilog="The table goes to stdout, validation.csv, validation.json and profiles to OUTPUT. "
+               "docs/reduced.md, 10, says what is measured.")
+    validate.add_argument("runs", type=pathlib.Path, nargs="+", metavar="REDUCED FULL",
+                          help="results directories of `rondo run --reduced` and of the same case "
+                               "without, in turn")
+    validate.add_argument("-o", "--output", type=pathlib.Path, metavar="DIRECTORY",
+                          help="default REDUCED-validation, beside the first one")
+    validate.add_argument("--model", type=pathlib.Path, metavar="FILE",
+                          help="the reduced model; default the one that the reduced run names")
+
     validation = commands.add_parser("validation",
                                      help="draw how far off a reduced model's predictions are")
     validation.add_argument("directory", type=pathlib.Path,
-                            help="MODEL-validation of `rondo reduce --validate`")
+                            help="of `python3 -m rondo validate`")
     validation.add_argument("--run", nargs="+", action="extend", default=[], metavar="NAME",
                             help="of these runs only; default: all")
     validation.add_argument("-o", "--output", type=pathlib.Path, metavar="FOLDER",
@@ -69,7 +95,7 @@ def _parser() -> argparse.ArgumentParser:
 
     means = commands.add_parser("means", help="print the mean forces of the ground on the body")
     means.add_argument("directory", type=pathlib.Path, nargs="+", help="of `rondo run`")
-    for command in film, means:
+    for command in film, means, validate:
         command.add_argument("--from", dest="from_time", type=float, metavar="SECONDS",
                              help="from this time on")
         command.add_argument("--to", dest="to_time", type=float, metavar="SECONDS",
@@ -78,6 +104,31 @@ def _parser() -> argparse.ArgumentParser:
         command.add_argument("--unfinished", action="store_true",
                              help="also of what has not ended, was interrupted or has failed")
     return parser
+
+
+def _count(text: str) -> int:
+    number = int(text)
+    if not 1 <= number <= 1024:
+        raise argparse.ArgumentTypeError(f"{number} is not in 1 to 1024")
+    return number
+
+
+def _paper(options: argparse.Namespace) -> int:
+    from rondo.studies.paper import command
+    return command(options.output, options.quick, options.jobs, options.overwrite, options.quiet,
+                   options.study)
+
+
+def _validate(options: argparse.Namespace) -> None:
+    from rondo.studies.validate import text_of, validate
+
+    if len(options.runs) % 2:
+        raise Error("REDUCED FULL: after each reduced run the full one that it is to predict")
+    pairs = list(zip(options.runs[::2], options.runs[1::2]))
+    first = options.runs[0]
+    out = options.output or first.with_name(f"{first.resolve().name}-validation")
+    print(text_of(validate(pairs, out, options.from_time, options.to_time, options.model)))
+    print(f"validation  {out}\nfigure      python3 -m rondo validation {out}")
 
 
 def _folder(options: argparse.Namespace) -> pathlib.Path:
@@ -141,10 +192,12 @@ def _sweep(options: argparse.Namespace) -> None:
 def main(arguments: Sequence[str] | None = None) -> int:
     options = _parser().parse_args(arguments)
     matplotlib.use("Agg")
-    commands = {"figures": _figures, "animate": _animate, "means": _means,
-                "campbell": _campbell, "sweep": _sweep, "validation": _validation}
+    code: int | None = 0
+    commands: dict[str, Callable[[argparse.Namespace], int | None]] = {
+        "paper": _paper, "figures": _figures, "animate": _animate, "means": _means,
+        "campbell": _campbell, "sweep": _sweep, "validate": _validate, "validation": _validation}
     try:
-        commands[options.command](options)
+        code = commands[options.command](options)
         sys.stdout.flush()
     except BrokenPipeError:  # the reader, as `head`, has enough
         os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())  # for the flush at exit
@@ -162,7 +215,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
         advice = "; choose another -o" if figures else ""
         print(f"rondo: {place}: {reason.strerror or reason}{advice}", file=sys.stderr)
         return WRONG
-    return 0
+    return code or 0
 
 
 if __name__ == "__main__":

@@ -89,87 +89,6 @@ class Smooth(Disk):
                 self.assertEqual(j["reduced_frame"], "turning" if turning else "rectified")
                 self.assertEqual(j["reduced_step"], "explicit" if of_run else "midpoint")
 
-    def test_patterns_hold_the_vertical_force(self):
-        # Not the one along the ground: wide patterns slip as one (docs/reduced.md, 11).
-        model = self.model("--contact", "patterns", "--contact-patterns", 5)
-        with h5py.File(model) as f:
-            self.assertEqual(f.attrs["contact"], "patterns")
-            weights = f["/model/contact_weights"][:]
-        self.assertEqual(weights.shape, (5, 120))
-        self.assertGreaterEqual(weights.min(), 0.0)
-        np.testing.assert_allclose(weights.sum(axis=1), 1.0, rtol=1e-14)
-        # They stand where the ground is: sector 0 is straight down.
-        middle = (weights * ((np.arange(120) + 60) % 120)).sum(axis=1)
-        np.testing.assert_allclose(middle, 60.0, atol=2.0)
-        out, j = self.predicted(model)
-        found = self.errors(out)
-        print("patterns", found)
-        self.assertLess(found[0], 0.02)
-        self.assertEqual((j["reduced_contact"], j["contact_points"]), ("patterns", 5))
-        self.assertLessEqual(j["reduced"]["contacts_max"], 5)
-        self.assertEqual(j["reduced"]["steps_not_converged"], 0)
-        # Impulses are handed to the nodes of the patterns, all of them.
-        with h5py.File(out / "results.h5") as f:
-            force = f["/contact/force"][:][..., 0].sum(axis=1)
-            time = f["/frame/time"][:]
-        h = history(out)
-        late = time > 0.01
-        np.testing.assert_allclose(force[late], np.interp(time[late], h["time_s"], h["force_y"]),
-                                   rtol=1e-3)
-
-    def test_patterns_are_those_of_the_runs(self):
-        # Same bits every time, and what is left falls with their number.
-        left = []
-        for number in (2, 4):
-            both = [made("reduce", self.shared / "0.2", self.shared / "0.4", "-o",
-                         self.folder / f"{k}.h5", "--displacement-modes", 2, "--velocity-modes", 2,
-                         "--contact", "patterns", "--contact-patterns", number).stdout
-                    for k in "ab"]
-            line = [x for x in both[0].splitlines() if x.startswith("patterns ")][0]
-            left.append(float(line.split("leave ")[1].split(" ")[0]))
-            weights = []
-            for k in "ab":
-                with h5py.File(self.folder / f"{k}.h5") as f:
-                    weights.append(f["/model/contact_weights"][:])
-            self.assertTrue(np.array_equal(*weights))
-        # What the forces hold over the places, as the program says, and by NumPy.
-        columns = []
-        for friction in ("0.2", "0.4"):
-            with h5py.File(self.shared / friction / "results.h5") as f:
-                for force, angle in zip(f["/contact/force"][:][..., 0], f["/frame/angle"][:]):
-                    on = angle / (2 * np.pi) * 120
-                    part = on - np.floor(on)
-                    at = [np.roll(force, int(np.floor(on)) + k) for k in (0, 1)]
-                    columns.append((1 - part) * at[0] + part * at[1])
-        forces = np.array(columns)
-        forces = forces[forces.max(axis=1) > 0].T
-        self.assertIn(f"of {forces.shape[1]} snapshots with contact", both[0])
-        sigma = np.linalg.svd(forces, compute_uv=False)
-        least = np.linalg.norm(sigma[4:]) / np.linalg.norm(sigma)
-        print("patterns leave", left, "modes", least)
-        self.assertGreater(left[0], left[1])
-        self.assertGreaterEqual(left[1], least * 0.99)  # three digits are printed
-        self.assertLess(left[1], 1.1 * least)
-        parts, *_ = np.linalg.lstsq(weights[0].T, forces, rcond=None)
-        self.assertLess(np.linalg.norm(weights[0].T @ parts - forces),
-                        1.01 * left[1] * np.linalg.norm(forces))
-
-    def test_patterns_refused(self):
-        both = ["reduce", self.shared / "0.2", self.shared / "0.4", "-o", self.folder / "none.h5"]
-        self.assertIn("1 or more", self.fails(*both, "--contact", "patterns",
-                                              "--contact-patterns", 0))
-        for other in ([], ["--contact", "places"]):
-            self.assertIn("--contact patterns", self.fails(*both, *other,
-                                                           "--contact-patterns", 5))
-        self.assertIn("nothing stands still",
-                      self.fails(*both, "--frame", "turning", "--contact", "patterns"))
-        self.assertIn("nothing is pressed",
-                      self.fails(*both, "--contact", "patterns", "--to", 0.0001))
-        self.assertFalse((self.folder / "none.h5").exists())
-        done = made("reduce", self.shared / "0.2", "-o", self.folder / "few.h5", "--contact",
-                    "patterns", "--contact-patterns", 500)
-        self.assertIn("500 were asked for", done.stderr)
-
     def test_nodes_take_a_whole_number_of_steps_a_sector(self):
         out, j = self.predicted(self.model("--contact", "nodes"))
         sector = 2 * np.pi / 120 / 33.333333
@@ -222,9 +141,9 @@ class Smooth(Disk):
         coarse = self.fails("reduce", self.shared / "0.2", "-o", self.folder / "none.h5",
                             "--contact-stride", 40)
         self.assertIn("leaves 3 contact points", coarse)
-        typo = self.fails("reduce", self.shared / "0.2", "-o", self.folder / "none.h5",
-                          "--validate", self.shared / "0.3", "--reduced-step", "euler")
-        self.assertIn("midpoint or explicit", typo)
+        moved = self.fails("reduce", "-o", self.folder / "none.h5", "--validate",
+                           self.shared / "0.3")
+        self.assertIn("python3 -m rondo validate", moved)
         self.assertFalse((self.folder / "none.h5").exists())
 
     def test_says_how_fast_it_is(self):
@@ -248,7 +167,9 @@ class Smooth(Disk):
                       self.fails("run", self.case_file, "--reduced", model, "-o", out,
                                  "--reduced-step", "euler"))
         both = ["reduce", self.shared / "0.2", self.shared / "0.4", "-o", self.folder / "none.h5"]
-        self.assertIn("places, nodes, patterns", self.fails(*both, "--contact", "points"))
+        self.assertIn("places, nodes", self.fails(*both, "--contact", "points"))
+        self.assertIn("places, which a smooth disk has",
+                      self.fails(*both, "--contact", "patterns"))
         self.assertIn("rectified, turning", self.fails(*both, "--frame", "fixed"))
         self.assertIn("nothing stands still",
                       self.fails(*both, "--frame", "turning", "--contact", "places"))

@@ -39,6 +39,33 @@ values = [33, 2000, 34]
         self.assertIn("3 were there already", done.stderr)
         self.assertEqual((self.out / "results.csv").read_bytes(), before)
 
+    def test_runs_that_are_not_what_they_should_be_are_made_again(self):
+        """Of another case, damaged, of another program, failed by the machine; and what a killed
+        write left is removed."""
+        values = [10.0, 2000.0, 11.0, 12.0, 13.0]  # the second blows up by itself
+        text = self.FAILING.replace(self.FAILING[self.FAILING.index("values"):].splitlines()[0],
+                                    f"values = {values}")
+        self.sweep(text=text, code=3)
+        runs = sorted(self.out.glob("runs/*"))
+        self.assertEqual(len(runs), 5)
+
+        def edit(file, old, new):
+            whole = file.read_text()
+            self.assertIn(old, whole)
+            file.write_text(whole.replace(old, new, 1))
+
+        edit(runs[0] / "case.toml", "restitution = 0.0", "restitution = 0.1")
+        edit(runs[1] / "run.json", '"steps_done"', '"steps_lost"')  # as where the disk was full
+        edit(runs[2] / "run.json", '"build_id": "', '"build_id": "0')
+        history = runs[3] / "history.csv"
+        history.write_text("".join(history.read_text().splitlines(True)[:-2]))
+        left = runs[0] / "results.h5.123.tmp" / "half"
+        left.parent.mkdir()
+        left.write_text("half")
+        done = self.sweep("--resume", text=text, code=3)
+        self.assertIn("1 were there already", done.stderr)
+        self.assertFalse(left.parent.exists())
+
     def test_an_interrupted_sweep_goes_on(self):
         self.case(replaced(LONG, "end", "end = 4.0"))
         process = subprocess.Popen([PROGRAM, "sweep", str(self.study()), "-o", str(self.out)],

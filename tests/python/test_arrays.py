@@ -5,7 +5,7 @@ import numpy as np
 import pytest
 
 import rondo
-from rondo.arrays import LazyArray
+from rondo.data.arrays import LazyArray
 
 SHAPE = (7, 5, 3)
 

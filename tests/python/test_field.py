@@ -10,7 +10,7 @@ from matplotlib.colors import to_hex
 
 import rondo
 from rondo import style
-from rondo.ground import Ground
+from rondo.data.ground import Ground
 from rondo.plots import contact, field
 
 QUADRILATERALS = np.array([[0, 1, 4, 3], [1, 2, 5, 4]])  # 3 4 5 over 0 1 2

@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 
 import rondo
-from rondo.history import PROBES, UNITS
+from rondo.data.history import PROBES, UNITS
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 

@@ -5,9 +5,9 @@
 #include <cmath>
 
 #include "rondo/fem/stress.hpp"
-#include "rondo/statics/spinning_annulus.hpp"
 #include "rondo/statics/stationary_spin.hpp"
 #include "support/models.hpp"
+#include "support/spinning_annulus.hpp"
 
 using namespace rondo;
 
@@ -33,7 +33,7 @@ Computed compute(int radial) {
 }  // namespace
 
 TEST(StationarySpinClosedForm, GivesThePublishedFigures) {
-  const statics::SpinningAnnulus exact({5e6, 0.45, 1100.0, fem::Plane::strain}, 0.2, 0.3, 50.0);
+  const test::SpinningAnnulus exact({5e6, 0.45, 1100.0, fem::Plane::strain}, 0.2, 0.3, 50.0);
   EXPECT_NEAR(exact.displacement(0.3), 1.591599e-4, 5e-11);  // the digits given
   EXPECT_NEAR(exact.radial_stress(0.2), 70610.7, 0.05);
   EXPECT_NEAR(exact.hoop_stress(0.2), 57772.4, 0.05);
@@ -42,7 +42,7 @@ TEST(StationarySpinClosedForm, GivesThePublishedFigures) {
 }
 
 TEST(StationarySpinMesh, DisplacementIsSecondOrder) {
-  const statics::SpinningAnnulus exact({5e6, 0.45, 1100.0, fem::Plane::strain}, 0.2, 0.3, 50.0);
+  const test::SpinningAnnulus exact({5e6, 0.45, 1100.0, fem::Plane::strain}, 0.2, 0.3, 50.0);
   double before = 0.0;
   for (const int radial : {4, 8, 16, 32}) {
     const double error = std::abs(compute(radial).top_displacement / exact.displacement(0.3) - 1.0);
@@ -56,7 +56,7 @@ TEST(StationarySpinMesh, DisplacementIsSecondOrder) {
 }
 
 TEST(StationarySpinMesh, NodalStressConvergesAtLeastFirstOrder) {
-  const statics::SpinningAnnulus exact({5e6, 0.45, 1100.0, fem::Plane::strain}, 0.2, 0.3, 50.0);
+  const test::SpinningAnnulus exact({5e6, 0.45, 1100.0, fem::Plane::strain}, 0.2, 0.3, 50.0);
   double before_r = 0.0, before_h = 0.0;
   for (const int radial : {4, 8, 16, 32}) {
     const Computed c = compute(radial);

@@ -8,9 +8,9 @@
 #include <cmath>
 
 #include "rondo/fem/stress.hpp"
-#include "rondo/statics/spinning_annulus.hpp"
 #include "rondo/statics/stationary_spin.hpp"
 #include "support/models.hpp"
+#include "support/spinning_annulus.hpp"
 
 using namespace rondo;
 using fem::Integration;
@@ -118,7 +118,7 @@ TEST(NearlyIncompressible, TheSpinningAnnulusByBBar) {
   for (const int n : {4, 8, 16, 32}) {
     const fem::Material m = rubber(0.4999, Integration::b_bar);
     const mesh::Mesh mesh = mesh::make_disk(test::rubber_annulus(n, 15 * n).disk);
-    const statics::SpinningAnnulus exact(m, 0.2, 0.3, 50.0);
+    const test::SpinningAnnulus exact(m, 0.2, 0.3, 50.0);
     const auto spin =
         statics::stationary_spin(fem::assemble_sector(mesh, {&m, 1}),
                                  fem::lumped_mass(mesh, {&m, 1}), mesh.coordinates, 50.0);

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""The figures of the paper study (`rondo paper`), as those of the paper, and more."""
+"""The figures of the paper study (`python3 -m rondo paper`), as those of the paper, and more."""
 from __future__ import annotations
 
 import os
@@ -11,7 +11,7 @@ import matplotlib.pyplot as plt
 from .. import style
 
 if TYPE_CHECKING:
-    from ..paper import Paper
+    from ..data.paper import Paper
 
 
 def draw_paper(paper: Paper, folder: str | os.PathLike[str]) -> list[pathlib.Path]:

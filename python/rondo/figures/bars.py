@@ -21,13 +21,13 @@ import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
-from .. import open as open_run
 from .. import style
-from ..errors import Error
+from ..data.run import open_run
+from ..data.errors import Error
 from ..plots.marks import energy, letter
 
 if TYPE_CHECKING:
-    from ..run import Run
+    from ..data.run import Run
 
 # Of the mesh and the cases: m, m, kg/m3, m/s, m/s2; gap (m) and speed (m/s) at first touch.
 LENGTH, WIDTH, DENSITY, WAVE, GRAVITY = 10.0, 0.1, 1.0, 30.0, 10.0

@@ -14,8 +14,8 @@ from ..plots.field import draw_body, frame_axes
 from ..plots.marks import edge_displacement, energy, letter, relative_residual
 
 if TYPE_CHECKING:
-    from ..paper import Paper
-    from ..run import Run
+    from ..data.paper import Paper
+    from ..data.run import Run
 
 ZOOM = 0.012  # s, of the undamped oscillation: some four periods
 SYMPLECTIC, PRINTED, CREATED = style.CURVES[:3]

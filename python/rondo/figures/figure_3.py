@@ -17,8 +17,8 @@ from ..plots.field import Body, draw_body, draw_contact, draw_ground, nodal
 from ..plots.marks import letter, minus
 
 if TYPE_CHECKING:
-    from ..paper import Paper
-    from ..run import Run
+    from ..data.paper import Paper
+    from ..data.run import Run
 
 TIMES = (0.0125, 0.0625, 0.1)  # s, those of the paper's figure 3
 WHOLE = (0.35, 0.42, 0.31)  # m from the centre: to both sides, down, up

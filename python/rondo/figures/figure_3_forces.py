@@ -15,8 +15,8 @@ from ..plots.curves import force_spectrum
 from ..plots.marks import edge_nodes, letter
 
 if TYPE_CHECKING:
-    from ..paper import Paper
-    from ..run import Run
+    from ..data.paper import Paper
+    from ..data.run import Run
 
 PERIODS = 6  # in the close view
 MULTIPLES = 8  # of the pitch frequency in the spectrum of the treaded disk

@@ -14,8 +14,8 @@ from ..plots.field import draw_body, draw_contact, draw_ground, nodal
 from ..plots.marks import letter, minus
 
 if TYPE_CHECKING:
-    from ..paper import Paper
-    from ..run import Run
+    from ..data.paper import Paper
+    from ..data.run import Run
 
 FRICTION = ("0.0", "0.2", "0.4", "0.6")
 WINDOW = (0.105, 0.018, 0.082)  # m: to both sides of the centre, below and above the ledge

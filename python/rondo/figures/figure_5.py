@@ -14,7 +14,7 @@ from ..plots.marks import letter
 from ..plots.modes import SHARES, draw_decay
 
 if TYPE_CHECKING:
-    from ..paper import Paper
+    from ..data.paper import Paper
 
 BODIES = ("smooth", "treaded")
 FIELDS = (("displacement", "displacement"), ("velocity", "velocity"), ("contact", "contact force"))

@@ -9,7 +9,7 @@ from matplotlib.figure import Figure
 from ..plots.modes import plot_modes
 
 if TYPE_CHECKING:
-    from ..paper import Paper
+    from ..data.paper import Paper
 
 COUNT = 6  # as in the paper
 LOWER = ((-0.75, 0.75), (-1.16, -0.3))  # over the outer radius: the part above the contact

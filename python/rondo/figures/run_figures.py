@@ -10,12 +10,12 @@ import matplotlib.pyplot as plt
 import numpy as np
 from matplotlib.figure import Figure
 
-from rondo import style
-from rondo.plots import curves, field
-from rondo.plots.modes import plot_modes, plot_pod_spectrum
+from .. import style
+from ..plots import curves, field
+from ..plots.modes import plot_modes, plot_pod_spectrum
 
 if TYPE_CHECKING:
-    from rondo.run import Run
+    from ..data.run import Run
 
 PANELS = 3
 

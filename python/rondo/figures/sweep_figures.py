@@ -11,14 +11,14 @@ import matplotlib.pyplot as plt
 from matplotlib.figure import Figure
 
 from .. import style
-from ..errors import Error
+from ..data.errors import Error
 from ..plots.sweep import figure_of, is_nothing, members_with
 from ..plots.sweep_curves import check_curves
 from ..plots.sweep_map import check_sides
 from ..plots.sweep_spread import SHOWN, rows_of
 
 if TYPE_CHECKING:
-    from ..sweep import Sweep
+    from ..data.sweep import Sweep
 
 # Of which main effects are drawn unless others are asked for.
 FIGURES = ("force_x_mean", "force_y_mean", "force_y_fluctuation", "contact_length_mean_m",

@@ -12,17 +12,17 @@ import numpy as np
 from matplotlib import animation
 from matplotlib.figure import Figure
 
-from rondo import style
-from rondo.errors import Error
-from rondo.ground import Ground
-from rondo.history import between
-from rondo.plots.field import (cell_means, draw_body, draw_contact, draw_ground, full_range, nodal,
+from .. import style
+from ..data.errors import Error
+from ..data.ground import Ground
+from ..data.history import between
+from .field import (cell_means, draw_body, draw_contact, draw_ground, full_range, nodal,
                                snapshot_title)
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
 
-    from rondo.run import Run
+    from ..data.run import Run
 
 SECONDS = 10.0  # of a film, about, where nothing else is asked for
 FPS = 30

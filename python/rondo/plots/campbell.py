@@ -9,10 +9,10 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from .. import style
-from ..errors import Error
+from ..data.errors import Error
 
 if TYPE_CHECKING:
-    from ..modes import Branch, Modes
+    from ..data.modes import Branch, Modes
 
 LINES = {"backward": "-", "forward": "--", "standing": ":"}  # of the waves
 SHADES = (style.BLACK, style.BLUE, style.VERMILLION, style.GREEN, style.PURPLE, style.ORANGE,

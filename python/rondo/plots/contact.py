@@ -10,11 +10,11 @@ from matplotlib.axes import Axes
 from numpy.typing import NDArray
 
 from .. import style
-from ..errors import Error
-from ..ground import Ground
+from ..data.errors import Error
+from ..data.ground import Ground
 
 if TYPE_CHECKING:
-    from ..run import Contact, Run
+    from ..data.run import Contact, Run
 
 Array = NDArray[np.float64]
 

@@ -9,14 +9,14 @@ import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.ticker import LogLocator
 
-from rondo import style
-from rondo.errors import Error, unknown
-from rondo.history import between
-from rondo.plots.labels import axes_of, column_label, readable, steady_scale
-from rondo.plots.marks import energy, relative_residual
+from .. import style
+from ..data.errors import Error, unknown
+from ..data.history import between
+from .labels import axes_of, column_label, readable, steady_scale
+from .marks import energy, relative_residual
 
 if TYPE_CHECKING:
-    from rondo.run import Run
+    from ..data.run import Run
 
 # What changes the energy, with its sign in the ledger (docs/theory.md, 5); the same colours in all
 # figures.

@@ -13,11 +13,11 @@ from matplotlib.lines import Line2D
 from numpy.typing import NDArray
 
 from .. import style
-from ..errors import Error
-from ..ground import Ground
+from ..data.errors import Error
+from ..data.ground import Ground
 
 if TYPE_CHECKING:
-    from ..run import Run
+    from ..data.run import Run
 
 Array = NDArray[np.float64]
 FRAMES = ("fixed", "turning")

@@ -9,7 +9,7 @@ from matplotlib.axes import Axes
 from numpy.typing import NDArray
 
 if TYPE_CHECKING:
-    from ..run import Run
+    from ..data.run import Run
 
 Array = NDArray[np.float64]
 

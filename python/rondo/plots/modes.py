@@ -12,13 +12,13 @@ from matplotlib.figure import Figure
 from numpy.typing import NDArray
 
 from .. import style
-from ..errors import Error
+from ..data.errors import Error
 from .amplitude import without_crossing
 from .field import cell_means, component, draw_cells, outline, turned
 from .marks import letter
 
 if TYPE_CHECKING:
-    from ..pod import Pod
+    from ..data.pod import Pod
 
 Array = NDArray[np.float64]
 Window = tuple[tuple[float, float], tuple[float, float]]

@@ -13,12 +13,12 @@ from matplotlib.axes import Axes
 from numpy.typing import NDArray
 
 from .. import style
-from ..errors import Error, unknown
+from ..data.errors import Error, unknown
 from .labels import LABELS, column_label, readable
 from .marks import minus
 
 if TYPE_CHECKING:
-    from ..sweep import Sweep
+    from ..data.sweep import Sweep
 
 Array = NDArray[np.float64]
 Mask = NDArray[np.bool_]

@@ -10,13 +10,13 @@ from matplotlib.cm import ScalarMappable
 from matplotlib.colors import ListedColormap, Normalize
 
 from .. import style
-from ..errors import Error
+from ..data.errors import Error
 from .labels import axes_of, steady_scale
 from .sweep import (Array, Mask, Members, Quantity, by_level, figure_of, heading, mark_lost,
                     members_with, others, quantity, scale_axis)
 
 if TYPE_CHECKING:
-    from ..sweep import Sweep
+    from ..data.sweep import Sweep
 
 HEIGHT = 2.8  # in
 MOST = 40  # curves

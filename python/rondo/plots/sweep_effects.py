@@ -9,14 +9,14 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from .. import style
-from ..errors import Error
+from ..data.errors import Error
 from .labels import steady_scale
 from .marks import letter
 from .sweep import (Array, Levels, Members, Quantity, by_level, figure_of, heading, mark_lost,
                     members_with, quantity, scale_axis)
 
 if TYPE_CHECKING:
-    from ..sweep import Sweep
+    from ..data.sweep import Sweep
 
 ACROSS = 3  # panels in a row
 IN_BIN = 10  # least number of members in a mean of sampled ones

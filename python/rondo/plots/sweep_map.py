@@ -13,12 +13,12 @@ from matplotlib.tri import Triangulation
 from numpy.typing import NDArray
 
 from .. import style
-from ..errors import Error
+from ..data.errors import Error
 from .sweep import (Array, Members, Quantity, figure_of, heading, members_with, others, quantity,
                     scale_axis)
 
 if TYPE_CHECKING:
-    from ..sweep import Sweep
+    from ..data.sweep import Sweep
 
 SIZE = (4.6, 3.2)  # in
 IN_CELL = 4  # members in a cell of sampled ones, in the mean

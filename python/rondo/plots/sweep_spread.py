@@ -10,12 +10,12 @@ import numpy as np
 from matplotlib.axes import Axes
 
 from .. import style
-from ..errors import Error
+from ..data.errors import Error
 from .marks import minus
 from .sweep import Array, Quantity, figure_of, heading, is_nothing, members_with
 
 if TYPE_CHECKING:
-    from ..sweep import Sweep
+    from ..data.sweep import Sweep
 
 # Drawn unless others are asked for: what the ground does to the body.
 SHOWN = ("force_x_mean", "force_x_peak", "force_x_fluctuation", "force_y_mean", "force_y_peak",

@@ -12,12 +12,12 @@ from matplotlib.gridspec import GridSpec
 from numpy.typing import NDArray
 
 from .. import style
-from ..errors import Error
+from ..data.errors import Error
 from .labels import readable
 from .marks import letter
 
 if TYPE_CHECKING:
-    from ..validation import Validation
+    from ..data.validation import Validation
 
 Profiles = dict[str, NDArray[np.float64]]
 

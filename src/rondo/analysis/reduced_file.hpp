@@ -27,10 +27,8 @@ struct ModelRanges {
 /// Names of the command line and of the file.
 inline constexpr std::array<std::pair<const char*, rom::ModelFrame>, 2> frame_names{
     {{"rectified", rom::ModelFrame::rectified}, {"turning", rom::ModelFrame::turning}}};
-inline constexpr std::array<std::pair<const char*, rom::ContactForm>, 3> contact_names{
-    {{"places", rom::ContactForm::places},
-     {"nodes", rom::ContactForm::nodes},
-     {"patterns", rom::ContactForm::patterns}}};
+inline constexpr std::array<std::pair<const char*, rom::ContactForm>, 2> contact_names{
+    {{"places", rom::ContactForm::places}, {"nodes", rom::ContactForm::nodes}}};
 
 template <class Names, class Value>
 const char* name_in(const Names& names, Value value) noexcept {

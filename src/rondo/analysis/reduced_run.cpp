@@ -15,6 +15,12 @@
 namespace rondo::study {
 namespace {
 
+void demand_step_name(const std::string& name) {
+  const bool known =
+      std::ranges::any_of(step_names, [&](const auto& step) { return name == step.first; });
+  if (!known) throw request_error("--reduced-step", name, "no such step", "midpoint or explicit");
+}
+
 void check_case(const Case& c, const RunOptions& options, const Setup& setup) {
   if (options.resume)
     throw request_error("--resume", "",
@@ -96,7 +102,6 @@ void warn_of_range(const Case& c, const Setup& setup, ReducedRun& run) {
 void warn_of_step(const Case& c, const Setup& setup, ReducedRun& run) {
   const rom::ReducedModel& m = run.file.model;
   const bool standing = m.form != rom::ContactForm::nodes;
-  if (m.form == rom::ContactForm::patterns) return;  // they overlap all along the contact
   // Nodes of a tread are not evenly spaced; in the mean they are.
   const double points =
       static_cast<double>(standing ? m.contact.points.size() : setup.mesh.boundary.size());
@@ -154,12 +159,6 @@ void warn_of_start(const Setup& setup, ReducedRun& run) {
 }
 
 }  // namespace
-
-void demand_step_name(const std::string& name) {
-  const bool known =
-      std::ranges::any_of(step_names, [&](const auto& step) { return name == step.first; });
-  if (!known) throw request_error("--reduced-step", name, "no such step", "midpoint or explicit");
-}
 
 ReducedRun prepare_reduced(const Case& c, const RunOptions& options, Setup& setup) {
   check_case(c, options, setup);

@@ -19,9 +19,6 @@ namespace rondo::study {
 inline constexpr std::array<std::pair<const char*, rom::StepScheme>, 2> step_names{
     {{"midpoint", rom::StepScheme::midpoint}, {"explicit", rom::StepScheme::central}}};
 
-/// @throws InputError: none of step_names
-void demand_step_name(const std::string& name);
-
 struct ReducedRun {
   ReducedFile file;
   rom::StepScheme scheme = rom::StepScheme::midpoint;

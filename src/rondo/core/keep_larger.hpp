@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-/// @file  The larger and the smaller of two numbers, without losing one that is none, as std::max
-/// and std::min do.
+/// @file  The larger of two numbers, without losing one that is none, as std::max does.
 #pragma once
 #include <cmath>
 
@@ -10,8 +9,4 @@ namespace rondo {
 inline double keep_larger(double a, double b) noexcept {
   return a >= b || std::isnan(a) ? a : b;
 }
-inline double keep_smaller(double a, double b) noexcept {
-  return a <= b || std::isnan(a) ? a : b;
-}
-
 }  // namespace rondo

@@ -14,9 +14,8 @@ namespace rondo::rom {
 struct ReducedModel;
 
 enum class ContactForm {
-  places,    ///< means of nodes, at angles fixed in space
-  nodes,     ///< the candidates themselves
-  patterns,  ///< means of places with weights learned from impulses
+  places,  ///< means of nodes, at angles fixed in space
+  nodes,   ///< the candidates themselves
 };
 
 /// m points: those of a reduced model that stand still, or nodes at one phase of the disk.

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-/// Columns of a CSV file, as `rondo paper` reads history.csv.
+/// Columns of a CSV file, as `rondo sweep` reads history.csv.
 #include <cmath>
 
 #include "fuzz.hpp"

@@ -7,7 +7,6 @@
 
 #include "fuzz.hpp"
 #include "rondo/pod/decompose.hpp"
-#include "rondo/study/paper/paper_results.hpp"
 #include "rondo/study/pod/pod_input.hpp"
 
 namespace rondo::fuzz {
@@ -49,8 +48,6 @@ void decompose(const study::PodRequest& request) {
 void check_results(const std::filesystem::path& run, std::uint32_t choice) {
   std::optional<io::RunReader> reader;
   if (!accepted([&] { read_fields(reader.emplace(run)); })) return;
-  accepted([&] { static_cast<void>(study::edge_motion(*reader)); });
-  accepted([&] { static_cast<void>(study::outside_cone(*reader, 0.5)); });
   reader.reset();
   accepted([&] { decompose(request_of(run, choice)); });
   constexpr std::uint32_t seldom = 32;  // it writes its own files

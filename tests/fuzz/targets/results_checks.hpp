@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-/// @file  What is done with a results directory: all its fields, a POD of them, what the study of
-/// the paper takes from it.
+/// @file  What is done with a results directory: all its fields, a POD of them.
 #pragma once
 #include <cstdint>
 #include <filesystem>

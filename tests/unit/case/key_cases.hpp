@@ -34,7 +34,7 @@ surface = "core"
 [[initial.region]]
 surface = "core"
 )";
-    return std::vector<Case>{read_text(base, probe), read_text(treaded()),
+    return std::vector<Case>{read_text(base, probe), read_text(treaded(), pressure),
                              read_text(with_line(34, "step = 1e-6")), read_text(bodies),
                              read_text(base, crush)};
   }();

@@ -11,7 +11,7 @@
 #include "rondo/integrators/stepper.hpp"
 #include "rondo/output/run_output.hpp"
 #include "unit/case/case_fixture.hpp"
-#include "unit/study/jobs_fixture.hpp"
+#include "unit/study/processes.hpp"
 
 using namespace rondo;
 using namespace rondo::study;

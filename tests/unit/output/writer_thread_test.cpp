@@ -15,7 +15,7 @@
 
 #include "rondo/core/error.hpp"
 #include "rondo/output/writer_thread.hpp"
-#include "unit/study/jobs_fixture.hpp"
+#include "unit/study/processes.hpp"
 
 using namespace rondo;
 using namespace rondo::study;

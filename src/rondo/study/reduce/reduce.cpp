@@ -36,16 +36,13 @@ void check_options(const ReduceRequest& r) {
     throw request_error(option, name, "not one of those there are", allowed);
   };
   demand_one_of("--frame", r.frame, frame_names);
+  if (r.contact == "patterns")
+    throw request_error("--contact", r.contact, "patterns lose the friction and are gone",
+                        "places, which a smooth disk has if --contact is left out");
   if (!r.contact.empty()) demand_one_of("--contact", r.contact, contact_names);
   if (!(r.contact_weight >= 0.0 && r.contact_weight <= 1e6))
     throw request_error("--contact-weight", fmt::format("{:.9g}", r.contact_weight),
                         "not a share of the mass that can be", "0 to 1e6, e.g. 10");
-  if (r.contact_patterns && r.contact != "patterns")
-    throw request_error("--contact-patterns", fmt::to_string(*r.contact_patterns),
-                        "only contact by patterns has a number of them", "--contact patterns");
-  if (r.contact_patterns && *r.contact_patterns < 1)
-    throw request_error("--contact-patterns", fmt::to_string(*r.contact_patterns),
-                        "no patterns to touch the ground with", "1 or more");
   if (r.output.empty()) throw request_error("-o", "", "the model needs a file", "-o MODEL.h5");
   for (const auto& [option, modes] : {std::pair{"--displacement-modes", r.displacement_modes},
                                       {"--velocity-modes", r.velocity_modes}})
@@ -207,21 +204,12 @@ MatrixXd basis_of(const ReduceRequest& r, const mesh::Mesh& mesh, const VectorXd
 struct ContactChoice {
   rom::ContactForm form;
   MatrixXd weights;  ///< (sectors, points); empty: nodes
-  std::optional<PatternFigures> patterns;
 };
 
-ContactChoice choose_contact(const ReduceRequest& request, const Source& source,
-                             const mesh::Mesh& mesh) {
-  ContactChoice contact{contact_form(request, mesh), {}, {}};
+ContactChoice choose_contact(const ReduceRequest& request, const mesh::Mesh& mesh) {
+  ContactChoice contact{contact_form(request, mesh), {}};
   if (contact.form == rom::ContactForm::places)
     contact.weights = rom::hat_weights(mesh.n_sectors, contact_stride(request, mesh.n_sectors));
-  if (contact.form != rom::ContactForm::patterns) return contact;
-  const PodRequest pod = pod_request(request, "displacement");
-  ContactPatterns learned =
-      learn_patterns(source.runs, columns_of(pod, choice_of(pod), source.runs),
-                     request.contact_patterns.value_or(default_contact_patterns), request.warn);
-  contact.weights = std::move(learned.weights);
-  contact.patterns = learned.figures;
   return contact;
 }
 
@@ -257,8 +245,7 @@ ReduceReport describe(const Source& source, const Setup& setup, const ReducedFil
       static_cast<long long>(nodes ? setup.mesh.boundary.size() : file.model.contact.points.size());
   const double spin = std::max(std::abs(file.ranges.angular_velocity.low),
                                std::abs(file.ranges.angular_velocity.high));
-  const bool patterns = file.model.form == rom::ContactForm::patterns;
-  if (spin > 0.0 && !patterns)
+  if (spin > 0.0)
     report.contact_step =
         2.0 * std::numbers::pi / static_cast<double>(report.contact_points) / spin;
   return report;
@@ -273,7 +260,7 @@ ReduceReport run_reduce(const ReduceRequest& request) {
   const Source source = open_source(request);
   const Setup setup = build(source.cases.front(), 1);
   // Told before the work.
-  const ContactChoice contact = choose_contact(request, source, setup.mesh);
+  const ContactChoice contact = choose_contact(request, setup.mesh);
   const VectorXd roots = rom::mass_roots(setup.model.mass);
   const TouchedNodes touched = touched_nodes(setup, source.runs, request);
   const FieldModes u =
@@ -292,7 +279,6 @@ ReduceReport run_reduce(const ReduceRequest& request) {
   ReduceReport report = describe(source, setup, file);
   report.displacement = u.report;
   report.velocity = v.report;
-  report.patterns = contact.patterns;
   report.displacement_left =
       energy_left(snapshots_of(request, source, "displacement"), basis, roots);
   report.velocity_left = energy_left(snapshots_of(request, source, "velocity"), basis, roots);

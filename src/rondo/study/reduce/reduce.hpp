@@ -8,8 +8,6 @@
 #include <string>
 #include <vector>
 
-#include "rondo/study/reduce/contact_patterns.hpp"
-
 namespace rondo::study {
 
 /// Measured to be enough for forces on three meshes (docs/reduced.md, 8).
@@ -19,9 +17,6 @@ inline constexpr long long default_displacement_modes = 30, default_velocity_mod
 inline constexpr int enough_contact_points = 180;
 /// Fewer means of several nodes lie too far inside of the rim.
 inline constexpr int least_contact_points = 48;
-
-/// Measured (docs/reduced.md, 11).
-inline constexpr long long default_contact_patterns = 10;
 
 /// What the user asks for, in the command line's words.
 struct ReduceRequest {
@@ -36,7 +31,6 @@ struct ReduceRequest {
                            ///<     enough_contact_points
   std::string frame = "rectified";  ///< frame_names
   std::string contact;              ///< contact_names; empty: what suits the disk and the frame
-  std::optional<long long> contact_patterns;  ///< none: the default number
   std::string memory = "2GB";
   std::function<void(const std::string&)> warn;        ///< may be empty
   std::function<void(long long, long long)> progress;  ///< done, of all; may be empty
@@ -60,7 +54,6 @@ struct ReduceReport {
   double contact_step = 0.0;  ///< in which the fastest spin passes one contact point [s]; 0: none
   std::string contact;        ///< its form
   long long contact_points = 0;
-  std::optional<PatternFigures> patterns;  ///< of contact by patterns
   std::size_t file_bytes = 0;
   double wall_s = 0.0;
 };

@@ -11,7 +11,8 @@
 #include "rondo/io/csv.hpp"
 #include "rondo/io/files.hpp"
 #include "rondo/io/h5/h5.hpp"
-#include "rondo/study/paper/paper_results.hpp"
+#include "rondo/io/run_reader.hpp"
+#include "rondo/study/sweep/history_statistics.hpp"
 
 namespace rondo::study {
 namespace {
@@ -43,11 +44,11 @@ bool is_whole(const fs::path& directory, const Json& j) {
          fs::is_regular_file(directory / "fields.xdmf");
 }
 
-/// A run that may fail did so by itself, at a step: not for want of room on the disk.
-bool ended(const Json& j, bool may_fail) {
+/// A run that failed did so by itself, at a step: not for want of space on the disk.
+bool ended(const Json& j) {
   const std::string status = text_in(j, "status");
-  return status == "done" || (may_fail && status == "failed" &&
-                              (j.contains("steps_done") || j.contains("increments_done")));
+  return status == "done" ||
+         (status == "failed" && (j.contains("steps_done") || j.contains("increments_done")));
 }
 
 }  // namespace
@@ -68,11 +69,10 @@ bool is_case_of(const fs::path& directory, const Case& c) {
   return !is_copy || text_of(directory / kept.mesh->file) == text_of(c.mesh->file);
 }
 
-bool run_is_there(const fs::path& directory, const Case& c, bool may_fail) {
+bool run_is_there(const fs::path& directory, const Case& c) {
   try {
     const Json j = io::read_json(directory / "run.json");
-    return ended(j, may_fail) && is_of_this_program(j) && is_case_of(directory, c) &&
-           is_whole(directory, j);
+    return ended(j) && is_of_this_program(j) && is_case_of(directory, c) && is_whole(directory, j);
   } catch (const std::exception&) {  // what cannot be read is made again
     return false;
   }

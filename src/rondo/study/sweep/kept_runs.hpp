@@ -17,10 +17,9 @@ namespace rondo::study {
 /// Its case.toml is this case's, and so is its copy of the mesh.
 [[nodiscard]] bool is_case_of(const std::filesystem::path& directory, const Case& c);
 
-/// The run in the directory came to its end, or failed there by itself where it may; its files are
-/// whole as far as their ends and heads tell. What cannot be read is not there.
-[[nodiscard]] bool run_is_there(const std::filesystem::path& directory, const Case& c,
-                                bool may_fail);
+/// The run in the directory came to its end, or failed there by itself; its files are whole as far
+/// as their ends and heads tell. What cannot be read is not there.
+[[nodiscard]] bool run_is_there(const std::filesystem::path& directory, const Case& c);
 
 /// What a program left that was killed while it wrote: files and folders of unfinished writes.
 void remove_unfinished(const std::filesystem::path& directory);

@@ -64,7 +64,7 @@ struct Runner {
   std::string run(std::size_t m, const std::atomic<bool>& stop) {
     const Case c = case_of(study, plan.members[m]);
     const fs::path directory = run_directory(request.directory, m, plan.members.size());
-    const bool kept = run_is_there(directory, c, true);
+    const bool kept = run_is_there(directory, c);
     if (!kept) {
       const RunStatus status = make(c, directory, stop);
       if (status == RunStatus::interrupted) return packed(interrupted_row(directory, plan.kind));
@@ -132,7 +132,7 @@ class Sweep {
       const fs::path directory = run_directory(request_.directory, m, rows_.size());
       std::error_code error;
       if (!fs::exists(directory / "run.json", error) ||
-          !run_is_there(directory, case_of(study_, plan_.members[m]), true))
+          !run_is_there(directory, case_of(study_, plan_.members[m])))
         continue;
       rows_[m] = row_of(directory, plan_.kind, study_.window);
       rows_[m].kept = true;

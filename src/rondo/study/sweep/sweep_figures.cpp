@@ -13,7 +13,7 @@
 #include "rondo/io/csv.hpp"
 #include "rondo/io/files.hpp"
 #include "rondo/output/run_files.hpp"
-#include "rondo/study/paper/paper_results.hpp"
+#include "rondo/study/sweep/history_statistics.hpp"
 
 namespace rondo::study {
 namespace {

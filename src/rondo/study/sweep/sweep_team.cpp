@@ -41,19 +41,14 @@ class Round {
 
   /// False: somebody was stopped.
   bool run(const std::atomic<bool>* stop) {
-    std::vector<Job> jobs;
-    for (int w = 0; w < workers_; ++w)
-      jobs.push_back({fmt::format("worker {}", w + 1), 1.0, {}, [this, w](JobChannel& channel) {
-                        return take_turns(w, channel);
-                      }});
-    JobsOptions options;
-    options.at_once = workers_;
-    options.stop = stop;
+    if (stop && stop->load()) return false;
     const std::size_t before = pieces_.size() - todo_.size();
-    options.progress = [&](const JobsProgress&) {
-      if (work_.watch) work_.watch(before + ended().load());
-    };
-    const std::vector<JobOutcome> outcomes = run_jobs(jobs, options);
+    const std::vector<WorkerOutcome> outcomes = run_workers(
+        workers_, [this](int w, const std::atomic<bool>& told) { return take_turns(w, told); },
+        stop,
+        [&] {
+          if (work_.watch) work_.watch(before + ended().load());
+        });
     for (std::size_t w = 0; w < outcomes.size(); ++w) settle(static_cast<int>(w), outcomes[w]);
     return !(stop && stop->load());
   }
@@ -66,25 +61,24 @@ class Round {
   }
 
   /// In the worker's process.
-  JobReport take_turns(int worker, JobChannel& channel) {
+  std::string take_turns(int worker, const std::atomic<bool>& stop) {
     std::vector<std::pair<std::size_t, Piece>> mine;
-    while (!channel.stop()->load()) {
+    while (!stop.load()) {
       const std::size_t turn = next().fetch_add(1);
       if (turn >= todo_.size()) break;
       in_hand(worker) = todo_[turn];
-      mine.emplace_back(todo_[turn], do_piece(work_, todo_[turn], *channel.stop(), worker));
+      mine.emplace_back(todo_[turn], do_piece(work_, todo_[turn], stop, worker));
       in_hand(worker) = nothing;
-      channel.progress(1 + static_cast<long long>(ended().fetch_add(1)),
-                       static_cast<long long>(todo_.size()));
+      ended().fetch_add(1);
     }
-    return {job_done, packed(mine), {}};
+    return packed(mine);
   }
 
-  void settle(int worker, const JobOutcome& outcome) {
-    if (outcome.status == JobStatus::done) return unpack(outcome.message, pieces_);
+  void settle(int worker, const WorkerOutcome& outcome) {
+    if (outcome.code == job_done) return unpack(outcome.text, pieces_);
     const std::size_t piece = in_hand(worker);
     if (piece == nothing) return;
-    pieces_[piece] = {Piece::State::failed, "its process was " + outcome.message, outcome.code,
+    pieces_[piece] = {Piece::State::failed, "its process was " + outcome.text, outcome.code,
                       worker};
   }
 
@@ -101,8 +95,8 @@ Piece do_piece(const TeamWork& work, std::size_t piece, const std::atomic<bool>&
   try {
     return {Piece::State::done, work.work(piece, stop), job_done, worker};
   } catch (const std::exception& error) {
-    const JobReport failed = failed_by(error);
-    return {Piece::State::failed, failed.message, failed.code, worker};
+    const WorkerOutcome failed = failed_by(error);
+    return {Piece::State::failed, failed.text, failed.code, worker};
   }
 }
 

@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-#include "rondo/study/sweep/jobs.hpp"
+#include "rondo/study/sweep/worker_processes.hpp"
 
 namespace rondo::study {
 

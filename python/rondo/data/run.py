@@ -1,0 +1,317 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""A run: the directory that `rondo run` writes (docs/results.md)."""
+from __future__ import annotations
+
+import os
+import pathlib
+from collections.abc import Callable, Iterator, Mapping
+from dataclasses import dataclass
+from functools import cached_property
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from .arrays import LazyArray
+from .errors import Error, UnfinishedRunError, unknown
+from .files import check_format, opened, read_case, read_json, read_table, require
+from .history import History
+from .mesh import Mesh, read_mesh
+from .pod import Pod, open_pod
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+    from matplotlib.figure import Figure
+
+STRESS = ("xx", "xy", "xz", "yy", "yz", "zz")  # order of /fields/cauchy_stress
+
+STATUS = {  # what it means that a run is not done
+    "running": "it is still running, or was killed",
+    "interrupted": "it was stopped before its end",
+    "failed": "it ended with an error",
+}
+
+
+def open_run(path: str | os.PathLike[str], unfinished: bool = False) -> Run:
+    """Opens a run. `unfinished`: also one that has not ended, was interrupted or has failed; its
+    complete snapshots are read."""
+    directory = require(path, "run.json", beside="results.h5")
+    run = Run(directory)
+    if run.status != "done" and not unfinished:
+        meaning = STATUS.get(run.status, "not known to this package")
+        message = f": {run.info['message']}" if run.info.get("message") else ""
+        raise UnfinishedRunError(
+            f'{directory}: status "{run.status}": {meaning}{message}. {run.n_snapshots} snapshots '
+            f'are there; rondo.open("{directory}", unfinished=True) reads them')
+    return run
+
+
+class Pods(Mapping[str, Pod]):
+    """The PODs in a run's folder pod/, by name ("velocity-rectified"); opened when asked for."""
+
+    def __init__(self, folder: pathlib.Path) -> None:
+        self.folder = folder
+        self._names = sorted(found.parent.name for found in folder.glob("*/pod.json"))
+        self._opened: dict[str, Pod] = {}
+
+    def __getitem__(self, name: str) -> Pod:
+        if name not in self._names:
+            raise unknown(self.folder, "POD", name, self._names)
+        if name not in self._opened:
+            self._opened[name] = open_pod(self.folder / name)
+        return self._opened[name]
+
+    def __iter__(self) -> Iterator[str]:
+        return iter(self._names)
+
+    def __len__(self) -> int:
+        return len(self._names)
+
+    def __repr__(self) -> str:
+        return f"Pods({', '.join(self._names)})"
+
+
+@dataclass(frozen=True)
+class Contact:
+    """Contact of t snapshots at nb candidates. Normal is positive in compression; tangential is
+    along t = J n, to the left."""
+
+    force: LazyArray       # (t, nb, 2) normal, tangential, mean over the step before [N/m]
+    traction: LazyArray    # (t, nb, 2) pressure, shear [Pa]
+    nodes: np.ndarray      # (nb,) candidates, as mesh.boundary
+    tributary: np.ndarray  # (nb,) length that each stands for [m]
+    path: pathlib.Path     # contact.csv
+
+    @cached_property
+    def rows(self) -> dict[str, np.ndarray]:
+        """contact.csv: a row for each node in contact at each snapshot; "time_s", "node",
+        "abscissa_m", "x_m", "y_m", "pressure_pa", "shear_pa"."""
+        return read_table(self.path)
+
+
+@dataclass(frozen=True)
+class Crush:
+    """Curves of a quasi-static crush, a row for each of t increments."""
+
+    depth: np.ndarray           # (t,) of the centre below first touch [m]
+    force: np.ndarray           # (t, 2) of the ground on the body: normal, tangential [N/m]
+    contact_length: np.ndarray  # (t,) [m]
+    pressure_max: np.ndarray    # (t,) [Pa]
+
+
+class Run:
+    """What a run left, n nodes and t complete snapshots.
+
+    directory; info: run.json; case: case.toml; times, times_velocity: (t,) [s], of a crush the
+    share of its depth; angle, angle_velocity: (t,) of the turning frame at these times [rad];
+    center: (t, 2) in the fixed frame [m]; mesh."""
+
+    # Pictures: what rondo/pictures.py gives this class, as nothing here knows how to draw.
+    plot_field: Callable[..., Axes]
+    plot_history: Callable[..., Axes]
+    plot_energy: Callable[..., Axes]
+    plot_spectrum: Callable[..., Axes]
+    plot_modes: Callable[..., Figure]
+    animate: Callable[..., pathlib.Path]
+
+    def __init__(self, directory: pathlib.Path) -> None:
+        self.directory = directory
+        self.info: dict[str, Any] = read_json(directory / "run.json")
+        self.case: dict[str, Any] = read_case(directory / "case.toml")
+        self.path = directory / "results.h5"
+        with opened(self.path) as file:
+            check_format(self.path, "results", file.attrs.get("format"))
+            # Runs of earlier versions do not say what they are: motions.
+            self.analysis = str(file.attrs.get("analysis", "dynamic"))
+            self.mesh: Mesh = read_mesh(file)
+            times = file["frame/time"][:] if "frame" in file else np.empty(0)
+            missing = np.flatnonzero(np.isnan(times))  # the time of a snapshot is written last
+            t = int(missing[0]) if len(missing) else len(times)
+            self.times: np.ndarray = times[:t]
+            frame = {name: file[f"frame/{name}"][:t] if "frame" in file else np.empty(0)
+                     for name in ("time_velocity", "angle", "angle_velocity", "center")}
+            self._has_contact = "contact" in file
+            self._datasets = [f"{group}/{name}" for group in ("snapshots", "fields")
+                              if group in file for name in file[group]]
+        self.times_velocity: np.ndarray = frame["time_velocity"]
+        self.angle: np.ndarray = frame["angle"]
+        self.angle_velocity: np.ndarray = frame["angle_velocity"]
+        self.center: np.ndarray = frame["center"].reshape(-1, 2)
+
+    def __repr__(self) -> str:
+        return (f"Run({self.directory}: {self.title}; {self.analysis}, {self.status}, "
+                f"{self.mesh.n_nodes} nodes, {self.n_snapshots} snapshots)")
+
+    # What it is
+
+    @property
+    def title(self) -> str:
+        return str(self.case.get("title", self.directory.name))
+
+    @property
+    def status(self) -> str:
+        """ "done", "running", "interrupted" or "failed"."""
+        return str(self.info.get("status"))
+
+    @property
+    def is_crush(self) -> bool:
+        return self.analysis == "crush"
+
+    @property
+    def time_unit(self) -> str:
+        """Of times: "s", or "1" for the share of the depth of a crush."""
+        return "1" if self.is_crush else "s"
+
+    @property
+    def n_snapshots(self) -> int:
+        return len(self.times)
+
+    @property
+    def outer_radius(self) -> float:
+        """R_o of a disk [m]; of a mesh from a file its largest distance from the origin."""
+        if "disk" not in self.case:
+            return float(np.linalg.norm(self.mesh.coordinates, axis=1).max())
+        return float(self.case["disk"]["outer_radius"])
+
+    @property
+    def inner_radius(self) -> float:
+        """R_i of a disk [m]; 0 of a mesh from a file."""
+        return float(self.case.get("disk", {}).get("inner_radius", 0.0))
+
+    @property
+    def friction(self) -> float | None:
+        """Coefficient of friction; None without ground."""
+        return float(self.case["ground"]["friction"]) if "ground" in self.case else None
+
+    @property
+    def pitches(self) -> int:
+        """Of the tread; 0: smooth."""
+        return int(self.case.get("disk", {}).get("tread", {}).get("pitches", 0))
+
+    @property
+    def spin(self) -> float:
+        """Angular velocity of the rim at the end [rad/s]; > 0 rolls towards +x; 0 in a crush and
+        where nothing is held."""
+        if self.is_crush or "angular_velocity" not in self.case["motion"]:
+            return 0.0
+        given = self.case["motion"]["angular_velocity"]
+        if not isinstance(given, list):
+            return float(given)
+        table = np.array(given, dtype=float)
+        return float(np.interp(self.case["time"]["end"], table[:, 0], table[:, 1]))
+
+    @property
+    def pitch_frequency(self) -> float | None:
+        """Pitches that pass a second at the end [Hz]; None for a smooth or still disk."""
+        return self.pitches * abs(self.spin) / (2 * np.pi) or None
+
+    # Its fields
+
+    @property
+    def field_names(self) -> list[str]:
+        """What field() takes."""
+        names = {name.split("/")[1] for name in self._datasets}
+        if "cauchy_stress" in names:
+            names |= {f"stress_{component}" for component in STRESS}
+        return sorted(names)
+
+    def field(self, name: str) -> LazyArray:
+        """A field of all snapshots: "displacement", "velocity" (t, n, 2) in the turning frame, of
+        free bodies in the fixed frame;
+        "von_mises", "stress_xx", "stress_xy", ... (t, n) and "cauchy_stress" (t, n, 6) with stress;
+        "position", "contact_force" (t, n, 3) for pictures. Stress, position and contact force are
+        along the fixed axes. "fields/displacement", "fields/velocity": these along the fixed
+        axes."""
+        component = None
+        dataset = name
+        if name.startswith("stress_") and name[7:] in STRESS:
+            dataset, component = "cauchy_stress", STRESS.index(name[7:])
+        for candidate in (dataset, f"snapshots/{dataset}", f"fields/{dataset}"):
+            if candidate in self._datasets:
+                return LazyArray(self.path, candidate, self.n_snapshots, component)
+        self.need_snapshots()
+        raise unknown(self.directory, "field", name, self.field_names)
+
+    @property
+    def displacement(self) -> LazyArray:
+        """(t, n, 2) u in the turning frame [m]."""
+        return self.field("displacement")
+
+    @property
+    def velocity(self) -> LazyArray:
+        """(t, n, 2) du/dt in the turning frame, at times_velocity [m/s]; in a crush du over the
+        share of the depth [m]."""
+        return self.field("velocity")
+
+    def position(self, k: int) -> np.ndarray:
+        """(n, 2) places of the nodes at snapshot k in the fixed frame: c + R(θ)(X + u), of free
+        bodies X + u [m]."""
+        arms = self.mesh.coordinates + self.displacement[k]
+        cos, sin = np.cos(self.angle[k]), np.sin(self.angle[k])
+        turn = np.array([[cos, -sin], [sin, cos]])
+        places = self.center[k] + arms @ turn.T
+        return np.where(self.mesh.free[:, None], arms, places)
+
+    def index(self, time: float) -> int:
+        """The snapshot nearest to a time [s] (of a crush: share of the depth)."""
+        self.need_snapshots()
+        first, last = self.times[0], self.times[-1]
+        spacing = np.diff(self.times).max() if self.n_snapshots > 1 else 0.0
+        slack = max(spacing, self.info.get("step") or 0.0)
+        if not first - slack <= time <= last + slack:
+            raise Error(f"{self.directory}: no snapshot near {time:g} {self.time_unit}; they are "
+                        f"from {first:g} to {last:g} {self.time_unit}")
+        return int(np.argmin(np.abs(self.times - time)))
+
+    def need_snapshots(self) -> None:
+        """An error where there are none, which says why."""
+        if self.n_snapshots:
+            return
+        if self.case.get("output", {}).get("snapshots") == 0:
+            raise Error(f"{self.directory}: the run has no snapshots: output.snapshots was 0; run "
+                        "it again with more")
+        raise Error(f"{self.directory}: the run has no snapshots yet")
+
+    @cached_property
+    def contact(self) -> Contact | None:
+        """None where nothing may be touched, or without snapshots."""
+        if not self.n_snapshots or not self._has_contact:
+            return None
+        force, traction = (LazyArray(self.path, f"contact/{name}", self.n_snapshots)
+                           for name in ("force", "traction"))
+        return Contact(force, traction, self.mesh.boundary, self.mesh.tributary,
+                       self.directory / "contact.csv")
+
+    @cached_property
+    def crush(self) -> Crush | None:
+        """None for a motion."""
+        if not self.is_crush:
+            return None
+        with opened(self.path) as file:
+            return Crush(*(file[f"crush/{name}"][:self.n_snapshots]
+                           for name in ("depth", "force", "contact_length", "pressure_max")))
+
+    @cached_property
+    def history(self) -> History:
+        """history.csv, a row for each interval of output. Of a run that is done it is whole."""
+        history = History(self.directory / "history.csv", self.is_crush, "ground" in self.case)
+        if self.status == "done":
+            increments = self.info.get("increments_done") if self.is_crush else None
+            history.check_end(None if self.is_crush else self.info.get("end_time"),
+                              None if increments is None else increments + 1)
+        return history
+
+    # Its PODs
+
+    @cached_property
+    def pods(self) -> Pods:
+        return Pods(self.directory / "pod")
+
+    def pod(self, field: str, frame: str = "rotating") -> Pod:
+        """The POD of a field ("displacement", "velocity", "contact") in a frame ("rotating",
+        "rectified")."""
+        name = f"{field}-{frame}"
+        if name not in self.pods:
+            raise unknown(self.directory, "POD", name,
+                          [*self.pods, f"to make it: rondo pod {self.directory} --field {field} "
+                                       f"--frame {frame}"])
+        return self.pods[name]

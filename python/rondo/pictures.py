@@ -1,0 +1,116 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""The pictures of runs, PODs, modes, sweeps and validations as their methods. rondo/data knows no
+plots and rondo/plots takes data; here the two meet. matplotlib is loaded by the first picture."""
+from __future__ import annotations
+
+import os
+import pathlib
+from collections.abc import Sequence
+from typing import TYPE_CHECKING, Any
+
+from .data.modes import Modes
+from .data.pod import Pod
+from .data.run import Run
+from .data.sweep import Sweep
+from .data.validation import Validation
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+    from matplotlib.figure import Figure
+
+
+def _field(run: Run, time: float, quantity: str = "displacement", **options: Any) -> Axes:
+    """The body at the snapshot nearest to `time`; options: see rondo.plots.field.plot_field."""
+    from .plots.field import plot_field
+    return plot_field(run, time, quantity, **options)
+
+
+def _history(run: Run, *columns: str, ax: Axes | None = None) -> Axes:
+    """Columns of the history over time; without any, the ground's forces."""
+    from .plots.curves import plot_history
+    return plot_history(run, *columns, ax=ax)
+
+
+def _energy(run: Run, ax: Axes | None = None) -> Axes:
+    """The energy ledger."""
+    from .plots.curves import plot_energy
+    return plot_energy(run, ax=ax)
+
+
+def _spectrum(run: Run, column: str = "force_y", from_time: float | None = None,
+              to_time: float | None = None, ax: Axes | None = None) -> Axes:
+    """Amplitude spectrum of a column of the history, by default of the vertical force."""
+    from .plots.curves import plot_force_spectrum
+    return plot_force_spectrum(run, column, from_time, to_time, ax)
+
+
+def _modes_of_run(run: Run, field: str, frame: str = "rotating", count: int = 6) -> Figure:
+    """The first modes of a POD of this run."""
+    return _modes(run.pod(field, frame), count)
+
+
+def _animate(run: Run, path: str | os.PathLike[str], **options: Any) -> pathlib.Path:
+    """A film (.mp4, .gif) of the body; options: see rondo.plots.animation.animate."""
+    from .plots.animation import animate
+    return animate(run, path, **options)
+
+
+def _decay(pod: Pod, ax: Axes | None = None) -> Axes:
+    """Energy left out over modes kept."""
+    from .plots.modes import plot_pod_spectrum
+    return plot_pod_spectrum([pod], ax=ax)
+
+
+def _modes(pod: Pod, count: int = 6) -> Figure:
+    """The first modes with their course in time."""
+    from .plots.modes import plot_modes
+    return plot_modes(pod, count)
+
+
+def _campbell(modes: Modes, frame: str = "turning", ax: Axes | None = None) -> Figure:
+    """Frequencies over the spin; see rondo.plots.campbell.plot_campbell."""
+    from .plots.campbell import plot_campbell
+    return plot_campbell(modes, frame, ax)
+
+
+def _main_effects(sweep: Sweep, figure: str) -> Figure:
+    """A figure over each parameter; see rondo.plots.sweep_effects.plot_main_effects."""
+    from .plots.sweep_effects import plot_main_effects
+    return plot_main_effects(sweep, figure)
+
+
+def _map(sweep: Sweep, figure: str, x: str, y: str, ax: Axes | None = None) -> Axes:
+    """A figure over two parameters; see rondo.plots.sweep_map.plot_map."""
+    from .plots.sweep_map import plot_map
+    return plot_map(sweep, figure, x, y, ax)
+
+
+def _curves(sweep: Sweep, figure: str, x: str, by: str | None = None,
+            ax: Axes | None = None) -> Axes:
+    """A figure over a column, a curve for each value of another; see
+    rondo.plots.sweep_curves.plot_curves."""
+    from .plots.sweep_curves import plot_curves
+    return plot_curves(sweep, figure, x, by, ax)
+
+
+def _spread(sweep: Sweep, figures: Sequence[str] | None = None, ax: Axes | None = None) -> Axes:
+    """How far figures differ among the members; see rondo.plots.sweep_spread.plot_spread."""
+    from .plots.sweep_spread import plot_spread
+    return plot_spread(sweep, figures, ax)
+
+
+def _validation(validation: Validation, names: Sequence[str] = ()) -> Figure:
+    """Profiles and errors; see rondo.plots.validation.plot_validation."""
+    from .plots.validation import plot_validation
+    return plot_validation(validation, names)
+
+
+def attach() -> None:
+    """Gives the classes of rondo/data their pictures."""
+    Run.plot_field, Run.plot_history, Run.plot_energy = _field, _history, _energy
+    Run.plot_spectrum, Run.plot_modes, Run.animate = _spectrum, _modes_of_run, _animate
+    Pod.plot_spectrum, Pod.plot_modes = _decay, _modes
+    Modes.plot_campbell = _campbell
+    Sweep.plot_main_effects, Sweep.plot_map = _main_effects, _map
+    Sweep.plot_curves, Sweep.plot_spread = _curves, _spread
+    Validation.plot = _validation

@@ -1,0 +1,217 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""What the validation of a reduced model measures with: fields in the fixed frame, errors of sums of
+squares, mean tractions over the angle in space (docs/reduced.md, 10)."""
+from __future__ import annotations
+
+import math
+import pathlib
+from collections.abc import Iterator
+from dataclasses import dataclass
+from functools import cached_property
+
+import numpy as np
+
+from ..data.errors import Error
+from ..data.files import opened
+from ..data.run import Run
+
+BLOCK = 32  # snapshots at once
+
+
+def share_of(part: float, whole: float) -> float:
+    """NaN where there is no whole: an error has nothing to be measured by."""
+    return math.nan if whole == 0 else part / whole
+
+
+@dataclass(frozen=True)
+class Window:
+    """Of the comparison [s]."""
+
+    begin: float
+    end: float
+
+    def holds(self, times: np.ndarray) -> np.ndarray:
+        return (times >= self.begin) & (times <= self.end)
+
+
+@dataclass(frozen=True)
+class Model:
+    """A reduced model of n nodes, r modes."""
+
+    path: pathlib.Path
+    basis: np.ndarray  # (r, n) x + iy, orthonormal in the mass [kg^(-1/2)]
+    mass: np.ndarray   # (n,) [kg/m]
+    turning: bool      # its modes are of the turning frame
+    runs: list[str]    # that it was built from, as they were named
+
+
+def read_model(path: pathlib.Path) -> Model:
+    with opened(path) as file:
+        form = str(file.attrs.get("format", ""))
+        if not form.startswith("rondo reduced model"):
+            raise Error(f'{path}: is no reduced model (its format is "{form}"); rondo reduce '
+                        "writes one")
+        return Model(path, file["model/basis"][:] @ np.array([1, 1j]), file["mesh/mass"][:],
+                     str(file.attrs["frame"]) == "turning",
+                     str(file.attrs["runs"]).splitlines())
+
+
+class Field:
+    """The displacement or the velocity of a run, in its own frame and moved to the fixed one
+    (docs/theory.md, 7.3)."""
+
+    def __init__(self, run: Run, name: str) -> None:
+        of_velocity = name == "velocity"
+        self.time = run.times_velocity if of_velocity else run.times
+        self._angle = run.angle_velocity if of_velocity else run.angle
+        self._values = run.field(name)
+        sector, within = run.mesh.sector, run.mesh.sector_node
+        if sector is None or within is None:
+            raise Error(f"{run.directory}: its mesh has no equal sectors: nothing of it was reduced")
+        self._order = np.lexsort((sector, within))
+        self._sectors = int(sector.max()) + 1
+
+    def turning(self, snapshots: slice) -> np.ndarray:
+        """(t, n) x + iy"""
+        values: np.ndarray = self._values[snapshots] @ np.array([1, 1j])
+        return values
+
+    def fixed(self, snapshots: slice) -> np.ndarray:
+        """(t, n) rectified: a picture that stands still in space stands still here."""
+        n = self._sectors
+        polar = np.exp(2j * np.pi * np.arange(n) / n)  # radial and tangential parts are what moves
+        k = np.fft.fftfreq(n, 1 / n)
+        turned = np.exp(-1j * k * self._angle[snapshots, None])
+        turned[:, np.abs(k) == n / 2] = 1  # the highest stays where it is
+        values = self.turning(snapshots)
+        rings = values[:, self._order].reshape(len(values), -1, n) / polar
+        moved = np.fft.ifft(np.fft.fft(rings, axis=2) * turned[:, None], axis=2) * polar
+        values[:, self._order] = moved.reshape(values.shape)
+        return values
+
+    def at(self, time: np.ndarray) -> np.ndarray:
+        """(t, n) in the fixed frame, between two snapshots on a line: there the field stands nearly
+        still. @param time rising, within those of the field"""
+        before = np.minimum(np.searchsorted(self.time, time, side="right") - 1, len(self.time) - 1)
+        after = np.minimum(before + 1, len(self.time) - 1)
+        fields = self.fixed(slice(int(before[0]), int(after[-1]) + 1))
+        span = np.where(after > before, self.time[after] - self.time[before], 1.0)
+        weight = ((time - self.time[before]) / span)[:, None]
+        return (1 - weight) * fields[before - before[0]] + weight * fields[after - before[0]]
+
+
+@dataclass(frozen=True)
+class FieldErrors:
+    left: float   # √(share of the energy that the modes leave out)
+    error: float  # of the prediction
+    mean: float   # of the means over the window
+    compared: int  # snapshots
+
+
+def field_errors(model: Model, window: Window, full: Run, reduced: Run, name: str) -> FieldErrors:
+    """What the modes leave of each snapshot of the window, and what the prediction misses of those
+    that lie between two of its own. Norms are those of the mass."""
+    mine, theirs = Field(full, name), Field(reduced, name)
+    energy = left = difference = compared_energy = 0.0
+    sums = np.zeros((2, len(model.mass)), dtype=complex)
+    compared = 0
+    for block in _blocks(window.holds(mine.time)):
+        field = mine.fixed(block)
+        own = mine.turning(block) if model.turning else field
+        norms = _energies(model, field)
+        inside = ((own * model.mass) @ model.basis.conj().T).real  # (t, r)
+        energy += norms.sum()
+        left += np.maximum(0.0, norms - (inside ** 2).sum(axis=1)).sum()
+        time = mine.time[block]
+        known = (time >= theirs.time[0]) & (time <= theirs.time[-1])
+        if not known.any():
+            continue
+        field, predicted = field[known], theirs.at(time[known])
+        difference += _energies(model, predicted - field).sum()
+        compared_energy += norms[known].sum()
+        sums += field.sum(axis=0), predicted.sum(axis=0)
+        compared += len(field)
+    means = share_of(*(float(_energies(model, s[None])[0]) for s in (sums[1] - sums[0], sums[0])))
+    return FieldErrors(math.sqrt(share_of(left, energy)),
+                       math.sqrt(share_of(difference, compared_energy)), math.sqrt(means), compared)
+
+
+def _energies(model: Model, fields: np.ndarray) -> np.ndarray:
+    squares: np.ndarray = (fields.real ** 2 + fields.imag ** 2) @ model.mass
+    return squares
+
+
+def _blocks(wanted: np.ndarray) -> Iterator[slice]:
+    """Of a mask that is one piece."""
+    places = np.flatnonzero(wanted)
+    for k in range(0, len(places), BLOCK):
+        part = places[k:k + BLOCK]
+        yield slice(int(part[0]), int(part[-1]) + 1)
+
+
+def mean_profile(run: Run, window: Window) -> np.ndarray | None:
+    """(3, m) angle (-π to π, counter-clockwise from straight down) [rad], pressure and shear [Pa],
+    means over the snapshots of the window at places that stand still in space, evenly round the
+    disk, as many as candidates. A nodal force is shared by the two places next to its node, the
+    more the nearer, so that nothing jumps where a node passes from one to the next; the profile's
+    integral is the mean force. None where there is no contact to be had."""
+    inside = np.flatnonzero(window.holds(run.times))
+    if run.contact is None or not len(inside):
+        return None
+    x = run.mesh.coordinates[run.mesh.boundary]
+    n = len(x)
+    force = run.contact.force[slice(int(inside[0]), int(inside[-1]) + 1)]
+    turns = (np.arctan2(x[:, 0], -x[:, 1]) + run.angle[inside, None]) / (2 * np.pi)
+    place = (turns - np.floor(turns)) * n
+    whole = np.floor(place)
+    first, part = whole.astype(int) % n, place - whole
+    sums = np.zeros((2, n))
+    for at, share in ((first, 1.0 - part), ((first + 1) % n, part)):
+        for c in range(2):
+            sums[c] += np.bincount(at.ravel(), (share * force[..., c]).ravel(), minlength=n)
+    j = (np.arange(n) + (n + 1) // 2) % n  # from the one after straight up, or from it
+    angle = np.where(2 * j >= n, j - n, j) * (2 * np.pi / n)
+    scale = n / (run.mesh.tributary.sum() * len(inside))
+    return np.stack([angle, *(scale * sums[:, j])])
+
+
+def profile_error(full: np.ndarray, reduced: np.ndarray, by: np.ndarray) -> float:
+    """‖reduced - full‖ / ‖by‖ over the places."""
+    return math.sqrt(share_of(float(((reduced - full) ** 2).sum()), float((by ** 2).sum())))
+
+
+class Means:
+    """Of the rows of a history whose intervals lie in the window."""
+
+    def __init__(self, run: Run, window: Window) -> None:
+        self._history = run.history
+        time = self._history["time_s"]
+        start = np.append(0.0, time)[:-1]
+        strictly = (start[1:] >= window.begin) & (time[1:] <= window.end)
+        if not strictly.any():
+            raise Error(f"{self._history.path}: no row lies in the window, {window.begin:.9g} to "
+                        f"{window.end:.9g} s; a longer window (--from, --to), or a prediction with "
+                        "a smaller --step-factor")
+        end = min(window.end, time[-1])
+        self._rows = np.flatnonzero((start >= window.begin) & (time <= end * (1 + 1e-12)))
+        self._length = (time - start)[self._rows]
+
+    def mean(self, column: str) -> float:
+        return float(np.average(self._history[column][self._rows], weights=self._length))
+
+    def fluctuation(self, column: str) -> float:
+        """Root mean square about the mean."""
+        about = self._history[column][self._rows] - self.mean(column)
+        return float(np.sqrt(np.average(about ** 2, weights=self._length)))
+
+    def rate(self, column: str) -> float:
+        """Increase of a cumulative column, by the time."""
+        value = self._history[column]
+        before = value[self._rows[0] - 1] if self._rows[0] > 0 else 0.0
+        return float((value[self._rows[-1]] - before) / self._span)
+
+    @cached_property
+    def _span(self) -> float:
+        time = self._history["time_s"]
+        begin = time[self._rows[0] - 1] if self._rows[0] > 0 else 0.0
+        return float(time[self._rows[-1]] - begin)
