@@ -17,6 +17,27 @@ constexpr double infinity = std::numeric_limits<double>::infinity();
 
 using enum KeyType;
 
+struct Words {
+  std::string_view type, allowed;
+};
+
+/// In the order of KeyType; of numbers and choices the table of keys says what is allowed.
+constexpr Words words[] = {
+    {"integer", ""},
+    {"float", ""},
+    {"boolean", "true or false"},
+    {"string", "any text"},
+    {"string", ""},
+    {"float or array of pairs", "a finite number or [[t, value], ...] with t increasing"},
+    {"string or array of pairs", "\"flat\" or [[x, y], ...] from left to right"},
+    {"array of 2 floats", "[x, y], finite numbers"},
+    {"array of 2 arrays of 2 floats", "[[a, b], [c, d]], finite numbers"},
+};
+
+const Words& words_of(KeyType type) {
+  return words[static_cast<std::size_t>(type)];
+}
+
 std::string range_text(const Range& r, bool whole) {
   const bool low = r.low > -infinity, high = r.high < infinity;
   if (!low && !high) return whole ? "any integer" : "any finite number";
@@ -192,54 +213,17 @@ std::string default_text(const CaseKey& key) {
 }
 
 std::string_view type_text(const CaseKey& key) {
-  switch (type_of(key)) {
-    case integer:
-      return "integer";
-    case number:
-      return "float";
-    case boolean:
-      return "boolean";
-    case text:
-    case choice:
-      return "string";
-    case history:
-      return "float or array of pairs";
-    case profile:
-      return "string or array of pairs";
-    case vector:
-      return "array of 2 floats";
-    case matrix:
-      return "array of 2 arrays of 2 floats";
-  }
-  return "";
+  return words_of(type_of(key)).type;
 }
 
 std::string allowed_text(const CaseKey& key) {
   const KeyType type = type_of(key);
-  std::string said;
-  switch (type) {
-    case integer:
-    case number:
-      said = range_text(key.allowed.range, type == integer);
-      break;
-    case boolean:
-      return "true or false";
-    case text:
-      return "any text";
-    case choice:
-      return choices_text(key.allowed);
-    case history:
-      return "a finite number or [[t, value], ...] with t increasing";
-    case profile:
-      return "\"flat\" or [[x, y], ...] from left to right";
-    case vector:
-      return "[x, y], finite numbers";
-    case matrix:
-      return "[[a, b], [c, d]], finite numbers";
-  }
   const std::string_view also = key.allowed.also;
-  if (also.empty()) return said;
-  return said + (also.starts_with("<") ? " and " : "; ") + std::string(also);
+  if (type == choice) return choices_text(key.allowed);
+  if (type != integer && type != number) return std::string(words_of(type).allowed);
+  const std::string range = range_text(key.allowed.range, type == integer);
+  if (also.empty()) return range;
+  return range + (also.starts_with("<") ? " and " : "; ") + std::string(also);
 }
 
 std::string keys_text(std::string_view table) {

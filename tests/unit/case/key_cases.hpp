@@ -18,8 +18,8 @@ inline const std::vector<Case>& cases_with_every_key() {
     const std::vector<std::string> crush{"analysis.kind=crush",   "analysis.depth=0.01",
                                          "analysis.increments=3", "analysis.slide=0.001",
                                          "ground.profile=flat",   "analysis.slide_increments=2"};
-    const std::vector<std::string> probe{"output.probe=[{name = 'p', position = [0.2, 0.0]}]",
-                                         "load.pressure=[{curve = 'rim', value = 3}]"};
+    const std::vector<std::string> probe{"output.probe=[{name = 'p', position = [0.2, 0.0]}]"},
+        pressure{"load.pressure=[{curve = 'rim', value = 3}]"};
     const std::string bodies = R"(schema = 1
 time.end = 0.2
 [mesh]
@@ -58,7 +58,7 @@ struct Change {
 
   void operator()(int* value) const { *value = *value > 1 ? *value - 1 : *value + 4; }
   void operator()(double* value) const {
-    const double less = *value == 0.0 ? 0.125 : 0.9 * *value;
+    const double less = *value == 0.0 ? 0.0625 : 0.9 * *value;
     *value = key.allowed.range.contains(less) ? less : 1.1 * *value;
   }
   void operator()(std::optional<double>* value) const { *value = 0.9 * value->value(); }

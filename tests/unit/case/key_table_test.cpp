@@ -5,6 +5,7 @@
 
 #include <cmath>
 #include <set>
+#include <type_traits>
 
 #include "unit/case/key_cases.hpp"
 
@@ -26,6 +27,23 @@ TEST(KeyTable, KeysOfATableStandTogetherAndAreThereOnce) {
     }
   }
   EXPECT_EQ(count, case_keys().size());
+}
+
+/// No two rows share a field, and of a list each table has its own.
+TEST(KeyTable, EveryKeyHasAFieldOfItsOwn) {
+  Case c = cases_with_every_key()[0];
+  for (const CaseTable& table : case_tables())
+    if (table.resize) table.resize(c, table.is_list() ? 2 : 1);
+  std::set<const void*> seen;
+  const auto address = [](auto field) -> const void* {
+    if constexpr (std::is_same_v<decltype(field), Choice>)
+      return field.target;
+    else
+      return field;
+  };
+  for (const CaseKey& key : case_keys())
+    for (std::size_t k = 0; k < (table_with(key).is_list() ? 2U : 1U); ++k)
+      EXPECT_TRUE(seen.insert(std::visit(address, key.field(c, k))).second) << key.path;
 }
 
 /// A value unlike the one before is written, and read back.
