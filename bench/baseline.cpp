@@ -35,14 +35,16 @@ struct Constants {
             const dynamics::VelocityUpdate& update) noexcept
       : spin{-frame.spin * frame.spin, frame.spin_rate},
         pull(frame.pull),
-        inverse(Vec2{1.0, 0.0} / update.a),
+        inverse(Complex{1.0, 0.0} / update.a),
         drag(update.drag),
         dt(model.dt),
         inverse_dt(1.0 / model.dt),
         alpha(model.mass_damping),
         beta(model.stiffness_damping) {}
 
-  Vec2 spin, pull, inverse, drag;
+  Complex spin;
+  Vec2 pull;
+  Complex inverse, drag;
   double dt, inverse_dt, alpha, beta;
 };
 

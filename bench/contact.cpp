@@ -18,7 +18,7 @@ const auto per_item = Counter::kIsIterationInvariantRate | Counter::kInvert;
 struct Ring {
   explicit Ring(int n) {
     for (int i = 0; i < n; ++i) {
-      points.push_back(rotation(2.0 * 3.141592653589793 * i / n));
+      points.push_back(direction_at(2.0 * 3.141592653589793 * i / n));
       edges.push_back({i, (i + 1) % n});
     }
     length = norm(points[1] - points[0]);

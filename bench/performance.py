@@ -94,8 +94,9 @@ def measure(arguments: argparse.Namespace, raw: pathlib.Path) -> None:
         small = "^(stream/(4320|20280|201720)/|(product.*|contact_search)/(12|26|82)(/|$)|multiply)"
         runner.benchmark("bench_kernels", "kernels", small if arguments.quick else ".", repetitions)
         with tempfile.TemporaryDirectory() as out:
-            about["paper_seconds"] = runner.run([str(folder / "rondo"), "paper", "-o", out,
-                                                 "--overwrite"])
+            about["paper_seconds"] = runner.run(
+                [sys.executable, "-m", "rondo", "paper", "-o", out, "--overwrite"],
+                {"RONDO": str(folder / "rondo"), "PYTHONPATH": "python"})
     about["commands"] = ["cmake --preset bench && cmake --build --preset bench",
                          shlex.join(["/usr/bin/python3", "bench/performance.py", *sys.argv[1:]])]
     (raw / "run.json").write_text(json.dumps(about, indent=2) + "\n")
@@ -121,7 +122,7 @@ def main() -> None:
     parser.add_argument("--huge", action="store_true", help="4·10⁷ dofs too")
     parser.add_argument("--only", default="", metavar="REGEX",
                         help="meshes whose name it finds; tables to the screen")
-    parser.add_argument("--steps-only", action="store_true", help="no kernels and no `rondo paper`")
+    parser.add_argument("--steps-only", action="store_true", help="no kernels and no study of the paper")
     parser.add_argument("--tables", action="store_true", help="run nothing, write the tables anew")
     arguments = parser.parse_args()
     partial = arguments.quick or arguments.only or arguments.steps_only

@@ -29,10 +29,23 @@ def version() -> str:
     return found[1]
 
 
-def package_files() -> list[str]:
-    """Files of the package, relative to ROOT, sorted."""
-    kept = [path for path in (ROOT / NAME).rglob("*") if path.suffix in (".py", ".typed")]
-    return sorted(path.relative_to(ROOT).as_posix() for path in kept)
+def shipped_files() -> dict[str, pathlib.Path]:
+    """What `python3 -m rondo paper` needs besides the package, with its place in it: the study and
+    its cases. In a source archive they are there already."""
+    there = ROOT / NAME / "shipped"
+    if there.is_dir():
+        return {path.relative_to(ROOT).as_posix(): path for path in there.rglob("*.toml")}
+    study = ROOT.parent / "studies" / "paper" / "study.toml"
+    cases = [study.parent / run["case"] for run in tomllib.loads(study.read_text())["run"]]
+    found = {study, *(case.resolve() for case in cases)}
+    return {f"{NAME}/shipped/{path.relative_to(ROOT.parent).as_posix()}": path for path in found}
+
+
+def package_files() -> dict[str, pathlib.Path]:
+    """Files of the package by their names in it, sorted."""
+    kept = {path.relative_to(ROOT).as_posix(): path for path in (ROOT / NAME).rglob("*")
+            if path.suffix in (".py", ".typed")}
+    return dict(sorted((kept | shipped_files()).items()))
 
 
 def metadata() -> str:
@@ -47,7 +60,7 @@ def build_wheel(wheel_directory: str, config_settings: dict[str, Any] | None = N
                 metadata_directory: str | None = None) -> str:
     """Writes the wheel into the folder and returns its name."""
     info = f"{NAME}-{version()}.dist-info"
-    contents = {name: (ROOT / name).read_bytes() for name in package_files()}
+    contents = {name: path.read_bytes() for name, path in package_files().items()}
     contents[f"{info}/METADATA"] = metadata().encode()
     contents[f"{info}/WHEEL"] = (b"Wheel-Version: 1.0\nGenerator: rondo\nRoot-Is-Purelib: true\n"
                                  b"Tag: py3-none-any\n")
@@ -70,8 +83,8 @@ def build_wheel(wheel_directory: str, config_settings: dict[str, Any] | None = N
 def build_sdist(sdist_directory: str, config_settings: dict[str, Any] | None = None) -> str:
     """Writes the source archive into the folder and returns its name."""
     top = f"{NAME}-{version()}"
-    contents = {name: (ROOT / name).read_bytes()
-                for name in ["LICENSE", "build_wheel.py", "pyproject.toml", *package_files()]}
+    own = {name: ROOT / name for name in ("LICENSE", "build_wheel.py", "pyproject.toml")}
+    contents = {name: path.read_bytes() for name, path in (own | package_files()).items()}
     contents["PKG-INFO"] = metadata().encode()
     archive = io.BytesIO()
     with tarfile.open(fileobj=archive, mode="w", format=tarfile.PAX_FORMAT) as out:

@@ -1,6 +1,8 @@
 #!/usr/bin/env bash
 # Builds with sanitizers and runs the tests that they are for:
-#   bash scripts/sanitize.sh asan     addresses, leaks, undefined behaviour: the whole fast suite
+#   bash scripts/sanitize.sh asan [--short]
+#                                     addresses, leaks, undefined behaviour: all tests but the long
+#                                     ones; --short: the unit tests and the short ones of the program
 #   bash scripts/sanitize.sh tsan     races: the threaded step, the writer thread, runs with both
 #   bash scripts/sanitize.sh clang    no test: warnings of clang are errors (asan is built with it too)
 #   bash scripts/sanitize.sh          asan and tsan
@@ -26,21 +28,29 @@ no_findings() { # PRESET
   return 1
 }
 
-asan() {
-  build asan
+asan() { # [--short]
+  local tests=(-LE long)
+  case ${1:-} in
+    '') build asan ;;
+    --short)
+      tests=(-L short)
+      build asan short_tests
+      ;;
+    *) usage ;;
+  esac
   local common=exitcode=99:log_path=$PWD/build/asan/findings/report
   # Signals that a test sends itself, and traps that a test springs, are no findings; nor what ends the
   # library that reads meshes, which is why it has a process of its own (with the second runtime).
   ASAN_OPTIONS=$common:detect_leaks=1:strict_string_checks=1:check_initialization_order=1:handle_segv=0:handle_sigbus=0:handle_sigfpe=0 \
   UBSAN_OPTIONS=$common:print_stacktrace=1:handle_segv=0:handle_sigbus=0:handle_sigfpe=0:handle_abort=0 \
   RONDO_TEST_TIMEOUT=900 LSAN_OPTIONS=suppressions=$suppressions/leaks.txt:print_suppressions=0 \
-    ctest --test-dir build/asan -L fast --output-on-failure -j "$(nproc)" ||
+    ctest --test-dir build/asan "${tests[@]}" --output-on-failure -j "$(nproc)" ||
     { no_findings asan; return 1; }
   no_findings asan
 }
 
 tsan() {
-  build tsan unit_core unit_dynamics unit_study rondo
+  build tsan thread_tests
   # libomp tells the sanitizer through Archer where threads wait for each other; without it each
   # parallel loop would be a race.
   local archer
@@ -54,10 +64,15 @@ tsan() {
   no_findings tsan
 }
 
+usage() {
+  sed -n '2,9s/^# \{0,1\}//p' "$0" >&2
+  exit 2
+}
+
 case ${1:-all} in
-  asan) asan ;;
+  asan) asan "${@:2}" ;;
   tsan) tsan ;;
   clang) build clang ;;
   all) asan; tsan ;;
-  *) sed -n '2,8s/^# \{0,1\}//p' "$0" >&2; exit 2 ;;
+  *) usage ;;
 esac

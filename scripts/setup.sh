@@ -1,6 +1,7 @@
 #!/usr/bin/env bash
-# Installs what rondo needs to build, run and test, from Debian packages (Debian 12 or later).
-# Works as root, or with sudo. Installs only what is missing.
+# Installs Debian packages (Debian 12 or later), as root or with sudo, and only what is missing.
+#   bash scripts/setup.sh          what building and running rondo needs
+#   bash scripts/setup.sh --dev    tests, lint, sanitizers, fuzzing, coverage and benchmarks too
 set -euo pipefail
 
 packages=(
@@ -8,22 +9,30 @@ packages=(
   libeigen3-dev libsuitesparse-dev libspectra-dev    # linear algebra, sparse Cholesky, eigenvalues
   libopenblas-dev liblapacke-dev libfftw3-dev        # singular values, QR; Fourier transforms
   libhdf5-dev nlohmann-json3-dev libtomlplusplus-dev libxxhash-dev # files
-  libgmsh-dev gmsh                                   # meshes from files; gmsh makes cases/meshes
+  libgmsh-dev                                        # meshes from files
   libopenmpi-dev openmpi-bin                         # sweeps on clusters
   libcli11-dev libfmt-dev libspdlog-dev              # command line, text, log
-  libgtest-dev clang-format clang-tidy cppcheck      # tests
+  python3 python3-numpy python3-h5py python3-matplotlib python3-pil # pictures
+  ffmpeg                                             # films (.mp4)
+)
+for_development=(
+  libgtest-dev python3-pytest python3-pip python3-venv # tests
+  gmsh                                               # makes cases/meshes and tests/meshes
+  clang-format clang-tidy cppcheck mypy              # scripts/lint.sh
   clang libclang-rt-14-dev llvm-14 libomp-dev        # the other compiler, sanitizers, scripts/fuzz.sh
   gcovr                                              # scripts/coverage.sh
   libbenchmark-dev valgrind                          # bench/; instructions of a step, a test
-  python3 python3-numpy python3-h5py python3-matplotlib python3-pil # pictures; a second reader of the results
-  ffmpeg                                             # films (.mp4)
-  python3-pytest mypy python3-pip python3-venv       # tests of the Python package
 )
+case ${1:-} in
+  '') ;;
+  --dev) packages+=("${for_development[@]}") ;;
+  *) sed -n '2,4s/^# \{0,1\}//p' "$0" >&2; exit 2 ;;
+esac
 
+installed=$(dpkg-query -W -f='${Package} ${db:Status-Status}\n' "${packages[@]}" 2>/dev/null || true)
 missing=()
 for package in "${packages[@]}"; do
-  dpkg-query -W -f='${db:Status-Status}' "$package" 2>/dev/null | grep -qx installed ||
-    missing+=("$package")
+  grep -qx "$package installed" <<<"$installed" || missing+=("$package")
 done
 if [ ${#missing[@]} -eq 0 ]; then
   echo "setup: all ${#packages[@]} packages are installed"

@@ -1,10 +1,11 @@
 #!/usr/bin/env bash
-# Installs, builds and runs all tests; ends with ctest's summary. Arguments go to ctest, for example
-#   bash scripts/test.sh -L fast          without the long verification runs
+# Installs, builds and runs the tests; ends with ctest's summary. Arguments go to ctest, for example
+#   bash scripts/test.sh -R cli_       the program, driven from outside
+# Long runs: scripts/long.sh. Format and static analysis: scripts/lint.sh.
 set -euo pipefail
 cd "$(dirname "$0")/.."
 
-bash scripts/setup.sh
+bash scripts/setup.sh --dev
 cmake --preset release -DRONDO_BUILD_TESTS=ON -DRONDO_WERROR=ON
 cmake --build --preset release
-ctest --test-dir build/release --output-on-failure -j "$(nproc)" "$@"
+ctest --test-dir build/release --output-on-failure -j "$(nproc)" -LE long "$@"

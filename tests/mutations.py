@@ -22,7 +22,7 @@ import tempfile
 ROOT = pathlib.Path(__file__).resolve().parent.parent
 TIMEOUT = 900  # s for one call of a test program; what hangs has failed
 
-PROGRAMS = {"V": "verification/verification", "W": "verification/verification_slow",
+PROGRAMS = {"V": "verification/verification", "W": "verification/verification_long",
             "R": "verification/verification_reducibility"}
 PROGRAMS |= {m: f"unit/unit_{m}" for m in ("core", "mesh", "fem", "contact", "model", "integrators",
                                            "statics", "modal", "pod", "rom", "case", "io",

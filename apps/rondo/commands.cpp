@@ -10,6 +10,7 @@
 #include "exit_codes.hpp"
 #include "progress.hpp"
 #include "rondo/analysis/check.hpp"
+#include "rondo/analysis/registry.hpp"
 #include "rondo/analysis/run.hpp"
 #include "rondo/core/bytes.hpp"
 #include "rondo/core/error.hpp"
@@ -19,7 +20,7 @@ namespace rondo::app {
 namespace {
 
 study::RunReport run_with_progress(const study::Case& c, study::RunOptions& options, bool quiet) {
-  Progress progress(c.analysis.kind == study::AnalysisKind::crush ? "increment" : "step");
+  Progress progress(study::type_of(c).unit.data());
   if (!quiet) options.progress = std::ref(progress);
   return study::run_case(c, options);
 }
@@ -30,40 +31,28 @@ std::filesystem::path default_directory(const std::filesystem::path& case_file) 
   return case_file.parent_path() / case_file.stem();
 }
 
-std::string crush_target(long long increments, double depth, double slide) {
-  const std::string text = fmt::format("{} increments to a depth of {:.6g} m", increments, depth);
-  return slide == 0.0 ? text : fmt::format("{} and a slide of {:.6g} m", text, slide);
-}
-
-std::string reached(const study::RunReport& r) {
-  return r.analysis == study::AnalysisKind::crush
-             ? crush_target(r.steps, r.depth, r.slide)
-             : fmt::format("{} steps to t = {:.6g} s", r.steps, r.end_time);
-}
-
 int finish(const study::RunReport& r, const std::filesystem::path& directory) {
   switch (r.status) {
     case study::RunStatus::failed:
       spdlog::error("{}; the results so far are in {}", r.message, directory.string());
       return exit_numerical;
     case study::RunStatus::interrupted:
-      spdlog::warn(
-          "interrupted after {}; the results so far are in {}{}", reached(r), directory.string(),
-          r.analysis == study::AnalysisKind::crush || !r.resumable ? "" : "; --resume goes on");
+      spdlog::warn("interrupted after {}; the results so far are in {}{}", r.reached,
+                   directory.string(), r.resumable ? "; --resume goes on" : "");
       return exit_interrupted;
     case study::RunStatus::done:
       break;
   }
   if (r.was_complete) {
     spdlog::info("{} has come to its end, {}: nothing to do; a later time.end goes on",
-                 directory.string(), reached(r));
+                 directory.string(), r.reached);
     return exit_done;
   }
   if (r.resumed_at > 0) spdlog::info("gone on with from step {}", r.resumed_at);
-  if (r.analysis == study::AnalysisKind::crush)
-    spdlog::info("{} in {:.2f} s", reached(r), r.loop_wall_s);
+  if (r.ns_per_dof_step == 0.0)
+    spdlog::info("{} in {:.2f} s", r.reached, r.loop_wall_s);
   else
-    spdlog::info("{} in {:.2f} s ({:.1f} ns per dof and step)", reached(r), r.loop_wall_s,
+    spdlog::info("{} in {:.2f} s ({:.1f} ns per dof and step)", r.reached, r.loop_wall_s,
                  r.ns_per_dof_step);
   spdlog::info(
       "energy ledger closes to {:.1e}, contact law to {:.1e}, largest penetration {:.2g} m",
@@ -72,7 +61,7 @@ int finish(const study::RunReport& r, const std::filesystem::path& directory) {
   return exit_done;
 }
 
-void print_room(const study::CheckReport& r) {
+void print_limits(const study::CheckReport& r) {
   fmt::print("snapshots          {}\n", r.snapshots);
   fmt::print("memory             about {}\n", readable_bytes(r.memory_bytes));
   fmt::print("disk               about {}\n", readable_bytes(r.disk_bytes));
@@ -95,7 +84,7 @@ RunArguments completed(RunArguments arguments) {
 
 /// Of what this program did: a run that goes on counts from there.
 void print_realtime_factor(const study::RunReport& r) {
-  if (r.analysis == study::AnalysisKind::crush || !(r.step_wall_s > 0.0)) {
+  if (!(r.simulated_s > 0.0 && r.step_wall_s > 0.0)) {
     fmt::print("real time          no motion was computed\n");
     return;
   }
@@ -140,23 +129,11 @@ int check(const CommonArguments& arguments) {
     fmt::print("bodies             {} ({} free)\n", r.bodies, r.free_bodies);
   fmt::print("wave speeds        {:.6g} m/s pressure, {:.6g} m/s shear\n", r.wave_speeds.pressure,
              r.wave_speeds.shear);
-  if (c.analysis.kind == study::AnalysisKind::crush) {
-    fmt::print("condensed          {} candidates\n", r.condensed);
-    fmt::print("increments         {}\n",
-               crush_target(r.increments, c.analysis.depth, c.analysis.slide));
-    print_room(r);
-    return exit_done;
-  }
-  fmt::print("largest frequency  {:.6g} rad/s (element bound {:.6g})\n", r.largest_frequency,
-             r.element_bound);
-  fmt::print("critical step      {:.6g} s\n", r.critical_step);
-  fmt::print("step               {:.6g} s ({:.3g} of critical)\n", r.step,
-             r.step / r.critical_step);
-  fmt::print("steps              {} to t = {:.6g} s\n", r.steps,
-             static_cast<double>(r.steps) * r.step);
-  print_room(r);
-  fmt::print("time               about {:.2g} s of stepping on {} thread{}\n", r.seconds, r.threads,
-             r.threads == 1 ? "" : "s");
+  for (const auto& [what, value] : r.lines) fmt::print("{:<18} {}\n", what, value);
+  print_limits(r);
+  if (r.seconds > 0.0)
+    fmt::print("time               about {:.2g} s of stepping on {} thread{}\n", r.seconds,
+               r.threads, r.threads == 1 ? "" : "s");
   return exit_done;
 }
 

@@ -15,7 +15,7 @@
 #include "exit_codes.hpp"
 #include "mpi_team.hpp"
 #include "progress.hpp"
-#include "rondo/analysis/estimate.hpp"
+#include "rondo/analysis/build/memory.hpp"
 #include "rondo/core/bytes.hpp"
 #include "rondo/core/error.hpp"
 #include "rondo/study/sweep/sweep.hpp"
@@ -51,17 +51,18 @@ void print_plan(const study::DrySweep& dry, int workers) {
     for (std::size_t k = 0; k < dry.study.parameters.size(); ++k)
       if (dry.study.parameters[k].is_target)
         found = fmt::format(" -> {} = {:.9g}", dry.study.parameters[k].key, member.targets[k]);
-    const bool crush = dry.plan.kind == study::AnalysisKind::crush;
-    const std::string time = crush ? "" : fmt::format(", about {:.2g} s", member.seconds);
-    fmt::print("{}{}: {} nodes, {} {}{}\n", study::name_of(dry.study, member.member, m + 1), found,
-               member.nodes, member.steps, crush ? "increments" : "steps", time);
+    const std::string time =
+        member.seconds > 0.0 ? fmt::format(", about {:.2g} s", member.seconds) : "";
+    fmt::print("{}{}: {} nodes, {} {}{}{}\n", study::name_of(dry.study, member.member, m + 1),
+               found, member.nodes, member.steps, dry.plan.type->unit, member.steps == 1 ? "" : "s",
+               time);
     seconds += member.seconds;
     longest = std::max(longest, member.seconds);
     disk += member.disk_bytes;
   }
   const std::string time = seconds > 0.0
                                ? fmt::format("about {:.3g} s", std::max(longest, seconds / workers))
-                               : std::string("the time of crushes is not estimated");
+                               : std::string("the time is not estimated");
   fmt::print("{} runs, {} at once: {}, {} on the disk\n", dry.plan.members.size(), workers, time,
              readable_bytes(disk));
 }

@@ -8,14 +8,13 @@ import pathlib
 import sys
 from collections.abc import Callable, Sequence
 
-import matplotlib
-
-from rondo import __version__, open_modes, open_paper, open_sweep, open_validation, style
+from rondo import __version__, open_modes, open_paper, open_sweep, open_validation
 from rondo import open as open_run
 from rondo.data.errors import Error, UnfinishedRunError
 from rondo.data.run import Run
 
 WRONG = 2  # exit code of wrong input, as the program's
+NO_PICTURES = ("paper", "validate", "means")  # commands that need not load what draws
 BROKEN_PIPE = 141  # as a shell has it of a program that is killed by SIGPIPE
 
 
@@ -170,12 +169,16 @@ def _means(options: argparse.Namespace) -> None:
 
 
 def _campbell(options: argparse.Namespace) -> None:
+    from rondo import style
+
     figure = open_modes(options.directory).plot_campbell(options.frame)
     for path in style.save(figure, _folder(options) / f"campbell-{options.frame}"):
         print(path)
 
 
 def _validation(options: argparse.Namespace) -> None:
+    from rondo import style
+
     figure = open_validation(options.directory).plot(options.run)
     for path in style.save(figure, _folder(options) / "validation"):
         print(path)
@@ -191,7 +194,9 @@ def _sweep(options: argparse.Namespace) -> None:
 
 def main(arguments: Sequence[str] | None = None) -> int:
     options = _parser().parse_args(arguments)
-    matplotlib.use("Agg")
+    if options.command not in NO_PICTURES:
+        import matplotlib
+        matplotlib.use("Agg")
     code: int | None = 0
     commands: dict[str, Callable[[argparse.Namespace], int | None]] = {
         "paper": _paper, "figures": _figures, "animate": _animate, "means": _means,

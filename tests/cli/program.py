@@ -86,20 +86,6 @@ def summary(directory):
     return json.loads((directory / "run.json").read_text())
 
 
-def paper(folder):
-    """The record of a study."""
-    return json.loads((folder / "paper.json").read_text())
-
-
-def finished(folder):
-    """Runs and PODs of a study that have ended; none while there is no paper.json."""
-    try:
-        found = paper(folder)
-    except FileNotFoundError:
-        return 0
-    return sum(part["status"] in ("done", "failed") for part in found["runs"] + found["pods"])
-
-
 class ProgramTest(unittest.TestCase):
     """A test with a folder of its own."""
 

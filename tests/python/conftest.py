@@ -97,7 +97,8 @@ def copy(smooth, tmp_path):
 def paper(tmp_path_factory):
     """The study of the paper on coarse meshes, a few seconds."""
     folder = tmp_path_factory.mktemp("paper") / "study"
-    done = run("paper", "--quick", "-o", folder, timeout=300)
+    done = subprocess.run([sys.executable, "-m", "rondo", "paper", "--quick", "-o", str(folder)],
+                          capture_output=True, text=True, timeout=300)
     assert (folder / "paper.json").exists(), done.stderr
     return rondo.open_paper(folder)
 

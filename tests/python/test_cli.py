@@ -113,7 +113,7 @@ def test_figures_of_a_study_without_its_table(tmp_path):
          "runs": [{"name": "a", "directory": "a", "status": "running"}]}))
     done = rondo_module("figures", tmp_path, "-o", tmp_path / "figures")
     assert done.returncode == 2 and "0 of 1 parts are done" in done.stderr
-    assert f'"rondo paper -o {tmp_path} --quick" goes on' in done.stderr
+    assert f'"python3 -m rondo paper -o {tmp_path} --quick" goes on' in done.stderr
     done = rondo_module("figures", tmp_path, "--unfinished")
     assert done.returncode == 2 and "no run 'spin-up-damped'" in done.stderr
 

@@ -49,11 +49,12 @@ def test_one_version():
 
 def test_the_wheel_is_the_same_each_time(tmp_path):
     first, second = tmp_path / "first", tmp_path / "second"
-    shutil.copytree(PYTHON, second, ignore=shutil.ignore_patterns("__pycache__"))
+    for name in ("python", "studies", "cases"):
+        shutil.copytree(ROOT / name, second / name, ignore=shutil.ignore_patterns("__pycache__"))
     first.mkdir()
     for path in sorted(second.rglob("*"), reverse=True):
         os.utime(path, (1.6e9, 1.6e9))  # other dates
-    names = [backend(PYTHON).build_wheel(str(first)), backend(second).build_wheel(str(second))]
+    names = [backend(PYTHON).build_wheel(str(first)), backend(second / "python").build_wheel(str(second))]
     assert names == [f"rondo-{rondo.__version__}-py3-none-any.whl"] * 2
     assert (first / names[0]).read_bytes() == (second / names[1]).read_bytes()
 
@@ -75,6 +76,10 @@ def test_what_is_in_the_wheel(tmp_path):
         assert wheel.read(f"{info}/LICENSE") == (PYTHON.parent / "LICENSE").read_bytes()
     sources = [path.relative_to(PYTHON).as_posix() for path in (PYTHON / "rondo").rglob("*.py")]
     assert {name for name in names if name.endswith(".py")} == set(sources)
+    shipped = {name for name in names if name.endswith(".toml")}
+    assert {"rondo/shipped/studies/paper/study.toml", "rondo/shipped/cases/ledge-smooth.toml"
+            } < shipped <= {f"rondo/shipped/{path.relative_to(ROOT)}" for folder in
+                            ("cases", "studies") for path in (ROOT / folder).rglob("*.toml")}
     assert "rondo/py.typed" in names and not any("__pycache__" in name for name in names)
     for line in ("Name: rondo", f"Version: {rondo.__version__}", "Requires-Dist: h5py>=3.7",
                  "Requires-Python: >=3.11"):
@@ -114,6 +119,15 @@ def test_it_installs_without_network(installed, smooth, tmp_path):
     where, version, snapshots = done.stdout.split()
     assert installed.parent.parent in pathlib.Path(where).parents
     assert (version, snapshots) == (rondo.__version__, "11")
+
+
+def test_the_study_of_the_paper_is_installed(installed, tmp_path):
+    text = ("from rondo.studies.paper_plan import read_plan, study_folder\n"
+            "plan = read_plan(study_folder(), False)\n"
+            "print(len(plan.rows), all(run.case.is_file() for run in plan.runs))")
+    done = subprocess.run([installed, "-c", text], text=True, capture_output=True, cwd=tmp_path,
+                          env=clean_environment())
+    assert done.stdout == "64 True\n", done.stderr
 
 
 def test_the_build_leaves_the_sources_alone(installed):

@@ -15,6 +15,7 @@ from program import SMALL, replaced, run
 import rondo
 from rondo import style
 from rondo.plots.validation import ERRORS, LEAST
+from rondo.studies.validate import validate
 
 TEXT = replaced(SMALL, "circumferential", "circumferential = 60")
 
@@ -32,9 +33,14 @@ def directory(tmp_path_factory: pytest.TempPathFactory) -> pathlib.Path:
         made("run", folder / "case.toml", "-o", folder / friction, "--set",
              f"ground.friction={friction}")
     made("reduce", folder / "0", folder / "0.6", "-o", folder / "model.h5", "--displacement-modes",
-         "10", "--velocity-modes", "10", "--validate", folder / "0.2", "--validate",
-         folder / "0.3", "--step-factor", "2")
-    return folder / "model-validation"
+         "10", "--velocity-modes", "10")
+    pairs = []
+    for friction in ("0.2", "0.3"):
+        pairs.append((folder / f"reduced-{friction}", folder / friction))
+        made("run", folder / "case.toml", "-o", pairs[-1][0], "--set",
+             f"ground.friction={friction}", "--reduced", folder / "model.h5", "--step-factor", "2")
+    validate(pairs, folder / "validation")
+    return folder / "validation"
 
 
 def made(*arguments: object) -> None:
@@ -44,6 +50,7 @@ def made(*arguments: object) -> None:
 
 @pytest.fixture
 def copy(directory: pathlib.Path, tmp_path: pathlib.Path) -> pathlib.Path:
+    shutil.copytree(directory.parent / "reduced-0.3", tmp_path / "reduced-0.3")
     return pathlib.Path(shutil.copytree(directory, tmp_path / "copy"))
 
 
@@ -132,7 +139,7 @@ def test_command(directory: pathlib.Path, tmp_path: pathlib.Path) -> None:
     assert "(a) 0.2" in svg.read_text() and "(b) 0.3" not in svg.read_text()
     done = command(directory.parent)
     assert done.returncode == 2
-    assert "has no validation.json; it holds model-validation" in done.stderr
+    assert "has no validation.json; it holds validation" in done.stderr
     done = command(directory / "0.3")
     assert done.returncode == 2
     assert "is a run, not a validation" in done.stderr

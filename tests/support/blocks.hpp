@@ -24,7 +24,7 @@ struct Block {
 inline int add_block(mesh::Mesh& mesh, const Block& block) {
   const int first = static_cast<int>(mesh.n_nodes());
   const auto node = [&](int i, int j) { return first + j * (block.columns + 1) + i; };
-  const Vec2 turn = rotation(block.turned);
+  const Complex turn = rotation(block.turned);
   for (int j = 0; j <= block.rows; ++j)
     for (int i = 0; i <= block.columns; ++i)
       mesh.coordinates.push_back(block.corner + turn * Vec2{block.width * i / block.columns,

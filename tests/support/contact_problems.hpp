@@ -17,8 +17,8 @@ using contact::CoupledProblem;
 
 /// Contacts, and the nodes behind them.
 struct Scene {
-  std::vector<Vec2> response;  ///< (nodes) velocity per impulse, a complex number [m/kg]
-  std::vector<Vec2> velocity;  ///< (nodes) without impulses                       [m/s]
+  std::vector<Complex> response;  ///< (nodes) velocity per impulse, a complex number [m/kg]
+  std::vector<Vec2> velocity;     ///< (nodes) without impulses                       [m/s]
   std::vector<ContactRows> contacts;
   std::vector<double> friction, bounce;
 
@@ -96,7 +96,7 @@ inline Scene chain_in_valleys(const ChainShape& s, double turn) {
   Scene scene = chain(s);
   for (int p = 0; p < s.upper; ++p)
     for (const double side : {-0.5, 0.5})
-      scene.add(contact::ground_rows(p, rotation(0.5 * 3.141592653589793 + side * turn)),
+      scene.add(contact::ground_rows(p, direction_at(0.5 * 3.141592653589793 + side * turn)),
                 s.friction);
   return scene;
 }

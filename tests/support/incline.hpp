@@ -21,7 +21,7 @@ struct Incline {
   double periods = 20.0;  ///< of the ramp
 
   [[nodiscard]] double radians() const { return angle * std::numbers::pi / 180.0; }
-  [[nodiscard]] Vec2 down() const { return rotation(-radians()); }  ///< along the slope
+  [[nodiscard]] Vec2 down() const { return direction_at(-radians()); }  ///< along the slope
   [[nodiscard]] double height() const { return 0.25 * scale; }
   /// Of the first wave of shear up and down the block, roughly                         [s]
   [[nodiscard]] double period() const {

@@ -22,6 +22,7 @@ struct Variant {
 };
 
 class Ledgers : public testing::TestWithParam<std::tuple<Variant, StiffnessOperator>> {};
+class LedgersAgain : public testing::TestWithParam<StiffnessOperator> {};
 
 }  // namespace
 
@@ -74,6 +75,22 @@ INSTANTIATE_TEST_SUITE_P(
                                      Variant{"as_printed", Scheme::as_printed, 0.3, 0.0, true}),
                      testing::ValuesIn(test::both_operators)),
     [](const auto& p) { return test::name(std::get<0>(p.param).name, std::get<1>(p.param)); });
+
+/// What it opens by does not grow with the steps (v01_ledger_long.cpp has a million and ten).
+TEST_P(LedgersAgain, CloseAfterAHundredThousandSteps) {
+  auto c = test::rolling_disk(3, 40);
+  c.motion.height = Table(0.296);
+  auto b = test::build(c);
+  test::add_ground(b, {}, {0.3, 0.0});
+  test::Stepping run(b, GetParam());
+  const test::FloatingPointTraps traps;
+  run.advance(100000);
+  EXPECT_GT(run.balance().works.dissipation_friction, 0.0);
+  EXPECT_LT(run.balance().relative, 1e-13);  // of the million: 1e-12
+}
+
+INSTANTIATE_TEST_SUITE_P(Both, LedgersAgain, testing::ValuesIn(test::both_operators),
+                         [](const auto& p) { return test::name(p.param); });
 
 /// The ledger is no tautology: a velocity changed behind its back opens it. By the reference step,
 /// whose state is open to it.

@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "support/bars.hpp"
 #include "support/traps.hpp"
@@ -100,4 +101,16 @@ TEST(RodLetGo, LosesNothingButWhatImpactsTake) {
         ASSERT_NEAR(rod.course.pressure[i], 0.5, 0.01);  // what oscillates behind the front
       }
   }
+}
+
+/// Where the program begins to warn (v04_rod_long.cpp has the table of it): at 0.985 of the
+/// critical step impacts bring no energy, at 0.999 they do, and not with 0.005 of the critical
+/// damping.
+TEST(RodLetGo, NearTheCriticalStepImpactsBringEnergy) {
+  for (const auto& [share, damping] : {std::pair{0.985, 0.0}, {0.999, 0.005}}) {
+    const test::EnergyGrowth held = test::energy_growth(50, share, damping);
+    EXPECT_LT(held.energy, 1.0 + 1e-9) << share;
+    EXPECT_LT(held.relative, 1e-9) << share;
+  }
+  EXPECT_GT(test::energy_growth(50, 0.999, 0.0).energy, 100.0);
 }

@@ -2,11 +2,7 @@
 /// V10: sudden spin-up of a disk at rest, by both operators. Damped, it settles on the stationary
 /// spin of its own mesh; without damping it oscillates about it for ever (v10_spin_up_long.cpp has
 /// the long times).
-#include <gtest/gtest.h>
-
-#include "rondo/statics/stationary_spin.hpp"
-#include "support/models.hpp"
-#include "support/stepping.hpp"
+#include "support/spin_up.hpp"
 #include "support/traps.hpp"
 
 using namespace rondo;
@@ -45,6 +41,10 @@ TEST_P(SpinUp, StationaryStartDoesNotMove) {
   run.advance(5000);
   for (std::size_t i = 0; i < b.model.n_nodes(); ++i)
     ASSERT_LT(norm(run.state().u[i] - s.u[i]), 1e-12 * 1.6e-4);  // round-off of K u, 5,000 steps
+}
+
+TEST_P(SpinUp, OscillatesAboutTheStationarySpin) {
+  test::expect_oscillation_for_ever(GetParam(), 60000);
 }
 
 INSTANTIATE_TEST_SUITE_P(Both, SpinUp, testing::ValuesIn(test::both_operators),

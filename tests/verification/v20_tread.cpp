@@ -18,7 +18,7 @@ constexpr double pitches = 60.0, spin = 33.333333;
 
 /// Amplitude of the part of `values` with a frequency, over the time of whole pitches.
 double amplitude(const std::vector<double>& values, double dt, double frequency) {
-  Vec2 sum;
+  Complex sum;
   for (std::size_t j = 0; j < values.size(); ++j)
     sum += values[j] * rotation(-2.0 * std::numbers::pi * frequency * dt * static_cast<double>(j));
   return 2.0 * norm(sum) / static_cast<double>(values.size());

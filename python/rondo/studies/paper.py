@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""python3 -m rondo paper: the study of the paper, its runs and decompositions, several at once, into
-one directory, and the table of ours against expected (docs/paper.md, docs/results.md)."""
+"""python3 -m rondo paper: the study of the paper, its runs and decompositions, several at once,
+into one directory, and the table of ours against expected (docs/paper.md, docs/results.md)."""
 from __future__ import annotations
 
 import fcntl

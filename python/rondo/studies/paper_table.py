@@ -45,8 +45,8 @@ def table_text(table: list[Row]) -> str:
     lines, figure = [], 0
     for row in table:
         if row["figure"] != figure:
-            lines.append(f"{'' if figure == 0 else chr(10)}figure {row['figure']}{'':66}{'ours':>14}"
-                         "   expected")
+            lines += [""] if lines else []
+            lines.append(f"figure {row['figure']}{'':66}{'ours':>14}   expected")
         figure = row["figure"]
         unit = "" if row["unit"] == "1" else f" [{row['unit']}]"
         lines.append(f"{'    ' if row['pass'] else 'NOT '} {row['quantity'] + unit:<69}"

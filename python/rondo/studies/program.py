@@ -33,8 +33,8 @@ def find_program() -> Program:
     built = CHECKOUT / "build" / "release" / "rondo"
     path = os.environ.get("RONDO") or shutil.which("rondo") or (built.is_file() and str(built))
     if not path:
-        raise Error(f"rondo: there is no such program, neither on PATH nor as {built}: build it, or "
-                    "give its path as RONDO=...")
+        raise Error(f"rondo: there is no such program, neither on PATH nor as {built}: build it, "
+                    "or give its path as RONDO=...")
     try:
         done = subprocess.run([path, "--version"], capture_output=True, text=True, check=True)
     except (OSError, subprocess.CalledProcessError) as reason:

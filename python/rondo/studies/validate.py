@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""python3 -m rondo validate: how far off the predictions of a reduced model are, from the results of
-reduced runs and of the full runs that they are to predict (docs/reduced.md, 10)."""
+"""python3 -m rondo validate: how far off the predictions of a reduced model are, from the results
+of reduced runs and of the full runs that they are to predict (docs/reduced.md, 10)."""
 from __future__ import annotations
 
 import csv
@@ -96,8 +96,8 @@ def _full(directory: pathlib.Path) -> Run:
 def _reduced(directory: pathlib.Path) -> Run:
     run = _finished(directory)
     if "reduced_modes" not in run.info:
-        raise Error(f"{directory}: is no reduced run; rondo run CASE --reduced MODEL makes one, and "
-                    "the full run that it predicts is named after it")
+        raise Error(f"{directory}: is no reduced run; rondo run CASE --reduced MODEL makes one, "
+                    "and the full run that it predicts is named after it")
     run.need_snapshots()
     return run
 

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""What the validation of a reduced model measures with: fields in the fixed frame, errors of sums of
-squares, mean tractions over the angle in space (docs/reduced.md, 10)."""
+"""What the validation of a reduced model measures with: fields in the fixed frame, errors of sums
+of squares, mean tractions over the angle in space (docs/reduced.md, 10)."""
 from __future__ import annotations
 
 import math
@@ -67,7 +67,7 @@ class Field:
         self._values = run.field(name)
         sector, within = run.mesh.sector, run.mesh.sector_node
         if sector is None or within is None:
-            raise Error(f"{run.directory}: its mesh has no equal sectors: nothing of it was reduced")
+            raise Error(f"{run.directory}: its mesh has no equal sectors, so nothing was reduced")
         self._order = np.lexsort((sector, within))
         self._sectors = int(sector.max()) + 1
 

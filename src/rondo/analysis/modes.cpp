@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "rondo/analysis/modes.hpp"
-#include "rondo/core/error.hpp"
 
 #include <fmt/format.h>
 
@@ -10,9 +9,10 @@
 #include <chrono>
 #include <cmath>
 
-#include "rondo/analysis/build.hpp"
+#include "rondo/analysis/build/build.hpp"
+#include "rondo/analysis/build/memory.hpp"
 #include "rondo/analysis/modes_output.hpp"
-#include "rondo/analysis/room.hpp"
+#include "rondo/core/error.hpp"
 #include "rondo/io/files.hpp"
 #include "rondo/io/mode_files.hpp"
 #include "rondo/modal/residual.hpp"
@@ -257,6 +257,19 @@ void write_files(const Case& c, const ModesRequest& request, const Body& body,
   io::write_json(directory / "modes.json", modes_json(c, request, r));
 }
 
+/// At its largest; an estimate [B].
+std::size_t memory_of(const Body& body, const ModesRequest& request, std::size_t spins) {
+  const std::size_t nodes = body.mesh.n_nodes(), dofs = 2 * nodes;
+  const auto at_once = static_cast<std::size_t>(request.count);
+  // Complex shapes, kept and as they are written.
+  const std::size_t bytes =
+      mesh_memory(size_of(body.mesh)) + (spins + 1) * at_once * nodes * 2 * sizeof(Vec2);
+  if (body.cyclic()) return bytes;   // what one sector has is small
+  constexpr std::size_t spare = 50;  // vectors of the space beyond twice the modes
+  return bytes + stiffness_memory(nodes) + factor_memory(dofs) +
+         (2 * at_once + spare) * dofs * sizeof(double);
+}
+
 }  // namespace
 
 ModesReport run_modes(const Case& c, const ModesRequest& request) {
@@ -266,10 +279,7 @@ ModesReport run_modes(const Case& c, const ModesRequest& request) {
   const std::vector<double> sweep = sweep_spins(request);
   check_spins(c, body, request.spins.empty() ? "motion.angular_velocity" : "--spin", spins);
   check_spins(c, body, "--spins", sweep);
-  demand_memory(c, body.mesh.n_nodes(),
-                estimated_modes_memory(size_of(body.mesh),
-                                       spins.size() * static_cast<std::size_t>(request.count),
-                                       static_cast<std::size_t>(request.count)));
+  demand_memory(c, body.mesh.n_nodes(), memory_of(body, request, spins.size()));
   const io::DirectoryLock lock = take_modes_directory(c, request.directory, request.overwrite);
 
   ModesReport r;

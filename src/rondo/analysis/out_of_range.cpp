@@ -8,7 +8,8 @@
 #include <numeric>
 #include <span>
 
-#include "rondo/analysis/bodies.hpp"
+#include "rondo/analysis/build/bodies.hpp"
+#include "rondo/output/run_options.hpp"
 
 namespace rondo::study {
 namespace {
@@ -91,6 +92,44 @@ std::string beyond_files(const CrushSetup& setup, const statics::CrushState& sta
   for (std::size_t k = 0; k < state.force.size(); ++k)
     force.add(norm(state.force[k]), static_cast<std::size_t>(setup.mesh.boundary[k]));
   return found.empty() ? too_large("contact force", force, "N/m") : found;
+}
+
+std::string not_finite(const dynamics::State& state, const std::string& otherwise) {
+  const auto first = [](const std::vector<Vec2>& field, const char* name) -> std::string {
+    for (std::size_t i = 0; i < field.size(); ++i)
+      if (!std::isfinite(field[i].x) || !std::isfinite(field[i].y))
+        return fmt::format("the {} of node {} is not finite", name, i);
+    return {};
+  };
+  const std::string velocity = first(state.v_next, "velocity");
+  const std::string found = velocity.empty() ? first(state.u, "displacement") : velocity;
+  return found.empty() ? otherwise : found;
+}
+
+OutOfBound find_out_of_bound(const dynamics::Balance& b, const ContactStatistics& contact,
+                             const Bounds& bounds) {
+  if (!std::isfinite(b.kinetic + b.strain) || !std::isfinite(b.residual))
+    return {fmt::format("the energy is out of range (kinetic {:.3g}, strain {:.3g})", b.kinetic,
+                        b.strain),
+            true, true};
+  if (std::abs(b.works.scheme) > 10.0 * b.otherwise)
+    return {fmt::format("work_scheme = {:.6g} J/m, more than ten times the energy exchanged "
+                        "otherwise ({:.6g} J/m): the scheme as printed has blown up",
+                        b.works.scheme, b.otherwise),
+            true};
+  if (std::abs(b.strain) > bounds.strain_energy)
+    return {fmt::format("the strain energy, {:.3g} J/m, is that of strains above 100: the body has "
+                        "left what small strains mean",
+                        b.strain),
+            true};
+  if (b.relative > bounds.ledger)
+    return {fmt::format("the energy ledger does not close: relative residual {:.3g}, bound {:.0e}",
+                        b.relative, bounds.ledger),
+            true};
+  if (!(contact.residual <= residual_bound))
+    return {fmt::format("contact residual {:.3g}, bound {:.0e}", contact.residual, residual_bound),
+            false};
+  return {};
 }
 
 }  // namespace rondo::study

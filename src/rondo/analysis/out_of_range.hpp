@@ -4,14 +4,37 @@
 #pragma once
 #include <string>
 
-#include "rondo/analysis/build.hpp"
-#include "rondo/analysis/crush_build.hpp"
+#include "rondo/analysis/build/crush_setup.hpp"
+#include "rondo/case/setup.hpp"
+#include "rondo/output/contact_statistics.hpp"
 
 namespace rondo::study {
 
 /// Strain energy of root-mean-square strains of 100 in the stiffest material [J/m]: far beyond what
 /// small strains can mean, and before numbers overflow.
 double largest_strain_energy(const Setup& setup);
+
+/// What is out of bound, and when: a half step (velocities, ledger) comes before its step's
+/// contact.
+struct OutOfBound {
+  std::string what;  ///< empty while all is well
+  bool at_half_step = false;
+  bool not_finite = false;
+};
+
+/// Largest values that are no trouble.
+struct Bounds {
+  double ledger = 0.0;         ///< relative residual
+  double strain_energy = 0.0;  ///< [J/m]
+};
+
+/// @param contact of all steps so far. What is out of bound first; `what` is empty while all is
+/// well.
+OutOfBound find_out_of_bound(const dynamics::Balance& balance, const ContactStatistics& contact,
+                             const Bounds& bounds);
+
+/// Name of the first quantity of the state that is not finite; `otherwise` if all are.
+std::string not_finite(const dynamics::State& state, const std::string& otherwise);
 
 /// What of a state /fields of results.h5, of single precision, cannot hold, with node and value;
 /// empty: nothing.

@@ -66,7 +66,7 @@ struct GroundCase {
 
 enum class AnalysisKind { dynamic, crush };
 
-struct Analysis {
+struct AnalysisCase {
   AnalysisKind kind = AnalysisKind::dynamic;
   double depth = 0.0;        ///< of a crush, below first touch: > 0                          [m]
   int increments = 0;        ///< of a crush, >= 1
@@ -138,7 +138,7 @@ struct Case {
   std::optional<GroundCase> ground;  ///< absent: no contact
   BodyContactCase body_contact;
   Initial initial;
-  Analysis analysis;
+  AnalysisCase analysis;
   Time time;
   std::string solver_operator = "auto";  ///< "auto" | "cyclic" | "sparse"
   int contact_iterations = 10000;        ///< most that a coupled contact problem may take

@@ -8,7 +8,7 @@
 namespace rondo::study {
 namespace {
 
-void check_slide(CaseValues& in, Analysis& analysis) {
+void check_slide(CaseValues& in, AnalysisCase& analysis) {
   constexpr std::string_view slide = "analysis.slide", increments = "analysis.slide_increments";
   if (in.has(slide)) require(in, increments);
   if (in.has(increments)) require(in, slide);

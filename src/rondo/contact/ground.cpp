@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "rondo/core/complex.hpp"
 #include "rondo/core/contract.hpp"
 
 namespace rondo::contact {

@@ -3,7 +3,7 @@
 /// Contact frame: x is normal (> 0 separates), y is tangential (t = J n); r acts on the node.
 /// Method: Moreau, CMAME 177 (1999) 329; Fekak et al., Comput. Mech. 60 (2017) 1.
 #pragma once
-#include "rondo/core/vec2.hpp"
+#include "rondo/core/complex.hpp"
 
 namespace rondo::contact {
 
@@ -17,7 +17,7 @@ enum class Status { open, stick, slip };
 /// One contact of one step.
 struct LocalProblem {
   Vec2 free;            ///< relative velocity without this contact's impulse            [m/s]
-  Vec2 delassus;        ///< W as a complex number: w = free + W r (4.3a)               [m/kg]
+  Complex delassus;     ///< W as a complex number: w = free + W r (4.3a)               [m/kg]
   double bounce = 0.0;  ///< e min(w_n⁻, 0) <= 0: added to w_n in the law           [m/s]
 };
 

@@ -50,7 +50,7 @@ double sign(double x) noexcept {
 
 void both_press(const PairProblem& p, Choice& choice) noexcept {
   // n_0·w = -bounce_0 and n_1·w = -bounce_1 give w, in frame 0.
-  const double wt = (p.turn.x * p.bounce[0] - p.bounce[1]) / p.turn.y;
+  const double wt = (p.turn.re * p.bounce[0] - p.bounce[1]) / p.turn.im;
   const Vec2 w0 = {-p.bounce[0], wt};
   const Vec2 total = (w0 - p.free[0]) / p.delassus;
   const double mu = choice.friction;

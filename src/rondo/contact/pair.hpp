@@ -12,8 +12,8 @@ namespace rondo::contact {
 struct PairProblem {
   std::array<Vec2, 2> free;        ///< relative velocities without impulses              [m/s]
   std::array<double, 2> bounce{};  ///< as in LocalProblem                                [m/s]
-  Vec2 delassus;                   ///< W of the node, the same in both frames            [m/kg]
-  Vec2 turn;                       ///< conj(n_0) n_1: takes frame 1 to frame 0; not ±1
+  Complex delassus;                ///< W of the node, the same in both frames            [m/kg]
+  Complex turn;                    ///< conj(n_0) n_1: takes frame 1 to frame 0; not ±1
 };
 
 struct PairSolution {

@@ -2,7 +2,7 @@
 /// @file  Plane elements: 4-node quadrilateral (2×2 Gauss) and 3-node triangle (one point);
 /// docs/theory.md, sections 2.2, 2.3, 2.5, 2.6 and 2.8.
 #pragma once
-#include <Eigen/Dense>
+#include <Eigen/Core>
 #include <array>
 #include <span>
 

@@ -19,9 +19,9 @@ Block transposed(const Block& b) noexcept {
 }
 
 /// block · R: its columns act on vectors turned by `turn`.
-Block turned(const Block& b, Vec2 turn) noexcept {
-  return {b[0] * turn.x + b[2] * turn.y, b[1] * turn.x + b[3] * turn.y,
-          b[2] * turn.x - b[0] * turn.y, b[3] * turn.x - b[1] * turn.y};
+Block turned(const Block& b, Complex turn) noexcept {
+  return {b[0] * turn.re + b[2] * turn.im, b[1] * turn.re + b[3] * turn.im,
+          b[2] * turn.re - b[0] * turn.im, b[3] * turn.re - b[1] * turn.im};
 }
 
 /// Corners of a cell as (number within the sector, shift from sector 0).
@@ -98,7 +98,7 @@ struct Key {
 /// Blocks of the rows of sector 0 on the columns of sectors 0 and 1. What couples it with the
 /// sector before is the transpose of what couples that one with it.
 std::map<Key, Block> forward_blocks(const std::vector<LocalCell>& cells,
-                                    const std::vector<int>& place, Vec2 turn) {
+                                    const std::vector<int>& place, Complex turn) {
   std::map<Key, Block> blocks;
   for (const LocalCell& c : cells) {
     const ElementMatrix& e = c.stiffness;

@@ -8,6 +8,7 @@
 #include <span>
 #include <vector>
 
+#include "rondo/core/complex.hpp"
 #include "rondo/fem/elasticity.hpp"
 #include "rondo/mesh/mesh.hpp"
 
@@ -29,7 +30,7 @@ struct SectorStiffness {
   std::vector<int> nodes;              ///< (n_local) number within the sector of each row's node
   std::vector<std::size_t> row_start;  ///< (n_local + 1) first entry of a row
   std::vector<Entry> entries;
-  std::vector<Vec2> turn;  ///< (N) e^{iφ_j}, φ_j = 2πj/N: frame of sector j
+  std::vector<Complex> turn;  ///< (N) e^{iφ_j}, φ_j = 2πj/N: frame of sector j
 
   [[nodiscard]] std::size_t n_local() const noexcept { return nodes.size(); }
   /// Node of the mesh for row `a` of sector `j`.

@@ -44,8 +44,8 @@ std::span<const Stress> StressRecovery::operator()(std::span<const Vec2> u) {
   return nodal_;
 }
 
-Stress turned(const Stress& s, Vec2 r) noexcept {
-  const double cc = r.x * r.x, ss = r.y * r.y, cs = r.x * r.y;
+Stress turned(const Stress& s, Complex r) noexcept {
+  const double cc = r.re * r.re, ss = r.im * r.im, cs = r.re * r.im;
   return {cc * s[0] - 2.0 * cs * s[3] + ss * s[1], ss * s[0] + 2.0 * cs * s[3] + cc * s[1], s[2],
           cs * (s[0] - s[1]) + (cc - ss) * s[3]};
 }

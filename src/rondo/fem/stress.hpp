@@ -5,6 +5,7 @@
 #include <span>
 #include <vector>
 
+#include "rondo/core/complex.hpp"
 #include "rondo/fem/element.hpp"
 #include "rondo/mesh/mesh.hpp"
 
@@ -27,7 +28,7 @@ class StressRecovery {
 };
 
 /// R σ Rᵀ: the stress along axes turned back by the angle of r = e^{iθ}.
-Stress turned(const Stress& stress, Vec2 r) noexcept;
+Stress turned(const Stress& stress, Complex r) noexcept;
 
 /// √(½[(σxx-σyy)² + (σyy-σzz)² + (σzz-σxx)²] + 3σxy²) [Pa].
 double von_mises(const Stress& stress) noexcept;

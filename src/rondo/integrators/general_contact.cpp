@@ -212,7 +212,7 @@ void GeneralContact::add_impulses(const BodyFrames& frames, Rows rows, bool conv
     if (row.kind != ContactKind::facet || row.status != Status::stick) continue;
     const auto k = at(row.rows.node[0]);
     const ContactStep& step = frames.of(model_, k).contact;
-    state.v_next[k] = conj(step.rotation_next) * (row.normal * Vec2{-row.bounce, 0.0} -
+    state.v_next[k] = conj(step.rotation_next) * (from_frame(row.normal, {-row.bounce, 0.0}) -
                                                   drive_of(step, arm_of(model_, state, k)));
   }
 }
@@ -275,7 +275,7 @@ void GeneralContact::add_active(const ContactRow& row, State& state) const {
     a.free = row.free;
     a.after = row.after;
     a.bounce = row.bounce;
-    a.impulse = conj(a.normal) * contact::transposed(row.rows.block[at(i)], row.impulse);
+    a.impulse = to_frame(a.normal, contact::transposed(row.rows.block[at(i)], row.impulse));
     a.status = row.status;
     a.on_ground = row.kind != ContactKind::segment;
     state.active.push_back(a);

@@ -56,8 +56,8 @@ class GeneralContact {
   const Model& model_;
   ContactFinder finder_;
   std::vector<ContactRow> rows_;
-  std::vector<int> candidate_;  ///< (n) place among the candidates, -1: none
-  std::vector<Vec2> response_;  ///< (n) complex Delassus operator of the nodes in contact [m/kg]
+  std::vector<int> candidate_;     ///< (n) place among the candidates, -1: none
+  std::vector<Complex> response_;  ///< (n) complex Delassus operator of the nodes in contact [m/kg]
   std::vector<int> node_start_, nodes_;
   contact::ClusterFinder cluster_finder_;
   std::vector<contact::ContactRows> cluster_rows_;

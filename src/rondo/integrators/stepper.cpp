@@ -27,7 +27,7 @@ Vec2 stiffness_rate(const Model& model, const State& state, std::size_t k) noexc
 
 /// v⁺ = v⁻ + [Δt f/m - drag v⁻]/a, without contact (3.4). The increment form does not drift.
 void free_velocities(const Model& model, State& state, const VelocityUpdate& update) noexcept {
-  const Vec2 inverse = Vec2{1.0, 0.0} / update.a;
+  const Complex inverse = Complex{1.0, 0.0} / update.a;
   for_free_nodes(model, [&](std::size_t k) {
     const Vec2 v = state.v[k];
     const Vec2 f = acceleration(model, state, state.frame, k, stiffness_rate(model, state, k));

@@ -46,7 +46,8 @@ Counts counts_of(const PodContent& c, std::size_t n_reconstructed) noexcept {
 void check(const PodContent& c, const Counts& n) {
   RONDO_DEMAND(c.mass.size() == n.nodes && c.point_weight.size() == n.points, c.mass.size(),
                c.point_weight.size(), n.points);
-  RONDO_DEMAND(n.modes == 0 || size(c.modes->rows()) == 2 * n.points, c.modes->rows(), n.points);
+  RONDO_DEMAND(n.modes == 0 || size(c.modes->rows()) == c.components * n.points, c.modes->rows(),
+               n.points);
   RONDO_DEMAND(n.modes <= n.temporal && n.temporal <= n.values, n.modes, n.temporal, n.values);
   RONDO_DEMAND(size(c.decomposition->temporal.rows()) == n.times, c.decomposition->temporal.rows(),
                n.times);
@@ -143,14 +144,14 @@ struct PodWriter::Impl {
   void create_reconstruction(const PodContent& c);
   [[nodiscard]] XdmfSeries series(const PodContent& c, std::size_t times) const;
   void add_fields(XdmfSeries& s, const std::string& name, const std::string& dataset) const;
-  void put(h5::Dataset& dataset, std::size_t row, std::span<const Vec2> values);
+  void put(h5::Dataset& dataset, std::size_t row, FieldView values);
   void commit();
 
   fs::path directory, folder;  ///< folder: where the files are made
   Counts n;
-  std::vector<int> boundary;  ///< nodes of the points; empty: points are the nodes
-  std::vector<Vector> field;  ///< (n) reused
-  std::vector<Vec2> points;   ///< (n_points) reused
+  std::vector<int> boundary;       ///< nodes of the points; empty: points are the nodes
+  std::vector<Vector> field;       ///< (n) reused
+  std::vector<double> difference;  ///< (n_points, components) reused
   std::size_t added = 0;
   double last = 0.0;  ///< time added [s]
   h5::File file;
@@ -165,7 +166,7 @@ PodWriter::Impl::Impl(const fs::path& where, const PodContent& c, std::size_t n_
       folder(where / fmt::format(".pod.{}.tmp", ::getpid())),
       n(counts_of(c, n_reconstructed)),
       field(n.nodes, Vector{}),
-      points(n.points) {
+      difference(n.points * c.components) {
   check(c, n);
   if (c.contact) boundary = c.mesh->boundary;
   demand_room(directory / "pod.h5", bytes(c, n_reconstructed));
@@ -213,16 +214,14 @@ void PodWriter::Impl::write_modes(const PodContent& c) {
   if (n.modes == 0) return modes.close();
   const Units units = units_of(c);
   const std::string place = c.contact ? "node of /mesh/boundary: normal, tangential" : "node: x, y";
-  file.write("/modes/spatial", {n.modes, n.points, 2},
+  file.write("/modes/spatial", {n.modes, n.points, c.components},
              std::span<const double>(c.modes->data(), size(c.modes->size())),
              {units.modes, "spatial modes Φ at each " + place});
   h5::Dataset dataset = file.create("/fields/modes", Type::float32, {n.modes, n.nodes, 3},
                                     {units.modes, "/modes/spatial for ParaView, at all nodes"});
   for (std::size_t i = 0; i < n.modes; ++i) {
     const auto column = c.modes->col(static_cast<Index>(i));
-    for (std::size_t k = 0; k < n.points; ++k)
-      points[k] = {column[static_cast<Index>(2 * k)], column[static_cast<Index>(2 * k + 1)]};
-    put(dataset, i, points);
+    put(dataset, i, {{column.data(), size(column.size())}, c.components});
     modes.add(static_cast<double>(i + 1));
   }
   modes.close();
@@ -277,10 +276,11 @@ void PodWriter::Impl::add_fields(XdmfSeries& s, const std::string& name,
   s.fields.push_back({front + "tangential", "Scalar", dataset, 3, 1, 1});
 }
 
-void PodWriter::Impl::put(h5::Dataset& dataset, std::size_t row, std::span<const Vec2> values) {
-  for (std::size_t i = 0; i < n.points; ++i)
-    field[boundary.empty() ? i : static_cast<std::size_t>(boundary[i])] = {
-        static_cast<float>(values[i].x), static_cast<float>(values[i].y), 0.0F};
+void PodWriter::Impl::put(h5::Dataset& dataset, std::size_t row, FieldView values) {
+  for (std::size_t i = 0; i < n.points; ++i) {
+    Vector& to = field[boundary.empty() ? i : static_cast<std::size_t>(boundary[i])];
+    for (std::size_t k = 0; k < values.components; ++k) to[k] = static_cast<float>(values[i][k]);
+  }
   dataset.write_row(row, std::span<const Vector>(field));
 }
 
@@ -312,17 +312,17 @@ PodWriter::~PodWriter() = default;
 PodWriter::PodWriter(PodWriter&&) noexcept = default;
 PodWriter& PodWriter::operator=(PodWriter&&) noexcept = default;
 
-void PodWriter::add(double time, std::span<const Vec2> original,
-                    std::span<const Vec2> reconstructed) {
+void PodWriter::add(double time, FieldView original, FieldView reconstructed) {
   Impl& m = *impl_;
   RONDO_DEMAND(m.added == 0 || time > m.last, time, m.last);  // as ParaView wants them
   RONDO_DEMAND(m.added < m.n.reconstructed && original.size() == m.n.points &&
                    reconstructed.size() == m.n.points,
                m.added, original.size(), reconstructed.size(), m.n.points);
-  for (std::size_t i = 0; i < m.n.points; ++i) m.points[i] = original[i] - reconstructed[i];
+  for (std::size_t i = 0; i < m.difference.size(); ++i)
+    m.difference[i] = original.values[i] - reconstructed.values[i];
   m.put(m.d.original, m.added, original);
   m.put(m.d.reconstructed, m.added, reconstructed);
-  m.put(m.d.error, m.added, m.points);
+  m.put(m.d.error, m.added, {m.difference, original.components});
   ++m.added;
   m.last = time;
   m.xdmf->add(time);
@@ -335,7 +335,7 @@ void PodWriter::commit() {
 std::size_t PodWriter::bytes(const PodContent& content, std::size_t n_reconstructed) noexcept {
   const Counts n = counts_of(content, n_reconstructed);
   constexpr std::size_t real = 8, whole = 4, vector = sizeof(Vector), description = 65536;
-  const std::size_t modes = n.modes * (2 * n.points * real + n.nodes * vector);
+  const std::size_t modes = n.modes * (content.components * n.points * real + n.nodes * vector);
   const std::size_t times = n.times * ((n.temporal + n.modes + 3) * real + whole);
   return description + mesh_bytes(*content.mesh) + modes + times + 4 * n.values * real +
          n.points * real + 3 * n_reconstructed * n.nodes * vector;

@@ -10,7 +10,7 @@
 #include <span>
 #include <string>
 
-#include "rondo/core/vec2.hpp"
+#include "rondo/core/field.hpp"
 #include "rondo/mesh/mesh.hpp"
 #include "rondo/pod/decompose.hpp"
 #include "rondo/pod/spectrum.hpp"
@@ -31,8 +31,9 @@ struct PodContent {
   std::span<const double> point_weight;               ///< (n_points)
   const pod::Decomposition* decomposition = nullptr;  ///< its `modes` are not read
   const pod::Spectrum* spectrum = nullptr;
-  const Eigen::MatrixXd* modes =
-      nullptr;                        ///< (2 n_points, r) Φ, unweighted; row 2 point + component
+  std::size_t components = 2;  ///< of a point
+  /// (components n_points, r) Φ, unweighted; row components · point + component
+  const Eigen::MatrixXd* modes = nullptr;
   std::span<const double> time;       ///< (t) [s]
   std::span<const double> angle;      ///< (t) of the turning frame [rad]
   std::span<const int> run;           ///< (t) place in `runs`
@@ -52,7 +53,7 @@ class PodWriter {
 
   /// The next snapshot, in the frame of the analysis. @param original, reconstructed (n_points)
   /// @pre time rises. @throws FileError
-  void add(double time, std::span<const Vec2> original, std::span<const Vec2> reconstructed);
+  void add(double time, FieldView original, FieldView reconstructed);
   /// Replaces the files in the directory, removes a reconstruction.xdmf that is not of this POD
   /// and, first of all, pod.json, which the caller writes last: where it is, the POD is complete.
   /// @pre all snapshots added. @throws FileError

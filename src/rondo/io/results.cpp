@@ -21,8 +21,8 @@ namespace {
 ResultsCounts counts_of(const ResultsLayout& layout) noexcept {
   const mesh::Mesh& m = *layout.mesh;
   const bool contact = layout.contact && !m.boundary.empty();
-  return {m.n_nodes(), m.boundary.size(), layout.n_snapshots,
-          contact,     layout.stress,     layout.quasi_static};
+  return {m.n_nodes(),       m.boundary.size(), layout.n_snapshots,
+          layout.components, contact,           layout.stress};
 }
 
 /// Of results.h5: what describes the datasets, and an entry for each row.
@@ -55,14 +55,30 @@ XdmfSeries series_of(const mesh::Mesh& mesh, const ResultsCounts& c) {
 }
 
 /// R σ R^T as xx, xy, xz, yy, yz, zz; r = e^{iθ}.
-std::array<float, 6> turned_tensor(const NodalStress& stress, Vec2 r) noexcept {
+std::array<float, 6> turned_tensor(const NodalStress& stress, Complex r) noexcept {
   const NodalStress s = fem::turned(stress, r);
   return {static_cast<float>(s[0]), static_cast<float>(s[3]), 0.0F, static_cast<float>(s[1]), 0.0F,
           static_cast<float>(s[2])};
 }
 
-std::array<float, 3> in_space(Vec2 a) noexcept {
-  return {static_cast<float>(a.x), static_cast<float>(a.y), 0.0F};
+using Space = std::array<double, 3>;
+
+/// Of a plane field, z is 0.
+Space in_space(std::span<const double> a) noexcept {
+  return {a[0], a[1], a.size() > 2 ? a[2] : 0.0};
+}
+
+Space turned(Complex r, const Space& a) noexcept {
+  const Vec2 plane = r * Vec2{a[0], a[1]};
+  return {plane.x, plane.y, a[2]};
+}
+
+Space sum(const Space& a, const Space& b) noexcept {
+  return {a[0] + b[0], a[1] + b[1], a[2] + b[2]};
+}
+
+std::array<float, 3> rounded(const Space& a) noexcept {
+  return {static_cast<float>(a[0]), static_cast<float>(a[1]), static_cast<float>(a[2])};
 }
 
 constexpr const char* results_name = "results.h5";
@@ -82,14 +98,17 @@ Results::Impl::Impl(const std::filesystem::path& folder, const ResultsLayout& la
       forces(c.contact ? c.nodes : 0),
       tensors(c.stress ? c.nodes : 0),
       scalars(c.stress ? c.nodes : 0),
-      traction(c.contact ? c.candidates : 0) {
+      traction(c.contact ? c.candidates * c.components : 0),
+      words(layout.words),
+      series(layout.series),
+      series_rows(layout.series.size()) {
   RONDO_DEMAND(c.nodes > 0 && layout.mass.size() == c.nodes, c.nodes, layout.mass.size());
   RONDO_DEMAND(tributary.size() == c.candidates, tributary.size(), c.candidates);
   demand_room(directory / results_name, bytes(layout));
   file = h5::File::create(unfinished.path, index_bytes(c));
   file.call_it(directory / results_name);
   file.set_attribute("/", "format", "rondo results 1");
-  file.set_attribute("/", "analysis", c.quasi_static ? "crush" : "dynamic");
+  file.set_attribute("/", "analysis", words.analysis);
   write_mesh(file, *layout.mesh, layout.mass);
   if (!free_body.empty())
     file.write("/mesh/free_body", {c.nodes}, view(free_body),
@@ -100,7 +119,7 @@ Results::Impl::Impl(const std::filesystem::path& folder, const ResultsLayout& la
     create_frame();
     create_snapshots();
     create_fields();
-    if (c.quasi_static) create_crush();
+    create_series();
     reserve();
   }
 }
@@ -127,26 +146,24 @@ void Results::Impl::begin_xdmf(const mesh::Mesh& mesh) {
   xdmf = std::make_unique<Xdmf>(directory / "fields.xdmf", series_of(mesh, c), std::move(times));
 }
 
-std::array<h5::Dataset*, 19> Results::Impl::all_rows() {
-  return {&d.time,
-          &d.time_velocity,
-          &d.angle,
-          &d.angle_velocity,
-          &d.center,
-          &d.displacement,
-          &d.velocity,
-          &d.force,
-          &d.traction,
-          &d.position,
-          &d.field_displacement,
-          &d.field_velocity,
-          &d.field_force,
-          &d.von_mises,
-          &d.stress,
-          &d.depth,
-          &d.load,
-          &d.contact_length,
-          &d.pressure_max};
+std::vector<h5::Dataset*> Results::Impl::all_rows() {
+  std::vector<h5::Dataset*> all = {&d.time,
+                                   &d.time_velocity,
+                                   &d.angle,
+                                   &d.angle_velocity,
+                                   &d.center,
+                                   &d.displacement,
+                                   &d.velocity,
+                                   &d.force,
+                                   &d.traction,
+                                   &d.position,
+                                   &d.field_displacement,
+                                   &d.field_velocity,
+                                   &d.field_force,
+                                   &d.von_mises,
+                                   &d.stress};
+  for (h5::Dataset& dataset : series_rows) all.push_back(&dataset);
+  return all;
 }
 
 void Results::Impl::resize(std::size_t rows) {
@@ -179,22 +196,28 @@ void Results::Impl::check(const Snapshot& s) const {
 }
 
 void Results::Impl::write_fields(const Snapshot& s) {
-  const Vec2 turn = rotation(s.angle);
-  const auto to_fixed = [&](std::size_t i, Vec2 a) { return is_free(i) ? a : turn * a; };
-  for (std::size_t i = 0; i < c.nodes; ++i)
-    vectors[i] = in_space((is_free(i) ? Vec2{} : s.center) +
-                          to_fixed(i, coordinates[i] + s.displacement[i]));
+  const Complex turn = rotation(s.angle);
+  const auto to_fixed = [&](std::size_t i, const Space& a) {
+    return is_free(i) ? a : turned(turn, a);
+  };
+  for (std::size_t i = 0; i < c.nodes; ++i) {
+    const Space reference{coordinates[i].x, coordinates[i].y, 0.0};
+    const Space center = is_free(i) ? Space{} : Space{s.center.x, s.center.y, 0.0};
+    vectors[i] = rounded(sum(center, to_fixed(i, sum(reference, in_space(s.displacement[i])))));
+  }
   row(d.position, vectors);
-  for (std::size_t i = 0; i < c.nodes; ++i) vectors[i] = in_space(to_fixed(i, s.displacement[i]));
+  for (std::size_t i = 0; i < c.nodes; ++i)
+    vectors[i] = rounded(to_fixed(i, in_space(s.displacement[i])));
   row(d.field_displacement, vectors);
-  for (std::size_t i = 0; i < c.nodes; ++i) vectors[i] = in_space(to_fixed(i, s.velocity[i]));
+  for (std::size_t i = 0; i < c.nodes; ++i)
+    vectors[i] = rounded(to_fixed(i, in_space(s.velocity[i])));
   row(d.field_velocity, vectors);
   if (c.stress) write_stress(s);
   if (c.contact) write_contact(s);
 }
 
 void Results::Impl::write_stress(const Snapshot& s) {
-  const Vec2 turn = rotation(s.angle);
+  const Complex turn = rotation(s.angle);
   for (std::size_t i = 0; i < c.nodes; ++i) {
     scalars[i] = static_cast<float>(fem::von_mises(s.stress[i]));
     tensors[i] = turned_tensor(
@@ -206,28 +229,31 @@ void Results::Impl::write_stress(const Snapshot& s) {
 
 void Results::Impl::write_contact(const Snapshot& s) {
   for (std::size_t k = 0; k < c.candidates; ++k) {
-    forces[static_cast<std::size_t>(boundary[k])] = in_space(s.contact_force_fixed[k]);
-    traction[k] = s.contact_force[k] / tributary[k];
+    forces[static_cast<std::size_t>(boundary[k])] = rounded(in_space(s.contact_force_fixed[k]));
+    for (std::size_t i = k * c.components; i < (k + 1) * c.components; ++i)
+      traction[i] = s.contact_force.values[i] / tributary[k];
   }
   row(d.field_force, forces);
-  d.force.write_row(written, s.contact_force);
+  d.force.write_row(written, s.contact_force.values);
   row(d.traction, traction);
 }
 
-void Results::Impl::write_crush(const CrushRow& crush) {
-  row(d.depth, crush.depth);
-  d.load.write_row(written, std::span<const Vec2>(&crush.force, 1));
-  row(d.contact_length, crush.contact_length);
-  row(d.pressure_max, crush.pressure_max);
+void Results::Impl::write_series(std::span<const double> values) {
+  std::size_t at = 0;
+  for (std::size_t k = 0; k < series.size(); ++k) {
+    RONDO_DEMAND(at + series[k].components <= values.size(), at, values.size());
+    series_rows[k].write_row(written, values.subspan(at, series[k].components));
+    at += series[k].components;
+  }
 }
 
 /// The time comes last: where it is a number, the snapshot is complete.
 void Results::Impl::write_snapshot(const Snapshot& s) {
   check(s);
   write_fields(s);
-  if (c.quasi_static) write_crush(s.crush);
-  d.displacement.write_row(written, s.displacement);
-  d.velocity.write_row(written, s.velocity);
+  write_series(s.series);
+  d.displacement.write_row(written, s.displacement.values);
+  d.velocity.write_row(written, s.velocity.values);
   d.center.write_row(written, std::span<const Vec2>(&s.center, 1));
   row(d.angle, s.angle);
   row(d.angle_velocity, s.angle_velocity);
@@ -241,6 +267,7 @@ void Results::Impl::close() {
   if (!file) return;
   resize(written);
   d = {};
+  series_rows.clear();
   file.close();
   xdmf->close();
 }
@@ -282,9 +309,11 @@ std::size_t Results::written() const noexcept {
 std::size_t Results::bytes(const ResultsLayout& layout) noexcept {
   const ResultsCounts c = counts_of(layout);
   constexpr std::size_t real = 8, single = 4;
-  const std::size_t node = 4 * real + (9U + (c.contact ? 3U : 0U) + (c.stress ? 7U : 0U)) * single;
-  const std::size_t candidate = c.contact ? 4 * real : 0,
-                    frame = (6U + (c.quasi_static ? 5U : 0U)) * real;
+  const std::size_t node =
+      2 * c.components * real + (9U + (c.contact ? 3U : 0U) + (c.stress ? 7U : 0U)) * single;
+  const std::size_t candidate = c.contact ? 2 * c.components * real : 0;
+  std::size_t frame = 6 * real;
+  for (const Series& s : layout.series) frame += s.components * real;
   return index_bytes(c) + mesh_bytes(*layout.mesh) + layout.free_body.size() * sizeof(int) +
          c.times * (frame + c.nodes * node + c.candidates * candidate);
 }

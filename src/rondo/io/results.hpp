@@ -11,8 +11,11 @@
 #include <filesystem>
 #include <memory>
 #include <span>
+#include <string>
+#include <vector>
 
-#include "rondo/core/vec2.hpp"
+#include "rondo/core/complex.hpp"
+#include "rondo/core/field.hpp"
 #include "rondo/mesh/mesh.hpp"
 
 namespace rondo::io {
@@ -20,41 +23,54 @@ namespace rondo::io {
 /// σ at a node in the turning frame: xx, yy, zz, xy [Pa].
 using NodalStress = std::array<double, 4>;
 
+/// A dataset with one value for each snapshot, beside those that every analysis has.
+struct Series {
+  std::string path, unit, meaning;
+  std::size_t components = 1;
+};
+
+/// What an analysis calls its times and rates; the defaults are those of motion in time.
+struct ResultsWords {
+  std::string analysis = "dynamic";
+  std::string time_unit = "s";
+  std::string time =
+      "of displacement, angle, centre, contact and fields; NaN: snapshot not written";
+  std::string velocity_time = "of velocity: half a step before /frame/time";
+  std::string velocity_unit = "m/s";
+  std::string velocity;        ///< empty: du/dt in the frames of the nodes
+  std::string field_velocity;  ///< likewise along the fixed axes
+  std::string force = "impulse of the step over its length";
+};
+
 struct ResultsLayout {
   const mesh::Mesh* mesh = nullptr;
   std::span<const double> mass;  ///< (n) lumped mass per unit thickness [kg/m]
   std::size_t n_snapshots = 0;   ///< planned
   bool contact = false;          ///< something may be touched: /contact is written
   bool stress = false;           ///< stress goes into the fields
-  bool quasi_static = false;  ///< a crush: `time` is the share of the depth [1], /crush is written
   /// (n) number of the free body that a node belongs to, which moves in the fixed frame; -1: it
   /// moves in the turning frame. Empty: no free body.
   std::span<const int> free_body = {};
+  std::size_t components = 2;  ///< of the vectors of a snapshot
+  ResultsWords words = {};
+  std::vector<Series> series = {};
 };
 
-/// Of a crush after an increment.
-struct CrushRow {
-  double depth = 0.0;           ///< of the centre below first touch              [m]
-  Vec2 force;                   ///< of the ground: normal, tangential, summed    [N/m]
-  double contact_length = 0.0;  ///< tributary lengths in contact, summed         [m]
-  double pressure_max = 0.0;    ///< largest of all candidates                    [Pa]
-};
-
-/// One snapshot, as the stepper leaves it; spans are only read during the call. Where quasi-static,
-/// the times are shares of the depth [1] and the velocity is the rate over that share [m].
+/// One snapshot; spans are only read during the call. Times and rates are in the units of the
+/// layout's words.
 struct Snapshot {
-  double time = 0.0;            ///< of displacement and contact                        [s]
-  double time_velocity = 0.0;   ///< of velocity: half a step before `time`             [s]
-  double angle = 0.0;           ///< θ at `time`, counter-clockwise                     [rad]
-  double angle_velocity = 0.0;  ///< θ at `time_velocity`                      [rad]
-  Vec2 center;                  ///< fixed frame                                        [m]
-  std::span<const Vec2> displacement;   ///< (n) turning frame; of free bodies fixed frame   [m]
-  std::span<const Vec2> velocity;       ///< (n) the same                                  [m/s]
-  std::span<const Vec2> contact_force;  ///< (nb) normal, tangential; empty: no contact    [N/m]
-  std::span<const Vec2> contact_force_fixed;  ///< (nb) x, y in the fixed frame           [N/m]
-  std::span<const NodalStress> stress;        ///< (n) frame of the body; empty: not asked for [Pa]
-  std::span<const Vec2> body_rotation = {};   ///< e^{iθ} of each free body
-  CrushRow crush = {};                        ///< only written where quasi-static
+  double time = 0.0;              ///< of displacement and contact                        [s]
+  double time_velocity = 0.0;     ///< of velocity: half a step before `time`             [s]
+  double angle = 0.0;             ///< θ at `time`, counter-clockwise                     [rad]
+  double angle_velocity = 0.0;    ///< θ at `time_velocity`                      [rad]
+  Vec2 center;                    ///< fixed frame                                        [m]
+  FieldView displacement;         ///< (n) turning frame; of free bodies fixed frame   [m]
+  FieldView velocity;             ///< (n) the same                                  [m/s]
+  FieldView contact_force;        ///< (nb) normal, tangential; empty: no contact    [N/m]
+  FieldView contact_force_fixed;  ///< (nb) x, y in the fixed frame           [N/m]
+  std::span<const NodalStress> stress;  ///< (n) frame of the body; empty: not asked for [Pa]
+  std::span<const Complex> body_rotation = {};  ///< e^{iθ} of each free body
+  std::span<const double> series = {};  ///< values of the layout's series, one after another
 };
 
 class Results {

@@ -17,8 +17,8 @@
 namespace rondo::io {
 
 struct ResultsCounts {
-  std::size_t nodes, candidates, times;
-  bool contact, stress, quasi_static;
+  std::size_t nodes, candidates, times, components;
+  bool contact, stress;
 };
 
 template <class T>
@@ -31,11 +31,11 @@ struct Results::Impl {
   void go_on(std::size_t kept);
   void publish(const mesh::Mesh& mesh);
   void begin_xdmf(const mesh::Mesh& mesh);
-  [[nodiscard]] std::array<h5::Dataset*, 19> all_rows();
+  [[nodiscard]] std::vector<h5::Dataset*> all_rows();
   void create_frame();
   void create_snapshots();
   void create_fields();
-  void create_crush();
+  void create_series();
   void reserve();
   void resize(std::size_t rows);
   void check(const Snapshot& s) const;
@@ -49,7 +49,7 @@ struct Results::Impl {
     return !free_body.empty() && free_body[node] >= 0;
   }
   void write_contact(const Snapshot& s);
-  void write_crush(const CrushRow& crush);
+  void write_series(std::span<const double> values);
   void write_snapshot(const Snapshot& s);
   void close();
 
@@ -72,13 +72,15 @@ struct Results::Impl {
   std::vector<std::array<float, 3>> vectors, forces;
   std::vector<std::array<float, 6>> tensors;
   std::vector<float> scalars;
-  std::vector<Vec2> traction;
+  std::vector<double> traction;
   h5::File file;
   struct {
     h5::Dataset time, time_velocity, angle, angle_velocity, center, displacement, velocity, force,
-        traction, position, field_displacement, field_velocity, field_force, von_mises, stress,
-        depth, load, contact_length, pressure_max;
+        traction, position, field_displacement, field_velocity, field_force, von_mises, stress;
   } d;
+  ResultsWords words;
+  std::vector<Series> series;
+  std::vector<h5::Dataset> series_rows;  ///< one for each of them
   std::unique_ptr<Xdmf> xdmf;
 };
 

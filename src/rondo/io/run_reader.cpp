@@ -85,10 +85,6 @@ void RunReader::read_analysis() {
   } catch (const FileError&) {  // of an earlier version
     return;
   }
-  if (found != "dynamic" && found != "crush")
-    throw FileError(file_.path(), fmt::format("analysis is \"{}\", not \"dynamic\" or \"crush\": "
-                                              "damaged, or not of this program",
-                                              found));
   analysis_ = found;
 }
 
@@ -96,6 +92,7 @@ void RunReader::read_analysis() {
 void RunReader::read_times() {
   if (!file_.contains("/frame/time") && !file_.contains("/snapshots")) return;
   times_.time = file_.dataset("/frame/time", {h5::any}).read<double>();
+  time_unit_ = file_.attribute("/frame/time", "units");
   n_planned_ = times_.time.size();
   std::size_t n = 0;
   while (n < n_planned_ && std::isfinite(times_.time[n]) &&
@@ -150,9 +147,10 @@ std::size_t RunReader::n_points(Quantity quantity) const noexcept {
 }
 
 void RunReader::read(Quantity quantity, std::size_t snapshot, std::size_t first,
-                     std::span<Vec2> out) const {
+                     MutableFieldView out) const {
   RONDO_DEMAND(has(quantity) && snapshot < n_snapshots(), snapshot, n_snapshots());
-  dataset(quantity).read_part(snapshot, first, out);
+  RONDO_DEMAND(out.components == dataset(quantity).shape().back(), out.components);
+  dataset(quantity).read_part(snapshot, first, out.values);
 }
 
 namespace {

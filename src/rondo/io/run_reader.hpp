@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "rondo/core/vec2.hpp"
+#include "rondo/core/field.hpp"
 #include "rondo/io/h5/h5.hpp"
 #include "rondo/mesh/mesh.hpp"
 
@@ -39,9 +39,11 @@ class RunReader {
   /// From run.json; "unknown" where that is missing or damaged.
   [[nodiscard]] const std::string& title() const noexcept { return title_; }
   [[nodiscard]] const std::string& status() const noexcept { return status_; }
-  /// "dynamic" or "crush", from results.h5, "dynamic" where an earlier version did not say. In a
-  /// crush the times are shares of the depth [1] and the velocity is the rate over that share [m].
+  /// Name of the analysis, from results.h5; "dynamic" where an earlier version did not say.
   [[nodiscard]] const std::string& analysis() const noexcept { return analysis_; }
+  /// "s"; "1" where the times are shares of a load, and velocities rates over that share [m].
+  [[nodiscard]] const std::string& time_unit() const noexcept { return time_unit_; }
+  [[nodiscard]] bool is_motion() const noexcept { return time_unit_ == "s"; }
   [[nodiscard]] const mesh::Mesh& mesh() const noexcept { return mesh_; }  ///< `clamped` is empty
   /// (n) lumped mass per unit thickness [kg/m]
   [[nodiscard]] const std::vector<double>& mass() const noexcept { return mass_; }
@@ -53,8 +55,9 @@ class RunReader {
   [[nodiscard]] bool has(Quantity quantity) const noexcept;
   [[nodiscard]] std::size_t n_points(Quantity quantity) const noexcept;  ///< nodes or candidates
   /// The points [first, first + out.size()) of a snapshot, straight into `out`; one thread at a
-  /// time. @pre has(quantity), snapshot < n_snapshots(). @throws FileError
-  void read(Quantity quantity, std::size_t snapshot, std::size_t first, std::span<Vec2> out) const;
+  /// time. @pre has(quantity), snapshot < n_snapshots(), as many components as there. @throws
+  /// FileError
+  void read(Quantity quantity, std::size_t snapshot, std::size_t first, MutableFieldView out) const;
 
  private:
   void read_summary();
@@ -64,7 +67,7 @@ class RunReader {
   [[nodiscard]] const h5::Dataset& dataset(Quantity quantity) const noexcept;
 
   std::filesystem::path directory_;
-  std::string title_ = "unknown", status_ = "unknown", analysis_ = "dynamic";
+  std::string title_ = "unknown", status_ = "unknown", analysis_ = "dynamic", time_unit_ = "s";
   h5::File file_;
   mesh::Mesh mesh_;
   std::vector<double> mass_;

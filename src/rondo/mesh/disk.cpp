@@ -52,7 +52,7 @@ std::vector<Line> add_nodes(Mesh& mesh, const Layout& l, const std::vector<doubl
   for (int line = 0; line < n_lines; ++line) {
     const int pitch = line / l.columns, in_pitch = line % l.columns;
     const double angle = 2.0 * std::numbers::pi * line / n_lines - 0.5 * std::numbers::pi;
-    const Vec2 direction = rotation(angle);
+    const Vec2 direction = direction_at(angle);
     const int first = static_cast<int>(mesh.n_nodes());
     const int in_sector = in_pitch == 0 ? 0 : mesh.sector_node.back() + 1;
     const int top = top_layer(l, in_pitch);

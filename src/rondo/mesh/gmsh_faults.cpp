@@ -146,7 +146,7 @@ void check_shapes(const RawMesh& raw, Draft& draft, Findings& findings) {
   BadCells bad = check_cells(draft.mesh);
   if (!draft.mesh.cells.empty() && bad.clockwise.size() == draft.mesh.cells.size()) {
     for (Cell& cell : draft.mesh.cells) cell = reversed(cell);
-    findings.warnings.push_back(
+    findings.warnings.emplace_back(
         "the corners of all cells run clockwise in the file: taken the other way round");
     bad = check_cells(draft.mesh);
   }

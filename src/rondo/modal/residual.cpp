@@ -26,7 +26,7 @@ struct Products {
 
 double residual_of(Products p, std::span<const double> mass, double spin, const Mode& mode) {
   const double scale = squared(p.d_real) + squared(p.d_imaginary);
-  const Vec2 lambda{mode.growth, mode.omega}, square = lambda * lambda;  // as complex numbers
+  const Complex lambda{mode.growth, mode.omega}, square = lambda * lambda;
   Field rest_real = p.k_real, rest_imaginary = p.k_imaginary;
   for (std::size_t i = 0; i < mass.size(); ++i) {
     const double m = mass[i];
@@ -35,14 +35,14 @@ double residual_of(Products p, std::span<const double> mass, double spin, const 
     p.k_real[i] -= spin * spin * m * r;
     p.k_imaginary[i] -= spin * spin * m * q;
     const double turn = 2.0 * spin;
-    rest_real[i] = p.k_real[i] + m * (square.x * r - square.y * q) +
-                   m * turn90(turn * lambda.x * r - turn * lambda.y * q);
-    rest_imaginary[i] = p.k_imaginary[i] + m * (square.x * q + square.y * r) +
-                        m * turn90(turn * lambda.x * q + turn * lambda.y * r);
+    rest_real[i] = p.k_real[i] + m * (square.re * r - square.im * q) +
+                   m * turn90(turn * lambda.re * r - turn * lambda.im * q);
+    rest_imaginary[i] = p.k_imaginary[i] + m * (square.re * q + square.im * r) +
+                        m * turn90(turn * lambda.re * q + turn * lambda.im * r);
   }
   const double rest = squared(rest_real) + squared(rest_imaginary);
   const double size = squared(p.k_real) + squared(p.k_imaginary);
-  const bool still = mode.wave == Wave::rigid && lambda == Vec2{};
+  const bool still = mode.wave == Wave::rigid && lambda == Complex{};
   return std::sqrt(rest / (still ? scale : size));
 }
 

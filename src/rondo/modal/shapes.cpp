@@ -30,11 +30,11 @@ void spread(const CyclicBody& body, int n, const Eigen::VectorXcd& w, Mode& mode
   }
 }
 
-void rotate_phase(Mode& mode, Vec2 by) {
+void rotate_phase(Mode& mode, rondo::Complex by) {
   for (std::size_t i = 0; i < mode.real.size(); ++i) {
     const Vec2 r = mode.real[i], m = mode.imaginary[i];
-    mode.real[i] = by.x * r - by.y * m;
-    mode.imaginary[i] = by.x * m + by.y * r;
+    mode.real[i] = by.re * r - by.im * m;
+    mode.imaginary[i] = by.re * m + by.im * r;
   }
 }
 
@@ -42,14 +42,14 @@ void rotate_phase(Mode& mode, Vec2 by) {
 
 void normalise(Mode& mode, std::span<const double> mass) {
   double norm = 0.0, largest = 0.0;
-  Vec2 phase{1.0, 0.0};
+  rondo::Complex phase{1.0, 0.0};
   for (std::size_t i = 0; i < mass.size(); ++i) {
     const Vec2 r = mode.real[i], m = mode.imaginary[i];
     norm += mass[i] * (dot(r, r) + dot(m, m));
-    for (const Vec2 z : {Vec2{r.x, m.x}, Vec2{r.y, m.y}}) {
+    for (const rondo::Complex z : {rondo::Complex{r.x, m.x}, rondo::Complex{r.y, m.y}}) {
       // The first of those that are equal but for round-off, as all round a wave.
-      if (dot(z, z) <= largest * (1.0 + 1e-6)) continue;
-      largest = dot(z, z);
+      if (norm_squared(z) <= largest * (1.0 + 1e-6)) continue;
+      largest = norm_squared(z);
       phase = z;
     }
   }

@@ -12,7 +12,7 @@ namespace {
 
 using contact::Status;
 
-void solve(const ContactStep& s, Vec2 delassus, std::span<ActiveContact> contacts,
+void solve(const ContactStep& s, Complex delassus, std::span<ActiveContact> contacts,
            ContactReport& report) noexcept {
   if (contacts.size() == 1) {
     ActiveContact& a = contacts[0];
@@ -23,7 +23,7 @@ void solve(const ContactStep& s, Vec2 delassus, std::span<ActiveContact> contact
   }
   ActiveContact &a = contacts[0], &b = contacts[1];
   const auto solution = contact::solve_pair(
-      {{a.free, b.free}, {a.bounce, b.bounce}, delassus, conj(a.normal) * b.normal},
+      {{a.free, b.free}, {a.bounce, b.bounce}, delassus, rotation_between(a.normal, b.normal)},
       s.law.friction);
   for (std::size_t i = 0; i < 2; ++i) {
     contacts[i].impulse = solution.contact[i].impulse;
@@ -40,8 +40,8 @@ Vec2 corrected_velocity(const ContactStep& s, const ContactNode& node, Vec2 driv
   Vec2 impulse;
   for (const ActiveContact& c : contacts) {
     if (c.status == Status::stick)
-      return conj(s.rotation_next) * (c.normal * Vec2{-c.bounce, 0.0} - drive);
-    impulse += c.normal * c.impulse;
+      return conj(s.rotation_next) * (from_frame(c.normal, {-c.bounce, 0.0}) - drive);
+    impulse += from_frame(c.normal, c.impulse);
   }
   if (impulse == Vec2{}) return node.free;
   return node.free + conj(s.rotation) * impulse / (node.mass * s.a);
@@ -49,7 +49,7 @@ Vec2 corrected_velocity(const ContactStep& s, const ContactNode& node, Vec2 driv
 
 void add_works(const ContactStep& s, const ContactNode& node, Vec2 after, const ActiveContact& c,
                ContactReport& report) noexcept {
-  const Vec2 impulse = conj(s.rotation) * (c.normal * c.impulse);  // turning frame
+  const Vec2 impulse = conj(s.rotation) * from_frame(c.normal, c.impulse);  // turning frame
   const double work = dot(impulse, 0.5 * (node.before + after));
   const Vec2 mean = 0.5 * (c.before + c.after);
   report.work += work;
@@ -68,7 +68,7 @@ void report_node(const ContactStep& s, const ContactNode& node,
     report.residual = keep_larger(report.residual, residual / node.mass);
     report.penetration = std::max(report.penetration, -c.gap);
     report.free_velocity = std::max(report.free_velocity, norm(c.free));
-    const Vec2 impulse = c.normal * c.impulse;
+    const Vec2 impulse = from_frame(c.normal, c.impulse);
     report.impulse += impulse;
     report.angular_impulse += cross(arm, impulse);
     if (c.impulse.x <= 0.0) continue;
@@ -137,14 +137,14 @@ Vec2 solve_contacts(const ContactStep& s, const ContactNode& node, const contact
     c.candidate = node.candidate;
     c.normal = touches.at[i].normal;
     c.gap = touches.at[i].gap;
-    c.before = conj(c.normal) * before;
-    c.free = conj(c.normal) * (drive + s.rotation_next * node.free);
+    c.before = to_frame(c.normal, before);
+    c.free = to_frame(c.normal, drive + s.rotation_next * node.free);
     c.bounce = s.law.restitution * std::min(c.before.x, 0.0);
   }
   solve(s, s.turn / (node.mass * s.a), contacts, report);
   const Vec2 after = corrected_velocity(s, node, drive, contacts);
   for (ActiveContact& c : contacts) {
-    c.after = conj(c.normal) * (drive + s.rotation_next * after);
+    c.after = to_frame(c.normal, drive + s.rotation_next * after);
     add_works(s, node, after, c, report);
   }
   report_node(s, node, contacts, report);

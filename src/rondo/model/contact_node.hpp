@@ -41,15 +41,15 @@ struct ContactReport {
 struct ContactStep {
   ContactStep(const Model& model, const FrameStep& frame, const VelocityUpdate& update) noexcept;
 
-  Vec2 rotation;            ///< R(θ_{n+1})
-  Vec2 rotation_next;       ///< R(θ_{n+2})
-  Vec2 turn;                ///< e^{iΔθ}
-  Vec2 turn_minus_one;      ///< e^{iΔθ} - 1
-  Vec2 turn_back;           ///< e^{-iΔθ⁻} - 1
+  Complex rotation;         ///< R(θ_{n+1})
+  Complex rotation_next;    ///< R(θ_{n+2})
+  Complex turn;             ///< e^{iΔθ}
+  Complex turn_minus_one;   ///< e^{iΔθ} - 1
+  Complex turn_back;        ///< e^{-iΔθ⁻} - 1
   Vec2 center;              ///< c_{n+1}                                               [m]
   Vec2 center_rate;         ///< (c_{n+2} - c_{n+1})/Δt                                [m/s]
   Vec2 center_rate_before;  ///< (c_{n+1} - c_n)/Δt                                    [m/s]
-  Vec2 a;                   ///< of the velocity update (3.5)
+  Complex a;                ///< of the velocity update (3.5)
   double dt;                ///< [s]
   contact::Law law;
 };

@@ -21,8 +21,8 @@ void for_nodes(const FreeBody& body, Work&& work) noexcept {
 /// Rᵀ(u - shift) + (Rᵀ - 1)(X - X_c): small differences of small numbers.
 Vec2 elastic_of(const Model& model, const FreeBody& body, const Pose& pose, std::size_t k,
                 Vec2 u) noexcept {
-  const double c = pose.rotation.x, s = pose.rotation.y;
-  const Vec2 back_minus_one = {c > 0.0 ? -s * s / (1.0 + c) : c - 1.0, -s};
+  const double c = pose.rotation.re, s = pose.rotation.im;
+  const Complex back_minus_one = {c > 0.0 ? -s * s / (1.0 + c) : c - 1.0, -s};
   return conj(pose.rotation) * (u - (pose.center - body.center)) +
          back_minus_one * arm_of(model, body, k);
 }
@@ -37,7 +37,7 @@ void body_gradient(const Model& model, const FreeBody& body, const Pose& pose,
     moment += cross(now, product[k]);
     inertia += model.mass[k] * dot(arm, now);
   });
-  const Vec2 turning = moment / inertia * turn90(pose.rotation);
+  const Complex turning = moment / inertia * turn90(pose.rotation);
   for_nodes(body, [&](std::size_t k) {
     gradient[k] = pose.rotation * product[k] - model.mass[k] * (turning * arm_of(model, body, k));
   });
@@ -47,18 +47,19 @@ void body_gradient(const Model& model, const FreeBody& body, const Pose& pose,
 
 Pose mean_pose(const Model& model, const FreeBody& body, std::span<const Vec2> u,
                const Pose& before) noexcept {
-  Vec2 moved, turned;  // Σ m u and Z = Σ m conj(X - X_c)(x - x_c)
+  Vec2 moved;      // Σ m u
+  Complex turned;  // Z = Σ m conj(X - X_c)(x - x_c)
   for_nodes(body, [&](std::size_t k) { moved += model.mass[k] * u[k]; });
   const Vec2 shift = moved / body.mass;
   for_nodes(body, [&](std::size_t k) {
     const Vec2 arm = arm_of(model, body, k);
-    turned += model.mass[k] * (conj(arm) * (arm + (u[k] - shift)));
+    turned += model.mass[k] * rotation_between(arm, arm + (u[k] - shift));
   });
   Pose pose;
   pose.center = body.center + shift;
   pose.rotation = turned / norm(turned);
-  const Vec2 step = pose.rotation * conj(before.rotation);
-  pose.angle = before.angle + std::atan2(step.y, step.x);
+  const Complex step = pose.rotation * conj(before.rotation);
+  pose.angle = before.angle + std::atan2(step.im, step.re);
   return pose;
 }
 

@@ -92,9 +92,9 @@ struct Model {
 
 /// Mean place and rotation of a free body.
 struct Pose {
-  Vec2 center;              ///< of mass                                         [m]
-  Vec2 rotation{1.0, 0.0};  ///< e^{iθ}
-  double angle = 0.0;       ///< θ, counter-clockwise, whole turns counted       [rad]
+  Vec2 center;                 ///< of mass                                         [m]
+  Complex rotation{1.0, 0.0};  ///< e^{iθ}
+  double angle = 0.0;          ///< θ, counter-clockwise, whole turns counted       [rad]
 };
 
 template <class Work>

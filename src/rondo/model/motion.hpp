@@ -4,7 +4,7 @@
 #include <array>
 #include <vector>
 
-#include "rondo/core/vec2.hpp"
+#include "rondo/core/complex.hpp"
 
 namespace rondo::dynamics {
 
@@ -62,7 +62,7 @@ struct FrameStep {
   double angle = 0.0;      ///< θ_{n+1}                                               [rad]
   double turn = 0.0;       ///< θ_{n+2} - θ_{n+1}                                     [rad]
   double turn_before = 0.0;  ///< θ_{n+1} - θ_n                                         [rad]
-  Vec2 rotation;             ///< e^{iθ_{n+1}}
+  Complex rotation;          ///< e^{iθ_{n+1}}
   Vec2 center;               ///< c_{n+1}                                               [m]
   Vec2 advance;              ///< c_{n+2} - c_{n+1}                                     [m]
   Vec2 advance_before;       ///< c_{n+1} - c_n                                         [m]
@@ -71,7 +71,7 @@ struct FrameStep {
 
 /// (ṡJ - s²)(X + u) + Rᵀ(c̈ - g): acceleration of the frame at a place (3.1). @param arm X + u [m]
 constexpr Vec2 frame_acceleration(const FrameStep& f, Vec2 arm) noexcept {
-  return Vec2{-f.spin * f.spin, f.spin_rate} * arm + f.pull;
+  return Complex{-f.spin * f.spin, f.spin_rate} * arm + f.pull;
 }
 
 /// The frame at t = n dt.

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// @file  How the velocity terms are taken in the step (docs/theory.md, 3.3 to 3.6).
 #pragma once
-#include "rondo/core/vec2.hpp"
+#include "rondo/core/complex.hpp"
 
 namespace rondo::dynamics {
 
@@ -12,8 +12,8 @@ enum class Scheme {
 
 /// The velocity update of a node, v⁺ = v⁻ + [F - drag v⁻] / a, with F = (Δt f + i_c)/m.
 struct VelocityUpdate {
-  Vec2 a;     ///< symplectic: 1 + Δt α/2 + iΔt s   (3.5); as printed: 1            (3.6)
-  Vec2 drag;  ///< symplectic: 2 (a - 1);                  as printed: Δt (α + 2is)
+  Complex a;     ///< symplectic: 1 + Δt α/2 + iΔt s   (3.5); as printed: 1            (3.6)
+  Complex drag;  ///< symplectic: 2 (a - 1);                  as printed: Δt (α + 2is)
 };
 
 constexpr VelocityUpdate velocity_update(Scheme scheme, double dt, double alpha,

@@ -103,7 +103,7 @@ void put_state(File& file, const dynamics::SavedState& s) {
   put(file, "/state/energy", s.energy, {"J/m", "energy of each free body"});
   std::vector<std::array<double, 5>> poses;
   for (const dynamics::Pose& p : s.poses)
-    poses.push_back({p.center.x, p.center.y, p.rotation.x, p.rotation.y, p.angle});
+    poses.push_back({p.center.x, p.center.y, p.rotation.re, p.rotation.im, p.angle});
   put(file, "/state/poses", poses,
       {"1", "of each free body: centre [m], e^(i angle), angle [rad]"});
   std::vector<std::int64_t> keys;

@@ -10,7 +10,7 @@
 #include "rondo/case/setup.hpp"
 #include "rondo/model/saved_state.hpp"
 #include "rondo/output/contact_statistics.hpp"
-#include "rondo/output/observers.hpp"
+#include "rondo/output/history.hpp"
 #include "rondo/output/snapshot_schedule.hpp"
 
 namespace rondo::study {
@@ -41,6 +41,7 @@ struct Checkpoint {
   int problems_kept = 0;  ///< in contact-problems/
   double loop_wall_s = 0.0, loop_cpu_s = 0.0;
   FilePlaces files;
+  bool is_at_end = false;  ///< the run that goes on from it ends there; not in the file
 };
 
 /// Of a node, at the most: u, v, K u, gradient.

@@ -40,11 +40,20 @@ ProbeValues look_at(const ProbedBody& body, const ProbeSite& site, const dynamic
 
 }  // namespace
 
-std::vector<std::string> probe_columns(const std::vector<Probe>& probes) {
-  std::vector<std::string> columns;
+std::vector<ColumnLabel> probe_columns(const std::vector<Probe>& probes) {
+  static constexpr std::array<std::array<const char*, 3>, 8> quantities{
+      {{"ux", "m", "displacement: turning frame; of a free body x - X, fixed frame"},
+       {"uy", "m", "likewise"},
+       {"vx", "m/s", "velocity in the same frame, half a step before"},
+       {"vy", "m/s", "likewise"},
+       {"sxx", "Pa", "stress in the same frame, from the corners of the cell"},
+       {"syy", "Pa", "likewise"},
+       {"szz", "Pa", "likewise"},
+       {"sxy", "Pa", "likewise"}}};
+  std::vector<ColumnLabel> columns;
   for (const Probe& probe : probes)
-    for (const char* quantity : {"ux", "uy", "vx", "vy", "sxx", "syy", "szz", "sxy"})
-      columns.push_back(probe.name + "_" + quantity);
+    for (const auto& [name, unit, meaning] : quantities)
+      columns.push_back({probe.name + "_" + name, unit, meaning});
   return columns;
 }
 

@@ -8,13 +8,14 @@
 #include <vector>
 
 #include "rondo/case/setup.hpp"
+#include "rondo/core/column.hpp"
 #include "rondo/fem/elasticity.hpp"
 #include "rondo/model/model.hpp"
 
 namespace rondo::study {
 
 /// Columns of history.csv: u, v and stress of each probe.
-std::vector<std::string> probe_columns(const std::vector<Probe>& probes);
+std::vector<ColumnLabel> probe_columns(const std::vector<Probe>& probes);
 
 /// What is looked at; all must outlive the call.
 struct ProbedBody {

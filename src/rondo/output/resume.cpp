@@ -171,6 +171,19 @@ void demand_same_run(const Checkpoint& k, const RunIdentity& now, const Case& c,
   if (!faults.empty()) throw InputError(std::move(faults));
 }
 
+void refuse_without_checkpoints(const std::filesystem::path& directory) {
+  std::error_code error;
+  if (!std::filesystem::exists(directory / "run.json", error)) return;
+  try {
+    if (io::read_json(directory / "run.json").value("resumable", true)) return;
+  } catch (const std::exception&) {
+    return;  // a damaged one says nothing: what goes on from there looks for itself
+  }
+  throw request_error("--resume", directory.string(),
+                      "holds the results of a run that keeps no checkpoints",
+                      "the same command with --overwrite to run it again, or another -o");
+}
+
 std::optional<Checkpoint> find_checkpoint(const RunIdentity& now, const Case& c, const Setup& setup,
                                           const std::filesystem::path& directory) {
   std::error_code error;
@@ -183,18 +196,10 @@ std::optional<Checkpoint> find_checkpoint(const RunIdentity& now, const Case& c,
       read_checkpoint(directory, [&](const RunIdentity& then) { demand_same_program(then, now); });
   demand_same_run(k, now, c, setup);
   demand_sound(k, c, setup, directory);
+  k.is_at_end = k.state.step >= setup.n_steps;
   if (k.n_steps != setup.n_steps)
     k.schedule = with_end(std::move(k.schedule), c.output, setup.model.dt, setup.n_steps);
   return k;
-}
-
-bool is_complete(const Checkpoint& k, const Setup& setup, const std::filesystem::path& directory) {
-  if (k.state.step < setup.n_steps) return false;
-  try {
-    return text_in(io::read_json(directory / "run.json"), "status") == "done";
-  } catch (const FileError&) {
-    return false;
-  }
 }
 
 }  // namespace rondo::study

@@ -18,13 +18,12 @@ void demand_same_program(const RunIdentity& then, const RunIdentity& now);
 void demand_same_run(const Checkpoint& checkpoint, const RunIdentity& now, const Case& c,
                      const Setup& setup);
 
+/// @throws InputError: the directory holds the results of a run that keeps no checkpoints
+void refuse_without_checkpoints(const std::filesystem::path& directory);
+
 /// What --resume finds: the checkpoint of this run, its schedule up to this case's end; none where
 /// the run has not yet come to its first one. @throws InputError, FileError
 std::optional<Checkpoint> find_checkpoint(const RunIdentity& now, const Case& c, const Setup& setup,
                                           const std::filesystem::path& directory);
-
-/// The run has come to its end and its files are closed.
-bool is_complete(const Checkpoint& checkpoint, const Setup& setup,
-                 const std::filesystem::path& directory);
 
 }  // namespace rondo::study

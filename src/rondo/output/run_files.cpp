@@ -73,15 +73,13 @@ void describe_program(Json& json) {
   json["host"] = io::host_name();
 }
 
-Json describe_run(const Case& c, std::string_view analysis, std::size_t nodes, std::size_t dofs) {
+Json describe_run(const Case& c, std::string_view analysis) {
   Json j;
   j["status"] = "running";
   j["title"] = c.title;
   describe_program(j);
   j["process"] = ::getpid();
   j["analysis"] = analysis;
-  j["nodes"] = nodes;
-  j["dofs"] = dofs;
   return j;
 }
 

@@ -18,7 +18,7 @@ using Json = nlohmann::ordered_json;
 void describe_program(Json& json);
 
 /// The first keys of run.json, with the status "running".
-Json describe_run(const Case& c, std::string_view analysis, std::size_t nodes, std::size_t dofs);
+Json describe_run(const Case& c, std::string_view analysis);
 
 /// The string under a key; empty where there is none, or something else.
 std::string text_in(const Json& json, const char* key);

@@ -28,26 +28,24 @@ struct RunOptions {
   bool keeps_checkpoint = true;                  ///< of its end, once it is done
   std::filesystem::path reduced;          ///< model to run on instead of the mesh; empty: the mesh
   double step_factor = 20.0;              ///< with it: step over that of the full run
-  std::string reduced_step = "midpoint";  ///< with it: step_names of reduced_run.hpp
+  std::string reduced_step = "midpoint";  ///< with it: or "explicit"
 };
 
 /// How a run ended. `failed` is an outcome of the numerics: not finite, or a residual out of bound.
 struct RunReport {
-  AnalysisKind analysis = AnalysisKind::dynamic;
   RunStatus status = RunStatus::failed;
   std::string message;        ///< of a failure: quantity, value, bound, step and time
-  long long steps = 0;        ///< done; of a crush: increments
-  bool resumable = true;      ///< it kept a checkpoint, unless it is a crush
+  std::string reached;        ///< in words, e.g. "6023 steps to t = 0.12 s"
+  long long steps = 0;        ///< or increments, done
+  bool resumable = true;      ///< it keeps checkpoints
   bool was_complete = false;  ///< to be resumed, but already at its end: nothing was done
   long long resumed_at = 0;   ///< step of the checkpoint that it went on from; 0: begun anew
-  double end_time = 0.0;      ///< reached [s]; 0 of a crush
-  double depth = 0.0;         ///< reached by a crush [m]
-  double slide = 0.0;         ///< likewise [m]
+  double end_time = 0.0;      ///< reached [s]; 0: no motion
   double loop_wall_s = 0.0;
-  double simulated_s = 0.0;   ///< of motion, in this call
-  double step_wall_s = 0.0;   ///< of a reduced run: its steps alone; else the loop
-  double slowest_step = 0.0;  ///< of a reduced run: over the time that it stands for
-  double ns_per_dof_step = 0.0;
+  double simulated_s = 0.0;      ///< of motion, in this call; 0: there is none
+  double step_wall_s = 0.0;      ///< of a reduced run: its steps alone; else the loop
+  double slowest_step = 0.0;     ///< of a reduced run: over the time that it stands for
+  double ns_per_dof_step = 0.0;  ///< 0: means nothing
   double energy_residual_relative = 0.0;
   double contact_residual_max = 0.0;
   double penetration_max_m = 0.0;

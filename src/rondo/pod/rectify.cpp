@@ -7,6 +7,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "rondo/core/complex.hpp"
 #include "rondo/core/contract.hpp"
 
 namespace rondo::pod {
@@ -54,9 +55,9 @@ struct Rectifier::Impl {
   std::size_t n, n_rings;
   Components components;
   Shift shift;
-  std::vector<Vec2> to_polar;  ///< (n) e^{-iφ} of the sectors
-  std::vector<Vec2> phase;     ///< (n) of the harmonics, over n
-  std::vector<Vec2> work;      ///< (n) one ring
+  std::vector<Complex> to_polar;  ///< (n) e^{-iφ} of the sectors
+  std::vector<Complex> phase;     ///< (n) of the harmonics, over n
+  std::vector<Vec2> work;         ///< (n) one ring
   fftw_plan forward = nullptr, backward = nullptr;
 
   Impl(int n_sectors, std::size_t rings, Components c, Shift s)
@@ -91,13 +92,13 @@ struct Rectifier::Impl {
   void set_phases(double theta) {
     const double share = 1.0 / static_cast<double>(n);
     for (std::size_t k = 0; k < n; ++k)
-      phase[k] = 2 * k == n ? Vec2{share, 0.0} : share * rotation(-harmonic(k) * theta);
+      phase[k] = 2 * k == n ? Complex{share, 0.0} : share * rotation(-harmonic(k) * theta);
   }
 
   void set_rates() {
     const double share = 1.0 / static_cast<double>(n);
     for (std::size_t k = 0; k < n; ++k)
-      phase[k] = 2 * k == n ? Vec2{} : Vec2{0.0, -share * harmonic(k)};
+      phase[k] = 2 * k == n ? Complex{} : Complex{0.0, -share * harmonic(k)};
   }
 
   void move_by_harmonics(std::span<Vec2> ring) {
@@ -130,7 +131,7 @@ struct Rectifier::Impl {
   void apply(double theta, std::span<Vec2> values) {
     // In (-π, π] by way of the direction: a remainder by the rounded 2π is wrong by 1e-16 each
     // turn.
-    const Vec2 direction = rotation(theta);
+    const Vec2 direction = direction_at(theta);
     const double angle = std::atan2(direction.y, direction.x);
     const long pitches = std::lround(angle / turn * static_cast<double>(n));
     const auto sectors =

@@ -43,8 +43,8 @@ ContactSolver::ContactSolver(const mesh::Mesh& mesh, const rom::ReducedModel& mo
        std::make_unique<ContactTable>(model.contact, model.contact.rows * model.generator)});
 }
 
-Vec2 ContactSolver::frame_rotation(double angle) const noexcept {
-  return turning_ ? rotation(angle) : Vec2{1.0, 0.0};
+Complex ContactSolver::frame_rotation(double angle) const noexcept {
+  return turning_ ? rotation(angle) : Complex{1.0, 0.0};
 }
 
 ContactTable* ContactSolver::table_of(double share) {
@@ -115,7 +115,7 @@ void ContactSolver::find(const FreeStep& step, bool next) {
   contacts_.clear();
   points_.clear();
   const ContactTable& t = *end_.table;
-  const Vec2 turned = frame_rotation(step.end.angle);
+  const Complex turned = frame_rotation(step.end.angle);
   const double norm = step.end.q->norm(), top = ground_.top();
   for (int k = 0; k < static_cast<int>(t.size()); ++k) {
     const Vec2 x = step.end.center + turned * t.point(k);
@@ -150,9 +150,9 @@ void ContactSolver::make_problem(const FreeStep& step, const contact::Law& law,
   p.row_start[0] = 0;
   const bool implicit = matrices.key().scheme == StepScheme::midpoint;
   const ContactTable& now = *end_.table;
-  const Vec2 back = conj(frame_rotation(step.end.angle));
-  const Vec2 from_before = back * frame_rotation(step.before.angle);
-  const Vec2 back_turn = conj(step.end.turn);
+  const Complex back = conj(frame_rotation(step.end.angle));
+  const Complex from_before = back * frame_rotation(step.before.angle);
+  const Complex back_turn = conj(step.end.turn);
   const Vec2 advance = back * (step.end.center - step.before.center);
   for (std::size_t i = 0; i < n; ++i) {
     const PointContact& c = contacts_[i];

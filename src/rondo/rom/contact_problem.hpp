@@ -18,7 +18,7 @@ struct BodyState {
   Vec2 velocity;       ///< ċ likewise                                             [m/s]
   /// A point of the material at arm a, fields v there, moves with ċ + turn_rate a + turn v,
   /// complex: i s and 1, or what they are in the mean over a step of central differences (4.2).
-  Vec2 turn_rate, turn{1.0, 0.0};
+  Complex turn_rate, turn{1.0, 0.0};
   const VectorXd* q = nullptr;  ///< (r)
   const VectorXd* p = nullptr;  ///< (r)
 };
@@ -63,7 +63,7 @@ class ContactSolver {
   /// Its points at its end.
   [[nodiscard]] const ContactTable& table() const noexcept { return *end_.table; }
   /// R of the model's frame at an angle: 1 in the rectified frame.
-  [[nodiscard]] Vec2 frame_rotation(double angle) const noexcept;
+  [[nodiscard]] Complex frame_rotation(double angle) const noexcept;
   /// Tables of nodes made so far: as many as there are phases.
   [[nodiscard]] long long tables_made() const noexcept { return made_; }
 

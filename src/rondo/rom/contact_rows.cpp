@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "rondo/core/complex.hpp"
 #include "rondo/core/contract.hpp"
 #include "rondo/rom/reduced_model.hpp"
 
@@ -67,7 +68,7 @@ NodeRows::NodeRows(const mesh::Mesh& mesh, const ReducedModel& model)
 ContactRows NodeRows::at(double phase) {
   const std::size_t m = rings_.point.size();
   const bool moves = model_.frame == ModelFrame::rectified && phase != 0.0;
-  const Vec2 turned = moves ? rotation(phase) : Vec2{1.0, 0.0};
+  const Complex turned = moves ? rotation(phase) : Complex{1.0, 0.0};
   ContactRows out{modes_, std::vector<Vec2>(m), std::vector<double>(m)};
   for (std::size_t k = 0; k < m; ++k) {
     const auto candidate = static_cast<std::size_t>(rings_.point[k]);

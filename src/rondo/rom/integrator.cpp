@@ -162,7 +162,7 @@ void ReducedIntegrator::step(StepReport& report) {
 
 void ReducedIntegrator::solve_contact(const Motion& m, ContactReport& report) {
   const auto begin = Clock::now();
-  const Vec2 rate{0.0, m.spin}, one{1.0, 0.0};
+  const Complex rate{0.0, m.spin}, one{1.0, 0.0};
   FreeStep free{m.dt,
                 m.spin,
                 {m.angle_before, m.center_before, m.velocity_before, rate, one, &q_, &p_},
@@ -170,7 +170,7 @@ void ReducedIntegrator::solve_contact(const Motion& m, ContactReport& report) {
   if (input_.scheme == StepScheme::central) {
     // The end of the step is known before its impulses: they act from there on, and the law sees
     // the steps that come and that came.
-    const Vec2 back = rotation_minus_one(-m.carry * m.dt), on = rotation_minus_one(m.turn);
+    const Complex back = rotation_minus_one(-m.carry * m.dt), on = rotation_minus_one(m.turn);
     free.before = {m.angle,    m.center, m.velocity_before, -(back / m.dt),
                    one + back, &q_end_,  &carried_};
     free.end.turn_rate = on / m.dt;
@@ -180,7 +180,7 @@ void ReducedIntegrator::solve_contact(const Motion& m, ContactReport& report) {
   input_.figures.tables = contact_->tables_made();
   if (!contact_->contacts().empty()) {
     for (const PointContact& c : contact_->contacts())
-      contact_->table().add_push(c.point, c.normal * c.impulse, push_);
+      contact_->table().add_push(c.point, from_frame(c.normal, c.impulse), push_);
     matrices_->add_response(push_, q_end_, p_end_);
     count_solver(outcome, report);
     count_contacts(m, report);
@@ -217,12 +217,12 @@ void ReducedIntegrator::find_middle() {
 void ReducedIntegrator::count_contacts(const Motion& m, ContactReport& report) {
   const bool central = input_.scheme == StepScheme::central;
   find_middle();
-  const Vec2 turned = contact_->frame_rotation(m.angle);
+  const Complex turned = contact_->frame_rotation(m.angle);
   const Vec2 moving =
       central ? 0.5 * (m.velocity_before + m.velocity) : (m.center - m.center_before) / m.dt;
   const ContactTable& table = contact_->table();
   for (const PointContact& c : contact_->contacts()) {
-    const Vec2 impulse = c.normal * c.impulse;
+    const Vec2 impulse = from_frame(c.normal, c.impulse);
     const Vec2 place = table.point(c.point) + table.at(c.point, q_end_);
     const Vec2 arm = table.point(c.point) + table.at(c.point, q_mid_);
     const Vec2 velocity = conj(turned) * moving + m.spin * turn90(arm) + table.at(c.point, p_mid_);
@@ -296,7 +296,7 @@ void ReducedIntegrator::fill_contacts(double angle,
   if (!contact_) return;
   const rom::ReducedModel& rm = input_.reduced;
   const int n = rm.n_sectors;
-  const Vec2 turned = contact_->frame_rotation(angle);
+  const Complex turned = contact_->frame_rotation(angle);
   const auto add = [&](int material, double share, const PointContact& c) {
     dynamics::ActiveContact a;
     a.candidate = static_cast<std::size_t>(candidates_[static_cast<std::size_t>(material)]);

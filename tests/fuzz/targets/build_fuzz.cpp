@@ -7,8 +7,8 @@
 
 #include "case_input.hpp"
 #include "mutate.hpp"
-#include "rondo/analysis/build.hpp"
-#include "rondo/analysis/crush_build.hpp"
+#include "rondo/analysis/build/build.hpp"
+#include "rondo/analysis/build/crush_setup.hpp"
 #include "rondo/integrators/integrator.hpp"
 #include "rondo/integrators/stepper.hpp"
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// From a case to a setup: by the assembled stiffness where the disk is small, by harmonics above.
-#include "rondo/analysis/build.hpp"
+#include "rondo/analysis/build/build.hpp"
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
@@ -8,7 +8,7 @@
 #include <cmath>
 #include <utility>
 
-#include "rondo/analysis/estimate.hpp"
+#include "rondo/analysis/build/memory.hpp"
 #include "rondo/integrators/fused/sparse_plan.hpp"
 #include "rondo/statics/stationary_spin.hpp"
 #include "unit/case/case_fixture.hpp"

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "rondo/analysis/estimate.hpp"
+#include "rondo/analysis/build/memory.hpp"
 
 #include <gtest/gtest.h>
 
-#include "rondo/analysis/bodies.hpp"
+#include "rondo/analysis/build/bodies.hpp"
 #include "rondo/core/bytes.hpp"
 #include "rondo/core/memory_limits.hpp"
 #include "unit/case/case_fixture.hpp"

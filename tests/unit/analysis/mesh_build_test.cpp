@@ -4,8 +4,8 @@
 
 #include <numeric>
 
-#include "rondo/analysis/build.hpp"
-#include "rondo/analysis/crush_build.hpp"
+#include "rondo/analysis/build/build.hpp"
+#include "rondo/analysis/build/crush_setup.hpp"
 #include "unit/analysis/mesh_fixture.hpp"
 
 namespace rondo::study {

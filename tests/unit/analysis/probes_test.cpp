@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-#include "rondo/analysis/build.hpp"
+#include "rondo/analysis/build/build.hpp"
 #include "unit/analysis/mesh_fixture.hpp"
 
 namespace rondo::study {

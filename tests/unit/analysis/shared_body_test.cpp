@@ -2,7 +2,7 @@
 /// Runs of a sweep that share a body have the bits of runs that are built alone.
 #include <gtest/gtest.h>
 
-#include "rondo/analysis/build.hpp"
+#include "rondo/analysis/build/build.hpp"
 #include "unit/case/case_fixture.hpp"
 #include "unit/case/key_cases.hpp"
 

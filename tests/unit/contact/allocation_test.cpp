@@ -66,7 +66,7 @@ TEST(Allocation, NoneOnceTheMemoryIsLargeEnough) {
 TEST(Allocation, NoneInSearchAndClusters) {
   std::vector<Vec2> x;
   std::vector<std::array<int, 2>> edges;
-  for (int i = 0; i <= 200; ++i) x.push_back(rotation(0.03 * i));
+  for (int i = 0; i <= 200; ++i) x.push_back(direction_at(0.03 * i));
   for (int i = 0; i < 200; ++i) edges.push_back({i, i + 1});
   std::vector<int> starts, nodes;
   for (int i = 0; i <= 200; ++i) starts.push_back(2 * i);

@@ -34,9 +34,10 @@ TEST(SolveBlock, IsSolveLocalOnAComplexNumber) {
   std::mt19937 random(1);
   std::uniform_real_distribution<double> u(-1.0, 1.0);
   for (int i = 0; i < 10000; ++i) {
-    const Vec2 w{1.0 + 0.5 * u(random), 0.3 * u(random)}, free{u(random), u(random)};
+    const Complex w{1.0 + 0.5 * u(random), 0.3 * u(random)};
+    const Vec2 free{u(random), u(random)};
     const double mu = 0.75 + 0.75 * u(random), bounce = -0.2 - 0.2 * u(random);
-    const LocalSolution a = solve_block({w.x, -w.y, w.y, w.x}, free, bounce, mu);
+    const LocalSolution a = solve_block({w.re, -w.im, w.im, w.re}, free, bounce, mu);
     const LocalSolution b = solve_local({free, w, bounce}, mu);
     ASSERT_EQ(a.status, b.status);
     ASSERT_LT(norm(a.impulse - b.impulse), 1e-14);  // a few roundings of numbers of order 1
@@ -100,12 +101,13 @@ TEST(Coupled, TwoFacetsAreSolvePair) {
       test::Scene scene;
       const double mu = 0.6 + 0.6 * u(random);
       const int node = scene.add_node(1.0, {u(random), u(random)});
-      const Vec2 n0 = rotation(1.6), n1 = rotation(1.6 - turn);
+      const Vec2 n0 = direction_at(1.6), n1 = direction_at(1.6 - turn);
       scene.add(ground_rows(node, n0), mu);
       scene.add(ground_rows(node, n1), mu);
       const CoupledProblem p = problem_of(scene);
       const Solved s = solved(p);
-      const PairProblem pair{{p.free[0], p.free[1]}, {}, scene.response[0], conj(n0) * n1};
+      const PairProblem pair{
+          {p.free[0], p.free[1]}, {}, scene.response[0], rotation_between(n0, n1)};
       const PairSolution expected = solve_pair(pair, mu);
       ASSERT_TRUE(expected.converged && s.result.converged) << turn << " " << i;
       const auto w =
@@ -273,8 +275,8 @@ TEST(Coupled, AnImpulseThatIsNoNumberIsSeenWhereverItIs) {
 TEST(Coupled, AProblemWithoutASolutionIsReported) {
   test::Scene scene;
   const int node = scene.add_node(1.0, {0.1, -1.0});
-  scene.add(ground_rows(node, rotation(0.4)), 0.9, -0.4);
-  scene.add(ground_rows(node, rotation(2.9)), 0.9, 0.0);
+  scene.add(ground_rows(node, direction_at(0.4)), 0.9, -0.4);
+  scene.add(ground_rows(node, direction_at(2.9)), 0.9, 0.0);
   const CoupledProblem p = problem_of(scene);
   const PairProblem pair{{p.free[0], p.free[1]}, {-0.4, 0.0}, {1.0, 0.0}, rotation(2.5)};
   const bool solvable = solve_pair(pair, 0.9).converged;

@@ -13,7 +13,7 @@ using namespace rondo;
 using namespace rondo::contact;
 
 TEST(Law, OpenStickAndSlipByHand) {
-  const Vec2 w{1.0 / 2.0, 0.0};  // a mass of 2
+  const Complex w{1.0 / 2.0, 0.0};  // a mass of 2
   const auto open = solve_local({{0.1, 3.0}, w, 0.0}, 0.5);
   EXPECT_EQ(open.status, Status::open);
   EXPECT_EQ(open.impulse, Vec2{});
@@ -98,8 +98,8 @@ TEST(Pair, CornerOfARightAngleWithoutFriction) {
   PairProblem p;
   p.delassus = {0.5, 0.0};
   const Vec2 v{2.0, -3.0}, floor{0.0, 1.0}, wall{-1.0, 0.0};
-  p.free = {conj(floor) * v, conj(wall) * v};
-  p.turn = conj(floor) * wall;
+  p.free = {to_frame(floor, v), to_frame(wall, v)};
+  p.turn = rotation_between(floor, wall);
   const PairSolution s = solve_pair(p, 0.0);
   ASSERT_TRUE(s.converged);
   EXPECT_NEAR(s.contact[0].impulse.x, 6.0, 1e-14);

@@ -26,7 +26,7 @@ Place random_place(std::mt19937& random) {
   Place out;
   out.a = {u(random), u(random)};
   out.length = 0.1 + 0.05 * u(random);
-  const Vec2 along = rotation(3.0 * u(random));
+  const Vec2 along = direction_at(3.0 * u(random));
   out.b = out.a + out.length * along;
   out.touch = {.gap = 0.05 * u(random), .at = 0.5 + 0.7 * u(random), .normal = -turn90(along)};
   out.p = out.a + out.touch.at * out.length * along + out.touch.gap * out.touch.normal;
@@ -60,7 +60,7 @@ TEST(NodeToSegment, ImpulsesHaveNoResultantAndNoMoment) {
     ASSERT_LT(norm(on_p + on_a + on_b), 1e-15);
     // Roundings of arms up to 1.5 and impulses up to 2.
     ASSERT_LT(std::abs(cross(x.p, on_p) + cross(x.a, on_a) + cross(x.b, on_b)), 4e-15);
-    ASSERT_LT(norm(on_p - x.touch.normal * r), 1e-15);  // r acts on the point, in its frame
+    ASSERT_LT(norm(on_p - from_frame(x.touch.normal, r)), 1e-15);  // r acts on the point, in its frame
   }
 }
 
@@ -106,8 +106,8 @@ TEST(NodeToSegment, ACornerOfTheGroundIsAPointAtRest) {
 TEST(Delassus, IsTheProductOfRowsAndResponses) {
   for (const double turn : {0.0, 0.2}) {
     test::Scene scene = test::chain({.upper = 9, .lower = 7, .both_ways = true, .turn = turn});
-    scene.add(ground_rows(3, rotation(1.4)), 0.3);
-    scene.add(ground_rows(3, rotation(1.7)), 0.3);
+    scene.add(ground_rows(3, direction_at(1.4)), 0.3);
+    scene.add(ground_rows(3, direction_at(1.7)), 0.3);
     const auto nc = static_cast<Eigen::Index>(scene.contacts.size());
     const auto nodes = static_cast<Eigen::Index>(scene.response.size());
     Eigen::MatrixXd h = Eigen::MatrixXd::Zero(2 * nc, 2 * nodes);
@@ -120,8 +120,8 @@ TEST(Delassus, IsTheProductOfRowsAndResponses) {
       }
     }
     for (Eigen::Index k = 0; k < nodes; ++k) {
-      const Vec2 z = scene.response[static_cast<std::size_t>(k)];
-      g.block<2, 2>(2 * k, 2 * k) << z.x, -z.y, z.y, z.x;
+      const Complex z = scene.response[static_cast<std::size_t>(k)];
+      g.block<2, 2>(2 * k, 2 * k) << z.re, -z.im, z.im, z.re;
     }
     const Eigen::MatrixXd expected = h * g * h.transpose();
     const CoupledProblem p = test::problem_of(scene);

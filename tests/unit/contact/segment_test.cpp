@@ -82,7 +82,7 @@ TEST(Segment, JointsLeaveNoGapAndNoPointTwice) {
   for (int round = 0; round < 2000; ++round) {
     const double turn = 2.5 * u(random), start = 3.0 * u(random);  // > 0 convex, < 0 reflex
     const Vec2 joint{u(random), u(random)};
-    const Vec2 q = joint - rotation(start), r = joint + rotation(start + turn);
+    const Vec2 q = joint - direction_at(start), r = joint + direction_at(start + turn);
     for (int i = 0; i < 50; ++i) {
       const Vec2 p = joint + 0.2 * Vec2{u(random), u(random)};
       const auto first = touch_segment(p, {q, q, joint, r}, 0.3);
@@ -206,10 +206,10 @@ TEST(Boundary, TouchesWhatIsInsideARandomBody) {
     std::vector<Vec2> points;
     const int n = 12 + static_cast<int>(random() % 20);
     for (int i = 0; i < n; ++i)
-      points.push_back((1.0 + 0.1 * u(random)) * rotation(2.0 * std::numbers::pi * i / n));
+      points.push_back((1.0 + 0.1 * u(random)) * direction_at(2.0 * std::numbers::pi * i / n));
     const Body b = body_of(points);
     for (int i = 0; i < 300; ++i) {
-      const Vec2 p = (1.0 + 0.1 * u(random)) * rotation(4.0 * u(random));
+      const Vec2 p = (1.0 + 0.1 * u(random)) * direction_at(4.0 * u(random));
       const double depth = distance_to(points, p);
       const EdgeTouches t = touches(b, p, 0.1);
       const bool in = inside(points, p);

@@ -4,34 +4,62 @@
 #include <cmath>
 #include <numbers>
 
+#include "rondo/core/complex.hpp"
 #include "rondo/core/contract.hpp"
 #include "rondo/core/edit_distance.hpp"
 #include "rondo/core/error.hpp"
+#include "rondo/core/field.hpp"
 #include "rondo/core/keep_larger.hpp"
 #include "rondo/core/sum.hpp"
-#include "rondo/core/vec2.hpp"
 
 using namespace rondo;
 
-TEST(Vec2, IsAComplexNumber) {
-  const Vec2 a{1.0, 2.0}, b{-3.0, 0.5};
-  EXPECT_EQ(a * b, (Vec2{-4.0, -5.5}));
-  EXPECT_EQ(turn90(a), (Vec2{0.0, 1.0} * a));
-  EXPECT_EQ(dot(a, b), (conj(a) * b).x);
-  EXPECT_EQ(cross(a, b), (conj(a) * b).y);
-  const Vec2 quotient = (a * b) / b;
-  EXPECT_NEAR(quotient.x, a.x, 1e-15);
-  EXPECT_NEAR(quotient.y, a.y, 1e-15);
+TEST(Complex, MultipliesAndDivides) {
+  const Complex a{1.0, 2.0}, b{-3.0, 0.5};
+  EXPECT_EQ(a * b, (Complex{-4.0, -5.5}));
+  const Complex quotient = (a * b) / b;
+  EXPECT_NEAR(quotient.re, a.re, 1e-15);
+  EXPECT_NEAR(quotient.im, a.im, 1e-15);
 }
 
-TEST(Vec2, SmallRotationKeepsItsDigits) {
+TEST(Complex, TurnsAndScalesVectors) {
+  const Vec2 v{1.0, 2.0}, w{-3.0, 0.5};
+  const Complex a{1.5, -0.5};
+  EXPECT_EQ(a * v, (Vec2{2.5, 2.5}));
+  EXPECT_EQ(turn90(v), (Complex{0.0, 1.0} * v));
+  EXPECT_NEAR(norm((a * v) / a - v), 0.0, 1e-15);
+  const Complex between = rotation_between(v, w);  // conj(v) w
+  EXPECT_EQ(between * v, dot(v, v) * w);
+}
+
+TEST(Complex, FrameOfANormalIsNormalAndTangent) {
+  const Vec2 normal{0.6, 0.8}, tangent = turn90(normal), force{2.0, -3.0};
+  EXPECT_EQ(to_frame(normal, force), (Vec2{dot(normal, force), dot(tangent, force)}));
+  EXPECT_NEAR(norm(from_frame(normal, to_frame(normal, force)) - force), 0.0, 1e-15);
+}
+
+TEST(Complex, SmallRotationKeepsItsDigits) {
   // e^{iθ} - 1 = iθ - θ²/2: by subtraction the real part would be lost altogether.
-  const Vec2 z = rotation_minus_one(1e-9);
-  EXPECT_NEAR(z.x, -5e-19, 1e-33);
-  EXPECT_NEAR(z.y, 1e-9, 1e-24);
-  const Vec2 big = rotation_minus_one(2.0), direct = rotation(2.0) - Vec2{1.0, 0.0};
-  EXPECT_NEAR(big.x, direct.x, 1e-15);
-  EXPECT_NEAR(big.y, direct.y, 1e-15);
+  const Complex z = rotation_minus_one(1e-9);
+  EXPECT_NEAR(z.re, -5e-19, 1e-33);
+  EXPECT_NEAR(z.im, 1e-9, 1e-24);
+  const Complex big = rotation_minus_one(2.0), direct = rotation(2.0) - Complex{1.0, 0.0};
+  EXPECT_NEAR(big.re, direct.re, 1e-15);
+  EXPECT_NEAR(big.im, direct.im, 1e-15);
+}
+
+TEST(FieldView, ShowsPointsOfAPlaneField) {
+  std::vector<Vec2> field{{1.0, 2.0}, {3.0, 4.0}, {5.0, 6.0}};
+  const FieldView view = field;
+  EXPECT_EQ(view.size(), 3U);
+  EXPECT_EQ(view.components, 2U);
+  EXPECT_EQ(view[1][0], 3.0);
+  EXPECT_EQ(view[2][1], 6.0);
+  MutableFieldView(field).values[3] = 7.0;
+  EXPECT_EQ(field[1], (Vec2{3.0, 7.0}));
+  const FieldView in_space(view.values, 3);
+  EXPECT_EQ(in_space.size(), 2U);
+  EXPECT_EQ(in_space[1][2], 6.0);
 }
 
 TEST(CompensatedSum, KeepsWhatPlainSumsLose) {

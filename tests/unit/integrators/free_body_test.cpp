@@ -33,7 +33,7 @@ std::vector<Vec2> noise(std::size_t n, double size, unsigned seed) {
 
 /// Rigid motion of all nodes, plus a deformation.
 std::vector<Vec2> moved(const Model& model, double angle, Vec2 shift, std::vector<Vec2> extra) {
-  const Vec2 turn = rotation(angle);
+  const Complex turn = rotation(angle);
   for (std::size_t k = 0; k < extra.size(); ++k)
     extra[k] += turn * model.reference[k] + shift - model.reference[k];
   return extra;

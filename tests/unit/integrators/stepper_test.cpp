@@ -92,7 +92,7 @@ TEST(Stepper, LawVelocityIsTheDiscreteMotion) {
       const auto node = static_cast<std::size_t>(b.model.contact->nodes[active[i].candidate]);
       const Vec2 move = position(b.model, state, node) - before[i];
       // Two positions of about 0.5 m, each the sum of three products: some 16 roundings of 6e-17.
-      ASSERT_LT(norm(conj(active[i].normal) * move - b.model.dt * active[i].after), 2e-15);
+      ASSERT_LT(norm(to_frame(active[i].normal, move) - b.model.dt * active[i].after), 2e-15);
       ++seen;
       if (active[i].status != contact::Status::stick) continue;
       ASSERT_LT(norm(move), 2e-15);  // it sticks: it does not creep

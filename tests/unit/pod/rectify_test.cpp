@@ -10,6 +10,7 @@
 #include <set>
 #include <vector>
 
+#include "rondo/core/complex.hpp"
 #include "rondo/fem/assembly.hpp"
 #include "rondo/mesh/disk.hpp"
 
@@ -138,7 +139,7 @@ TEST(Rings, NodesOfARingHaveOneRadiusAndEqualAngles) {
     const Rings rings = node_rings(m);
     ASSERT_EQ(rings.point.size(), m.n_nodes());
     EXPECT_EQ(std::set<int>(rings.point.begin(), rings.point.end()).size(), m.n_nodes());
-    const Vec2 step = rotation(turn / m.n_sectors);
+    const Complex step = rotation(turn / m.n_sectors);
     const auto n = static_cast<std::size_t>(m.n_sectors);
     for (std::size_t k = 0; k < rings.point.size(); ++k) {
       const auto here = static_cast<std::size_t>(rings.point[k]);

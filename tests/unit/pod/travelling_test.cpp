@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "matrices.hpp"
+#include "rondo/core/complex.hpp"
 #include "rondo/mesh/disk.hpp"
 #include "rondo/pod/rectify.hpp"
 

@@ -234,7 +234,7 @@ TEST(ReducedIntegrator, ObeysTheLawAtTheNodesThatComeBy) {
       dynamics::StepReport report;
       reduced.advance({&report, 1}, &found);
       reduced.fields(after);
-      const Vec2 turned = rotation(motion.angle(end)), earlier = rotation(motion.angle(t));
+      const Complex turned = rotation(motion.angle(end)), earlier = rotation(motion.angle(t));
       const Vec2 center_rate{motion.speed.at(end), motion.height.slope(end)};
       Vec2 sum;
       for (const dynamics::ActiveContact& c : found.active) {
@@ -244,7 +244,7 @@ TEST(ReducedIntegrator, ObeysTheLawAtTheNodesThatComeBy) {
         const double gap = r.full.model.contact->ground.distance(motion.center(end) + arm);
         const Vec2 moved = motion.advance(t, dt) + arm - arm_before;
         const Vec2 w = center_rate + spin * turn90(arm) + turned * after.v_next[node];
-        sum += c.normal * c.impulse;
+        sum += from_frame(c.normal, c.impulse);
         EXPECT_GT(c.impulse.x, 0.0);
         EXPECT_LE(std::abs(c.impulse.y), friction * c.impulse.x * (1.0 + 1e-12));
         ++pressed;
@@ -349,7 +349,7 @@ TEST(ReducedIntegrator, GivesItsImpulsesToTheNodes) {
     for (const dynamics::ActiveContact& c : state.active) {
       EXPECT_GE(c.impulse.x, 0.0);
       const auto node = static_cast<std::size_t>(r.full.mesh.boundary[c.candidate]);
-      const Vec2 impulse = c.normal * c.impulse;
+      const Vec2 impulse = from_frame(c.normal, c.impulse);
       sum += impulse;
       moment += cross(position(r.full.model, state, node) - state.frame.center, impulse);
     }

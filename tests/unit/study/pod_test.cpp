@@ -69,8 +69,8 @@ class PodSnapshots : public testing::Test {
   fs::path folder_;
 };
 
-std::vector<Column> all_columns(const io::RunReader& run, std::size_t index) {
-  std::vector<Column> columns;
+std::vector<SnapshotColumn> all_columns(const io::RunReader& run, std::size_t index) {
+  std::vector<SnapshotColumn> columns;
   for (std::size_t j = 0; j < run.n_snapshots(); ++j)
     columns.push_back({index, j, run.times().time[j], run.times().angle[j]});
   return columns;
@@ -82,8 +82,8 @@ TEST_F(PodSnapshots, RowsAreThoseOfTheColumns) {
   std::vector<io::RunReader> runs;
   runs.emplace_back(make("a", 4, 1));
   runs.emplace_back(make("b", 3, 2));
-  std::vector<Column> columns = all_columns(runs[0], 0);
-  for (const Column& c : all_columns(runs[1], 1)) columns.push_back(c);
+  std::vector<SnapshotColumn> columns = all_columns(runs[0], 0);
+  for (const SnapshotColumn& c : all_columns(runs[1], 1)) columns.push_back(c);
   for (const auto quantity : {io::Quantity::displacement, io::Quantity::contact})
     for (const auto& rectified : {std::optional<pod::Shift>{}, std::optional{pod::Shift::fourier},
                                   std::optional{pod::Shift::pitch}}) {
@@ -111,7 +111,8 @@ TEST_F(PodSnapshots, RowsAreThoseOfTheColumns) {
 TEST_F(PodSnapshots, UnweightGivesTheFieldInTheOrderOfTheMesh) {
   std::vector<io::RunReader> runs;
   runs.emplace_back(make("a", 1, 3));
-  std::vector<Column> columns = all_columns(runs[0], 0);  // at θ = 0 both frames are the same
+  std::vector<SnapshotColumn> columns =
+      all_columns(runs[0], 0);  // at θ = 0 both frames are the same
   RunSnapshots snapshots(runs, columns,
                          {io::Quantity::displacement, Weight::mass, pod::Shift::fourier});
   Eigen::MatrixXd column(snapshots.rows(), 1);

@@ -9,14 +9,14 @@ namespace rondo::contact {
 namespace {
 
 /// H_j G H_lᵀ with the complex number G.
-Block through(const Block& hj, Vec2 g, const Block& hl) noexcept {
+Block through(const Block& hj, Complex g, const Block& hl) noexcept {
   const Vec2 n = g * Vec2{hl[0], hl[1]}, t = g * Vec2{hl[2], hl[3]};  // columns of G H_lᵀ
   const Vec2 row_n{hj[0], hj[1]}, row_t{hj[2], hj[3]};
   return {dot(row_n, n), dot(row_n, t), dot(row_t, n), dot(row_t, t)};
 }
 
 Block coupling(const ContactRows& j, const ContactRows& l,
-               std::span<const Vec2> response) noexcept {
+               std::span<const Complex> response) noexcept {
   Block sum{};
   for (std::size_t a = 0; a < static_cast<std::size_t>(j.count); ++a)
     for (std::size_t b = 0; b < static_cast<std::size_t>(l.count); ++b) {
@@ -56,8 +56,8 @@ void DelassusBuilder::find_sharing(const ContactRows& contact) {
   sharing_.erase(std::unique(sharing_.begin(), sharing_.end()), sharing_.end());
 }
 
-void DelassusBuilder::build(std::span<const ContactRows> contacts, std::span<const Vec2> response,
-                            CoupledProblem& problem) {
+void DelassusBuilder::build(std::span<const ContactRows> contacts,
+                            std::span<const Complex> response, CoupledProblem& problem) {
   if (head_.size() < response.size()) head_.resize(response.size(), -1);
   list_contacts(contacts);
   problem.row_start.assign(1, 0);

@@ -31,7 +31,7 @@ ContactRows ground_rows(int node, Vec2 normal) noexcept;
 /// memory only grows.
 class DelassusBuilder {
  public:
-  void build(std::span<const ContactRows> contacts, std::span<const Vec2> response,
+  void build(std::span<const ContactRows> contacts, std::span<const Complex> response,
              CoupledProblem& problem);
 
  private:

@@ -32,8 +32,8 @@ CyclicChunk::CyclicChunk(const Model& model, const CyclicPlan& plan, const kerne
   const auto columns = static_cast<int>(plan.stride) - 2 * halo_columns;
   for (int c = -halo_columns; c < columns + halo_columns; ++c) {
     const int sector = ((range.first + c) % n + n) % n;
-    turn_x_.push_back(model.sector->turn[static_cast<std::size_t>(sector)].x);
-    turn_y_.push_back(model.sector->turn[static_cast<std::size_t>(sector)].y);
+    turn_x_.push_back(model.sector->turn[static_cast<std::size_t>(sector)].re);
+    turn_y_.push_back(model.sector->turn[static_cast<std::size_t>(sector)].im);
   }
   if (plan.halo != Halo::ring)
     for (auto& parity : edges_)
@@ -95,7 +95,7 @@ void CyclicChunk::for_own_nodes(Visit&& visit) const noexcept {
 
 void CyclicChunk::load(const State& state) {
   for_own_nodes([&](int a, int c, std::size_t node) {
-    const Vec2 to_sector = conj(turn(c));
+    const Complex to_sector = conj(turn(c));
     const Vec2 v = to_sector * state.v_next[node];
     put(a, field_now(), c, to_sector * state.u[node] + model_.dt * v);
     put(a, field_v, c, v);
@@ -215,8 +215,8 @@ void CyclicChunk::find_touching(const Work& work, int a) noexcept {
                                     .y = row.y,
                                     .turn_x = turn_x_.data() + halo_columns,
                                     .turn_y = turn_y_.data() + halo_columns,
-                                    .rotation_x = contact.rotation.x,
-                                    .rotation_y = contact.rotation.y,
+                                    .rotation_x = contact.rotation.re,
+                                    .rotation_y = contact.rotation.im,
                                     .limit = ground.top() - contact.center.y + margin,
                                     .first = work.extent.first_column,
                                     .last = work.extent.last_column},
@@ -238,7 +238,8 @@ void CyclicChunk::solve_node(const Work& work, const Touching& t) noexcept {
   const int sector = (range_.first + t.column + plan_.n_sectors) % plan_.n_sectors;
   const auto k =
       static_cast<std::size_t>(plan_.candidate[contact_row][static_cast<std::size_t>(sector)]);
-  const Vec2 frame = turn(t.column), u = at(t.row, work.now, t.column);
+  const Complex frame = turn(t.column);
+  const Vec2 u = at(t.row, work.now, t.column);
   const ContactNode node{k,
                          row.mass,
                          model_.contact->tributary[k],

@@ -56,7 +56,7 @@ class CyclicChunk {
   [[nodiscard]] double* field(int row, int field) noexcept;
   [[nodiscard]] Vec2 at(int row, int field, int column) const noexcept;
   void put(int row, int field, int column, Vec2 value) noexcept;
-  [[nodiscard]] Vec2 turn(int column) const noexcept {
+  [[nodiscard]] Complex turn(int column) const noexcept {
     return {turn_x_[padded(column)], turn_y_[padded(column)]};
   }
   static std::size_t padded(int column) noexcept {

@@ -105,7 +105,7 @@ void SparseIntegrator::find_touching(const Work& work, std::size_t block) const 
   const ContactStep& contact = *work.step->contact;
   constexpr double margin = 1e-9;  // m: the nodes found are looked at again, exactly
   const double limit = model_.contact->ground.top() - contact.center.y + margin;
-  const Vec2 up = {contact.rotation.y, contact.rotation.x};
+  const Vec2 up = {contact.rotation.im, contact.rotation.re};
   const double* u = work.now;
   const SparseCandidate* candidates = plan_.candidates.data();
   const std::size_t last = plan_.first_candidate[block + 1];

@@ -9,16 +9,16 @@ StepContext step_context(const Model& model, long long n) noexcept {
   const FrameStep& f = s.frame;
   const double dt = model.dt;
   const VelocityUpdate update = velocity_update(model.scheme, dt, model.mass_damping, f.spin);
-  const Vec2 inverse = Vec2{1.0, 0.0} / update.a;
+  const Complex inverse = Complex{1.0, 0.0} / update.a;
   s.factors = {.dt = dt,
                .rate_x = -dt * f.spin * f.spin,
                .rate_y = dt * f.spin_rate,
                .pull_x = dt * f.pull.x,
                .pull_y = dt * f.pull.y,
-               .inverse_x = inverse.x,
-               .inverse_y = inverse.y,
-               .drag_x = update.drag.x,
-               .drag_y = update.drag.y,
+               .inverse_x = inverse.re,
+               .inverse_y = inverse.im,
+               .drag_x = update.drag.re,
+               .drag_y = update.drag.im,
                .beta_over_dt = model.stiffness_damping / dt};
   s.terms = {.stiffness_damping = model.stiffness_damping > 0.0,
              .printed = model.scheme == Scheme::as_printed,
@@ -31,7 +31,7 @@ void correct_sums(const StepContext& step, const ContactNode& node, Vec2 after, 
                   std::array<double, kernels::n_sums>& sums) noexcept {
   const kernels::StepFactors& f = step.factors;
   const Vec2 change = after - node.free;
-  const Vec2 frame = Vec2{f.rate_x, f.rate_y} * node.arm + Vec2{f.pull_x, f.pull_y};
+  const Vec2 frame = Complex{f.rate_x, f.rate_y} * node.arm + Vec2{f.pull_x, f.pull_y};
   const Vec2 other = step.terms.printed ? node.before : after + node.free + 2.0 * node.before;
   sums[kernels::sum_frame] += node.mass * dot(change, frame);
   sums[kernels::sum_mass] += node.mass * dot(change, other);  // a² - b² = (a - b)(a + b)

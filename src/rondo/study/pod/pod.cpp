@@ -145,7 +145,7 @@ PodReport run_pod(const PodRequest& asked) {
   report.runs = describe_runs(runs, found.columns);
   report.weight = name_of(choice.weight);
   report.unit = unit_of(choice.quantity, runs.front());
-  report.time_unit.assign(1, is_crush(runs.front()) ? '1' : 's');
+  report.time_unit = runs.front().time_unit();
   report.rows = static_cast<std::size_t>(snapshots.rows());
   report.snapshots = found.columns.size();
   refuse_too_long(request, options.method, snapshots);

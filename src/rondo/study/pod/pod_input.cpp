@@ -143,10 +143,6 @@ std::size_t memory_of(const PodRequest& request) {
   return *bytes;
 }
 
-bool is_crush(const io::RunReader& run) noexcept {
-  return run.analysis() == "crush";
-}
-
 const char* name_of(pod::Method method) noexcept {
   return word_of(method, methods);
 }
@@ -160,7 +156,7 @@ const char* unit_of(io::Quantity quantity, const io::RunReader& run) noexcept {
     case io::Quantity::displacement:
       return "m";
     case io::Quantity::velocity:
-      return is_crush(run) ? "m" : "m/s";  // over the load, a pure number
+      return run.is_motion() ? "m/s" : "m";  // over the load, a pure number
     case io::Quantity::contact:
       return "N/m";
   }
@@ -211,12 +207,12 @@ std::vector<io::RunReader> open_runs(const PodRequest& request, const SnapshotCh
 }
 
 /// The snapshots of all runs within the window, in the order of the runs.
-std::vector<Column> columns_of(const PodRequest& request, const SnapshotChoice& choice,
-                               const std::vector<io::RunReader>& runs) {
+std::vector<SnapshotColumn> columns_of(const PodRequest& request, const SnapshotChoice& choice,
+                                       const std::vector<io::RunReader>& runs) {
   const bool velocity = choice.quantity == io::Quantity::velocity;
   const double from = request.from.value_or(-std::numeric_limits<double>::infinity());
   const double to = request.to.value_or(std::numeric_limits<double>::infinity());
-  std::vector<Column> columns;
+  std::vector<SnapshotColumn> columns;
   for (std::size_t r = 0; r < runs.size(); ++r) {
     const io::RunTimes& of = runs[r].times();
     const std::vector<double>& times = velocity ? of.time_velocity : of.time;

@@ -22,16 +22,13 @@ std::size_t memory_of(const PodRequest& request);
 const char* name_of(pod::Method method) noexcept;
 const char* name_of(Weight weight) noexcept;
 const char* unit_of(io::Quantity quantity, const io::RunReader& run) noexcept;
-/// The times of a crush are shares of its load.
-bool is_crush(const io::RunReader& run) noexcept;
-
 /// Opens the runs and says which are unfinished. @throws InputError: no snapshots, no such field,
 /// no sectors, different meshes; FileError
 std::vector<io::RunReader> open_runs(const PodRequest& request, const SnapshotChoice& choice);
 
 /// The snapshots of all runs within the window, in the order of the runs. @throws InputError: none
-std::vector<Column> columns_of(const PodRequest& request, const SnapshotChoice& choice,
-                               const std::vector<io::RunReader>& runs);
+std::vector<SnapshotColumn> columns_of(const PodRequest& request, const SnapshotChoice& choice,
+                                       const std::vector<io::RunReader>& runs);
 
 /// The request with each sweep replaced by those of its runs that are done. @throws InputError:
 /// they have no snapshots; FileError

@@ -47,9 +47,8 @@ std::vector<std::size_t> spread(std::size_t count, std::size_t columns) {
   return chosen;
 }
 
-std::span<const Vec2> as_points(const Eigen::VectorXd& rows) {
-  static_assert(sizeof(Vec2) == 2 * sizeof(double));
-  return {reinterpret_cast<const Vec2*>(rows.data()), static_cast<std::size_t>(rows.size() / 2)};
+FieldView as_points(const Eigen::VectorXd& rows) {
+  return {{rows.data(), static_cast<std::size_t>(rows.size())}, 2};
 }
 
 /// Snapshots of several runs follow one another by number, for their times would go back.

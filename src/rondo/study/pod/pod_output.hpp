@@ -12,7 +12,7 @@ namespace rondo::study {
 
 /// What a POD found, apart from the snapshots themselves.
 struct PodResult {
-  std::vector<Column> columns;
+  std::vector<SnapshotColumn> columns;
   pod::Decomposition d;
   pod::Spectrum spectrum;
   pod::Identity identity;

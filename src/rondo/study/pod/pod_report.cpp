@@ -36,7 +36,7 @@ void add_energies(PodReport& report, const pod::Decomposition& d, const pod::Spe
 }
 
 void add_identity(PodReport& report, const pod::Identity& identity,
-                  const std::vector<Column>& columns) {
+                  const std::vector<SnapshotColumn>& columns) {
   report.residual = identity.residual;
   report.tail = identity.tail;
   report.difference = identity.difference;
@@ -51,15 +51,15 @@ void add_identity(PodReport& report, const pod::Identity& identity,
 }
 
 /// Sums over the snapshots of each run.
-std::vector<double> by_run(const std::vector<double>& values, const std::vector<Column>& columns,
-                           std::size_t n_runs) {
+std::vector<double> by_run(const std::vector<double>& values,
+                           const std::vector<SnapshotColumn>& columns, std::size_t n_runs) {
   std::vector<double> sums(n_runs, 0.0);
   for (std::size_t j = 0; j < columns.size(); ++j) sums[columns[j].run] += values[j];
   return sums;
 }
 
 void add_run_errors(PodReport& report, const pod::Decomposition& d, const pod::Identity& identity,
-                    const std::vector<Column>& columns) {
+                    const std::vector<SnapshotColumn>& columns) {
   const std::size_t n = report.runs.size();
   const std::vector<double> energy = by_run(identity.snapshot_energy, columns, n);
   const std::vector<double> error = by_run(identity.squared_error, columns, n);
@@ -81,11 +81,11 @@ void add_run_errors(PodReport& report, const pod::Decomposition& d, const pod::I
 }  // namespace
 
 std::vector<PodRun> describe_runs(const std::vector<io::RunReader>& runs,
-                                  const std::vector<Column>& columns) {
+                                  const std::vector<SnapshotColumn>& columns) {
   std::vector<PodRun> described;
   for (const io::RunReader& run : runs)
     described.push_back({run.directory(), run.title(), run.status(), 0, 0.0, 0.0, 0.0, 0.0, {}});
-  for (const Column& c : columns) {
+  for (const SnapshotColumn& c : columns) {
     PodRun& run = described[c.run];
     if (run.snapshots++ == 0) run.from = c.time;
     run.to = c.time;

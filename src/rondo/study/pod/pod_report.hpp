@@ -13,7 +13,7 @@ namespace rondo::study {
 
 /// One entry a run: what of it was taken.
 std::vector<PodRun> describe_runs(const std::vector<io::RunReader>& runs,
-                                  const std::vector<Column>& columns);
+                                  const std::vector<SnapshotColumn>& columns);
 
 /// Those of PodReport::counts that are kept: what the error identity is to look at besides.
 std::vector<pod::Index> kept_counts(const pod::Spectrum& spectrum, pod::Index kept);

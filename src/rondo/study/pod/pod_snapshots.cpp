@@ -49,7 +49,7 @@ constexpr double largest = 1e100;
 
 }  // namespace
 
-RunSnapshots::RunSnapshots(std::span<const io::RunReader> runs, std::vector<Column> columns,
+RunSnapshots::RunSnapshots(std::span<const io::RunReader> runs, std::vector<SnapshotColumn> columns,
                            const SnapshotChoice& choice)
     : runs_(runs), columns_(std::move(columns)), choice_(choice) {
   RONDO_DEMAND(!runs_.empty() && !columns_.empty(), runs_.size(), columns_.size());
@@ -86,7 +86,7 @@ Index RunSnapshots::row_grain() const noexcept {
 }
 
 /// The places [first, first + count) of one snapshot, in the frame asked for, into field_.
-void RunSnapshots::read_order(const Column& column, std::size_t first, std::size_t count) {
+void RunSnapshots::read_order(const SnapshotColumn& column, std::size_t first, std::size_t count) {
   const io::RunReader& run = runs_[column.run];
   const std::span<Vec2> field = std::span(field_).first(count);
   if (!choice_.rectified) {

@@ -15,7 +15,7 @@ namespace rondo::study {
 enum class Weight { mass, delassus, none };
 
 /// One snapshot of one run.
-struct Column {
+struct SnapshotColumn {
   std::size_t run = 0, snapshot = 0;
   double time = 0.0;   ///< the field's own                                               [s]
   double angle = 0.0;  ///< of the turning frame at that time                             [rad]
@@ -32,7 +32,7 @@ struct SnapshotChoice {
 class RunSnapshots final : public pod::SnapshotMatrix {
  public:
   /// @pre all runs have the same mesh and outlive this; rectified only where it has sectors.
-  RunSnapshots(std::span<const io::RunReader> runs, std::vector<Column> columns,
+  RunSnapshots(std::span<const io::RunReader> runs, std::vector<SnapshotColumn> columns,
                const SnapshotChoice& choice);
 
   [[nodiscard]] pod::Index rows() const noexcept override;
@@ -50,11 +50,11 @@ class RunSnapshots final : public pod::SnapshotMatrix {
   void unweight(Eigen::Ref<Eigen::VectorXd> rows);
 
  private:
-  void read_order(const Column& column, std::size_t first, std::size_t count);
+  void read_order(const SnapshotColumn& column, std::size_t first, std::size_t count);
   void store(Eigen::Ref<Eigen::VectorXd> out, std::size_t first, std::size_t count) const;
 
   std::span<const io::RunReader> runs_;
-  std::vector<Column> columns_;
+  std::vector<SnapshotColumn> columns_;
   SnapshotChoice choice_;
   pod::Rings rings_;               ///< empty: rotating
   std::vector<int> order_;         ///< (n_points) point at each place

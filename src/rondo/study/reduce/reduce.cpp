@@ -11,7 +11,7 @@
 #include <system_error>
 #include <utility>
 
-#include "rondo/analysis/build.hpp"
+#include "rondo/analysis/build/build.hpp"
 #include "rondo/analysis/reduced_file.hpp"
 #include "rondo/core/blas_threads.hpp"
 #include "rondo/rom/step_matrices.hpp"
@@ -58,7 +58,7 @@ void check_options(const ReduceRequest& r) {
 /// What can be reduced: a disk in one piece, held by its rim, that rolled to its end.
 void check_run(const io::RunReader& run, const Case& c) {
   const std::string name = run.directory().string();
-  if (run.analysis() != "dynamic")
+  if (!run.is_motion())
     throw request_error("RUN", name, "a crush does not roll: there is no motion to reduce",
                         "runs of analysis.kind = \"dynamic\"");
   if (c.mesh || c.free_rim || run.mesh().n_sectors == 0)
@@ -142,7 +142,7 @@ ModelRanges ranges_of(const ReduceRequest& r, const Source& source) {
   ModelRanges ranges;
   for (const Case& c : source.cases)
     if (c.ground) ranges.friction.take(c.ground->friction);
-  for (const Column& column : columns_of(pod, choice_of(pod), source.runs)) {
+  for (const SnapshotColumn& column : columns_of(pod, choice_of(pod), source.runs)) {
     const Case& c = source.cases[column.run];
     ranges.angular_velocity.take(c.motion.angular_velocity.at(column.time));
     ranges.speed.take(c.motion.speed.at(column.time));

@@ -49,7 +49,7 @@ std::vector<char> touched_places(const Setup& setup, std::span<const io::RunRead
       const double time = run.times().time[j];
       if ((r.from && time < *r.from) || (r.to && time > *r.to)) continue;
       run.read(io::Quantity::contact, j, 0, force);
-      const Vec2 turned = rotation(run.times().angle[j]);
+      const Complex turned = rotation(run.times().angle[j]);
       for (std::size_t i = 0; i < n; ++i) {
         if (force[i] == Vec2{}) continue;
         const auto node = static_cast<std::size_t>(setup.mesh.boundary[i]);

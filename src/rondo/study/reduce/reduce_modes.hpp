@@ -4,7 +4,7 @@
 #pragma once
 #include <optional>
 
-#include "rondo/analysis/build.hpp"
+#include "rondo/analysis/build/build.hpp"
 #include "rondo/study/pod/pod_snapshots.hpp"
 #include "rondo/study/reduce/reduce.hpp"
 

@@ -6,13 +6,13 @@
 #include <iterator>
 #include <system_error>
 
+#include "rondo/analysis/history_statistics.hpp"
 #include "rondo/core/build_id.hpp"
 #include "rondo/core/error.hpp"
 #include "rondo/io/csv.hpp"
 #include "rondo/io/files.hpp"
 #include "rondo/io/h5/h5.hpp"
 #include "rondo/io/run_reader.hpp"
-#include "rondo/study/sweep/history_statistics.hpp"
 
 namespace rondo::study {
 namespace {
@@ -31,11 +31,7 @@ bool is_whole(const fs::path& directory, const Json& j) {
   const auto number = [&](const char* key) { return number_in(j, key); };
   const Columns history = io::read_columns(directory / "history.csv");
   const std::vector<double>& time = column(history, "time_s", directory / "history.csv");
-  if (text_in(j, "analysis") == "crush") {
-    if (static_cast<double>(time.size()) != number("increments_done") + 1.0) return false;
-  } else if (std::abs(time.back() - number("end_time")) > 1e-9 * time.back()) {
-    return false;
-  }
+  if (std::abs(time.back() - number("last_time")) > 1e-9 * time.back()) return false;
   if (number("snapshots") == 0.0) {
     static_cast<void>(io::h5::File::open(directory / "results.h5"));  // it opens
     return true;
@@ -47,8 +43,7 @@ bool is_whole(const fs::path& directory, const Json& j) {
 /// A run that failed did so by itself, at a step: not for want of space on the disk.
 bool ended(const Json& j) {
   const std::string status = text_in(j, "status");
-  return status == "done" ||
-         (status == "failed" && (j.contains("steps_done") || j.contains("increments_done")));
+  return status == "done" || (status == "failed" && j.contains("steps_done"));
 }
 
 }  // namespace

@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <map>
 
-#include "rondo/analysis/build.hpp"
+#include "rondo/analysis/build/build.hpp"
 #include "rondo/case/toml_text.hpp"
 #include "rondo/output/run_files.hpp"
 #include "rondo/study/sweep/sweep_target.hpp"

@@ -10,7 +10,7 @@
 #include <stdexcept>
 #include <system_error>
 
-#include "rondo/analysis/build.hpp"
+#include "rondo/analysis/build/build.hpp"
 #include "rondo/analysis/run.hpp"
 #include "rondo/case/case_keys.hpp"
 #include "rondo/case/case_source.hpp"
@@ -19,7 +19,6 @@
 #include "rondo/output/run_files.hpp"
 #include "rondo/study/sweep/kept_runs.hpp"
 #include "rondo/study/sweep/sweep_directory.hpp"
-#include "rondo/study/sweep/sweep_figures.hpp"
 #include "rondo/study/sweep/sweep_results.hpp"
 
 namespace rondo::study {
@@ -33,22 +32,21 @@ constexpr const char* leader_failed = "failed";
 // One run ---------------------------------------------------------------------------------------
 
 /// What run.json and history.csv say of a run that has ended.
-MemberRow row_of(const fs::path& directory, AnalysisKind kind, const Window& window) {
+MemberRow row_of(const fs::path& directory, const AnalysisType& type, const Window& window) {
   const Json j = io::read_json(directory / "run.json");
   MemberRow row;
   row.status = text_in(j, "status") == "done" ? MemberStatus::done : MemberStatus::failed;
   row.message = text_in(j, "message");
   row.code = row.status == MemberStatus::done ? job_done : job_failed;
-  const bool crush = kind == AnalysisKind::crush;
-  row.steps = static_cast<long long>(number_in(j, crush ? "increments_done" : "steps_done"));
-  row.end_time = crush ? 0.0 : number_in(j, "end_time");
-  row.wall_s = std::max(0.0, number_in(j, crush ? "loop_wall_s" : "total_wall_s"));
-  if (row.status == MemberStatus::done) row.figures = figures_of(directory, kind, window);
+  row.steps = static_cast<long long>(number_in(j, "steps_done"));
+  row.end_time = std::max(0.0, number_in(j, "end_time"));
+  row.wall_s = std::max(0.0, number_in(j, "total_wall_s"));
+  if (row.status == MemberStatus::done) row.figures = type.figures.of(directory, window);
   return row;
 }
 
-MemberRow interrupted_row(const fs::path& directory, AnalysisKind kind) {
-  MemberRow row = row_of(directory, kind, {});
+MemberRow interrupted_row(const fs::path& directory, const AnalysisType& type) {
+  MemberRow row = row_of(directory, type, {});
   row.status = MemberStatus::interrupted;
   row.code = job_interrupted;
   return row;
@@ -67,9 +65,9 @@ struct Runner {
     const bool kept = run_is_there(directory, c);
     if (!kept) {
       const RunStatus status = make(c, directory, stop);
-      if (status == RunStatus::interrupted) return packed(interrupted_row(directory, plan.kind));
+      if (status == RunStatus::interrupted) return packed(interrupted_row(directory, *plan.type));
     }
-    MemberRow row = row_of(directory, plan.kind, study.window);
+    MemberRow row = row_of(directory, *plan.type, study.window);
     row.kept = kept;
     return packed(row);
   }
@@ -79,8 +77,7 @@ struct Runner {
     RunOptions options;
     options.directory = directory;
     options.threads = 1;
-    const bool crush = c.analysis.kind == AnalysisKind::crush;
-    options.resume = !crush && can_go_on(directory, c);
+    options.resume = can_go_on(directory, c);
     options.overwrite = !options.resume;
     options.stop = &stop;
     options.shared = &shared;
@@ -94,7 +91,8 @@ struct Runner {
   static bool can_go_on(const fs::path& directory, const Case& c) {
     try {
       const Json j = io::read_json(directory / "run.json");
-      return text_in(j, "status") != "done" && is_of_this_program(j) && is_case_of(directory, c);
+      return text_in(j, "status") != "done" && j.value("resumable", false) &&
+             is_of_this_program(j) && is_case_of(directory, c);
     } catch (const FileError&) {
       return false;
     }
@@ -134,7 +132,7 @@ class Sweep {
       if (!fs::exists(directory / "run.json", error) ||
           !run_is_there(directory, case_of(study_, plan_.members[m])))
         continue;
-      rows_[m] = row_of(directory, plan_.kind, study_.window);
+      rows_[m] = row_of(directory, *plan_.type, study_.window);
       rows_[m].kept = true;
     }
   }
@@ -189,7 +187,7 @@ class Sweep {
     j["status"] = status;
     j["title"] = study_.title;
     describe_program(j);
-    j["analysis"] = plan_.kind == AnalysisKind::crush ? "crush" : "dynamic";
+    j["analysis"] = plan_.type->name;
     j["study"] = as_utf8(study_.file.filename().string());
     j["base"] = as_utf8(study_.base.filename().string());
     j["parameters"] = describe_parameters();

@@ -13,9 +13,9 @@
 #include <tuple>
 #include <utility>
 
-#include "rondo/analysis/build.hpp"
+#include "rondo/analysis/build/build.hpp"
+#include "rondo/analysis/build/memory.hpp"
 #include "rondo/analysis/check.hpp"
-#include "rondo/analysis/estimate.hpp"
 #include "rondo/core/memory_limits.hpp"
 #include "rondo/io/h5/hash.hpp"
 #include "rondo/output/run_files.hpp"
@@ -31,9 +31,9 @@ void check_window(const SweepStudy& study, const Case& c) {
   const auto wrong = [&](const std::string& message, const char* allowed) {
     throw InputError(Fault{study.file.string(), 0, 0, "window", "", message, allowed});
   };
-  if (c.analysis.kind == AnalysisKind::crush) {
+  if (!type_of(c).figures.has_window) {
     if (study.window.from || study.window.to)
-      wrong("means nothing to crushes, whose ends are compared", "no [window]");
+      wrong("means nothing to runs whose ends are compared", "no [window]");
     return;
   }
   const double to = study.window.to.value_or(c.time.end);
@@ -76,7 +76,7 @@ class MeshHashes {
 /// Before a mesh file is read: some bytes of memory for each of its own.
 std::size_t guessed_memory(const Case& c) {
   constexpr std::size_t per_byte = 60;
-  if (!c.mesh) return estimated_memory(c, size_of(c.disk));
+  if (!c.mesh) return mesh_memory(size_of(c.disk));
   std::error_code error;
   const auto size = fs::file_size(c.mesh->file, error);
   return error ? 0 : per_byte * static_cast<std::size_t>(size);
@@ -89,7 +89,7 @@ void read_members(const SweepStudy& study, PlannedSweep& plan, MemberFaults& fau
     try {
       const Case c = case_of(study, member);
       check_window(study, c);
-      plan.kind = c.analysis.kind;
+      plan.type = &type_of(c);
       member.hash = hash_of(write_case(c) + meshes.of(c));
       member.body = hash_of(body_key(c) + meshes.of(c));
       member.memory_bytes = guessed_memory(c);
@@ -147,11 +147,10 @@ std::string check_member(const MembersRequest& request, const PlannedMember& mem
     checker.body = member.body;
     const double stepping = checker.per_step * static_cast<double>(r.steps);
     constexpr double files = 0.01;  // of a run: measured, docs/studies.md
-    const bool crush = c.analysis.kind == AnalysisKind::crush;
-    j = {{"steps", crush ? r.increments : r.steps},
+    j = {{"steps", r.steps},
          {"nodes", r.nodes},
          {"dofs", r.dofs},
-         {"seconds", crush ? 0.0 : stepping + std::max(0.0, built) + files},
+         {"seconds", stepping > 0.0 ? stepping + std::max(0.0, built) + files : 0.0},
          {"memory", r.memory_bytes},
          {"disk", r.disk_bytes},
          {"warnings", r.warnings}};
@@ -218,7 +217,7 @@ std::function<void(std::size_t)> MembersRequest::watch(const char* what, std::si
 
 Case case_of(const SweepStudy& study, const PlannedMember& member) {
   Case c = read_case(study.base, member.settings);
-  if (!study.snapshots && c.analysis.kind == AnalysisKind::dynamic) c.output.snapshots = 0;
+  if (!study.snapshots) c.output.snapshots = 0;
   return c;
 }
 

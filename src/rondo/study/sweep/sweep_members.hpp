@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "rondo/analysis/registry.hpp"
 #include "rondo/case/case.hpp"
 #include "rondo/study/sweep/sweep_plan.hpp"
 #include "rondo/study/sweep/sweep_team.hpp"
@@ -21,8 +22,8 @@ struct PlannedMember {
   std::size_t memory_bytes = 0;       ///< at its largest
   std::size_t disk_bytes = 0;
   std::size_t nodes = 0, dofs = 0;
-  long long steps = 0;   ///< of a crush: increments
-  double seconds = 0.0;  ///< expected; 0: not asked for, or a crush
+  long long steps = 0;   ///< or increments
+  double seconds = 0.0;  ///< expected; 0: not asked for, or not estimated
   std::vector<std::string> warnings;
 };
 
@@ -37,7 +38,7 @@ struct MembersRequest {
 };
 
 struct PlannedSweep {
-  AnalysisKind kind = AnalysisKind::dynamic;
+  const AnalysisType* type = nullptr;  ///< of all members
   std::vector<PlannedMember> members;  ///< in the order of their numbers
   /// Members in the order in which they are done: those that share a body one after the other, the
   /// longest first.

@@ -13,7 +13,6 @@
 #include "rondo/io/files.hpp"
 #include "rondo/io/h5/h5.hpp"
 #include "rondo/output/run_files.hpp"
-#include "rondo/study/sweep/sweep_figures.hpp"
 
 namespace rondo::study {
 namespace {
@@ -45,7 +44,7 @@ std::string header(const SweepTables& t) {
     text += fmt::format(",{}", vary.key);
   }
   text += ",status,steps,end_time_s";
-  for (const FigureColumn& column : figure_columns(t.plan.kind))
+  for (const FigureColumn& column : t.plan.type->figures.columns)
     text += fmt::format(",{}", column.name);
   text.push_back('\n');
   return text;
@@ -60,7 +59,7 @@ std::string line_of(const SweepTables& t, std::size_t m) {
     if (t.study.parameters[k].is_target) text += fmt::format(",{}", number_text(member.targets[k]));
   }
   text += fmt::format(",{},{},{}", name_of(row.status), row.steps, row.end_time);
-  for (std::size_t k = 0; k < figure_columns(t.plan.kind).size(); ++k)
+  for (std::size_t k = 0; k < t.plan.type->figures.columns.size(); ++k)
     text += fmt::format(",{}", number_text(row.figures.empty() ? none : row.figures[k]));
   text.push_back('\n');
   return text;
@@ -123,9 +122,9 @@ void write_h5(const std::filesystem::path& path, const SweepTables& t) {
     end_time.push_back(row.end_time);
   }
   write_column(file, "/status", status, {"1", "0 waiting, 1 done, 2 failed, 3 interrupted"});
-  write_column(file, "/steps", steps, {"1", "done; increments of a crush"});
+  write_column(file, "/steps", steps, {"1", "steps or increments done"});
   write_column(file, "/end_time", end_time, {"s", "reached"});
-  const std::span<const FigureColumn> columns = figure_columns(t.plan.kind);
+  const std::span<const FigureColumn> columns = t.plan.type->figures.columns;
   for (std::size_t k = 0; k < columns.size(); ++k) {
     std::vector<double> values;
     for (const MemberRow& row : t.rows)

@@ -20,8 +20,8 @@ struct MemberRow {
   std::string message;          ///< of a failure
   bool kept = false;            ///< it was there already
   long long steps = 0;          ///< done
-  double end_time = 0.0;        ///< reached [s]; 0 of a crush
-  std::vector<double> figures;  ///< as figure_columns(); empty: none
+  double end_time = 0.0;        ///< reached [s]; 0: no motion
+  std::vector<double> figures;  ///< as the columns of the plan's figures; empty: none
   int worker = 0;
   double wall_s = 0.0;  ///< of the run when it was made
 };

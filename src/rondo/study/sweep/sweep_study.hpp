@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "rondo/analysis/figures.hpp"
 #include "rondo/core/error.hpp"
 
 namespace rondo::study {
@@ -28,11 +29,6 @@ struct Vary {
 struct Sample {
   int count = 0;
   std::uint64_t seed = 0;
-};
-
-/// Part of each run that means and peaks are taken over [s]; absent: its last half, up to its end.
-struct Window {
-  std::optional<double> from, to;
 };
 
 struct SweepStudy {

@@ -6,8 +6,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "rondo/analysis/bodies.hpp"
-#include "rondo/analysis/crush_run.hpp"
+#include "rondo/analysis/build/bodies.hpp"
+#include "rondo/analysis/build/crush_setup.hpp"
 #include "rondo/core/error.hpp"
 
 namespace rondo::study {

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "rondo/analysis/crush_build.hpp"
+#include "rondo/analysis/build/crush_setup.hpp"
 #include "rondo/case/case.hpp"
 
 namespace rondo::study {

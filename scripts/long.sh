@@ -1,0 +1,11 @@
+#!/usr/bin/env bash
+# The long figures of docs/validation.md and docs/reliability.md: runs of 10^6 and 10^7 steps, the
+# finest meshes, whole studies. Ends with ctest's summary; arguments go to ctest, for example
+#   bash scripts/long.sh -R Ledger     only these
+set -euo pipefail
+cd "$(dirname "$0")/.."
+
+bash scripts/setup.sh --dev
+cmake --preset release -DRONDO_BUILD_TESTS=ON -DRONDO_WERROR=ON
+cmake --build --preset release
+ctest --test-dir build/release --output-on-failure -j "$(nproc)" -L long "$@"

@@ -1,0 +1,235 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "rondo/analysis/build/build.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <thread>
+
+#include "rondo/analysis/build/initial_state.hpp"
+#include "rondo/analysis/build/memory.hpp"
+#include "rondo/analysis/build/stability.hpp"
+#include "rondo/case/case_keys.hpp"
+#include "rondo/integrators/fused/batch_integrator.hpp"
+#include "rondo/statics/stationary_spin.hpp"
+
+namespace rondo::study {
+
+namespace {
+
+/// What the candidates may touch: the ground, and bodies.
+void add_contacts(const Case& c, const mesh::Mesh& mesh, dynamics::Model& model) {
+  if (c.ground)
+    model.contact.emplace(dynamics::ContactModel{contact::Ground(c.ground->shape),
+                                                 {c.ground->friction, c.ground->restitution},
+                                                 mesh.boundary,
+                                                 mesh.tributary,
+                                                 mesh.contact_edges});
+  const BodyContactCase& between = c.body_contact;
+  if (between.between != BodyContact::none)
+    model.surfaces.emplace(dynamics::SurfaceContact{mesh.boundary,
+                                                    mesh.tributary,
+                                                    mesh.contact_edges,
+                                                    between.between == BodyContact::all,
+                                                    {between.friction, between.restitution}});
+}
+
+void add_pressures(const Case& c, const mesh::Mesh& mesh, dynamics::Model& model) {
+  for (std::size_t k = 0; k < c.pressures.size(); ++k) {
+    const std::string key = item_of("load.pressure", k) + ".curve";
+    model.pressures.push_back(
+        {curve_of(c, mesh, key, c.pressures[k].curve), c.pressures[k].pressure});
+  }
+}
+
+/// Bodies that nothing holds, where they start. They turn, and so do the sectors of a free disk,
+/// which are none then.
+void find_bodies(const Case& c, Setup& s) {
+  if (!may_be_free(c)) return;
+  dynamics::find_free_bodies(s.mesh, s.model);
+  place_free_bodies(c, s.mesh, s.model);
+  if (s.model.free_bodies.empty()) return;
+  s.mesh.n_sectors = 0;
+  s.mesh.sector.clear();
+  s.mesh.sector_node.clear();
+  if (c.time.scheme == Scheme::as_printed)
+    throw case_error(c, "time.scheme",
+                     fmt::format("{} of the bodies are free, and nothing turns them",
+                                 s.model.free_bodies.size()),
+                     "\"symplectic\", or bodies that mesh.clamped holds");
+}
+
+void make_model(const Case& c, Setup& s) {
+  dynamics::Model& model = s.model;
+  model.reference = s.mesh.coordinates;
+  model.mass = fem::lumped_mass(s.mesh, s.materials);
+  model.free = fem::free_nodes(s.mesh);
+  find_bodies(c, s);
+  add_contacts(c, s.mesh, model);
+  add_pressures(c, s.mesh, model);
+  if (s.mesh.n_sectors > 0) model.sector = fem::assemble_sector(s.mesh, s.materials);
+  if (model.sector && c.solver_operator != "sparse" && !is_general(model))
+    model.stiffness_operator = dynamics::StiffnessOperator::cyclic;
+  if (model.stiffness_operator == dynamics::StiffnessOperator::sparse || !by_harmonics(model))
+    model.stiffness = fem::assemble_stiffness(s.mesh, s.materials);
+  model.stiffness_damping = c.damping.stiffness;
+  model.scheme = c.time.scheme;
+}
+
+/// What does not change the body: see body_key().
+void set_motion_and_friction(const Case& c, dynamics::Model& model) {
+  model.mass_damping = c.damping.mass;
+  model.motion = c.motion;
+  model.coupled = {c.contact_iterations, c.dump_contacts};
+  if (model.contact) model.contact->law = {c.ground->friction, c.ground->restitution};
+}
+
+/// K := K + K_σ of the stress of the initial spin, in both forms as far as they are there.
+void add_stress_stiffening(const Case& c, Setup& s) {
+  if (c.stress_stiffening == StressStiffening::none) return;
+  dynamics::Model& m = s.model;
+  const double spin = c.motion.angular_velocity.at(0.0);
+  if (spin == 0.0)
+    s.warnings.emplace_back(
+        "material.stress_stiffening: the initial angular velocity is 0, its stress stiffens "
+        "nothing");
+  auto found =
+      by_harmonics(m)
+          ? statics::centrifugal_prestress(*m.sector, m.mass, m.reference, spin)
+          : statics::centrifugal_prestress(m.stiffness, m.mass, m.reference, held_nodes(m), spin);
+  if (found.status != statics::SpinStatus::solved)
+    throw case_error(c, "material.stress_stiffening",
+                     "the stress of the spin was not found: the stiffness is not positive definite "
+                     "to round-off",
+                     "\"none\", or a material and a mesh in SI units");
+  s.prestress = std::move(found.u);
+  if (m.sector) m.sector = fem::assemble_sector(s.mesh, s.materials, s.prestress);
+  if (!m.stiffness.row_start.empty())
+    m.stiffness = fem::assemble_stiffness(s.mesh, s.materials, s.prestress);
+}
+
+void choose_threads(Setup& s, int asked) {
+  const int most = dynamics::most_threads(s.model);
+  if (asked > most)
+    s.warnings.push_back(
+        fmt::format("{} threads instead of {}: the {} operator shares out no smaller parts of this "
+                    "body (docs/performance.md)",
+                    most, asked, operator_name(s.model.stiffness_operator)));
+  if (asked <= 0) {
+    const bool small = 2 * s.model.free.size() < single_thread_dofs;
+    asked = small ? 1 : static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
+  }
+  s.model.threads = std::min(asked, most);
+}
+
+double choose_step(const Case& c, const dynamics::CriticalStep& critical) {
+  if (!(critical.omega > 0.0) || !std::isfinite(critical.omega) || !(critical.step > 0.0))
+    throw case_error(c, "material.youngs_modulus",
+                     fmt::format("with this density and mesh the largest frequency is {} rad/s, "
+                                 "out of the range of the numbers",
+                                 critical.omega),
+                     "a modulus and a density in SI units");
+  if (!c.time.step) return c.time.safety * critical.step;
+  if (*c.time.step > critical.step * (1.0 + 1e-12))
+    throw case_error(
+        c, "time.step",
+        fmt::format(
+            "the step {:.6g} s is above the critical step {:.6g} s of this mesh and material",
+            *c.time.step, critical.step),
+        fmt::format("0 < step <= {:.6g}, or leave it out and give time.safety", critical.step));
+  return *c.time.step;
+}
+
+dynamics::CriticalStep find_critical_step(const Case& c, const Setup& s) {
+  const dynamics::Model& m = s.model;
+  const bool lagged = c.time.scheme == Scheme::as_printed;
+  const dynamics::LaggedDamping damping{c.damping.stiffness, lagged ? c.damping.mass : 0.0};
+  if (by_harmonics(m))
+    return dynamics::critical_step(*m.sector, m.mass, damping,
+                                   fem::sector_eigenvalue_bound(s.mesh, s.materials, s.prestress));
+  return dynamics::critical_step(m.stiffness, m.mass, m.free, damping,
+                                 fem::element_eigenvalue_bound(s.mesh, s.materials, s.prestress),
+                                 m.threads);
+}
+
+}  // namespace
+
+long long count_steps(const Case& c, double dt) {
+  const double steps = c.time.end / dt;
+  if (steps > 1e12)
+    throw case_error(c, "time.end", fmt::format("the run would take {:.3g} steps", steps),
+                     "at most 1e+12 steps");
+  const double nearest = std::round(steps);  // 0.1 / 1e-5 is 10000, whatever its last bit says
+  return static_cast<long long>(std::abs(steps - nearest) < 1e-9 * nearest ? nearest
+                                                                           : std::ceil(steps));
+}
+
+int count_bodies(const dynamics::Model& model) {
+  return model.body.empty() ? 1 : 1 + *std::max_element(model.body.begin(), model.body.end());
+}
+
+bool by_harmonics(const dynamics::Model& model) {
+  return model.sector && 2 * model.free.size() > harmonic_setup_dofs;
+}
+
+std::vector<int> held_nodes(const dynamics::Model& model) {
+  std::vector<int> held = model.free;
+  std::erase_if(held,
+                [&](int node) { return in_fixed_frame(model, static_cast<std::size_t>(node)); });
+  return held;
+}
+
+std::string body_key(const Case& c) {
+  Case body = c;
+  for (const CaseKey& key : case_keys())
+    if (!key.use.changes_body(c)) reset(key, body);
+  if (c.stress_stiffening != StressStiffening::none)  // by the spin at the start
+    body.motion.angular_velocity = dynamics::Table(c.motion.angular_velocity.at(0.0));
+  return write_case(body);
+}
+
+namespace {
+
+/// What takes time, and hangs on body_key() alone.
+Setup make_body(const Case& c, int threads) {
+  Setup s;
+  s.mesh = build_mesh(c, &s.warnings);
+  demand_memory(c, s.mesh.n_nodes(), motion_memory(c, size_of(s.mesh)));
+  check_places(c, s.mesh);
+  s.materials = materials_of(c, s.mesh);
+  s.probes = find_probes(c, s.mesh);  // before free bodies are moved to where they start
+  make_model(c, s);
+  add_stress_stiffening(c, s);
+  choose_threads(s, threads);
+  s.critical = find_critical_step(c, s);
+  return s;
+}
+
+Setup shared_body(const Case& c, int threads, SharedBody& shared) {
+  std::string key = fmt::format("{}\nthreads = {}\n", body_key(c), threads);
+  if (shared.key != key) {
+    shared = {};
+    shared.setup = make_body(c, threads);
+    shared.key = std::move(key);
+  }
+  check_places(c, shared.setup.mesh);
+  return shared.setup;
+}
+
+}  // namespace
+
+Setup build(const Case& c, int threads, SharedBody* shared) {
+  Setup s = shared ? shared_body(c, threads, *shared) : make_body(c, threads);
+  set_motion_and_friction(c, s.model);
+  set_initial_fields(c, s, shared);
+  check_start(c, s);
+  s.model.dt = choose_step(c, s.critical);
+  s.n_steps = count_steps(c, s.model.dt);
+  check_stability(c, s);
+  if (shared) shared->setup.frequencies_above = s.frequencies_above;
+  return s;
+}
+
+}  // namespace rondo::study

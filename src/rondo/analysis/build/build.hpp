@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: BSD-3-Clause
+/// @file  From a case to what a run needs: mesh, model, critical step, initial fields.
+#pragma once
+#include <any>
+#include <string>
+#include <vector>
+
+#include "rondo/analysis/build/bodies.hpp"
+#include "rondo/case/setup.hpp"
+
+namespace rondo::study {
+
+/// What runs one after the other share as long as only friction, motion, mass damping, times and
+/// output differ: mesh, masses, stiffness, critical step, the last stationary state. A run built
+/// from it has the same bits as one built alone.
+struct SharedBody {
+  std::string key;  ///< the case without what may differ; empty: none yet
+  Setup setup;
+  double spin = 0.0;             ///< of the stationary state [rad/s]
+  std::vector<Vec2> stationary;  ///< (n) empty: none yet [m]
+  std::any other;                ///< what an analysis keeps instead, of a type of its own
+};
+
+/// Equal for cases that share a body.
+std::string body_key(const Case& c);
+
+/// ceil(end / step), where that is not a whole number by the last bit. @throws InputError: too many
+long long count_steps(const Case& c, double dt);
+
+/// Threads used where the user names none: 1 below this many free degrees of freedom, where
+/// starting threads at every step costs more than it brings; all cores above.
+inline constexpr std::size_t single_thread_dofs = 20000;
+
+/// Above this many free degrees of freedom, on meshes of equal sectors, the critical step, the
+/// stationary start and the check of softening work sector by sector, harmonic by harmonic: memory
+/// and time of one sector. Below it, with the assembled K, as they always did: to the same bits.
+inline constexpr std::size_t harmonic_setup_dofs = 200000;
+
+/// Parts that no cell joins.
+int count_bodies(const dynamics::Model& model);
+
+/// What can be done harmonic by harmonic is.
+bool by_harmonics(const dynamics::Model& model);
+
+/// Nodes that move in the turning frame, ascending.
+std::vector<int> held_nodes(const dynamics::Model& model);
+
+/// @param threads 0: chosen by size. @throws InputError: what build_mesh() says, step above the
+/// critical one, spin beyond the softening limit with a stationary start, start inside the ground.
+/// @param shared is used where it fits the case, and else replaced; null: nothing is kept
+Setup build(const Case& c, int threads, SharedBody* shared = nullptr);
+
+}  // namespace rondo::study

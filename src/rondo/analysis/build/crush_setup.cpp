@@ -1,0 +1,99 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "rondo/analysis/build/crush_setup.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "rondo/analysis/build/bodies.hpp"
+#include "rondo/analysis/build/memory.hpp"
+#include "rondo/core/contract.hpp"
+#include "rondo/output/run_options.hpp"
+
+namespace rondo::study {
+namespace {
+
+void refuse_free_bodies(const Case& c, const mesh::Mesh& mesh) {
+  const mesh::Bodies bodies = mesh::find_bodies(mesh);
+  std::vector<char> held(static_cast<std::size_t>(bodies.count), 0);
+  for (const int node : mesh.clamped)
+    held[static_cast<std::size_t>(bodies.of_node[static_cast<std::size_t>(node)])] = 1;
+  const auto free = std::count(held.begin(), held.end(), 0);
+  if (free > 0)
+    throw case_error(c, "mesh.clamped",
+                     fmt::format("holds {} of {} bodies, and a crush presses them down by what is "
+                                 "held",
+                                 bodies.count - free, bodies.count),
+                     "a physical curve of every body");
+  if (mesh.boundary.empty())
+    throw case_error(c, "mesh.contact", "no node may touch the ground",
+                     "a physical curve of the mesh");
+}
+
+std::string not_solved(const statics::CrushReport& report, double bound) {
+  const char* failed =
+      report.pivoting == statics::Pivoting::failed ? ", which found none in numbers" : "";
+  return fmt::format(
+      "the contact was not solved: contact residual {:.3g}, bound {:.0e}, after {} sweeps and {} "
+      "pivots{}; a smaller ground.friction is easier",
+      report.residual, bound, report.sweeps, report.pivots, failed);
+}
+
+}  // namespace
+
+std::size_t crush_memory(const Case& c, const CrushSetup& s) {
+  const std::size_t nodes = s.mesh.n_nodes();
+  constexpr std::size_t columns_at_once = 32, copies = 3;  // loads, solution, within CHOLMOD
+  const std::size_t fields = copies * columns_at_once * 2 * nodes;
+  const double rows = 2.0 * static_cast<double>(s.within_reach);
+  const bool pivots = c.ground->friction > 1.0;                // only then seen to be needed
+  const double matrices = (pivots ? 7.5 : 3.0) * rows * rows;  // compliance and direct solves
+  return mesh_memory(size_of(s.mesh)) + stiffness_memory(nodes) + factor_memory(2 * nodes) +
+         (fields + static_cast<std::size_t>(matrices)) * sizeof(double);
+}
+
+CrushSetup build_crush(const Case& c) {
+  RONDO_DEMAND(c.analysis.kind == AnalysisKind::crush && c.ground.has_value(),
+               c.ground.has_value());
+  CrushSetup s;
+  s.mesh = build_mesh(c, &s.warnings);
+  s.materials = materials_of(c, s.mesh);
+  refuse_free_bodies(c, s.mesh);
+  s.mass = fem::lumped_mass(s.mesh, s.materials);
+  s.free = fem::free_nodes(s.mesh);
+  s.model = statics::make_crush_model(s.mesh.coordinates, s.mesh.boundary, c.ground->friction);
+  s.ground_height = c.ground->shape.profile.front().y;
+  const std::size_t first = static_cast<std::size_t>(s.mesh.boundary.front());
+  s.touch_height = s.model.clearance.front() - s.mesh.coordinates[first].y;
+  s.reach = 2.0 * c.analysis.depth;  // what the body bulges beside the contact stays below that
+  s.within_reach = static_cast<std::size_t>(
+      std::count_if(s.model.clearance.begin(), s.model.clearance.end(),
+                    [&](double clearance) { return clearance <= s.reach; }));
+  demand_memory(c, s.mesh.n_nodes(), crush_memory(c, s));
+  return s;
+}
+
+void condense(const Case& c, const CrushSetup& setup, statics::Condensation& body) {
+  if (body.factorised()) statics::append_within(setup.model, setup.reach, body);
+  if (!body.factorised() || !body.compliance().allFinite())
+    throw case_error(c, "material.youngs_modulus",
+                     "with this mesh the stiffness is not positive definite in numbers",
+                     "a modulus in SI units, a Poisson's ratio farther from 0.5 and -1");
+}
+
+std::string crush_trouble(const statics::CrushReport& report, const statics::CrushWorks& works,
+                          double bound) {
+  if (!std::isfinite(report.residual) || !std::isfinite(report.equilibrium))
+    return "the forces or displacements are out of the range of the numbers";
+  if (!report.converged) return not_solved(report, bound);
+  if (!(report.equilibrium <= residual_bound))
+    return fmt::format("residual of the equilibrium {:.3g}, bound {:.0e}", report.equilibrium,
+                       residual_bound);
+  if (!(works.relative <= residual_bound))
+    return fmt::format("the energy does not balance: relative residual {:.3g}, bound {:.0e}",
+                       works.relative, residual_bound);
+  return {};
+}
+
+}  // namespace rondo::study

@@ -1,0 +1,158 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "rondo/analysis/build/initial_state.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <limits>
+
+#include "rondo/analysis/build/bodies.hpp"
+#include "rondo/mesh/locate.hpp"
+#include "rondo/statics/stationary_spin.hpp"
+
+namespace rondo::study {
+namespace {
+
+std::size_t at(int index) noexcept {
+  return static_cast<std::size_t>(index);
+}
+
+/// Of what is held; free bodies stay as they are.
+void set_stationary(const Case& c, Setup& s, SharedBody* shared) {
+  const dynamics::Model& m = s.model;
+  const double spin = -c.motion.angular_velocity.at(0.0);
+  if (shared && !shared->stationary.empty() && shared->spin == spin) {
+    s.displacement = shared->stationary;
+    return;
+  }
+  auto stationary = by_harmonics(m) ? statics::stationary_spin(*m.sector, m.mass, m.reference, spin)
+                                    : statics::stationary_spin(m.stiffness, m.mass, m.reference,
+                                                               held_nodes(m), spin);
+  if (stationary.status != statics::SpinStatus::solved)
+    throw case_error(c, "motion.angular_velocity",
+                     "no stationary state: at this spin the centrifugal softening "
+                     "exceeds the stiffness",
+                     "a lower spin, or a stiffer material");
+  s.displacement = std::move(stationary.u);
+  if (!shared) return;
+  shared->spin = spin;
+  shared->stationary = s.displacement;
+}
+
+/// How deep the worst node is, compared with its elements.
+struct Depth {
+  double deepest = 0.0;  ///< [m]
+  double worst = 0.0;    ///< depth over the size of the node's elements
+  double allowed = 0.0;  ///< half the size of the worst node's elements [m]
+  bool free = false;     ///< the worst node is of a free body
+
+  void add(double depth, double size, bool is_free) {
+    deepest = std::max(deepest, depth);
+    if (depth / size <= worst) return;
+    worst = depth / size;
+    allowed = 0.5 * size;
+    free = is_free;
+  }
+};
+
+/// (n) fixed frame [m].
+std::vector<Vec2> start_positions(const Setup& s) {
+  const Vec2 center = s.model.motion.center(0.0);
+  std::vector<Vec2> x(s.model.n_nodes());
+  for (std::size_t k = 0; k < x.size(); ++k)
+    x[k] =
+        (in_fixed_frame(s.model, k) ? Vec2{} : center) + s.model.reference[k] + s.displacement[k];
+  return x;
+}
+
+/// A node deeper than half an element would get an impulse that means nothing: refused. One less
+/// deep is held where it is, for the law acts on velocities: said.
+void check_ground(const Case& c, const std::vector<double>& size, const std::vector<Vec2>& x,
+                  Setup& s) {
+  if (!s.model.contact) return;
+  Depth depth;
+  for (const int node : s.model.contact->nodes)
+    depth.add(-s.model.contact->ground.distance(x[at(node)]), size[at(node)],
+              in_fixed_frame(s.model, at(node)));
+  if (depth.worst > 0.5)
+    throw case_error(
+        c, depth.free ? "initial.position" : "motion.height",
+        fmt::format("the body starts {:.4g} m deep inside the ground, more than half an element "
+                    "({:.4g} m)",
+                    depth.deepest, depth.allowed),
+        depth.free
+            ? "start above the ground (initial.position, initial.angle)"
+            : "start above the ground (motion.height, motion.start_x) and come down by a table");
+  if (depth.deepest > 1e-9 * extent_of(s.mesh))
+    s.warnings.push_back(
+        fmt::format("the body starts {:.4g} m inside the ground: contact keeps it "
+                    "from going deeper, but does not push it out",
+                    depth.deepest));
+}
+
+/// Distance from x to the nearest contact edge of a body; infinite where it has none [m].
+double depth_in(const Setup& s, const std::vector<Vec2>& x, int body, Vec2 p) {
+  double nearest = std::numeric_limits<double>::infinity();
+  for (const mesh::Edge& edge : s.model.surfaces->edges) {
+    if (s.model.body[at(edge[0])] != body) continue;
+    const Vec2 a = x[at(edge[0])], d = x[at(edge[1])] - a;
+    const double along = std::clamp(dot(p - a, d) / dot(d, d), 0.0, 1.0);
+    nearest = std::min(nearest, norm(p - a - along * d));
+  }
+  return nearest;
+}
+
+void check_each_other(const Case& c, const std::vector<double>& size, const std::vector<Vec2>& x,
+                      Setup& s) {
+  if (!s.model.surfaces || s.model.body.empty()) return;
+  const std::vector<int>& body = s.model.body;
+  const mesh::CellGrid grid(x, s.mesh.cells);
+  Depth depth;
+  for (const int node : s.model.surfaces->nodes)
+    for (const int e : grid.near(x[at(node)])) {
+      const int other = body[at(s.mesh.cells[at(e)][0])];
+      if (other != body[at(node)] && grid.within(e, x[at(node)]))
+        depth.add(depth_in(s, x, other, x[at(node)]), size[at(node)], true);
+    }
+  if (depth.worst > 0.5)
+    throw case_error(c, "contact.between",
+                     fmt::format("two bodies start {:.4g} m inside each other, more than half an "
+                                 "element ({:.4g} m)",
+                                 depth.deepest, depth.allowed),
+                     "bodies that start apart from each other");
+  if (depth.deepest > 1e-9 * extent_of(s.mesh))
+    s.warnings.push_back(
+        fmt::format("two bodies start {:.4g} m inside each other: contact keeps them from going "
+                    "deeper, but does not push them out",
+                    depth.deepest));
+}
+
+}  // namespace
+
+void set_initial_fields(const Case& c, Setup& s, SharedBody* shared) {
+  const dynamics::Model& model = s.model;
+  s.displacement.assign(model.n_nodes(), Vec2{});
+  s.velocity.assign(model.n_nodes(), Vec2{});
+  if (c.initial.state == InitialState::stationary) set_stationary(c, s, shared);
+  const auto& g = c.initial.displacement_gradient;
+  const std::vector<RigidMotion> motions = motions_of(c, s.mesh, model);
+  for (const int node : model.free) {
+    const std::size_t k = at(node);
+    const Vec2 x = model.reference[k];
+    s.displacement[k] += Vec2{g[0][0] * x.x + g[0][1] * x.y, g[1][0] * x.x + g[1][1] * x.y};
+    s.velocity[k] = c.initial.velocity;  // θ(0) = 0: both frames have the same axes
+    if (!in_fixed_frame(model, k)) continue;
+    const std::size_t b = at(model.free_body[k]);
+    s.velocity[k] =
+        motions[b].velocity + motions[b].angular_velocity * turn90(x - model.free_bodies[b].center);
+  }
+}
+
+void check_start(const Case& c, Setup& s) {
+  const std::vector<double> size = element_sizes(s.mesh);
+  const std::vector<Vec2> x = start_positions(s);
+  check_ground(c, size, x, s);
+  check_each_other(c, size, x, s);
+}
+
+}  // namespace rondo::study

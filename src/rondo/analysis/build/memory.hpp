@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: BSD-3-Clause
+/// @file  Memory that a case needs at its largest, told before it is taken: estimates, fitted to
+/// runs of 10⁴ to 4·10⁵ degrees of freedom (docs/performance.md).
+#pragma once
+#include <cstddef>
+
+#include "rondo/case/case.hpp"
+
+namespace rondo::study {
+
+/// What memory depends on.
+struct MeshSize {
+  std::size_t nodes = 0, cells = 0;
+  std::size_t clamped = 0;  ///< nodes
+  std::size_t sectors = 0;  ///< equal ones; 0: none
+};
+
+MeshSize size_of(const mesh::Mesh& mesh) noexcept;
+/// Of the mesh that mesh::make_disk would make.
+MeshSize size_of(const mesh::Disk& disk) noexcept;
+
+/// Of the program, mesh, fields, a checkpoint and what is written: the least of any analysis [B].
+std::size_t mesh_memory(const MeshSize& mesh) noexcept;
+/// Of the assembled stiffness, held twice while it is assembled [B].
+std::size_t stiffness_memory(std::size_t nodes) noexcept;
+/// Of a Cholesky factor of a plane mesh, which fills in about n log2 n [B].
+std::size_t factor_memory(std::size_t dofs) noexcept;
+
+/// Of motion in time; large disks go without an assembled stiffness [B].
+std::size_t motion_memory(const Case& c, const MeshSize& mesh) noexcept;
+
+/// @param needed [B] @throws InputError at the key that makes the mesh so large: this process may
+/// not take that much memory
+void demand_memory(const Case& c, std::size_t nodes, std::size_t needed);
+
+}  // namespace rondo::study

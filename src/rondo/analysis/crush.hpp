@@ -1,0 +1,16 @@
+// SPDX-License-Identifier: BSD-3-Clause
+/// @file  Quasi-static crush onto flat ground, increment by increment (docs/theory.md, 6.4). In the
+/// place of time stands the load parameter k/increments, above 1 while the body slides.
+#pragma once
+#include <memory>
+
+#include "rondo/analysis/analysis.hpp"
+#include "rondo/analysis/figures.hpp"
+
+namespace rondo::study {
+
+/// @pre c is a crush. @throws InputError
+[[nodiscard]] std::unique_ptr<Analysis> make_crush(const Case& c, const RunOptions& options);
+[[nodiscard]] FigureTable crush_figures() noexcept;
+
+}  // namespace rondo::study

@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <array>
+
+#include "rondo/analysis/crush.hpp"
+#include "rondo/analysis/history_statistics.hpp"
+#include "rondo/io/csv.hpp"
+
+namespace rondo::study {
+namespace {
+
+constexpr std::array crush_columns{
+    FigureColumn{"depth_m", "m", "of the centre below first touch, at the end"},
+    FigureColumn{"force_x", "N/m", "of the ground on the body, at the end"},
+    FigureColumn{"force_y", "N/m", "of the ground on the body, at the end"},
+    FigureColumn{"torque", "N", "about the centre, at the end"},
+    FigureColumn{"contact_length_m", "m", "at the end"},
+    FigureColumn{"pressure_max_pa", "Pa", "at the end"},
+    FigureColumn{"shear_max_pa", "Pa", "at the end"},
+    FigureColumn{"strain", "J/m", "strain energy at the end"},
+    FigureColumn{"dissipation_friction", "J/m", "dissipated by friction"},
+    FigureColumn{"energy_residual_relative", "1", "of the balance of energies"},
+    FigureColumn{"contact_residual_max", "1", "of the contact law"},
+    FigureColumn{"penetration_max_m", "m", "of all increments"},
+};
+
+std::vector<double> figures_of(const std::filesystem::path& directory, const Window& /*none*/) {
+  const std::filesystem::path file = directory / "history.csv";
+  const Columns history = io::read_columns(file);
+  std::vector<double> figures;
+  for (const char* name : {"depth_m", "force_x", "force_y", "torque", "contact_length_m",
+                           "pressure_max_pa", "shear_max_pa", "strain", "dissipation_friction"})
+    figures.push_back(column(history, name, file).back());
+  add_residuals(directory, figures);
+  return figures;
+}
+
+}  // namespace
+
+FigureTable crush_figures() noexcept {
+  return {crush_columns, figures_of, false};
+}
+
+}  // namespace rondo::study

@@ -1,0 +1,345 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "rondo/analysis/dynamic.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <chrono>
+#include <limits>
+#include <utility>
+
+#include "rondo/analysis/build/build.hpp"
+#include "rondo/analysis/build/memory.hpp"
+#include "rondo/analysis/disk.hpp"
+#include "rondo/analysis/out_of_range.hpp"
+#include "rondo/case/case_source.hpp"
+#include "rondo/integrators/stepper.hpp"
+#include "rondo/output/resume.hpp"
+
+namespace rondo::study {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+/// Contact problems kept as files, at the most.
+constexpr int most_problems_kept = 1000;
+
+/// Steps made in one call: enough to hide what a call costs, few enough to hear a signal soon.
+std::size_t steps_at_once(const Setup& setup) {
+  const bool cyclic = setup.model.stiffness_operator == dynamics::StiffnessOperator::cyclic;
+  const double dof_steps = cyclic ? 5e7 : 1e7;  // some 0.05 s
+  const double fewest = cyclic ? 8.0 : 1.0;     // two passes of the cyclic operator
+  const double dofs = 2.0 * static_cast<double>(setup.model.free.size());
+  return static_cast<std::size_t>(std::clamp(dof_steps / dofs, fewest, 64.0));
+}
+
+/// A node held by two facets is pressed along the frame of the deeper one, listed first.
+void take_contacts(const dynamics::State& state, double dt, std::vector<ContactForce>& contacts) {
+  contacts.clear();
+  Vec2 normal;
+  for (const dynamics::ActiveContact& c : state.active) {
+    if (contacts.empty() || c.candidate != contacts.back().candidate) normal = c.normal;
+    const Vec2 force = from_frame(c.normal, c.impulse) / dt;
+    contacts.push_back({c.candidate, to_frame(normal, force), force, c.on_ground});
+  }
+}
+
+void fill(const Setup& setup, const dynamics::State& state, Snapshot& s) {
+  s.time = state.frame.time;
+  s.time_velocity = state.step == 0 ? 0.0 : state.frame.time - 0.5 * setup.model.dt;
+  s.angle = state.frame.angle;
+  s.angle_velocity = setup.model.motion.angle(s.time_velocity);
+  s.center = state.frame.center;
+  s.u = state.u;
+  s.v = state.v;
+  s.poses = state.poses;
+  take_contacts(state, setup.model.dt, s.contacts);
+}
+
+}  // namespace
+
+DynamicAnalysis::DynamicAnalysis(const Case& c, const RunOptions& options)
+    : case_(c), options_(options), setup_(build(c, options.threads, options.shared)) {
+  plan_snapshots();
+}
+
+void DynamicAnalysis::plan_snapshots() {
+  schedule_ = snapshot_schedule(case_.output, setup_.model.dt, setup_.n_steps);
+}
+
+std::unique_ptr<dynamics::Integrator> DynamicAnalysis::make_integrator(dynamics::State& start) {
+  std::vector<Vec2>().swap(start.v);
+  return dynamics::make_integrator(setup_.model, start);
+}
+
+double DynamicAnalysis::seconds_per_step(double trial) {
+  if (trial <= 0.0) return 0.0;
+  dynamics::State state = start(setup_.model, setup_.displacement, setup_.velocity);
+  const auto integrator = make_integrator(state);
+  std::array<dynamics::StepReport, 8> reports;  // only their time is of interest
+  const auto begin = Clock::now();
+  double seconds = 0.0;
+  long long steps = 0;
+  while (steps < setup_.n_steps && seconds < trial) {
+    integrator->advance(reports);
+    steps += static_cast<long long>(reports.size());
+    seconds = std::chrono::duration<double>(Clock::now() - begin).count();
+  }
+  return steps > 0 ? seconds / static_cast<double>(steps) : 0.0;
+}
+
+CheckReport DynamicAnalysis::check(double trial) {
+  const double dt = setup_.model.dt;
+  CheckReport r;
+  r.nodes = setup_.mesh.n_nodes();
+  r.elements = setup_.mesh.cells.size();
+  r.dofs = 2 * setup_.model.free.size();
+  r.bodies = count_bodies(setup_.model);
+  r.free_bodies = static_cast<int>(setup_.model.free_bodies.size());
+  r.candidates = setup_.mesh.boundary.size();
+  r.wave_speeds = fem::wave_speeds(case_.material);
+  r.steps = setup_.n_steps;
+  r.threads = setup_.model.threads;
+  r.snapshots = schedule_.steps.size();
+  r.memory_bytes = motion_memory(case_, size_of(setup_.mesh));
+  r.disk_bytes = disk_needed(record_plan(), resumable() != nullptr).all;
+  r.seconds = seconds_per_step(trial) * static_cast<double>(setup_.n_steps);
+  r.lines = {
+      {"largest frequency", fmt::format("{:.6g} rad/s (element bound {:.6g})",
+                                        setup_.critical.omega, setup_.critical.element_bound)},
+      {"critical step", fmt::format("{:.6g} s", setup_.critical.step)},
+      {"step", fmt::format("{:.6g} s ({:.3g} of critical)", dt, dt / setup_.critical.step)},
+      {"steps", fmt::format("{} to t = {:.6g} s", setup_.n_steps,
+                            static_cast<double>(setup_.n_steps) * dt)}};
+  r.warnings = warnings();
+  return r;
+}
+
+RecordPlan DynamicAnalysis::record_plan() const {
+  RecordPlan plan;
+  plan.results = {.mesh = &setup_.mesh,
+                  .mass = setup_.model.mass,
+                  .n_snapshots = schedule_.steps.size(),
+                  .contact = has_candidates(setup_.model),
+                  .stress = case_.output.stress,
+                  .free_body = setup_.model.free_body};
+  plan.columns = History(case_, setup_).columns();
+  const double interval = std::max(case_.output.history_interval, setup_.model.dt);
+  plan.n_rows = static_cast<std::size_t>(case_.time.end / interval) + 2;
+  plan.materials = setup_.materials;
+  if (setup_.model.contact) plan.ground = &setup_.model.contact->ground;
+  if (!setup_.model.free_bodies.empty()) plan.model = &setup_.model;
+  return plan;
+}
+
+std::vector<std::string> DynamicAnalysis::warnings() const {
+  std::vector<std::string> warnings = case_.warnings;
+  warnings.insert(warnings.end(), setup_.warnings.begin(), setup_.warnings.end());
+  if (setup_.n_steps + 1 < case_.output.snapshots)
+    warnings.push_back(
+        fmt::format("{} snapshots instead of {}: the run has {} steps, and each gives one "
+                    "at the most",
+                    schedule_.steps.size(), case_.output.snapshots, setup_.n_steps));
+  return warnings;
+}
+
+void DynamicAnalysis::describe(Json& j) const {
+  j["nodes"] = setup_.model.n_nodes();
+  j["dofs"] = 2 * setup_.model.free.size();
+  if (case_.mesh) j["mesh_file"] = as_utf8(case_.mesh->file.string());
+  j["bodies"] = count_bodies(setup_.model);
+  j["free_bodies"] = setup_.model.free_bodies.size();
+  j["operator"] = operator_name(setup_.model.stiffness_operator);
+  j["threads"] = setup_.model.threads;
+  j["critical_step"] = setup_.critical.step;
+  j["largest_frequency"] = setup_.critical.omega;
+  j["step"] = setup_.model.dt;
+  j["steps"] = setup_.n_steps;
+  j["dispatch"] = dispatch_level();
+}
+
+/// A run that became longer with all of its snapshots.
+Case DynamicAnalysis::kept_case(const Case& c) const {
+  Case kept = c;
+  if (from_ && schedule_.steps.size() > static_cast<std::size_t>(c.output.snapshots))
+    kept.output.snapshots = static_cast<int>(schedule_.steps.size());
+  return kept;
+}
+
+const Checkpoint* DynamicAnalysis::find(const std::filesystem::path& directory) {
+  from_ = find_checkpoint(identity_of(case_, setup_), case_, setup_, directory);
+  if (!from_) return nullptr;
+  schedule_ = from_->schedule;
+  steps_ = from_->state.step;
+  const auto& steps = schedule_.steps;
+  next_ = static_cast<std::size_t>(std::upper_bound(steps.begin(), steps.end(), steps_) -
+                                   steps.begin());
+  return &*from_;
+}
+
+long long DynamicAnalysis::next_snapshot() const noexcept {
+  return next_ < schedule_.steps.size() ? schedule_.steps[next_]
+                                        : std::numeric_limits<long long>::max();
+}
+
+/// Takes the initial fields of the setup, which are not needed twice.
+Progress DynamicAnalysis::begin(Recorder& recorder) {
+  history_.emplace(case_, setup_, from_ ? from_->history : HistoryPlace{});
+  largest_strain_energy_ = largest_strain_energy(setup_);
+  reports_.resize(steps_at_once(setup_));
+  state_ = start(setup_.model, std::move(setup_.displacement), std::move(setup_.velocity));
+  if (!from_) record_state(recorder);
+  start_integrator();
+  return {steps_, setup_.n_steps};
+}
+
+/// Memory that the integrator has as well is given back.
+void DynamicAnalysis::start_integrator() {
+  std::vector<Vec2>().swap(state_.force_before);
+  integrator_ = make_integrator(state_);
+  for (std::vector<Vec2>* field : {&state_.force, &state_.v_next}) std::vector<Vec2>().swap(*field);
+  state_.v.resize(state_.u.size());
+  if (!from_) return;
+  dynamics::SavedState& saved = from_->state;
+  integrator_->restore(saved);
+  saved = {};  // as much memory as the steps have
+  saved.step = steps_;
+  contact_ = from_->contact;
+  problems_kept_ = from_->problems_kept;
+}
+
+/// Steps up to the next one whose state is wanted, at most as many as there are reports.
+Progress DynamicAnalysis::advance(Recorder& recorder) {
+  const long long wanted = std::min(next_snapshot(), history_->next_probed());
+  const long long left = std::min(setup_.n_steps, wanted) - steps_;
+  const auto n = static_cast<std::size_t>(std::min(static_cast<long long>(reports_.size()), left));
+  const std::span reports = std::span(reports_).first(n);
+  // With probes a run that is interrupted has a last row of its own.
+  const bool seen = reports.size() == static_cast<std::size_t>(left) || !setup_.probes.empty();
+  integrator_->advance(reports, seen ? &state_ : nullptr);
+  keep_difficult_contacts();
+  for (std::size_t i = 0; i < n && !trouble_; ++i)
+    take(reports[i], seen && i + 1 == n ? &state_ : nullptr, recorder);
+  if (seen && state_.step == steps_) record_state(recorder);
+  return {steps_, setup_.n_steps};
+}
+
+void DynamicAnalysis::take(const dynamics::StepReport& step, const dynamics::State* state,
+                           Recorder& recorder) {
+  last_ = &step;
+  last_state_ = state;
+  ++steps_;
+  contact_.add(step.contact);
+  balance_ = step.balance;
+  judge(step);
+  history_->observe(step, state, recorder.rows());
+  recorder.rows_added();
+}
+
+/// The message names the step that made the trouble: what a half step shows came from the step
+/// before.
+void DynamicAnalysis::judge(const dynamics::StepReport& step) {
+  const Bounds bounds{setup_.model.free_bodies.empty() ? residual_bound : free_residual_bound,
+                      largest_strain_energy_};
+  OutOfBound found = find_out_of_bound(step.balance, contact_, bounds);
+  if (found.what.empty()) return;
+  if (found.not_finite) {
+    dynamics::State now(setup_.model);  // after the steps of this call
+    integrator_->fields(now);
+    found.what = not_finite(now, found.what);
+  }
+  const double half = found.at_half_step ? 0.5 * setup_.model.dt : 0.0;
+  trouble_ =
+      fmt::format("step {} of {}, t = {:.9g} s: {}", step.step - (found.at_half_step ? 1 : 0),
+                  setup_.n_steps, step.frame.time - half, found.what);
+}
+
+/// A snapshot, if one is due and the files can hold it.
+void DynamicAnalysis::record_state(Recorder& recorder) {
+  if (state_.step != next_snapshot()) return;
+  const std::string beyond = beyond_files(setup_, state_);
+  if (beyond.empty()) {
+    ++next_;
+    fill(setup_, state_, recorder.next_snapshot());
+    return recorder.add_snapshot();
+  }
+  if (trouble_) return;  // and that is why
+  trouble_ = fmt::format("step {} of {}, t = {:.9g} s: {}", state_.step, setup_.n_steps,
+                         state_.frame.time, beyond);
+}
+
+void DynamicAnalysis::keep_difficult_contacts() {
+  if (setup_.model.coupled.dump_above == 0) return;
+  for (contact::ProblemFile& problem : integrator_->take_difficult()) {
+    if (problems_kept_ == most_problems_kept) return;
+    problem.about = fmt::format("{}, after step {}", case_.title, steps_);
+    write_contact_problem(options_.directory, ++problems_kept_, problem);
+  }
+}
+
+Checkpoint DynamicAnalysis::save() const {
+  Checkpoint checkpoint;
+  checkpoint.identity = identity_of(case_, setup_);
+  checkpoint.state = integrator_->save();
+  checkpoint.n_steps = setup_.n_steps;
+  checkpoint.history = history_->place();
+  checkpoint.schedule = schedule_;
+  checkpoint.contact = contact_;
+  checkpoint.problems_kept = problems_kept_;
+  return checkpoint;
+}
+
+std::vector<double> DynamicAnalysis::last_row() {
+  if (!last_) return from_ ? from_->last_row : std::vector<double>();
+  std::vector<double> row;
+  history_->finish(*last_, last_state_, row);
+  return row;
+}
+
+/// A step's works are compared once the next half step is known: one step more, which nobody
+/// sees, brings the last ones into the balance.
+void DynamicAnalysis::close() {
+  dynamics::StepReport beyond;
+  integrator_->advance({&beyond, 1});
+  balance_ = beyond.balance;
+  judge(beyond);
+}
+
+void DynamicAnalysis::summarise(Json& j, RunReport& r) const {
+  const double dofs = 2.0 * static_cast<double>(setup_.model.free.size());
+  const double time = static_cast<double>(steps_) * setup_.model.dt;
+  r.steps = steps_;
+  r.end_time = time;
+  r.reached = fmt::format("{} steps to t = {:.6g} s", steps_, time);
+  r.simulated_s = static_cast<double>(steps_ - r.resumed_at) * setup_.model.dt;
+  r.step_wall_s = r.loop_wall_s;
+  r.ns_per_dof_step = 1e9 * r.loop_wall_s / (dofs * static_cast<double>(std::max(1LL, steps_)));
+  r.energy_residual_relative = balance_.relative;
+  r.contact_residual_max = contact_.residual;
+  r.penetration_max_m = contact_.penetration;
+  j["steps_done"] = steps_;
+  j["end_time"] = time;
+  j["ns_per_dof_step"] = r.ns_per_dof_step;
+  j["energy_residual_relative"] = balance_.relative;
+  j["energy_exchanged"] = balance_.exchanged;
+  j["contact_residual_max"] = contact_.residual;
+  j["penetration_max_m"] = contact_.penetration;
+  j["contact"] = {{"steps_in_contact", contact_.contact_steps},
+                  {"nodes_max", contact_.nodes_max},
+                  {"free_velocity_max", contact_.free_velocity},
+                  {"pairs_solved", contact_.pairs},
+                  {"pairs_not_converged", contact_.pairs_not_converged},
+                  {"clusters_solved", contact_.clusters},
+                  {"clusters_not_converged", contact_.clusters_not_converged},
+                  {"cluster_largest", contact_.cluster_largest},
+                  {"cluster_iterations_max", contact_.cluster_iterations},
+                  {"between_bodies_max", contact_.between_bodies},
+                  {"problems_kept", problems_kept_}};
+}
+
+std::unique_ptr<Analysis> make_dynamic(const Case& c, const RunOptions& options) {
+  return std::make_unique<DynamicAnalysis>(c, options);
+}
+
+}  // namespace rondo::study

@@ -1,0 +1,83 @@
+// SPDX-License-Identifier: BSD-3-Clause
+/// @file  Motion in time: explicit steps from the start, or from a checkpoint, to time.end.
+#pragma once
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "rondo/analysis/analysis.hpp"
+#include "rondo/analysis/figures.hpp"
+#include "rondo/case/setup.hpp"
+#include "rondo/integrators/integrator.hpp"
+#include "rondo/output/contact_statistics.hpp"
+#include "rondo/output/history.hpp"
+#include "rondo/output/snapshot_schedule.hpp"
+
+namespace rondo::study {
+
+class DynamicAnalysis : public Analysis, public Resumable {
+ public:
+  /// @throws InputError as build()
+  DynamicAnalysis(const Case& c, const RunOptions& options);
+
+  [[nodiscard]] CheckReport check(double trial) override;
+  [[nodiscard]] RecordPlan record_plan() const override;
+  [[nodiscard]] std::vector<std::string> warnings() const override;
+  void describe(Json& json) const override;
+  [[nodiscard]] Case kept_case(const Case& c) const override;
+  [[nodiscard]] Resumable* resumable() noexcept override { return this; }
+
+  Progress begin(Recorder& recorder) override;
+  Progress advance(Recorder& recorder) override;
+  [[nodiscard]] const std::optional<std::string>& trouble() const override { return trouble_; }
+  [[nodiscard]] std::vector<double> last_row() override;
+  void close() override;
+  void summarise(Json& json, RunReport& report) const override;
+
+  [[nodiscard]] const Checkpoint* find(const std::filesystem::path& directory) override;
+  [[nodiscard]] Checkpoint save() const override;
+
+ protected:
+  /// The model must outlive it. @param start at t = 0; what is not needed of it may be freed
+  [[nodiscard]] virtual std::unique_ptr<dynamics::Integrator> make_integrator(
+      dynamics::State& start);
+  [[nodiscard]] const Case& the_case() const noexcept { return case_; }
+  [[nodiscard]] Setup& setup() noexcept { return setup_; }
+  [[nodiscard]] const Setup& setup() const noexcept { return setup_; }
+  /// The step was chosen anew: what hangs on it is, too.
+  void plan_snapshots();
+
+ private:
+  [[nodiscard]] long long next_snapshot() const noexcept;
+  void start_integrator();
+  void take(const dynamics::StepReport& step, const dynamics::State* state, Recorder& recorder);
+  void judge(const dynamics::StepReport& step);
+  void record_state(Recorder& recorder);
+  void keep_difficult_contacts();
+  [[nodiscard]] double seconds_per_step(double trial);
+
+  const Case& case_;
+  const RunOptions& options_;
+  Setup setup_;
+  SnapshotSchedule schedule_;
+  std::size_t next_ = 0;            ///< snapshot of the schedule
+  std::optional<Checkpoint> from_;  ///< gone on with; its fields are freed once taken
+  std::optional<History> history_;
+  double largest_strain_energy_ = 0.0;  ///< [J/m]
+  std::vector<dynamics::StepReport> reports_;
+  dynamics::State state_;
+  std::unique_ptr<dynamics::Integrator> integrator_;
+  long long steps_ = 0;
+  ContactStatistics contact_;
+  dynamics::Balance balance_;
+  std::optional<std::string> trouble_;
+  int problems_kept_ = 0;                       ///< contact problems kept as files
+  const dynamics::StepReport* last_ = nullptr;  ///< the last step taken; none: all were made before
+  const dynamics::State* last_state_ = nullptr;  ///< its state, if it is at hand
+};
+
+[[nodiscard]] std::unique_ptr<Analysis> make_dynamic(const Case& c, const RunOptions& options);
+[[nodiscard]] FigureTable dynamic_figures() noexcept;
+
+}  // namespace rondo::study

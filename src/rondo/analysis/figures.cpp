@@ -1,0 +1,25 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "rondo/analysis/figures.hpp"
+
+#include <limits>
+
+#include "rondo/io/files.hpp"
+#include "rondo/output/run_files.hpp"
+
+namespace rondo::study {
+namespace {
+
+double number_of(const Json& j, const char* key) {
+  return j.contains(key) && j[key].is_number() ? j[key].get<double>()
+                                               : std::numeric_limits<double>::quiet_NaN();
+}
+
+}  // namespace
+
+void add_residuals(const std::filesystem::path& directory, std::vector<double>& figures) {
+  const Json j = io::read_json(directory / "run.json");
+  for (const char* key : {"energy_residual_relative", "contact_residual_max", "penetration_max_m"})
+    figures.push_back(number_of(j, key));
+}
+
+}  // namespace rondo::study

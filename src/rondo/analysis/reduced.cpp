@@ -1,0 +1,277 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "rondo/analysis/reduced.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numbers>
+#include <utility>
+
+#include "rondo/analysis/build/build.hpp"
+#include "rondo/analysis/dynamic.hpp"
+#include "rondo/analysis/reduced_file.hpp"
+#include "rondo/case/case_source.hpp"
+#include "rondo/core/error.hpp"
+#include "rondo/rom/integrator.hpp"
+
+namespace rondo::study {
+namespace {
+
+/// Names of the command line.
+constexpr std::array<std::pair<const char*, rom::StepScheme>, 2> step_names{
+    {{"midpoint", rom::StepScheme::midpoint}, {"explicit", rom::StepScheme::central}}};
+
+struct ReducedRun {
+  ReducedFile file;
+  rom::StepScheme scheme = rom::StepScheme::midpoint;
+  double step_factor = 1.0;           ///< taken
+  double full_step = 0.0;             ///< of the full run [s]
+  std::vector<std::string> warnings;  ///< for the user
+  rom::StepFigures figures;           ///< filled while it runs
+};
+
+void demand_step_name(const std::string& name) {
+  const bool known =
+      std::ranges::any_of(step_names, [&](const auto& step) { return name == step.first; });
+  if (!known) throw request_error("--reduced-step", name, "no such step", "midpoint or explicit");
+}
+
+void check_case(const Case& c, const RunOptions& options, const Setup& setup) {
+  if (options.resume)
+    throw request_error("--resume", "",
+                        "a reduced run keeps no checkpoints, it is too short for them",
+                        "--overwrite to run it again, or another -o");
+  if (!(options.step_factor > 0.0 && std::isfinite(options.step_factor)))
+    throw request_error("--step-factor", fmt::format("{:.9g}", options.step_factor),
+                        "not a factor for the step of the full run", "a number above 0, e.g. 20");
+  demand_step_name(options.reduced_step);
+  if (c.time.scheme == Scheme::as_printed)
+    throw case_error(c, "time.scheme", "a reduced run has a scheme of its own",
+                     "\"symplectic\", which it stands for");
+  if (dynamics::is_general(setup.model))
+    throw case_error(c, "ground.profile",
+                     "a reduced run knows one held disk on ground without sharp convex corners; "
+                     "here are such corners, pressures, free bodies or contact of bodies",
+                     "ground.fillet > 0, and none of the others");
+}
+
+void check_model(const Case& c, const RunOptions& options, const ReducedFile& file,
+                 const Setup& setup) {
+  const std::string difference = body_difference(body_text(c), file.body);
+  if (!difference.empty())
+    throw request_error("--reduced", options.reduced.string(),
+                        fmt::format("the model is of another mesh or material: the case has {} of "
+                                    "the model",
+                                    difference),
+                        "a model built from runs of this mesh and material (rondo reduce)");
+  const bool same =
+      file.mesh.n_nodes() == setup.mesh.n_nodes() &&
+      file.mesh.coordinates == setup.mesh.coordinates &&
+      file.mesh.boundary == setup.mesh.boundary && file.mesh.n_sectors == setup.mesh.n_sectors &&
+      file.mesh.sector == setup.mesh.sector && file.mesh.sector_node == setup.mesh.sector_node &&
+      file.mass == setup.model.mass;
+  if (!same)
+    throw request_error("--reduced", options.reduced.string(),
+                        "the mesh in the model is not the one this program makes of the case",
+                        "a model built anew by this version (rondo reduce)");
+}
+
+/// A thousandth of the range, of the value or of the scale is no news.
+void warn_outside(const char* what, const ModelRange& built, const ModelRange& wanted,
+                  std::vector<std::string>& warnings, double scale = 0.0) {
+  if (built.empty() || wanted.empty()) return;
+  const double margin =
+      1e-3 * std::max({scale, built.high - built.low, std::abs(built.low), std::abs(built.high)});
+  if (wanted.low >= built.low - margin && wanted.high <= built.high + margin) return;
+  warnings.push_back(
+      fmt::format("{} is {:.6g} to {:.6g} in this case, and was {:.6g} to {:.6g} in the runs that "
+                  "the model was built from: what it says beyond is not known to be right",
+                  what, wanted.low, wanted.high, built.low, built.high));
+}
+
+void warn_of_range(const Case& c, const Setup& setup, ReducedRun& run) {
+  const ModelRanges& built = run.file.ranges;
+  ModelRanges wanted;
+  if (c.ground) wanted.friction.take(c.ground->friction);
+  constexpr long long most = 10000;
+  const long long samples = std::min(most, setup.n_steps);
+  for (long long k = 0; k <= samples; ++k) {
+    const double t = c.time.end * static_cast<double>(k) / static_cast<double>(samples);
+    wanted.angular_velocity.take(c.motion.angular_velocity.at(t));
+    wanted.speed.take(c.motion.speed.at(t));
+    wanted.height.take(c.motion.height.at(t));
+    wanted.slip_ratio.take(slip_ratio_at(c, t));
+  }
+  warn_outside("ground.friction", built.friction, wanted.friction, run.warnings);
+  warn_outside("motion.angular_velocity", built.angular_velocity, wanted.angular_velocity,
+               run.warnings);
+  warn_outside("motion.speed", built.speed, wanted.speed, run.warnings);
+  warn_outside("motion.height", built.height, wanted.height, run.warnings);
+  warn_outside("the slip ratio", built.slip_ratio, wanted.slip_ratio, run.warnings, 1.0);
+  if (c.ground && built.friction.empty())
+    run.warnings.emplace_back(
+        "the model was built from runs without ground: its modes know no contact");
+}
+
+/// A point must not be passed in one step.
+void warn_of_step(const Case& c, const Setup& setup, ReducedRun& run) {
+  const rom::ReducedModel& m = run.file.model;
+  const bool standing = m.form != rom::ContactForm::nodes;
+  // Nodes of a tread are not evenly spaced; in the mean they are.
+  const double points =
+      static_cast<double>(standing ? m.contact.points.size() : setup.mesh.boundary.size());
+  const double turned = c.motion.angular_velocity.largest() * setup.model.dt;
+  const double spacing = 2.0 * std::numbers::pi / points;
+  if (c.ground && turned > spacing)
+    run.warnings.push_back(
+        fmt::format("--step-factor: the disk turns by {:.3g} contact points in a step; contact "
+                    "wants 1 at the most, a factor of {:.3g}",
+                    turned / spacing, run.step_factor * spacing / turned));
+}
+
+/// The step that is asked for; where nodes come by at a constant spin, so much less that a whole
+/// number of steps goes to a sector: the phases of the disk are then as many, and known.
+double step_of(const Case& c, const Setup& setup, const ReducedRun& run) {
+  const double dt = run.full_step * run.step_factor;
+  const dynamics::Table& spin = c.motion.angular_velocity;
+  const bool phases = c.ground && run.file.model.form == rom::ContactForm::nodes &&
+                      run.file.model.frame == rom::ModelFrame::rectified;
+  if (!phases || spin.points().size() != 1 || spin.largest() == 0.0) return dt;
+  const double sector = 2.0 * std::numbers::pi / setup.mesh.n_sectors / spin.largest();
+  return dt < sector ? sector / std::ceil(sector / dt * (1.0 - 1e-9))
+                     : sector * std::floor(dt / sector * (1.0 + 1e-9));
+}
+
+/// Central differences have a limit.
+void check_step(const Case& c, const ReducedRun& run, double dt) {
+  if (run.scheme != rom::StepScheme::central) return;
+  const double limit = rom::critical_step(run.file.model, c.damping.stiffness);
+  if (dt <= c.time.safety * limit) return;
+  throw request_error(
+      "--step-factor", fmt::format("{:.6g}", run.step_factor),
+      fmt::format("a step of {:.6g} s; the explicit step is stable up to {:.6g} s with these modes",
+                  dt, limit),
+      fmt::format("up to {:.4g} with time.safety = {:.6g}, or --reduced-step midpoint",
+                  c.time.safety * limit / run.full_step, c.time.safety));
+}
+
+/// Start that the modes do not hold.
+void warn_of_start(const Setup& setup, ReducedRun& run) {
+  rom::Lift lift(setup.mesh, run.file.model);
+  const auto check = [&](const std::vector<Vec2>& field, const char* name) {
+    double all = 0.0;
+    for (std::size_t i = 0; i < field.size(); ++i)
+      all += setup.model.mass[i] * dot(field[i], field[i]);
+    if (all == 0.0) return;
+    const double inside = lift.restrict_to_modes(0.0, field, setup.model.mass).squaredNorm();
+    const double left = std::sqrt(std::max(0.0, 1.0 - inside / all));
+    if (left > 0.01)
+      run.warnings.push_back(fmt::format(
+          "[initial]: the modes hold all but {:.2g} % of the initial {}", 100.0 * left, name));
+  };
+  check(setup.displacement, "displacement");
+  check(setup.velocity, "velocity");
+}
+
+/// Reads the model, checks that it is one of this case, gives the setup its step.
+ReducedRun prepare_reduced(const Case& c, const RunOptions& options, Setup& setup) {
+  check_case(c, options, setup);
+  ReducedRun run;
+  run.file = read_reduced_file(options.reduced);
+  check_model(c, options, run.file, setup);
+  for (const auto& [name, scheme] : step_names)
+    if (options.reduced_step == name) run.scheme = scheme;
+  run.step_factor = options.step_factor;
+  run.full_step = setup.model.dt;
+  setup.model.dt = step_of(c, setup, run);
+  run.step_factor = setup.model.dt / run.full_step;
+  check_step(c, run, setup.model.dt);
+  setup.n_steps = count_steps(c, setup.model.dt);
+  warn_of_range(c, setup, run);
+  warn_of_step(c, setup, run);
+  warn_of_start(setup, run);
+  return run;
+}
+
+void describe_reduced(const ReducedRun& run, const RunOptions& options, Json& json) {
+  json["reduced_model"] = as_utf8(options.reduced.string());
+  json["reduced_modes"] = run.file.model.size();
+  json["displacement_modes"] = run.file.displacement_modes;
+  json["velocity_modes"] = run.file.velocity_modes;
+  json["reduced_frame"] = name_in(frame_names, run.file.model.frame);
+  json["reduced_contact"] = name_in(contact_names, run.file.model.form);
+  json["reduced_step"] = options.reduced_step;
+  if (run.file.model.form != rom::ContactForm::nodes)
+    json["contact_points"] = run.file.model.contact.points.size();
+  json["step_factor"] = run.step_factor;
+  json["full_step"] = run.full_step;
+  json["lifted"] = true;
+}
+
+void add_figures(const ReducedRun& run, double time, Json& json) {
+  const rom::StepFigures& f = run.figures;
+  const double steps = static_cast<double>(std::max(1LL, f.contact_steps));
+  json["reduced"] = {{"matrices_factored", f.factored},
+                     {"factor_wall_s", f.factor_wall_s},
+                     {"step_wall_s", f.wall_s},
+                     {"contact_wall_s", f.contact_wall_s},
+                     {"slowest_step_s", f.slowest_step_s},
+                     {"realtime_factor", f.wall_s > 0.0 ? time / f.wall_s : 0.0},
+                     {"contact_tables", f.tables},
+                     {"contact_steps", f.contact_steps},
+                     {"contact_iterations_mean", static_cast<double>(f.iterations) / steps},
+                     {"contact_iterations_max", f.iterations_max},
+                     {"contacts_max", f.contacts_max},
+                     {"steps_with_more_rows_than_modes", f.more_rows_than_modes},
+                     {"steps_not_converged", f.not_converged}};
+}
+
+/// The loop, the files and the figures are those of motion in time; the steps are those of the
+/// modes.
+class ReducedAnalysis final : public DynamicAnalysis {
+ public:
+  ReducedAnalysis(const Case& c, const RunOptions& options)
+      : DynamicAnalysis(c, options), options_(options), run_(prepare_reduced(c, options, setup())) {
+    plan_snapshots();
+  }
+
+  [[nodiscard]] Resumable* resumable() noexcept override { return nullptr; }
+  [[nodiscard]] std::vector<std::string> warnings() const override {
+    std::vector<std::string> all = DynamicAnalysis::warnings();
+    all.insert(all.end(), run_.warnings.begin(), run_.warnings.end());
+    return all;
+  }
+  void describe(Json& json) const override {
+    DynamicAnalysis::describe(json);
+    describe_reduced(run_, options_, json);
+  }
+  void summarise(Json& json, RunReport& report) const override {
+    DynamicAnalysis::summarise(json, report);
+    add_figures(run_, report.end_time, json);
+    report.step_wall_s = run_.figures.wall_s;
+    report.slowest_step = run_.figures.slowest_step_s / setup().model.dt;
+  }
+
+ protected:
+  [[nodiscard]] std::unique_ptr<dynamics::Integrator> make_integrator(
+      dynamics::State& start) override {
+    return std::make_unique<rom::ReducedIntegrator>(
+        rom::IntegratorInput{setup().mesh, setup().model, run_.file.model, run_.figures,
+                             run_.scheme},
+        start);
+  }
+
+ private:
+  const RunOptions& options_;
+  ReducedRun run_;
+};
+
+}  // namespace
+
+std::unique_ptr<Analysis> make_reduced(const Case& c, const RunOptions& options) {
+  return std::make_unique<ReducedAnalysis>(c, options);
+}
+
+}  // namespace rondo::study

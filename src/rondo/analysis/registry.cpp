@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "rondo/analysis/registry.hpp"
+
+#include <array>
+
+#include "rondo/analysis/crush.hpp"
+#include "rondo/analysis/dynamic.hpp"
+#include "rondo/analysis/reduced.hpp"
+
+namespace rondo::study {
+
+std::span<const AnalysisType> analysis_types() noexcept {
+  static const std::array types{
+      AnalysisType{"dynamic", "step", make_dynamic, dynamic_figures()},
+      AnalysisType{"crush", "increment", make_crush, crush_figures()},
+  };
+  return types;
+}
+
+const AnalysisType& type_of(const Case& c) noexcept {
+  return analysis_types()[static_cast<std::size_t>(c.analysis.kind)];
+}
+
+std::unique_ptr<Analysis> make_analysis(const Case& c, const RunOptions& options) {
+  return options.reduced.empty() ? type_of(c).make(c, options) : make_reduced(c, options);
+}
+
+}  // namespace rondo::study

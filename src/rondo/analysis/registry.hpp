@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: BSD-3-Clause
+/// @file  Which analyses there are: a row each.
+#pragma once
+#include <memory>
+#include <span>
+#include <string_view>
+#include <vector>
+
+#include "rondo/analysis/analysis.hpp"
+#include "rondo/analysis/figures.hpp"
+
+namespace rondo::study {
+
+struct AnalysisType {
+  std::string_view name;  ///< of analysis.kind in the case, of `analysis` in run.json
+  std::string_view unit;  ///< what is counted: "step"; a literal
+  /// @throws InputError: the case cannot run so
+  std::unique_ptr<Analysis> (*make)(const Case& c, const RunOptions& options);
+  FigureTable figures;  ///< of a row of a sweep's results.csv
+};
+
+/// In the order of AnalysisKind.
+[[nodiscard]] std::span<const AnalysisType> analysis_types() noexcept;
+[[nodiscard]] const AnalysisType& type_of(const Case& c) noexcept;
+
+/// The analysis of the case, or that of its reduced model where the options name one. Case and
+/// options must outlive it. @throws InputError, FileError
+[[nodiscard]] std::unique_ptr<Analysis> make_analysis(const Case& c, const RunOptions& options);
+
+}  // namespace rondo::study

@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: BSD-3-Clause
+/// @file  Tables of results: what a column is called, its unit, what it means and where its numbers
+/// come from stand in one row; header, values, units for readers and the manual follow from it.
+#pragma once
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace rondo {
+
+template <class Record>
+struct Column {
+  std::string_view name, unit, meaning;  ///< unit "1": none
+  double (*value)(const Record&);
+};
+
+/// A column without its values.
+struct ColumnLabel {
+  std::string name, unit, meaning;
+};
+
+template <class Record>
+std::vector<ColumnLabel> labels_of(std::span<const Column<Record>> columns) {
+  std::vector<ColumnLabel> labels;
+  for (const Column<Record>& c : columns)
+    labels.push_back({std::string(c.name), std::string(c.unit), std::string(c.meaning)});
+  return labels;
+}
+
+/// Adds the values of a record, in the order of the columns.
+template <class Record>
+void append_values(std::span<const Column<Record>> columns, const Record& record,
+                   std::vector<double>& values) {
+  for (const Column<Record>& c : columns) values.push_back(c.value(record));
+}
+
+/// Header of a CSV file.
+inline std::vector<std::string> names_of(std::span<const ColumnLabel> labels) {
+  std::vector<std::string> names;
+  for (const ColumnLabel& label : labels) names.push_back(label.name);
+  return names;
+}
+
+}  // namespace rondo

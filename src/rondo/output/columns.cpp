@@ -1,0 +1,93 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "rondo/output/columns.hpp"
+
+#include <array>
+
+namespace rondo::study {
+namespace {
+
+using H = HistoryRecord;
+using P = ContactRecord;
+
+constexpr std::array history{
+    Column<H>{"time_s", "s", "end of the interval", [](const H& r) { return r.time; }},
+    Column<H>{"angle_rad", "rad",
+              "θ of the turning frame, counter-clockwise; where nothing is held, the mean rotation "
+              "of the first body",
+              [](const H& r) { return r.angle; }},
+    Column<H>{"center_x_m", "m",
+              "centre, fixed frame; where nothing is held, the centre of mass of the first body",
+              [](const H& r) { return r.center.x; }},
+    Column<H>{"center_y_m", "m", "likewise", [](const H& r) { return r.center.y; }},
+    Column<H>{"force_x", "N/m", "of the ground on the body, mean over the interval",
+              [](const H& r) { return r.force.x; }},
+    Column<H>{"force_y", "N/m", "likewise", [](const H& r) { return r.force.y; }},
+    Column<H>{
+        "torque", "N",
+        "of the ground on the body about the centre, per unit thickness, mean over the interval",
+        [](const H& r) { return r.torque; }},
+    Column<H>{"contact_nodes", "1", "nodes with a normal force",
+              [](const H& r) { return static_cast<double>(r.nodes); }},
+    Column<H>{"sticking_nodes", "1", "of these, those that stick",
+              [](const H& r) { return static_cast<double>(r.sticking); }},
+    Column<H>{"contact_length_m", "m", "tributary lengths of the nodes with a normal force, summed",
+              [](const H& r) { return r.contact_length; }},
+    Column<H>{"penetration_max_m", "m", "largest in the interval",
+              [](const H& r) { return r.penetration; }},
+    Column<H>{"slip_ratio", "1",
+              "(ωRₒ − V) / max(|V|, |ωRₒ|); 0 where both vanish, and where nothing is held. Rₒ of "
+              "a mesh: the largest distance of a candidate from the centre",
+              [](const H& r) { return r.slip_ratio; }},
+    Column<H>{"kinetic", "J/m", "kinetic part of the energy E, half a step before",
+              [](const H& r) { return r.balance.kinetic; }},
+    Column<H>{"strain", "J/m", "strain part of the energy E, half a step before",
+              [](const H& r) { return r.balance.strain; }},
+    Column<H>{"work_frame", "J/m",
+              "of the inertia of the frame and of gravity; all works are cumulative from the start",
+              [](const H& r) { return r.balance.works.frame; }},
+    Column<H>{"work_contact", "J/m",
+              "of the ground's impulses: work_rim - dissipation_friction - loss_impact",
+              [](const H& r) { return r.balance.works.contact; }},
+    Column<H>{"dissipation_friction", "J/m", "by friction",
+              [](const H& r) { return r.balance.works.dissipation_friction; }},
+    Column<H>{"loss_impact", "J/m", "in impacts",
+              [](const H& r) { return r.balance.works.loss_impact; }},
+    Column<H>{"work_rim", "J/m", "of the rim against the ground's impulses",
+              [](const H& r) { return r.balance.works.rim; }},
+    Column<H>{"dissipation_mass", "J/m", "by damping.mass",
+              [](const H& r) { return r.balance.works.dissipation_mass; }},
+    Column<H>{"dissipation_stiffness", "J/m", "by damping.stiffness",
+              [](const H& r) { return r.balance.works.dissipation_stiffness; }},
+    Column<H>{"work_scheme", "J/m", "created by the scheme \"as-printed\"; else 0",
+              [](const H& r) { return r.balance.works.scheme; }},
+    Column<H>{"energy_residual", "J/m", "energy less all works: what the energy balance leaves",
+              [](const H& r) { return r.balance.residual; }},
+    Column<H>{"work_load", "J/m", "of pressures", [](const H& r) { return r.balance.works.load; }}};
+
+constexpr std::array contact{
+    Column<P>{"time_s", "s", "of the snapshot", [](const P& r) { return r.time; }},
+    Column<P>{"node", "1", "number of the node",
+              [](const P& r) { return static_cast<double>(r.node); }},
+    Column<P>{"abscissa_m", "m",
+              "length along the surface from the first point of ground.profile, negative before "
+              "it; \"flat\" is [[-1, 0], [1, 0]], so there it is x + 1 m; nan of a node that the "
+              "ground does not press, but a body",
+              [](const P& r) { return r.abscissa; }},
+    Column<P>{"x_m", "m", "position, fixed frame", [](const P& r) { return r.position.x; }},
+    Column<P>{"y_m", "m", "likewise", [](const P& r) { return r.position.y; }},
+    Column<P>{"pressure_pa", "Pa", "normal force over the node's tributary length",
+              [](const P& r) { return r.traction.x; }},
+    Column<P>{"shear_pa", "Pa", "tangential force likewise",
+              [](const P& r) { return r.traction.y; }}};
+
+}  // namespace
+
+std::span<const Column<HistoryRecord>> history_columns() noexcept {
+  return history;
+}
+
+std::span<const Column<ContactRecord>> contact_columns() noexcept {
+  return contact;
+}
+
+}  // namespace rondo::study

@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: BSD-3-Clause
+/// @file  Columns of history.csv and contact.csv: one row each, from which header, values, run.json
+/// (where readers find units) and docs/results.md follow.
+#pragma once
+#include <span>
+
+#include "rondo/core/column.hpp"
+#include "rondo/core/vec2.hpp"
+#include "rondo/model/ledger.hpp"
+
+namespace rondo::study {
+
+/// A row of history.csv, of any analysis; what an analysis has not is 0.
+struct HistoryRecord {
+  double time = 0.0;    ///< [s], or a share of the load                                  [1]
+  double angle = 0.0;   ///< θ of the turning frame                                       [rad]
+  Vec2 center;          ///< [m]
+  Vec2 force;           ///< of the ground on the body                                    [N/m]
+  double torque = 0.0;  ///< of the ground about the centre                               [N]
+  int nodes = 0, sticking = 0;
+  double contact_length = 0.0;  ///< [m]
+  double penetration = 0.0;     ///< [m]
+  double slip_ratio = 0.0;      ///< [1]
+  dynamics::Balance balance;
+};
+
+/// A row of contact.csv: a node in contact in a snapshot.
+struct ContactRecord {
+  double time = 0.0;  ///< as in history.csv
+  int node = 0;
+  double abscissa = 0.0;  ///< along the ground; NaN: pressed against a body             [m]
+  Vec2 position;          ///< fixed frame                                                [m]
+  Vec2 traction;          ///< pressure, shear                                            [Pa]
+};
+
+[[nodiscard]] std::span<const Column<HistoryRecord>> history_columns() noexcept;
+[[nodiscard]] std::span<const Column<ContactRecord>> contact_columns() noexcept;
+
+}  // namespace rondo::study

@@ -1,0 +1,116 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "rondo/output/history.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "rondo/output/probes.hpp"
+
+namespace rondo::study {
+namespace {
+
+/// Of a disk; of a mesh the largest of the candidates that are held. 0: all of them are free.
+double rolling_radius(const Case& c, const Setup& setup) {
+  if (!is_held(c)) return 0.0;
+  if (!c.mesh) return c.disk.outer_radius;
+  double radius = 0.0;
+  for (const int node : setup.mesh.boundary) {
+    const auto k = static_cast<std::size_t>(node);
+    if (!in_fixed_frame(setup.model, k)) radius = std::max(radius, norm(setup.model.reference[k]));
+  }
+  return radius;
+}
+
+}  // namespace
+
+History::History(const Case& c, const Setup& setup, const HistoryPlace& place)
+    : case_(c),
+      setup_(setup),
+      dt_(setup.model.dt),
+      interval_(c.output.history_interval),
+      radius_(rolling_radius(c, setup)),
+      at_(place) {}
+
+std::vector<ColumnLabel> History::columns() const {
+  std::vector<ColumnLabel> labels = labels_of(history_columns());
+  const std::vector<ColumnLabel> probes = probe_columns(case_.output.probes);
+  labels.insert(labels.end(), probes.begin(), probes.end());
+  return labels;
+}
+
+double History::slip_ratio(double time) const {
+  if (radius_ == 0.0) return 0.0;
+  return dynamics::slip_ratio(case_.motion.angular_velocity.at(time) * radius_,
+                              case_.motion.speed.at(time));
+}
+
+/// The step nearest to a multiple of the interval writes the row.
+bool History::is_due(double time) const noexcept {
+  return time + 0.5 * dt_ > static_cast<double>(at_.next) * interval_;
+}
+
+long long History::next_probed() const noexcept {
+  if (setup_.probes.empty()) return std::numeric_limits<long long>::max();
+  if (interval_ == 0.0) return at_.done + 1;
+  const auto time = [&](long long step) { return static_cast<double>(step) * dt_; };
+  // A guess, then the same comparison as that of the step itself.
+  auto step = static_cast<long long>(static_cast<double>(at_.next) * interval_ / dt_ - 0.5);
+  step = std::max(step, at_.done + 1);
+  while (step > at_.done + 1 && is_due(time(step - 1))) --step;
+  while (!is_due(time(step))) ++step;
+  return step;
+}
+
+void History::append_probes(const dynamics::State* state, std::vector<double>& rows) const {
+  if (setup_.probes.empty()) return;
+  if (state)
+    return study::append_probes({setup_.mesh, setup_.materials, setup_.model}, setup_.probes,
+                                *state, rows);
+  rows.insert(rows.end(), probe_columns(case_.output.probes).size(),
+              std::numeric_limits<double>::quiet_NaN());
+}
+
+void History::observe(const dynamics::StepReport& step, const dynamics::State* state,
+                      std::vector<double>& rows) {
+  const dynamics::ContactReport& report = step.contact;
+  at_.done = step.step;
+  ++at_.steps;
+  at_.impulse += report.impulse;
+  at_.angular_impulse += report.angular_impulse;
+  at_.penetration = std::max(at_.penetration, report.penetration);
+  if (!is_due(step.frame.time)) return;
+  append_row(step, state, rows);
+  if (interval_ > 0.0)
+    at_.next = static_cast<long long>((step.frame.time + 0.5 * dt_) / interval_) + 1;
+  const long long next = at_.next;
+  at_ = {};
+  at_.next = next;
+  at_.done = step.step;
+}
+
+void History::finish(const dynamics::StepReport& step, const dynamics::State* state,
+                     std::vector<double>& rows) {
+  if (at_.steps > 0) append_row(step, state, rows);
+}
+
+void History::append_row(const dynamics::StepReport& step, const dynamics::State* state,
+                         std::vector<double>& rows) {
+  const double span = static_cast<double>(at_.steps) * dt_;
+  HistoryRecord r;
+  r.time = step.frame.time;
+  r.angle = step.frame.angle;
+  r.center = step.frame.center;
+  r.force = {at_.impulse.x / span, at_.impulse.y / span};
+  r.torque = at_.angular_impulse / span;
+  r.nodes = step.contact.nodes;
+  r.sticking = step.contact.sticking;
+  r.contact_length = step.contact.length;
+  r.penetration = at_.penetration;
+  r.slip_ratio = slip_ratio(r.time);
+  r.balance = step.balance;
+  append_values(history_columns(), r, rows);
+  append_probes(state, rows);
+}
+
+}  // namespace rondo::study

@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: BSD-3-Clause
+/// @file  Rows of history.csv of motion in time: forces as means over the interval since the last
+/// row, the ledger at half a step before, probes as they are at the row's time.
+#pragma once
+#include <string>
+#include <vector>
+
+#include "rondo/case/setup.hpp"
+#include "rondo/integrators/integrator.hpp"
+#include "rondo/output/columns.hpp"
+
+namespace rondo::study {
+
+/// Where the rows of history.csv stand between two steps.
+struct HistoryPlace {
+  long long next = 1;   ///< number of the next row's interval
+  long long steps = 0;  ///< since the last row
+  long long done = 0;   ///< the last step seen
+  Vec2 impulse;         ///< since the last row                                      [N·s/m]
+  double angular_impulse = 0.0, penetration = 0.0;
+};
+
+class History {
+ public:
+  /// c.output.history_interval 0: every step. Case and setup must outlive the object.
+  History(const Case& c, const Setup& setup, const HistoryPlace& place = {});
+  [[nodiscard]] const HistoryPlace& place() const noexcept { return at_; }
+  [[nodiscard]] std::vector<ColumnLabel> columns() const;
+  /// Every step, in turn: appends a row where one is due.
+  /// @param state of this step, where there are probes; null: their numbers are NaN
+  void observe(const dynamics::StepReport& step, const dynamics::State* state,
+               std::vector<double>& rows);
+  /// No step comes after the one seen last: its row, where none was due.
+  void finish(const dynamics::StepReport& step, const dynamics::State* state,
+              std::vector<double>& rows);
+  /// The next step that gives a row with probes: its state is wanted. The largest number where
+  /// there are none.
+  [[nodiscard]] long long next_probed() const noexcept;
+
+ private:
+  [[nodiscard]] double slip_ratio(double time) const;
+  [[nodiscard]] bool is_due(double time) const noexcept;
+  void append_row(const dynamics::StepReport& step, const dynamics::State* state,
+                  std::vector<double>& rows);
+  void append_probes(const dynamics::State* state, std::vector<double>& rows) const;
+
+  const Case& case_;
+  const Setup& setup_;
+  double dt_, interval_;
+  double radius_ = 0.0;  ///< of what rolls; 0: nothing does                       [m]
+  HistoryPlace at_;
+};
+
+}  // namespace rondo::study

@@ -1,0 +1,186 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "rondo/output/recorder.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <utility>
+
+#include "rondo/io/files.hpp"
+#include "rondo/output/snapshot_files.hpp"
+
+namespace rondo::study {
+namespace {
+
+constexpr std::size_t rows_at_once = 32;
+constexpr std::chrono::milliseconds longest_wait{200};  ///< of a row before it is handed over
+
+std::vector<double> no_rows(std::size_t numbers) {
+  std::vector<double> rows;
+  rows.reserve(numbers);
+  return rows;
+}
+
+double seconds_since(std::chrono::steady_clock::time_point begin) {
+  return std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+}
+
+io::Csv history_file(const std::filesystem::path& directory,
+                     const std::vector<ColumnLabel>& columns, const Checkpoint* from) {
+  const std::filesystem::path file = directory / "history.csv";
+  const std::vector<std::string> names = names_of(columns);
+  return from ? io::Csv(file, names, from->files.history_bytes) : io::Csv(file, names);
+}
+
+}  // namespace
+
+std::size_t queue_length(std::size_t n_snapshots, std::size_t bytes) noexcept {
+  constexpr std::size_t rows_only = 8;  // slots for rows between the snapshots
+  constexpr std::size_t most = 512;     // what is written must not be far behind the run
+  const std::size_t wanted = std::min(n_snapshots + rows_only, most);
+  return std::clamp<std::size_t>(output_queue_bytes / bytes, 2, wanted);
+}
+
+Recorder::Recorder(std::filesystem::path directory, const RecordPlan& plan, const Checkpoint* from)
+    : directory_(std::move(directory)),
+      time_unit_(plan.results.words.time_unit),
+      n_columns_(plan.columns.size()),
+      numbers_at_once_(rows_at_once * n_columns_),
+      rows_(no_rows(numbers_at_once_)),
+      saved_step_(from ? from->state.step : 0),
+      snapshots_(std::make_unique<SnapshotFiles>(directory_, plan, from)),
+      history_csv_(history_file(directory_, plan.columns, from)),
+      slots_(make_slots(plan)),
+      writer_(slots_.size(), [this](std::size_t slot) { write(slots_[slot]); }) {}
+
+Recorder::~Recorder() {
+  try {
+    close();
+  } catch (...) {  // reported where close() is called
+  }
+}
+
+/// Their memory is reserved, and becomes the process's own as it is first written to: a run whose
+/// output keeps up takes but a few of them.
+std::vector<Recorder::Slot> Recorder::make_slots(const RecordPlan& plan) const {
+  const io::ResultsLayout& layout = plan.results;
+  const std::size_t nodes = layout.n_snapshots == 0 ? 0 : layout.mesh->n_nodes();
+  const std::size_t contacts =
+      layout.n_snapshots == 0 || !layout.contact ? 0 : 2 * layout.mesh->boundary.size();
+  const std::size_t bytes = numbers_at_once_ * sizeof(double) + 2 * nodes * sizeof(Vec2) +
+                            contacts * sizeof(ContactForce);
+  std::vector<Slot> slots(queue_length(layout.n_snapshots, bytes));
+  for (Slot& slot : slots) {
+    slot.rows = no_rows(numbers_at_once_);
+    slot.snapshot.u.reserve(nodes);
+    slot.snapshot.v.reserve(nodes);
+    slot.snapshot.contacts.reserve(contacts);
+  }
+  return slots;
+}
+
+void Recorder::rows_added() {
+  if (rows_.size() < numbers_at_once_) return;
+  take_slot();
+  hand_over();
+}
+
+void Recorder::add_row(std::span<const double> row) {
+  rows_.insert(rows_.end(), row.begin(), row.end());
+  rows_added();
+}
+
+Snapshot& Recorder::next_snapshot() {
+  Slot& slot = take_slot();
+  slot.has_snapshot = true;
+  return slot.snapshot;
+}
+
+void Recorder::add_snapshot() {
+  hand_over();
+}
+
+void Recorder::save(Checkpoint checkpoint) {
+  saving_ = true;
+  take_slot().checkpoint = std::move(checkpoint);
+  hand_over();
+}
+
+void Recorder::keep_up() {
+  writer_.check();
+  if (rows_.empty() || Clock::now() - handed_over_ <= longest_wait) return;
+  take_slot();
+  hand_over();
+}
+
+/// With the rows so far.
+Recorder::Slot& Recorder::take_slot() {
+  taken_ = Clock::now();
+  slot_ = writer_.take();
+  Slot& slot = slots_[slot_];
+  slot.rows.swap(rows_);
+  rows_.clear();
+  slot.has_snapshot = false;
+  slot.checkpoint.reset();
+  return slot;
+}
+
+void Recorder::hand_over() {
+  writer_.hand_over(slot_);
+  handed_over_ = Clock::now();
+  wait_s_ += std::chrono::duration<double>(handed_over_ - taken_).count();
+}
+
+void Recorder::write(Slot& slot) {
+  history_csv_.rows(slot.rows);
+  if (!slot.rows.empty()) kept_until_ = slot.rows[slot.rows.size() - n_columns_];
+  if (slot.has_snapshot) snapshots_->write(slot.snapshot);
+  if (!slot.checkpoint) return;
+  write(*slot.checkpoint);
+  slot.checkpoint.reset();
+  saving_ = false;
+}
+
+/// What it says of the other files must be true whatever happens to the machine: they are synced
+/// first.
+void Recorder::write(Checkpoint& checkpoint) {
+  io::sync_file(history_csv_.path());
+  snapshots_->sync();
+  checkpoint.files = {history_csv_.bytes(), snapshots_->contact_bytes(), snapshots_->written()};
+  write_checkpoint(directory_, checkpoint);
+  saved_step_ = checkpoint.state.step;
+}
+
+void Recorder::close() {
+  if (closed_) return;
+  closed_ = true;
+  if (!rows_.empty()) {
+    take_slot();
+    hand_over();
+  }
+  const auto begin = Clock::now();
+  writer_.finish();
+  history_csv_.close();
+  snapshots_->close();
+  drain_s_ = seconds_since(begin);
+}
+
+std::string Recorder::kept() {
+  try {
+    close();
+  } catch (...) {  // what is asked about
+  }
+  const std::string until = time_unit_ == "s" ? fmt::format("t = {:.9g} s", kept_until_)
+                                              : fmt::format("{:.9g} of the load", kept_until_);
+  return fmt::format("kept are history.csv to {} and {} snapshots", until, snapshots_->written());
+}
+
+OutputCost Recorder::cost() const {
+  return {wait_s_, drain_s_, writer_.busy_s(), writer_.times_full()};
+}
+
+std::size_t Recorder::written() const {
+  return snapshots_->written();
+}
+
+}  // namespace rondo::study

@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: BSD-3-Clause
+/// @file  What a snapshot is made of, as an analysis hands it to its recorder: plain numbers, so
+/// that another thread may write them while the analysis goes on.
+#pragma once
+#include <cstddef>
+#include <vector>
+
+#include "rondo/core/vec2.hpp"
+#include "rondo/model/model.hpp"
+
+namespace rondo::study {
+
+/// Of a candidate that is pressed.
+struct ContactForce {
+  std::size_t candidate = 0;  ///< place in mesh.boundary
+  Vec2 force;                 ///< normal, tangential                                    [N/m]
+  Vec2 force_fixed;           ///< the same, fixed frame                                 [N/m]
+  bool on_ground = true;      ///< false: only a body presses it
+};
+
+struct Snapshot {
+  double time = 0.0;            ///< as in history.csv: [s], or a share of the load       [1]
+  double time_velocity = 0.0;   ///< of the velocity
+  double angle = 0.0;           ///< θ at `time`                                          [rad]
+  double angle_velocity = 0.0;  ///< θ at `time_velocity`                                 [rad]
+  Vec2 center;                  ///< of the turning frame                                 [m]
+  std::vector<Vec2> u;          ///< (n) turning frame; of free bodies fixed frame        [m]
+  std::vector<Vec2> v;          ///< (n) likewise: velocity [m/s], or rate over the load  [m]
+  std::vector<dynamics::Pose> poses;   ///< (free_bodies)
+  std::vector<ContactForce> contacts;  ///< ascending candidates
+  std::vector<double> series;          ///< values of the plan's series, one after another
+};
+
+}  // namespace rondo::study

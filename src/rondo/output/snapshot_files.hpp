@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: BSD-3-Clause
+/// @file  results.h5, fields.xdmf and contact.csv: a snapshot after the other.
+#pragma once
+#include <cstddef>
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "rondo/fem/stress.hpp"
+#include "rondo/output/recorder.hpp"
+
+namespace rondo::study {
+
+/// Made, used and closed by one thread at a time.
+class SnapshotFiles {
+ public:
+  /// Creates the files or, from a checkpoint, goes on with those that are there. @throws FileError
+  SnapshotFiles(const std::filesystem::path& directory, const RecordPlan& plan,
+                const Checkpoint* from);
+  /// @throws FileError
+  void write(const Snapshot& snapshot);
+  /// @throws FileError
+  void close();
+  [[nodiscard]] std::size_t written() const { return results_->written(); }
+  [[nodiscard]] std::size_t contact_bytes() const { return contact_csv_.bytes(); }
+  /// All that was written is on the disk, whatever happens to the machine. @throws FileError
+  void sync() const;
+
+ private:
+  void collect_contact(const Snapshot& snapshot);
+  [[nodiscard]] std::span<const Vec2> elastic(const Snapshot& snapshot);
+  void write_contact_rows(const Snapshot& snapshot);
+  [[nodiscard]] Vec2 position(const Snapshot& snapshot, std::size_t node) const;
+
+  const mesh::Mesh& mesh_;
+  const contact::Ground* ground_;
+  const dynamics::Model* model_;
+  const bool contact_;
+  std::unique_ptr<io::Results> results_;  ///< first: what fails while it copies leaves all files
+  ///< as they were
+  io::Csv contact_csv_;
+  std::optional<fem::StressRecovery> stress_;
+  std::vector<Vec2> elastic_;  ///< (n) displacement in the frame of its body; empty: no free body
+  std::vector<Complex> rotations_;         ///< of the free bodies
+  std::vector<Vec2> force_, force_fixed_;  ///< (nb)
+  std::vector<char> on_ground_;            ///< (nb) 1: the ground presses it
+  std::vector<double> rows_;
+};
+
+}  // namespace rondo::study
