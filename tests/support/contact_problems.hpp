@@ -9,6 +9,7 @@
 
 #include "rondo/contact/coupled/rows.hpp"
 #include "rondo/contact/node_to_segment.hpp"
+#include "rondo/core/complex.hpp"
 
 namespace rondo::test {
 

@@ -10,6 +10,7 @@
 
 #include "rondo/contact/pair.hpp"
 #include "rondo/contact/residual.hpp"
+#include "rondo/core/complex.hpp"
 #include "support/contact_oracles.hpp"
 #include "support/contact_problems.hpp"
 

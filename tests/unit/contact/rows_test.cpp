@@ -7,6 +7,7 @@
 
 #include "rondo/contact/coupled/clusters.hpp"
 #include "rondo/contact/node_to_segment.hpp"
+#include "rondo/core/complex.hpp"
 #include "support/contact_oracles.hpp"
 
 using namespace rondo;
@@ -60,7 +61,8 @@ TEST(NodeToSegment, ImpulsesHaveNoResultantAndNoMoment) {
     ASSERT_LT(norm(on_p + on_a + on_b), 1e-15);
     // Roundings of arms up to 1.5 and impulses up to 2.
     ASSERT_LT(std::abs(cross(x.p, on_p) + cross(x.a, on_a) + cross(x.b, on_b)), 4e-15);
-    ASSERT_LT(norm(on_p - from_frame(x.touch.normal, r)), 1e-15);  // r acts on the point, in its frame
+    ASSERT_LT(norm(on_p - from_frame(x.touch.normal, r)),
+              1e-15);  // r acts on the point, in its frame
   }
 }
 

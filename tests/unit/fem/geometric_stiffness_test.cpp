@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// Stiffness by the stress of a displacement.
 #include <gtest/gtest.h>
+#include <Eigen/Eigenvalues>
 
 #include <array>
 #include <cmath>

@@ -5,6 +5,7 @@
 #include <cstring>
 #include <thread>
 
+#include "rondo/core/complex.hpp"
 #include "rondo/io/h5/h5.hpp"
 #include "rondo/io/results.hpp"
 #include "unit/io/support.hpp"
@@ -28,12 +29,11 @@ void expect_half(const Folder& folder, SmallRun& run) {
   for (std::size_t k = 0; k < written; ++k) {
     const Snapshot& s = run.snapshot(k);
     EXPECT_EQ(time[k], s.time);
-    EXPECT_EQ(file.dataset("/snapshots/displacement").read_row<Vec2>(k),
-              std::vector<Vec2>(s.displacement.begin(), s.displacement.end()));
-    EXPECT_EQ(file.dataset("/contact/force").read_row<Vec2>(k),
-              std::vector<Vec2>(s.contact_force.begin(), s.contact_force.end()));
+    EXPECT_EQ(file.dataset("/snapshots/displacement").read_row<Vec2>(k), points_of(s.displacement));
+    EXPECT_EQ(file.dataset("/contact/force").read_row<Vec2>(k), points_of(s.contact_force));
     const auto position = file.dataset("/fields/position").read_row<std::array<float, 3>>(k);
-    const Vec2 x = s.center + rotation(s.angle) * (run.mesh.coordinates[5] + s.displacement[5]);
+    const Vec2 x =
+        s.center + rotation(s.angle) * (run.mesh.coordinates[5] + point_of(s.displacement, 5));
     EXPECT_EQ(position[5][0], static_cast<float>(x.x));
     EXPECT_EQ(position[5][1], static_cast<float>(x.y));
   }
@@ -77,7 +77,7 @@ TEST(ResultsOfAKilledRun, ASnapshotBrokenOffHasNoTime) {
     Snapshot s = run.snapshot(1);
     void* none =
         ::mmap(nullptr, sizeof(Vec2) * run.n(), PROT_NONE, MAP_PRIVATE | MAP_ANONYMOUS, -1, 0);
-    s.velocity = {static_cast<const Vec2*>(none), run.n()};  // cannot be read
+    s.velocity = std::span(static_cast<const Vec2*>(none), run.n());  // cannot be read
     try {
       results.write(s);
     } catch (const FileError&) {

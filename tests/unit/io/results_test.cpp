@@ -102,9 +102,8 @@ TEST(Results, WhatWasGivenIsReadBack) {
     EXPECT_EQ(file.read<double>("/frame/angle")[k], s.angle);
     EXPECT_EQ(file.read<double>("/frame/angle_velocity")[k], s.angle_velocity);
     EXPECT_EQ(file.read<Vec2>("/frame/center")[k], s.center);
-    const auto same = [&](const char* name, std::span<const Vec2> values) {
-      EXPECT_EQ(file.dataset(name).read_row<Vec2>(k),
-                std::vector<Vec2>(values.begin(), values.end()));
+    const auto same = [&](const char* name, const FieldView& values) {
+      EXPECT_EQ(file.dataset(name).read_row<Vec2>(k), points_of(values));
     };
     same("/snapshots/displacement", s.displacement);
     same("/snapshots/velocity", s.velocity);
@@ -122,7 +121,7 @@ TEST(Results, FieldsAreInTheFixedFrame) {
   const auto position = file.dataset("/fields/position").read_row<std::array<float, 3>>(2);
   const auto turned = file.dataset("/fields/displacement").read_row<std::array<float, 3>>(2);
   for (std::size_t i = 0; i < run.n(); ++i) {
-    const Vec2 u = s.displacement[i], x = run.mesh.coordinates[i] + u;
+    const Vec2 u = point_of(s.displacement, i), x = run.mesh.coordinates[i] + u;
     // single precision of numbers below 10
     EXPECT_NEAR(position[i][0], s.center.x + c * x.x - sn * x.y, 1e-6);
     EXPECT_NEAR(position[i][1], s.center.y + sn * x.x + c * x.y, 1e-6);
@@ -146,10 +145,39 @@ TEST(Results, ContactForceIsOnTheCandidatesAndTractionPerLength) {
   EXPECT_EQ(loaded, run.nb());
   for (std::size_t b = 0; b < run.nb(); ++b) {
     const auto& f = field[static_cast<std::size_t>(run.mesh.boundary[b])];
-    EXPECT_EQ(f[0], static_cast<float>(s.contact_force_fixed[b].x));
-    EXPECT_EQ(f[1], static_cast<float>(s.contact_force_fixed[b].y));
-    EXPECT_EQ(traction[b].x, s.contact_force[b].x / run.mesh.tributary[b]);
-    EXPECT_EQ(traction[b].y, s.contact_force[b].y / run.mesh.tributary[b]);
+    EXPECT_EQ(f[0], static_cast<float>(s.contact_force_fixed[b][0]));
+    EXPECT_EQ(f[1], static_cast<float>(s.contact_force_fixed[b][1]));
+    EXPECT_EQ(traction[b].x, s.contact_force[b][0] / run.mesh.tributary[b]);
+    EXPECT_EQ(traction[b].y, s.contact_force[b][1] / run.mesh.tributary[b]);
+  }
+}
+
+/// Fields in space: x and y turn with the frame, z stays.
+TEST(Results, VectorsOfThreeComponents) {
+  const Folder folder;
+  SmallRun run;
+  ResultsLayout layout = run.layout(1);
+  layout.components = 3;
+  layout.contact = false;
+  Snapshot s = run.snapshot(0);
+  const std::vector<Vec2> plane = points_of(s.displacement);
+  std::vector<double> u;
+  for (std::size_t i = 0; i < run.n(); ++i)
+    u.insert(u.end(), {plane[i].x, plane[i].y, 0.25 * static_cast<double>(i)});
+  s.displacement = s.velocity = FieldView(u, 3);
+  s.contact_force = s.contact_force_fixed = {};
+  Results results(folder.path(), layout);
+  results.write(s);
+  results.close();
+  const h5::File file = h5::File::open(folder / "results.h5");
+  EXPECT_EQ(file.dataset("/snapshots/displacement").shape(), (h5::Shape{1, run.n(), 3}));
+  EXPECT_EQ(file.read<double>("/snapshots/displacement"), u);
+  const auto turned = file.dataset("/fields/displacement").read_row<std::array<float, 3>>(0);
+  for (std::size_t i = 0; i < run.n(); ++i) {
+    const Vec2 expected = rotation(s.angle) * plane[i];
+    EXPECT_EQ(turned[i][0], static_cast<float>(expected.x));
+    EXPECT_EQ(turned[i][1], static_cast<float>(expected.y));
+    EXPECT_EQ(turned[i][2], static_cast<float>(u[3 * i + 2]));
   }
 }
 

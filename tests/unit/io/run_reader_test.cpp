@@ -37,8 +37,8 @@ void expect_snapshots(const RunReader& reader, SmallRun& run, std::size_t n) {
     EXPECT_EQ(t.time_velocity[k], s.time_velocity);
     EXPECT_EQ(t.angle[k], s.angle);
     EXPECT_EQ(t.angle_velocity[k], s.angle_velocity);
-    const auto same = [&](Quantity quantity, std::span<const Vec2> values) {
-      EXPECT_EQ(whole(reader, quantity, k), std::vector<Vec2>(values.begin(), values.end()));
+    const auto same = [&](Quantity quantity, const FieldView& values) {
+      EXPECT_EQ(whole(reader, quantity, k), points_of(values));
     };
     same(Quantity::displacement, s.displacement);
     same(Quantity::velocity, s.velocity);
@@ -246,7 +246,7 @@ TEST(RunReader, PartsAreThoseOfTheWhole) {
                                all.begin() + static_cast<std::ptrdiff_t>(first)));
         EXPECT_TRUE(std::isnan(part[n].x));
       }
-    reader.read(quantity, 1, all.size(), {});
+    reader.read(quantity, 1, all.size(), std::span<Vec2>());
   }
 }
 

@@ -22,6 +22,16 @@
 
 namespace rondo::io::test {
 
+/// The points of a plane field.
+inline Vec2 point_of(const FieldView& field, std::size_t i) {
+  return {field[i][0], field[i][1]};
+}
+inline std::vector<Vec2> points_of(const FieldView& field) {
+  std::vector<Vec2> points;
+  for (std::size_t i = 0; i < field.size(); ++i) points.push_back(point_of(field, i));
+  return points;
+}
+
 class Folder {
  public:
   Folder() {

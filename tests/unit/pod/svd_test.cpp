@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// The direct decomposition against prescribed spectra and an independent solver.
 #include <gtest/gtest.h>
+#include <Eigen/Dense>
 
 #include <Eigen/SVD>
 #include <cmath>

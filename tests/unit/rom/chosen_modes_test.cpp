@@ -2,6 +2,7 @@
 #include "rondo/rom/chosen_modes.hpp"
 
 #include <gtest/gtest.h>
+#include <Eigen/Dense>
 
 #include <Eigen/SVD>
 #include <random>

@@ -8,6 +8,7 @@
 #include <numbers>
 #include <random>
 
+#include "rondo/core/complex.hpp"
 #include "rondo/fem/assembly.hpp"
 #include "rondo/fem/sector_stiffness.hpp"
 #include "rondo/mesh/disk.hpp"
