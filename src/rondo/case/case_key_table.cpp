@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // To add a key: its row here, its member in case.hpp, `docs/cases.md` written again (the test
-// Manual.IsCurrent says how).
+// Manual.HasTheKeys says how).
 #include "rondo/case/case_keys.hpp"
 
 namespace rondo::study {
