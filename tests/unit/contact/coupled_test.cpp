@@ -8,6 +8,7 @@
 #include <numeric>
 #include <random>
 
+#include "rondo/contact/coupled/coupled_residual.hpp"
 #include "rondo/contact/pair.hpp"
 #include "rondo/contact/residual.hpp"
 #include "rondo/core/complex.hpp"

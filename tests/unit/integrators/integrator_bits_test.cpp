@@ -37,7 +37,8 @@ std::vector<double> numbers(const StepReport& s) {
   const Works& w = b.works;
   std::vector<double> out{static_cast<double>(s.step)};
   append(out, {f.time, f.spin, f.spin_rate, f.angle, f.turn, f.turn_before});
-  append(out, std::array{f.rotation, f.center, f.advance, f.advance_before, f.pull, c.impulse});
+  append(out, {f.rotation.re, f.rotation.im});
+  append(out, std::array{f.center, f.advance, f.advance_before, f.pull, c.impulse});
   for (const int count : {c.nodes, c.sticking, c.pairs, c.pairs_not_converged})
     out.push_back(static_cast<double>(count));
   append(out, {c.angular_impulse, c.length, c.penetration, c.free_velocity, c.residual});

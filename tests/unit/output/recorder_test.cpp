@@ -118,8 +118,9 @@ TEST_F(RecorderTest, WhatTheFilesHoldIsSaidInTheUnitOfTheirTime) {
     add(recorder, 0.25);
     add_snapshot(recorder, 0.25);
     const bool is_time = p.results.words.time_unit == "s";
-    EXPECT_EQ(recorder.kept(), is_time ? "kept are history.csv to t = 0.25 s and 1 snapshots"
-                                       : "kept are history.csv to 0.25 of the load and 1 snapshots");
+    EXPECT_EQ(recorder.kept(), is_time
+                                   ? "kept are history.csv to t = 0.25 s and 1 snapshots"
+                                   : "kept are history.csv to 0.25 of the load and 1 snapshots");
   }
 }
 

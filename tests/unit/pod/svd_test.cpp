@@ -7,7 +7,7 @@
 #include <cmath>
 #include <vector>
 
-#include "matrices.hpp"
+#include "support/matrices.hpp"
 #include "rondo/pod/spectrum.hpp"
 #include "rondo/pod/svd.hpp"
 

@@ -2,16 +2,17 @@
 #include "rondo/rom/chosen_modes.hpp"
 
 #include <gtest/gtest.h>
-#include <Eigen/Dense>
 
-#include <Eigen/SVD>
+#include <Eigen/Dense>
 #include <random>
 
-#include "matrices.hpp"
+#include "rondo/pod/decompose.hpp"
 
 using namespace rondo::rom;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
+using rondo::pod::Decomposition;
+using rondo::pod::Index;
 
 namespace {
 
