@@ -11,7 +11,6 @@
 #include <numbers>
 #include <random>
 
-#include "rondo/core/complex.hpp"
 #include "rondo/model/operator.hpp"
 #include "support/models.hpp"
 #include "support/stepping.hpp"
