@@ -9,7 +9,7 @@
 
 #include "rondo/analysis/build/build.hpp"
 #include "rondo/analysis/build/stability.hpp"
-#include "rondo/case/case_bodies.hpp"
+#include "rondo/case/case_rules.hpp"
 #include "rondo/core/bytes.hpp"
 #include "rondo/core/memory_limits.hpp"
 #include "rondo/output/recorder.hpp"
