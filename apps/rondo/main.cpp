@@ -213,7 +213,7 @@ CLI::App* add_modes(CLI::App& program, app::ModesArguments& arguments) {
   modes->add_option("--diameters", r.diameters, "critical speeds of waves with up to that many")
       ->check(CLI::Range(0, 1000000))
       ->capture_default_str();
-  modes->add_flag("--overwrite", r.overwrite, "replaces what another run has left there");
+  modes->add_flag("--overwrite", r.run.overwrite, "replaces what another run has left there");
   modes->add_flag("--quiet", arguments.quiet, "prints warnings and the figures only");
   modes->footer(
       "Example:\n  rondo modes cases/modes-annulus.toml -o results/modes --spins 0:400:41\n"

@@ -5,9 +5,12 @@
 #include <spdlog/spdlog.h>
 
 #include <filesystem>
+#include <functional>
 #include <numbers>
 
 #include "exit_codes.hpp"
+#include "progress.hpp"
+#include "signals.hpp"
 
 namespace rondo::app {
 namespace {
@@ -41,19 +44,30 @@ int modes(ModesArguments arguments) {
   if (arguments.quiet) spdlog::set_level(spdlog::level::warn);
   const study::Case c = study::read_case(arguments.case_file, arguments.settings);
   study::ModesRequest& request = arguments.request;
-  request.directory = arguments.directory.empty() ? default_directory(arguments.case_file)
-                                                  : std::filesystem::path(arguments.directory);
-  request.warn = [](const std::string& text) { spdlog::warn(text); };
+  request.run.directory = arguments.directory.empty() ? default_directory(arguments.case_file)
+                                                      : std::filesystem::path(arguments.directory);
+  request.run.warn = [](const std::string& text) { spdlog::warn(text); };
+  request.run.stop = &stop_requested();
+  request.run.before_loop = catch_stop_signals;
+  Progress progress("spin");
+  if (!arguments.quiet) request.run.progress = std::ref(progress);
   const study::ModesReport r = study::run_modes(c, request);
   print_modes(r);
   print_critical(r);
   fmt::print("files              {}\n", r.directory.string());
-  if (r.trouble.empty()) {
-    spdlog::info("{} modes of {} degrees of freedom in {:.2f} s", r.modes.size(), r.dofs, r.wall_s);
-    return exit_done;
+  switch (r.run.status) {
+    case study::RunStatus::failed:
+      spdlog::error("{}; what there is is in {}", r.run.message, r.directory.string());
+      return exit_numerical;
+    case study::RunStatus::interrupted:
+      spdlog::warn("interrupted after {}; their modes are in {}", r.run.reached,
+                   r.directory.string());
+      return exit_interrupted;
+    case study::RunStatus::done:
+      break;
   }
-  spdlog::error("{}; what there is is in {}", r.trouble, r.directory.string());
-  return exit_numerical;
+  spdlog::info("{} modes of {} degrees of freedom in {:.2f} s", r.modes.size(), r.dofs, r.wall_s);
+  return exit_done;
 }
 
 }  // namespace rondo::app

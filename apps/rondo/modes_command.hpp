@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "rondo/analysis/modes.hpp"
+#include "rondo/analysis/modes/modes.hpp"
 
 namespace rondo::app {
 

@@ -53,7 +53,8 @@ class Crush(RunTest):
                               "increments slide slide_increments increments_done candidates_condensed contact_residual_max "
                               "equilibrium_residual_max energy_residual_relative energy_exchanged "
                               "penetration_max_m sweeps_max pivoted_increments factor_wall_s loop_wall_s "
-                              "peak_memory_bytes snapshots".split()))
+                              "peak_memory_bytes snapshots columns resumable output steps_done last_time "
+                              "loop_cpu_s total_wall_s".split()))
         self.assertEqual((s["status"], s["analysis"], s["nodes"], s["dofs"], s["increments"],
                           s["increments_done"], s["depth"], s["snapshots"]),
                          ("done", "crush", 300, 480, 8, 8, 0.02, 8))

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """rondo run on a disk that fills up while it goes on, here by a limit of the size of its files that
-comes once it runs (test_room.py has a small file system): exit code 4, the file named, run.json says
+comes once it runs (test_limits.py has a small file system): exit code 4, the file named, run.json says
 so. What is written is written off the loop: the error comes back to it in time, or when it has ended."""
 import resource
 import subprocess

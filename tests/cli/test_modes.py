@@ -2,16 +2,19 @@
 """rondo modes from outside: files, figures against the equation itself, wrong input."""
 import csv
 import json
+import signal
+import subprocess
+import time
 import unittest
 
 import h5py
 import numpy as np
 
-from program import ProgramTest, ROOT, SMALL, replaced, run
+from program import PROGRAM, ProgramTest, ROOT, SMALL, replaced, run
 
 ANNULUS = ROOT / "cases" / "modes-annulus.toml"
 FILES = ["campbell.csv", "case.toml", "critical-speeds.csv", "modes.csv", "modes.h5", "modes.json",
-         "modes.xdmf"]
+         "modes.xdmf", "run.json"]
 COARSE = ["--set", "disk.mesh.radial=4", "--set", "disk.mesh.circumferential=40"]
 
 
@@ -203,6 +206,25 @@ class Modes(ProgramTest):
         case = self.case(replaced(SMALL, "end", "end = 0.001"))
         self.assertEqual(run("modes", case, "--count", 1).returncode, 0)
         self.assertTrue((self.folder / "case-modes" / "modes.csv").exists())
+
+    def test_interrupted(self):
+        out = self.folder / "out"
+        process = subprocess.Popen([PROGRAM, "modes", ANNULUS, "-o", out, *COARSE, "--spins",
+                                    "0:100:10000"], stdout=subprocess.PIPE,
+                                   stderr=subprocess.PIPE, text=True)
+        path = out / "campbell.csv"
+        deadline = time.time() + 60
+        while time.time() < deadline and not (path.exists() and len(table(path)) > 80):
+            time.sleep(0.02)
+        process.send_signal(signal.SIGINT)
+        _, said = process.communicate(timeout=60)
+        self.assertEqual(process.returncode, 130, said)
+        j = json.loads((out / "run.json").read_text())
+        self.assertEqual((j["status"], j["analysis"]), ("interrupted", "modes"))
+        rows = table(path)
+        self.assertEqual(len({r["spin_rad_s"] for r in rows}), j["spins_done"] - 2)
+        self.assertIn(f"after {j['spins_done']} of 10002 spins", said)
+        self.assertFalse((out / "modes.json").exists())
 
 
 if __name__ == "__main__":

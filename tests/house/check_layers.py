@@ -1,43 +1,52 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""A module includes only what its line below names; a back edge or a cycle fails the test.
+"""A module includes only what its line below names; a back edge or a cycle fails the test, and so
+does a folder with more files than a reader takes in.
 
     python3 check_layers.py [ROOT]     prints each include that breaks the rule
 """
+import collections
 import pathlib
 import re
 import sys
 
-# Direct and indirect: what a room may include besides itself. A room is a folder of src/rondo, or
-# of one of those in SUB_ROOMS.
-BELOW_MODEL = {"core", "mesh", "fem", "contact"}
+# What a module may include besides itself, direct and indirect. A module is a folder of src/rondo; its
+# sub-modules are the folders in it that have a line of their own.
+SOLIDS = {"core", "mesh", "fem", "contact", "contact/coupled"}
 ALLOWED = {
     "core": set(),
     "mesh": {"core"},
     "fem": {"core", "mesh"},
     "contact": {"core"},
-    "model": BELOW_MODEL,
-    "integrators": BELOW_MODEL | {"model"},
-    "statics": BELOW_MODEL,
+    "contact/coupled": {"core", "contact"},
+    "model": SOLIDS,
+    "integrators": SOLIDS | {"model"},
+    "statics": SOLIDS,
     "modal": {"core", "mesh", "fem"},
     "pod": {"core", "mesh"},
-    "rom": BELOW_MODEL | {"model", "integrators", "pod"},
-    "case": BELOW_MODEL | {"model"},
+    "rom": SOLIDS | {"model", "integrators", "pod"},
+    "case": SOLIDS | {"model"},
+    "io/h5": {"core"},
 }
 ALLOWED["io"] = set(ALLOWED) - {"case"}
-ALLOWED["output"] = BELOW_MODEL | {"model", "integrators", "case", "io"}
+ALLOWED["output"] = SOLIDS | {"model", "integrators", "case", "io"}
+ALLOWED["analysis/build"] = SOLIDS | {"model", "integrators", "statics", "case", "output"}
+ALLOWED["analysis/figures"] = {"core", "io", "output"}
 ALLOWED["analysis"] = set(ALLOWED)
-ALLOWED["study/sweep"] = set(ALLOWED["analysis"]) | {"analysis"}
+ALLOWED["analysis/modes"] = ALLOWED["analysis"] | {"analysis"}
+ALLOWED["study/sweep"] = ALLOWED["analysis"] | {"analysis"}
 ALLOWED["study/pod"] = ALLOWED["study/sweep"] | {"study/sweep"}
 ALLOWED["study/reduce"] = ALLOWED["study/pod"] | {"study/pod"}
-ALLOWED["apps"] = {"core", "analysis", "output", "case", "study/pod", "study/sweep", "study/reduce"}
+ALLOWED["apps"] = {"core", "case", "output", "analysis/build", "analysis", "analysis/modes",
+                   "study/pod", "study/sweep", "study/reduce"}
 ALLOWED["mesh_reader"] = {"mesh"}  # a program of its own; it shares the layout of its output
-SUB_ROOMS = {"study"}
 
 # Libraries that only these modules may see.
-ONLY_IN = {"hdf5.h": {"io"}, "toml++/": {"case"}, "CLI/": {"apps"}, "cholmod": {"statics"},
+ONLY_IN = {"hdf5.h": {"io/h5"}, "toml++/": {"case"}, "CLI/": {"apps"}, "cholmod": {"statics"},
            "CholmodSupport": {"modal", "statics"}, "Spectra/": {"model"},
-           "lapacke": {"pod"}, "xxhash": {"io"}, "fftw3": {"pod"},
+           "lapacke": {"pod"}, "xxhash": {"io/h5"}, "fftw3": {"pod"},
            "gmsh.h": {"mesh_reader"}, "mpi.h": {"apps"}}
+
+MOST_FILES = 25  # in a folder
 
 INCLUDE = re.compile(r'^\s*#\s*include\s*[<"]([^">]+)[">]', re.MULTILINE)
 
@@ -46,24 +55,28 @@ def module_of(path, root):
     parts = path.relative_to(root).parts
     if parts[:2] == ("apps", "mesh_reader"):
         return "mesh_reader"
-    return "apps" if parts[0] == "apps" else room_of(parts[2:])
+    return "apps" if parts[0] == "apps" else module_of_parts(parts[2:])
 
 
-def room_of(parts):
+def module_of_parts(parts):
     """Of a path below src/rondo, or of the name of an include behind "rondo/"."""
-    return "/".join(parts[:2]) if parts[0] in SUB_ROOMS else parts[0]
+    module = "/".join(parts[:2])
+    return module if module in ALLOWED else parts[0]
 
 
 def faults(root):
     files = [p for folder in ("src/rondo", "apps") for p in sorted((root / folder).rglob("*.?pp"))]
     if not files:
         yield f"no sources under {root}"
+    for folder, n in sorted(collections.Counter(path.parent for path in files).items()):
+        if n > MOST_FILES:
+            yield f"{folder.relative_to(root)} holds {n} files, more than {MOST_FILES}: sub-modules"
     for path in files:
         module = module_of(path, root)
         for name in INCLUDE.findall(path.read_text()):
             place = f"{path.relative_to(root)} includes {name}"
             if name.startswith("rondo/"):
-                other = room_of(name.split("/")[1:])
+                other = module_of_parts(name.split("/")[1:])
                 if other != module and other not in ALLOWED.get(module, set()):
                     yield f"{place}: {module} may not see {other}"
             for library, homes in ONLY_IN.items():

@@ -26,6 +26,30 @@ class Layers(unittest.TestCase):
             self.assertEqual(len(found), 2, found)
             self.assertIn("core may not see mesh", found[1])
 
+    def test_sub_rooms_have_layers_of_their_own(self):
+        with tempfile.TemporaryDirectory() as folder:
+            root = pathlib.Path(folder)
+            for name, text in [("contact/law.hpp", '#include "rondo/contact/coupled/rows.hpp"\n'),
+                               ("contact/coupled/rows.hpp", '#include "rondo/contact/law.hpp"\n'),
+                               ("io/csv.cpp", "#include <hdf5.h>\n")]:
+                path = root / "src/rondo" / name
+                path.parent.mkdir(parents=True, exist_ok=True)
+                path.write_text(text)
+            found = list(check_layers.faults(root))
+            self.assertEqual(len(found), 2, found)
+            self.assertIn("contact may not see contact/coupled", found[0])
+            self.assertIn("only io/h5 may", found[1])
+
+    def test_a_folder_that_is_full_is_seen(self):
+        with tempfile.TemporaryDirectory() as folder:
+            module = pathlib.Path(folder) / "src/rondo/core"
+            module.mkdir(parents=True)
+            for k in range(check_layers.MOST_FILES + 1):
+                (module / f"a{k}.hpp").write_text("")
+            found = list(check_layers.faults(pathlib.Path(folder)))
+            self.assertEqual(len(found), 1, found)
+            self.assertIn("holds 26 files", found[0])
+
     def test_no_sources_is_a_fault(self):
         with tempfile.TemporaryDirectory() as folder:
             self.assertEqual(len(list(check_layers.faults(pathlib.Path(folder)))), 1)

@@ -9,7 +9,6 @@ import numpy as np
 import pytest
 
 import rondo
-from rondo.data.history import PROBES, UNITS
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 
@@ -97,18 +96,33 @@ def test_every_column_has_its_unit(any_run):
         assert name.endswith("_" + units[name])
 
 
-def test_units_are_those_of_the_manual():
-    """The table of docs/results.md."""
-    manual = (ROOT / "docs" / "results.md").read_text()
-    section = manual[manual.index("## history.csv"):manual.index("## contact.csv")]
-    found = {}
-    for line in section.splitlines():
-        cells = [cell.strip() for cell in line.strip("|").split("|")]
-        if line.startswith("| `"):
-            found |= {name.strip(" `"): cells[1] for name in cells[0].split(",")}
-    probes = {name: found.pop(name) for name in list(found) if name.startswith("NAME_")}
-    assert found == UNITS
-    assert {name.removeprefix("NAME"): unit for name, unit in probes.items()} == PROBES
+def test_units_are_those_of_the_run(any_run):
+    said = {column["name"]: column["unit"] for column in any_run.info["columns"]}
+    assert list(said) == any_run.history.names
+    assert any_run.history.units == said
+
+
+def without_columns(directory):
+    """As runs of earlier versions are."""
+    info = json.loads((directory / "run.json").read_text())
+    del info["columns"]
+    (directory / "run.json").write_text(json.dumps(info))
+
+
+def test_units_of_a_run_of_an_earlier_version(copy):
+    said = rondo.open(copy).history.units
+    without_columns(copy)
+    units = rondo.open(copy).history.units
+    assert {"time_s", "angle_rad", "center_x_m", "penetration_max_m"} <= set(units)
+    assert "force_y" not in units
+    assert units == {name: said[name] for name in units}
+
+
+def test_columns_that_are_damaged(copy):
+    info = json.loads((copy / "run.json").read_text()) | {"columns": [{"name": "time_s"}]}
+    (copy / "run.json").write_text(json.dumps(info))
+    with pytest.raises(rondo.Error, match="run.json: damaged: its columns: KeyError"):
+        rondo.open(copy).history  # noqa: B018
 
 
 def test_means_are_weighted_by_intervals(copy):

@@ -5,6 +5,7 @@
 #include <utility>
 #include <vector>
 
+#include "rondo/core/complex.hpp"
 #include "rondo/fem/assembly.hpp"
 #include "rondo/integrators/integrator.hpp"
 #include "rondo/integrators/start.hpp"

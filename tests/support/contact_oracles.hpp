@@ -6,6 +6,7 @@
 #include <Eigen/Dense>
 #include <vector>
 
+#include "rondo/contact/coupled/coupled_residual.hpp"
 #include "rondo/contact/residual.hpp"
 #include "support/contact_problems.hpp"
 

@@ -7,8 +7,9 @@
 #include <random>
 #include <vector>
 
+#include "rondo/contact/coupled/node_to_segment.hpp"
 #include "rondo/contact/coupled/rows.hpp"
-#include "rondo/contact/node_to_segment.hpp"
+#include "rondo/core/complex.hpp"
 
 namespace rondo::test {
 

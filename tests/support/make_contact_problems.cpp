@@ -3,7 +3,7 @@
 ///     make_contact_problems FOLDER
 #include <fmt/format.h>
 
-#include "rondo/contact/problem_file.hpp"
+#include "rondo/contact/coupled/problem_file.hpp"
 #include "support/contact_problems.hpp"
 
 using namespace rondo;

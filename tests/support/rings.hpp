@@ -6,6 +6,7 @@
 #include <numbers>
 #include <vector>
 
+#include "rondo/core/complex.hpp"
 #include "rondo/fem/sector_stiffness.hpp"
 #include "rondo/mesh/disk.hpp"
 

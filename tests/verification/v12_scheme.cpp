@@ -17,7 +17,7 @@
 
 using namespace rondo;
 using namespace rondo::dynamics;
-using Complex = std::complex<double>;
+using ComplexNumber = std::complex<double>;
 
 namespace {
 
@@ -96,11 +96,11 @@ std::vector<Mode> modes(const Model& model) {
   const Eigen::EigenSolver<Eigen::MatrixXd> solver(first_order);
   std::vector<Mode> out;
   for (Eigen::Index i = 0; i < 2 * n; ++i) {
-    const Complex lambda = solver.eigenvalues()[i];
+    const ComplexNumber lambda = solver.eigenvalues()[i];
     if (lambda.imag() <= 0.0) continue;
     const Eigen::VectorXcd phi = solver.eigenvectors().col(i).head(n);
-    const Complex g = phi.dot(gyroscopic.cast<Complex>() * phi), m = phi.squaredNorm();
-    const Complex delta = 0.5 * model.dt * lambda * lambda * g / (2.0 * lambda * m + g);
+    const ComplexNumber g = phi.dot(gyroscopic.cast<ComplexNumber>() * phi), m = phi.squaredNorm();
+    const ComplexNumber delta = 0.5 * model.dt * lambda * lambda * g / (2.0 * lambda * m + g);
     out.push_back({lambda.imag(), delta.real()});
   }
   std::sort(out.begin(), out.end(), [](auto& a, auto& b) { return a.frequency < b.frequency; });
@@ -109,8 +109,8 @@ std::vector<Mode> modes(const Model& model) {
 
 /// Growth rate of the eigenvalue of the step whose frequency is nearest.
 double growth_near(const Eigen::VectorXcd& z, double dt, double frequency) {
-  Complex best = z[0];
-  for (const Complex& value : z)
+  ComplexNumber best = z[0];
+  for (const ComplexNumber& value : z)
     if (std::abs(std::arg(value) / dt - frequency) < std::abs(std::arg(best) / dt - frequency))
       best = value;
   return std::log(std::abs(best)) / dt;
@@ -142,9 +142,9 @@ double largest_growth_by_harmonics(const test::Built& b) {
         Eigen::Matrix2d value;
         value << block[0], block[2], block[1], block[3];
         const double scale = 1.0 / std::sqrt(b.model.mass[row] * b.model.mass[column]);
-        const Complex phase = std::polar(scale, harmonic * angle);
+        const ComplexNumber phase = std::polar(scale, harmonic * angle);
         k.block<2, 2>(2 * place[b.mesh.sector_node[row]], 2 * place[b.mesh.sector_node[column]]) +=
-            phase * (value * Eigen::Rotation2Dd(angle).toRotationMatrix()).cast<Complex>();
+            phase * (value * Eigen::Rotation2Dd(angle).toRotationMatrix()).cast<ComplexNumber>();
       }
     }
     k -= s * s * Eigen::MatrixXcd::Identity(n, n);
@@ -165,7 +165,7 @@ TEST_P(Schemes, SymplecticKeepsEveryEigenvalueOnTheUnitCircle) {
   for (const double safety : {0.3, 0.9}) {
     const auto b = test::build(spinning(2, 12, Scheme::symplectic, safety));
     const Model model = test::model_with(b, GetParam());
-    for (const Complex& z : amplification(model)) EXPECT_NEAR(std::abs(z), 1.0, 1e-13);
+    for (const ComplexNumber& z : amplification(model)) EXPECT_NEAR(std::abs(z), 1.0, 1e-13);
   }
 }
 

@@ -2,6 +2,7 @@
 /// V17: patch tests (constant strain on a distorted mesh of triangles and quadrilaterals), masses,
 /// free fall.
 #include <gtest/gtest.h>
+#include <Eigen/Dense>
 
 #include <Eigen/SparseLU>
 #include <random>

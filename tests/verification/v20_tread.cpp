@@ -6,6 +6,7 @@
 #include <numbers>
 #include <vector>
 
+#include "rondo/core/complex.hpp"
 #include "support/models.hpp"
 #include "support/stepping.hpp"
 

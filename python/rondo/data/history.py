@@ -3,32 +3,16 @@
 from __future__ import annotations
 
 import pathlib
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterable, Iterator, Mapping, Sequence
+from typing import Any
 
 import numpy as np
 
 from .errors import Error, unknown
 from .files import read_table
 
-UNITS = {
-    "time_s": "s", "angle_rad": "rad", "center_x_m": "m", "center_y_m": "m",
-    "force_x": "N/m", "force_y": "N/m", "torque": "N",
-    "contact_nodes": "1", "sticking_nodes": "1", "contact_length_m": "m", "penetration_max_m": "m",
-    "slip_ratio": "1",
-    "kinetic": "J/m", "strain": "J/m", "work_frame": "J/m", "work_contact": "J/m",
-    "dissipation_friction": "J/m", "loss_impact": "J/m", "work_rim": "J/m",
-    "dissipation_mass": "J/m", "dissipation_stiffness": "J/m", "work_scheme": "J/m",
-    "energy_residual": "J/m", "work_load": "J/m",
-    # of a crush
-    "depth_m": "m", "pressure_max_pa": "Pa", "shear_max_pa": "Pa", "contact_residual": "1",
-    "sweeps": "1",
-}
-
-
-PROBES = {  # endings of the columns of a probe, after its name
-    "_ux": "m", "_uy": "m", "_vx": "m/s", "_vy": "m/s",
-    "_sxx": "Pa", "_syy": "Pa", "_szz": "Pa", "_sxy": "Pa",
-}
+# Of runs whose run.json does not list the columns: endings of their names that are units.
+ENDINGS = {"_s": "s", "_m": "m", "_rad": "rad", "_pa": "Pa"}
 FORCES = ("force_x", "force_y", "torque")  # of the ground on the body
 
 
@@ -39,19 +23,29 @@ def between(from_time: float | None, to_time: float | None, unit: str = "s") -> 
     return f"{' '.join(ends)} {unit}" if ends else "at any time"
 
 
+def units_of(names: Iterable[str], columns: Sequence[Mapping[str, Any]]) -> dict[str, str]:
+    """Unit of each column that has a known one. columns: "columns" of run.json, empty where a run
+    of an earlier version has none."""
+    said = {str(column["name"]): str(column["unit"]) for column in columns}
+    if said:
+        return {name: said[name] for name in names if name in said}
+    return {name: unit for name in names for ending, unit in ENDINGS.items()
+            if name.endswith(ending)}
+
+
 class History(Mapping[str, np.ndarray]):
     """history["force_y"]: array (rows,); history.units["force_y"]: its unit."""
 
-    def __init__(self, path: pathlib.Path, crush: bool = False, ground: bool = True) -> None:
+    def __init__(self, path: pathlib.Path, crush: bool = False, ground: bool = True,
+                 columns: Sequence[Mapping[str, Any]] = ()) -> None:
         self.path, self.crush, self.ground = path, crush, ground
         self._columns = read_table(path)
-        self.units = {name: UNITS[name] for name in self._columns if name in UNITS}
-        for name in self._columns:
-            for ending, unit in PROBES.items():
-                if name not in UNITS and name.endswith(ending):
-                    self.units[name] = unit
+        try:
+            self.units = units_of(self._columns, columns)
+        except (KeyError, TypeError) as reason:
+            raise Error(f"{path.parent / 'run.json'}: damaged: its columns: {reason!r}") from None
         if crush:
-            self.units["time_s"] = "1"  # the share of the depth
+            self.units["time_s"] = "1"  # also where run.json does not say so
 
     def __getitem__(self, name: str) -> np.ndarray:
         if name not in self._columns:

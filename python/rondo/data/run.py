@@ -83,8 +83,8 @@ class Contact:
 
     @cached_property
     def rows(self) -> dict[str, np.ndarray]:
-        """contact.csv: a row for each node in contact at each snapshot; "time_s", "node",
-        "abscissa_m", "x_m", "y_m", "pressure_pa", "shear_pa"."""
+        """contact.csv: a row for each node in contact at each snapshot, by the names of its columns
+        (docs/results.md), as "pressure_pa"."""
         return read_table(self.path)
 
 
@@ -293,7 +293,8 @@ class Run:
     @cached_property
     def history(self) -> History:
         """history.csv, a row for each interval of output. Of a run that is done it is whole."""
-        history = History(self.directory / "history.csv", self.is_crush, "ground" in self.case)
+        history = History(self.directory / "history.csv", self.is_crush, "ground" in self.case,
+                          self.info.get("columns", ()))
         if self.status == "done":
             increments = self.info.get("increments_done") if self.is_crush else None
             history.check_end(None if self.is_crush else self.info.get("end_time"),

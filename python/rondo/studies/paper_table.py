@@ -42,7 +42,8 @@ def _row(planned: Row, measures: Measures) -> Row:
 
 
 def table_text(table: list[Row]) -> str:
-    lines, figure = [], 0
+    lines: list[str] = []
+    figure = 0
     for row in table:
         if row["figure"] != figure:
             lines += [""] if lines else []

@@ -67,7 +67,7 @@ constexpr std::array crush_columns{
     Column<R>{"pressure_max_pa", "Pa", "largest of all candidates",
               [](const R& r) { return r.sums.pressure; }},
     Column<R>{"shear_max_pa", "Pa", "likewise", [](const R& r) { return r.sums.shear; }},
-    Column<R>{"contact_residual", "1", "of the contact law, relative",
+    Column<R>{"contact_residual", "1", "of the contact law, from the whole field",
               [](const R& r) { return r.report.residual; }},
     Column<R>{"sweeps", "1", "of the contact solver",
               [](const R& r) { return static_cast<double>(r.report.sweeps); }},

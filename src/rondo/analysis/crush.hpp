@@ -5,12 +5,10 @@
 #include <memory>
 
 #include "rondo/analysis/analysis.hpp"
-#include "rondo/analysis/figures.hpp"
 
 namespace rondo::study {
 
 /// @pre c is a crush. @throws InputError
 [[nodiscard]] std::unique_ptr<Analysis> make_crush(const Case& c, const RunOptions& options);
-[[nodiscard]] FigureTable crush_figures() noexcept;
 
 }  // namespace rondo::study

@@ -58,6 +58,7 @@ std::size_t bytes_there(const RunOptions& options) {
 DiskNeed disk_needed(const RecordPlan& plan, bool keeps_checkpoints) {
   const io::ResultsLayout& layout = plan.results;
   DiskNeed need;
+  if (!layout.mesh) return {plan.own_bytes + small_files, plan.own_bytes};
   for (const std::size_t bytes :
        {io::Results::bytes(layout), plan.n_rows * bytes_of_a_number * plan.columns.size(),
         layout.contact ? contact_csv_bytes(layout.mesh->boundary.size(), layout.n_snapshots) : 0,

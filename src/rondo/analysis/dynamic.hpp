@@ -7,7 +7,6 @@
 #include <vector>
 
 #include "rondo/analysis/analysis.hpp"
-#include "rondo/analysis/figures.hpp"
 #include "rondo/case/setup.hpp"
 #include "rondo/integrators/integrator.hpp"
 #include "rondo/output/contact_statistics.hpp"
@@ -78,6 +77,5 @@ class DynamicAnalysis : public Analysis, public Resumable {
 };
 
 [[nodiscard]] std::unique_ptr<Analysis> make_dynamic(const Case& c, const RunOptions& options);
-[[nodiscard]] FigureTable dynamic_figures() noexcept;
 
 }  // namespace rondo::study

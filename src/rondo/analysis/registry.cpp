@@ -5,6 +5,8 @@
 
 #include "rondo/analysis/crush.hpp"
 #include "rondo/analysis/dynamic.hpp"
+#include "rondo/analysis/figures/crush_figures.hpp"
+#include "rondo/analysis/figures/dynamic_figures.hpp"
 #include "rondo/analysis/reduced.hpp"
 
 namespace rondo::study {

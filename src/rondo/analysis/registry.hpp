@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "rondo/analysis/analysis.hpp"
-#include "rondo/analysis/figures.hpp"
+#include "rondo/analysis/figures/figures.hpp"
 
 namespace rondo::study {
 

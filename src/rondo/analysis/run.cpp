@@ -141,38 +141,48 @@ void add_outcome(const Loop& loop, Json& j) {
                  {"queue_full", loop.output.queue_full}};
 }
 
-}  // namespace
-
-RunReport run_case(const Case& c, const RunOptions& options) {
-  const auto begin = Clock::now();
-  static_cast<void>(dispatch_level());  // a wrong one is told before anything is built
-  const std::unique_ptr<Analysis> analysis = make_analysis(c, options);
-  Run run{c, options, *analysis, analysis->record_plan()};
+/// @param begin where the time that it takes in all is counted from
+RunReport run_from(Clock::time_point begin, Analysis& analysis, const Case& c,
+                   const RunOptions& options) {
+  Run run{c, options, analysis, analysis.record_plan()};
   // Before anything is removed; a run that is gone on with needs what its checkpoint says.
   if (!options.resume) demand_disk_of(run);
-  analysis->prepare();
+  analysis.prepare();
   if (options.resume) refuse_without_checkpoints(options.directory);
   const io::DirectoryLock lock = take_directory(c, options);
-  if (options.resume && analysis->resumable()) {
-    run.from = analysis->resumable()->find(options.directory);
+  if (options.resume && analysis.resumable()) {
+    run.from = analysis.resumable()->find(options.directory);
     if (run.from && is_complete(*run.from, options.directory)) return nothing_to_do(*run.from);
-    run.plan = analysis->record_plan();
+    run.plan = analysis.record_plan();
     demand_disk_of(run);
   }
   const std::string other = warning_of_another_host(options.directory);
   if (!other.empty()) give_warnings({other}, options);
-  give_warnings(analysis->warnings(), options);
+  give_warnings(analysis.warnings(), options);
   Json json = describe(run);
-  begin_files(analysis->kept_case(c), options, json);
+  begin_files(analysis.kept_case(c), options, json);
 
   const Loop loop = record(run, json);
   RunReport report = report_of(run, loop);
   add_outcome(loop, json);
-  analysis->summarise(json, report);
+  analysis.summarise(json, report);
   json["total_wall_s"] = std::chrono::duration<double>(Clock::now() - begin).count();
   io::write_json(options.directory / "run.json", json);
   drop_checkpoint(options, loop.status);
   return report;
+}
+
+}  // namespace
+
+RunReport run_case(const Case& c, const RunOptions& options) {
+  static_cast<void>(dispatch_level());  // a wrong one is told before anything is built
+  const auto begin = Clock::now();
+  const std::unique_ptr<Analysis> analysis = make_analysis(c, options);
+  return run_from(begin, *analysis, c, options);
+}
+
+RunReport run_analysis(Analysis& analysis, const Case& c, const RunOptions& options) {
+  return run_from(Clock::now(), analysis, c, options);
 }
 
 }  // namespace rondo::study

@@ -124,6 +124,7 @@ struct KeyPlace {
 struct Case {
   std::filesystem::path file;
   std::map<std::string, KeyPlace> places;  ///< of the keys given, by dotted key
+  int schema = 1;                          ///< of the format
   std::string title;
   mesh::Disk disk;               ///< unused where there is a mesh
   bool free_rim = false;         ///< of a disk: nothing holds its inner boundary

@@ -1,239 +1,336 @@
 // SPDX-License-Identifier: BSD-3-Clause
+// To add a key: its row here, its member in case.hpp, `docs/cases.md` written again (the test
+// Manual.HasTheKeys says how).
 #include "rondo/case/case_keys.hpp"
 
 namespace rondo::study {
 namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
-constexpr Range any{};
-constexpr Range positive{0.0, infinity, true, false};
-constexpr Range not_negative{0.0, infinity, false, false};
+constexpr Allowed any{};
+constexpr Allowed positive{{0.0, infinity, true, false}};
+constexpr Allowed not_negative{{0.0, infinity, false, false}};
+constexpr Allowed poisson{{-1.0, 0.5, true, true}};
+constexpr Allowed share{{0.0, 1.0, true, false}};
 
-constexpr Range between(double low, double high) {
-  return {low, high, false, false};
+constexpr Allowed between(double low, double high) {
+  return {{low, high, false, false}};
+}
+constexpr Allowed choice(std::string_view a, std::string_view b, std::string_view c = {}) {
+  return {{}, {a, b, c}};
+}
+constexpr Allowed with(Allowed allowed, std::string_view also) {
+  allowed.also = also;
+  return allowed;
 }
 
-using enum KeyType;
-constexpr CaseKey keys[] = {
-    {"schema", integer, "-", between(1, 1), "", "required", "version of the case file's format"},
-    {"title", text, "-", any, "", "name of the case file", "a line for people"},
+constexpr unsigned bit(AnalysisKind kind) {
+  return 1U << static_cast<unsigned>(kind);
+}
+// A kind of analysis that is not named here has the keys of a dynamic one.
+constexpr Analyses in_motion{~bit(AnalysisKind::crush)};
+constexpr Analyses in_motion_untold{~bit(AnalysisKind::crush), false};
+constexpr Analyses in_motion_but_written{~bit(AnalysisKind::crush), true, true};
+constexpr Analyses of_crush{bit(AnalysisKind::crush)};
 
-    {"disk.outer_radius", number, "m", positive, "", "required",
-     "outer radius, to the top of the tread"},
-    {"disk.inner_radius", number, "m", positive, "< disk.outer_radius", "required",
-     "inner radius, bonded to the rigid rim"},
-    {"disk.rim",
-     choice,
-     "-",
-     any,
-     "",
-     "\"bonded\"",
-     "whether the inner boundary is bonded to the rim, or nothing holds the disk",
-     {"bonded", "free"}},
-    {"disk.mesh.radial", integer, "-", between(1, 100000), "", "required",
-     "layers of quadrilaterals between the radii (with a tread: below the grooves)"},
-    {"disk.mesh.circumferential", integer, "-", between(3, 10000000), "",
-     "required without [disk.tread]", "columns of quadrilaterals; not together with [disk.tread]"},
-    {"disk.mesh.grading", number, "-", between(1, 10), "", "1.0",
-     "exponent p of the layers' radii; above 1 the layers are finer near the tread"},
-    {"disk.tread.pitches", integer, "-", between(3, 10000000), "", "required",
-     "equal pitches, each a land then a groove"},
-    {"disk.tread.depth", number, "m", positive, "< disk.outer_radius - disk.inner_radius",
-     "required", "height of the lands"},
-    {"disk.tread.land_columns", integer, "-", between(1, 100000), "", "required",
+bool is_smooth(const Case& c) {
+  return !c.disk.tread;
+}
+bool is_as_printed(const Case& c) {
+  return c.time.scheme == Scheme::as_printed;
+}
+bool has_slide(const Case& c) {
+  return c.analysis.slide_increments != 0;
+}
+bool is_by_step(const Case& c) {
+  return c.time.step.has_value();
+}
+bool is_by_safety(const Case& c) {
+  return !c.time.step;
+}
+
+constexpr Use optional{};
+constexpr Use required{true};
+
+std::size_t one(const Case& /*c*/) {
+  return 1;
+}
+std::size_t without_mesh(const Case& c) {
+  return c.mesh ? 0 : 1;
+}
+
+template <class T>
+void set_there(std::optional<T>& part, std::size_t n) {
+  part.reset();
+  if (n > 0) part.emplace();
+}
+
+constexpr CaseTable tables[] = {
+    {"", one, nullptr},
+    {"disk", without_mesh, nullptr},
+    {"disk.mesh", without_mesh, nullptr},
+    {"disk.tread", [](const Case& c) -> std::size_t { return !c.mesh && c.disk.tread ? 1 : 0; },
+     [](Case& c, std::size_t n) { set_there(c.disk.tread, n); }},
+    {"mesh", [](const Case& c) -> std::size_t { return c.mesh ? 1 : 0; },
+     [](Case& c, std::size_t n) { set_there(c.mesh, n); }},
+    {"material", one, nullptr},
+    {"material.region[]", [](const Case& c) { return c.regions.size(); },
+     [](Case& c, std::size_t n) {
+       c.regions.resize(n, {{}, c.material});
+     }},
+    {"damping", one, nullptr, in_motion},
+    {"motion", one, nullptr, in_motion},
+    {"ground", [](const Case& c) -> std::size_t { return c.ground ? 1 : 0; },
+     [](Case& c, std::size_t n) { set_there(c.ground, n); }},
+    {"contact", one, nullptr, in_motion_untold},
+    {"load.pressure[]", [](const Case& c) { return c.pressures.size(); },
+     [](Case& c, std::size_t n) { c.pressures.resize(n); }, in_motion_untold},
+    {"initial", one, nullptr, in_motion},
+    {"initial.region[]", [](const Case& c) { return c.initial.regions.size(); },
+     [](Case& c, std::size_t n) {
+       c.initial.regions.resize(n, {{}, c.initial.velocity, c.initial.angular_velocity});
+     },
+     in_motion_untold},
+    {"analysis", one, nullptr},
+    {"time", one, nullptr, in_motion},
+    {"solver", one, nullptr},
+    {"output", one, nullptr},
+    {"output.probe[]", [](const Case& c) { return c.output.probes.size(); },
+     [](Case& c, std::size_t n) { c.output.probes.resize(n); }, in_motion},
+};
+
+#define FIELD(member) [](Case& c, [[maybe_unused]] std::size_t k) { return field_of(c.member); }
+#define CHOICE(member) [](Case& c, std::size_t /*k*/) -> Field { return choice_of(c.member); }
+
+constexpr CaseKey keys[] = {
+    {"schema", "-", FIELD(schema), between(1, 1), required,
+     "version of the case file's format. A file of a later version is refused"},
+    {"title", "-", FIELD(title), any, optional.said("name of the case file").body(never),
+     "a line for people; goes into the results"},
+
+    {"disk.outer_radius", "m", FIELD(disk.outer_radius), positive, required,
+     "outer radius R_o, to the top of the tread"},
+    {"disk.inner_radius", "m", FIELD(disk.inner_radius), with(positive, "< disk.outer_radius"),
+     required, "inner radius R_i, bonded to the rigid rim"},
+    {"disk.rim", "-", CHOICE(free_rim), choice("bonded", "free"), optional,
+     "\"bonded\": the inner boundary turns and moves with the rim, as `[motion]` says. \"free\": "
+     "there is no rim and nothing holds the disk; see [free bodies](#free-bodies)"},
+
+    {"disk.mesh.radial", "-", FIELD(disk.radial), between(1, 100000), required,
+     "layers of quadrilaterals between the radii; with a tread, between the rim and the bottom of "
+     "the grooves"},
+    {"disk.mesh.circumferential", "-", FIELD(disk.circumferential), between(3, 10000000),
+     required.if_(is_smooth, "required without [disk.tread]"),
+     "columns of quadrilaterals round the disk. Refused together with `[disk.tread]`, whose "
+     "pitches give the columns"},
+    {"disk.mesh.grading", "-", FIELD(disk.grading), between(1, 10), optional,
+     "p of the layers' radii r_k = R_i + (R_b - R_i)(1 - (1 - k/n)^p), R_b the top of the n "
+     "layers. 1: even; above 1: finer near the tread"},
+
+    {"disk.tread.pitches", "-", FIELD(disk.tread->pitches), between(3, 10000000), required,
+     "number of pitches round the disk"},
+    {"disk.tread.depth", "m", FIELD(disk.tread->depth),
+     with(positive, "< disk.outer_radius - disk.inner_radius"), required,
+     "height of the lands above the bottom of the grooves"},
+    {"disk.tread.land_columns", "-", FIELD(disk.tread->land_columns), between(1, 100000), required,
      "columns of quadrilaterals in a land"},
-    {"disk.tread.groove_columns", integer, "-", between(1, 100000), "", "required",
-     "columns in a groove"},
-    {"disk.tread.layers", integer, "-", between(1, 100000), "", "required",
+    {"disk.tread.groove_columns", "-", FIELD(disk.tread->groove_columns), between(1, 100000),
+     required, "columns of quadrilaterals in a groove"},
+    {"disk.tread.layers", "-", FIELD(disk.tread->layers), between(1, 100000), required,
      "layers of quadrilaterals over the depth"},
 
-    {"mesh.file", text, "-", any, "", "required",
-     "a Gmsh file instead of [disk], relative to the case file"},
-    {"mesh.scale", number, "m", positive, "", "1.0", "metres of one unit of length of the file"},
-    {"mesh.clamped", text, "-", any, "", "\"\"",
-     "physical curve held in the turning frame; \"\": none"},
-    {"mesh.contact", text, "-", any, "", "\"\"",
-     "physical curve that may touch something; \"\": none"},
+    {"mesh.file", "-", FIELD(mesh->file), any, required.free_on_resume(),
+     "the file, relative to the case file's directory. The results directory keeps a copy of it, "
+     "`mesh.msh`, for its own `case.toml`; of a file above 50 MB the path"},
+    {"mesh.scale", "m", FIELD(mesh->scale), positive, optional,
+     "metres of one unit of length of the file"},
+    {"mesh.clamped", "-", FIELD(mesh->clamped), any, optional,
+     "physical curve held in the turning frame (u = 0); \"\": none, all bodies are free"},
+    {"mesh.contact", "-", FIELD(mesh->contact), any, optional,
+     "physical curve whose nodes may touch the ground or other bodies; \"\": none"},
 
-    {"material.youngs_modulus", number, "Pa", positive, "", "required", "Young's modulus E"},
-    {"material.poissons_ratio",
-     number,
-     "-",
-     {-1.0, 0.5, true, true},
-     "",
-     "required",
-     "Poisson's ratio ν"},
-    {"material.density", number, "kg/m3", positive, "", "required", "density ρ"},
-    {"material.plane",
-     choice,
-     "-",
-     any,
-     "",
-     "\"strain\"",
-     "plane strain or plane stress",
-     {"strain", "stress"}},
-    {"material.integration",
-     choice,
-     "-",
-     any,
-     "",
-     "\"full\"",
-     "quadrature of the stiffness",
-     {"full", "b-bar"}},
-    {"material.stress_stiffening",
-     choice,
-     "-",
-     any,
-     "",
-     "\"none\"",
-     "stiffening by the stress of the spin",
-     {"none", "centrifugal"}},
-    {"material.region[].surface", text, "-", any, "", "required",
-     "physical surface of the mesh that has a material of its own"},
-    {"material.region[].youngs_modulus", number, "Pa", positive, "", "that of [material]",
-     "its Young's modulus"},
-    {"material.region[].poissons_ratio",
-     number,
-     "-",
-     {-1.0, 0.5, true, true},
-     "",
-     "that of [material]",
-     "its Poisson's ratio"},
-    {"material.region[].density", number, "kg/m3", positive, "", "that of [material]",
-     "its density"},
+    {"material.youngs_modulus", "Pa", FIELD(material.youngs_modulus), positive, required,
+     "Young's modulus E"},
+    {"material.poissons_ratio", "-", FIELD(material.poissons_ratio), poisson, required,
+     "Poisson's ratio ν. In plane strain above 0.49 there is a warning where integration is full: "
+     "quadrilaterals are then far too stiff"},
+    {"material.density", "kg/m3", FIELD(material.density), positive, required, "density ρ"},
+    {"material.plane", "-", FIELD(material.plane), choice("strain", "stress"), optional,
+     "plane strain (a wide wheel) or plane stress (a thin sheet)"},
+    {"material.integration", "-", FIELD(material.integration), choice("full", "b-bar"), optional,
+     "quadrature of the stiffness of quadrilaterals: \"full\" 2×2 points; \"b-bar\" takes the "
+     "change of volume from the mean of the element, which does not lock near ν = 0.5"},
+    {"material.stress_stiffening", "-", FIELD(stress_stiffening), choice("none", "centrifugal"),
+     optional.of(in_motion_but_written),
+     "\"centrifugal\": the stress of the stationary spin at the initial angular velocity stiffens "
+     "the body, so that it does not soften as it spins. \"none\": small strain alone, as "
+     "published"},
 
-    {"damping.mass", number, "1/s", not_negative, "", "0.0", "α of the damping α M + β K"},
-    {"damping.stiffness", number, "s", not_negative, "", "0.0", "β of the damping α M + β K"},
+    {"material.region[].surface", "-", FIELD(regions[k].surface), any, required,
+     "physical surface of the mesh"},
+    {"material.region[].youngs_modulus", "Pa", FIELD(regions[k].material.youngs_modulus), positive,
+     optional.said("that of [material]"), "its Young's modulus"},
+    {"material.region[].poissons_ratio", "-", FIELD(regions[k].material.poissons_ratio), poisson,
+     optional.said("that of [material]"), "its Poisson's ratio"},
+    {"material.region[].density", "kg/m3", FIELD(regions[k].material.density), positive,
+     optional.said("that of [material]"), "its density"},
 
-    {"motion.angular_velocity", history, "rad/s", any, "", "required if held and dynamic",
-     "of the rim; > 0 rolls towards +x"},
-    {"motion.speed", history, "m/s", any, "", "required if held and dynamic",
-     "of the centre along x"},
-    {"motion.height", history, "m", any, "", "required if held and dynamic",
-     "of the centre above y = 0"},
-    {"motion.start_x", number, "m", any, "", "0.0", "x of the centre at t = 0"},
-    {"motion.gravity", history, "m/s2", any, "", "0.0", "acceleration of gravity, downwards"},
+    {"damping.mass", "1/s", FIELD(damping.mass), not_negative, optional.body(is_as_printed),
+     "α. Damps a mode of angular frequency w at the ratio α/(2w): slow motions most; of a free "
+     "body it brakes flight and spin too"},
+    {"damping.stiffness", "s", FIELD(damping.stiffness), not_negative, optional,
+     "β. Damps it at the ratio β w/2: short waves most. It lowers the critical step"},
 
-    {"ground.profile", profile, "m", any, "", "required",
-     "surface of the ground, solid on its right-hand side; only where there is a [ground]"},
-    {"ground.fillet", number, "m", not_negative, "", "0.0",
-     "radius that rounds the convex corners"},
-    {"ground.friction", number, "-", between(0, 100), "", "0.0",
+    {"motion.angular_velocity", "rad/s", FIELD(motion.angular_velocity), any,
+     required.if_(is_held, "required if held and dynamic").body(never),
+     "angular velocity ω of the rim; > 0 rolls towards +x"},
+    {"motion.speed", "m/s", FIELD(motion.speed), any,
+     required.if_(is_held, "required if held and dynamic").body(never),
+     "speed V of the centre along x"},
+    {"motion.height", "m", FIELD(motion.height), any,
+     required.if_(is_held, "required if held and dynamic").body(never),
+     "height h of the centre above y = 0"},
+    {"motion.start_x", "m", FIELD(motion.start_x), any, optional.if_(is_held).body(never),
+     "x of the centre at t = 0"},
+    {"motion.gravity", "m/s2", FIELD(motion.gravity), any, optional.body(never),
+     "acceleration of gravity, downwards: 9.81 on Earth"},
+
+    {"ground.profile", "m", FIELD(ground->shape.profile), any, required,
+     "surface of the ground, see below; required where there is a `[ground]`"},
+    {"ground.fillet", "m", FIELD(ground->shape.fillet), not_negative, optional.of(in_motion_untold),
+     "radius that rounds all convex corners; 0: they are sharp"},
+    {"ground.friction", "-", FIELD(ground->friction), between(0, 100), optional.body(never),
+     "Coulomb's coefficient of friction μ; 0: none"},
+    {"ground.restitution", "-", FIELD(ground->restitution), between(0, 1),
+     optional.of(in_motion).body(never),
+     "Newton's coefficient of restitution e of each node's impact; 0: a node that arrives stays "
+     "until it is pulled off"},
+
+    {"contact.between", "-", FIELD(body_contact.between), choice("none", "bodies", "all"), optional,
+     "\"bodies\": bodies touch each other; \"all\": the boundary of a body may touch itself as "
+     "well, as the walls of a groove that closes"},
+    {"contact.friction", "-", FIELD(body_contact.friction), between(0, 100), optional,
      "Coulomb's coefficient of friction μ"},
-    {"ground.restitution", number, "-", between(0, 1), "", "0.0",
+    {"contact.restitution", "-", FIELD(body_contact.restitution), between(0, 1), optional,
      "Newton's coefficient of restitution e"},
 
-    {"contact.between",
-     choice,
-     "-",
-     any,
-     "",
-     "\"none\"",
-     "which candidates touch each other's boundaries",
-     {"none", "bodies", "all"}},
-    {"contact.friction", number, "-", between(0, 100), "", "0.0",
-     "Coulomb's coefficient of friction between bodies"},
-    {"contact.restitution", number, "-", between(0, 1), "", "0.0",
-     "Newton's coefficient of restitution between bodies"},
+    {"load.pressure[].curve", "-", FIELD(pressures[k].curve), any, required,
+     "physical curve of the mesh; of a disk \"rim\", its inner boundary, or \"tread\", the tops of "
+     "the lands"},
+    {"load.pressure[].value", "Pa", FIELD(pressures[k].pressure), any, required,
+     "pressure against the outward normal, > 0 presses on the body"},
 
-    {"load.pressure[].curve", text, "-", any, "", "required",
-     "physical curve that the pressure acts on"},
-    {"load.pressure[].value", history, "Pa", any, "", "required",
-     "pressure against the outward normal"},
+    {"initial.state", "-", FIELD(initial.state), choice("rest", "stationary"),
+     optional.body(may_be_free),
+     "\"rest\": undeformed, at rest relative to the turning rim. \"stationary\": deformed, in "
+     "equilibrium with the spin at t = 0"},
+    {"initial.velocity", "m/s", FIELD(initial.velocity), any, optional.body(may_be_free),
+     "velocity added to every free node, in the fixed frame"},
+    {"initial.displacement_gradient", "-", FIELD(initial.displacement_gradient), any,
+     optional.body(may_be_free),
+     "G, given by rows: the displacement G X is added to every free node, X its place in the "
+     "undeformed body (of a free body: as placed)"},
+    {"initial.position", "m", FIELD(initial.position), any,
+     optional.if_(may_be_free).body(may_be_free),
+     "free bodies only: they are moved by that much..."},
+    {"initial.angle", "rad", FIELD(initial.angle), any, optional.if_(may_be_free).body(may_be_free),
+     "... after they were turned by this angle, counter-clockwise, about the origin of the mesh"},
+    {"initial.angular_velocity", "rad/s", FIELD(initial.angular_velocity), any,
+     optional.if_(may_be_free).body(may_be_free),
+     "free bodies only: each turns about its centre of mass, counter-clockwise"},
 
-    {"initial.state",
-     choice,
-     "-",
-     any,
-     "",
-     "\"rest\"",
-     "displacement at t = 0: none, or in equilibrium with the spin",
-     {"rest", "stationary"}},
-    {"initial.velocity", vector, "m/s", any, "", "[0.0, 0.0]",
-     "added to every free node, fixed frame"},
-    {"initial.displacement_gradient", matrix, "-", any, "", "[[0.0, 0.0], [0.0, 0.0]]",
-     "G of a displacement G X added to the free nodes"},
-    {"initial.position", vector, "m", any, "", "[0.0, 0.0]", "by which free bodies are moved"},
-    {"initial.angle", number, "rad", any, "", "0.0",
-     "by which free bodies are turned about the origin before"},
-    {"initial.angular_velocity", number, "rad/s", any, "", "0.0",
-     "of free bodies, each about its centre of mass, counter-clockwise"},
-    {"initial.region[].surface", text, "-", any, "", "required",
-     "physical surface whose free bodies have a motion of their own"},
-    {"initial.region[].velocity", vector, "m/s", any, "", "that of [initial]",
-     "of their centres of mass"},
-    {"initial.region[].angular_velocity", number, "rad/s", any, "", "that of [initial]",
-     "about their centres of mass, counter-clockwise"},
+    {"initial.region[].surface", "-", FIELD(initial.regions[k].surface), any,
+     required.if_(may_be_free).body(may_be_free),
+     "physical surface of the mesh: its free bodies..."},
+    {"initial.region[].velocity", "m/s", FIELD(initial.regions[k].velocity), any,
+     optional.if_(may_be_free, "that of [initial]").body(may_be_free),
+     "... have this velocity of their centres of mass"},
+    {"initial.region[].angular_velocity", "rad/s", FIELD(initial.regions[k].angular_velocity), any,
+     optional.if_(may_be_free, "that of [initial]").body(may_be_free),
+     "... and turn about them like this, counter-clockwise"},
 
-    {"analysis.kind",
-     choice,
-     "-",
-     any,
-     "",
-     "\"dynamic\"",
-     "kind of analysis",
-     {"dynamic", "crush"}},
-    {"analysis.depth", number, "m", positive, "< disk.outer_radius - disk.inner_radius",
-     "required if crush", "by which a crush lowers the centre, from first touch on"},
-    {"analysis.increments", integer, "-", between(1, 1000000), "", "required if crush",
-     "equal parts of the depth"},
-    {"analysis.slide", number, "m", any, "", "none",
-     "by which the centre of a crush moves along +x afterwards, at the full depth"},
-    {"analysis.slide_increments", integer, "-", between(1, 1000000), "", "required if slide",
-     "equal parts of the slide"},
+    {"analysis.kind", "-", FIELD(analysis.kind), choice("dynamic", "crush"), optional,
+     "\"dynamic\": the body moves as `[motion]` says, over `[time]`. \"crush\": the body is "
+     "pressed on flat ground without turning, slowly"},
+    {"analysis.depth", "m", FIELD(analysis.depth),
+     with(positive, "< disk.outer_radius - disk.inner_radius"),
+     required.of(of_crush).said("required if crush").body(never),
+     "how far the centre comes down from the place where the undeformed body first touches the "
+     "ground; refused in a dynamic case"},
+    {"analysis.increments", "-", FIELD(analysis.increments), between(1, 1000000),
+     required.of(of_crush).said("required if crush").body(never),
+     "equal parts of the depth, each an equilibrium; refused in a dynamic case"},
+    {"analysis.slide", "m", FIELD(analysis.slide), any,
+     optional.of(of_crush).if_(has_slide, "none").body(never),
+     "how far the centre of a crush then moves along +x, at the full depth and without turning; "
+     "refused in a dynamic case"},
+    {"analysis.slide_increments", "-", FIELD(analysis.slide_increments), between(1, 1000000),
+     optional.of(of_crush).if_(has_slide, "required if slide").body(never),
+     "equal parts of the slide, each an equilibrium; refused in a dynamic case"},
 
-    {"time.end", number, "s", positive, "", "required if dynamic",
+    {"time.end", "s", FIELD(time.end), positive,
+     required.said("required if dynamic").body(never).free_on_resume(),
      "end of the run, which starts at t = 0"},
-    {"time.safety",
-     number,
-     "-",
-     {0.0, 1.0, true, false},
-     "not together with time.step",
-     "0.8",
-     "time step over the critical step"},
-    {"time.step", number, "s", positive, "not together with time.safety", "none",
-     "a given time step"},
-    {"time.scheme",
-     choice,
-     "-",
-     any,
-     "",
-     "\"symplectic\"",
-     "how the gyroscopic and mass damping forces are taken",
-     {"symplectic", "as-printed"}},
+    {"time.safety", "-", FIELD(time.safety), with(share, "not together with time.step"),
+     optional.if_(is_by_safety).body(never), "time step over the critical step"},
+    {"time.step", "s", FIELD(time.step), with(positive, "not together with time.safety"),
+     optional.if_(is_by_step, "none").body(never),
+     "a given time step instead; at most 1e12 steps to the end"},
+    {"time.scheme", "-", FIELD(time.scheme), choice("symplectic", "as-printed"), optional,
+     "\"symplectic\": gyroscopic and mass damping forces at the middle of the step; keeps energy. "
+     "\"as-printed\": at the old half step, as published; it creates energy, which the ledger "
+     "shows as `work_scheme`, and serves for comparison. The ledger closes in both"},
 
-    {"solver.operator",
-     choice,
-     "-",
-     any,
-     "",
-     "\"auto\"",
-     "how K u is formed",
-     {"auto", "cyclic", "sparse"}},
-    {"solver.contact_iterations", integer, "-", between(1, 1000000000), "", "10000",
-     "most iterations of contacts that are solved together"},
-    {"solver.dump_contacts", integer, "-", between(0, 1000000000), "", "0",
-     "contact problems of more iterations than this are kept as files; 0: none"},
+    {"solver.operator", "-", FIELD(solver_operator), choice("auto", "cyclic", "sparse"),
+     optional.of(in_motion),
+     "how K u is formed: \"cyclic\" from the blocks of one sector, \"sparse\" from an assembled "
+     "matrix; \"auto\" takes \"cyclic\" on every mesh of equal sectors, that is on every `[disk]`, "
+     "but where it is free, there is a `[contact]` of bodies, or `time.scheme` is \"as-printed\": "
+     "there \"cyclic\" is refused. The results are the same to round-off (docs/performance.md)"},
+    {"solver.contact_iterations", "-", FIELD(contact_iterations), between(1, 1000000000),
+     optional.of(in_motion).body(never),
+     "most iterations of contacts that share nodes and are solved together (sharp corners of the "
+     "ground, bodies on each other). One that does not meet the law by then is counted in "
+     "`run.json`, and its residual ends the run"},
+    {"solver.dump_contacts", "-", FIELD(dump_contacts), between(0, 1000000000),
+     optional.of(in_motion).body(never),
+     "such problems that took more iterations than this are kept as files in `contact-problems/` "
+     "of the results directory, for those who improve the solver; 0: none"},
 
-    {"output.history_interval", number, "s", not_negative, "", "0.0001",
-     "between the rows of history.csv; 0: every step"},
-    {"output.snapshots", integer, "-", between(0, 1000000), "", "400",
-     "fields kept, evenly spread over [snapshots_from, end]"},
-    {"output.snapshots_from", number, "s", not_negative, "<= time.end", "0.0",
-     "time of the first snapshot"},
-    {"output.stress", boolean, "-", any, "", "true", "stress with the snapshots"},
-    {"output.checkpoint_interval", number, "s", positive, "", "60.0",
-     "wall time between checkpoints"},
-    {"output.probe[].name", text, "-", any, "", "required",
-     "of its columns in history.csv: letters, digits, _ and -"},
-    {"output.probe[].position", vector, "m", any, "", "required",
-     "of the point, in the undeformed mesh"},
+    {"output.history_interval", "s", FIELD(output.history_interval), not_negative,
+     optional.of(in_motion).body(never),
+     "time between rows of `history.csv`; forces are means over it. 0: a row every step"},
+    {"output.snapshots", "-", FIELD(output.snapshots), between(0, 1000000),
+     optional.of(in_motion).body(never),
+     "number of fields kept, evenly spread over [snapshots_from, end], both ends included"},
+    {"output.snapshots_from", "s", FIELD(output.snapshots_from), with(not_negative, "<= time.end"),
+     optional.of(in_motion).body(never), "time of the first snapshot"},
+    {"output.stress", "-", FIELD(output.stress), any, optional.body(never),
+     "keep the stress with the snapshots"},
+    {"output.checkpoint_interval", "s", FIELD(output.checkpoint_interval), positive,
+     optional.body(never).free_on_resume(),
+     "wall time between checkpoints (docs/results.md, [Going on with a "
+     "run](results.md#going-on-with-a-run)); there is one at the end and at a signal anyway. A "
+     "crush writes none"},
+
+    {"output.probe[].name", "-", FIELD(output.probes[k].name), any, required,
+     "name of its columns: letters, digits, _ and -"},
+    {"output.probe[].position", "m", FIELD(output.probes[k].position), any, required,
+     "where it is in the undeformed mesh, before free bodies are placed; a point in no cell is "
+     "refused with the distance of the nearest"},
 };
+
+#undef FIELD
+#undef CHOICE
 
 }  // namespace
 
 std::span<const CaseKey> case_keys() noexcept {
   return keys;
+}
+
+std::span<const CaseTable> case_tables() noexcept {
+  return tables;
 }
 
 }  // namespace rondo::study

@@ -7,6 +7,7 @@
 #include <utility>
 #include <vector>
 
+#include "rondo/core/contract.hpp"
 #include "rondo/core/edit_distance.hpp"
 
 namespace rondo::study {
@@ -15,6 +16,27 @@ namespace {
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
 using enum KeyType;
+
+struct Words {
+  std::string_view type, allowed;
+};
+
+/// In the order of KeyType; of numbers and choices the table of keys says what is allowed.
+constexpr Words words[] = {
+    {"integer", ""},
+    {"float", ""},
+    {"boolean", "true or false"},
+    {"string", "any text"},
+    {"string", ""},
+    {"float or array of pairs", "a finite number or [[t, value], ...] with t increasing"},
+    {"string or array of pairs", "\"flat\" or [[x, y], ...] from left to right"},
+    {"array of 2 floats", "[x, y], finite numbers"},
+    {"array of 2 arrays of 2 floats", "[[a, b], [c, d]], finite numbers"},
+};
+
+const Words& words_of(KeyType type) {
+  return words[static_cast<std::size_t>(type)];
+}
 
 std::string range_text(const Range& r, bool whole) {
   const bool low = r.low > -infinity, high = r.high < infinity;
@@ -28,18 +50,19 @@ std::string range_text(const Range& r, bool whole) {
 }
 
 /// "a" or "b"; "a", "b" or "c".
-std::string choices_text(const CaseKey& key) {
+std::string choices_text(const Allowed& allowed) {
+  const auto& choices = allowed.choices;
   const auto n = static_cast<std::size_t>(
-      std::count_if(key.choices.begin(), key.choices.end(),
-                    [](std::string_view choice) { return !choice.empty(); }));
+      std::find(choices.begin(), choices.end(), std::string_view{}) - choices.begin());
   std::string said;
   for (std::size_t i = 0; i < n; ++i)
-    said += fmt::format("{}\"{}\"", i == 0 ? "" : i + 1 < n ? ", " : " or ", key.choices[i]);
+    said += fmt::format("{}\"{}\"", i == 0 ? "" : i + 1 < n ? ", " : " or ", choices[i]);
   return said;
 }
 
-/// Names of tables and of lists of tables, these with "[]", outer before inner.
-std::vector<std::string_view> case_tables() {
+/// Names of tables and of lists of tables, these with "[]", outer before inner; also of those that
+/// hold nothing but tables.
+std::vector<std::string_view> table_names() {
   std::vector<std::string_view> tables;
   const auto add = [&](std::string_view table) {
     if (!table.empty() && std::find(tables.begin(), tables.end(), table) == tables.end())
@@ -65,12 +88,57 @@ bool leads_to_a_key(std::string_view path, char next) {
   });
 }
 
+/// Every part that a case may have, with its defaults.
+Case& whole_case() {
+  static Case whole = [] {
+    Case c;
+    for (const CaseTable& table : case_tables())
+      if (table.resize) table.resize(c, 1);
+    return c;
+  }();
+  return whole;
+}
+
+struct TypeOf {
+  KeyType operator()(const int* /*value*/) const { return integer; }
+  KeyType operator()(const double* /*value*/) const { return number; }
+  KeyType operator()(const std::optional<double>* /*value*/) const { return number; }
+  KeyType operator()(const bool* /*value*/) const { return boolean; }
+  KeyType operator()(const std::string* /*value*/) const { return text; }
+  KeyType operator()(const std::filesystem::path* /*value*/) const { return text; }
+  KeyType operator()(const Choice& /*value*/) const { return choice; }
+  KeyType operator()(const Vec2* /*value*/) const { return vector; }
+  KeyType operator()(const Matrix* /*value*/) const { return matrix; }
+  KeyType operator()(const dynamics::Table* /*value*/) const { return history; }
+  KeyType operator()(const std::vector<Vec2>* /*value*/) const { return profile; }
+};
+
 }  // namespace
 
 bool Range::contains(double value) const noexcept {
   const bool above = low_open ? value > low : value >= low;
   const bool below = high_open ? value < high : value <= high;
   return above && below;
+}
+
+std::span<const CaseKey> keys_of(const CaseTable& table) {
+  const auto keys = case_keys();
+  const auto is_of = [&](const CaseKey& key) { return table_of(key.path) == table.path; };
+  const auto first = std::find_if(keys.begin(), keys.end(), is_of);
+  return {first, std::find_if_not(first, keys.end(), is_of)};
+}
+
+const CaseTable& table_with(const CaseKey& key) {
+  const auto tables = case_tables();
+  const auto found = std::find_if(tables.begin(), tables.end(), [&](const CaseTable& table) {
+    return table.path == table_of(key.path);
+  });
+  RONDO_DEMAND(found != tables.end(), key.path);
+  return *found;
+}
+
+bool means_to(const CaseKey& key, AnalysisKind kind) {
+  return key.use.analyses.contain(kind) && table_with(key).analyses.contain(kind);
 }
 
 const CaseKey* find_case_key(std::string_view path) {
@@ -103,53 +171,59 @@ std::string without_indices(std::string_view path) {
   return without;
 }
 
-std::string_view type_text(const CaseKey& key) noexcept {
-  switch (key.type) {
-    case integer:
-      return "integer";
-    case number:
-      return "float";
-    case boolean:
-      return "boolean";
-    case text:
-    case choice:
-      return "string";
-    case history:
-      return "float or array of pairs";
-    case profile:
-      return "string or array of pairs";
-    case vector:
-      return "array of 2 floats";
-    case matrix:
-      return "array of 2 arrays of 2 floats";
-  }
-  return "";
+std::string heading_of(std::string_view table) {
+  if (!is_list(table)) return fmt::format("[{}]", table);
+  return fmt::format("[[{}]]", table.substr(0, table.size() - 2));
+}
+
+std::string path_of(const CaseKey& key, std::size_t index) {
+  const auto item = key.path.find("[]");
+  if (item == std::string_view::npos) return std::string(key.path);
+  return item_of(key.path.substr(0, item), index) + std::string(key.path.substr(item + 2));
+}
+
+void reset(const CaseKey& key, Case& c) {
+  const CaseTable& table = table_with(key);
+  if (table.is_list()) return table.resize(c, 0);
+  if (table.count(c) == 0) return;
+  std::visit(
+      [&](auto from) {
+        const auto to = std::get<decltype(from)>(key.field(c, 0));
+        if constexpr (std::is_same_v<decltype(from), Choice>)
+          to.set(to.target, from.get(from.target));
+        else
+          *to = *from;
+      },
+      key.field(whole_case(), 0));
+}
+
+KeyType type_of(const CaseKey& key) {
+  return key.allowed.is_choice() ? choice : std::visit(TypeOf{}, key.field(whole_case(), 0));
+}
+
+std::optional<std::size_t> find_choice(const Allowed& allowed, std::string_view name) {
+  const auto found = std::find(allowed.choices.begin(), allowed.choices.end(), name);
+  if (name.empty() || found == allowed.choices.end()) return std::nullopt;
+  return static_cast<std::size_t>(found - allowed.choices.begin());
+}
+
+std::string default_text(const CaseKey& key) {
+  if (!key.use.standard.empty()) return std::string(key.use.standard);
+  return key.use.required ? "required" : value_text(key, key.field(whole_case(), 0));
+}
+
+std::string_view type_text(const CaseKey& key) {
+  return words_of(type_of(key)).type;
 }
 
 std::string allowed_text(const CaseKey& key) {
-  std::string said;
-  switch (key.type) {
-    case integer:
-    case number:
-      said = range_text(key.range, key.type == integer);
-      break;
-    case boolean:
-      return "true or false";
-    case text:
-      return "any text";
-    case choice:
-      return choices_text(key);
-    case history:
-      return "a finite number or [[t, value], ...] with t increasing";
-    case profile:
-      return "\"flat\" or [[x, y], ...] from left to right";
-    case vector:
-      return "[x, y], finite numbers";
-    case matrix:
-      return "[[a, b], [c, d]], finite numbers";
-  }
-  if (key.also.empty()) return said;
-  return said + (key.also.starts_with("<") ? " and " : "; ") + std::string(key.also);
+  const KeyType type = type_of(key);
+  const std::string_view also = key.allowed.also;
+  if (type == choice) return choices_text(key.allowed);
+  if (type != integer && type != number) return std::string(words_of(type).allowed);
+  const std::string range = range_text(key.allowed.range, type == integer);
+  if (also.empty()) return range;
+  return range + (also.starts_with("<") ? " and " : "; ") + std::string(also);
 }
 
 std::string keys_text(std::string_view table) {
@@ -160,13 +234,8 @@ std::string keys_text(std::string_view table) {
   };
   for (const CaseKey& key : case_keys())
     if (table_of(key.path) == any_item) add(leaf_of(key.path));
-  for (const std::string_view inner : case_tables()) {
-    if (table_of(inner) != any_item) continue;
-    if (is_list(inner))
-      add(fmt::format("[[{}]]", inner.substr(0, inner.size() - 2)));
-    else
-      add(fmt::format("[{}]", inner));
-  }
+  for (const std::string_view inner : table_names())
+    if (table_of(inner) == any_item) add(heading_of(inner));
   return said;
 }
 
@@ -197,7 +266,7 @@ std::string_view nearest_key(std::string_view path) {
     best = candidate;
   };
   for (const CaseKey& key : case_keys()) consider(key.path);
-  for (const std::string_view inner : case_tables())
+  for (const std::string_view inner : table_names())
     consider(is_list(inner) ? inner.substr(0, inner.size() - 2) : inner);
   return best;
 }

@@ -1,15 +1,54 @@
 // SPDX-License-Identifier: BSD-3-Clause
-/// @file  The keys of a case file: one table for the reader, its messages and docs/cases.md.
+/// @file  The keys of a case file: one table, from which come the reader, its messages, the writer,
+/// what of a case its body hangs on, what a run that goes on may change, and docs/cases.md.
 #pragma once
 #include <array>
+#include <filesystem>
 #include <limits>
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
+#include <type_traits>
+#include <variant>
+#include <vector>
+
+#include "rondo/case/case.hpp"
+#include "rondo/core/vec2.hpp"
+#include "rondo/model/motion.hpp"
 
 namespace rondo::study {
 
 enum class KeyType { integer, number, boolean, text, choice, history, profile, vector, matrix };
+
+/// An enum or a bool, by the index of its value among the choices of its key.
+struct Choice {
+  void* target;
+  std::size_t (*get)(const void* target);
+  void (*set)(void* target, std::size_t index);
+};
+
+template <class E>
+Choice choice_of(E& target) {
+  return {&target,
+          [](const void* p) { return static_cast<std::size_t>(*static_cast<const E*>(p)); },
+          [](void* p, std::size_t index) { *static_cast<E*>(p) = static_cast<E>(index); }};
+}
+
+using Matrix = std::array<std::array<double, 2>, 2>;
+
+/// Where in a case the value of a key is.
+using Field =
+    std::variant<int*, double*, std::optional<double>*, bool*, std::string*, std::filesystem::path*,
+                 Choice, Vec2*, Matrix*, dynamics::Table*, std::vector<Vec2>*>;
+
+template <class T>
+Field field_of(T& target) {
+  if constexpr (std::is_enum_v<T>)
+    return choice_of(target);
+  else
+    return &target;
+}
 
 /// Bounds of a number; infinite: none on that side.
 struct Range {
@@ -22,22 +61,110 @@ struct Range {
   [[nodiscard]] bool contains(double value) const noexcept;
 };
 
-struct CaseKey {
-  std::string_view path;      ///< dotted, e.g. "disk.tread.depth"; "output.probe[].name": of each
-                              ///< table of a list
-  KeyType type;               ///< what kind of value
-  std::string_view unit;      ///< "-": none
-  Range range;                ///< of numbers
-  std::string_view also;      ///< a bound that involves other keys, or none
-  std::string_view standard;  ///< the default; "required"; "required if ...": by the reader
-  std::string_view meaning;
-  std::array<std::string_view, 3> choices{};  ///< in the order of the enum they stand for
+/// What may stand there, beside what the type says.
+struct Allowed {
+  Range range;                                ///< of numbers
+  std::array<std::string_view, 3> choices{};  ///< in the order of the enum; none: no choice
+  std::string_view also{};                    ///< a bound that involves other keys: a rule
 
-  [[nodiscard]] bool required() const noexcept { return standard == "required"; }
+  [[nodiscard]] bool is_choice() const noexcept { return !choices[0].empty(); }
 };
 
-/// All keys, in the order in which a case is written.
+/// The analyses that a key or a table means something to.
+struct Analyses {
+  unsigned bits;         ///< bit k: the AnalysisKind k
+  bool told = true;      ///< what is given for nothing is named in a warning
+  bool written = false;  ///< its default is written where it means nothing
+
+  [[nodiscard]] constexpr bool all() const noexcept { return bits == ~0U; }
+  [[nodiscard]] constexpr bool contain(AnalysisKind kind) const noexcept {
+    return ((bits >> static_cast<unsigned>(kind)) & 1U) != 0;
+  }
+};
+
+constexpr bool always(const Case& /*c*/) {
+  return true;
+}
+constexpr bool never(const Case& /*c*/) {
+  return false;
+}
+
+/// When a key counts, and what for.
+struct Use {
+  using Test = bool (*)(const Case& c);
+
+  bool required = false;
+  std::string_view standard{};  ///< for the manual, where the default is not that of the struct
+  Test when = always;           ///< it is written, and required if it is
+  Analyses analyses{~0U};
+  Test changes_body = always;  ///< runs that differ in it alone share no body: see body_key()
+  bool may_change_on_resume = false;
+
+  // The same but for one thing.
+  [[nodiscard]] constexpr Use if_(Test test, std::string_view text = {}) const {
+    Use use = said(text);
+    use.when = test;
+    return use;
+  }
+  [[nodiscard]] constexpr Use said(std::string_view text) const {
+    Use use = *this;
+    use.standard = text;
+    return use;
+  }
+  [[nodiscard]] constexpr Use of(Analyses which) const {
+    Use use = *this;
+    use.analyses = which;
+    return use;
+  }
+  [[nodiscard]] constexpr Use body(Test test) const {
+    Use use = *this;
+    use.changes_body = test;
+    return use;
+  }
+  [[nodiscard]] constexpr Use free_on_resume() const {
+    Use use = *this;
+    use.may_change_on_resume = true;
+    return use;
+  }
+};
+
+struct CaseKey {
+  std::string_view path;  ///< dotted, e.g. "disk.tread.depth"; "output.probe[].name": of each table
+                          ///< of a list
+  std::string_view unit;  ///< "-": none
+  Field (*field)(Case& c, std::size_t k);  ///< of the k-th table of its list. @pre it is there
+  Allowed allowed;
+  Use use;
+  std::string_view meaning;  ///< for the manual, in Markdown
+};
+
+/// A table of a case file, or a list of tables.
+struct CaseTable {
+  std::string_view path;                   ///< "" : the top; "output.probe[]": a list
+  std::size_t (*count)(const Case& c);     ///< 0: not there; of a list, its length
+  void (*resize)(Case& c, std::size_t n);  ///< to n; null where it is always there
+  Analyses analyses{~0U};
+
+  [[nodiscard]] bool is_list() const noexcept { return path.ends_with("[]"); }
+  /// The path without "[]".
+  [[nodiscard]] std::string_view name() const noexcept {
+    return path.substr(0, path.size() - (is_list() ? 2 : 0));
+  }
+};
+
+/// All keys, in the order in which a case is written: those of a table side by side.
 std::span<const CaseKey> case_keys() noexcept;
+/// All tables with keys, in the same order.
+std::span<const CaseTable> case_tables() noexcept;
+/// Those of one table, by its path in case_tables().
+std::span<const CaseKey> keys_of(const CaseTable& table);
+/// The table that a key stands in.
+const CaseTable& table_with(const CaseKey& key);
+
+/// The key and its table mean something to this kind of analysis.
+bool means_to(const CaseKey& key, AnalysisKind kind);
+/// Gives a key its default; a list of tables is emptied.
+void reset(const CaseKey& key, Case& c);
 
 /// Null where there is no such key. Tables of lists are named by their number:
 /// "output.probe[0].name".
@@ -55,8 +182,21 @@ std::string item_of(std::string_view list, std::size_t index);
 /// "output.probe[2].name" to "output.probe[].name".
 std::string without_indices(std::string_view path);
 
+/// "[disk.tread]"; "[[output.probe]]" of "output.probe[]".
+std::string heading_of(std::string_view table);
+
+/// "output.probe[].name" and 2 to "output.probe[2].name"; a key of no list as it is.
+std::string path_of(const CaseKey& key, std::size_t index);
+
+KeyType type_of(const CaseKey& key);
 /// "float", "integer", ...: TOML's words, for the manual.
-std::string_view type_text(const CaseKey& key) noexcept;
+std::string_view type_text(const CaseKey& key);
+/// The index of a choice by its name; none: it is not one of them.
+std::optional<std::size_t> find_choice(const Allowed& allowed, std::string_view name);
+/// A value as TOML. @param field of this key
+std::string value_text(const CaseKey& key, const Field& field);
+/// As the manual says it: "0.8", "required", "that of [material]".
+std::string default_text(const CaseKey& key);
 
 /// What may stand there, e.g. "> 0 and < disk.outer_radius".
 std::string allowed_text(const CaseKey& key);

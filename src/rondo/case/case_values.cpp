@@ -36,20 +36,6 @@ std::string keys_beside(std::string_view path) {
   return fmt::format("{}: {}", where, keys_text(table));
 }
 
-std::string_view asked_type(KeyType type) {
-  switch (type) {
-    case KeyType::history:
-      return "a float or an array of pairs";
-    case KeyType::profile:
-      return "\"flat\" or an array of pairs";
-    case KeyType::vector:
-    case KeyType::matrix:
-      return "an array";
-    default:
-      return "a float";
-  }
-}
-
 }  // namespace
 
 CaseValues::CaseValues(CaseSource source) : source_(std::move(source)) {
@@ -111,12 +97,12 @@ Place CaseValues::place_of_table(std::string_view table) const {
   return {};
 }
 
-void CaseValues::bad_value(std::string_view key, const CaseValue& value, std::string message) {
-  add(value.place, key, source_.written(value.place), std::move(message), allowed_text(spec(key)));
+void CaseValues::bad(const Reading& in, const CaseValue& value, std::string message) {
+  add(value.place, in.path, source_.written(value.place), std::move(message), allowed_text(in.key));
 }
 
-void CaseValues::wrong_type(std::string_view key, const CaseValue& value, std::string_view asked) {
-  bad_value(key, value, fmt::format("must be {}, not {}", asked, type_word(value.type)));
+void CaseValues::wrong_type(const Reading& in, const CaseValue& value, std::string_view asked) {
+  bad(in, value, fmt::format("must be {}, not {}", asked, type_word(value.type)));
 }
 
 void CaseValues::fault(std::string_view key, std::string message, std::string allowed) {
@@ -174,85 +160,71 @@ void CaseValues::finish() {
   if (!faults.empty()) throw InputError(std::move(faults));
 }
 
-const CaseValue* CaseValues::start(std::string_view key) {
-  const auto found = source_.values.find(key);
-  if (found != source_.values.end()) return &found->second;
-  if (spec(key).required()) missing(key);
-  return nullptr;
-}
-
-bool CaseValues::finite(std::string_view key, const CaseValue& value, double& target) {
+bool CaseValues::finite(const Reading& in, const CaseValue& value, double& target) {
   if (value.type != ValueType::number && value.type != ValueType::integer)
-    return wrong_type(key, value, "a float"), false;
-  if (!std::isfinite(value.number)) return bad_value(key, value, "must be a finite number"), false;
+    return wrong_type(in, value, "a float"), false;
+  if (!std::isfinite(value.number)) return bad(in, value, "must be a finite number"), false;
   target = value.number;
   return true;
 }
 
-void CaseValues::read(std::string_view key, double& target) {
-  const CaseValue* value = start(key);
-  double number = 0.0;
-  if (value == nullptr || !finite(key, *value, number)) return;
-  if (!spec(key).range.contains(number)) return bad_value(key, *value, "is out of bounds");
-  target = number;
+std::optional<double> CaseValues::number(const Reading& in) {
+  double found = 0.0;
+  if (!finite(in, in.value, found)) return std::nullopt;
+  if (in.key.allowed.range.contains(found)) return found;
+  return bad(in, in.value, "is out of bounds"), std::nullopt;
 }
 
-void CaseValues::read(std::string_view key, int& target) {
-  const CaseValue* value = start(key);
-  if (value == nullptr) return;
-  if (value->type == ValueType::number)
-    return bad_value(key, *value,
-                     "must be an integer, not a float: write it without point and exponent");
-  if (value->type != ValueType::integer) return wrong_type(key, *value, "an integer");
-  if (!spec(key).range.contains(value->number) ||
-      value->integer < std::numeric_limits<int>::min() ||
-      value->integer > std::numeric_limits<int>::max())
-    return bad_value(key, *value, "is out of bounds");
-  target = static_cast<int>(value->integer);
+void CaseValues::take(const Reading& in, int& target) {
+  const CaseValue& value = in.value;
+  if (value.type == ValueType::number)
+    return bad(in, value, "must be an integer, not a float: write it without point and exponent");
+  if (value.type != ValueType::integer) return wrong_type(in, value, "an integer");
+  if (!in.key.allowed.range.contains(value.number) ||
+      value.integer < std::numeric_limits<int>::min() ||
+      value.integer > std::numeric_limits<int>::max())
+    return bad(in, value, "is out of bounds");
+  target = static_cast<int>(value.integer);
 }
 
-void CaseValues::read(std::string_view key, bool& target) {
-  const CaseValue* value = start(key);
-  if (value == nullptr) return;
-  if (value->type != ValueType::boolean) return wrong_type(key, *value, "a boolean");
-  target = value->boolean;
+void CaseValues::take(const Reading& in, bool& target) {
+  if (in.value.type != ValueType::boolean) return wrong_type(in, in.value, "a boolean");
+  target = in.value.boolean;
 }
 
-void CaseValues::read(std::string_view key, std::string& target) {
-  const CaseValue* value = start(key);
-  if (value == nullptr) return;
-  if (value->type != ValueType::text) return wrong_type(key, *value, "a string");
-  target = value->text;
+/// A text that must be given must not be empty; one of a choice must be one of the choices.
+std::optional<std::string> CaseValues::text(const Reading& in) {
+  if (in.value.type != ValueType::text) return wrong_type(in, in.value, "a string"), std::nullopt;
+  if (in.key.allowed.is_choice() && !find_choice(in.key.allowed, in.value.text))
+    return bad(in, in.value, "is not one of the choices"), std::nullopt;
+  if (in.key.use.required && in.value.text.empty())
+    return fault(in.path, "must not be empty"), std::nullopt;
+  return in.value.text;
 }
 
-std::size_t CaseValues::choice(std::string_view key) {
-  const CaseValue* value = start(key);
-  if (value == nullptr) return 0;
-  const CaseKey& k = spec(key);
-  if (value->type != ValueType::text) return wrong_type(key, *value, "a string"), 0;
-  const auto chosen = std::find(k.choices.begin(), k.choices.end(), value->text);
-  if (chosen != k.choices.end() && !chosen->empty())
-    return static_cast<std::size_t>(chosen - k.choices.begin());
-  bad_value(key, *value, "is not one of the choices");
-  return 0;
+void CaseValues::take(const Reading& in, std::string& target) {
+  if (const auto found = text(in)) target = *found;
 }
 
-bool CaseValues::pair(std::string_view key, const CaseValue& value, std::array<double, 2>& target) {
-  if (value.type != ValueType::array) return wrong_type(key, value, "a pair of floats"), false;
+void CaseValues::take(const Reading& in, const Choice& target) {
+  if (const auto name = text(in)) target.set(target.target, *find_choice(in.key.allowed, *name));
+}
+
+bool CaseValues::pair(const Reading& in, const CaseValue& value, std::array<double, 2>& target) {
+  if (value.type != ValueType::array) return wrong_type(in, value, "a pair of floats"), false;
   if (value.items.size() != 2)
-    return bad_value(key, value, fmt::format("must have 2 items, not {}", value.items.size())),
-           false;
-  const bool first = finite(key, value.items[0], target[0]);
-  return finite(key, value.items[1], target[1]) && first;
+    return bad(in, value, fmt::format("must have 2 items, not {}", value.items.size())), false;
+  const bool first = finite(in, value.items[0], target[0]);
+  return finite(in, value.items[1], target[1]) && first;
 }
 
 /// Empty where any of the pairs is at fault; the first few faults are told.
-std::vector<std::array<double, 2>> CaseValues::pairs(std::string_view key, const CaseValue& value) {
+std::vector<std::array<double, 2>> CaseValues::pairs(const Reading& in) {
   std::vector<std::array<double, 2>> points;
   std::size_t n_bad = 0;
-  for (const CaseValue& item : value.items) {
+  for (const CaseValue& item : in.value.items) {
     std::array<double, 2> point{};
-    if (pair(key, item, point))
+    if (pair(in, item, point))
       points.push_back(point);
     else if (++n_bad == most_faults_of_a_key)
       break;
@@ -261,58 +233,74 @@ std::vector<std::array<double, 2>> CaseValues::pairs(std::string_view key, const
   return points;
 }
 
-void CaseValues::read(std::string_view key, Vec2& target) {
-  const CaseValue* value = start(key);
-  if (value == nullptr) return;
+void CaseValues::take(const Reading& in, Vec2& target) {
   std::array<double, 2> components{};
-  if (value->type != ValueType::array) return wrong_type(key, *value, asked_type(spec(key).type));
-  if (pair(key, *value, components)) target = {components[0], components[1]};
+  if (in.value.type != ValueType::array) return wrong_type(in, in.value, "an array");
+  if (pair(in, in.value, components)) target = {components[0], components[1]};
 }
 
-void CaseValues::read(std::string_view key, std::array<std::array<double, 2>, 2>& target) {
-  const CaseValue* value = start(key);
-  if (value == nullptr) return;
-  if (value->type != ValueType::array) return wrong_type(key, *value, asked_type(spec(key).type));
-  if (value->items.size() != 2)
-    return bad_value(key, *value, fmt::format("must have 2 rows, not {}", value->items.size()));
-  const auto rows = pairs(key, *value);
+void CaseValues::take(const Reading& in, Matrix& target) {
+  if (in.value.type != ValueType::array) return wrong_type(in, in.value, "an array");
+  if (in.value.items.size() != 2)
+    return bad(in, in.value, fmt::format("must have 2 rows, not {}", in.value.items.size()));
+  const auto rows = pairs(in);
   if (rows.size() == 2) target = {rows[0], rows[1]};
 }
 
-void CaseValues::read(std::string_view key, dynamics::Table& target) {
-  const CaseValue* value = start(key);
-  if (value == nullptr) return;
-  if (value->type != ValueType::array) {
+void CaseValues::take(const Reading& in, dynamics::Table& target) {
+  const CaseValue& value = in.value;
+  if (value.type != ValueType::array) {
     double constant = 0.0;
-    if (value->type != ValueType::number && value->type != ValueType::integer)
-      return wrong_type(key, *value, asked_type(spec(key).type));
-    if (finite(key, *value, constant)) target = dynamics::Table(constant);
+    if (value.type != ValueType::number && value.type != ValueType::integer)
+      return wrong_type(in, value, "a float or an array of pairs");
+    if (finite(in, value, constant)) target = dynamics::Table(constant);
     return;
   }
-  if (value->items.empty()) return bad_value(key, *value, "must have at least one point");
-  auto points = pairs(key, *value);
+  if (value.items.empty()) return bad(in, value, "must have at least one point");
+  auto points = pairs(in);
   std::size_t n_bad = 0;
   for (std::size_t i = 1; i < points.size() && n_bad < most_faults_of_a_key; ++i)
     if (points[i][0] <= points[i - 1][0]) {
-      bad_value(key, value->items[i],
-                fmt::format("the times must increase, but {} follows {}", points[i][0],
-                            points[i - 1][0]));
+      bad(in, value.items[i],
+          fmt::format("the times must increase, but {} follows {}", points[i][0],
+                      points[i - 1][0]));
       ++n_bad;
     }
   if (!points.empty() && n_bad == 0) target = dynamics::Table(std::move(points));
 }
 
-void CaseValues::read_profile(std::string_view key, std::vector<Vec2>& target) {
-  const CaseValue* value = start(key);
-  if (value == nullptr) return;
-  if (value->type == ValueType::text && value->text == "flat") return;
-  if (value->type == ValueType::text) return bad_value(key, *value, "is not one of the choices");
-  if (value->type != ValueType::array) return wrong_type(key, *value, asked_type(spec(key).type));
-  if (value->items.size() < 2) return bad_value(key, *value, "must have at least two points");
-  const auto points = pairs(key, *value);
+/// "flat" leaves the profile as it is.
+void CaseValues::take(const Reading& in, std::vector<Vec2>& target) {
+  const CaseValue& value = in.value;
+  if (value.type == ValueType::text && value.text == "flat") return;
+  if (value.type == ValueType::text) return bad(in, value, "is not one of the choices");
+  if (value.type != ValueType::array) return wrong_type(in, value, "\"flat\" or an array of pairs");
+  if (value.items.size() < 2) return bad(in, value, "must have at least two points");
+  const auto points = pairs(in);
   if (points.empty()) return;
   target.clear();
   for (const auto& [x, y] : points) target.push_back({x, y});
+}
+
+void CaseValues::read(const CaseKey& key, const std::string& path, const Field& field) {
+  const auto found = source_.values.find(path);
+  if (found == source_.values.end()) return;
+  const Reading in{key, path, found->second};
+  std::visit(
+      [&](auto target) {
+        using T = decltype(target);
+        if constexpr (std::is_same_v<T, Choice>) {
+          take(in, target);
+        } else if constexpr (std::is_same_v<T, double*> ||
+                             std::is_same_v<T, std::optional<double>*>) {
+          if (const auto value = number(in)) *target = *value;
+        } else if constexpr (std::is_same_v<T, std::filesystem::path*>) {
+          if (const auto name = text(in)) *target = *name;
+        } else {
+          take(in, *target);
+        }
+      },
+      field);
 }
 
 std::map<std::string, KeyPlace> CaseValues::places() const {

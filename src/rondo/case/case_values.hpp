@@ -5,6 +5,7 @@
 #include <array>
 #include <initializer_list>
 #include <map>
+#include <optional>
 #include <set>
 #include <string>
 #include <string_view>
@@ -27,21 +28,12 @@ class CaseValues {
   [[nodiscard]] bool has_table(std::string_view table) const;
   /// Tables in a list; they are item_of(list, 0) and so on.
   [[nodiscard]] std::size_t n_items(std::string_view list) const;
-  /// None of the keys has a fault so far, nor is it required and missing.
+  /// None of the keys has a fault so far, nor is it missing.
   [[nodiscard]] bool good(std::initializer_list<std::string_view> keys) const;
 
-  /// Reads into a target, which keeps its default where the key is absent or at fault.
-  void read(std::string_view key, int& target);
-  void read(std::string_view key, double& target);
-  void read(std::string_view key, bool& target);
-  void read(std::string_view key, std::string& target);
-  void read(std::string_view key, Vec2& target);
-  void read(std::string_view key, std::array<std::array<double, 2>, 2>& target);
-  void read(std::string_view key, dynamics::Table& target);
-  /// Index into the key's choices; 0, the default, where the key is absent or at fault.
-  std::size_t choice(std::string_view key);
-  /// "flat" leaves the target as it is.
-  void read_profile(std::string_view key, std::vector<Vec2>& target);
+  /// Reads a value into its field, which keeps its default where the key is absent or at fault.
+  /// @param path of a table of a list with its number
+  void read(const CaseKey& key, const std::string& path, const Field& field);
 
   /// A fault of a key: at its value, else at its table; or at an item of its array.
   void fault(std::string_view key, std::string message, std::string allowed = {});
@@ -59,14 +51,29 @@ class CaseValues {
     Place place;
     Fault fault;
   };
-  const CaseValue* start(std::string_view key);
+  /// The key being read, its path and what is given for it.
+  struct Reading {
+    const CaseKey& key;
+    const std::string& path;
+    const CaseValue& value;
+  };
   void add(const Place& place, std::string_view key, std::string found, std::string message,
            std::string allowed);
-  void bad_value(std::string_view key, const CaseValue& value, std::string message);
-  void wrong_type(std::string_view key, const CaseValue& value, std::string_view asked);
-  bool finite(std::string_view key, const CaseValue& value, double& target);
-  bool pair(std::string_view key, const CaseValue& value, std::array<double, 2>& target);
-  std::vector<std::array<double, 2>> pairs(std::string_view key, const CaseValue& value);
+  void bad(const Reading& in, const CaseValue& value, std::string message);
+  void wrong_type(const Reading& in, const CaseValue& value, std::string_view asked);
+  bool finite(const Reading& in, const CaseValue& value, double& target);
+  bool pair(const Reading& in, const CaseValue& value, std::array<double, 2>& target);
+  std::vector<std::array<double, 2>> pairs(const Reading& in);
+  std::optional<double> number(const Reading& in);
+  std::optional<std::string> text(const Reading& in);
+  void take(const Reading& in, int& target);
+  void take(const Reading& in, bool& target);
+  void take(const Reading& in, std::string& target);
+  void take(const Reading& in, const Choice& target);
+  void take(const Reading& in, Vec2& target);
+  void take(const Reading& in, Matrix& target);
+  void take(const Reading& in, dynamics::Table& target);
+  void take(const Reading& in, std::vector<Vec2>& target);
   void check_key(const std::string& path, const CaseValue& value);
   void not_a_list(const std::string& path, const CaseValue& value);
   void add_missing_tables();

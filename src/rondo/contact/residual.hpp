@@ -3,8 +3,6 @@
 /// measure judges every solver (docs/theory.md, 4.5). Natural map of De Saxcé and Feng, Math.
 /// Comput. Modelling 28 (1998) 225: r = P_K(r - m ŵ), ŵ = w + (bounce + μ|w_t|) n.
 #pragma once
-#include <span>
-
 #include "rondo/core/vec2.hpp"
 
 namespace rondo::contact {
@@ -16,11 +14,5 @@ Vec2 project_on_cone(Vec2 r, double friction) noexcept;
 /// at which velocities weigh against impulses.
 double law_residual(Vec2 impulse, Vec2 velocity, double bounce, double friction,
                     double mass) noexcept;
-
-struct CoupledProblem;
-
-/// Largest |r_j - P_K(r_j - m_j ŵ_j)| over the largest m_j |free_j| [-]; 0 where both are
-/// zero and the impulses too. `impulse` (nc).
-double coupled_residual(const CoupledProblem& problem, std::span<const Vec2> impulse) noexcept;
 
 }  // namespace rondo::contact

@@ -11,7 +11,7 @@ namespace rondo {
 
 template <class Record>
 struct Column {
-  std::string_view name, unit, meaning;  ///< unit "1": none
+  std::string_view name, unit, meaning;  ///< unit "1": none; meaning in Markdown, for the manual
   double (*value)(const Record&);
 };
 

@@ -7,7 +7,7 @@
 #include <map>
 #include <numeric>
 
-#include "rondo/contact/node_to_segment.hpp"
+#include "rondo/contact/coupled/node_to_segment.hpp"
 
 namespace rondo::dynamics {
 namespace {

@@ -8,7 +8,7 @@
 
 #include "rondo/contact/coupled/clusters.hpp"
 #include "rondo/contact/coupled/coupled.hpp"
-#include "rondo/contact/problem_file.hpp"
+#include "rondo/contact/coupled/problem_file.hpp"
 #include "rondo/integrators/body_frames.hpp"
 #include "rondo/integrators/contact_finder.hpp"
 

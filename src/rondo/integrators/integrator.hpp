@@ -8,7 +8,7 @@
 #include <span>
 #include <vector>
 
-#include "rondo/contact/problem_file.hpp"
+#include "rondo/contact/coupled/problem_file.hpp"
 #include "rondo/model/contact_node.hpp"
 #include "rondo/model/ledger.hpp"
 #include "rondo/model/model.hpp"

@@ -93,6 +93,10 @@ void RunReader::read_times() {
   if (!file_.contains("/frame/time") && !file_.contains("/snapshots")) return;
   times_.time = file_.dataset("/frame/time", {h5::any}).read<double>();
   time_unit_ = file_.attribute("/frame/time", "units");
+  if (time_unit_ != "s" && time_unit_ != "1")
+    throw FileError(file_.path(), fmt::format("/frame/time is in \"{}\"; rondo writes \"s\", or "
+                                              "\"1\" for a share of the load: damaged",
+                                              time_unit_));
   n_planned_ = times_.time.size();
   std::size_t n = 0;
   while (n < n_planned_ && std::isfinite(times_.time[n]) &&

@@ -42,11 +42,13 @@ ProbeValues look_at(const ProbedBody& body, const ProbeSite& site, const dynamic
 
 std::vector<ColumnLabel> probe_columns(const std::vector<Probe>& probes) {
   static constexpr std::array<std::array<const char*, 3>, 8> quantities{
-      {{"ux", "m", "displacement: turning frame; of a free body x - X, fixed frame"},
+      {{"ux", "m", "displacement at `time_s`: turning frame; of a free body x − X, fixed frame"},
        {"uy", "m", "likewise"},
-       {"vx", "m/s", "velocity in the same frame, half a step before"},
+       {"vx", "m/s", "velocity in the same frame, half a step before `time_s`"},
        {"vy", "m/s", "likewise"},
-       {"sxx", "Pa", "stress in the same frame, from the corners of the cell"},
+       {"sxx", "Pa",
+        "stress at `time_s` in the same frame, by the shape functions from the corners of the "
+        "cell"},
        {"syy", "Pa", "likewise"},
        {"szz", "Pa", "likewise"},
        {"sxy", "Pa", "likewise"}}};

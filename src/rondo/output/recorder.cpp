@@ -25,8 +25,10 @@ double seconds_since(std::chrono::steady_clock::time_point begin) {
   return std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
 }
 
-io::Csv history_file(const std::filesystem::path& directory,
-                     const std::vector<ColumnLabel>& columns, const Checkpoint* from) {
+std::optional<io::Csv> history_file(const std::filesystem::path& directory,
+                                    const std::vector<ColumnLabel>& columns,
+                                    const Checkpoint* from) {
+  if (columns.empty()) return {};
   const std::filesystem::path file = directory / "history.csv";
   const std::vector<std::string> names = names_of(columns);
   return from ? io::Csv(file, names, from->files.history_bytes) : io::Csv(file, names);
@@ -38,7 +40,7 @@ std::size_t queue_length(std::size_t n_snapshots, std::size_t bytes) noexcept {
   constexpr std::size_t rows_only = 8;  // slots for rows between the snapshots
   constexpr std::size_t most = 512;     // what is written must not be far behind the run
   const std::size_t wanted = std::min(n_snapshots + rows_only, most);
-  return std::clamp<std::size_t>(output_queue_bytes / bytes, 2, wanted);
+  return std::clamp<std::size_t>(output_queue_bytes / std::max<std::size_t>(bytes, 1), 2, wanted);
 }
 
 Recorder::Recorder(std::filesystem::path directory, const RecordPlan& plan, const Checkpoint* from)
@@ -48,7 +50,8 @@ Recorder::Recorder(std::filesystem::path directory, const RecordPlan& plan, cons
       numbers_at_once_(rows_at_once * n_columns_),
       rows_(no_rows(numbers_at_once_)),
       saved_step_(from ? from->state.step : 0),
-      snapshots_(std::make_unique<SnapshotFiles>(directory_, plan, from)),
+      snapshots_(plan.results.mesh ? std::make_unique<SnapshotFiles>(directory_, plan, from)
+                                   : nullptr),
       history_csv_(history_file(directory_, plan.columns, from)),
       slots_(make_slots(plan)),
       writer_(slots_.size(), [this](std::size_t slot) { write(slots_[slot]); }) {}
@@ -86,6 +89,7 @@ void Recorder::rows_added() {
 }
 
 void Recorder::add_row(std::span<const double> row) {
+  if (row.empty()) return;
   rows_.insert(rows_.end(), row.begin(), row.end());
   rows_added();
 }
@@ -132,8 +136,10 @@ void Recorder::hand_over() {
 }
 
 void Recorder::write(Slot& slot) {
-  history_csv_.rows(slot.rows);
-  if (!slot.rows.empty()) kept_until_ = slot.rows[slot.rows.size() - n_columns_];
+  if (!slot.rows.empty()) {
+    history_csv_->rows(slot.rows);
+    kept_until_ = slot.rows[slot.rows.size() - n_columns_];
+  }
   if (slot.has_snapshot) snapshots_->write(slot.snapshot);
   if (!slot.checkpoint) return;
   write(*slot.checkpoint);
@@ -144,9 +150,9 @@ void Recorder::write(Slot& slot) {
 /// What it says of the other files must be true whatever happens to the machine: they are synced
 /// first.
 void Recorder::write(Checkpoint& checkpoint) {
-  io::sync_file(history_csv_.path());
+  io::sync_file(history_csv_->path());
   snapshots_->sync();
-  checkpoint.files = {history_csv_.bytes(), snapshots_->contact_bytes(), snapshots_->written()};
+  checkpoint.files = {history_csv_->bytes(), snapshots_->contact_bytes(), snapshots_->written()};
   write_checkpoint(directory_, checkpoint);
   saved_step_ = checkpoint.state.step;
 }
@@ -160,8 +166,8 @@ void Recorder::close() {
   }
   const auto begin = Clock::now();
   writer_.finish();
-  history_csv_.close();
-  snapshots_->close();
+  if (history_csv_) history_csv_->close();
+  if (snapshots_) snapshots_->close();
   drain_s_ = seconds_since(begin);
 }
 
@@ -170,6 +176,7 @@ std::string Recorder::kept() {
     close();
   } catch (...) {  // what is asked about
   }
+  if (!history_csv_ || !snapshots_) return "what was written is kept";
   const std::string until = time_unit_ == "s" ? fmt::format("t = {:.9g} s", kept_until_)
                                               : fmt::format("{:.9g} of the load", kept_until_);
   return fmt::format("kept are history.csv to {} and {} snapshots", until, snapshots_->written());
@@ -180,7 +187,7 @@ OutputCost Recorder::cost() const {
 }
 
 std::size_t Recorder::written() const {
-  return snapshots_->written();
+  return snapshots_ ? snapshots_->written() : 0;
 }
 
 }  // namespace rondo::study

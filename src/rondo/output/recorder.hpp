@@ -41,8 +41,9 @@ struct OutputCost {
 
 /// What an analysis records; all that it points to must outlive the recorder.
 struct RecordPlan {
-  io::ResultsLayout results;                 ///< of results.h5 and fields.xdmf
-  std::vector<ColumnLabel> columns;          ///< of history.csv; the first is the time
+  io::ResultsLayout results;  ///< of results.h5 and fields.xdmf; no mesh: none, nor contact.csv
+  std::vector<ColumnLabel> columns;          ///< of history.csv; the first is the time. Empty: none
+  std::size_t own_bytes = 0;                 ///< on disk, of files that the analysis writes itself
   std::size_t n_rows = 0;                    ///< of history.csv, expected
   std::span<const fem::Material> materials;  ///< of the mesh's regions, for stress
   const contact::Ground* ground = nullptr;   ///< for abscissas; null: none
@@ -125,8 +126,8 @@ class Recorder {
   std::atomic<long long> saved_step_{0};
   // The thread's from its start to its end.
   std::unique_ptr<SnapshotFiles> snapshots_;  ///< first: what fails while it copies leaves all
-                                              ///< files as they were
-  io::Csv history_csv_;
+                                              ///< files as they were. Null: none
+  std::optional<io::Csv> history_csv_;
   std::vector<Slot> slots_;
   WriterThread writer_;  ///< last: ends before what it works with
 };

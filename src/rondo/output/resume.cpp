@@ -49,13 +49,12 @@ void compare_cases(const Checkpoint& k, const Case& c, const Setup& setup,
                    std::vector<Fault>& faults) {
   const CaseSource now = load_case_text("the case", write_case(c), {});
   const CaseSource then = load_case_text("the checkpoint", k.identity.case_text, {});
-  constexpr std::array<std::string_view, 3> free = {"time.end", "output.checkpoint_interval",
-                                                    "mesh.file"};
   const SnapshotSchedule longer = with_end(k.schedule, c.output, setup.model.dt, setup.n_steps);
   const std::array snapshots{static_cast<std::int64_t>(k.schedule.steps.size()),
                              static_cast<std::int64_t>(longer.steps.size())};
   for (const auto& [key, value] : now.values) {
-    if (std::find(free.begin(), free.end(), key) != free.end()) continue;
+    const CaseKey* known = find_case_key(key);
+    if (known && known->use.may_change_on_resume) continue;
     // A longer run keeps its interval: its case, as it is kept, counts all of its snapshots.
     if (key == "output.snapshots" &&
         std::find(snapshots.begin(), snapshots.end(), value.integer) != snapshots.end())

@@ -114,15 +114,6 @@ void write_contact_problem(const std::filesystem::path& directory, int number,
   io::replace_file(beside.path, file);
 }
 
-io::DirectoryLock take_modes_directory(const Case& c, const std::filesystem::path& directory,
-                                       bool overwrite) {
-  keep_the_users_files(c, directory);
-  io::DirectoryLock lock = io::take_results_directory(
-      directory, overwrite ? io::DirectoryUse::overwrite : io::DirectoryUse::begin);
-  write_kept_case(c, directory);
-  return lock;
-}
-
 io::DirectoryLock take_directory(const Case& c, const RunOptions& options) {
   if (options.before_loop) options.before_loop();
   // What is there to be gone on with is the run's own.

@@ -6,7 +6,7 @@
 #include <nlohmann/json.hpp>
 #include <string_view>
 
-#include "rondo/contact/problem_file.hpp"
+#include "rondo/contact/coupled/problem_file.hpp"
 #include "rondo/io/directory.hpp"
 #include "rondo/output/run_options.hpp"
 
@@ -44,11 +44,6 @@ std::string warning_of_another_host(const std::filesystem::path& directory);
 
 /// case.toml and run.json. @throws FileError
 void begin_files(const Case& c, const RunOptions& options, const Json& json);
-
-/// For `rondo modes`: the directory, with the case as read. @throws InputError, FileError
-[[nodiscard]] io::DirectoryLock take_modes_directory(const Case& c,
-                                                     const std::filesystem::path& directory,
-                                                     bool overwrite);
 
 /// After an error of files, or where memory ran out: run.json says so, where it can still be
 /// written itself.

@@ -5,7 +5,7 @@
 
 #include "fuzz.hpp"
 #include "mutate.hpp"
-#include "rondo/contact/problem_file.hpp"
+#include "rondo/contact/coupled/problem_file.hpp"
 #include "rondo/contact/residual.hpp"
 
 using namespace rondo;

@@ -3,12 +3,12 @@
 /// and by both operators; reads a mesh.
 #include <algorithm>
 #include <memory>
-#include <rondo/dynamics/critical_step.hpp>
-#include <rondo/dynamics/integrator.hpp>
-#include <rondo/dynamics/stepper.hpp>
+#include <rondo/case/case.hpp>
+#include <rondo/integrators/integrator.hpp>
+#include <rondo/integrators/stepper.hpp>
 #include <rondo/mesh/disk.hpp>
 #include <rondo/mesh/gmsh_reader.hpp>
-#include <rondo/study/case.hpp>
+#include <rondo/model/critical_step.hpp>
 
 using namespace rondo;
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// From a case to a setup: by the assembled stiffness where the disk is small, by harmonics above.
 #include "rondo/analysis/build/build.hpp"
+#include "rondo/analysis/build/stability.hpp"
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// Columns of a history: means by time, and what a damaged one says.
-#include "rondo/analysis/history_statistics.hpp"
+#include "rondo/analysis/figures/history_statistics.hpp"
 
 #include <gtest/gtest.h>
 

@@ -4,6 +4,7 @@
 
 #include "rondo/analysis/build/build.hpp"
 #include "unit/case/case_fixture.hpp"
+#include "unit/case/key_cases.hpp"
 
 using namespace rondo;
 using namespace rondo::study;
@@ -80,6 +81,20 @@ TEST(SharedBody, KeyOfAllThatTheBodyHangsOn) {
         "material.plane=stress", "damping.stiffness=1e-5", "ground.fillet=0.03",
         "solver.operator=sparse", "material.stress_stiffening=centrifugal"})
     EXPECT_NE(body_key(with({other})), key) << other;
+}
+
+/// Each key of the table, in each case that has it: the body hangs on it if its row says so.
+TEST(SharedBody, KeyHangsOnTheKeysWhoseRowSaysSo) {
+  int bound = 0, free = 0;
+  for (const CaseKey& key : case_keys())
+    for (const Case& c : test::cases_with_every_key()) {
+      if (key.path == "schema" || !test::is_written(key, c)) continue;  // there is one schema
+      const bool differs = body_key(test::with_another_value(key, c)) != body_key(c);
+      EXPECT_EQ(differs, key.use.changes_body(c)) << key.path;
+      ++(differs ? bound : free);
+    }
+  EXPECT_GT(bound, 60);
+  EXPECT_GT(free, 60);
 }
 
 /// They are points of the body as it is meshed, wherever it starts.

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "rondo/case/case_keys.hpp"
 
-#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include "unit/case/case_fixture.hpp"
@@ -26,16 +25,6 @@ TEST(CaseKeys, NearestKey) {
   EXPECT_EQ(nearest_key("time.dt"), "");
   EXPECT_EQ(nearest_key("ground.colour"), "");
   EXPECT_EQ(nearest_key(std::string(100000, 'a')), "");
-}
-
-TEST(CaseKeys, ManualHasEveryKey) {
-  const std::string manual = file_text(source_folder() / "docs" / "cases.md");
-  ASSERT_FALSE(manual.empty());
-  for (const CaseKey& key : case_keys()) {
-    const auto row = fmt::format("\n| `{}` | {} | {} | {} | {} | ", key.path, type_text(key),
-                                 key.unit, allowed_text(key), key.standard);
-    EXPECT_NE(manual.find(row), std::string::npos) << row;
-  }
 }
 
 /// The examples of the manual are good cases; the fragments are too short to be one.

@@ -8,8 +8,10 @@
 #include <numeric>
 #include <random>
 
+#include "rondo/contact/coupled/coupled_residual.hpp"
 #include "rondo/contact/pair.hpp"
 #include "rondo/contact/residual.hpp"
+#include "rondo/core/complex.hpp"
 #include "support/contact_oracles.hpp"
 #include "support/contact_problems.hpp"
 

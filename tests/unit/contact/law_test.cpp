@@ -8,6 +8,7 @@
 
 #include "rondo/contact/pair.hpp"
 #include "rondo/contact/residual.hpp"
+#include "rondo/core/complex.hpp"
 
 using namespace rondo;
 using namespace rondo::contact;

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "rondo/contact/problem_file.hpp"
+#include "rondo/contact/coupled/problem_file.hpp"
+#include "rondo/contact/coupled/coupled_residual.hpp"
 
 #include <gtest/gtest.h>
 

@@ -6,7 +6,8 @@
 #include <random>
 
 #include "rondo/contact/coupled/clusters.hpp"
-#include "rondo/contact/node_to_segment.hpp"
+#include "rondo/contact/coupled/node_to_segment.hpp"
+#include "rondo/core/complex.hpp"
 #include "support/contact_oracles.hpp"
 
 using namespace rondo;

@@ -107,13 +107,9 @@ TEST(EditDistance, OfNames) {
 
 TEST(KeepLarger, NeverLosesWhatIsNoNumber) {
   const double none = std::nan("");
-  for (const auto keep : {keep_smaller, keep_larger}) {
-    EXPECT_TRUE(std::isnan(keep(none, 1.0)));
-    EXPECT_TRUE(std::isnan(keep(1.0, none)));
-    EXPECT_TRUE(std::isnan(keep(keep(0.0, none), 1e300)));
-  }
+  EXPECT_TRUE(std::isnan(keep_larger(none, 1.0)));
+  EXPECT_TRUE(std::isnan(keep_larger(1.0, none)));
+  EXPECT_TRUE(std::isnan(keep_larger(keep_larger(0.0, none), 1e300)));
   EXPECT_EQ(keep_larger(1.0, 2.0), 2.0);
   EXPECT_EQ(keep_larger(2.0, 1.0), 2.0);
-  EXPECT_EQ(keep_smaller(1.0, 2.0), 1.0);
-  EXPECT_EQ(keep_smaller(2.0, 1.0), 1.0);
 }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// Quadrilaterals whose volumetric strain is the mean of the element.
 #include <gtest/gtest.h>
+#include <Eigen/Eigenvalues>
 
 #include <vector>
 

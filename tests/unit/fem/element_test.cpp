@@ -2,6 +2,7 @@
 #include "rondo/fem/element.hpp"
 
 #include <gtest/gtest.h>
+#include <Eigen/Eigenvalues>
 
 #include <cmath>
 #include <random>

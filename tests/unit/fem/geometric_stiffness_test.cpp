@@ -1,12 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// Stiffness by the stress of a displacement.
 #include <gtest/gtest.h>
+#include <Eigen/Eigenvalues>
 
 #include <array>
 #include <cmath>
 #include <random>
 #include <vector>
 
+#include "rondo/core/complex.hpp"
 #include "rondo/fem/assembly.hpp"
 #include "rondo/fem/sector_stiffness.hpp"
 #include "support/rings.hpp"
@@ -30,7 +32,7 @@ double area(const std::vector<Vec2>& x) {
 /// Outwards by some percent, and turned: strains large enough for the stress to count.
 std::vector<Vec2> stretched(const mesh::Mesh& mesh) {
   std::vector<Vec2> u;
-  for (const Vec2 x : mesh.coordinates) u.push_back((norm(x) - 0.1) * (Vec2{0.2, 0.05} * x));
+  for (const Vec2 x : mesh.coordinates) u.push_back((norm(x) - 0.1) * (Complex{0.2, 0.05} * x));
   return u;
 }
 

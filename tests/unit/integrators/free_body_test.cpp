@@ -6,6 +6,7 @@
 #include <numbers>
 #include <random>
 
+#include "rondo/core/complex.hpp"
 #include "rondo/model/corotated.hpp"
 #include "rondo/model/operator.hpp"
 #include "support/blocks.hpp"

@@ -5,6 +5,7 @@
 #include <cstring>
 #include <thread>
 
+#include "rondo/core/complex.hpp"
 #include "rondo/io/h5/h5.hpp"
 #include "rondo/io/results.hpp"
 #include "unit/io/support.hpp"

@@ -123,21 +123,23 @@ TEST(RunReader, TellsTheAnalysis) {
   write_run(folder.path(), run, 1, 1);
   EXPECT_EQ(RunReader(folder.path()).analysis(), "dynamic");
   ResultsLayout layout = run.layout(2);
-  layout.quasi_static = true;
+  layout.words.analysis = "crush";
+  layout.words.time_unit = "1";
+  layout.series = {{"/crush/depth", "m", "a number"}, {"/crush/force", "N/m", "a vector", 2}};
   {
     Results results(folder.path(), layout);
     Snapshot s = run.snapshot(0);
-    s.crush = {0.25, {7.0, -2.0}, 0.125, 3.0};
+    const std::vector<double> series{0.25, 7.0, -2.0};
+    s.series = series;
     results.write(s);
     results.close();
   }
   EXPECT_EQ(RunReader(folder.path()).analysis(), "crush");
+  EXPECT_FALSE(RunReader(folder.path()).is_motion());
   {
     const h5::File file = h5::File::open(folder / "results.h5");
     EXPECT_EQ(file.read<double>("/crush/depth"), std::vector<double>{0.25});
     EXPECT_EQ(file.read<Vec2>("/crush/force"), (std::vector<Vec2>{{7.0, -2.0}}));
-    EXPECT_EQ(file.read<double>("/crush/contact_length"), std::vector<double>{0.125});
-    EXPECT_EQ(file.read<double>("/crush/pressure_max"), std::vector<double>{3.0});
   }
   {  // of an earlier version
     h5::File file = h5::File::create(folder / "results.h5");
@@ -145,14 +147,10 @@ TEST(RunReader, TellsTheAnalysis) {
     write_mesh(file, run.mesh, run.mass);
   }
   EXPECT_EQ(RunReader(folder.path()).analysis(), "dynamic");
-  {
-    h5::File file = h5::File::create(folder / "results.h5");
-    file.set_attribute("/", "format", "rondo results 1");
-    file.set_attribute("/", "analysis", "static");
-    write_mesh(file, run.mesh, run.mass);
-  }
+  layout.words.time_unit = "h";
+  { Results results(folder.path(), layout); }
   const std::string wrong = error_of<FileError>([&] { RunReader reader(folder.path()); });
-  EXPECT_NE(wrong.find("\"static\""), std::string::npos) << wrong;
+  EXPECT_NE(wrong.find("/frame/time is in \"h\""), std::string::npos) << wrong;
 }
 
 TEST(RunReader, RunWithoutSnapshotsOrGround) {

@@ -8,6 +8,7 @@
 #include <numeric>
 #include <set>
 
+#include "rondo/core/complex.hpp"
 #include "rondo/fem/assembly.hpp"
 #include "rondo/fem/element.hpp"
 

@@ -91,7 +91,7 @@ TEST(GmshProgram, ThatCannotBeLoaded) {
 TEST(GmshProgram, ThatSaysNothingOrNonsense) {
   expect(read_with("/bin/true"), "file", "no working mesh reader");
   expect(read_with_script("exec yes"), "file", "no working mesh reader");
-  expect(read_with_script(std::string(start) + "exec yes"), "file", "no working mesh reader");
+  expect(read_with_script(std::string(start).append("exec yes")), "file", "no working mesh reader");
 }
 
 TEST(GmshProgram, OfAnotherVersion) {

@@ -3,6 +3,7 @@
 #include "rondo/modal/modes.hpp"
 
 #include <gtest/gtest.h>
+#include <Eigen/Eigenvalues>
 
 #include <algorithm>
 #include <cmath>

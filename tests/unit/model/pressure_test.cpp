@@ -7,6 +7,7 @@
 #include <cmath>
 #include <random>
 
+#include "rondo/core/complex.hpp"
 #include "rondo/mesh/disk.hpp"
 #include "support/blocks.hpp"
 #include "support/stepping.hpp"

@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <functional>
 
+#include "rondo/analysis/build/build.hpp"
 #include "rondo/core/error.hpp"
 #include "rondo/integrators/start.hpp"
 #include "rondo/output/resume.hpp"

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <vector>
 
-#include "matrices.hpp"
+#include "support/matrices.hpp"
 
 using namespace rondo::pod;
 using namespace rondo::pod::test;

@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// The direct decomposition against prescribed spectra and an independent solver.
 #include <gtest/gtest.h>
+#include <Eigen/Dense>
 
 #include <Eigen/SVD>
 #include <cmath>
 #include <vector>
 
-#include "matrices.hpp"
+#include "support/matrices.hpp"
 #include "rondo/pod/spectrum.hpp"
 #include "rondo/pod/svd.hpp"
 

@@ -10,7 +10,7 @@
 #include <numbers>
 #include <vector>
 
-#include "matrices.hpp"
+#include "support/matrices.hpp"
 #include "rondo/core/complex.hpp"
 #include "rondo/mesh/disk.hpp"
 #include "rondo/pod/rectify.hpp"

@@ -3,14 +3,16 @@
 
 #include <gtest/gtest.h>
 
-#include <Eigen/SVD>
+#include <Eigen/Dense>
 #include <random>
 
-#include "matrices.hpp"
+#include "rondo/pod/decompose.hpp"
 
 using namespace rondo::rom;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
+using rondo::pod::Decomposition;
+using rondo::pod::Index;
 
 namespace {
 

@@ -2,12 +2,14 @@
 #include "rondo/rom/integrator.hpp"
 
 #include <gtest/gtest.h>
+#include <Eigen/Dense>
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <unsupported/Eigen/MatrixFunctions>
 
+#include "rondo/core/complex.hpp"
 #include "rondo/statics/stationary_spin.hpp"
 #include "whole_space.hpp"
 

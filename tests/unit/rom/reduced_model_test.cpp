@@ -8,6 +8,7 @@
 #include <numbers>
 #include <random>
 
+#include "rondo/core/complex.hpp"
 #include "rondo/fem/assembly.hpp"
 #include "rondo/fem/sector_stiffness.hpp"
 #include "rondo/mesh/disk.hpp"
@@ -219,7 +220,7 @@ TEST(ContactRows, OfNodesAreTheLiftedField) {
         {b.mesh, b.mass,
          [&](std::span<const Vec2> in, std::span<Vec2> out) { fem::apply(b.stiffness, in, out); }},
         w);
-    const Rings rings = boundary_rings(b.mesh);
+    const pod::Rings rings = pod::boundary_rings(b.mesh);
     ASSERT_EQ(rings.n_rings() > 1, with_tread);
     const double sector = 2.0 * std::numbers::pi / b.mesh.n_sectors, phase = 0.3 * sector;
     const int whole = 6;  // even: the highest harmonic stays on the material, and turns its sign

@@ -2,6 +2,7 @@
 #include "rondo/statics/crush.hpp"
 
 #include <gtest/gtest.h>
+#include <Eigen/Dense>
 
 #include <Eigen/Cholesky>
 #include <algorithm>

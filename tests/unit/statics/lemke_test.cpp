@@ -2,6 +2,7 @@
 #include "rondo/statics/lemke.hpp"
 
 #include <gtest/gtest.h>
+#include <Eigen/Dense>
 
 #include <Eigen/LU>
 #include <random>

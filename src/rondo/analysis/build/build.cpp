@@ -183,21 +183,10 @@ std::vector<int> held_nodes(const dynamics::Model& model) {
 
 std::string body_key(const Case& c) {
   Case body = c;
-  body.title.clear();
-  body.motion = {};
-  if (c.stress_stiffening != StressStiffening::none)
+  for (const CaseKey& key : case_keys())
+    if (!key.use.changes_body(c)) reset(key, body);
+  if (c.stress_stiffening != StressStiffening::none)  // by the spin at the start
     body.motion.angular_velocity = dynamics::Table(c.motion.angular_velocity.at(0.0));
-  if (body.ground) body.ground->friction = body.ground->restitution = 0.0;
-  if (!may_be_free(c)) body.initial = {};
-  if (c.time.scheme != Scheme::as_printed) body.damping.mass = 0.0;
-  body.time = {};
-  body.time.scheme = c.time.scheme;
-  body.contact_iterations = Case{}.contact_iterations;
-  body.dump_contacts = 0;
-  body.analysis = {};
-  body.analysis.kind = c.analysis.kind;
-  body.output = {};
-  body.output.probes = c.output.probes;
   return write_case(body);
 }
 

@@ -3,14 +3,16 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <string>
 
 #include "rondo/analysis/build/build.hpp"
 #include "rondo/analysis/build/stability.hpp"
-#include "rondo/case/case_bodies.hpp"
+#include "rondo/case/case_rules.hpp"
 #include "rondo/core/bytes.hpp"
 #include "rondo/core/memory_limits.hpp"
+#include "rondo/output/recorder.hpp"
 
 namespace rondo::study {
 
@@ -45,6 +47,12 @@ std::size_t factor_memory(std::size_t dofs) noexcept {
   return static_cast<std::size_t>(bytes_per_entry * n * std::log2(n));
 }
 
+std::size_t waiting_memory(const Case& c, std::size_t nodes) noexcept {
+  const std::size_t bytes = 2 * nodes * sizeof(Vec2);
+  const auto snapshots = static_cast<std::size_t>(c.output.snapshots);
+  return std::min(snapshots, queue_length(snapshots, bytes)) * bytes;
+}
+
 std::size_t motion_memory(const Case& c, const MeshSize& mesh) noexcept {
   const bool harmonics =
       mesh.sectors > 0 && !c.free_rim && 2 * (mesh.nodes - mesh.clamped) > harmonic_setup_dofs;
@@ -53,7 +61,7 @@ std::size_t motion_memory(const Case& c, const MeshSize& mesh) noexcept {
   const bool factorised = c.initial.state == InitialState::stationary ||
                           (c.motion.angular_velocity.largest() != 0.0 &&
                            softening_is_checked(2 * mesh.nodes, of_a_sector));
-  std::size_t bytes = mesh_memory(mesh);
+  std::size_t bytes = mesh_memory(mesh) + waiting_memory(c, mesh.nodes);
   if (!sector_alone) bytes += stiffness_memory(mesh.nodes);
   if (factorised) bytes += factor_memory(harmonics ? of_a_sector : 2 * mesh.nodes);
   return bytes;

@@ -25,6 +25,8 @@ std::size_t mesh_memory(const MeshSize& mesh) noexcept;
 std::size_t stiffness_memory(std::size_t nodes) noexcept;
 /// Of a Cholesky factor of a plane mesh, which fills in about n log2 n [B].
 std::size_t factor_memory(std::size_t dofs) noexcept;
+/// Of snapshots that may wait to be written, where steps are faster than files [B].
+std::size_t waiting_memory(const Case& c, std::size_t nodes) noexcept;
 
 /// Of motion in time; large disks go without an assembled stiffness [B].
 std::size_t motion_memory(const Case& c, const MeshSize& mesh) noexcept;

@@ -7,6 +7,7 @@
 
 #include "rondo/contact/coupled/coupled_newton.hpp"
 #include "rondo/contact/coupled/coupled_pair.hpp"
+#include "rondo/contact/coupled/coupled_residual.hpp"
 #include "rondo/contact/residual.hpp"
 #include "rondo/core/contract.hpp"
 

@@ -6,7 +6,7 @@
 #include <iterator>
 #include <system_error>
 
-#include "rondo/analysis/history_statistics.hpp"
+#include "rondo/analysis/figures/history_statistics.hpp"
 #include "rondo/core/build_id.hpp"
 #include "rondo/core/error.hpp"
 #include "rondo/io/csv.hpp"

@@ -22,7 +22,7 @@ std::string sampled(const Vary& vary, double u) {
   const auto [from, to] = *vary.uniform;
   const double value = from + (to - from) * u;
   const CaseKey* key = find_case_key(vary.key);
-  if (key && key->type == KeyType::integer)
+  if (key && type_of(*key) == KeyType::integer)
     return fmt::format("{}", static_cast<long long>(std::floor(from + (to - from + 1.0) * u)));
   return toml_number(value);
 }

@@ -215,7 +215,7 @@ void read_uniform(Reader& in, const std::string& path, Vary& vary) {
   if (!(value->items[0].number < value->items[1].number))
     return in.fault(path, "is an empty range", "[from, to], from < to");
   const CaseKey* key = find_case_key(vary.key);
-  if (key && key->type == KeyType::integer &&
+  if (key && type_of(*key) == KeyType::integer &&
       (value->items[0].type != ValueType::integer || value->items[1].type != ValueType::integer))
     return in.fault(path, "samples an integer key between ends that are not whole",
                     "[from, to], integers");

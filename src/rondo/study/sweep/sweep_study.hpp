@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "rondo/analysis/figures.hpp"
+#include "rondo/analysis/figures/figures.hpp"
 #include "rondo/core/error.hpp"
 
 namespace rondo::study {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// @file  Matrices of known spectrum, and a source that checks how it is read.
 #pragma once
+#include <Eigen/Dense>
 #include <Eigen/QR>
 #include <algorithm>
 #include <random>

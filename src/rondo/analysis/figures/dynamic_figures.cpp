@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include "rondo/analysis/figures/dynamic_figures.hpp"
+
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -6,8 +8,7 @@
 #include <cmath>
 #include <string>
 
-#include "rondo/analysis/dynamic.hpp"
-#include "rondo/analysis/history_statistics.hpp"
+#include "rondo/analysis/figures/history_statistics.hpp"
 #include "rondo/core/error.hpp"
 #include "rondo/io/csv.hpp"
 

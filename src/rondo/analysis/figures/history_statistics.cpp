@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "rondo/analysis/history_statistics.hpp"
+#include "rondo/analysis/figures/history_statistics.hpp"
 
 #include <fmt/format.h>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "rondo/analysis/crush_run.hpp"
+#include "rondo/analysis/build/crush_setup.hpp"
 
 #include <gtest/gtest.h>
 

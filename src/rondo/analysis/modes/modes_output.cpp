@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "rondo/analysis/modes_output.hpp"
+#include "rondo/analysis/modes/modes_output.hpp"
 
 #include <fmt/format.h>
 
@@ -83,10 +83,11 @@ std::string campbell_table(const std::vector<ModeLine>& modes, int n_sectors) {
   return text;
 }
 
-Json modes_json(const Case& c, const ModesRequest& request, const ModesReport& r) {
+Json modes_json(const Case& c, const ModesRequest& request, const ModesReport& r,
+                const std::optional<std::string>& trouble) {
   Json j;
-  j["status"] = r.trouble.empty() ? "done" : "failed";
-  if (!r.trouble.empty()) j["message"] = r.trouble;
+  j["status"] = trouble ? "failed" : "done";
+  if (trouble) j["message"] = *trouble;
   j["title"] = c.title;
   describe_program(j);
   j["nodes"] = r.nodes;

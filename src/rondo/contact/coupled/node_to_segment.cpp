@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "rondo/contact/node_to_segment.hpp"
+#include "rondo/contact/coupled/node_to_segment.hpp"
 
 namespace rondo::contact {
 namespace {

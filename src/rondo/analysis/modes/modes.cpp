@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "rondo/analysis/modes.hpp"
+#include "rondo/analysis/modes/modes.hpp"
 
 #include <fmt/format.h>
 
@@ -8,10 +8,14 @@
 #include <charconv>
 #include <chrono>
 #include <cmath>
+#include <optional>
+#include <utility>
 
+#include "rondo/analysis/analysis.hpp"
 #include "rondo/analysis/build/build.hpp"
 #include "rondo/analysis/build/memory.hpp"
-#include "rondo/analysis/modes_output.hpp"
+#include "rondo/analysis/modes/modes_output.hpp"
+#include "rondo/analysis/run.hpp"
 #include "rondo/core/error.hpp"
 #include "rondo/io/files.hpp"
 #include "rondo/io/mode_files.hpp"
@@ -192,7 +196,7 @@ class Solver {
   fem::BlockCsr stiffness_;
 };
 
-SpinSummary summarise(double angular_velocity, const modal::Modes& found) {
+SpinSummary summarise_spin(double angular_velocity, const modal::Modes& found) {
   SpinSummary s;
   s.angular_velocity = angular_velocity;
   s.modes = static_cast<int>(found.modes.size());
@@ -215,48 +219,6 @@ void add_lines(double angular_velocity, const Solved& s, ModesReport& report,
   }
 }
 
-/// What went wrong, or less well than the user may think.
-void judge(const ModesRequest& request, ModesReport& r) {
-  const auto say = [&](const std::string& text) {
-    if (request.warn) request.warn(text);
-  };
-  for (const auto* spins : {&r.spins, &r.sweep})
-    for (const SpinSummary& s : *spins) {
-      if (s.unstable > 0 && r.trouble.empty())
-        r.trouble = fmt::format(
-            "at {} rad/s the spin softens the body more than it is stiff: K - s²M has {} negative "
-            "eigenvalue{}, there is no stable state and there are no modes; a lower spin",
-            s.angular_velocity, s.unstable, s.unstable == 1 ? "" : "s");
-      else if (s.unstable == 0 && !s.counted)
-        say(fmt::format("at {} rad/s the modes are not counted: some may be missing",
-                        s.angular_velocity));
-      if (s.growth > 1e-3 * std::abs(s.angular_velocity))
-        say(fmt::format(
-            "at {} rad/s nothing holds back the rotation of the free disk against its "
-            "frame: in this model without the stress of the spin it grows at {:.4g} 1/s",
-            s.angular_velocity, s.growth));
-    }
-  if (r.trouble.empty() && !(r.residual_max <= mode_residual_bound))
-    r.trouble = fmt::format("a mode fulfils its equation to {:.1e} only, bound {:.0e}",
-                            r.residual_max, mode_residual_bound);
-}
-
-void write_files(const Case& c, const ModesRequest& request, const Body& body,
-                 const std::vector<Solved>& solved, const std::vector<ModeLine>& sweep,
-                 const ModesReport& r) {
-  const std::filesystem::path& directory = request.directory;
-  std::vector<io::SpinModes> shapes;
-  for (std::size_t k = 0; k < solved.size(); ++k)
-    shapes.push_back({r.spins[k].angular_velocity, &solved[k].found.modes});
-  io::write_mode_shapes(directory, body.mesh, body.mass, shapes);
-  io::write_file(directory / "modes.csv", modes_table(r.modes));
-  if (body.cyclic()) io::write_file(directory / "critical-speeds.csv", critical_table(r));
-  std::vector<ModeLine> campbell = sweep.empty() ? r.modes : sweep;
-  if (!sweep.empty() || r.spins.size() > 1)
-    io::write_file(directory / "campbell.csv", campbell_table(campbell, body.mesh.n_sectors));
-  io::write_json(directory / "modes.json", modes_json(c, request, r));
-}
-
 /// At its largest; an estimate [B].
 std::size_t memory_of(const Body& body, const ModesRequest& request, std::size_t spins) {
   const std::size_t nodes = body.mesh.n_nodes(), dofs = 2 * nodes;
@@ -270,41 +232,162 @@ std::size_t memory_of(const Body& body, const ModesRequest& request, std::size_t
          (2 * at_once + spare) * dofs * sizeof(double);
 }
 
+/// Bytes of modes.h5: shapes, and what ParaView reads of them.
+std::size_t shapes_on_disk(const Body& body, const ModesRequest& request, std::size_t spins) {
+  constexpr std::size_t bytes_of_a_node = 2 * sizeof(Vec2) + 2 * 3 * sizeof(float);
+  return spins * static_cast<std::size_t>(request.count) * body.mesh.n_nodes() * bytes_of_a_node;
+}
+
+/// A spin after the other: first those whose shapes are kept, then those of the sweep. Its tables
+/// hold what is found so far; it has no times, and so no history and no snapshots.
+class ModesAnalysis final : public Analysis {
+ public:
+  ModesAnalysis(const Case& c, const ModesRequest& request)
+      : case_(c),
+        request_(request),
+        body_(make_body(c)),
+        spins_(chosen_spins(c, body_, request)),
+        sweep_(sweep_spins(request)) {
+    check_spins(c, body_, request.spins.empty() ? "motion.angular_velocity" : "--spin", spins_);
+    check_spins(c, body_, "--spins", sweep_);
+    demand_memory(c, body_.mesh.n_nodes(), memory_of(body_, request, spins_.size()));
+    report_.directory = request.run.directory;
+    report_.nodes = body_.mesh.n_nodes();
+    report_.dofs = 2 * fem::free_nodes(body_.mesh).size();
+    if (body_.cyclic()) report_.outer_radius = c.disk.outer_radius;
+  }
+
+  [[nodiscard]] CheckReport check(double) override {
+    CheckReport r;
+    r.nodes = report_.nodes;
+    r.elements = body_.mesh.cells.size();
+    r.dofs = report_.dofs;
+    r.steps = static_cast<long long>(spins_.size() + sweep_.size());
+    r.memory_bytes = memory_of(body_, request_, spins_.size());
+    r.disk_bytes = shapes_on_disk(body_, request_, spins_.size());
+    return r;
+  }
+  [[nodiscard]] RecordPlan record_plan() const override {
+    RecordPlan plan;
+    plan.results.words.analysis = "modes";
+    plan.own_bytes = shapes_on_disk(body_, request_, spins_.size());
+    return plan;
+  }
+  [[nodiscard]] std::vector<std::string> warnings() const override { return case_.warnings; }
+  void describe(Json& json) const override {
+    json["nodes"] = report_.nodes;
+    json["dofs"] = report_.dofs;
+    json["spins"] = spins_.size() + sweep_.size();
+  }
+
+  Progress begin(Recorder&) override {
+    solver_.emplace(case_, body_);
+    return progress();
+  }
+  Progress advance(Recorder&) override {
+    const std::size_t at = report_.spins.size();
+    if (at < spins_.size()) {
+      solved_.push_back(solver_->modes(spins_[at], request_.count));
+      report_.spins.push_back(summarise_spin(spins_[at], solved_.back().found));
+      add_lines(spins_[at], solved_.back(), report_, report_.modes);
+      if (report_.spins.size() == spins_.size()) write_shapes();
+    } else {
+      const double spin = sweep_[report_.sweep.size()];
+      const Solved s = solver_->modes(spin, request_.count);
+      report_.sweep.push_back(summarise_spin(spin, s.found));
+      add_lines(spin, s, report_, sweep_lines_);
+    }
+    write_tables();
+    return progress();
+  }
+  [[nodiscard]] const std::optional<std::string>& trouble() const override { return trouble_; }
+  void close() override {
+    report_.critical = solver_->critical(request_.diameters);
+    judge();
+    if (body_.cyclic())
+      io::write_file(request_.run.directory / "critical-speeds.csv", critical_table(report_));
+    report_.wall_s =
+        std::chrono::duration<double>(std::chrono::steady_clock::now() - made_).count();
+    io::write_json(request_.run.directory / "modes.json",
+                   modes_json(case_, request_, report_, trouble_));
+  }
+  void summarise(Json& json, RunReport& r) const override {
+    const Progress at = progress();
+    r.steps = at.done;
+    r.reached = fmt::format("{} of {} spins", at.done, at.all);
+    json["spins_done"] = at.done;
+    json["residual_max"] = report_.residual_max;
+  }
+
+  [[nodiscard]] ModesReport take_report() { return std::move(report_); }
+
+ private:
+  [[nodiscard]] Progress progress() const noexcept {
+    return {static_cast<long long>(report_.spins.size() + report_.sweep.size()),
+            static_cast<long long>(spins_.size() + sweep_.size())};
+  }
+  void write_shapes() const {
+    std::vector<io::SpinModes> shapes;
+    for (std::size_t k = 0; k < solved_.size(); ++k)
+      shapes.push_back({spins_[k], &solved_[k].found.modes});
+    io::write_mode_shapes(request_.run.directory, body_.mesh, body_.mass, shapes);
+  }
+  void write_tables() const {
+    const std::filesystem::path& directory = request_.run.directory;
+    io::write_file(directory / "modes.csv", modes_table(report_.modes));
+    if (sweep_.empty() && spins_.size() < 2) return;
+    const std::vector<ModeLine>& campbell = sweep_.empty() ? report_.modes : sweep_lines_;
+    io::write_file(directory / "campbell.csv", campbell_table(campbell, body_.mesh.n_sectors));
+  }
+  void say(const std::string& text) const { give_warnings({text}, request_.run); }
+  void judge_spin(const SpinSummary& s);
+  void judge();
+
+  const Case& case_;
+  const ModesRequest& request_;
+  const std::chrono::steady_clock::time_point made_ = std::chrono::steady_clock::now();
+  const Body body_;
+  const std::vector<double> spins_, sweep_;  ///< [rad/s]
+  std::optional<Solver> solver_;
+  std::vector<Solved> solved_;         ///< of spins_
+  std::vector<ModeLine> sweep_lines_;  ///< of sweep_
+  ModesReport report_;
+  std::optional<std::string> trouble_;
+};
+
+/// What went wrong, or less well than the user may think.
+void ModesAnalysis::judge_spin(const SpinSummary& s) {
+  if (s.unstable > 0 && !trouble_)
+    trouble_ = fmt::format(
+        "at {} rad/s the spin softens the body more than it is stiff: K - s²M has {} negative "
+        "eigenvalue{}, there is no stable state and there are no modes; a lower spin",
+        s.angular_velocity, s.unstable, s.unstable == 1 ? "" : "s");
+  else if (s.unstable == 0 && !s.counted)
+    say(fmt::format("at {} rad/s the modes are not counted: some may be missing",
+                    s.angular_velocity));
+  if (s.growth > 1e-3 * std::abs(s.angular_velocity))
+    say(
+        fmt::format("at {} rad/s nothing holds back the rotation of the free disk against its "
+                    "frame: in this model without the stress of the spin it grows at {:.4g} 1/s",
+                    s.angular_velocity, s.growth));
+}
+
+void ModesAnalysis::judge() {
+  for (const auto* spins : {&report_.spins, &report_.sweep})
+    for (const SpinSummary& s : *spins) judge_spin(s);
+  if (!trouble_ && !(report_.residual_max <= mode_residual_bound))
+    trouble_ = fmt::format("a mode fulfils its equation to {:.1e} only, bound {:.0e}",
+                           report_.residual_max, mode_residual_bound);
+}
+
 }  // namespace
 
 ModesReport run_modes(const Case& c, const ModesRequest& request) {
-  const auto begin = std::chrono::steady_clock::now();
-  const Body body = make_body(c);
-  const std::vector<double> spins = chosen_spins(c, body, request);
-  const std::vector<double> sweep = sweep_spins(request);
-  check_spins(c, body, request.spins.empty() ? "motion.angular_velocity" : "--spin", spins);
-  check_spins(c, body, "--spins", sweep);
-  demand_memory(c, body.mesh.n_nodes(), memory_of(body, request, spins.size()));
-  const io::DirectoryLock lock = take_modes_directory(c, request.directory, request.overwrite);
-
-  ModesReport r;
-  r.directory = request.directory;
-  r.nodes = body.mesh.n_nodes();
-  r.dofs = 2 * fem::free_nodes(body.mesh).size();
-  if (body.cyclic()) r.outer_radius = c.disk.outer_radius;
-  Solver solver(c, body);
-  std::vector<Solved> solved;
-  for (const double spin : spins) {
-    solved.push_back(solver.modes(spin, request.count));
-    r.spins.push_back(summarise(spin, solved.back().found));
-    add_lines(spin, solved.back(), r, r.modes);
-  }
-  std::vector<ModeLine> lines;
-  for (const double spin : sweep) {
-    const Solved s = solver.modes(spin, request.count);
-    r.sweep.push_back(summarise(spin, s.found));
-    add_lines(spin, s, r, lines);
-  }
-  r.critical = solver.critical(request.diameters);
-  judge(request, r);
-  r.wall_s = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
-  write_files(c, request, body, solved, lines, r);
-  return r;
+  ModesAnalysis analysis(c, request);
+  const RunReport run = run_analysis(analysis, c, request.run);
+  ModesReport report = analysis.take_report();
+  report.run = run;
+  return report;
 }
 
 }  // namespace rondo::study

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "rondo/analysis/figures.hpp"
+#include "rondo/analysis/figures/figures.hpp"
 
 #include <limits>
 

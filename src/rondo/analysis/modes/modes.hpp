@@ -2,25 +2,22 @@
 /// @file  rondo modes: frequencies, shapes and critical speeds of a case's body (docs/modes.md).
 #pragma once
 #include <filesystem>
-#include <functional>
-#include <optional>
 #include <string>
 #include <vector>
 
 #include "rondo/case/case.hpp"
 #include "rondo/modal/critical_speeds.hpp"
 #include "rondo/modal/modes.hpp"
+#include "rondo/output/run_options.hpp"
 
 namespace rondo::study {
 
 struct ModesRequest {
-  std::filesystem::path directory;
-  bool overwrite = false;
+  RunOptions run;             ///< directory, overwrite, signals, progress and warnings of it
   int count = 20;             ///< modes at each spin, besides rigid-body motions
   std::vector<double> spins;  ///< angular velocities ω; none: rest, and that of the case [rad/s]
   std::string sweep;          ///< "FROM:TO:NUMBER": a Campbell table; empty: none
   int diameters = 12;         ///< largest n of the critical speeds
-  std::function<void(const std::string&)> warn;  ///< may be empty
 };
 
 /// A line of modes.csv.
@@ -48,13 +45,13 @@ struct ModesReport {
   std::size_t nodes = 0, dofs = 0;
   double residual_max = 0.0;
   double wall_s = 0.0;
-  std::string trouble;  ///< a numerical outcome: spins beyond the softening limit; empty: none
+  RunReport run;  ///< failed: spins beyond the softening limit, or a residual out of bound
 };
 
 /// Residual above which a mode is called wrong: round-off of K u is far below it.
 inline constexpr double mode_residual_bound = 1e-6;
 
-/// @throws InputError, FileError
+/// @throws InputError (nothing is left behind), FileError
 [[nodiscard]] ModesReport run_modes(const Case& c, const ModesRequest& request);
 
 /// "standing", "forward", ...; empty: unknown.

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include "rondo/analysis/figures/crush_figures.hpp"
+
 #include <array>
 
-#include "rondo/analysis/crush.hpp"
-#include "rondo/analysis/history_statistics.hpp"
+#include "rondo/analysis/figures/history_statistics.hpp"
 #include "rondo/io/csv.hpp"
 
 namespace rondo::study {

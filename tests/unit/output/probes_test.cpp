@@ -73,7 +73,7 @@ TEST(Probes, OfAFreeBodyAreInTheFixedFrame) {
   for (const int node : s.model.free_bodies[0].nodes) {
     const auto k = static_cast<std::size_t>(node);
     const Vec2 arm = s.model.reference[k] - center;
-    state.u[k] = moved + turn90({1.001 * arm.x, arm.y}) - s.model.reference[k];
+    state.u[k] = moved + turn90(Vec2{1.001 * arm.x, arm.y}) - s.model.reference[k];
   }
   std::vector<double> row;
   append_probes({s.mesh, s.materials, s.model}, s.probes, state, row);
@@ -88,9 +88,13 @@ TEST(Probes, OfAFreeBodyAreInTheFixedFrame) {
 }
 
 TEST(Probes, ColumnsAreNamed) {
-  EXPECT_EQ(probe_columns({{"a-1", {}}}),
+  const std::vector<ColumnLabel> columns = probe_columns({{"a-1", {}}});
+  EXPECT_EQ(names_of(columns),
             (std::vector<std::string>{"a-1_ux", "a-1_uy", "a-1_vx", "a-1_vy", "a-1_sxx", "a-1_syy",
                                       "a-1_szz", "a-1_sxy"}));
+  std::vector<std::string> units;
+  for (const ColumnLabel& column : columns) units.push_back(column.unit);
+  EXPECT_EQ(units, (std::vector<std::string>{"m", "m", "m/s", "m/s", "Pa", "Pa", "Pa", "Pa"}));
 }
 
 }  // namespace

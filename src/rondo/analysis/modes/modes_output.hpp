@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// @file  The tables of rondo modes, and its modes.json (docs/modes.md).
 #pragma once
+#include <optional>
 #include <string>
 #include <vector>
 
-#include "rondo/analysis/modes.hpp"
+#include "rondo/analysis/modes/modes.hpp"
 #include "rondo/output/run_files.hpp"
 
 namespace rondo::study {
@@ -17,6 +18,8 @@ std::string critical_table(const ModesReport& report);
 /// @param n_sectors 0: not cyclic
 std::string campbell_table(const std::vector<ModeLine>& modes, int n_sectors);
 
-Json modes_json(const Case& c, const ModesRequest& request, const ModesReport& report);
+/// @param trouble what went wrong; none: nothing
+Json modes_json(const Case& c, const ModesRequest& request, const ModesReport& report,
+                const std::optional<std::string>& trouble);
 
 }  // namespace rondo::study

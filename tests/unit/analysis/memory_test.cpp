@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "rondo/analysis/build/bodies.hpp"
+#include "rondo/analysis/build/crush_setup.hpp"
 #include "rondo/core/bytes.hpp"
 #include "rondo/core/memory_limits.hpp"
 #include "unit/case/case_fixture.hpp"
@@ -26,19 +27,32 @@ TEST(Estimate, CountsNodesAndCells) {
   Case c = read_text(base, {"motion.angular_velocity=0.0", "output.snapshots=0"});
   EXPECT_EQ(mesh::n_disk_cells(c.disk), 12U * 180U);
   constexpr std::size_t program = 30'000'000;
-  const std::size_t still = estimated_memory(c, size_of(c.disk)) - program;
+  const std::size_t still = motion_memory(c, size_of(c.disk)) - program;
   EXPECT_EQ(still, 13U * 180U * (2 * 9 * 36 + 368) + 12U * 180U * 16U);
   c.initial.state = InitialState::stationary;  // needs the factors of K
-  EXPECT_GT(estimated_memory(c, size_of(c.disk)) - program, 2 * still);
+  EXPECT_GT(motion_memory(c, size_of(c.disk)) - program, 2 * still);
   c.initial.state = InitialState::rest;
   c.output.snapshots = 7;  // all of them may wait to be written
-  EXPECT_EQ(estimated_memory(c, size_of(c.disk)) - program, still + 7U * 13U * 180U * 32U);
+  EXPECT_EQ(motion_memory(c, size_of(c.disk)) - program, still + 7U * 13U * 180U * 32U);
   c.output.snapshots = 100'000;
-  EXPECT_LE(estimated_memory(c, size_of(c.disk)) - program, still + 64'000'000U);
-  c.analysis = {AnalysisKind::crush, 0.02, 10};
-  EXPECT_GT(estimated_memory(c, size_of(c.disk)) - program, 2 * still);
+  EXPECT_LE(motion_memory(c, size_of(c.disk)) - program, still + 64'000'000U);
   c = read_text(treaded());
   EXPECT_EQ(mesh::n_disk_cells(c.disk), mesh::make_disk(c.disk).cells.size());
+}
+
+TEST(Estimate, ACrushAddsTheFactorsAndWhatIsWithinReach) {
+  Case c = read_text(base, {"motion.angular_velocity=0.0", "output.snapshots=0"});
+  const std::size_t still = motion_memory(c, size_of(c.disk));
+  c.analysis = {AnalysisKind::crush, 0.02, 10};
+  c.ground->shape = {.profile = {{-1.0, 0.0}, {1.0, 0.0}}};
+  CrushSetup s;
+  s.mesh = mesh::make_disk(c.disk);
+  s.within_reach = 20;
+  const std::size_t few = crush_memory(c, s);
+  EXPECT_GT(few - 30'000'000, 2 * (still - 30'000'000));
+  s.within_reach = 40;
+  const std::size_t rows = 80, bytes = 3 * rows * rows * sizeof(double);
+  EXPECT_EQ(crush_memory(c, s) - few, bytes - bytes / 4);
 }
 
 TEST(Estimate, MeshLargerThanTheMachineIsRefused) {
@@ -47,7 +61,7 @@ TEST(Estimate, MeshLargerThanTheMachineIsRefused) {
       faults_when_built(with_line(7, "radial = 10000", with_line(8, "circumferential = 200000")));
   ASSERT_EQ(faults.size(), 1U);
   EXPECT_EQ(faults[0].key, "disk.mesh.circumferential");
-  EXPECT_NE(faults[0].message.find("896 GB"), std::string::npos) << faults[0].text();
+  EXPECT_NE(faults[0].message.find("768 GB"), std::string::npos) << faults[0].text();
   EXPECT_NE(faults[0].message.find(readable_bytes(allowed_memory().bytes)), std::string::npos);
   const auto deep =
       faults_when_built(with_line(7, "radial = 100000", with_line(8, "circumferential = 9999")));

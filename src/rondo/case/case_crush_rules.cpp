@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "rondo/case/case_rules.hpp"
+
+namespace rondo::study {
+namespace {
+
+void check_slide(CaseValues& in, AnalysisCase& analysis) {
+  constexpr std::string_view slide = "analysis.slide", increments = "analysis.slide_increments";
+  if (in.has(slide)) require(in, increments);
+  if (in.has(increments)) require(in, slide);
+  if (analysis.slide == 0.0) analysis.slide_increments = 0;
+}
+
+void check_depth(CaseValues& in, const Case& c) {
+  if (c.mesh) return;  // how thick it is, only the file tells
+  const double thickness = c.disk.outer_radius - c.disk.inner_radius;
+  if (in.good({"disk.outer_radius", "disk.inner_radius", "analysis.depth"}) &&
+      !(c.analysis.depth < thickness))
+    in.fault("analysis.depth", "the rim would reach the ground",
+             fmt::format("> 0 and < outer_radius - inner_radius = {:.6g}", thickness));
+}
+
+void check_flat(CaseValues& in, const Case& c) {
+  if (!in.has_table("ground")) return in.missing("ground.profile");
+  if (!in.good({"ground", "ground.profile", "ground.fillet"})) return;
+  const std::vector<Vec2>& profile = c.ground->shape.profile;
+  if (!std::all_of(profile.begin(), profile.end(), [&](Vec2 p) { return p.y == profile[0].y; }))
+    in.fault("ground.profile", "a crush needs flat ground: all points at one height",
+             "ground.profile = \"flat\"");
+}
+
+}  // namespace
+
+void check_crush(CaseValues& in, Case& c) {
+  check_slide(in, c.analysis);
+  check_depth(in, c);
+  if (!c.mesh && c.free_rim)
+    in.fault("disk.rim", "a crush presses a disk down by its rim", "\"bonded\"");
+  if (c.mesh && !is_held(c) && in.good({"mesh.clamped"}))
+    in.fault("mesh.clamped", "a crush presses a body down by what is held",
+             "a physical curve of the mesh");
+  check_flat(in, c);
+  if (c.body_contact.between != BodyContact::none)
+    in.fault("contact.between", "a crush knows no contact but with the ground", "\"none\"");
+  if (!c.pressures.empty())
+    in.fault("load.pressure[0]", "a crush knows no load but the ground", "a dynamic analysis");
+}
+
+}  // namespace rondo::study

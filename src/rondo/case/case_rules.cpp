@@ -1,0 +1,244 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "rondo/case/case_rules.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+namespace rondo::study {
+namespace {
+
+constexpr double most_steps = 1e12;  ///< years of computing
+
+/// What one kind of analysis asks, and why it leaves out what only others have.
+struct AnalysisRules {
+  void (*check)(CaseValues& in, Case& c);
+  std::string_view why_left_out;
+};
+
+/// In the order of AnalysisKind.
+constexpr AnalysisRules analysis_rules[] = {
+    {nullptr, ""},
+    {check_crush, "a crush is quasi-static, its ground flat"},
+};
+
+const AnalysisRules& rules_of(AnalysisKind kind) {
+  return analysis_rules[static_cast<std::size_t>(kind)];
+}
+
+void check_tread(CaseValues& in, const mesh::Disk& disk) {
+  constexpr std::string_view columns = "disk.mesh.circumferential";
+  if (in.has(columns) && in.good({columns}))
+    in.fault(columns, "stands beside a [disk.tread], whose pitches give the columns",
+             "one of disk.mesh.circumferential and [disk.tread]");
+  const double thickness = disk.outer_radius - disk.inner_radius;
+  if (in.good({"disk.outer_radius", "disk.inner_radius", "disk.tread.depth"}) &&
+      !(disk.tread->depth < thickness))
+    in.fault("disk.tread.depth", "the grooves would reach the rim",
+             fmt::format("> 0 and < outer_radius - inner_radius = {:.6g}", thickness));
+}
+
+/// The mesh must be numbered by int.
+void check_size(CaseValues& in, const Case& c) {
+  if (!in.good({"disk.mesh.radial", "disk.mesh.circumferential", "disk.tread.pitches",
+                "disk.tread.land_columns", "disk.tread.groove_columns", "disk.tread.layers"}))
+    return;
+  const std::size_t n_nodes = mesh::n_disk_nodes(c.disk);
+  constexpr std::size_t most_nodes = std::size_t{1} << 31;
+  if (n_nodes >= most_nodes)
+    in.fault(largest_count(c.disk), fmt::format("the mesh would have {} nodes", n_nodes),
+             fmt::format("fewer than {} nodes", most_nodes));
+}
+
+void check_disk(CaseValues& in, const Case& c) {
+  if (c.mesh) return;
+  if (in.has_table("mesh"))
+    in.fault("mesh", "stands beside a [disk]: the body is one or the other", "[disk] or [mesh]");
+  if (in.good({"disk.outer_radius", "disk.inner_radius"}) &&
+      !(c.disk.inner_radius < c.disk.outer_radius))
+    in.fault("disk.inner_radius", "must be smaller than outer_radius",
+             fmt::format("> 0 and < outer_radius = {:.6g}", c.disk.outer_radius));
+  if (c.disk.tread) check_tread(in, c.disk);
+  check_size(in, c);
+}
+
+/// No two tables of a list have the same name. @param path of the names, as in the table of keys
+void check_names(CaseValues& in, std::string_view path, Case& c) {
+  const CaseKey& key = *find_case_key(path);
+  const auto name = [&](std::size_t k) { return *std::get<std::string*>(key.field(c, k)); };
+  for (std::size_t k = 1; k < table_with(key).count(c); ++k) {
+    const std::string at = path_of(key, k);
+    if (!in.has(at) || !in.good({at})) continue;
+    for (std::size_t before = 0; before < k; ++before)
+      if (name(before) == name(k)) {
+        in.fault(at, "is the name of another one before it");
+        break;
+      }
+  }
+}
+
+void warn_of_locking(const std::string& key, const fem::Material& material, Case& c) {
+  if (material.plane != fem::Plane::strain || material.poissons_ratio <= 0.49 ||
+      material.integration == fem::Integration::b_bar)
+    return;
+  c.warnings.push_back(
+      fmt::format("{} = {}: in plane strain, full integration is far too stiff this near to 0.5: "
+                  "material.integration = \"b-bar\" is made for it",
+                  key, material.poissons_ratio));
+}
+
+void check_material(CaseValues& in, Case& c) {
+  if (c.stress_stiffening == StressStiffening::centrifugal && !is_held(c))
+    in.fault("material.stress_stiffening",
+             "nothing turns a free body: there is no spin whose stress could be taken", "\"none\"");
+  if (!c.mesh && !c.regions.empty())
+    in.fault("material.region[0]", "a [disk] is of one material",
+             "a [mesh] with physical surfaces");
+  check_names(in, "material.region[].surface", c);
+  warn_of_locking("material.poissons_ratio", c.material, c);
+  for (std::size_t k = 0; k < c.regions.size(); ++k)
+    if (c.regions[k].material.poissons_ratio != c.material.poissons_ratio)
+      warn_of_locking(item_of("material.region", k) + ".poissons_ratio", c.regions[k].material, c);
+}
+
+/// Nothing carries or turns a free body but what it starts with.
+void check_motion(CaseValues& in, const Case& c) {
+  if (is_held(c)) return;
+  for (const std::string_view path :
+       {"motion.angular_velocity", "motion.speed", "motion.height", "motion.start_x"})
+    if (in.has(path) && means_to(*find_case_key(path), c.analysis.kind))
+      in.fault(path, "means nothing to a body that nothing holds",
+               "initial.position, initial.velocity, initial.angular_velocity in its place");
+}
+
+void check_ground(CaseValues& in, const Case& c) {
+  if (!c.ground) return;
+  if (c.mesh && c.mesh->contact.empty())
+    in.fault("ground.profile", "no part of the mesh may touch the ground",
+             "mesh.contact, a physical curve, beside it");
+  if (!in.good({"ground", "ground.profile", "ground.fillet"})) return;
+  for (const contact::ShapeFault& fault : contact::shape_faults(c.ground->shape)) {
+    if (fault.about_fillet && in.has("ground.fillet"))
+      in.fault("ground.fillet", fault.message);
+    else
+      in.fault_at_item("ground.profile", fault.point, fault.message);
+  }
+}
+
+void check_body_contact(CaseValues& in, Case& c) {
+  if (c.body_contact.between == BodyContact::none) return;
+  if (!c.mesh)
+    c.warnings.emplace_back(
+        "contact.between: a generated disk is one body, and the walls of its grooves are no "
+        "candidates: it touches nothing but the ground; for grooves that close take a [mesh]");
+  if (c.mesh && c.mesh->contact.empty())
+    in.fault("contact.between", "no part of the mesh may touch anything",
+             "mesh.contact, a physical curve, beside it");
+}
+
+/// Keys of free bodies in a case that can have none.
+void check_placing(CaseValues& in) {
+  const auto refuse = [&](std::string_view key) {
+    in.fault(key,
+             "is for bodies that nothing holds: the rim gives a bonded disk its place and its "
+             "motion ([motion])",
+             "disk.rim = \"free\" beside it");
+  };
+  for (const std::string_view key :
+       {"initial.position", "initial.angle", "initial.angular_velocity"})
+    if (in.has(key)) refuse(key);
+  if (in.n_items("initial.region") > 0) refuse("initial.region[0]");
+}
+
+void check_initial(CaseValues& in, Case& c) {
+  if (c.initial.state == InitialState::stationary && !is_held(c))
+    in.fault("initial.state", "nothing turns a free body: it has no stationary spin", "\"rest\"");
+  check_names(in, "initial.region[].surface", c);
+  if (!may_be_free(c) && in.good({"disk.rim"})) check_placing(in);
+  if (!c.mesh && c.free_rim && !c.initial.regions.empty())
+    in.fault("initial.region[0]", "a [disk] is one body",
+             "initial.velocity and initial.angular_velocity");
+}
+
+void check_time(CaseValues& in, const Case& c) {
+  const Time& time = c.time;
+  if (in.has("time.step") && in.has("time.safety"))
+    in.fault("time.step", "stands beside time.safety: give one of them",
+             "time.step or time.safety");
+  if (time.step && in.good({"time.end", "time.step"}) && time.end / *time.step > most_steps)
+    in.fault("time.step", fmt::format("the run would take {:.3g} steps", time.end / *time.step),
+             fmt::format("at most {:.0e} steps", most_steps));
+  if (time.scheme == Scheme::as_printed && !is_held(c))
+    in.fault("time.scheme", "shows what the spin of a rim does, and nothing turns a free body",
+             "\"symplectic\"");
+}
+
+void check_operator(CaseValues& in, const Case& c) {
+  if (c.solver_operator != "cyclic") return;
+  const std::string_view why = why_not_cyclic(c);
+  if (!why.empty()) in.fault("solver.operator", std::string(why), "\"auto\" or \"sparse\"");
+}
+
+bool is_word(std::string_view name) {
+  return std::all_of(name.begin(), name.end(), [](char c) {
+    return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_' ||
+           c == '-';
+  });
+}
+
+void check_output(CaseValues& in, Case& c) {
+  const Output& output = c.output;
+  if (in.good({"output.snapshots_from", "time.end"}) && output.snapshots_from > c.time.end)
+    in.fault("output.snapshots_from", "must not be after the end of the run",
+             fmt::format("0 to time.end = {:.6g}", c.time.end));
+  check_names(in, "output.probe[].name", c);
+  for (std::size_t k = 0; k < output.probes.size(); ++k) {
+    const std::string name = item_of("output.probe", k) + ".name";
+    if (in.good({name}) && !is_word(output.probes[k].name))
+      in.fault(name, "has a character that may not be in the name of a column",
+               "letters, digits, _ and -");
+  }
+}
+
+}  // namespace
+
+std::string_view why_not_cyclic(const Case& c) {
+  if (c.mesh) return "a mesh from a file is not known to be of equal sectors";
+  if (c.free_rim) return "a free disk does not stay in the turning frame of its sectors";
+  if (c.body_contact.between != BodyContact::none) return "there is a [contact] of bodies";
+  if (c.time.scheme == Scheme::as_printed)
+    return "the scheme \"as-printed\" is one of the general step alone";
+  return {};
+}
+
+void require(CaseValues& in, std::string_view key) {
+  if (in.good({"analysis.kind"}) && !in.has(key)) in.missing(key);
+}
+
+void check_analysis(CaseValues& in, Case& c) {
+  if (const auto check = rules_of(c.analysis.kind).check) check(in, c);
+}
+
+std::string_view why_left_out(AnalysisKind kind) noexcept {
+  return rules_of(kind).why_left_out;
+}
+
+void check_case(CaseValues& in, Case& c) {
+  check_disk(in, c);
+  check_material(in, c);
+  check_motion(in, c);
+  check_ground(in, c);
+  check_body_contact(in, c);
+  check_initial(in, c);
+  check_time(in, c);
+  check_operator(in, c);
+  check_output(in, c);
+}
+
+std::string_view largest_count(const mesh::Disk& disk) noexcept {
+  const int columns = disk.tread ? disk.tread->pitches : disk.circumferential;
+  if (disk.radial > columns) return "disk.mesh.radial";
+  return disk.tread ? "disk.tread.pitches" : "disk.mesh.circumferential";
+}
+
+}  // namespace rondo::study

@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: BSD-3-Clause
+/// docs/results.md has the columns of history.csv and contact.csv that their tables give.
+#include "support/manual.hpp"
+
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include "rondo/analysis/registry.hpp"
+#include "rondo/output/columns.hpp"
+#include "unit/case/case_fixture.hpp"
+
+namespace rondo::study {
+namespace {
+
+using Labels = std::vector<ColumnLabel>;
+
+Labels history_of(const std::vector<std::string>& settings) {
+  const Case c = test::read_text(test::base, settings);
+  return make_analysis(c, {})->record_plan().columns;
+}
+
+/// Behind those that every history has.
+Labels further(Labels labels) {
+  const auto shared = static_cast<std::ptrdiff_t>(history_columns().size());
+  labels.erase(labels.begin(), labels.begin() + shared);
+  return labels;
+}
+
+rondo::test::ManualTable table_of(std::string_view what, const Labels& labels) {
+  std::string rows = "| column | unit | |\n|---|---|---|\n";
+  for (const auto& [name, unit, meaning] : labels)
+    rows += rondo::test::manual_row({fmt::format("`{}`", name), unit, meaning});
+  return {fmt::format("columns: {}", what), rows};
+}
+
+TEST(Manual, HasTheColumns) {
+  const Labels probe = history_of({"output.probe=[{name = 'NAME', position = [0.2, 0.0]}]"});
+  const Labels crush = history_of({"analysis.kind=crush", "analysis.depth=0.01",
+                                   "analysis.increments=1", "ground.profile=flat"});
+  rondo::test::expect_in_manual(
+      test::source_folder() / "docs" / "results.md",
+      {table_of("history.csv", labels_of(history_columns())), table_of("probe", further(probe)),
+       table_of("crush", further(crush)), table_of("contact.csv", labels_of(contact_columns()))});
+}
+
+}  // namespace
+}  // namespace rondo::study

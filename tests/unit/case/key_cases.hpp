@@ -1,0 +1,89 @@
+// SPDX-License-Identifier: BSD-3-Clause
+/// @file  A case for every key, and another value for it, from the table of keys itself.
+#pragma once
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include "rondo/case/case_keys.hpp"
+#include "unit/case/case_fixture.hpp"
+
+namespace rondo::study::test {
+
+/// Cases in which, together, every key is written.
+inline const std::vector<Case>& cases_with_every_key() {
+  static const std::vector<Case> cases = [] {
+    const std::vector<std::string> crush{"analysis.kind=crush",   "analysis.depth=0.01",
+                                         "analysis.increments=3", "analysis.slide=0.001",
+                                         "ground.profile=flat",   "analysis.slide_increments=2"};
+    const std::vector<std::string> probe{"output.probe=[{name = 'p', position = [0.2, 0.0]}]"},
+        pressure{"load.pressure=[{curve = 'rim', value = 3}]"};
+    const std::string bodies = R"(schema = 1
+time.end = 0.2
+[mesh]
+file = "/folder/two.msh"
+contact = "skin"
+[material]
+youngs_modulus = 5e6
+poissons_ratio = 0.3
+density = 1100
+[[material.region]]
+surface = "core"
+[[initial.region]]
+surface = "core"
+)";
+    return std::vector<Case>{read_text(base, probe), read_text(treaded(), pressure),
+                             read_text(with_line(34, "step = 1e-6")), read_text(bodies),
+                             read_text(base, crush)};
+  }();
+  return cases;
+}
+
+inline bool is_written(const CaseKey& key, const Case& c) {
+  return means_to(key, c.analysis.kind) && key.use.when(c) && table_with(key).count(c) > 0;
+}
+
+/// The first case that writes the key. @throws std::runtime_error where none does
+inline const Case& case_with(const CaseKey& key) {
+  for (const Case& c : cases_with_every_key())
+    if (is_written(key, c)) return c;
+  throw std::runtime_error("no case of the tests has " + std::string(key.path));
+}
+
+/// Puts another value into a field: one that goes with the other keys of the cases above.
+struct Change {
+  const CaseKey& key;
+
+  void operator()(int* value) const { *value = *value > 1 ? *value - 1 : *value + 4; }
+  void operator()(double* value) const {
+    const double less = *value == 0.0 ? 0.0625 : 0.9 * *value;
+    *value = key.allowed.range.contains(less) ? less : 1.1 * *value;
+  }
+  void operator()(std::optional<double>* value) const { *value = 0.9 * value->value(); }
+  void operator()(bool* value) const { *value = !*value; }
+  void operator()(std::string* value) const {
+    const auto& choices = key.allowed.choices;
+    *value = key.allowed.is_choice() ? std::string(choices[*value == choices[0] ? 1 : 0])
+                                     : *value + "-2";
+  }
+  void operator()(std::filesystem::path* value) const { *value = "/other/a \"b\".msh"; }
+  void operator()(const Choice& value) const {
+    value.set(value.target, value.get(value.target) == 0 ? 1 : 0);
+  }
+  void operator()(Vec2* value) const { *value = {value->x + 0.1, -0.3}; }
+  void operator()(Matrix* value) const { *value = {{{0.1, -2.0}, {1e-300, 0.7}}}; }
+  void operator()(dynamics::Table* value) const {
+    *value = dynamics::Table({{-1.0, value->at(0.0) + 0.5}, {0.5, 3.0}});
+  }
+  void operator()(std::vector<Vec2>* value) const { *value = {{-1.5, 0.25}, {2.0, 0.25}}; }
+};
+
+inline Case with_another_value(const CaseKey& key, Case c) {
+  if (key.allowed.range.low == key.allowed.range.high) return c;  // schema: there is no other
+  std::visit(Change{key}, key.field(c, 0));
+  return c;
+}
+
+}  // namespace rondo::study::test

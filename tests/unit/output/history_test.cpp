@@ -1,0 +1,126 @@
+// SPDX-License-Identifier: BSD-3-Clause
+/// When a row of history.csv is due, what it is the mean of, and where it goes on.
+#include "rondo/output/history.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+#include <string>
+
+#include "rondo/analysis/build/build.hpp"
+#include "unit/case/case_fixture.hpp"
+
+using namespace rondo;
+using namespace rondo::study;
+
+namespace {
+
+struct Built {
+  Case c;
+  Setup setup;
+};
+
+Built built(std::vector<std::string> settings) {
+  settings.insert(settings.begin(), {"disk.mesh.radial=2", "disk.mesh.circumferential=24"});
+  Built b{test::read_text(test::base, settings), {}};
+  b.setup = build(b.c, 1);
+  return b;
+}
+
+dynamics::StepReport step_of(const Built& b, long long number, double impulse) {
+  dynamics::StepReport step;
+  step.step = number;
+  step.frame.time = static_cast<double>(number) * b.setup.model.dt;
+  step.contact.impulse = {impulse, 2.0 * impulse};
+  step.contact.penetration = impulse;
+  return step;
+}
+
+double value(const std::vector<ColumnLabel>& columns, const std::vector<double>& row,
+             const char* name) {
+  for (std::size_t i = 0; i < columns.size(); ++i)
+    if (columns[i].name == name) return row.at(i);
+  ADD_FAILURE() << "no column " << name;
+  return std::numeric_limits<double>::quiet_NaN();
+}
+
+}  // namespace
+
+TEST(History, EveryStepIsARowWhereNoIntervalIsGiven) {
+  const Built b = built({"output.history_interval=0"});
+  History history(b.c, b.setup);
+  std::vector<double> rows;
+  for (long long k = 1; k <= 3; ++k) history.observe(step_of(b, k, 1.0), nullptr, rows);
+  EXPECT_EQ(rows.size(), 3 * history.columns().size());
+  EXPECT_EQ(history.next_probed(), std::numeric_limits<long long>::max()) << "no probe";
+}
+
+TEST(History, ForcesAreMeansOverTheIntervalAndPenetrationItsLargest) {
+  Built b = built({});
+  b.c.output.history_interval = 4.0 * b.setup.model.dt;
+  History history(b.c, b.setup);
+  std::vector<double> row;
+  for (const double impulse : {1.0, 5.0, 2.0}) {
+    EXPECT_TRUE(row.empty());
+    history.observe(step_of(b, history.place().done + 1, impulse), nullptr, row);
+  }
+  history.observe(step_of(b, 4, 0.0), nullptr, row);
+  const auto columns = history.columns();
+  ASSERT_EQ(row.size(), columns.size());
+  const double span = 4.0 * b.setup.model.dt;
+  EXPECT_DOUBLE_EQ(value(columns, row, "force_x"), 8.0 / span);
+  EXPECT_DOUBLE_EQ(value(columns, row, "force_y"), 16.0 / span);
+  EXPECT_EQ(value(columns, row, "penetration_max_m"), 5.0);
+  EXPECT_EQ(history.place().next, 2);
+  EXPECT_EQ(history.place().steps, 0);
+}
+
+TEST(History, TheLastStepsHaveARowOfTheirOwn) {
+  Built b = built({});
+  b.c.output.history_interval = 4.0 * b.setup.model.dt;
+  History history(b.c, b.setup);
+  std::vector<double> rows;
+  for (long long k = 1; k <= 4; ++k) history.observe(step_of(b, k, 1.0), nullptr, rows);
+  const std::size_t whole = rows.size();
+  history.finish(step_of(b, 4, 1.0), nullptr, rows);
+  EXPECT_EQ(rows.size(), whole) << "its row is there";
+  history.observe(step_of(b, 5, 3.0), nullptr, rows);
+  history.finish(step_of(b, 5, 3.0), nullptr, rows);
+  ASSERT_EQ(rows.size(), 2 * whole);
+  const std::vector<double> last(rows.begin() + static_cast<std::ptrdiff_t>(whole), rows.end());
+  EXPECT_DOUBLE_EQ(value(history.columns(), last, "force_x"), 3.0 / b.setup.model.dt);
+}
+
+/// The rows are those of a history that saw all steps itself.
+TEST(History, GoesOnFromItsPlace) {
+  Built b = built({});
+  b.c.output.history_interval = 3.5 * b.setup.model.dt;
+  History whole(b.c, b.setup);
+  std::vector<double> all, parts;
+  for (long long k = 1; k <= 20; ++k)
+    whole.observe(step_of(b, k, std::sqrt(static_cast<double>(k))), nullptr, all);
+  HistoryPlace place;
+  for (long long k = 1; k <= 20; ++k) {
+    History part(b.c, b.setup, place);
+    part.observe(step_of(b, k, std::sqrt(static_cast<double>(k))), nullptr, parts);
+    place = part.place();
+  }
+  EXPECT_EQ(all, parts);
+  EXPECT_GT(all.size(), 4 * whole.columns().size());
+}
+
+TEST(History, TheStateOfRowsWithProbesIsAskedForInTurn) {
+  Built b = built({"output.probe=[{name = 'rim', position = [0.2, 0.0]}]"});
+  b.c.output.history_interval = 3.5 * b.setup.model.dt;
+  History history(b.c, b.setup);
+  std::vector<double> rows;
+  for (long long k = 1; k <= 40; ++k) {
+    const bool wanted = history.next_probed() == k;
+    const std::size_t before = rows.size();
+    dynamics::State state(b.setup.model);
+    history.observe(step_of(b, k, 1.0), wanted ? &state : nullptr, rows);
+    EXPECT_EQ(rows.size() > before, wanted) << "step " << k;
+  }
+  EXPECT_FALSE(std::any_of(rows.begin(), rows.end(), [](double x) { return std::isnan(x); }));
+}
