@@ -10,22 +10,6 @@ namespace {
 
 constexpr double most_steps = 1e12;  ///< years of computing
 
-/// What one kind of analysis asks, and why it leaves out what only others have.
-struct AnalysisRules {
-  void (*check)(CaseValues& in, Case& c);
-  std::string_view why_left_out;
-};
-
-/// In the order of AnalysisKind.
-constexpr AnalysisRules analysis_rules[] = {
-    {nullptr, ""},
-    {check_crush, "a crush is quasi-static, its ground flat"},
-};
-
-const AnalysisRules& rules_of(AnalysisKind kind) {
-  return analysis_rules[static_cast<std::size_t>(kind)];
-}
-
 void check_tread(CaseValues& in, const mesh::Disk& disk) {
   constexpr std::string_view columns = "disk.mesh.circumferential";
   if (in.has(columns) && in.good({columns}))
@@ -217,10 +201,6 @@ void require(CaseValues& in, std::string_view key) {
 
 void check_analysis(CaseValues& in, Case& c) {
   if (const auto check = rules_of(c.analysis.kind).check) check(in, c);
-}
-
-std::string_view why_left_out(AnalysisKind kind) noexcept {
-  return rules_of(kind).why_left_out;
 }
 
 void check_case(CaseValues& in, Case& c) {

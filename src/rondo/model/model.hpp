@@ -4,6 +4,7 @@
 #pragma once
 #include <cstddef>
 #include <optional>
+#include <span>
 #include <vector>
 
 #include "rondo/contact/ground.hpp"
@@ -158,5 +159,8 @@ inline Vec2 position(const Model& model, const State& state, std::size_t node) n
   if (in_fixed_frame(model, node)) return model.reference[node] + state.u[node];
   return state.frame.center + state.frame.rotation * (model.reference[node] + state.u[node]);
 }
+
+/// K u by what the model has: the assembled stiffness, else that of one sector; both (n).
+void apply_stiffness(const Model& model, std::span<const Vec2> u, std::span<Vec2> out);
 
 }  // namespace rondo::dynamics
