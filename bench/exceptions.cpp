@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// What loads on nodes and sharp corners of the ground cost in the fused steps, in ns per degree of
-/// freedom and step, beside the same disk without them: `bench_exceptions [ROUNDS]`. The runs of a
-/// line take turns and the least time of a batch of 64 steps counts, for the machine may have other
-/// work.
+/// freedom and step, beside the same disk without them: `bench_exceptions [ROUNDS [LAYERS]]`. The
+/// runs of a line take turns and the least time of a batch of 64 steps counts, for the machine may
+/// have other work.
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <chrono>
+#include <cstdio>
 #include <cstdlib>
 #include <memory>
 #include <string>
@@ -93,12 +94,14 @@ void compare(std::string_view what, Size size, Steps steps, const Variant& witho
   fmt::print("| {}×{} | {} | {} | {:.3f} | {:.3f} | {:.2f} | {:.0f} % |\n", size.radial,
              size.circumferential, bench::name_of(steps), what, plain.ns(), other.ns(),
              other.ns() / plain.ns(), 100.0 * other.touched());
+  std::fflush(stdout);
 }
 
 }  // namespace
 
 int main(int argc, char** argv) {
   const int rounds = argc > 1 ? std::atoi(argv[1]) : 20;
+  const int layers = argc > 2 ? std::atoi(argv[2]) : 0;  // 0: all meshes
   fmt::print(
       "| mesh | operator | with | without (ns) | with (ns) | ratio | steps with a corner |\n"
       "| --- | --- | --- | --- | --- | --- | --- |\n");
@@ -106,8 +109,9 @@ int main(int argc, char** argv) {
   const auto with = [&](double pressure, const contact::GroundShape& ground) {
     return Variant{.rolling = true, .ground = ground, .pressure = pressure};
   };
-  for (const Size size : {Size{12, 180}, Size{82, 1230}, Size{260, 3900}})
+  for (const Size size : {Size{12, 180}, Size{26, 390}, Size{82, 1230}, Size{260, 3900}})
     for (const Steps steps : {Steps::cyclic, Steps::sparse}) {
+      if (layers != 0 && size.radial != layers) continue;
       if (steps == Steps::sparse && size.radial > 100) continue;  // the times of the mesh below
       compare("pressure", size, steps, flat, with(1e5, {}), rounds);
       compare("sharp corner beside the patch", size, steps, with(0.0, end_of_ground(0.002)),

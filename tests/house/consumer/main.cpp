@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-/// Drives the solver from another program: a spinning disk, without a file, by the general step and
-/// by both operators; reads a mesh.
+/// Drives the solver from another program: a spinning disk, without a file, by the readable step
+/// and by both operators; reads a mesh.
 #include <algorithm>
 #include <memory>
 #include <rondo/case/case.hpp>

@@ -2,6 +2,7 @@
 #include "rondo/integrators/fused/corner_contact.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 
 #include "rondo/core/contract.hpp"
@@ -85,19 +86,23 @@ CornerContact::CornerContact(const Model& model)
       is_held_(boundary_.n_nodes()),
       load_of_(loads_of(model)) {}
 
-/// What is slower than twice the fastest candidate, or moves a sixteenth of the radius, is seen:
-/// impacts are of velocities that the corner itself has in the turning frame, and its path counts.
+/// A touch is half an edge deep at the most. Who moves no more than twice as fast as the fastest
+/// candidate now, or two edges in the batch (of some 64 edges that a wave passes), is not missed;
+/// impacts are as fast as the corner is in the turning frame, whose path counts besides.
 CornerContact::Extent CornerContact::extent(std::size_t n_steps,
                                             const CandidateFields& fields) noexcept {
   double farthest = 0.0, fastest = 0.0;
   for (std::size_t k = 0; k < boundary_.n_nodes(); ++k) {
     const CandidateMotion motion = fields.motion_of(k);
     state_.u[k] = motion.u;
-    farthest = std::max(farthest, norm(boundary_.reference[k] + motion.u));
-    fastest = std::max(fastest, norm(motion.v));
+    const Vec2 arm = boundary_.reference[k] + motion.u;
+    farthest = std::max(farthest, dot(arm, arm));
+    fastest = std::max(fastest, dot(motion.v, motion.v));
   }
+  farthest = std::sqrt(farthest);
+  fastest = std::sqrt(fastest);
   const double time = static_cast<double>(n_steps) * boundary_.dt;
-  return {contact_.finder().deepest() + farthest / 16.0 + 2.0 * time * fastest, farthest};
+  return {5.0 * contact_.finder().deepest() + 2.0 * time * fastest, farthest};
 }
 
 void CornerContact::look_out(std::span<StepContext> steps, const CandidateFields& fields) noexcept {
