@@ -16,7 +16,7 @@ packages=(
   ffmpeg                                             # films (.mp4)
 )
 for_development=(
-  libgtest-dev python3-pytest python3-pip python3-venv # tests
+  libgtest-dev python3-pytest python3-pip python3-venv patch # tests
   gmsh                                               # makes cases/meshes and tests/meshes
   clang-format clang-tidy cppcheck mypy              # scripts/lint.sh
   clang libclang-rt-14-dev llvm-14 libomp-dev        # the other compiler, sanitizers, scripts/fuzz.sh
