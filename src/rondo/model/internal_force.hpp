@@ -36,7 +36,8 @@ class InternalForce {
   virtual void restore(const SavedState& saved) = 0;
 };
 
-/// Of the model at displacements u_0. The model must outlive it.
+/// Of the model at displacements u_0: its own material's (Model::internal_force), else that of the
+/// stiffness. The model must outlive it.
 /// @param poses (free_bodies) from which whole turns are counted. @pre the assembled stiffness
 [[nodiscard]] std::unique_ptr<InternalForce> make_internal_force(const Model& model,
                                                                  std::span<const Vec2> u0,

@@ -40,7 +40,7 @@ void find_free_bodies(const mesh::Mesh& mesh, Model& model) {
 
 bool is_general(const Model& model) noexcept {
   return model.scheme != Scheme::symplectic || !model.free_bodies.empty() ||
-         model.surfaces.has_value();
+         model.surfaces.has_value() || model.internal_force;
 }
 
 bool has_sharp_corners(const Model& model) noexcept {

@@ -174,6 +174,29 @@ TEST(GeneralStep, ClosesItsLedger) {
   }
 }
 
+/// A material of its own, twice as stiff, beside a stiffness that is.
+TEST(GeneralStep, TakesTheInternalForceOfTheModel) {
+  const test::Built b = test::build(test::everything("", 3, 40));
+  Model stiffer = b.model;
+  for (auto& block : stiffer.stiffness.values)
+    for (double& k : block) k *= 2.0;
+  Model own = b.model;
+  own.internal_force = [&](const Model&, std::span<const Vec2> u0, std::span<const Pose> poses) {
+    return make_internal_force(stiffer, u0, poses);
+  };
+  EXPECT_FALSE(is_general(b.model));
+  EXPECT_TRUE(is_general(own));
+  const State at_start = test::start_at_rest(b.model);
+  GeneralIntegrator expected(stiffer, at_start);
+  const std::unique_ptr<Integrator> run = make_integrator(own, at_start);
+  std::vector<StepReport> reports(200);
+  State a = at_start, c = at_start;
+  expected.advance(reports, &a);
+  run->advance(reports, &c);
+  EXPECT_EQ(a.u, c.u);
+  EXPECT_EQ(a.v, c.v);
+}
+
 TEST(GeneralStep, ClampedNodesStayClamped) {
   auto b = test::build(test::rolling_disk(3, 30));
   test::add_ground(b, test::ledge(), {0.6, 0.0});
