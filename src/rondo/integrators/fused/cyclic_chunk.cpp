@@ -318,7 +318,9 @@ void CyclicChunk::strip(const Work& work, int i) noexcept {
   s.sums = sums_.data() + work.place * range_.n_groups * kernels::n_sums * kernels::lanes;
   const std::size_t load = plan_.first_load(i);
   const bool loaded = load < plan_.first_load(i + 1);
-  s.loads = loaded ? loads_.data() + CyclicPlan::lead + 2 * load * plan_.stride : nullptr;
+  s.loads = loaded ? loads_.data() + CyclicPlan::lead +
+                         2 * static_cast<std::ptrdiff_t>(load) * plan_.stride
+                   : nullptr;
   s.load_of = plan_.load_of.data() + load;
   s.pressures = work.step->pressures;
   const kernels::Terms& terms = work.step->terms;
