@@ -6,9 +6,9 @@
 #include <utility>
 
 #include "rondo/core/contract.hpp"
-#include "rondo/integrators/general_integrator.hpp"
+#include "rondo/integrators/general/general_integrator.hpp"
 #include "rondo/integrators/start.hpp"
-#include "rondo/model/critical_step.hpp"
+#include "rondo/model/stability/critical_step.hpp"
 #include "support/models.hpp"
 
 namespace rondo::bench {

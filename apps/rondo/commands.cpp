@@ -20,7 +20,7 @@ namespace rondo::app {
 namespace {
 
 study::RunReport run_with_progress(const study::Case& c, study::RunOptions& options, bool quiet) {
-  Progress progress(study::type_of(c).unit.data());
+  Progress progress(study::type_of(c).unit);
   if (!quiet) options.progress = std::ref(progress);
   return study::run_case(c, options);
 }

@@ -9,7 +9,7 @@
 #include "rondo/fem/assembly.hpp"
 #include "rondo/integrators/integrator.hpp"
 #include "rondo/integrators/start.hpp"
-#include "rondo/model/critical_step.hpp"
+#include "rondo/model/stability/critical_step.hpp"
 
 namespace rondo::test {
 

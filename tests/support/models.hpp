@@ -5,7 +5,7 @@
 
 #include "rondo/integrators/start.hpp"
 #include "rondo/mesh/disk.hpp"
-#include "rondo/model/critical_step.hpp"
+#include "rondo/model/stability/critical_step.hpp"
 
 namespace rondo::test {
 

@@ -5,7 +5,7 @@
 
 #include <tuple>
 
-#include "rondo/integrators/general_integrator.hpp"
+#include "rondo/integrators/general/general_integrator.hpp"
 #include "support/models.hpp"
 #include "support/stepping.hpp"
 #include "support/traps.hpp"

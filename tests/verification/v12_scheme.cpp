@@ -11,7 +11,7 @@
 #include <numbers>
 #include <random>
 
-#include "rondo/model/operator.hpp"
+#include "rondo/fem/stiffness_product.hpp"
 #include "support/models.hpp"
 #include "support/stepping.hpp"
 

@@ -19,6 +19,12 @@ constexpr Allowed between(double low, double high) {
 constexpr Allowed choice(std::string_view a, std::string_view b, std::string_view c = {}) {
   return {{}, {a, b, c}};
 }
+constexpr Allowed kind_of_analysis() {
+  Allowed allowed;
+  for (std::size_t k = 0; k < std::size(analysis_kinds); ++k)
+    allowed.choices[k] = analysis_kinds[k].name;
+  return allowed;
+}
 constexpr Allowed with(Allowed allowed, std::string_view also) {
   allowed.also = also;
   return allowed;
@@ -249,7 +255,7 @@ constexpr CaseKey keys[] = {
      optional.if_(may_be_free, "that of [initial]").body(may_be_free),
      "... and turn about them like this, counter-clockwise"},
 
-    {"analysis.kind", "-", FIELD(analysis.kind), choice("dynamic", "crush"), optional,
+    {"analysis.kind", "-", FIELD(analysis.kind), kind_of_analysis(), optional,
      "\"dynamic\": the body moves as `[motion]` says, over `[time]`. \"crush\": the body is "
      "pressed on flat ground without turning, slowly"},
     {"analysis.depth", "m", FIELD(analysis.depth),

@@ -4,9 +4,9 @@
 #include <utility>
 
 #include "rondo/core/contract.hpp"
-#include "rondo/integrators/body_frames.hpp"
+#include "rondo/fem/stiffness_product.hpp"
+#include "rondo/integrators/general/body_frames.hpp"
 #include "rondo/model/corotated.hpp"
-#include "rondo/model/operator.hpp"
 #include "rondo/model/pressure.hpp"
 #include "rondo/model/rim.hpp"
 

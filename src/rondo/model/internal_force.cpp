@@ -5,8 +5,8 @@
 #include <vector>
 
 #include "rondo/core/contract.hpp"
+#include "rondo/fem/stiffness_product.hpp"
 #include "rondo/model/corotated.hpp"
-#include "rondo/model/operator.hpp"
 
 namespace rondo::dynamics {
 namespace {

@@ -171,4 +171,7 @@ inline Vec2 position(const Model& model, const State& state, std::size_t node) n
   return state.frame.center + state.frame.rotation * (model.reference[node] + state.u[node]);
 }
 
+/// K u by what the model has: the assembled stiffness, else that of one sector; both (n).
+void apply_stiffness(const Model& model, std::span<const Vec2> u, std::span<Vec2> out);
+
 }  // namespace rondo::dynamics

@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "rondo/core/blas_threads.hpp"
-#include "rondo/integrators/integrator.hpp"
+#include "rondo/model/integrator.hpp"
 #include "rondo/rom/contact_problem.hpp"
 
 namespace rondo::rom {

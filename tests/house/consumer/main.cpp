@@ -4,12 +4,12 @@
 #include <algorithm>
 #include <memory>
 #include <rondo/case/case.hpp>
-#include <rondo/integrators/general_integrator.hpp>
+#include <rondo/integrators/general/general_integrator.hpp>
 #include <rondo/integrators/integrator.hpp>
 #include <rondo/integrators/start.hpp>
 #include <rondo/mesh/disk.hpp>
 #include <rondo/mesh/gmsh_reader.hpp>
-#include <rondo/model/critical_step.hpp>
+#include <rondo/model/stability/critical_step.hpp>
 
 using namespace rondo;
 

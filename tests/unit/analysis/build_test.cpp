@@ -94,6 +94,15 @@ TEST(Build, LargeDisksAreSetUpByHarmonics) {
   EXPECT_TRUE(s.warnings.empty());
 }
 
+TEST(Build, LargeDisksOfTheGeneralStepHaveTheirStiffness) {
+  Case c = spinning(82, 1230, 60.0);
+  c.time.scheme = Scheme::as_printed;
+  const auto s = build(c, 1);
+  EXPECT_TRUE(is_general(s.model));
+  EXPECT_EQ(s.model.stiffness_operator, dynamics::StiffnessOperator::sparse);
+  EXPECT_EQ(s.model.stiffness.row_start.size(), s.mesh.n_nodes() + 1);
+}
+
 TEST(Build, LargeDisksAreCheckedForSoftening) {
   const auto s = build(spinning(82, 1230, 400.0), 1);  // the lowest frequency is 548 rad/s
   ASSERT_EQ(s.warnings.size(), 1U);

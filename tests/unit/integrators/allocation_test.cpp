@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "integrator_cases.hpp"
-#include "rondo/integrators/general_integrator.hpp"
+#include "rondo/integrators/general/general_integrator.hpp"
 #include "support/stepping.hpp"
 
 namespace {

@@ -9,7 +9,7 @@
 #include <utility>
 #include <vector>
 
-#include "rondo/integrators/general_integrator.hpp"
+#include "rondo/integrators/general/general_integrator.hpp"
 #include "rondo/integrators/integrator.hpp"
 #include "rondo/integrators/start.hpp"
 

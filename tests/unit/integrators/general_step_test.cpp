@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// The readable step, which the fused ones are held to.
-#include "rondo/integrators/general_integrator.hpp"
+#include "rondo/integrators/general/general_integrator.hpp"
 
 #include <gtest/gtest.h>
 
@@ -10,7 +10,7 @@
 
 #include "comparison.hpp"
 #include "integrator_cases.hpp"
-#include "rondo/model/operator.hpp"
+#include "rondo/fem/stiffness_product.hpp"
 #include "support/models.hpp"
 #include "support/traps.hpp"
 

@@ -9,7 +9,7 @@
 
 #include "comparison.hpp"
 #include "integrator_cases.hpp"
-#include "rondo/integrators/general_integrator.hpp"
+#include "rondo/integrators/general/general_integrator.hpp"
 #include "support/stepping.hpp"
 
 using namespace rondo;

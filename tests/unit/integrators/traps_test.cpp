@@ -8,7 +8,7 @@
 #include <string>
 
 #include "integrator_cases.hpp"
-#include "rondo/integrators/general_integrator.hpp"
+#include "rondo/integrators/general/general_integrator.hpp"
 #include "rondo/integrators/start.hpp"
 #include "support/stepping.hpp"
 #include "support/traps.hpp"

@@ -10,7 +10,7 @@
 #include <unsupported/Eigen/MatrixFunctions>
 
 #include "rondo/core/complex.hpp"
-#include "rondo/integrators/general_integrator.hpp"
+#include "rondo/integrators/general/general_integrator.hpp"
 #include "rondo/statics/stationary_spin.hpp"
 #include "whole_space.hpp"
 

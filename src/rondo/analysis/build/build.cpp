@@ -54,7 +54,7 @@ void find_bodies(const Case& c, Setup& s) {
   s.mesh.n_sectors = 0;
   s.mesh.sector.clear();
   s.mesh.sector_node.clear();
-  if (c.time.scheme == Scheme::as_printed)
+  if (c.time.scheme != Scheme::symplectic)
     throw case_error(c, "time.scheme",
                      fmt::format("{} of the bodies are free, and nothing turns them",
                                  s.model.free_bodies.size()),
@@ -63,6 +63,7 @@ void find_bodies(const Case& c, Setup& s) {
 
 void make_model(const Case& c, Setup& s) {
   dynamics::Model& model = s.model;
+  model.scheme = c.time.scheme;
   model.reference = s.mesh.coordinates;
   model.mass = fem::lumped_mass(s.mesh, s.materials);
   model.free = fem::free_nodes(s.mesh);
@@ -75,7 +76,6 @@ void make_model(const Case& c, Setup& s) {
   if (model.stiffness_operator == dynamics::StiffnessOperator::sparse || !by_harmonics(model))
     model.stiffness = fem::assemble_stiffness(s.mesh, s.materials);
   model.stiffness_damping = c.damping.stiffness;
-  model.scheme = c.time.scheme;
 }
 
 /// What does not change the body: see body_key().

@@ -8,7 +8,7 @@
 #include "rondo/core/contract.hpp"
 #include "rondo/integrators/fused/cyclic_plan.hpp"
 #include "rondo/integrators/fused/sparse_plan.hpp"
-#include "rondo/integrators/step_traps.hpp"
+#include "rondo/integrators/general/step_traps.hpp"
 
 namespace rondo::dynamics {
 namespace {

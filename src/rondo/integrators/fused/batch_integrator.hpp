@@ -10,7 +10,7 @@
 #include "rondo/core/barrier.hpp"
 #include "rondo/integrators/fused/corner_contact.hpp"
 #include "rondo/integrators/fused/step_context.hpp"
-#include "rondo/integrators/integrator.hpp"
+#include "rondo/model/integrator.hpp"
 #include "rondo/model/rim.hpp"
 
 namespace rondo::dynamics {

@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "rondo/integrators/fused/step_context.hpp"
-#include "rondo/integrators/general_contact.hpp"
+#include "rondo/integrators/general/general_contact.hpp"
 #include "rondo/model/pressure.hpp"
 
 namespace rondo::dynamics {

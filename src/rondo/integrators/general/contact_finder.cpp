@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "rondo/integrators/contact_finder.hpp"
+#include "rondo/integrators/general/contact_finder.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -9,9 +9,9 @@
 #include <memory>
 #include <vector>
 
-#include "rondo/integrators/body_frames.hpp"
-#include "rondo/integrators/general_contact.hpp"
-#include "rondo/integrators/integrator.hpp"
+#include "rondo/integrators/general/body_frames.hpp"
+#include "rondo/integrators/general/general_contact.hpp"
+#include "rondo/model/integrator.hpp"
 #include "rondo/model/internal_force.hpp"
 #include "rondo/model/rim.hpp"
 

@@ -9,8 +9,8 @@
 #include "rondo/contact/coupled/clusters.hpp"
 #include "rondo/contact/coupled/coupled.hpp"
 #include "rondo/contact/coupled/problem_file.hpp"
-#include "rondo/integrators/body_frames.hpp"
-#include "rondo/integrators/contact_finder.hpp"
+#include "rondo/integrators/general/body_frames.hpp"
+#include "rondo/integrators/general/contact_finder.hpp"
 
 namespace rondo::dynamics {
 

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "rondo/integrators/general_integrator.hpp"
+#include "rondo/integrators/general/general_integrator.hpp"
 
 #include <algorithm>
 #include <utility>
 
 #include "rondo/core/contract.hpp"
-#include "rondo/integrators/step_traps.hpp"
+#include "rondo/integrators/general/step_traps.hpp"
 #include "rondo/model/pressure.hpp"
 
 namespace rondo::dynamics {

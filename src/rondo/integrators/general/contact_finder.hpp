@@ -7,7 +7,7 @@
 
 #include "rondo/contact/search.hpp"
 #include "rondo/contact/segment.hpp"
-#include "rondo/integrators/contact_row.hpp"
+#include "rondo/integrators/general/contact_row.hpp"
 #include "rondo/model/model.hpp"
 
 namespace rondo::dynamics {

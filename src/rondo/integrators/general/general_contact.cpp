@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "rondo/integrators/general_contact.hpp"
+#include "rondo/integrators/general/general_contact.hpp"
 
 #include <fmt/format.h>
 
