@@ -170,55 +170,8 @@ void CyclicChunk::save_velocity(std::vector<Vec2>& v) const noexcept {
   save_field(field_v, v);
 }
 
-void CyclicChunk::wrap(int a, int field) noexcept {
-  for (int component = 0; component < 2; ++component) {
-    double* u = this->field(a, field) + component * plan_.stride;
-    u[-1] = u[range_.columns - 1];
-    u[range_.columns] = u[0];
-  }
-}
-
-int CyclicChunk::edge_width() const noexcept {
-  return plan_.halo == Halo::wide ? halo_columns : 1;
-}
-
-/// A wide halo is advanced with all its fields, a narrow one only read.
-std::size_t CyclicChunk::n_edge_fields() const noexcept {
-  return plan_.halo == Halo::wide ? (plan_.keeps_force ? 3 : 2) : 1;
-}
-
 std::array<int, 3> CyclicChunk::edge_fields() const noexcept {
   return {field_now(), field_v, field_force};
-}
-
-void CyclicChunk::give_edges() noexcept {
-  const int width = edge_width();
-  double* left = edges_[passes_ % 2][0].data();
-  double* right = edges_[passes_ % 2][1].data();
-  const std::array<int, 3> fields = edge_fields();
-  for (int a = 0; a < plan_.n_local; ++a)
-    for (std::size_t i = 0; i < n_edge_fields(); ++i)
-      for (int component = 0; component < 2; ++component) {
-        const double* x = field(a, fields[i]) + component * plan_.stride;
-        left = std::copy_n(x, width, left);
-        right = std::copy_n(x + range_.columns - width, width, right);
-      }
-}
-
-void CyclicChunk::take_halo(const CyclicChunk& left, const CyclicChunk& right) noexcept {
-  const int width = edge_width();
-  const double* from_left = left.edges_[passes_ % 2][1].data();
-  const double* from_right = right.edges_[passes_ % 2][0].data();
-  const std::array<int, 3> fields = edge_fields();
-  for (int a = 0; a < plan_.n_local; ++a)
-    for (std::size_t i = 0; i < n_edge_fields(); ++i)
-      for (int component = 0; component < 2; ++component) {
-        double* x = field(a, fields[i]) + component * plan_.stride;
-        std::copy_n(from_left, width, x - width);
-        std::copy_n(from_right, width, x + range_.columns);
-        from_left += width;
-        from_right += width;
-      }
 }
 
 /// With a wide halo, step i of k leaves k - 1 - i columns of it right on each side.
@@ -365,7 +318,9 @@ void CyclicChunk::strip(const Work& work, int i) noexcept {
   s.sums = sums_.data() + work.place * range_.n_groups * kernels::n_sums * kernels::lanes;
   const std::size_t load = plan_.first_load(i);
   const bool loaded = load < plan_.first_load(i + 1);
-  s.loads = loaded ? loads_.data() + CyclicPlan::lead + 2 * load * plan_.stride : nullptr;
+  s.loads = loaded ? loads_.data() + CyclicPlan::lead +
+                         2 * static_cast<std::ptrdiff_t>(load) * plan_.stride
+                   : nullptr;
   s.load_of = plan_.load_of.data() + load;
   s.pressures = work.step->pressures;
   const kernels::Terms& terms = work.step->terms;
