@@ -242,7 +242,9 @@ void DynamicAnalysis::take(const dynamics::StepReport& step, const dynamics::Sta
 void DynamicAnalysis::judge(const dynamics::StepReport& step) {
   const Bounds bounds{setup_.model.free_bodies.empty() ? residual_bound : free_residual_bound,
                       largest_strain_energy_};
-  OutOfBound found = find_out_of_bound(step.balance, contact_, bounds);
+  OutOfBound found = step.contact.unseen > 0.0
+                         ? OutOfBound{missed_corner(step.contact.unseen), false}
+                         : find_out_of_bound(step.balance, contact_, bounds);
   if (found.what.empty()) return;
   if (found.not_finite) {
     dynamics::State now(setup_.model);  // after the steps of this call

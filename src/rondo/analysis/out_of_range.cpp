@@ -106,6 +106,13 @@ std::string not_finite(const dynamics::State& state, const std::string& otherwis
   return found.empty() ? otherwise : found;
 }
 
+std::string missed_corner(double way) {
+  return fmt::format(
+      "a node has moved {:.3g} m in the steps before, farther than touches of the sharp corners of "
+      "the ground were looked for: one may be missed; a smaller time.step, or ground.fillet > 0",
+      way);
+}
+
 OutOfBound find_out_of_bound(const dynamics::Balance& b, const ContactStatistics& contact,
                              const Bounds& bounds) {
   if (!std::isfinite(b.kinetic + b.strain) || !std::isfinite(b.residual))

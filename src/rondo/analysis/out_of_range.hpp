@@ -28,6 +28,9 @@ struct Bounds {
   double strain_energy = 0.0;  ///< [J/m]
 };
 
+/// What is said where a node has moved that far [m] between two looks for sharp corners.
+std::string missed_corner(double way);
+
 /// @param contact of all steps so far. What is out of bound first; `what` is empty while all is
 /// well.
 OutOfBound find_out_of_bound(const dynamics::Balance& balance, const ContactStatistics& contact,

@@ -66,6 +66,7 @@ TEST_P(Exceptions, AreThoseOfTheGeneralStep) {
     ASSERT_EQ(report_expected[0].contact.clusters, report[0].contact.clusters) << n;
     ASSERT_EQ(report_expected[0].contact.cluster_largest, report[0].contact.cluster_largest) << n;
     ASSERT_FALSE(HasFatalFailure());
+    ASSERT_EQ(report[0].contact.unseen, 0.0);
     clusters += report[0].contact.clusters;
     nodes += report[0].contact.nodes;
   }
@@ -76,6 +77,23 @@ TEST_P(Exceptions, AreThoseOfTheGeneralStep) {
   EXPECT_NEAR(ours.works.load, theirs.works.load, 1e-10 * theirs.exchanged);
   EXPECT_LT(ours.relative, 3e-14);
   comparison.expect_within(1e-9);
+}
+
+/// A pressure of many times the modulus, at once: the boundary is farther than was looked at.
+TEST(HeldExceptions, AMotionThatMayMissACornerIsTold) {
+  for (const StiffnessOperator of : test::both_operators) {
+    const test::Built b = test::build(test::pressed(test::sharp(test::everything("", 6, 90))));
+    Model model = test::model_with(b, of);
+    const State at_start = test::start_at_rest(model);
+    std::vector<StepReport> reports(40);
+    make_integrator(model, at_start)->advance(reports);
+    for (const StepReport& report : reports) EXPECT_EQ(report.contact.unseen, 0.0);
+    for (auto& on : model.pressures) on.pressure = Table(1e9);
+    make_integrator(model, at_start)->advance(reports);
+    double unseen = 0.0;
+    for (const StepReport& report : reports) unseen = std::max(unseen, report.contact.unseen);
+    EXPECT_GT(unseen, 1e-3);
+  }
 }
 
 INSTANTIATE_TEST_SUITE_P(All, Exceptions,

@@ -23,6 +23,15 @@ void sort_by_candidate(std::vector<ActiveContact>& active) noexcept {
         at, at + 1);
 }
 
+/// Steps between two looks for sharp corners: few enough that a node comes no farther in them than
+/// is looked around it, many enough that looking costs little.
+constexpr int steps_between_looks = 16;
+
+std::size_t steps_at_once(const Model& model, const Rim& rim) {
+  const int most = has_sharp_corners(model) ? steps_between_looks : rim.steps_ahead();
+  return static_cast<std::size_t>(std::min(most, rim.steps_ahead()));
+}
+
 }  // namespace
 
 BatchIntegrator::BatchIntegrator(const Model& model, long long step, std::size_t n_parts,
@@ -32,7 +41,7 @@ BatchIntegrator::BatchIntegrator(const Model& model, long long step, std::size_t
       step_(step),
       threads_(std::min(model.threads, static_cast<int>(n_pieces))),
       rim_(make_rim(model)),
-      steps_(static_cast<std::size_t>(rim_->steps_ahead())),
+      steps_(steps_at_once(model, *rim_)),
       pressures_(steps_.size() * model.pressures.size()),
       parts_(steps_.size() * n_parts_) {
   if (has_sharp_corners(model)) corners_.emplace(model);
@@ -54,6 +63,7 @@ void BatchIntegrator::advance_batch(std::span<StepReport> reports) noexcept {
     corners_->look_out(steps, *this);
     within_ = corners_->any_near() && hold_within(corners_->nodes());
     for (std::size_t i = 0; i < steps.size(); ++i) parts_[(i + 1) * n_parts_ - 1] = {};
+    parts_[n_parts_ - 1].contact.unseen = corners_->unseen();
   }
   const Batch batch{steps, parts_.data(), step_};
   if (threads_ > 1) {

@@ -82,27 +82,35 @@ CornerContact::CornerContact(const Model& model)
     : boundary_(boundary_of(model)),
       state_(boundary_),
       contact_(boundary_),
+      begin_(boundary_.n_nodes()),
       wanted_(boundary_.n_nodes()),
       is_held_(boundary_.n_nodes()),
       load_of_(loads_of(model)) {}
 
 /// A touch is half an edge deep at the most. Who moves no more than twice as fast as the fastest
-/// candidate now, or two edges in the batch (of some 64 edges that a wave passes), is not missed;
-/// impacts are as fast as the corner is in the turning frame, whose path counts besides.
+/// candidate now, or two edges in the batch (of some 16 edges that a wave passes), is not missed;
+/// impacts are as fast as the corner is in the turning frame, whose path counts besides. Whether
+/// it was so, the next look tells.
 CornerContact::Extent CornerContact::extent(std::size_t n_steps,
                                             const CandidateFields& fields) noexcept {
-  double farthest = 0.0, fastest = 0.0;
+  double farthest = 0.0, fastest = 0.0, moved = 0.0;
   for (std::size_t k = 0; k < boundary_.n_nodes(); ++k) {
     const CandidateMotion motion = fields.motion_of(k);
-    state_.u[k] = motion.u;
+    const Vec2 step = motion.u - begin_[k];
+    moved = std::max(moved, dot(step, step));
+    state_.u[k] = begin_[k] = motion.u;
     const Vec2 arm = boundary_.reference[k] + motion.u;
     farthest = std::max(farthest, dot(arm, arm));
     fastest = std::max(fastest, dot(motion.v, motion.v));
   }
+  moved = std::sqrt(moved);
+  unseen_ = moved > way_ ? moved : 0.0;
   farthest = std::sqrt(farthest);
   fastest = std::sqrt(fastest);
   const double time = static_cast<double>(n_steps) * boundary_.dt;
-  return {5.0 * contact_.finder().deepest() + 2.0 * time * fastest, farthest};
+  const double touch = contact_.finder().deepest();
+  way_ = 4.0 * touch + 2.0 * time * fastest;
+  return {touch + way_, farthest};
 }
 
 void CornerContact::look_out(std::span<StepContext> steps, const CandidateFields& fields) noexcept {
