@@ -62,12 +62,11 @@ void write_figures(h5::File& file, std::span<const SpinModes> spins, std::size_t
       angular_velocity.push_back(spin.angular_velocity);
       diameters.push_back(mode.diameters);
     }
-  file.write("/modes/frequency", {n}, std::span<const double>(frequency),
+  file.write("/modes/frequency", {n}, frequency,
              {"rad/s", "omega of each mode in the turning frame"});
-  file.write("/modes/angular_velocity", {n}, std::span<const double>(angular_velocity),
+  file.write("/modes/angular_velocity", {n}, angular_velocity,
              {"rad/s", "of the body, as in the case: > 0 rolls towards +x"});
-  file.write("/modes/nodal_diameters", {n}, std::span<const std::int32_t>(diameters),
-             {"1", "of each mode; -1: unknown"});
+  file.write("/modes/nodal_diameters", {n}, diameters, {"1", "of each mode; -1: unknown"});
 }
 
 std::size_t bytes(const mesh::Mesh& mesh, std::size_t modes) {
