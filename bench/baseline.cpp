@@ -2,12 +2,11 @@
 #include "baseline.hpp"
 
 #include <array>
-#include <utility>
 #include <vector>
 
 #include "rondo/core/contract.hpp"
 #include "rondo/core/threads.hpp"
-#include "rondo/integrators/stepper.hpp"
+#include "rondo/integrators/start.hpp"
 #include "rondo/model/contact_node.hpp"
 
 namespace rondo::bench {
@@ -109,8 +108,6 @@ class CsrSteps final : public dynamics::Integrator {
       last->v[static_cast<std::size_t>(model_.free[i])] = at(v_, i);
   }
 
-  [[nodiscard]] dynamics::SavedState save() const override { return {}; }  // never gone on with
-  void restore(const dynamics::SavedState&) override {}
   void fields(State& state) const noexcept override {
     for (std::size_t i = 0; i < n_; ++i) {
       const auto k = static_cast<std::size_t>(model_.free[i]);
@@ -241,32 +238,6 @@ class CsrSteps final : public dynamics::Integrator {
   dynamics::Ledger ledger_;
 };
 
-class ReferenceSteps final : public dynamics::Integrator {
- public:
-  ReferenceSteps(const Model& model, State start) : model_(model), state_(std::move(start)) {}
-
-  void advance(std::span<dynamics::StepReport> reports, State* last) noexcept override {
-    for (dynamics::StepReport& report : reports) {
-      report.contact = dynamics::advance(model_, state_, ledger_);
-      report.step = state_.step;
-      report.frame = state_.frame;
-      report.balance = ledger_.last();
-    }
-    if (last) *last = state_;
-  }
-  [[nodiscard]] dynamics::SavedState save() const override { return {}; }  // never gone on with
-  void restore(const dynamics::SavedState&) override {}
-  void fields(State& state) const noexcept override {
-    state.u = state_.u;
-    state.v_next = state_.v_next;
-  }
-
- private:
-  const Model& model_;
-  State state_;
-  dynamics::Ledger ledger_;
-};
-
 }  // namespace
 
 CsrMatrix csr_matrix(const fem::BlockCsr& k, std::span<const int> free) {
@@ -310,10 +281,6 @@ void multiply(const CsrMatrix& k, const VectorXd& u, VectorXd& out, int threads)
 std::unique_ptr<dynamics::Integrator> make_csr_steps(const Model& model, const CsrMatrix& k,
                                                      const State& start) {
   return std::make_unique<CsrSteps>(model, k, start);
-}
-
-std::unique_ptr<dynamics::Integrator> make_reference_steps(const Model& model, State start) {
-  return std::make_unique<ReferenceSteps>(model, std::move(start));
 }
 
 }  // namespace rondo::bench

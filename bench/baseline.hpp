@@ -24,8 +24,4 @@ void multiply(const CsrMatrix& k, const Eigen::VectorXd& u, Eigen::VectorXd& out
                                                                    const CsrMatrix& k,
                                                                    const dynamics::State& start);
 
-/// The readable step of dynamics/stepper.hpp.
-[[nodiscard]] std::unique_ptr<dynamics::Integrator> make_reference_steps(
-    const dynamics::Model& model, dynamics::State start);
-
 }  // namespace rondo::bench

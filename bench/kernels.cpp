@@ -8,7 +8,7 @@
 #include <cmath>
 
 #include "problem.hpp"
-#include "rondo/model/operator.hpp"
+#include "rondo/fem/stiffness_product.hpp"
 
 using namespace rondo;
 using benchmark::Counter;
@@ -96,7 +96,7 @@ void product_sparse(benchmark::State& state) {
   std::vector<Vec2> out(u.size());
   const fem::BlockCsr& k = p.blocks();
   for (auto _ : state) {
-    dynamics::apply(k, u, out, threads);
+    fem::apply(k, u, out, threads);
     benchmark::ClobberMemory();
   }
   verify(state, error_of(p.model(), u, out));

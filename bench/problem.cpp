@@ -6,8 +6,9 @@
 #include <utility>
 
 #include "rondo/core/contract.hpp"
-#include "rondo/integrators/stepper.hpp"
-#include "rondo/model/critical_step.hpp"
+#include "rondo/integrators/general/general_integrator.hpp"
+#include "rondo/integrators/start.hpp"
+#include "rondo/model/stability/critical_step.hpp"
 #include "support/models.hpp"
 
 namespace rondo::bench {
@@ -47,6 +48,12 @@ Problem::Problem(const mesh::Disk& disk) : mesh_(mesh::make_disk(disk)) {
   omega_ = std::sqrt(fem::element_eigenvalue_bound(one_sector(mesh_), {&defaults.material, 1}));
 }
 
+void Problem::stand_at(double height) {
+  model_.motion.speed = dynamics::Table(0.0);
+  model_.motion.start_x = 0.0;
+  model_.motion.height = dynamics::Table(height);
+}
+
 void Problem::assemble() {
   if (!stiffness_.row_start.empty() || !model_.stiffness.row_start.empty()) return;
   const fem::Material material = test::DiskCase{}.material;
@@ -70,8 +77,14 @@ std::unique_ptr<dynamics::Integrator> Problem::integrator(Steps steps, const Var
   model_.dt = 0.8 * dynamics::critical_step_of(omega_, {model_.stiffness_damping, 0.0});
   model_.contact.reset();
   if (variant.rolling)
-    model_.contact.emplace(dynamics::ContactModel{
-        contact::Ground(contact::GroundShape{}), {0.3, 0.0}, mesh_.boundary, mesh_.tributary});
+    model_.contact.emplace(dynamics::ContactModel{contact::Ground(variant.ground),
+                                                  {0.3, 0.0},
+                                                  mesh_.boundary,
+                                                  mesh_.tributary,
+                                                  mesh_.contact_edges});
+  model_.pressures.clear();
+  if (variant.pressure != 0.0)
+    model_.pressures.push_back({mesh_.contact_edges, dynamics::Table(variant.pressure)});
   // The cyclic operator is to do without the assembled matrix, as on meshes too large for it.
   const bool assembled = steps != Steps::cyclic;
   if (assembled) assemble();
@@ -87,7 +100,7 @@ std::unique_ptr<dynamics::Integrator> Problem::integrator(Steps steps, const Var
     case Steps::eigen:
       return make_csr_steps(model_, csr(), start);
     case Steps::reference:
-      return make_reference_steps(model_, std::move(start));
+      return std::make_unique<dynamics::GeneralIntegrator>(model_, start);
   }
   RONDO_DEMAND(false, static_cast<int>(steps));
   return nullptr;

@@ -5,6 +5,7 @@
 #include <string_view>
 
 #include "baseline.hpp"
+#include "rondo/contact/ground.hpp"
 #include "rondo/mesh/disk.hpp"
 #include "stream.hpp"
 
@@ -22,9 +23,11 @@ inline constexpr Steps all_steps[] = {Steps::cyclic, Steps::sparse, Steps::eigen
 
 /// All spin and have mass damping.
 struct Variant {
-  bool rolling = false;  ///< in contact with flat ground, friction 0.3
+  bool rolling = false;  ///< in contact with the ground, friction 0.3
   bool beta = true;      ///< with stiffness damping
   int threads = 1;
+  contact::GroundShape ground{};
+  double pressure = 0.0;  ///< on the tread                                           [Pa]
 };
 
 /// What a step has to do at the least, by the formulas of the scheme and the arrays of its
@@ -39,6 +42,8 @@ struct Work {
 class Problem {
  public:
   explicit Problem(const mesh::Disk& disk);
+  /// Spins where it is, above x = 0, from here on. @param height of the centre       [m]
+  void stand_at(double height);
 
   /// From rest at 0.8 of the step of the element bound (no Lanczos: the bound is some per cent
   /// above, and costs nothing on a large mesh). Only the integrator asked for last may be used.

@@ -102,7 +102,7 @@ int run(RunArguments arguments, bool quiet) {
   options.stop = &stop_requested();
   options.before_loop = catch_stop_signals;
   const study::RunReport report = [&] {
-    Progress progress(study::type_of(c).unit.data());
+    Progress progress(study::type_of(c).unit);
     if (!quiet) options.progress = std::ref(progress);
     return study::run_case(c, options);
   }();

@@ -11,25 +11,29 @@ import sys
 
 # What a module may include besides itself, direct and indirect. A module is a folder of src/rondo; its
 # sub-modules are the folders in it that have a line of their own.
-SOLIDS = {"core", "mesh", "fem", "contact", "contact/coupled"}
+SOLIDS = {"core", "mesh", "fem", "contact", "contact/coupled", "model/stability"}
 ALLOWED = {
     "core": set(),
     "mesh": {"core"},
     "fem": {"core", "mesh"},
     "contact": {"core"},
     "contact/coupled": {"core", "contact"},
+    "model/stability": {"core", "mesh", "fem"},
     "model": SOLIDS,
-    "integrators": SOLIDS | {"model"},
+    "integrators/general": SOLIDS | {"model"},
+    "integrators/fused": SOLIDS | {"model", "integrators/general"},
+    "integrators": SOLIDS | {"model", "integrators/general", "integrators/fused"},
     "statics": SOLIDS,
     "modal": {"core", "mesh", "fem"},
     "pod": {"core", "mesh"},
-    "rom": SOLIDS | {"model", "integrators", "pod"},
+    "rom": SOLIDS | {"model", "integrators", "integrators/fused", "pod"},
     "case": SOLIDS | {"model"},
     "io/h5": {"core"},
 }
 ALLOWED["io"] = set(ALLOWED) - {"case"}
-ALLOWED["output"] = SOLIDS | {"model", "integrators", "case", "io"}
-ALLOWED["analysis/build"] = SOLIDS | {"model", "integrators", "statics", "case", "output"}
+STEPS = {"model", "integrators", "integrators/fused"}
+ALLOWED["output"] = SOLIDS | STEPS | {"case", "io"}
+ALLOWED["analysis/build"] = SOLIDS | STEPS | {"statics", "case", "output"}
 ALLOWED["analysis/figures"] = {"core", "io", "output"}
 ALLOWED["analysis"] = set(ALLOWED)
 ALLOWED["analysis/modes"] = ALLOWED["analysis"] | {"analysis"}
@@ -42,7 +46,7 @@ ALLOWED["mesh_reader"] = {"mesh"}  # a program of its own; it shares the layout 
 
 # Libraries that only these modules may see.
 ONLY_IN = {"hdf5.h": {"io/h5"}, "toml++/": {"case"}, "CLI/": {"apps"}, "cholmod": {"statics"},
-           "CholmodSupport": {"modal", "statics"}, "Spectra/": {"model"},
+           "CholmodSupport": {"modal", "statics"}, "Spectra/": {"model/stability"},
            "lapacke": {"pod"}, "xxhash": {"io/h5"}, "fftw3": {"pod"},
            "gmsh.h": {"mesh_reader"}, "mpi.h": {"apps"}}
 

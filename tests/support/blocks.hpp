@@ -8,8 +8,8 @@
 #include "rondo/core/complex.hpp"
 #include "rondo/fem/assembly.hpp"
 #include "rondo/integrators/integrator.hpp"
-#include "rondo/integrators/stepper.hpp"
-#include "rondo/model/critical_step.hpp"
+#include "rondo/integrators/start.hpp"
+#include "rondo/model/stability/critical_step.hpp"
 
 namespace rondo::test {
 

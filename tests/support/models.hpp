@@ -3,9 +3,9 @@
 #pragma once
 #include <utility>
 
-#include "rondo/integrators/stepper.hpp"
+#include "rondo/integrators/start.hpp"
 #include "rondo/mesh/disk.hpp"
-#include "rondo/model/critical_step.hpp"
+#include "rondo/model/stability/critical_step.hpp"
 
 namespace rondo::test {
 

@@ -11,7 +11,7 @@
 #include <numbers>
 #include <random>
 
-#include "rondo/model/operator.hpp"
+#include "rondo/fem/stiffness_product.hpp"
 #include "support/models.hpp"
 #include "support/stepping.hpp"
 
@@ -169,11 +169,11 @@ TEST_P(Schemes, SymplecticKeepsEveryEigenvalueOnTheUnitCircle) {
   }
 }
 
-TEST_P(Schemes, AsPrintedGrowsAtThePredictedRate) {
+TEST(AsPrinted, GrowsAtThePredictedRate) {
   std::vector<double> growths;
   for (const double safety : {0.05, 0.1}) {
     const auto b = test::build(spinning(2, 12, Scheme::as_printed, safety));
-    const Eigen::VectorXcd z = amplification(test::model_with(b, GetParam()));
+    const Eigen::VectorXcd z = amplification(test::model_with(b, StiffnessOperator::sparse));
     const std::vector<Mode> all = modes(b.model);
     int growing = 0;
     for (std::size_t i = 0; i < 24; ++i) {
@@ -191,7 +191,7 @@ TEST_P(Schemes, AsPrintedGrowsAtThePredictedRate) {
 /// The 12×180 disk at 200 rad/s, Courant 0.9. A wave of circular polarisation would grow at
 /// s ω_max Δt/2 = 180 1/s to first order; the worst wave of this mesh reaches half of that, in the
 /// eigenvalues and in a run alike.
-TEST_P(Schemes, AsPrintedLargestGrowthOnTheDisk) {
+TEST(AsPrinted, LargestGrowthOnTheDisk) {
   const auto b = test::build(spinning(12, 180, Scheme::as_printed, 0.9));
   const double by_harmonics = largest_growth_by_harmonics(b);
   EXPECT_NEAR(0.5 * spin_rate * b.critical.omega * b.model.dt, 180.0, 0.01);
@@ -201,7 +201,7 @@ TEST_P(Schemes, AsPrintedLargestGrowthOnTheDisk) {
   std::uniform_real_distribution<double> x(-1.0, 1.0);
   std::vector<Vec2> zero(b.model.n_nodes()), v0(b.model.n_nodes());
   for (Vec2& v : v0) v = {x(random), x(random)};
-  test::Stepping run(b, GetParam(), zero, v0);
+  test::Stepping run(b, StiffnessOperator::sparse, zero, v0);
   const auto energy_after = [&](int steps) {
     run.advance(steps);
     return run.balance().kinetic + run.balance().strain;
@@ -212,16 +212,16 @@ TEST_P(Schemes, AsPrintedLargestGrowthOnTheDisk) {
 }
 
 /// The same growth in a run: the energy that the ledger says the scheme created.
-TEST_P(Schemes, LedgerShowsTheEnergyCreated) {
+TEST(AsPrinted, LedgerShowsTheEnergyCreated) {
   auto c = spinning(4, 60, Scheme::as_printed, 0.9);
   auto b = test::build(c);
-  test::Stepping run(b, GetParam());
+  test::Stepping run(b, StiffnessOperator::sparse);
   run.advance_to(0.3);
   const Balance printed = run.balance();
   EXPECT_GT(printed.works.scheme, 10.0 * printed.otherwise);
   EXPECT_LT(printed.relative, 1e-13);
   b.model.scheme = Scheme::symplectic;
-  test::Stepping kept(b, GetParam());
+  test::Stepping kept(b, StiffnessOperator::sparse);
   kept.advance_to(0.3);
   EXPECT_EQ(kept.balance().works.scheme, 0.0);
   EXPECT_LT(kept.balance().relative, 1e-13);

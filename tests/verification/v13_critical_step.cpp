@@ -65,14 +65,21 @@ TEST_P(Limit, StableBelowDivergentAbove) {
 
 INSTANTIATE_TEST_SUITE_P(
     All, Limit,
-    testing::Combine(
-        testing::Values(Variant{"plain", 0.0, 0.0, false}, Variant{"damped", 1e-5, 0.0, false},
-                        Variant{"strongly_damped", 2e-4, 0.0, false},
-                        Variant{"spinning", 0.0, 50.0, false}, Variant{"contact", 0.0, 50.0, true},
-                        Variant{"all", 2e-5, 50.0, true},
-                        Variant{"as_printed_damped", 1e-5, 0.0, false, Scheme::as_printed, 2e4}),
-        testing::ValuesIn(test::both_operators)),
+    testing::Combine(testing::Values(Variant{"plain", 0.0, 0.0, false},
+                                     Variant{"damped", 1e-5, 0.0, false},
+                                     Variant{"strongly_damped", 2e-4, 0.0, false},
+                                     Variant{"spinning", 0.0, 50.0, false},
+                                     Variant{"contact", 0.0, 50.0, true},
+                                     Variant{"all", 2e-5, 50.0, true}),
+                     testing::ValuesIn(test::both_operators)),
     [](const auto& p) { return test::name(std::get<0>(p.param).name, std::get<1>(p.param)); });
+INSTANTIATE_TEST_SUITE_P(General, Limit,
+                         testing::Combine(testing::Values(Variant{"as_printed_damped", 1e-5, 0.0,
+                                                                  false, Scheme::as_printed, 2e4}),
+                                          testing::Values(StiffnessOperator::sparse)),
+                         [](const auto& p) {
+                           return test::name(std::get<0>(p.param).name, std::get<1>(p.param));
+                         });
 
 TEST(CriticalStep, FrequencyIsTheLargestOfTheMeshAndBelowTheElementBound) {
   test::DiskCase graded = test::rubber_annulus(6, 24);

@@ -14,7 +14,7 @@
 #include "rondo/analysis/disk.hpp"
 #include "rondo/analysis/out_of_range.hpp"
 #include "rondo/case/case_source.hpp"
-#include "rondo/integrators/stepper.hpp"
+#include "rondo/integrators/start.hpp"
 #include "rondo/output/resume.hpp"
 
 namespace rondo::study {
@@ -202,7 +202,7 @@ void DynamicAnalysis::start_integrator() {
   state_.v.resize(state_.u.size());
   if (!from_) return;
   dynamics::SavedState& saved = from_->state;
-  integrator_->restore(saved);
+  integrator_->resumable()->restore(saved);
   saved = {};  // as much memory as the steps have
   saved.step = steps_;
   contact_ = from_->contact;
@@ -281,7 +281,7 @@ void DynamicAnalysis::keep_difficult_contacts() {
 Checkpoint DynamicAnalysis::save() const {
   Checkpoint checkpoint;
   checkpoint.identity = identity_of(case_, setup_);
-  checkpoint.state = integrator_->save();
+  checkpoint.state = integrator_->resumable()->save();
   checkpoint.n_steps = setup_.n_steps;
   checkpoint.history = history_->place();
   checkpoint.schedule = schedule_;

@@ -47,10 +47,11 @@ void check_case(const Case& c, const RunOptions& options, const Setup& setup) {
     throw request_error("--step-factor", fmt::format("{:.9g}", options.step_factor),
                         "not a factor for the step of the full run", "a number above 0, e.g. 20");
   demand_step_name(options.reduced_step);
-  if (c.time.scheme == Scheme::as_printed)
+  if (c.time.scheme != Scheme::symplectic)
     throw case_error(c, "time.scheme", "a reduced run has a scheme of its own",
                      "\"symplectic\", which it stands for");
-  if (dynamics::is_general(setup.model))
+  const dynamics::Model& model = setup.model;
+  if (is_general(model) || !model.pressures.empty() || has_sharp_corners(model))
     throw case_error(c, "ground.profile",
                      "a reduced run knows one held disk on ground without sharp convex corners; "
                      "here are such corners, pressures, free bodies or contact of bodies",

@@ -13,9 +13,10 @@ namespace rondo::study {
 
 std::span<const AnalysisType> analysis_types() noexcept {
   static const std::array types{
-      AnalysisType{"dynamic", "step", make_dynamic, dynamic_figures()},
-      AnalysisType{"crush", "increment", make_crush, crush_figures()},
+      AnalysisType{analysis_kinds[0].name, "step", make_dynamic, dynamic_figures()},
+      AnalysisType{analysis_kinds[1].name, "increment", make_crush, crush_figures()},
   };
+  static_assert(types.size() == std::size(analysis_kinds), "a row a kind, in their order");
   return types;
 }
 

@@ -12,8 +12,8 @@
 namespace rondo::study {
 
 struct AnalysisType {
-  std::string_view name;  ///< of analysis.kind in the case, of `analysis` in run.json
-  std::string_view unit;  ///< what is counted: "step"; a literal
+  std::string_view name;  ///< of analysis.kind in the case
+  const char* unit;       ///< what is counted: "step"
   /// @throws InputError: the case cannot run so
   std::unique_ptr<Analysis> (*make)(const Case& c, const RunOptions& options);
   FigureTable figures;  ///< of a row of a sweep's results.csv

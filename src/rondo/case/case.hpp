@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "rondo/case/analysis_kinds.hpp"
 #include "rondo/contact/ground.hpp"
 #include "rondo/core/error.hpp"
 #include "rondo/fem/elasticity.hpp"
@@ -63,8 +64,6 @@ struct GroundCase {
   double friction = 0.0;     ///< μ >= 0
   double restitution = 0.0;  ///< e in [0, 1]
 };
-
-enum class AnalysisKind { dynamic, crush };
 
 struct AnalysisCase {
   AnalysisKind kind = AnalysisKind::dynamic;

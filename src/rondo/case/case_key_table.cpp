@@ -19,6 +19,12 @@ constexpr Allowed between(double low, double high) {
 constexpr Allowed choice(std::string_view a, std::string_view b, std::string_view c = {}) {
   return {{}, {a, b, c}};
 }
+constexpr Allowed kind_of_analysis() {
+  Allowed allowed;
+  for (std::size_t k = 0; k < std::size(analysis_kinds); ++k)
+    allowed.choices[k] = analysis_kinds[k].name;
+  return allowed;
+}
 constexpr Allowed with(Allowed allowed, std::string_view also) {
   allowed.also = also;
   return allowed;
@@ -249,7 +255,7 @@ constexpr CaseKey keys[] = {
      optional.if_(may_be_free, "that of [initial]").body(may_be_free),
      "... and turn about them like this, counter-clockwise"},
 
-    {"analysis.kind", "-", FIELD(analysis.kind), choice("dynamic", "crush"), optional,
+    {"analysis.kind", "-", FIELD(analysis.kind), kind_of_analysis(), optional,
      "\"dynamic\": the body moves as `[motion]` says, over `[time]`. \"crush\": the body is "
      "pressed on flat ground without turning, slowly"},
     {"analysis.depth", "m", FIELD(analysis.depth),
@@ -285,9 +291,8 @@ constexpr CaseKey keys[] = {
      optional.of(in_motion),
      "how K u is formed: \"cyclic\" from the blocks of one sector, \"sparse\" from an assembled "
      "matrix; \"auto\" takes \"cyclic\" on every mesh of equal sectors, that is on every `[disk]`, "
-     "but where it is free, or there is a `[contact]` of bodies, a pressure or ground with a sharp "
-     "convex corner: there \"cyclic\" is refused. The results are the same to round-off "
-     "(docs/performance.md)"},
+     "but where it is free, there is a `[contact]` of bodies, or `time.scheme` is \"as-printed\": "
+     "there \"cyclic\" is refused. The results are the same to round-off (docs/performance.md)"},
     {"solver.contact_iterations", "-", FIELD(contact_iterations), between(1, 1000000000),
      optional.of(in_motion).body(never),
      "most iterations of contacts that share nodes and are solved together (sharp corners of the "

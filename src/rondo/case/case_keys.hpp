@@ -64,7 +64,7 @@ struct Range {
 /// What may stand there, beside what the type says.
 struct Allowed {
   Range range;                                ///< of numbers
-  std::array<std::string_view, 3> choices{};  ///< in the order of the enum; none: no choice
+  std::array<std::string_view, 8> choices{};  ///< in the order of the enum; none: no choice
   std::string_view also{};                    ///< a bound that involves other keys: a rule
 
   [[nodiscard]] bool is_choice() const noexcept { return !choices[0].empty(); }

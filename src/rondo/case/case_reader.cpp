@@ -56,18 +56,15 @@ void require_keys(CaseValues& in, const Case& c) {
 
 /// Keys that only other analyses than a dynamic one have, given for another one.
 void refuse_keys_of_others(CaseValues& in, const Case& c) {
-  const CaseKey& kinds = *find_case_key("analysis.kind");
-  const auto name = [&](AnalysisKind kind) {
-    return kinds.allowed.choices[static_cast<std::size_t>(kind)];
-  };
+  const std::string_view name = rules_of(c.analysis.kind).name;
   for (const CaseKey& key : case_keys()) {
     if (means_to(key, AnalysisKind::dynamic) || means_to(key, c.analysis.kind)) continue;
-    if (!in.has(key.path) || !in.good({kinds.path})) continue;
+    if (!in.has(key.path) || !in.good({"analysis.kind"})) continue;
     std::string others;
-    for (std::size_t k = 0; !kinds.allowed.choices[k].empty(); ++k)
+    for (std::size_t k = 0; k < std::size(analysis_kinds); ++k)
       if (means_to(key, static_cast<AnalysisKind>(k)))
-        others += fmt::format("{}\"{}\"", others.empty() ? "" : " or ", kinds.allowed.choices[k]);
-    in.fault(key.path, fmt::format("means nothing to a {} analysis", name(c.analysis.kind)),
+        others += fmt::format("{}\"{}\"", others.empty() ? "" : " or ", analysis_kinds[k].name);
+    in.fault(key.path, fmt::format("means nothing to a {} analysis", name),
              fmt::format("analysis.kind = {} beside it", others));
   }
 }
@@ -107,9 +104,9 @@ Case read_source(const std::filesystem::path& file, CaseSource source) {
   check_analysis(in, c);
   const std::string left_out = leave_out(in, c);
   check_case(in, c);
-  if (!left_out.empty() && !why_left_out(c.analysis.kind).empty())
+  if (!left_out.empty() && !rules_of(c.analysis.kind).why_left_out.empty())
     c.warnings.push_back(
-        fmt::format("{}; without effect: {}", why_left_out(c.analysis.kind), left_out));
+        fmt::format("{}; without effect: {}", rules_of(c.analysis.kind).why_left_out, left_out));
   in.finish();
   c.places = in.places();
   return c;

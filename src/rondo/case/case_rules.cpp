@@ -10,22 +10,6 @@ namespace {
 
 constexpr double most_steps = 1e12;  ///< years of computing
 
-/// What one kind of analysis asks, and why it leaves out what only others have.
-struct AnalysisRules {
-  void (*check)(CaseValues& in, Case& c);
-  std::string_view why_left_out;
-};
-
-/// In the order of AnalysisKind.
-constexpr AnalysisRules analysis_rules[] = {
-    {nullptr, ""},
-    {check_crush, "a crush is quasi-static, its ground flat"},
-};
-
-const AnalysisRules& rules_of(AnalysisKind kind) {
-  return analysis_rules[static_cast<std::size_t>(kind)];
-}
-
 void check_tread(CaseValues& in, const mesh::Disk& disk) {
   constexpr std::string_view columns = "disk.mesh.circumferential";
   if (in.has(columns) && in.good({columns}))
@@ -168,7 +152,7 @@ void check_time(CaseValues& in, const Case& c) {
   if (time.step && in.good({"time.end", "time.step"}) && time.end / *time.step > most_steps)
     in.fault("time.step", fmt::format("the run would take {:.3g} steps", time.end / *time.step),
              fmt::format("at most {:.0e} steps", most_steps));
-  if (time.scheme == Scheme::as_printed && !is_held(c))
+  if (time.scheme != Scheme::symplectic && !is_held(c))
     in.fault("time.scheme", "shows what the spin of a rim does, and nothing turns a free body",
              "\"symplectic\"");
 }
@@ -200,26 +184,14 @@ void check_output(CaseValues& in, Case& c) {
   }
 }
 
-/// A convex corner that no fillet rounds. @pre the shape has no faults
-bool has_sharp_corner(const contact::GroundShape& shape) {
-  constexpr double straight = 1e-12;  // sine of a turn that is no corner
-  if (shape.fillet > 0.0) return false;
-  const std::vector<Vec2>& p = shape.profile;
-  for (std::size_t i = 1; i + 1 < p.size(); ++i) {
-    const Vec2 before = p[i] - p[i - 1], after = p[i + 1] - p[i];
-    if (cross(before, after) < -straight * norm(before) * norm(after)) return true;
-  }
-  return false;
-}
-
 }  // namespace
 
 std::string_view why_not_cyclic(const Case& c) {
   if (c.mesh) return "a mesh from a file is not known to be of equal sectors";
   if (c.free_rim) return "a free disk does not stay in the turning frame of its sectors";
   if (c.body_contact.between != BodyContact::none) return "there is a [contact] of bodies";
-  if (!c.pressures.empty()) return "there is a [[load.pressure]]";
-  if (c.ground && has_sharp_corner(c.ground->shape)) return "the ground has a sharp convex corner";
+  if (c.time.scheme != Scheme::symplectic)
+    return "a scheme other than \"symplectic\" is one of the general step alone";
   return {};
 }
 
@@ -229,10 +201,6 @@ void require(CaseValues& in, std::string_view key) {
 
 void check_analysis(CaseValues& in, Case& c) {
   if (const auto check = rules_of(c.analysis.kind).check) check(in, c);
-}
-
-std::string_view why_left_out(AnalysisKind kind) noexcept {
-  return rules_of(kind).why_left_out;
 }
 
 void check_case(CaseValues& in, Case& c) {

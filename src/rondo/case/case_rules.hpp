@@ -8,14 +8,9 @@ namespace rondo::study {
 
 /// What only one kind of analysis asks of a case. @pre all keys are read
 void check_analysis(CaseValues& in, Case& c);
-/// Why this kind of analysis has no use for what it leaves out; "" where it leaves nothing out.
-std::string_view why_left_out(AnalysisKind kind) noexcept;
 
 /// All other rules, and the warnings. @pre what means nothing to the analysis is left out
 void check_case(CaseValues& in, Case& c);
-
-/// Rules of a crush alone.
-void check_crush(CaseValues& in, Case& c);
 
 /// For keys that another key requires; says nothing where the kind of analysis is at fault.
 void require(CaseValues& in, std::string_view key);

@@ -6,8 +6,8 @@
 #include <vector>
 
 #include "rondo/case/case.hpp"
-#include "rondo/model/critical_step.hpp"
 #include "rondo/model/model.hpp"
+#include "rondo/model/stability/critical_step.hpp"
 
 namespace rondo::study {
 

@@ -72,6 +72,7 @@ std::optional<EdgeTouch> across_joint(const BoundaryPoint& point, const Boundary
   const Segment here = segment_of(query, found.edge), there = segment_of(query, other);
   const Vec2 first = at_end ? here.b - here.a : there.b - there.a;
   const Vec2 second = at_end ? there.b - there.a : here.b - here.a;
+  if (cross(first, second) > 0.0) return {};
   if (std::atan2(cross(first, second), dot(first, second)) > -inward_turn) return {};
   const SegmentTouch touch = line_touch(point.position, there.a, there.b);
   if (touch.gap > 0.0 || distance_from(touch, norm(there.b - there.a)) > query.deepest) return {};
@@ -81,6 +82,8 @@ std::optional<EdgeTouch> across_joint(const BoundaryPoint& point, const Boundary
 }  // namespace
 
 std::optional<SegmentTouch> touch_segment(Vec2 p, const Segment& s, double deepest) noexcept {
+  const Vec2 along = s.b - s.a;
+  if (cross(p - s.a, along) > 1e-9 * dot(along, along)) return {};  // well before it, as most are
   const SegmentTouch touch = line_touch(p, s.a, s.b);
   if (!(touch.gap <= 0.0)) return {};
   if (s.before == s.a ? touch.at < 0.0 : !(beyond(s.before, s.a, s.b, p) > 0.0)) return {};

@@ -4,7 +4,7 @@
 #include "rondo/integrators/fused/cyclic_integrator.hpp"
 #include "rondo/integrators/fused/dispatch.hpp"
 #include "rondo/integrators/fused/sparse_integrator.hpp"
-#include "rondo/integrators/general_integrator.hpp"
+#include "rondo/integrators/general/general_integrator.hpp"
 
 namespace rondo::dynamics {
 

@@ -1,58 +1,15 @@
 // SPDX-License-Identifier: BSD-3-Clause
-/// @file  The steps of a run, many at a time. Two operators do the same step (stepper.hpp is the
-/// reference of both): `cyclic` on meshes of equal sectors, `sparse` on any mesh. What comes out is
-/// the same to the last bit for any number of threads and however the steps are cut into calls.
+/// @file  The integrators of a body on its mesh. The general one is the readable reference; two
+/// operators do the same step fused: `cyclic` on meshes of equal sectors, `sparse` on any mesh.
 #pragma once
 #include <memory>
-#include <span>
-#include <vector>
 
-#include "rondo/contact/coupled/problem_file.hpp"
-#include "rondo/model/contact_node.hpp"
-#include "rondo/model/ledger.hpp"
-#include "rondo/model/model.hpp"
-#include "rondo/model/saved_state.hpp"
+#include "rondo/model/integrator.hpp"
 
 namespace rondo::dynamics {
 
-/// What a step leaves for those who look on.
-struct StepReport {
-  long long step = 0;     ///< n + 1
-  FrameStep frame;        ///< of t_{n+1}
-  ContactReport contact;  ///< of t_{n+1}
-  Balance balance;        ///< of t_{n+1/2}
-};
-
-class Integrator {
- public:
-  virtual ~Integrator() = default;
-  Integrator() = default;
-  Integrator(const Integrator&) = delete;
-  Integrator& operator=(const Integrator&) = delete;
-
-  /// Makes as many steps as there are reports, and fills these. `last`, if given, gets step, frame,
-  /// u, v, contacts and, where it has room for it, v_next of the last of them; `force` and
-  /// `force_before` are left alone.
-  /// @pre at least one report; *last was made for this model, not copied (a copy has no room for
-  /// contacts). Allocates nothing; the general
-  /// integrator as little as the contacts of a step need more room than any before.
-  virtual void advance(std::span<StepReport> reports, State* last = nullptr) noexcept = 0;
-
-  /// Fields as they stand between two steps: u_{n+2} and v_{n+3/2}, n + 1 the last step made.
-  /// Fills u and v_next.
-  virtual void fields(State& state) const noexcept = 0;
-
-  /// Between two steps. What restore() gets must come from save() of an integrator of the same kind
-  /// and model, on however many threads: it then goes on to the same bits. @throws std::bad_alloc
-  [[nodiscard]] virtual SavedState save() const = 0;
-  virtual void restore(const SavedState& saved) = 0;
-
-  /// Contact problems kept since the last call, as model.coupled says.
-  [[nodiscard]] virtual std::vector<contact::ProblemFile> take_difficult() { return {}; }
-};
-
 /// The integrator of model.stiffness_operator. The model must outlive it.
-/// @param start at t = 0 (stepper.hpp). @throws InputError (RONDO_DISPATCH), std::bad_alloc
+/// @param start at t = 0 (start.hpp). @throws InputError (RONDO_DISPATCH), std::bad_alloc
 [[nodiscard]] std::unique_ptr<Integrator> make_integrator(const Model& model, const State& start);
 
 }  // namespace rondo::dynamics

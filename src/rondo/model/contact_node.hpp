@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// @file  Contact of one candidate in one step: the velocity that the law sees, the impulse, and
-/// the velocity corrected by it (docs/theory.md, section 4). Every stepper solves its contacts
-/// here.
+/// the velocity corrected by it (docs/theory.md, section 4). Every integrator solves its
+/// contacts here.
 #pragma once
 #include <span>
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// @file  Energy ledger of a run: closes to round-off at every step (docs/theory.md, section 5).
-/// The steppers give the sums over the nodes of each step; the ledger adds up and compares.
+/// The integrators give the sums over the nodes of each step; the ledger adds up and compares.
 #pragma once
 #include <array>
 #include <span>

@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "rondo/model/model.hpp"
 
+#include "rondo/core/contract.hpp"
+#include "rondo/fem/stiffness_product.hpp"
+
 namespace rondo::dynamics {
 
 State::State(const Model& model) : u(model.n_nodes()), v(model.n_nodes()), v_next(model.n_nodes()) {
@@ -39,8 +42,18 @@ void find_free_bodies(const mesh::Mesh& mesh, Model& model) {
 }
 
 bool is_general(const Model& model) noexcept {
-  return !model.free_bodies.empty() || model.surfaces.has_value() || !model.pressures.empty() ||
-         (model.contact && !model.contact->ground.corners().empty());
+  return model.scheme != Scheme::symplectic || !model.free_bodies.empty() ||
+         model.surfaces.has_value() || model.internal_force;
+}
+
+bool has_sharp_corners(const Model& model) noexcept {
+  return model.contact && !model.contact->ground.corners().empty();
+}
+
+void apply_stiffness(const Model& model, std::span<const Vec2> u, std::span<Vec2> out) {
+  if (!model.stiffness.row_start.empty()) return fem::apply(model.stiffness, u, out, model.threads);
+  RONDO_DEMAND(model.sector.has_value());
+  fem::apply(*model.sector, u, out);
 }
 
 }  // namespace rondo::dynamics

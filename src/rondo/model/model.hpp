@@ -3,7 +3,10 @@
 /// once.
 #pragma once
 #include <cstddef>
+#include <functional>
+#include <memory>
 #include <optional>
+#include <span>
 #include <vector>
 
 #include "rondo/contact/ground.hpp"
@@ -65,11 +68,20 @@ inline const char* operator_name(StiffnessOperator which) noexcept {
   return which == StiffnessOperator::cyclic ? "cyclic" : "sparse";
 }
 
+class InternalForce;
+struct Model;
+struct Pose;
+
+/// As make_internal_force() (internal_force.hpp).
+using InternalForceMaker = std::function<std::unique_ptr<InternalForce>(
+    const Model& model, std::span<const Vec2> u0, std::span<const Pose> poses)>;
+
 struct Model {
   std::vector<Vec2> reference;                 ///< (n) X                        [m]
   std::vector<double> mass;                    ///< (n) lumped, > 0              [kg/m]
   std::vector<int> free;                       ///< nodes that move, ascending
   fem::BlockCsr stiffness;                     ///< K on the free nodes, or empty [N/m²]
+  InternalForceMaker internal_force;           ///< of another material than K's; empty: of K
   std::optional<fem::SectorStiffness> sector;  ///< K of one sector; absent: not cyclic
   StiffnessOperator stiffness_operator = StiffnessOperator::sparse;
   double mass_damping = 0.0;       ///< α                            [1/s]
@@ -147,13 +159,19 @@ inline bool has_candidates(const Model& model) noexcept {
 }
 
 /// The model has something that only the general integrator does: a free body, contact between
-/// bodies, a sharp corner of the ground, a pressure.
+/// bodies, another scheme than the symplectic one, a material of its own.
 [[nodiscard]] bool is_general(const Model& model) noexcept;
+
+/// The ground has corners that may touch the body between two candidates.
+[[nodiscard]] bool has_sharp_corners(const Model& model) noexcept;
 
 /// Position of a node in the fixed frame at t_{n+1} [m].
 inline Vec2 position(const Model& model, const State& state, std::size_t node) noexcept {
   if (in_fixed_frame(model, node)) return model.reference[node] + state.u[node];
   return state.frame.center + state.frame.rotation * (model.reference[node] + state.u[node]);
 }
+
+/// K u by what the model has: the assembled stiffness, else that of one sector; both (n).
+void apply_stiffness(const Model& model, std::span<const Vec2> u, std::span<Vec2> out);
 
 }  // namespace rondo::dynamics

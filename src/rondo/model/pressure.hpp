@@ -4,6 +4,7 @@
 /// turning frame, for a body that is held, as small strain has it.
 #pragma once
 #include <span>
+#include <vector>
 
 #include "rondo/model/model.hpp"
 
@@ -12,5 +13,16 @@ namespace rondo::dynamics {
 /// Nodal forces at time t, in the nodes' frames, n each [N/m]: half of p L n an end of each edge.
 void pressure_forces(const Model& model, std::span<const Vec2> u, double time,
                      std::span<Vec2> force) noexcept;
+
+/// A force on a node of a body that is held, in the turning frame.
+struct NodalLoad {
+  int node = 0;
+  int load = 0;  ///< place in Model::pressures
+  Vec2 force{};  ///< per pressure                                                   [m]
+};
+
+/// All of them, by load, then by node: a node's force at time t is Σ pressure(t) · force.
+/// @pre no body is free
+[[nodiscard]] std::vector<NodalLoad> nodal_loads(const Model& model);
 
 }  // namespace rondo::dynamics

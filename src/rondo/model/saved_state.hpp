@@ -23,6 +23,7 @@ struct SavedState {
   std::vector<Pose> poses;     ///< (free_bodies)
   /// By contact, ascending: coupled contacts start from the impulses of the step before [N·s/m].
   std::vector<std::pair<std::uint64_t, Vec2>> impulses;
+  std::vector<double> rim;  ///< what the rim carries (rim.hpp)
   std::array<double, Ledger::n_numbers> ledger{};
 };
 

@@ -22,4 +22,10 @@ constexpr VelocityUpdate velocity_update(Scheme scheme, double dt, double alpha,
   return {{1.0 + 0.5 * dt * alpha, dt * spin}, {dt * alpha, 2.0 * dt * spin}};
 }
 
+/// The velocity that the terms of velocity are taken at; the works (5.3) are of the mean of both
+/// half steps, and what this leaves of the Coriolis term is the work of the scheme.
+constexpr Vec2 velocity_of_terms(Scheme scheme, Vec2 before, Vec2 mean) noexcept {
+  return scheme == Scheme::as_printed ? before : mean;
+}
+
 }  // namespace rondo::dynamics

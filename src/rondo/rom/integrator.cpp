@@ -64,15 +64,6 @@ ReducedIntegrator::ReducedIntegrator(const IntegratorInput& input, const dynamic
 
 ReducedIntegrator::~ReducedIntegrator() = default;
 
-dynamics::SavedState ReducedIntegrator::save() const {
-  RONDO_DEMAND(false, n_);
-  return {};
-}
-
-void ReducedIntegrator::restore(const dynamics::SavedState& saved) {
-  RONDO_DEMAND(false, saved.step);
-}
-
 /// Half a push at t = 0: the velocity is that of half steps from there on.
 void ReducedIntegrator::start_central() {
   const dynamics::Motion& of = input_.model.motion;

@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "rondo/core/blas_threads.hpp"
-#include "rondo/integrators/integrator.hpp"
+#include "rondo/model/integrator.hpp"
 #include "rondo/rom/contact_problem.hpp"
 
 namespace rondo::rom {
@@ -48,9 +48,6 @@ class ReducedIntegrator final : public dynamics::Integrator {
   void advance(std::span<dynamics::StepReport> reports,
                dynamics::State* last = nullptr) noexcept override;
   void fields(dynamics::State& state) const noexcept override;
-  /// A reduced run keeps no checkpoints: neither may be called.
-  [[nodiscard]] dynamics::SavedState save() const override;
-  void restore(const dynamics::SavedState& saved) override;
 
   /// Contacts of the last step, with their impulses.
   [[nodiscard]] std::span<const PointContact> contacts() const noexcept {

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <utility>
 
-#include "rondo/model/critical_step.hpp"
+#include "rondo/model/stability/critical_step.hpp"
 #include "rondo/pod/dense.hpp"
 #include "rondo/pod/svd.hpp"
 

@@ -10,7 +10,7 @@
 #include "rondo/analysis/build/build.hpp"
 #include "rondo/analysis/build/crush_setup.hpp"
 #include "rondo/integrators/integrator.hpp"
-#include "rondo/integrators/stepper.hpp"
+#include "rondo/integrators/start.hpp"
 
 using namespace rondo;
 

@@ -7,8 +7,8 @@
 #include <random>
 
 #include "rondo/core/complex.hpp"
+#include "rondo/fem/stiffness_product.hpp"
 #include "rondo/model/corotated.hpp"
-#include "rondo/model/operator.hpp"
 #include "support/blocks.hpp"
 #include "support/stepping.hpp"
 

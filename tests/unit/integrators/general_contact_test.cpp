@@ -303,12 +303,12 @@ SavedState collided(const Model& model, std::size_t cut) {
   std::vector<StepReport> reports(cut);
   for (std::size_t done = 0; done < 12; done += cut) {
     integrator->advance(reports);
-    const SavedState saved = integrator->save();
+    const SavedState saved = integrator->resumable()->save();
     integrator = make_integrator(model, start(model, none, none));
-    integrator->restore(saved);
+    integrator->resumable()->restore(saved);
   }
   EXPECT_GT(reports.back().contact.nodes, 0);
-  return integrator->save();
+  return integrator->resumable()->save();
 }
 
 TEST(GeneralContact, GoesOnFromASavedStateToTheSameBits) {

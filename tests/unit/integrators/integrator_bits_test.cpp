@@ -39,12 +39,13 @@ std::vector<double> numbers(const StepReport& s) {
   append(out, {f.time, f.spin, f.spin_rate, f.angle, f.turn, f.turn_before});
   append(out, {f.rotation.re, f.rotation.im});
   append(out, std::array{f.center, f.advance, f.advance_before, f.pull, c.impulse});
-  for (const int count : {c.nodes, c.sticking, c.pairs, c.pairs_not_converged})
+  for (const int count : {c.nodes, c.sticking, c.pairs, c.pairs_not_converged, c.clusters,
+                          c.clusters_not_converged, c.cluster_largest, c.cluster_iterations})
     out.push_back(static_cast<double>(count));
   append(out, {c.angular_impulse, c.length, c.penetration, c.free_velocity, c.residual});
   append(out, {c.work, c.dissipation_friction, c.loss_impact, c.work_rim});
   append(out, {w.frame, w.contact, w.dissipation_friction, w.loss_impact, w.rim});
-  append(out, {w.dissipation_mass, w.dissipation_stiffness, w.scheme});
+  append(out, {w.dissipation_mass, w.dissipation_stiffness, w.scheme, w.load});
   append(out, {b.kinetic, b.strain, b.residual, b.exchanged, b.otherwise, b.relative});
   return out;
 }
@@ -92,9 +93,9 @@ Record run(const test::Built& b, StiffnessOperator of, std::size_t steps, Way wa
     integrator->advance(std::span(reports).subspan(done - n, n), seen ? &state : nullptr);
     if (seen) out.states[state.step] = numbers(state);
     if (way.threads_after_restart == 0) continue;
-    const SavedState saved = integrator->save();
+    const SavedState saved = integrator->resumable()->save();
     integrator = make_integrator(other, start(other, rest, rest));
-    integrator->restore(saved);
+    integrator->resumable()->restore(saved);
   }
   int contacts = 0;
   for (const StepReport& report : reports) {
@@ -132,11 +133,14 @@ void assert_same_bits(const Record& a, const Record& b) {
   ASSERT_TRUE(same(a.fields, b.fields));
 }
 
-/// Down to the fewest sectors there can be.
+/// Down to the fewest sectors there can be; on a sharp ledge.
 std::vector<test::Built> disks() {
+  test::RollingCase ledge = test::sharp(test::everything("", 4, 61));
+  ledge.disk.motion.start_x = -0.02;
   return {test::build(test::everything("", 4, 61)),
           test::build(test::everything("", 3, mesh::Tread{20, 0.02, 3, 1, 2})),
-          test::build(test::everything("", 3, mesh::Tread{3, 0.02, 20, 10, 2}))};
+          test::build(test::everything("", 3, mesh::Tread{3, 0.02, 20, 10, 2})),
+          test::build(ledge)};
 }
 
 class Integrators : public testing::TestWithParam<StiffnessOperator> {};
@@ -147,6 +151,7 @@ class Integrators : public testing::TestWithParam<StiffnessOperator> {};
 TEST_P(Integrators, SameBitsForAnyNumberOfThreadsAndFromRunToRun) {
   std::vector<test::Built> all = disks();
   all.push_back(test::build(test::everything("", 6, 240)));  // work for every thread
+  for (test::Built& b : all) test::add_pressures(b);
   for (const test::Built& b : all) {
     const Record one = run(b, GetParam(), 100, {});
     for (const Way way : {Way{1, 64}, Way{2, 7}, Way{3, 64}, Way{7, 64}}) {
@@ -173,6 +178,7 @@ TEST_P(Integrators, SameBitsFromASavedState) {
   test::RollingCase undamped = test::everything("", 4, 61);
   undamped.disk.beta = 0.0;
   all.push_back(test::build(undamped));
+  test::add_pressures(all.back());
   all.push_back(test::build(test::everything("", 6, 240)));
   for (const test::Built& b : all) {
     const Record one = run(b, GetParam(), 100, {});

@@ -20,6 +20,7 @@ struct RollingCase {
   contact::Law law{0.4, 0.0};
   std::optional<contact::GroundShape> ground;
   bool stiffened = false;  ///< by the stress of the initial spin
+  bool pressed = false;    ///< by pressures on its boundary
 };
 
 /// For the names that the tests print.
@@ -52,6 +53,18 @@ inline RollingCase everything(const std::string& name, int radial, mesh::Tread t
   return c;
 }
 
+/// The same with pressures on the boundary, and with corners of the ground that are sharp.
+inline RollingCase pressed(RollingCase c) {
+  c.name += "_pressed";
+  c.pressed = true;
+  return c;
+}
+inline RollingCase sharp(RollingCase c) {
+  c.name += "_sharp";
+  c.ground->fillet = 0.0;
+  return c;
+}
+
 /// Each difference between the operators that a step could depend on, and numbers of sectors that
 /// are no multiple of what a vector register or a thread takes.
 inline std::vector<RollingCase> rolling_cases() {
@@ -61,7 +74,6 @@ inline std::vector<RollingCase> rolling_cases() {
     return all.emplace_back(everything(name, 6, 90));
   };
   smooth("smooth");
-  smooth("smooth_as_printed").disk.scheme = dynamics::Scheme::as_printed;
   smooth("smooth_graded").disk.disk.grading = 1.8;
   smooth("smooth_frictionless").law = {};
   smooth("smooth_without_contact").ground.reset();
@@ -91,7 +103,6 @@ inline std::vector<RollingCase> rolling_cases() {
     return all.emplace_back(everything(name, 3, of));
   };
   treaded("treaded", tread);
-  treaded("treaded_as_printed", tread).disk.scheme = dynamics::Scheme::as_printed;
   RollingCase& all_of_it = treaded("treaded_b_bar_stiffened", tread);
   rubber(all_of_it);
   all_of_it.stiffened = true;
@@ -106,6 +117,14 @@ inline std::vector<RollingCase> rolling_cases() {
   return all;
 }
 
+/// On the whole of the boundary, and on a part of it, where both act.
+inline void add_pressures(Built& b) {
+  const std::vector<mesh::Edge>& edges = b.mesh.contact_edges;
+  const auto middle = edges.begin() + static_cast<std::ptrdiff_t>(edges.size() / 2);
+  b.model.pressures.push_back({edges, dynamics::Table({{0.0, -2.0e4}, {0.01, 5.0e4}})});
+  b.model.pressures.push_back({{edges.begin(), middle}, dynamics::Table(8.0e4)});
+}
+
 inline Built build(const RollingCase& c) {
   Built b = build(c.disk);
   if (c.stiffened) {
@@ -115,7 +134,11 @@ inline Built build(const RollingCase& c) {
                       .u;
     set_stiffness(b, c.disk);
   }
-  if (c.ground) add_ground(b, *c.ground, c.law);
+  if (c.ground) {
+    add_ground(b, *c.ground, c.law);
+    b.model.contact->edges = b.mesh.contact_edges;
+  }
+  if (c.pressed) add_pressures(b);
   return b;
 }
 

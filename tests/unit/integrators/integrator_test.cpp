@@ -26,13 +26,12 @@ struct Seen {
 
 Seen by_reference(const test::Built& b) {
   Seen seen;
-  State state = start(b.model, test::some_displacement(b), test::some_velocity(b));
-  Ledger ledger;
+  test::Reference run(b.model, start(b.model, test::some_displacement(b), test::some_velocity(b)));
   for (int n = 1; n <= many; ++n) {
-    seen.reports.push_back(test::reference_step(b.model, state, ledger));
-    if (n == few) seen.early = state;
+    seen.reports.push_back(run.step());
+    if (n == few) seen.early = run.state;
   }
-  seen.late = state;
+  seen.late = run.state;
   return seen;
 }
 

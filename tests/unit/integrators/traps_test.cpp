@@ -8,7 +8,8 @@
 #include <string>
 
 #include "integrator_cases.hpp"
-#include "rondo/integrators/stepper.hpp"
+#include "rondo/integrators/general/general_integrator.hpp"
+#include "rondo/integrators/start.hpp"
 #include "support/stepping.hpp"
 #include "support/traps.hpp"
 
@@ -70,12 +71,13 @@ TEST_P(Traps, AreLeftAsTheyWere) {
   make_two_steps(GetParam(), 2, too_fast);
 }
 
-TEST(StepTraps, AreInTheReferenceStepper) {
+TEST(StepTraps, AreInTheGeneralStep) {
   const test::Built b = test::build(test::everything("", 3, 21));
   State state = test::start_at_rest(b.model);
   state.v_next[static_cast<std::size_t>(b.model.free.back())].x = too_fast;
-  Ledger ledger;
-  EXPECT_DEATH((void)advance(b.model, state, ledger), "");
+  GeneralIntegrator integrator(b.model, state);
+  StepReport report;
+  EXPECT_DEATH(integrator.advance({&report, 1}), "");
 }
 #endif
 

@@ -8,7 +8,7 @@
 #include <utility>
 
 #include "rondo/fem/assembly.hpp"
-#include "rondo/model/critical_step.hpp"
+#include "rondo/model/stability/critical_step.hpp"
 #include "support/rings.hpp"
 
 using namespace rondo;

@@ -8,7 +8,7 @@
 
 #include "rondo/analysis/build/build.hpp"
 #include "rondo/core/error.hpp"
-#include "rondo/integrators/stepper.hpp"
+#include "rondo/integrators/start.hpp"
 #include "rondo/output/resume.hpp"
 #include "unit/case/case_fixture.hpp"
 
@@ -38,7 +38,7 @@ class Resume : public testing::Test {
     integrator->advance(reports);
     Checkpoint k;
     k.identity = identity_of(case_, setup_);
-    k.state = integrator->save();
+    k.state = integrator->resumable()->save();
     k.n_steps = setup_.n_steps;
     k.history.done = k.state.step;
     k.schedule = snapshot_schedule(case_.output, setup_.model.dt, setup_.n_steps);

@@ -10,6 +10,7 @@
 #include <unsupported/Eigen/MatrixFunctions>
 
 #include "rondo/core/complex.hpp"
+#include "rondo/integrators/general/general_integrator.hpp"
 #include "rondo/statics/stationary_spin.hpp"
 #include "whole_space.hpp"
 
@@ -73,13 +74,13 @@ TEST(ReducedIntegrator, WithAllModesMovesAsTheFullModelDoes) {
     Reduced r = whole_space(c);
     dynamics::State state = rondo::test::start_at_rest(r.full.model);
     ReducedIntegrator reduced = r.start(state);
-    dynamics::Ledger ledger;
+    dynamics::GeneralIntegrator full(r.full.model, state);
     const auto steps = static_cast<std::size_t>(0.004 / r.full.model.dt);
     std::vector<dynamics::StepReport> reports(steps);
     dynamics::State found(r.full.model);
     reduced.advance(reports, &found);
-    for (std::size_t k = 0; k < steps; ++k)
-      static_cast<void>(dynamics::advance(r.full.model, state, ledger));
+    std::vector<dynamics::StepReport> expected(steps);
+    full.advance(expected, &state);
     ASSERT_EQ(found.step, state.step);
     errors.push_back(difference(state.u, found.u));
     EXPECT_LT(difference(state.v, found.v), 20.0 * errors.back());
@@ -280,12 +281,11 @@ TEST(ReducedIntegrator, CentralDifferencesInTheTurningFrameAreTheFullScheme) {
     Reduced r = whole_space(c, {.contact = nodes, .frame = frame, .scheme = central});
     dynamics::State state = rondo::test::start_at_rest(r.full.model);
     ReducedIntegrator reduced = r.start(state);
-    dynamics::Ledger ledger;
-    std::vector<dynamics::StepReport> reports(400);
+    dynamics::GeneralIntegrator full(r.full.model, state);
+    std::vector<dynamics::StepReport> reports(400), expected(400);
     dynamics::State found(r.full.model);
     reduced.advance(reports, &found);
-    for (std::size_t k = 0; k < reports.size(); ++k)
-      static_cast<void>(dynamics::advance(r.full.model, state, ledger));
+    full.advance(expected, &state);
     // Fields are carried by Cayley's turn, off by (s Δt k)³/12 in each step at harmonic k <= 12.
     const double bound = frame == turning ? 1e-10 : 1e-3;
     EXPECT_LT(difference(state.u, found.u), bound);
@@ -297,13 +297,15 @@ TEST(ReducedIntegrator, CentralDifferencesAtNodesAreTheFullSchemeInContact) {
   Reduced r = pressed({.contact = nodes, .frame = turning, .scheme = central});
   dynamics::State state = rondo::test::start_at_rest(r.full.model);
   ReducedIntegrator reduced = r.start(state);
-  dynamics::Ledger ledger;
-  std::vector<dynamics::StepReport> reports(1500);
+  dynamics::GeneralIntegrator steps(r.full.model, state);
+  std::vector<dynamics::StepReport> reports(1500), expected(1500);
   dynamics::State found(r.full.model);
   reduced.advance(reports, &found);
+  steps.advance(expected, &state);
   int contacts = 0;
-  for (const dynamics::StepReport& report : reports) {
-    const dynamics::ContactReport full = dynamics::advance(r.full.model, state, ledger);
+  for (std::size_t i = 0; i < reports.size(); ++i) {
+    const dynamics::StepReport& report = reports[i];
+    const dynamics::ContactReport& full = expected[i].contact;
     ASSERT_EQ(full.nodes, report.contact.nodes) << report.step;
     contacts += full.nodes;
     // A touch that comes with round-off may come a step later: none does here.

@@ -54,7 +54,7 @@ void find_bodies(const Case& c, Setup& s) {
   s.mesh.n_sectors = 0;
   s.mesh.sector.clear();
   s.mesh.sector_node.clear();
-  if (c.time.scheme == Scheme::as_printed)
+  if (c.time.scheme != Scheme::symplectic)
     throw case_error(c, "time.scheme",
                      fmt::format("{} of the bodies are free, and nothing turns them",
                                  s.model.free_bodies.size()),

@@ -8,12 +8,10 @@
 #include "rondo/core/contract.hpp"
 #include "rondo/integrators/fused/cyclic_plan.hpp"
 #include "rondo/integrators/fused/sparse_plan.hpp"
-#include "rondo/integrators/step_traps.hpp"
+#include "rondo/integrators/general/step_traps.hpp"
 
 namespace rondo::dynamics {
 namespace {
-
-constexpr std::size_t most_steps_in_a_batch = 64;
 
 /// Insertion, for it keeps the two contacts of a node in their order and takes no memory; what
 /// comes is nearly sorted, and short.
@@ -30,32 +28,72 @@ void sort_by_candidate(std::vector<ActiveContact>& active) noexcept {
 BatchIntegrator::BatchIntegrator(const Model& model, long long step, std::size_t n_parts,
                                  std::size_t n_pieces)
     : model_(model),
-      n_parts_(n_parts),
+      n_parts_(n_parts + (has_sharp_corners(model) ? 1 : 0)),
       step_(step),
       threads_(std::min(model.threads, static_cast<int>(n_pieces))),
-      steps_(most_steps_in_a_batch),
-      parts_(most_steps_in_a_batch * n_parts) {}
+      rim_(make_rim(model)),
+      steps_(static_cast<std::size_t>(rim_->steps_ahead())),
+      pressures_(steps_.size() * model.pressures.size()),
+      parts_(steps_.size() * n_parts_) {
+  if (has_sharp_corners(model)) corners_.emplace(model);
+  rim_->restore(step, {});
+}
+
+void BatchIntegrator::set_step(std::size_t i) noexcept {
+  steps_[i] = step_context(model_, rim_->next());
+  const std::size_t n = model_.pressures.size();
+  for (std::size_t l = 0; l < n; ++l)
+    pressures_[i * n + l] = model_.pressures[l].pressure.at(steps_[i].frame.time);
+  steps_[i].pressures = pressures_.data() + i * n;
+}
 
 void BatchIntegrator::advance_batch(std::span<StepReport> reports) noexcept {
-  for (std::size_t i = 0; i < reports.size(); ++i)
-    steps_[i] = step_context(model_, step_ + 1 + static_cast<long long>(i));
-  const Batch batch{std::span(steps_).first(reports.size()), parts_.data()};
+  for (std::size_t i = 0; i < reports.size(); ++i) set_step(i);
+  const std::span steps = std::span(steps_).first(reports.size());
+  if (corners_) {
+    corners_->look_out(steps, *this);
+    within_ = corners_->any_near() && hold_within(corners_->nodes());
+    for (std::size_t i = 0; i < steps.size(); ++i) parts_[(i + 1) * n_parts_ - 1] = {};
+  }
+  const Batch batch{steps, parts_.data(), step_};
   if (threads_ > 1) {
 #pragma omp parallel num_threads(threads_)
     {
       const StepTraps traps;
-      make_steps(batch, {static_cast<std::size_t>(omp_get_thread_num()),
+      make_batch(batch, {static_cast<std::size_t>(omp_get_thread_num()),
                          static_cast<std::size_t>(omp_get_num_threads())});
     }
   } else {
     const StepTraps traps;
-    make_steps(batch, {});
+    make_batch(batch, {});
   }
   for (std::size_t i = 0; i < reports.size(); ++i) {
     const std::span parts = std::span<const PartialStep>(parts_).subspan(i * n_parts_, n_parts_);
-    const WholeStep whole = whole_step(model_, steps_[i].frame, parts);
+    const WholeStep whole = whole_step(model_, parts);
     ledger_.add(whole.energy);
-    reports[i] = {++step_, steps_[i].frame, whole.contact, ledger_.last()};
+    reports[i] = {batch.first + static_cast<long long>(i) + 1, steps_[i].frame, whole.contact,
+                  ledger_.last()};
+  }
+  step_ = batch.first + static_cast<long long>(reports.size());
+}
+
+bool BatchIntegrator::hold_within(std::span<const int>) noexcept {
+  return false;
+}
+
+/// Where corners are near, step by step: what they hold is found before a step and solved after it.
+void BatchIntegrator::make_batch(const Batch& batch, Share share) noexcept {
+  if (!corners_ || !corners_->any_near() || within_) return make_steps(batch, share);
+  for (std::size_t i = 0; i < batch.steps.size(); ++i) {
+    const StepContext& step = batch.steps[i];
+    PartialStep* parts = batch.parts + i * n_parts_;
+    const long long before = batch.first + static_cast<long long>(i);
+    if (share.thread == 0) corners_->find(step, *this);
+    wait_for_others(share);
+    make_steps({batch.steps.subspan(i, 1), parts, before}, share);
+    if (share.thread > 0) continue;
+    step_ = before + 1;  // the others do not look at it
+    corners_->solve(step, *this, parts[n_parts_ - 1]);
   }
 }
 
@@ -65,7 +103,7 @@ void BatchIntegrator::advance(std::span<StepReport> reports, State* last) noexce
   if (last) RONDO_DEMAND(last->active.capacity() >= contacts, last->active.capacity(), contacts);
   std::span before = reports.first(reports.size() - (last ? 1 : 0));
   while (!before.empty()) {
-    const std::size_t n = std::min(before.size(), most_steps_in_a_batch);
+    const std::size_t n = std::min(before.size(), steps_.size());
     advance_batch(before.first(n));
     before = before.subspan(n);
   }
@@ -76,6 +114,7 @@ void BatchIntegrator::advance(std::span<StepReport> reports, State* last) noexce
   if (!last->v_next.empty()) save_velocity(last->v_next);
   last->active.clear();
   save_active(last->active);
+  if (corners_) corners_->save_active(last->active);
   sort_by_candidate(last->active);
   last->step = step_;
   last->frame = reports.back().frame;
@@ -89,10 +128,12 @@ void BatchIntegrator::fields(State& state) const noexcept {
 SavedState BatchIntegrator::save() const {
   SavedState saved;
   saved.step = step_;
+  saved.rim = rim_->save();
   saved.u.resize(model_.n_nodes());
   saved.v.resize(model_.n_nodes());
   if (model_.stiffness_damping > 0.0) saved.force.resize(model_.n_nodes());
   save_fields(saved);
+  if (corners_) saved.impulses = corners_->impulses();
   saved.ledger = ledger_.save();
   return saved;
 }
@@ -101,8 +142,14 @@ void BatchIntegrator::restore(const SavedState& saved) {
   RONDO_DEMAND(saved.u.size() == model_.n_nodes() && saved.v.size() == model_.n_nodes(),
                saved.u.size(), saved.v.size());
   step_ = saved.step;
+  rim_->restore(step_, saved.rim);
   restore_fields(saved);
+  if (corners_) corners_->set_impulses(saved.impulses);
   ledger_.restore(saved.ledger);
+}
+
+std::vector<contact::ProblemFile> BatchIntegrator::take_difficult() {
+  return corners_ ? corners_->take_difficult() : std::vector<contact::ProblemFile>{};
 }
 
 int most_threads(const Model& model) noexcept {

@@ -2,21 +2,27 @@
 /// @file  What both operators share: the steps of a call in batches, which the threads make without
 /// coming back in between; the ledger of them.
 #pragma once
+#include <memory>
+#include <optional>
 #include <span>
 #include <vector>
 
 #include "rondo/core/barrier.hpp"
+#include "rondo/integrators/fused/corner_contact.hpp"
 #include "rondo/integrators/fused/step_context.hpp"
-#include "rondo/integrators/integrator.hpp"
+#include "rondo/model/integrator.hpp"
+#include "rondo/model/rim.hpp"
 
 namespace rondo::dynamics {
 
-class BatchIntegrator : public Integrator {
+class BatchIntegrator : public Integrator, public Resumable, protected CandidateFields {
  public:
   void advance(std::span<StepReport> reports, State* last) noexcept final;
   void fields(State& state) const noexcept final;
+  [[nodiscard]] Resumable* resumable() noexcept final { return this; }
   [[nodiscard]] SavedState save() const final;
   void restore(const SavedState& saved) final;
+  [[nodiscard]] std::vector<contact::ProblemFile> take_difficult() final;
 
  protected:
   /// The thread in hand and how many there are: of n pieces of work it does [first(n), last(n)).
@@ -30,7 +36,8 @@ class BatchIntegrator : public Integrator {
   };
   struct Batch {
     std::span<const StepContext> steps;
-    PartialStep* parts;  ///< (steps, n_parts): to be filled
+    PartialStep* parts;  ///< (steps, n_parts_): to be filled, but for those of CornerContact
+    long long first;     ///< number of the last step made before
   };
 
   /// @param n_parts of the body, of which each step has sums
@@ -48,21 +55,33 @@ class BatchIntegrator : public Integrator {
   /// Adds the contacts of the last step made; the two of a node one after the other.
   virtual void save_active(std::vector<ActiveContact>& active) const noexcept = 0;
 
+  /// The candidates, and all that is near corners with them, can be held within make_steps() by the
+  /// one who makes their steps: corners_within() then tells of whom. Else steps are made one by
+  /// one.
+  virtual bool hold_within(std::span<const int> candidates) noexcept;
+  [[nodiscard]] CornerContact* corners_within() noexcept { return within_ ? &*corners_ : nullptr; }
+
   /// In make_steps(): until all threads are here.
   void wait_for_others(Share share) noexcept {
     if (share.n_threads > 1) barrier_.wait(static_cast<unsigned>(share.n_threads));
   }
 
   const Model& model_;
-  const std::size_t n_parts_;
-  long long step_;  ///< number of the last step made; in make_steps(), before the batch
+  const std::size_t n_parts_;  ///< the last one is of CornerContact, if there are sharp corners
+  long long step_;             ///< number of the last step made
 
  private:
   void advance_batch(std::span<StepReport> reports) noexcept;
+  void set_step(std::size_t i) noexcept;
+  void make_batch(const Batch& batch, Share share) noexcept;
 
   const int threads_;
-  std::vector<StepContext> steps_;  ///< of a batch
-  std::vector<PartialStep> parts_;  ///< (steps of a batch, n_parts)
+  const std::unique_ptr<Rim> rim_;
+  std::vector<StepContext> steps_;  ///< of a batch: as many as the rim knows ahead
+  std::vector<double> pressures_;   ///< (steps of a batch, pressures of the model)        [Pa]
+  std::vector<PartialStep> parts_;  ///< (steps of a batch, n_parts_)
+  std::optional<CornerContact> corners_;
+  bool within_ = false;  ///< corners are near, and make_steps() takes care of them
   Barrier barrier_;
   Ledger ledger_;
 };

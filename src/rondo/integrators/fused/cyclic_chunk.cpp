@@ -25,6 +25,9 @@ CyclicChunk::CyclicChunk(const Model& model, const CyclicPlan& plan, const kerne
       table_(table),
       range_(range),
       fields_(plan.chunk_size()),
+      loads_(plan.loads.empty() ? 0
+                                : static_cast<std::size_t>(
+                                      CyclicPlan::lead + plan.stride * 2 * std::ssize(plan.loads))),
       sums_(static_cast<std::size_t>(plan.depth * kernels::n_sums * kernels::lanes) *
             range.n_groups),
       contact_(model.contact ? static_cast<std::size_t>(plan.depth) * range.n_groups : 0) {
@@ -35,6 +38,7 @@ CyclicChunk::CyclicChunk(const Model& model, const CyclicPlan& plan, const kerne
     turn_x_.push_back(model.sector->turn[static_cast<std::size_t>(sector)].re);
     turn_y_.push_back(model.sector->turn[static_cast<std::size_t>(sector)].im);
   }
+  fill_loads();
   if (plan.halo != Halo::ring)
     for (auto& parity : edges_)
       for (LargeArray& edge : parity)
@@ -45,6 +49,33 @@ CyclicChunk::CyclicChunk(const Model& model, const CyclicPlan& plan, const kerne
   low_.resize(most + kernels::lanes);
   touching_.reserve(most * kernels::most_rows);
   active_.reserve(2 * most * plan.candidate.size());
+}
+
+/// The halo's too: it may be advanced along.
+void CyclicChunk::fill_loads() {
+  const int n = plan_.n_sectors, columns = static_cast<int>(plan_.stride) - 2 * halo_columns;
+  double* x = loads_.data() + CyclicPlan::lead;
+  for (const CyclicLoad& load : plan_.loads) {
+    for (int c = -halo_columns; c < columns; ++c) {
+      const Vec2 force = load.force[static_cast<std::size_t>(((range_.first + c) % n + n) % n)];
+      x[c] = force.x;
+      x[c + plan_.stride] = force.y;
+    }
+    x += 2 * plan_.stride;
+  }
+}
+
+/// Force on a node, in the sector's frame.
+Vec2 CyclicChunk::load_on(const Work& work, int row, int column) const noexcept {
+  const kernels::CyclicRow& r = plan_.rows[static_cast<std::size_t>(row)];
+  const auto first = static_cast<std::ptrdiff_t>(plan_.first_load(row / kernels::most_rows));
+  Vec2 load;
+  for (std::ptrdiff_t i = first + r.first_load; i < first + r.first_load + r.n_loads; ++i) {
+    const double* x = loads_.data() + CyclicPlan::lead + 2 * i * plan_.stride + column;
+    load += work.step->pressures[plan_.load_of[static_cast<std::size_t>(i)]] *
+            Vec2{x[0], x[plan_.stride]};
+  }
+  return load;
 }
 
 double* CyclicChunk::field(int row, int field) noexcept {
@@ -174,13 +205,8 @@ void CyclicChunk::give_edges() noexcept {
       }
 }
 
-/// What fills up the last pack behind a wide halo is advanced too: afresh in every pass, for
-/// nothing holds it.
 void CyclicChunk::take_halo(const CyclicChunk& left, const CyclicChunk& right) noexcept {
   const int width = edge_width();
-  const int end = range_.columns + width;
-  const int filling =
-      plan_.halo == Halo::wide ? (kernels::lanes - end % kernels::lanes) % kernels::lanes : 0;
   const double* from_left = left.edges_[passes_ % 2][1].data();
   const double* from_right = right.edges_[passes_ % 2][0].data();
   const std::array<int, 3> fields = edge_fields();
@@ -189,7 +215,7 @@ void CyclicChunk::take_halo(const CyclicChunk& left, const CyclicChunk& right) n
       for (int component = 0; component < 2; ++component) {
         double* x = field(a, fields[i]) + component * plan_.stride;
         std::copy_n(from_left, width, x - width);
-        std::fill_n(std::copy_n(from_right, width, x + range_.columns), filling, 0.0);
+        std::copy_n(from_right, width, x + range_.columns);
         from_left += width;
         from_right += width;
       }
@@ -203,6 +229,53 @@ CyclicChunk::Extent CyclicChunk::extent(std::size_t step, std::size_t n_steps) c
   const int last = (range_.columns + beyond + kernels::lanes - 1) / kernels::lanes;
   return {-1, last, -beyond, range_.columns + beyond};
 }
+
+/// Place in ContactModel::nodes of a node of a contact row.
+std::size_t CyclicChunk::candidate_at(int row, int column) const noexcept {
+  const auto contact_row =
+      static_cast<std::size_t>(plan_.contact_row[static_cast<std::size_t>(row)]);
+  const int sector = (range_.first + column + plan_.n_sectors) % plan_.n_sectors;
+  return static_cast<std::size_t>(plan_.candidate[contact_row][static_cast<std::size_t>(sector)]);
+}
+
+CandidateMotion CyclicChunk::motion_of(CyclicPlace place, int field_u) const noexcept {
+  const int c = place.sector - range_.first;
+  const Complex frame = turn(c);
+  return {frame * at(place.row, field_u, c), frame * at(place.row, field_v, c),
+          plan_.keeps_force ? frame * at(place.row, field_force, c) : Vec2{}};
+}
+
+void CyclicChunk::set_motion(CyclicPlace place, int field_u, Vec2 v, Vec2 u) noexcept {
+  const int c = place.sector - range_.first;
+  put(place.row, field_v, c, conj(turn(c)) * v);
+  put(place.row, field_u, c, conj(turn(c)) * u);
+  if (plan_.halo == Halo::ring) wrap(place.row, field_u);
+}
+
+CandidateMotion CyclicChunk::motion_of(CyclicPlace place) const noexcept {
+  return motion_of(place, field_now());
+}
+
+void CyclicChunk::move(CyclicPlace place, Vec2 v, Vec2 u) noexcept {
+  set_motion(place, field_now(), v, u);
+  if (plan_.halo != Halo::ring) give_edges();
+}
+
+class CyclicChunk::InPass final : public CandidateFields {
+ public:
+  InPass(CyclicChunk& chunk, const Work& work) : chunk_(chunk), work_(work) {}
+
+  [[nodiscard]] CandidateMotion motion_of(std::size_t candidate) const noexcept override {
+    return chunk_.motion_of(chunk_.plan_.place[candidate], work_.now);
+  }
+  void move(std::size_t candidate, Vec2 v, Vec2 u) noexcept override {
+    chunk_.set_motion(chunk_.plan_.place[candidate], work_.next, v, u);
+  }
+
+ private:
+  CyclicChunk& chunk_;
+  const Work& work_;
+};
 
 void CyclicChunk::find_touching(const Work& work, int a) noexcept {
   const kernels::CyclicRow& row = plan_.rows[static_cast<std::size_t>(a)];
@@ -226,6 +299,7 @@ void CyclicChunk::find_touching(const Work& work, int a) noexcept {
     const Vec2 arm = turn(c) * (Vec2{row.x, row.y} + at(a, work.now, c));
     const contact::Touches touches = ground.touches(contact.center + contact.rotation * arm);
     if (touches.count == 0) continue;
+    if (work.step->held && work.step->held[candidate_at(a, c)]) continue;
     touching_.push_back(
         {a, c, touches, at(a, field_v, c), plan_.keeps_force ? at(a, field_force, c) : Vec2{}});
   }
@@ -233,11 +307,7 @@ void CyclicChunk::find_touching(const Work& work, int a) noexcept {
 
 void CyclicChunk::solve_node(const Work& work, const Touching& t) noexcept {
   const kernels::CyclicRow& row = plan_.rows[static_cast<std::size_t>(t.row)];
-  const auto contact_row =
-      static_cast<std::size_t>(plan_.contact_row[static_cast<std::size_t>(t.row)]);
-  const int sector = (range_.first + t.column + plan_.n_sectors) % plan_.n_sectors;
-  const auto k =
-      static_cast<std::size_t>(plan_.candidate[contact_row][static_cast<std::size_t>(sector)]);
+  const std::size_t k = candidate_at(t.row, t.column);
   const Complex frame = turn(t.column);
   const Vec2 u = at(t.row, work.now, t.column);
   const ContactNode node{k,
@@ -259,13 +329,16 @@ void CyclicChunk::solve_node(const Work& work, const Touching& t) noexcept {
   part.contact.add(report);
   const Vec2 change =
       plan_.keeps_force ? frame * (at(t.row, field_force, t.column) - t.force) : Vec2{};
-  correct_sums(*work.step, node, after, change, part.sums);
+  correct_sums(*work.step, node, after, {change, frame * load_on(work, t.row, t.column)},
+               part.sums);
   if (work.last) active_.insert(active_.end(), active.begin(), active.end());
 }
 
 void CyclicChunk::strip(const Work& work, int i) noexcept {
   const int first = i * kernels::most_rows;
   const int n = std::min(kernels::most_rows, plan_.n_local - first);
+  InPass fields(*this, work);
+  if (work.corners && i == plan_.first_contact_strip) work.corners->find(*work.step, fields);
   touching_.clear();
   if (work.step->contact)
     for (int a = first; a < first + n; ++a)
@@ -290,15 +363,22 @@ void CyclicChunk::strip(const Work& work, int i) noexcept {
   s.highest = first + n == plan_.n_local;
   s.step = &work.step->factors;
   s.sums = sums_.data() + work.place * range_.n_groups * kernels::n_sums * kernels::lanes;
+  const std::size_t load = plan_.first_load(i);
+  const bool loaded = load < plan_.first_load(i + 1);
+  s.loads = loaded ? loads_.data() + CyclicPlan::lead + 2 * load * plan_.stride : nullptr;
+  s.load_of = plan_.load_of.data() + load;
+  s.pressures = work.step->pressures;
   const kernels::Terms& terms = work.step->terms;
-  table_.cyclic_strip[terms.stiffness_damping][terms.printed][terms.unsteady](s);
+  table_.cyclic_strip[loaded][terms.stiffness_damping][terms.unsteady](s);
   for (const Touching& t : touching_) solve_node(work, t);
   if (plan_.halo == Halo::ring)
     for (int a = first; a < first + n; ++a) wrap(a, work.next);
+  if (work.corners && i == plan_.last_contact_strip)
+    work.corners->solve(*work.step, fields, *work.held);
 }
 
-void CyclicChunk::pass(std::span<const StepContext> steps, PartialStep* parts,
-                       std::size_t stride) noexcept {
+void CyclicChunk::pass(std::span<const StepContext> steps, PartialStep* parts, std::size_t stride,
+                       CornerContact* corners) noexcept {
   std::fill_n(sums_.data(), sums_.size(), 0.0);
   std::fill(contact_.begin(), contact_.end(), PartialStep{});
   active_.clear();
@@ -311,7 +391,9 @@ void CyclicChunk::pass(std::span<const StepContext> steps, PartialStep* parts,
                i,
                even ? field_u_even : field_u_odd,
                even ? field_u_odd : field_u_even,
-               i + 1 == n};
+               i + 1 == n,
+               corners,
+               parts + (i + 1) * stride - 1};
   }
   std::array<int, most_steps_in_a_pass> done{};  // strips done by each step
   const int n_strips = plan_.n_strips();

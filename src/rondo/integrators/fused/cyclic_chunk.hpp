@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "rondo/core/large_array.hpp"
+#include "rondo/integrators/fused/corner_contact.hpp"
 #include "rondo/integrators/fused/cyclic_plan.hpp"
 #include "rondo/integrators/fused/step_context.hpp"
 #include "rondo/model/saved_state.hpp"
@@ -32,8 +33,14 @@ class CyclicChunk {
   void take_halo(const CyclicChunk& left, const CyclicChunk& right) noexcept;
 
   /// Makes the steps; parts[i * stride + g] gets what group g of the ring gives in step i.
+  /// @param corners which hold nodes of this chunk alone; null: none. They fill the last part.
   /// @pre at most plan.depth steps, the halo taken.
-  void pass(std::span<const StepContext> steps, PartialStep* parts, std::size_t stride) noexcept;
+  void pass(std::span<const StepContext> steps, PartialStep* parts, std::size_t stride,
+            CornerContact* corners) noexcept;
+
+  /// One of this chunk's own nodes, by row and sector, between two passes.
+  [[nodiscard]] CandidateMotion motion_of(CyclicPlace place) const noexcept;
+  void move(CyclicPlace place, Vec2 v, Vec2 u) noexcept;
 
   /// Contacts of the last step of the last pass, this chunk's own.
   [[nodiscard]] std::span<const ActiveContact> active() const noexcept { return active_; }
@@ -66,12 +73,20 @@ class CyclicChunk {
   struct Work {
     const StepContext* step;
     Extent extent;
-    std::size_t place;  ///< of the step in the pass
-    int now, next;      ///< fields of u before and after the step
-    bool last;          ///< of the pass
+    std::size_t place;       ///< of the step in the pass
+    int now, next;           ///< fields of u before and after the step
+    bool last;               ///< of the pass
+    CornerContact* corners;  ///< null: none hold nodes of this chunk
+    PartialStep* held;       ///< their part of the step
   };
+  class InPass;  ///< the candidates during a step of a pass
+  [[nodiscard]] CandidateMotion motion_of(CyclicPlace place, int field_u) const noexcept;
+  void set_motion(CyclicPlace place, int field_u, Vec2 v, Vec2 u) noexcept;
+  void fill_loads();
+  [[nodiscard]] Vec2 load_on(const Work& work, int row, int column) const noexcept;
   [[nodiscard]] Vec2 initial_force(const std::vector<Vec2>& u, int a, int c) const noexcept;
   void strip(const Work& work, int i) noexcept;
+  [[nodiscard]] std::size_t candidate_at(int row, int column) const noexcept;
   void find_touching(const Work& work, int a) noexcept;
   void solve_node(const Work& work, const Touching& t) noexcept;
   /// visit(row, column, node) of this chunk's own nodes.
@@ -92,6 +107,7 @@ class CyclicChunk {
   CyclicChunkRange range_;
   LargeArray fields_;
   std::vector<double> turn_x_, turn_y_;  ///< of the columns, from the halo on the left
+  LargeArray loads_;                     ///< (loads, 2) `stride` apart, as the plan has them  [m]
   LargeArray sums_;                      ///< (depth, groups, n_sums, lanes)
   std::vector<PartialStep> contact_;     ///< (depth, groups): of these the contacts' part
   std::array<std::array<LargeArray, 2>, 2> edges_;  ///< [parity of the pass][left, right]

@@ -31,7 +31,8 @@ void CyclicIntegrator::make_steps(const Batch& batch, Share share) noexcept {
     for (std::size_t c = share.first(n); c < share.last(n); ++c) {
       if (plan_.halo != Halo::ring)
         chunks_[c].take_halo(chunks_[(c + n - 1) % n], chunks_[(c + 1) % n]);
-      chunks_[c].pass(steps, batch.parts + done * n_parts_, n_parts_);
+      chunks_[c].pass(steps, batch.parts + done * n_parts_, n_parts_,
+                      c == holder_ ? corners_within() : nullptr);
       if (plan_.halo != Halo::ring) chunks_[c].give_edges();
     }
     wait_for_others(share);
@@ -52,6 +53,38 @@ void CyclicIntegrator::save_fields(SavedState& saved) const noexcept {
 
 void CyclicIntegrator::restore_fields(const SavedState& saved) noexcept {
   for (CyclicChunk& chunk : chunks_) chunk.restore(saved);
+}
+
+std::size_t CyclicIntegrator::chunk_of(int sector) const noexcept {
+  const auto after =
+      std::upper_bound(plan_.chunks.begin(), plan_.chunks.end(), sector,
+                       [](int s, const CyclicChunkRange& chunk) { return s < chunk.first; });
+  return static_cast<std::size_t>(after - plan_.chunks.begin()) - 1;
+}
+
+/// All in one chunk, and out of what its neighbours advance of it.
+bool CyclicIntegrator::hold_within(std::span<const int> candidates) noexcept {
+  const auto sector = [&](int candidate) {
+    return plan_.place[static_cast<std::size_t>(candidate)].sector;
+  };
+  holder_ = chunk_of(sector(candidates.front()));
+  if (plan_.halo == Halo::ring) return true;
+  const CyclicChunkRange& chunk = plan_.chunks[holder_];
+  const int shared = plan_.halo == Halo::wide ? halo_columns : 0;
+  return std::all_of(candidates.begin(), candidates.end(), [&](int candidate) {
+    const int column = sector(candidate) - chunk.first;
+    return column >= shared && column < chunk.columns - shared;
+  });
+}
+
+CandidateMotion CyclicIntegrator::motion_of(std::size_t candidate) const noexcept {
+  const CyclicPlace place = plan_.place[candidate];
+  return chunks_[chunk_of(place.sector)].motion_of(place);
+}
+
+void CyclicIntegrator::move(std::size_t candidate, Vec2 v, Vec2 u) noexcept {
+  const CyclicPlace place = plan_.place[candidate];
+  chunks_[chunk_of(place.sector)].move(place, v, u);
 }
 
 void CyclicIntegrator::save_active(std::vector<ActiveContact>& active) const noexcept {

@@ -25,9 +25,14 @@ class CyclicIntegrator : public BatchIntegrator {
   void save_fields(SavedState& saved) const noexcept override;
   void restore_fields(const SavedState& saved) noexcept override;
   void save_active(std::vector<ActiveContact>& active) const noexcept override;
+  [[nodiscard]] CandidateMotion motion_of(std::size_t candidate) const noexcept override;
+  void move(std::size_t candidate, Vec2 v, Vec2 u) noexcept override;
+  bool hold_within(std::span<const int> candidates) noexcept override;
+  [[nodiscard]] std::size_t chunk_of(int sector) const noexcept;
 
   CyclicPlan plan_;
   std::vector<CyclicChunk> chunks_;
+  std::size_t holder_ = 0;  ///< the chunk that has all candidates near corners
 };
 
 }  // namespace rondo::dynamics

@@ -4,9 +4,11 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <map>
 #include <utility>
 
 #include "rondo/core/contract.hpp"
+#include "rondo/model/pressure.hpp"
 
 namespace rondo::dynamics {
 namespace {
@@ -129,11 +131,41 @@ void add_order(const SectorStiffness& k, CyclicPlan& plan) {
     }
 }
 
+/// (nodes_per_sector) row of each node of a sector; n_local where it is held.
+std::vector<std::size_t> rows_of(const SectorStiffness& k) {
+  std::vector<std::size_t> row_of(static_cast<std::size_t>(k.nodes_per_sector), k.n_local());
+  for (std::size_t a = 0; a < k.n_local(); ++a) row_of[static_cast<std::size_t>(k.nodes[a])] = a;
+  return row_of;
+}
+
+/// The rows tell which of their strip's loads are theirs.
+void add_loads(const Model& model, const SectorStiffness& k, CyclicPlan& plan) {
+  const std::vector<std::size_t> row_of = rows_of(k);
+  std::map<std::pair<std::size_t, int>, CyclicLoad> loads;  // by row and load
+  for (const NodalLoad& l : nodal_loads(model)) {
+    const std::size_t a = row_of[static_cast<std::size_t>(l.node % k.nodes_per_sector)];
+    if (a == k.n_local()) continue;
+    CyclicLoad& on_row = loads[{a, l.load}];
+    on_row.row = static_cast<int>(a);
+    on_row.load = l.load;
+    on_row.force.resize(static_cast<std::size_t>(k.n_sectors));
+    const auto sector = static_cast<std::size_t>(l.node / k.nodes_per_sector);
+    on_row.force[sector] = conj(k.turn[sector]) * l.force;
+  }
+  for (auto& [key, load] : loads) {
+    kernels::CyclicRow& row = plan.rows[key.first];
+    const auto strip = static_cast<int>(key.first) / kernels::most_rows;
+    if (row.n_loads++ == 0)
+      row.first_load = static_cast<int>(plan.loads.size() - plan.first_load(strip));
+    plan.load_of.push_back(load.load);
+    plan.loads.push_back(std::move(load));
+  }
+}
+
 void add_contact(const Model& model, const SectorStiffness& k, CyclicPlan& plan) {
   plan.contact_row.assign(k.n_local(), -1);
   if (!model.contact) return;
-  std::vector<std::size_t> row_of(static_cast<std::size_t>(k.nodes_per_sector), k.n_local());
-  for (std::size_t a = 0; a < k.n_local(); ++a) row_of[static_cast<std::size_t>(k.nodes[a])] = a;
+  const std::vector<std::size_t> row_of = rows_of(k);
   for (std::size_t i = 0; i < model.contact->nodes.size(); ++i) {
     const int node = model.contact->nodes[i];
     const std::size_t a = row_of[static_cast<std::size_t>(node % k.nodes_per_sector)];
@@ -143,9 +175,20 @@ void add_contact(const Model& model, const SectorStiffness& k, CyclicPlan& plan)
       row = static_cast<int>(plan.candidate.size());
       plan.candidate.emplace_back(static_cast<std::size_t>(k.n_sectors), -1);
     }
-    plan.candidate[static_cast<std::size_t>(row)]
-                  [static_cast<std::size_t>(node / k.nodes_per_sector)] = static_cast<int>(i);
+    const int sector = node / k.nodes_per_sector;
+    plan.candidate[static_cast<std::size_t>(row)][static_cast<std::size_t>(sector)] =
+        static_cast<int>(i);
+    plan.place.push_back({static_cast<int>(a), sector});
   }
+  for (int a = 0; a < plan.n_local; ++a) {
+    if (plan.contact_row[static_cast<std::size_t>(a)] < 0) continue;
+    const int strip = a / kernels::most_rows;
+    if (plan.last_contact_strip < 0) plan.first_contact_strip = strip;
+    plan.last_contact_strip = strip;
+  }
+  if (has_sharp_corners(model))  // these are held after the last one: before, none is read again
+    for (int& needed : plan.needs)
+      if (needed >= plan.first_contact_strip) needed = plan.last_contact_strip;
   for (const std::vector<int>& ring : plan.candidate)  // the same nodes in every sector
     RONDO_DEMAND(std::find(ring.begin(), ring.end(), -1) == ring.end(), ring.size());
 }
@@ -168,6 +211,13 @@ std::size_t n_cyclic_groups(int n_sectors) noexcept {
   return static_cast<std::size_t>((n_sectors + group_columns - 1) / group_columns);
 }
 
+std::size_t CyclicPlan::first_load(int strip) const noexcept {
+  const auto first =
+      std::lower_bound(loads.begin(), loads.end(), strip * kernels::most_rows,
+                       [](const CyclicLoad& load, int row) { return load.row < row; });
+  return static_cast<std::size_t>(first - loads.begin());
+}
+
 CyclicPlan make_cyclic_plan(const Model& model, const CyclicTuning& tuning) {
   RONDO_DEMAND(model.sector.has_value());
   const SectorStiffness& k = *model.sector;
@@ -181,6 +231,7 @@ CyclicPlan make_cyclic_plan(const Model& model, const CyclicTuning& tuning) {
   add_mirror(k, plan);
   add_order(k, plan);
   add_contact(model, k, plan);
+  add_loads(model, k, plan);
   return plan;
 }
 

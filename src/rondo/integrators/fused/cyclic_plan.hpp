@@ -31,6 +31,18 @@ struct CyclicChunkRange {
   std::size_t n_groups = 0;
 };
 
+/// What a load does on a row.
+struct CyclicLoad {
+  int row = 0;
+  int load = 0;             ///< place in Model::pressures
+  std::vector<Vec2> force;  ///< (N) per pressure, in the sectors' frames             [m]
+};
+
+/// Where a candidate is.
+struct CyclicPlace {
+  int row = 0, sector = 0;
+};
+
 struct CyclicPlan {
   int n_local = 0, n_sectors = 0;
   bool keeps_force = false;              ///< K u_n is a field: β > 0
@@ -41,6 +53,10 @@ struct CyclicPlan {
   std::vector<int> needs;        ///< strip that the step before must have done before strip i
   std::vector<int> contact_row;  ///< (n_local) place in `candidate`; -1: no contact candidates
   std::vector<std::vector<int>> candidate;  ///< (contact rows, N) place in ContactModel::nodes
+  std::vector<CyclicPlace> place;           ///< (nb) the reverse
+  int first_contact_strip = 0, last_contact_strip = -1;
+  std::vector<CyclicLoad> loads;  ///< by rows; those of a strip are one after the other
+  std::vector<int> load_of;       ///< (loads) CyclicLoad::load
   Halo halo = Halo::ring;
   int depth = 1;  ///< steps in a pass
   std::vector<CyclicChunkRange> chunks;
@@ -55,6 +71,8 @@ struct CyclicPlan {
   [[nodiscard]] int n_strips() const noexcept {
     return (n_local + kernels::most_rows - 1) / kernels::most_rows;
   }
+  /// A strip's first load; of the one past the last, loads.size().
+  [[nodiscard]] std::size_t first_load(int strip) const noexcept;
   /// Doubles before sector 0 of a chunk's first field.
   static constexpr std::ptrdiff_t lead = 2 * halo_columns;
 };

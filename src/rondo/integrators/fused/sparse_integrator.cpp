@@ -100,6 +100,21 @@ void SparseIntegrator::save_active(std::vector<ActiveContact>& active) const noe
     active.insert(active.end(), contacts.active.begin(), contacts.active.end());
 }
 
+CandidateMotion SparseIntegrator::motion_of(std::size_t candidate) const noexcept {
+  const int row = plan_.row[candidate];
+  const double* motion = motion_.data() + motion_at(static_cast<std::size_t>(row));
+  return {pair_at(u_[parity(step_)].data(), row), vector_at(motion),
+          plan_.keeps_force ? vector_at(motion + force_at) : Vec2{}};
+}
+
+void SparseIntegrator::move(std::size_t candidate, Vec2 v, Vec2 u) noexcept {
+  const auto row = static_cast<std::size_t>(plan_.row[candidate]);
+  put(motion_.data() + motion_at(row), v);
+  double* now = u_[parity(step_)].data();
+  now[2 * row] = u.x;
+  now[2 * row + 1] = u.y;
+}
+
 void SparseIntegrator::find_touching(const Work& work, std::size_t block) const noexcept {
   work.contacts->touching.clear();
   const ContactStep& contact = *work.step->contact;
@@ -121,6 +136,7 @@ void SparseIntegrator::look_at(const Work& work, const SparseCandidate& c) const
   const contact::Touches touches =
       model_.contact->ground.touches(contact.center + contact.rotation * (c.reference + u));
   if (touches.count == 0) return;
+  if (work.step->held && work.step->held[c.candidate]) return;
   const double* motion = motion_.data() + motion_at(static_cast<std::size_t>(c.row));
   work.contacts->touching.push_back({c, touches, u, vector_at(motion),
                                      plan_.keeps_force ? vector_at(motion + force_at) : Vec2{}});
@@ -144,9 +160,22 @@ void SparseIntegrator::solve_node(const Work& work, const Touching& t, PartialSt
   work.next[2 * c.row] = u.x;
   work.next[2 * c.row + 1] = u.y;
   const Vec2 change = plan_.keeps_force ? vector_at(motion + force_at) - t.force : Vec2{};
-  correct_sums(*work.step, node, after, change, part.sums);
+  correct_sums(*work.step, node, after, {change, load_on(work, c.row)}, part.sums);
   std::vector<ActiveContact>& all = work.contacts->active;
   if (work.last) all.insert(all.end(), active.begin(), active.end());
+}
+
+/// Force on a row.
+Vec2 SparseIntegrator::load_on(const Work& work, int row) const noexcept {
+  Vec2 load;
+  if (plan_.first_load.empty()) return load;
+  const auto i = static_cast<std::size_t>(row);
+  for (int l = plan_.first_load[i / lanes]; l < plan_.first_load[i / lanes + 1]; ++l) {
+    const auto at = static_cast<std::size_t>(l);
+    load += work.step->pressures[plan_.load_of[at]] *
+            vector_at(plan_.loads.data() + at * 2 * lanes + i % lanes);
+  }
+  return load;
 }
 
 void SparseIntegrator::update_rows(const Work& work, std::size_t block,
@@ -164,8 +193,13 @@ void SparseIntegrator::update_rows(const Work& work, std::size_t block,
   rows.last_pack = static_cast<std::ptrdiff_t>(plan_.first_pack(block + 1));
   rows.step = &work.step->factors;
   rows.sums = sums.data();
+  const bool loaded = !plan_.first_load.empty();
+  rows.first_load = plan_.first_load.data();
+  rows.loads = plan_.loads.data();
+  rows.load_of = plan_.load_of.data();
+  rows.pressures = work.step->pressures;
   const kernels::Terms& terms = work.step->terms;
-  table_.sparse_rows[terms.stiffness_damping][terms.printed][terms.unsteady](rows);
+  table_.sparse_rows[loaded][terms.stiffness_damping][terms.unsteady](rows);
   for (std::size_t k = 0; k < part.sums.size(); ++k) part.sums[k] = sum_of(sums.data() + k * lanes);
 }
 
@@ -196,9 +230,13 @@ void SparseIntegrator::make_steps(const Batch& batch, Share share) noexcept {
   for (std::size_t k = share.thread; k < contacts_.size(); k += share.n_threads)
     contacts_[k].active.clear();
   for (std::size_t i = 0; i < batch.steps.size(); ++i) {
-    const long long step = step_ + static_cast<long long>(i);
-    const Work work{&batch.steps[i],     u_[parity(step)].data(),  u_[parity(step + 1)].data(),
-                    batch.parts + i * n, &contacts_[share.thread], i + 1 == batch.steps.size()};
+    const long long step = batch.first + static_cast<long long>(i);
+    const Work work{&batch.steps[i],
+                    u_[parity(step)].data(),
+                    u_[parity(step + 1)].data(),
+                    batch.parts + i * n_parts_,
+                    &contacts_[share.thread],
+                    i + 1 == batch.steps.size()};
     for (std::size_t block = share.first(n); block < share.last(n); ++block)
       make_block(work, block);
     wait_for_others(share);

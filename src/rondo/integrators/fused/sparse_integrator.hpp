@@ -48,6 +48,8 @@ class SparseIntegrator : public BatchIntegrator {
   void save_fields(SavedState& saved) const noexcept override;
   void restore_fields(const SavedState& saved) noexcept override;
   void save_active(std::vector<ActiveContact>& active) const noexcept override;
+  [[nodiscard]] CandidateMotion motion_of(std::size_t candidate) const noexcept override;
+  void move(std::size_t candidate, Vec2 v, Vec2 u) noexcept override;
   /// Where in motion_ a row's v_x is.
   [[nodiscard]] std::size_t motion_at(std::size_t row) const noexcept;
   /// Which u is u_{n+1}.
@@ -60,6 +62,7 @@ class SparseIntegrator : public BatchIntegrator {
   void find_touching(const Work& work, std::size_t block) const noexcept;
   void look_at(const Work& work, const SparseCandidate& c) const noexcept;
   void solve_node(const Work& work, const Touching& t, PartialStep& part) noexcept;
+  [[nodiscard]] Vec2 load_on(const Work& work, int row) const noexcept;
   void rest_padding(double* next) noexcept;
 
   const kernels::Table& table_;

@@ -3,10 +3,14 @@
 
 #include <algorithm>
 #include <array>
+#include <map>
+#include <numeric>
 #include <span>
+#include <utility>
 
 #include "rondo/core/contract.hpp"
 #include "rondo/integrators/fused/numbering.hpp"
+#include "rondo/model/pressure.hpp"
 
 namespace rondo::dynamics {
 namespace {
@@ -96,6 +100,7 @@ void add_contact(const Model& model, const std::vector<int>& row, SparsePlan& pl
     const auto node = static_cast<std::size_t>(nodes[i]);
     RONDO_DEMAND(row[node] >= 0, nodes[i]);
     plan.candidates.push_back({model.reference[node], row[node], static_cast<int>(i)});
+    plan.row.push_back(row[node]);
   }
   std::sort(plan.candidates.begin(), plan.candidates.end(),
             [](const auto& a, const auto& b) { return a.row < b.row; });
@@ -107,6 +112,31 @@ void add_contact(const Model& model, const std::vector<int>& row, SparsePlan& pl
       ++c;
     plan.first_candidate[b] = c;
   }
+}
+
+/// What each load does on each pack that it acts on.
+void add_loads(const Model& model, const std::vector<int>& row, SparsePlan& plan) {
+  std::map<std::pair<std::size_t, int>, std::array<Vec2, lanes>> loads;  // by pack and load
+  for (const NodalLoad& l : nodal_loads(model)) {
+    const int at = row[static_cast<std::size_t>(l.node)];
+    if (at < 0) continue;
+    const auto i = static_cast<std::size_t>(at);
+    loads[{i / lanes, l.load}][i % lanes] = l.force;
+  }
+  if (loads.empty()) return;
+  plan.loads = LargeArray(loads.size() * 2 * lanes);
+  plan.first_load.assign(plan.n_packs + 1, 0);
+  double* to = plan.loads.data();
+  for (const auto& [key, forces] : loads) {
+    plan.load_of.push_back(key.second);
+    ++plan.first_load[key.first + 1];
+    for (std::size_t lane = 0; lane < lanes; ++lane) {
+      to[lane] = forces[lane].x;
+      to[lane + lanes] = forces[lane].y;
+    }
+    to += 2 * lanes;
+  }
+  std::partial_sum(plan.first_load.begin(), plan.first_load.end(), plan.first_load.begin());
 }
 
 }  // namespace
@@ -132,6 +162,7 @@ SparsePlan make_sparse_plan(const Model& model) {
   add_matrix(k, row, plan);
   add_constants(model, plan);
   add_contact(model, row, plan);
+  add_loads(model, row, plan);
   return plan;
 }
 

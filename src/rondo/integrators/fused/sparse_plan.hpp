@@ -30,7 +30,11 @@ struct SparsePlan {
   LargeArray blocks;
   LargeArrayOf<std::int32_t> column;
   LargeArray constants;
+  // Of loads on nodes; empty: there are none.
+  std::vector<int> first_load, load_of;
+  LargeArray loads;
   std::vector<SparseCandidate> candidates;   ///< ascending rows
+  std::vector<int> row;                      ///< (nb) of each candidate of the model
   std::vector<std::size_t> first_candidate;  ///< (n_blocks + 1) of each block; empty: no contact
 
   /// The first pack of a block; of the one past the last, n_packs.

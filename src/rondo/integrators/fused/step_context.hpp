@@ -10,15 +10,19 @@
 
 namespace rondo::dynamics {
 
-/// Frame, factors and contact of the step at t_n.
+/// Frame, factors and contact of a step.
 struct StepContext {
   FrameStep frame;
   kernels::StepFactors factors{};
   kernels::Terms terms;
   std::optional<ContactStep> contact;
+  const double* pressures = nullptr;  ///< of Model::pressures at t_n                     [Pa]
+  /// (nb) candidates whose contacts are solved by CornerContact; null: none.
+  const char* held = nullptr;
 };
 
-StepContext step_context(const Model& model, long long n) noexcept;
+/// @param frame of the step, by the rim
+StepContext step_context(const Model& model, const FrameStep& frame) noexcept;
 
 /// What a part of the body gives in one step: raw sums (kernels::Sum), and its contacts.
 struct PartialStep {
@@ -26,18 +30,22 @@ struct PartialStep {
   ContactReport contact;
 };
 
+/// Forces on a node, in the frame of its vectors [N/m].
+struct NodeForces {
+  Vec2 change;  ///< K u_{n+1} - K u_n, with β only
+  Vec2 load;
+};
+
 /// Adds to the sums, which were made with the velocity free of contact, what the impulse changed.
 /// @param node  arm, velocities before and without impulse; `after`: v⁺.
-/// @param force_change K u_{n+1} - K u_n of the node (with β only)                   [N/m]
-void correct_sums(const StepContext& step, const ContactNode& node, Vec2 after, Vec2 force_change,
-                  std::array<double, kernels::n_sums>& sums) noexcept;
+void correct_sums(const StepContext& step, const ContactNode& node, Vec2 after,
+                  const NodeForces& forces, std::array<double, kernels::n_sums>& sums) noexcept;
 
 /// The whole from its parts, in their order: compensated sums, as energies (5.1) and works (5.3).
 struct WholeStep {
   StepEnergy energy;
   ContactReport contact;
 };
-WholeStep whole_step(const Model& model, const FrameStep& frame,
-                     std::span<const PartialStep> parts) noexcept;
+WholeStep whole_step(const Model& model, std::span<const PartialStep> parts) noexcept;
 
 }  // namespace rondo::dynamics

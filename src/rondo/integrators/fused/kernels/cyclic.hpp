@@ -132,7 +132,7 @@ inline void add_first_lanes(int n, const Sums& part, Sums& sums) noexcept {
   sums.frame = sums.frame + first_lanes(n, part.frame, zero);
   sums.mass = sums.mass + first_lanes(n, part.mass, zero);
   sums.stiffness = sums.stiffness + first_lanes(n, part.stiffness, zero);
-  sums.scheme = sums.scheme + first_lanes(n, part.scheme, zero);
+  sums.load = sums.load + first_lanes(n, part.load, zero);
 }
 
 inline Vectors first_of(int n, Vectors a, Vectors b) noexcept {
@@ -144,10 +144,22 @@ struct RowInHand {
   std::ptrdiff_t at;  ///< as in CyclicRow
   Vectors frame;  ///< Δt(ṡJ - s²)X; Δt Rᵀ(c̈ - g), in each sector another, is added to it
   Pack dt_over_mass;
+  int first_load, n_loads;
 };
 
+/// What the loads of a row do on one pack.
+inline Vectors load_on(const CyclicStrip& s, const RowInHand& row, std::ptrdiff_t column) noexcept {
+  Vectors load = {all(0.0), all(0.0)};
+  for (int i = row.first_load; i < row.first_load + row.n_loads; ++i) {
+    const Vectors force = load_vectors(s.loads + 2 * i * s.stride + column, s.stride);
+    const Pack pressure = all(s.pressures[s.load_of[i]]);
+    load = {fma(pressure, force.x, load.x), fma(pressure, force.y, load.y)};
+  }
+  return load;
+}
+
 /// Update and sums of one pack of a row. Tail: the last own pack, of which only `columns` count.
-template <bool Tail, bool Beta, bool Printed, bool Unsteady>
+template <bool Tail, bool Loaded, bool Beta, bool Unsteady>
 inline void update_pack(const CyclicStrip& s, const Factors& f, const RowInHand& row,
                         std::ptrdiff_t column, Vectors force, Sums& sums) noexcept {
   const std::ptrdiff_t at = row.at + column;
@@ -166,15 +178,16 @@ inline void update_pack(const CyclicStrip& s, const Factors& f, const RowInHand&
     const Pack px = all(s.step->pull_x), py = all(s.step->pull_y);
     n.frame = {n.frame.x + fma(py, sine, px * cosine), n.frame.y + fnma(px, sine, py * cosine)};
   }
+  if constexpr (Loaded) n.load = load_on(s, row, column);
   if constexpr (!Tail) {
-    const Vectors after = update<Beta, Printed, Unsteady>(f, n, sums);
+    const Vectors after = update<Loaded, Beta, Unsteady>(f, n, sums);
     store_vectors(v, s.stride, after);
     store_vectors(u_next, s.stride, {fma(f.dt, after.x, n.u.x), fma(f.dt, after.y, n.u.y)});
     if constexpr (Beta) store_vectors(p, s.stride, n.force);
   } else {
     const int own = s.columns - static_cast<int>(column);
     Sums part = no_sums();
-    Vectors after = update<Beta, Printed, Unsteady>(f, n, part);
+    Vectors after = update<Loaded, Beta, Unsteady>(f, n, part);
     add_first_lanes(own, part, sums);
     if (s.keep_tail) {
       after = first_of(own, after, n.v);
@@ -186,6 +199,7 @@ inline void update_pack(const CyclicStrip& s, const Factors& f, const RowInHand&
   }
 }
 
+template <bool Loaded>
 inline void add_sums(double* to, double mass, const Sums& s) noexcept {
   using namespace rondo::dynamics::kernels;
   const Pack m = all(mass);
@@ -198,11 +212,11 @@ inline void add_sums(double* to, double mass, const Sums& s) noexcept {
   add_mass(sum_frame, s.frame);
   add_mass(sum_mass, s.mass);
   add(sum_stiffness, s.stiffness);
-  add_mass(sum_scheme, s.scheme);
+  if constexpr (Loaded) add(sum_load, s.load);
 }
 
 /// All rows of the strip on packs [first, last), at most a group. `sums` null: the halo.
-template <bool Beta, bool Printed, bool Unsteady>
+template <bool Loaded, bool Beta, bool Unsteady>
 inline void group(const CyclicStrip& s, const Factors& f, int first, int last,
                   double* sums) noexcept {
   Forces force;
@@ -213,30 +227,32 @@ inline void group(const CyclicStrip& s, const Factors& f, int first, int last,
     const RowInHand in_hand = {
         row.at,
         {all(rate_x * row.x - rate_y * row.y), all(rate_x * row.y + rate_y * row.x)},
-        all(row.dt_over_mass)};
+        all(row.dt_over_mass),
+        row.first_load,
+        row.n_loads};
     Sums own = no_sums();
     for (int pack = first; pack < last; ++pack) {
       const std::ptrdiff_t column = static_cast<std::ptrdiff_t>(pack) * lanes;
       const Vectors g = force[r][pack - first];
       if (sums && (pack + 1) * lanes > s.columns)
-        update_pack<true, Beta, Printed, Unsteady>(s, f, in_hand, column, g, own);
+        update_pack<true, Loaded, Beta, Unsteady>(s, f, in_hand, column, g, own);
       else
-        update_pack<false, Beta, Printed, Unsteady>(s, f, in_hand, column, g, own);
+        update_pack<false, Loaded, Beta, Unsteady>(s, f, in_hand, column, g, own);
     }
-    if (sums) add_sums(sums, row.mass, own);
+    if (sums) add_sums<Loaded>(sums, row.mass, own);
   }
 }
 
-template <bool Beta, bool Printed, bool Unsteady>
+template <bool Loaded, bool Beta, bool Unsteady>
 void cyclic_strip(const CyclicStrip& s) noexcept {
   const Factors f(*s.step);
   const int own = (s.columns + lanes - 1) / lanes;
-  if (s.first_pack < 0) group<Beta, Printed, Unsteady>(s, f, -1, 0, nullptr);
+  if (s.first_pack < 0) group<Loaded, Beta, Unsteady>(s, f, -1, 0, nullptr);
   double* sums = s.sums;
   for (int pack = 0; pack < own; pack += group_packs, sums += n_sums * lanes)
-    group<Beta, Printed, Unsteady>(s, f, pack, pack + group_packs < own ? pack + group_packs : own,
-                                   sums);
-  if (own < s.last_pack) group<Beta, Printed, Unsteady>(s, f, own, s.last_pack, nullptr);
+    group<Loaded, Beta, Unsteady>(
+        s, f, pack, pack + group_packs < own ? pack + group_packs : own, sums);
+  if (own < s.last_pack) group<Loaded, Beta, Unsteady>(s, f, own, s.last_pack, nullptr);
 }
 
 int low_columns(const CyclicHeight& h, int* columns) noexcept {

@@ -20,9 +20,9 @@ enum Sum {
   sum_kinetic,    ///< m |v⁻|²
   sum_strain,     ///< u_{n+1}·K u_n
   sum_frame,      ///< m v̂·Δt[(ṡJ - s²)(X + u) + Rᵀ(c̈ - g)]
-  sum_mass,       ///< m |v̂|²;  as printed m v̂·v⁻
+  sum_mass,       ///< m |v̂|²
   sum_stiffness,  ///< v̂·(K u_{n+1} - K u_n)
-  sum_scheme,     ///< as printed only: m v̂·J v⁻
+  sum_load,       ///< v̂·f of the loads
   n_sums
 };
 
@@ -32,14 +32,13 @@ struct StepFactors {
   double rate_x, rate_y;        ///< Δt (ṡJ - s²)                                     [1/s]
   double pull_x, pull_y;        ///< Δt Rᵀ(c̈ - g)                                     [m/s]
   double inverse_x, inverse_y;  ///< 1/a
-  double drag_x, drag_y;        ///< of the velocity update (3.5), (3.6)
+  double drag_x, drag_y;        ///< of the velocity update (3.5)
   double beta_over_dt;          ///< β/Δt [-]
 };
 
 /// Which terms a step has.
 struct Terms {
   bool stiffness_damping = false;  ///< β > 0: K u_n is kept
-  bool printed = false;            ///< the scheme as printed
   bool unsteady = false;           ///< the spin changes, or some pull is not zero
 };
 
@@ -69,6 +68,8 @@ struct CyclicRow {
   double mass;          ///< m                                                        [kg/m]
   double dt_over_mass;  ///< Δt/m
   double x, y;          ///< X in the sector's frame                                    [m]
+  int first_load = 0;   ///< its loads among the strip's
+  int n_loads = 0;
 };
 
 /// Some rows, one above the other, over the sectors of a chunk: product, velocity update and sums
@@ -93,6 +94,11 @@ struct CyclicStrip {
   bool lowest, highest;  ///< no free row below the first, none above the last
   const StepFactors* step;
   double* sums;  ///< (groups, n_sums, lanes): added to
+  // Loads on nodes, unused by kernels without: f = Σ pressure · force, in the sector's frame.
+  const double* loads;      ///< force per pressure of the first, sector 0; components and loads are
+                            ///< `stride` apart                                           [m]
+  const int* load_of;       ///< (loads) whose pressure it is of
+  const double* pressures;  ///< [Pa]
 };
 
 /// Sectors of a row that may touch: y of the node <= limit.
@@ -122,16 +128,21 @@ struct SparseRows {
   std::ptrdiff_t first_pack, last_pack;
   const StepFactors* step;
   double* sums;  ///< (n_sums, lanes) of these packs: set
+  // Loads on nodes, unused by kernels without: f = Σ pressure · force.
+  const int* first_load;    ///< (packs + 1) of a pack
+  const double* loads;      ///< (loads, 2, lanes) force per pressure                     [m]
+  const int* load_of;       ///< (loads) whose pressure it is of
+  const double* pressures;  ///< [Pa]
 };
 
 /// The loops of one instruction set.
 struct Table {
   const char* name;
-  /// [stiffness_damping][printed][unsteady]
+  /// [loaded][stiffness_damping][unsteady]
   void (*cyclic_strip[2][2][2])(const CyclicStrip&) noexcept;
   /// Columns that are low enough, ascending; returns how many.
   int (*low_columns)(const CyclicHeight&, int* columns) noexcept;
-  /// [stiffness_damping][printed][unsteady]
+  /// [loaded][stiffness_damping][unsteady]
   void (*sparse_rows[2][2][2])(const SparseRows&) noexcept;
 };
 

@@ -17,7 +17,18 @@ inline Vectors sparse_product(const SparseRows& s, std::ptrdiff_t pack) noexcept
   return product;
 }
 
-template <bool Beta, bool Unsteady>
+/// What the loads of a pack do.
+inline Vectors load_on(const SparseRows& s, std::ptrdiff_t pack) noexcept {
+  Vectors load = {all(0.0), all(0.0)};
+  for (int i = s.first_load[pack]; i < s.first_load[pack + 1]; ++i) {
+    const Vectors force = load_vectors(s.loads + 2 * i * lanes, lanes);
+    const Pack pressure = all(s.pressures[s.load_of[i]]);
+    load = {fma(pressure, force.x, load.x), fma(pressure, force.y, load.y)};
+  }
+  return load;
+}
+
+template <bool Loaded, bool Beta, bool Unsteady>
 inline Nodes sparse_nodes(const SparseRows& s, const Factors& f, std::ptrdiff_t pack,
                           const double* motion) noexcept {
   const double* constants = s.constants + pack * 4 * lanes;
@@ -33,6 +44,7 @@ inline Nodes sparse_nodes(const SparseRows& s, const Factors& f, std::ptrdiff_t 
     n.frame = {n.frame.x + all(s.step->pull_x), n.frame.y + all(s.step->pull_y)};
   }
   n.dt_over_mass = load(constants + 3 * lanes);
+  if constexpr (Loaded) n.load = load_on(s, pack);
   return n;
 }
 
@@ -43,7 +55,7 @@ inline void add_sums(Pack mass, const Sums& pack, Sums& sums) noexcept {
   sums.frame = fma(mass, pack.frame, sums.frame);
   sums.mass = fma(mass, pack.mass, sums.mass);
   sums.stiffness = sums.stiffness + pack.stiffness;
-  sums.scheme = fma(mass, pack.scheme, sums.scheme);
+  sums.load = sums.load + pack.load;
 }
 
 inline void store_sums(const Sums& sums, double* to) noexcept {
@@ -53,18 +65,18 @@ inline void store_sums(const Sums& sums, double* to) noexcept {
   store(to + sum_frame * lanes, sums.frame);
   store(to + sum_mass * lanes, sums.mass);
   store(to + sum_stiffness * lanes, sums.stiffness);
-  store(to + sum_scheme * lanes, sums.scheme);
+  store(to + sum_load * lanes, sums.load);
 }
 
-template <bool Beta, bool Printed, bool Unsteady>
+template <bool Loaded, bool Beta, bool Unsteady>
 void sparse_rows(const SparseRows& s) noexcept {
   const Factors f(*s.step);
   Sums sums = no_sums();
   for (std::ptrdiff_t pack = s.first_pack; pack < s.last_pack; ++pack) {
     double* motion = s.motion + pack * (Beta ? 4 : 2) * lanes;
-    const Nodes n = sparse_nodes<Beta, Unsteady>(s, f, pack, motion);
+    const Nodes n = sparse_nodes<Loaded, Beta, Unsteady>(s, f, pack, motion);
     Sums own = no_sums();
-    const Vectors after = update<Beta, Printed, Unsteady>(f, n, own);
+    const Vectors after = update<Loaded, Beta, Unsteady>(f, n, own);
     add_sums(load(s.constants + (pack * 4 + 2) * lanes), own, sums);
     store_vectors(motion, lanes, after);
     if constexpr (Beta) store_vectors(motion + 2 * lanes, lanes, n.force);

@@ -27,7 +27,7 @@ inline Pack add_dot(Vectors a, Vectors b, Pack c) noexcept {
 
 /// Sums of the row in hand; those with the mass are multiplied by it when the row is done.
 struct Sums {
-  Pack kinetic, strain, frame, mass, stiffness, scheme;
+  Pack kinetic, strain, frame, mass, stiffness, load;
 };
 
 inline Sums no_sums() noexcept {
@@ -48,14 +48,14 @@ struct Factors {
 };
 
 /// What the update of a pack reads. `before` is K u_n, with β only; `frame` what the acceleration
-/// of the frame is without u: Δt[(ṡJ - s²)X + Rᵀ(c̈ - g)].
+/// of the frame is without u: Δt[(ṡJ - s²)X + Rᵀ(c̈ - g)]; `load` a force, of loaded nodes only.
 struct Nodes {
-  Vectors u, v, force, before, frame;
+  Vectors u, v, force, before, frame, load;
   Pack dt_over_mass;
 };
 
 /// v⁺ of (3.4) and its part of the sums.
-template <bool Beta, bool Printed, bool Unsteady>
+template <bool Loaded, bool Beta, bool Unsteady>
 inline Vectors update(const Factors& f, const Nodes& n, Sums& sums) noexcept {
   Vectors frame = {fma(f.rate.x, n.u.x, n.frame.x), fma(f.rate.x, n.u.y, n.frame.y)};
   if constexpr (Unsteady) frame = {fnma(f.rate.y, n.u.y, frame.x), fma(f.rate.y, n.u.x, frame.y)};
@@ -63,6 +63,7 @@ inline Vectors update(const Factors& f, const Nodes& n, Sums& sums) noexcept {
   const Vectors change = {n.force.x - n.before.x, n.force.y - n.before.y};
   if constexpr (Beta)
     elastic = {fma(f.beta_over_dt, change.x, elastic.x), fma(f.beta_over_dt, change.y, elastic.y)};
+  if constexpr (Loaded) elastic = {elastic.x - n.load.x, elastic.y - n.load.y};
   // -[Δt f/m - drag v⁻]
   Vectors t = {fma(n.dt_over_mass, elastic.x, frame.x), fma(n.dt_over_mass, elastic.y, frame.y)};
   t = {fma(f.drag.x, n.v.x, t.x), fma(f.drag.x, n.v.y, t.y)};
@@ -73,7 +74,7 @@ inline Vectors update(const Factors& f, const Nodes& n, Sums& sums) noexcept {
   const Vectors twice_mean = {n.v.x + after.x, n.v.y + after.y};
   sums.kinetic = add_dot(n.v, n.v, sums.kinetic);
   sums.frame = add_dot(twice_mean, frame, sums.frame);
-  sums.mass = add_dot(twice_mean, Printed ? n.v : twice_mean, sums.mass);
+  sums.mass = add_dot(twice_mean, twice_mean, sums.mass);
   if constexpr (Beta) {
     sums.strain = add_dot(n.u, n.before, sums.strain);
     sums.stiffness = add_dot(twice_mean, change, sums.stiffness);
@@ -81,8 +82,7 @@ inline Vectors update(const Factors& f, const Nodes& n, Sums& sums) noexcept {
     const Vectors u_before = {fnma(f.dt, n.v.x, n.u.x), fnma(f.dt, n.v.y, n.u.y)};
     sums.strain = add_dot(u_before, n.force, sums.strain);
   }
-  if constexpr (Printed)
-    sums.scheme = fma(twice_mean.y, n.v.x, fnma(twice_mean.x, n.v.y, sums.scheme));
+  if constexpr (Loaded) sums.load = add_dot(twice_mean, n.load, sums.load);
   return after;
 }
 

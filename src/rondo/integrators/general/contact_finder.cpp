@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "rondo/integrators/contact_finder.hpp"
+#include "rondo/integrators/general/contact_finder.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -61,28 +61,44 @@ void ContactFinder::find(const State& state, std::vector<ContactRow>& rows) {
     sum += positions_[k];
   }
   if (!std::isfinite(sum.x) || !std::isfinite(sum.y)) return;  // the ledger will tell
-  if (model_.contact) find_on_ground(rows);
+  if (model_.contact)
+    for (std::size_t i = 0; i < model_.contact->nodes.size(); ++i) find_on_ground(i, rows);
   if (!ground_side_.edges.empty()) find_corners(rows);
   if (model_.surfaces) find_segments(rows);
 }
 
-void ContactFinder::find_on_ground(std::vector<ContactRow>& rows) const {
+void ContactFinder::find_on_ground(std::size_t i, std::vector<ContactRow>& rows) const {
   const ContactModel& contact = *model_.contact;
-  for (std::size_t i = 0; i < contact.nodes.size(); ++i) {
-    const contact::Touches touches = contact.ground.touches(positions_[at(contact.nodes[i])]);
-    for (int t = 0; t < touches.count; ++t) {
-      const contact::Touch& touch = touches.at[at(t)];
-      ContactRow row;
-      row.kind = ContactKind::facet;
-      row.rows = contact::ground_rows(contact.nodes[i], touch.normal);
-      row.key = key_of(row.kind, i, at(t));
-      row.normal = touch.normal;
-      row.gap = touch.gap;
-      row.tributary = contact.tributary[i];
-      row.law = contact.law;
-      rows.push_back(row);
-    }
+  const contact::Touches touches = contact.ground.touches(positions_[at(contact.nodes[i])]);
+  for (int t = 0; t < touches.count; ++t) {
+    const contact::Touch& touch = touches.at[at(t)];
+    ContactRow row;
+    row.kind = ContactKind::facet;
+    row.rows = contact::ground_rows(contact.nodes[i], touch.normal);
+    row.key = key_of(row.kind, i, at(t));
+    row.normal = touch.normal;
+    row.gap = touch.gap;
+    row.tributary = contact.tributary[i];
+    row.law = contact.law;
+    rows.push_back(row);
   }
+}
+
+void ContactFinder::find_at_corners(const State& state, std::span<const NearCorner> near,
+                                    std::span<const int> nodes, std::vector<ContactRow>& rows) {
+  rows.clear();
+  corner_rows_.clear();
+  Vec2 sum;
+  for (const int node : nodes) sum += positions_[at(node)] = position(model_, state, at(node));
+  if (!std::isfinite(sum.x) || !std::isfinite(sum.y)) return;  // the ledger will tell
+  for (const NearCorner& n : near) find_corner(n.corner, n.edges, corner_rows_);
+  touched_.clear();
+  for (const ContactRow& row : corner_rows_)
+    touched_.insert(touched_.end(), row.rows.node.begin(), row.rows.node.begin() + row.rows.count);
+  std::sort(touched_.begin(), touched_.end());
+  touched_.erase(std::unique(touched_.begin(), touched_.end()), touched_.end());
+  for (const int node : touched_) find_on_ground(at(node), rows);
+  rows.insert(rows.end(), corner_rows_.begin(), corner_rows_.end());
 }
 
 Box ContactFinder::box_of_candidates() const {
@@ -101,27 +117,34 @@ void ContactFinder::find_corners(std::vector<ContactRow>& rows) const {
   const Box box = box_of_candidates();
   const auto corners = model_.contact->ground.corners();
   for (std::size_t c = 0; c < corners.size(); ++c) {
-    const Vec2 p = corners[c].position, facing = corners[c].normals[0] + corners[c].normals[1];
+    const Vec2 p = corners[c].position;
     if (p.x < box.low.x || p.x > box.high.x || p.y < box.low.y || p.y > box.high.y) continue;
-    const contact::EdgeTouches touches =
-        contact::touch_boundary({.position = p}, {ground_side_, positions_, all_edges_, deepest_});
-    for (int t = 0; t < touches.count; ++t) {
-      const EdgeTouch& found = touches.at[at(t)];
-      const mesh::Edge& e = ground_side_.edges[at(found.edge)];
-      const double length = norm(positions_[at(e[1])] - positions_[at(e[0])]);
-      if (-found.touch.gap > ground_side_limit_[at(found.edge)] ||
-          dot(found.touch.normal, facing) >= 0.0)
-        continue;
-      ContactRow row;
-      row.kind = ContactKind::corner;
-      row.rows = contact::corner_rows(found.touch, length, e[0], e[1]);
-      row.point = p;
-      row.key = key_of(row.kind, c, at(found.edge));
-      row.normal = found.touch.normal;
-      row.gap = found.touch.gap;
-      row.law = model_.contact->law;
-      rows.push_back(row);
-    }
+    find_corner(c, all_edges_, rows);
+  }
+}
+
+void ContactFinder::find_corner(std::size_t c, std::span<const int> edges,
+                                std::vector<ContactRow>& rows) const {
+  const contact::Corner& corner = model_.contact->ground.corners()[c];
+  const Vec2 p = corner.position, facing = corner.normals[0] + corner.normals[1];
+  const contact::EdgeTouches touches =
+      contact::touch_boundary({.position = p}, {ground_side_, positions_, edges, deepest_});
+  for (int t = 0; t < touches.count; ++t) {
+    const EdgeTouch& found = touches.at[at(t)];
+    const mesh::Edge& e = ground_side_.edges[at(found.edge)];
+    const double length = norm(positions_[at(e[1])] - positions_[at(e[0])]);
+    if (-found.touch.gap > ground_side_limit_[at(found.edge)] ||
+        dot(found.touch.normal, facing) >= 0.0)
+      continue;
+    ContactRow row;
+    row.kind = ContactKind::corner;
+    row.rows = contact::corner_rows(found.touch, length, e[0], e[1]);
+    row.point = p;
+    row.key = key_of(row.kind, c, at(found.edge));
+    row.normal = found.touch.normal;
+    row.gap = found.touch.gap;
+    row.law = model_.contact->law;
+    rows.push_back(row);
   }
 }
 

@@ -11,6 +11,8 @@ namespace rondo::dynamics {
 /// A frame in the step at t_{n+1}.
 struct BodyFrame {
   BodyFrame(const Model& model, const FrameStep& frame) noexcept;
+  BodyFrame(const FrameStep& of, const VelocityUpdate& by, const ContactStep& with) noexcept
+      : frame(of), update(by), contact(with) {}
 
   FrameStep frame;
   VelocityUpdate update;
@@ -20,6 +22,8 @@ struct BodyFrame {
 class BodyFrames {
  public:
   BodyFrames(const Model& model, const FrameStep& turning) noexcept;
+  /// Where no body is free.
+  explicit BodyFrames(const BodyFrame& turning) noexcept : turning_(turning), fixed_(turning) {}
 
   [[nodiscard]] const BodyFrame& of(const Model& model, std::size_t node) const noexcept {
     return in_fixed_frame(model, node) ? fixed_ : turning_;

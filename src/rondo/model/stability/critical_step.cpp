@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "rondo/model/critical_step.hpp"
+#include "rondo/model/stability/critical_step.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <vector>
 
-#include "rondo/model/lanczos.hpp"
-#include "rondo/model/operator.hpp"
+#include "rondo/fem/stiffness_product.hpp"
+#include "rondo/model/stability/lanczos.hpp"
 
 namespace rondo::dynamics {
 namespace {

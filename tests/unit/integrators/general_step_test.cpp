@@ -1,12 +1,16 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "rondo/integrators/stepper.hpp"
+/// The readable step, which the fused ones are held to.
+#include "rondo/integrators/general/general_integrator.hpp"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <random>
+#include <memory>
+#include <vector>
 
+#include "comparison.hpp"
 #include "integrator_cases.hpp"
+#include "rondo/fem/stiffness_product.hpp"
 #include "support/models.hpp"
 #include "support/traps.hpp"
 
@@ -31,9 +35,9 @@ double distance_after(const Motion& motion, double end, int steps) {
   const Vec2 place{0.3, -0.1};
   const Model model = particle(motion, place, end / steps);
   const std::vector<Vec2> u0{{0.01, 0.02}}, v0{{0.5, -0.3}};
-  State state = start(model, u0, v0);
-  Ledger ledger;
-  for (int n = 0; n < steps; ++n) static_cast<void>(advance(model, state, ledger));
+  test::Reference run(model, start(model, u0, v0));
+  const State& state = run.state;
+  for (int n = 0; n < steps; ++n) run.step();
   // In the fixed frame: a parabola, whatever the frame does.
   const FrameStep f = frame_step(motion, 0, model.dt);
   const Vec2 x0 = f.center + place + u0[0];
@@ -47,7 +51,7 @@ double distance_after(const Motion& motion, double end, int steps) {
 
 /// Centrifugal, Coriolis, Euler and translation terms and gravity in one, knots of the tables
 /// included: second order in Δt.
-TEST(Stepper, AFreeParticleFallsOnAParabolaInAnyFrame) {
+TEST(GeneralStep, AFreeParticleFallsOnAParabolaInAnyFrame) {
   Motion motion;
   motion.angular_velocity = Table({{0.0, 3.0}, {0.333, 20.0}, {1.0, 9.0}});
   motion.speed = Table({{0.0, 2.0}, {0.417, 5.0}, {1.0, -3.0}});
@@ -59,13 +63,13 @@ TEST(Stepper, AFreeParticleFallsOnAParabolaInAnyFrame) {
   EXPECT_NEAR(std::log2(coarse / fine), 2.0, 0.05);
 }
 
-TEST(Stepper, MassDampingIsTheMidpointDecay) {
+TEST(GeneralStep, MassDampingIsTheMidpointDecay) {
   Model model = particle({}, {0.0, 0.0}, 1e-3);
   model.mass_damping = 50.0;
   const std::vector<Vec2> u0{{0.0, 0.0}}, v0{{1.0, 0.0}};
-  State state = start(model, u0, v0);
-  Ledger ledger;
-  for (int n = 0; n < 100; ++n) static_cast<void>(advance(model, state, ledger));
+  test::Reference run(model, start(model, u0, v0));
+  const State& state = run.state;
+  for (int n = 0; n < 100; ++n) run.step();
   const double x = 0.5 * 1e-3 * 50.0;
   const double expected = (1 - x / 2) / (1 + x / 2) * std::pow((1 - x) / (1 + x), 100);
   EXPECT_NEAR(state.v_next[0].x, expected, 1e-15);
@@ -73,21 +77,21 @@ TEST(Stepper, MassDampingIsTheMidpointDecay) {
 
 /// What the law sees is what the body does: w⁺ Δt is the increment of the position in the next
 /// step.
-TEST(Stepper, LawVelocityIsTheDiscreteMotion) {
+TEST(GeneralStep, LawVelocityIsTheDiscreteMotion) {
   auto b = test::build(test::rolling_disk(4, 40));
   test::add_ground(b, test::ledge(), {0.3, 0.0});
-  State state = test::start_at_rest(b.model);
-  Ledger ledger;
+  test::Reference run(b.model, test::start_at_rest(b.model));
+  const State& state = run.state;
   const test::FloatingPointTraps traps;
   int seen = 0, stuck = 0;
   for (int n = 0; n < 600; ++n) {
-    static_cast<void>(advance(b.model, state, ledger));
+    run.step();
     const auto active = state.active;
     std::vector<Vec2> before;
     for (const auto& c : active)
       before.push_back(
           position(b.model, state, static_cast<std::size_t>(b.model.contact->nodes[c.candidate])));
-    static_cast<void>(advance(b.model, state, ledger));
+    run.step();
     for (std::size_t i = 0; i < active.size(); ++i) {
       const auto node = static_cast<std::size_t>(b.model.contact->nodes[active[i].candidate]);
       const Vec2 move = position(b.model, state, node) - before[i];
@@ -103,18 +107,18 @@ TEST(Stepper, LawVelocityIsTheDiscreteMotion) {
   EXPECT_GT(stuck, 100);
 }
 
-TEST(Stepper, ABallBouncesWithItsRestitution) {
+TEST(GeneralStep, ABallBouncesWithItsRestitution) {
   Motion motion;
   motion.gravity = Table(9.81);
   Model model = particle(motion, {0.0, 1.0}, 1e-5);
   model.contact.emplace(
       ContactModel{contact::Ground(contact::GroundShape{}), {0.0, 0.5}, {0}, {1.0}});
   const std::vector<Vec2> zero(1);
-  State state = start(model, zero, zero);
-  Ledger ledger;
+  test::Reference run(model, start(model, zero, zero));
+  const State& state = run.state;
   double impact = 0.0, apex = 0.0;
   for (int n = 0; n < 90000; ++n) {
-    const ContactReport r = advance(model, state, ledger);
+    const ContactReport r = run.step().contact;
     if (r.nodes > 0 && impact == 0.0) impact = state.frame.time;
     if (impact > 0.0 && state.frame.time < impact + 0.45)
       apex = std::max(apex, position(model, state, 0).y);
@@ -124,17 +128,17 @@ TEST(Stepper, ABallBouncesWithItsRestitution) {
 }
 
 /// Two facets at once, the foot of a wall: the bounce is that of both, with friction it stays.
-TEST(Stepper, AConcaveCornerStopsByBothFacets) {
+TEST(GeneralStep, AConcaveCornerStopsByBothFacets) {
   const contact::GroundShape foot{.profile = {{-9, 0}, {0, 0}, {0, 1}, {9, 1}}, .fillet = 0.1};
   for (const contact::Law law : {contact::Law{0.0, 0.5}, contact::Law{0.3, 0.0}}) {
     Model model = particle({}, {-0.199, 0.0995}, 1e-3);
     model.contact.emplace(ContactModel{contact::Ground(foot), law, {0}, {1.0}});
     const std::vector<Vec2> zero(1), v0{{2.0, -1.0}};
-    State state = start(model, zero, v0);
-    Ledger ledger;
+    test::Reference run(model, start(model, zero, v0));
+    const State& state = run.state;
     int pairs = 0;
     for (int n = 0; n < 150; ++n) {
-      const ContactReport r = advance(model, state, ledger);
+      const ContactReport r = run.step().contact;
       pairs += r.pairs;
       EXPECT_EQ(r.pairs_not_converged, 0);
       if (r.pairs == 0 || pairs > 1) continue;
@@ -143,26 +147,26 @@ TEST(Stepper, AConcaveCornerStopsByBothFacets) {
     }
     EXPECT_GT(pairs, 0);
     EXPECT_LT(norm(state.v_next[0] + law.restitution * v0[0]), 1e-15);
-    EXPECT_LT(ledger.last().relative, 1e-14);
+    EXPECT_LT(run.last.balance.relative, 1e-14);
   }
 }
 
-/// What V1 asks of the operators, of the reference: every term, contacts, both schemes.
-TEST(Stepper, ClosesItsLedger) {
+/// What V1 asks of the operators: every term, contacts, both schemes.
+TEST(GeneralStep, ClosesItsLedger) {
   for (const Scheme scheme : {Scheme::symplectic, Scheme::as_printed}) {
     test::RollingCase c = test::everything("", 3, 60);
     c.disk.scheme = scheme;
     const test::Built b = test::build(c);
-    State state = start(b.model, test::some_displacement(b), test::some_velocity(b));
-    Ledger ledger;
+    test::Reference run(b.model,
+                        start(b.model, test::some_displacement(b), test::some_velocity(b)));
     const test::FloatingPointTraps traps;
     int contacts = 0;
-    for (int n = 0; n < 1000; ++n) contacts += advance(b.model, state, ledger).nodes;
-    const Works& w = ledger.last().works;
+    for (int n = 0; n < 1000; ++n) contacts += run.step().contact.nodes;
+    const Works& w = run.last.balance.works;
     EXPECT_GT(contacts, 500);
-    EXPECT_LT(ledger.last().relative, 2e-14);  // √(1,000 × 20) roundings of 1e-16
+    EXPECT_LT(run.last.balance.relative, 2e-14);  // √(1,000 × 20) roundings of 1e-16
     EXPECT_LT(std::abs(w.contact - (w.rim - w.dissipation_friction - w.loss_impact)),
-              1e-12 * ledger.last().exchanged);
+              1e-12 * run.last.balance.exchanged);
     EXPECT_GT(w.dissipation_friction, 1.0);
     EXPECT_GT(w.dissipation_mass, 0.1);
     EXPECT_GT(w.dissipation_stiffness, 0.1);
@@ -170,15 +174,93 @@ TEST(Stepper, ClosesItsLedger) {
   }
 }
 
-TEST(Stepper, ClampedNodesStayClamped) {
+/// A material of its own, twice as stiff, beside a stiffness that is.
+TEST(GeneralStep, TakesTheInternalForceOfTheModel) {
+  const test::Built b = test::build(test::everything("", 3, 40));
+  Model stiffer = b.model;
+  for (auto& block : stiffer.stiffness.values)
+    for (double& k : block) k *= 2.0;
+  Model own = b.model;
+  own.internal_force = [&](const Model&, std::span<const Vec2> u0, std::span<const Pose> poses) {
+    return make_internal_force(stiffer, u0, poses);
+  };
+  EXPECT_FALSE(is_general(b.model));
+  EXPECT_TRUE(is_general(own));
+  const State at_start = test::start_at_rest(b.model);
+  GeneralIntegrator expected(stiffer, at_start);
+  const std::unique_ptr<Integrator> run = make_integrator(own, at_start);
+  std::vector<StepReport> reports(200);
+  State a = at_start, c = at_start;
+  expected.advance(reports, &a);
+  run->advance(reports, &c);
+  EXPECT_EQ(a.u, c.u);
+  EXPECT_EQ(a.v, c.v);
+}
+
+TEST(GeneralStep, ClampedNodesStayClamped) {
   auto b = test::build(test::rolling_disk(3, 30));
   test::add_ground(b, test::ledge(), {0.6, 0.0});
   const std::vector<Vec2> ones(b.model.n_nodes(), Vec2{1.0, 1.0});
-  State state = start(b.model, std::vector<Vec2>(b.model.n_nodes()), ones);
-  Ledger ledger;
-  for (int n = 0; n < 500; ++n) static_cast<void>(advance(b.model, state, ledger));
+  test::Reference run(b.model, start(b.model, std::vector<Vec2>(b.model.n_nodes()), ones));
+  const State& state = run.state;
+  for (int n = 0; n < 500; ++n) run.step();
   for (const int node : b.mesh.clamped) {
     EXPECT_EQ(state.u[static_cast<std::size_t>(node)], Vec2{});
     EXPECT_EQ(state.v_next[static_cast<std::size_t>(node)], Vec2{});
+  }
+}
+
+namespace {
+
+/// A rim that is driven, but says that it knows one step only, and keeps what it takes.
+class ListeningRim final : public Rim {
+ public:
+  ListeningRim(const Model& model, std::vector<RimImpulse>& taken)
+      : driven_(make_rim(model)), taken_(taken) {}
+
+  [[nodiscard]] FrameStep start() const noexcept override { return driven_->start(); }
+  FrameStep next() noexcept override { return driven_->next(); }
+  void take(const RimImpulse& impulse) noexcept override { taken_.push_back(impulse); }
+  [[nodiscard]] int steps_ahead() const noexcept override { return 1; }
+  void restore(long long step, std::span<const double> saved) override {
+    driven_->restore(step, saved);
+  }
+
+ private:
+  std::unique_ptr<Rim> driven_;
+  std::vector<RimImpulse>& taken_;
+};
+
+}  // namespace
+
+/// A rim under load must have what the body does to it before the frame of the step is known.
+TEST(GeneralStep, TellsTheRimWhatTheBodyDoesToItBeforeItMoves) {
+  auto c = test::rolling_disk(3, 30);
+  c.beta = 0.0;
+  const test::Built b = test::build(c);
+  const State begin = start(b.model, test::some_displacement(b), test::some_velocity(b));
+  std::vector<RimImpulse> taken;
+  GeneralIntegrator listened(b.model, begin, std::make_unique<ListeningRim>(b.model, taken));
+  test::Reference driven(b.model, begin);
+  State state(b.model);
+  StepReport report;
+  std::vector<Vec2> force(b.model.n_nodes());
+  for (int n = 1; n <= 5; ++n) {
+    driven.step();
+    listened.advance({&report, 1}, &state);
+    ASSERT_EQ(state.v_next, driven.state.v_next);
+    ASSERT_EQ(taken.size(), static_cast<std::size_t>(n));
+    apply(b.model.stiffness, state.u, force, 1);
+    RimImpulse expected;
+    double size = 0.0;
+    for_free_nodes(b.model, [&](std::size_t k) {
+      const Vec2 impulse = b.model.dt * force[k];
+      expected.impulse += impulse;
+      expected.angular_impulse += cross(b.model.reference[k] + state.u[k], impulse);
+      size += norm(impulse);
+    });
+    EXPECT_GT(norm(expected.impulse), 1e-3 * size);
+    EXPECT_LT(norm(taken.back().impulse - expected.impulse), 1e-14 * size);
+    EXPECT_NEAR(taken.back().angular_impulse, expected.angular_impulse, 1e-14 * size);
   }
 }

@@ -9,8 +9,8 @@
 #include "rondo/contact/coupled/clusters.hpp"
 #include "rondo/contact/coupled/coupled.hpp"
 #include "rondo/contact/coupled/problem_file.hpp"
-#include "rondo/integrators/body_frames.hpp"
-#include "rondo/integrators/contact_finder.hpp"
+#include "rondo/integrators/general/body_frames.hpp"
+#include "rondo/integrators/general/contact_finder.hpp"
 
 namespace rondo::dynamics {
 
@@ -21,6 +21,15 @@ class GeneralContact {
   /// Corrects v_next of `state` by the impulses at its places; `active` gets what each candidate
   /// feels. @param center about which the ground's angular impulse is taken              [m]
   ContactReport solve(const BodyFrames& frames, Vec2 center, State& state);
+
+  // The same of some sharp corners of the ground alone, in two parts: found at u, solved once the
+  // velocities without impulses are there.
+  /// As ContactFinder::find_at_corners. @return the contacts; each node of theirs has all of its
+  /// own
+  std::span<const ContactRow> find_at_corners(const State& state, std::span<const NearCorner> near,
+                                              std::span<const int> nodes);
+  ContactReport solve_found(const BodyFrames& frames, Vec2 center, State& state);
+  [[nodiscard]] const ContactFinder& finder() const noexcept { return finder_; }
 
   /// Problems that took more than model.coupled.dump_above iterations since the last call, the
   /// first few of them.
@@ -52,6 +61,7 @@ class GeneralContact {
   void add_active(const ContactRow& row, State& state) const;
   [[nodiscard]] Vec2 warm_start(std::uint64_t key) const;
   void keep_impulses();
+  void sort_by_candidate(std::vector<ActiveContact>& active);
 
   const Model& model_;
   ContactFinder finder_;
@@ -69,6 +79,8 @@ class GeneralContact {
   KeptImpulses kept_;
   std::vector<contact::ProblemFile> difficult_;
   Vec2 center_;
+  std::vector<std::pair<std::size_t, std::size_t>> order_;  ///< candidate, place in `active`
+  std::vector<ActiveContact> sorted_;
 };
 
 }  // namespace rondo::dynamics

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "rondo/integrators/body_frames.hpp"
+#include "rondo/integrators/general/body_frames.hpp"
 
 #include <cmath>
 

@@ -1,66 +1,32 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "rondo/integrators/general_integrator.hpp"
+#include "rondo/integrators/general/general_integrator.hpp"
 
 #include <algorithm>
 #include <utility>
 
 #include "rondo/core/contract.hpp"
-#include "rondo/integrators/step_traps.hpp"
-#include "rondo/model/corotated.hpp"
-#include "rondo/model/operator.hpp"
+#include "rondo/integrators/general/step_traps.hpp"
 #include "rondo/model/pressure.hpp"
 
 namespace rondo::dynamics {
-namespace {
 
-/// ½ Σ eᵀ p of each free body.
-void body_energies(const Model& model, const std::vector<Vec2>& elastic,
-                   const std::vector<Vec2>& product, std::vector<double>& energy) noexcept {
-  for (std::size_t b = 0; b < energy.size(); ++b) {
-    energy[b] = 0.0;
-    for (const int node : model.free_bodies[b].nodes) {
-      const auto k = static_cast<std::size_t>(node);
-      energy[b] += 0.5 * dot(elastic[k], product[k]);
-    }
-  }
-}
-
-}  // namespace
-
-GeneralIntegrator::GeneralIntegrator(const Model& model, const State& start)
+GeneralIntegrator::GeneralIntegrator(const Model& model, const State& start,
+                                     std::unique_ptr<Rim> rim)
     : model_(model),
+      rim_(std::move(rim)),
       state_(start),
+      internal_(make_internal_force(model, start.u, start.poses)),
       contact_(model),
-      elastic_(model.n_nodes()),
-      product_(model.n_nodes()),
-      before_(model.n_nodes()),
-      gradient_(model.n_nodes()),
-      gradient_before_(model.n_nodes()),
       damping_(model.stiffness_damping > 0.0 ? model.n_nodes() : 0),
-      load_(model.pressures.empty() ? 0 : model.n_nodes()),
-      energy_(model.free_bodies.size()),
-      energy_before_(model.free_bodies.size()) {
+      load_(model.pressures.empty() ? 0 : model.n_nodes()) {
   RONDO_DEMAND(model.free_bodies.empty() || model.scheme == Scheme::symplectic);
-  RONDO_DEMAND(model.stiffness.row_start.size() == model.n_nodes() + 1, model.n_nodes());
-  RONDO_DEMAND(state_.poses.size() == model.free_bodies.size(), state_.poses.size());
+  rim_->restore(start.step, {});
   state_.v.resize(model.n_nodes());
-  find_forces();
+  take_poses();
 }
 
-/// Elastic displacements, K e, its energy and gradient at the places that the nodes have.
-void GeneralIntegrator::find_forces() noexcept {
-  update_poses(model_, state_.u, state_.poses);
-  elastic_displacements(model_, state_.u, state_.poses, elastic_);
-  apply(model_.stiffness, elastic_, product_, model_.threads);
-  to_gradient(model_, elastic_, product_, state_.poses, gradient_);
-  body_energies(model_, elastic_, product_, energy_);
-}
-
-/// β K ė, turned and balanced like the elastic force, so that it has no moment either (9.6).
-void GeneralIntegrator::add_damping() noexcept {
-  const double rate = model_.stiffness_damping / model_.dt;
-  for_free_nodes(model_, [&](std::size_t k) { before_[k] = rate * (product_[k] - before_[k]); });
-  to_gradient(model_, elastic_, before_, state_.poses, damping_);
+void GeneralIntegrator::take_poses() noexcept {
+  std::copy(internal_->poses().begin(), internal_->poses().end(), state_.poses.begin());
 }
 
 /// u_{n+1}, and ½ vᵀ M v before it.
@@ -71,25 +37,37 @@ void GeneralIntegrator::move(double& kinetic) noexcept {
   });
 }
 
-/// ½ u_{n+1}ᵀ K u_n; of free bodies the same in terms of energies and their derivatives (9.7).
-double GeneralIntegrator::half_step_strain() const noexcept {
-  double strain = 0.0;
+/// Forces at u_{n+1} and the frame of this step; the strain energy of the half step before.
+void GeneralIntegrator::find_forces(double& strain) noexcept {
+  internal_->evaluate(state_.u);
+  take_poses();
+  strain = internal_->half_step_energy(state_.u, state_.v);
+  if (!damping_.empty()) internal_->damping(damping_);
+  if (rim_->steps_ahead() == 1) rim_->take(impulse_on_rim());
+  state_.frame = rim_->next();
+  if (!load_.empty()) pressure_forces(model_, state_.u, state_.frame.time, load_);
+}
+
+/// Of the internal forces in the turning frame, whose reaction the rim feels.
+RimImpulse GeneralIntegrator::impulse_on_rim() const noexcept {
+  const std::span<const Vec2> gradient = internal_->gradient();
+  RimImpulse sum;
   for_free_nodes(model_, [&](std::size_t k) {
-    if (!in_fixed_frame(model_, k))
-      strain += 0.5 * dot(state_.u[k], before_[k]);
-    else
-      strain -= 0.25 * model_.dt * dot(state_.v[k], gradient_[k] - gradient_before_[k]);
+    if (in_fixed_frame(model_, k)) return;
+    const Vec2 impulse = model_.dt * (damping_.empty() ? gradient[k] : gradient[k] + damping_[k]);
+    sum.impulse += impulse;
+    sum.angular_impulse += cross(model_.reference[k] + state_.u[k], impulse);
   });
-  for (std::size_t b = 0; b < energy_.size(); ++b) strain += 0.5 * (energy_[b] + energy_before_[b]);
-  return strain;
+  return sum;
 }
 
 /// v⁺ = v⁻ + [Δt f/m - drag v⁻]/a, without contact (3.4).
 void GeneralIntegrator::free_velocities(const BodyFrames& frames) noexcept {
   const double dt = model_.dt;
+  const std::span<const Vec2> gradient = internal_->gradient();
   for_free_nodes(model_, [&](std::size_t k) {
     const BodyFrame& f = frames.of(model_, k);
-    Vec2 force = -gradient_[k];
+    Vec2 force = -gradient[k];
     if (!damping_.empty()) force -= damping_[k];
     if (!load_.empty()) force += load_[k];
     const Vec2 acceleration =
@@ -102,16 +80,16 @@ void GeneralIntegrator::free_velocities(const BodyFrames& frames) noexcept {
 /// (5.3)
 void GeneralIntegrator::add_works(const BodyFrames& frames, Works& w) const noexcept {
   const double dt = model_.dt;
-  const bool printed = model_.scheme == Scheme::as_printed;
   for_free_nodes(model_, [&](std::size_t k) {
     const double m = model_.mass[k];
     const FrameStep& frame = frames.of(model_, k).frame;
-    const Vec2 v = state_.v[k], mean = 0.5 * (v + state_.v_next[k]);
+    const Vec2 mean = 0.5 * (state_.v[k] + state_.v_next[k]);
+    const Vec2 taken = velocity_of_terms(model_.scheme, state_.v[k], mean);
     w.frame -= dt * m * dot(mean, frame_acceleration(frame, model_.reference[k] + state_.u[k]));
-    w.dissipation_mass += dt * model_.mass_damping * m * dot(mean, printed ? v : mean);
+    w.dissipation_mass += dt * model_.mass_damping * m * dot(mean, taken);
     if (!damping_.empty()) w.dissipation_stiffness += dt * dot(mean, damping_[k]);
     if (!load_.empty()) w.load += dt * dot(mean, load_[k]);
-    if (printed) w.scheme -= 2.0 * dt * frame.spin * m * dot(mean, turn90(v));
+    w.scheme -= 2.0 * dt * frame.spin * m * dot(mean, turn90(taken));
   });
 }
 
@@ -128,17 +106,11 @@ void GeneralIntegrator::report_frame(StepReport& report) const noexcept {
 StepReport GeneralIntegrator::step() noexcept {
   const StepTraps traps;
   std::swap(state_.v, state_.v_next);
-  std::swap(product_, before_);
-  std::swap(gradient_, gradient_before_);
-  std::swap(energy_, energy_before_);
-  state_.frame = frame_step(model_.motion, ++state_.step, model_.dt);
-  const BodyFrames frames(model_, state_.frame);
+  ++state_.step;
   StepEnergy energy;
   move(energy.kinetic);
-  find_forces();
-  energy.strain = half_step_strain();
-  if (!damping_.empty()) add_damping();
-  if (!load_.empty()) pressure_forces(model_, state_.u, state_.frame.time, load_);
+  find_forces(energy.strain);
+  const BodyFrames frames(model_, state_.frame);
   free_velocities(frames);
   StepReport report;
   report.step = state_.step;
@@ -177,29 +149,22 @@ SavedState GeneralIntegrator::save() const {
   saved.step = state_.step;
   saved.u = state_.u;
   saved.v = state_.v_next;
-  saved.force = product_;
-  saved.gradient = gradient_;
-  saved.energy = energy_;
-  saved.poses = state_.poses;
+  saved.rim = rim_->save();
+  internal_->save(saved);
   saved.impulses = contact_.impulses();
   saved.ledger = ledger_.save();
   return saved;
 }
 
 void GeneralIntegrator::restore(const SavedState& saved) {
-  RONDO_DEMAND(saved.u.size() == model_.n_nodes() && saved.v.size() == model_.n_nodes() &&
-                   saved.force.size() == model_.n_nodes() &&
-                   saved.gradient.size() == model_.n_nodes(),
-               saved.u.size(), saved.v.size(), saved.force.size(), saved.gradient.size());
-  RONDO_DEMAND(saved.energy.size() == energy_.size() && saved.poses.size() == energy_.size(),
-               saved.energy.size(), saved.poses.size());
+  RONDO_DEMAND(saved.u.size() == model_.n_nodes() && saved.v.size() == model_.n_nodes(),
+               saved.u.size(), saved.v.size());
   state_.step = saved.step;
   state_.u = saved.u;
   state_.v_next = saved.v;
-  product_ = saved.force;
-  gradient_ = saved.gradient;
-  energy_ = saved.energy;
-  state_.poses = saved.poses;
+  rim_->restore(saved.step, saved.rim);
+  internal_->restore(saved);
+  take_poses();
   contact_.set_impulses(saved.impulses);
   ledger_.restore(saved.ledger);
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "rondo/integrators/general_contact.hpp"
+#include "rondo/integrators/general/general_contact.hpp"
 
 #include <fmt/format.h>
 
@@ -49,11 +49,21 @@ GeneralContact::GeneralContact(const Model& model)
 }
 
 ContactReport GeneralContact::solve(const BodyFrames& frames, Vec2 center, State& state) {
+  if (model_.contact || model_.surfaces) finder_.find(state, rows_);
+  return solve_found(frames, center, state);
+}
+
+std::span<const ContactRow> GeneralContact::find_at_corners(const State& state,
+                                                            std::span<const NearCorner> near,
+                                                            std::span<const int> nodes) {
+  finder_.find_at_corners(state, near, nodes, rows_);
+  return rows_;
+}
+
+ContactReport GeneralContact::solve_found(const BodyFrames& frames, Vec2 center, State& state) {
   ContactReport report;
   state.active.clear();
-  if (!model_.contact && !model_.surfaces) return report;
   center_ = center;
-  finder_.find(state, rows_);
   if (rows_.empty()) {
     kept_.clear();
     return report;
@@ -68,10 +78,19 @@ ContactReport GeneralContact::solve(const BodyFrames& frames, Vec2 center, State
       solve_together(frames, clusters[k], state, report);
   }
   keep_impulses();
-  // What a candidate feels stands together, for those who add it up.
-  std::stable_sort(state.active.begin(), state.active.end(),
-                   [](const auto& a, const auto& b) { return a.candidate < b.candidate; });
+  sort_by_candidate(state.active);
   return report;
+}
+
+/// What a candidate feels stands together, in its order, for those who add it up. In memory that is
+/// kept: std::stable_sort takes some of its own.
+void GeneralContact::sort_by_candidate(std::vector<ActiveContact>& active) {
+  order_.clear();
+  for (const ActiveContact& a : active) order_.emplace_back(a.candidate, order_.size());
+  std::sort(order_.begin(), order_.end());
+  sorted_.clear();
+  for (const auto& [candidate, place] : order_) sorted_.push_back(active[place]);
+  active.assign(sorted_.begin(), sorted_.end());
 }
 
 /// (4.8c): what one more step like the last would do to the gap, over Δt, less w_n⁻.

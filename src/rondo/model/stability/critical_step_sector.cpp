@@ -12,8 +12,8 @@
 #include <vector>
 
 #include "rondo/fem/harmonics.hpp"
-#include "rondo/model/critical_step.hpp"
-#include "rondo/model/lanczos.hpp"
+#include "rondo/model/stability/critical_step.hpp"
+#include "rondo/model/stability/lanczos.hpp"
 
 namespace rondo::dynamics {
 namespace {

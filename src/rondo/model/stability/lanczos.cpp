@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "rondo/model/lanczos.hpp"
+#include "rondo/model/stability/lanczos.hpp"
 
 #include <Spectra/SymEigsSolver.h>
 

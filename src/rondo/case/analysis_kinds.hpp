@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: BSD-3-Clause
+/// @file  The kinds of analysis that a case may ask for, a row each: the value of analysis.kind and
+/// what the kind asks of the other keys. What it does is in analysis/registry.cpp, in this order.
+#pragma once
+#include <cstddef>
+#include <iterator>
+#include <string_view>
+
+namespace rondo::study {
+
+struct Case;
+class CaseValues;
+
+enum class AnalysisKind { dynamic, crush };
+
+void check_crush(CaseValues& in, Case& c);
+
+struct KindOfCase {
+  std::string_view name;
+  void (*check)(CaseValues& in, Case& c);  ///< collects faults in `in`; null: nothing of its own
+  std::string_view why_left_out;  ///< why it has no use for keys of others; "": leaves none
+};
+
+inline constexpr KindOfCase analysis_kinds[] = {
+    {"dynamic", nullptr, ""},
+    {"crush", check_crush, "a crush is quasi-static, its ground flat"},
+};
+
+constexpr const KindOfCase& rules_of(AnalysisKind kind) noexcept {
+  return analysis_kinds[static_cast<std::size_t>(kind)];
+}
+
+}  // namespace rondo::study

@@ -1,0 +1,94 @@
+// SPDX-License-Identifier: BSD-3-Clause
+/// @file  Sharp corners of the ground in the fused steps: the few nodes that a corner holds are
+/// left out of a step's own contact and solved after it, all contacts that share nodes together, as
+/// the general step does (docs/decisions/026-local-exceptions.md). Where no corner is near, a
+/// batch of steps goes on without any of it.
+#pragma once
+#include <span>
+#include <utility>
+#include <vector>
+
+#include "rondo/integrators/fused/step_context.hpp"
+#include "rondo/integrators/general/general_contact.hpp"
+#include "rondo/model/pressure.hpp"
+
+namespace rondo::dynamics {
+
+/// A candidate between two steps, turning frame.
+struct CandidateMotion {
+  Vec2 u;      ///< u_{n+1}                                                           [m]
+  Vec2 v;      ///< v_{n+1/2}                                                         [m/s]
+  Vec2 force;  ///< K u_n, with β only                                                [N/m]
+};
+
+/// What a fused integrator lets be seen and changed of single candidates, between two steps.
+class CandidateFields {
+ public:
+  /// @param candidate place in ContactModel::nodes
+  [[nodiscard]] virtual CandidateMotion motion_of(std::size_t candidate) const noexcept = 0;
+  virtual void move(std::size_t candidate, Vec2 v, Vec2 u) noexcept = 0;
+
+ protected:
+  ~CandidateFields() = default;
+};
+
+class CornerContact {
+ public:
+  /// @pre has_sharp_corners(model)
+  explicit CornerContact(const Model& model);
+
+  /// Before a batch of steps: which corners may touch in it, and which edges. The steps are told
+  /// where the held candidates are marked.
+  void look_out(std::span<StepContext> steps, const CandidateFields& fields) noexcept;
+  [[nodiscard]] bool any_near() const noexcept { return n_near_ > 0; }
+  /// Candidates that may be held in the batch, and their neighbours.
+  [[nodiscard]] std::span<const int> nodes() const noexcept { return nodes_; }
+
+  // Where corners are near, around each step:
+  /// What corners touch, and who is held by them.
+  void find(const StepContext& step, const CandidateFields& fields) noexcept;
+  /// Impulses on what is held, its velocities and u; sums and contacts of the step.
+  void solve(const StepContext& step, CandidateFields& fields, PartialStep& part) noexcept;
+
+  /// Adds the contacts of the last step.
+  void save_active(std::vector<ActiveContact>& active) const;
+  [[nodiscard]] const GeneralContact::KeptImpulses& impulses() const noexcept {
+    return contact_.impulses();
+  }
+  void set_impulses(GeneralContact::KeptImpulses impulses) noexcept {
+    contact_.set_impulses(std::move(impulses));
+  }
+  [[nodiscard]] std::vector<contact::ProblemFile> take_difficult() {
+    return contact_.take_difficult();
+  }
+
+ private:
+  struct Held {
+    std::size_t candidate;
+    Vec2 change;  ///< K u_n before the step; after it, by how much that has changed     [N/m]
+    Vec2 free;    ///< v_{n+3/2} without impulse                                      [m/s]
+  };
+  /// How far the boundary may be from where it is during a batch, and from the centre [m].
+  struct Extent {
+    double reach, farthest;
+  };
+  [[nodiscard]] Extent extent(std::size_t n_steps, const CandidateFields& fields) noexcept;
+  void look_at(std::size_t corner, std::span<const StepContext> steps, const Extent& e);
+  void add_near(std::size_t corner, const Box& box);
+  void want(int edge, int layers);
+  void release() noexcept;
+  [[nodiscard]] Vec2 load_on(const StepContext& step, std::size_t candidate) const noexcept;
+
+  const Model boundary_;  ///< the candidates alone, in their order, on the same ground
+  State state_;           ///< of these; only what is near is kept up
+  GeneralContact contact_;
+  std::vector<NearCorner> near_;  ///< the first n_near_ count
+  std::size_t n_near_ = 0;
+  std::vector<int> nodes_;    ///< of the near edges and their neighbours
+  std::vector<char> wanted_;  ///< (nb) is in nodes_
+  std::vector<Held> held_;
+  std::vector<char> is_held_;                    ///< (nb)
+  std::vector<std::vector<NodalLoad>> load_of_;  ///< (nb), or empty: no loads
+};
+
+}  // namespace rondo::dynamics

@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: BSD-3-Clause
+/// @file  The CD-Lagrange step (docs/theory.md, section 3) of any model: displacements and forces
+/// at t_n, velocities and impulses at t_{n+1/2}. One readable pass a term: the reference that the
+/// fused integrators are held to. What they do not do is done here: bodies that nothing holds, in
+/// the fixed frame and in large rotation (section 9), contacts that share nodes, contact between
+/// bodies, pressures, other schemes. Source: Fekak et al., Comput. Mech. 60 (2017) 1; Adam et al.,
+/// CSMA 2017.
+#pragma once
+#include <memory>
+#include <vector>
+
+#include "rondo/integrators/general/body_frames.hpp"
+#include "rondo/integrators/general/general_contact.hpp"
+#include "rondo/model/integrator.hpp"
+#include "rondo/model/internal_force.hpp"
+#include "rondo/model/rim.hpp"
+
+namespace rondo::dynamics {
+
+class GeneralIntegrator final : public Integrator, public Resumable {
+ public:
+  /// @pre the assembled stiffness is there; scheme "symplectic" if a body is free.
+  GeneralIntegrator(const Model& model, const State& start)
+      : GeneralIntegrator(model, start, make_rim(model)) {}
+  GeneralIntegrator(const Model& model, const State& start, std::unique_ptr<Rim> rim);
+
+  void advance(std::span<StepReport> reports, State* last = nullptr) noexcept override;
+  void fields(State& state) const noexcept override;
+  [[nodiscard]] Resumable* resumable() noexcept override { return this; }
+  [[nodiscard]] SavedState save() const override;
+  void restore(const SavedState& saved) override;
+  [[nodiscard]] std::vector<contact::ProblemFile> take_difficult() override {
+    return contact_.take_difficult();
+  }
+
+ private:
+  StepReport step() noexcept;
+  void move(double& kinetic) noexcept;
+  void take_poses() noexcept;
+  void find_forces(double& strain) noexcept;
+  [[nodiscard]] RimImpulse impulse_on_rim() const noexcept;
+  void free_velocities(const BodyFrames& frames) noexcept;
+  void add_works(const BodyFrames& frames, Works& works) const noexcept;
+  void report_frame(StepReport& report) const noexcept;
+
+  const Model& model_;
+  const std::unique_ptr<Rim> rim_;
+  State state_;
+  Ledger ledger_;
+  const std::unique_ptr<InternalForce> internal_;
+  GeneralContact contact_;
+  std::vector<Vec2> damping_;  ///< (n) β of the force, in the nodes' frames; empty: β = 0 [N/m]
+  std::vector<Vec2> load_;     ///< (n) of pressures; empty: none                        [N/m]
+};
+
+}  // namespace rondo::dynamics

@@ -1,0 +1,74 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "rondo/integrators/start.hpp"
+
+#include <utility>
+
+#include "rondo/core/contract.hpp"
+#include "rondo/fem/stiffness_product.hpp"
+#include "rondo/integrators/general/body_frames.hpp"
+#include "rondo/model/corotated.hpp"
+#include "rondo/model/pressure.hpp"
+#include "rondo/model/rim.hpp"
+
+namespace rondo::dynamics {
+namespace {
+
+/// f/m at t_0 (3.2).
+Vec2 acceleration(const Model& model, const State& state, const FrameStep& frame, std::size_t k,
+                  Vec2 stiffness_rate, Vec2 load) noexcept {
+  const Vec2 elastic = state.force[k] - load + model.stiffness_damping * stiffness_rate;
+  return -(elastic / model.mass[k]) - frame_acceleration(frame, model.reference[k] + state.u[k]);
+}
+
+void clear_clamped(const Model& model, State& state) noexcept {
+  std::size_t next_free = 0;
+  for (std::size_t k = 0; k < model.n_nodes(); ++k) {
+    if (next_free < model.free.size() && static_cast<std::size_t>(model.free[next_free]) == k)
+      ++next_free;
+    else
+      state.u[k] = state.v[k] = Vec2{};
+  }
+}
+
+/// K u_0 in `force`; poses of the free bodies.
+void find_start_forces(const Model& model, State& state) {
+  update_poses(model, state.u, state.poses);
+  std::vector<Vec2> elastic(model.n_nodes()), product(model.n_nodes());
+  elastic_displacements(model, state.u, state.poses, elastic);
+  apply_stiffness(model, elastic, product);
+  to_gradient(model, elastic, product, state.poses, state.force);
+}
+
+}  // namespace
+
+State start(const Model& model, std::vector<Vec2> u0, std::vector<Vec2> v0) {
+  RONDO_DEMAND(u0.size() == model.n_nodes() && v0.size() == model.n_nodes(), u0.size(), v0.size());
+  RONDO_DEMAND(model.dt > 0.0, model.dt);
+  State state;
+  state.u = std::move(u0);
+  state.v = std::move(v0);
+  clear_clamped(model, state);
+  state.v_next.resize(model.n_nodes());
+  if (model.contact) state.active.reserve(2 * model.contact->nodes.size());
+  state.frame = make_rim(model)->start();
+  for (const FreeBody& body : model.free_bodies) state.poses.push_back({body.center});
+  state.force.resize(model.n_nodes());
+  state.force_before.resize(model.n_nodes());
+  find_start_forces(model, state);
+  apply_stiffness(model, state.v, state.force_before);  // K v_0, for now
+  std::vector<Vec2> load(model.n_nodes());
+  pressure_forces(model, state.u, 0.0, load);
+  const double half = 0.5 * model.dt;
+  const FrameStep fixed = fixed_frame_step(model, 0);
+  for_free_nodes(model, [&](std::size_t k) {
+    const FrameStep& frame = in_fixed_frame(model, k) ? fixed : state.frame;
+    const VelocityUpdate update =
+        velocity_update(model.scheme, half, model.mass_damping, frame.spin);
+    const Vec2 v = state.v[k];
+    const Vec2 f = acceleration(model, state, frame, k, state.force_before[k], load[k]);
+    state.v_next[k] = v + (half * f - update.drag * v) / update.a;
+  });
+  return state;
+}
+
+}  // namespace rondo::dynamics

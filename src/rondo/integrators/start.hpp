@@ -1,0 +1,14 @@
+// SPDX-License-Identifier: BSD-3-Clause
+/// @file  The state with which the steps begin (docs/theory.md, 3.7).
+#pragma once
+#include <vector>
+
+#include "rondo/model/model.hpp"
+
+namespace rondo::dynamics {
+
+/// State at t = 0 from u_0 and v_0 (n each, turning frame): K u_0 and v_{1/2} by half a step
+/// without contact (3.7). Displacements and velocities of clamped nodes are ignored.
+State start(const Model& model, std::vector<Vec2> u0, std::vector<Vec2> v0);
+
+}  // namespace rondo::dynamics

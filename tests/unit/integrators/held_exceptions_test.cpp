@@ -1,0 +1,87 @@
+// SPDX-License-Identifier: BSD-3-Clause
+/// What is particular to some nodes in the fused steps, loads and sharp corners of the ground: as
+/// the general step has it.
+#include <gtest/gtest.h>
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "comparison.hpp"
+#include "integrator_cases.hpp"
+#include "rondo/integrators/general/general_integrator.hpp"
+#include "support/stepping.hpp"
+
+using namespace rondo;
+using namespace rondo::dynamics;
+
+namespace {
+
+/// Pressures; a sharp ledge that the disk is pressed against, and sharp ridges behind it; both.
+std::vector<test::RollingCase> cases() {
+  const mesh::Tread tread{20, 0.02, 3, 1, 2};
+  std::vector<test::RollingCase> all;
+  for (const auto& with : {test::pressed, test::sharp}) {
+    all.push_back(with(test::everything("smooth", 6, 90)));
+    all.push_back(with(test::everything("treaded", 3, tread)));
+    all.push_back(with(test::everything("undamped", 6, 90)));
+    all.back().disk.alpha = all.back().disk.beta = 0.0;
+    all.push_back(with(test::everything("restitution", 6, 90)));
+    all.back().law = {0.3, 0.5};
+    all.back().ground->profile = test::ledge().profile;
+    all.push_back(with(test::everything("frictionless", 6, 90)));
+    all.back().law = {};
+    all.push_back(with(test::everything("columns_61", 4, 61)));
+  }
+  all.push_back(test::pressed(test::sharp(test::everything("smooth", 6, 90))));
+  all.push_back(test::pressed(test::sharp(test::everything("treaded", 3, tread))));
+  for (test::RollingCase& c : all) c.disk.motion.start_x = -0.02;
+  return all;
+}
+
+class Exceptions : public testing::TestWithParam<std::tuple<test::RollingCase, StiffnessOperator>> {
+};
+
+}  // namespace
+
+TEST_P(Exceptions, AreThoseOfTheGeneralStep) {
+  const auto& [c, of] = GetParam();
+  const test::Built b = test::build(c);
+  const Model model = test::model_with(b, of);
+  ASSERT_FALSE(is_general(model));
+  const std::vector<Vec2> u = test::some_displacement(b), v = test::some_velocity(b);
+  State expected = start(b.model, u, v), state = start(model, u, v);
+  GeneralIntegrator general(b.model, expected);
+  const auto fused = make_integrator(model, state);
+  using Contacts = test::Comparison::Contacts;
+  const bool sharp = c.ground->fillet == 0.0;
+  test::Comparison comparison(sharp ? Contacts::by_node : Contacts::one_by_one);
+  std::array<StepReport, 1> report_expected, report;
+  int clusters = 0, nodes = 0;
+  for (int n = 0; n < 400; ++n) {
+    general.advance(report_expected, &expected);
+    fused->advance(report, &state);
+    comparison.see(report_expected[0], report[0]);
+    comparison.see(expected, state);
+    ASSERT_EQ(report_expected[0].contact.clusters, report[0].contact.clusters) << n;
+    ASSERT_EQ(report_expected[0].contact.cluster_largest, report[0].contact.cluster_largest) << n;
+    ASSERT_FALSE(HasFatalFailure());
+    clusters += report[0].contact.clusters;
+    nodes += report[0].contact.nodes;
+  }
+  EXPECT_GT(nodes, 0);
+  EXPECT_EQ(clusters > 0, sharp);
+  const Balance &ours = report[0].balance, &theirs = report_expected[0].balance;
+  EXPECT_EQ(ours.works.load != 0.0, c.pressed);
+  EXPECT_NEAR(ours.works.load, theirs.works.load, 1e-10 * theirs.exchanged);
+  EXPECT_LT(ours.relative, 3e-14);
+  comparison.expect_within(1e-9);
+}
+
+INSTANTIATE_TEST_SUITE_P(All, Exceptions,
+                         testing::Combine(testing::ValuesIn(cases()),
+                                          testing::ValuesIn(test::both_operators)),
+                         [](const auto& p) {
+                           return test::name(std::get<0>(p.param).name.c_str(),
+                                             std::get<1>(p.param));
+                         });
