@@ -8,7 +8,6 @@
 #include <functional>
 
 #include "progress.hpp"
-#include "rondo/analysis/check.hpp"
 #include "rondo/analysis/registry.hpp"
 #include "rondo/analysis/run.hpp"
 #include "rondo/core/bytes.hpp"

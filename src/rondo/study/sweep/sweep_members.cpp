@@ -14,7 +14,6 @@
 
 #include "rondo/analysis/build/build.hpp"
 #include "rondo/analysis/build/memory.hpp"
-#include "rondo/analysis/check.hpp"
 #include "rondo/core/memory_limits.hpp"
 #include "rondo/io/files.hpp"
 #include "rondo/io/h5/hash.hpp"
