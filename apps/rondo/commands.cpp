@@ -7,9 +7,7 @@
 #include <filesystem>
 #include <functional>
 
-#include "exit_codes.hpp"
 #include "progress.hpp"
-#include "rondo/analysis/check.hpp"
 #include "rondo/analysis/registry.hpp"
 #include "rondo/analysis/run.hpp"
 #include "rondo/core/bytes.hpp"
@@ -18,12 +16,6 @@
 
 namespace rondo::app {
 namespace {
-
-study::RunReport run_with_progress(const study::Case& c, study::RunOptions& options, bool quiet) {
-  Progress progress(study::type_of(c).unit);
-  if (!quiet) options.progress = std::ref(progress);
-  return study::run_case(c, options);
-}
 
 /// cases/ledge.toml -> cases/ledge; a case without an extension gets one: ledge -> ledge.results
 std::filesystem::path default_directory(const std::filesystem::path& case_file) {
@@ -68,18 +60,21 @@ void print_limits(const study::CheckReport& r) {
 }
 
 /// The case of a results directory is in it: with --resume the directory is all that is asked for.
-RunArguments completed(RunArguments arguments) {
+void complete(RunArguments& arguments) {
   std::error_code error;
-  const std::filesystem::path directory = arguments.case_file;
-  if (!std::filesystem::is_directory(directory, error)) return arguments;
-  if (!arguments.resume && std::filesystem::exists(directory / "run.json", error))
-    throw InputError(Fault{directory.string(), 0, 0, "", "",
-                           "is the results directory of a run, not a case file",
-                           "--resume to go on with it, or case.toml in it with another -o"});
-  if (!arguments.resume) return arguments;
-  if (arguments.directory.empty()) arguments.directory = directory.string();
-  arguments.case_file = (directory / "case.toml").string();
-  return arguments;
+  std::filesystem::path& into = arguments.options.directory;
+  const std::filesystem::path given = arguments.case_file;
+  if (std::filesystem::is_directory(given, error)) {
+    if (!arguments.options.resume && std::filesystem::exists(given / "run.json", error))
+      throw InputError(Fault{given.string(), 0, 0, "", "",
+                             "is the results directory of a run, not a case file",
+                             "--resume to go on with it, or case.toml in it with another -o"});
+    if (arguments.options.resume) {
+      if (into.empty()) into = given;
+      arguments.case_file = (given / "case.toml").string();
+    }
+  }
+  if (into.empty()) into = default_directory(arguments.case_file);
 }
 
 /// Of what this program did: a run that goes on counts from there.
@@ -97,30 +92,26 @@ void print_realtime_factor(const study::RunReport& r) {
 
 }  // namespace
 
-int run(const RunArguments& given) {
-  const RunArguments arguments = completed(given);
-  if (arguments.quiet) spdlog::set_level(spdlog::level::warn);
+int run(RunArguments arguments, bool quiet) {
+  if (quiet) spdlog::set_level(spdlog::level::warn);
+  complete(arguments);
+  study::RunOptions& options = arguments.options;
   const study::Case c = study::read_case(arguments.case_file, arguments.settings);
-  study::RunOptions options;
-  options.directory = arguments.directory.empty() ? default_directory(arguments.case_file)
-                                                  : std::filesystem::path(arguments.directory);
-  options.resume = arguments.resume;
-  options.threads = arguments.threads;
-  options.reduced = arguments.reduced;
-  options.reduced_step = arguments.reduced_step;
-  options.step_factor = arguments.step_factor;
-  options.overwrite = arguments.overwrite;
   options.warn = [](const std::string& text) { spdlog::warn(text); };
   options.stop = &stop_requested();
   options.before_loop = catch_stop_signals;
-  const study::RunReport report = run_with_progress(c, options, arguments.quiet);
+  const study::RunReport report = [&] {
+    Progress progress(study::type_of(c).unit);
+    if (!quiet) options.progress = std::ref(progress);
+    return study::run_case(c, options);
+  }();
   if (arguments.realtime_factor) print_realtime_factor(report);
   return finish(report, options.directory);
 }
 
-int check(const CommonArguments& arguments) {
+int check(const CaseArguments& arguments, int threads) {
   const study::Case c = study::read_case(arguments.case_file, arguments.settings);
-  const study::CheckReport r = study::check_case(c, {.threads = arguments.threads});
+  const study::CheckReport r = study::check_case(c, {.threads = threads});
   for (const std::string& warning : r.warnings) spdlog::warn(warning);
   fmt::print("title              {}\n", c.title);
   fmt::print("nodes              {} ({} elements, {} free dofs, {} contact candidates)\n", r.nodes,

@@ -4,26 +4,40 @@
 #include <string>
 #include <vector>
 
+#include "rondo/analysis/modes/modes.hpp"
+#include "rondo/study/pod/pod.hpp"
+#include "rondo/study/reduce/reduce.hpp"
+#include "rondo/study/sweep/sweep.hpp"
+
 namespace rondo::app {
 
-struct CommonArguments {
+struct CaseArguments {
   std::string case_file;
   std::vector<std::string> settings;  ///< "a.b=value" of --set
-  int threads = 0;                    ///< 0: chosen by size
 };
 
-struct RunArguments : CommonArguments {
-  std::string directory;  ///< empty: the case's name beside it
-  bool overwrite = false;
-  bool resume = false;
-  bool quiet = false;
-  std::string reduced;  ///< model's file; empty: the mesh
-  std::string reduced_step = "midpoint";
+struct RunArguments : CaseArguments {
+  study::RunOptions options;  ///< no directory: the case's name beside it
   bool realtime_factor = false;
-  double step_factor = 20.0;  ///< with it
 };
 
-int run(const RunArguments& arguments);
-int check(const CommonArguments& arguments);
+struct ModesArguments : CaseArguments {
+  study::ModesRequest request;  ///< no directory: the case's name and "-modes" beside it
+};
+
+struct SweepArguments {
+  study::SweepRequest request;  ///< no directory: the study's name beside it
+  int jobs = 0;                 ///< runs at once; 0: as many as there are cores
+  bool dry_run = false;
+};
+
+// `quiet`: no progress, only warnings and the figures.
+int run(RunArguments arguments, bool quiet);
+/// @param threads 0: chosen by size
+int check(const CaseArguments& arguments, int threads);
+int pod(study::PodRequest request, bool quiet);
+int reduce(study::ReduceRequest request, bool quiet);
+int modes(ModesArguments arguments, bool quiet);
+int sweep(SweepArguments arguments, bool quiet);
 
 }  // namespace rondo::app

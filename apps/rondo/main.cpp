@@ -15,63 +15,58 @@
 #include <system_error>
 
 #include "commands.hpp"
-#include "exit_codes.hpp"
-#include "modes_command.hpp"
-#include "pod_command.hpp"
-#include "reduce_command.hpp"
 #include "rondo/core/build_id.hpp"
 #include "rondo/core/error.hpp"
 #include "rondo/core/version.hpp"
 #include "rondo/output/run_files.hpp"
-#include "sweep_command.hpp"
 
 namespace {
 
 using namespace rondo;
 
-void add_case(CLI::App& command, std::string& case_file, std::vector<std::string>& settings,
+void add_case(CLI::App& command, app::CaseArguments& arguments,
               const char* what = "case file (TOML, docs/cases.md)") {
-  command.add_option("case", case_file, what)->required();
+  command.add_option("case", arguments.case_file, what)->required();
   command
-      .add_option("--set", settings,
+      .add_option("--set", arguments.settings,
                   "KEY=VALUE: overrides a key of the case, e.g. ground.friction=0.6; repeatable")
       ->take_all()
       ->expected(1);
 }
 
-void add_common(CLI::App& command, app::CommonArguments& arguments,
-                const char* what = "case file (TOML, docs/cases.md)") {
-  add_case(command, arguments.case_file, arguments.settings, what);
-  command.add_option("--threads", arguments.threads, "threads; chosen by size if left out")
+void add_threads(CLI::App& command, int& threads) {
+  command.add_option("--threads", threads, "threads; chosen by size if left out")
       ->check(CLI::Range(1, 1024));
 }
 
-CLI::App* add_run(CLI::App& program, app::RunArguments& arguments) {
+CLI::App* add_run(CLI::App& program, app::RunArguments& arguments, bool& quiet) {
+  study::RunOptions& options = arguments.options;
   CLI::App* run = program.add_subcommand("run", "runs a case into a results directory");
-  add_common(*run, arguments,
-             "case file (TOML, docs/cases.md); with --resume a results directory will do");
-  run->add_option("-o,--output", arguments.directory,
+  add_case(*run, arguments,
+           "case file (TOML, docs/cases.md); with --resume a results directory will do");
+  add_threads(*run, options.threads);
+  run->add_option("-o,--output", options.directory,
                   "results directory; the case's name beside it if left out");
   CLI::Option* overwrite =
-      run->add_flag("--overwrite", arguments.overwrite, "replaces another run's results there");
-  run->add_flag("--resume", arguments.resume,
+      run->add_flag("--overwrite", options.overwrite, "replaces another run's results there");
+  run->add_flag("--resume", options.resume,
                 "goes on with the run there from its last checkpoint, to the same bits; begins it "
                 "where there is none; with a later time.end a finished run goes on")
       ->excludes(overwrite);
   CLI::Option* reduced = run->add_option(
-      "--reduced", arguments.reduced,
+      "--reduced", options.reduced,
       "runs on the modes of this model (rondo reduce) instead of the mesh; docs/reduced.md");
-  run->add_option("--step-factor", arguments.step_factor,
+  run->add_option("--step-factor", options.step_factor,
                   "of a reduced run: its step over that of the full run")
       ->capture_default_str()
       ->needs(reduced);
-  run->add_option("--reduced-step", arguments.reduced_step,
+  run->add_option("--reduced-step", options.reduced_step,
                   "of a reduced run: midpoint (implicit), or explicit (central differences)")
       ->capture_default_str()
       ->needs(reduced);
   run->add_flag("--realtime-factor", arguments.realtime_factor,
                 "says how much faster than the motion itself the steps were");
-  run->add_flag("--quiet", arguments.quiet, "prints warnings and errors only");
+  run->add_flag("--quiet", quiet, "prints warnings and errors only");
   run->footer(
       "Example:\n  rondo run cases/ledge-smooth.toml -o results/mu06 --set ground.friction=0.6\n"
       "  rondo run results/mu06 --resume --set time.end=0.5\n"
@@ -79,10 +74,11 @@ CLI::App* add_run(CLI::App& program, app::RunArguments& arguments) {
   return run;
 }
 
-CLI::App* add_check(CLI::App& program, app::CommonArguments& arguments) {
+CLI::App* add_check(CLI::App& program, app::CaseArguments& arguments, int& threads) {
   CLI::App* check = program.add_subcommand(
       "check", "validates a case and says what it would cost; runs nothing, writes nothing");
-  add_common(*check, arguments);
+  add_case(*check, arguments);
+  add_threads(*check, threads);
   check->footer("Example:\n  rondo check cases/ledge-smooth.toml --set disk.mesh.radial=24");
   return check;
 }
@@ -93,15 +89,9 @@ CLI::App* add_check(CLI::App& program, app::CommonArguments& arguments) {
                          fmt::format("{} (docs/python.md)", now)});
 }
 
-struct ReduceArguments {
-  study::ReduceRequest request;
-  bool quiet = false;
-};
-
-CLI::App* add_reduce(CLI::App& program, ReduceArguments& arguments) {
+CLI::App* add_reduce(CLI::App& program, study::ReduceRequest& r, bool& quiet) {
   CLI::App* reduce = program.add_subcommand(
       "reduce", "a reduced model of a rolling disk from the snapshots of runs");
-  study::ReduceRequest& r = arguments.request;
   reduce
       ->add_option("run", r.runs,
                    "results directories of one disk: other frictions, speeds, heights, spins")
@@ -148,7 +138,7 @@ CLI::App* add_reduce(CLI::App& program, ReduceArguments& arguments) {
                          "validate REDUCED RUN");
           })
       ->group("");  // not in the help
-  reduce->add_flag("--quiet", arguments.quiet, "prints warnings and the figures only");
+  reduce->add_flag("--quiet", quiet, "prints warnings and the figures only");
   reduce->footer(
       "Example:\n  rondo reduce results/mu0 results/mu06 -o model.h5\n"
       "  rondo run cases/rolling-flat.toml --reduced model.h5 -o results/reduced\n"
@@ -157,15 +147,9 @@ CLI::App* add_reduce(CLI::App& program, ReduceArguments& arguments) {
   return reduce;
 }
 
-struct PodArguments {
-  study::PodRequest request;
-  bool quiet = false;
-};
-
-CLI::App* add_pod(CLI::App& program, PodArguments& arguments) {
+CLI::App* add_pod(CLI::App& program, study::PodRequest& r, bool& quiet) {
   CLI::App* pod =
       program.add_subcommand("pod", "proper orthogonal decomposition of the snapshots of runs");
-  study::PodRequest& r = arguments.request;
   pod->add_option("run", r.runs, "results directories; several: one common basis")->required();
   pod->add_option("--field", r.field, "displacement | velocity | contact")->capture_default_str();
   pod->add_option("--frame", r.frame, "rotating | rectified")->capture_default_str();
@@ -188,19 +172,19 @@ CLI::App* add_pod(CLI::App& program, PodArguments& arguments) {
       ->capture_default_str();
   pod->add_option("-o,--output", r.directory,
                   "the results go to OUTPUT/<field>-<frame>; RUN/pod if left out");
-  pod->add_flag("--quiet", arguments.quiet, "prints warnings and the figures only");
+  pod->add_flag("--quiet", quiet, "prints warnings and the figures only");
   pod->footer(
       "Example:\n  rondo pod results/ledge --field velocity --frame rectified --from 0.07\n"
       "Modes, spectrum and figures: docs/results.md.");
   return pod;
 }
 
-CLI::App* add_modes(CLI::App& program, app::ModesArguments& arguments) {
+CLI::App* add_modes(CLI::App& program, app::ModesArguments& arguments, bool& quiet) {
   CLI::App* modes = program.add_subcommand(
       "modes", "frequencies and shapes of a case's body, at rest and spinning; critical speeds");
   study::ModesRequest& r = arguments.request;
-  add_case(*modes, arguments.case_file, arguments.settings);
-  modes->add_option("-o,--output", arguments.directory,
+  add_case(*modes, arguments);
+  modes->add_option("-o,--output", r.run.directory,
                     "results directory; the case's name and \"-modes\" beside it if left out");
   modes->add_option("--count", r.count, "modes at each spin, besides rigid-body motions")
       ->check(CLI::Range(1, 100000))
@@ -214,7 +198,7 @@ CLI::App* add_modes(CLI::App& program, app::ModesArguments& arguments) {
       ->check(CLI::Range(0, 1000000))
       ->capture_default_str();
   modes->add_flag("--overwrite", r.run.overwrite, "replaces what another run has left there");
-  modes->add_flag("--quiet", arguments.quiet, "prints warnings and the figures only");
+  modes->add_flag("--quiet", quiet, "prints warnings and the figures only");
   modes->footer(
       "Example:\n  rondo modes cases/modes-annulus.toml -o results/modes --spins 0:400:41\n"
       "  python3 -m rondo campbell results/modes\n"
@@ -228,14 +212,15 @@ void add_paper(CLI::App& program) {
       ->callback([] { refuse_moved("rondo paper", "python3 -m rondo paper -o DIRECTORY"); });
 }
 
-CLI::App* add_sweep(CLI::App& program, app::SweepArguments& arguments) {
+CLI::App* add_sweep(CLI::App& program, app::SweepArguments& arguments, bool& quiet) {
+  study::SweepRequest& r = arguments.request;
   CLI::App* sweep = program.add_subcommand(
       "sweep", "a parametric study: many runs of one case, on all cores or under mpirun");
-  sweep->add_option("study", arguments.study, "study file (TOML, docs/studies.md)")->required();
-  sweep->add_option("-o,--output", arguments.directory,
+  sweep->add_option("study", r.study, "study file (TOML, docs/studies.md)")->required();
+  sweep->add_option("-o,--output", r.directory,
                     "directory of the study; its name beside it if left out");
   sweep
-      ->add_option("--set", arguments.settings,
+      ->add_option("--set", r.settings,
                    "KEY=VALUE: a key of the base case, for all runs; repeatable")
       ->take_all()
       ->expected(1);
@@ -245,10 +230,10 @@ CLI::App* add_sweep(CLI::App& program, app::SweepArguments& arguments) {
   sweep->add_flag("--dry-run", arguments.dry_run,
                   "checks all runs and lists them with what they would cost; writes nothing");
   CLI::Option* overwrite =
-      sweep->add_flag("--overwrite", arguments.overwrite, "replaces another sweep there");
-  sweep->add_flag("--resume", arguments.resume, "goes on with a sweep that was interrupted")
+      sweep->add_flag("--overwrite", r.overwrite, "replaces another sweep there");
+  sweep->add_flag("--resume", r.resume, "goes on with a sweep that was interrupted")
       ->excludes(overwrite);
-  sweep->add_flag("--quiet", arguments.quiet, "prints warnings and errors only");
+  sweep->add_flag("--quiet", quiet, "prints warnings and errors only");
   sweep->footer(
       "Example:\n  rondo sweep cases/studies/traction.toml -o results/traction\n"
       "  mpirun -n 64 rondo sweep cases/studies/traction.toml -o results/traction\n"
@@ -261,35 +246,37 @@ CLI::App* add_sweep(CLI::App& program, app::SweepArguments& arguments) {
 int report_input_error(const InputError& error) {
   for (const Fault& fault : error.faults()) spdlog::error("{}", fault.text());
   if (error.faults().size() > 1) spdlog::error("{} faults; nothing was run", error.faults().size());
-  return app::exit_input;
+  return exit_input;
 }
 
 int dispatch_command(CLI::App& program, int argc, char** argv) {
+  bool quiet = false;  // of the one command that is given
+  int check_threads = 0;
   app::RunArguments run_arguments;
-  app::CommonArguments check_arguments;
-  const CLI::App* run = add_run(program, run_arguments);
-  const CLI::App* check = add_check(program, check_arguments);
-  PodArguments pod_arguments;
-  const CLI::App* pod = add_pod(program, pod_arguments);
-  ReduceArguments reduce_arguments;
-  const CLI::App* reduce = add_reduce(program, reduce_arguments);
+  app::CaseArguments check_arguments;
+  study::PodRequest pod_request;
+  study::ReduceRequest reduce_request;
   app::ModesArguments modes_arguments;
-  const CLI::App* modes = add_modes(program, modes_arguments);
-  add_paper(program);
   app::SweepArguments sweep_arguments;
-  const CLI::App* sweep = add_sweep(program, sweep_arguments);
+  const CLI::App* run = add_run(program, run_arguments, quiet);
+  const CLI::App* check = add_check(program, check_arguments, check_threads);
+  const CLI::App* pod = add_pod(program, pod_request, quiet);
+  const CLI::App* reduce = add_reduce(program, reduce_request, quiet);
+  const CLI::App* modes = add_modes(program, modes_arguments, quiet);
+  add_paper(program);
+  const CLI::App* sweep = add_sweep(program, sweep_arguments, quiet);
   try {
     program.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
-    return program.exit(error) == 0 ? app::exit_done : app::exit_input;
+    return program.exit(error) == 0 ? exit_done : exit_input;
   }
-  if (run->parsed()) return app::run(run_arguments);
-  if (check->parsed()) return app::check(check_arguments);
-  if (pod->parsed()) return app::pod(pod_arguments.request, pod_arguments.quiet);
-  if (reduce->parsed()) return app::reduce(reduce_arguments.request, reduce_arguments.quiet);
-  if (modes->parsed()) return app::modes(modes_arguments);
-  if (sweep->parsed()) return app::sweep(sweep_arguments);
-  return app::exit_input;
+  if (run->parsed()) return app::run(run_arguments, quiet);
+  if (check->parsed()) return app::check(check_arguments, check_threads);
+  if (pod->parsed()) return app::pod(pod_request, quiet);
+  if (reduce->parsed()) return app::reduce(reduce_request, quiet);
+  if (modes->parsed()) return app::modes(modes_arguments, quiet);
+  if (sweep->parsed()) return app::sweep(sweep_arguments, quiet);
+  return exit_input;
 }
 
 /// A standard stream that was closed from the start gets one that takes or gives nothing: its
@@ -322,18 +309,13 @@ int run_program(int argc, char** argv) {
     throw FileError("standard output", "cannot be written");
   } catch (const InputError& error) {
     return report_input_error(error);
-  } catch (const FileError& error) {
-    spdlog::error("{}", error.what());
-    return app::exit_files;
-  } catch (const std::bad_alloc&) {
-    spdlog::error("not enough memory");
-    return app::exit_files;
   } catch (const std::system_error& error) {  // of printing: files have their FileError
     spdlog::error("standard output: {}", error.what());
-    return app::exit_files;
+    return exit_files;
   } catch (const std::exception& error) {
-    spdlog::error("unexpected failure, a bug of rondo's: {}", error.what());
-    return app::exit_numerical;
+    const study::WorkerOutcome failed = study::failed_by(error);
+    spdlog::error("{}", failed.text);
+    return failed.code;
   }
 }
 

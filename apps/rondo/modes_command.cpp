@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "modes_command.hpp"
+#include "commands.hpp"
 
 #include <fmt/format.h>
 #include <spdlog/spdlog.h>
@@ -8,7 +8,6 @@
 #include <functional>
 #include <numbers>
 
-#include "exit_codes.hpp"
 #include "progress.hpp"
 #include "signals.hpp"
 
@@ -40,17 +39,16 @@ void print_critical(const study::ModesReport& r) {
 
 }  // namespace
 
-int modes(ModesArguments arguments) {
-  if (arguments.quiet) spdlog::set_level(spdlog::level::warn);
+int modes(ModesArguments arguments, bool quiet) {
+  if (quiet) spdlog::set_level(spdlog::level::warn);
   const study::Case c = study::read_case(arguments.case_file, arguments.settings);
   study::ModesRequest& request = arguments.request;
-  request.run.directory = arguments.directory.empty() ? default_directory(arguments.case_file)
-                                                      : std::filesystem::path(arguments.directory);
+  if (request.run.directory.empty()) request.run.directory = default_directory(arguments.case_file);
   request.run.warn = [](const std::string& text) { spdlog::warn(text); };
   request.run.stop = &stop_requested();
   request.run.before_loop = catch_stop_signals;
   Progress progress("spin");
-  if (!arguments.quiet) request.run.progress = std::ref(progress);
+  if (!quiet) request.run.progress = std::ref(progress);
   const study::ModesReport r = study::run_modes(c, request);
   print_modes(r);
   print_critical(r);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "pod_command.hpp"
+#include "commands.hpp"
 
 #include <fmt/format.h>
 #include <spdlog/spdlog.h>
@@ -7,10 +7,8 @@
 #include <functional>
 #include <string>
 
-#include "exit_codes.hpp"
 #include "progress.hpp"
 #include "rondo/core/bytes.hpp"
-#include "rondo/study/pod/pod.hpp"
 
 namespace rondo::app {
 namespace {

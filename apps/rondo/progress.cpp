@@ -7,14 +7,21 @@
 #include <cstdio>
 #include <string>
 
-#include "print.hpp"
-
 namespace rondo::app {
+namespace {
+
+/// Prints at once. What cannot be printed is left out: a terminal that is gone ends no run.
+void print(const std::string& text) {
+  std::fputs(text.c_str(), stderr);
+  std::fflush(stderr);
+}
+
+}  // namespace
 
 Progress::Progress(const char* unit) : unit_(unit), terminal_(isatty(STDERR_FILENO) != 0) {}
 
 Progress::~Progress() {
-  if (open_) print(stderr, "\n");
+  if (open_) print("\n");
 }
 
 void Progress::operator()(long long done, long long total) {
@@ -40,8 +47,8 @@ void Progress::operator()(long long done, long long total) {
       last || !(speed > 0.0)
           ? ""
           : fmt::format(", {:.1f} s left", static_cast<double>(total - done) / speed);
-  print(stderr, fmt::format("{:3d} %  {} {} of {}, {:.1f} s{}\n", 10 * decade, unit_, done, total,
-                            seconds, left));
+  print(fmt::format("{:3d} %  {} {} of {}, {:.1f} s{}\n", 10 * decade, unit_, done, total, seconds,
+                    left));
 }
 
 void Progress::draw_bar(long long done, long long total, double seconds) const {
@@ -50,9 +57,9 @@ void Progress::draw_bar(long long done, long long total, double seconds) const {
   const auto filled = static_cast<std::size_t>(share * width);
   const double speed = seconds > 0.0 ? static_cast<double>(done - first_) / seconds : 0.0;
   const double left = speed > 0.0 ? static_cast<double>(total - done) / speed : 0.0;
-  print(stderr, fmt::format("\r[{:<{}}] {:3.0f} %  {:.0f} {}s/s  {:.1f} s left \033[K{}",
-                            std::string(filled, '#'), width, 100.0 * share, speed, unit_, left,
-                            done == total ? "\n" : ""));
+  print(fmt::format("\r[{:<{}}] {:3.0f} %  {:.0f} {}s/s  {:.1f} s left \033[K{}",
+                    std::string(filled, '#'), width, 100.0 * share, speed, unit_, left,
+                    done == total ? "\n" : ""));
 }
 
 }  // namespace rondo::app

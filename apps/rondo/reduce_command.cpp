@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "reduce_command.hpp"
+#include "commands.hpp"
 
 #include <fmt/format.h>
 #include <spdlog/spdlog.h>
@@ -7,7 +7,6 @@
 #include <functional>
 #include <string>
 
-#include "exit_codes.hpp"
 #include "progress.hpp"
 #include "rondo/core/bytes.hpp"
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "sweep_command.hpp"
+#include "commands.hpp"
 
 #include <fmt/format.h>
 #include <spdlog/spdlog.h>
@@ -12,13 +12,11 @@
 #include <optional>
 #include <string_view>
 
-#include "exit_codes.hpp"
 #include "mpi_team.hpp"
 #include "progress.hpp"
 #include "rondo/analysis/build/memory.hpp"
 #include "rondo/core/bytes.hpp"
 #include "rondo/core/error.hpp"
-#include "rondo/study/sweep/sweep.hpp"
 #include "signals.hpp"
 
 namespace rondo::app {
@@ -26,11 +24,6 @@ namespace {
 
 /// Fewer members are checked before a bar is seen.
 constexpr long long spoken_of = 500;
-
-std::string directory_of(const SweepArguments& arguments) {
-  if (!arguments.directory.empty()) return arguments.directory;
-  return std::filesystem::path(arguments.study).replace_extension().string();
-}
 
 /// A task of a scheduler that did not start MPI: each would run the whole sweep by itself.
 void refuse_tasks_without_mpi() {
@@ -67,7 +60,7 @@ void print_plan(const study::DrySweep& dry, int workers) {
              readable_bytes(disk));
 }
 
-int finish(const study::SweepReport& report, const std::string& directory) {
+int finish(const study::SweepReport& report, const std::filesystem::path& directory) {
   for (const std::string& failure : report.failures) spdlog::warn("{}", failure);
   if (report.failed > report.failures.size())
     spdlog::warn("and {} more: sweep.json", report.failed - report.failures.size());
@@ -79,22 +72,16 @@ int finish(const study::SweepReport& report, const std::string& directory) {
   spdlog::info("{} of {} runs done{}{} in {:.1f} s; results.csv and sweep.h5 in {}", report.done,
                report.members, report.failed > 0 ? fmt::format(", {} failed", report.failed) : "",
                report.kept > 0 ? fmt::format(", {} were there already", report.kept) : "",
-               report.wall_s, directory);
+               report.wall_s, directory.string());
   return report.code;
 }
 
-int run(const SweepArguments& arguments, study::Team& team) {
-  study::SweepRequest request;
-  const std::string directory = directory_of(arguments);
-  request.study = arguments.study;
-  request.settings = arguments.settings;
-  request.directory = directory;
-  request.resume = arguments.resume;
-  request.overwrite = arguments.overwrite;
+int run(SweepArguments& arguments, study::Team& team, bool quiet) {
+  study::SweepRequest& request = arguments.request;
   request.stop = &stop_requested();
   request.warn = [](const std::string& text) { spdlog::warn("{}", text); };
   std::optional<Progress> progress;
-  const bool quiet = arguments.quiet || !team.leads();
+  if (!team.leads()) quiet = true;
   request.checking = [&](const char* what, long long done, long long all) {
     if (quiet || all < spoken_of) return;
     if (done == 0 || !progress) progress.emplace(what);
@@ -118,14 +105,14 @@ int run(const SweepArguments& arguments, study::Team& team) {
   };
   const study::SweepReport report = study::run_sweep(request, team);
   progress.reset();
-  return team.leads() ? finish(report, directory) : exit_done;  // mpirun takes the leader's
+  return team.leads() ? finish(report, request.directory) : exit_done;  // mpirun takes the leader's
 }
 
 /// What fails on all ranks alike, the leader alone tells, as of any command. What fails on some
 /// ends the others, who wait for them.
-int run_ranks(const SweepArguments& arguments, study::Team& team) {
+int run_ranks(SweepArguments& arguments, study::Team& team, bool quiet) {
   try {
-    return run(arguments, team);
+    return run(arguments, team, quiet);
   } catch (const std::exception& error) {
     if (team.have_all_failed()) {
       if (!team.leads()) return exit_done;
@@ -141,21 +128,23 @@ int run_ranks(const SweepArguments& arguments, study::Team& team) {
 
 }  // namespace
 
-int sweep(const SweepArguments& arguments) {
-  if (arguments.quiet) spdlog::set_level(spdlog::level::warn);
+int sweep(SweepArguments arguments, bool quiet) {
+  std::filesystem::path& directory = arguments.request.directory;
+  if (directory.empty()) (directory = arguments.request.study).replace_extension();
+  if (quiet) spdlog::set_level(spdlog::level::warn);
   catch_stop_signals();
   if (!is_started_by_mpi()) {
     refuse_tasks_without_mpi();
     const int workers = arguments.jobs > 0 ? arguments.jobs : study::available_cores();
     study::LocalTeam team(workers, &stop_requested());
-    return run(arguments, team);
+    return run(arguments, team, quiet);
   }
   if (arguments.jobs > 0)
     throw InputError(Fault{"--jobs", 0, 0, "", "", "mpirun decides how many runs go on at once",
                            "leave --jobs out"});
   const std::unique_ptr<study::Team> team = make_mpi_team(stop_requested());
   if (!team->leads()) spdlog::set_level(spdlog::level::off);  // all say the same
-  return run_ranks(arguments, *team);
+  return run_ranks(arguments, *team, quiet);
 }
 
 }  // namespace rondo::app

@@ -210,12 +210,12 @@ class Reduced(ProgramTest):
         before = (out / "history.csv").read_bytes()
         done = run("run", out, "--resume")
         self.assertEqual(done.returncode, 2, done.stderr)
-        self.assertIn("of a reduced run", done.stderr)
+        self.assertIn("of a run that keeps no checkpoints", done.stderr)
         # Neither does a full run take the place of one that was killed.
         (out / "run.json").write_text(json.dumps({**summary(out), "status": "running"}))
         done = run("run", self.case_file, "-o", out, "--resume")
         self.assertEqual(done.returncode, 2, done.stderr)
-        self.assertIn("of a reduced run", done.stderr)
+        self.assertIn("of a run that keeps no checkpoints", done.stderr)
         self.assertEqual((out / "history.csv").read_bytes(), before)
 
     def test_interrupt(self):

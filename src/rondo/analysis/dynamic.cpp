@@ -102,7 +102,7 @@ CheckReport DynamicAnalysis::check(double trial) {
   r.steps = setup_.n_steps;
   r.threads = setup_.model.threads;
   r.snapshots = schedule_.steps.size();
-  r.memory_bytes = motion_memory(case_, size_of(setup_.mesh));
+  r.memory_bytes = motion_memory(case_, setup_.mesh);
   r.disk_bytes = disk_needed(record_plan(), resumable() != nullptr).all;
   r.seconds = seconds_per_step(trial) * static_cast<double>(setup_.n_steps);
   r.lines = {

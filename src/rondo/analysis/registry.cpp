@@ -28,4 +28,11 @@ std::unique_ptr<Analysis> make_analysis(const Case& c, const RunOptions& options
   return options.reduced.empty() ? type_of(c).make(c, options) : make_reduced(c, options);
 }
 
+CheckReport check_case(const Case& c, const CheckOptions& options) {
+  RunOptions run;
+  run.threads = options.threads;
+  run.shared = options.shared;
+  return make_analysis(c, run)->check(options.trial_s);
+}
+
 }  // namespace rondo::study

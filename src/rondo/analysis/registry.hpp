@@ -27,4 +27,14 @@ struct AnalysisType {
 /// options must outlive it. @throws InputError, FileError
 [[nodiscard]] std::unique_ptr<Analysis> make_analysis(const Case& c, const RunOptions& options);
 
+struct CheckOptions {
+  int threads = 0;               ///< 0: chosen by size
+  double trial_s = 0.2;          ///< of steps made to estimate `seconds`; 0: none, which is 0 then
+  SharedBody* shared = nullptr;  ///< as for build()
+};
+
+/// What a case would cost and whether it can run, without running it. @throws InputError as a run
+/// would
+[[nodiscard]] CheckReport check_case(const Case& c, const CheckOptions& options);
+
 }  // namespace rondo::study

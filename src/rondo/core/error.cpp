@@ -38,12 +38,7 @@ InputError::InputError(Fault fault) : InputError(std::vector<Fault>{std::move(fa
 
 InputError request_error(const std::string& option, const std::string& found,
                          const std::string& message, const std::string& allowed) {
-  Fault fault;
-  fault.key = option;
-  fault.found = found;
-  fault.message = message;
-  fault.allowed = allowed;
-  return InputError(fault);
+  return InputError(Fault{"", 0, 0, option, found, message, allowed});
 }
 
 }  // namespace rondo

@@ -8,6 +8,15 @@
 
 namespace rondo {
 
+/// Exit codes of the program, and of work that it gives to other processes.
+enum ExitCode : int {
+  exit_done = 0,
+  exit_input = 2,      ///< wrong input or usage
+  exit_numerical = 3,  ///< not finite, ledger or contact residual out of bound; a bug, a signal
+  exit_files = 4,      ///< cannot write, disk full, damaged; memory ran out
+  exit_interrupted = 130,
+};
+
 /// One thing that is wrong in what the user gave.
 struct Fault {
   std::string file;     ///< case file, or "--set"; empty: not tied to a file

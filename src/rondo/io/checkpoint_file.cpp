@@ -17,12 +17,6 @@ namespace rondo::io {
 namespace fs = std::filesystem;
 namespace {
 
-[[noreturn]] void fail(const fs::path& file, const char* doing) {
-  const int code = errno;
-  throw FileError(file.string(),
-                  fmt::format("cannot {}: {}", doing, std::generic_category().message(code)));
-}
-
 /// Of what follows the first block, from where the stream stands.
 std::string hash_of_rest(std::istream& in) {
   Hash hash;
@@ -45,12 +39,12 @@ void write_hash(const fs::path& file) {
   std::fstream stream(file, std::ios::in | std::ios::out | std::ios::binary);
   stream.seekg(hash_block_bytes);
   const std::string block = first_block(hash_of_rest(stream));
-  if (stream.bad()) fail(file, "read");
+  if (stream.bad()) fail_on(file, "read");
   stream.clear();  // of the end that was read
   stream.seekp(0);
   stream.write(block.data(), static_cast<std::streamsize>(block.size()));
   stream.close();
-  if (!stream) fail(file, "write");
+  if (!stream) fail_on(file, "write");
 }
 
 }  // namespace
@@ -67,7 +61,7 @@ void write_checkpoint_file(const fs::path& file, const std::function<void(h5::Fi
 h5::File open_checkpoint_file(const fs::path& file) {
   std::ifstream in(file, std::ios::binary);
   std::string block(hash_block_bytes, '\0');
-  if (!in) fail(file, "read");
+  if (!in) fail_on(file, "read");
   in.read(block.data(), static_cast<std::streamsize>(block.size()));
   if (!in || !block.starts_with("rondo checkpoint "))
     throw FileError(file.string(), "is damaged, or not a checkpoint of rondo's");

@@ -15,15 +15,10 @@
 
 #include "rondo/core/contract.hpp"
 #include "rondo/core/error.hpp"
+#include "rondo/io/files.hpp"
 
 namespace rondo::io {
 namespace {
-
-[[noreturn]] void fail(const std::filesystem::path& path, const char* doing) {
-  const int code = errno;
-  throw FileError(path.string(),
-                  std::string("cannot ") + doing + ": " + std::generic_category().message(code));
-}
 
 std::string header_of(const std::vector<std::string>& columns) {
   RONDO_DEMAND(!columns.empty(), columns.size());
@@ -34,7 +29,7 @@ std::string header_of(const std::vector<std::string>& columns) {
 
 Csv::Csv(const std::filesystem::path& file, const std::vector<std::string>& columns)
     : path_(file), n_columns_(columns.size()), file_(std::fopen(file.c_str(), "we")) {
-  if (!file_) fail(path_, "create");
+  if (!file_) fail_on(path_, "create");
   std::setvbuf(file_.get(), nullptr, _IONBF, 0);
   put(header_of(columns));
 }
@@ -45,18 +40,18 @@ Csv::Csv(const std::filesystem::path& file, const std::vector<std::string>& colu
       n_columns_(columns.size()),
       bytes_(bytes),
       file_(std::fopen(file.c_str(), "r+e")) {
-  if (!file_) fail(path_, "open");
+  if (!file_) fail_on(path_, "open");
   std::setvbuf(file_.get(), nullptr, _IONBF, 0);
   const std::string header = header_of(columns);
   std::string found(header.size(), '\0');
   if (std::fread(found.data(), 1, found.size(), file_.get()) != found.size() || found != header)
     throw FileError(path_.string(), "does not begin with the columns of this run");
-  if (std::fseek(file_.get(), 0, SEEK_END) != 0) fail(path_, "measure");
+  if (std::fseek(file_.get(), 0, SEEK_END) != 0) fail_on(path_, "measure");
   if (const long size = std::ftell(file_.get()); size < static_cast<long>(bytes))
     throw FileError(path_.string(),
                     fmt::format("holds {} bytes where it held {}: damaged", size, bytes));
-  if (::ftruncate(::fileno(file_.get()), static_cast<off_t>(bytes)) != 0) fail(path_, "shorten");
-  if (std::fseek(file_.get(), 0, SEEK_END) != 0) fail(path_, "write");
+  if (::ftruncate(::fileno(file_.get()), static_cast<off_t>(bytes)) != 0) fail_on(path_, "shorten");
+  if (std::fseek(file_.get(), 0, SEEK_END) != 0) fail_on(path_, "write");
 }
 
 /// Without a buffer of its own the stream passes a text on in one write. Where the disk has no room
@@ -70,7 +65,7 @@ void Csv::put(const std::string& text) {
   if (whole) return;
   static_cast<void>(::ftruncate(::fileno(file_.get()), static_cast<off_t>(bytes_)));
   errno = code;
-  fail(path_, "write");
+  fail_on(path_, "write");
 }
 
 void Csv::row(std::span<const double> values) {
@@ -92,7 +87,7 @@ void Csv::rows(std::span<const double> values) {
 }
 
 void Csv::close() {
-  if (file_ && std::fclose(file_.release()) != 0) fail(path_, "close");
+  if (file_ && std::fclose(file_.release()) != 0) fail_on(path_, "close");
 }
 
 namespace {
@@ -136,7 +131,7 @@ std::vector<std::string> names_in(const std::string& header, const std::filesyst
 std::map<std::string, std::vector<double>, std::less<>> read_columns(
     const std::filesystem::path& file) {
   std::ifstream in(file, std::ios::binary);
-  if (!in) fail(file, "read");
+  if (!in) fail_on(file, "read");
   std::vector<std::string> names;
   std::vector<std::vector<double>> columns;
   std::string line;
@@ -148,7 +143,7 @@ std::map<std::string, std::vector<double>, std::less<>> read_columns(
     names = names_in(line, file);
     columns.resize(names.size());
   }
-  if (in.bad()) fail(file, "read");
+  if (in.bad()) fail_on(file, "read");
   if (names.empty()) throw FileError(file.string(), "holds no header of columns");
   std::map<std::string, std::vector<double>, std::less<>> by_name;
   for (std::size_t k = 0; k < names.size(); ++k) by_name[names[k]] = std::move(columns[k]);

@@ -121,12 +121,7 @@ bool lives(const Holder& holder) {
 
 void refuse_directory(const fs::path& directory, const std::string& what,
                       const std::string& to_do) {
-  Fault fault;
-  fault.key = "-o";
-  fault.found = directory.string();
-  fault.message = what;
-  fault.allowed = to_do;
-  throw InputError(fault);
+  throw request_error("-o", directory.string(), what, to_do);
 }
 
 std::string host_name() {
@@ -136,8 +131,7 @@ std::string host_name() {
 
 DirectoryLock::DirectoryLock(const fs::path& directory)
     : descriptor_(::open(directory.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC)) {
-  if (descriptor_ < 0)
-    throw FileError(directory.string(), "cannot open the directory: " + message(errno));
+  if (descriptor_ < 0) fail_on(directory, "open the directory");
   int code = 0;
   for (int tries = 0; tries < 20; ++tries) {  // a second: processes of a killed one may be ending
     if (::flock(descriptor_, LOCK_EX | LOCK_NB) == 0) return;

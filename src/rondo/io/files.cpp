@@ -7,6 +7,7 @@
 
 #include <cerrno>
 #include <fstream>
+#include <iterator>
 #include <system_error>
 #include <utility>
 
@@ -16,17 +17,13 @@ namespace rondo::io {
 namespace fs = std::filesystem;
 namespace {
 
-std::string message(int code) {
-  return std::generic_category().message(code);
-}
-
 /// Descriptor of a file being written beside `target`.
 class Beside {
  public:
   explicit Beside(const fs::path& target)
       : target_(target), file_(target.string() + fmt::format(".{}.tmp", ::getpid())) {
     descriptor_ = ::open(file_.path.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666);
-    if (descriptor_ < 0) fail("create");
+    if (descriptor_ < 0) fail_on(target_, "create");
   }
   ~Beside() {
     if (descriptor_ >= 0) ::close(descriptor_);
@@ -38,27 +35,34 @@ class Beside {
     for (std::size_t done = 0; done < text.size();) {
       const ssize_t n = ::write(descriptor_, text.data() + done, text.size() - done);
       if (n < 0 && errno == EINTR) continue;
-      if (n < 0) fail("write");
+      if (n < 0) fail_on(target_, "write");
       done += static_cast<std::size_t>(n);
     }
   }
   void keep() {
-    if (::fsync(descriptor_) != 0) fail("write");
-    if (::close(std::exchange(descriptor_, -1)) != 0) fail("write");
-    if (::rename(file_.path.c_str(), target_.c_str()) != 0) fail("replace");
+    if (::fsync(descriptor_) != 0) fail_on(target_, "write");
+    if (::close(std::exchange(descriptor_, -1)) != 0) fail_on(target_, "write");
+    if (::rename(file_.path.c_str(), target_.c_str()) != 0) fail_on(target_, "replace");
   }
 
  private:
-  [[noreturn]] void fail(const char* doing) const {
-    const int code = errno;
-    throw FileError(target_.string(), fmt::format("cannot {}: {}", doing, message(code)));
-  }
   fs::path target_;
   UnfinishedFile file_;
   int descriptor_ = -1;
 };
 
 }  // namespace
+
+void fail_on(const fs::path& file, const char* doing) {
+  const int code = errno;
+  throw FileError(file.string(),
+                  fmt::format("cannot {}: {}", doing, std::generic_category().message(code)));
+}
+
+std::string text_of(const fs::path& file) {
+  std::ifstream in(file, std::ios::binary);
+  return {std::istreambuf_iterator<char>(in), {}};
+}
 
 void write_file(const fs::path& file, const std::string& text) {
   Beside beside(file);
@@ -74,7 +78,7 @@ void write_json(const fs::path& file, const nlohmann::ordered_json& json) {
 
 nlohmann::ordered_json read_json(const fs::path& file) {
   std::ifstream in(file, std::ios::binary);
-  if (!in) throw FileError(file.string(), "cannot read: " + message(errno));
+  if (!in) fail_on(file, "read");
   std::error_code error;
   if (fs::is_directory(file, error)) throw FileError(file.string(), "is a directory");
   constexpr bool exceptions = false;
@@ -89,20 +93,16 @@ UnfinishedFile::~UnfinishedFile() {
 }
 
 void sync_file(const fs::path& file) {
-  const auto fail = [&](const char* doing) {
-    throw FileError(file.string(), fmt::format("cannot {}: {}", doing, message(errno)));
-  };
   const int descriptor = ::open(file.c_str(), O_RDONLY | O_CLOEXEC);
-  if (descriptor < 0) fail("open");
+  if (descriptor < 0) fail_on(file, "open");
   const bool written = ::fsync(descriptor) == 0;
   ::close(descriptor);
-  if (!written) fail("write");
+  if (!written) fail_on(file, "write");
 }
 
 void replace_file(const fs::path& file, const fs::path& target) {
   sync_file(file);
-  if (::rename(file.c_str(), target.c_str()) != 0)
-    throw FileError(target.string(), "cannot replace: " + message(errno));
+  if (::rename(file.c_str(), target.c_str()) != 0) fail_on(target, "replace");
   sync_file(target.has_parent_path() ? target.parent_path() : fs::path("."));
 }
 

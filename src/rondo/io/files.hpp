@@ -10,6 +10,12 @@
 
 namespace rondo::io {
 
+/// Of a call of the system that has just failed, by errno. @throws FileError: cannot `doing`
+[[noreturn]] void fail_on(const std::filesystem::path& file, const char* doing);
+
+/// Empty where it cannot be read.
+std::string text_of(const std::filesystem::path& file);
+
 /// Written beside, then renamed: readers never see half a file. @throws FileError
 void write_file(const std::filesystem::path& file, const std::string& text);
 void write_json(const std::filesystem::path& file, const nlohmann::ordered_json& json);

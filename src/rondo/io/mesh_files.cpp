@@ -48,17 +48,12 @@ std::vector<int> mixed_list(const mesh::Mesh& m) {
   return list;
 }
 
-template <class T>
-std::span<const T> view(const std::vector<T>& values) {
-  return values;
-}
-
 void write_cells(h5::File& file, const mesh::Mesh& m) {
   const CellCounts c = counts_of(m);
-  file.write("/mesh/cells", {c.cells, c.corners}, view(cell_table(m, c.corners)),
+  file.write("/mesh/cells", {c.cells, c.corners}, cell_table(m, c.corners),
              {"1", "corner nodes of each cell, counter-clockwise, from 0; -1: no such corner"});
   if (c.mixed())
-    file.write("/mesh/cells_mixed", {c.n_mixed()}, view(mixed_list(m)),
+    file.write("/mesh/cells_mixed", {c.n_mixed()}, mixed_list(m),
                {"1", "the cells as a list for XDMF: 4 (triangle) or 5 (quadrilateral), its nodes"});
 }
 
@@ -66,26 +61,26 @@ void write_cells(h5::File& file, const mesh::Mesh& m) {
 
 void write_mesh(h5::File& file, const mesh::Mesh& m, std::span<const double> mass) {
   const std::size_t n = m.n_nodes(), nb = m.boundary.size();
-  file.write("/mesh/coordinates", {n, 2}, view(m.coordinates),
+  file.write("/mesh/coordinates", {n, 2}, m.coordinates,
              {"m",
               "reference position X of each node: turning frame, from the centre; of free bodies "
               "fixed frame"});
   write_cells(file, m);
-  file.write("/mesh/boundary", {nb}, view(m.boundary),
+  file.write("/mesh/boundary", {nb}, m.boundary,
              {"1", "nodes that may touch something, in order along the boundary"});
-  file.write("/mesh/tributary", {nb}, view(m.tributary),
+  file.write("/mesh/tributary", {nb}, m.tributary,
              {"m", "length of boundary that each node of /mesh/boundary stands for"});
   file.write("/mesh/mass", {n}, mass, {"kg/m", "lumped mass of each node, per unit thickness"});
   if (!m.region.empty()) {
-    file.write("/mesh/region", {m.region.size()}, view(m.region),
+    file.write("/mesh/region", {m.region.size()}, m.region,
                {"1", "physical surface of each cell: its attributes name_0, name_1, ..."});
     for (std::size_t k = 0; k < m.region_names.size(); ++k)
       file.set_attribute("/mesh/region", fmt::format("name_{}", k), m.region_names[k]);
   }
   if (m.n_sectors == 0) return;
-  file.write("/mesh/sector", {n}, view(m.sector),
+  file.write("/mesh/sector", {n}, m.sector,
              {"1", "sector of each node, counter-clockwise from straight down, from 0"});
-  file.write("/mesh/sector_node", {n}, view(m.sector_node),
+  file.write("/mesh/sector_node", {n}, m.sector_node,
              {"1", "number of each node within its sector: the same in all sectors"});
 }
 

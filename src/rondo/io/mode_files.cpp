@@ -5,7 +5,6 @@
 #include <cstddef>
 #include <cstdint>
 
-#include "rondo/io/files.hpp"
 #include "rondo/io/h5/h5.hpp"
 #include "rondo/io/mesh_files.hpp"
 #include "rondo/io/xdmf.hpp"
@@ -62,17 +61,11 @@ void write_figures(h5::File& file, std::span<const SpinModes> spins, std::size_t
       angular_velocity.push_back(spin.angular_velocity);
       diameters.push_back(mode.diameters);
     }
-  file.write("/modes/frequency", {n}, std::span<const double>(frequency),
+  file.write("/modes/frequency", {n}, frequency,
              {"rad/s", "omega of each mode in the turning frame"});
-  file.write("/modes/angular_velocity", {n}, std::span<const double>(angular_velocity),
+  file.write("/modes/angular_velocity", {n}, angular_velocity,
              {"rad/s", "of the body, as in the case: > 0 rolls towards +x"});
-  file.write("/modes/nodal_diameters", {n}, std::span<const std::int32_t>(diameters),
-             {"1", "of each mode; -1: unknown"});
-}
-
-std::size_t bytes(const mesh::Mesh& mesh, std::size_t modes) {
-  constexpr std::size_t of_node = 2 * (sizeof(Vec2) + sizeof(Vector)), description = 65536;
-  return description + mesh_bytes(mesh) + modes * mesh.n_nodes() * of_node;
+  file.write("/modes/nodal_diameters", {n}, diameters, {"1", "of each mode; -1: unknown"});
 }
 
 }  // namespace
@@ -81,7 +74,6 @@ void write_mode_shapes(const fs::path& directory, const mesh::Mesh& mesh,
                        std::span<const double> mass, std::span<const SpinModes> spins) {
   std::size_t n = 0;
   for (const SpinModes& spin : spins) n += spin.modes->size();
-  demand_room(directory / "modes.h5", bytes(mesh, n));
   h5::File file = h5::File::create(directory / "modes.h5");
   file.set_attribute("/", "format", "rondo modes 1");
   write_mesh(file, mesh, mass);

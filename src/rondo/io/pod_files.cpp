@@ -23,17 +23,16 @@ namespace {
 
 using Eigen::Index;
 using h5::Type;
-using Vector = std::array<float, 3>;  ///< of ParaView
+using Vector = PodWriter::Vector;
 
 std::size_t size(Index n) noexcept {
   return static_cast<std::size_t>(n);
 }
 
-struct Counts {
-  std::size_t nodes, points, modes, values, temporal, times, reconstructed;
-};
+using Counts = PodCounts;
 
 Counts counts_of(const PodContent& c, std::size_t n_reconstructed) noexcept {
+  RONDO_DEMAND(c.mesh && c.decomposition && c.spectrum && c.modes, c.quantity);
   return {c.mesh->n_nodes(),
           c.contact ? c.mesh->boundary.size() : c.mesh->n_nodes(),
           size(c.modes->cols()),
@@ -72,9 +71,9 @@ Units units_of(const PodContent& c) {
 }
 
 /// Datasets without numbers are left out: readers trip over them.
-template <class T>
-void write(h5::File& file, const std::string& name, const h5::Shape& shape,
-           std::span<const T> values, const h5::Label& label) {
+template <class Values>
+void write(h5::File& file, const std::string& name, const h5::Shape& shape, const Values& values,
+           const h5::Label& label) {
   if (!values.empty()) file.write(name, shape, values, label);
 }
 
@@ -133,93 +132,65 @@ void write_temporal(h5::File& file, const PodContent& c, const Counts& n) {
 
 }  // namespace
 
-struct PodWriter::Impl {
-  Impl(const fs::path& directory, const PodContent& content, std::size_t n_reconstructed);
-  ~Impl();
-  Impl(const Impl&) = delete;
-  Impl& operator=(const Impl&) = delete;
-  void write_all(const PodContent& c);
-  void write_modes(const PodContent& c);
-  void write_csv(const PodContent& c) const;
-  void create_reconstruction(const PodContent& c);
-  [[nodiscard]] XdmfSeries series(const PodContent& c, std::size_t times) const;
-  void add_fields(XdmfSeries& s, const std::string& name, const std::string& dataset) const;
-  void put(h5::Dataset& dataset, std::size_t row, FieldView values);
-  void commit();
-
-  fs::path directory, folder;  ///< folder: where the files are made
-  Counts n;
-  std::vector<int> boundary;       ///< nodes of the points; empty: points are the nodes
-  std::vector<Vector> field;       ///< (n) reused
-  std::vector<double> difference;  ///< (n_points, components) reused
-  std::size_t added = 0;
-  double last = 0.0;  ///< time added [s]
-  h5::File file;
-  struct {
-    h5::Dataset original, reconstructed, error;
-  } d;
-  std::unique_ptr<Xdmf> xdmf;
-};
-
-PodWriter::Impl::Impl(const fs::path& where, const PodContent& c, std::size_t n_reconstructed)
-    : directory(where),
-      folder(where / fmt::format(".pod.{}.tmp", ::getpid())),
-      n(counts_of(c, n_reconstructed)),
-      field(n.nodes, Vector{}),
-      difference(n.points * c.components) {
-  check(c, n);
-  if (c.contact) boundary = c.mesh->boundary;
-  demand_room(directory / "pod.h5", bytes(c, n_reconstructed));
+PodWriter::PodWriter(const fs::path& directory, const PodContent& c, std::size_t n_reconstructed)
+    : directory_(directory),
+      folder_(directory / fmt::format(".pod.{}.tmp", ::getpid())),
+      n_(counts_of(c, n_reconstructed)),
+      field_(n_.nodes, Vector{}),
+      difference_(n_.points * c.components) {
+  check(c, n_);
+  if (c.contact) boundary_ = c.mesh->boundary;
+  demand_room(directory_ / "pod.h5", bytes(c, n_reconstructed));
   std::error_code error;
-  fs::remove_all(folder, error);
-  if (!fs::create_directory(folder, error))
-    throw FileError(folder.string(), "cannot create directory: " + error.message());
+  fs::remove_all(folder_, error);
+  if (!fs::create_directory(folder_, error))
+    throw FileError(folder_.string(), "cannot create directory: " + error.message());
   try {
     write_all(c);
   } catch (...) {
-    fs::remove_all(folder, error);
+    fs::remove_all(folder_, error);
     throw;
   }
 }
 
-PodWriter::Impl::~Impl() {
-  d = {};
-  xdmf.reset();
-  file = {};
+PodWriter::~PodWriter() {
+  d_ = {};
+  xdmf_.reset();
+  file_ = {};
   std::error_code ignored;
-  fs::remove_all(folder, ignored);
+  fs::remove_all(folder_, ignored);
 }
 
-void PodWriter::Impl::write_all(const PodContent& c) {
-  file = h5::File::create(folder / "pod.h5");
-  file.set_attribute("/", "format", "rondo pod 1");
+void PodWriter::write_all(const PodContent& c) {
+  file_ = h5::File::create(folder_ / "pod.h5");
+  file_.set_attribute("/", "format", "rondo pod 1");
   for (const auto& [name, text] : {std::pair("quantity", c.quantity), std::pair("frame", c.frame),
                                    std::pair("shift", c.shift), std::pair("weight", c.weight)})
-    file.set_attribute("/", name, text);
-  write_mesh(file, *c.mesh, c.mass);
-  write(file, "/weight", {n.points}, c.point_weight,
+    file_.set_attribute("/", name, text);
+  write_mesh(file_, *c.mesh, c.mass);
+  write(file_, "/weight", {n_.points}, c.point_weight,
         {units_of(c).weight, "weight W of each point in the norm: " + c.weight});
-  write_spectrum(file, c, n);
-  write_snapshots(file, c, n);
-  write_temporal(file, c, n);
+  write_spectrum(file_, c, n_);
+  write_snapshots(file_, c, n_);
+  write_temporal(file_, c, n_);
   write_modes(c);
   write_csv(c);
-  if (n.reconstructed > 0) create_reconstruction(c);
-  file.flush();
+  if (n_.reconstructed > 0) create_reconstruction(c);
+  file_.flush();
 }
 
 /// Φ lies in memory as it does in the file, mode after mode.
-void PodWriter::Impl::write_modes(const PodContent& c) {
-  Xdmf modes(folder / "modes.xdmf", series(c, n.modes));
-  if (n.modes == 0) return modes.close();
+void PodWriter::write_modes(const PodContent& c) {
+  Xdmf modes(folder_ / "modes.xdmf", series(c, n_.modes));
+  if (n_.modes == 0) return modes.close();
   const Units units = units_of(c);
   const std::string place = c.contact ? "node of /mesh/boundary: normal, tangential" : "node: x, y";
-  file.write("/modes/spatial", {n.modes, n.points, c.components},
-             std::span<const double>(c.modes->data(), size(c.modes->size())),
-             {units.modes, "spatial modes Φ at each " + place});
-  h5::Dataset dataset = file.create("/fields/modes", Type::float32, {n.modes, n.nodes, 3},
-                                    {units.modes, "/modes/spatial for ParaView, at all nodes"});
-  for (std::size_t i = 0; i < n.modes; ++i) {
+  file_.write("/modes/spatial", {n_.modes, n_.points, c.components},
+              std::span<const double>(c.modes->data(), size(c.modes->size())),
+              {units.modes, "spatial modes Φ at each " + place});
+  h5::Dataset dataset = file_.create("/fields/modes", Type::float32, {n_.modes, n_.nodes, 3},
+                                     {units.modes, "/modes/spatial for ParaView, at all nodes"});
+  for (std::size_t i = 0; i < n_.modes; ++i) {
     const auto column = c.modes->col(static_cast<Index>(i));
     put(dataset, i, {{column.data(), size(column.size())}, c.components});
     modes.add(static_cast<double>(i + 1));
@@ -227,47 +198,47 @@ void PodWriter::Impl::write_modes(const PodContent& c) {
   modes.close();
 }
 
-void PodWriter::Impl::write_csv(const PodContent& c) const {
-  Csv csv(folder / "spectrum.csv",
+void PodWriter::write_csv(const PodContent& c) const {
+  Csv csv(folder_ / "spectrum.csv",
           {"mode", "singular_value", "energy", "cumulative_energy", "discarded_energy"});
-  for (std::size_t i = 0; i < n.values; ++i)
+  for (std::size_t i = 0; i < n_.values; ++i)
     csv.row(std::array<double, 5>{
         static_cast<double>(i + 1), c.decomposition->sigma[static_cast<Index>(i)],
         c.spectrum->energy[i], c.spectrum->cumulative[i], c.spectrum->discarded[i]});
   csv.close();
 }
 
-void PodWriter::Impl::create_reconstruction(const PodContent& c) {
-  const h5::Shape shape = {n.reconstructed, n.nodes, 3};
+void PodWriter::create_reconstruction(const PodContent& c) {
+  const h5::Shape shape = {n_.reconstructed, n_.nodes, 3};
   const std::string of = c.quantity + ", frame of the analysis";
-  d.original =
-      file.create("/fields/original", Type::float32, shape, {c.unit, "snapshots of " + of});
-  d.reconstructed = file.create("/fields/reconstructed", Type::float32, shape,
-                                {c.unit, "the same from the spatial modes: " + of});
-  d.error = file.create("/fields/error", Type::float32, shape,
-                        {c.unit, "/fields/original minus /fields/reconstructed"});
-  XdmfSeries s = series(c, n.reconstructed);
+  d_.original =
+      file_.create("/fields/original", Type::float32, shape, {c.unit, "snapshots of " + of});
+  d_.reconstructed = file_.create("/fields/reconstructed", Type::float32, shape,
+                                  {c.unit, "the same from the spatial modes: " + of});
+  d_.error = file_.create("/fields/error", Type::float32, shape,
+                          {c.unit, "/fields/original minus /fields/reconstructed"});
+  XdmfSeries s = series(c, n_.reconstructed);
   s.fields.clear();
   for (const char* name : {"original", "reconstructed", "error"})
     add_fields(s, name, std::string("/fields/") + name);
-  xdmf = std::make_unique<Xdmf>(folder / "reconstruction.xdmf", std::move(s));
+  xdmf_ = std::make_unique<Xdmf>(folder_ / "reconstruction.xdmf", std::move(s));
 }
 
-XdmfSeries PodWriter::Impl::series(const PodContent& c, std::size_t times) const {
+XdmfSeries PodWriter::series(const PodContent& c, std::size_t times) const {
   XdmfSeries s;
   s.data_file = "pod.h5";
   s.topology = topology_of(*c.mesh);
   s.reference = "/mesh/coordinates";
-  s.n_nodes = n.nodes;
+  s.n_nodes = n_.nodes;
   s.n_times = times;
   add_fields(s, c.contact ? "" : "mode", "/fields/modes");
   return s;
 }
 
 /// Normal and tangential are no vector of the fixed axes: two scalars.
-void PodWriter::Impl::add_fields(XdmfSeries& s, const std::string& name,
-                                 const std::string& dataset) const {
-  if (boundary.empty()) {
+void PodWriter::add_fields(XdmfSeries& s, const std::string& name,
+                           const std::string& dataset) const {
+  if (boundary_.empty()) {
     s.fields.push_back({name, "Vector", dataset, 3, 0, 3});
     return;
   }
@@ -276,60 +247,44 @@ void PodWriter::Impl::add_fields(XdmfSeries& s, const std::string& name,
   s.fields.push_back({front + "tangential", "Scalar", dataset, 3, 1, 1});
 }
 
-void PodWriter::Impl::put(h5::Dataset& dataset, std::size_t row, FieldView values) {
-  for (std::size_t i = 0; i < n.points; ++i) {
-    Vector& to = field[boundary.empty() ? i : static_cast<std::size_t>(boundary[i])];
+void PodWriter::put(h5::Dataset& dataset, std::size_t row, FieldView values) {
+  for (std::size_t i = 0; i < n_.points; ++i) {
+    Vector& to = field_[boundary_.empty() ? i : static_cast<std::size_t>(boundary_[i])];
     for (std::size_t k = 0; k < values.components; ++k) to[k] = static_cast<float>(values[i][k]);
   }
-  dataset.write_row(row, std::span<const Vector>(field));
-}
-
-void PodWriter::Impl::commit() {
-  RONDO_DEMAND(file && added == n.reconstructed, added, n.reconstructed);
-  if (xdmf) xdmf->close();
-  d = {};
-  file.close();
-  const auto remove = [&](const char* name) {
-    std::error_code error;
-    fs::remove(directory / name, error);
-    if (error) throw FileError((directory / name).string(), "cannot remove: " + error.message());
-  };
-  remove("pod.json");
-  if (!xdmf) remove("reconstruction.xdmf");
-  for (const char* name : {"pod.h5", "spectrum.csv", "modes.xdmf", "reconstruction.xdmf"})
-    if (xdmf || std::string_view(name) != "reconstruction.xdmf")
-      replace_file(folder / name, directory / name);
-}
-
-PodWriter::PodWriter(const fs::path& directory, const PodContent& content,
-                     std::size_t n_reconstructed) {
-  RONDO_DEMAND(content.mesh && content.decomposition && content.spectrum && content.modes,
-               content.quantity);
-  impl_ = std::make_unique<Impl>(directory, content, n_reconstructed);
-}
-
-PodWriter::~PodWriter() = default;
-PodWriter::PodWriter(PodWriter&&) noexcept = default;
-PodWriter& PodWriter::operator=(PodWriter&&) noexcept = default;
-
-void PodWriter::add(double time, FieldView original, FieldView reconstructed) {
-  Impl& m = *impl_;
-  RONDO_DEMAND(m.added == 0 || time > m.last, time, m.last);  // as ParaView wants them
-  RONDO_DEMAND(m.added < m.n.reconstructed && original.size() == m.n.points &&
-                   reconstructed.size() == m.n.points,
-               m.added, original.size(), reconstructed.size(), m.n.points);
-  for (std::size_t i = 0; i < m.difference.size(); ++i)
-    m.difference[i] = original.values[i] - reconstructed.values[i];
-  m.put(m.d.original, m.added, original);
-  m.put(m.d.reconstructed, m.added, reconstructed);
-  m.put(m.d.error, m.added, {m.difference, original.components});
-  ++m.added;
-  m.last = time;
-  m.xdmf->add(time);
+  dataset.write_row(row, std::span<const Vector>(field_));
 }
 
 void PodWriter::commit() {
-  impl_->commit();
+  RONDO_DEMAND(file_ && added_ == n_.reconstructed, added_, n_.reconstructed);
+  if (xdmf_) xdmf_->close();
+  d_ = {};
+  file_.close();
+  const auto remove = [&](const char* name) {
+    std::error_code error;
+    fs::remove(directory_ / name, error);
+    if (error) throw FileError((directory_ / name).string(), "cannot remove: " + error.message());
+  };
+  remove("pod.json");
+  if (!xdmf_) remove("reconstruction.xdmf");
+  for (const char* name : {"pod.h5", "spectrum.csv", "modes.xdmf", "reconstruction.xdmf"})
+    if (xdmf_ || std::string_view(name) != "reconstruction.xdmf")
+      replace_file(folder_ / name, directory_ / name);
+}
+
+void PodWriter::add(double time, FieldView original, FieldView reconstructed) {
+  RONDO_DEMAND(added_ == 0 || time > last_, time, last_);  // as ParaView wants them
+  RONDO_DEMAND(added_ < n_.reconstructed && original.size() == n_.points &&
+                   reconstructed.size() == n_.points,
+               added_, original.size(), reconstructed.size(), n_.points);
+  for (std::size_t i = 0; i < difference_.size(); ++i)
+    difference_[i] = original.values[i] - reconstructed.values[i];
+  put(d_.original, added_, original);
+  put(d_.reconstructed, added_, reconstructed);
+  put(d_.error, added_, {difference_, original.components});
+  ++added_;
+  last_ = time;
+  xdmf_->add(time);
 }
 
 std::size_t PodWriter::bytes(const PodContent& content, std::size_t n_reconstructed) noexcept {

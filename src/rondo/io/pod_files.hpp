@@ -5,12 +5,16 @@
 /// one by complete files: a program killed before leaves the old POD as it was.
 #pragma once
 #include <Eigen/Core>
+#include <array>
 #include <filesystem>
 #include <memory>
 #include <span>
 #include <string>
+#include <vector>
 
 #include "rondo/core/field.hpp"
+#include "rondo/io/h5/h5.hpp"
+#include "rondo/io/xdmf.hpp"
 #include "rondo/mesh/mesh.hpp"
 #include "rondo/pod/decompose.hpp"
 #include "rondo/pod/spectrum.hpp"
@@ -34,22 +38,28 @@ struct PodContent {
   std::size_t components = 2;  ///< of a point
   /// (components n_points, r) Φ, unweighted; row components · point + component
   const Eigen::MatrixXd* modes = nullptr;
-  std::span<const double> time;       ///< (t) [s]
-  std::span<const double> angle;      ///< (t) of the turning frame [rad]
-  std::span<const int> run;           ///< (t) place in `runs`
-  std::span<const double> error;      ///< (t) of r modes, relative
-  std::span<const std::string> runs;  ///< directories
+  std::vector<double> time;       ///< (t) [s]
+  std::vector<double> angle;      ///< (t) of the turning frame [rad]
+  std::vector<int> run;           ///< (t) place in `runs`
+  std::vector<double> error;      ///< (t) of r modes, relative
+  std::vector<std::string> runs;  ///< directories
+};
+
+struct PodCounts {
+  std::size_t nodes, points, modes, values, temporal, times, reconstructed;
 };
 
 class PodWriter {
  public:
+  using Vector = std::array<float, 3>;  ///< of ParaView
+
   /// Writes all but the reconstruction, of which `n_reconstructed` snapshots will follow (0: no
   /// reconstruction.xdmf). @pre `directory` is there. @throws FileError
   PodWriter(const std::filesystem::path& directory, const PodContent& content,
             std::size_t n_reconstructed);
   ~PodWriter();  ///< without commit(): nothing is left of what was written
-  PodWriter(PodWriter&&) noexcept;
-  PodWriter& operator=(PodWriter&&) noexcept;
+  PodWriter(const PodWriter&) = delete;
+  PodWriter& operator=(const PodWriter&) = delete;
 
   /// The next snapshot, in the frame of the analysis. @param original, reconstructed (n_points)
   /// @pre time rises. @throws FileError
@@ -64,8 +74,26 @@ class PodWriter {
                                          std::size_t n_reconstructed) noexcept;
 
  private:
-  struct Impl;
-  std::unique_ptr<Impl> impl_;
+  void write_all(const PodContent& c);
+  void write_modes(const PodContent& c);
+  void write_csv(const PodContent& c) const;
+  void create_reconstruction(const PodContent& c);
+  [[nodiscard]] XdmfSeries series(const PodContent& c, std::size_t times) const;
+  void add_fields(XdmfSeries& s, const std::string& name, const std::string& dataset) const;
+  void put(h5::Dataset& dataset, std::size_t row, FieldView values);
+
+  std::filesystem::path directory_, folder_;  ///< folder_: where the files are made
+  PodCounts n_;
+  std::vector<int> boundary_;       ///< nodes of the points; empty: points are the nodes
+  std::vector<Vector> field_;       ///< (n) reused
+  std::vector<double> difference_;  ///< (n_points, components) reused
+  std::size_t added_ = 0;
+  double last_ = 0.0;  ///< time added [s]
+  h5::File file_;
+  struct {
+    h5::Dataset original, reconstructed, error;
+  } d_;
+  std::unique_ptr<Xdmf> xdmf_;
 };
 
 }  // namespace rondo::io

@@ -9,29 +9,13 @@
 
 #include "rondo/core/contract.hpp"
 #include "rondo/fem/stress.hpp"
-#include "rondo/io/files.hpp"
-#include "rondo/io/h5/h5.hpp"
 #include "rondo/io/mesh_files.hpp"
-#include "rondo/io/results_impl.hpp"
-#include "rondo/io/xdmf.hpp"
 
 namespace rondo::io {
 namespace {
 
-ResultsCounts counts_of(const ResultsLayout& layout) noexcept {
-  const mesh::Mesh& m = *layout.mesh;
-  const bool contact = layout.contact && !m.boundary.empty();
-  return {m.n_nodes(),       m.boundary.size(), layout.n_snapshots,
-          layout.components, contact,           layout.stress};
-}
-
-/// Of results.h5: what describes the datasets, and an entry for each row.
-std::size_t index_bytes(const ResultsCounts& c) noexcept {
-  constexpr std::size_t datasets = 21, description = 4096;
-  return datasets * (description + c.times * h5::File::bytes_of_entry);
-}
-
-XdmfSeries series_of(const mesh::Mesh& mesh, const ResultsCounts& c) {
+template <class Counts>
+XdmfSeries series_of(const mesh::Mesh& mesh, const Counts& c) {
   XdmfSeries s;
   s.data_file = "results.h5";
   s.topology = topology_of(mesh);
@@ -86,204 +70,181 @@ constexpr const char* new_name = "results.h5.new";  // until it is whole
 
 }  // namespace
 
-Results::Impl::Impl(const std::filesystem::path& folder, const ResultsLayout& layout)
-    : c(counts_of(layout)),
-      directory(folder),
-      unfinished{folder / new_name},
-      coordinates(layout.mesh->coordinates),
-      boundary(layout.mesh->boundary),
-      tributary(layout.mesh->tributary),
-      free_body(layout.free_body.begin(), layout.free_body.end()),
-      vectors(c.nodes),
-      forces(c.contact ? c.nodes : 0),
-      tensors(c.stress ? c.nodes : 0),
-      scalars(c.stress ? c.nodes : 0),
-      traction(c.contact ? c.candidates * c.components : 0),
-      words(layout.words),
-      series(layout.series),
-      series_rows(layout.series.size()) {
-  RONDO_DEMAND(c.nodes > 0 && layout.mass.size() == c.nodes, c.nodes, layout.mass.size());
-  RONDO_DEMAND(tributary.size() == c.candidates, tributary.size(), c.candidates);
-  demand_room(directory / results_name, bytes(layout));
-  file = h5::File::create(unfinished.path, index_bytes(c));
-  file.call_it(directory / results_name);
-  file.set_attribute("/", "format", "rondo results 1");
-  file.set_attribute("/", "analysis", words.analysis);
-  write_mesh(file, *layout.mesh, layout.mass);
-  if (!free_body.empty())
-    file.write("/mesh/free_body", {c.nodes}, view(free_body),
-               {"1",
-                "number of the free body of each node, in the order of their first nodes: such "
-                "a node moves in the fixed frame; -1: in the turning frame"});
-  if (c.times > 0) {
+Results::Counts Results::counts_of(const ResultsLayout& layout) noexcept {
+  RONDO_DEMAND(layout.mesh != nullptr, layout.n_snapshots);
+  const mesh::Mesh& m = *layout.mesh;
+  const bool contact = layout.contact && !m.boundary.empty();
+  return {m.n_nodes(),       m.boundary.size(), layout.n_snapshots,
+          layout.components, contact,           layout.stress};
+}
+
+/// Of results.h5: what describes the datasets, and an entry for each row.
+std::size_t Results::index_bytes(const Counts& c) noexcept {
+  constexpr std::size_t datasets = 21, description = 4096;
+  return datasets * (description + c.times * h5::File::bytes_of_entry);
+}
+
+Results::Results(const std::filesystem::path& directory, const ResultsLayout& layout,
+                 std::optional<std::size_t> kept)
+    : c_(counts_of(layout)),
+      directory_(directory),
+      unfinished_{directory / new_name},
+      coordinates_(layout.mesh->coordinates),
+      boundary_(layout.mesh->boundary),
+      tributary_(layout.mesh->tributary),
+      free_body_(layout.free_body.begin(), layout.free_body.end()),
+      vectors_(c_.nodes),
+      forces_(c_.contact ? c_.nodes : 0),
+      tensors_(c_.stress ? c_.nodes : 0),
+      scalars_(c_.stress ? c_.nodes : 0),
+      traction_(c_.contact ? c_.candidates * c_.components : 0),
+      words_(layout.words),
+      series_(layout.series),
+      series_rows_(layout.series.size()) {
+  RONDO_DEMAND(c_.nodes > 0 && layout.mass.size() == c_.nodes, c_.nodes, layout.mass.size());
+  RONDO_DEMAND(tributary_.size() == c_.candidates, tributary_.size(), c_.candidates);
+  RONDO_DEMAND(kept.value_or(0) <= c_.times, c_.times);
+  demand_room(directory_ / results_name, bytes(layout));
+  file_ = h5::File::create(unfinished_.path, index_bytes(c_));
+  file_.call_it(directory_ / results_name);
+  file_.set_attribute("/", "format", "rondo results 1");
+  file_.set_attribute("/", "analysis", words_.analysis);
+  write_mesh(file_, *layout.mesh, layout.mass);
+  if (!free_body_.empty())
+    file_.write("/mesh/free_body", {c_.nodes}, free_body_,
+                {"1",
+                 "number of the free body of each node, in the order of their first nodes: such "
+                 "a node moves in the fixed frame; -1: in the turning frame"});
+  if (c_.times > 0) {
     create_frame();
     create_snapshots();
     create_fields();
     create_series();
     reserve();
   }
-}
-
-void Results::Impl::go_on(std::size_t kept) {
-  RONDO_DEMAND(kept <= c.times, kept, c.times);
-  const h5::File before = h5::File::open(directory / results_name);
-  for (h5::Dataset* dataset : all_rows())
-    if (*dataset) dataset->copy_rows(before, kept);
-  written = kept;
-}
-
-/// From here on the file is there, and at any moment whole.
-void Results::Impl::publish(const mesh::Mesh& mesh) {
-  file.flush();
-  replace_file(unfinished.path, directory / results_name);
-  begin_xdmf(mesh);
+  if (kept) {
+    const h5::File before = h5::File::open(directory_ / results_name);
+    for (h5::Dataset* dataset : all_rows_) dataset->copy_rows(before, *kept);
+    written_ = *kept;
+  }
+  // From here on the file is there, and at any moment whole.
+  file_.flush();
+  replace_file(unfinished_.path, directory_ / results_name);
+  begin_xdmf(*layout.mesh);
 }
 
 /// With the grids of the snapshots that are there.
-void Results::Impl::begin_xdmf(const mesh::Mesh& mesh) {
-  std::vector<double> times = d.time ? d.time.read<double>() : std::vector<double>();
-  times.resize(written);
-  xdmf = std::make_unique<Xdmf>(directory / "fields.xdmf", series_of(mesh, c), std::move(times));
+void Results::begin_xdmf(const mesh::Mesh& mesh) {
+  std::vector<double> times = d_.time ? d_.time.read<double>() : std::vector<double>();
+  times.resize(written_);
+  xdmf_ = std::make_unique<Xdmf>(directory_ / "fields.xdmf", series_of(mesh, c_), std::move(times));
 }
 
-std::vector<h5::Dataset*> Results::Impl::all_rows() {
-  std::vector<h5::Dataset*> all = {&d.time,
-                                   &d.time_velocity,
-                                   &d.angle,
-                                   &d.angle_velocity,
-                                   &d.center,
-                                   &d.displacement,
-                                   &d.velocity,
-                                   &d.force,
-                                   &d.traction,
-                                   &d.position,
-                                   &d.field_displacement,
-                                   &d.field_velocity,
-                                   &d.field_force,
-                                   &d.von_mises,
-                                   &d.stress};
-  for (h5::Dataset& dataset : series_rows) all.push_back(&dataset);
-  return all;
-}
-
-void Results::Impl::resize(std::size_t rows) {
-  for (h5::Dataset* dataset : all_rows())
-    if (*dataset) dataset->resize(rows);
+void Results::resize(std::size_t rows) {
+  for (h5::Dataset* dataset : all_rows_) dataset->resize(rows);
 }
 
 /// Room for all snapshots, in parts: what a run stopped early gives back then lies at the end of
 /// the file, which becomes shorter.
-void Results::Impl::reserve() {
+void Results::reserve() {
   constexpr std::size_t parts = 64;
-  const std::size_t part = (c.times + parts - 1) / parts;
-  for (std::size_t rows = part; rows < c.times; rows += part) resize(rows);
-  resize(c.times);
-  const std::vector<double> never(c.times, std::numeric_limits<double>::quiet_NaN());
-  d.time.write(view(never));
+  const std::size_t part = (c_.times + parts - 1) / parts;
+  for (std::size_t rows = part; rows < c_.times; rows += part) resize(rows);
+  resize(c_.times);
+  const std::vector<double> never(c_.times, std::numeric_limits<double>::quiet_NaN());
+  d_.time.write(std::span<const double>(never));
 }
 
-void Results::Impl::check(const Snapshot& s) const {
-  RONDO_DEMAND(file && written < c.times, written, c.times);
-  RONDO_DEMAND(s.displacement.size() == c.nodes && s.velocity.size() == c.nodes,
-               s.displacement.size(), s.velocity.size(), c.nodes);
-  const std::size_t nb = c.contact ? c.candidates : 0;
-  RONDO_DEMAND(!c.contact || (s.contact_force.size() == nb && s.contact_force_fixed.size() == nb),
+void Results::check(const Snapshot& s) const {
+  RONDO_DEMAND(file_ && written_ < c_.times, written_, c_.times);
+  RONDO_DEMAND(s.displacement.size() == c_.nodes && s.velocity.size() == c_.nodes,
+               s.displacement.size(), s.velocity.size(), c_.nodes);
+  const std::size_t nb = c_.contact ? c_.candidates : 0;
+  RONDO_DEMAND(!c_.contact || (s.contact_force.size() == nb && s.contact_force_fixed.size() == nb),
                s.contact_force.size(), s.contact_force_fixed.size(), nb);
-  RONDO_DEMAND(!c.stress || s.stress.size() == c.nodes, s.stress.size(), c.nodes);
-  const int last = free_body.empty() ? -1 : *std::max_element(free_body.begin(), free_body.end());
-  RONDO_DEMAND(!c.stress || static_cast<int>(s.body_rotation.size()) > last, s.body_rotation.size(),
-               last);
+  RONDO_DEMAND(!c_.stress || s.stress.size() == c_.nodes, s.stress.size(), c_.nodes);
+  const int last =
+      free_body_.empty() ? -1 : *std::max_element(free_body_.begin(), free_body_.end());
+  RONDO_DEMAND(!c_.stress || static_cast<int>(s.body_rotation.size()) > last,
+               s.body_rotation.size(), last);
 }
 
-void Results::Impl::write_fields(const Snapshot& s) {
+void Results::write_fields(const Snapshot& s) {
   const Complex turn = rotation(s.angle);
   const auto to_fixed = [&](std::size_t i, const Space& a) {
     return is_free(i) ? a : turned(turn, a);
   };
-  for (std::size_t i = 0; i < c.nodes; ++i) {
-    const Space reference{coordinates[i].x, coordinates[i].y, 0.0};
+  for (std::size_t i = 0; i < c_.nodes; ++i) {
+    const Space reference{coordinates_[i].x, coordinates_[i].y, 0.0};
     const Space center = is_free(i) ? Space{} : Space{s.center.x, s.center.y, 0.0};
-    vectors[i] = rounded(sum(center, to_fixed(i, sum(reference, in_space(s.displacement[i])))));
+    vectors_[i] = rounded(sum(center, to_fixed(i, sum(reference, in_space(s.displacement[i])))));
   }
-  row(d.position, vectors);
-  for (std::size_t i = 0; i < c.nodes; ++i)
-    vectors[i] = rounded(to_fixed(i, in_space(s.displacement[i])));
-  row(d.field_displacement, vectors);
-  for (std::size_t i = 0; i < c.nodes; ++i)
-    vectors[i] = rounded(to_fixed(i, in_space(s.velocity[i])));
-  row(d.field_velocity, vectors);
-  if (c.stress) write_stress(s);
-  if (c.contact) write_contact(s);
+  row(d_.position, vectors_);
+  for (std::size_t i = 0; i < c_.nodes; ++i)
+    vectors_[i] = rounded(to_fixed(i, in_space(s.displacement[i])));
+  row(d_.field_displacement, vectors_);
+  for (std::size_t i = 0; i < c_.nodes; ++i)
+    vectors_[i] = rounded(to_fixed(i, in_space(s.velocity[i])));
+  row(d_.field_velocity, vectors_);
+  if (c_.stress) write_stress(s);
+  if (c_.contact) write_contact(s);
 }
 
-void Results::Impl::write_stress(const Snapshot& s) {
+void Results::write_stress(const Snapshot& s) {
   const Complex turn = rotation(s.angle);
-  for (std::size_t i = 0; i < c.nodes; ++i) {
-    scalars[i] = static_cast<float>(fem::von_mises(s.stress[i]));
-    tensors[i] = turned_tensor(
-        s.stress[i], is_free(i) ? s.body_rotation[static_cast<std::size_t>(free_body[i])] : turn);
+  for (std::size_t i = 0; i < c_.nodes; ++i) {
+    scalars_[i] = static_cast<float>(fem::von_mises(s.stress[i]));
+    tensors_[i] = turned_tensor(
+        s.stress[i], is_free(i) ? s.body_rotation[static_cast<std::size_t>(free_body_[i])] : turn);
   }
-  row(d.von_mises, scalars);
-  row(d.stress, tensors);
+  row(d_.von_mises, scalars_);
+  row(d_.stress, tensors_);
 }
 
-void Results::Impl::write_contact(const Snapshot& s) {
-  for (std::size_t k = 0; k < c.candidates; ++k) {
-    forces[static_cast<std::size_t>(boundary[k])] = rounded(in_space(s.contact_force_fixed[k]));
-    for (std::size_t i = k * c.components; i < (k + 1) * c.components; ++i)
-      traction[i] = s.contact_force.values[i] / tributary[k];
+void Results::write_contact(const Snapshot& s) {
+  for (std::size_t k = 0; k < c_.candidates; ++k) {
+    forces_[static_cast<std::size_t>(boundary_[k])] = rounded(in_space(s.contact_force_fixed[k]));
+    for (std::size_t i = k * c_.components; i < (k + 1) * c_.components; ++i)
+      traction_[i] = s.contact_force.values[i] / tributary_[k];
   }
-  row(d.field_force, forces);
-  d.force.write_row(written, s.contact_force.values);
-  row(d.traction, traction);
+  row(d_.field_force, forces_);
+  d_.force.write_row(written_, s.contact_force.values);
+  row(d_.traction, traction_);
 }
 
-void Results::Impl::write_series(std::span<const double> values) {
+void Results::write_series(std::span<const double> values) {
   std::size_t at = 0;
-  for (std::size_t k = 0; k < series.size(); ++k) {
-    RONDO_DEMAND(at + series[k].components <= values.size(), at, values.size());
-    series_rows[k].write_row(written, values.subspan(at, series[k].components));
-    at += series[k].components;
+  for (std::size_t k = 0; k < series_.size(); ++k) {
+    RONDO_DEMAND(at + series_[k].components <= values.size(), at, values.size());
+    series_rows_[k].write_row(written_, values.subspan(at, series_[k].components));
+    at += series_[k].components;
   }
 }
 
 /// The time comes last: where it is a number, the snapshot is complete.
-void Results::Impl::write_snapshot(const Snapshot& s) {
+void Results::write(const Snapshot& s) {
   check(s);
   write_fields(s);
   write_series(s.series);
-  d.displacement.write_row(written, s.displacement.values);
-  d.velocity.write_row(written, s.velocity.values);
-  d.center.write_row(written, std::span<const Vec2>(&s.center, 1));
-  row(d.angle, s.angle);
-  row(d.angle_velocity, s.angle_velocity);
-  row(d.time_velocity, s.time_velocity);
-  row(d.time, s.time);
-  ++written;
-  xdmf->add(s.time);
+  d_.displacement.write_row(written_, s.displacement.values);
+  d_.velocity.write_row(written_, s.velocity.values);
+  d_.center.write_row(written_, std::span<const Vec2>(&s.center, 1));
+  row(d_.angle, s.angle);
+  row(d_.angle_velocity, s.angle_velocity);
+  row(d_.time_velocity, s.time_velocity);
+  row(d_.time, s.time);
+  ++written_;
+  xdmf_->add(s.time);
 }
 
-void Results::Impl::close() {
-  if (!file) return;
-  resize(written);
-  d = {};
-  series_rows.clear();
-  file.close();
-  xdmf->close();
-}
-
-Results::Results(const std::filesystem::path& directory, const ResultsLayout& layout) {
-  RONDO_DEMAND(layout.mesh != nullptr, layout.n_snapshots);
-  impl_ = std::make_unique<Impl>(directory, layout);
-  impl_->publish(*layout.mesh);
-}
-
-Results::Results(const std::filesystem::path& directory, const ResultsLayout& layout,
-                 std::size_t kept) {
-  RONDO_DEMAND(layout.mesh != nullptr, layout.n_snapshots);
-  impl_ = std::make_unique<Impl>(directory, layout);
-  impl_->go_on(kept);
-  impl_->publish(*layout.mesh);
+void Results::close() {
+  if (!file_) return;
+  resize(written_);
+  all_rows_.clear();
+  d_ = {};
+  series_rows_.clear();
+  file_.close();
+  xdmf_->close();
 }
 
 Results::~Results() {
@@ -293,21 +254,12 @@ Results::~Results() {
   }
 }
 
-void Results::write(const Snapshot& snapshot) {
-  impl_->write_snapshot(snapshot);
-}
-void Results::close() {
-  impl_->close();
-}
 void Results::sync() const {
-  for (const char* name : {results_name, "fields.xdmf"}) sync_file(impl_->directory / name);
-}
-std::size_t Results::written() const noexcept {
-  return impl_->written;
+  for (const char* name : {results_name, "fields.xdmf"}) sync_file(directory_ / name);
 }
 
 std::size_t Results::bytes(const ResultsLayout& layout) noexcept {
-  const ResultsCounts c = counts_of(layout);
+  const Counts c = counts_of(layout);
   constexpr std::size_t real = 8, single = 4;
   const std::size_t node =
       2 * c.components * real + (9U + (c.contact ? 3U : 0U) + (c.stress ? 7U : 0U)) * single;

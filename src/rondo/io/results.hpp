@@ -10,12 +10,16 @@
 #include <cstddef>
 #include <filesystem>
 #include <memory>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
 
 #include "rondo/core/complex.hpp"
 #include "rondo/core/field.hpp"
+#include "rondo/io/files.hpp"
+#include "rondo/io/h5/h5.hpp"
+#include "rondo/io/xdmf.hpp"
 #include "rondo/mesh/mesh.hpp"
 
 namespace rondo::io {
@@ -75,12 +79,12 @@ struct Snapshot {
 
 class Results {
  public:
-  /// Creates directory/results.h5 and directory/fields.xdmf. @throws FileError
-  Results(const std::filesystem::path& directory, const ResultsLayout& layout);
-  /// Goes on with files that are there, after their first `kept` snapshots: these are copied into
-  /// a new results.h5, which takes the old one's place once it is whole. @pre the same mesh, at
-  /// most as many as planned. @throws FileError: damaged, or fewer snapshots there
-  Results(const std::filesystem::path& directory, const ResultsLayout& layout, std::size_t kept);
+  /// Creates directory/results.h5 and directory/fields.xdmf. @param kept goes on with files that
+  /// are there, after so many of their snapshots: these are copied into a new results.h5, which
+  /// takes the old one's place once it is whole. @pre the same mesh, at most as many as planned.
+  /// @throws FileError: damaged, or fewer snapshots there
+  Results(const std::filesystem::path& directory, const ResultsLayout& layout,
+          std::optional<std::size_t> kept = {});
   ~Results();
   Results(const Results&) = delete;
   Results& operator=(const Results&) = delete;
@@ -90,7 +94,7 @@ class Results {
   void write(const Snapshot& snapshot);
   /// Cuts to what was written and closes. @throws FileError
   void close();
-  [[nodiscard]] std::size_t written() const noexcept;
+  [[nodiscard]] std::size_t written() const noexcept { return written_; }
   /// All that was written is on the disk, whatever happens to the machine. @throws FileError
   void sync() const;
 
@@ -98,8 +102,63 @@ class Results {
   [[nodiscard]] static std::size_t bytes(const ResultsLayout& layout) noexcept;
 
  private:
-  struct Impl;
-  std::unique_ptr<Impl> impl_;
+  struct Counts {
+    std::size_t nodes, candidates, times, components;
+    bool contact, stress;
+  };
+  [[nodiscard]] static Counts counts_of(const ResultsLayout& layout) noexcept;
+  [[nodiscard]] static std::size_t index_bytes(const Counts& counts) noexcept;
+  void begin_xdmf(const mesh::Mesh& mesh);
+  void add_rows(h5::Dataset& to, const std::string& name, h5::Type type, const h5::Shape& shape,
+                const h5::Label& label);
+  void create_frame();
+  void create_snapshots();
+  void create_fields();
+  void create_series();
+  void reserve();
+  void resize(std::size_t rows);
+  void check(const Snapshot& s) const;
+  void write_fields(const Snapshot& s);
+  void write_stress(const Snapshot& s);
+  void write_contact(const Snapshot& s);
+  void write_series(std::span<const double> values);
+  /// Of displacements and velocities, for descriptions.
+  [[nodiscard]] std::string frame() const {
+    return free_body_.empty() ? "turning frame" : "turning frame, of free bodies fixed frame";
+  }
+  [[nodiscard]] bool is_free(std::size_t node) const {
+    return !free_body_.empty() && free_body_[node] >= 0;
+  }
+  template <class T>
+  void row(h5::Dataset& dataset, const std::vector<T>& values) {
+    dataset.write_row(written_, std::span<const T>(values));
+  }
+  void row(h5::Dataset& dataset, double value) {
+    dataset.write_row(written_, std::span<const double>(&value, 1));
+  }
+
+  Counts c_;
+  std::filesystem::path directory_;
+  UnfinishedFile unfinished_;  ///< results.h5 until it is whole
+  std::vector<Vec2> coordinates_;
+  std::vector<int> boundary_;
+  std::vector<double> tributary_;
+  std::vector<int> free_body_;
+  std::size_t written_ = 0;
+  std::vector<std::array<float, 3>> vectors_, forces_;
+  std::vector<std::array<float, 6>> tensors_;
+  std::vector<float> scalars_;
+  std::vector<double> traction_;
+  h5::File file_;
+  struct {
+    h5::Dataset time, time_velocity, angle, angle_velocity, center, displacement, velocity, force,
+        traction, position, field_displacement, field_velocity, field_force, von_mises, stress;
+  } d_;
+  ResultsWords words_;
+  std::vector<Series> series_;
+  std::vector<h5::Dataset> series_rows_;  ///< one for each of them
+  std::vector<h5::Dataset*> all_rows_;    ///< those that there are, of d_ and series_rows_
+  std::unique_ptr<Xdmf> xdmf_;
 };
 
 }  // namespace rondo::io

@@ -20,12 +20,8 @@ namespace {
 constexpr const char* format_name = "rondo results 1";
 
 [[noreturn]] void refuse(const fs::path& directory, const std::string& what) {
-  Fault fault;
-  fault.key = "RUN";
-  fault.found = directory.string();
-  fault.message = what;
-  fault.allowed = "the directory of a run, as `rondo run CASE.toml -o RUN` makes it";
-  throw InputError(fault);
+  throw request_error("RUN", directory.string(), what,
+                      "the directory of a run, as `rondo run CASE.toml -o RUN` makes it");
 }
 
 /// results.h5 of a directory that holds one.

@@ -23,12 +23,6 @@ constexpr const char* head =
     "<Grid Name=\"rondo\" GridType=\"Collection\" CollectionType=\"Temporal\">\n";
 constexpr const char* tail = "</Grid>\n</Domain>\n</Xdmf>\n";
 
-[[noreturn]] void fail(const std::filesystem::path& path, const char* doing) {
-  const int code = errno;
-  throw FileError(path.string(),
-                  std::string("cannot ") + doing + ": " + std::generic_category().message(code));
-}
-
 }  // namespace
 
 Xdmf::Xdmf(std::filesystem::path file, XdmfSeries series, std::vector<double> times)
@@ -36,7 +30,7 @@ Xdmf::Xdmf(std::filesystem::path file, XdmfSeries series, std::vector<double> ti
   times_.reserve(series_.n_times);
   end_ = write_whole();
   descriptor_ = ::open(path_.c_str(), O_WRONLY | O_CLOEXEC);
-  if (descriptor_ < 0) fail(path_, "open");
+  if (descriptor_ < 0) fail_on(path_, "open");
 }
 
 /// The file anew, at once. Returns where the next grid goes.
@@ -132,7 +126,7 @@ void Xdmf::put() {
     const ssize_t n = ::pwrite(descriptor_, text_.data() + done, text_.size() - done,
                                static_cast<off_t>(end_ + done));
     if (n < 0 && errno == EINTR) continue;
-    if (n < 0) fail(path_, "write");
+    if (n < 0) fail_on(path_, "write");
     done += static_cast<std::size_t>(n);
   }
   end_ = end;
@@ -147,7 +141,7 @@ void Xdmf::add(double time) {
 
 void Xdmf::close() {
   if (descriptor_ < 0) return;
-  if (::close(std::exchange(descriptor_, -1)) != 0) fail(path_, "close");
+  if (::close(std::exchange(descriptor_, -1)) != 0) fail_on(path_, "close");
   if (times_.size() == series_.n_times) return;
   series_.n_times = times_.size();
   write_whole();

@@ -120,15 +120,6 @@ std::size_t n_disk_nodes(const Disk& disk) noexcept {
   return static_cast<std::size_t>(l.pitches) * (bare + tread);
 }
 
-std::size_t n_disk_cells(const Disk& disk) noexcept {
-  const auto count = [](int n) { return static_cast<std::size_t>(n); };
-  const std::size_t radial = count(disk.radial);
-  if (!disk.tread) return radial * count(disk.circumferential);
-  const Tread& t = *disk.tread;
-  const std::size_t land = count(t.land_columns), groove = count(t.groove_columns);
-  return count(t.pitches) * (radial * (land + groove) + land * count(t.layers));
-}
-
 Mesh make_disk(const Disk& disk) {
   const Layout l = layout_of(disk);
   RONDO_DEMAND(disk.inner_radius > 0 && disk.outer_radius > disk.inner_radius, disk.inner_radius,

@@ -34,7 +34,5 @@ Mesh make_disk(const Disk& disk);
 
 /// Number of nodes that make_disk would make, without making them (no overflow: 64 bits).
 std::size_t n_disk_nodes(const Disk& disk) noexcept;
-/// Likewise of its cells.
-std::size_t n_disk_cells(const Disk& disk) noexcept;
 
 }  // namespace rondo::mesh

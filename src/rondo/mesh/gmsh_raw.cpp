@@ -134,11 +134,9 @@ RawMesh read_mesh(Stream& stream) {
 }
 
 Fault fault_of(const std::filesystem::path& file, std::string message) {
-  Fault fault;
-  fault.file = file.string();
-  fault.message = std::move(message);
-  fault.allowed = "MSH 2.2 or 4.1 as Gmsh writes it: gmsh -2 FILE.geo -format msh41";
-  return fault;
+  constexpr const char* formats =
+      "MSH 2.2 or 4.1 as Gmsh writes it: gmsh -2 FILE.geo -format msh41";
+  return {file.string(), 0, 0, "", "", std::move(message), formats};
 }
 
 }  // namespace

@@ -43,22 +43,13 @@ std::pair<std::string, std::uint64_t> beginning_of(const std::filesystem::path& 
 }
 
 Fault file_fault(const std::filesystem::path& file, std::string message) {
-  Fault fault;
-  fault.file = file.string();
-  fault.message = std::move(message);
-  fault.allowed = formats;
-  return fault;
+  return {file.string(), 0, 0, "", "", std::move(message), formats};
 }
 
 void check_request(const MeshRequest& request) {
   if (std::isfinite(request.scale) && request.scale > 0.0) return;
-  Fault fault;
-  fault.file = request.file.string();
-  fault.key = "scale";
-  fault.found = fmt::format("{}", request.scale);
-  fault.message = "is no scale of lengths";
-  fault.allowed = "> 0";
-  throw InputError(std::move(fault));
+  throw InputError(Fault{request.file.string(), 0, 0, "scale", fmt::format("{}", request.scale),
+                         "is no scale of lengths", "> 0"});
 }
 
 void pass_on(const std::vector<std::string>& said, Findings& findings) {
@@ -70,11 +61,7 @@ void pass_on(const std::vector<std::string>& said, Findings& findings) {
 }  // namespace
 
 void Findings::add(std::string message, std::string allowed) {
-  Fault fault;
-  fault.file = file;
-  fault.message = std::move(message);
-  fault.allowed = std::move(allowed);
-  faults.push_back(std::move(fault));
+  faults.push_back({file, 0, 0, "", "", std::move(message), std::move(allowed)});
 }
 
 void Findings::throw_if_faulty() {

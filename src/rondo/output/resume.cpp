@@ -6,9 +6,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <fstream>
 #include <functional>
-#include <iterator>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -33,14 +31,9 @@ bool same(const CaseValue& a, const CaseValue& b) {
          std::equal(a.items.begin(), a.items.end(), b.items.begin(), b.items.end(), same);
 }
 
-Fault differs(std::string key, std::string found, const std::string& message,
+Fault differs(const std::string& key, const std::string& found, const std::string& message,
               const std::string& allowed) {
-  Fault fault;
-  fault.key = std::move(key);
-  fault.found = std::move(found);
-  fault.message = message;
-  fault.allowed = allowed + or_begin_again;
-  return fault;
+  return {"", 0, 0, key, found, message, allowed + or_begin_again};
 }
 
 /// Of the keys of two cases as they are written out: all are there unless the kind of a thing
@@ -95,13 +88,9 @@ void clear_without_checkpoint(const Case& c, const std::filesystem::path& direct
   const auto refuse = [&](const std::string& what) {
     io::refuse_directory(directory, what, fmt::format("leave --resume out{}", or_begin_again));
   };
-  const auto text = [&](const char* name) {
-    std::ifstream in(directory / name, std::ios::binary);
-    return std::string(std::istreambuf_iterator<char>(in), {});
-  };
   if (!io::is_cut_off(directory))
     refuse(fmt::format("holds a run without a checkpoint ({} is there)", mark));
-  if (text("case.toml") != write_case(kept_case(c)))
+  if (io::text_of(directory / "case.toml") != write_case(kept_case(c)))
     refuse("holds another case, cut off before its first checkpoint");
   io::clear_results_directory(directory);
 }

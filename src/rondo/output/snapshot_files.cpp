@@ -11,12 +11,6 @@
 namespace rondo::study {
 namespace {
 
-std::unique_ptr<io::Results> results_files(const std::filesystem::path& directory,
-                                           const RecordPlan& plan, const Checkpoint* from) {
-  return from ? std::make_unique<io::Results>(directory, plan.results, from->files.snapshots)
-              : std::make_unique<io::Results>(directory, plan.results);
-}
-
 io::Csv contact_file(const std::filesystem::path& directory, const Checkpoint* from) {
   const std::filesystem::path file = directory / "contact.csv";
   const std::vector<std::string> names = names_of(labels_of(contact_columns()));
@@ -31,7 +25,7 @@ SnapshotFiles::SnapshotFiles(const std::filesystem::path& directory, const Recor
       ground_(plan.ground),
       model_(plan.model),
       contact_(plan.results.contact),
-      results_(results_files(directory, plan, from)),
+      results_(directory, plan.results, from ? std::optional(from->files.snapshots) : std::nullopt),
       contact_csv_(contact_file(directory, from)) {
   if (plan.results.stress) stress_.emplace(mesh_, plan.materials);
   const std::size_t nb = contact_ ? mesh_.boundary.size() : 0;
@@ -103,17 +97,17 @@ void SnapshotFiles::write(const Snapshot& snapshot) {
   for (std::size_t b = 0; b < rotations_.size(); ++b) rotations_[b] = snapshot.poses[b].rotation;
   s.body_rotation = rotations_;
   s.series = snapshot.series;
-  results_->write(s);
+  results_.write(s);
 }
 
 void SnapshotFiles::sync() const {
-  results_->sync();
+  results_.sync();
   io::sync_file(contact_csv_.path());
 }
 
 void SnapshotFiles::close() {
   contact_csv_.close();
-  results_->close();
+  results_.close();
 }
 
 }  // namespace rondo::study

@@ -3,7 +3,6 @@
 #pragma once
 #include <cstddef>
 #include <filesystem>
-#include <memory>
 #include <optional>
 #include <span>
 #include <vector>
@@ -23,7 +22,7 @@ class SnapshotFiles {
   void write(const Snapshot& snapshot);
   /// @throws FileError
   void close();
-  [[nodiscard]] std::size_t written() const { return results_->written(); }
+  [[nodiscard]] std::size_t written() const { return results_.written(); }
   [[nodiscard]] std::size_t contact_bytes() const { return contact_csv_.bytes(); }
   /// All that was written is on the disk, whatever happens to the machine. @throws FileError
   void sync() const;
@@ -38,8 +37,7 @@ class SnapshotFiles {
   const contact::Ground* ground_;
   const dynamics::Model* model_;
   const bool contact_;
-  std::unique_ptr<io::Results> results_;  ///< first: what fails while it copies leaves all files
-  ///< as they were
+  io::Results results_;  ///< first: what fails while it copies leaves all files as they were
   io::Csv contact_csv_;
   std::optional<fem::StressRecovery> stress_;
   std::vector<Vec2> elastic_;  ///< (n) displacement in the frame of its body; empty: no free body

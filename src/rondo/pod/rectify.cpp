@@ -7,7 +7,6 @@
 #include <cmath>
 #include <numbers>
 
-#include "rondo/core/complex.hpp"
 #include "rondo/core/contract.hpp"
 
 namespace rondo::pod {
@@ -51,119 +50,86 @@ Rings boundary_rings(const mesh::Mesh& mesh) {
 
 /// Two real rings at once: the complex transform of (first component) + i (second component), whose
 /// harmonics k and -k get e^{-ikθ} and e^{ikθ}, does to each of them what its real transform would.
-struct Rectifier::Impl {
-  std::size_t n, n_rings;
-  Components components;
-  Shift shift;
-  std::vector<Complex> to_polar;  ///< (n) e^{-iφ} of the sectors
-  std::vector<Complex> phase;     ///< (n) of the harmonics, over n
-  std::vector<Vec2> work;         ///< (n) one ring
-  fftw_plan forward = nullptr, backward = nullptr;
-
-  Impl(int n_sectors, std::size_t rings, Components c, Shift s)
-      : n(static_cast<std::size_t>(n_sectors)),
-        n_rings(rings),
-        components(c),
-        shift(s),
-        to_polar(n),
-        phase(n),
-        work(n) {
-    const double sectors = n_sectors;
-    for (std::size_t k = 0; k < n; ++k)
-      to_polar[k] = rotation(-turn * static_cast<double>(k) / sectors);
-    auto* ring = reinterpret_cast<fftw_complex*>(work.data());
-    // Plans chosen by rule, not by timing: the same bits in every run.
-    const unsigned flags = FFTW_ESTIMATE | FFTW_UNALIGNED;
-    forward = fftw_plan_dft_1d(n_sectors, ring, ring, FFTW_FORWARD, flags);
-    backward = fftw_plan_dft_1d(n_sectors, ring, ring, FFTW_BACKWARD, flags);
-    RONDO_DEMAND(forward != nullptr && backward != nullptr, n_sectors);
-  }
-  Impl(const Impl&) = delete;
-  Impl& operator=(const Impl&) = delete;
-  ~Impl() {
-    fftw_destroy_plan(forward);
-    fftw_destroy_plan(backward);
-  }
-
-  [[nodiscard]] double harmonic(std::size_t k) const noexcept {
-    return 2 * k <= n ? static_cast<double>(k) : static_cast<double>(k) - static_cast<double>(n);
-  }
-
-  void set_phases(double theta) {
-    const double share = 1.0 / static_cast<double>(n);
-    for (std::size_t k = 0; k < n; ++k)
-      phase[k] = 2 * k == n ? Complex{share, 0.0} : share * rotation(-harmonic(k) * theta);
-  }
-
-  void set_rates() {
-    const double share = 1.0 / static_cast<double>(n);
-    for (std::size_t k = 0; k < n; ++k)
-      phase[k] = 2 * k == n ? Complex{} : Complex{0.0, -share * harmonic(k)};
-  }
-
-  void move_by_harmonics(std::span<Vec2> ring) {
-    std::copy(ring.begin(), ring.end(), work.begin());
-    fftw_execute(forward);
-    for (std::size_t k = 0; k < n; ++k) work[k] = phase[k] * work[k];
-    fftw_execute(backward);
-    std::copy(work.begin(), work.end(), ring.begin());
-  }
-
-  /// @param sectors how far, in [0, n)
-  void move_by_sectors(std::span<Vec2> ring, std::size_t sectors) {
-    std::rotate(ring.begin(), ring.end() - static_cast<std::ptrdiff_t>(sectors), ring.end());
-  }
-
-  /// Each ring in its polar frames, where they turn with the field.
-  template <class Move>
-  void move(std::span<Vec2> values, Move&& move_ring) {
-    RONDO_DEMAND(values.size() == n * n_rings, values.size(), n, n_rings);
-    for (std::size_t r = 0; r < n_rings; ++r) {
-      const std::span<Vec2> ring = values.subspan(r * n, n);
-      if (components == Components::cartesian)
-        for (std::size_t k = 0; k < n; ++k) ring[k] = to_polar[k] * ring[k];
-      move_ring(ring);
-      if (components == Components::cartesian)
-        for (std::size_t k = 0; k < n; ++k) ring[k] = conj(to_polar[k]) * ring[k];
-    }
-  }
-
-  void apply(double theta, std::span<Vec2> values) {
-    // In (-π, π] by way of the direction: a remainder by the rounded 2π is wrong by 1e-16 each
-    // turn.
-    const Vec2 direction = direction_at(theta);
-    const double angle = std::atan2(direction.y, direction.x);
-    const long pitches = std::lround(angle / turn * static_cast<double>(n));
-    const auto sectors =
-        static_cast<std::size_t>(pitches + (pitches < 0 ? static_cast<long>(n) : 0));
-    if (shift == Shift::fourier) set_phases(angle);
-    move(values, [&](std::span<Vec2> ring) {
-      if (shift == Shift::fourier)
-        move_by_harmonics(ring);
-      else
-        move_by_sectors(ring, sectors);
-    });
-  }
-
-  void differentiate(std::span<Vec2> values) {
-    RONDO_DEMAND(shift == Shift::fourier, n);
-    set_rates();
-    move(values, [&](std::span<Vec2> ring) { move_by_harmonics(ring); });
-  }
-};
-
 Rectifier::Rectifier(int n_sectors, std::size_t n_rings, Components components, Shift shift)
-    : impl_(std::make_unique<Impl>(n_sectors, n_rings, components, shift)) {}
-Rectifier::~Rectifier() = default;
-Rectifier::Rectifier(Rectifier&&) noexcept = default;
-Rectifier& Rectifier::operator=(Rectifier&&) noexcept = default;
+    : n_(static_cast<std::size_t>(n_sectors)),
+      n_rings_(n_rings),
+      components_(components),
+      shift_(shift),
+      to_polar_(n_),
+      phase_(n_),
+      work_(n_) {
+  const double sectors = n_sectors;
+  for (std::size_t k = 0; k < n_; ++k)
+    to_polar_[k] = rotation(-turn * static_cast<double>(k) / sectors);
+  auto* ring = reinterpret_cast<fftw_complex*>(work_.data());
+  // Plans chosen by rule, not by timing: the same bits in every run.
+  const unsigned flags = FFTW_ESTIMATE | FFTW_UNALIGNED;
+  forward_ = fftw_plan_dft_1d(n_sectors, ring, ring, FFTW_FORWARD, flags);
+  backward_ = fftw_plan_dft_1d(n_sectors, ring, ring, FFTW_BACKWARD, flags);
+  RONDO_DEMAND(forward_ != nullptr && backward_ != nullptr, n_sectors);
+}
+
+Rectifier::~Rectifier() {
+  fftw_destroy_plan(forward_);
+  fftw_destroy_plan(backward_);
+}
+
+double Rectifier::harmonic(std::size_t k) const noexcept {
+  return 2 * k <= n_ ? static_cast<double>(k) : static_cast<double>(k) - static_cast<double>(n_);
+}
+
+void Rectifier::set_phases(double theta) {
+  const double share = 1.0 / static_cast<double>(n_);
+  for (std::size_t k = 0; k < n_; ++k)
+    phase_[k] = 2 * k == n_ ? Complex{share, 0.0} : share * rotation(-harmonic(k) * theta);
+}
+
+void Rectifier::set_rates() {
+  const double share = 1.0 / static_cast<double>(n_);
+  for (std::size_t k = 0; k < n_; ++k)
+    phase_[k] = 2 * k == n_ ? Complex{} : Complex{0.0, -share * harmonic(k)};
+}
+
+void Rectifier::move_by_harmonics(std::span<Vec2> ring) {
+  std::copy(ring.begin(), ring.end(), work_.begin());
+  fftw_execute(forward_);
+  for (std::size_t k = 0; k < n_; ++k) work_[k] = phase_[k] * work_[k];
+  fftw_execute(backward_);
+  std::copy(work_.begin(), work_.end(), ring.begin());
+}
+
+/// Each ring in its polar frames, where they turn with the field.
+template <class Move>
+void Rectifier::move(std::span<Vec2> values, Move&& move_ring) {
+  RONDO_DEMAND(values.size() == n_ * n_rings_, values.size(), n_, n_rings_);
+  for (std::size_t r = 0; r < n_rings_; ++r) {
+    const std::span<Vec2> ring = values.subspan(r * n_, n_);
+    if (components_ == Components::cartesian)
+      for (std::size_t k = 0; k < n_; ++k) ring[k] = to_polar_[k] * ring[k];
+    move_ring(ring);
+    if (components_ == Components::cartesian)
+      for (std::size_t k = 0; k < n_; ++k) ring[k] = conj(to_polar_[k]) * ring[k];
+  }
+}
 
 void Rectifier::apply(double theta, std::span<Vec2> values) {
-  impl_->apply(theta, values);
+  // In (-π, π] by way of the direction: a remainder by the rounded 2π is wrong by 1e-16 each turn.
+  const Vec2 direction = direction_at(theta);
+  const double angle = std::atan2(direction.y, direction.x);
+  if (shift_ == Shift::fourier) {
+    set_phases(angle);
+    return move(values, [&](std::span<Vec2> ring) { move_by_harmonics(ring); });
+  }
+  const long pitches = std::lround(angle / turn * static_cast<double>(n_));
+  const long sectors = pitches + (pitches < 0 ? static_cast<long>(n_) : 0);
+  move(values,
+       [&](std::span<Vec2> ring) { std::rotate(ring.begin(), ring.end() - sectors, ring.end()); });
 }
 
 void Rectifier::differentiate(std::span<Vec2> values) {
-  impl_->differentiate(values);
+  RONDO_DEMAND(shift_ == Shift::fourier, n_);
+  set_rates();
+  move(values, [&](std::span<Vec2> ring) { move_by_harmonics(ring); });
 }
 
 }  // namespace rondo::pod

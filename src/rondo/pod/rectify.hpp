@@ -3,12 +3,13 @@
 /// on a mesh of equal sectors, by an exact isometry (docs/theory.md, 7.3).
 #pragma once
 #include <cstddef>
-#include <memory>
 #include <span>
 #include <vector>
 
-#include "rondo/core/vec2.hpp"
+#include "rondo/core/complex.hpp"
 #include "rondo/mesh/mesh.hpp"
+
+struct fftw_plan_s;  // of the library
 
 namespace rondo::pod {
 
@@ -45,8 +46,8 @@ class Rectifier {
  public:
   Rectifier(int n_sectors, std::size_t n_rings, Components components, Shift shift);
   ~Rectifier();
-  Rectifier(Rectifier&&) noexcept;
-  Rectifier& operator=(Rectifier&&) noexcept;
+  Rectifier(const Rectifier&) = delete;
+  Rectifier& operator=(const Rectifier&) = delete;
 
   /// In place. @param theta counter-clockwise angle of the turning frame [rad]
   /// @param values (n_rings * n_sectors) ring after ring, as Rings::point
@@ -57,8 +58,21 @@ class Rectifier {
   void differentiate(std::span<Vec2> values);
 
  private:
-  struct Impl;
-  std::unique_ptr<Impl> impl_;
+  [[nodiscard]] double harmonic(std::size_t k) const noexcept;
+  void set_phases(double theta);
+  void set_rates();
+  void move_by_harmonics(std::span<Vec2> ring);
+  template <class Move>
+  void move(std::span<Vec2> values, Move&& move_ring);
+
+  std::size_t n_, n_rings_;
+  Components components_;
+  Shift shift_;
+  std::vector<Complex> to_polar_;  ///< (n) e^{-iφ} of the sectors
+  std::vector<Complex> phase_;     ///< (n) of the harmonics, over n
+  std::vector<Vec2> work_;         ///< (n) one ring
+  fftw_plan_s* forward_ = nullptr;
+  fftw_plan_s* backward_ = nullptr;
 };
 
 }  // namespace rondo::pod

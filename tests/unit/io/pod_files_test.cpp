@@ -165,9 +165,9 @@ TEST(PodFiles, FieldsForParaViewAreOnTheNodes) {
   const SmallPod pod(2, 2, 2);
   pod.write(folder.path(), 2);
   const h5::File file = h5::File::open(folder / "pod.h5");
-  const auto mode = file.dataset("/fields/modes").read_row<Vector>(1);
-  const auto original = file.dataset("/fields/original").read_row<Vector>(1);
-  const auto error = file.dataset("/fields/error").read_row<Vector>(1);
+  const auto mode = row_of<Vector>(file.dataset("/fields/modes"), 1);
+  const auto original = row_of<Vector>(file.dataset("/fields/original"), 1);
+  const auto error = row_of<Vector>(file.dataset("/fields/error"), 1);
   for (std::size_t i = 0; i < pod.run.n(); ++i) {
     const auto row = static_cast<Eigen::Index>(2 * i);
     EXPECT_EQ(mode[i], (Vector{float(pod.modes(row, 1)), float(pod.modes(row + 1, 1)), 0.0F}));
@@ -185,7 +185,7 @@ TEST(PodFiles, ContactIsOnTheCandidatesAndZeroElsewhere) {
   EXPECT_EQ(file.dataset("/spectrum/singular_value").label().units, "N/m (kg/m)^(-1/2)");
   EXPECT_EQ(file.dataset("/modes/spatial").label().units, "(kg/m)^(1/2)");
   EXPECT_EQ(file.dataset("/weight").label().units, "m/kg");
-  const auto mode = file.dataset("/fields/modes").read_row<Vector>(1);
+  const auto mode = row_of<Vector>(file.dataset("/fields/modes"), 1);
   std::vector<Vector> expected(pod.run.n(), Vector{});
   for (std::size_t b = 0; b < pod.run.nb(); ++b) {
     const auto row = static_cast<Eigen::Index>(2 * b);

@@ -29,9 +29,9 @@ void expect_half(const Folder& folder, SmallRun& run) {
   for (std::size_t k = 0; k < written; ++k) {
     const Snapshot& s = run.snapshot(k);
     EXPECT_EQ(time[k], s.time);
-    EXPECT_EQ(file.dataset("/snapshots/displacement").read_row<Vec2>(k), points_of(s.displacement));
-    EXPECT_EQ(file.dataset("/contact/force").read_row<Vec2>(k), points_of(s.contact_force));
-    const auto position = file.dataset("/fields/position").read_row<std::array<float, 3>>(k);
+    EXPECT_EQ(row_of<Vec2>(file.dataset("/snapshots/displacement"), k), points_of(s.displacement));
+    EXPECT_EQ(row_of<Vec2>(file.dataset("/contact/force"), k), points_of(s.contact_force));
+    const auto position = row_of<std::array<float, 3>>(file.dataset("/fields/position"), k);
     const Vec2 x =
         s.center + rotation(s.angle) * (run.mesh.coordinates[5] + point_of(s.displacement, 5));
     EXPECT_EQ(position[5][0], static_cast<float>(x.x));

@@ -103,7 +103,7 @@ TEST(Results, WhatWasGivenIsReadBack) {
     EXPECT_EQ(file.read<double>("/frame/angle_velocity")[k], s.angle_velocity);
     EXPECT_EQ(file.read<Vec2>("/frame/center")[k], s.center);
     const auto same = [&](const char* name, const FieldView& values) {
-      EXPECT_EQ(file.dataset(name).read_row<Vec2>(k), points_of(values));
+      EXPECT_EQ(row_of<Vec2>(file.dataset(name), k), points_of(values));
     };
     same("/snapshots/displacement", s.displacement);
     same("/snapshots/velocity", s.velocity);
@@ -118,8 +118,8 @@ TEST(Results, FieldsAreInTheFixedFrame) {
   const h5::File file = h5::File::open(folder / "results.h5");
   const Snapshot& s = run.snapshot(2);
   const double c = std::cos(s.angle), sn = std::sin(s.angle);
-  const auto position = file.dataset("/fields/position").read_row<std::array<float, 3>>(2);
-  const auto turned = file.dataset("/fields/displacement").read_row<std::array<float, 3>>(2);
+  const auto position = row_of<std::array<float, 3>>(file.dataset("/fields/position"), 2);
+  const auto turned = row_of<std::array<float, 3>>(file.dataset("/fields/displacement"), 2);
   for (std::size_t i = 0; i < run.n(); ++i) {
     const Vec2 u = point_of(s.displacement, i), x = run.mesh.coordinates[i] + u;
     // single precision of numbers below 10
@@ -137,8 +137,8 @@ TEST(Results, ContactForceIsOnTheCandidatesAndTractionPerLength) {
   SmallRun run;
   write_all(folder, run, 2, 2);
   const h5::File file = h5::File::open(folder / "results.h5");
-  const auto field = file.dataset("/fields/contact_force").read_row<std::array<float, 3>>(1);
-  const auto traction = file.dataset("/contact/traction").read_row<Vec2>(1);
+  const auto field = row_of<std::array<float, 3>>(file.dataset("/fields/contact_force"), 1);
+  const auto traction = row_of<Vec2>(file.dataset("/contact/traction"), 1);
   const Snapshot& s = run.snapshot(1);
   std::size_t loaded = 0;
   for (const auto& f : field) loaded += f[1] != 0.0F ? 1 : 0;
@@ -172,7 +172,7 @@ TEST(Results, VectorsOfThreeComponents) {
   const h5::File file = h5::File::open(folder / "results.h5");
   EXPECT_EQ(file.dataset("/snapshots/displacement").shape(), (h5::Shape{1, run.n(), 3}));
   EXPECT_EQ(file.read<double>("/snapshots/displacement"), u);
-  const auto turned = file.dataset("/fields/displacement").read_row<std::array<float, 3>>(0);
+  const auto turned = row_of<std::array<float, 3>>(file.dataset("/fields/displacement"), 0);
   for (std::size_t i = 0; i < run.n(); ++i) {
     const Vec2 expected = rotation(s.angle) * plane[i];
     EXPECT_EQ(turned[i][0], static_cast<float>(expected.x));
@@ -186,7 +186,7 @@ TEST(Results, StressTurnsWithTheFrame) {
   SmallRun run;
   write_all(folder, run, 2, 2);
   const h5::File file = h5::File::open(folder / "results.h5");
-  const auto tensor = file.dataset("/fields/cauchy_stress").read_row<std::array<float, 6>>(1);
+  const auto tensor = row_of<std::array<float, 6>>(file.dataset("/fields/cauchy_stress"), 1);
   const Snapshot& s = run.snapshot(1);
   const double c = std::cos(s.angle), sn = std::sin(s.angle);
   const double turn[2][2] = {{c, -sn}, {sn, c}};

@@ -32,6 +32,15 @@ inline std::vector<Vec2> points_of(const FieldView& field) {
   return points;
 }
 
+/// Row `row` of a dataset.
+template <class T>
+std::vector<T> row_of(const h5::Dataset& dataset, std::size_t row) {
+  const std::vector<T> all = dataset.read<T>();
+  const std::size_t n = all.size() / dataset.shape()[0];
+  const auto begin = all.begin() + static_cast<std::ptrdiff_t>(row * n);
+  return {begin, begin + static_cast<std::ptrdiff_t>(n)};
+}
+
 class Folder {
  public:
   Folder() {

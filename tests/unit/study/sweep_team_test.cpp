@@ -64,7 +64,7 @@ TEST(LocalTeam, AnExceptionIsOnePiecesFailure) {
     if (k == 3) throw std::runtime_error("odd");
     return "fine";
   }));
-  const std::vector<int> codes{job_input, job_machine, job_machine, job_failed};
+  const std::vector<int> codes{exit_input, exit_files, exit_files, exit_numerical};
   for (std::size_t k = 0; k < 4; ++k) {
     EXPECT_EQ(pieces[k].state, State::failed);
     EXPECT_EQ(pieces[k].code, codes[k]);
@@ -87,7 +87,7 @@ TEST(LocalTeam, AKilledWorkerLosesOnePiece) {
       EXPECT_EQ(pieces[k].text, std::to_string(k));
     }
     EXPECT_EQ(pieces[5].state, State::failed);
-    EXPECT_EQ(pieces[5].code, job_machine);
+    EXPECT_EQ(pieces[5].code, exit_files);
     EXPECT_NE(pieces[5].text.find("killed by signal 9"), std::string::npos) << pieces[5].text;
   }
 }

@@ -80,7 +80,7 @@ TEST(Workers, EachHasAProcessOfItsOwnAndATextOfAnyLength) {
                                     nullptr, {});
   ASSERT_EQ(outcomes.size(), 3U);
   for (std::size_t k = 0; k < 3; ++k) {
-    EXPECT_EQ(outcomes[k].code, job_done);
+    EXPECT_EQ(outcomes[k].code, exit_done);
     EXPECT_TRUE(outcomes[k].text == std::string(1 << 20, "abc"[k]));
     EXPECT_TRUE(pids[k] > 0 && pids[k] != getpid() && pids[k] != pids[(k + 1) % 3]);
   }
@@ -103,21 +103,21 @@ TEST(Workers, CoresAreAtLeastOne) {
 TEST(Workers, ExceptionsBecomeCodes) {
   const WorkerOutcome input =
       only([](int, const Stop&) -> std::string { throw InputError(Fault{}); });
-  EXPECT_EQ(input.code, job_input);
+  EXPECT_EQ(input.code, exit_input);
   const WorkerOutcome file =
       only([](int, const Stop&) -> std::string { throw FileError("x.h5", "disk full"); });
-  EXPECT_EQ(file.code, job_machine);
+  EXPECT_EQ(file.code, exit_files);
   EXPECT_EQ(file.text, "x.h5: disk full");
   const WorkerOutcome memory =
       only([](int, const Stop&) -> std::string { throw std::bad_alloc(); });
-  EXPECT_EQ(memory.code, job_machine);
+  EXPECT_EQ(memory.code, exit_files);
   EXPECT_EQ(memory.text, "not enough memory");
   const WorkerOutcome bug =
       only([](int, const Stop&) -> std::string { throw std::runtime_error("odd"); });
-  EXPECT_EQ(bug.code, job_failed);
+  EXPECT_EQ(bug.code, exit_numerical);
   EXPECT_EQ(bug.text, "unexpected failure, a bug of rondo's: odd");
   const WorkerOutcome other = only([](int, const Stop&) -> std::string { throw 7; });
-  EXPECT_EQ(other.code, job_failed);
+  EXPECT_EQ(other.code, exit_numerical);
   EXPECT_NE(other.text.find("unknown type"), std::string::npos);
 }
 
@@ -131,14 +131,14 @@ TEST(Workers, AKilledOneTakesNoOtherWithItAndNothingIsLeft) {
                                       return "well";
                                     },
                                     nullptr, {});
-  EXPECT_EQ(outcomes[0].code, job_machine);
+  EXPECT_EQ(outcomes[0].code, exit_files);
   EXPECT_EQ(outcomes[0].text,
             "killed by signal 9 (Killed); the usual reason is that memory ran out");
-  EXPECT_EQ(outcomes[1].code, job_failed);
+  EXPECT_EQ(outcomes[1].code, exit_numerical);
   EXPECT_EQ(outcomes[1].text, "killed by signal 10 (User defined signal 1)");
-  EXPECT_EQ(outcomes[2].code, job_failed);
+  EXPECT_EQ(outcomes[2].code, exit_numerical);
   EXPECT_EQ(outcomes[2].text, "its process ended without a report, with exit code 5");
-  EXPECT_EQ(outcomes[3].code, job_done);
+  EXPECT_EQ(outcomes[3].code, exit_done);
   EXPECT_EQ(outcomes[3].text, "well");
   EXPECT_EQ(open_files(), before);
   EXPECT_TRUE(no_child_left());
@@ -200,13 +200,13 @@ TEST(WorkersStop, ASignalToTheParentStopsTheWorkers) {
 
 TEST(Workers, HalfAReportIsNone) {
   const WorkerOutcome outcome = signalled_amid_its_report(SIGKILL);
-  EXPECT_EQ(outcome.code, job_machine);
+  EXPECT_EQ(outcome.code, exit_files);
   EXPECT_EQ(outcome.text.substr(0, 18), "killed by signal 9");
 }
 
 TEST(Workers, AStopAmidAReportCutsNothing) {
   const WorkerOutcome outcome = signalled_amid_its_report(SIGTERM);
-  EXPECT_EQ(outcome.code, job_done);
+  EXPECT_EQ(outcome.code, exit_done);
   EXPECT_TRUE(outcome.text == std::string(1 << 22, 'a')) << outcome.text.substr(0, 80);
 }
 

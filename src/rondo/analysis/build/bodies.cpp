@@ -152,7 +152,8 @@ ProbeSite find_site(const Case& c, const mesh::CellGrid& grid, std::size_t k) {
 }  // namespace
 
 mesh::Mesh build_mesh(const Case& c, std::vector<std::string>* warnings) {
-  if (!c.mesh) demand_memory(c, mesh::n_disk_nodes(c.disk), mesh_memory(size_of(c.disk)));
+  if (!c.mesh)
+    demand_memory(c, mesh::n_disk_nodes(c.disk), mesh_memory(mesh::n_disk_nodes(c.disk)));
   mesh::Mesh mesh = c.mesh ? read_mesh(c, warnings) : mesh::make_disk(c.disk);
   const std::vector<double> size = element_sizes(mesh);
   if (!c.mesh) refuse_flat_elements(c, size);

@@ -196,7 +196,7 @@ namespace {
 Setup make_body(const Case& c, int threads) {
   Setup s;
   s.mesh = build_mesh(c, &s.warnings);
-  demand_memory(c, s.mesh.n_nodes(), motion_memory(c, size_of(s.mesh)));
+  demand_memory(c, s.mesh.n_nodes(), motion_memory(c, s.mesh));
   check_places(c, s.mesh);
   s.materials = materials_of(c, s.mesh);
   s.probes = find_probes(c, s.mesh);  // before free bodies are moved to where they start

@@ -16,24 +16,10 @@
 
 namespace rondo::study {
 
-MeshSize size_of(const mesh::Mesh& mesh) noexcept {
-  return {mesh.n_nodes(), mesh.cells.size(), mesh.clamped.size(),
-          static_cast<std::size_t>(mesh.n_sectors)};
-}
-
-MeshSize size_of(const mesh::Disk& disk) noexcept {
-  const auto count = [](int n) { return static_cast<std::size_t>(n); };
-  const std::size_t sectors = count(disk.tread ? disk.tread->pitches : disk.circumferential);
-  const std::size_t of_a_sector =
-      disk.tread ? count(disk.tread->land_columns) + count(disk.tread->groove_columns) : 1;
-  return {mesh::n_disk_nodes(disk), mesh::n_disk_cells(disk), sectors * of_a_sector, sectors};
-}
-
-std::size_t mesh_memory(const MeshSize& mesh) noexcept {
-  constexpr std::size_t program = 30'000'000;  // with its libraries
-  constexpr std::size_t numbers_of_a_node = 46;
-  return program + mesh.nodes * numbers_of_a_node * sizeof(double) +
-         mesh.cells * sizeof(mesh::Cell);
+std::size_t mesh_memory(std::size_t nodes) noexcept {
+  constexpr std::size_t program = 30'000'000;    // with its libraries
+  constexpr std::size_t numbers_of_a_node = 48;  // with those of a cell: there are as many
+  return program + nodes * numbers_of_a_node * sizeof(double);
 }
 
 std::size_t stiffness_memory(std::size_t nodes) noexcept {
@@ -47,23 +33,22 @@ std::size_t factor_memory(std::size_t dofs) noexcept {
   return static_cast<std::size_t>(bytes_per_entry * n * std::log2(n));
 }
 
-std::size_t waiting_memory(const Case& c, std::size_t nodes) noexcept {
-  const std::size_t bytes = 2 * nodes * sizeof(Vec2);
+std::size_t motion_memory(const Case& c, const mesh::Mesh& mesh) noexcept {
+  const std::size_t nodes = mesh.n_nodes(), of_a_snapshot = 2 * nodes * sizeof(Vec2);
   const auto snapshots = static_cast<std::size_t>(c.output.snapshots);
-  return std::min(snapshots, queue_length(snapshots, bytes)) * bytes;
-}
-
-std::size_t motion_memory(const Case& c, const MeshSize& mesh) noexcept {
   const bool harmonics =
-      mesh.sectors > 0 && !c.free_rim && 2 * (mesh.nodes - mesh.clamped) > harmonic_setup_dofs;
-  const std::size_t of_a_sector = harmonics ? 2 * mesh.nodes / mesh.sectors : 0;
+      mesh.n_sectors > 0 && !c.free_rim && 2 * (nodes - mesh.clamped.size()) > harmonic_setup_dofs;
+  const std::size_t of_a_sector =
+      harmonics ? 2 * nodes / static_cast<std::size_t>(mesh.n_sectors) : 0;
   const bool sector_alone = harmonics && c.solver_operator != "sparse" && why_not_cyclic(c).empty();
-  const bool factorised = c.initial.state == InitialState::stationary ||
-                          (c.motion.angular_velocity.largest() != 0.0 &&
-                           softening_is_checked(2 * mesh.nodes, of_a_sector));
-  std::size_t bytes = mesh_memory(mesh) + waiting_memory(c, mesh.nodes);
-  if (!sector_alone) bytes += stiffness_memory(mesh.nodes);
-  if (factorised) bytes += factor_memory(harmonics ? of_a_sector : 2 * mesh.nodes);
+  const bool factorised =
+      c.initial.state == InitialState::stationary ||
+      (c.motion.angular_velocity.largest() != 0.0 && softening_is_checked(2 * nodes, of_a_sector));
+  // Snapshots may wait to be written, where steps are faster than files.
+  std::size_t bytes = mesh_memory(nodes) +
+                      std::min(snapshots, queue_length(snapshots, of_a_snapshot)) * of_a_snapshot;
+  if (!sector_alone) bytes += stiffness_memory(nodes);
+  if (factorised) bytes += factor_memory(harmonics ? of_a_sector : 2 * nodes);
   return bytes;
 }
 

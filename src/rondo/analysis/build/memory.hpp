@@ -8,28 +8,15 @@
 
 namespace rondo::study {
 
-/// What memory depends on.
-struct MeshSize {
-  std::size_t nodes = 0, cells = 0;
-  std::size_t clamped = 0;  ///< nodes
-  std::size_t sectors = 0;  ///< equal ones; 0: none
-};
-
-MeshSize size_of(const mesh::Mesh& mesh) noexcept;
-/// Of the mesh that mesh::make_disk would make.
-MeshSize size_of(const mesh::Disk& disk) noexcept;
-
 /// Of the program, mesh, fields, a checkpoint and what is written: the least of any analysis [B].
-std::size_t mesh_memory(const MeshSize& mesh) noexcept;
+std::size_t mesh_memory(std::size_t nodes) noexcept;
 /// Of the assembled stiffness, held twice while it is assembled [B].
 std::size_t stiffness_memory(std::size_t nodes) noexcept;
 /// Of a Cholesky factor of a plane mesh, which fills in about n log2 n [B].
 std::size_t factor_memory(std::size_t dofs) noexcept;
-/// Of snapshots that may wait to be written, where steps are faster than files [B].
-std::size_t waiting_memory(const Case& c, std::size_t nodes) noexcept;
 
 /// Of motion in time; large disks go without an assembled stiffness [B].
-std::size_t motion_memory(const Case& c, const MeshSize& mesh) noexcept;
+std::size_t motion_memory(const Case& c, const mesh::Mesh& mesh) noexcept;
 
 /// @param needed [B] @throws InputError at the key that makes the mesh so large: this process may
 /// not take that much memory

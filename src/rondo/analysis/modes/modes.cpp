@@ -224,8 +224,7 @@ std::size_t memory_of(const Body& body, const ModesRequest& request, std::size_t
   const std::size_t nodes = body.mesh.n_nodes(), dofs = 2 * nodes;
   const auto at_once = static_cast<std::size_t>(request.count);
   // Complex shapes, kept and as they are written.
-  const std::size_t bytes =
-      mesh_memory(size_of(body.mesh)) + (spins + 1) * at_once * nodes * 2 * sizeof(Vec2);
+  const std::size_t bytes = mesh_memory(nodes) + (spins + 1) * at_once * nodes * 2 * sizeof(Vec2);
   if (body.cyclic()) return bytes;   // what one sector has is small
   constexpr std::size_t spare = 50;  // vectors of the space beyond twice the modes
   return bytes + stiffness_memory(nodes) + factor_memory(dofs) +

@@ -140,20 +140,24 @@ void Dataset::find_spaces() {
   Shape row = shape_;  // of the file's rank: HDF5 then copies at once, else number by number
   if (!row.empty()) row[0] = 1;
   row_space_ = make_space(row, row);
-  part_space_ = make_space(row, row);
 }
 
-void Dataset::select(std::size_t row) const {
+/// The places [first, first + n) of the second dimension of a row; of a row of one number, n is 1.
+void Dataset::select(std::size_t row, std::size_t first, std::size_t n) const {
   be_quiet();  // rows may be written by another thread than the one that made the file
-  RONDO_DEMAND(!shape_.empty() && row < shape_[0], name_, row);
   constexpr std::size_t most = 8;
-  RONDO_DEMAND(shape_.size() <= most, name_, shape_.size());
+  const std::size_t places = shape_.size() > 1 ? shape_[1] : 1;
+  RONDO_DEMAND(!shape_.empty() && shape_.size() <= most && row < shape_[0], name_, shape_.size(),
+               row);
+  RONDO_DEMAND(n <= places && first <= places - n, name_, row, first, n);
   std::array<hsize_t, most> start{}, count{};
   std::copy(shape_.begin(), shape_.end(), count.begin());
-  start[0] = row;
-  count[0] = 1;
+  start[0] = row, count[0] = 1;
+  if (shape_.size() > 1) start[1] = first, count[1] = n;
   if (H5Sselect_hyperslab(file_space_.get(), H5S_SELECT_SET, start.data(), nullptr, count.data(),
-                          nullptr) < 0)
+                          nullptr) < 0 ||
+      H5Sset_extent_simple(row_space_.get(), static_cast<int>(shape_.size()), count.data(),
+                           nullptr) < 0)
     fail("select in");
 }
 
@@ -165,7 +169,7 @@ void Dataset::write_all(const void* values, Type type, std::size_t n) {
 
 void Dataset::write_one(std::size_t row, const void* values, Type type, std::size_t n) {
   RONDO_DEMAND(n == n_in_row(), name_, n, n_in_row());
-  select(row);
+  select_row(row);
   if (H5Dwrite(id_.get(), native(type), row_space_.get(), file_space_.get(), H5P_DEFAULT, values) <
       0)
     fail("write");
@@ -177,37 +181,13 @@ void Dataset::read_all(void* values, Type type, std::size_t n) const {
   if (H5Dread(id_.get(), native(type), H5S_ALL, H5S_ALL, H5P_DEFAULT, values) < 0) fail("read");
 }
 
-void Dataset::read_one(std::size_t row, void* values, Type type, std::size_t n) const {
-  RONDO_DEMAND(n == n_in_row(), name_, n, n_in_row());
-  select(row);
-  if (H5Dread(id_.get(), native(type), row_space_.get(), file_space_.get(), H5P_DEFAULT, values) <
-      0)
-    fail("read");
-}
-
-void Dataset::select_part(std::size_t row, std::size_t first, std::size_t n) const {
-  constexpr std::size_t most = 8;
-  RONDO_DEMAND(shape_.size() > 1 && shape_.size() <= most, name_, shape_.size());
-  RONDO_DEMAND(row < shape_[0] && n > 0 && n <= shape_[1] && first <= shape_[1] - n, name_, row,
-               first, n);
-  std::array<hsize_t, most> start{}, count{};
-  std::copy(shape_.begin(), shape_.end(), count.begin());
-  start[0] = row, count[0] = 1;
-  start[1] = first, count[1] = n;
-  if (H5Sselect_hyperslab(file_space_.get(), H5S_SELECT_SET, start.data(), nullptr, count.data(),
-                          nullptr) < 0 ||
-      H5Sset_extent_simple(part_space_.get(), static_cast<int>(shape_.size()), count.data(),
-                           nullptr) < 0)
-    fail("select in");
-}
-
 void Dataset::read_some(std::size_t row, std::size_t first, void* values, Type type,
                         std::size_t n) const {
   if (n == 0) return;
   const std::size_t place = product(shape_, 2);
   RONDO_DEMAND(n % place == 0, name_, n, place);
-  select_part(row, first, n / place);
-  if (H5Dread(id_.get(), native(type), part_space_.get(), file_space_.get(), H5P_DEFAULT, values) <
+  select(row, first, n / place);
+  if (H5Dread(id_.get(), native(type), row_space_.get(), file_space_.get(), H5P_DEFAULT, values) <
       0)
     fail("read");
 }
@@ -230,11 +210,11 @@ void Dataset::copy_rows(const File& from, std::size_t rows) {
     throw FileError(source.file_, name_ + " holds less than it did: damaged");
   std::vector<unsigned char> row(n_in_row() * H5Tget_size(type.get()));
   for (std::size_t r = 0; r < rows; ++r) {
-    source.select(r);
+    source.select_row(r);
     if (H5Dread(source.id_.get(), type.get(), source.row_space_.get(), source.file_space_.get(),
                 H5P_DEFAULT, row.data()) < 0)
       source.fail("read");
-    select(r);
+    select_row(r);
     if (H5Dwrite(id_.get(), type.get(), row_space_.get(), file_space_.get(), H5P_DEFAULT,
                  row.data()) < 0)
       fail("write");
@@ -284,13 +264,6 @@ File File::open(const std::filesystem::path& path) {
   file.id_ = Handle(H5Fopen(path.c_str(), H5F_ACC_RDONLY, access.get()));
   if (!file) file.fail("open");
   return file;
-}
-
-void File::create_group(const std::string& name) {
-  const Handle links(H5Pcreate(H5P_LINK_CREATE));
-  H5Pset_create_intermediate_group(links.get(), 1);
-  const Handle group(H5Gcreate2(id_.get(), name.c_str(), links.get(), H5P_DEFAULT, H5P_DEFAULT));
-  if (group.get() < 0) fail("create group " + name);
 }
 
 Dataset File::make(const std::string& name, Type type, const Shape& shape, const Label& label,

@@ -113,12 +113,6 @@ class Dataset {
     read_all(values.data(), Element<T>::type, values.size() * Element<T>::count);
     return values;
   }
-  template <class T>
-  [[nodiscard]] std::vector<T> read_row(std::size_t row) const {
-    std::vector<T> values(n_in_row() / Element<T>::count);
-    read_one(row, values.data(), Element<T>::type, values.size() * Element<T>::count);
-    return values;
-  }
   /// The places [first, first + n) of the second dimension of row `row`, straight into `values`.
   /// @pre n = values.size() * Element<T>::count over the numbers of a place. @throws FileError
   template <class T>
@@ -140,19 +134,18 @@ class Dataset {
   [[nodiscard]] std::size_t n_numbers() const noexcept;
   [[nodiscard]] std::size_t n_in_row() const noexcept;
   void find_spaces();
-  void select(std::size_t row) const;
-  void select_part(std::size_t row, std::size_t first, std::size_t n) const;
+  void select(std::size_t row, std::size_t first, std::size_t n) const;
+  void select_row(std::size_t row) const { select(row, 0, shape_.size() > 1 ? shape_[1] : 1); }
   void write_all(const void* values, Type type, std::size_t n);
   void write_one(std::size_t row, const void* values, Type type, std::size_t n);
   void read_all(void* values, Type type, std::size_t n) const;
-  void read_one(std::size_t row, void* values, Type type, std::size_t n) const;
   void read_some(std::size_t row, std::size_t first, void* values, Type type, std::size_t n) const;
   [[noreturn]] void fail(const char* doing) const;
 
   std::string file_, name_;
   Shape shape_;
-  Handle id_, file_space_, row_space_;
-  Handle part_space_;  ///< of a part read: its extent changes with each call
+  Handle id_, file_space_;
+  Handle row_space_;  ///< of a row or a part of it: its extent changes with each call
 };
 
 class File {
@@ -171,9 +164,7 @@ class File {
 
   explicit operator bool() const noexcept { return id_.get() >= 0; }
 
-  /// Group and its parents; datasets make theirs themselves. @throws FileError
-  void create_group(const std::string& name);
-  /// Of fixed size. @throws FileError
+  /// Of fixed size; it makes its groups itself. @throws FileError
   Dataset create(const std::string& name, Type type, const Shape& shape, const Label& label);
   /// To be written row by row, for at most shape[0] rows; has none until resize(), which gives all
   /// of them their place in the file. What is written to a row goes straight to the operating
@@ -184,6 +175,11 @@ class File {
   void write(const std::string& name, const Shape& shape, std::span<const T> values,
              const Label& label) {
     create(name, Element<T>::type, shape, label).write(values);
+  }
+  template <class T>
+  void write(const std::string& name, const Shape& shape, const std::vector<T>& values,
+             const Label& label) {
+    write(name, shape, std::span<const T>(values), label);
   }
 
   [[nodiscard]] const std::string& path() const noexcept { return path_; }

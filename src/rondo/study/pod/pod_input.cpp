@@ -30,15 +30,12 @@ struct Word {
 template <class Value, std::size_t N>
 Value value_of(const char* option, const std::string& word,
                const std::array<Word<Value>, N>& words) {
-  Fault fault;
-  fault.key = option;
-  fault.found = word;
-  fault.message = "no such choice";
+  std::string allowed;
   for (const auto& [text, value] : words) {
     if (word == text) return value;
-    fault.allowed += fmt::format("{}{}", fault.allowed.empty() ? "" : " | ", text);
+    allowed += fmt::format("{}{}", allowed.empty() ? "" : " | ", text);
   }
-  throw InputError(fault);
+  throw request_error(option, word, "no such choice", allowed);
 }
 
 constexpr std::array quantities{Word<io::Quantity>{"displacement", io::Quantity::displacement},

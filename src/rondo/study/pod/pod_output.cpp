@@ -14,30 +14,6 @@ namespace {
 
 using pod::Index;
 
-/// U becomes Φ, in the order of the mesh, where it is: it may be half of all memory used.
-void unweight(RunSnapshots& snapshots, Eigen::MatrixXd& modes) {
-  for (Index i = 0; i < modes.cols(); ++i) snapshots.unweight(modes.col(i));
-}
-
-struct FileNumbers {
-  std::vector<double> time, angle, error;
-  std::vector<int> run;
-  std::vector<std::string> runs;
-};
-
-FileNumbers numbers_of(const PodReport& report, const PodResult& found) {
-  FileNumbers n;
-  for (std::size_t j = 0; j < found.columns.size(); ++j) {
-    n.time.push_back(found.columns[j].time);
-    n.angle.push_back(found.columns[j].angle);
-    n.run.push_back(static_cast<int>(found.columns[j].run));
-    n.error.push_back(
-        relative_error(found.identity.squared_error[j], found.identity.snapshot_energy[j]));
-  }
-  for (const PodRun& run : report.runs) n.runs.push_back(run.directory.string());
-  return n;
-}
-
 /// `count` columns evenly spread, first and last among them.
 std::vector<std::size_t> spread(std::size_t count, std::size_t columns) {
   std::vector<std::size_t> chosen;
@@ -85,6 +61,14 @@ io::PodContent content_of(const PodRequest& request, const PodReport& report,
   content.decomposition = &found.d;
   content.spectrum = &found.spectrum;
   content.modes = &found.d.modes;
+  for (std::size_t j = 0; j < found.columns.size(); ++j) {
+    content.time.push_back(found.columns[j].time);
+    content.angle.push_back(found.columns[j].angle);
+    content.run.push_back(static_cast<int>(found.columns[j].run));
+    content.error.push_back(
+        relative_error(found.identity.squared_error[j], found.identity.snapshot_energy[j]));
+  }
+  for (const PodRun& run : report.runs) content.runs.push_back(run.directory.string());
   return content;
 }
 
@@ -92,14 +76,9 @@ io::PodContent content_of(const PodRequest& request, const PodReport& report,
 
 void write_pod_files(const PodRequest& request, const PodReport& report, RunSnapshots& snapshots,
                      PodResult& result) {
-  unweight(snapshots, result.d.modes);
-  const FileNumbers numbers = numbers_of(report, result);
-  io::PodContent content = content_of(request, report, snapshots, result);
-  content.time = numbers.time;
-  content.angle = numbers.angle;
-  content.run = numbers.run;
-  content.error = numbers.error;
-  content.runs = numbers.runs;
+  // U becomes Φ, in the order of the mesh, where it is: it may be half of all memory used.
+  for (Index i = 0; i < result.d.modes.cols(); ++i) snapshots.unweight(result.d.modes.col(i));
+  const io::PodContent content = content_of(request, report, snapshots, result);
   const std::size_t asked = result.d.rank > 0 ? static_cast<std::size_t>(request.reconstruct) : 0;
   const std::vector<std::size_t> chosen = spread(asked, result.columns.size());
   io::PodWriter writer(report.directory, content, chosen.size());

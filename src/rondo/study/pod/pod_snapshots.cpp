@@ -38,13 +38,12 @@ std::vector<double> point_weights(const io::RunReader& run, const SnapshotChoice
 constexpr double largest = 1e100;
 
 [[noreturn]] void out_of_range(const io::RunReader& run, double time) {
-  Fault fault;
-  fault.file = run.directory().string();
-  fault.message =
-      fmt::format("the snapshot at t = {:.9g} s holds numbers that are not finite, or above {:.0e}",
-                  time, largest);
-  fault.allowed = "a window that ends before it (--to)";
-  throw InputError(fault);
+  throw InputError(
+      Fault{run.directory().string(), 0, 0, "", "",
+            fmt::format("the snapshot at t = {:.9g} s holds numbers that are not finite, or above "
+                        "{:.0e}",
+                        time, largest),
+            "a window that ends before it (--to)"});
 }
 
 }  // namespace

@@ -2,8 +2,6 @@
 #include "rondo/study/sweep/kept_runs.hpp"
 
 #include <cmath>
-#include <fstream>
-#include <iterator>
 #include <system_error>
 
 #include "rondo/analysis/figures/history_statistics.hpp"
@@ -18,12 +16,6 @@ namespace rondo::study {
 namespace {
 
 namespace fs = std::filesystem;
-
-/// Empty where it cannot be read.
-std::string text_of(const fs::path& file) {
-  std::ifstream in(file, std::ios::binary);
-  return {std::istreambuf_iterator<char>(in), {}};
-}
 
 /// The files hold what run.json says, as far as their ends and heads tell. @throws FileError,
 /// InputError: they cannot be read
@@ -59,9 +51,9 @@ double number_in(const Json& j, const char* key) {
 
 bool is_case_of(const fs::path& directory, const Case& c) {
   const Case kept = kept_case(c);
-  if (text_of(directory / "case.toml") != write_case(kept)) return false;
+  if (io::text_of(directory / "case.toml") != write_case(kept)) return false;
   const bool is_copy = c.mesh && kept.mesh->file.is_relative();
-  return !is_copy || text_of(directory / kept.mesh->file) == text_of(c.mesh->file);
+  return !is_copy || io::text_of(directory / kept.mesh->file) == io::text_of(c.mesh->file);
 }
 
 bool run_is_there(const fs::path& directory, const Case& c) {

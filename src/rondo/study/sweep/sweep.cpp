@@ -37,7 +37,7 @@ MemberRow row_of(const fs::path& directory, const AnalysisType& type, const Wind
   MemberRow row;
   row.status = text_in(j, "status") == "done" ? MemberStatus::done : MemberStatus::failed;
   row.message = text_in(j, "message");
-  row.code = row.status == MemberStatus::done ? job_done : job_failed;
+  row.code = row.status == MemberStatus::done ? exit_done : exit_numerical;
   row.steps = static_cast<long long>(number_in(j, "steps_done"));
   row.end_time = std::max(0.0, number_in(j, "end_time"));
   row.wall_s = std::max(0.0, number_in(j, "total_wall_s"));
@@ -48,7 +48,7 @@ MemberRow row_of(const fs::path& directory, const AnalysisType& type, const Wind
 MemberRow interrupted_row(const fs::path& directory, const AnalysisType& type) {
   MemberRow row = row_of(directory, type, {});
   row.status = MemberStatus::interrupted;
-  row.code = job_interrupted;
+  row.code = exit_interrupted;
   return row;
 }
 
@@ -149,10 +149,10 @@ class Sweep {
       const bool unfinished =
           row.status == MemberStatus::interrupted || row.status == MemberStatus::waiting;
       r.interrupted += unfinished ? 1 : 0;
-      if (unfinished) r.code = job_interrupted;
+      if (unfinished) r.code = exit_interrupted;
       if (row.status != MemberStatus::failed) continue;
       ++r.failed;
-      if (r.code != job_interrupted) r.code = std::max(r.code, row.code);
+      if (r.code != exit_interrupted) r.code = std::max(r.code, row.code);
       if (r.failures.size() < most_told)
         r.failures.push_back(name_of(study_, plan_.members[m].member, m + 1) + ": " + row.message);
     }
@@ -259,7 +259,7 @@ std::optional<io::DirectoryLock> begin(const SweepRequest& request, const Sweep&
 SweepReport interrupted_report(std::size_t members) {
   SweepReport report;
   report.members = report.interrupted = members;
-  report.code = job_interrupted;
+  report.code = exit_interrupted;
   return report;
 }
 

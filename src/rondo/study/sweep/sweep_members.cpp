@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <chrono>
-#include <fstream>
 #include <map>
 #include <numeric>
 #include <string_view>
@@ -15,14 +14,18 @@
 
 #include "rondo/analysis/build/build.hpp"
 #include "rondo/analysis/build/memory.hpp"
-#include "rondo/analysis/check.hpp"
 #include "rondo/core/memory_limits.hpp"
+#include "rondo/io/files.hpp"
 #include "rondo/io/h5/hash.hpp"
 #include "rondo/output/run_files.hpp"
 #include "rondo/study/sweep/member_faults.hpp"
 #include "rondo/study/sweep/member_targets.hpp"
 
 namespace rondo::study {
+
+NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(MemberCost, memory_bytes, disk_bytes, nodes, dofs, steps,
+                                   seconds, warnings)
+
 namespace {
 
 namespace fs = std::filesystem;
@@ -61,10 +64,7 @@ class MeshHashes {
   const std::string& of(const Case& c) {
     if (!c.mesh) return none_;
     const auto [found, is_new] = hashes_.try_emplace(c.mesh->file);
-    if (is_new) {
-      std::ifstream in(c.mesh->file, std::ios::binary);
-      found->second = hash_of({std::istreambuf_iterator<char>(in), {}});
-    }
+    if (is_new) found->second = hash_of(io::text_of(c.mesh->file));
     return found->second;
   }
 
@@ -76,7 +76,7 @@ class MeshHashes {
 /// Before a mesh file is read: some bytes of memory for each of its own.
 std::size_t guessed_memory(const Case& c) {
   constexpr std::size_t per_byte = 60;
-  if (!c.mesh) return mesh_memory(size_of(c.disk));
+  if (!c.mesh) return mesh_memory(mesh::n_disk_nodes(c.disk));
   std::error_code error;
   const auto size = fs::file_size(c.mesh->file, error);
   return error ? 0 : per_byte * static_cast<std::size_t>(size);
@@ -136,7 +136,7 @@ std::string check_member(const MembersRequest& request, const PlannedMember& mem
   using Clock = std::chrono::steady_clock;
   const bool timed = request.seconds && checker.body != member.body;
   const double trial = timed ? 0.05 : 0.0;
-  Json j;
+  nlohmann::json j;
   try {
     const Case c = case_of(request.study, member);
     const auto begin = Clock::now();
@@ -147,34 +147,29 @@ std::string check_member(const MembersRequest& request, const PlannedMember& mem
     checker.body = member.body;
     const double stepping = checker.per_step * static_cast<double>(r.steps);
     constexpr double files = 0.01;  // of a run: measured, docs/studies.md
-    j = {{"steps", r.steps},
-         {"nodes", r.nodes},
-         {"dofs", r.dofs},
-         {"seconds", stepping > 0.0 ? stepping + std::max(0.0, built) + files : 0.0},
-         {"memory", r.memory_bytes},
-         {"disk", r.disk_bytes},
-         {"warnings", r.warnings}};
+    j = MemberCost{.memory_bytes = r.memory_bytes,
+                   .disk_bytes = r.disk_bytes,
+                   .nodes = r.nodes,
+                   .dofs = r.dofs,
+                   .steps = r.steps,
+                   .seconds = stepping > 0.0 ? stepping + std::max(0.0, built) + files : 0.0,
+                   .warnings = r.warnings};
   } catch (const InputError& error) {
-    j["faults"] = Json::array();
+    j["faults"] = nlohmann::json::array();
     for (const Fault& fault : error.faults())
       j["faults"].push_back({{"kind", fault.key + '\n' + fault.message}, {"text", fault.text()}});
   }
-  return j.dump(-1, ' ', false, Json::error_handler_t::replace);
+  return j.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
 }
 
-void take_check(const Json& j, std::size_t m, PlannedMember& member, MemberFaults& faults) {
+void take_check(const nlohmann::json& j, std::size_t m, PlannedMember& member,
+                MemberFaults& faults) {
   if (j.contains("faults")) {
-    for (const Json& fault : j["faults"])
-      faults.add(m, text_in(fault, "kind"), text_in(fault, "text"));
+    for (const nlohmann::json& fault : j["faults"])
+      faults.add(m, fault["kind"].get<std::string>(), fault["text"].get<std::string>());
     return;
   }
-  member.steps = j["steps"].get<long long>();
-  member.nodes = j["nodes"].get<std::size_t>();
-  member.dofs = j["dofs"].get<std::size_t>();
-  member.seconds = j["seconds"].get<double>();
-  member.memory_bytes = j["memory"].get<std::size_t>();
-  member.disk_bytes = j["disk"].get<std::size_t>();
-  member.warnings = j["warnings"].get<std::vector<std::string>>();
+  j.get_to(static_cast<MemberCost&>(member));
 }
 
 /// False: a stop was asked for.
@@ -193,7 +188,7 @@ bool build_members(const MembersRequest& request, Team& team, PlannedSweep& plan
   for (std::size_t k = 0; k < order.size(); ++k) {
     if (pieces[k].state == Piece::State::missing) return false;
     demand_done(pieces[k]);
-    take_check(Json::parse(pieces[k].text), order[k], plan.members[order[k]], faults);
+    take_check(nlohmann::json::parse(pieces[k].text), order[k], plan.members[order[k]], faults);
   }
   return true;
 }

@@ -13,18 +13,22 @@
 
 namespace rondo::study {
 
-struct PlannedMember {
-  Member member;
-  std::vector<std::string> settings;  ///< all of them, targets solved
-  std::vector<double> targets;        ///< (parameters) value found of a target; else 0
-  std::string hash;                   ///< of the case as run and its mesh
-  std::string body;                   ///< likewise of what members share: see body_key()
-  std::size_t memory_bytes = 0;       ///< at its largest
+/// What a member would cost, as far as it is known.
+struct MemberCost {
+  std::size_t memory_bytes = 0;  ///< at its largest
   std::size_t disk_bytes = 0;
   std::size_t nodes = 0, dofs = 0;
   long long steps = 0;   ///< or increments
   double seconds = 0.0;  ///< expected; 0: not asked for, or not estimated
   std::vector<std::string> warnings;
+};
+
+struct PlannedMember : MemberCost {
+  Member member;
+  std::vector<std::string> settings;  ///< all of them, targets solved
+  std::vector<double> targets;        ///< (parameters) value found of a target; else 0
+  std::string hash;                   ///< of the case as run and its mesh
+  std::string body;                   ///< likewise of what members share: see body_key()
 };
 
 struct MembersRequest {

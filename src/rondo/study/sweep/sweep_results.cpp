@@ -143,31 +143,17 @@ const char* name_of(MemberStatus status) noexcept {
   return names[static_cast<std::size_t>(status)];
 }
 
+NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(MemberRow, status, code, message, kept, steps, end_time, figures,
+                                   wall_s)
+
 std::string packed(const MemberRow& row) {
-  Json j{{"status", static_cast<int>(row.status)},
-         {"code", row.code},
-         {"message", row.message},
-         {"kept", row.kept},
-         {"steps", row.steps},
-         {"end_time", row.end_time},
-         {"figures", row.figures},
-         {"wall_s", row.wall_s}};
-  return j.dump(-1, ' ', false, Json::error_handler_t::replace);
+  const std::vector<std::uint8_t> bytes =
+      nlohmann::json::to_cbor(row);  // which knows NaN, as JSON not
+  return {bytes.begin(), bytes.end()};
 }
 
 MemberRow unpacked(const std::string& text) {
-  const Json j = Json::parse(text);
-  MemberRow row;
-  row.status = static_cast<MemberStatus>(j["status"].get<int>());
-  row.code = j["code"].get<int>();
-  row.message = j["message"].get<std::string>();
-  row.kept = j["kept"].get<bool>();
-  row.steps = j["steps"].get<long long>();
-  row.end_time = j["end_time"].get<double>();
-  for (const Json& value : j["figures"])  // JSON has no NaN
-    row.figures.push_back(value.is_number() ? value.get<double>() : none);
-  row.wall_s = j["wall_s"].get<double>();
-  return row;
+  return nlohmann::json::from_cbor(text).get<MemberRow>();
 }
 
 void write_tables(const std::filesystem::path& directory, const SweepTables& t) {

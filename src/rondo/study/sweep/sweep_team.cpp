@@ -75,7 +75,7 @@ class Round {
   }
 
   void settle(int worker, const WorkerOutcome& outcome) {
-    if (outcome.code == job_done) return unpack(outcome.text, pieces_);
+    if (outcome.code == exit_done) return unpack(outcome.text, pieces_);
     const std::size_t piece = in_hand(worker);
     if (piece == nothing) return;
     pieces_[piece] = {Piece::State::failed, "its process was " + outcome.text, outcome.code,
@@ -93,7 +93,7 @@ class Round {
 
 Piece do_piece(const TeamWork& work, std::size_t piece, const std::atomic<bool>& stop, int worker) {
   try {
-    return {Piece::State::done, work.work(piece, stop), job_done, worker};
+    return {Piece::State::done, work.work(piece, stop), exit_done, worker};
   } catch (const std::exception& error) {
     const WorkerOutcome failed = failed_by(error);
     return {Piece::State::failed, failed.text, failed.code, worker};
@@ -102,8 +102,8 @@ Piece do_piece(const TeamWork& work, std::size_t piece, const std::atomic<bool>&
 
 void demand_done(const Piece& piece) {
   if (piece.state != Piece::State::failed) return;
-  if (piece.code == job_input) throw InputError(Fault{"", 0, 0, "", "", piece.text, ""});
-  if (piece.code == job_machine) throw FileError("sweep", piece.text);
+  if (piece.code == exit_input) throw InputError(Fault{"", 0, 0, "", "", piece.text, ""});
+  if (piece.code == exit_files) throw FileError("sweep", piece.text);
   throw std::runtime_error(piece.text);
 }
 
@@ -145,7 +145,7 @@ std::vector<Piece> LocalTeam::each(const TeamWork& work) {
     if (missing() < before) continue;
     for (Piece& piece : pieces)
       if (piece.state == Piece::State::missing)
-        piece = {Piece::State::failed, "its process ended without a report", job_failed, 0};
+        piece = {Piece::State::failed, "its process ended without a report", exit_numerical, 0};
   }
   return pieces;
 }

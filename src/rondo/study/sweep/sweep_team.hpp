@@ -18,7 +18,7 @@ struct Piece {
   enum class State { missing, done, failed };  ///< missing: a stop was asked for before its turn
   State state = State::missing;
   std::string text;  ///< what the work returned; of a failure, why
-  int code = job_done;
+  int code = exit_done;
   int worker = 0;  ///< who did it
 };
 

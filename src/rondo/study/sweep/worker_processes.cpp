@@ -20,8 +20,6 @@
 #include <optional>
 #include <thread>
 
-#include "rondo/core/error.hpp"
-
 namespace rondo::study {
 namespace {
 
@@ -71,11 +69,11 @@ void catch_stop_signals() {
 
 WorkerOutcome work_guarded(const WorkerTask& task, int worker) {
   try {
-    return {job_done, task(worker, stop_requested)};
+    return {exit_done, task(worker, stop_requested)};
   } catch (const std::exception& error) {
     return failed_by(error);
   } catch (...) {
-    return {job_failed, "unexpected failure, a bug of rondo's: an exception of unknown type"};
+    return {exit_numerical, "unexpected failure, a bug of rondo's: an exception of unknown type"};
   }
 }
 
@@ -168,12 +166,12 @@ WorkerOutcome outcome_of(const std::string& received, std::optional<int> status)
     if (received.size() - sizeof header == header.length)
       return {static_cast<int>(header.code), received.substr(sizeof header)};
   }
-  WorkerOutcome outcome{job_failed, "its process ended without a report"};
+  WorkerOutcome outcome{exit_numerical, "its process ended without a report"};
   if (status && WIFSIGNALED(*status)) {
     const int number = WTERMSIG(*status);
     outcome.text = fmt::format("killed by signal {} ({})", number, strsignal(number));
     if (number == SIGKILL) {
-      outcome.code = job_machine;
+      outcome.code = exit_files;
       outcome.text += "; the usual reason is that memory ran out";
     }
   } else if (status) {
@@ -229,11 +227,11 @@ class Workers {
 }  // namespace
 
 WorkerOutcome failed_by(const std::exception& error) {
-  if (dynamic_cast<const InputError*>(&error) != nullptr) return {job_input, error.what()};
-  if (dynamic_cast<const FileError*>(&error) != nullptr) return {job_machine, error.what()};
+  if (dynamic_cast<const InputError*>(&error) != nullptr) return {exit_input, error.what()};
+  if (dynamic_cast<const FileError*>(&error) != nullptr) return {exit_files, error.what()};
   if (dynamic_cast<const std::bad_alloc*>(&error) != nullptr)
-    return {job_machine, "not enough memory"};
-  return {job_failed, fmt::format("unexpected failure, a bug of rondo's: {}", error.what())};
+    return {exit_files, "not enough memory"};
+  return {exit_numerical, fmt::format("unexpected failure, a bug of rondo's: {}", error.what())};
 }
 
 int available_cores() {

@@ -9,19 +9,12 @@
 #include <string>
 #include <vector>
 
+#include "rondo/core/error.hpp"
+
 namespace rondo::study {
 
-/// The program's exit codes.
-enum JobCode : int {
-  job_done = 0,
-  job_input = 2,    ///< an InputError
-  job_failed = 3,   ///< numerics, or a bug: any other exception, a signal
-  job_machine = 4,  ///< files or memory: FileError, bad_alloc, SIGKILL
-  job_interrupted = 130,
-};
-
 struct WorkerOutcome {
-  int code = job_done;
+  int code = exit_done;
   std::string text;  ///< what the work returned, of any length; of a failure, why
 };
 
