@@ -7,6 +7,7 @@
 #include <map>
 
 #include "rondo/analysis/build/build.hpp"
+#include "rondo/case/case_keys.hpp"
 #include "rondo/case/toml_text.hpp"
 #include "rondo/output/run_files.hpp"
 #include "rondo/study/sweep/sweep_target.hpp"
@@ -29,11 +30,11 @@ InputError study_error(const SweepStudy& study, const std::string& key, const st
 /// The crush of a case on flat ground, as deep as half of the body.
 Case crush_of(const SweepStudy& study, const std::vector<std::string>& settings) {
   const Case c = read_case(study.base, settings);
-  const bool is_crush = c.analysis.kind == AnalysisKind::crush;
-  if (is_crush != is_depth(study))
-    throw study_error(study, study.parameters[target_of(study)].key,
-                      is_crush ? "means nothing to a crush" : "means nothing to a dynamic analysis",
-                      is_crush ? "target of analysis.depth" : "target of motion.height");
+  const std::string& key = study.parameters[target_of(study)].key;
+  if (!means_to(*find_case_key(key), c.analysis.kind))
+    throw study_error(study, key,
+                      fmt::format("means nothing to a {} analysis", rules_of(c.analysis.kind).name),
+                      is_depth(study) ? "target of motion.height" : "target of analysis.depth");
   const double most = c.mesh ? c.analysis.depth : 0.5 * (c.disk.outer_radius - c.disk.inner_radius);
   if (!(most > 0.0))
     throw study_error(study, "vary",
