@@ -99,7 +99,6 @@ void ContactReport::add(const ContactReport& other) noexcept {
   penetration = std::max(penetration, other.penetration);
   free_velocity = std::max(free_velocity, other.free_velocity);
   residual = keep_larger(residual, other.residual);
-  unseen = std::max(unseen, other.unseen);
   work += other.work;
   dissipation_friction += other.dissipation_friction;
   loss_impact += other.loss_impact;

@@ -55,7 +55,7 @@ struct Difference {
 class Comparison {
  public:
   /// Of contacts that share nodes only what a node feels in all is compared: how they share it, and
-  /// which of them stick, is not unique (docs/theory.md, 4.7).
+  /// so which of them press or stick, is not unique (docs/theory.md, 4.7).
   enum class Contacts { one_by_one, by_node };
   explicit Comparison(Contacts contacts = Contacts::one_by_one) : contacts_(contacts) {}
 
@@ -65,8 +65,8 @@ class Comparison {
     ASSERT_EQ(a.frame.rotation, b.frame.rotation);
     ASSERT_EQ(a.frame.center, b.frame.center);
     const dynamics::ContactReport &c = a.contact, &d = b.contact;
-    ASSERT_EQ(c.nodes, d.nodes) << "step " << a.step;
     if (contacts_ == Contacts::one_by_one) {
+      ASSERT_EQ(c.nodes, d.nodes) << "step " << a.step;
       ASSERT_EQ(c.sticking, d.sticking) << "step " << a.step;
     }
     ASSERT_EQ(c.pairs, d.pairs) << "step " << a.step;

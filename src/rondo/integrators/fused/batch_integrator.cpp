@@ -63,7 +63,6 @@ void BatchIntegrator::advance_batch(std::span<StepReport> reports) noexcept {
     corners_->look_out(steps, *this);
     within_ = corners_->any_near() && hold_within(corners_->nodes());
     for (std::size_t i = 0; i < steps.size(); ++i) parts_[(i + 1) * n_parts_ - 1] = {};
-    parts_[n_parts_ - 1].contact.unseen = corners_->unseen();
   }
   const Batch batch{steps, parts_.data(), step_};
   if (threads_ > 1) {
@@ -84,6 +83,7 @@ void BatchIntegrator::advance_batch(std::span<StepReport> reports) noexcept {
     reports[i] = {batch.first + static_cast<long long>(i) + 1, steps_[i].frame, whole.contact,
                   ledger_.last()};
   }
+  if (corners_) reports[0].contact.unseen = corners_->unseen();
   step_ = batch.first + static_cast<long long>(reports.size());
 }
 
