@@ -7,9 +7,9 @@
 #include <cmath>
 #include <vector>
 
-#include "support/matrices.hpp"
 #include "rondo/pod/spectrum.hpp"
 #include "rondo/pod/svd.hpp"
+#include "support/matrices.hpp"
 
 using namespace rondo::pod;
 using namespace rondo::pod::test;

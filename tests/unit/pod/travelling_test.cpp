@@ -10,10 +10,10 @@
 #include <numbers>
 #include <vector>
 
-#include "support/matrices.hpp"
 #include "rondo/core/complex.hpp"
 #include "rondo/mesh/disk.hpp"
 #include "rondo/pod/rectify.hpp"
+#include "support/matrices.hpp"
 
 using namespace rondo;
 using namespace rondo::pod;

@@ -261,7 +261,7 @@ class ModesAnalysis final : public Analysis {
     r.nodes = report_.nodes;
     r.elements = body_.mesh.cells.size();
     r.dofs = report_.dofs;
-    r.steps = static_cast<long long>(spins_.size() + sweep_.size());
+    r.steps = progress().all;
     r.memory_bytes = memory_of(body_, request_, spins_.size());
     r.disk_bytes = shapes_on_disk(body_, request_, spins_.size());
     return r;

@@ -250,8 +250,8 @@ void cyclic_strip(const CyclicStrip& s) noexcept {
   if (s.first_pack < 0) group<Loaded, Beta, Unsteady>(s, f, -1, 0, nullptr);
   double* sums = s.sums;
   for (int pack = 0; pack < own; pack += group_packs, sums += n_sums * lanes)
-    group<Loaded, Beta, Unsteady>(
-        s, f, pack, pack + group_packs < own ? pack + group_packs : own, sums);
+    group<Loaded, Beta, Unsteady>(s, f, pack, pack + group_packs < own ? pack + group_packs : own,
+                                  sums);
   if (own < s.last_pack) group<Loaded, Beta, Unsteady>(s, f, own, s.last_pack, nullptr);
 }
 
