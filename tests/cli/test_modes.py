@@ -224,7 +224,9 @@ class Modes(ProgramTest):
         rows = table(path)
         self.assertEqual(len({r["spin_rad_s"] for r in rows}), j["spins_done"] - 2)
         self.assertIn(f"after {j['spins_done']} of 10002 spins", said)
-        self.assertFalse((out / "modes.json").exists())
+        modes = json.loads((out / "modes.json").read_text())
+        self.assertEqual((modes["status"], len(modes["sweep"])),
+                         ("interrupted", j["spins_done"] - 2))
 
 
 if __name__ == "__main__":

@@ -108,7 +108,7 @@ std::string not_finite(const dynamics::State& state, const std::string& otherwis
 
 std::string missed_corner(double way) {
   return fmt::format(
-      "a node has moved {:.3g} m in the steps before, farther than touches of the sharp corners of "
+      "a node has moved {:.3g} m in the last steps, farther than touches of the sharp corners of "
       "the ground were looked for: one may be missed; a smaller time.step, or ground.fillet > 0",
       way);
 }

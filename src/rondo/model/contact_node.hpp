@@ -27,8 +27,8 @@ struct ContactReport {
   double penetration = 0.0;    ///< largest -gap of an active contact, >= 0             [m]
   double free_velocity = 0.0;  ///< largest |w_free|                                    [m/s]
   double residual = 0.0;       ///< largest law residual over the node's mass           [m/s]
-  /// How far a node moved in the steps before, where that is farther than sharp corners were looked
-  /// for around it: a touch may be missed. 0: none is                                      [m]
+  /// How far a node has come in the last steps, where that is farther than sharp corners were
+  /// looked for around it: a touch may be missed. 0: none is [m]
   double unseen = 0.0;
   // Works of the impulses (5.3), (5.5) [J/m].
   double work = 0.0;

@@ -114,6 +114,7 @@ void put_state(File& file, const dynamics::SavedState& s) {
   }
   put(file, "/state/contact", keys, {"1", "contacts that share nodes, by number"});
   put(file, "/state/impulse", impulses, {"N*s/m", "their impulses in the last step"});
+  put(file, "/state/rim", s.rim, {"1", "what the rim carries"});
   put(file, "/state/ledger", std::vector<double>(s.ledger.begin(), s.ledger.end()),
       {"J/m", "sums of the energy ledger and what their rounding left"});
 }
@@ -124,6 +125,7 @@ void get_state(const File& file, dynamics::SavedState& s) {
   s.force = get<Vec2>(file, "/state/force");
   s.gradient = get<Vec2>(file, "/state/gradient");
   s.energy = get<double>(file, "/state/energy");
+  s.rim = get<double>(file, "/state/rim");
   for (const auto& p : get<std::array<double, 5>>(file, "/state/poses", s.energy.size()))
     s.poses.push_back({{p[0], p[1]}, {p[2], p[3]}, p[4]});
   const auto keys = get<std::int64_t>(file, "/state/contact");

@@ -4,6 +4,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cstdlib>
+#include <fstream>
 #include <utility>
 
 #include "rondo/io/files.hpp"
@@ -34,6 +36,17 @@ std::optional<io::Csv> history_file(const std::filesystem::path& directory,
   return from ? io::Csv(file, names, from->files.history_bytes) : io::Csv(file, names);
 }
 
+/// First number of the last whole row of history.csv as it was then; 0: it has none.
+double time_kept(const std::filesystem::path& directory, const Checkpoint* from) {
+  if (!from) return 0.0;
+  std::ifstream file(directory / "history.csv", std::ios::binary);
+  std::string text(from->files.history_bytes, '\0');
+  file.read(text.data(), static_cast<std::streamsize>(text.size()));
+  if (text.size() < 2) return 0.0;
+  const std::size_t row = text.rfind('\n', text.size() - 2) + 1;
+  return row == 0 ? 0.0 : std::strtod(text.c_str() + row, nullptr);
+}
+
 }  // namespace
 
 std::size_t queue_length(std::size_t n_snapshots, std::size_t bytes) noexcept {
@@ -49,6 +62,7 @@ Recorder::Recorder(std::filesystem::path directory, const RecordPlan& plan, cons
       n_columns_(plan.columns.size()),
       numbers_at_once_(rows_at_once * n_columns_),
       rows_(no_rows(numbers_at_once_)),
+      kept_until_(time_kept(directory_, from)),
       saved_step_(from ? from->state.step : 0),
       snapshots_(plan.results.mesh ? std::make_unique<SnapshotFiles>(directory_, plan, from)
                                    : nullptr),

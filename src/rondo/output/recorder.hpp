@@ -92,7 +92,7 @@ class Recorder {
   [[nodiscard]] OutputCost cost() const;
   /// Snapshots in the files. @pre closed.
   [[nodiscard]] std::size_t written() const;
-  /// First number of the last row of history.csv since it was opened; 0: none. @pre closed.
+  /// First number of the last row of history.csv; 0: none. @pre closed.
   [[nodiscard]] double last_time() const noexcept { return kept_until_; }
 
  private:

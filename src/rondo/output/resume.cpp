@@ -103,7 +103,8 @@ bool fits(const dynamics::SavedState& s, const Setup& setup) {
   const std::size_t force = general || model.stiffness_damping > 0.0 ? n : 0;
   return s.u.size() == n && s.v.size() == n && s.force.size() == force &&
          s.gradient.size() == (general ? n : 0) && s.energy.size() == n_free &&
-         s.poses.size() == n_free && s.step > 0 && std::ranges::is_sorted(s.impulses, {}, first_of);
+         s.poses.size() == n_free && s.rim.empty() && s.step > 0 &&
+         std::ranges::is_sorted(s.impulses, {}, first_of);
 }
 
 /// Steps that rise within the run, and as many snapshots as of them have passed.

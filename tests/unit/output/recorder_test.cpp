@@ -124,6 +124,22 @@ TEST_F(RecorderTest, WhatTheFilesHoldIsSaidInTheUnitOfTheirTime) {
   }
 }
 
+TEST_F(RecorderTest, GoesOnWithTheTimeOfTheRowsThatAreKept) {
+  RecordPlan rows_only = plan();
+  rows_only.results.n_snapshots = 0;
+  Checkpoint k;
+  {
+    Recorder recorder(folder_, rows_only);
+    add(recorder, 1.5);
+    add(recorder, 2.5);
+  }
+  k.files.history_bytes = fs::file_size(folder_ / "history.csv");
+  k.files.contact_bytes = fs::file_size(folder_ / "contact.csv");
+  Recorder again(folder_, rows_only, &k);
+  again.close();
+  EXPECT_EQ(again.last_time(), 2.5);
+}
+
 /// In a child process, whose files must not grow beyond some rows.
 TEST_F(RecorderTest, AFullDiskIsThrownAtTheLoopAndTheRestIsClosed) {
   RecordPlan rows_only = plan();

@@ -288,12 +288,14 @@ class ModesAnalysis final : public Analysis {
     if (at < spins_.size()) {
       solved_.push_back(solver_->modes(spins_[at], request_.count));
       report_.spins.push_back(summarise_spin(spins_[at], solved_.back().found));
+      judge(report_.spins.back());
       add_lines(spins_[at], solved_.back(), report_, report_.modes);
       if (report_.spins.size() == spins_.size()) write_shapes();
     } else {
       const double spin = sweep_[report_.sweep.size()];
       const Solved s = solver_->modes(spin, request_.count);
       report_.sweep.push_back(summarise_spin(spin, s.found));
+      judge(report_.sweep.back());
       add_lines(spin, s, report_, sweep_lines_);
     }
     write_tables();
@@ -302,16 +304,20 @@ class ModesAnalysis final : public Analysis {
   [[nodiscard]] const std::optional<std::string>& trouble() const override { return trouble_; }
   void close() override {
     report_.critical = solver_->critical(request_.diameters);
-    judge();
     if (body_.cyclic())
       io::write_file(request_.run.directory / "critical-speeds.csv", critical_table(report_));
+    if (!wrong_ && !(report_.residual_max <= mode_residual_bound))
+      wrong_ = fmt::format("a mode fulfils its equation to {:.1e} only, bound {:.0e}",
+                           report_.residual_max, mode_residual_bound);
+    trouble_ = wrong_;
     report_.wall_s =
         std::chrono::duration<double>(std::chrono::steady_clock::now() - made_).count();
-    io::write_json(request_.run.directory / "modes.json",
-                   modes_json(case_, request_, report_, trouble_));
   }
   void summarise(Json& json, RunReport& r) const override {
     const Progress at = progress();
+    if (wrong_) json["message"] = *wrong_;
+    io::write_json(request_.run.directory / "modes.json",
+                   modes_json(case_, request_, report_, json));
     r.steps = at.done;
     r.reached = fmt::format("{} of {} spins", at.done, at.all);
     json["spins_done"] = at.done;
@@ -339,8 +345,7 @@ class ModesAnalysis final : public Analysis {
     io::write_file(directory / "campbell.csv", campbell_table(campbell, body_.mesh.n_sectors));
   }
   void say(const std::string& text) const { give_warnings({text}, request_.run); }
-  void judge_spin(const SpinSummary& s);
-  void judge();
+  void judge(const SpinSummary& s);
 
   const Case& case_;
   const ModesRequest& request_;
@@ -351,13 +356,14 @@ class ModesAnalysis final : public Analysis {
   std::vector<Solved> solved_;         ///< of spins_
   std::vector<ModeLine> sweep_lines_;  ///< of sweep_
   ModesReport report_;
+  std::optional<std::string> wrong_;  ///< the first thing, which ends nothing but counts at the end
   std::optional<std::string> trouble_;
 };
 
 /// What went wrong, or less well than the user may think.
-void ModesAnalysis::judge_spin(const SpinSummary& s) {
-  if (s.unstable > 0 && !trouble_)
-    trouble_ = fmt::format(
+void ModesAnalysis::judge(const SpinSummary& s) {
+  if (s.unstable > 0 && !wrong_)
+    wrong_ = fmt::format(
         "at {} rad/s the spin softens the body more than it is stiff: K - s²M has {} negative "
         "eigenvalue{}, there is no stable state and there are no modes; a lower spin",
         s.angular_velocity, s.unstable, s.unstable == 1 ? "" : "s");
@@ -369,14 +375,6 @@ void ModesAnalysis::judge_spin(const SpinSummary& s) {
         fmt::format("at {} rad/s nothing holds back the rotation of the free disk against its "
                     "frame: in this model without the stress of the spin it grows at {:.4g} 1/s",
                     s.angular_velocity, s.growth));
-}
-
-void ModesAnalysis::judge() {
-  for (const auto* spins : {&report_.spins, &report_.sweep})
-    for (const SpinSummary& s : *spins) judge_spin(s);
-  if (!trouble_ && !(report_.residual_max <= mode_residual_bound))
-    trouble_ = fmt::format("a mode fulfils its equation to {:.1e} only, bound {:.0e}",
-                           report_.residual_max, mode_residual_bound);
 }
 
 }  // namespace

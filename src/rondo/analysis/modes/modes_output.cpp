@@ -83,11 +83,10 @@ std::string campbell_table(const std::vector<ModeLine>& modes, int n_sectors) {
   return text;
 }
 
-Json modes_json(const Case& c, const ModesRequest& request, const ModesReport& r,
-                const std::optional<std::string>& trouble) {
+Json modes_json(const Case& c, const ModesRequest& request, const ModesReport& r, const Json& run) {
   Json j;
-  j["status"] = trouble ? "failed" : "done";
-  if (trouble) j["message"] = *trouble;
+  for (const char* key : {"status", "message"})
+    if (run.contains(key)) j[key] = run[key];
   j["title"] = c.title;
   describe_program(j);
   j["nodes"] = r.nodes;

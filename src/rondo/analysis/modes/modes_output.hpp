@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// @file  The tables of rondo modes, and its modes.json (docs/modes.md).
 #pragma once
-#include <optional>
 #include <string>
 #include <vector>
 
@@ -18,8 +17,8 @@ std::string critical_table(const ModesReport& report);
 /// @param n_sectors 0: not cyclic
 std::string campbell_table(const std::vector<ModeLine>& modes, int n_sectors);
 
-/// @param trouble what went wrong; none: nothing
+/// @param run what run.json says: status and message
 Json modes_json(const Case& c, const ModesRequest& request, const ModesReport& report,
-                const std::optional<std::string>& trouble);
+                const Json& run);
 
 }  // namespace rondo::study

@@ -83,8 +83,8 @@ void BatchIntegrator::advance_batch(std::span<StepReport> reports) noexcept {
     reports[i] = {batch.first + static_cast<long long>(i) + 1, steps_[i].frame, whole.contact,
                   ledger_.last()};
   }
-  if (corners_) reports[0].contact.unseen = corners_->unseen();
   step_ = batch.first + static_cast<long long>(reports.size());
+  if (corners_) reports.back().contact.unseen = corners_->unseen(*this);
 }
 
 bool BatchIntegrator::hold_within(std::span<const int>) noexcept {

@@ -90,21 +90,17 @@ CornerContact::CornerContact(const Model& model)
 /// A touch is half an edge deep at the most. Who moves no more than twice as fast as the fastest
 /// candidate now, or two edges in the batch (of some 16 edges that a wave passes), is not missed;
 /// impacts are as fast as the corner is in the turning frame, whose path counts besides. Whether
-/// it was so, the next look tells.
+/// it was so, unseen() tells.
 CornerContact::Extent CornerContact::extent(std::size_t n_steps,
                                             const CandidateFields& fields) noexcept {
-  double farthest = 0.0, fastest = 0.0, moved = 0.0;
+  double farthest = 0.0, fastest = 0.0;
   for (std::size_t k = 0; k < boundary_.n_nodes(); ++k) {
     const CandidateMotion motion = fields.motion_of(k);
-    const Vec2 step = motion.u - begin_[k];
-    moved = std::max(moved, dot(step, step));
     state_.u[k] = begin_[k] = motion.u;
     const Vec2 arm = boundary_.reference[k] + motion.u;
     farthest = std::max(farthest, dot(arm, arm));
     fastest = std::max(fastest, dot(motion.v, motion.v));
   }
-  moved = std::sqrt(moved);
-  unseen_ = moved > way_ ? moved : 0.0;
   farthest = std::sqrt(farthest);
   fastest = std::sqrt(fastest);
   const double time = static_cast<double>(n_steps) * boundary_.dt;
@@ -121,7 +117,7 @@ void CornerContact::look_out(std::span<StepContext> steps, const CandidateFields
   const Extent e = extent(steps.size(), fields);
   Box centers = empty_box();
   for (const StepContext& step : steps) include(centers, step.frame.center);
-  const Box around = widened(centers, e.farthest + e.reach);
+  const Box around = around_ = widened(centers, e.farthest + e.reach);
   const std::span<const contact::Corner> corners = boundary_.contact->ground.corners();
   const auto first = std::partition_point(corners.begin(), corners.end(), [&](const auto& corner) {
     return corner.position.x < around.low.x;
@@ -133,6 +129,24 @@ void CornerContact::look_out(std::span<StepContext> steps, const CandidateFields
   if (any_near() || !was_near) return;
   release();
   contact_.set_impulses({});
+}
+
+double CornerContact::unseen(const CandidateFields& fields) const noexcept {
+  double squared = 0.0;
+  for (std::size_t k = 0; k < boundary_.n_nodes(); ++k) {
+    const Vec2 way = fields.motion_of(k).u - begin_[k];
+    squared = std::max(squared, dot(way, way));
+  }
+  const double moved = std::sqrt(squared);
+  if (!(moved > way_)) return 0.0;
+  const Box within = widened(around_, moved);
+  const std::span<const contact::Corner> corners = boundary_.contact->ground.corners();
+  return std::ranges::any_of(corners,
+                             [&](const auto& c) {
+                               return overlap({c.position, c.position}, within);
+                             })
+             ? moved
+             : 0.0;
 }
 
 /// In the turning frame, where the corner moves and the boundary is nearly at rest.

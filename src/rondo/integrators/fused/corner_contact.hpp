@@ -4,7 +4,6 @@
 /// the general step does (docs/decisions/026-local-exceptions.md). Where no corner is near, a
 /// batch of steps goes on without any of it.
 #pragma once
-#include <limits>
 #include <span>
 #include <utility>
 #include <vector>
@@ -42,8 +41,9 @@ class CornerContact {
   /// where the held candidates are marked.
   void look_out(std::span<StepContext> steps, const CandidateFields& fields) noexcept;
   [[nodiscard]] bool any_near() const noexcept { return n_near_ > 0; }
-  /// How far a candidate moved in the batch before, where a touch may be missed for it; else 0 [m].
-  [[nodiscard]] double unseen() const noexcept { return unseen_; }
+  /// After the batch: how far a candidate has come in it, where that is farther than was looked for
+  /// and a corner is within it, so that a touch may be missed; else 0                     [m]
+  [[nodiscard]] double unseen(const CandidateFields& fields) const noexcept;
   /// Candidates that may be held in the batch, and their neighbours.
   [[nodiscard]] std::span<const int> nodes() const noexcept { return nodes_; }
 
@@ -60,7 +60,6 @@ class CornerContact {
   }
   void set_impulses(GeneralContact::KeptImpulses impulses) noexcept {
     contact_.set_impulses(std::move(impulses));
-    way_ = std::numeric_limits<double>::infinity();  // of another state
   }
   [[nodiscard]] std::vector<contact::ProblemFile> take_difficult() {
     return contact_.take_difficult();
@@ -88,9 +87,9 @@ class CornerContact {
   GeneralContact contact_;
   std::vector<NearCorner> near_;  ///< the first n_near_ count
   std::size_t n_near_ = 0;
-  std::vector<Vec2> begin_;  ///< (nb) u where the batch before began                     [m]
-  double way_ = std::numeric_limits<double>::infinity();  ///< allowed from there          [m]
-  double unseen_ = 0.0;
+  std::vector<Vec2> begin_;   ///< (nb) u where the batch began                           [m]
+  double way_ = 0.0;          ///< that a candidate may come from there                   [m]
+  Box around_{};              ///< that holds the boundary in the batch, way_ beside it    [m]
   std::vector<int> nodes_;    ///< of the near edges and their neighbours
   std::vector<char> wanted_;  ///< (nb) is in nodes_
   std::vector<Held> held_;

@@ -188,7 +188,7 @@ void add_contact(const Model& model, const SectorStiffness& k, CyclicPlan& plan)
   }
   if (has_sharp_corners(model))  // these are held after the last one: before, none is read again
     for (int& needed : plan.needs)
-      if (needed >= plan.first_contact_strip) needed = plan.last_contact_strip;
+      if (needed >= plan.first_contact_strip) needed = std::max(needed, plan.last_contact_strip);
   for (const std::vector<int>& ring : plan.candidate)  // the same nodes in every sector
     RONDO_DEMAND(std::find(ring.begin(), ring.end(), -1) == ring.end(), ring.size());
 }

@@ -15,6 +15,9 @@
 #include "rondo/output/run_files.hpp"
 
 namespace rondo::study {
+NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(MemberRow, status, code, message, kept, steps, end_time, figures,
+                                   wall_s)
+
 namespace {
 
 constexpr double none = std::numeric_limits<double>::quiet_NaN();
@@ -142,9 +145,6 @@ const char* name_of(MemberStatus status) noexcept {
   static constexpr std::array names{"waiting", "done", "failed", "interrupted"};
   return names[static_cast<std::size_t>(status)];
 }
-
-NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(MemberRow, status, code, message, kept, steps, end_time, figures,
-                                   wall_s)
 
 std::string packed(const MemberRow& row) {
   const std::vector<std::uint8_t> bytes =
