@@ -140,7 +140,7 @@ def test_command(directory: pathlib.Path, tmp_path: pathlib.Path) -> None:
     done = command(directory.parent)
     assert done.returncode == 2
     assert "has no validation.json; it holds validation" in done.stderr
-    done = command(directory / "0.3")
+    done = command(directory.parent / "0.2")
     assert done.returncode == 2
     assert "is a run, not a validation" in done.stderr
 
