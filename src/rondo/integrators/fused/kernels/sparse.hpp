@@ -44,7 +44,7 @@ inline Nodes sparse_nodes(const SparseRows& s, const Factors& f, std::ptrdiff_t 
     n.frame = {n.frame.x + all(s.step->pull_x), n.frame.y + all(s.step->pull_y)};
   }
   n.dt_over_mass = load(constants + 3 * lanes);
-  if constexpr (Loaded) n.load = load_on(s, pack);
+  n.load = Loaded ? load_on(s, pack) : Vectors{all(0.0), all(0.0)};
   return n;
 }
 
