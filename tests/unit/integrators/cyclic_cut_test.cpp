@@ -67,7 +67,7 @@ std::vector<test::RollingCase> cases() {
   all.back().disk.beta = 0.0;
   all.push_back(test::everything("pitches_70", 4, mesh::Tread{70, 0.02, 3, 1, 2}));
   all.push_back(test::everything("pitches_13", 4, mesh::Tread{13, 0.02, 5, 3, 2}));
-  for (const std::size_t i : {0, 5, 7}) {
+  for (const std::size_t i : {0U, 5U, 7U}) {
     all.push_back(test::pressed(all[i]));
     all.push_back(test::sharp(all[i]));
   }
