@@ -53,6 +53,7 @@ CyclicChunk::CyclicChunk(const Model& model, const CyclicPlan& plan, const kerne
 
 /// The halo's too: it may be advanced along.
 void CyclicChunk::fill_loads() {
+  if (plan_.loads.empty()) return;
   const int n = plan_.n_sectors, columns = static_cast<int>(plan_.stride) - 2 * halo_columns;
   double* x = loads_.data() + CyclicPlan::lead;
   for (const CyclicLoad& load : plan_.loads) {
