@@ -41,7 +41,6 @@ class DynamicAnalysis : public Analysis, public Resumable {
   /// The model must outlive it. @param start at t = 0; what is not needed of it may be freed
   [[nodiscard]] virtual std::unique_ptr<dynamics::Integrator> make_integrator(
       dynamics::State& start);
-  [[nodiscard]] const Case& the_case() const noexcept { return case_; }
   [[nodiscard]] Setup& setup() noexcept { return setup_; }
   [[nodiscard]] const Setup& setup() const noexcept { return setup_; }
   /// The step was chosen anew: what hangs on it is, too.

@@ -1,12 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "rondo/integrators/start.hpp"
 
+#include <algorithm>
 #include <utility>
 
 #include "rondo/core/contract.hpp"
 #include "rondo/fem/stiffness_product.hpp"
 #include "rondo/integrators/general/body_frames.hpp"
 #include "rondo/model/corotated.hpp"
+#include "rondo/model/internal_force.hpp"
 #include "rondo/model/pressure.hpp"
 #include "rondo/model/rim.hpp"
 
@@ -30,13 +32,27 @@ void clear_clamped(const Model& model, State& state) noexcept {
   }
 }
 
-/// K u_0 in `force`; poses of the free bodies.
+/// The same of a material of its own: its force, and the rate of it by its own damping.
+void find_own_start_forces(const Model& model, State& state) {
+  std::vector<Vec2> before(state.u);
+  for (std::size_t k = 0; k < before.size(); ++k) before[k] -= model.dt * state.v[k];
+  const auto internal = make_internal_force(model, before, state.poses);
+  internal->evaluate(state.u);
+  std::copy(internal->gradient().begin(), internal->gradient().end(), state.force.begin());
+  if (model.stiffness_damping == 0.0) return;
+  internal->damping(state.force_before);
+  for (Vec2& rate : state.force_before) rate = rate / model.stiffness_damping;
+}
+
+/// Internal forces at u_0 in `force`, their rate in `force_before`; poses of the free bodies.
 void find_start_forces(const Model& model, State& state) {
   update_poses(model, state.u, state.poses);
+  if (model.internal_force) return find_own_start_forces(model, state);
   std::vector<Vec2> elastic(model.n_nodes()), product(model.n_nodes());
   elastic_displacements(model, state.u, state.poses, elastic);
   apply_stiffness(model, elastic, product);
   to_gradient(model, elastic, product, state.poses, state.force);
+  apply_stiffness(model, state.v, state.force_before);
 }
 
 }  // namespace
@@ -55,7 +71,6 @@ State start(const Model& model, std::vector<Vec2> u0, std::vector<Vec2> v0) {
   state.force.resize(model.n_nodes());
   state.force_before.resize(model.n_nodes());
   find_start_forces(model, state);
-  apply_stiffness(model, state.v, state.force_before);  // K v_0, for now
   std::vector<Vec2> load(model.n_nodes());
   pressure_forces(model, state.u, 0.0, load);
   const double half = 0.5 * model.dt;

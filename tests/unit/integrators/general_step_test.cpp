@@ -186,7 +186,11 @@ TEST(GeneralStep, TakesTheInternalForceOfTheModel) {
   };
   EXPECT_FALSE(is_general(b.model));
   EXPECT_TRUE(is_general(own));
-  const State at_start = test::start_at_rest(b.model);
+  const std::vector<Vec2> u = test::some_displacement(b), v = test::some_velocity(b);
+  const State at_start = start(stiffer, u, v), own_start = start(own, u, v);
+  EXPECT_EQ(at_start.force, own_start.force);
+  for (std::size_t k = 0; k < u.size(); ++k)  // its damping is of a difference
+    EXPECT_LT(norm(at_start.v_next[k] - own_start.v_next[k]), 1e-10 * (1.0 + norm(v[k]))) << k;
   GeneralIntegrator expected(stiffer, at_start);
   const std::unique_ptr<Integrator> run = make_integrator(own, at_start);
   std::vector<StepReport> reports(200);
