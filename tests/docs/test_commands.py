@@ -1,0 +1,96 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Runs every block of commands of README and docs/, each page in order in a copy of the project.
+
+    RONDO=build/release/rondo python3 tests/docs/test_commands.py [--long] [PAGE...]
+
+Without --long, blocks marked `long` are left for the test docs_commands_long. Blocks that no test
+runs are those of NOT_RUN, which the pages must agree with: both lists are printed.
+"""
+import os
+import pathlib
+import sys
+import time
+
+from pages import ROOT, Block, PageError, blocks_of, page_name, pages_with_commands
+from session import Session
+
+ENVIRONMENT = "source scripts/env.sh"
+
+# Page and first command of the blocks that are marked `not run here`.
+NOT_RUN: list[tuple[str, str]] = [
+]
+
+
+def mistakes(blocks: list[Block]) -> list[str]:
+    """What is wrong with a page before anything of it is run."""
+    wrong = []
+    running = [block for block in blocks if block.runs and block.mark != "not run here"]
+    if running and not any(ENVIRONMENT in block.text for block in blocks[:blocks.index(running[0]) + 1]):
+        wrong.append(f"{running[0].place}: the first commands of a page begin with `{ENVIRONMENT}`")
+    for block in blocks:
+        if block.runs and block.mark != "not run here" and "build/release/rondo" in block.text:
+            wrong.append(f"{block.place}: build/release/rondo; scripts/env.sh has put it on the path")
+    return wrong
+
+
+def run_page(program: pathlib.Path, blocks: list[Block], with_long: bool) -> list[str]:
+    """Prints a line for each block that runs; returns what failed."""
+    todo = [block for block in blocks if block.mark == "file" or (
+        block.runs and (block.mark == "" or (block.mark == "long" and with_long)))]
+    if not any(block.runs for block in todo):
+        return []
+    session, wrong = Session(program), []
+    try:
+        for block in todo:
+            begin = time.monotonic()
+            problem = session.run(block, 1800.0 if with_long else 300.0)
+            print(f"{'FAILED' if problem else 'ok':6} {time.monotonic() - begin:6.1f} s  "
+                  f"{block.place}  {block.head.strip()}", flush=True)
+            if problem:
+                wrong.append(f"{block.place}: {block.head.strip()}\n{problem}")
+                break  # what follows takes what this one should have made
+    finally:
+        session.close()
+    return wrong
+
+
+def listed(title: str, blocks: list[Block]) -> None:
+    print(f"\n{title}: {len(blocks)}")
+    for block in blocks:
+        print(f"       {block.place}  {block.head.strip()}: {block.reason}")
+
+
+def main(arguments: list[str]) -> int:
+    program = pathlib.Path(os.environ["RONDO"]).resolve()
+    with_long = "--long" in arguments
+    asked = [name for name in arguments if name != "--long"]
+    blocks, wrong = [], []
+    for page in pages_with_commands():
+        name = page_name(page)
+        if asked and name not in asked:
+            continue
+        try:
+            of_page = blocks_of(name, page.read_text())
+        except PageError as error:
+            wrong.append(str(error))
+            continue
+        wrong += mistakes(of_page)
+        wrong += run_page(program, of_page, with_long)
+        blocks += of_page
+    skipped = [block for block in blocks if block.mark == "not run here"]
+    listed("not run here", skipped)
+    listed("long" if with_long else "long, not run now", [b for b in blocks if b.mark == "long"])
+    expected = [item for item in NOT_RUN if not asked or item[0] in asked]
+    found = [(block.page, block.head) for block in skipped]
+    wrong += [f"{page}: marked `not run here` and not in NOT_RUN: {head}"
+              for page, head in found if (page, head) not in expected]
+    wrong += [f"{page}: in NOT_RUN, and not marked so in the page: {head}"
+              for page, head in expected if (page, head) not in found]
+    for text in wrong:
+        print(f"\n{text}", file=sys.stderr)
+    print(f"\n{len(blocks)} blocks of {ROOT.name}'s pages, {len(wrong)} faults")
+    return 1 if wrong else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main(sys.argv[1:]))

@@ -1,0 +1,78 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Relative links and anchors of all pages lead somewhere; the parser of blocks finds what it should."""
+import functools
+import pathlib
+import re
+import unittest
+
+from pages import PageError, all_pages, blocks_of, page_name
+
+
+def outside_of_code(text: str) -> str:
+    text = re.sub(r"^( *)```.*?^\1```$", "", text, flags=re.MULTILINE | re.DOTALL)
+    return re.sub(r"`[^`\n]*`", lambda code: code[0] if "](" not in code[0] else "", text)
+
+
+def anchor(heading: str) -> str:
+    """As the usual renderers make it: lower case, words joined by dashes, no other signs."""
+    heading = re.sub(r"\[([^\]]*)\]\([^)]*\)", r"\1", heading).strip().lower()
+    return re.sub(r"[^\w\- ]", "", heading).replace(" ", "-")
+
+
+@functools.cache
+def anchors(page: pathlib.Path) -> set[str]:
+    found: dict[str, int] = {}
+    for heading in re.findall(r"^#{1,6} +(.*)$", outside_of_code(page.read_text()), re.MULTILINE):
+        name = anchor(heading)
+        found[name] = found.get(name, 0) + 1
+    return {name if k == 0 else f"{name}-{k}" for name, n in found.items() for k in range(n)}
+
+
+def broken(page: pathlib.Path, text: str) -> list[str]:
+    """The links of the page that lead nowhere."""
+    wrong = []
+    for target in re.findall(r"\]\(([^)\s]+)\)", outside_of_code(text)):
+        if re.match(r"[a-z]+:", target):
+            continue
+        path, _, name = target.partition("#")
+        goal = (page.parent / path).resolve() if path else page
+        if not goal.exists():
+            wrong.append(f"{target}: no such file")
+        elif name and (goal.suffix != ".md" or name not in anchors(goal)):
+            wrong.append(f"{target}: no such heading")
+    return wrong
+
+
+class Links(unittest.TestCase):
+    def test_all_of_them(self):
+        pages = all_pages()
+        self.assertGreater(len(pages), 40)
+        wrong = [f"{page_name(page)}: {text}" for page in pages
+                 for text in broken(page, page.read_text())]
+        self.assertEqual(wrong, [])
+
+    def test_a_broken_one_is_found(self):
+        page = next(page for page in all_pages() if page.name == "architecture.md")
+        text = "[a](theory.md) [b](theory.md#nowhere) [c](gone.md) [d](#modules) `[e](gone.md)`"
+        self.assertEqual(broken(page, text), ["theory.md#nowhere: no such heading",
+                                              "gone.md: no such file"])
+
+
+class Blocks(unittest.TestCase):
+    def test_marks(self):
+        text = ("```sh\na\n```\n<!-- long: minutes -->\n```sh\nb\n```\n"
+                "<!-- file: c.toml -->\n```toml\nc = 1\n```\n")
+        self.assertEqual([(b.line, b.mark, b.reason, b.text, b.runs) for b in blocks_of("p", text)],
+                         [(2, "", "", "a\n", True), (6, "long", "minutes", "b\n", True),
+                          (10, "file", "c.toml", "c = 1\n", False)])
+
+    def test_commands_that_nobody_would_run(self):
+        for text, said in (("    rondo run x\n", "p:1: a command in an indented block"),
+                           ("```\nrondo run x\n```\n", "p:1: commands in a block without language"),
+                           ("```bash\nls\n```\n", "p:1: a block of bash")):
+            with self.assertRaisesRegex(PageError, said):
+                blocks_of("p", text)
+
+
+if __name__ == "__main__":
+    unittest.main()
