@@ -55,7 +55,8 @@ def of_machine(r: Results) -> str:
     rows += [[key, str(r.run[key])] for key in ("date", "repetitions", "load at the start")
              if key in r.run]
     commands = "\n".join(r.run.get("commands", []))
-    return table(["", ""], rows) + (f"\n\n```sh\n{commands}\n```" if commands else "")
+    mark = "<!-- not run here: builds and runs the benchmarks, an hour -->"
+    return table(["", ""], rows) + (f"\n\n{mark}\n```sh\n{commands}\n```" if commands else "")
 
 
 def of_smooth(r: Results) -> str:

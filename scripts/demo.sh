@@ -20,7 +20,8 @@ The results are in $out:
   results.h5    every array (HDF5: h5py, MATLAB, Julia), described in docs/results.md
   pod/          modes of the displacement as seen from the ground: modes.xdmf for ParaView
   run.json      the figures of the run: steps, speed, largest imbalance of the ledger
-Next: PYTHONPATH=python /usr/bin/python3 -m rondo paper -o results/paper, the study of the paper
+Next: source scripts/env.sh, which puts rondo and its Python package on the paths of this shell;
+python3 -m rondo paper -o results/paper, the study of the paper
 (docs/paper.md);
-build/release/rondo run --help, the other files in cases/, and docs/cases.md.
+rondo run --help, the other files in cases/, and docs/cases.md.
 EOT

@@ -46,7 +46,7 @@ class Block:
 
 def pages_with_commands() -> list[pathlib.Path]:
     return [ROOT / "README.md", ROOT / "CONTRIBUTING.md", *sorted((ROOT / "docs").glob("*.md")),
-            ROOT / "bench" / "README.md"]
+            ROOT / "bench" / "README.md", ROOT / "studies" / "paper" / "README.md"]
 
 
 def all_pages() -> list[pathlib.Path]:
