@@ -41,7 +41,9 @@ class Block:
     @property
     def head(self) -> str:
         """Its first command."""
-        return next(line for line in self.text.splitlines() if line and line[0] != "#")
+        return next((line.strip() for line in self.text.splitlines()
+                     if line and line[0] != "#" and not line.startswith("source scripts/env.sh")),
+                    self.text.strip())
 
 
 def pages_with_commands() -> list[pathlib.Path]:
