@@ -20,8 +20,7 @@ The results are in $out:
   results.h5    every array (HDF5: h5py, MATLAB, Julia), described in docs/results.md
   pod/          modes of the displacement as seen from the ground: modes.xdmf for ParaView
   run.json      the figures of the run: steps, speed, largest imbalance of the ledger
-Next: source scripts/env.sh, which puts rondo and its Python package on the paths of this shell;
-python3 -m rondo paper -o results/paper, the study of the paper
-(docs/paper.md);
+Next: source scripts/env.sh puts rondo and its Python package on the paths of a shell; then
+docs/tutorial.md, or python3 -m rondo paper -o results/paper, the study of the paper (docs/paper.md);
 rondo run --help, the other files in cases/, and docs/cases.md.
 EOT
