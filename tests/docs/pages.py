@@ -14,7 +14,7 @@ ROOT = pathlib.Path(__file__).resolve().parents[2]
 RUN = ("sh", "python")
 SHOWN = ("", "toml", "geo", "cmake", "cpp", "csv")  # outputs and files
 MARK = re.compile(r"^<!-- (file|long|not run here): (.+) -->$")
-COMMAND = re.compile(r"^\s*(PYTHONPATH=|\S*rondo |\S*python3 |bash |cmake |ctest |mpirun |source )")
+COMMAND = re.compile(r"^\s*(PYTHONPATH=|\S*rondo |\S*python3 |bash |cmake |ctest |mpirun |source |build/)")
 
 
 class PageError(Exception):
