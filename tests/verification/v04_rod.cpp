@@ -114,3 +114,25 @@ TEST(RodLetGo, NearTheCriticalStepImpactsBringEnergy) {
   }
   EXPECT_GT(test::energy_growth(50, 0.999, 0.0).energy, 100.0);
 }
+
+/// By the energy-safe law they bring none at any step, to round-off; with restitution neither does.
+TEST(RodLetGo, EnergySafeImpactsNeverBringEnergy) {
+  for (const double share : {0.99, 0.999})
+    for (const double e : {0.0, 0.8}) {
+      const test::EnergyGrowth rod =
+          test::energy_growth(50, share, 0.0, {0.0, e, contact::Impact::energy_safe});
+      EXPECT_LT(rod.energy, 1.0 + 1e-13) << share << ' ' << e;
+      EXPECT_LT(rod.relative, 1e-12) << share << ' ' << e;
+    }
+}
+
+/// What it takes more than Moreau's: shares left after 200 periods, and after 50 with restitution.
+TEST(RodLetGo, EnergySafeImpactsTakeMore) {
+  const auto left = [](double e, int periods, contact::Impact impact) {
+    return test::energy_growth(50, 0.9, 0.0, {0.0, e, impact}, periods).left;
+  };
+  EXPECT_NEAR(left(0.0, 200, contact::Impact::moreau), 0.4946, 1e-4);
+  EXPECT_NEAR(left(0.0, 200, contact::Impact::energy_safe), 0.2841, 1e-4);
+  EXPECT_NEAR(left(0.8, 50, contact::Impact::moreau), 0.3448, 1e-4);
+  EXPECT_NEAR(left(0.8, 50, contact::Impact::energy_safe), 0.0210, 1e-4);
+}

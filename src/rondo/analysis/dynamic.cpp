@@ -12,7 +12,6 @@
 #include "rondo/analysis/build/build.hpp"
 #include "rondo/analysis/build/memory.hpp"
 #include "rondo/analysis/disk.hpp"
-#include "rondo/analysis/out_of_range.hpp"
 #include "rondo/case/case_source.hpp"
 #include "rondo/integrators/start.hpp"
 #include "rondo/output/resume.hpp"
@@ -186,7 +185,9 @@ long long DynamicAnalysis::next_snapshot() const noexcept {
 /// Takes the initial fields of the setup, which are not needed twice.
 Progress DynamicAnalysis::begin(Recorder& recorder) {
   history_.emplace(case_, setup_, from_ ? from_->history : HistoryPlace{});
-  largest_strain_energy_ = largest_strain_energy(setup_);
+  bounds_ = {setup_.model.free_bodies.empty() ? residual_bound : free_residual_bound,
+             largest_strain_energy(setup_), impact_cure(setup_.model)};
+  watch_.emplace(case_, setup_);
   reports_.resize(steps_at_once(setup_));
   state_ = start(setup_.model, std::move(setup_.displacement), std::move(setup_.velocity));
   if (!from_) record_state(recorder);
@@ -211,7 +212,8 @@ void DynamicAnalysis::start_integrator() {
 
 /// Steps up to the next one whose state is wanted, at most as many as there are reports.
 Progress DynamicAnalysis::advance(Recorder& recorder) {
-  const long long wanted = std::min(next_snapshot(), history_->next_probed());
+  const long long wanted =
+      std::min({next_snapshot(), history_->next_probed(), watch_->next_look(steps_)});
   const long long left = std::min(setup_.n_steps, wanted) - steps_;
   const auto n = static_cast<std::size_t>(std::min(static_cast<long long>(reports_.size()), left));
   const std::span reports = std::span(reports_).first(n);
@@ -222,6 +224,7 @@ Progress DynamicAnalysis::advance(Recorder& recorder) {
   for (std::size_t i = 0; i < n && !trouble_; ++i)
     take(reports[i], seen && i + 1 == n ? &state_ : nullptr, recorder);
   if (seen && state_.step == steps_) record_state(recorder);
+  if (seen && state_.step == steps_) look_at_boundary();
   return {steps_, setup_.n_steps};
 }
 
@@ -240,11 +243,10 @@ void DynamicAnalysis::take(const dynamics::StepReport& step, const dynamics::Sta
 /// The message names the step that made the trouble: what a half step shows came from the step
 /// before.
 void DynamicAnalysis::judge(const dynamics::StepReport& step) {
-  const Bounds bounds{setup_.model.free_bodies.empty() ? residual_bound : free_residual_bound,
-                      largest_strain_energy_};
+  warn_of_impacts(step);
   OutOfBound found = step.contact.unseen > 0.0
                          ? OutOfBound{missed_corner(step.contact.unseen), false}
-                         : find_out_of_bound(step.balance, contact_, bounds);
+                         : find_out_of_bound(step.balance, contact_, bounds_);
   if (found.what.empty()) return;
   if (found.not_finite) {
     dynamics::State now(setup_.model);  // after the steps of this call
@@ -255,6 +257,24 @@ void DynamicAnalysis::judge(const dynamics::StepReport& step) {
   trouble_ =
       fmt::format("step {} of {}, t = {:.9g} s: {}", step.step - (found.at_half_step ? 1 : 0),
                   setup_.n_steps, step.frame.time - half, found.what);
+}
+
+/// Once a run: what follows is the same.
+void DynamicAnalysis::warn_of_impacts(const dynamics::StepReport& step) {
+  if (impacts_told_ || impact_gain(step.balance) <= impact_gain_spoken_of) return;
+  impacts_told_ = true;
+  warn(fmt::format("t = {:.9g} s: {}", step.frame.time - 0.5 * setup_.model.dt,
+                   created_by_impacts(step.balance, impact_gain_bound, bounds_.impact_cure)));
+}
+
+void DynamicAnalysis::look_at_boundary() {
+  std::string found = watch_->look(state_);
+  if (!found.empty()) warn(std::move(found));
+}
+
+void DynamicAnalysis::warn(std::string warning) {
+  give_warnings({warning}, options_);
+  warnings_.push_back(std::move(warning));
 }
 
 /// A snapshot, if one is due and the files can hold it.
@@ -325,6 +345,7 @@ void DynamicAnalysis::summarise(Json& j, RunReport& r) const {
   j["ns_per_dof_step"] = r.ns_per_dof_step;
   j["energy_residual_relative"] = balance_.relative;
   j["energy_exchanged"] = balance_.exchanged;
+  j["warnings"] = warnings_;
   j["contact_residual_max"] = contact_.residual;
   j["penetration_max_m"] = contact_.penetration;
   j["contact"] = {{"steps_in_contact", contact_.contact_steps},

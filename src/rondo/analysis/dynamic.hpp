@@ -7,6 +7,8 @@
 #include <vector>
 
 #include "rondo/analysis/analysis.hpp"
+#include "rondo/analysis/boundary_watch.hpp"
+#include "rondo/analysis/out_of_range.hpp"
 #include "rondo/case/setup.hpp"
 #include "rondo/integrators/integrator.hpp"
 #include "rondo/output/contact_statistics.hpp"
@@ -51,6 +53,9 @@ class DynamicAnalysis : public Analysis, public Resumable {
   void start_integrator();
   void take(const dynamics::StepReport& step, const dynamics::State* state, Recorder& recorder);
   void judge(const dynamics::StepReport& step);
+  void look_at_boundary();
+  void warn_of_impacts(const dynamics::StepReport& step);
+  void warn(std::string warning);
   void record_state(Recorder& recorder);
   void keep_difficult_contacts();
   [[nodiscard]] double seconds_per_step(double trial);
@@ -62,7 +67,6 @@ class DynamicAnalysis : public Analysis, public Resumable {
   std::size_t next_ = 0;            ///< snapshot of the schedule
   std::optional<Checkpoint> from_;  ///< gone on with; its fields are freed once taken
   std::optional<History> history_;
-  double largest_strain_energy_ = 0.0;  ///< [J/m]
   std::vector<dynamics::StepReport> reports_;
   dynamics::State state_;
   std::unique_ptr<dynamics::Integrator> integrator_;
@@ -70,6 +74,10 @@ class DynamicAnalysis : public Analysis, public Resumable {
   ContactStatistics contact_;
   dynamics::Balance balance_;
   std::optional<std::string> trouble_;
+  std::vector<std::string> warnings_;  ///< given while it ran
+  Bounds bounds_;
+  std::optional<BoundaryWatch> watch_;
+  bool impacts_told_ = false;
   int problems_kept_ = 0;                       ///< contact problems kept as files
   const dynamics::StepReport* last_ = nullptr;  ///< the last step taken; none: all were made before
   const dynamics::State* last_state_ = nullptr;  ///< its state, if it is at hand

@@ -113,6 +113,28 @@ std::string missed_corner(double way) {
       way);
 }
 
+double impact_gain(const dynamics::Balance& b) noexcept {
+  return b.works.loss_impact < 0.0 ? -b.works.loss_impact / b.exchanged : 0.0;
+}
+
+std::string impact_cure(const dynamics::Model& model) {
+  const auto is_moreau = [](const auto& contact) {
+    return contact && contact->law.impact == contact::Impact::moreau;
+  };
+  std::string keys;
+  if (is_moreau(model.contact)) keys = "ground.impact = \"energy-safe\"";
+  if (is_moreau(model.surfaces))
+    keys += fmt::format("{}contact.impact = \"energy-safe\"", keys.empty() ? "" : ", ");
+  return keys.empty() ? "a smaller step" : keys + ", or a smaller time.safety";
+}
+
+std::string created_by_impacts(const dynamics::Balance& b, double bound, const std::string& cure) {
+  return fmt::format(
+      "impacts have created energy: loss_impact = {:.6g} J/m, {:.3g} % of the energy exchanged "
+      "({:.6g} J/m), bound {:.2g} %; {}",
+      b.works.loss_impact, -100.0 * impact_gain(b), b.exchanged, -100.0 * bound, cure);
+}
+
 OutOfBound find_out_of_bound(const dynamics::Balance& b, const ContactStatistics& contact,
                              const Bounds& bounds) {
   if (!std::isfinite(b.kinetic + b.strain) || !std::isfinite(b.residual))
@@ -133,6 +155,8 @@ OutOfBound find_out_of_bound(const dynamics::Balance& b, const ContactStatistics
     return {fmt::format("the energy ledger does not close: relative residual {:.3g}, bound {:.0e}",
                         b.relative, bounds.ledger),
             true};
+  if (impact_gain(b) > impact_gain_bound)
+    return {created_by_impacts(b, impact_gain_bound, bounds.impact_cure), true};
   if (!(contact.residual <= residual_bound))
     return {fmt::format("contact residual {:.3g}, bound {:.0e}", contact.residual, residual_bound),
             false};

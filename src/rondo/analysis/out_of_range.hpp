@@ -26,7 +26,20 @@ struct OutOfBound {
 struct Bounds {
   double ledger = 0.0;         ///< relative residual
   double strain_energy = 0.0;  ///< [J/m]
+  std::string impact_cure;     ///< of impact_cure()
 };
+
+/// Energy that impacts have created, over the energy exchanged: above the first it is spoken of,
+/// above the second the run ends (docs/theory.md, 5).
+inline constexpr double impact_gain_spoken_of = 1e-3, impact_gain_bound = 1e-2;
+double impact_gain(const dynamics::Balance& balance) noexcept;
+
+/// What keeps impacts of this model from creating energy, in the words of a case file.
+std::string impact_cure(const dynamics::Model& model);
+
+/// What is said of the energy that impacts created, with its bound.
+std::string created_by_impacts(const dynamics::Balance& balance, double bound,
+                               const std::string& cure);
 
 /// What is said where a node has moved that far [m] between two looks for sharp corners.
 std::string missed_corner(double way);

@@ -10,6 +10,7 @@
 
 #include "rondo/case/analysis_kinds.hpp"
 #include "rondo/contact/ground.hpp"
+#include "rondo/contact/law.hpp"
 #include "rondo/core/error.hpp"
 #include "rondo/fem/elasticity.hpp"
 #include "rondo/mesh/disk.hpp"
@@ -46,6 +47,7 @@ struct BodyContactCase {
   BodyContact between = BodyContact::none;
   double friction = 0.0;     ///< μ >= 0
   double restitution = 0.0;  ///< e in [0, 1]
+  contact::Impact impact = contact::Impact::moreau;
 };
 
 struct PressureCase {
@@ -63,6 +65,7 @@ struct GroundCase {
   contact::GroundShape shape;
   double friction = 0.0;     ///< μ >= 0
   double restitution = 0.0;  ///< e in [0, 1]
+  contact::Impact impact = contact::Impact::moreau;
 };
 
 struct AnalysisCase {

@@ -211,6 +211,12 @@ constexpr CaseKey keys[] = {
      optional.of(in_motion).body(never),
      "Newton's coefficient of restitution e of each node's impact; 0: a node that arrives stays "
      "until it is pulled off"},
+    {"ground.impact", "-", FIELD(ground->impact), choice("moreau", "energy-safe"),
+     optional.of(in_motion).body(never),
+     "law of the impacts. \"moreau\": a node that arrives or leaves with w_n⁻ goes on with -e "
+     "w_n⁻. "
+     "\"energy-safe\": one that leaves while it is pressed is sent back no faster; no impact then "
+     "creates energy at any step, but more is lost ([theory.md](theory.md), 4.3)"},
 
     {"contact.between", "-", FIELD(body_contact.between), choice("none", "bodies", "all"), optional,
      "\"bodies\": bodies touch each other; \"all\": the boundary of a body may touch itself as "
@@ -219,6 +225,8 @@ constexpr CaseKey keys[] = {
      "Coulomb's coefficient of friction μ"},
     {"contact.restitution", "-", FIELD(body_contact.restitution), between(0, 1), optional,
      "Newton's coefficient of restitution e"},
+    {"contact.impact", "-", FIELD(body_contact.impact), choice("moreau", "energy-safe"), optional,
+     "law of the impacts, as `ground.impact`"},
 
     {"load.pressure[].curve", "-", FIELD(pressures[k].curve), any, required,
      "physical curve of the mesh; of a disk \"rim\", its inner boundary, or \"tread\", the tops of "

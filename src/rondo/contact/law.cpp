@@ -1,11 +1,17 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "rondo/contact/law.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 #include "rondo/core/contract.hpp"
 
 namespace rondo::contact {
+
+double restitution_shift(const Law& law, double before, double neutral) noexcept {
+  const double moreau = law.restitution * before;
+  return law.impact == Impact::energy_safe ? std::max(moreau, neutral) : moreau;
+}
 
 LocalSolution solve_local(const LocalProblem& problem, double friction) noexcept {
   RONDO_ASSERT(problem.delassus.re > friction * std::abs(problem.delassus.im), problem.delassus.re,

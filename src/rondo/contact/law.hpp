@@ -7,10 +7,23 @@
 
 namespace rondo::contact {
 
+/// Which normal velocity an impact ends with (docs/theory.md, 4.3).
+enum class Impact {
+  moreau,       ///< w_n = -e w_n⁻, whether the node arrives or leaves
+  energy_safe,  ///< as Moreau's for a node that arrives; one that leaves is sent back as fast at
+                ///< the most. r_n > 0 then means w̄_n <= 0: no impact does work on the body
+};
+
 struct Law {
   double friction = 0.0;     ///< μ >= 0 [-]
   double restitution = 0.0;  ///< e in [0, 1] [-]
+  Impact impact = Impact::moreau;
 };
+
+/// ε, which joins w_n in the law (4.3): of either sign                                      [m/s]
+/// @param before w_n⁻
+/// @param neutral the ε with which r_n does no work: w_n⁻, less what else joins w_n in the law
+double restitution_shift(const Law& law, double before, double neutral) noexcept;
 
 enum class Status { open, stick, slip };
 
@@ -18,7 +31,7 @@ enum class Status { open, stick, slip };
 struct LocalProblem {
   Vec2 free;            ///< relative velocity without this contact's impulse            [m/s]
   Complex delassus;     ///< W as a complex number: w = free + W r (4.3a)               [m/kg]
-  double bounce = 0.0;  ///< e min(w_n⁻, 0) <= 0: added to w_n in the law           [m/s]
+  double bounce = 0.0;  ///< ε of restitution_shift(): added to w_n in the law      [m/s]
 };
 
 struct LocalSolution {

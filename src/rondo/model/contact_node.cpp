@@ -139,7 +139,7 @@ Vec2 solve_contacts(const ContactStep& s, const ContactNode& node, const contact
     c.gap = touches.at[i].gap;
     c.before = to_frame(c.normal, before);
     c.free = to_frame(c.normal, drive + s.rotation_next * node.free);
-    c.bounce = s.law.restitution * std::min(c.before.x, 0.0);
+    c.bounce = contact::restitution_shift(s.law, c.before.x, c.before.x);
   }
   solve(s, s.turn / (node.mass * s.a), contacts, report);
   const Vec2 after = corrected_velocity(s, node, drive, contacts);

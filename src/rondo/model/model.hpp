@@ -123,7 +123,7 @@ struct ActiveContact {
   Vec2 free;                  ///< w without impulse                            [m/s]
   Vec2 after;                 ///< w⁺: of the step to come                      [m/s]
   Vec2 impulse;               ///< r of the ground on the node                  [N·s/m]
-  double bounce = 0.0;        ///< e min(w_n⁻, 0)                               [m/s]
+  double bounce = 0.0;        ///< ε of the law (4.3)                           [m/s]
   contact::Status status = contact::Status::open;
   bool on_ground = true;  ///< false: against a segment of a body
 };

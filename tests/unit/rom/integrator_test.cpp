@@ -163,6 +163,27 @@ TEST(ReducedIntegrator, ClosesItsLedgerWithFewerModes) {
   }
 }
 
+/// Points that come by are nodes of the body: their impulses do no work on it.
+TEST(ReducedIntegrator, EnergySafeImpactsOfNodesTakeEnergy) {
+  for (const Form& form : every_form) {
+    if (form.contact != nodes) continue;
+    SCOPED_TRACE(&form - every_form.data());
+    Reduced r = pressed(form);
+    r.full.model.contact->law.restitution = 0.5;
+    r.full.model.contact->law.impact = contact::Impact::energy_safe;
+    ReducedIntegrator reduced = r.start(rondo::test::start_at_rest(r.full.model));
+    std::vector<dynamics::StepReport> reports(steps_of(form));
+    reduced.advance(reports);
+    double least = 0.0;
+    for (const dynamics::StepReport& step : reports)
+      least = std::min(least, step.balance.works.loss_impact);
+    const dynamics::Balance& b = reports.back().balance;
+    EXPECT_GT(least, -1e-6 * b.exchanged);
+    EXPECT_GT(b.works.loss_impact, 0.0);
+    EXPECT_LT(b.relative, 1e-12);
+  }
+}
+
 /// The law anew from the motion alone, without the Delassus blocks.
 TEST(ReducedIntegrator, ObeysTheLawInTheMotionItMakes) {
   for (const int stride : {1, 2}) {

@@ -19,21 +19,23 @@ namespace rondo::study {
 
 namespace {
 
+/// @param of GroundCase or BodyContactCase
+template <class Contact>
+contact::Law law_of(const Contact& of) {
+  return {of.friction, of.restitution, of.impact};
+}
+
 /// What the candidates may touch: the ground, and bodies.
 void add_contacts(const Case& c, const mesh::Mesh& mesh, dynamics::Model& model) {
   if (c.ground)
     model.contact.emplace(dynamics::ContactModel{contact::Ground(c.ground->shape),
-                                                 {c.ground->friction, c.ground->restitution},
-                                                 mesh.boundary,
-                                                 mesh.tributary,
+                                                 law_of(*c.ground), mesh.boundary, mesh.tributary,
                                                  mesh.contact_edges});
   const BodyContactCase& between = c.body_contact;
   if (between.between != BodyContact::none)
-    model.surfaces.emplace(dynamics::SurfaceContact{mesh.boundary,
-                                                    mesh.tributary,
-                                                    mesh.contact_edges,
-                                                    between.between == BodyContact::all,
-                                                    {between.friction, between.restitution}});
+    model.surfaces.emplace(
+        dynamics::SurfaceContact{mesh.boundary, mesh.tributary, mesh.contact_edges,
+                                 between.between == BodyContact::all, law_of(between)});
 }
 
 void add_pressures(const Case& c, const mesh::Mesh& mesh, dynamics::Model& model) {
@@ -83,7 +85,7 @@ void set_motion_and_friction(const Case& c, dynamics::Model& model) {
   model.mass_damping = c.damping.mass;
   model.motion = c.motion;
   model.coupled = {c.contact_iterations, c.dump_contacts};
-  if (model.contact) model.contact->law = {c.ground->friction, c.ground->restitution};
+  if (model.contact) model.contact->law = law_of(*c.ground);
 }
 
 /// K := K + K_σ of the stress of the initial spin, in both forms as far as they are there.

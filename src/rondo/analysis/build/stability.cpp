@@ -104,17 +104,27 @@ void warn_of_softening(const Case& c, Setup& s) {
 
 // Steps and speeds ------------------------------------------------------------------------------
 
+bool is_energy_safe(const dynamics::Model& m) {
+  const auto is_safe = [](const auto& contact) {
+    return !contact || contact->law.impact == contact::Impact::energy_safe;
+  };
+  return is_safe(m.contact) && is_safe(m.surfaces);
+}
+
 void warn_of_contact_step(Setup& s) {
   const double share = s.model.dt / s.critical.step;
   const double ratio = 0.5 * s.model.stiffness_damping * s.critical.omega;
-  if (!has_candidates(s.model) || share <= contact_step_share || ratio >= contact_damping_ratio)
+  if (!has_candidates(s.model) || share <= contact_step_share || ratio >= contact_damping_ratio ||
+      is_energy_safe(s.model))
     return;
   s.warnings.push_back(fmt::format(
       "the step is {:.5g} of the critical one: with contact and next to no damping.stiffness, "
       "above {} of it repeated impacts feed the shortest waves of the mesh, where these reach the "
       "contact (they grow, and the ledger shows a negative loss_impact); time.safety of at most "
-      "0.95, or a damping.stiffness of {:.2g} s",
-      share, contact_step_share, 2.0 * contact_damping_ratio / s.critical.omega));
+      "0.95, a damping.stiffness of {:.2g} s, or {}.impact = \"energy-safe\", with which they "
+      "cannot",
+      share, contact_step_share, 2.0 * contact_damping_ratio / s.critical.omega,
+      s.model.contact ? "ground" : "contact"));
 }
 
 /// The scheme as printed lets a wave of frequency ω grow at s ω Δt / 2, and damping takes

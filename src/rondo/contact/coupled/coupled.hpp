@@ -24,7 +24,7 @@ constexpr Vec2 apply(const Block& a, Vec2 b) noexcept {
 /// Relative velocities w = free + W r; each contact obeys (4.3) with its own bounce and friction.
 struct CoupledProblem {
   std::vector<Vec2> free;        ///< (nc) w without impulses                          [m/s]
-  std::vector<double> bounce;    ///< (nc) e min(w_n⁻, 0) <= 0: added to w_n in the law [m/s]
+  std::vector<double> bounce;    ///< (nc) ε of restitution_shift(): added to w_n      [m/s]
   std::vector<double> friction;  ///< (nc) μ                                            [-]
   std::vector<int> row_start;    ///< (nc + 1) W in compressed rows of blocks
   std::vector<int> column;       ///< columns ascend; every row has its diagonal block

@@ -27,7 +27,7 @@ struct ContactRow {
   double tributary = 0.0;  ///< boundary that it stands for                         [m]
   contact::Law law;
   Vec2 before, free, after;  ///< w⁻, w without impulses, w⁺                          [m/s]
-  double bounce = 0.0;       ///< e min(w_n⁻, 0)                                      [m/s]
+  double bounce = 0.0;       ///< ε of the law (4.3)                                  [m/s]
   Vec2 impulse;              ///< r                                                   [N·s/m]
   contact::Status status = contact::Status::open;
 };

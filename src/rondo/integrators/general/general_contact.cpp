@@ -122,7 +122,7 @@ void GeneralContact::set_velocities(const BodyFrames& frames, const State& state
       return velocity_after(step, arm_of(model_, state, k), state.v_next[k]);
     });
     row.turning = row.kind == ContactKind::facet ? 0.0 : turning_of(frames, row, state);
-    row.bounce = row.law.restitution * std::min(row.before.x, 0.0);
+    row.bounce = contact::restitution_shift(row.law, row.before.x, row.before.x - row.turning);
     row.impulse = {};
     row.status = Status::open;
   }
