@@ -21,5 +21,6 @@ Recombine Surface{1};
 Physical Curve("foot", 1) = {1};
 Physical Curve("top", 2) = {3};
 Physical Curve("sides", 3) = {2, 4};
+Physical Curve("boundary", 5) = {1, 2, 3, 4};
 Physical Surface("bar", 4) = {1};
 Mesh.MshFileVersion = 4.1;

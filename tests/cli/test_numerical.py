@@ -18,6 +18,33 @@ THROWN = replaced(replaced(THROWN, "radial", "radial = 2"), "circumferential",
 CRUSH = (ROOT / "cases" / "crush-smooth.toml").read_text()
 CRUSH = replaced(replaced(CRUSH, "radial", "radial = 3"), "circumferential", "circumferential = 60")
 
+# V4's rod, held at its top and thrown against the ground.
+ROD = '''schema = 1
+title = "Rod"
+[mesh]
+file = "meshes/bar.msh"
+clamped = "top"
+contact = "foot"
+[material]
+youngs_modulus = 900.0
+poissons_ratio = 0.0
+density = 1.0
+plane = "stress"
+[motion]
+angular_velocity = 0.0
+speed = 0.0
+height = 0.0
+[ground]
+profile = "flat"
+[initial]
+velocity = [0.0, -3.0]
+[time]
+end = 120.0
+[output]
+history_interval = 0.01
+snapshots = 0
+'''
+
 # What (name, case, settings), exit code, fragments of the message.
 EXTREMES = [
     ("velocity beyond doubles", SMALL, ["initial.velocity=[1e200,0]"], 3, ["velocity of node"]),
@@ -93,6 +120,13 @@ class Stability(ProgramTest):
         self.assertEqual(done.returncode, 0, done.stderr)
         return done.stderr
 
+    def ends(self, text, name, *settings):
+        """How `rondo run` ends, and its run.json."""
+        text = text.replace('"meshes/', f'"{ROOT / "cases" / "meshes"}/')
+        out = self.folder / name
+        done = run("run", self.case(text), "-o", out, *[w for s in settings for w in ("--set", s)])
+        return done, summary(out)
+
     def test_beyond_the_softening_limit(self):
         """The lowest frequency of the mesh is 476.1 rad/s (docs/reliability.md)."""
         self.assertEqual(self.said(SPIN, "motion.angular_velocity=237"), "")
@@ -130,6 +164,35 @@ class Stability(ProgramTest):
         self.assertEqual(self.said(undamped, "time.safety=0.98"), "")
         self.assertEqual(self.said(SMALL, "time.safety=0.99"), "")  # damped
         self.assertEqual(self.said(SPIN, "time.safety=0.99"), "")  # no contact
+        self.assertIn("ground.impact = \"energy-safe\"", self.said(undamped, "time.safety=0.99"))
+        self.assertEqual(self.said(undamped, "time.safety=0.99", "ground.impact=energy-safe"), "")
+
+    def test_energy_from_impacts(self):
+        created, s = self.ends(ROD, "moreau", "time.safety=0.999")
+        self.assertEqual(created.returncode, 3, created.stderr)
+        self.assertIn("impacts have created energy", s["message"])
+        for cure in ("ground.impact = \"energy-safe\"", "a smaller time.safety"):
+            self.assertIn(cure, s["message"])
+        for restitution in ("0.0", "0.8"):
+            safe, s = self.ends(ROD, restitution, "time.safety=0.999", "ground.impact=energy-safe",
+                                f"ground.restitution={restitution}")
+            self.assertEqual(safe.returncode, 0, safe.stderr)
+            self.assertEqual(s["warnings"], [])
+            energy = history(self.folder / restitution)
+            energy = energy["kinetic"] + energy["strain"]
+            self.assertLess(energy.max(), energy[0] * (1.0 + 1e-12))
+
+    def test_boundary_that_may_not_touch(self):
+        text = (ROOT / "cases" / "bouncing-bar.toml").read_text()
+        topples = ["time.end=13", "output.snapshots=0", "output.history_interval=0.01"]
+        done, s = self.ends(text, "foot", *topples, "mesh.contact=foot")
+        self.assertEqual(done.stderr.count("in the ground and nothing stops it"), 1, done.stderr)
+        [warning] = s["warnings"]
+        for part in ("t = ", "node ", "mesh.contact = \"foot\"", "\"sides\""):
+            self.assertIn(part, warning)
+        done, s = self.ends(text, "boundary", *topples)
+        self.assertEqual(done.returncode, 0, done.stderr)
+        self.assertEqual(s["warnings"], [])
 
     def test_growth_of_the_scheme_as_printed(self):
         said = self.said(SPIN, "time.scheme=as-printed", "time.end=20")

@@ -341,10 +341,12 @@ class Refused(ResumeTest):
 
     def test_another_case_with_all_that_differs(self):
         self.assertEqual(self.resume(self.TEXT).returncode, 0)
-        other = replaced(self.TEXT, "friction", "friction = 0.4\nrestitution = 0.1")
+        other = replaced(self.TEXT, "friction", "friction = 0.4\nrestitution = 0.1\n"
+                         "impact = \"energy-safe\"")
         self.assert_refused(self.resume(other, "--set", "disk.mesh.radial=4"), 2,
                             "ground.friction = 0.4", "(allowed: 0.3; or --overwrite",
-                            "ground.restitution = 0.1", "disk.mesh.radial = 4", "3 faults")
+                            "ground.restitution = 0.1", "ground.impact = \"energy-safe\"",
+                            "disk.mesh.radial = 4", "4 faults")
         no_ground = self.TEXT[: self.TEXT.index("[ground]")] + self.TEXT[self.TEXT.index("[time]"):]
         self.assert_refused(self.resume(no_ground), 2, "ground.friction = nothing",
                             "the run to go on with has a value")

@@ -109,8 +109,8 @@ struct EnergyGrowth {
 
 /// @param share of the critical step, which damping makes shorter (docs/theory.md, 3.8)
 /// @param damping ratio of the highest wave, β ω_max/2 with ω_max = 2c/h
-inline EnergyGrowth energy_growth(int elements, double share, double damping,
-                                  contact::Law law = {}, int periods = 200) {
+inline EnergyGrowth energy_growth(int elements, double share, double damping, contact::Law law = {},
+                                  int periods = 200) {
   const Bar bar{.youngs_modulus = 1.0,
                 .density = 1.0,
                 .length = 1.0,

@@ -2,11 +2,9 @@
 /// V21: impacts with restitution create no energy (docs/validation.md). Expected: a rolling disk
 /// whose layers near the rim are thin brakes as it does without restitution; blocks that bounce
 /// never have more energy than they came with; by the energy-safe law no impact brings any.
-#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 
 #include "support/blocks.hpp"
@@ -87,15 +85,13 @@ Bounces bounces(double safety, double turned, Law law) {
 
 }  // namespace
 
-/// With nodes that leave stopped in the ground, as up to now: F_x 4 % of this, loss -7.6 kJ/m.
+/// With nodes stopped while they leave, F_x was +1.1 kN/m and the loss -3.2 kJ/m.
 TEST(Impacts, ARollingDiskBrakesAsWithoutRestitution) {
   for (const StiffnessOperator of : test::both_operators) {
     SCOPED_TRACE(test::name(of));
     const Rolling none = rolling(2.5, 0.9, {0.3, 0.0}, of);
     for (const Law law : {Law{0.3, 0.9}, Law{0.3, 0.9, Impact::energy_safe}}) {
       const Rolling found = rolling(2.5, 0.9, law, of);
-      fmt::print("F_x {:.0f} ({:.0f} without), energy {:.1f} ({:.1f}), loss {:.3g} J/m\n",
-                 found.force, none.force, found.energy, none.energy, found.loss);
       EXPECT_NEAR(found.force, none.force, 0.05 * std::abs(none.force));
       EXPECT_NEAR(found.energy, none.energy, 0.02 * none.energy);
       EXPECT_GT(found.loss, 0.0);
@@ -103,14 +99,11 @@ TEST(Impacts, ARollingDiskBrakesAsWithoutRestitution) {
   }
 }
 
+/// With a loss of -1.7 kJ/m, F_x was -0.6 kN/m.
 TEST(Impacts, ThinnerLayersAtTheDefaultStep) {
-  const Law law{0.3, 0.9};
-  const Rolling none = rolling(4.0, 0.8, {0.3, 0.0}, StiffnessOperator::cyclic);
-  const Rolling found = rolling(4.0, 0.8, law, StiffnessOperator::cyclic);
-  fmt::print("F_x {:.0f} ({:.0f} without), energy {:.1f} ({:.1f}), loss {:.3g} J/m\n", found.force,
-             none.force, found.energy, none.energy, found.loss);
-  EXPECT_NEAR(found.force, none.force, 0.05 * std::abs(none.force));
-  EXPECT_GT(found.loss, -1e-3 * found.exchanged);
+  const Rolling found = rolling(4.0, 0.8, {0.3, 0.9}, StiffnessOperator::cyclic);
+  EXPECT_NEAR(found.force, -21600.0, 200.0);  // without restitution: -21649 N/m
+  EXPECT_GT(found.loss, 0.0);
 }
 
 /// Not in any step: what is below zero is rounding of the sum.
@@ -123,21 +116,16 @@ TEST(Impacts, EnergySafeOnesTakeEnergyInEveryStep) {
   }
 }
 
-/// Nodes stopped while they leave fed up to 0.13 of the energy at 0.8, 0.56 at 0.9.
+/// Nodes stopped while they leave brought 0.07 of the energy at 0.8, 0.14 at 0.9, 0.28 at 0.99.
 TEST(Impacts, BlocksThatBounceHaveNoMoreThanTheyCameWith) {
   for (const double safety : {0.8, 0.9, 0.99})
     for (const double turned : {0.0, 0.1, 0.4})
       for (const double e : {0.0, 0.5, 0.9})
         for (const Impact impact : {Impact::moreau, Impact::energy_safe}) {
           const Bounces found = bounces(safety, turned, {0.0, e, impact});
-          const bool safe = impact == Impact::energy_safe;
-          fmt::print("{} safety {} turned {} e {}: {:.6f}, gained {:.2g}\n",
-                     safe ? "safe  " : "moreau", safety, turned, e, found.most, found.gained);
-          if (safe) {
-            EXPECT_LT(found.gained, 1e-15) << safety << ' ' << turned << ' ' << e;
-          }
-          if (e > 0.0 && safety < 0.95) {
-            EXPECT_LT(found.gained, 1e-3) << safety << ' ' << turned << ' ' << e;
-          }
+          // Near the critical step Moreau's may bring some: here 0.0016 at most.
+          const double most = impact == Impact::energy_safe ? 1e-15 : safety < 0.95 ? 1e-6 : 2e-3;
+          EXPECT_LT(found.gained, most) << safety << ' ' << turned << ' ' << e;
+          EXPECT_LT(found.most, 1.0 + most + 1e-6) << safety << ' ' << turned << ' ' << e;
         }
 }

@@ -261,7 +261,8 @@ void DynamicAnalysis::judge(const dynamics::StepReport& step) {
 
 /// Once a run: what follows is the same.
 void DynamicAnalysis::warn_of_impacts(const dynamics::StepReport& step) {
-  if (impacts_told_ || impact_gain(step.balance) <= impact_gain_spoken_of) return;
+  const double gain = impact_gain(step.balance);
+  if (impacts_told_ || gain <= impact_gain_spoken_of || gain > impact_gain_bound) return;
   impacts_told_ = true;
   warn(fmt::format("t = {:.9g} s: {}", step.frame.time - 0.5 * setup_.model.dt,
                    created_by_impacts(step.balance, impact_gain_bound, bounds_.impact_cure)));

@@ -34,6 +34,7 @@ void expect_same(const Setup& a, const Setup& b) {
   if (!a.model.contact) return;
   EXPECT_EQ(a.model.contact->law.friction, b.model.contact->law.friction);
   EXPECT_EQ(a.model.contact->law.restitution, b.model.contact->law.restitution);
+  EXPECT_EQ(a.model.contact->law.impact, b.model.contact->law.impact);
 }
 
 }  // namespace
@@ -42,7 +43,7 @@ TEST(SharedBody, GivesTheSetupOfARunAlone) {
   SharedBody shared;
   for (const std::vector<std::string>& settings : std::vector<std::vector<std::string>>{
            {},
-           {"ground.friction=0.7", "ground.restitution=0.2"},
+           {"ground.friction=0.7", "ground.restitution=0.2", "ground.impact=energy-safe"},
            {"motion.angular_velocity=20", "motion.height=0.4"},
            {"initial.state=stationary", "motion.angular_velocity=20"},
            {"initial.state=stationary", "motion.angular_velocity=20", "damping.mass=3"},

@@ -6,6 +6,7 @@
 
 #include <cmath>
 #include <memory>
+#include <utility>
 #include <vector>
 
 #include "comparison.hpp"
@@ -125,6 +126,25 @@ TEST(GeneralStep, ABallBouncesWithItsRestitution) {
   }
   EXPECT_NEAR(impact, 0.451524, 2e-5);  // √(2h/g), seen at the next step
   EXPECT_NEAR(apex, 0.25, 1e-4);        // e² h; the impact is late by up to a step: v Δt
+}
+
+/// It leaves with 1 m/s, still inside, and is pulled back to -3 m/s within the step.
+TEST(GeneralStep, ANodeThatLeavesAndIsPulledBackIsNotStopped) {
+  Motion motion;
+  motion.gravity = Table(4000.0);
+  for (const auto& [law, after] : {std::pair{contact::Law{0.0, 0.25}, -0.25},
+                                   {contact::Law{0.0, 0.25, contact::Impact::energy_safe}, -1.0},
+                                   {contact::Law{}, 0.0}}) {
+    Model model = particle(motion, {0.0, -0.5}, 1e-3);
+    model.contact.emplace(ContactModel{contact::Ground(contact::GroundShape{}), law, {0}, {1.0}});
+    const std::vector<Vec2> zero(1), leaves{{0.0, 3.0}};
+    test::Reference run(model, start(model, zero, leaves));
+    const ContactReport r = run.step().contact;
+    EXPECT_NEAR(run.state.v_next[0].y, after, 1e-14);
+    EXPECT_NEAR(r.impulse.y, 2.0 * (after + 3.0), 1e-13);
+    EXPECT_NEAR(r.loss_impact, -r.impulse.y * 0.5 * (1.0 + after), 1e-13);
+    EXPECT_LT(r.residual, 1e-14);
+  }
 }
 
 /// Two facets at once, the foot of a wall: the bounce is that of both, with friction it stays.

@@ -82,6 +82,9 @@ inline std::vector<RollingCase> rolling_cases() {
   RollingCase& restitution = smooth("smooth_restitution");
   restitution.law = {0.3, 0.5};
   restitution.ground = ledge();  // a corner with restitution and friction may have no solution
+  RollingCase& safe = smooth("smooth_energy_safe");
+  safe.law = {0.3, 0.5, contact::Impact::energy_safe};
+  safe.ground = ledge();
   RollingCase& steady = smooth("smooth_steady_undamped");
   steady.disk.alpha = steady.disk.beta = 0.0;
   steady.disk.motion = rolling_disk(6, 90).motion;
