@@ -219,8 +219,9 @@ class Run:
         free bodies in the fixed frame;
         "von_mises", "stress_xx", "stress_xy", ... (t, n) and "cauchy_stress" (t, n, 6) with stress;
         "position", "contact_force" (t, n, 3) for pictures. Stress, position and contact force are
-        along the fixed axes. "fields/displacement", "fields/velocity": these along the fixed
-        axes."""
+        along the fixed axes. Stress is the mean of the cells around a node: that of a probe in the
+        history is of its cell alone, and on coarse meshes they differ (docs/results.md).
+        "fields/displacement", "fields/velocity": these along the fixed axes."""
         component = None
         dataset = name
         if name.startswith("stress_") and name[7:] in STRESS:
@@ -292,7 +293,8 @@ class Run:
 
     @cached_property
     def history(self) -> History:
-        """history.csv, a row for each interval of output. Of a run that is done it is whole."""
+        """history.csv, a row for each interval of output. Of a run that is done it is whole. The
+        stress of a probe is that of its cell; field() averages stress at the nodes."""
         history = History(self.directory / "history.csv", self.is_crush, "ground" in self.case,
                           self.info.get("columns", ()))
         if self.status == "done":

@@ -229,8 +229,8 @@ constexpr CaseKey keys[] = {
      "law of the impacts, as `ground.impact`"},
 
     {"load.pressure[].curve", "-", FIELD(pressures[k].curve), any, required,
-     "physical curve of the mesh; of a disk \"rim\", its inner boundary, or \"tread\", the tops of "
-     "the lands"},
+     "physical curve of the mesh, not all of it held; of a disk \"tread\", the tops of the lands, or, "
+     "where disk.rim is \"free\", \"rim\", its inner boundary"},
     {"load.pressure[].value", "Pa", FIELD(pressures[k].pressure), any, required,
      "pressure against the outward normal, > 0 presses on the body"},
 

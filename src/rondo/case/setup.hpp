@@ -20,6 +20,7 @@ struct ProbeSite {
 struct Setup {
   mesh::Mesh mesh;                       ///< free bodies where they are at t = 0
   std::vector<fem::Material> materials;  ///< one for each region of the mesh
+  fem::NodalDilatation dilatation;       ///< of triangles by B-bar, for their stress
   std::vector<ProbeSite> probes;         ///< of output.probes
   dynamics::Model model;
   dynamics::CriticalStep critical;

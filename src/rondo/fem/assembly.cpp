@@ -23,18 +23,21 @@ Corners corners_of(const mesh::Mesh& mesh, const mesh::Cell& cell) {
   return c;
 }
 
-/// Columns of each row: the free nodes that share a cell with it.
-BlockCsr pattern(const mesh::Mesh& mesh) {
+/// Columns of each row: the free nodes that share a cell or a mean dilatation with it.
+BlockCsr pattern(const mesh::Mesh& mesh, const NodalDilatation& dilatation) {
   const std::vector<char> clamped = clamped_flags(mesh);
   const auto free = [&](int node) { return !clamped[static_cast<std::size_t>(node)]; };
   std::vector<std::vector<std::int32_t>> rows(mesh.n_nodes());
+  const auto couple = [&](int row, int column) {
+    if (free(row) && free(column)) rows[static_cast<std::size_t>(row)].push_back(column);
+  };
   for (const mesh::Cell& cell : mesh.cells)
     for (int a = 0; a < mesh::n_corners(cell); ++a)
-      for (int b = 0; b < mesh::n_corners(cell); ++b) {
-        const int row = cell[static_cast<std::size_t>(a)],
-                  column = cell[static_cast<std::size_t>(b)];
-        if (free(row) && free(column)) rows[static_cast<std::size_t>(row)].push_back(column);
-      }
+      for (int b = 0; b < mesh::n_corners(cell); ++b)
+        couple(cell[static_cast<std::size_t>(a)], cell[static_cast<std::size_t>(b)]);
+  for (std::size_t p = 0; p < dilatation.size(); ++p)
+    for (const auto& a : dilatation.terms(p))
+      for (const auto& b : dilatation.terms(p)) couple(a.node, b.node);
   BlockCsr k;
   k.row_start.push_back(0);
   for (auto& row : rows) {
@@ -72,11 +75,51 @@ void add_element(BlockCsr& k, const mesh::Cell& cell, const ElementMatrix& e) {
     }
 }
 
+/// κ V b bᵀ of each patch, b its gradient. (x y) is (y x): K stays symmetric to the last bit.
+void add_patches(BlockCsr& k, const NodalDilatation& dilatation) {
+  for (std::size_t p = 0; p < dilatation.size(); ++p) {
+    const double stiffness = dilatation.stiffness(p);
+    for (const auto& [row, a] : dilatation.terms(p))
+      for (const auto& [column, b] : dilatation.terms(p)) {
+        BlockCsr::Block* block = find_block(k, row, column);
+        if (!block) continue;
+        (*block)[0] += stiffness * (a.x * b.x);
+        (*block)[1] += stiffness * (a.y * b.x);
+        (*block)[2] += stiffness * (a.x * b.y);
+        (*block)[3] += stiffness * (a.y * b.y);
+      }
+  }
+}
+
+/// @pre the cell is not inverted
+ElementMatrix elastic_stiffness(const mesh::Mesh& mesh, std::size_t cell, const ElementLaw& law) {
+  const mesh::Cell& nodes = mesh.cells[cell];
+  const Corners corners = corners_of(mesh, nodes);
+  RONDO_DEMAND(smallest_jacobian(corners.span()) > 0.0, nodes[0], nodes[1], nodes[2], nodes[3]);
+  return element_stiffness(corners.span(), law);
+}
+
+ElementMatrix geometric_stiffness(const mesh::Mesh& mesh, std::span<const Vec2> prestress,
+                                  std::size_t cell, const ElementLaw& law,
+                                  const NodalDilatation& dilatation) {
+  const Corners corners = corners_of(mesh, mesh.cells[cell]);
+  const auto displacement = [&](int node) { return prestress[static_cast<std::size_t>(node)]; };
+  std::array<Vec2, 4> u;
+  for (std::size_t a = 0; a < corners.n; ++a) u[a] = displacement(mesh.cells[cell][a]);
+  const double mean =
+      dilatation.holds(cell) ? dilatation.mean_stress_of_cell(cell, displacement) : 0.0;
+  return element_geometric_stiffness(corners.span(), {u.data(), corners.n}, law, mean);
+}
+
 /// Of the element's own M_e⁻¹ K_e [1/s²].
 double largest_eigenvalue(const mesh::Mesh& mesh, std::span<const Material> materials,
-                          std::span<const Vec2> prestress, std::size_t e) {
+                          std::span<const Vec2> prestress, std::size_t e,
+                          const NodalDilatation& dilatation) {
   const Corners corners = corners_of(mesh, mesh.cells[e]);
-  ElementMatrix k = cell_stiffness(mesh, materials, prestress, e);
+  ElementLaw law = element_law(material_of(mesh, materials, e));
+  ElementMatrix k = elastic_stiffness(mesh, e, law);
+  if (dilatation.holds(e)) law.mean_bulk = 0.0;  // its stress is that of the patches
+  if (!prestress.empty()) k += geometric_stiffness(mesh, prestress, e, law, dilatation);
   const std::array<double, 4> m =
       element_masses(corners.span(), material_of(mesh, materials, e).density);
   for (Eigen::Index i = 0; i < k.rows(); ++i)
@@ -102,26 +145,22 @@ std::vector<double> sum_at_nodes(const mesh::Mesh& mesh, Density&& density) {
 }  // namespace
 
 ElementMatrix cell_stiffness(const mesh::Mesh& mesh, std::span<const Material> materials,
-                             std::span<const Vec2> prestress, std::size_t cell) {
-  const mesh::Cell& nodes = mesh.cells[cell];
-  const Corners corners = corners_of(mesh, nodes);
-  RONDO_DEMAND(smallest_jacobian(corners.span()) > 0.0, nodes[0], nodes[1], nodes[2], nodes[3]);
-  const ElementLaw law = element_law(material_of(mesh, materials, cell));
-  ElementMatrix k = element_stiffness(corners.span(), law);
-  if (prestress.empty()) return k;
-  std::array<Vec2, 4> u;
-  for (std::size_t a = 0; a < corners.n; ++a) u[a] = prestress[static_cast<std::size_t>(nodes[a])];
-  k += element_geometric_stiffness(corners.span(), {u.data(), corners.n}, law);
+                             std::span<const Vec2> prestress, std::size_t cell,
+                             const NodalDilatation& dilatation) {
+  ElementLaw law = element_law(material_of(mesh, materials, cell));
+  if (dilatation.holds(cell)) law.mean_bulk = 0.0;
+  ElementMatrix k = elastic_stiffness(mesh, cell, law);
+  if (!prestress.empty()) k += geometric_stiffness(mesh, prestress, cell, law, dilatation);
   return k;
 }
 
 BlockCsr assemble_stiffness(const mesh::Mesh& mesh, std::span<const Material> materials,
                             std::span<const Vec2> prestress) {
-  BlockCsr k = pattern(mesh);
-  for (std::size_t e = 0; e < mesh.cells.size(); ++e) {
-    const mesh::Cell& cell = mesh.cells[e];
-    add_element(k, cell, cell_stiffness(mesh, materials, prestress, e));
-  }
+  const NodalDilatation dilatation(mesh, materials);
+  BlockCsr k = pattern(mesh, dilatation);
+  for (std::size_t e = 0; e < mesh.cells.size(); ++e)
+    add_element(k, mesh.cells[e], cell_stiffness(mesh, materials, prestress, e, dilatation));
+  add_patches(k, dilatation);
   return k;
 }
 
@@ -135,15 +174,17 @@ std::vector<double> nodal_areas(const mesh::Mesh& mesh) {
 
 double element_eigenvalue_bound(const mesh::Mesh& mesh, std::span<const Material> materials,
                                 std::span<const Vec2> prestress) {
+  const NodalDilatation dilatation(mesh, materials);
   double bound = 0.0;
   for (std::size_t e = 0; e < mesh.cells.size(); ++e)
-    bound = std::max(bound, largest_eigenvalue(mesh, materials, prestress, e));
+    bound = std::max(bound, largest_eigenvalue(mesh, materials, prestress, e, dilatation));
   return bound;
 }
 
 double sector_eigenvalue_bound(const mesh::Mesh& mesh, std::span<const Material> materials,
                                std::span<const Vec2> prestress) {
   RONDO_DEMAND(mesh.n_sectors > 0, mesh.n_sectors);
+  const NodalDilatation dilatation(mesh, materials);
   double bound = 0.0;
   for (std::size_t e = 0; e < mesh.cells.size(); ++e) {
     const mesh::Cell& cell = mesh.cells[e];
@@ -151,7 +192,7 @@ double sector_eigenvalue_bound(const mesh::Mesh& mesh, std::span<const Material>
       return node >= 0 && mesh.sector[static_cast<std::size_t>(node)] == 0;
     };
     if (std::any_of(cell.begin(), cell.end(), in_sector_0))
-      bound = std::max(bound, largest_eigenvalue(mesh, materials, prestress, e));
+      bound = std::max(bound, largest_eigenvalue(mesh, materials, prestress, e, dilatation));
   }
   return bound;
 }

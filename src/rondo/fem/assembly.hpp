@@ -10,14 +10,17 @@
 #include <vector>
 
 #include "rondo/fem/element.hpp"
+#include "rondo/fem/nodal_dilatation.hpp"
 #include "rondo/mesh/mesh.hpp"
 
 namespace rondo::fem {
 
-/// Of one cell: elastic, and geometric where there is prestress [N/m²].
+/// Of one cell: elastic, and geometric where there is prestress [N/m²]. A triangle with its volume
+/// in `dilatation` has its deviator alone; what the patches have comes beside (assemble_stiffness).
 /// @pre the cell is not inverted.
 ElementMatrix cell_stiffness(const mesh::Mesh& mesh, std::span<const Material> materials,
-                             std::span<const Vec2> prestress, std::size_t cell);
+                             std::span<const Vec2> prestress, std::size_t cell,
+                             const NodalDilatation& dilatation);
 
 /// Compressed sparse rows of 2×2 blocks, one row a node. Rows and columns of clamped nodes are
 /// empty: what is stored acts on free nodes.
@@ -45,7 +48,8 @@ std::vector<double> lumped_mass(const mesh::Mesh& mesh, std::span<const Material
 std::vector<double> nodal_areas(const mesh::Mesh& mesh);
 
 /// Upper bound of the largest eigenvalue of M⁻¹K by elements: max over elements of the largest
-/// eigenvalue of the element's own M_e⁻¹ K_e [1/s²] (Irons and Treharne 1972), (3.8a).
+/// eigenvalue of the element's own M_e⁻¹ K_e [1/s²] (Irons and Treharne 1972), (3.8a). Triangles
+/// count with a dilatation of their own: a mean at the nodes has no more energy (2.3b).
 double element_eigenvalue_bound(const mesh::Mesh& mesh, std::span<const Material> materials,
                                 std::span<const Vec2> prestress = {});
 

@@ -10,9 +10,9 @@ namespace rondo::fem {
 
 enum class Plane { strain, stress };
 
-/// Quadrature of the stiffness of quadrilaterals: 2×2 points, or these for the deviator and the
-/// mean of the element for the volume (B-bar, Hughes 1980), which does not lock near ν = 1/2.
-/// Triangles have one strain: they lock with either.
+/// Quadrature of the stiffness: 2×2 points of a quadrilateral and one of a triangle, or these for
+/// the deviator and a mean for the volume (B-bar), which does not lock near ν = 1/2: the mean of
+/// the quadrilateral (Hughes 1980), of the triangles around a node (NodalDilatation).
 enum class Integration { full, b_bar };
 
 struct Material {

@@ -177,7 +177,7 @@ ElementMatrix element_stiffness(std::span<const Vec2> corners, const ElementLaw&
 }
 
 ElementMatrix element_geometric_stiffness(std::span<const Vec2> corners, std::span<const Vec2> u,
-                                          const ElementLaw& law) {
+                                          const ElementLaw& law, double mean_stress) {
   const Points points = quadrature(corners);
   std::array<Stress, 4> stress{};
   if (points.n == 1)
@@ -191,7 +191,8 @@ ElementMatrix element_geometric_stiffness(std::span<const Vec2> corners, std::sp
     const auto& [xx, yy, zz, xy] = stress[q];
     for (std::size_t a = 0; a < corners.size(); ++a)
       for (std::size_t b = 0; b < corners.size(); ++b) {
-        const Vec2 traction{xx * g.n[b].x + xy * g.n[b].y, xy * g.n[b].x + yy * g.n[b].y};
+        const Vec2 traction = Vec2{xx * g.n[b].x + xy * g.n[b].y, xy * g.n[b].x + yy * g.n[b].y} +
+                              mean_stress * g.n[b];
         const double value = g.jacobian * dot(g.n[a], traction);
         const auto row = static_cast<Eigen::Index>(2 * a),
                    column = static_cast<Eigen::Index>(2 * b);

@@ -21,9 +21,9 @@ using Stress = std::array<double, 4>;
 ElementMatrix element_stiffness(std::span<const Vec2> corners, const ElementLaw& law);
 
 /// Geometric stiffness (2.8) of the stress of a displacement, with the same quadrature [N/m²].
-/// `u`: one displacement a corner [m].
+/// `u`: one displacement a corner [m]. @param mean_stress added on xx, yy, zz [Pa]
 ElementMatrix element_geometric_stiffness(std::span<const Vec2> corners, std::span<const Vec2> u,
-                                          const ElementLaw& law);
+                                          const ElementLaw& law, double mean_stress = 0.0);
 
 /// Lumped masses (2.5): quadrature at the corners, ρ det(∂x/∂ξ); triangles a third each [kg/m].
 /// Entries past the corners are 0.

@@ -153,7 +153,10 @@ SectorStiffness assemble_sector(const mesh::Mesh& mesh, std::span<const Material
     clamped[static_cast<std::size_t>(mesh.sector_node[static_cast<std::size_t>(node)])] = 1;
   std::vector<LocalCell> cells = cells_of_sector(mesh);
   const std::vector<int> place = order_by_layers(cells, clamped, k);
-  for (LocalCell& c : cells) c.stiffness = cell_stiffness(mesh, materials, prestress, c.cell);
+  const NodalDilatation dilatation(mesh, materials);
+  RONDO_DEMAND(dilatation.empty());  // reaches beyond the sector beside
+  for (LocalCell& c : cells)
+    c.stiffness = cell_stiffness(mesh, materials, prestress, c.cell, dilatation);
   add_rows(forward_blocks(cells, place, k.turn[1]), k);
   return k;
 }

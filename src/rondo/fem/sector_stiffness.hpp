@@ -46,7 +46,8 @@ struct SectorStiffness {
 /// @param prestress (n) displacement, the same in each sector, whose stress stiffens the body,
 /// (2.8)
 ///        [m]; empty: none.
-/// @pre the mesh has N >= 3 equal sectors, numbered one after the other; no inverted element.
+/// @pre the mesh has N >= 3 equal sectors, numbered one after the other; no inverted element; no
+/// triangles with a mean dilatation at the nodes.
 SectorStiffness assemble_sector(const mesh::Mesh& mesh, std::span<const Material> materials,
                                 std::span<const Vec2> prestress = {});
 

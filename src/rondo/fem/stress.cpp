@@ -9,7 +9,7 @@
 namespace rondo::fem {
 
 StressRecovery::StressRecovery(const mesh::Mesh& mesh, std::span<const Material> materials)
-    : mesh_(mesh), nodal_(mesh.n_nodes()) {
+    : mesh_(mesh), dilatation_(mesh, materials), nodal_(mesh.n_nodes()) {
   for (const Material& material : materials) law_.push_back(element_law(material));
   const std::vector<double> total = nodal_areas(mesh);
   for (std::size_t e = 0; e < mesh.cells.size(); ++e) {
@@ -26,17 +26,13 @@ StressRecovery::StressRecovery(const mesh::Mesh& mesh, std::span<const Material>
 
 std::span<const Stress> StressRecovery::operator()(std::span<const Vec2> u) {
   std::fill(nodal_.begin(), nodal_.end(), Stress{});
-  std::array<Vec2, 4> x, displacement;
+  const auto displacement = [u](int node) { return u[static_cast<std::size_t>(node)]; };
   for (std::size_t e = 0; e < mesh_.cells.size(); ++e) {
     const mesh::Cell& cell = mesh_.cells[e];
     const auto n = static_cast<std::size_t>(mesh::n_corners(cell));
-    for (std::size_t a = 0; a < n; ++a) {
-      x[a] = mesh_.coordinates[static_cast<std::size_t>(cell[a])];
-      displacement[a] = u[static_cast<std::size_t>(cell[a])];
-    }
     const ElementLaw& law =
         law_[mesh_.region.empty() ? 0 : static_cast<std::size_t>(mesh_.region[e])];
-    const auto stress = element_stress({x.data(), n}, {displacement.data(), n}, law);
+    const auto stress = cell_stress(mesh_, e, law, dilatation_, displacement);
     for (std::size_t a = 0; a < n; ++a)
       for (std::size_t k = 0; k < 4; ++k)
         nodal_[static_cast<std::size_t>(cell[a])][k] += weight_[e][a] * stress[a][k];

@@ -7,9 +7,33 @@
 
 #include "rondo/core/complex.hpp"
 #include "rondo/fem/element.hpp"
+#include "rondo/fem/nodal_dilatation.hpp"
 #include "rondo/mesh/mesh.hpp"
 
 namespace rondo::fem {
+
+/// Stress at the corners of a cell, as its stiffness has it: element_stress(), and on a triangle
+/// with its volume in `dilatation` the mean stress of each corner. @param u displacement of a node
+template <class Displacement>
+std::array<Stress, 4> cell_stress(const mesh::Mesh& mesh, std::size_t cell, ElementLaw law,
+                                  const NodalDilatation& dilatation, Displacement&& u) {
+  const mesh::Cell& nodes = mesh.cells[cell];
+  const auto n = static_cast<std::size_t>(mesh::n_corners(nodes));
+  std::array<Vec2, 4> x, of_corner;
+  for (std::size_t a = 0; a < n; ++a) {
+    x[a] = mesh.coordinates[static_cast<std::size_t>(nodes[a])];
+    of_corner[a] = u(nodes[a]);
+  }
+  const bool nodal = dilatation.holds(cell);
+  if (nodal) law.mean_bulk = 0.0;
+  std::array<Stress, 4> stress = element_stress({x.data(), n}, {of_corner.data(), n}, law);
+  for (std::size_t a = 0; nodal && a < n; ++a) {
+    const double mean =
+        dilatation.mean_stress(static_cast<std::size_t>(dilatation.patches_of(cell)[a]), u);
+    for (std::size_t k = 0; k < 3; ++k) stress[a][k] += mean;
+  }
+  return stress;
+}
 
 class StressRecovery {
  public:
@@ -22,6 +46,7 @@ class StressRecovery {
 
  private:
   const mesh::Mesh& mesh_;
+  NodalDilatation dilatation_;
   std::vector<ElementLaw> law_;                ///< of each material
   std::vector<std::array<double, 4>> weight_;  ///< (e) share of a corner in its node's mean
   std::vector<Stress> nodal_;

@@ -65,8 +65,8 @@ long long History::next_probed() const noexcept {
 void History::append_probes(const dynamics::State* state, std::vector<double>& rows) const {
   if (setup_.probes.empty()) return;
   if (state)
-    return study::append_probes({setup_.mesh, setup_.materials, setup_.model}, setup_.probes,
-                                *state, rows);
+    return study::append_probes({setup_.mesh, setup_.materials, setup_.model, setup_.dilatation},
+                                setup_.probes, *state, rows);
   rows.insert(rows.end(), probe_columns(case_.output.probes).size(),
               std::numeric_limits<double>::quiet_NaN());
 }

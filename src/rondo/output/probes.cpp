@@ -16,17 +16,18 @@ ProbeValues look_at(const ProbedBody& body, const ProbeSite& site, const dynamic
   const mesh::Cell& cell = body.mesh.cells[site.cell];
   const auto n = static_cast<std::size_t>(mesh::n_corners(cell));
   ProbeValues values;
-  std::array<Vec2, 4> x, elastic;
   for (std::size_t a = 0; a < n; ++a) {
     const auto node = static_cast<std::size_t>(cell[a]);
     values.displacement += site.weight[a] * state.u[node];
     values.velocity += site.weight[a] * state.v[node];
-    x[a] = body.mesh.coordinates[node];
-    elastic[a] = dynamics::elastic_displacement(body.model, state.poses, node, state.u[node]);
   }
   const fem::Material& material = fem::material_of(body.mesh, body.materials, site.cell);
+  const auto elastic = [&](int node) {
+    const auto k = static_cast<std::size_t>(node);
+    return dynamics::elastic_displacement(body.model, state.poses, k, state.u[k]);
+  };
   const auto corners =
-      fem::element_stress({x.data(), n}, {elastic.data(), n}, fem::element_law(material));
+      fem::cell_stress(body.mesh, site.cell, fem::element_law(material), body.dilatation, elastic);
   for (std::size_t a = 0; a < n; ++a)
     for (std::size_t k = 0; k < values.stress.size(); ++k)
       values.stress[k] += site.weight[a] * corners[a][k];
@@ -47,8 +48,8 @@ std::vector<ColumnLabel> probe_columns(const std::vector<Probe>& probes) {
        {"vx", "m/s", "velocity in the same frame, half a step before `time_s`"},
        {"vy", "m/s", "likewise"},
        {"sxx", "Pa",
-        "stress at `time_s` in the same frame, by the shape functions from the corners of the "
-        "cell"},
+        "stress at `time_s` in the same frame, of the cell alone: by the shape functions from its "
+        "corners; fields have the mean of all cells at a node"},
        {"syy", "Pa", "likewise"},
        {"szz", "Pa", "likewise"},
        {"sxy", "Pa", "likewise"}}};

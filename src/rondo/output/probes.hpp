@@ -9,7 +9,7 @@
 
 #include "rondo/case/setup.hpp"
 #include "rondo/core/column.hpp"
-#include "rondo/fem/elasticity.hpp"
+#include "rondo/fem/nodal_dilatation.hpp"
 #include "rondo/model/model.hpp"
 
 namespace rondo::study {
@@ -22,6 +22,7 @@ struct ProbedBody {
   const mesh::Mesh& mesh;
   std::span<const fem::Material> materials;
   const dynamics::Model& model;
+  const fem::NodalDilatation& dilatation;
 };
 
 /// Appends the columns of each site: u [m] and v [m/s], turning frame or, of a free body, fixed

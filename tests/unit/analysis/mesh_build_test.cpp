@@ -163,6 +163,37 @@ TEST(WrongMeshes, NamesAreToldAtTheirKeys) {
   EXPECT_EQ(told({"mesh.file=other.msh"}).key, "mesh.file");
 }
 
+/// It would do nothing, without a word.
+TEST(WrongMeshes, PressureOnWhatIsHeldIsRefused) {
+  const MeshCaseFile file(squares);
+  const std::vector<std::string> held{"mesh.clamped=top",
+                                      "motion={angular_velocity = 5, speed = 0, height = 0}",
+                                      "load.pressure=[{curve = 'skin', value = 1}]"};
+  EXPECT_EQ(build(file.read(held), 1).model.pressures.size(), 1U);  // some of it is held
+  std::vector<std::string> nothing = held;
+  nothing.back() = "load.pressure=[{curve = 'skin', value = 1}, {curve = 'top', value = 1}]";
+  const auto faults = faults_of_build(file, nothing);
+  ASSERT_EQ(faults.size(), 1U);
+  EXPECT_EQ(faults[0].key, "load.pressure[1].curve");
+  EXPECT_NE(faults[0].message.find("every node of the curve \"top\" is held"), std::string::npos);
+  EXPECT_NE(faults[0].allowed.find("mesh.clamped"), std::string::npos);
+  try {
+    static_cast<void>(
+        build(read_text("schema = 1\ndisk = {outer_radius = 0.3, inner_radius = 0.1, "
+                        "mesh = {radial = 3, circumferential = 20}}\n"
+                        "material = {youngs_modulus = 1e6, poissons_ratio = 0.3, density = 1000}\n"
+                        "motion = {angular_velocity = 0, speed = 0, height = 0.4}\n"
+                        "load.pressure = [{curve = 'rim', value = 1}]\ntime.end = 0.01\n"),
+              1));
+    FAIL();
+  } catch (const InputError& wrong) {
+    ASSERT_EQ(wrong.faults().size(), 1U);
+    EXPECT_EQ(wrong.faults()[0].key, "load.pressure[0].curve");
+    EXPECT_NE(wrong.faults()[0].allowed.find("\"tread\""), std::string::npos);
+    EXPECT_NE(wrong.faults()[0].allowed.find("cavity"), std::string::npos);
+  }
+}
+
 TEST(WrongMeshes, TheFileItselfIsNamed) {
   const MeshCaseFile file(squares);
   std::ofstream(file.mesh()) << "no mesh";

@@ -53,7 +53,7 @@ TEST(Probes, OfAHeldBodyAreInTheTurningFrame) {
     state.v[k] = {0.0, s.model.reference[k].y};
   }
   std::vector<double> row;
-  append_probes({s.mesh, s.materials, s.model}, s.probes, state, row);
+  append_probes({s.mesh, s.materials, s.model, s.dilatation}, s.probes, state, row);
   const fem::Hooke d = fem::hooke(s.materials[0]);
   const std::vector<double> expected{
       2e-4, 0.0, 0.0, 0.9, 1e-3 * d.d11, 1e-3 * d.d12, 1e-3 * d.zz * (d.d11 + d.d12), 0.0};
@@ -76,7 +76,7 @@ TEST(Probes, OfAFreeBodyAreInTheFixedFrame) {
     state.u[k] = moved + turn90(Vec2{1.001 * arm.x, arm.y}) - s.model.reference[k];
   }
   std::vector<double> row;
-  append_probes({s.mesh, s.materials, s.model}, s.probes, state, row);
+  append_probes({s.mesh, s.materials, s.model, s.dilatation}, s.probes, state, row);
   const fem::Hooke d = fem::hooke(s.materials[0]);
   ASSERT_EQ(row.size(), 8U);
   EXPECT_NEAR(row[0], 6.5, 1e-14);

@@ -38,11 +38,30 @@ void add_contacts(const Case& c, const mesh::Mesh& mesh, dynamics::Model& model)
                                  between.between == BodyContact::all, law_of(between)});
 }
 
+/// What is held feels no pressure.
+void refuse_held_curve(const Case& c, const mesh::Mesh& mesh, const std::string& key,
+                       const std::string& name, const std::vector<mesh::Edge>& edges) {
+  const std::vector<char> held = mesh::clamped_flags(mesh);
+  const auto is_held = [&](int node) { return held[static_cast<std::size_t>(node)] != 0; };
+  if (!std::ranges::all_of(edges,
+                           [&](const mesh::Edge& e) { return is_held(e[0]) && is_held(e[1]); }))
+    return;
+  throw case_error(
+      c, key,
+      fmt::format("every node of the curve \"{}\" is held: a pressure there does nothing", name),
+      c.mesh ? fmt::format("a curve that is not held; mesh.clamped = \"{}\" holds this one",
+                           c.mesh->clamped)
+             : "\"tread\", the outer boundary; the inner boundary of a [disk] is its rim: for a "
+               "cavity that is inflated, a [mesh] whose mesh.clamped is another curve");
+}
+
 void add_pressures(const Case& c, const mesh::Mesh& mesh, dynamics::Model& model) {
   for (std::size_t k = 0; k < c.pressures.size(); ++k) {
+    const auto& [name, pressure] = c.pressures[k];
     const std::string key = item_of("load.pressure", k) + ".curve";
-    model.pressures.push_back(
-        {curve_of(c, mesh, key, c.pressures[k].curve), c.pressures[k].pressure});
+    const std::vector<mesh::Edge>& edges = curve_of(c, mesh, key, name);
+    refuse_held_curve(c, mesh, key, name, edges);
+    model.pressures.push_back({edges, pressure});
   }
 }
 
@@ -203,6 +222,7 @@ Setup make_body(const Case& c, int threads) {
   s.materials = materials_of(c, s.mesh);
   s.probes = find_probes(c, s.mesh);  // before free bodies are moved to where they start
   make_model(c, s);
+  s.dilatation = fem::NodalDilatation(s.mesh, s.materials);
   add_stress_stiffening(c, s);
   choose_threads(s, threads);
   s.critical = find_critical_step(c, s);
