@@ -11,6 +11,7 @@
 
 #include "rondo/analysis/build/build.hpp"
 #include "rondo/analysis/build/memory.hpp"
+#include "rondo/analysis/build/step_limit.hpp"
 #include "rondo/analysis/disk.hpp"
 #include "rondo/case/case_source.hpp"
 #include "rondo/integrators/start.hpp"
@@ -111,6 +112,8 @@ CheckReport DynamicAnalysis::check(double trial) {
       {"step", fmt::format("{:.6g} s ({:.3g} of critical)", dt, dt / setup_.critical.step)},
       {"steps", fmt::format("{} to t = {:.6g} s", setup_.n_steps,
                             static_cast<double>(setup_.n_steps) * dt)}};
+  const auto limit = lines_of(find_step_limit(case_, setup_));
+  r.lines.insert(r.lines.begin() + 2, limit.begin(), limit.end());  // after the critical step
   r.warnings = warnings();
   return r;
 }

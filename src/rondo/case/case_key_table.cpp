@@ -158,14 +158,15 @@ constexpr CaseKey keys[] = {
     {"material.youngs_modulus", "Pa", FIELD(material.youngs_modulus), positive, required,
      "Young's modulus E"},
     {"material.poissons_ratio", "-", FIELD(material.poissons_ratio), poisson, required,
-     "Poisson's ratio ν. In plane strain above 0.49 there is a warning where integration is full: "
-     "quadrilaterals are then far too stiff"},
+     "Poisson's ratio ν. In plane strain above 0.49, with triangles above 0.45, there is a warning "
+     "where integration is full: elements are then far too stiff"},
     {"material.density", "kg/m3", FIELD(material.density), positive, required, "density ρ"},
     {"material.plane", "-", FIELD(material.plane), choice("strain", "stress"), optional,
      "plane strain (a wide wheel) or plane stress (a thin sheet)"},
     {"material.integration", "-", FIELD(material.integration), choice("full", "b-bar"), optional,
-     "quadrature of the stiffness of quadrilaterals: \"full\" 2×2 points; \"b-bar\" takes the "
-     "change of volume from the mean of the element, which does not lock near ν = 0.5"},
+     "quadrature of the stiffness: \"full\" 2×2 points, of a triangle one; \"b-bar\" takes the "
+     "change of volume as a mean, of the quadrilateral or of the triangles around a node, which "
+     "does not lock near ν = 0.5"},
     {"material.stress_stiffening", "-", FIELD(stress_stiffening), choice("none", "centrifugal"),
      optional.of(in_motion_but_written),
      "\"centrifugal\": the stress of the stationary spin at the initial angular velocity stiffens "
@@ -229,7 +230,8 @@ constexpr CaseKey keys[] = {
      "law of the impacts, as `ground.impact`"},
 
     {"load.pressure[].curve", "-", FIELD(pressures[k].curve), any, required,
-     "physical curve of the mesh, not all of it held; of a disk \"tread\", the tops of the lands, or, "
+     "physical curve of the mesh, not all of it held; of a disk \"tread\", the tops of the lands, "
+     "or, "
      "where disk.rim is \"free\", \"rim\", its inner boundary"},
     {"load.pressure[].value", "Pa", FIELD(pressures[k].pressure), any, required,
      "pressure against the outward normal, > 0 presses on the body"},

@@ -129,6 +129,12 @@ double largest_eigenvalue(const mesh::Mesh& mesh, std::span<const Material> mate
   return solver.eigenvalues().maxCoeff();
 }
 
+double largest_of(const std::vector<double>& values) {
+  double largest = 0.0;  // of none
+  for (const double value : values) largest = std::max(largest, value);
+  return largest;
+}
+
 /// (n) Element masses of a density for each cell, summed.
 template <class Density>
 std::vector<double> sum_at_nodes(const mesh::Mesh& mesh, Density&& density) {
@@ -172,29 +178,28 @@ std::vector<double> nodal_areas(const mesh::Mesh& mesh) {
   return sum_at_nodes(mesh, [](std::size_t) { return 1.0; });
 }
 
+std::vector<double> element_eigenvalues(const mesh::Mesh& mesh, std::span<const Material> materials,
+                                        std::span<const Vec2> prestress, bool one_sector) {
+  const NodalDilatation dilatation(mesh, materials);
+  const auto in_sector_0 = [&](int node) {
+    return node >= 0 && mesh.sector[static_cast<std::size_t>(node)] == 0;
+  };
+  std::vector<double> values(mesh.cells.size(), 0.0);
+  for (std::size_t e = 0; e < values.size(); ++e)
+    if (!one_sector || std::ranges::any_of(mesh.cells[e], in_sector_0))
+      values[e] = largest_eigenvalue(mesh, materials, prestress, e, dilatation);
+  return values;
+}
+
 double element_eigenvalue_bound(const mesh::Mesh& mesh, std::span<const Material> materials,
                                 std::span<const Vec2> prestress) {
-  const NodalDilatation dilatation(mesh, materials);
-  double bound = 0.0;
-  for (std::size_t e = 0; e < mesh.cells.size(); ++e)
-    bound = std::max(bound, largest_eigenvalue(mesh, materials, prestress, e, dilatation));
-  return bound;
+  return largest_of(element_eigenvalues(mesh, materials, prestress, false));
 }
 
 double sector_eigenvalue_bound(const mesh::Mesh& mesh, std::span<const Material> materials,
                                std::span<const Vec2> prestress) {
   RONDO_DEMAND(mesh.n_sectors > 0, mesh.n_sectors);
-  const NodalDilatation dilatation(mesh, materials);
-  double bound = 0.0;
-  for (std::size_t e = 0; e < mesh.cells.size(); ++e) {
-    const mesh::Cell& cell = mesh.cells[e];
-    const auto in_sector_0 = [&](int node) {
-      return node >= 0 && mesh.sector[static_cast<std::size_t>(node)] == 0;
-    };
-    if (std::any_of(cell.begin(), cell.end(), in_sector_0))
-      bound = std::max(bound, largest_eigenvalue(mesh, materials, prestress, e, dilatation));
-  }
-  return bound;
+  return largest_of(element_eigenvalues(mesh, materials, prestress, true));
 }
 
 std::vector<int> free_nodes(const mesh::Mesh& mesh) {

@@ -47,9 +47,14 @@ std::vector<double> lumped_mass(const mesh::Mesh& mesh, std::span<const Material
 /// (n) The same with a density of 1: area that a node stands for [m²].
 std::vector<double> nodal_areas(const mesh::Mesh& mesh);
 
-/// Upper bound of the largest eigenvalue of M⁻¹K by elements: max over elements of the largest
-/// eigenvalue of the element's own M_e⁻¹ K_e [1/s²] (Irons and Treharne 1972), (3.8a). Triangles
-/// count with a dilatation of their own: a mean at the nodes has no more energy (2.3b).
+/// (e) Largest eigenvalue of each element's own M_e⁻¹ K_e [1/s²]. Triangles count with a dilatation
+/// of their own: a mean at the nodes has no more energy (2.3b). On a cyclic mesh only elements with
+/// a node in sector 0 are looked at, and others are 0, where `one_sector`.
+std::vector<double> element_eigenvalues(const mesh::Mesh& mesh, std::span<const Material> materials,
+                                        std::span<const Vec2> prestress, bool one_sector);
+
+/// Upper bound of the largest eigenvalue of M⁻¹K: the largest of element_eigenvalues() [1/s²]
+/// (Irons and Treharne 1972), (3.8a).
 double element_eigenvalue_bound(const mesh::Mesh& mesh, std::span<const Material> materials,
                                 std::span<const Vec2> prestress = {});
 

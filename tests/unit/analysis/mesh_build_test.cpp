@@ -142,6 +142,25 @@ TEST(BuildMesh, AFreeDiskTurnsAsAWhole) {
   EXPECT_GT(dot(-turn90(b - a), -0.5 * (a + b)), 0.0);
 }
 
+/// As the case's rules do above 0.49 whatever the cells are.
+TEST(BuildMesh, TrianglesThatLockAreWarnedOf) {
+  const MeshCaseFile file(squares);
+  std::ofstream(file.mesh()) << two_squares_of_triangles(0.1);
+  const auto warnings = [&](const std::vector<std::string>& settings) {
+    return build(file.read(settings), 1).warnings;
+  };
+  const auto told = warnings({"material.poissons_ratio=0.47"});
+  ASSERT_EQ(told.size(), 1U);
+  EXPECT_NE(told[0].find("16 of 16 cells are triangles"), std::string::npos);
+  EXPECT_NE(told[0].find("material.integration = \"b-bar\""), std::string::npos);
+  const auto region = warnings({"material.region=[{surface = 'right', poissons_ratio = 0.48}]"});
+  ASSERT_EQ(region.size(), 1U);
+  EXPECT_NE(region[0].find("8 of 16 cells"), std::string::npos);
+  EXPECT_TRUE(warnings({"material.poissons_ratio=0.45"}).empty());
+  EXPECT_TRUE(warnings({"material.poissons_ratio=0.47", "material.integration=b-bar"}).empty());
+  EXPECT_TRUE(warnings({"material.poissons_ratio=0.47", "material.plane=stress"}).empty());
+}
+
 TEST(WrongMeshes, NamesAreToldAtTheirKeys) {
   const MeshCaseFile file(squares);
   const auto told = [&](const std::vector<std::string>& settings) {

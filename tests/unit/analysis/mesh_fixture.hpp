@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <fstream>
+#include <sstream>
 #include <string>
 
 #include "unit/case/case_fixture.hpp"
@@ -43,6 +44,31 @@ inline std::string two_squares(double gap, int n = 2) {
          "1 3 \"skin\"\n2 4 \"left\"\n2 5 \"right\"\n$EndPhysicalNames\n$Nodes\n" +
          fmt::format("{}\n{}$EndNodes\n$Elements\n{}\n{}$EndElements\n", 2 * of_one, nodes, count,
                      elements);
+}
+
+/// The same, each cell in two.
+inline std::string two_squares_of_triangles(double gap) {
+  const std::string quadrilaterals = two_squares(gap);
+  std::istringstream lines(quadrilaterals.substr(quadrilaterals.find("$Elements")));
+  std::string elements, line;
+  int count = 0;
+  std::getline(lines, line);
+  std::getline(lines, line);
+  while (std::getline(lines, line) && line[0] != '$') {
+    int tag = 0, type = 0, tags = 0, physical = 0, a = 0, b = 0, c = 0, d = 0;
+    std::istringstream(line) >> tag >> type >> tags >> physical >> physical >> a >> b >> c >> d;
+    const auto add = [&](int of_type, const std::string& corners) {
+      elements += fmt::format("{} {} 2 {} {} {}\n", ++count, of_type, physical, physical, corners);
+    };
+    if (type == 1) {
+      add(1, fmt::format("{} {}", a, b));
+    } else {
+      add(2, fmt::format("{} {} {}", a, b, c));
+      add(2, fmt::format("{} {} {}", a, c, d));
+    }
+  }
+  return quadrilaterals.substr(0, quadrilaterals.find("$Elements")) +
+         fmt::format("$Elements\n{}\n{}$EndElements\n", count, elements);
 }
 
 /// The mesh file beside the case, "squares.msh".

@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include <utility>
+
 #include "rondo/analysis/build/build.hpp"
 #include "unit/analysis/mesh_fixture.hpp"
 
@@ -95,6 +97,37 @@ TEST(Probes, ColumnsAreNamed) {
   std::vector<std::string> units;
   for (const ColumnLabel& column : columns) units.push_back(column.unit);
   EXPECT_EQ(units, (std::vector<std::string>{"m", "m", "m/s", "m/s", "Pa", "Pa", "Pa", "Pa"}));
+}
+
+/// Of triangles by B-bar the mean dilatation of the corners, of a free body that has turned too: as
+/// the fields have it in the interior of a linear displacement.
+TEST(Probes, OfTrianglesHaveTheMeanDilatation) {
+  const MeshCaseFile file(squares);
+  std::ofstream(file.mesh()) << two_squares_of_triangles(0.1);
+  const auto s = build(file.read({"output.probe[0].name=p", "output.probe[0].position=[0.2, 0.4]",
+                                  "mesh.clamped=foot", "mesh.contact=top",
+                                  "material.poissons_ratio=0.499", "material.integration=b-bar",
+                                  "motion={angular_velocity = 5, speed = 0, height = 0}"}),
+                       1);
+  ASSERT_FALSE(s.dilatation.empty());
+  dynamics::State state(s.model);
+  std::vector<double> row;
+  const auto sxx_and_szz = [&](auto&& displacement) {
+    for (std::size_t k = 0; k < s.model.n_nodes(); ++k)
+      state.u[k] = displacement(s.model.reference[k]);
+    row.clear();
+    append_probes({s.mesh, s.materials, s.model, s.dilatation}, s.probes, state, row);
+    return std::pair{row[4], row[6]};
+  };
+  const fem::Hooke d = fem::hooke(s.materials[0]);
+  const auto linear = sxx_and_szz([](Vec2 x) { return Vec2{1e-3 * x.x, 0.0}; });
+  EXPECT_NEAR(linear.first, 1e-3 * d.d11, 1e-10 * d.d11);
+  EXPECT_NEAR(linear.second, 1e-3 * d.d12, 1e-10 * d.d11);
+  // In a field of no change of volume but beyond x = 0.5, the corners there have a share of that.
+  const auto beyond = sxx_and_szz([](Vec2 x) {
+    return Vec2{x.x > 0.9 && x.x < 1.05 ? 1e-3 : 0.0, 0.0};
+  });
+  EXPECT_GT(std::abs(beyond.second), 1e-5 * d.d12);
 }
 
 }  // namespace

@@ -127,6 +127,29 @@ int region_of(const Case& c, const mesh::Mesh& mesh, const NameKey& surface) {
                    fmt::format("{}", fmt::join(names, ", ")));
 }
 
+/// Triangles lock sooner than quadrilaterals, of which the case's rules warn above 0.49.
+void warn_of_locking_triangles(const Case& c, const mesh::Mesh& mesh,
+                               std::vector<std::string>& warnings) {
+  const std::vector<fem::Material> materials = materials_of(c, mesh);
+  std::size_t found = 0;
+  double largest = 0.0;
+  for (std::size_t e = 0; e < mesh.cells.size(); ++e) {
+    const fem::Material& m = fem::material_of(mesh, materials, e);
+    if (mesh::n_corners(mesh.cells[e]) != 3 || m.plane != fem::Plane::strain ||
+        m.integration != fem::Integration::full || m.poissons_ratio <= 0.45 ||
+        m.poissons_ratio > 0.49)
+      continue;
+    ++found;
+    largest = std::max(largest, m.poissons_ratio);
+  }
+  if (found == 0) return;
+  warnings.push_back(fmt::format(
+      "{} of {} cells are triangles with full integration at Poisson's ratios up to {}: in plane "
+      "strain they are too stiff above 0.45. material.integration = \"b-bar\" is made for it, for "
+      "triangles and quadrilaterals",
+      found, mesh.cells.size(), largest));
+}
+
 void refuse_for_held_bodies(const Case& c) {
   const Initial& i = c.initial;
   const auto refuse = [&](const std::string& key) {
@@ -159,6 +182,7 @@ mesh::Mesh build_mesh(const Case& c, std::vector<std::string>* warnings) {
   if (!c.mesh) refuse_flat_elements(c, size);
   refuse_sizes_out_of_range(c, size);
   if (!c.mesh && c.free_rim) mesh.clamped.clear();
+  if (warnings) warn_of_locking_triangles(c, mesh, *warnings);
   return mesh;
 }
 

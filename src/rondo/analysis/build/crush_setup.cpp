@@ -49,7 +49,9 @@ std::size_t crush_memory(const Case& c, const CrushSetup& s) {
   const double rows = 2.0 * static_cast<double>(s.within_reach);
   const bool pivots = c.ground->friction > 1.0;                // only then seen to be needed
   const double matrices = (pivots ? 7.5 : 3.0) * rows * rows;  // compliance and direct solves
-  return mesh_memory(nodes) + stiffness_memory(nodes) + factor_memory(2 * nodes) +
+  const bool wide_rows = has_wide_rows(c, s.mesh);
+  return mesh_memory(nodes) + stiffness_memory(nodes, wide_rows) +
+         factor_memory(2 * nodes, wide_rows) +
          (fields + static_cast<std::size_t>(matrices)) * sizeof(double);
 }
 

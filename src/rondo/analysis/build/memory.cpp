@@ -22,13 +22,21 @@ std::size_t mesh_memory(std::size_t nodes) noexcept {
   return program + nodes * numbers_of_a_node * sizeof(double);
 }
 
-std::size_t stiffness_memory(std::size_t nodes) noexcept {
-  constexpr std::size_t blocks = 9;  // of a node of a grid of quadrilaterals
+bool has_wide_rows(const Case& c, const mesh::Mesh& mesh) noexcept {
+  const auto by_mean = [](const fem::Material& m) { return fem::element_law(m).mean_bulk > 0.0; };
+  return (by_mean(c.material) || std::ranges::any_of(c.regions, by_mean, &MaterialRegion::material)) &&
+         std::ranges::any_of(mesh.cells,
+                             [](const mesh::Cell& cell) { return mesh::n_corners(cell) == 3; });
+}
+
+std::size_t stiffness_memory(std::size_t nodes, bool wide_rows) noexcept {
+  // Of a node of a grid of quadrilaterals; of triangles 19, and the means that they come from.
+  const std::size_t blocks = wide_rows ? 30 : 9;
   return nodes * 2 * blocks * (4 * sizeof(double) + sizeof(int));
 }
 
-std::size_t factor_memory(std::size_t dofs) noexcept {
-  constexpr double bytes_per_entry = 60.0;
+std::size_t factor_memory(std::size_t dofs, bool wide_rows) noexcept {
+  const double bytes_per_entry = wide_rows ? 120.0 : 60.0;
   const double n = static_cast<double>(dofs);
   return static_cast<std::size_t>(bytes_per_entry * n * std::log2(n));
 }
@@ -41,14 +49,15 @@ std::size_t motion_memory(const Case& c, const mesh::Mesh& mesh) noexcept {
   const std::size_t of_a_sector =
       harmonics ? 2 * nodes / static_cast<std::size_t>(mesh.n_sectors) : 0;
   const bool sector_alone = harmonics && c.solver_operator != "sparse" && why_not_cyclic(c).empty();
+  const bool wide_rows = has_wide_rows(c, mesh);
   const bool factorised =
       c.initial.state == InitialState::stationary ||
       (c.motion.angular_velocity.largest() != 0.0 && softening_is_checked(2 * nodes, of_a_sector));
   // Snapshots may wait to be written, where steps are faster than files.
   std::size_t bytes = mesh_memory(nodes) +
                       std::min(snapshots, queue_length(snapshots, of_a_snapshot)) * of_a_snapshot;
-  if (!sector_alone) bytes += stiffness_memory(nodes);
-  if (factorised) bytes += factor_memory(harmonics ? of_a_sector : 2 * nodes);
+  if (!sector_alone) bytes += stiffness_memory(nodes, wide_rows);
+  if (factorised) bytes += factor_memory(harmonics ? of_a_sector : 2 * nodes, wide_rows);
   return bytes;
 }
 

@@ -10,10 +10,12 @@ namespace rondo::study {
 
 /// Of the program, mesh, fields, a checkpoint and what is written: the least of any analysis [B].
 std::size_t mesh_memory(std::size_t nodes) noexcept;
+/// Triangles with a mean dilatation at the nodes couple a node with neighbours of neighbours.
+bool has_wide_rows(const Case& c, const mesh::Mesh& mesh) noexcept;
 /// Of the assembled stiffness, held twice while it is assembled [B].
-std::size_t stiffness_memory(std::size_t nodes) noexcept;
+std::size_t stiffness_memory(std::size_t nodes, bool wide_rows) noexcept;
 /// Of a Cholesky factor of a plane mesh, which fills in about n log2 n [B].
-std::size_t factor_memory(std::size_t dofs) noexcept;
+std::size_t factor_memory(std::size_t dofs, bool wide_rows) noexcept;
 
 /// Of motion in time; large disks go without an assembled stiffness [B].
 std::size_t motion_memory(const Case& c, const mesh::Mesh& mesh) noexcept;

@@ -30,17 +30,21 @@ struct Body {
   mesh::Mesh mesh;
   std::vector<double> mass;
   std::vector<fem::Material> materials;
-  double largest_frequency = 0.0;  ///< an upper bound [rad/s]
-  int free = 0;                    ///< bodies that nothing holds
+  double largest_frequency = 0.0;       ///< an upper bound [rad/s]
+  int free = 0;                         ///< bodies that nothing holds
+  bool wide_rows = false;               ///< has_wide_rows()
+  std::vector<std::string> warnings{};  ///< of the case and the mesh
 
   [[nodiscard]] bool cyclic() const noexcept { return mesh.n_sectors > 0; }
 };
 
 Body make_body(const Case& c) {
   Body b;
-  b.mesh = build_mesh(c);
+  b.warnings = c.warnings;
+  b.mesh = build_mesh(c, &b.warnings);
   b.materials = materials_of(c, b.mesh);
   b.mass = fem::lumped_mass(b.mesh, b.materials);
+  b.wide_rows = has_wide_rows(c, b.mesh);
   b.free = static_cast<int>(modal::free_bodies(b.mesh).size());
   b.largest_frequency = std::sqrt(b.cyclic() ? fem::sector_eigenvalue_bound(b.mesh, b.materials)
                                              : fem::element_eigenvalue_bound(b.mesh, b.materials));
@@ -227,7 +231,7 @@ std::size_t memory_of(const Body& body, const ModesRequest& request, std::size_t
   const std::size_t bytes = mesh_memory(nodes) + (spins + 1) * at_once * nodes * 2 * sizeof(Vec2);
   if (body.cyclic()) return bytes;   // what one sector has is small
   constexpr std::size_t spare = 50;  // vectors of the space beyond twice the modes
-  return bytes + stiffness_memory(nodes) + factor_memory(dofs) +
+  return bytes + stiffness_memory(nodes, body.wide_rows) + factor_memory(dofs, body.wide_rows) +
          (2 * at_once + spare) * dofs * sizeof(double);
 }
 
@@ -272,7 +276,7 @@ class ModesAnalysis final : public Analysis {
     plan.own_bytes = shapes_on_disk(body_, request_, spins_.size());
     return plan;
   }
-  [[nodiscard]] std::vector<std::string> warnings() const override { return case_.warnings; }
+  [[nodiscard]] std::vector<std::string> warnings() const override { return body_.warnings; }
   void describe(Json& json) const override {
     json["nodes"] = report_.nodes;
     json["dofs"] = report_.dofs;

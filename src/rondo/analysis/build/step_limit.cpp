@@ -1,0 +1,110 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "rondo/analysis/build/step_limit.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "rondo/analysis/build/build.hpp"
+
+namespace rondo::study {
+namespace {
+
+std::size_t at(int index) noexcept {
+  return static_cast<std::size_t>(index);
+}
+
+Vec2 middle_of(const mesh::Mesh& mesh, std::size_t cell) {
+  Vec2 sum;
+  const int n = mesh::n_corners(mesh.cells[cell]);
+  for (int a = 0; a < n; ++a) sum += mesh.coordinates[at(mesh.cells[cell][at(a)])];
+  return sum / static_cast<double>(n);
+}
+
+/// Parts of the body: number of each cell's, and what it is called.
+struct Parts {
+  std::vector<int> of_cell;
+  std::vector<std::string> names;
+};
+
+/// Layers of a generated disk, by the radii of their nodes.
+Parts layers_of(const mesh::Mesh& mesh, Vec2 center) {
+  std::vector<double> radii;
+  for (const Vec2 x : mesh.coordinates) radii.push_back(norm(x - center));
+  std::sort(radii.begin(), radii.end());
+  const double same = 1e-9 * radii.back();
+  radii.erase(
+      std::unique(radii.begin(), radii.end(), [&](double a, double b) { return b - a < same; }),
+      radii.end());
+  Parts parts;
+  for (std::size_t k = 1; k < radii.size(); ++k)
+    parts.names.push_back(fmt::format("layer {} of {} from the rim, r = {:.6g} to {:.6g} m", k,
+                                      radii.size() - 1, radii[k - 1], radii[k]));
+  for (std::size_t e = 0; e < mesh.cells.size(); ++e) {
+    const double middle = norm(middle_of(mesh, e) - center);
+    const auto outer = std::upper_bound(radii.begin() + 1, radii.end() - 1, middle);
+    parts.of_cell.push_back(static_cast<int>(outer - radii.begin()) - 1);
+  }
+  return parts;
+}
+
+Parts parts_of(const Case& c, const Setup& s) {
+  if (!c.mesh)
+    return layers_of(s.mesh,
+                     s.model.free_bodies.empty() ? Vec2{} : s.model.free_bodies.front().center);
+  if (s.mesh.region.empty()) return {std::vector<int>(s.mesh.cells.size(), 0), {"the body"}};
+  Parts parts{s.mesh.region, {}};
+  for (const std::string& name : s.mesh.region_names)
+    parts.names.push_back(fmt::format("surface \"{}\"", name));
+  return parts;
+}
+
+}  // namespace
+
+StepLimit find_step_limit(const Case& c, const Setup& s) {
+  const bool lagged = c.time.scheme == Scheme::as_printed;
+  const auto step_of = [&](double eigenvalue) {
+    return eigenvalue > 0.0
+               ? dynamics::critical_step_of(std::sqrt(eigenvalue),
+                                            {c.damping.stiffness, lagged ? c.damping.mass : 0.0})
+               : 0.0;
+  };
+  const std::vector<double> values =
+      fem::element_eigenvalues(s.mesh, s.materials, s.prestress, s.mesh.n_sectors > 0);
+  const Parts parts = parts_of(c, s);
+  const auto worst = std::max_element(values.begin(), values.end());
+  StepLimit limit;
+  limit.cell = static_cast<std::size_t>(worst - values.begin());
+  limit.step = step_of(*worst);
+  limit.place = middle_of(s.mesh, limit.cell);
+  const int part = parts.of_cell[limit.cell];
+  limit.part = parts.names[at(part)];
+  double elsewhere = 0.0;
+  std::vector<double> sorted;
+  for (std::size_t e = 0; e < values.size(); ++e) {
+    if (parts.of_cell[e] != part) elsewhere = std::max(elsewhere, values[e]);
+    if (values[e] > 0.0) sorted.push_back(values[e]);
+  }
+  limit.without_part = step_of(elsewhere);
+  std::sort(sorted.begin(), sorted.end(), std::greater<>());
+  const std::size_t left_out = std::max<std::size_t>(1, sorted.size() / 100);
+  limit.without_worst = left_out < sorted.size() ? step_of(sorted[left_out]) : 0.0;
+  return limit;
+}
+
+std::vector<std::pair<std::string, std::string>> lines_of(const StepLimit& limit) {
+  const auto seconds = [](double step) { return fmt::format("{:.6g} s", step); };
+  std::vector<std::pair<std::string, std::string>> lines{
+      {"set by",
+       fmt::format("cell {} at ({:.6g}, {:.6g}) m, {}: {} by the element bound", limit.cell,
+                   limit.place.x, limit.place.y, limit.part, seconds(limit.step))}};
+  if (limit.without_worst > 0.0)
+    lines.emplace_back("without the worst",
+                       seconds(limit.without_worst) + ": a hundredth of the elements left out");
+  if (limit.without_part > 0.0)
+    lines.emplace_back("without that part", seconds(limit.without_part));
+  return lines;
+}
+
+}  // namespace rondo::study

@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: BSD-3-Clause
+/// @file  What part of a body sets its critical step, by the bound of each element (3.8a).
+#pragma once
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "rondo/case/setup.hpp"
+
+namespace rondo::study {
+
+/// Steps are those of the element bound, which is at most the critical step [s].
+struct StepLimit {
+  std::size_t cell = 0;        ///< the one with the smallest step
+  Vec2 place;                  ///< of its middle, in the undeformed body [m]
+  std::string part;            ///< of the body that it is in: a layer of a disk, a surface
+  double step = 0.0;           ///< with all elements
+  double without_worst = 0.0;  ///< without the worst hundredth of them, one at the least
+  double without_part = 0.0;   ///< without that part; 0: there is no other
+};
+
+/// @pre of a dynamic case, whose stiffness and prestress are there
+StepLimit find_step_limit(const Case& c, const Setup& s);
+
+/// What `rondo check` says of it.
+std::vector<std::pair<std::string, std::string>> lines_of(const StepLimit& limit);
+
+}  // namespace rondo::study
