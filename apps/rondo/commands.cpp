@@ -24,6 +24,7 @@ std::filesystem::path default_directory(const std::filesystem::path& case_file) 
 }
 
 int finish(const study::RunReport& r, const std::filesystem::path& directory) {
+  for (const std::string& warning : r.warnings) spdlog::warn(warning);
   switch (r.status) {
     case study::RunStatus::failed:
       spdlog::error("{}; the results so far are in {}", r.message, directory.string());
@@ -49,6 +50,8 @@ int finish(const study::RunReport& r, const std::filesystem::path& directory) {
   spdlog::info(
       "energy ledger closes to {:.1e}, contact law to {:.1e}, largest penetration {:.2g} m",
       r.energy_residual_relative, r.contact_residual_max, r.penetration_max_m);
+  spdlog::info("largest strain {:.2g}, smallest J of an element {:.2g}", r.strain_max,
+               r.jacobian_min);
   spdlog::info("{} snapshots in {}", r.snapshots, directory.string());
   return exit_done;
 }

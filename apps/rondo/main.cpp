@@ -19,6 +19,7 @@
 #include "rondo/core/error.hpp"
 #include "rondo/core/version.hpp"
 #include "rondo/output/run_files.hpp"
+#include "signals.hpp"
 
 namespace {
 
@@ -303,6 +304,7 @@ int run_program(int argc, char** argv) {
       "Each command has its own help: rondo run --help");
   std::signal(SIGPIPE, SIG_IGN);  // a reader of our output that goes away ends nothing
   std::signal(SIGXFSZ, SIG_IGN);  // a file that grows too long is an error of writing
+  app::end_at_stop_signals();
   try {
     const int code = dispatch_command(program, argc, argv);
     if (std::fflush(stdout) == 0) return code;

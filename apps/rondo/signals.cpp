@@ -1,7 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "signals.hpp"
 
+#include <unistd.h>
+
 #include <csignal>
+
+#include "rondo/core/error.hpp"
 
 namespace rondo::app {
 namespace {
@@ -13,15 +17,30 @@ extern "C" void request_stop(int) {
   requested.store(true);
 }
 
+/// Nothing but what may be called from a signal handler.
+extern "C" void end_at_once(int) {
+  constexpr char text[] = "rondo: warning: interrupted before the first step\n";
+  static_cast<void>(!write(STDERR_FILENO, text, sizeof text - 1));
+  _exit(exit_interrupted);
+}
+
+void handle_stop_signals(void (*handler)(int)) {
+  for (const int number : {SIGINT, SIGTERM, SIGHUP})
+    if (std::signal(number, handler) == SIG_IGN) std::signal(number, SIG_IGN);
+}
+
 }  // namespace
+
+void end_at_stop_signals() {
+  handle_stop_signals(end_at_once);
+}
 
 const std::atomic<bool>& stop_requested() noexcept {
   return requested;
 }
 
 void catch_stop_signals() {
-  for (const int number : {SIGINT, SIGTERM, SIGHUP})
-    if (std::signal(number, request_stop) == SIG_IGN) std::signal(number, SIG_IGN);
+  handle_stop_signals(request_stop);
 }
 
 }  // namespace rondo::app

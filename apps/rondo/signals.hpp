@@ -1,15 +1,19 @@
 // SPDX-License-Identifier: BSD-3-Clause
-/// @file  Signals that ask for a clean end: SIGINT, SIGTERM, SIGHUP.
+/// @file  Signals that ask for an end: SIGINT, SIGTERM, SIGHUP. What is ignored from the start
+/// (nohup, the shell's background jobs) stays ignored.
 #pragma once
 #include <atomic>
 
 namespace rondo::app {
 
+/// From now on they end the program at once, with exit code 130 and a word on stderr: while nothing
+/// is written that would have to be closed.
+void end_at_stop_signals();
+
 /// Set once one of them has come, from catch_stop_signals() on.
 const std::atomic<bool>& stop_requested() noexcept;
 
-/// Before this call a signal ends the program at once: nothing is there to be saved. One that is
-/// ignored (nohup) stays ignored.
+/// From now on they ask for a clean end after the step in hand.
 void catch_stop_signals();
 
 }  // namespace rondo::app

@@ -50,6 +50,12 @@ def run(*arguments, timeout=float(os.environ.get("RONDO_TEST_TIMEOUT", "120")), 
                           errors="replace", timeout=timeout, **options)
 
 
+def said(done):
+    """What a run said on stderr, but for strains that are no longer small."""
+    return "".join(line for line in done.stderr.splitlines(keepends=True)
+                   if "warning: the largest strain is" not in line)
+
+
 SANITIZED = "sanitizers" in run("--version").stdout  # the program, and what it takes is theirs too
 
 

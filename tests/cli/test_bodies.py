@@ -4,7 +4,7 @@ import unittest
 
 import h5py
 import numpy as np
-from program import ROOT, ProgramTest, history, run, summary
+from program import ROOT, ProgramTest, history, run, said, summary
 
 
 def mean_velocity(h, name, start, end):
@@ -20,7 +20,7 @@ class Bodies(ProgramTest):
         sets = [part for key, value in settings.items()
                 for part in ("--set", f"{key.replace('__', '.')}={value}")]
         done = run("run", ROOT / "cases" / f"{name}.toml", "-o", out, "--quiet", *sets)
-        self.assertEqual((done.returncode, done.stderr), (0, ""))
+        self.assertEqual((done.returncode, said(done)), (0, ""))
         return out, history(out)
 
     def test_bar_on_wall(self):

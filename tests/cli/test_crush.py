@@ -9,7 +9,7 @@ import h5py
 import numpy as np
 
 from program import (LEDGE, PROGRAM, ProgramTest, ROOT, RunTest, SANITIZED, SMALL, estimated_memory,
-                     history, line_of, replaced, run, summary)
+                     history, line_of, replaced, run, said, summary)
 
 CRUSH = """schema = 1
 title = "crush"
@@ -41,7 +41,7 @@ class Crush(RunTest):
 
     def test_results_directory(self):
         done = self.run_ok()
-        self.assertNotIn("warning", done.stderr)
+        self.assertNotIn("warning", said(done))
         self.assertIn("increment 8 of 8", done.stderr)
         self.assertIn("8 increments to a depth of 0.02 m", done.stderr)
         self.assertEqual(sorted(p.name for p in self.out.iterdir()),
@@ -54,7 +54,9 @@ class Crush(RunTest):
                               "equilibrium_residual_max energy_residual_relative energy_exchanged "
                               "penetration_max_m sweeps_max pivoted_increments factor_wall_s loop_wall_s "
                               "peak_memory_bytes snapshots columns resumable output steps_done last_time "
-                              "loop_cpu_s total_wall_s".split()))
+                              "loop_cpu_s total_wall_s strain_max strain_max_cell strain_max_place "
+                              "strain_max_time jacobian_min jacobian_min_cell jacobian_min_place "
+                              "jacobian_min_time".split()))
         self.assertEqual((s["status"], s["analysis"], s["nodes"], s["dofs"], s["increments"],
                           s["increments_done"], s["depth"], s["snapshots"]),
                          ("done", "crush", 300, 480, 8, 8, 0.02, 8))
@@ -141,7 +143,7 @@ class Crush(RunTest):
             np.testing.assert_array_equal(f["/frame/center"][:, 0], h["center_x_m"][1:])
             np.testing.assert_allclose(-f["/crush/force"][:, 1], h["force_x"][1:], atol=1e-6)
         again = self.folder / "again"
-        self.assertEqual(run("run", self.out / "case.toml", "-o", again, "--quiet").stderr, "")
+        self.assertEqual(said(run("run", self.out / "case.toml", "-o", again, "--quiet")), "")
         self.assertEqual((self.out / "history.csv").read_bytes(),
                          (again / "history.csv").read_bytes())
 
@@ -149,7 +151,7 @@ class Crush(RunTest):
         self.run_ok()
         again = self.folder / "again"
         done = run("run", self.out / "case.toml", "-o", again, "--quiet")
-        self.assertEqual((done.returncode, done.stderr), (0, ""))
+        self.assertEqual((done.returncode, said(done)), (0, ""))
         for name in ("case.toml", "history.csv", "contact.csv"):
             self.assertEqual((self.out / name).read_bytes(), (again / name).read_bytes(), name)
 
@@ -162,7 +164,7 @@ class Crush(RunTest):
 
     def test_treaded_case(self):
         done = run("run", ROOT / "cases" / "crush-treaded.toml", "-o", self.out, "--quiet")
-        self.assertEqual((done.returncode, done.stderr), (0, ""))
+        self.assertEqual((done.returncode, said(done)), (0, ""))
         h = history(self.out)
         self.assertAlmostEqual(h["force_y"][-1] / 4.387e5, 1.0, places=3)  # as the case says
         self.assertLess(np.abs(h["force_x"]).max(), 5e-3 * h["force_y"][-1])
@@ -172,7 +174,7 @@ class Crush(RunTest):
 
     def test_smooth_case(self):
         done = run("run", ROOT / "cases" / "crush-smooth.toml", "-o", self.out, "--quiet")
-        self.assertEqual((done.returncode, done.stderr), (0, ""))
+        self.assertEqual((done.returncode, said(done)), (0, ""))
         h = history(self.out)
         self.assertAlmostEqual(h["force_y"][-1] / 4.743e5, 1.0, places=3)
         self.assertAlmostEqual(h["force_y"][20] / 1.882e5, 1.0, places=3)
@@ -188,7 +190,7 @@ class Crush(RunTest):
 
     def test_check(self):
         done = run("check", self.case(CRUSH))
-        self.assertEqual((done.returncode, done.stderr), (0, ""))
+        self.assertEqual((done.returncode, said(done)), (0, ""))
         for word in ("nodes", "300", "condensed", "increments         8", "memory", "disk"):
             self.assertIn(word, done.stdout)
         self.assertNotIn("critical step", done.stdout)
@@ -255,6 +257,48 @@ class Crush(RunTest):
             self.assertEqual(len(f["/frame/time"]), s["snapshots"])
             self.assertEqual(len(f["/crush/depth"]), s["snapshots"])
 
+    def test_a_signal_while_it_is_set_up_is_an_interruption(self):
+        big = replaced(replaced(CRUSH, "radial", "radial = 100"), "circumferential",
+                       "circumferential = 2000")  # its factors take seconds
+        for number in (signal.SIGTERM, signal.SIGINT):
+            process = subprocess.Popen([PROGRAM, "run", str(self.case(big)), "-o", str(self.out)],
+                                       stderr=subprocess.PIPE, text=True)
+            time.sleep(0.5)
+            process.send_signal(number)
+            said_last = process.communicate(timeout=60)[1]
+            self.assertEqual(process.returncode, 130)
+            self.assertIn("interrupted before the first step", said_last)
+            self.assertFalse(self.out.exists())
+
+    def test_strains_are_told(self):
+        deep = replaced(CRUSH, "depth", "depth = 0.1")
+        done = self.run_ok(deep)
+        s = summary(self.out)
+        self.assertIn("66.7 % of the 0.15 m", done.stderr)  # before it begins
+        self.assertIn(f"the largest strain is {s['strain_max']:.3g}", done.stderr)
+        self.assertIn("for small strains", done.stderr)
+        with h5py.File(self.out / "results.h5") as f:
+            cells, x = f["/mesh/cells"][:], f["/mesh/coordinates"][:]
+            moved = x + f["/snapshots/displacement"][-1]
+        area = [np.cross(y[cells[:, 2]] - y[cells[:, 0]], y[cells[:, 3]] - y[cells[:, 1]])
+                for y in (x, moved)]
+        ratio = area[1] / area[0]
+        self.assertAlmostEqual(s["jacobian_min"], ratio.min(), delta=1e-12)
+        self.assertEqual(s["jacobian_min_cell"], ratio.argmin())
+        self.assertEqual(s["jacobian_min_time"], 1.0)
+        np.testing.assert_allclose(s["jacobian_min_place"], x[cells[ratio.argmin()]].mean(axis=0))
+        self.assertGreater(s["strain_max"], 0.4)
+
+    def test_an_inverted_cell_ends_it(self):
+        done = run("run", self.case(replaced(CRUSH, "depth", "depth = 0.148")), "-o", self.out)
+        self.assertEqual(done.returncode, 3, done.stderr)
+        s = summary(self.out)
+        self.assertEqual(s["status"], "failed")
+        self.assertLessEqual(s["jacobian_min"], 0.0)
+        for part in (f"increment {s['increments_done'] + 1} of 8",
+                     f"element {s['jacobian_min_cell']} near", "is inverted"):
+            self.assertIn(part, done.stderr)
+
     def test_much_friction_is_solved_by_pivoting(self):
         # On lands that lean the sweeps cycle; there is a solution at any friction.
         case = ROOT / "cases" / "crush-treaded.toml"
@@ -267,7 +311,7 @@ class Crush(RunTest):
                 done = run("run", case, "-o", self.out, "--overwrite", "--quiet", *extra, "--set",
                            f"ground.friction={friction}", "--set",
                            f"analysis.increments={increments}")
-                self.assertEqual((done.returncode, done.stderr), (0, ""))
+                self.assertEqual((done.returncode, said(done)), (0, ""))
                 s = summary(self.out)
                 self.assertEqual(s["increments_done"], increments)
                 self.assertEqual(s["pivoted_increments"] > 0, pivoted)

@@ -69,7 +69,7 @@ class Interrupt(ProgramTest):
                                    stderr=subprocess.DEVNULL)
         time.sleep(0.5)
         process.send_signal(signal.SIGINT)
-        self.assertNotEqual(process.wait(timeout=20), 0)
+        self.assertEqual(process.wait(timeout=20), 130)
         self.assertFalse(out.exists())
 
 

@@ -109,6 +109,22 @@ class Meshes(ProgramTest):
         moved = u[-1, free == 1].mean(axis=0)
         self.assertGreater(moved[0], 1e-3)  # the left one has pushed it
 
+    def test_spins_have_the_sign_of_the_rims(self):
+        """> 0: clockwise, in the case and in history.csv."""
+        (self.folder / "case.toml").write_text(TWO.replace("end = 0.02", "end = 0.001"))
+        done = run("run", self.folder / "case.toml", "-o", self.out)
+        self.assertIn("initial.angular_velocity: > 0 turns clockwise", done.stderr)
+        h = history(self.out)
+        self.assertAlmostEqual(h["angle_rad"][-1] / h["time_s"][-1], 20.0, delta=0.1)
+        with h5py.File(self.out / "results.h5") as file:
+            mass, x, v = (file[name][:] for name in ("mesh/mass", "mesh/coordinates",
+                                                     "snapshots/velocity"))
+            left = file["mesh/free_body"][:] == 0
+        arm = x[left] - np.average(x[left], axis=0, weights=mass[left])
+        self.assertLess((mass[left] * np.cross(arm, v[0][left])).sum(), 0.0)
+        quiet = run("check", self.folder / "case.toml", "--set", "initial.angular_velocity=0")
+        self.assertNotIn("clockwise", quiet.stderr)
+
     def test_a_probe_at_a_node_is_the_node(self):
         self.run_ok(TWO, "--set", "output.snapshots=1")
         with h5py.File(self.out / "results.h5") as file:

@@ -154,9 +154,44 @@ class Stability(ProgramTest):
                         "end = 2.0")
         done = run("run", self.case(text), "-o", out, "--quiet")
         self.assertEqual(done.returncode, 3, done.stderr)
-        self.assertIn("strain energy", done.stderr)
+        self.assertRegex(done.stderr, "strain energy|is inverted")
         self.assertEqual(not_finite(out), [])
         self.assertLess(summary(out)["end_time"], 0.5)
+
+    def test_strains_of_a_run_are_told(self):
+        """The rim comes down by 2/3 of the rubber; on to where cells turn inside out."""
+        deep = replaced(SMALL, "height", "height = [[0, 0.3], [0.015, 0.2]]")
+        self.assertIn("66.7 % of the 0.15 m", self.said(deep))
+        out = self.folder / "out"
+        done = run("run", self.case(deep), "-o", out, "--quiet")
+        s = summary(out)
+        self.assertEqual(done.returncode, 0, done.stderr)
+        self.assertIn(f"the largest strain is {s['strain_max']:.3g}", done.stderr)
+        self.assertGreater(s["strain_max"], 0.4)
+        self.assertLess(s["jacobian_min"], 0.6)
+        with h5py.File(out / "results.h5") as f:
+            cells, x = f["/mesh/cells"][:], f["/mesh/coordinates"][:]
+            u, t = f["/snapshots/displacement"][:], f["/frame/time"][:]
+        a, b = x[cells[:, 2]] - x[cells[:, 0]], x[cells[:, 3]] - x[cells[:, 1]]
+        moved = x + u
+        area = np.cross(moved[:, cells[:, 2]] - moved[:, cells[:, 0]],
+                        moved[:, cells[:, 3]] - moved[:, cells[:, 1]]) / np.cross(a, b)
+        self.assertAlmostEqual(s["jacobian_min"], area.min(), delta=1e-12)  # seen at snapshots
+        self.assertAlmostEqual(s["jacobian_min_time"], t[area.min(axis=1).argmin()], delta=1e-12)
+        shallow = run("run", self.case(SMALL), "-o", out, "--quiet", "--overwrite")
+        self.assertEqual(shallow.stderr, "")
+        self.assertTrue(0.01 < summary(out)["strain_max"] < 0.1)
+
+    def test_an_inverted_cell_ends_the_run(self):
+        out = self.folder / "out"
+        through = replaced(SMALL, "height", "height = [[0, 0.3], [0.015, 0.152]]")
+        done = run("run", self.case(through), "-o", out, "--quiet")
+        self.assertEqual(done.returncode, 3, done.stderr)
+        s = summary(out)
+        self.assertIn(f"element {s['jacobian_min_cell']} near", done.stderr)
+        self.assertIn("is inverted", done.stderr)
+        self.assertIn(f"t = {s['jacobian_min_time']:.9g} s", done.stderr)
+        self.assertLessEqual(s["jacobian_min"], 0.0)
 
     def test_steps_near_the_critical_one_with_contact(self):
         undamped = replaced(SMALL, "stiffness", "stiffness = 0.0")

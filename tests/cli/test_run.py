@@ -60,7 +60,7 @@ class Run(RunTest):
         np.testing.assert_allclose(split, h["work_contact"], atol=1e-12 * energy.max())
         self.assertGreater(h["force_y"].max(), 1e4)
         self.assertGreater(h["dissipation_friction"][-1], 0)
-        np.testing.assert_allclose(h["angle_rad"], -33.333333 * h["time_s"], rtol=1e-12)
+        np.testing.assert_allclose(h["angle_rad"], 33.333333 * h["time_s"], rtol=1e-12)
         np.testing.assert_allclose(h["center_x_m"], 10.0 * h["time_s"], rtol=1e-12)
         np.testing.assert_allclose(h["slip_ratio"], -1e-8, atol=1e-12)
 

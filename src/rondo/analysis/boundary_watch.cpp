@@ -4,7 +4,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <limits>
 
 #include "rondo/analysis/build/bodies.hpp"
 #include "rondo/mesh/edges.hpp"
@@ -12,8 +11,6 @@
 namespace rondo::study {
 namespace {
 
-/// Looks in a run: each costs a copy of the state.
-constexpr long long looks = 200;
 /// Of the smallest element: less is what neighbours of contact nodes do where the boundary bends.
 constexpr double depth_share = 0.25;
 
@@ -36,12 +33,6 @@ BoundaryWatch::BoundaryWatch(const Case& c, const Setup& setup) : case_(c), setu
   nodes_ = unguarded_nodes(setup.mesh);
   if (nodes_.empty()) return;
   depth_ = depth_share * std::ranges::min(element_sizes(setup.mesh));
-  interval_ = std::max(1LL, setup.n_steps / looks);
-}
-
-long long BoundaryWatch::next_look(long long step) const noexcept {
-  if (nodes_.empty()) return std::numeric_limits<long long>::max();
-  return (step / interval_ + 1) * interval_;
 }
 
 std::string BoundaryWatch::curves_of(int node) const {

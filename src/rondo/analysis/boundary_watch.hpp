@@ -14,8 +14,6 @@ class BoundaryWatch {
   /// Of a generated disk, a run without ground and one whose whole boundary may touch: nothing.
   BoundaryWatch(const Case& c, const Setup& setup);
 
-  /// The first step after `step` whose state it wants to see; none once it has told.
-  [[nodiscard]] long long next_look(long long step) const noexcept;
   /// What is wrong in this state, with node, place and time, the first time; else empty.
   [[nodiscard]] std::string look(const dynamics::State& state);
 
@@ -26,7 +24,6 @@ class BoundaryWatch {
   const Setup& setup_;
   std::vector<int> nodes_;  ///< of the boundary, neither held nor candidates
   double depth_ = 0.0;      ///< from which a node counts as inside                     [m]
-  long long interval_ = 1;  ///< steps between looks
 };
 
 }  // namespace rondo::study

@@ -10,8 +10,10 @@
 
 #include "rondo/analysis/build/build.hpp"
 #include "rondo/analysis/build/crush_setup.hpp"
+#include "rondo/analysis/build/physical.hpp"
 #include "rondo/analysis/disk.hpp"
 #include "rondo/analysis/out_of_range.hpp"
+#include "rondo/analysis/strain_watch.hpp"
 #include "rondo/core/keep_larger.hpp"
 #include "rondo/output/columns.hpp"
 
@@ -161,7 +163,12 @@ std::shared_ptr<statics::Condensation> factorised(const Case& c, const CrushSetu
 class CrushAnalysis final : public Analysis {
  public:
   CrushAnalysis(const Case& c, const RunOptions& options)
-      : case_(c), options_(options), setup_(build_crush(c)), ground_(c.ground->shape) {
+      : case_(c),
+        options_(options),
+        setup_(build_crush(c)),
+        ground_(c.ground->shape),
+        strain_(setup_.mesh) {
+    tell_physical_figures(c, setup_);
     if (options.resume)
       throw case_error(c, "analysis.kind", "a crush has no checkpoints to go on from",
                        "\"dynamic\", or --overwrite instead of --resume");
@@ -186,6 +193,10 @@ class CrushAnalysis final : public Analysis {
   [[nodiscard]] int n_increments() const noexcept {
     return case_.analysis.increments + case_.analysis.slide_increments;
   }
+  /// In the place of time: k/increments, above 1 while the body slides.
+  [[nodiscard]] double parameter_of(int k) const noexcept {
+    return static_cast<double>(k) / case_.analysis.increments;
+  }
   void count(const statics::CrushReport& report);
   void record_row(const statics::CrushReport& report, const Sums& sums, Recorder& recorder) const;
   void fill(const std::vector<Vec2>& before, const Sums& sums, Snapshot& snapshot) const;
@@ -194,6 +205,7 @@ class CrushAnalysis final : public Analysis {
   const RunOptions& options_;
   CrushSetup setup_;
   contact::Ground ground_;
+  StrainWatch strain_;
   std::shared_ptr<statics::Condensation> body_;
   double factor_s_ = 0.0;
   statics::CrushState state_;
@@ -223,8 +235,11 @@ CheckReport CrushAnalysis::check(double /*trial*/) {
   r.snapshots = static_cast<std::size_t>(n_increments());
   r.memory_bytes = crush_memory(case_, setup_);
   r.disk_bytes = disk_needed(record_plan(), false).all;
-  r.lines = {{"condensed", fmt::format("{} candidates", setup_.within_reach)},
-             {"increments", reached(n_increments(), case_.analysis.depth, case_.analysis.slide)}};
+  r.lines = setup_.figures;
+  r.lines.insert(
+      r.lines.end(),
+      {{"condensed", fmt::format("{} candidates", setup_.within_reach)},
+       {"increments", reached(n_increments(), case_.analysis.depth, case_.analysis.slide)}});
   r.warnings = warnings();
   return r;
 }
@@ -269,6 +284,7 @@ void CrushAnalysis::describe(Json& j) const {
 Progress CrushAnalysis::begin(Recorder& recorder) {
   state_ = statics::start_crush(setup_.model, setup_.mesh.n_nodes());
   record_row({}, sum_up(setup_, state_), recorder);
+  static_cast<void>(strain_.look(state_.u, {}, 0.0));  // undeformed
   return {0, n_increments()};
 }
 
@@ -279,6 +295,7 @@ Progress CrushAnalysis::advance(Recorder& recorder) {
   count(report);
   std::string wrong = crush_trouble(report, state_.works, setup_.model.bound);
   if (wrong.empty()) wrong = beyond_files(setup_, state_);
+  if (wrong.empty()) wrong = strain_.look(state_.u, {}, parameter_of(k));
   if (!wrong.empty()) {
     trouble_ = fmt::format("increment {} of {}, {}: {}", k, n, target(case_.analysis, k), wrong);
     return {increments_, n};
@@ -301,16 +318,16 @@ void CrushAnalysis::count(const statics::CrushReport& r) {
 
 void CrushAnalysis::record_row(const statics::CrushReport& report, const Sums& sums,
                                Recorder& recorder) const {
-  const double parameter = static_cast<double>(increments_) / case_.analysis.increments;
   const CrushRecord r{state_, report, sums};
-  append_values(history_columns(), record_of(setup_, parameter, r), recorder.rows());
+  append_values(history_columns(), record_of(setup_, parameter_of(increments_), r),
+                recorder.rows());
   append_values(std::span<const Column<R>>(crush_columns), r, recorder.rows());
   recorder.rows_added();
 }
 
 void CrushAnalysis::fill(const std::vector<Vec2>& before, const Sums& sums, Snapshot& s) const {
   const int increments = case_.analysis.increments;
-  s.time = static_cast<double>(increments_) / increments;
+  s.time = parameter_of(increments_);
   s.time_velocity = (static_cast<double>(increments_) - 0.5) / increments;
   s.center = setup_.center(state_);
   s.u = state_.u;
@@ -329,6 +346,7 @@ void CrushAnalysis::summarise(Json& j, RunReport& r) const {
   r.energy_residual_relative = state_.works.relative;
   r.contact_residual_max = residual_;
   r.penetration_max_m = penetration_;
+  strain_.summarise({"", " of the depth"}, j, r);
   j["increments_done"] = increments_;
   j["steps_done"] = increments_;
   j["candidates_condensed"] = body_->set().size();

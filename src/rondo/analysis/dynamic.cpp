@@ -105,7 +105,8 @@ CheckReport DynamicAnalysis::check(double trial) {
   r.memory_bytes = motion_memory(case_, setup_.mesh);
   r.disk_bytes = disk_needed(record_plan(), resumable() != nullptr).all;
   r.seconds = seconds_per_step(trial) * static_cast<double>(setup_.n_steps);
-  r.lines = {
+  r.lines = setup_.figures;
+  const std::vector<Told> steps = {
       {"largest frequency", fmt::format("{:.6g} rad/s (element bound {:.6g})",
                                         setup_.critical.omega, setup_.critical.element_bound)},
       {"critical step", fmt::format("{:.6g} s", setup_.critical.step)},
@@ -113,7 +114,9 @@ CheckReport DynamicAnalysis::check(double trial) {
       {"steps", fmt::format("{} to t = {:.6g} s", setup_.n_steps,
                             static_cast<double>(setup_.n_steps) * dt)}};
   const auto limit = lines_of(find_step_limit(case_, setup_));
-  r.lines.insert(r.lines.begin() + 2, limit.begin(), limit.end());  // after the critical step
+  r.lines.insert(r.lines.end(), steps.begin(), steps.begin() + 2);
+  r.lines.insert(r.lines.end(), limit.begin(), limit.end());
+  r.lines.insert(r.lines.end(), steps.begin() + 2, steps.end());
   r.warnings = warnings();
   return r;
 }
@@ -193,6 +196,7 @@ Progress DynamicAnalysis::begin(Recorder& recorder) {
   watch_.emplace(case_, setup_);
   reports_.resize(steps_at_once(setup_));
   state_ = start(setup_.model, std::move(setup_.displacement), std::move(setup_.velocity));
+  strain_.emplace(setup_.mesh, &setup_.model);
   if (!from_) record_state(recorder);
   start_integrator();
   return {steps_, setup_.n_steps};
@@ -210,13 +214,14 @@ void DynamicAnalysis::start_integrator() {
   saved = {};  // as much memory as the steps have
   saved.step = steps_;
   contact_ = from_->contact;
+  strain_->restore(from_->deformation);
   problems_kept_ = from_->problems_kept;
 }
 
 /// Steps up to the next one whose state is wanted, at most as many as there are reports.
 Progress DynamicAnalysis::advance(Recorder& recorder) {
-  const long long wanted =
-      std::min({next_snapshot(), history_->next_probed(), watch_->next_look(steps_)});
+  const long long next_look = (steps_ / steps_between_looks + 1) * steps_between_looks;
+  const long long wanted = std::min({next_snapshot(), history_->next_probed(), next_look});
   const long long left = std::min(setup_.n_steps, wanted) - steps_;
   const auto n = static_cast<std::size_t>(std::min(static_cast<long long>(reports_.size()), left));
   const std::span reports = std::span(reports_).first(n);
@@ -227,7 +232,6 @@ Progress DynamicAnalysis::advance(Recorder& recorder) {
   for (std::size_t i = 0; i < n && !trouble_; ++i)
     take(reports[i], seen && i + 1 == n ? &state_ : nullptr, recorder);
   if (seen && state_.step == steps_) record_state(recorder);
-  if (seen && state_.step == steps_) look_at_boundary();
   return {steps_, setup_.n_steps};
 }
 
@@ -271,18 +275,39 @@ void DynamicAnalysis::warn_of_impacts(const dynamics::StepReport& step) {
                    created_by_impacts(step.balance, impact_gain_bound, bounds_.impact_cure)));
 }
 
-void DynamicAnalysis::look_at_boundary() {
-  std::string found = watch_->look(state_);
-  if (!found.empty()) warn(std::move(found));
-}
-
 void DynamicAnalysis::warn(std::string warning) {
   give_warnings({warning}, options_);
   warnings_.push_back(std::move(warning));
 }
 
-/// A snapshot, if one is due and the files can hold it.
+/// It hangs on the step and the snapshots alone: a run that goes on looks at the same ones.
+bool DynamicAnalysis::is_looked_at() const noexcept {
+  const long long step = state_.step;
+  if (step % steps_between_looks == 0) return true;
+  if (step != next_snapshot()) return false;
+  const long long before = next_ > 0 ? schedule_.steps[next_ - 1] : -1;
+  return before < 0 || step / steps_between_snapshot_looks != before / steps_between_snapshot_looks;
+}
+
+void DynamicAnalysis::look() {
+  if (trouble_) return;
+  std::string passing = watch_->look(state_);
+  if (!passing.empty()) warn(std::move(passing));
+  const std::string wrong = strain_->look(state_.u, state_.poses, state_.frame.time);
+  if (!wrong.empty())
+    trouble_ = fmt::format("step {} of {}, t = {:.9g} s: {}", state_.step, setup_.n_steps,
+                           state_.frame.time, wrong);
+}
+
+/// A look at its strains and its boundary, if one is due; a snapshot, if one is and the files can
+/// hold it.
 void DynamicAnalysis::record_state(Recorder& recorder) {
+  const bool looked_at = is_looked_at();
+  record_snapshot(recorder);
+  if (looked_at) look();
+}
+
+void DynamicAnalysis::record_snapshot(Recorder& recorder) {
   if (state_.step != next_snapshot()) return;
   const std::string beyond = beyond_files(setup_, state_);
   if (beyond.empty()) {
@@ -312,6 +337,7 @@ Checkpoint DynamicAnalysis::save() const {
   checkpoint.history = history_->place();
   checkpoint.schedule = schedule_;
   checkpoint.contact = contact_;
+  checkpoint.deformation = strain_->largest();
   checkpoint.problems_kept = problems_kept_;
   return checkpoint;
 }
@@ -324,12 +350,14 @@ std::vector<double> DynamicAnalysis::last_row() {
 }
 
 /// A step's works are compared once the next half step is known: one step more, which nobody
-/// sees, brings the last ones into the balance.
+/// sees, brings the last ones into the balance. The strains of the end are no part of a checkpoint:
+/// a run that goes on later has not looked there.
 void DynamicAnalysis::close() {
   dynamics::StepReport beyond;
   integrator_->advance({&beyond, 1});
   balance_ = beyond.balance;
   judge(beyond);
+  if (state_.step == steps_ && !is_looked_at()) look();
 }
 
 void DynamicAnalysis::summarise(Json& j, RunReport& r) const {
@@ -344,6 +372,7 @@ void DynamicAnalysis::summarise(Json& j, RunReport& r) const {
   r.energy_residual_relative = balance_.relative;
   r.contact_residual_max = contact_.residual;
   r.penetration_max_m = contact_.penetration;
+  strain_->summarise({}, j, r);
   j["steps_done"] = steps_;
   j["end_time"] = time;
   j["ns_per_dof_step"] = r.ns_per_dof_step;

@@ -9,6 +9,7 @@
 #include "rondo/analysis/analysis.hpp"
 #include "rondo/analysis/boundary_watch.hpp"
 #include "rondo/analysis/out_of_range.hpp"
+#include "rondo/analysis/strain_watch.hpp"
 #include "rondo/case/setup.hpp"
 #include "rondo/integrators/integrator.hpp"
 #include "rondo/output/contact_statistics.hpp"
@@ -53,10 +54,12 @@ class DynamicAnalysis : public Analysis, public Resumable {
   void start_integrator();
   void take(const dynamics::StepReport& step, const dynamics::State* state, Recorder& recorder);
   void judge(const dynamics::StepReport& step);
-  void look_at_boundary();
+  [[nodiscard]] bool is_looked_at() const noexcept;
+  void look();
   void warn_of_impacts(const dynamics::StepReport& step);
   void warn(std::string warning);
   void record_state(Recorder& recorder);
+  void record_snapshot(Recorder& recorder);
   void keep_difficult_contacts();
   [[nodiscard]] double seconds_per_step(double trial);
 
@@ -72,6 +75,7 @@ class DynamicAnalysis : public Analysis, public Resumable {
   std::unique_ptr<dynamics::Integrator> integrator_;
   long long steps_ = 0;
   ContactStatistics contact_;
+  std::optional<StrainWatch> strain_;
   dynamics::Balance balance_;
   std::optional<std::string> trouble_;
   std::vector<std::string> warnings_;  ///< given while it ran

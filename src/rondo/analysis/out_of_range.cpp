@@ -61,7 +61,7 @@ std::string stress_too_large(const mesh::Mesh& mesh, std::span<const fem::Materi
 }  // namespace
 
 double largest_strain_energy(const Setup& setup) {
-  constexpr double strain = 100.0;
+  constexpr double strain = 1.0;
   double speed = 0.0;
   for (const fem::Material& m : setup.materials)
     speed = std::max(speed, fem::wave_speeds(m).pressure);
@@ -147,7 +147,7 @@ OutOfBound find_out_of_bound(const dynamics::Balance& b, const ContactStatistics
                         b.works.scheme, b.otherwise),
             true};
   if (std::abs(b.strain) > bounds.strain_energy)
-    return {fmt::format("the strain energy, {:.3g} J/m, is that of strains above 100: the body has "
+    return {fmt::format("the strain energy, {:.3g} J/m, is that of strains above 1: the body has "
                         "left what small strains mean",
                         b.strain),
             true};

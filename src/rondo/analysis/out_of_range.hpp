@@ -10,8 +10,8 @@
 
 namespace rondo::study {
 
-/// Strain energy of root-mean-square strains of 100 in the stiffest material [J/m]: far beyond what
-/// small strains can mean, and before numbers overflow.
+/// Strain energy of root-mean-square strains of 1 in the stiffest material [J/m]: beyond what small
+/// strains can mean. It is looked at in every step; cells that turn inside out now and then.
 double largest_strain_energy(const Setup& setup);
 
 /// What is out of bound, and when: a half step (velocities, ledger) comes before its step's

@@ -82,7 +82,7 @@ enum class InitialState { rest, stationary };
 struct InitialRegion {
   std::string surface;
   Vec2 velocity;                  ///< of the centre of mass [m/s]
-  double angular_velocity = 0.0;  ///< about it, counter-clockwise [rad/s]
+  double angular_velocity = 0.0;  ///< about it, > 0 clockwise [rad/s]
 };
 
 struct Initial {
@@ -92,7 +92,7 @@ struct Initial {
   // Of free bodies only: the mesh is turned by `angle` about the origin, then moved by `position`.
   Vec2 position;                  ///< [m]
   double angle = 0.0;             ///< [rad]
-  double angular_velocity = 0.0;  ///< of each about its centre of mass, counter-clockwise [rad/s]
+  double angular_velocity = 0.0;  ///< of each about its centre of mass, > 0 clockwise [rad/s]
   std::vector<InitialRegion> regions;
 };
 

@@ -190,7 +190,9 @@ constexpr CaseKey keys[] = {
 
     {"motion.angular_velocity", "rad/s", FIELD(motion.angular_velocity), any,
      required.if_(is_held, "required if held and dynamic").body(never),
-     "angular velocity ω of the rim; > 0 rolls towards +x"},
+     "angular velocity ω of the rim; > 0 turns clockwise, which rolls towards +x. So do all "
+     "angular "
+     "velocities of a case, and `angle_rad` of history.csv, its integral"},
     {"motion.speed", "m/s", FIELD(motion.speed), any,
      required.if_(is_held, "required if held and dynamic").body(never),
      "speed V of the centre along x"},
@@ -253,7 +255,7 @@ constexpr CaseKey keys[] = {
      "... after they were turned by this angle, counter-clockwise, about the origin of the mesh"},
     {"initial.angular_velocity", "rad/s", FIELD(initial.angular_velocity), any,
      optional.if_(may_be_free).body(may_be_free),
-     "free bodies only: each turns about its centre of mass, counter-clockwise"},
+     "free bodies only: each turns about its centre of mass, signed as `motion.angular_velocity`"},
 
     {"initial.region[].surface", "-", FIELD(initial.regions[k].surface), any,
      required.if_(may_be_free).body(may_be_free),
@@ -263,7 +265,7 @@ constexpr CaseKey keys[] = {
      "... have this velocity of their centres of mass"},
     {"initial.region[].angular_velocity", "rad/s", FIELD(initial.regions[k].angular_velocity), any,
      optional.if_(may_be_free, "that of [initial]").body(may_be_free),
-     "... and turn about them like this, counter-clockwise"},
+     "... and turn about them like this, signed likewise"},
 
     {"analysis.kind", "-", FIELD(analysis.kind), kind_of_analysis(), optional,
      "\"dynamic\": the body moves as `[motion]` says, over `[time]`. \"crush\": the body is "

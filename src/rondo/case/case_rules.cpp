@@ -134,7 +134,18 @@ void check_placing(CaseValues& in) {
   if (in.n_items("initial.region") > 0) refuse("initial.region[0]");
 }
 
+/// For the versions that change it: a case made for the other sign runs as well.
+void warn_of_sign(Case& c) {
+  bool turns = c.initial.angular_velocity != 0.0;
+  for (const InitialRegion& region : c.initial.regions) turns |= region.angular_velocity != 0.0;
+  if (turns)
+    c.warnings.emplace_back(
+        "initial.angular_velocity: > 0 turns clockwise now, as motion.angular_velocity does; until "
+        "this version it was counter-clockwise");
+}
+
 void check_initial(CaseValues& in, Case& c) {
+  warn_of_sign(c);
   if (c.initial.state == InitialState::stationary && !is_held(c))
     in.fault("initial.state", "nothing turns a free body: it has no stationary spin", "\"rest\"");
   check_names(in, "initial.region[].surface", c);

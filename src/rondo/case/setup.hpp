@@ -3,6 +3,7 @@
 #pragma once
 #include <array>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "rondo/case/case.hpp"
@@ -17,6 +18,9 @@ struct ProbeSite {
   std::array<double, 4> weight{};  ///< shape functions of its corners
 };
 
+/// A line of `rondo check`: what is told, and its value.
+using Told = std::pair<std::string, std::string>;
+
 struct Setup {
   mesh::Mesh mesh;                       ///< free bodies where they are at t = 0
   std::vector<fem::Material> materials;  ///< one for each region of the mesh
@@ -29,6 +33,7 @@ struct Setup {
   std::vector<Vec2> displacement;     ///< (n) u_0                          [m]
   std::vector<Vec2> velocity;         ///< (n) v_0                          [m/s]
   double frequencies_above = 0.0;     ///< every ω² of the body is known to be above it [1/s²]
+  std::vector<Told> figures;          ///< of a physical kind, for `rondo check`
   std::vector<std::string> warnings;  ///< for the user: the caller prints them
 };
 

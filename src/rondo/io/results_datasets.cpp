@@ -19,7 +19,8 @@ void Results::create_frame() {
   add_rows(d_.time, "/frame/time", Type::float64, times, time);
   add_rows(d_.time_velocity, "/frame/time_velocity", Type::float64, times, time_velocity);
   add_rows(d_.angle, "/frame/angle", Type::float64, times,
-           {"rad", "angle of the turning frame, counter-clockwise"});
+           {"rad",
+            "angle of the turning frame, counter-clockwise: position = center + R(angle) (X + u)"});
   add_rows(d_.angle_velocity, "/frame/angle_velocity", Type::float64, times,
            {"rad", "angle of the turning frame at /frame/time_velocity"});
   add_rows(d_.center, "/frame/center", Type::float64, {c_.times, 2},

@@ -60,6 +60,16 @@ void for_contact(Known& c, Visit&& visit) {
   visit("/contact/between_bodies", c.between_bodies, {"1", "most in a step"});
 }
 
+template <class Known, class Visit>
+void for_deformation(Known& d, Visit&& visit) {
+  visit("/deformation/strain", d.found.strain, {"1", "largest |principal strain|"});
+  visit("/deformation/strain_cell", d.found.strain_cell, {"1", "its cell"});
+  visit("/deformation/strain_time", d.strain_time, {"s", "its time"});
+  visit("/deformation/jacobian", d.found.jacobian, {"1", "smallest area over that undeformed"});
+  visit("/deformation/jacobian_cell", d.found.jacobian_cell, {"1", "its cell"});
+  visit("/deformation/jacobian_time", d.jacobian_time, {"s", "its time"});
+}
+
 /// visit(name, text) of what a run is, but its step.
 template <class Known, class Visit>
 void for_texts(Known& identity, Visit&& visit) {
@@ -93,6 +103,7 @@ void for_scalars(Known& k, Visit&& visit) {
   visit("/history/angular_impulse", angular_impulse, {"N*s", row});
   visit("/history/penetration", penetration, {"m", "largest " + row});
   for_contact(k.contact, visit);
+  for_deformation(k.deformation, visit);
 }
 
 void put_state(File& file, const dynamics::SavedState& s) {

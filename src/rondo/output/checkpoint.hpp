@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "rondo/case/setup.hpp"
+#include "rondo/fem/strain.hpp"
 #include "rondo/model/saved_state.hpp"
 #include "rondo/output/contact_statistics.hpp"
 #include "rondo/output/history.hpp"
@@ -38,6 +39,7 @@ struct Checkpoint {
   std::vector<double> last_row;  ///< of history.csv, at the end of a run: only kept if it stays so
   SnapshotSchedule schedule;
   ContactStatistics contact;
+  fem::LargestDeformation deformation;
   int problems_kept = 0;  ///< in contact-problems/
   double loop_wall_s = 0.0, loop_cpu_s = 0.0;
   FilePlaces files;

@@ -12,9 +12,10 @@ using P = ContactRecord;
 constexpr std::array history{
     Column<H>{"time_s", "s", "end of the interval", [](const H& r) { return r.time; }},
     Column<H>{"angle_rad", "rad",
-              "θ of the turning frame, counter-clockwise; where nothing is held, the mean rotation "
-              "of the first body",
-              [](const H& r) { return r.angle; }},
+              "∫ω dt, by which the rim has turned, > 0 clockwise like `motion.angular_velocity` "
+              "(−θ, `/frame/angle`); where nothing is held, the mean rotation of the first body, "
+              "likewise",
+              [](const H& r) { return 0.0 - r.angle; }},  // no -0
     Column<H>{"center_x_m", "m",
               "centre, fixed frame; where nothing is held, the centre of mass of the first body",
               [](const H& r) { return r.center.x; }},

@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <functional>
 #include <string>
+#include <vector>
 
 #include "rondo/case/case.hpp"
 
@@ -49,7 +50,10 @@ struct RunReport {
   double energy_residual_relative = 0.0;
   double contact_residual_max = 0.0;
   double penetration_max_m = 0.0;
+  double strain_max = 0.0;    ///< largest |principal strain| seen
+  double jacobian_min = 1.0;  ///< smallest area of a cell over that undeformed
   std::size_t snapshots = 0;
+  std::vector<std::string> warnings;  ///< of what only the run could tell; the caller prints them
 };
 
 /// Bound of both residuals: beyond it a run stops.

@@ -83,12 +83,12 @@ TEST(BuildMesh, FreeBodiesArePlacedAndMove) {
     const auto k = static_cast<std::size_t>(node);
     const Vec2 arm = s.model.reference[k] - right.center;
     momentum += s.model.mass[k] * s.velocity[k];
-    EXPECT_NEAR(norm(s.velocity[k] - Vec2{-4.0, 0.0} - 3.0 * turn90(arm)), 0.0, 1e-13);
+    EXPECT_NEAR(norm(s.velocity[k] - Vec2{-4.0, 0.0} + 3.0 * turn90(arm)), 0.0, 1e-13);
     spin += s.model.mass[k] * cross(arm, s.velocity[k]);
   }
   EXPECT_NEAR(norm(momentum / right.mass - Vec2{-4.0, 0.0}), 0.0, 1e-13);
-  EXPECT_GT(spin, 0.0);  // counter-clockwise
-  EXPECT_NEAR(norm(s.velocity[0] - (Vec2{1.0, 2.0} + 3.0 * turn90(s.model.reference[0] -
+  EXPECT_LT(spin, 0.0);  // clockwise, as of the rim
+  EXPECT_NEAR(norm(s.velocity[0] - (Vec2{1.0, 2.0} - 3.0 * turn90(s.model.reference[0] -
                                                                   s.model.free_bodies[0].center))),
               0.0, 1e-13);
 }
@@ -133,7 +133,7 @@ TEST(BuildMesh, AFreeDiskTurnsAsAWhole) {
   EXPECT_EQ(s.model.free.size(), s.model.n_nodes());
   EXPECT_EQ(s.mesh.n_sectors, 0);
   EXPECT_FALSE(s.model.sector);
-  EXPECT_NEAR(s.velocity[0].x, 0.2, 1e-15);  // node 0 is at (0, -0.1)
+  EXPECT_NEAR(s.velocity[0].x, -0.2, 1e-15);  // node 0 is at (0, -0.1): clockwise
   // Clockwise, so that the outward normal, on the right, points to the centre.
   ASSERT_EQ(s.model.pressures[0].edges.size(), 20U);
   const auto& edge = s.model.pressures[0].edges[0];
@@ -261,10 +261,56 @@ TEST(WrongMeshes, BodiesInEachOther) {
   ASSERT_EQ(faults.size(), 1U);
   EXPECT_EQ(faults[0].key, "contact.between");
   EXPECT_NE(faults[0].message.find("0.3 m inside each other"), std::string::npos);
-  EXPECT_TRUE(faults_of_build(deep, {}).empty());  // they do not touch each other
+  const auto untold = faults_of_build(deep, {});  // nor without contact
+  ASSERT_EQ(untold.size(), 1U);
+  EXPECT_EQ(untold[0].key, "mesh.file");
+  for (const char* part :
+       {"overlap, 0.3 m deep", "body 1 (\"left\") and body 2 (\"right\")", "0.5)"})
+    EXPECT_NE(untold[0].message.find(part), std::string::npos) << untold[0].message;
+  EXPECT_NE(untold[0].allowed.find("BooleanFragments"), std::string::npos);
   EXPECT_EQ(build(shallow.read({"contact.between=bodies"}), 1).warnings.size(), 1U);
   for (const auto& warning : build(touching.read({"contact.between=bodies"}), 1).warnings)
     EXPECT_EQ(warning.find("inside"), std::string::npos) << warning;
+}
+
+/// Sides that coincide, with the same nodes and with others, and a corner that touches a side.
+TEST(WrongMeshes, SidesOfTwoBodiesThatNothingJoins) {
+  const MeshCaseFile touching(squares, 0.0);
+  for (const auto& settings :
+       {std::vector<std::string>{}, {"contact.between=bodies", "mesh.contact=foot"}}) {
+    const auto faults = faults_of_build(touching, settings);
+    ASSERT_EQ(faults.size(), 1U);
+    for (const char* part : {"sides of two bodies coincide", "\"left\"", "\"right\"", "(1, 0.25)"})
+      EXPECT_NE(faults[0].message.find(part), std::string::npos) << faults[0].message;
+    EXPECT_NE(faults[0].allowed.find("BooleanFragments"), std::string::npos);
+  }
+  EXPECT_TRUE(faults_of_build(touching, {"contact.between=bodies"}).empty());
+}
+
+/// Bars that cross: no node of one is in the other. And a body twice at one place.
+TEST(WrongMeshes, OverlapsWithoutANodeInside) {
+  const std::string head =
+      "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$PhysicalNames\n3\n1 1 \"skin\"\n2 2 \"one\"\n"
+      "2 3 \"two\"\n$EndPhysicalNames\n$Nodes\n8\n";
+  const std::string cells =
+      "$EndNodes\n$Elements\n4\n1 1 2 1 1 1 2\n2 1 2 1 1 5 6\n3 3 2 2 2 1 2 3 4\n"
+      "4 3 2 3 3 5 6 7 8\n$EndElements\n";
+  const std::string flat = "1 -2 -0.5 0\n2 2 -0.5 0\n3 2 0.5 0\n4 -2 0.5 0\n";
+  const std::string tall = "5 -0.5 -3 0\n6 0.7 -3 0\n7 0.7 3 0\n8 -0.5 3 0\n";
+  const std::string again = "5 -2 -0.5 0\n6 2 -0.5 0\n7 2 0.5 0\n8 -2 0.5 0\n";
+  const std::string beside = "5 -2 0.6 0\n6 2 0.6 0\n7 2 1.6 0\n8 -2 1.6 0\n";
+  const MeshCaseFile file(squares);
+  const auto faults_with = [&](const std::string& second) {
+    std::ofstream(file.mesh()) << head + flat + second + cells;
+    return faults_of_build(file, {});
+  };
+  for (const std::string& second : {tall, again}) {
+    const auto faults = faults_with(second);
+    ASSERT_EQ(faults.size(), 1U) << second;
+    for (const char* part : {"bodies overlap", "\"one\"", "\"two\""})
+      EXPECT_NE(faults[0].message.find(part), std::string::npos) << faults[0].message;
+  }
+  EXPECT_TRUE(faults_with(beside).empty());
 }
 
 TEST(WrongMeshes, OneBodyWithTwoMotions) {

@@ -32,7 +32,7 @@ void place_free_bodies(const Case& c, mesh::Mesh& mesh, dynamics::Model& model);
 /// Motion of a free body at t = 0.
 struct RigidMotion {
   Vec2 velocity;                  ///< of the centre of mass             [m/s]
-  double angular_velocity = 0.0;  ///< about it, counter-clockwise       [rad/s]
+  double angular_velocity = 0.0;  ///< about it, > 0 clockwise            [rad/s]
 };
 
 /// (free_bodies) @throws InputError: a surface of held bodies, or two motions of one body

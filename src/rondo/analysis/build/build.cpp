@@ -10,6 +10,7 @@
 
 #include "rondo/analysis/build/initial_state.hpp"
 #include "rondo/analysis/build/memory.hpp"
+#include "rondo/analysis/build/physical.hpp"
 #include "rondo/analysis/build/stability.hpp"
 #include "rondo/case/case_keys.hpp"
 #include "rondo/integrators/fused/batch_integrator.hpp"
@@ -250,6 +251,7 @@ Setup build(const Case& c, int threads, SharedBody* shared) {
   s.model.dt = choose_step(c, s.critical);
   s.n_steps = count_steps(c, s.model.dt);
   check_stability(c, s);
+  tell_physical_figures(c, s);
   if (shared) shared->setup.frequencies_above = s.frequencies_above;
   return s;
 }

@@ -8,6 +8,7 @@
 
 #include "rondo/analysis/build/bodies.hpp"
 #include "rondo/analysis/build/memory.hpp"
+#include "rondo/analysis/build/overlap.hpp"
 #include "rondo/core/contract.hpp"
 #include "rondo/output/run_options.hpp"
 
@@ -62,6 +63,7 @@ CrushSetup build_crush(const Case& c) {
   s.mesh = build_mesh(c, &s.warnings);
   s.materials = materials_of(c, s.mesh);
   refuse_free_bodies(c, s.mesh);
+  refuse_overlaps(c, {s.mesh, s.mesh.coordinates}, s.warnings);
   s.mass = fem::lumped_mass(s.mesh, s.materials);
   s.free = fem::free_nodes(s.mesh);
   s.model = statics::make_crush_model(s.mesh.coordinates, s.mesh.boundary, c.ground->friction);

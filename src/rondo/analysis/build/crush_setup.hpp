@@ -3,7 +3,7 @@
 #pragma once
 #include <string>
 
-#include "rondo/case/case.hpp"
+#include "rondo/case/setup.hpp"
 #include "rondo/statics/crush.hpp"
 
 namespace rondo::study {
@@ -18,7 +18,8 @@ struct CrushSetup {
   double touch_height = 0.0;   ///< of the centre above the ground at first touch        [m]
   double reach = 0.0;          ///< largest clearance of the candidates condensed at first [m]
   std::size_t within_reach = 0;
-  std::vector<std::string> warnings;  ///< of the reader of the mesh
+  std::vector<Told> figures;          ///< of a physical kind, for `rondo check`
+  std::vector<std::string> warnings;  ///< for the user: the caller prints them
 
   [[nodiscard]] std::size_t n_dofs() const noexcept { return 2 * free.size(); }
   [[nodiscard]] Vec2 center(const statics::CrushState& state) const noexcept {

@@ -4,10 +4,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <limits>
 
 #include "rondo/analysis/build/bodies.hpp"
-#include "rondo/mesh/locate.hpp"
+#include "rondo/analysis/build/overlap.hpp"
 #include "rondo/statics/stationary_spin.hpp"
 
 namespace rondo::study {
@@ -90,43 +89,6 @@ void check_ground(const Case& c, const std::vector<double>& size, const std::vec
                     depth.deepest));
 }
 
-/// Distance from x to the nearest contact edge of a body; infinite where it has none [m].
-double depth_in(const Setup& s, const std::vector<Vec2>& x, int body, Vec2 p) {
-  double nearest = std::numeric_limits<double>::infinity();
-  for (const mesh::Edge& edge : s.model.surfaces->edges) {
-    if (s.model.body[at(edge[0])] != body) continue;
-    const Vec2 a = x[at(edge[0])], d = x[at(edge[1])] - a;
-    const double along = std::clamp(dot(p - a, d) / dot(d, d), 0.0, 1.0);
-    nearest = std::min(nearest, norm(p - a - along * d));
-  }
-  return nearest;
-}
-
-void check_each_other(const Case& c, const std::vector<double>& size, const std::vector<Vec2>& x,
-                      Setup& s) {
-  if (!s.model.surfaces || s.model.body.empty()) return;
-  const std::vector<int>& body = s.model.body;
-  const mesh::CellGrid grid(x, s.mesh.cells);
-  Depth depth;
-  for (const int node : s.model.surfaces->nodes)
-    for (const int e : grid.near(x[at(node)])) {
-      const int other = body[at(s.mesh.cells[at(e)][0])];
-      if (other != body[at(node)] && grid.within(e, x[at(node)]))
-        depth.add(depth_in(s, x, other, x[at(node)]), size[at(node)], true);
-    }
-  if (depth.worst > 0.5)
-    throw case_error(c, "contact.between",
-                     fmt::format("two bodies start {:.4g} m inside each other, more than half an "
-                                 "element ({:.4g} m)",
-                                 depth.deepest, depth.allowed),
-                     "bodies that start apart from each other");
-  if (depth.deepest > 1e-9 * extent_of(s.mesh))
-    s.warnings.push_back(
-        fmt::format("two bodies start {:.4g} m inside each other: contact keeps them from going "
-                    "deeper, but does not push them out",
-                    depth.deepest));
-}
-
 }  // namespace
 
 void set_initial_fields(const Case& c, Setup& s, SharedBody* shared) {
@@ -143,8 +105,8 @@ void set_initial_fields(const Case& c, Setup& s, SharedBody* shared) {
     s.velocity[k] = c.initial.velocity;  // θ(0) = 0: both frames have the same axes
     if (!in_fixed_frame(model, k)) continue;
     const std::size_t b = at(model.free_body[k]);
-    s.velocity[k] =
-        motions[b].velocity + motions[b].angular_velocity * turn90(x - model.free_bodies[b].center);
+    const double spin = -motions[b].angular_velocity;  // counter-clockwise
+    s.velocity[k] = motions[b].velocity + spin * turn90(x - model.free_bodies[b].center);
   }
 }
 
@@ -152,7 +114,7 @@ void check_start(const Case& c, Setup& s) {
   const std::vector<double> size = element_sizes(s.mesh);
   const std::vector<Vec2> x = start_positions(s);
   check_ground(c, size, x, s);
-  check_each_other(c, size, x, s);
+  refuse_overlaps(c, {s.mesh, x, s.model.surfaces.has_value()}, s.warnings);
 }
 
 }  // namespace rondo::study

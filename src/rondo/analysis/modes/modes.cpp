@@ -14,6 +14,8 @@
 #include "rondo/analysis/analysis.hpp"
 #include "rondo/analysis/build/build.hpp"
 #include "rondo/analysis/build/memory.hpp"
+#include "rondo/analysis/build/overlap.hpp"
+#include "rondo/analysis/build/physical.hpp"
 #include "rondo/analysis/modes/modes_output.hpp"
 #include "rondo/analysis/run.hpp"
 #include "rondo/core/error.hpp"
@@ -42,7 +44,10 @@ Body make_body(const Case& c) {
   Body b;
   b.warnings = c.warnings;
   b.mesh = build_mesh(c, &b.warnings);
+  refuse_overlaps(c, {b.mesh, b.mesh.coordinates, c.body_contact.between != BodyContact::none},
+                  b.warnings);
   b.materials = materials_of(c, b.mesh);
+  warn_of_units(c, b.mesh, b.materials, b.warnings);
   b.mass = fem::lumped_mass(b.mesh, b.materials);
   b.wide_rows = has_wide_rows(c, b.mesh);
   b.free = static_cast<int>(modal::free_bodies(b.mesh).size());

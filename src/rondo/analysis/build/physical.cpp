@@ -1,0 +1,198 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "rondo/analysis/build/physical.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <optional>
+
+#include "rondo/analysis/build/bodies.hpp"
+
+namespace rondo::study {
+namespace {
+
+constexpr const char* si = "are the units m, kg, s, Pa, rad/s?";
+
+struct Range {
+  double low = std::numeric_limits<double>::infinity();
+  double high = -std::numeric_limits<double>::infinity();
+  void take(double value) {
+    low = std::min(low, value);
+    high = std::max(high, value);
+  }
+};
+
+/// Visits t = 0, the end, the points of the tables and times between.
+template <class Visit>
+void each_time(const Case& c, Visit&& visit) {
+  constexpr int parts = 500;
+  for (int k = 0; k <= parts; ++k) visit(c.time.end * k / parts);
+  for (const auto* table : {&c.motion.angular_velocity, &c.motion.speed, &c.motion.height})
+    for (const auto& [time, value] : table->points())
+      if (time > 0.0 && time < c.time.end) visit(time);
+}
+
+const char* order_of(double modulus) {
+  if (modulus < soft_modulus) return "softer than gels";
+  if (modulus < 1e6) return "as gels and soft foams";
+  if (modulus < 1e8) return "as rubber";
+  if (modulus < 5e9) return "as leather and plastics";
+  if (modulus < 5e10) return "as wood, stone and glass";
+  return modulus < 1e12 ? "as metals" : "stiffer than any metal";
+}
+
+/// A round body on a rim: between what is held and what may touch.
+struct Wall {
+  double radius = 0.0, thickness = 0.0;  ///< [m]
+};
+
+/// None where nothing is held, or it is not round.
+std::optional<Wall> wall_of(const mesh::Mesh& mesh) {
+  constexpr double round = 0.9;
+  if (mesh.clamped.empty() || mesh.boundary.empty()) return std::nullopt;
+  const auto radius = [&](int node) {
+    return norm(mesh.coordinates[static_cast<std::size_t>(node)]);
+  };
+  Range outer, inner;
+  for (const int node : mesh.boundary) outer.take(radius(node));
+  for (const int node : mesh.clamped) inner.take(radius(node));
+  if (outer.low < round * outer.high || inner.high >= outer.low) return std::nullopt;
+  return Wall{outer.high, outer.high - inner.high};
+}
+
+struct Tell {
+  std::vector<Told>& figures;
+  std::vector<std::string>& warnings;
+};
+
+/// What the wall is pressed in by, and about how hard: as a layer on a rim, E/(1 - ν²) times that
+/// over its thickness.
+void tell_deflection(double deflection, const Wall& wall, const fem::Material& m, const Tell& to) {
+  if (!(deflection > 0.0)) {
+    to.figures.emplace_back("deflection",
+                            fmt::format("none: {:.4g} m above the ground", -deflection));
+    return;
+  }
+  const double share = deflection / wall.thickness;
+  const double of_modulus = share / (1.0 - m.poissons_ratio * m.poissons_ratio);
+  to.figures.emplace_back("deflection",
+                          fmt::format("{:.4g} m, {:.3g} % of the {:.4g} m of the wall", deflection,
+                                      100.0 * share, wall.thickness));
+  to.figures.emplace_back(
+      "contact pressure",
+      fmt::format("about {:.2g} Pa, {:.2g} of E", of_modulus * m.youngs_modulus, of_modulus));
+  if (share > deep_share)
+    to.warnings.push_back(fmt::format(
+        "the rim comes down by {:.4g} m, {:.3g} % of the {:.4g} m between it and the ground at "
+        "first "
+        "touch, with a pressure of about {:.2g} of E: the law of the material is for small strains",
+        deflection, 100.0 * share, wall.thickness, of_modulus));
+}
+
+void tell_slip(const Case& c, double radius, const Tell& to) {
+  Range slip, both_move;
+  each_time(c, [&](double t) {
+    const double rim = c.motion.angular_velocity.at(t) * radius, speed = c.motion.speed.at(t);
+    const double ratio = dynamics::slip_ratio(rim, speed);
+    slip.take(ratio);
+    if (rim != 0.0 && speed != 0.0) both_move.take(ratio);
+  });
+  to.figures.emplace_back("slip ratio", slip.low == slip.high
+                                            ? fmt::format("{:.3g}", slip.low + 0.0)
+                                            : fmt::format("{:.3g} to {:.3g}", slip.low, slip.high));
+  const double worst = std::max(both_move.high, -both_move.low);
+  if (worst > wide_slip)
+    to.warnings.push_back(
+        fmt::format("the slip ratio is {:.3g}: motion.angular_velocity times the radius of {:.4g} "
+                    "m is far from "
+                    "motion.speed; {}",
+                    both_move.high == worst ? both_move.high : both_move.low, radius, si));
+}
+
+/// Of what may touch, and of the rim [m/s].
+double fastest(const Case& c, const Setup& s, double radius) {
+  double speed = 0.0;
+  for (const int node : s.model.free)
+    speed = std::max(speed, norm(s.velocity[static_cast<std::size_t>(node)]));
+  double rim = 0.0;
+  if (is_held(c))
+    each_time(c, [&](double t) {
+      rim = std::max({rim, std::abs(c.motion.angular_velocity.at(t)) * radius,
+                      std::abs(c.motion.speed.at(t))});
+    });
+  return speed + rim;
+}
+
+void tell_speed(double speed, const std::vector<fem::Material>& materials, const Tell& to) {
+  double shear = std::numeric_limits<double>::infinity();
+  for (const fem::Material& m : materials) shear = std::min(shear, fem::wave_speeds(m).shear);
+  const double share = speed / shear;
+  to.figures.emplace_back("speed", fmt::format("{:.4g} m/s, {:.2g} of the shear wave ({:.4g} m/s)",
+                                               speed, share, shear));
+  if (share > fast_share)
+    to.warnings.push_back(
+        fmt::format("{:.4g} m/s is {:.3g} times the speed of shear waves ({:.4g} m/s): strains are "
+                    "of about that size, and the law of the material is for small ones; {}",
+                    speed, share, shear, si));
+}
+
+void tell_stiffness(const fem::Material& m, const Tell& to) {
+  to.figures.emplace_back(
+      "stiffness", fmt::format("E = {:.3g} Pa, {}", m.youngs_modulus, order_of(m.youngs_modulus)));
+}
+
+}  // namespace
+
+void warn_of_units(const Case& c, const mesh::Mesh& mesh,
+                   const std::vector<fem::Material>& materials,
+                   std::vector<std::string>& warnings) {
+  for (const fem::Material& m : materials) {
+    const double e = m.youngs_modulus, density = m.density, sound = std::sqrt(e / density);
+    const bool light = density < least_density && e >= soft_modulus;
+    if (sound >= slow_sound && sound <= fast_sound && !light && density <= largest_density)
+      continue;
+    warnings.push_back(
+        fmt::format("a material with E = {:.3g} Pa and a density of {:.3g} kg/m3, in which waves "
+                    "travel at {:.3g} m/s, is {}; {}",
+                    e, density, sound,
+                    light                       ? "lighter than foams"
+                    : density > largest_density ? "heavier than any metal"
+                    : sound < slow_sound        ? "softer than gels"
+                                                : "stiffer than diamond",
+                    si));
+    break;  // the same slip in all of them
+  }
+  const double size = extent_of(mesh);
+  if (size > largest_size || size < least_size)
+    warnings.push_back(fmt::format("the body is {:.3g} m long: are {} in metres?", 2.0 * size,
+                                   c.mesh ? "the lengths of the mesh (mesh.scale)" : "the radii"));
+}
+
+void tell_physical_figures(const Case& c, Setup& s) {
+  const Tell to{s.figures, s.warnings};
+  warn_of_units(c, s.mesh, s.materials, s.warnings);
+  tell_stiffness(c.material, to);
+  const std::optional<Wall> wall = is_held(c) ? wall_of(s.mesh) : std::nullopt;
+  if (has_candidates(s.model))  // alone in space only spin strains: see the check of softening
+    tell_speed(fastest(c, s, wall ? wall->radius : extent_of(s.mesh)), s.materials, to);
+  if (!wall || !s.model.contact) return;
+  double deflection = -std::numeric_limits<double>::infinity();
+  each_time(c, [&](double t) {
+    const double gap = s.model.contact->ground.distance(c.motion.center(t));
+    deflection = std::max(deflection, wall->radius - gap);
+  });
+  tell_deflection(deflection, *wall, c.material, to);
+  tell_slip(c, wall->radius, to);
+}
+
+void tell_physical_figures(const Case& c, CrushSetup& s) {
+  const Tell to{s.figures, s.warnings};
+  warn_of_units(c, s.mesh, s.materials, s.warnings);
+  tell_stiffness(c.material, to);
+  if (const std::optional<Wall> wall = wall_of(s.mesh))
+    tell_deflection(c.analysis.depth, *wall, c.material, to);
+}
+
+}  // namespace rondo::study

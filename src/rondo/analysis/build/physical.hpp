@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: BSD-3-Clause
+/// @file  Whether the numbers of a case are those of a body in SI units, and small strains: figures
+/// for `rondo check`, and warnings by them (docs/cases.md, Physical figures).
+#pragma once
+#include <string>
+#include <vector>
+
+#include "rondo/analysis/build/crush_setup.hpp"
+#include "rondo/case/setup.hpp"
+
+namespace rondo::study {
+
+// What is warned of, beyond what any body of rubber, plastic, metal or foam does.
+inline constexpr double fast_share = 0.5;      ///< of the slowest shear wave
+inline constexpr double deep_share = 0.2;      ///< deflection over thickness
+inline constexpr double wide_slip = 0.5;       ///< |slip ratio| where rim and centre both move
+inline constexpr double slow_sound = 5.0;      ///< sqrt(E/ρ) [m/s]
+inline constexpr double fast_sound = 3e4;      ///< sqrt(E/ρ) [m/s]
+inline constexpr double least_density = 10.0;  ///< of a material of at least soft_modulus [kg/m3]
+inline constexpr double soft_modulus = 1e4;    ///< [Pa]
+inline constexpr double largest_density = 2.5e4;  ///< [kg/m3]
+inline constexpr double largest_size = 10.0;      ///< half the length of the mesh [m]
+inline constexpr double least_size = 1e-4;        ///< likewise [m]
+
+/// Of materials and size alone: modes as well.
+void warn_of_units(const Case& c, const mesh::Mesh& mesh,
+                   const std::vector<fem::Material>& materials, std::vector<std::string>& warnings);
+
+/// Fills figures and warnings. @pre the fields of the start are set
+void tell_physical_figures(const Case& c, Setup& s);
+void tell_physical_figures(const Case& c, CrushSetup& s);
+
+}  // namespace rondo::study

@@ -1,0 +1,77 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "rondo/analysis/strain_watch.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+
+#include "rondo/model/corotated.hpp"
+
+namespace rondo::study {
+namespace {
+
+/// Mean of its corners, undeformed [m].
+Vec2 middle_of(const mesh::Mesh& mesh, std::size_t cell) {
+  const int n = mesh::n_corners(mesh.cells[cell]);
+  Vec2 sum;
+  for (int a = 0; a < n; ++a)
+    sum +=
+        mesh.coordinates[static_cast<std::size_t>(mesh.cells[cell][static_cast<std::size_t>(a)])];
+  return sum / n;
+}
+
+}  // namespace
+
+StrainWatch::StrainWatch(const mesh::Mesh& mesh, const dynamics::Model* model)
+    : mesh_(mesh), model_(model && !model->free_bodies.empty() ? model : nullptr) {
+  if (model_) elastic_.resize(mesh.n_nodes());
+}
+
+std::string StrainWatch::cell_text(std::size_t cell) const {
+  const Vec2 at = middle_of(mesh_, cell);
+  return fmt::format("element {} near ({:.4g}, {:.4g})", cell, at.x, at.y);
+}
+
+std::string StrainWatch::look(std::span<const Vec2> u, std::span<const dynamics::Pose> poses,
+                              double time) {
+  if (model_) {
+    dynamics::elastic_displacements(*model_, u, poses, elastic_);
+    u = elastic_;
+  }
+  const fem::Deformation now = fem::deformation(mesh_, u);
+  largest_.add(now, time);
+  if (now.jacobian > 0.0) return {};
+  return fmt::format(
+      "{} of the undeformed mesh is inverted: J = {:.3g}, its area over that undeformed. The body "
+      "has left what its mesh and small strains mean; a smaller load, or a stiffer material",
+      cell_text(now.jacobian_cell), now.jacobian);
+}
+
+void StrainWatch::summarise(const TimeWords& words, Json& j, RunReport& r) const {
+  const fem::Deformation& found = largest_.found;
+  if (!std::isfinite(found.jacobian)) return;  // the run had no look
+  const auto place = [&](std::size_t cell) {
+    const Vec2 at = middle_of(mesh_, cell);
+    return Json::array({at.x, at.y});
+  };
+  const auto where = [&](std::size_t cell, double time) {
+    return fmt::format("{}, {}{:.4g}{}", cell_text(cell), words.before, time, words.after);
+  };
+  j["strain_max"] = found.strain;
+  j["strain_max_cell"] = found.strain_cell;
+  j["strain_max_place"] = place(found.strain_cell);
+  j["strain_max_time"] = largest_.strain_time;
+  j["jacobian_min"] = found.jacobian;
+  j["jacobian_min_cell"] = found.jacobian_cell;
+  j["jacobian_min_place"] = place(found.jacobian_cell);
+  j["jacobian_min_time"] = largest_.jacobian_time;
+  r.strain_max = found.strain;
+  r.jacobian_min = found.jacobian;
+  if (found.strain <= small_strain) return;
+  r.warnings.push_back(fmt::format(
+      "the largest strain is {:.3g} ({}): the law of the material is for small strains, and above "
+      "{:.0f} % what it says is a rough figure",
+      found.strain, where(found.strain_cell, largest_.strain_time), 100.0 * small_strain));
+}
+
+}  // namespace rondo::study

@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: BSD-3-Clause
+/// @file  How far a body is strained in a run, and whether a cell turns inside out: looked at now
+/// and then, at what costs about a percent of the steps.
+#pragma once
+#include <span>
+#include <string>
+#include <vector>
+
+#include "rondo/fem/strain.hpp"
+#include "rondo/model/model.hpp"
+#include "rondo/output/run_files.hpp"
+
+namespace rondo::study {
+
+/// Above it a run says that the law of the material is one of small strains.
+inline constexpr double small_strain = 0.10;
+
+/// A look takes about as long as ten steps: one every so many steps at the least, and at snapshots
+/// that are so far apart.
+inline constexpr long long steps_between_looks = 1000, steps_between_snapshot_looks = 100;
+
+/// How the time of a look is told: "t = 0.1 s".
+struct TimeWords {
+  const char* before = "t = ";
+  const char* after = " s";
+};
+
+class StrainWatch {
+ public:
+  /// @param model of the free bodies, whose rotation is no strain; null: there are none. Both must
+  /// outlive the object.
+  explicit StrainWatch(const mesh::Mesh& mesh, const dynamics::Model* model = nullptr);
+
+  /// @param u (n) finite [m] @param poses (free_bodies)
+  /// @return the trouble: the inverted cell, with its place; empty: there is none
+  std::string look(std::span<const Vec2> u, std::span<const dynamics::Pose> poses, double time);
+
+  [[nodiscard]] const fem::LargestDeformation& largest() const noexcept { return largest_; }
+  /// Goes on from what was seen before.
+  void restore(const fem::LargestDeformation& before) noexcept { largest_ = before; }
+
+  /// Adds to run.json and to the report, which gets a warning above small_strain.
+  void summarise(const TimeWords& words, Json& json, RunReport& report) const;
+
+ private:
+  [[nodiscard]] std::string cell_text(std::size_t cell) const;
+
+  const mesh::Mesh& mesh_;
+  const dynamics::Model* model_;
+  std::vector<Vec2> elastic_;  ///< (n) where bodies are free
+  fem::LargestDeformation largest_;
+};
+
+}  // namespace rondo::study

@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "rondo/fem/strain.hpp"
+
+#include <cmath>
+
+namespace rondo::fem {
+
+/// The gradient at the centre of a bilinear cell maps its diagonals, that of a triangle two edges:
+/// [a b] and what they change by give ∂u/∂X = [δa δb] [a b]⁻¹.
+Deformation deformation(const mesh::Mesh& mesh, std::span<const Vec2> u) noexcept {
+  Deformation d;
+  for (std::size_t e = 0; e < mesh.cells.size(); ++e) {
+    const mesh::Cell& cell = mesh.cells[e];
+    const bool triangle = cell[3] < 0;
+    const auto i = static_cast<std::size_t>(cell[0]), j = static_cast<std::size_t>(cell[1]),
+               k = static_cast<std::size_t>(cell[2]),
+               l = static_cast<std::size_t>(triangle ? cell[0] : cell[3]);
+    const Vec2 a = mesh.coordinates[k] - mesh.coordinates[i];
+    const Vec2 b = mesh.coordinates[l] - mesh.coordinates[j];
+    const Vec2 da = u[k] - u[i], db = u[l] - u[j];
+    const double scale = 1.0 / cross(a, b);
+    const double xx = scale * (da.x * b.y - db.x * a.y), xy = scale * (db.x * a.x - da.x * b.x);
+    const double yx = scale * (da.y * b.y - db.y * a.y), yy = scale * (db.y * a.x - da.y * b.x);
+    const double deviation = std::sqrt((xx - yy) * (xx - yy) + (xy + yx) * (xy + yx));
+    const double strain = 0.5 * (std::abs(xx + yy) + deviation);
+    const double jacobian = (1.0 + xx) * (1.0 + yy) - xy * yx;
+    if (strain > d.strain) {
+      d.strain = strain;
+      d.strain_cell = e;
+    }
+    if (jacobian < d.jacobian) {
+      d.jacobian = jacobian;
+      d.jacobian_cell = e;
+    }
+  }
+  return d;
+}
+
+void LargestDeformation::add(const Deformation& now, double time) noexcept {
+  if (now.strain > found.strain) {
+    found.strain = now.strain;
+    found.strain_cell = now.strain_cell;
+    strain_time = time;
+  }
+  if (now.jacobian < found.jacobian) {
+    found.jacobian = now.jacobian;
+    found.jacobian_cell = now.jacobian_cell;
+    jacobian_time = time;
+  }
+}
+
+}  // namespace rondo::fem

@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: BSD-3-Clause
+/// @file  How far a body is deformed, cell by cell (docs/theory.md, 2.9): whether small strains
+/// still mean something.
+#pragma once
+#include <cstddef>
+#include <limits>
+#include <span>
+
+#include "rondo/mesh/mesh.hpp"
+
+namespace rondo::fem {
+
+/// Of all cells, at their centres; the first cell of equal ones.
+struct Deformation {
+  double strain = 0.0;  ///< largest |principal strain| of the law of the material
+  std::size_t strain_cell = 0;
+  /// Smallest det(I + ∂u/∂X): the cell's area over that undeformed; <= 0: it is inverted.
+  double jacobian = std::numeric_limits<double>::infinity();
+  std::size_t jacobian_cell = 0;
+};
+
+/// @param u (n) finite, in the frame of the body: without rigid rotation [m]. @pre there is a cell
+[[nodiscard]] Deformation deformation(const mesh::Mesh& mesh, std::span<const Vec2> u) noexcept;
+
+/// The extremes over a run.
+struct LargestDeformation {
+  Deformation found;
+  double strain_time = 0.0, jacobian_time = 0.0;  ///< when they were seen
+
+  /// Of equal ones the earlier stays.
+  void add(const Deformation& now, double time) noexcept;
+};
+
+}  // namespace rondo::fem

@@ -1,0 +1,66 @@
+// SPDX-License-Identifier: BSD-3-Clause
+/// Strain and volume of cells, against linear fields whose gradient is known.
+#include "rondo/fem/strain.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+namespace rondo::fem {
+namespace {
+
+/// A skew quadrilateral and a triangle on its right.
+mesh::Mesh two_cells() {
+  mesh::Mesh m;
+  m.coordinates = {{0.0, 0.0}, {2.0, 0.3}, {2.4, 1.7}, {-0.2, 1.1}, {4.0, 0.5}};
+  m.cells = {{0, 1, 2, 3}, {1, 4, 2, -1}};
+  return m;
+}
+
+std::vector<Vec2> linear(const mesh::Mesh& m, double xx, double xy, double yx, double yy) {
+  std::vector<Vec2> u;
+  for (const Vec2 x : m.coordinates) u.push_back({xx * x.x + xy * x.y, yx * x.x + yy * x.y});
+  return u;
+}
+
+TEST(Strain, OfALinearField) {
+  const mesh::Mesh m = two_cells();
+  const Deformation d = deformation(m, linear(m, 0.04, 0.05, -0.01, -0.06));
+  // Principal strains: -0.01 ± sqrt(0.05² + 0.02²).
+  EXPECT_NEAR(d.strain, 0.01 + std::hypot(0.05, 0.02), 1e-15);
+  EXPECT_NEAR(d.jacobian, 1.04 * 0.94 + 0.05 * 0.01, 1e-15);
+}
+
+TEST(Strain, NamesTheCell) {
+  const mesh::Mesh m = two_cells();
+  std::vector<Vec2> u(m.n_nodes());
+  EXPECT_EQ(deformation(m, u).strain, 0.0);
+  EXPECT_EQ(deformation(m, u).jacobian, 1.0);
+  u[4] = {-0.5, 0.0};  // of the triangle alone
+  EXPECT_EQ(deformation(m, u).strain_cell, 1U);
+  EXPECT_EQ(deformation(m, u).jacobian_cell, 1U);
+  u[4] = {-3.0, 0.0};  // through its other side
+  EXPECT_LT(deformation(m, u).jacobian, 0.0);
+}
+
+/// Area over area of a cell whose map is not linear.
+TEST(Strain, JacobianIsTheAreaOfACell) {
+  mesh::Mesh m;
+  m.coordinates = {{0.0, 0.0}, {1.0, 0.0}, {1.0, 1.0}, {0.0, 1.0}};
+  m.cells = {{0, 1, 2, 3}};
+  EXPECT_NEAR(deformation(m, std::vector<Vec2>{{}, {}, {0.5, 0.25}, {}}).jacobian, 1.375, 1e-15);
+}
+
+TEST(Strain, TheLargestStays) {
+  LargestDeformation all;
+  all.add({0.2, 3, 0.9, 4}, 1.0);
+  all.add({0.1, 5, 0.8, 6}, 2.0);
+  all.add({0.2, 7, 0.8, 8}, 3.0);
+  EXPECT_EQ(all.found.strain_cell, 3U);
+  EXPECT_EQ(all.strain_time, 1.0);
+  EXPECT_EQ(all.found.jacobian_cell, 6U);
+  EXPECT_EQ(all.jacobian_time, 2.0);
+}
+
+}  // namespace
+}  // namespace rondo::fem
