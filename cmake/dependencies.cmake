@@ -9,7 +9,6 @@ find_package(nlohmann_json 3 REQUIRED)
 find_package(tomlplusplus REQUIRED)
 find_package(CLI11 REQUIRED)
 find_package(OpenMP REQUIRED COMPONENTS CXX)
-find_package(HDF5 REQUIRED COMPONENTS C)
 
 if(NOT TARGET rondo_cholmod)
   find_library(CHOLMOD_LIBRARY cholmod REQUIRED)
@@ -44,7 +43,11 @@ if(NOT TARGET rondo_cholmod)
   target_link_libraries(rondo_xxhash INTERFACE ${XXHASH_LIBRARY})
   target_include_directories(rondo_xxhash SYSTEM INTERFACE ${XXHASH_INCLUDE_DIR})
 
+  # By itself: FindHDF5 asks for a project with C. The serial library comes first, as Debian has it.
+  find_library(RONDO_HDF5_LIBRARY NAMES hdf5_serial hdf5 HINTS ENV HDF5_ROOT REQUIRED)
+  find_path(RONDO_HDF5_INCLUDE_DIR hdf5.h HINTS ENV HDF5_ROOT
+            PATH_SUFFIXES include include/hdf5/serial hdf5/serial REQUIRED)
   add_library(rondo_hdf5 INTERFACE IMPORTED)
-  target_link_libraries(rondo_hdf5 INTERFACE ${HDF5_C_LIBRARIES})
-  target_include_directories(rondo_hdf5 SYSTEM INTERFACE ${HDF5_C_INCLUDE_DIRS})
+  target_link_libraries(rondo_hdf5 INTERFACE ${RONDO_HDF5_LIBRARY})
+  target_include_directories(rondo_hdf5 SYSTEM INTERFACE ${RONDO_HDF5_INCLUDE_DIR})
 endif()

@@ -3,7 +3,15 @@ include(CMakePackageConfigHelpers)
 get_property(modules GLOBAL PROPERTY RONDO_MODULES)
 install(TARGETS ${modules} EXPORT rondo-targets ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR})
 install(TARGETS rondo rondo-mesh-reader RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
-install(DIRECTORY src/rondo DESTINATION ${CMAKE_INSTALL_INCLUDEDIR} FILES_MATCHING PATTERN "*.hpp")
+include(cmake/public_headers.cmake)
+foreach(header ${RONDO_PUBLIC_HEADERS} ${RONDO_INCLUDED_HEADERS})
+  get_filename_component(folder ${header} DIRECTORY)
+  set(file ${PROJECT_SOURCE_DIR}/src/rondo/${header})
+  if(header STREQUAL "core/version.hpp")
+    set(file ${PROJECT_BINARY_DIR}/generated/rondo/${header})
+  endif()
+  install(FILES ${file} DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/rondo/${folder})
+endforeach()
 install(EXPORT rondo-targets NAMESPACE rondo:: DESTINATION ${CMAKE_INSTALL_LIBDIR}/cmake/rondo)
 configure_package_config_file(cmake/rondo-config.cmake.in
                               ${PROJECT_BINARY_DIR}/rondo-config.cmake
@@ -14,8 +22,6 @@ install(FILES ${PROJECT_BINARY_DIR}/rondo-config.cmake
               ${PROJECT_BINARY_DIR}/rondo-config-version.cmake cmake/dependencies.cmake
         DESTINATION ${CMAKE_INSTALL_LIBDIR}/cmake/rondo)
 install(DIRECTORY cases DESTINATION ${CMAKE_INSTALL_DATADIR}/rondo)
-install(FILES ${PROJECT_BINARY_DIR}/generated/rondo/core/version.hpp
-        DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/rondo/core)
 
 # The Python package, where Debian's python3 looks when the prefix is /usr/local.
 find_program(SYSTEM_PYTHON NAMES python3 PATHS /usr/bin NO_DEFAULT_PATH)

@@ -7,6 +7,7 @@
 #include <filesystem>
 #include <functional>
 
+#include "default_directory.hpp"
 #include "progress.hpp"
 #include "rondo/analysis/registry.hpp"
 #include "rondo/analysis/run.hpp"
@@ -16,12 +17,6 @@
 
 namespace rondo::app {
 namespace {
-
-/// cases/ledge.toml -> cases/ledge; a case without an extension gets one: ledge -> ledge.results
-std::filesystem::path default_directory(const std::filesystem::path& case_file) {
-  if (!case_file.has_extension()) return case_file.string() + ".results";
-  return case_file.parent_path() / case_file.stem();
-}
 
 int finish(const study::RunReport& r, const std::filesystem::path& directory) {
   for (const std::string& warning : r.warnings) spdlog::warn(warning);
@@ -77,7 +72,9 @@ void complete(RunArguments& arguments) {
       arguments.case_file = (given / "case.toml").string();
     }
   }
-  if (into.empty()) into = default_directory(arguments.case_file);
+  if (into.empty())
+    into = arguments.options.resume ? resumed_directory(arguments.case_file, "run.json")
+                                    : default_directory(arguments.case_file);
 }
 
 /// Of what this program did: a run that goes on counts from there.

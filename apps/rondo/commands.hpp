@@ -17,16 +17,16 @@ struct CaseArguments {
 };
 
 struct RunArguments : CaseArguments {
-  study::RunOptions options;  ///< no directory: the case's name beside it
+  study::RunOptions options;  ///< no directory: the case's name, in the working folder
   bool realtime_factor = false;
 };
 
 struct ModesArguments : CaseArguments {
-  study::ModesRequest request;  ///< no directory: the case's name and "-modes" beside it
+  study::ModesRequest request;  ///< no directory: the case's name and "-modes"
 };
 
 struct SweepArguments {
-  study::SweepRequest request;  ///< no directory: the study's name beside it
+  study::SweepRequest request;  ///< no directory: the study's name
   int jobs = 0;                 ///< runs at once; 0: as many as there are cores
   bool dry_run = false;
 };

@@ -7,6 +7,7 @@
 #include <unistd.h>
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <cerrno>
 #include <csignal>
 #include <cstdio>
@@ -16,6 +17,7 @@
 
 #include "commands.hpp"
 #include "rondo/core/build_id.hpp"
+#include "rondo/core/edit_distance.hpp"
 #include "rondo/core/error.hpp"
 #include "rondo/core/version.hpp"
 #include "rondo/output/run_files.hpp"
@@ -47,7 +49,7 @@ CLI::App* add_run(CLI::App& program, app::RunArguments& arguments, bool& quiet) 
            "case file (TOML, docs/cases.md); with --resume a results directory will do");
   add_threads(*run, options.threads);
   run->add_option("-o,--output", options.directory,
-                  "results directory; the case's name beside it if left out");
+                  "results directory; the case's name in the working folder if left out");
   CLI::Option* overwrite =
       run->add_flag("--overwrite", options.overwrite, "replaces another run's results there");
   run->add_flag("--resume", options.resume,
@@ -185,8 +187,9 @@ CLI::App* add_modes(CLI::App& program, app::ModesArguments& arguments, bool& qui
       "modes", "frequencies and shapes of a case's body, at rest and spinning; critical speeds");
   study::ModesRequest& r = arguments.request;
   add_case(*modes, arguments);
-  modes->add_option("-o,--output", r.run.directory,
-                    "results directory; the case's name and \"-modes\" beside it if left out");
+  modes->add_option(
+      "-o,--output", r.run.directory,
+      "results directory; the case's name and \"-modes\" in the working folder if left out");
   modes->add_option("--count", r.count, "modes at each spin, besides rigid-body motions")
       ->check(CLI::Range(1, 100000))
       ->capture_default_str();
@@ -219,7 +222,7 @@ CLI::App* add_sweep(CLI::App& program, app::SweepArguments& arguments, bool& qui
       "sweep", "a parametric study: many runs of one case, on all cores or under mpirun");
   sweep->add_option("study", r.study, "study file (TOML, docs/studies.md)")->required();
   sweep->add_option("-o,--output", r.directory,
-                    "directory of the study; its name beside it if left out");
+                    "directory of the study; its name in the working folder if left out");
   sweep
       ->add_option("--set", r.settings,
                    "KEY=VALUE: a key of the base case, for all runs; repeatable")
@@ -250,6 +253,22 @@ int report_input_error(const InputError& error) {
   return exit_input;
 }
 
+/// Before the arguments are read: an option as --help would hide that there is no such command.
+void demand_command(CLI::App& program, const std::string& name) {
+  std::string names, nearest;
+  std::size_t least = std::max<std::size_t>(1, name.size() / 3) + 1;
+  for (const CLI::App* command : program.get_subcommands({})) {
+    if (command->get_name() == name) return;
+    names += (names.empty() ? "" : ", ") + command->get_name();
+    const std::size_t distance = edit_distance(name, command->get_name());
+    if (distance >= least) continue;
+    least = distance;
+    nearest = fmt::format("; did you mean rondo {}?", command->get_name());
+  }
+  throw InputError(
+      Fault{"", 0, 0, "rondo " + name, "", "there is no such command" + nearest, names});
+}
+
 int dispatch_command(CLI::App& program, int argc, char** argv) {
   bool quiet = false;  // of the one command that is given
   int check_threads = 0;
@@ -266,6 +285,7 @@ int dispatch_command(CLI::App& program, int argc, char** argv) {
   const CLI::App* modes = add_modes(program, modes_arguments, quiet);
   add_paper(program);
   const CLI::App* sweep = add_sweep(program, sweep_arguments, quiet);
+  if (argc > 1 && argv[1][0] != '-') demand_command(program, argv[1]);
   try {
     program.parse(argc, argv);
   } catch (const CLI::ParseError& error) {

@@ -8,16 +8,12 @@
 #include <functional>
 #include <numbers>
 
+#include "default_directory.hpp"
 #include "progress.hpp"
 #include "signals.hpp"
 
 namespace rondo::app {
 namespace {
-
-/// cases/annulus.toml -> cases/annulus-modes
-std::filesystem::path default_directory(const std::filesystem::path& case_file) {
-  return case_file.parent_path() / (case_file.stem().string() + "-modes");
-}
 
 void print_modes(const study::ModesReport& r) {
   fmt::print("{:>5}  {:>12}  {:>14}  {:>12}  {:>9}  {:<9} {:>9}\n", "mode", "spin (rad/s)",
@@ -43,7 +39,8 @@ int modes(ModesArguments arguments, bool quiet) {
   if (quiet) spdlog::set_level(spdlog::level::warn);
   const study::Case c = study::read_case(arguments.case_file, arguments.settings);
   study::ModesRequest& request = arguments.request;
-  if (request.run.directory.empty()) request.run.directory = default_directory(arguments.case_file);
+  if (request.run.directory.empty())
+    request.run.directory = default_directory(arguments.case_file, "-modes");
   request.run.warn = [](const std::string& text) { spdlog::warn(text); };
   request.run.stop = &stop_requested();
   request.run.before_loop = catch_stop_signals;

@@ -12,6 +12,7 @@
 #include <optional>
 #include <string_view>
 
+#include "default_directory.hpp"
 #include "mpi_team.hpp"
 #include "progress.hpp"
 #include "rondo/analysis/build/memory.hpp"
@@ -63,7 +64,8 @@ void print_plan(const study::DrySweep& dry, int workers) {
 int finish(const study::SweepReport& report, const std::filesystem::path& directory) {
   for (const std::string& failure : report.failures) spdlog::warn("{}", failure);
   if (report.failed > report.failures.size())
-    spdlog::warn("and {} more: sweep.json", report.failed - report.failures.size());
+    spdlog::warn("and {} more: {}", report.failed - report.failures.size(),
+                 (directory / "sweep.json").string());
   if (report.interrupted > 0) {
     spdlog::warn("interrupted with {} of {} runs done; --resume goes on", report.done,
                  report.members);
@@ -78,6 +80,9 @@ int finish(const study::SweepReport& report, const std::filesystem::path& direct
 
 int run(SweepArguments& arguments, study::Team& team, bool quiet) {
   study::SweepRequest& request = arguments.request;
+  if (request.directory.empty())
+    request.directory = request.resume ? resumed_directory(request.study, "sweep.json")
+                                       : default_directory(request.study);
   request.stop = &stop_requested();
   request.warn = [](const std::string& text) { spdlog::warn("{}", text); };
   std::optional<Progress> progress;
@@ -129,8 +134,6 @@ int run_ranks(SweepArguments& arguments, study::Team& team, bool quiet) {
 }  // namespace
 
 int sweep(SweepArguments arguments, bool quiet) {
-  std::filesystem::path& directory = arguments.request.directory;
-  if (directory.empty()) (directory = arguments.request.study).replace_extension();
   if (quiet) spdlog::set_level(spdlog::level::warn);
   catch_stop_signals();
   if (!is_started_by_mpi()) {

@@ -1,5 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Reads and draws what the program rondo writes: rondo.open("results").plot_field(0.1)."""
+"""Runs cases, reads and draws what the program rondo writes:
+rondo.run("case.toml").plot_field(0.1), rondo.open("results")."""
+from .calls import run
 from .data.errors import Error, NewerSchemaError, NotARunError, UnfinishedRunError, UnknownNameError
 from .data.history import History
 from .data.mesh import Mesh
@@ -19,4 +21,4 @@ del attach
 
 __all__ = ["Error", "History", "Mesh", "Modes", "NewerSchemaError", "NotARunError", "Paper", "Pod",
            "Run", "Sweep", "UnfinishedRunError", "UnknownNameError", "Validation", "open",
-           "open_modes", "open_paper", "open_pod", "open_sweep", "open_validation"]
+           "open_modes", "open_paper", "open_pod", "open_sweep", "open_validation", "run"]

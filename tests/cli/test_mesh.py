@@ -231,6 +231,23 @@ class Meshes(ProgramTest):
         self.assertIn('case.toml:5:11: mesh.contact = "tred"', done.stderr)
         self.assertIn('did you mean "tread"?', done.stderr)
 
+    def test_who_is_asked_for_a_physical_group_is_told_how_to_define_one(self):
+        for text, settings, line in (
+                (BLOCK, ["mesh.contact="], 'Physical Curve("tread") = {1, 2};'),
+                (TWO, ["mesh.contact="], 'Physical Curve("tread") = {1, 2};'),
+                (TWO, ["mesh.contact=tred"], 'Physical Curve("tred") = {1, 2};'),
+                (TWO, ["initial.region[0].surface=lefd"], 'Physical Surface("lefd") = {1, 2};'),
+                (BLOCK, ["mesh.clamped=", "analysis.kind=crush", "analysis.depth=0.001",
+                         "analysis.increments=2"], 'Physical Curve("rim") = {1, 2};')):
+            done = run("check", self.case(text), *[f"--set={setting}" for setting in settings])
+            self.assertEqual(done.returncode, 2, settings)
+            self.assertIn(f"in the .geo: {line}", done.stderr)
+
+    def test_what_the_mesh_says_is_said_with_its_file(self):
+        done = run("check", self.case(BLOCK), "--set", "mesh.contact=sides")
+        self.assertIn(f"{self.folder / 'block.msh'}: 2 nodes of the contact curve \"sides\" are clamped",
+                      done.stderr)
+
 
 if __name__ == "__main__":
     unittest.main()

@@ -204,8 +204,11 @@ class Modes(ProgramTest):
         self.assertTrue((out / "mine.txt").exists())
         self.assertIn("case.toml", self.fails("--overwrite", case=out / "case.toml", settings=[]))
         case = self.case(replaced(SMALL, "end", "end = 0.001"))
-        self.assertEqual(run("modes", case, "--count", 1).returncode, 0)
-        self.assertTrue((self.folder / "case-modes" / "modes.csv").exists())
+        work = self.folder / "work"
+        work.mkdir()
+        self.assertEqual(run("modes", case, "--count", 1, cwd=work).returncode, 0)
+        self.assertTrue((work / "case-modes" / "modes.csv").exists())
+        self.assertFalse((self.folder / "case-modes").exists())
 
     def test_interrupted(self):
         out = self.folder / "out"

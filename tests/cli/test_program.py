@@ -98,6 +98,15 @@ class Program(ProgramTest):
             self.assertEqual(done.returncode, 0)
             self.assertIn("Example:", done.stdout)
 
+    def test_an_unknown_command(self):
+        for arguments, meant in ((["bogus", "--help"], None), (["runn"], "run"), (["swep"], "sweep"),
+                                 (["runn", "--help"], "run"), (["RUN", "case.toml"], "run")):
+            done = run(*arguments)
+            self.assertEqual((done.returncode, done.stdout), (2, ""), arguments)
+            self.assertIn(f"rondo {arguments[0]}: there is no such command", done.stderr)
+            self.assertIn("run, check, pod, reduce, modes", done.stderr)
+            self.assertEqual(f"did you mean rondo {meant}?" in done.stderr, meant is not None)
+
     def test_no_progress_bar_where_there_is_no_terminal(self):
         done = run("run", self.case(), "-o", self.folder / "out")
         self.assertNotIn("\r", done.stderr)

@@ -344,7 +344,8 @@ class Refused(ResumeTest):
         other = replaced(self.TEXT, "friction", "friction = 0.4\nrestitution = 0.1\n"
                          "impact = \"energy-safe\"")
         self.assert_refused(self.resume(other, "--set", "disk.mesh.radial=4"), 2,
-                            "ground.friction = 0.4", "(allowed: 0.3; or --overwrite",
+                            f"{self.out / 'checkpoint.h5'}: ground.friction = 0.4",
+                            "(allowed: 0.3; or --overwrite",
                             "ground.restitution = 0.1", "ground.impact = \"energy-safe\"",
                             "disk.mesh.radial = 4", "4 faults")
         no_ground = self.TEXT[: self.TEXT.index("[ground]")] + self.TEXT[self.TEXT.index("[time]"):]

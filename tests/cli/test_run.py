@@ -140,13 +140,36 @@ class Run(RunTest):
             for name in ("/snapshots/displacement", "/snapshots/velocity", "/contact/force"):
                 self.assertEqual(a[name][:].tobytes(), b[name][:].tobytes(), name)
 
+    def elsewhere(self):
+        """A folder to work in that is not the case's."""
+        folder = self.folder / "work"
+        folder.mkdir()
+        return folder
+
     def test_set_and_default_directory(self):
+        work = self.elsewhere()
         done = run("run", self.case(), "--set", "ground.friction=0.0", "--set", "time.end=0.005",
-                   "--quiet")
+                   "--quiet", cwd=work)
         self.assertEqual((done.returncode, done.stderr, done.stdout), (0, "", ""))
-        h = history(self.folder / "case")
+        h = history(work / "case")
         self.assertEqual(np.abs(h["force_x"]).max(), 0.0)
-        self.assertIn("friction = 0.0", (self.folder / "case" / "case.toml").read_text())
+        self.assertIn("friction = 0.0", (work / "case" / "case.toml").read_text())
+        self.assertEqual(sorted(path.name for path in self.folder.iterdir()), ["case.toml", "work"])
+
+    def test_results_beside_the_case_are_gone_on_with(self):
+        """Where earlier versions put them."""
+        work = self.elsewhere()
+        before = self.folder / "case"
+        self.assertEqual(run("run", self.case(), "-o", before, "--quiet").returncode, 0)
+        later = ("run", self.case(), "--resume", "--quiet", "--set", "time.end=0.025")
+        done = run(*later, cwd=work)
+        self.assertEqual(done.returncode, 0, done.stderr)
+        self.assertIn(f"-o {before} to go on with them", done.stderr)
+        self.assertEqual(history(before)["time_s"][-1], 0.025)
+        self.assertEqual(list(work.iterdir()), [])
+        self.assertEqual(run(*later, "-o", "case", cwd=work).returncode, 0)
+        done = run(*later, cwd=work)  # there are results in the working folder now
+        self.assertEqual((done.returncode, done.stderr), (0, ""))
 
     def test_another_run_is_not_overwritten(self):
         self.run_ok()
@@ -171,8 +194,8 @@ class Run(RunTest):
             self.assertEqual(case.read_text(), text)
 
     def test_case_without_an_extension(self):
-        case = self.case(name="plain")
-        self.assertEqual(run("run", case, "--quiet").returncode, 0)
+        self.case(name="plain")
+        self.assertEqual(run("run", "plain", "--quiet", cwd=self.folder).returncode, 0)
         self.assertTrue((self.folder / "plain.results" / "run.json").exists())
 
     def test_warnings(self):

@@ -157,7 +157,7 @@ target = { force_y = [5e4, 1e5] }
 key = "ground.friction"
 values = [0.0, 0.3]
 """
-        self.sweep(text=text)
+        self.assertIn("target.force_y is the load at rest", self.sweep(text=text).stderr)
         rows = table(self.out)
         self.assertEqual([float(row["target.force_y"]) for row in rows], [5e4, 5e4, 1e5, 1e5])
         crush = self.case(replaced(replaced(SMALL, "end", None), "[time]", None)
@@ -279,6 +279,22 @@ class Refused(SweepTest):
                 self.assertEqual((self.out / "results.csv").read_bytes(), kept)
         done = run("sweep", self.folder / "study.toml", "-o", self.out, "--resume")
         self.assertIn("2 were there already", done.stderr)
+
+    def test_default_directory(self):
+        """The study's name in the working folder; of earlier versions, beside the study."""
+        work = self.folder / "work"
+        work.mkdir()
+        study = self.study()
+        before = study.with_suffix("")
+        self.assertEqual(run("sweep", study, "-o", before, "--quiet").returncode, 0)
+        done = run("sweep", study, "--resume", cwd=work)
+        self.assertEqual(done.returncode, 0, done.stderr)
+        self.assertIn(f"-o {before} to go on with them", done.stderr)
+        self.assertIn("9 were there already", done.stderr)
+        done = run("sweep", study, "--quiet", cwd=work)
+        self.assertEqual((done.returncode, done.stderr), (0, ""))
+        self.assertEqual((work / "study" / "results.csv").read_bytes(),
+                         (before / "results.csv").read_bytes())
 
     def test_files_that_are_not_its_own(self):
         for name in ("results.csv", "sweep.h5", "timings.csv", "runs"):

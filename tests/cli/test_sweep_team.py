@@ -26,7 +26,8 @@ values = [33, 2000, 34]
 
     def test_one_that_fails_is_recorded_and_the_others_go_on(self):
         done = self.sweep(text=self.FAILING, code=3)
-        self.assertIn("run 2 (motion.angular_velocity = 2000)", done.stderr)
+        self.assertIn(f"run 2 (motion.angular_velocity = 2000) in {self.out / 'runs' / '0002'}: ",
+                      done.stderr)
         rows = table(self.out)
         self.assertEqual([row["status"] for row in rows], ["done", "failed", "done"])
         self.assertTrue(np.isnan(float(rows[1]["force_y_mean"])))

@@ -8,6 +8,13 @@ from program import LEDGE, ProgramTest, line_of, replaced, run
 EDITS = [
     ("unknown key", "friction", "frictoin = 0.3", ["ground.frictoin", "ground.friction"]),
     ("unknown table", "[ground]", "[grund]", ["grund", "ground"]),
+    ("a synonym", "youngs_modulus", "young = 2e7",
+     ["material.young = 2e7: unknown key; did you mean material.youngs_modulus?"]),
+    ("a symbol", "friction", "mu = 0.3", ["ground.mu", "did you mean ground.friction?"]),
+    ("a synonym of a key elsewhere", "speed", "velocity = 10.0",
+     ["motion.velocity", "did you mean motion.speed?"]),
+    ("a load", "[initial]", "[load]\nforce_y = 5e4\n[initial]",
+     ["load.force_y", "motion.height", "[[load.pressure]]"]),
     ("wrong type", "youngs_modulus", 'youngs_modulus = "soft"', ["material.youngs_modulus", "string"]),
     ("boolean for number", "density", "density = true", ["material.density", "boolean"]),
     ("float for integer", "radial", "radial = 12.5", ["disk.mesh.radial", "12.5", "integer"]),

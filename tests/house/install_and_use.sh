@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # Installs the build into a folder of its own, builds another program against it and runs both; imports
-# the Python package from there.
+# the Python package from there. The headers are those of the list, and each stands by itself.
 set -euo pipefail
 build=$1 source=$2 build_type=$3
 work=$(mktemp -d)
@@ -10,10 +10,17 @@ cmake --install "$build" --prefix "$work/prefix" >/dev/null
 test -x "$work/prefix/bin/rondo-mesh-reader"
 test -f "$work/prefix/share/rondo/cases/ledge-smooth.toml"
 cmake -S "$source/tests/house/consumer" -B "$work/build" -G Ninja -DCMAKE_BUILD_TYPE="$build_type" \
-  -DCMAKE_PREFIX_PATH="$work/prefix" >/dev/null
+  -DCMAKE_PREFIX_PATH="$work/prefix" -DRONDO_INCLUDE="$work/prefix/include" >/dev/null
 cmake --build "$work/build"
+cases=$work/prefix/share/rondo/cases
 RONDO_MESH_READER="$work/prefix/bin/rondo-mesh-reader" \
-  "$work/build/consumer" "$work/prefix/share/rondo/cases/meshes/block.msh"
+  "$work/build/consumer" "$cases/meshes/block.msh" "$cases/rolling-flat.toml" "$work/results"
+for header in $(sed -n '/PUBLIC_HEADERS/,/)/p' "$source/cmake/public_headers.cmake" | grep -o '[a-z/_]*\.hpp'); do
+  grep -qF "rondo/$header" "$source/docs/library.md" || {
+    echo "docs/library.md does not name rondo/$header"
+    exit 1
+  }
+done
 
 package=$(cd "$work/prefix" && echo lib/python3*/dist-packages)
 test -z "$(find "$work/prefix" -name __pycache__)"

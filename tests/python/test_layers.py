@@ -11,7 +11,7 @@ DRAWS = ("plots", "figures", "pictures", "style")
 ALLOWED = {  # by the first folder, or the module itself: what it may import besides its own
     "data": set(), "style": set(), "plots": {"data", "style"}, "studies": {"data"},
     "figures": {"data", "plots", "style"}, "pictures": {"data", "plots"},
-    "__init__": {"data", "pictures"},
+    "calls": {"data", "studies"}, "__init__": {"calls", "data", "pictures"},
     "__main__": {"__init__", "data", "studies", "figures", "style"},
 }
 

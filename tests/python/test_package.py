@@ -149,6 +149,7 @@ def test_the_guide(runs, tmp_path, monkeypatch):
         shutil.copytree(runs / name, tmp_path / "results" / name)
     traction = sweeps.grid(tmp_path / "results" / "traction", (0.1, 0.2, 0.4, 0.6))
     shutil.copytree(runs / "smooth", traction / "runs" / "0001")
+    shutil.copytree(ROOT / "cases", tmp_path / "cases")
     monkeypatch.chdir(tmp_path)
     blocks = re.findall(r"^```python\n(.*?)^```$", GUIDE.read_text(), re.MULTILINE | re.DOTALL)
     assert len(blocks) > 5

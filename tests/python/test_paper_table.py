@@ -177,7 +177,7 @@ def test_the_edge_of_a_ring(smooth, tmp_path):
         turned = np.stack([-x[:, 1], x[:, 0]], axis=1)
         swing = np.array([0, 2, -2, 0, 0, 0, 0, 0, 0, 1, -1])[:, None, None]
         file["snapshots/displacement"][:] = 0.01 * (5 + swing) * x + 0.3 * turned  # radius 0.3
-    measures = Measures(tmp_path, Plan([], [], 0, []))
+    measures = Measures(tmp_path, Plan([], [], 0, [], tmp_path / "study.toml"))
     assert measures.edge_at_the_end("ring") == pytest.approx(0.01 * 4 * 0.3)
     assert measures.edge_at_the_start("ring") == pytest.approx(0.01 * 5 * 0.3)
     assert measures.edge_mean("ring") == pytest.approx(0.01 * 5 * 0.3)

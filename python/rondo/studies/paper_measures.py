@@ -32,7 +32,7 @@ class Measures:
         """["mean", "force_y", "turn-smooth", 0.1]: name and arguments."""
         name, *arguments = measure
         if name.startswith("_") or name == "of" or not hasattr(Measures, name):
-            raise Error(f"study.toml: there is no measure {name!r}")
+            raise Error(f"{self._plan.path}: there is no measure {name!r}")
         return float(getattr(self, name)(*arguments))
 
     # The edge of a ring

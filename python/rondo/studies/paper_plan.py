@@ -39,6 +39,7 @@ class Plan:
     pods: list[PlannedPod]
     modes: int                  # kept of each POD
     rows: list[dict[str, Any]]  # of the table, as in the file
+    path: pathlib.Path          # the file
 
 
 def study_folder() -> pathlib.Path:
@@ -71,7 +72,8 @@ def _plan(folder: pathlib.Path, study: dict[str, Any], quick: bool) -> Plan:
     rows = _counts(study["counts"]) + study["row"]
     rows = [{**row, **row.get("quick", {})} if quick else row for row in rows
             if not (quick and row.get("full_only"))]
-    return Plan(runs, pods, int(study["pod"]["modes"]), sorted(rows, key=lambda row: row["figure"]))
+    return Plan(runs, pods, int(study["pod"]["modes"]), sorted(rows, key=lambda row: row["figure"]),
+                folder / "study.toml")
 
 
 def _counts(counts: dict[str, Any]) -> list[dict[str, Any]]:

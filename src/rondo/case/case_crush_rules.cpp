@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "rondo/case/case_rules.hpp"
+#include "rondo/mesh/physical_group.hpp"
 
 namespace rondo::study {
 namespace {
@@ -42,7 +43,7 @@ void check_crush(CaseValues& in, Case& c) {
     in.fault("disk.rim", "a crush presses a disk down by its rim", "\"bonded\"");
   if (c.mesh && !is_held(c) && in.good({"mesh.clamped"}))
     in.fault("mesh.clamped", "a crush presses a body down by what is held",
-             "a physical curve of the mesh");
+             "a physical curve of the mesh, " + mesh::physical_group_line("Curve", "rim"));
   check_flat(in, c);
   if (c.body_contact.between != BodyContact::none)
     in.fault("contact.between", "a crush knows no contact but with the ground", "\"none\"");

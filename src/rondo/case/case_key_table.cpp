@@ -205,7 +205,9 @@ constexpr CaseKey keys[] = {
      "acceleration of gravity, downwards: 9.81 on Earth"},
 
     {"ground.profile", "m", FIELD(ground->shape.profile), any, required,
-     "surface of the ground, see below; required where there is a `[ground]`"},
+     "surface of the ground, see below; required where there is a `[ground]`. Of a CSV file, whose "
+     "name is relative to the case file's directory, the `case.toml` of the results has the "
+     "points"},
     {"ground.fillet", "m", FIELD(ground->shape.fillet), not_negative, optional.of(in_motion_untold),
      "radius that rounds all convex corners; 0: they are sharp"},
     {"ground.friction", "-", FIELD(ground->friction), between(0, 100), optional.body(never),

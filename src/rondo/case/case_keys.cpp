@@ -29,7 +29,8 @@ constexpr Words words[] = {
     {"string", "any text"},
     {"string", ""},
     {"float or array of pairs", "a finite number or [[t, value], ...] with t increasing"},
-    {"string or array of pairs", "\"flat\" or [[x, y], ...] from left to right"},
+    {"string or array of pairs",
+     "\"flat\", [[x, y], ...] from left to right, or the name of a CSV file with columns x, y"},
     {"array of 2 floats", "[x, y], finite numbers"},
     {"array of 2 arrays of 2 floats", "[[a, b], [c, d]], finite numbers"},
 };
@@ -269,6 +270,18 @@ std::string_view nearest_key(std::string_view path) {
   for (const std::string_view inner : table_names())
     consider(is_list(inner) ? inner.substr(0, inner.size() - 2) : inner);
   return best;
+}
+
+std::string meant_text(std::string_view path) {
+  const std::string any_item = without_indices(path);
+  std::string meant{nearest_key(path)};
+  for (const Synonym& synonym : synonyms_of_keys()) {
+    if (synonym.word != leaf_of(any_item)) continue;
+    if (synonym.key.empty()) return std::string(synonym.instead);
+    const std::string here = fmt::format("{}.{}", table_of(any_item), leaf_of(synonym.key));
+    meant = find_case_key(here) != nullptr ? here : std::string(synonym.key);
+  }
+  return meant.empty() ? meant : fmt::format("did you mean {}?", meant);
 }
 
 }  // namespace rondo::study

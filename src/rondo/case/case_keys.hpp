@@ -208,8 +208,20 @@ std::string keys_text(std::string_view table);
 std::string_view table_of(std::string_view path) noexcept;
 std::string_view leaf_of(std::string_view path) noexcept;
 
+/// What other programs or books call a key: the last part of its path.
+struct Synonym {
+  std::string_view word;
+  std::string_view key;        ///< that is meant
+  std::string_view instead{};  ///< where there is no such key: what there is
+};
+std::span<const Synonym> synonyms_of_keys() noexcept;
+
 /// The key or table that was probably meant; empty: nothing is near. A key of the right name in the
 /// wrong table counts as near.
 std::string_view nearest_key(std::string_view path);
+
+/// What to say of a key that does not exist: "did you mean ...?", by its synonyms, else by
+/// nearest_key(); empty: nothing.
+std::string meant_text(std::string_view path);
 
 }  // namespace rondo::study

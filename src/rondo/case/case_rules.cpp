@@ -5,6 +5,8 @@
 
 #include <algorithm>
 
+#include "rondo/mesh/physical_group.hpp"
+
 namespace rondo::study {
 namespace {
 
@@ -77,7 +79,7 @@ void check_material(CaseValues& in, Case& c) {
              "nothing turns a free body: there is no spin whose stress could be taken", "\"none\"");
   if (!c.mesh && !c.regions.empty())
     in.fault("material.region[0]", "a [disk] is of one material",
-             "a [mesh] with physical surfaces");
+             "a [mesh] with physical surfaces, " + mesh::physical_group_line("Surface", "tread"));
   check_names(in, "material.region[].surface", c);
   warn_of_locking("material.poissons_ratio", c.material, c);
   for (std::size_t k = 0; k < c.regions.size(); ++k)
@@ -99,7 +101,8 @@ void check_ground(CaseValues& in, const Case& c) {
   if (!c.ground) return;
   if (c.mesh && c.mesh->contact.empty())
     in.fault("ground.profile", "no part of the mesh may touch the ground",
-             "mesh.contact, a physical curve, beside it");
+             "mesh.contact = \"tread\" beside it, a physical curve; " +
+                 mesh::physical_group_line("Curve", "tread"));
   if (!in.good({"ground", "ground.profile", "ground.fillet"})) return;
   for (const contact::ShapeFault& fault : contact::shape_faults(c.ground->shape)) {
     if (fault.about_fillet && in.has("ground.fillet"))
@@ -117,7 +120,8 @@ void check_body_contact(CaseValues& in, Case& c) {
         "candidates: it touches nothing but the ground; for grooves that close take a [mesh]");
   if (c.mesh && c.mesh->contact.empty())
     in.fault("contact.between", "no part of the mesh may touch anything",
-             "mesh.contact, a physical curve, beside it");
+             "mesh.contact = \"tread\" beside it, a physical curve; " +
+                 mesh::physical_group_line("Curve", "tread"));
 }
 
 /// Keys of free bodies in a case that can have none.

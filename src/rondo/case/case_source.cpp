@@ -40,7 +40,9 @@ bool nested_too_deeply(std::string_view text) {
   return false;
 }
 
-std::string read_text(const std::filesystem::path& file, std::string_view what) {
+}  // namespace
+
+std::string read_input(const std::filesystem::path& file, std::string_view what) {
   const std::string name = file.string();
   std::error_code error;
   const auto status = std::filesystem::status(file, error);
@@ -62,6 +64,14 @@ std::string read_text(const std::filesystem::path& file, std::string_view what) 
   if (text.size() > largest_file)
     throw InputError(
         file_fault(name, fmt::format("is longer than {} may be", what), "at most 16 MB"));
+  return text;
+}
+
+namespace {
+
+std::string read_text(const std::filesystem::path& file, std::string_view what) {
+  const std::string name = file.string();
+  std::string text = read_input(file, what);
   if (text.find_first_not_of(" \t\r\n") == std::string::npos)
     throw InputError(file_fault(name, "the file is empty", fmt::format("{} in TOML", what)));
   if (text.find('\0') != std::string::npos)

@@ -59,6 +59,10 @@ struct TomlShape {
   bool (*is_list)(std::string_view path);
 };
 
+/// The text of a file that the user gave. @param what  "a case file", for messages
+/// @throws InputError where it is not there, a directory, above 16 MB, or cannot be read.
+std::string read_input(const std::filesystem::path& file, std::string_view what);
+
 /// A file of any kind, without settings. @throws InputError where it cannot be read or is not TOML.
 CaseSource load_toml(const std::filesystem::path& file, const TomlShape& shape);
 /// The same from a text that messages call `name`.

@@ -9,6 +9,7 @@
 #include <tuple>
 #include <utility>
 
+#include "rondo/case/profile_file.hpp"
 #include "rondo/core/contract.hpp"
 
 namespace rondo::study {
@@ -23,10 +24,9 @@ const CaseKey& spec(std::string_view key) {
 }
 
 std::string unknown_text(const std::string& path, const CaseValue& value) {
-  std::string said = value.type == ValueType::table ? "unknown table" : "unknown key";
-  const std::string_view near = nearest_key(path);
-  if (!near.empty()) said += fmt::format("; did you mean {}?", near);
-  return said;
+  const std::string_view said = value.type == ValueType::table ? "unknown table" : "unknown key";
+  const std::string meant = meant_text(path);
+  return fmt::format("{}{}{}", said, meant.empty() ? "" : "; ", meant);
 }
 
 std::string keys_beside(std::string_view path) {
@@ -116,6 +116,12 @@ void CaseValues::fault(std::string_view key, std::string message, std::string al
 
 void CaseValues::fault_at_item(std::string_view key, int item, std::string message) {
   const auto found = source_.values.find(key);
+  if (key == "ground.profile" && item >= 0 && !profile_lines_.empty()) {
+    const int line = profile_lines_[static_cast<std::size_t>(item)];
+    faults_.push_back({found->second.place,
+                       {profile_file_, line, 1, std::string(key), "", std::move(message), ""}});
+    return;
+  }
   if (found == source_.values.end() || item < 0 ||
       static_cast<std::size_t>(item) >= found->second.items.size())
     return fault(key, std::move(message));
@@ -149,8 +155,9 @@ void CaseValues::add_missing_tables() {
 void CaseValues::finish() {
   add_missing_tables();
   const auto order = [](const Located& a) {
-    const int line = a.fault.line > 0 ? a.fault.line : std::numeric_limits<int>::max();
-    return std::tuple(a.place.source, line, a.fault.column);
+    const bool known = a.place.source == 0 && a.place.line > 0;
+    return std::tuple(a.place.source, known ? a.place.line : std::numeric_limits<int>::max(),
+                      known ? a.place.column : 0);
   };
   std::stable_sort(faults_.begin(), faults_.end(),
                    [&](const Located& a, const Located& b) { return order(a) < order(b); });
@@ -269,12 +276,29 @@ void CaseValues::take(const Reading& in, dynamics::Table& target) {
   if (!points.empty() && n_bad == 0) target = dynamics::Table(std::move(points));
 }
 
+/// Relative to the case file, as the mesh; also where --set names it.
+void CaseValues::take_profile_file(const Reading& in, std::vector<Vec2>& target) {
+  const auto folder = std::filesystem::path(source_.sources[0].name).parent_path();
+  const std::filesystem::path file = folder / in.value.text;
+  try {
+    ProfileFile profile = parse_profile(file.string(), read_input(file, "a profile"));
+    for (Fault& fault : profile.faults) faults_.push_back({in.value.place, std::move(fault)});
+    if (profile.points.empty()) return static_cast<void>(bad_keys_.emplace(in.path));
+    target = std::move(profile.points);
+    profile_file_ = file.string();
+    profile_lines_ = std::move(profile.lines);
+  } catch (const InputError& error) {
+    const Fault& fault = error.faults().front();
+    bad(in, in.value, fmt::format("{}: {}", fault.file, fault.message));
+  }
+}
+
 /// "flat" leaves the profile as it is.
 void CaseValues::take(const Reading& in, std::vector<Vec2>& target) {
   const CaseValue& value = in.value;
   if (value.type == ValueType::text && value.text == "flat") return;
-  if (value.type == ValueType::text) return bad(in, value, "is not one of the choices");
-  if (value.type != ValueType::array) return wrong_type(in, value, "\"flat\" or an array of pairs");
+  if (value.type == ValueType::text) return take_profile_file(in, target);
+  if (value.type != ValueType::array) return wrong_type(in, value, "a string or an array of pairs");
   if (value.items.size() < 2) return bad(in, value, "must have at least two points");
   const auto points = pairs(in);
   if (points.empty()) return;

@@ -74,6 +74,7 @@ class CaseValues {
   void take(const Reading& in, Matrix& target);
   void take(const Reading& in, dynamics::Table& target);
   void take(const Reading& in, std::vector<Vec2>& target);
+  void take_profile_file(const Reading& in, std::vector<Vec2>& target);
   void check_key(const std::string& path, const CaseValue& value);
   void not_a_list(const std::string& path, const CaseValue& value);
   void add_missing_tables();
@@ -83,6 +84,8 @@ class CaseValues {
   std::vector<Located> faults_;
   std::set<std::string, std::less<>> bad_keys_;
   std::map<std::string, std::vector<std::string>, std::less<>> missing_;  ///< by absent table
+  std::string profile_file_;        ///< of the ground; empty: there is none
+  std::vector<int> profile_lines_;  ///< in it, of the points
 };
 
 }  // namespace rondo::study

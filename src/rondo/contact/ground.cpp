@@ -114,6 +114,7 @@ Ground::Ground(const GroundShape& shape) {
       length += arc.to;
     }
   }
+  for (const Facet& facet : facets_) begins_.push_back(facet.begin.x);
   if (direction(p, 0).y >= 0.0 && direction(p, n - 1).y <= 0.0)
     top_ = std::max_element(p.begin(), p.end(), [](Vec2 a, Vec2 b) { return a.y < b.y; })->y;
 }
@@ -138,10 +139,27 @@ Ground::Projection Ground::project(const Facet& f, Vec2 x) noexcept {
   return out;
 }
 
+/// Facets go from left to right: one that is farther along x than the facet under the point is from
+/// it cannot be nearer. What is left out is farther by more than round-off.
+std::pair<std::size_t, std::size_t> Ground::around(Vec2 x) const noexcept {
+  constexpr std::size_t few = 8;  // are sooner looked at than searched
+  if (facets_.size() <= few) return {0, facets_.size()};
+  const auto after = [&](double place) {
+    return static_cast<std::size_t>(std::ranges::upper_bound(begins_, place) - begins_.begin());
+  };
+  const std::size_t under = std::max<std::size_t>(after(x.x), 1) - 1;
+  const double reach = project(facets_[under], x).distance;
+  const double wide = reach + 1e-6 * (reach + std::abs(x.x));
+  const std::size_t first =
+      static_cast<std::size_t>(std::ranges::lower_bound(begins_, x.x - wide) - begins_.begin());
+  return {std::max<std::size_t>(first, 1) - 1, std::max<std::size_t>(after(x.x + wide), 1)};
+}
+
 std::size_t Ground::nearest(Vec2 x, Projection& projection) const noexcept {
-  std::size_t best = 0;
-  projection = project(facets_[0], x);
-  for (std::size_t k = 1; k < facets_.size(); ++k) {
+  const auto [first, last] = around(x);
+  std::size_t best = first;
+  projection = project(facets_[first], x);
+  for (std::size_t k = first + 1; k < last; ++k) {
     const Projection candidate = project(facets_[k], x);
     if (candidate.distance < projection.distance) {
       projection = candidate;

@@ -7,6 +7,7 @@
 #include <limits>
 #include <span>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "rondo/core/vec2.hpp"
@@ -53,7 +54,8 @@ class Ground {
   /// @pre shape_faults(shape) is empty.
   explicit Ground(const GroundShape& shape);
 
-  /// Facets with gap <= 0 at x. O(facets); one comparison where x is above the whole ground.
+  /// Facets with gap <= 0 at x. Looks at those as far as the
+  /// surface is; one comparison where x is above the whole ground.
   [[nodiscard]] Touches touches(Vec2 x) const noexcept;
   /// Signed distance to the surface, > 0 outside                                           [m]
   [[nodiscard]] double distance(Vec2 x) const noexcept;
@@ -85,8 +87,11 @@ class Ground {
   };
   [[nodiscard]] static Projection project(const Facet& facet, Vec2 x) noexcept;
   [[nodiscard]] std::size_t nearest(Vec2 x, Projection& projection) const noexcept;
+  /// The first facet that may be the nearest, and the one after the last.
+  [[nodiscard]] std::pair<std::size_t, std::size_t> around(Vec2 x) const noexcept;
 
   std::vector<Facet> facets_;
+  std::vector<double> begins_;  ///< (n_facets) x of their beginnings [m]
   std::vector<Corner> corners_;
   double top_ = std::numeric_limits<double>::infinity();  ///< [m]
 };

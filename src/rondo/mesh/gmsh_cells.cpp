@@ -8,6 +8,7 @@
 
 #include "rondo/mesh/gmsh_draft.hpp"
 #include "rondo/mesh/mesh_check.hpp"
+#include "rondo/mesh/physical_group.hpp"
 
 namespace rondo::mesh {
 namespace {
@@ -207,7 +208,8 @@ Draft draft_mesh(const RawMesh& raw, const TagIndex& index, const MeshRequest& r
   if (cells.empty() && !has_other)
     findings.add("there are no triangles and no quadrilaterals in it",
                  "a surface mesh (gmsh -2); with physical groups only what is in one is saved, "
-                 "unless Mesh.SaveAll = 1");
+                 "unless Mesh.SaveAll = 1: " +
+                     physical_group_line("Surface", "body"));
   check_coordinates(draft, findings);
   check_plane(raw, draft, findings);
   warn_of_dropped(raw, draft, findings);

@@ -6,6 +6,7 @@
 
 #include "rondo/core/edit_distance.hpp"
 #include "rondo/mesh/gmsh_draft.hpp"
+#include "rondo/mesh/physical_group.hpp"
 
 namespace rondo::mesh {
 namespace {
@@ -68,6 +69,9 @@ void check_name(const std::string& key, const std::string& name, int dimension,
                                   kinds[static_cast<std::size_t>(other->dimension)], kind);
   }
   fault.allowed = all_names(groups) + probably_meant(groups, dimension, name);
+  if (found == nullptr && (dimension == 1 || dimension == 2))
+    fault.allowed +=
+        "; to define one, " + physical_group_line(dimension == 1 ? "Curve" : "Surface", name);
   findings.faults.push_back(std::move(fault));
 }
 

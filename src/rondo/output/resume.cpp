@@ -174,6 +174,25 @@ void refuse_without_checkpoints(const std::filesystem::path& directory) {
                       "the same command with --overwrite to run it again, or another -o");
 }
 
+namespace {
+
+/// What differs is told with the file whose run it is.
+Checkpoint read_checkpoint_of(const std::filesystem::path& directory, const RunIdentity& now,
+                              const Case& c, const Setup& setup) {
+  try {
+    Checkpoint k = read_checkpoint(
+        directory, [&](const RunIdentity& then) { demand_same_program(then, now); });
+    demand_same_run(k, now, c, setup);
+    return k;
+  } catch (const InputError& error) {
+    std::vector<Fault> faults = error.faults();
+    for (Fault& fault : faults) fault.file = (directory / checkpoint_name).string();
+    throw InputError(std::move(faults));
+  }
+}
+
+}  // namespace
+
 std::optional<Checkpoint> find_checkpoint(const RunIdentity& now, const Case& c, const Setup& setup,
                                           const std::filesystem::path& directory) {
   std::error_code error;
@@ -182,9 +201,7 @@ std::optional<Checkpoint> find_checkpoint(const RunIdentity& now, const Case& c,
     clear_without_checkpoint(c, directory);
     return std::nullopt;
   }
-  Checkpoint k =
-      read_checkpoint(directory, [&](const RunIdentity& then) { demand_same_program(then, now); });
-  demand_same_run(k, now, c, setup);
+  Checkpoint k = read_checkpoint_of(directory, now, c, setup);
   demand_sound(k, c, setup, directory);
   k.is_at_end = k.state.step >= setup.n_steps;
   if (k.n_steps != setup.n_steps)

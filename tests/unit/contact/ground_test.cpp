@@ -3,7 +3,9 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
 #include <random>
 
@@ -162,6 +164,38 @@ TEST(Ground, SharpDistanceIsContinuousAndHasTheRightSign) {
       ASSERT_EQ(ground.touches(p).count > 0, below);
       ASSERT_LE(std::abs(ground.distance(p) - ground.distance(q)), norm(p - q) + 1e-15);
     }
+  }
+}
+
+/// Of a profile with many points only those near are looked at: the same as with all of them.
+TEST(Ground, ManyFacetsAreSearched) {
+  std::mt19937 random(7);
+  std::uniform_real_distribution<double> unit(0.0, 1.0);
+  GroundShape shape{.profile = {{0.0, 0.0}}};
+  for (int i = 0; i < 400; ++i) {
+    const bool step = unit(random) < 0.2;  // vertical
+    const Vec2 before = shape.profile.back();
+    shape.profile.push_back({before.x + (step ? 0.0 : 0.05 * unit(random)),
+                             step ? before.y + (unit(random) < 0.5 ? -0.1 : 0.1)
+                                  : before.y + 0.1 * unit(random) - 0.05});
+    if (std::abs(shape.profile.back().y - before.y) < 1e-9) shape.profile.pop_back();
+  }
+  while (!shape_faults(shape).empty())  // steps up and down again
+    shape.profile.erase(shape.profile.begin() + shape_faults(shape).front().point);
+  ASSERT_GT(shape.profile.size(), 200U);
+  const Ground ground(shape);
+  const auto& p = shape.profile;
+  for (int trial = 0; trial < 3000; ++trial) {
+    const double far = trial % 10 == 0 ? 100.0 : 1.0;
+    const Vec2 x{far * 14.0 * (unit(random) - 0.1), far * 4.0 * (unit(random) - 0.5)};
+    double least = std::numeric_limits<double>::infinity();
+    for (std::size_t i = 0; i + 1 < p.size(); ++i) {
+      const Vec2 d = p[i + 1] - p[i];
+      const double low = i == 0 ? -1e9 : 0.0, high = i + 2 == p.size() ? 1e9 : 1.0;
+      const double along = std::clamp(dot(x - p[i], d) / dot(d, d), low, high);
+      least = std::min(least, norm(x - (p[i] + along * d)));
+    }
+    EXPECT_NEAR(std::abs(ground.distance(x)), least, 1e-12 * (1.0 + norm(x))) << trial;
   }
 }
 

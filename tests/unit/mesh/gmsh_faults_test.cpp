@@ -173,7 +173,7 @@ TEST(GmshFaults, Volumes) {
 TEST(GmshFaults, NoCells) {
   Msh msh = squares();
   msh.elements.resize(first_square);
-  expect_refused(msh, {"no triangles and no quadrilaterals", "Mesh.SaveAll"});
+  expect_refused(msh, {"no triangles and no quadrilaterals", "Mesh.SaveAll", "Physical Surface(\"body\")"});
 }
 
 // Physical groups -----------------------------------------------------------------------------
@@ -183,7 +183,8 @@ TEST(GmshFaults, MissingGroups) {
                  {"clamped = \"rim\": there is no physical curve of this name",
                   "contact = \"fooot\"", "curves \"foot\", \"top\"; surfaces \"block\"",
                   "did you mean \"foot\"?", "curve = \"liner\"",
-                  "surface = \"blok\": there is no physical surface", "did you mean \"block\"?"},
+                  "surface = \"blok\": there is no physical surface", "did you mean \"block\"?",
+                  "in the .geo: Physical Curve(\"rim\") = {1, 2};", "Physical Surface(\"blok\")"},
                  {.clamped = "rim", .contact = "fooot", .curves = {"liner"}, .surfaces = {"blok"}});
 }
 

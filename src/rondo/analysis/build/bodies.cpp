@@ -14,6 +14,7 @@
 #include "rondo/mesh/gmsh_reader.hpp"
 #include "rondo/mesh/locate.hpp"
 #include "rondo/mesh/mesh_check.hpp"
+#include "rondo/mesh/physical_group.hpp"
 
 namespace rondo::study {
 namespace {
@@ -111,7 +112,9 @@ mesh::Mesh read_mesh(const Case& c, std::vector<std::string>* warnings) {
                                            .contact = m.contact,
                                            .curves = names_of(curve_keys(c)),
                                            .surfaces = names_of(surface_keys(c))});
-    if (warnings) warnings->insert(warnings->end(), read.warnings.begin(), read.warnings.end());
+    if (warnings)
+      for (const std::string& warning : read.warnings)
+        warnings->push_back(fmt::format("{}: {}", m.file.string(), warning));
     return std::move(read.mesh);
   } catch (const InputError& wrong) {
     throw InputError(at_their_keys(c, wrong.faults()));
@@ -124,7 +127,8 @@ int region_of(const Case& c, const mesh::Mesh& mesh, const NameKey& surface) {
   const auto found = std::find(names.begin(), names.end(), surface.name);
   if (found != names.end()) return static_cast<int>(found - names.begin());
   throw case_error(c, surface.key, "no cell of the mesh is in a physical surface of this name",
-                   fmt::format("{}", fmt::join(names, ", ")));
+                   fmt::format("{}{}{}", fmt::join(names, ", "), names.empty() ? "" : "; or ",
+                               mesh::physical_group_line("Surface", surface.name)));
 }
 
 /// Triangles lock sooner than quadrilaterals, of which the case's rules warn above 0.49.

@@ -10,6 +10,7 @@
 #include "rondo/analysis/build/memory.hpp"
 #include "rondo/analysis/build/overlap.hpp"
 #include "rondo/core/contract.hpp"
+#include "rondo/mesh/physical_group.hpp"
 #include "rondo/output/run_options.hpp"
 
 namespace rondo::study {
@@ -22,14 +23,16 @@ void refuse_free_bodies(const Case& c, const mesh::Mesh& mesh) {
     held[static_cast<std::size_t>(bodies.of_node[static_cast<std::size_t>(node)])] = 1;
   const auto free = std::count(held.begin(), held.end(), 0);
   if (free > 0)
-    throw case_error(c, "mesh.clamped",
-                     fmt::format("holds {} of {} bodies, and a crush presses them down by what is "
-                                 "held",
-                                 bodies.count - free, bodies.count),
-                     "a physical curve of every body");
+    throw case_error(
+        c, "mesh.clamped",
+        fmt::format("holds {} of {} bodies, and a crush presses them down by what is "
+                    "held",
+                    bodies.count - free, bodies.count),
+        "a physical curve of every body, " + mesh::physical_group_line("Curve", "rim"));
   if (mesh.boundary.empty())
-    throw case_error(c, "mesh.contact", "no node may touch the ground",
-                     "a physical curve of the mesh");
+    throw case_error(
+        c, "mesh.contact", "no node may touch the ground",
+        "a physical curve of the mesh, " + mesh::physical_group_line("Curve", "tread"));
 }
 
 std::string not_solved(const statics::CrushReport& report, double bound) {

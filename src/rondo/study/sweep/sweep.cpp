@@ -154,7 +154,9 @@ class Sweep {
       ++r.failed;
       if (r.code != exit_interrupted) r.code = std::max(r.code, row.code);
       if (r.failures.size() < most_told)
-        r.failures.push_back(name_of(study_, plan_.members[m].member, m + 1) + ": " + row.message);
+        r.failures.push_back(name_of(study_, plan_.members[m].member, m + 1) + " in " +
+                             run_directory(request_.directory, m, rows_.size()).string() + ": " +
+                             row.message);
     }
     r.wall_s = wall();
     return r;
@@ -232,6 +234,16 @@ void warn_of_members(const SweepRequest& request, const PlannedSweep& plan) {
                      : fmt::format("run {} and {} others: {}", of.first, of.second - 1, text));
 }
 
+/// Once, before the runs: what a target is not.
+void say_of_loads(const SweepRequest& request, const SweepStudy& study) {
+  const auto is_height = [](const Vary& v) { return v.is_target && v.key == "motion.height"; };
+  if (request.warn && std::ranges::any_of(study.parameters, is_height))
+    request.warn(
+        fmt::format("target.{} is the load at rest: in rolling the mean force is another by some "
+                    "percent, most at small loads; {}_mean in results.csv (docs/studies.md, Loads)",
+                    target_force_y, target_force_y));
+}
+
 /// The leader's part before the runs; where it fails, all do.
 std::optional<io::DirectoryLock> begin(const SweepRequest& request, const Sweep& sweep,
                                        const SweepStudy& study, const PlannedSweep& plan,
@@ -245,6 +257,7 @@ std::optional<io::DirectoryLock> begin(const SweepRequest& request, const Sweep&
       clear_sweep(request);
       sweep.write("running");
       warn_of_members(request, plan);
+      say_of_loads(request, study);
       if (request.begin) request.begin(plan, team.workers());
     } catch (const std::exception&) {
       static_cast<void>(team.from_leader(leader_failed));

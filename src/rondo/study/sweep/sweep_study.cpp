@@ -262,7 +262,7 @@ void read_target(Reader& in, const std::string& table, Vary& vary) {
 
 void check_key(Reader& in, const std::string& path, const Vary& vary) {
   if (vary.key.empty()) return;
-  const std::string_view near = nearest_key(vary.key);
+  const std::string meant = meant_text(vary.key);
   if (vary.key == "schema" || vary.key == "title" || vary.key == "analysis.kind")
     in.fault(path, "is the same in all members", "another key of the case file");
   else if (vary.key.starts_with("output.probe"))
@@ -270,7 +270,7 @@ void check_key(Reader& in, const std::string& path, const Vary& vary) {
              "another key of the case file");
   else if (find_case_key(vary.key) == nullptr)
     in.fault(path, "is no key of a case file",
-             near.empty() ? "a key, e.g. ground.friction" : fmt::format("did you mean {}?", near));
+             meant.empty() ? "a key, e.g. ground.friction" : meant);
 }
 
 Vary read_vary(Reader& in, const std::string& table) {

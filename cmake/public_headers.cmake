@@ -1,0 +1,18 @@
+# What is installed of src/rondo: docs/library.md names the first list, whose headers include those
+# of the second. house_install compiles each of them by itself against what is installed.
+set(RONDO_PUBLIC_HEADERS
+    core/error.hpp core/version.hpp case/case.hpp case/setup.hpp
+    output/run_options.hpp analysis/run.hpp analysis/build/build.hpp analysis/modes/modes.hpp
+    study/pod/pod.hpp study/reduce/reduce.hpp io/run_reader.hpp
+    mesh/mesh.hpp mesh/disk.hpp mesh/gmsh_reader.hpp
+    fem/elasticity.hpp fem/assembly.hpp fem/sector_stiffness.hpp fem/stress.hpp
+    contact/ground.hpp model/model.hpp model/integrator.hpp model/stability/critical_step.hpp
+    integrators/integrator.hpp integrators/start.hpp)
+set(RONDO_INCLUDED_HEADERS
+    core/complex.hpp core/field.hpp core/sum.hpp core/vec2.hpp
+    case/analysis_kinds.hpp analysis/build/bodies.hpp io/h5/h5.hpp
+    fem/element.hpp modal/critical_speeds.hpp modal/modes.hpp
+    contact/law.hpp contact/coupled/band.hpp contact/coupled/coupled.hpp
+    contact/coupled/problem_file.hpp
+    model/contact_node.hpp model/ledger.hpp model/motion.hpp model/saved_state.hpp
+    model/scheme.hpp)

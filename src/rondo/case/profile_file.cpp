@@ -1,0 +1,107 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "rondo/case/profile_file.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <charconv>
+#include <cmath>
+
+namespace rondo::study {
+namespace {
+
+constexpr std::size_t most_faults = 5;
+constexpr std::size_t longest_found = 40;  ///< characters of a field repeated in a message
+constexpr std::string_view blank = " \t\r\v\f";
+constexpr std::string_view allowed = "x, y in m, one point a line from left to right";
+
+struct Token {
+  std::string_view text;
+  std::size_t begin = 0;  ///< in its line
+};
+
+/// The fields of a line: what commas or white space divide. Between two commas there is an empty
+/// one.
+std::vector<Token> tokens_of(std::string_view line) {
+  std::vector<Token> tokens;
+  bool after_comma = false;
+  for (std::size_t at = line.find_first_not_of(blank); at < line.size();) {
+    const std::size_t end = std::min(line.find_first_of(", \t\r\v\f", at), line.size());
+    tokens.push_back({line.substr(at, end - at), at});
+    at = std::min(line.find_first_not_of(blank, end), line.size());
+    after_comma = at < line.size() && line[at] == ',';
+    if (after_comma) at = std::min(line.find_first_not_of(blank, at + 1), line.size());
+  }
+  if (after_comma) tokens.push_back({{}, line.size()});
+  return tokens;
+}
+
+/// Also of what is out of range; then the value is infinite.
+bool is_number(std::string_view text, double& value) {
+  if (text.starts_with('+') && !text.starts_with("+-")) text.remove_prefix(1);
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+  if (error == std::errc::result_out_of_range) value = INFINITY;
+  return error != std::errc::invalid_argument && end == text.data() + text.size();
+}
+
+bool is_header(const std::vector<Token>& tokens) {
+  double value = 0.0;
+  return std::ranges::none_of(tokens, [&](const Token& t) { return is_number(t.text, value); });
+}
+
+/// One file while it is read.
+struct Reading {
+  const std::string& name;
+  ProfileFile& into;
+  int line = 0;
+
+  void fault(const Token& at, std::string message) const {
+    std::string found(at.text.substr(0, longest_found));
+    if (found.size() < at.text.size()) found += "...";
+    into.faults.push_back({name, line, static_cast<int>(at.begin) + 1, "ground.profile",
+                           std::move(found), std::move(message), std::string(allowed)});
+  }
+
+  void add_point(const std::vector<Token>& tokens) {
+    if (tokens.size() != 2)
+      return fault(tokens.size() > 2 ? tokens[2] : tokens[0],
+                   fmt::format("the line must have 2 numbers, not {}", tokens.size()));
+    std::array<double, 2> p{};
+    for (std::size_t k = 0; k < 2; ++k) {
+      if (!is_number(tokens[k].text, p[k])) return fault(tokens[k], "is not a number");
+      if (!std::isfinite(p[k])) return fault(tokens[k], "must be a finite number");
+    }
+    into.points.push_back({p[0], p[1]});
+    into.lines.push_back(line);
+  }
+};
+
+}  // namespace
+
+ProfileFile parse_profile(const std::string& name, std::string_view text) {
+  ProfileFile found;
+  Reading in{name, found};
+  bool is_first = true;
+  if (text.starts_with("\xEF\xBB\xBF")) text.remove_prefix(3);  // the mark of UTF-8
+  while (!text.empty() && found.faults.size() < most_faults) {
+    const std::size_t end = std::min(text.find('\n'), text.size());
+    const std::string_view line = text.substr(0, end);
+    text.remove_prefix(std::min(end + 1, text.size()));
+    ++in.line;
+    const std::vector<Token> tokens = tokens_of(line.substr(0, line.find('#')));
+    if (tokens.empty()) continue;
+    if (!(is_first && is_header(tokens))) in.add_point(tokens);
+    is_first = false;
+    if (found.points.size() <= most_profile_points) continue;
+    in.fault({}, fmt::format("there are more than {} points", most_profile_points));
+    break;
+  }
+  if (found.faults.empty() && found.points.size() < 2)
+    found.faults.push_back(
+        {name, 0, 0, "ground.profile", "", "must have at least two points", std::string(allowed)});
+  if (!found.faults.empty()) found.points.clear(), found.lines.clear();
+  return found;
+}
+
+}  // namespace rondo::study
