@@ -27,6 +27,23 @@ TEST(CaseKeys, NearestKey) {
   EXPECT_EQ(nearest_key(std::string(100000, 'a')), "");
 }
 
+TEST(CaseKeys, Synonyms) {
+  EXPECT_EQ(meant_text("ground.mu"), "did you mean ground.friction?");
+  EXPECT_EQ(meant_text("contact.mu"), "did you mean contact.friction?");
+  EXPECT_EQ(meant_text("mu"), "did you mean ground.friction?");
+  EXPECT_EQ(meant_text("material.region[2].nu"), "did you mean material.region[].poissons_ratio?");
+  EXPECT_EQ(meant_text("initial.omega"), "did you mean initial.angular_velocity?");
+  EXPECT_EQ(meant_text("motion.velocity"), "did you mean motion.speed?");
+  EXPECT_EQ(meant_text("ground.frction"), "did you mean ground.friction?");
+  EXPECT_EQ(meant_text("ground.colour"), "");
+  EXPECT_NE(meant_text("motion.load").find("motion.height"), std::string::npos);
+  for (const Synonym& synonym : synonyms_of_keys()) {
+    EXPECT_NE(synonym.key.empty(), synonym.instead.empty()) << synonym.word;
+    EXPECT_TRUE(synonym.key.empty() || find_case_key(synonym.key) != nullptr) << synonym.key;
+    for (const CaseKey& key : case_keys()) EXPECT_FALSE(key.path == synonym.word) << synonym.word;
+  }
+}
+
 /// The examples of the manual are good cases; the fragments are too short to be one.
 TEST(CaseKeys, ExamplesOfTheManualAreCases) {
   const std::string manual = file_text(source_folder() / "docs" / "cases.md");
