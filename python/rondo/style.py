@@ -28,6 +28,7 @@ PURPLE = "#cc79a7"
 GREEN = "#009e73"
 
 GROUND = "0.72"  # the ground, in grey
+RIM = "0.88"  # what the rim fills, lighter than the ground
 OUTLINE = "0.15"  # the edge of a body
 MESH = "0.35"  # sides of cells
 CONTACT = BLUE  # nodes in contact, in all figures

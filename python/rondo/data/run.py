@@ -17,6 +17,7 @@ from .files import check_format, opened, read_case, read_json, read_table, requi
 from .history import History
 from .mesh import Mesh, read_mesh
 from .pod import Pod, open_pod
+from .rigid import Rigid, rigid_motion
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -110,6 +111,8 @@ class Run:
     plot_history: Callable[..., Axes]
     plot_energy: Callable[..., Axes]
     plot_spectrum: Callable[..., Axes]
+    plot_contact: Callable[..., Axes]
+    plot_contact_map: Callable[..., Axes]
     plot_modes: Callable[..., Figure]
     animate: Callable[..., pathlib.Path]
 
@@ -204,6 +207,36 @@ class Run:
         """Pitches that pass a second at the end [Hz]; None for a smooth or still disk."""
         return self.pitches * abs(self.spin) / (2 * np.pi) or None
 
+    @property
+    def columns(self) -> int:
+        """Columns of cells round a generated disk; 0 of a mesh from a file."""
+        disk = self.case.get("disk", {})
+        if "tread" in disk:
+            tread = disk["tread"]
+            return self.pitches * (int(tread["land_columns"]) + int(tread["groove_columns"]))
+        return int(disk.get("mesh", {}).get("circumferential", 0))
+
+    @property
+    def mesh_frequency(self) -> float | None:
+        """Columns × spin / 2π: how often a node comes to the ground at the end [Hz]. None of a mesh
+        from a file, of a still disk, and of a reduced run whose contact is at places in space."""
+        if self.info.get("reduced_contact") == "places":
+            return None
+        return self.columns * abs(self.spin) / (2 * np.pi) or None
+
+    @cached_property
+    def held(self) -> np.ndarray:
+        """(n,) True where a node is held by the rim: on the inner circle of a disk; of a mesh from a
+        file where nothing has moved in the turning frame."""
+        mesh = self.mesh
+        if "disk" in self.case:
+            radius: np.ndarray = np.linalg.norm(mesh.coordinates, axis=1)
+            return ~mesh.free & (radius <= self.inner_radius * (1 + 1e-9))
+        if mesh.free.all() or not self.n_snapshots:
+            return np.zeros(mesh.n_nodes, dtype=bool)
+        still: np.ndarray = ~mesh.free & ~np.asarray(self.displacement[-1]).any(axis=1)
+        return still & ~still.all()
+
     # Its fields
 
     @property
@@ -251,6 +284,21 @@ class Run:
         turn = np.array([[cos, -sin], [sin, cos]])
         places = self.center[k] + arms @ turn.T
         return np.where(self.mesh.free[:, None], arms, places)
+
+    def rigid(self, k: int) -> Rigid:
+        """The motion of free bodies at snapshot k as that of rigid ones, and their deformation."""
+        return rigid_motion(self.mesh, np.asarray(self.displacement[k], dtype=float))
+
+    def deformation(self, k: int) -> np.ndarray:
+        """(n, 2) displacement at snapshot k without the motion of each free body as a rigid one,
+        along the axes that turn with it; of held bodies the displacement [m]."""
+        return self.rigid(k).deformation
+
+    def middle(self, k: int) -> np.ndarray:
+        """(2,) m: the centre of the turning frame, or the centre of mass where nothing is held."""
+        if not self.mesh.free.all():
+            return np.asarray(self.center[k])
+        return np.average(self.position(k), axis=0, weights=self.mesh.mass)
 
     def index(self, time: float) -> int:
         """The snapshot nearest to a time [s] (of a crush: share of the depth)."""

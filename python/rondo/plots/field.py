@@ -8,22 +8,25 @@ from typing import TYPE_CHECKING, Any
 import matplotlib.pyplot as plt
 import numpy as np
 from matplotlib.axes import Axes
-from matplotlib.collections import LineCollection, PolyCollection
+from matplotlib.collections import LineCollection
 from matplotlib.lines import Line2D
+from matplotlib.ticker import MaxNLocator
 from numpy.typing import NDArray
 
 from .. import style
 from ..data.errors import Error
 from ..data.ground import Ground
+from .cells import Array, Cells, cell_means, component, corners, loops, outline, turned
+from .rim import Rim, draw_rim
 
 if TYPE_CHECKING:
     from ..data.run import Run
 
-Array = NDArray[np.float64]
 FRAMES = ("fixed", "turning")
 COMPONENTS = ("x", "y", "radial", "tangential")
-VECTORS = ("displacement", "velocity")
+VECTORS = ("displacement", "deformation", "velocity")
 NAMES = {"von_mises": "von Mises stress"}  # in figures, where not the name of the field itself
+SLIM = 0.4  # least width of a picture over its height, or the other way round
 SHOWN_IN = {  # units of results: factor, unit of figures
     "m": (1e3, "mm"), "Pa": (1e-6, "MPa"), "1": (1.0, "–"),
 }
@@ -39,117 +42,62 @@ class Nodal:
     signed: bool
 
 
-def turned(vectors: Array, angle: float) -> Array:
-    """(..., 2): the vectors turned by the angle (rad), counter-clockwise."""
-    cos, sin = np.cos(angle), np.sin(angle)
-    x, y = vectors[..., 0], vectors[..., 1]
-    return np.stack([cos * x - sin * y, sin * x + cos * y], axis=-1)
-
-
-def component(vectors: Array, coordinates: Array, name: str) -> Array:
-    """(n,): a component ("x", "y", "radial", "tangential") of vectors (n, 2) at nodes of the
-    reference coordinates (n, 2); the tangential one is counter-clockwise."""
-    if name in ("x", "y"):
-        return vectors[:, "xy".index(name)]
-    radius = np.maximum(np.linalg.norm(coordinates, axis=1), 1e-300)
-    radial = coordinates / radius[:, None]
-    if name == "tangential":
-        radial = turned(radial, 0.5 * np.pi)
-    return np.sum(vectors * radial, axis=1)
-
-
 def nodal(run: Run, index: int, quantity: str, frame: str = "fixed") -> Nodal:
     """A quantity of the snapshot `index` at the nodes.
 
-    quantity: "displacement" or "velocity" (as the turning frame sees them): their magnitude; with
-    "_x", "_y" a component along the axes of `frame`, with "_radial", "_tangential" about the
-    centre; or a field with one number per node that the run holds, as "von_mises".
+    quantity: "displacement" or "velocity" (as the turning frame sees them), "deformation" (the
+    displacement without the motion of free bodies as rigid ones): their magnitude; with "_x", "_y"
+    a component along the axes of `frame`, with "_radial", "_tangential" about the centre; or a
+    field with one number per node that the run holds, as "von_mises".
     """
     base, _, ending = quantity.partition("_")
     if base in VECTORS and (ending in COMPONENTS or not ending):
-        source = run.field(base)
-        vectors = np.asarray(source[index], dtype=float)
-        signed = bool(ending)
-        if signed:
-            angles = run.angle if base == "displacement" else run.angle_velocity
-            if frame == "fixed" and ending in ("x", "y"):
-                seen = turned(vectors, float(angles[index]))
-                vectors = np.where(run.mesh.free[:, None], vectors, seen)
-            values = component(vectors, run.mesh.coordinates, ending)
-            label = f"{base}, {ending}"
-        else:
-            values, label = np.linalg.norm(vectors, axis=1), base
+        values = _part_of_vectors(run, index, base, ending, frame)
+        signed, label = bool(ending), f"{base}, {ending}" if ending else base
+        units = run.field("displacement" if base == "deformation" else base).units
     else:
         source = run.field(quantity)
-        values = np.asarray(source[index], dtype=float)
+        values, units = np.asarray(source[index], dtype=float), source.units
         if values.ndim != 1:
             raise Error(f"{quantity}: {values.shape[-1]} numbers at each node; allowed are "
-                        "displacement and velocity, alone or with _x, _y, _radial, _tangential, "
-                        "and fields with one number at each node, as von_mises")
+                        "displacement, deformation and velocity, alone or with _x, _y, _radial, "
+                        "_tangential, and fields with one number at each node, as von_mises")
         signed, label = bool(values.min() < 0), NAMES.get(quantity, quantity.replace("_", " "))
-    factor, unit = SHOWN_IN.get(source.units, (1.0, source.units))
+    factor, unit = SHOWN_IN.get(units, (1.0, units))
     return Nodal(values * factor, label, unit, signed)
 
 
+def _part_of_vectors(run: Run, index: int, base: str, ending: str, frame: str) -> Array:
+    """(n,): the magnitude of a vector, or one of its components."""
+    coordinates = run.mesh.coordinates
+    angle: Any = float((run.angle_velocity if base == "velocity" else run.angle)[index])
+    if base == "deformation":
+        rigid = run.rigid(index)
+        vectors, coordinates = rigid.deformation, coordinates - rigid.center
+        angle = np.where(run.mesh.free, rigid.angle, angle)
+    else:
+        vectors = np.asarray(run.field(base)[index], dtype=float)
+        angle = np.where(run.mesh.free, 0.0, angle)  # free bodies: along the fixed axes as they are
+    if not ending:
+        return np.linalg.norm(vectors, axis=1)
+    if ending in ("x", "y"):
+        vectors = turned(vectors, angle * ((frame == "fixed") | run.mesh.free))
+    return component(vectors, coordinates, ending)
+
+
 def positions(run: Run, index: int, frame: str = "fixed", deformation: float = 1.0) -> Array:
-    """(n, 2) m: the nodes of a snapshot, the displacement magnified by `deformation`. Free bodies
-    are where they are, in both frames."""
+    """(n, 2) m: the nodes of a snapshot, the displacement magnified by `deformation`; of free
+    bodies what is not their motion as rigid ones. These are where they are, in both frames."""
     if frame not in FRAMES:
         raise Error(f'frame "{frame}": allowed are "fixed" and "turning"')
-    if deformation != 1.0 and run.mesh.free.any():
-        raise Error(f"deformation = {deformation:g}: nothing holds some bodies of this run, whose "
-                    "displacement is their whole motion; 1 alone is allowed")
     if frame == "fixed" and deformation == 1.0:
         return run.position(index)
-    arms = run.mesh.coordinates + deformation * np.asarray(run.displacement[index])
-    if frame == "turning":
-        return arms
-    return np.asarray(run.center[index]) + turned(arms, float(run.angle[index]))
-
-
-def outline(cells: NDArray[np.integer[Any]]) -> NDArray[np.int64]:
-    """(k, 2): the sides that belong to one cell only, as their two nodes."""
-    following = np.roll(cells, -1, axis=1)
-    if cells.shape[1] == 4:  # a triangle among quadrilaterals has -1 in the last place
-        triangle = cells[:, 3] < 0
-        following[triangle, 2] = cells[triangle, 0]
-    sides = np.stack([cells.ravel(), following.ravel()], axis=1).astype(np.int64)
-    sides = sides[(sides >= 0).all(axis=1)]
-    _, where, count = np.unique(np.sort(sides, axis=1), axis=0, return_index=True,
-                                return_counts=True)
-    return sides[np.sort(where[count == 1])]
-
-
-def loops(sides: NDArray[np.int64]) -> list[NDArray[np.int64]]:
-    """The sides of `outline` joined end to end: nodes of each closed line, the first once more at
-    its end. Drawn as one line each they have round corners, and SVG files stay small."""
-    following: dict[int, list[int]] = {}
-    for start, end in sides.tolist():
-        following.setdefault(start, []).append(end)
-    found = []
-    while following:
-        line = [next(iter(following))]
-        while line[-1] in following:
-            ends = following[line[-1]]
-            node = ends.pop()
-            if not ends:
-                del following[line[-1]]
-            line.append(node)
-        found.append(np.array(line))
-    return found
-
-
-def corners(points: Array, cells: NDArray[np.integer[Any]]) -> Array:
-    """(e, 4 or 3, 2): the corners of the cells; a triangle among quadrilaterals has its last
-    corner twice."""
-    filled = np.where(cells < 0, np.roll(cells, 1, axis=1), cells)
-    return points[filled]
-
-
-def cell_means(values: Array, cells: NDArray[np.integer[Any]]) -> Array:
-    """(e,): the mean of the nodes of each cell."""
-    there = cells >= 0
-    return np.where(there, values[cells], 0.0).sum(axis=1) / there.sum(axis=1)
+    rigid = run.rigid(index)
+    arms = run.mesh.coordinates + deformation * rigid.deformation
+    if frame == "fixed":
+        arms = np.asarray(run.center[index]) + turned(arms, float(run.angle[index]))
+    free = rigid.places + deformation * turned(rigid.deformation, rigid.angle)
+    return np.where(run.mesh.free[:, None], free, arms)
 
 
 @dataclasses.dataclass
@@ -160,26 +108,29 @@ class Body:
     quantity: str
     frame: str
     deformation: float
-    cells: PolyCollection
+    cells: Cells
     edge: LineCollection
     lines: list[NDArray[np.int64]]
+    rim: Rim | None
 
     def update(self, index: int) -> None:
         points = positions(self.run, index, self.frame, self.deformation)
         values = nodal(self.run, index, self.quantity, self.frame).values
-        self.cells.set_verts(corners(points, self.run.mesh.cells))
+        self.cells.move(corners(points, self.run.mesh.cells))
         self.cells.set_array(cell_means(values, self.run.mesh.cells))
         self.edge.set_segments([points[line] for line in self.lines])
+        if self.rim is not None:
+            self.rim.update(index)
 
 
 def draw_cells(ax: Axes, points: Array, cells: NDArray[np.integer[Any]], values: Array,
                limits: tuple[float, float], signed: bool = False,
-               mesh_width: float = 0.1) -> tuple[PolyCollection, LineCollection]:
+               mesh_width: float = 0.1) -> tuple[Cells, LineCollection]:
     """Cells (e, 4 or 3) with nodes at points (n, 2), coloured by the mean of their nodal values
     (n,), and the edge of the body. `mesh_width` (pt) is that of the sides of the cells."""
-    patches = PolyCollection(corners(points, cells), array=cell_means(values, cells),
-                             cmap=style.DIVERGING if signed else style.SEQUENTIAL,
-                             edgecolors=style.MESH, linewidths=mesh_width, rasterized=True)
+    patches = Cells(corners(points, cells), array=cell_means(values, cells),
+                    cmap=style.DIVERGING if signed else style.SEQUENTIAL,
+                    edgecolors=style.MESH, linewidths=mesh_width, rasterized=True)
     if mesh_width == 0:
         patches.set_antialiased(False)  # else the background shines through between cells
     patches.set_clim(*limits)
@@ -193,7 +144,7 @@ def draw_cells(ax: Axes, points: Array, cells: NDArray[np.integer[Any]], values:
 def draw_body(ax: Axes, run: Run, index: int, quantity: str = "displacement", frame: str = "fixed",
               deformation: float = 1.0, limits: tuple[float, float] | None = None,
               mesh_width: float = 0.1) -> Body:
-    """The body of the snapshot `index`; its `cells` go to a colour bar. `limits` of the colours are
+    """The body of the snapshot `index` and the rim that holds it; its `cells` go to a colour bar. `limits` of the colours are
     in the unit of the figure (see `nodal`); None: those of the cells of this snapshot, as one
     corner node may have far more."""
     field = nodal(run, index, quantity, frame)
@@ -201,7 +152,8 @@ def draw_body(ax: Axes, run: Run, index: int, quantity: str = "displacement", fr
     patches, edge = draw_cells(ax, points, run.mesh.cells, field.values,
                                limits or full_range(cell_means(field.values, run.mesh.cells),
                                                     field.signed), field.signed, mesh_width)
-    return Body(run, quantity, frame, deformation, patches, edge, loops(outline(run.mesh.cells)))
+    return Body(run, quantity, frame, deformation, patches, edge, loops(outline(run.mesh.cells)),
+                draw_rim(ax, run, index, frame))
 
 
 def full_range(values: Array, signed: bool) -> tuple[float, float]:
@@ -271,7 +223,8 @@ def plot_field(run: Run, time: float, quantity: str = "displacement", ax: Axes |
     """The body at the snapshot nearest to `time` (s; of a crush: share of the depth, 0 to 1).
 
     frame: "fixed" (with the ground) or "turning"; nodes in contact are marked in both.
-    deformation: factor on the displacement; limits: of the colours, in the unit of the colour bar
+    deformation: factor on the displacement, of free bodies on what is not their motion as rigid
+    ones; limits: of the colours, in the unit of the colour bar
     (mm, m/s, MPa); by default those of the cells as drawn.
     """
     index = run.index(time)
@@ -281,29 +234,35 @@ def plot_field(run: Run, time: float, quantity: str = "displacement", ax: Axes |
         body = draw_body(ax, run, index, quantity, frame, deformation, limits)
         frame_axes(ax, run, index, frame, deformation)
         draw_contact(ax, run, index, frame=frame, deformation=deformation)
-        ax.set_title(snapshot_title(run, index))
+        ax.set_title(snapshot_title(run, index, deformation))
         if colorbar:
             field = nodal(run, index, quantity, frame)
             ax.figure.colorbar(body.cells, ax=ax, label=f"{field.label} ({field.unit})", shrink=0.8)
     return ax
 
 
-def snapshot_title(run: Run, index: int) -> str:
-    """The time of a snapshot, or the depth of an increment of a crush."""
+def snapshot_title(run: Run, index: int, deformation: float = 1.0) -> str:
+    """The time of a snapshot, or the depth of an increment of a crush, and the factor on the
+    deformation."""
+    factor = "" if deformation == 1.0 else f", deformation × {deformation:g}"
     if run.crush is not None:
-        return f"depth {float(run.crush.depth[index]) * 1e3:.3g} mm"
-    return f"t = {float(run.times[index]) * 1e3:.1f} ms"
+        return f"depth {float(run.crush.depth[index]) * 1e3:.3g} mm{factor}"
+    return f"t = {float(run.times[index]) * 1e3:.1f} ms{factor}"
 
 
 def frame_axes(ax: Axes, run: Run, index: int, frame: str, deformation: float = 1.0) -> None:
     """Limits, equal scales, labels and ground about the body of a snapshot."""
     points = positions(run, index, frame, deformation)
     low, high = points.min(axis=0), points.max(axis=0)
-    margin = 0.08 * (high - low).max()
-    ax.set_xlim(low[0] - margin, high[0] + margin)
-    ax.set_ylim(low[1] - margin, high[1] + margin)
+    margin = np.maximum(0.08 * (high - low).max(),
+                        0.5 * (SLIM * (high - low).max() - (high - low)))
+    ax.set_xlim(low[0] - margin[0], high[0] + margin[0])
+    ax.set_ylim(low[1] - margin[1], high[1] + margin[1])
     ax.set_aspect("equal")
+    for axis, size in zip((ax.xaxis, ax.yaxis), high - low):
+        if size < SLIM * (high - low).max():
+            axis.set_major_locator(MaxNLocator(2))
     ax.set_xlabel("x (m)" if frame == "fixed" else "X (m)")
     ax.set_ylabel("y (m)" if frame == "fixed" else "Y (m)")
     if frame == "fixed":
-        draw_ground(ax, Ground.from_case(run.case), ax.get_xlim(), low[1] - 2 * margin)
+        draw_ground(ax, Ground.from_case(run.case), ax.get_xlim(), low[1] - 2 * margin[1])
