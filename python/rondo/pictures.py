@@ -26,7 +26,7 @@ def _field(run: Run, time: float, quantity: str = "displacement", **options: Any
 
 
 def _history(run: Run, *columns: str, ax: Axes | None = None) -> Axes:
-    """Columns of the history over time; without any, the ground's forces."""
+    """Columns of the history over time; without any, the ground's forces, or the energies."""
     from .plots.curves import plot_history
     return plot_history(run, *columns, ax=ax)
 
@@ -42,6 +42,19 @@ def _spectrum(run: Run, column: str = "force_y", from_time: float | None = None,
     """Amplitude spectrum of a column of the history, by default of the vertical force."""
     from .plots.curves import plot_force_spectrum
     return plot_force_spectrum(run, column, from_time, to_time, ax)
+
+
+def _contact(run: Run, time: float, ax: Axes | None = None) -> Axes:
+    """Pressure and shear over the contact patch at the snapshot nearest to `time`."""
+    from .plots.patch import plot_contact
+    return plot_contact(run, time, ax)
+
+
+def _contact_map(run: Run, quantity: str = "pressure", ax: Axes | None = None,
+                 moving: bool = True) -> Axes:
+    """Pressure or shear over place and time; see rondo.plots.patch.plot_contact_map."""
+    from .plots.patch import plot_contact_map
+    return plot_contact_map(run, quantity, ax, moving)
 
 
 def _modes_of_run(run: Run, field: str, frame: str = "rotating", count: int = 6) -> Figure:
@@ -109,6 +122,7 @@ def attach() -> None:
     """Gives the classes of rondo/data their pictures."""
     Run.plot_field, Run.plot_history, Run.plot_energy = _field, _history, _energy
     Run.plot_spectrum, Run.plot_modes, Run.animate = _spectrum, _modes_of_run, _animate
+    Run.plot_contact, Run.plot_contact_map = _contact, _contact_map
     Pod.plot_spectrum, Pod.plot_modes = _decay, _modes
     Modes.plot_campbell = _campbell
     Sweep.plot_main_effects, Sweep.plot_map = _main_effects, _map

@@ -32,6 +32,9 @@ TERMS: dict[str, tuple[int, str, dict[str, Any]]] = {
     "work_scheme": (1, "created by the scheme", {"color": "0.5", "linestyle": (0, (1, 1))}),
 }
 
+PITCHES: dict[str, Any] = {"color": "0.75", "linewidth": 0.8}
+NODES: dict[str, Any] = {"color": style.VERMILLION, "linewidth": 0.8, "linestyle": (0, (2, 2))}
+
 MIN_ROWS = 16  # for a spectrum
 ROUND_OFF = 1e-13  # size over that of the energy of a part of the ledger that is zero
 FLOOR = 1e-18  # of the residual's axis
@@ -47,9 +50,10 @@ def _abscissa(run: Run) -> tuple[np.ndarray, str]:
 @style.paper()
 def plot_history(run: Run, *columns: str, ax: Axes | None = None) -> Axes:
     """Columns of the history over time, of a crush over depth; without any, the forces of the
-    ground on the body. Columns in one axes have one unit."""
-    names = columns or ("force_y", "force_x")
+    ground on the body, or the energies where there is no ground. Columns in one axes have one
+    unit."""
     history = run.history
+    names = columns or (("force_y", "force_x") if history.ground else ("kinetic", "strain"))
     for name in names:
         history.need_ground(name)
     x, x_label = _abscissa(run)
@@ -80,7 +84,7 @@ def _together(names: Sequence[str], unit: str) -> str:
     if len(names) == 1:
         return column_label(names[0])
     if set(names) <= {"force_x", "force_y"}:
-        return "force of the ground\non the disk"
+        return "force of the ground\non the body"
     if set(names) <= {"contact_nodes", "sticking_nodes"}:
         return "nodes"
     return "energy" if unit.endswith("J/m") else "value"
@@ -110,7 +114,7 @@ def plot_energy(run: Run, ax: Axes | None = None) -> Axes:
     ax.plot(x, total * factor, color=style.BLACK, linewidth=1.4, zorder=3,
             label="energy: kinetic and strain")
     for name, curve in drawn.items():
-        ax.plot(x, curve * factor, label=TERMS[name][1], **TERMS[name][2])
+        ax.plot(x, curve * factor, label=_said(run, name), **TERMS[name][2])
     ax.set_ylabel(f"energy ({unit})")
     ax.legend(loc="lower center", bbox_to_anchor=(0.5, 1.0), ncols=3)
     ax.tick_params(labelbottom=False)
@@ -123,6 +127,15 @@ def plot_energy(run: Run, ax: Axes | None = None) -> Axes:
     if len(x):
         below.set_xlim(min(x[0], 0.0), x[-1])
     return ax
+
+
+def _said(run: Run, name: str) -> str:
+    """What a term of the ledger is in this run: a frame that turns does work on held bodies only,
+    on free ones gravity alone."""
+    if name == "work_frame" and run.mesh.free.all():
+        return "work of gravity"
+    both = run.mesh.free.any() or np.any(run.case.get("motion", {}).get("gravity", 0.0))
+    return f"{TERMS[name][1]}{', gravity' if name == 'work_frame' and both else ''}"
 
 
 def force_spectrum(run: Run, column: str = "force_y", from_time: float | None = None,
@@ -155,20 +168,15 @@ def force_spectrum(run: Run, column: str = "force_y", from_time: float | None = 
 @style.paper()
 def plot_force_spectrum(run: Run, column: str = "force_y", from_time: float | None = None,
                         to_time: float | None = None, ax: Axes | None = None) -> Axes:
-    """Amplitude spectrum (see force_spectrum) of a column over frequency; of a treaded disk with
-    the multiples of the frequency at which its pitches pass."""
+    """Amplitude spectrum (see force_spectrum) of a column over frequency. Marked are the multiples
+    of the frequencies at which the pitches of a tread and the columns of the mesh pass: ripple at
+    those of the mesh is of the nodes, not of the body."""
     if column not in run.history:
         raise unknown(run.history.path, "column", column, run.history)
     run.history.need_ground(column)
     frequency, amplitude = force_spectrum(run, column, from_time, to_time)
     ax = axes_of(ax, 2.4)
-    pitch = run.pitch_frequency
-    if pitch and pitch <= frequency[-1]:
-        ax.vlines(np.arange(pitch, frequency[-1], pitch), 0, 1, transform=ax.get_xaxis_transform(),
-                  color="0.8", linewidth=0.8, zorder=0)
-        ax.annotate(f"multiples of the pitch frequency, {pitch:.0f} Hz", (pitch, 1.0),
-                    xycoords=ax.get_xaxis_transform(), xytext=(0, 2), textcoords="offset points",
-                    va="bottom", ha="left", fontsize=7, color="0.35")
+    _mark_passing(ax, run, frequency[-1])
     line: dict[str, Any] = {**style.CURVES[0], "linewidth": 0.8}
     ax.semilogy(frequency[1:], amplitude[1:], **line)
     top = amplitude.max()
@@ -179,3 +187,17 @@ def plot_force_spectrum(run: Run, column: str = "force_y", from_time: float | No
     unit = run.history.units.get(column, "unknown")
     ax.set_ylabel(f"amplitude of the\n{column_label(column)} ({'–' if unit == '1' else unit})")
     return ax
+
+
+def _mark_passing(ax: Axes, run: Run, highest: float) -> None:
+    """The multiples, up to a frequency [Hz], of those at which pitches and columns pass."""
+    marks = (("tread (pitches × spin)", run.pitch_frequency, PITCHES),
+             ("mesh (columns × spin)", run.mesh_frequency, NODES))
+    for name, base, look in marks:
+        if not base or base > highest:
+            continue
+        places = base * np.arange(1, int(highest / base) + 1)
+        ax.vlines(places, 0, 1, transform=ax.get_xaxis_transform(), zorder=0, **look,
+                  label=f"{name}: {base:.0f} Hz" + (" and its multiples" if len(places) > 1 else ""))
+    if ax.collections:
+        ax.legend(loc="lower center", bbox_to_anchor=(0.5, 1.0), ncols=2)

@@ -195,7 +195,7 @@ def draw_course(ax: Axes, pod: Pod, mode: int, shown: int) -> None:
     course = sign(pod, mode) * np.asarray(pod.temporal[:shown, mode]) * np.sqrt(len(pod.time))
     turns = np.abs(np.asarray(pod.angle) - pod.angle[0]) / (2 * np.pi)
     if turns[-1] > 0:
-        abscissa, label = turns, "turns of the disk (–)"
+        abscissa, label = turns, "turns of the body (–)"
     elif pod.time_unit == "s":
         abscissa, label = np.asarray(pod.time) * 1e3, "time (ms)"
     else:
