@@ -87,12 +87,34 @@ def read_table(path: pathlib.Path) -> dict[str, np.ndarray]:
     return dict(zip(names, values.T.copy()))
 
 
+_kept: dict[pathlib.Path, h5py.File] = {}  # files that stay open
+
+
+@contextlib.contextmanager
+def kept(path: pathlib.Path) -> Iterator[None]:
+    """As long as the block lasts `opened` does not open this file anew each time."""
+    if path in _kept:
+        yield
+        return
+    with opened(path):  # an error where it cannot be read
+        pass
+    with h5py.File(path, "r") as file:
+        _kept[path] = file
+        try:
+            yield
+        finally:
+            del _kept[path]
+
+
 @contextlib.contextmanager
 def opened(path: pathlib.Path) -> Iterator[h5py.File]:
     """An HDF5 file, open for reading as long as the block lasts."""
     try:
-        with h5py.File(path, "r") as file:
-            yield file
+        if path in _kept:
+            yield _kept[path]
+        else:
+            with h5py.File(path, "r") as file:
+                yield file
     except FileNotFoundError:
         raise Error(f"{path}: no such file") from None
     except (OSError, KeyError, RuntimeError) as reason:

@@ -135,6 +135,7 @@ class Run:
             self._has_contact = "contact" in file
             self._datasets = [f"{group}/{name}" for group in ("snapshots", "fields")
                               if group in file for name in file[group]]
+        self._fields: dict[str, LazyArray] = {}  # those asked for so far
         self.times_velocity: np.ndarray = frame["time_velocity"]
         self.angle: np.ndarray = frame["angle"]
         self.angle_velocity: np.ndarray = frame["angle_velocity"]
@@ -255,13 +256,16 @@ class Run:
         along the fixed axes. Stress is the mean of the cells around a node: that of a probe in the
         history is of its cell alone, and on coarse meshes they differ (docs/results.md).
         "fields/displacement", "fields/velocity": these along the fixed axes."""
+        if name in self._fields:
+            return self._fields[name]
         component = None
         dataset = name
         if name.startswith("stress_") and name[7:] in STRESS:
             dataset, component = "cauchy_stress", STRESS.index(name[7:])
         for candidate in (dataset, f"snapshots/{dataset}", f"fields/{dataset}"):
             if candidate in self._datasets:
-                return LazyArray(self.path, candidate, self.n_snapshots, component)
+                self._fields[name] = LazyArray(self.path, candidate, self.n_snapshots, component)
+                return self._fields[name]
         self.need_snapshots()
         raise unknown(self.directory, "field", name, self.field_names)
 

@@ -1,23 +1,28 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Films of a run: the body rolling in the fixed frame."""
+"""Films of a run: the bodies moving in the fixed frame."""
 from __future__ import annotations
 
 import os
 import pathlib
-import subprocess
+from collections.abc import Iterable, Iterator
 from typing import TYPE_CHECKING
 
 import matplotlib
 import numpy as np
-from matplotlib import animation
+from matplotlib.artist import Artist
+from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.figure import Figure
+from matplotlib.ticker import MaxNLocator
 
 from .. import style
 from ..data.errors import Error
 from ..data.ground import Ground
+from ..data.files import kept
 from ..data.history import between
-from .field import (cell_means, draw_body, draw_contact, draw_ground, full_range, nodal,
-                               snapshot_title)
+from .cells import Array, cell_means
+from .encoding import SAMPLES, Picture, has_ffmpeg, write_film
+from .field import (SLIM, draw_body, draw_contact, draw_ground, full_range, nodal, positions,
+                    snapshot_title)
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -27,30 +32,34 @@ if TYPE_CHECKING:
 SECONDS = 10.0  # of a film, about, where nothing else is asked for
 FPS = 30
 DPI = 128  # a power of two: sizes in inches are exact, and so are those in pixels
-SIZES = {".mp4": (1280, 720), ".gif": (640, 360)}  # px, largest by default
+SIZES = {".mp4": (960, 540), ".gif": (640, 360)}  # px, largest by default
 SMALLEST = 240  # px, width: labels and colour bar take 200 of them
 FOLLOW_BEYOND = 6.0  # outer radii that the centre moves: beyond, the picture moves with it
+LEVEL = 0.5  # of its height that a picture that follows the body does not follow upwards
 SIDE, TOP, BOTTOM = 1.15, 1.15, 1.45  # outer radii from the centre to the edges of the picture
 AHEAD = 1.8  # the same to both sides where the picture moves with the body
 LEFT, RIGHT, BELOW, ABOVE = 0.62, 0.95, 0.45, 0.3  # in, about the picture: labels, bar, title
 SMALL = 1.5  # in, outer radius in the picture: a mesh drawn on smaller ones hides the colours
+NARROW = 2.0  # in, of axes with two or three numbers only
 BAR = 0.12  # in, width of the colour bar and its distance
 
 
 def animate(run: Run, path: str | os.PathLike[str], quantity: str = "displacement",
             from_time: float | None = None, to_time: float | None = None, frames: int | None = None,
             fps: int | None = None, limits: tuple[float, float] | None = None,
-            follow: bool | None = None, width: int | None = None) -> pathlib.Path:
-    """Writes a film of the body in the fixed frame, with ground, contact, time and colour bar, and
-    returns its path, in a folder that is there. The ending says how: .mp4 (H.264, by the program
-    ffmpeg) or .gif.
+            follow: bool | None = None, width: int | None = None,
+            deformation: float = 1.0) -> pathlib.Path:
+    """Writes a film of the bodies in the fixed frame, with ground, contact, time and colour bar,
+    and returns its path, in a folder that is there. The ending says how: .mp4 (H.264, by the
+    program ffmpeg) or .gif.
 
     quantity: as of plot_field. from_time, to_time: window of the run [s]. frames: pictures, spread
     evenly over the snapshots of the window; at most one for each, by default at most 300. fps:
     pictures a second; by default such that a film of few pictures lasts about 10 s, at most 30.
     limits: of the colours, in the unit of the colour bar; by default those of the whole film.
-    follow: the picture moves along with the body; by default where it goes far, and never with
-    bodies that nothing holds. width: [px]."""
+    follow: the picture moves along with the body, or the centre of mass of bodies that nothing
+    holds; by default where a held body goes far. width: [px]. deformation: factor on it, as of
+    plot_field."""
     path = pathlib.Path(path)
     ending = path.suffix.lower()
     _check_place(path, ending)
@@ -59,25 +68,33 @@ def animate(run: Run, path: str | os.PathLike[str], quantity: str = "displacemen
         fps = min(FPS, max(1, round(len(chosen) / SECONDS)))
     if fps < 1:
         raise Error(f"fps = {fps}: at least 1 picture a second")
-    if limits is None:
-        fields = [nodal(run, k, quantity) for k in chosen]
-        limits = full_range(np.stack([cell_means(field.values, run.mesh.cells)
-                                      for field in fields]),
-                            any(field.signed for field in fields))
-    centers = run.center[chosen]
-    if follow is None:
-        follow = bool(np.ptp(centers[:, 0]) > FOLLOW_BEYOND * run.outer_radius)
-    follow = follow and not _is_free(run)
-    with style.paper(), matplotlib.rc_context({"figure.constrained_layout.use": False}):
-        film = _Film(run, chosen, quantity, limits, follow, width, SIZES[ending])
-        _write(film, path, ending, fps)
+    with kept(run.path), style.paper(), matplotlib.rc_context(
+            {"figure.constrained_layout.use": False}):
+        if limits is None:
+            limits = _limits(run, chosen, quantity)
+        if follow is None:
+            far = FOLLOW_BEYOND * run.outer_radius
+            follow = not run.mesh.free.any() and bool(np.ptp(run.center[chosen, 0]) > far)
+        film = _Film(run, chosen, quantity, limits, follow, width, SIZES[ending], deformation)
+        _write(film, path, fps)
     return path
+
+
+def _limits(run: Run, chosen: np.ndarray, quantity: str) -> tuple[float, float]:
+    """Of the colours, over the whole film."""
+    low, high, signed = 0.0, 0.0, False
+    for k in chosen:
+        field = nodal(run, int(k), quantity)
+        means = cell_means(field.values, run.mesh.cells)
+        low, high = min(low, float(means.min())), max(high, float(means.max()))
+        signed = signed or field.signed
+    return full_range(np.array([low, high]), signed)
 
 
 def _check_place(path: pathlib.Path, ending: str) -> None:
     if ending not in SIZES:
         raise Error(f"{path}: a film ends in .mp4 or .gif, not in {ending or 'nothing'!r}")
-    if ending == ".mp4" and not animation.writers.is_available("ffmpeg"):
+    if ending == ".mp4" and not has_ffmpeg():
         raise Error(f"{path}: the program ffmpeg writes .mp4, and is not there: install the Debian "
                     "package ffmpeg, or take a name that ends in .gif")
     if not path.parent.is_dir():
@@ -103,15 +120,34 @@ def _snapshots(run: Run, from_time: float | None, to_time: float | None,
     return there[np.round(np.linspace(0, len(there) - 1, frames)).astype(int)]
 
 
-def _is_free(run: Run) -> bool:
-    """Some bodies move otherwise than the rim, if there is one."""
-    return bool(run.mesh.free.any())
+def _boxes(run: Run, chosen: np.ndarray, deformation: float = 1.0) -> tuple[Array, Array]:
+    """(frames, 2) m each: lowest and highest x and y of all nodes at each snapshot."""
+    boxes = [(places.min(axis=0), places.max(axis=0)) for places in
+             (positions(run, int(k), "fixed", deformation) for k in chosen)]
+    return np.array([low for low, _ in boxes]), np.array([high for _, high in boxes])
 
 
-def _box(run: Run, chosen: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-    """Lowest and highest x and y of all nodes of the snapshots [m]."""
-    boxes = [(places.min(axis=0), places.max(axis=0)) for places in map(run.position, chosen)]
-    return np.min([low for low, _ in boxes], axis=0), np.max([high for _, high in boxes], axis=0)
+def _views(run: Run, chosen: np.ndarray, follow: bool, deformation: float) -> tuple[Array, Array]:
+    """(frames, 2) m each: lower left and upper right corner of each picture, all of one size."""
+    centers = np.array([run.middle(int(k)) for k in chosen])
+    if run.mesh.free.any():
+        low, high = _boxes(run, chosen, deformation)
+        if not follow:
+            centers = np.zeros_like(centers)
+        below, above = (centers - low).max(axis=0), (high - centers).max(axis=0)
+        size = (np.ptp(centers, axis=0) * (not follow) + below + above)
+        margin = np.maximum((SIDE - 1) * size.max(), 0.5 * (SLIM * size.max() - size))
+        below, above = below + margin, above + margin
+    else:
+        side = AHEAD if follow else SIDE
+        bottom = TOP if "ground" not in run.case else BOTTOM
+        below, above = run.outer_radius * np.array([[side, bottom], [side, TOP]])
+    low, high = centers - below, centers + above
+    for axis in range(2):
+        level = axis == 1 and np.ptp(centers[:, 1]) < LEVEL * (below + above)[1]
+        if level or not follow:
+            low[:, axis], high[:, axis] = low[:, axis].min(), high[:, axis].max()
+    return low, high
 
 
 def _even(pixels: float) -> int:
@@ -123,49 +159,70 @@ class _Film:
     """A figure that shows one snapshot after another."""
 
     def __init__(self, run: Run, chosen: np.ndarray, quantity: str, limits: tuple[float, float],
-                 follow: bool, width: int | None, largest: tuple[int, int]) -> None:
-        self.run, self.chosen, self.follow = run, chosen, follow
-        centers, radius = run.center[chosen], run.outer_radius
-        ground = Ground.from_case(run.case)
-        side = AHEAD if follow else SIDE
-        bottom = TOP if ground is None else BOTTOM
-        low = centers.min(axis=0) - np.array([side, bottom]) * radius
-        high = centers.max(axis=0) + np.array([side, TOP]) * radius
-        if _is_free(run):
-            low, high = _box(run, chosen)
-            margin = (SIDE - 1) * (high - low).max()
-            low, high = low - margin, high + margin
-        self.window = np.array([-side, side, -bottom, TOP]) * radius  # about the centre
-        size = np.array([2 * side, bottom + TOP]) * radius if follow else high - low
+                 follow: bool, width: int | None, largest: tuple[int, int],
+                 deformation: float = 1.0) -> None:
+        self.run, self.chosen, self.follow, self.deformation = run, chosen, follow, deformation
+        self.low, self.high = _views(run, chosen, follow, deformation)
+        size = self.high[0] - self.low[0]
         self.ax, bar = _layout(size[1] / size[0], width, largest)
         box = self.ax.get_window_extent()  # whole pixels: the upper edge makes the scales equal
-        high[1] += size[0] * box.height / box.width - size[1]
-        self.window[3] += size[0] * box.height / box.width - size[1]
-        self.ax.set(xlabel="x (m)", ylabel="y (m)", xlim=(low[0], high[0]), ylim=(low[1], high[1]))
-        draw_ground(self.ax, ground, (low[0], high[0]), low[1])
+        self.high[:, 1] += size[0] * box.height / box.width - size[1]
+        self.moves = np.ptp(self.low, axis=0) > 0
+        self.ax.set(xlabel="x (m)", ylabel="y (m)")
+        for axis, pixels in (self.ax.xaxis, box.width), (self.ax.yaxis, box.height):
+            if pixels < NARROW * DPI:
+                axis.set_major_locator(MaxNLocator(2))
+        draw_ground(self.ax, Ground.from_case(run.case),
+                    (self.low[:, 0].min(), self.high[:, 0].max()), self.low[:, 1].min())
+        self.ground: list[Artist] = [*self.ax.patches, *self.ax.lines]
         inches = self.ax.figure.get_figheight() - BELOW - ABOVE  # of size[1]
-        mesh_width = 0.1 if inches * radius / size[1] > SMALL else 0.0
-        self.body = draw_body(self.ax, run, int(chosen[0]), quantity, limits=limits,
-                              mesh_width=mesh_width)
-        self.contact = draw_contact(self.ax, run, int(chosen[0]))
-        # A radius of the rim, straight down at angle 0: a smooth disk would not be seen to turn.
-        self.mark, = self.ax.plot([], [], color=style.OUTLINE, linewidth=1.2)
+        # Of what the rim holds its mark shows that it turns; the mesh takes half of the time.
+        with_mesh = run.mesh.free.any() and inches * run.outer_radius / size[1] > SMALL
+        self.body = draw_body(self.ax, run, int(chosen[0]), quantity, "fixed", deformation, limits,
+                              0.1 if with_mesh else 0.0)
+        self.contact = draw_contact(self.ax, run, int(chosen[0]), deformation=deformation)
+        if self.body.rim is not None:
+            self.body.rim.mark.set_visible(self.body.rim.radius > 0)
         field = nodal(run, int(chosen[0]), quantity)
         self.ax.figure.colorbar(self.body.cells, cax=bar, label=f"{field.label} ({field.unit})")
+        self.show(0)
 
     def show(self, frame: int) -> None:
         index = int(self.chosen[frame])
-        self.body.update(index)
-        self.contact.update(index)
-        self.ax.set_title(snapshot_title(self.run, index))
-        if _is_free(self.run):
-            return
-        center, angle = self.run.center[index], self.run.angle[index]
-        spoke = self.run.inner_radius * np.array([np.sin(angle), -np.cos(angle)])
-        self.mark.set_data(*np.stack([center + 0.6 * spoke, center + spoke], axis=1))
-        if self.follow:
-            self.ax.set_xlim(*(center[0] + self.window[:2]))
-            self.ax.set_ylim(*(center[1] + self.window[2:]))
+        self.contact.update(index, self.body.update(index))
+        self.ax.set_title(snapshot_title(self.run, index, self.deformation))
+        self.ax.set_xlim(self.low[frame, 0], self.high[frame, 0])
+        self.ax.set_ylim(self.low[frame, 1], self.high[frame, 1])
+
+    def _moving(self) -> list[Artist]:
+        """What is not the same in all pictures, in the order of drawing."""
+        found: list[Artist] = [self.body.cells, self.body.edge, *self.contact.lines,
+                               *self.contact.dots, self.ax.title]
+        if self.body.rim is not None:
+            found += [self.body.rim.disk, self.body.rim.line, self.body.rim.mark]
+        axes = [axis for axis, moves in zip((self.ax.xaxis, self.ax.yaxis), self.moves) if moves]
+        if axes:
+            found += [*self.ground, *axes]
+        return sorted(found, key=lambda artist: artist.get_zorder())
+
+    def pictures(self, frames: Iterable[int]) -> Iterator[Picture]:
+        """What stays the same is drawn once, and what moves upon it in each picture."""
+        canvas = FigureCanvasAgg(self.ax.figure)
+        canvas.draw()  # which puts labels in their places
+        for axis in (self.ax.xaxis, self.ax.yaxis):  # and there they stay
+            at = axis.label.get_transform().transform(axis.label.get_position())
+            axis.set_label_coords(*self.ax.transAxes.inverted().transform(at))
+        moving = self._moving()
+        for artist in moving:
+            artist.set_animated(True)
+        canvas.draw()
+        background = canvas.copy_from_bbox(self.ax.figure.bbox)
+        for frame in frames:
+            self.show(frame)
+            canvas.restore_region(background)
+            for artist in moving:
+                self.ax.draw_artist(artist)
+            yield np.array(canvas.buffer_rgba())
 
 
 def _layout(aspect: float, width: int | None, largest: tuple[int, int]) -> tuple[Axes, Axes]:
@@ -186,21 +243,7 @@ def _layout(aspect: float, width: int | None, largest: tuple[int, int]) -> tuple
     return ax, bar
 
 
-def _write(film: _Film, path: pathlib.Path, ending: str, fps: int) -> None:
-    """Into a file beside it that takes its place when it is complete."""
-    writer: animation.AbstractMovieWriter
-    if ending == ".mp4":
-        writer = animation.FFMpegWriter(fps=fps, codec="h264", extra_args=["-pix_fmt", "yuv420p"])
-    else:
-        writer = animation.PillowWriter(fps=fps)
-    part = path.with_name(f".{path.stem}.{os.getpid()}.tmp{ending}")
-    try:
-        with writer.saving(film.ax.figure, str(part), DPI):
-            for frame in range(len(film.chosen)):
-                film.show(frame)
-                writer.grab_frame()
-        os.replace(part, path)
-    except (OSError, subprocess.CalledProcessError) as reason:
-        raise Error(f"{path}: the film cannot be written: {reason}") from None
-    finally:
-        part.unlink(missing_ok=True)
+def _write(film: _Film, path: pathlib.Path, fps: int) -> None:
+    frames = len(film.chosen)
+    some = np.unique(np.linspace(0, frames - 1, SAMPLES).round().astype(int)).tolist()
+    write_film(film.pictures(range(frames)), film.pictures(some), path, fps)

@@ -113,7 +113,8 @@ class Body:
     lines: list[NDArray[np.int64]]
     rim: Rim | None
 
-    def update(self, index: int) -> None:
+    def update(self, index: int) -> Array:
+        """Returns the places of the nodes."""
         points = positions(self.run, index, self.frame, self.deformation)
         values = nodal(self.run, index, self.quantity, self.frame).values
         self.cells.move(corners(points, self.run.mesh.cells))
@@ -121,6 +122,7 @@ class Body:
         self.edge.set_segments([points[line] for line in self.lines])
         if self.rim is not None:
             self.rim.update(index)
+        return points
 
 
 def draw_cells(ax: Axes, points: Array, cells: NDArray[np.integer[Any]], values: Array,
@@ -185,13 +187,15 @@ class ContactZone:
     dots: tuple[Line2D, Line2D]
     sides: NDArray[np.int64]
 
-    def update(self, index: int) -> None:
+    def update(self, index: int, points: Array | None = None) -> None:
+        """points: the places of the nodes, where they are known."""
         if self.run.contact is None:
             return
         touching = np.zeros(self.run.mesh.n_nodes, dtype=bool)
         forces = np.asarray(self.run.contact.force[index])[:, 0]
         touching[self.run.mesh.boundary[forces > 0]] = True
-        points = positions(self.run, index, self.frame, self.deformation)
+        if points is None:
+            points = positions(self.run, index, self.frame, self.deformation)
         zone = self.sides[touching[self.sides].all(axis=1)]
         alone = np.setdiff1d(np.flatnonzero(touching), zone)
         for line in self.lines:

@@ -7,7 +7,6 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 from matplotlib.axes import Axes
-from matplotlib.collections import LineCollection
 from matplotlib.lines import Line2D
 from matplotlib.patches import Polygon
 from numpy.typing import NDArray
@@ -33,9 +32,9 @@ class Rim:
     frame: str
     radius: float  # m, of the grey disk; 0: none
     disk: Polygon
-    line: LineCollection
+    line: Line2D
     mark: Line2D
-    sides: Array  # (k, 2, 2) m, turning frame
+    sides: Array  # (3 k, 2) m, turning frame: ends of k sides, each with nan behind it
 
     def update(self, index: int) -> None:
         fixed = self.frame == "fixed"
@@ -43,7 +42,7 @@ class Rim:
         angle = float(self.run.angle[index]) if fixed else 0.0
         circle = self.radius * np.stack([np.cos(CIRCLE), np.sin(CIRCLE)], axis=1)
         self.disk.set_xy(center + circle)
-        self.line.set_segments(list(center + turned(self.sides, angle)))
+        self.line.set_data(*(center + turned(self.sides, angle)).T)
         spoke = self.radius * turned(np.array([[0.0, -0.6], [0.0, -1.0]]), angle)
         self.mark.set_data(*(center + spoke).T)
 
@@ -58,11 +57,13 @@ def draw_rim(ax: Axes, run: Run, index: int, frame: str = "fixed") -> Rim | None
     is_round = np.ptp(radii) <= ROUND * radii.max()
     sides = outline(run.mesh.cells)
     disk = Polygon(np.zeros((1, 2)), color=style.RIM, linewidth=0, zorder=0.6, visible=is_round)
-    line = LineCollection([], colors=style.OUTLINE, linewidths=WIDTH, capstyle="round")
+    line, = ax.plot([], [], color=style.OUTLINE, linewidth=WIDTH, solid_capstyle="round", zorder=1.1,
+                    label="_rim")
     mark, = ax.plot([], [], color=style.OUTLINE, linewidth=1.2, visible=False)
     ax.add_patch(disk)
-    ax.add_collection(line)
+    ends = places[sides[held[sides].all(axis=1)]]
+    gaps = np.full((len(ends), 1, 2), np.nan)
     rim = Rim(run, frame, float(radii.max()) if is_round else 0.0, disk, line, mark,
-              places[sides[held[sides].all(axis=1)]])
+              np.concatenate([ends, gaps], axis=1).reshape(-1, 2))
     rim.update(index)
     return rim
