@@ -50,6 +50,10 @@ def _parser() -> argparse.ArgumentParser:
     film.add_argument("--quantity", default="displacement",
                       help="displacement, velocity, displacement_y, von_mises, ...; default "
                            "%(default)s")
+    film.add_argument("--deformation", type=float, default=1.0, metavar="FACTOR",
+                      help="on the deformation as drawn; default %(default)s")
+    film.add_argument("--follow", action="store_true", default=None,
+                      help="the picture moves along with the body; default: where it goes far")
     film.add_argument("--frames", type=int, help="pictures; default at most 300")
     film.add_argument("--fps", type=int, help="pictures a second; default at most 30")
 
@@ -153,7 +157,8 @@ def _figures(options: argparse.Namespace) -> None:
 def _animate(options: argparse.Namespace) -> None:
     run = open_run(options.directory, options.unfinished)
     print(run.animate(options.file, quantity=options.quantity, from_time=options.from_time,
-                      to_time=options.to_time, frames=options.frames, fps=options.fps))
+                      to_time=options.to_time, frames=options.frames, fps=options.fps,
+                      follow=options.follow, deformation=options.deformation))
 
 
 def _mean_forces(run: Run, from_time: float | None, to_time: float | None) -> str:

@@ -25,7 +25,7 @@ def test_figures_of_a_run(smooth, tmp_path):
     names = {path.name for path in tmp_path.iterdir()}
     assert [tmp_path / name for name in sorted(names)] == sorted(tmp_path / p for p in printed)
     stems = {"field-displacement", "field-von_mises", "energy", "forces", "force-spectrum",
-             "pod-spectrum", "modes-velocity-rectified", "modes-displacement-rotating",
+             "contact", "contact-map", "pod-spectrum", "modes-velocity-rectified", "modes-displacement-rotating",
              "modes-contact-rotating"}
     assert names == {stem + ending for stem in stems for ending in (".png", ".svg")}
     for path in tmp_path.glob("*.png"):
@@ -54,7 +54,8 @@ def test_figures_of_a_crush(crush, tmp_path, monkeypatch):
 
     monkeypatch.setattr(style, "save", keep)
     draw_run(rondo.open(crush), tmp_path)
-    assert drawn == ["field-displacement", "field-von_mises", "energy", "forces"]
+    assert drawn == ["field-displacement", "field-von_mises", "contact", "contact-map", "energy",
+                     "forces"]
 
 
 def test_film(smooth, tmp_path):

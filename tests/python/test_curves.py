@@ -112,11 +112,30 @@ def test_plot_spectrum(treaded, smooth):
     np.testing.assert_array_equal(line.get_xdata(), frequency[1:])
     np.testing.assert_array_equal(line.get_ydata(), amplitude[1:])
     assert ax.get_xlabel() == "frequency (Hz)" and "(N/m)" in ax.get_ylabel()
+    assert run.mesh_frequency == pytest.approx(36 * 33.333333 / (2 * np.pi))  # 12 pitches of 3
+    tread, mesh = ax.collections
+    for marks, passing, name in ((tread, run.pitch_frequency, "tread (pitches × spin)"),
+                                 (mesh, run.mesh_frequency, "mesh (columns × spin)")):
+        places = [path[0, 0] for path in marks.get_segments()]
+        np.testing.assert_allclose(places, passing * np.arange(1, len(places) + 1))
+        assert len(places) == int(frequency[-1] / passing)
+        assert marks.get_label().startswith(f"{name}: {passing:.0f} Hz")
+    assert len(ax.get_legend().get_texts()) == 2
+
+
+def test_the_ripple_of_a_smooth_disk_is_of_the_mesh(smooth, crush, copy):
+    run = rondo.open(smooth)
+    assert run.mesh_frequency == pytest.approx(40 * 33.333333 / (2 * np.pi))
+    ax = run.plot_spectrum()
     marks, = ax.collections
-    places = [path[0, 0] for path in marks.get_segments()]
-    np.testing.assert_allclose(places, run.pitch_frequency * np.arange(1, len(places) + 1))
-    assert len(places) == int(frequency[-1] / run.pitch_frequency)
-    assert not rondo.open(smooth).plot_spectrum().collections
+    assert marks.get_segments()[0][0, 0] == pytest.approx(run.mesh_frequency)
+    text, = ax.get_legend().get_texts()
+    assert text.get_text().startswith("mesh (columns × spin): 212 Hz")
+    assert rondo.open(crush).mesh_frequency is None  # nothing turns
+    info = json.loads((copy / "run.json").read_text()) | {"reduced_contact": "places"}
+    (copy / "run.json").write_text(json.dumps(info))
+    reduced = rondo.open(copy)  # its contact is at places in space, which no node passes
+    assert reduced.mesh_frequency is None and not reduced.plot_spectrum().collections
 
 
 def test_plot_history(smooth, crush):
@@ -165,10 +184,12 @@ def test_a_ratio_of_round_off_is_a_level_line(copy):
 
 def test_forces_without_ground(air):
     run = rondo.open(air)
-    for function in (run.plot_spectrum, run.plot_history, lambda: run.plot_spectrum("torque"),
-                     lambda: run.history.mean("force_y")):
+    for function in (run.plot_spectrum, lambda: run.plot_history("force_y"),
+                     lambda: run.plot_spectrum("torque"), lambda: run.history.mean("force_y")):
         with pytest.raises(rondo.Error, match="no ground: the case has no .ground., so "):
             function()
+    assert [line.get_label() for line in run.plot_history().lines] == ["kinetic energy",
+                                                                       "strain energy"]
     assert run.plot_history("kinetic").lines and run.plot_spectrum("kinetic").lines
     assert run.history.mean("kinetic") > 0
 

@@ -227,8 +227,8 @@ class Run:
 
     @cached_property
     def held(self) -> np.ndarray:
-        """(n,) True where a node is held by the rim: on the inner circle of a disk; of a mesh from a
-        file where nothing has moved in the turning frame."""
+        """(n,) True where a node is held by the rim: on the inner circle of a disk; of a mesh from
+        a file where nothing has moved in the turning frame."""
         mesh = self.mesh
         if "disk" in self.case:
             radius: np.ndarray = np.linalg.norm(mesh.coordinates, axis=1)

@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""The figures of any run: fields at three times, forces, energies, spectra, modes of its PODs."""
+"""The figures of any run: fields at three times, contact, forces, energies, spectra, modes of its
+PODs."""
 from __future__ import annotations
 
 import os
@@ -11,7 +12,7 @@ import numpy as np
 from matplotlib.figure import Figure
 
 from .. import style
-from ..plots import curves, field
+from ..plots import curves, field, patch
 from ..plots.modes import plot_modes, plot_pod_spectrum
 
 if TYPE_CHECKING:
@@ -29,9 +30,13 @@ def draw_run(run: Run, folder: str | os.PathLike[str]) -> list[pathlib.Path]:
         plt.close(figure)
 
     if run.n_snapshots:
-        for quantity in ("displacement", "von_mises"):
-            if quantity in run.field_names:
+        for quantity in ("displacement", "deformation", "von_mises"):
+            if quantity in run.field_names or quantity == "deformation" and run.mesh.free.any():
                 keep(f"field-{quantity}", fields(run, quantity))
+        if run.contact is not None and len(run.contact.rows["time_s"]):
+            last = run.contact.rows["time_s"][-1]
+            keep("contact", patch.plot_contact(run, last).figure)
+            keep("contact-map", patch.plot_contact_map(run).figure)
     history = run.history
     if len(history["time_s"]):
         keep("energy", curves.plot_energy(run).figure)

@@ -202,7 +202,7 @@ class _Film:
             found += [self.body.rim.disk, self.body.rim.line, self.body.rim.mark]
         axes = [axis for axis, moves in zip((self.ax.xaxis, self.ax.yaxis), self.moves) if moves]
         if axes:
-            found += [*self.ground, *axes]
+            found += [*self.ground, *axes, *self.ax.spines.values()]
         return sorted(found, key=lambda artist: artist.get_zorder())
 
     def pictures(self, frames: Iterable[int]) -> Iterator[Picture]:

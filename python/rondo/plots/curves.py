@@ -197,7 +197,8 @@ def _mark_passing(ax: Axes, run: Run, highest: float) -> None:
         if not base or base > highest:
             continue
         places = base * np.arange(1, int(highest / base) + 1)
+        multiples = " and its multiples" if len(places) > 1 else ""
         ax.vlines(places, 0, 1, transform=ax.get_xaxis_transform(), zorder=0, **look,
-                  label=f"{name}: {base:.0f} Hz" + (" and its multiples" if len(places) > 1 else ""))
+                  label=f"{name}: {base:.0f} Hz{multiples}")
     if ax.collections:
         ax.legend(loc="lower center", bbox_to_anchor=(0.5, 1.0), ncols=2)

@@ -17,7 +17,7 @@ from ..data.errors import Error
 
 Picture = NDArray[np.uint8]  # (height, width, 4): red, green, blue, opacity
 FFMPEG = "ffmpeg"
-QUALITY = ("-preset", "veryfast", "-crf", "22")  # as large as by ffmpeg's own choice, in half the time
+QUALITY = ("-preset", "veryfast", "-crf", "22")  # as large as by default, in half the time
 SAMPLES = 8  # pictures from which the colours of a gif are taken
 
 

@@ -146,9 +146,9 @@ def draw_cells(ax: Axes, points: Array, cells: NDArray[np.integer[Any]], values:
 def draw_body(ax: Axes, run: Run, index: int, quantity: str = "displacement", frame: str = "fixed",
               deformation: float = 1.0, limits: tuple[float, float] | None = None,
               mesh_width: float = 0.1) -> Body:
-    """The body of the snapshot `index` and the rim that holds it; its `cells` go to a colour bar. `limits` of the colours are
-    in the unit of the figure (see `nodal`); None: those of the cells of this snapshot, as one
-    corner node may have far more."""
+    """The body of the snapshot `index` and the rim that holds it; its `cells` go to a colour bar.
+    `limits` of the colours are in the unit of the figure (see `nodal`); None: those of the cells of
+    this snapshot, as one corner node may have far more."""
     field = nodal(run, index, quantity, frame)
     points = positions(run, index, frame, deformation)
     patches, edge = draw_cells(ax, points, run.mesh.cells, field.values,

@@ -16,6 +16,7 @@ from ..data.errors import Error
 from .amplitude import without_crossing
 from .field import cell_means, component, draw_cells, outline, turned
 from .marks import letter
+from .rim import draw_still_rim
 
 if TYPE_CHECKING:
     from ..data.pod import Pod
@@ -28,6 +29,7 @@ LARGEST_CLOSE = 0.025  # and where only a part of the body is shown; less where 
 SMALL_MEAN = 0.1  # mean over root mean square of a course that swings about zero
 SHARES = (1e-2, 1e-4, 1e-6)  # of the energy left out, for which the numbers of modes are told
 MANY, FEW = 24, 8  # swings in time: more are not drawn, but these
+HELD = 1e-12  # size of a mode over its largest, up to which the rim holds a node
 FLOOR = 1e-14  # shares below are not drawn: round-off
 
 
@@ -156,8 +158,14 @@ def _height(window: Window) -> float:
 def draw_mode(ax: Axes, pod: Pod, mode: int, window: Window | None = None) -> None:
     points, radial = shape(pod, mode, LARGEST_CLOSE if window else LARGEST)
     draw_cells(ax, points, pod.mesh.cells, radial, (-1.0, 1.0), signed=True, mesh_width=0)
-    reach = (1 + LARGEST) * np.abs(pod.mesh.coordinates).max()
-    across, up = window or ((-reach, reach), (-reach, reach))
+    coordinates = pod.mesh.coordinates
+    size = np.linalg.norm(np.asarray(pod.spatial[mode]), axis=1)
+    draw_still_rim(ax, coordinates, pod.mesh.cells, size <= HELD * size.max())
+    middle = 0.5 * (coordinates.max(axis=0) + coordinates.min(axis=0))
+    reach = 0.5 * np.ptp(coordinates, axis=0).max() + 1.2 * LARGEST * np.linalg.norm(
+        coordinates, axis=1).max()
+    across, up = window or ((middle[0] - reach, middle[0] + reach),
+                            (middle[1] - reach, middle[1] + reach))
     ax.set(xlim=across, ylim=up, aspect="equal", xlabel="X (m)", ylabel="Y (m)")
 
 

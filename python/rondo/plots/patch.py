@@ -23,15 +23,15 @@ Array = NDArray[np.float64]
 QUANTITIES = ("pressure", "shear")
 STICKS = 1 - 1e-9  # shear over μp up to which a node sticks
 MOST_ROWS, MOST_COLUMNS = 600, 600  # of a map
-FINE = 4  # columns of a map for a node
+FINE = 8  # columns of a map for a node
 
 
 @dataclasses.dataclass(frozen=True)
 class Patch:
     """The m nodes in contact at a snapshot, in the order of their places.
 
-    nodes: (m,); place: (m,) m along the patch, see `patch_of`; ends: (m, 2) m, between which each is
-    drawn: half way to a neighbour, else half the boundary that it stands for; joined: (m,) whether
+    nodes: (m,); place: (m,) m along the patch, see `patch_of`; ends: (m, 2) m, between which each
+    is drawn: half way to a neighbour, else half the boundary that it stands for; joined: (m,) whether
     the next one is a neighbour on the boundary; pressure, shear: (m,) Pa, shear > 0 pushes the body
     towards growing places. Of bodies that touch each other the nodes of one after the other.
     """
