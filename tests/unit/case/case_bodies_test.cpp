@@ -34,7 +34,6 @@ gravity = [[0, 0], [0.5, 9.81]]
 between = "all"
 friction = 0.4
 restitution = 0.25
-impact = "energy-safe"
 [[load.pressure]]
 curve = "bore"
 value = [[0, 0], [0.1, 2e5]]
@@ -87,7 +86,7 @@ TEST(ReadBodies, TakesEveryKeyOfTheRun) {
   EXPECT_EQ(c.body_contact.between, BodyContact::all);
   EXPECT_EQ(c.body_contact.friction, 0.4);
   EXPECT_EQ(c.body_contact.restitution, 0.25);
-  EXPECT_EQ(c.body_contact.impact, contact::Impact::energy_safe);
+  EXPECT_EQ(c.body_contact.impact, contact::Impact::moreau);
   ASSERT_EQ(c.pressures.size(), 1U);
   EXPECT_EQ(c.pressures[0].curve, "bore");
   EXPECT_EQ(c.pressures[0].pressure.at(0.05), 1e5);

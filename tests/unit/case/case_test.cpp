@@ -228,7 +228,7 @@ TEST(WriteCase, RoundTripsBodies) {
       "material.integration=b-bar",
       "material.region=[{surface = 'é', density = 0.1}, {surface = 'b', youngs_modulus = 3}]",
       "motion={gravity = [[0, 0], [0.3, 9.81]]}",
-      "contact={between = 'bodies', restitution = 0.1, impact = 'energy-safe'}",
+      "contact={between = 'bodies', friction = 0.7, impact = 'energy-safe'}",
       "load.pressure=[{curve = 'c', value = 3}, {curve = 'c', value = [[1, 2], [3, -0.0]]}]",
       "initial={position = [0.1, 0.7], angle = 0.3, angular_velocity = -0.1}",
       "initial.region=[{surface = 'b', velocity = [1e-300, 0.3]}]",
