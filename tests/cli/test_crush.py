@@ -158,7 +158,7 @@ class Crush(RunTest):
     def test_a_dynamic_case_crushed_from_the_command_line(self):
         done = run("run", self.case(LEDGE), "-o", self.out, "--quiet", *FROM_DYNAMIC)
         self.assertEqual(done.returncode, 0, done.stderr)
-        self.assertEqual(done.stderr.count("warning"), 1)
+        self.assertEqual(said(done).count("warning"), 1)
         for name in ("[damping]", "[motion]", "[initial]", "[time]", "output.snapshots"):
             self.assertIn(name, done.stderr)
 
@@ -284,9 +284,10 @@ class Crush(RunTest):
                 for y in (x, moved)]
         ratio = area[1] / area[0]
         self.assertAlmostEqual(s["jacobian_min"], ratio.min(), delta=1e-12)
-        self.assertEqual(s["jacobian_min_cell"], ratio.argmin())
+        at = s["jacobian_min_cell"]  # or its mirror image
+        self.assertAlmostEqual(ratio[at], ratio.min(), delta=1e-9)
         self.assertEqual(s["jacobian_min_time"], 1.0)
-        np.testing.assert_allclose(s["jacobian_min_place"], x[cells[ratio.argmin()]].mean(axis=0))
+        np.testing.assert_allclose(s["jacobian_min_place"], x[cells[at]].mean(axis=0))
         self.assertGreater(s["strain_max"], 0.4)
 
     def test_an_inverted_cell_ends_it(self):

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// @file  How far a body is strained in a run, and whether a cell turns inside out: looked at now
-/// and then, at what costs about a percent of the steps.
+/// and then, at the cost of a percent or two of the steps.
 #pragma once
 #include <span>
 #include <string>
@@ -15,9 +15,9 @@ namespace rondo::study {
 /// Above it a run says that the law of the material is one of small strains.
 inline constexpr double small_strain = 0.10;
 
-/// A look takes about as long as ten steps: one every so many steps at the least, and at snapshots
-/// that are so far apart.
-inline constexpr long long steps_between_looks = 1000, steps_between_snapshot_looks = 100;
+/// A look takes as long as two steps, and one more pair where the state is fetched for it alone:
+/// one every so many steps at the least, and at snapshots that are so far apart.
+inline constexpr long long steps_between_looks = 250, steps_between_snapshot_looks = 100;
 
 /// How the time of a look is told: "t = 0.1 s".
 struct TimeWords {

@@ -78,7 +78,8 @@ TEST(ReadBodies, TakesEveryKey) {
   EXPECT_EQ(c.regions[0].material.integration, fem::Integration::b_bar);
   EXPECT_EQ(c.regions[1].material.poissons_ratio, 0.499);  // left out: that of [material]
   EXPECT_EQ(c.motion.gravity.at(0.25), 0.5 * 9.81);
-  EXPECT_TRUE(c.warnings.empty());  // b-bar does not lock
+  ASSERT_EQ(c.warnings.size(), 1U);  // b-bar does not lock
+  EXPECT_NE(c.warnings[0].find("> 0 turns clockwise now"), std::string::npos) << c.warnings[0];
 }
 
 TEST(ReadBodies, TakesEveryKeyOfTheRun) {
@@ -121,7 +122,7 @@ TEST(ReadBodies, AnAbsoluteFileStaysWhatItIs) {
 TEST(ReadBodies, LockingIsWarnedOfInEachMaterial) {
   const Case c = read_text(thrown, {"material.integration=full", "material.poissons_ratio=0.3",
                                     "material.region[1].poissons_ratio=0.495"});
-  ASSERT_EQ(c.warnings.size(), 1U);
+  ASSERT_EQ(c.warnings.size(), 2U);  // and that of the sign of spins
   EXPECT_NE(c.warnings[0].find("material.region[1].poissons_ratio = 0.495"), std::string::npos);
   EXPECT_NE(c.warnings[0].find("b-bar"), std::string::npos);
 }
