@@ -280,13 +280,9 @@ void DynamicAnalysis::warn(std::string warning) {
   warnings_.push_back(std::move(warning));
 }
 
-/// It hangs on the step and the snapshots alone: a run that goes on looks at the same ones.
 bool DynamicAnalysis::is_looked_at() const noexcept {
-  const long long step = state_.step;
-  if (step % steps_between_looks == 0) return true;
-  if (step != next_snapshot()) return false;
   const long long before = next_ > 0 ? schedule_.steps[next_ - 1] : -1;
-  return before < 0 || step / steps_between_snapshot_looks != before / steps_between_snapshot_looks;
+  return is_look(state_.step, state_.step == next_snapshot(), before);
 }
 
 void DynamicAnalysis::look() {

@@ -22,6 +22,12 @@ Vec2 middle_of(const mesh::Mesh& mesh, std::size_t cell) {
 
 }  // namespace
 
+bool is_look(long long step, bool snapshot, long long before) noexcept {
+  if (step % steps_between_looks == 0) return true;
+  const long long every = steps_between_snapshot_looks;
+  return snapshot && (before < 0 || step / every != before / every);
+}
+
 StrainWatch::StrainWatch(const mesh::Mesh& mesh, const dynamics::Model* model)
     : mesh_(mesh), model_(model && !model->free_bodies.empty() ? model : nullptr) {
   if (model_) elastic_.resize(mesh.n_nodes());
