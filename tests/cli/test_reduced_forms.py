@@ -89,6 +89,17 @@ class Smooth(Disk):
                 self.assertEqual(j["reduced_frame"], "turning" if turning else "rectified")
                 self.assertEqual(j["reduced_step"], "explicit" if of_run else "midpoint")
 
+    def test_energy_safe_impacts_only_where_they_are(self):
+        nodes = self.model("--contact", "nodes")
+        safe = ["--set", "ground.impact=energy-safe", "--set", "ground.restitution=0.5"]
+        _, j = self.predicted(nodes, "--reduced-step", "explicit", "--step-factor", 1, *safe)
+        self.assertEqual(j["warnings"], [])
+        for of_reduce, step in ((["--contact", "nodes"], "midpoint"), ([], "explicit")):
+            said = self.fails("run", self.case_file, "-o", self.folder / "refused", "--reduced",
+                              self.model(*of_reduce), "--reduced-step", step, *safe)
+            for part in ("ground.impact", "--contact nodes", "explicit"):
+                self.assertIn(part, said)
+
     def test_nodes_take_a_whole_number_of_steps_a_sector(self):
         out, j = self.predicted(self.model("--contact", "nodes"))
         sector = 2 * np.pi / 120 / 33.333333

@@ -79,6 +79,18 @@ void check_model(const Case& c, const RunOptions& options, const ReducedFile& fi
                         "a model built anew by this version (rondo reduce)");
 }
 
+/// Elsewhere the law sees gaps besides, and w_n is not the mean velocity that does the work.
+void check_impacts(const Case& c, const ReducedRun& run) {
+  if (!c.ground || c.ground->impact == contact::Impact::moreau) return;
+  if (run.file.model.form == rom::ContactForm::nodes && run.scheme == rom::StepScheme::central)
+    return;
+  throw case_error(c, "ground.impact",
+                   "a reduced run keeps what this law promises only with contact at nodes and "
+                   "explicit steps",
+                   "\"moreau\", or a model of rondo reduce --contact nodes and --reduced-step "
+                   "explicit");
+}
+
 /// A thousandth of the range, of the value or of the scale is no news.
 void warn_outside(const char* what, const ModelRange& built, const ModelRange& wanted,
                   std::vector<std::string>& warnings, double scale = 0.0) {
@@ -184,6 +196,7 @@ ReducedRun prepare_reduced(const Case& c, const RunOptions& options, Setup& setu
   check_model(c, options, run.file, setup);
   for (const auto& [name, scheme] : step_names)
     if (options.reduced_step == name) run.scheme = scheme;
+  check_impacts(c, run);
   run.step_factor = options.step_factor;
   run.full_step = setup.model.dt;
   setup.model.dt = step_of(c, setup, run);

@@ -162,15 +162,15 @@ void ContactSolver::make_problem(const FreeStep& step, const contact::Law& law,
     const Vec2 arm_before =
         before_.table->point(earlier) + before_.table->at(earlier, *step.before.q);
     const double gap_before = c.gap - dot(normal, advance + arm - from_before * arm_before);
-    const double opening_rate = dot(normal, opening(step.end, end_, c.point, step.spin));
-    p.free[i] = {opening_rate, dot(tangent, material_velocity(step.end, end_, c.point))};
+    p.free[i] = {dot(normal, opening(step.end, end_, c.point, step.spin)),
+                 dot(tangent, material_velocity(step.end, end_, c.point))};
     if (implicit) p.free[i].x += gap_before / step.dt;
     if (!implicit && now.stands_still()) p.free[i].x = c.gap / step.dt;
     p.bounce[i] = 0.0;
     if (law.restitution != 0.0 || law.impact != contact::Impact::moreau) {
       const Vec2 before = from_before * opening(step.before, before_, earlier, step.spin);
-      const double w = dot(normal, before), gap_rate = p.free[i].x - opening_rate;
-      p.bounce[i] = contact::restitution_shift(law, w, w - gap_rate);
+      const double w = dot(normal, before);
+      p.bounce[i] = contact::restitution_shift(law, w, w);
     }
     for (std::size_t j = 0; j < n; ++j) {
       const DelassusPair w = now.pair(c.point, contacts_[j].point);

@@ -53,6 +53,7 @@ class ContactSolver {
   ContactSolver(const mesh::Mesh& mesh, const rom::ReducedModel& model,
                 const contact::Ground& ground, contact::CoupledLimits limits);
   /// Finds the contacts of the step and their impulses.
+  /// The energy-safe law of impacts is only for nodes and central differences.
   [[nodiscard]] ContactOutcome solve(const FreeStep& step, const contact::Law& law,
                                      const StepMatrices& matrices);
   /// The matrices of the steps to come are others.

@@ -163,10 +163,10 @@ TEST(ReducedIntegrator, ClosesItsLedgerWithFewerModes) {
   }
 }
 
-/// Points that come by are nodes of the body: their impulses do no work on it.
+/// Nodes that come by, seen at half steps as the full run sees them: no impulse does work on them.
 TEST(ReducedIntegrator, EnergySafeImpactsOfNodesTakeEnergy) {
   for (const Form& form : every_form) {
-    if (form.contact != nodes) continue;
+    if (form.contact != nodes || form.scheme != central) continue;
     SCOPED_TRACE(&form - every_form.data());
     Reduced r = pressed(form);
     r.full.model.contact->law.restitution = 0.5;
