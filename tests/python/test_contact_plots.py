@@ -107,7 +107,7 @@ def test_bodies_that_touch_each_other(disks):
 
 @pytest.mark.parametrize("quantity", patch.QUANTITIES)
 @pytest.mark.parametrize("name", ["smooth", "crush"])
-def test_the_map_has_the_force_of_each_snapshot(runs, name, quantity):
+def test_the_map_has_each_node_in_its_place(runs, name, quantity):
     run = rondo.open(runs / name)
     ax = run.plot_contact_map(quantity)
     drawn = ax.collections[0]
@@ -116,14 +116,16 @@ def test_the_map_has_the_force_of_each_snapshot(runs, name, quantity):
     assert ax.get_xlabel().endswith("(mm)")
     assert ax.get_ylabel() == ("depth (mm)" if run.is_crush else "time (ms)")
     assert len(values) == run.n_snapshots
-    factor = {"MPa": 1e3, "kPa": 1.0}[ax.figure.axes[1].get_ylabel().split()[1][1:4]]  # N/m
-    force = values.filled(0.0).sum(axis=1) * (edges[0, 1, 0] - edges[0, 0, 0]) * factor
-    expected = np.asarray(run.contact.force[:]).sum(axis=1)
-    expected = expected[:, 0] if quantity == "pressure" else -expected[:, 1]
-    scale = np.abs(np.asarray(run.contact.force[:])[:, :, 0]).sum(axis=1).max()
-    assert np.abs(force - expected).max() < 0.08 * scale  # columns of an eighth of a node
-    rows = np.asarray(run.contact.force[:])[:, :, 0].any(axis=1)
-    assert np.array_equal(values.mask.all(axis=1), ~rows)  # white where nothing touches
+    factor = {"MPa": 1e-6, "kPa": 1e-3}[ax.figure.axes[1].get_ylabel().split()[1][1:4]]
+    part, sense = {"pressure": (0, 1.0), "shear": (1, -1.0)}[quantity]
+    for k, row in enumerate(values):
+        traction = np.asarray(run.contact.traction[k])
+        touching = np.flatnonzero(traction[:, 0] > 0)
+        place = run.position(k)[run.contact.nodes[touching], 0] - run.center[k, 0]
+        found = row[np.searchsorted(edges[0, :, 0], 1e3 * place) - 1]
+        assert not np.ma.is_masked(found)
+        assert np.allclose(found, sense * factor * traction[touching, part], atol=1e-12)
+        assert len(touching) or row.mask.all()  # white where nothing touches
 
 
 def test_a_map_on_the_ground(smooth):

@@ -178,9 +178,10 @@ def plot_force_spectrum(run: Run, column: str = "force_y", from_time: float | No
     ax = axes_of(ax, 2.4)
     _mark_passing(ax, run, frequency[-1])
     line: dict[str, Any] = {**style.CURVES[0], "linewidth": 0.8}
-    ax.semilogy(frequency[1:], amplitude[1:], **line)
+    ax.plot(frequency[1:], amplitude[1:], **line)
     top = amplitude.max()
     if top > 0:
+        ax.set_yscale("log")
         ax.set_ylim(max(amplitude[1:].min(), 1e-6 * top), 3 * top)
     ax.set_xlim(0, frequency[-1])
     ax.set_xlabel("frequency (Hz)")
