@@ -12,7 +12,7 @@ namespace {
 
 using namespace test;
 
-Setup disk(const std::string& mesh, const std::string& rim = "clamped") {
+Setup disk(const std::string& mesh, const std::string& rim = "bonded") {
   const std::string motion = rim == "free"
                                  ? "initial = {position = [1, 2]}\n"
                                  : "motion = {angular_velocity = 0, speed = 0, height = 0.4}\n";
@@ -35,7 +35,7 @@ Case disk_case() {
 
 /// Columns are narrowest at the rim; with layers that grow finer outwards it is the last.
 TEST(StepLimit, OfADiskIsALayer) {
-  const Setup even = disk("radial = 5, circumferential = 200");
+  const auto even = disk("radial = 5, circumferential = 200");
   const StepLimit inner = find_step_limit(disk_case(), even);
   EXPECT_EQ(inner.part, "layer 1 of 5 from the rim, r = 0.1 to 0.14 m");
   EXPECT_NEAR(norm(inner.place), 0.12, 1e-3);
@@ -43,8 +43,9 @@ TEST(StepLimit, OfADiskIsALayer) {
   EXPECT_NEAR(inner.step, 2.0 / even.critical.element_bound, 1e-12 * inner.step);
   EXPECT_GT(inner.without_part, 1.1 * inner.step);
   EXPECT_LE(inner.without_worst, inner.without_part);
-  const Setup graded = disk("radial = 5, circumferential = 20, grading = 10.0");
-  EXPECT_EQ(find_step_limit(disk_case(), graded).part.substr(0, 12), "layer 5 of 5");
+  const auto graded = disk("radial = 5, circumferential = 20, grading = 10.0");
+  const StepLimit outer = find_step_limit(disk_case(), graded);
+  EXPECT_EQ(outer.part.find("layer 5 of 5"), 0U) << outer.part;
   // Of a free disk, which has no sectors and is elsewhere, the same.
   const StepLimit placed =
       find_step_limit(disk_case(), disk("radial = 5, circumferential = 200", "free"));

@@ -99,8 +99,7 @@ TEST(Probes, ColumnsAreNamed) {
   EXPECT_EQ(units, (std::vector<std::string>{"m", "m", "m/s", "m/s", "Pa", "Pa", "Pa", "Pa"}));
 }
 
-/// Of triangles by B-bar the mean dilatation of the corners, of a free body that has turned too: as
-/// the fields have it in the interior of a linear displacement.
+/// Of triangles by B-bar the mean dilatations at the corners: exact for a linear displacement.
 TEST(Probes, OfTrianglesHaveTheMeanDilatation) {
   const MeshCaseFile file(squares);
   std::ofstream(file.mesh()) << two_squares_of_triangles(0.1);
@@ -123,7 +122,7 @@ TEST(Probes, OfTrianglesHaveTheMeanDilatation) {
   const auto linear = sxx_and_szz([](Vec2 x) { return Vec2{1e-3 * x.x, 0.0}; });
   EXPECT_NEAR(linear.first, 1e-3 * d.d11, 1e-10 * d.d11);
   EXPECT_NEAR(linear.second, 1e-3 * d.d12, 1e-10 * d.d11);
-  // In a field of no change of volume but beyond x = 0.5, the corners there have a share of that.
+  // What changes the volume beyond x = 0.5 alone is felt by the corners there.
   const auto beyond = sxx_and_szz([](Vec2 x) {
     return Vec2{x.x > 0.9 && x.x < 1.05 ? 1e-3 : 0.0, 0.0};
   });
