@@ -41,9 +41,10 @@ Parts layers_of(const mesh::Mesh& mesh, Vec2 center) {
   for (std::size_t k = 1; k < radii.size(); ++k)
     parts.names.push_back(fmt::format("layer {} of {} from the rim, r = {:.6g} to {:.6g} m", k,
                                       radii.size() - 1, radii[k - 1], radii[k]));
-  for (std::size_t e = 0; e < mesh.cells.size(); ++e) {
-    const double middle = norm(middle_of(mesh, e) - center);
-    const auto outer = std::upper_bound(radii.begin() + 1, radii.end() - 1, middle);
+  for (const mesh::Cell& cell : mesh.cells) {
+    double inner = radii.back();  // of its corners: the middle of a wide cell is further in
+    for (const int node : cell) inner = std::min(inner, norm(mesh.coordinates[at(node)] - center));
+    const auto outer = std::upper_bound(radii.begin(), radii.end(), inner + same);
     parts.of_cell.push_back(static_cast<int>(outer - radii.begin()) - 1);
   }
   return parts;
