@@ -11,7 +11,7 @@ set(RONDO_PUBLIC_HEADERS
 set(RONDO_INCLUDED_HEADERS
     core/complex.hpp core/field.hpp core/sum.hpp core/vec2.hpp
     case/analysis_kinds.hpp analysis/build/bodies.hpp io/h5/h5.hpp
-    fem/element.hpp modal/critical_speeds.hpp modal/modes.hpp
+    fem/element.hpp fem/nodal_dilatation.hpp modal/critical_speeds.hpp modal/modes.hpp
     contact/law.hpp contact/coupled/band.hpp contact/coupled/coupled.hpp
     contact/coupled/problem_file.hpp
     model/contact_node.hpp model/ledger.hpp model/motion.hpp model/saved_state.hpp

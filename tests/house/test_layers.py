@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """The layer check holds on the project, and sees a back edge when there is one."""
 import pathlib
+import re
 import tempfile
 import unittest
 
@@ -53,6 +54,16 @@ class Layers(unittest.TestCase):
     def test_no_sources_is_a_fault(self):
         with tempfile.TemporaryDirectory() as folder:
             self.assertEqual(len(list(check_layers.faults(pathlib.Path(folder)))), 1)
+
+    def test_what_public_headers_include_is_public(self):
+        """That each then compiles with what is installed, house_install sees."""
+        text = (ROOT / "cmake" / "public_headers.cmake").read_text()
+        public = set(re.findall(r"[a-z0-9_/]+\.hpp", text))
+        self.assertGreater(len(public), 40)
+        for header in sorted(public - {"core/version.hpp"}):  # which CMake makes
+            included = check_layers.INCLUDE.findall((ROOT / "src/rondo" / header).read_text())
+            ours = {name.removeprefix("rondo/") for name in included if name.startswith("rondo/")}
+            self.assertEqual(ours - public, set(), f"{header}; cmake/public_headers.cmake")
 
 
 if __name__ == "__main__":
