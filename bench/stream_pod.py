@@ -72,7 +72,7 @@ def main():
     program = sys.argv[1]
     n_snapshots = int(sys.argv[2]) if len(sys.argv) > 2 else 1000
     memory = sys.argv[3] if len(sys.argv) > 3 else "400MB"
-    frame = sys.argv[4] if len(sys.argv) > 4 else "rotating"
+    frame = sys.argv[4] if len(sys.argv) > 4 else "co-rotating"
     with tempfile.TemporaryDirectory() as name:
         folder = pathlib.Path(name)
         (folder / "case.toml").write_text(CASE)

@@ -47,6 +47,7 @@ int finish(const study::RunReport& r, const std::filesystem::path& directory) {
       r.energy_residual_relative, r.contact_residual_max, r.penetration_max_m);
   spdlog::info("largest strain {:.2g}, smallest J of an element {:.2g}", r.strain_max,
                r.jacobian_min);
+  for (const std::string& note : r.notes) spdlog::info(note);
   spdlog::info("{} snapshots in {}", r.snapshots, directory.string());
   return exit_done;
 }

@@ -122,16 +122,25 @@ CLI::App* add_reduce(CLI::App& program, study::ReduceRequest& r, bool& quiet) {
           "nodes of the boundary to a contact point; divides their number; as many as leave "
           "180 points if left out")
       ->check(CLI::Range(1, 1000000));
+  reduce
+      ->add_option("--contact-phases", r.contact_phases,
+                   "contact points to a node of the boundary, those between two nodes where nodes "
+                   "come by: to compare with")
+      ->capture_default_str()
+      ->check(CLI::Range(1, 16));
   reduce->add_option(
       "--contact", r.contact,
       "points of contact: places that stand still in space, or the nodes that come by; places on "
       "a smooth disk if left out, nodes otherwise");
   reduce
       ->add_option("--frame", r.frame,
-                   "frame of the modes: rectified, or turning (with the disk), to compare with")
+                   "frame of the modes: rectified, or co-rotating (with the disk), to compare with")
       ->capture_default_str();
   reduce->add_option("--memory", r.memory, "memory allowed to the decompositions")
       ->capture_default_str();
+  reduce->add_flag_callback(
+      "--no-error-estimate", [&r] { r.error_estimate = false; },
+      "does not predict each run from the others, which 3 runs and more are by default");
   reduce
       ->add_option_function<std::string>(
           "--validate",
@@ -155,7 +164,7 @@ CLI::App* add_pod(CLI::App& program, study::PodRequest& r, bool& quiet) {
       program.add_subcommand("pod", "proper orthogonal decomposition of the snapshots of runs");
   pod->add_option("run", r.runs, "results directories; several: one common basis")->required();
   pod->add_option("--field", r.field, "displacement | velocity | contact")->capture_default_str();
-  pod->add_option("--frame", r.frame, "rotating | rectified")->capture_default_str();
+  pod->add_option("--frame", r.frame, "co-rotating | rectified")->capture_default_str();
   pod->add_option("--from", r.from, "time of the first snapshot taken [s]");
   pod->add_option("--to", r.to, "time of the last snapshot taken [s]");
   pod->add_option("--modes", r.modes,

@@ -40,8 +40,8 @@ void print_runs(const study::PodReport& r) {
 }
 
 void print_report(const study::PodRequest& q, const study::PodReport& r) {
-  fmt::print("field              {} ({}), {} frame, weight {}\n", q.field, r.unit, q.frame,
-             r.weight);
+  fmt::print("field              {} ({}), {} frame, weight {}\n", q.field, r.unit,
+             q.frame == "rectified" ? q.frame : "co-rotating", r.weight);
   fmt::print("snapshots          {} of {} numbers, {}\n", r.snapshots, r.rows,
              r.runs.size() > 1 ? fmt::format("from {} runs", r.runs.size())
                                : times(r, r.runs.front().from, r.runs.front().to));

@@ -26,6 +26,7 @@ void print_report(const study::ReduceRequest& request, const study::ReduceReport
              r.contact_step > 0.0 ? fmt::format(", one passed in {:.6g} s", r.contact_step) : "");
   fmt::print("critical steps     {:.6g} s of the mesh, {:.6g} s of the modes (explicit)\n",
              r.full_critical_step, r.reduced_critical_step);
+  fmt::print("error estimate     {}\n", study::in_words(r.estimate));
   fmt::print("time               {:.2f} s\n", r.wall_s);
   fmt::print("model              {} ({})\n", request.output.string(), readable_bytes(r.file_bytes));
 }

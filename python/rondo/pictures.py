@@ -57,7 +57,7 @@ def _contact_map(run: Run, quantity: str = "pressure", ax: Axes | None = None,
     return plot_contact_map(run, quantity, ax, moving)
 
 
-def _modes_of_run(run: Run, field: str, frame: str = "rotating", count: int = 6) -> Figure:
+def _modes_of_run(run: Run, field: str, frame: str = "co-rotating", count: int = 6) -> Figure:
     """The first modes of a POD of this run."""
     return _modes(run.pod(field, frame), count)
 

@@ -55,11 +55,23 @@ class Pod(ProgramTest):
         for text, name in (SPUN_UP, "smooth"), (TREADED, "treaded"):
             out = self.make(text, name)
             for field in "displacement", "velocity", "contact":
-                for frame in "rotating", "rectified":
+                for frame in "rotating", "rectified":  # the first is asked for as co-rotating
                     with self.subTest(body=name, field=field, frame=frame):
-                        self.pod(out, "--field", field, "--frame", frame)
+                        said = self.pod(out, "--field", field, "--frame",
+                                        frame.replace("rotating", "co-rotating"))
+                        self.assertNotIn("is now called", said.stderr)
                         self.check_against_numpy(out, reference(out, field, frame),
                                                  f"{field}-{frame}")
+
+    def test_the_frame_was_called_rotating(self):
+        out = self.make()
+        self.pod(out, "--frame", "co-rotating")
+        new = (out / "pod" / "displacement-rotating" / "spectrum.csv").read_bytes()
+        for old in "rotating", "turning":
+            said = self.pod(out, "--frame", old)
+            self.assertIn(f"--frame {old} is now called --frame co-rotating", said.stderr)
+            self.assertEqual(
+                (out / "pod" / "displacement-rotating" / "spectrum.csv").read_bytes(), new)
 
     def test_files(self):
         out = self.make()

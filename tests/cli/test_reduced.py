@@ -77,6 +77,53 @@ class Reduced(ProgramTest):
             for dataset in (f["/model/basis"], f["/ranges/height"]):
                 self.assertTrue(dataset.attrs["units"] and dataset.attrs["description"])
 
+    def test_error_estimate(self):
+        """The model of three runs says how far off each is when predicted from the others."""
+        runs = [self.shared / "0.2", self.shared / "0.4", self.shared / "full"]
+        model = self.folder / "three.h5"
+        said = self.made("reduce", *runs, "-o", model, *PARTS).stdout
+        self.assertIn("twice the largest of 3 runs", said)
+        with h5py.File(model) as f:
+            errors = f["/errors/force"][:]
+            self.assertEqual(f.attrs["estimate_runs"].split(), [str(r) for r in runs])
+        out, done = self.reduced(model=model)
+        self.assertIn("error estimate of the model: F_x", done.stderr + done.stdout)
+        estimate = summary(out)["reduced_error_estimate"]
+        np.testing.assert_array_equal([estimate["force_x"], estimate["force_y"]],
+                                      2 * abs(errors).max(axis=0))
+        # The last of them by hand: from a model of the other two.
+        out, _ = self.reduced("--overwrite")
+        a, b = history(self.shared / "full"), history(out)
+        late = [h["time_s"] > 0.75 * h["time_s"][-1] for h in (a, b)]
+        scale = a["force_y"][late[0]].mean()
+        for k, name in enumerate(("force_x", "force_y")):
+            by_hand = (b[name][late[1]].mean() - a[name][late[0]].mean()) / scale
+            self.assertAlmostEqual(errors[2, k], by_hand, delta=0.0015)
+
+    def test_no_error_estimate_says_why(self):
+        out, done = self.reduced()
+        j = summary(out)
+        self.assertIsNone(j["reduced_error_estimate"])
+        self.assertIn("2 runs, and 3 are needed", j["reduced_error_estimate_missing"])
+        self.assertIn("error estimate of the model: none: 2 runs", done.stderr + done.stdout)
+        model = self.folder / "three.h5"
+        runs = [self.shared / "0.2", self.shared / "0.4", self.shared / "full"]
+        said = self.made("reduce", *runs, "-o", model, *PARTS, "--no-error-estimate").stdout
+        self.assertIn("--no-error-estimate", said)
+        with h5py.File(model) as f:
+            self.assertEqual(list(f["/errors/runs"]), [0])
+
+    def test_contact_phases(self):
+        """One point to a node, or as many as are asked for; never with a stride."""
+        with h5py.File(self.model) as f:
+            self.assertEqual(f["/model/contact_weights"].shape, (120, 120))
+        three = self.folder / "three.h5"
+        self.made("reduce", self.shared / "0.2", "-o", three, *PARTS, "--contact-phases", 3)
+        with h5py.File(three) as f:
+            self.assertEqual(f["/model/contact_weights"].shape, (360, 120))
+        self.assertIn("fewer points than nodes", self.fails(
+            self.shared / "0.2", "--contact-phases", 2, "--contact-stride", 2))
+
     def test_results_are_those_of_a_run(self):
         out, done = self.reduced("--step-factor", 8)
         self.assertEqual(sorted(p.name for p in out.iterdir()), FILES)

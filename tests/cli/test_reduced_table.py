@@ -33,7 +33,7 @@ ROWS = {
 }
 
 # (rondo reduce, rondo run, bounds of the errors of F_y and F_x, both of the mean vertical force).
-TURNING = ["--frame", "turning", "--displacement-modes", 100, "--velocity-modes", 100]
+TURNING = ["--frame", "co-rotating", "--displacement-modes", 100, "--velocity-modes", 100]
 EXPLICIT = ["--reduced-step", "explicit", "--step-factor"]
 FORMS = {
     "places": ([], [], (0.006, 0.025)),

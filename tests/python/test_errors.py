@@ -202,7 +202,7 @@ def test_names_that_are_not_there(smooth, air):
     says(rondo.UnknownNameError, run.history.__getitem__, "force", words=["history.csv", "force_y"])
     says(rondo.UnknownNameError, run.pods.__getitem__, "x", words=["contact-rotating, "])
     says(rondo.UnknownNameError, run.pod, "velocity", words=["velocity-rectified", "to make it: "
-         f"rondo pod {smooth} --field velocity --frame rotating"])
+         f"rondo pod {smooth} --field velocity --frame co-rotating"])
     says(rondo.UnknownNameError, rondo.open(air).field, "contact_force", words=["displacement"])
     assert run.history.get("force") is None and "force" not in run.history
     assert run.pods.get("x") is None

@@ -217,7 +217,7 @@ def test_without_ground(tmp_path):
 
 def test_modes_of_the_turning_frame(shared, tmp_path):
     model, out = tmp_path / "turning.h5", tmp_path / "out"
-    made("reduce", shared / "0.2", shared / "0.4", "-o", model, "--frame", "turning")
+    made("reduce", shared / "0.2", shared / "0.4", "-o", model, "--frame", "co-rotating")
     made("run", shared / "case.toml", "-o", tmp_path / "reduced", "--set", "ground.friction=0.3",
          "--reduced", model, "--reduced-step", "explicit", "--step-factor", 1)
     done = validate(tmp_path / "reduced", shared / "0.3", "-o", out)

@@ -72,6 +72,6 @@ class Paper:
                                           unfinished=entry.get("status") == "failed")
         return self._opened[name]
 
-    def pod(self, run: str, field: str, frame: str = "rotating") -> Pod:
+    def pod(self, run: str, field: str, frame: str = "co-rotating") -> Pod:
         """A POD of a run of the study."""
         return self.run(run).pod(field, frame)

@@ -361,10 +361,12 @@ class Run:
     def pods(self) -> Pods:
         return Pods(self.directory / "pod")
 
-    def pod(self, field: str, frame: str = "rotating") -> Pod:
-        """The POD of a field ("displacement", "velocity", "contact") in a frame ("rotating",
-        "rectified")."""
-        name = f"{field}-{frame}"
+    def pod(self, field: str, frame: str = "co-rotating") -> Pod:
+        """The POD of a field ("displacement", "velocity", "contact") in a frame ("co-rotating", in
+        the files and in earlier versions "rotating", or "rectified")."""
+        if frame in ("rotating", "turning"):
+            frame = "co-rotating"
+        name = f"{field}-{frame.removeprefix('co-')}"
         if name not in self.pods:
             raise unknown(self.directory, "POD", name,
                           [*self.pods, f"to make it: rondo pod {self.directory} --field {field} "

@@ -179,7 +179,8 @@ class _Study:
 
     def _pod_job(self, pod: PlannedPod) -> Job:
         after, run = self.runs[pod.run], self._directory(pod.run)
-        arguments = ["pod", str(run), "--field", pod.field, "--frame", pod.frame, "--modes",
+        frame = "co-rotating" if pod.frame == "rotating" else pod.frame
+        arguments = ["pod", str(run), "--field", pod.field, "--frame", frame, "--modes",
                      str(self.plan.modes), "--reconstruct", "0", "--quiet"]
         job = Job(f"{pod.run} {pod.name}", arguments, after,
                   before=lambda: remove_unfinished(run / "pod" / pod.name))

@@ -222,6 +222,14 @@ void describe_reduced(const ReducedRun& run, const RunOptions& options, Json& js
   json["step_factor"] = run.step_factor;
   json["full_step"] = run.full_step;
   json["lifted"] = true;
+  const ErrorEstimate& estimate = run.file.estimate;
+  json["reduced_error_estimate"] = nullptr;
+  if (estimate.errors.empty()) {
+    json["reduced_error_estimate_missing"] = as_utf8(estimate.none);
+    return;
+  }
+  const ForceErrors most = estimate.estimate();
+  json["reduced_error_estimate"] = {{"force_x", most.x}, {"force_y", most.y}};
 }
 
 void add_figures(const ReducedRun& run, double time, Json& json) {
@@ -264,6 +272,7 @@ class ReducedAnalysis final : public DynamicAnalysis {
   void summarise(Json& json, RunReport& report) const override {
     DynamicAnalysis::summarise(json, report);
     add_figures(run_, report.end_time, json);
+    report.notes.push_back("error estimate of the model: " + in_words(run_.file.estimate));
     report.step_wall_s = run_.figures.wall_s;
     report.slowest_step = run_.figures.slowest_step_s / setup().model.dt;
   }

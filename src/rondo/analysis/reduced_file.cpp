@@ -30,6 +30,13 @@ std::size_t size(Index n) {
   return static_cast<std::size_t>(n);
 }
 
+std::vector<std::string> lines_of(const std::string& text) {
+  std::vector<std::string> lines;
+  std::istringstream in(text);
+  for (std::string line; std::getline(in, line);) lines.push_back(line);
+  return lines;
+}
+
 /// Columns lie in memory as rows do in the file.
 void write_columns(File& file, const std::string& name, const MatrixXd& m,
                    const io::h5::Shape& shape, const io::h5::Label& label) {
@@ -123,8 +130,9 @@ void read_contact(const File& file, const std::string& path, ReducedFile& conten
   const MatrixXd weights = read_columns(file, "/model/contact_weights", static_cast<Index>(sectors),
                                         static_cast<Index>(shape[0]), {shape[0], sectors});
   const bool fits = pod::boundary_rings(content.mesh).n_rings() == 1 &&
-                    m.frame == ModelFrame::rectified && weights.cols() > 0 && weights.allFinite() &&
-                    (weights.array() >= 0.0).all() &&
+                    m.frame == ModelFrame::rectified && weights.cols() > 0 &&
+                    (weights.cols() <= m.n_sectors || weights.cols() % m.n_sectors == 0) &&
+                    weights.allFinite() && (weights.array() >= 0.0).all() &&
                     ((weights.colwise().sum().array() - 1.0).abs() < 1e-9).all();
   if (!fits) throw FileError(path, "its contact points do not fit its mesh");
   rom::set_contact(content.mesh, m.form, weights, m);
@@ -136,6 +144,41 @@ void write_ranges(File& file, ModelRanges ranges) {
     file.write(std::string("/ranges/") + name, {2}, std::span<const double>(ends),
                {"SI", "smallest and largest of the snapshots; none where they are the other way"});
   }
+}
+
+/// Column by column: F_x, F_y of each run.
+void write_estimate(File& file, const ErrorEstimate& estimate) {
+  file.set_attribute("/", "no_error_estimate", estimate.none);
+  std::string runs;
+  for (const std::string& run : estimate.runs) runs += run + "\n";
+  file.set_attribute("/", "estimate_runs", runs);
+  const std::array<std::int64_t, 1> count{static_cast<std::int64_t>(estimate.errors.size())};
+  file.write("/errors/runs", {1}, std::span<const std::int64_t>(count),
+             {"1", "runs that were left out in turn; 0: no error is estimated"});
+  if (estimate.errors.empty()) return;
+  std::vector<double> numbers;
+  for (const ForceErrors& e : estimate.errors) numbers.insert(numbers.end(), {e.x, e.y});
+  file.write("/errors/force", {estimate.errors.size(), 2}, std::span<const double>(numbers),
+             {"1",
+              "run: F_x, F_y as predicted from the other runs less the run's own, means over "
+              "its last quarter, over its mean F_y"});
+}
+
+/// A file of an earlier version has none.
+ErrorEstimate read_estimate(const File& file, const std::string& path) {
+  ErrorEstimate estimate;
+  estimate.none = "the model is of an earlier version";
+  if (file.contains("/errors/runs")) estimate.none = file.attribute("/", "no_error_estimate");
+  if (!file.contains("/errors/force")) return estimate;
+  estimate.runs = lines_of(file.attribute("/", "estimate_runs"));
+  const std::vector<double> numbers =
+      file.dataset("/errors/force", {estimate.runs.size(), 2}).read<double>();
+  for (std::size_t k = 0; k < numbers.size(); k += 2) {
+    if (!std::isfinite(numbers[k]) || !std::isfinite(numbers[k + 1]))
+      throw FileError(path, "its error estimate holds numbers that are not finite");
+    estimate.errors.push_back({numbers[k], numbers[k + 1]});
+  }
+  return estimate;
 }
 
 void write_all(File& file, const ReducedFile& content) {
@@ -151,13 +194,7 @@ void write_all(File& file, const ReducedFile& content) {
   write_counts(file, content);
   write_contact(file, content.model);
   write_ranges(file, content.ranges);
-}
-
-std::vector<std::string> lines_of(const std::string& text) {
-  std::vector<std::string> lines;
-  std::istringstream in(text);
-  for (std::string line; std::getline(in, line);) lines.push_back(line);
-  return lines;
+  write_estimate(file, content.estimate);
 }
 
 }  // namespace
@@ -166,6 +203,22 @@ void ModelRange::take(double value) noexcept {
   const bool first = empty();
   low = first ? value : std::min(low, value);
   high = first ? value : std::max(high, value);
+}
+
+ForceErrors ErrorEstimate::estimate() const noexcept {
+  ForceErrors most;
+  for (const ForceErrors& e : errors)
+    most = {std::max(most.x, std::abs(e.x)), std::max(most.y, std::abs(e.y))};
+  return {estimate_over_largest * most.x, estimate_over_largest * most.y};
+}
+
+std::string in_words(const ErrorEstimate& estimate) {
+  if (estimate.errors.empty()) return "none: " + estimate.none;
+  const ForceErrors most = estimate.estimate();
+  return fmt::format(
+      "F_x {:.2g} %, F_y {:.2g} % of F_y (twice the largest of {} runs, each predicted from "
+      "the others)",
+      100.0 * most.x, 100.0 * most.y, estimate.errors.size());
 }
 
 std::string body_text(const Case& c) {
@@ -222,6 +275,7 @@ ReducedFile read_reduced_file(const std::filesystem::path& path) {
   content.displacement_modes = counts[0];
   content.velocity_modes = counts[1];
   read_contact(file, path.string(), content);
+  content.estimate = read_estimate(file, path.string());
   for (const auto& [name, range] : ranges_of(content.ranges)) {
     const auto ends = file.dataset(std::string("/ranges/") + name, {2}).read<double>();
     *range = {ends[0], ends[1]};

@@ -35,13 +35,14 @@ struct RunOptions {
 /// How a run ended. `failed` is an outcome of the numerics: not finite, or a residual out of bound.
 struct RunReport {
   RunStatus status = RunStatus::failed;
-  std::string message;        ///< of a failure: quantity, value, bound, step and time
-  std::string reached;        ///< in words, e.g. "6023 steps to t = 0.12 s"
-  long long steps = 0;        ///< or increments, done
-  bool resumable = true;      ///< it keeps checkpoints
-  bool was_complete = false;  ///< to be resumed, but already at its end: nothing was done
-  long long resumed_at = 0;   ///< step of the checkpoint that it went on from; 0: begun anew
-  double end_time = 0.0;      ///< reached [s]; 0: no motion
+  std::string message;             ///< of a failure: quantity, value, bound, step and time
+  std::string reached;             ///< in words, e.g. "6023 steps to t = 0.12 s"
+  std::vector<std::string> notes;  ///< of this kind of analysis, for the user
+  long long steps = 0;             ///< or increments, done
+  bool resumable = true;           ///< it keeps checkpoints
+  bool was_complete = false;       ///< to be resumed, but already at its end: nothing was done
+  long long resumed_at = 0;        ///< step of the checkpoint that it went on from; 0: begun anew
+  double end_time = 0.0;           ///< reached [s]; 0: no motion
   double loop_wall_s = 0.0;
   double simulated_s = 0.0;      ///< of motion, in this call; 0: there is none
   double step_wall_s = 0.0;      ///< of a reduced run: its steps alone; else the loop

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include "rondo/core/complex.hpp"
 #include "rondo/core/contract.hpp"
@@ -17,6 +18,17 @@ double contact_weight(double distance, int stride) noexcept {
   return std::max(0.0, 1.0 - std::abs(distance) / stride) / stride;
 }
 
+MatrixXd between_weights(int n_sectors, int phases) {
+  RONDO_DEMAND(n_sectors > 0 && phases > 0, n_sectors, phases);
+  MatrixXd weights = MatrixXd::Zero(n_sectors, static_cast<Index>(n_sectors) * phases);
+  for (Index k = 0; k < weights.cols(); ++k) {
+    const double part = static_cast<double>(k % phases) / phases;
+    weights(k / phases, k) = 1.0 - part;
+    if (part > 0.0) weights((k / phases + 1) % n_sectors, k) = part;
+  }
+  return weights;
+}
+
 MatrixXd hat_weights(int n_sectors, int stride) {
   RONDO_DEMAND(stride > 0 && n_sectors % stride == 0, n_sectors, stride);
   MatrixXd weights = MatrixXd::Zero(n_sectors, n_sectors / stride);
@@ -26,7 +38,33 @@ MatrixXd hat_weights(int n_sectors, int stride) {
   return weights;
 }
 
+namespace {
+
+/// Point k · phases + j is the place of sector k, j / phases of a sector further on.
+ContactRows rows_between(const mesh::Mesh& mesh, const ReducedModel& model) {
+  const Index n = mesh.n_sectors, phases = model.weights.cols() / n;
+  NodeRows nodes(mesh, model);
+  const auto points = static_cast<std::size_t>(n * phases);
+  ContactRows out{MatrixXd(2 * n * phases, model.size()), std::vector<Vec2>(points),
+                  std::vector<double>(points)};
+  const double sector = 2.0 * std::numbers::pi / static_cast<double>(n);
+  for (Index j = 0; j < phases; ++j) {
+    const ContactRows at = nodes.at(sector * static_cast<double>(j) / static_cast<double>(phases));
+    for (Index k = 0; k < n; ++k) {
+      const Index to = k * phases + j;
+      const auto point = static_cast<std::size_t>(to), from = static_cast<std::size_t>(k);
+      out.rows.middleRows(2 * to, 2) = at.rows.middleRows(2 * k, 2);
+      out.points[point] = at.points[from];
+      out.share[point] = at.share[from] / static_cast<double>(phases);
+    }
+  }
+  return out;
+}
+
+}  // namespace
+
 ContactRows standing_rows(const mesh::Mesh& mesh, const ReducedModel& model) {
+  if (model.weights.cols() > mesh.n_sectors) return rows_between(mesh, model);
   const pod::Rings ring = pod::boundary_rings(mesh);
   RONDO_DEMAND(ring.n_rings() == 1 && model.weights.rows() == mesh.n_sectors, ring.n_rings(),
                model.weights.rows());

@@ -29,10 +29,16 @@ struct ContactRows {
 /// `stride` nodes to either side, of sum 1. With stride 1 the point is the node.
 double contact_weight(double distance, int stride) noexcept;
 
+/// (sectors, sectors · phases) shares of the nodes in the impulses at them and at phases - 1 points
+/// evenly spaced between two of them, which have them both. Columns of sum 1.
+Eigen::MatrixXd between_weights(int n_sectors, int phases);
+
 /// (sectors, points) weights of the hats, columns of sum 1. @pre stride divides the sectors
 Eigen::MatrixXd hat_weights(int n_sectors, int stride);
 
-/// Points that stand still: means of the places of the sectors with model.weights.
+/// Points that stand still: means of the places of the sectors with model.weights; where there are
+/// more than sectors, places between these too, where the modes are turned to (a mean of two places
+/// that touch touches with them: it would say nothing new).
 /// @pre the rectified frame, one ring of candidates
 ContactRows standing_rows(const mesh::Mesh& mesh, const ReducedModel& model);
 

@@ -201,6 +201,39 @@ TEST(ContactRows, AreMeansOfTheNodes) {
   }
 }
 
+/// Points between the places of the nodes: where the nodes come by when the disk has turned by a
+/// part of a sector, with the lifted field there.
+TEST(ContactRows, BetweenTheNodesAreTheLiftedField) {
+  constexpr int phases = 3;
+  const Body b = body(15);
+  const MatrixXd w = join(std::array{weighted(b, random_fields(b, 3))});
+  ReducedModel m = reduced(b, w);
+  const double share = m.contact.share[0];
+  set_contact(b.mesh, ContactForm::places, between_weights(b.mesh.n_sectors, phases), m);
+  ASSERT_EQ(m.contact.points.size(), 45U);
+  EXPECT_NEAR(m.contact.share[1], share / phases, 1e-16);
+  EXPECT_NEAR(m.weights(0, 1), 2.0 / 3.0, 1e-15);
+  EXPECT_NEAR(m.weights(1, 1), 1.0 / 3.0, 1e-15);
+  EXPECT_NEAR(m.weights(0, 44), 2.0 / 3.0, 1e-15);
+  const VectorXd q = VectorXd::LinSpaced(3, 1.0, -2.0), at = m.contact.rows * q;
+  const pod::Rings ring = pod::boundary_rings(b.mesh);
+  Lift lift(b.mesh, m);
+  std::vector<Vec2> field(b.mesh.n_nodes());
+  for (int j = 0; j < phases; ++j) {
+    const double phase = 2.0 * std::numbers::pi / b.mesh.n_sectors * j / phases;
+    lift.lift(phase, q, field);
+    for (std::size_t k = 0; k < ring.point.size(); ++k) {
+      const auto node = static_cast<std::size_t>(
+          b.mesh.boundary[static_cast<std::size_t>(ring.point[k])]);
+      const std::size_t point = k * phases + static_cast<std::size_t>(j);
+      const Vec2 u = rotation(phase) * field[node];
+      EXPECT_NEAR(at[static_cast<Index>(2 * point)], u.x, 1e-13 * at.norm());
+      EXPECT_NEAR(at[static_cast<Index>(2 * point + 1)], u.y, 1e-13 * at.norm());
+      EXPECT_LT(norm(m.contact.points[point] - rotation(phase) * b.mesh.coordinates[node]), 1e-15);
+    }
+  }
+}
+
 /// The rows at a phase are those of the lifted field at the nodes, where these are then.
 TEST(ContactRows, OfNodesAreTheLiftedField) {
   mesh::Disk treaded;

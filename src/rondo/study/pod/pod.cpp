@@ -66,7 +66,7 @@ void say_plan(const PodRequest& request, const pod::DecomposePlan& plan, Index r
 void warn_of_limits(const PodRequest& request, const PodReport& r, double tolerance) {
   if (!request.warn) return;
   if (request.frame == "rotating" && request.shift != PodRequest{}.shift)
-    request.warn("--shift has no effect in the rotating frame");
+    request.warn("--shift has no effect in the co-rotating frame");
   if (r.rank == 0) return request.warn("all snapshots are zero: there are no modes");
   if (request.modes && *request.modes > r.modes)
     request.warn(r.rank_is_known && r.modes == r.rank
@@ -133,7 +133,8 @@ void find(const PodRequest& request, RunSnapshots& snapshots, PodResult& found) 
 
 PodReport run_pod(const PodRequest& asked) {
   const auto begin = Clock::now();
-  const PodRequest request = with_members(asked);
+  PodRequest request = with_members(asked);
+  request.frame = is_co_rotating(asked.frame, asked.warn) ? "rotating" : "rectified";
   const SnapshotChoice choice = choice_of(request);
   const pod::DecomposeOptions options = options_of(request);
   const std::vector<io::RunReader> runs = open_runs(request, choice);

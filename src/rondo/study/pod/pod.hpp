@@ -15,7 +15,7 @@ namespace rondo::study {
 struct PodRequest {
   std::vector<std::filesystem::path> runs;  ///< results directories; several: one common basis
   std::string field = "displacement";       ///< "displacement" | "velocity" | "contact"
-  std::string frame = "rotating";           ///< "rotating" | "rectified"
+  std::string frame = "co-rotating";        ///< or "rectified"; in files the first is "rotating"
   std::string weight;               ///< "mass" | "delassus" | "none"; empty: the field's own
   std::string shift = "fourier";    ///< "fourier" | "pitch": rectified frame only
   std::string method = "auto";      ///< "auto" | "direct" | "tsqr" | "incremental"

@@ -46,7 +46,6 @@ constexpr std::array weights{Word<Weight>{"mass", Weight::mass},
                              Word<Weight>{"none", Weight::none}};
 constexpr std::array shifts{Word<pod::Shift>{"fourier", pod::Shift::fourier},
                             Word<pod::Shift>{"pitch", pod::Shift::pitch}};
-constexpr std::array frames{Word<bool>{"rotating", false}, Word<bool>{"rectified", true}};
 constexpr std::array methods{Word<pod::Method>{"auto", pod::Method::automatic},
                              Word<pod::Method>{"direct", pod::Method::direct},
                              Word<pod::Method>{"tsqr", pod::Method::tsqr},
@@ -116,7 +115,7 @@ SnapshotChoice choice_of(const PodRequest& r) {
                         fmt::format("does not weigh a field of {}", contact ? "forces" : r.field),
                         contact ? "delassus | none" : "mass | none");
   const pod::Shift shift = value_of("--shift", r.shift, shifts);
-  if (value_of("--frame", r.frame, frames)) choice.rectified = shift;
+  if (!is_co_rotating(r.frame, {})) choice.rectified = shift;
   if (r.modes && *r.modes < 1)
     throw request_error("--modes", fmt::to_string(*r.modes), "no modes to keep", "1 or more");
   if (r.reconstruct < 0)
@@ -180,14 +179,14 @@ std::vector<io::RunReader> open_runs(const PodRequest& request, const SnapshotCh
       throw request_error(
           "--frame", request.frame,
           fmt::format("the mesh of {} has no equal sectors to move a field round", name),
-          "--frame rotating");
+          "--frame co-rotating");
     if (choice.rectified && choice.quantity == io::Quantity::velocity &&
         run.times().angle_velocity.empty())
       throw request_error("--frame", request.frame,
                           fmt::format("{} was written by an older version without the angles at "
                                       "the velocity's times",
                                       name),
-                          "run the case again, or --frame rotating");
+                          "run the case again, or --frame co-rotating");
     if (choice.quantity == io::Quantity::velocity && run.analysis() != runs.front().analysis())
       throw request_error("RUN", name,
                           "the velocity of a crush is its rate over the load, not over time",
@@ -227,6 +226,16 @@ std::vector<SnapshotColumn> columns_of(const PodRequest& request, const Snapshot
                       times.front(), times.back(), times.size()));
   }
   return columns;
+}
+
+bool is_co_rotating(const std::string& frame, const std::function<void(const std::string&)>& warn) {
+  if (frame == "rectified") return false;
+  if (frame == "rotating" || frame == "turning") {
+    if (warn) warn(fmt::format("--frame {} is now called --frame co-rotating", frame));
+  } else if (frame != "co-rotating") {
+    throw request_error("--frame", frame, "no such choice", "co-rotating | rectified");
+  }
+  return true;
 }
 
 PodRequest with_members(const PodRequest& asked) {

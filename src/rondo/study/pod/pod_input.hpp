@@ -2,6 +2,7 @@
 /// @file  What a POD was asked for, checked: the command line's words, the runs, the window.
 #pragma once
 #include <filesystem>
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -17,6 +18,11 @@ SnapshotChoice choice_of(const PodRequest& request);
 pod::Method method_of(const PodRequest& request);
 /// Bytes. @throws InputError: not an amount of memory
 std::size_t memory_of(const PodRequest& request);
+
+/// Of the word for a frame: true of "co-rotating", false of "rectified", which is the spatial
+/// (unrotated) one. "rotating" and "turning" of earlier versions are co-rotating, with a warning.
+/// @throws InputError: another word
+bool is_co_rotating(const std::string& frame, const std::function<void(const std::string&)>& warn);
 
 /// Words of the command line.
 const char* name_of(pod::Method method) noexcept;

@@ -16,6 +16,7 @@
 #include "rondo/core/blas_threads.hpp"
 #include "rondo/rom/step_matrices.hpp"
 #include "rondo/study/pod/pod_input.hpp"
+#include "rondo/study/reduce/reduce_error.hpp"
 #include "rondo/study/reduce/reduce_modes.hpp"
 
 namespace rondo::study {
@@ -35,7 +36,6 @@ void check_options(const ReduceRequest& r) {
     }
     throw request_error(option, name, "not one of those there are", allowed);
   };
-  demand_one_of("--frame", r.frame, frame_names);
   if (r.contact == "patterns")
     throw request_error("--contact", r.contact, "patterns lose the friction and are gone",
                         "places, which a smooth disk has if --contact is left out");
@@ -93,14 +93,14 @@ struct Source {
 };
 
 bool is_turning(const ReduceRequest& r) {
-  return r.frame == "turning";
+  return is_co_rotating(r.frame, {});
 }
 
 PodRequest pod_request(const ReduceRequest& r, const char* field) {
   PodRequest pod;
   pod.runs = r.runs;
   pod.field = field;
-  pod.frame = is_turning(r) ? "rotating" : "rectified";
+  pod.frame = r.frame;
   pod.from = r.from;
   pod.to = r.to;
   pod.warn = r.warn;
@@ -161,12 +161,13 @@ rom::ContactForm contact_form(const ReduceRequest& r, const mesh::Mesh& mesh) {
     if (r.contact == name) form = known;
   if (form != rom::ContactForm::nodes && !standing)
     throw request_error("--contact", r.contact,
-                        smooth ? "in the turning frame nothing stands still in space"
+                        smooth ? "in the co-rotating frame nothing stands still in space"
                                : "between the blocks of a tread there is no place to stand still",
                         "nodes");
-  if (r.contact_stride != 0 && form != rom::ContactForm::places)
-    throw request_error("--contact-stride", fmt::to_string(r.contact_stride),
-                        "only places have a stride", "--contact places, or no stride");
+  if ((r.contact_stride != 0 || r.contact_phases != 1) && form != rom::ContactForm::places)
+    throw request_error(r.contact_stride != 0 ? "--contact-stride" : "--contact-phases",
+                        fmt::to_string(r.contact_stride != 0 ? r.contact_stride : r.contact_phases),
+                        "only places have a stride and phases", "--contact places, or without");
   return form;
 }
 
@@ -190,14 +191,26 @@ int contact_stride(const ReduceRequest& request, int n_sectors) {
   return stride;
 }
 
+/// Places at every stride-th node, or several to a node where these alone would be few.
+MatrixXd place_weights(const ReduceRequest& request, int n_sectors) {
+  const int stride = contact_stride(request, n_sectors);
+  const int phases = request.contact_phases;
+  if (phases > 1 && stride > 1)
+    throw request_error(
+        "--contact-phases", fmt::to_string(phases),
+        fmt::format("with a stride of {} there are fewer points than nodes", stride),
+        "--contact-stride 1, or no phases");
+  return phases > 1 ? rom::between_weights(n_sectors, phases) : rom::hat_weights(n_sectors, stride);
+}
+
 /// The modes of displacement, their derivatives by the angle (a pattern that stands still in space
 /// has the velocity -s D u), the modes of velocity.
 MatrixXd basis_of(const ReduceRequest& r, const mesh::Mesh& mesh, const VectorXd& roots,
-                  const FieldModes& u, const FieldModes& v) {
-  if (is_turning(r)) return rom::join(std::array{u.modes, v.modes});
-  const MatrixXd fields = roots.cwiseInverse().asDiagonal() * u.modes;
+                  const MatrixXd& u, const MatrixXd& v) {
+  if (is_turning(r)) return rom::join(std::array{u, v});
+  const MatrixXd fields = roots.cwiseInverse().asDiagonal() * u;
   const MatrixXd derived = roots.asDiagonal() * rom::differentiate(mesh, fields);
-  return rom::join(std::array{u.modes, derived, v.modes});
+  return rom::join(std::array{u, derived, v});
 }
 
 /// Where the model will touch the ground.
@@ -209,26 +222,75 @@ struct ContactChoice {
 ContactChoice choose_contact(const ReduceRequest& request, const mesh::Mesh& mesh) {
   ContactChoice contact{contact_form(request, mesh), {}};
   if (contact.form == rom::ContactForm::places)
-    contact.weights = rom::hat_weights(mesh.n_sectors, contact_stride(request, mesh.n_sectors));
+    contact.weights = place_weights(request, mesh.n_sectors);
   return contact;
 }
 
-ReducedFile make_file(const ReduceRequest& request, const Source& source, const Setup& setup,
-                      const MatrixXd& basis, const ContactChoice& contact) {
-  ReducedFile file;
-  file.model = rom::make_reduced_model(
+rom::ReducedModel make_model(const ReduceRequest& request, const Setup& setup,
+                             const MatrixXd& basis, const ContactChoice& contact) {
+  rom::ReducedModel model = rom::make_reduced_model(
       {setup.mesh, setup.model.mass,
        [&](std::span<const Vec2> in, std::span<Vec2> out) {
          fem::apply(*setup.model.sector, in, out);
        }},
       basis, is_turning(request) ? rom::ModelFrame::turning : rom::ModelFrame::rectified);
-  rom::set_contact(setup.mesh, contact.form, contact.weights, file.model);
+  rom::set_contact(setup.mesh, contact.form, contact.weights, model);
+  return model;
+}
+
+ReducedFile make_file(const ReduceRequest& request, const Source& source, const Setup& setup,
+                      const MatrixXd& basis, const ContactChoice& contact) {
+  ReducedFile file;
+  file.model = make_model(request, setup, basis, contact);
   file.mesh = setup.mesh;
   file.mass = setup.model.mass;
   file.body = body_text(source.cases.front());
   file.ranges = ranges_of(request, source);
   for (const io::RunReader& run : source.runs) file.runs.push_back(run.directory().string());
   return file;
+}
+
+/// Why no error is estimated; empty: it is.
+std::string why_no_estimate(const ReduceRequest& r, const Source& source) {
+  if (!r.error_estimate) return "not asked for (--no-error-estimate)";
+  if (is_turning(r)) return "in the co-rotating frame it would take steps of the mesh";
+  const std::size_t runs = source.runs.size();
+  if (runs < least_runs_to_estimate)
+    return fmt::format("{} run{}, and {} are needed to leave one out", runs, runs == 1 ? "" : "s",
+                       least_runs_to_estimate);
+  return {};
+}
+
+/// Each run as predicted by the modes of the others (docs/reduced.md, 8b).
+ErrorEstimate estimate_errors(const ReduceRequest& r, const Source& source, const Setup& setup,
+                              const std::array<const FieldModes*, 2>& fields,
+                              const ContactChoice& contact) {
+  ErrorEstimate estimate;
+  estimate.none = why_no_estimate(r, source);
+  if (!estimate.none.empty()) return estimate;
+  const VectorXd roots = rom::mass_roots(setup.model.mass);
+  std::array<std::vector<SnapshotColumn>, 2> columns;
+  for (std::size_t k = 0; const char* field : {"displacement", "velocity"}) {
+    const PodRequest pod = pod_request(r, field);
+    columns[k++] = columns_of(pod, choice_of(pod), source.runs);
+  }
+  const auto n = static_cast<long long>(source.runs.size());
+  for (std::size_t run = 0; run < source.runs.size(); ++run) {
+    if (r.progress) r.progress(static_cast<long long>(run), n);
+    const std::optional<MeanForce> own = mean_force_of(source.runs[run]);
+    if (!own || !source.cases[run].ground || !(own->y > 0.0)) continue;
+    const MatrixXd basis =
+        basis_of(r, setup.mesh, roots, modes_without(*fields[0], columns[0], run),
+                 modes_without(*fields[1], columns[1], run));
+    const MeanForce found =
+        predicted_force(source.cases[run], make_model(r, setup, basis, contact));
+    estimate.runs.push_back(source.runs[run].directory().string());
+    estimate.errors.push_back({(found.x - own->x) / own->y, (found.y - own->y) / own->y});
+  }
+  if (r.progress) r.progress(n, n);
+  if (estimate.errors.empty())
+    estimate.none = "no run presses the ground in the last quarter of its history.csv";
+  return estimate;
 }
 
 /// Sizes and steps of the model.
@@ -256,6 +318,7 @@ ReduceReport describe(const Source& source, const Setup& setup, const ReducedFil
 ReduceReport run_reduce(const ReduceRequest& request) {
   const auto begin = Clock::now();
   const OneBlasThread one;  // the same model on any number of cores
+  static_cast<void>(is_co_rotating(request.frame, request.warn));
   check_options(request);
   const Source source = open_source(request);
   const Setup setup = build(source.cases.front(), 1);
@@ -270,15 +333,17 @@ ReduceReport run_reduce(const ReduceRequest& request) {
   const FieldModes v = modes_of_field(
       request, snapshots_of(request, source, "velocity"), roots, touched,
       {"velocity", request.velocity_modes, request.velocity_tolerance, default_velocity_modes});
-  const MatrixXd basis = basis_of(request, setup.mesh, roots, u, v);
+  const MatrixXd basis = basis_of(request, setup.mesh, roots, u.modes, v.modes);
   ReducedFile file = make_file(request, source, setup, basis, contact);
   file.displacement_modes = u.report.modes;
   file.velocity_modes = v.report.modes;
+  file.estimate = estimate_errors(request, source, setup, {&u, &v}, contact);
   write_reduced_file(request.output, file);
 
   ReduceReport report = describe(source, setup, file);
   report.displacement = u.report;
   report.velocity = v.report;
+  report.estimate = file.estimate;
   report.displacement_left =
       energy_left(snapshots_of(request, source, "displacement"), basis, roots);
   report.velocity_left = energy_left(snapshots_of(request, source, "velocity"), basis, roots);

@@ -8,6 +8,8 @@
 #include <string>
 #include <vector>
 
+#include "rondo/analysis/reduced_file.hpp"
+
 namespace rondo::study {
 
 /// Measured to be enough for forces on three meshes (docs/reduced.md, 8).
@@ -29,8 +31,10 @@ struct ReduceRequest {
   std::optional<double> from, to;  ///< window of the snapshots [s]
   int contact_stride = 0;  ///< nodes of the boundary to a contact point; 0: as many as leave
                            ///<     enough_contact_points
-  std::string frame = "rectified";  ///< frame_names
+  int contact_phases = 1;  ///< points to a node of the boundary; above 1 only without a stride
+  std::string frame = "rectified";  ///< or "co-rotating"
   std::string contact;              ///< contact_names; empty: what suits the disk and the frame
+  bool error_estimate = true;       ///< leaves each run out in turn, where there are 3 or more
   std::string memory = "2GB";
   std::function<void(const std::string&)> warn;        ///< may be empty
   std::function<void(long long, long long)> progress;  ///< done, of all; may be empty
@@ -54,6 +58,7 @@ struct ReduceReport {
   double contact_step = 0.0;  ///< in which the fastest spin passes one contact point [s]; 0: none
   std::string contact;        ///< its form
   long long contact_points = 0;
+  ErrorEstimate estimate;
   std::size_t file_bytes = 0;
   double wall_s = 0.0;
 };

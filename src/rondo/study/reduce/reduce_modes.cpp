@@ -22,6 +22,9 @@ using Eigen::VectorXd;
 /// Looked for where a tolerance is given, and at least where the norm chooses among them.
 constexpr Index most_modes = 400;
 
+/// Kept to choose modes without one of the runs from: three times as many as are wanted, at least.
+constexpr Index least_kept = 150;
+
 /// The first that leave out no more than the tolerance, or all.
 Index modes_for(const VectorXd& left, double tolerance) {
   Index count = 1;
@@ -88,7 +91,7 @@ MatrixXd at_touched(const TouchedNodes& touched, const MatrixXd& modes, const Ve
 TouchedNodes touched_nodes(const Setup& setup, std::span<const io::RunReader> runs,
                            const ReduceRequest& r) {
   const double share = r.contact_weight;
-  const bool turning = r.frame == "turning";
+  const bool turning = is_co_rotating(r.frame, {});
   TouchedNodes nodes;
   if (share == 0.0) return nodes;
   std::vector<char> places = touched_places(setup, runs, r);
@@ -130,8 +133,8 @@ FieldModes modes_of_field(const ReduceRequest& r, RunSnapshots snapshots, const 
     snapshots.unweight(found.modes.col(j));
     found.modes.col(j).array() *= roots.array();
   }
-  const rom::ChosenModes chosen =
-      rom::choose_modes(found, at_touched(touched, found.modes, roots), options.modes);
+  const MatrixXd extra = at_touched(touched, found.modes, roots);
+  const rom::ChosenModes chosen = rom::choose_modes(found, extra, options.modes);
   const Index keep =
       std::min(asked ? *asked : modes_for(chosen.left, *wanted.tolerance), chosen.modes.cols());
   const double missed = chosen.left[keep] / chosen.left[0];
@@ -143,7 +146,26 @@ FieldModes modes_of_field(const ReduceRequest& r, RunSnapshots snapshots, const 
                     "{}s, more than the tolerance of {:.3g}",
                     keep, missed, wanted.field, *wanted.tolerance));
   out.modes = chosen.modes.leftCols(keep);
+  if (!r.error_estimate) return out;
+  const Index kept =
+      std::min({std::max(least_kept, 3 * keep), found.modes.cols(), found.temporal.cols()});
+  out.found.sigma = found.sigma.head(kept);
+  out.found.modes = found.modes.leftCols(kept);
+  out.found.temporal = found.temporal.leftCols(kept);
+  out.at_touched = extra.leftCols(extra.rows() > 0 ? kept : 0);
   return out;
+}
+
+MatrixXd modes_without(const FieldModes& field, std::span<const SnapshotColumn> columns,
+                       std::size_t run) {
+  std::vector<Index> rows;
+  for (std::size_t j = 0; j < columns.size(); ++j)
+    if (columns[j].run != run) rows.push_back(static_cast<Index>(j));
+  pod::Decomposition others;
+  others.sigma = field.found.sigma;
+  others.modes = field.found.modes;
+  others.temporal = field.found.temporal(rows, Eigen::all);
+  return rom::choose_modes(others, field.at_touched, field.modes.cols()).modes;
 }
 
 double energy_left(RunSnapshots snapshots, const MatrixXd& modes, const VectorXd& roots) {

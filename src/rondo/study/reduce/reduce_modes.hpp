@@ -5,6 +5,7 @@
 #include <optional>
 
 #include "rondo/analysis/build/build.hpp"
+#include "rondo/pod/decompose.hpp"
 #include "rondo/study/pod/pod_snapshots.hpp"
 #include "rondo/study/reduce/reduce.hpp"
 
@@ -22,6 +23,10 @@ struct WantedModes {
 struct FieldModes {
   ReducePart report;
   Eigen::MatrixXd modes;  ///< (2n, modes) orthonormal
+  /// The first modes in the norm of the mass and all snapshots in them, and those modes at what
+  /// touches: what modes_without() chooses from. Empty where no error is to be estimated.
+  pod::Decomposition found;
+  Eigen::MatrixXd at_touched;
 };
 
 /// Nodes whose motion the norm counts besides the mass: those that touch, or nearly.
@@ -41,6 +46,12 @@ struct TouchedNodes {
 [[nodiscard]] FieldModes modes_of_field(const ReduceRequest& request, RunSnapshots snapshots,
                                         const Eigen::VectorXd& roots, const TouchedNodes& touched,
                                         const WantedModes& wanted);
+
+/// As many modes as `field` has, of all snapshots but those of one run: chosen among the first
+/// modes of all. @param columns the snapshots behind `field`
+[[nodiscard]] Eigen::MatrixXd modes_without(const FieldModes& field,
+                                            std::span<const SnapshotColumn> columns,
+                                            std::size_t run);
 
 /// Share of the energy of the snapshots outside of the modes.
 [[nodiscard]] double energy_left(RunSnapshots snapshots, const Eigen::MatrixXd& modes,

@@ -1,0 +1,71 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "rondo/study/reduce/reduce_error.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numbers>
+#include <system_error>
+
+#include "rondo/analysis/analysis.hpp"
+#include "rondo/analysis/build/build.hpp"
+#include "rondo/integrators/start.hpp"
+#include "rondo/io/csv.hpp"
+#include "rondo/rom/integrator.hpp"
+
+namespace rondo::study {
+namespace {
+
+/// Start of what is averaged, of the whole time.
+constexpr double window = 0.75;
+
+}  // namespace
+
+std::optional<MeanForce> mean_force_of(const io::RunReader& run) {
+  const std::filesystem::path file = run.directory() / "history.csv";
+  std::error_code error;
+  if (!std::filesystem::exists(file, error)) return {};
+  const auto columns = io::read_columns(file);
+  const auto time = columns.find("time_s"), x = columns.find("force_x"),
+             y = columns.find("force_y");
+  if (time == columns.end() || x == columns.end() || y == columns.end() || time->second.empty())
+    return {};
+  MeanForce sum;
+  double rows = 0.0;
+  for (std::size_t k = 0; k < time->second.size(); ++k) {
+    if (time->second[k] <= window * time->second.back()) continue;
+    sum.x += x->second[k];
+    sum.y += y->second[k];
+    rows += 1.0;
+  }
+  return MeanForce{sum.x / rows, sum.y / rows};
+}
+
+MeanForce predicted_force(const Case& c, const rom::ReducedModel& model) {
+  Setup setup = build(c, 1);
+  dynamics::Model& full = setup.model;
+  const double points =
+      static_cast<double>(model.form == rom::ContactForm::nodes ? setup.mesh.boundary.size()
+                                                                : model.contact.points.size());
+  full.dt *= RunOptions{}.step_factor;
+  if (const double spin = c.motion.angular_velocity.largest(); spin > 0.0)
+    full.dt = std::min(full.dt, 2.0 * std::numbers::pi / points / spin);
+  const long long steps = count_steps(c, full.dt);
+  rom::StepFigures figures;
+  rom::ReducedIntegrator integrator(
+      {setup.mesh, full, model, figures},
+      dynamics::start(full, std::move(setup.displacement), std::move(setup.velocity)));
+  MeanForce sum;
+  double counted = 0.0;
+  std::array<dynamics::StepReport, 1> report;
+  for (long long k = 1; k <= steps; ++k) {
+    integrator.advance(report);
+    if (static_cast<double>(k) <= window * static_cast<double>(steps)) continue;
+    sum.x += report[0].contact.impulse.x / full.dt;
+    sum.y += report[0].contact.impulse.y / full.dt;
+    counted += 1.0;
+  }
+  return {sum.x / counted, sum.y / counted};
+}
+
+}  // namespace rondo::study
