@@ -192,7 +192,7 @@ long long DynamicAnalysis::next_snapshot() const noexcept {
 Progress DynamicAnalysis::begin(Recorder& recorder) {
   history_.emplace(case_, setup_, from_ ? from_->history : HistoryPlace{});
   bounds_ = {setup_.model.free_bodies.empty() ? residual_bound : free_residual_bound,
-             largest_strain_energy(setup_), impact_cure(setup_.model)};
+             largest_strain_energy(setup_), impact_cure(setup_.model), guards_impacts()};
   watch_.emplace(case_, setup_);
   reports_.resize(steps_at_once(setup_));
   state_ = start(setup_.model, std::move(setup_.displacement), std::move(setup_.velocity));
@@ -269,7 +269,9 @@ void DynamicAnalysis::judge(const dynamics::StepReport& step) {
 /// Once a run: what follows is the same.
 void DynamicAnalysis::warn_of_impacts(const dynamics::StepReport& step) {
   const double gain = impact_gain(step.balance);
-  if (impacts_told_ || gain <= impact_gain_spoken_of || gain > impact_gain_bound) return;
+  if (impacts_told_ || !bounds_.guards_impacts || gain <= impact_gain_spoken_of ||
+      gain > impact_gain_bound)
+    return;
   impacts_told_ = true;
   warn(fmt::format("t = {:.9g} s: {}", step.frame.time - 0.5 * setup_.model.dt,
                    created_by_impacts(step.balance, impact_gain_bound, bounds_.impact_cure)));

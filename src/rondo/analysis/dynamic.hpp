@@ -46,6 +46,8 @@ class DynamicAnalysis : public Analysis, public Resumable {
       dynamics::State& start);
   [[nodiscard]] Setup& setup() noexcept { return setup_; }
   [[nodiscard]] const Setup& setup() const noexcept { return setup_; }
+  /// The law sees velocities alone. Gaps in it push bodies out of the ground, which does work.
+  [[nodiscard]] virtual bool guards_impacts() const noexcept { return true; }
   /// The step was chosen anew: what hangs on it is, too.
   void plan_snapshots();
 

@@ -155,7 +155,7 @@ OutOfBound find_out_of_bound(const dynamics::Balance& b, const ContactStatistics
     return {fmt::format("the energy ledger does not close: relative residual {:.3g}, bound {:.0e}",
                         b.relative, bounds.ledger),
             true};
-  if (impact_gain(b) > impact_gain_bound)
+  if (bounds.guards_impacts && impact_gain(b) > impact_gain_bound)
     return {created_by_impacts(b, impact_gain_bound, bounds.impact_cure), true};
   if (!(contact.residual <= residual_bound))
     return {fmt::format("contact residual {:.3g}, bound {:.0e}", contact.residual, residual_bound),

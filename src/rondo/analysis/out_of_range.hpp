@@ -27,6 +27,7 @@ struct Bounds {
   double ledger = 0.0;         ///< relative residual
   double strain_energy = 0.0;  ///< [J/m]
   std::string impact_cure;     ///< of impact_cure()
+  bool guards_impacts = true;  ///< the run ends above impact_gain_bound
 };
 
 /// Energy that impacts have created, over the energy exchanged: above the first it is spoken of,

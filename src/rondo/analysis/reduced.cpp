@@ -80,9 +80,12 @@ void check_model(const Case& c, const RunOptions& options, const ReducedFile& fi
 }
 
 /// Elsewhere the law sees gaps besides, and w_n is not the mean velocity that does the work.
+bool sees_velocities_alone(const ReducedRun& run) {
+  return run.file.model.form == rom::ContactForm::nodes && run.scheme == rom::StepScheme::central;
+}
+
 void check_impacts(const Case& c, const ReducedRun& run) {
-  if (!c.ground || c.ground->impact == contact::Impact::moreau) return;
-  if (run.file.model.form == rom::ContactForm::nodes && run.scheme == rom::StepScheme::central)
+  if (!c.ground || c.ground->impact == contact::Impact::moreau || sees_velocities_alone(run))
     return;
   throw case_error(c, "ground.impact",
                    "a reduced run keeps what this law promises only with contact at nodes and "
@@ -278,6 +281,9 @@ class ReducedAnalysis final : public DynamicAnalysis {
   }
 
  protected:
+  [[nodiscard]] bool guards_impacts() const noexcept override {
+    return sees_velocities_alone(run_);
+  }
   [[nodiscard]] std::unique_ptr<dynamics::Integrator> make_integrator(
       dynamics::State& start) override {
     return std::make_unique<rom::ReducedIntegrator>(
