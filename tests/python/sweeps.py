@@ -50,11 +50,24 @@ def write(directory: pathlib.Path, parameters: Sequence[tuple[str, str, str]], r
             "failures": [{"run": number, "message": "it blew up"}
                          for number, state in enumerate(status, 1) if state == "failed"],
             "parameters": [{"key": key, "unit": unit, "kind": kind}
-                           for key, unit, kind in parameters]}
+                           for key, unit, kind in parameters],
+            "columns": [{"name": name, "unit": unit_of(name)} for name in figures]}
     (directory / "sweep.json").write_text(json.dumps({**said, **info}))
     (directory / "timings.csv").write_text("run,worker,wall_s\n" + "".join(
         f"{number},{number % 2},0.25\n" for number in range(1, len(rows) + 1)))
     return directory
+
+
+def unit_of(name: str) -> str:
+    """As the program gives it in sweep.json."""
+    for begin, unit in (("force_", "N/m"), ("torque", "N·m/m"), ("strain", "J/m"),
+                        ("dissipation", "J/m")):
+        if name.startswith(begin):
+            return unit
+    for end, unit in (("_power", "W/m"), ("_m", "m"), ("_pa", "Pa"), ("_s", "s")):
+        if name.endswith(end):
+            return unit
+    return "1"
 
 
 def _said(value: Any) -> str:

@@ -85,6 +85,9 @@ def test_history(any_run):
     assert len(any_run.history) == len(rows[0])
     for name, column in any_run.history.items():
         np.testing.assert_array_equal(column, [float(row[name]) for row in rows])
+    for known, alike in (("time_s", "time"), ("center_x_m", "center_x"), ("angle_rad", "angle")):
+        assert any_run.history[alike] is any_run.history[known]
+        assert any_run.history.unit_of(alike) == any_run.history.units[known]
 
 
 def test_every_column_has_its_unit(any_run):

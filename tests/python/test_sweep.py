@@ -23,6 +23,20 @@ def grid(tmp_path: pathlib.Path) -> pathlib.Path:
     return sweeps.grid(tmp_path / "grid", schemes=TWO, failed=(5, 18))
 
 
+def test_names_without_units_and_of_crushes(grid: pathlib.Path, tmp_path: pathlib.Path) -> None:
+    sweep, crush = rondo.open_sweep(grid), rondo.open_sweep(sweeps.loaded(tmp_path / "c"))
+    for known, alike in (("force_y_mean", "force_y"), ("end_time_s", "end_time"),
+                         ("contact_length_mean_m", "contact_length"),
+                         ("contact_length_mean_m", "contact_length_m")):
+        np.testing.assert_array_equal(sweep[alike], sweep[known])
+        assert sweep.unit_of(alike) == sweep.units[known] != "unknown"
+    for known, alike in (("force_y", "force_y_mean"), ("pressure_max_pa", "pressure_max"),
+                         ("contact_length_m", "contact_length_mean_m")):
+        np.testing.assert_array_equal(crush[alike], crush[known])
+    with pytest.raises(rondo.Error, match="no column 'force_z'"):
+        sweep["force_z"]
+
+
 def test_columns(grid: pathlib.Path) -> None:
     sweep = rondo.open_sweep(grid)
     assert (len(sweep), sweep.status, sweep.analysis, sweep.title) == (24, "failed", "dynamic",
@@ -44,7 +58,7 @@ def test_columns(grid: pathlib.Path) -> None:
     assert sweep.varied == [FRICTION, SPIN, SCHEME]
     assert "force_x_mean" in sweep and "force_z_mean" not in sweep
     assert (sweep.units["force_x_mean"], sweep.units["torque_mean"], sweep.units["friction_power"],
-            sweep.units["penetration_max_m"], sweep.units[SPIN]) == ("N/m", "N", "W/m", "m",
+            sweep.units["penetration_max_m"], sweep.units[SPIN]) == ("N/m", "N·m/m", "W/m", "m",
                                                                      "rad/s")
     assert sweep.timings["wall_s"].tolist() == [0.25] * 24
     assert sweep.failures == {5: "it blew up", 18: "it blew up"}

@@ -10,9 +10,8 @@ import numpy as np
 
 from .errors import Error, unknown
 from .files import read_table
+from .names import ENDINGS, find_name
 
-# Of runs whose run.json does not list the columns: endings of their names that are units.
-ENDINGS = {"_s": "s", "_m": "m", "_rad": "rad", "_pa": "Pa"}
 FORCES = ("force_x", "force_y", "torque")  # of the ground on the body
 
 
@@ -25,7 +24,7 @@ def between(from_time: float | None, to_time: float | None, unit: str = "s") -> 
 
 def units_of(names: Iterable[str], columns: Sequence[Mapping[str, Any]]) -> dict[str, str]:
     """Unit of each column that has a known one. columns: "columns" of run.json, empty where a run
-    of an earlier version has none."""
+    of an earlier version has none: then by the endings of the names."""
     said = {str(column["name"]): str(column["unit"]) for column in columns}
     if said:
         return {name: said[name] for name in names if name in said}
@@ -48,9 +47,14 @@ class History(Mapping[str, np.ndarray]):
             self.units["time_s"] = "1"  # also where run.json does not say so
 
     def __getitem__(self, name: str) -> np.ndarray:
-        if name not in self._columns:
+        found = find_name(name, self._columns)
+        if found is None:
             raise unknown(self.path, "column", name, self._columns)
-        return self._columns[name]
+        return self._columns[found]
+
+    def unit_of(self, name: str) -> str:
+        """Of the column that `history[name]` is."""
+        return self.units.get(find_name(name, self.units) or name, "unknown")
 
     def __iter__(self) -> Iterator[str]:
         return iter(self._columns)

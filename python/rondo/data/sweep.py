@@ -13,6 +13,8 @@ import numpy as np
 
 from .errors import Error, UnfinishedRunError, unknown
 from .files import check_format, read_json, read_table, require, some
+from .history import units_of
+from .names import find_name
 from .run import STATUS, Run, open_run
 from .sweep_table import read_members
 
@@ -20,18 +22,7 @@ if TYPE_CHECKING:
     from matplotlib.axes import Axes
     from matplotlib.figure import Figure
 
-UNITS = {
-    "run": "1", "steps": "1", "end_time_s": "s",
-    "force_x_mean": "N/m", "force_x_peak": "N/m", "force_x_fluctuation": "N/m",
-    "force_y_mean": "N/m", "force_y_peak": "N/m", "force_y_fluctuation": "N/m",
-    "torque_mean": "N", "torque_peak": "N", "torque_fluctuation": "N",
-    "contact_length_mean_m": "m", "contact_length_peak_m": "m", "slip_ratio_mean": "1",
-    "friction_power": "W/m", "impact_power": "W/m", "energy_residual_relative": "1",
-    "contact_residual_max": "1", "penetration_max_m": "m",
-    # of crushes
-    "depth_m": "m", "force_x": "N/m", "force_y": "N/m", "torque": "N", "contact_length_m": "m",
-    "pressure_max_pa": "Pa", "shear_max_pa": "Pa", "strain": "J/m", "dissipation_friction": "J/m",
-}
+UNITS = {"run": "1", "steps": "1", "end_time_s": "s"}  # of the columns before the results
 TARGET = "target."  # what begins the column of a target, as "target.force_y"
 SAME = 1e-9  # relative: a number that is asked for and one of the table
 
@@ -134,12 +125,17 @@ class Sweep:
         return list(self._columns)
 
     def __getitem__(self, name: str) -> np.ndarray:
-        if name not in self._columns:
+        found = find_name(name, self._columns)
+        if found is None:
             raise unknown(self.directory, "column", name, self._columns)
-        return self._columns[name]
+        return self._columns[found]
+
+    def unit_of(self, name: str) -> str:
+        """Of the column that `sweep[name]` is."""
+        return self.units.get(find_name(name, self.units) or name, "unknown")
 
     def __contains__(self, name: object) -> bool:
-        """Whether there is a column of this name."""
+        """Whether there is a column of just this name."""
         return name in self._columns
 
     def __len__(self) -> int:
@@ -272,7 +268,7 @@ def _read(directory: pathlib.Path) -> Sweep:
         raise Error(f"{path}: damaged: {reason!r}") from None
     table = directory / "results.csv"
     inputs, columns = read_members(table)
-    targets = {name: Parameter(name, UNITS.get(name.removeprefix(TARGET), "unknown"), "values")
+    targets = {name: Parameter(name, "N/m", "values")
                for name in inputs if name.startswith(TARGET)}
     known = {parameter.key: parameter for parameter in said} | targets
     if set(known) != set(inputs):
@@ -281,6 +277,7 @@ def _read(directory: pathlib.Path) -> Sweep:
     rows = len(columns["run"])
     if rows > members or (rows < members and status in ("done", "failed")):
         raise Error(f"{table}: damaged: {rows} members, but there are {members} in sweep.json")
-    units = {name: known[name].unit if name in known else UNITS.get(name, "unknown")
+    said_units = UNITS | units_of(columns, info.get("columns", ()))
+    units = {name: known[name].unit if name in known else said_units.get(name, "unknown")
              for name in columns if name != "status"}
     return Sweep(directory, info, {key: known[key] for key in inputs}, columns, units)

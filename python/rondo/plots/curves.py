@@ -58,7 +58,7 @@ def plot_history(run: Run, *columns: str, ax: Axes | None = None) -> Axes:
         history.need_ground(name)
     x, x_label = _abscissa(run)
     values = [history[name] for name in names]
-    units = {history.units.get(name, "unknown") for name in names}
+    units = {history.unit_of(name) for name in names}
     if len(units) > 1:
         raise Error(f"{', '.join(names)}: of different units ({', '.join(sorted(units))}); "
                     "draw them in axes of their own")
@@ -185,7 +185,7 @@ def plot_force_spectrum(run: Run, column: str = "force_y", from_time: float | No
         ax.set_ylim(max(amplitude[1:].min(), 1e-6 * top), 3 * top)
     ax.set_xlim(0, frequency[-1])
     ax.set_xlabel("frequency (Hz)")
-    unit = run.history.units.get(column, "unknown")
+    unit = run.history.unit_of(column)
     ax.set_ylabel(f"amplitude of the\n{column_label(column)} ({'–' if unit == '1' else unit})")
     return ax
 

@@ -27,7 +27,7 @@ def column_label(column: str) -> str:
 def readable(size: float, unit: str) -> tuple[float, str]:
     """Factor and unit for values up to `size`: 1.9e5 N/m is 190 kN/m."""
     for factor, prefix in ((1e-6, "M"), (1e-3, "k")):
-        if unit in ("N/m", "J/m", "W/m", "N", "Pa") and size * factor >= 1:
+        if unit in ("N/m", "J/m", "W/m", "N·m/m", "Pa") and size * factor >= 1:
             return factor, prefix + unit
     if unit == "m" and 0 < size < 0.1:
         return 1e3, "mm"

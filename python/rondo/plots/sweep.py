@@ -80,7 +80,7 @@ def quantity(sweep: Sweep, name: str) -> Quantity:
         return Quantity(name, name, "–", places, tuple(texts), False)
     numbers = column.astype(float)
     largest = float(np.abs(numbers[np.isfinite(numbers)]).max(initial=0.0))
-    factor, unit = readable(largest, sweep.units[name])
+    factor, unit = readable(largest, sweep.unit_of(name))
     for power in "23":  # kg/m3
         unit = unit.replace(f"m{power}", f"m{'²³'[int(power) - 2]}").replace(f"s{power}", "s²")
     title = name if name in sweep.parameters else figure_title(name)
@@ -115,7 +115,7 @@ def is_nothing(sweep: Sweep, name: str) -> bool:
         values = sweep[figure][sweep.done]
         return float(np.abs(values[np.isfinite(values)]).max(initial=0.0))
 
-    if sweep.units[name] not in ("N/m", "N"):
+    if sweep.unit_of(name) not in ("N/m", "N·m/m"):
         return size(name) == 0.0
     forces = [figure for figure in sweep.figures if sweep.units[figure] == "N/m"]
     return size(name) <= ROUND_OFF * max(size(figure) for figure in [name, *forces])

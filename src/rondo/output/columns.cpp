@@ -24,8 +24,8 @@ constexpr std::array history{
               [](const H& r) { return r.force.x; }},
     Column<H>{"force_y", "N/m", "likewise", [](const H& r) { return r.force.y; }},
     Column<H>{
-        "torque", "N",
-        "of the ground on the body about the centre, per unit thickness, mean over the interval",
+        "torque", "N·m/m",
+        "of the ground on the body about the centre, mean over the interval",
         [](const H& r) { return r.torque; }},
     Column<H>{"contact_nodes", "1", "nodes with a normal force",
               [](const H& r) { return static_cast<double>(r.nodes); }},

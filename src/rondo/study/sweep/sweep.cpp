@@ -193,6 +193,9 @@ class Sweep {
     j["study"] = as_utf8(study_.file.filename().string());
     j["base"] = as_utf8(study_.base.filename().string());
     j["parameters"] = describe_parameters();
+    j["columns"] = Json::array();
+    for (const FigureColumn& column : plan_.type->figures.columns)
+      j["columns"].push_back({{"name", column.name}, {"unit", column.unit}});
     j["window"] = {{"from", time(study_.window.from)}, {"to", time(study_.window.to)}};
     j["members"] = rows_.size();
     j["members_hash"] = hash_of(study_, plan_);
