@@ -26,17 +26,17 @@ int finish(const study::RunReport& r, const std::filesystem::path& directory) {
       return exit_numerical;
     case study::RunStatus::interrupted:
       spdlog::warn("interrupted after {}; the results so far are in {}{}", r.reached,
-                   directory.string(), r.resumable ? "; --resume goes on" : "");
+                   directory.string(), r.resumable ? "; --resume resumes it" : "");
       return exit_interrupted;
     case study::RunStatus::done:
       break;
   }
   if (r.was_complete) {
-    spdlog::info("{} has come to its end, {}: nothing to do; a later time.end goes on",
+    spdlog::info("{} has come to its end, {}: nothing to do; a later time.end resumes it",
                  directory.string(), r.reached);
     return exit_done;
   }
-  if (r.resumed_at > 0) spdlog::info("gone on with from step {}", r.resumed_at);
+  if (r.resumed_at > 0) spdlog::info("resumed from step {}", r.resumed_at);
   if (r.ns_per_dof_step == 0.0)
     spdlog::info("{} in {:.2f} s", r.reached, r.loop_wall_s);
   else
@@ -67,7 +67,7 @@ void complete(RunArguments& arguments) {
     if (!arguments.options.resume && std::filesystem::exists(given / "run.json", error))
       throw InputError(Fault{given.string(), 0, 0, "", "",
                              "is the results directory of a run, not a case file",
-                             "--resume to go on with it, or case.toml in it with another -o"});
+                             "--resume to resume it, or case.toml in it with another -o"});
     if (arguments.options.resume) {
       if (into.empty()) into = given;
       arguments.case_file = (given / "case.toml").string();
@@ -115,7 +115,7 @@ int check(const CaseArguments& arguments, int threads) {
   const study::CheckReport r = study::check_case(c, {.threads = threads});
   for (const std::string& warning : r.warnings) spdlog::warn(warning);
   fmt::print("title              {}\n", c.title);
-  fmt::print("nodes              {} ({} elements, {} free dofs, {} contact candidates)\n", r.nodes,
+  fmt::print("nodes              {} ({} elements, {} free dofs, {} contact nodes)\n", r.nodes,
              r.elements, r.dofs, r.candidates);
   if (study::may_be_free(c))
     fmt::print("bodies             {} ({} free)\n", r.bodies, r.free_bodies);

@@ -53,8 +53,8 @@ CLI::App* add_run(CLI::App& program, app::RunArguments& arguments, bool& quiet) 
   CLI::Option* overwrite =
       run->add_flag("--overwrite", options.overwrite, "replaces another run's results there");
   run->add_flag("--resume", options.resume,
-                "goes on with the run there from its last checkpoint, to the same bits; begins it "
-                "where there is none; with a later time.end a finished run goes on")
+                "resumes the run there from its last checkpoint, to the same bits; begins it "
+                "where there is none; with a later time.end a finished run resumes")
       ->excludes(overwrite);
   CLI::Option* reduced = run->add_option(
       "--reduced", options.reduced,
@@ -150,7 +150,7 @@ CLI::App* add_reduce(CLI::App& program, study::ReduceRequest& r, bool& quiet) {
                          "validate REDUCED RUN");
           })
       ->group("");  // not in the help
-  reduce->add_flag("--quiet", quiet, "prints warnings and the figures only");
+  reduce->add_flag("--quiet", quiet, "prints warnings and the results only");
   reduce->footer(
       "Example:\n  rondo reduce results/mu0 results/mu06 -o model.h5\n"
       "  rondo run cases/rolling-flat.toml --reduced model.h5 -o results/reduced\n"
@@ -184,7 +184,7 @@ CLI::App* add_pod(CLI::App& program, study::PodRequest& r, bool& quiet) {
       ->capture_default_str();
   pod->add_option("-o,--output", r.directory,
                   "the results go to OUTPUT/<field>-<frame>; RUN/pod if left out");
-  pod->add_flag("--quiet", quiet, "prints warnings and the figures only");
+  pod->add_flag("--quiet", quiet, "prints warnings and the results only");
   pod->footer(
       "Example:\n  rondo pod results/ledge --field velocity --frame rectified --from 0.07\n"
       "Modes, spectrum and figures: docs/results.md.");
@@ -203,15 +203,16 @@ CLI::App* add_modes(CLI::App& program, app::ModesArguments& arguments, bool& qui
       ->check(CLI::Range(1, 100000))
       ->capture_default_str();
   modes->add_option("--spin", r.spins,
-                    "angular velocities [rad/s], > 0 rolls towards +x; rest and the case's own at "
+                    "rotation speeds [rad/s], > 0 rolls towards +x; rest and the case's own at "
                     "t = 0 if left out");
-  modes->add_option("--spins", r.sweep,
-                    "FROM:TO:NUMBER [rad/s]: frequencies over the spin, for a Campbell diagram");
+  modes->add_option(
+      "--spins", r.sweep,
+      "FROM:TO:NUMBER [rad/s]: frequencies over the rotation speed, for a Campbell diagram");
   modes->add_option("--diameters", r.diameters, "critical speeds of waves with up to that many")
       ->check(CLI::Range(0, 1000000))
       ->capture_default_str();
   modes->add_flag("--overwrite", r.run.overwrite, "replaces what another run has left there");
-  modes->add_flag("--quiet", quiet, "prints warnings and the figures only");
+  modes->add_flag("--quiet", quiet, "prints warnings and the results only");
   modes->footer(
       "Example:\n  rondo modes cases/modes-annulus.toml -o results/modes --spins 0:400:41\n"
       "  python3 -m rondo campbell results/modes\n"
@@ -244,7 +245,7 @@ CLI::App* add_sweep(CLI::App& program, app::SweepArguments& arguments, bool& qui
                   "checks all runs and lists them with what they would cost; writes nothing");
   CLI::Option* overwrite =
       sweep->add_flag("--overwrite", r.overwrite, "replaces another sweep there");
-  sweep->add_flag("--resume", r.resume, "goes on with a sweep that was interrupted")
+  sweep->add_flag("--resume", r.resume, "resumes a sweep that was interrupted")
       ->excludes(overwrite);
   sweep->add_flag("--quiet", quiet, "prints warnings and errors only");
   sweep->footer(
@@ -258,7 +259,7 @@ CLI::App* add_sweep(CLI::App& program, app::SweepArguments& arguments, bool& qui
 
 int report_input_error(const InputError& error) {
   for (const Fault& fault : error.faults()) spdlog::error("{}", fault.text());
-  if (error.faults().size() > 1) spdlog::error("{} faults; nothing was run", error.faults().size());
+  if (error.faults().size() > 1) spdlog::error("{} errors; nothing was run", error.faults().size());
   return exit_input;
 }
 

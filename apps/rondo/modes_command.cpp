@@ -28,7 +28,7 @@ void print_modes(const study::ModesReport& r) {
 
 void print_critical(const study::ModesReport& r) {
   if (r.critical.empty()) return;
-  fmt::print("critical speeds    n: spin (rad/s), rim speed (m/s)\n");
+  fmt::print("critical speeds    n: rotation speed (rad/s), rim speed (m/s)\n");
   for (const auto& c : r.critical)
     fmt::print("{:>18}: {:.6g}, {:.6g}\n", c.diameters, c.spin, c.spin * r.outer_radius);
 }

@@ -146,7 +146,7 @@ class Pod(ProgramTest):
             np.testing.assert_array_equal(h5["/snapshots/angle"][:], run["/frame/angle_velocity"][:])
 
     def test_more_snapshots_than_numbers(self):
-        """By blocks of snapshots; candidates that never touch make rows of zeros."""
+        """By blocks of snapshots; contact nodes that never touch make rows of zeros."""
         out = self.make(SMALL, "out", "--set", "output.snapshots=300", "--set",
                         "time.end=0.06", "--set", "output.stress=false")
         a = reference(out, "contact")

@@ -272,7 +272,7 @@ class Finished(ResumeTest):
         self.assertEqual(self.resume(text).returncode, 0)
         done = self.resume(text, *later)
         self.assertEqual(done.returncode, 0, done.stderr)
-        self.assertIn("gone on with from step 200", done.stderr)
+        self.assertIn("resumed from step 200", done.stderr)
         self.assert_same(self.out)
 
     def test_a_directory_without_resume_says_what_to_give(self):
@@ -347,10 +347,10 @@ class Refused(ResumeTest):
                             f"{self.out / 'checkpoint.h5'}: ground.friction = 0.4",
                             "(allowed: 0.3; or --overwrite",
                             "ground.restitution = 0.1", "ground.impact = \"energy-safe\"",
-                            "disk.mesh.radial = 4", "4 faults")
+                            "disk.mesh.radial = 4", "4 errors")
         no_ground = self.TEXT[: self.TEXT.index("[ground]")] + self.TEXT[self.TEXT.index("[time]"):]
         self.assert_refused(self.resume(no_ground), 2, "ground.friction = nothing",
-                            "the run to go on with has a value")
+                            "the run to resume has a value")
 
     def test_an_end_that_lies_behind(self):
         self.assertEqual(self.resume(self.TEXT).returncode, 0)
@@ -471,7 +471,7 @@ class TwoPrograms(ResumeTest):
         self.assertEqual(summary(self.out)["status"], "running")
         refused = run("run", case, "-o", self.out)
         self.assertEqual(refused.returncode, 2)
-        self.assertIn("--resume to go on", refused.stderr)
+        self.assertIn("--resume to resume it", refused.stderr)
         with h5py.File(self.out / "checkpoint.h5") as f:
             reached = f["/run/steps_done"][0] * f["/run/step"][0]
         done = run("run", case, "-o", self.out, "--resume", "--set", f"time.end={reached + 0.01}")

@@ -107,7 +107,7 @@ def main(arguments: list[str]) -> int:
         wrong.append("what the pages mark `not run here`, above, is not the list NOT_RUN")
     for text in wrong:
         print(f"\n{text}", file=sys.stderr)
-    print(f"\n{len(blocks)} blocks of {ROOT.name}'s pages, {len(wrong)} faults")
+    print(f"\n{len(blocks)} blocks of {ROOT.name}'s pages, {len(wrong)} errors")
     return 1 if wrong else 0
 
 

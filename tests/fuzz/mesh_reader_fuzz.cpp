@@ -121,9 +121,9 @@ std::string fault_of(const mesh::Mesh& m) {
     for (int a = 0; a < mesh::n_corners(cell); ++a)
       if (!known(cell[static_cast<std::size_t>(a)])) return "a cell without its node";
   if (mesh::check_cells(m).count() > 0) return "a bad cell";
-  if (m.boundary.size() != m.tributary.size()) return "candidates without length";
+  if (m.boundary.size() != m.tributary.size()) return "contact nodes without length";
   for (const int node : m.boundary)
-    if (!known(node)) return "a candidate is no node";
+    if (!known(node)) return "a contact node is no node";
   for (const int node : m.clamped)
     if (!known(node)) return "a clamped node is none";
   if (!m.region.empty() && m.region.size() != m.cells.size()) return "cells without region";

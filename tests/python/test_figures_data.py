@@ -49,7 +49,7 @@ class Stored:
         return int(np.abs(self["frame/time"] - time).argmin())
 
     def fixed(self, k: int, vectors: Array) -> Array:
-        """Vectors of the turning frame along the fixed axes."""
+        """Vectors of the co-rotating frame along the fixed axes."""
         cos, sin = np.cos(self["frame/angle"][k]), np.sin(self["frame/angle"][k])
         return vectors @ np.array([[cos, sin], [-sin, cos]])
 
@@ -273,12 +273,12 @@ def test_figure_4_displacement(study: pathlib.Path, figures: dict[str, Figure], 
         check_body(ax, run.position(k), run["mesh/cells"], 1e3 * values)
         check_contact(ax, run, k)
     at, = (tick for tick, text in zip(ax.get_xticks(), ax.get_xticklabels())
-           if text.get_text() == "0")  # x is counted from the centre
+           if text.get_text() == "0")  # x is counted from the center
     assert at == pytest.approx(run["frame/center"][k, 0])
 
 
 def forces_by_place(run: Stored) -> tuple[Array, Array, Array]:
-    """Of all nodes in contact in all snapshots: m from the centre along x; N/m upwards and along
+    """Of all nodes in contact in all snapshots: m from the center along x; N/m upwards and along
     +x, as they enter the mean over the snapshots. The ground is level."""
     force, boundary = run["contact/force"], run["mesh/boundary"]
     x = np.array([(run.position(k)[boundary, 0] - run["frame/center"][k, 0])
@@ -289,7 +289,7 @@ def forces_by_place(run: Stored) -> tuple[Array, Array, Array]:
 
 
 def check_profile(drawn: Array, x: Array, force: Array, window: float) -> None:
-    """A mean over places (mm, MPa) against forces at their places: integral, centre, and the part
+    """A mean over places (mm, MPa) against forces at their places: integral, center, and the part
     left of each place, however the profile was smoothed within `window` (m)."""
     place, value = drawn[:, 0] * 1e-3, drawn[:, 1] * 1e6
     parts = value * np.diff(place).mean()  # N/m

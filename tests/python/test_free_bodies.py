@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Pictures of bodies that nothing holds: deformation without the motion, energies, films."""
+"""Pictures of unconstrained bodies: deformation without the motion, energies, films."""
 import shutil
 import types
 
@@ -55,7 +55,7 @@ def test_a_rigid_motion_leaves_no_deformation():
     assert np.allclose(rigid.places[:7], (x + u)[:7], atol=1e-14)
     assert np.allclose(rigid.angle, [2.5] * 4 + [-3.0] * 3 + [0, 0])
     assert np.array_equal(rigid.deformation[7:], u[7:])  # nodes of the turning frame
-    for body, angle, shift in motions:  # a stretch about the centre of mass
+    for body, angle, shift in motions:  # a stretch about the center of mass
         middle = np.average(x[body], axis=0, weights=mesh.mass[body])
         u[body] += 0.1 * (x[body] - middle) @ turn(angle).T
         found = rigid_motion(mesh, u).deformation[body]

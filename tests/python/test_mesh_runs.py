@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Runs of meshes from files and of bodies that nothing holds."""
+"""Runs of meshes from files and of unconstrained bodies."""
 import shutil
 
 import h5py

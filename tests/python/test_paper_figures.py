@@ -250,7 +250,7 @@ def test_figure_5_is_of_the_velocity_in_the_turning_frame(paper: rondo.Paper,
 def test_figure_5_has_the_colours_of_its_frames(figures: dict[str, Figure]) -> None:
     own = {line.get_label(): line for line in figures["figure-5"].axes[0].lines}
     frames = {line.get_label(): line for line in figures["figure-5-frames"].axes[0].lines}
-    for name, other in (("rolling", "rolling, turning frame"), ("crush", "crush")):
+    for name, other in (("rolling", "rolling, co-rotating frame"), ("crush", "crush")):
         for body in ("smooth", "treaded"):
             assert own[f"{name}, {body}"].get_color() == frames[other].get_color()
     lines = [own[f"{name}, {body}"].get_linestyle() for name in ("rolling", "crush")
@@ -275,7 +275,7 @@ def test_figure_5_has_no_empty_decades(paper: rondo.Paper, figures: dict[str, Fi
 
 def test_rectified_rolling_falls_faster(figures: dict[str, Figure]) -> None:
     for ax in figures["figure-5-frames"].axes:
-        turning, rectified = (curve(ax, f"rolling, {name}") for name in ("turning frame",
+        turning, rectified = (curve(ax, f"rolling, {name}") for name in ("co-rotating frame",
                                                                          "rectified"))
         assert rectified[0, 1] < 0.5 * turning[0, 1]
 

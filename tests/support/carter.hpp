@@ -35,7 +35,7 @@ struct CarterMeans {
   Vec2 load;           ///< Q towards +x, P [N/m]
   // Of the shear that is spared, μp - |q|: half an ellipse over the stick zone, nothing elsewhere.
   double stick = 0.0;    ///< twice its standard deviation along the ground: c [m]
-  double ahead = 0.0;    ///< its centre ahead of that of the pressure: a - c [m]
+  double ahead = 0.0;    ///< its center ahead of that of the pressure: a - c [m]
   double largest = 0.0;  ///< |q|/(μp) of all nodes of all states looked at [-]
 
   [[nodiscard]] double half_width() const {
@@ -59,7 +59,7 @@ inline double carter_creep(double share) {
 
 /// A node in contact at some time.
 struct CarterSample {
-  double x = 0.0;  ///< from the centre, at the reference position as in V14 [m]
+  double x = 0.0;  ///< from the center, at the reference position as in V14 [m]
   Vec2 impulse;    ///< normal, tangential (towards -x) [N s/m]
 };
 

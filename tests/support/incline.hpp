@@ -46,7 +46,7 @@ inline dynamics::Model incline_model(const Incline& of) {
   return model;
 }
 
-/// Of the centre of mass of the only body, half a step before the state's time [m/s].
+/// Of the center of mass of the only body, half a step before the state's time [m/s].
 inline Vec2 mean_velocity(const dynamics::Model& model, const dynamics::State& state) {
   return momentum(model, state).linear / model.free_bodies[0].mass;
 }

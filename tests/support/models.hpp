@@ -35,7 +35,7 @@ inline DiskCase rubber_annulus(int radial, int circumferential) {
   return c;
 }
 
-/// Rolling at 10 m/s, the centre 0.29 m above y = 0.
+/// Rolling at 10 m/s, the center 0.29 m above y = 0.
 inline DiskCase rolling_disk(int radial, int circumferential) {
   DiskCase c;
   c.disk.radial = radial;

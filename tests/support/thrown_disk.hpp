@@ -30,7 +30,7 @@ struct ThrownDisk {
 /// Mean velocities while it rolls, over [0.1, 0.2] s.
 struct Rolling {
   double squared_radius = 0.0;  ///< k² of the mesh: moment of inertia over mass          [m²]
-  double speed = 0.0;           ///< of the centre                                       [m/s]
+  double speed = 0.0;           ///< of the center                                       [m/s]
   double rim = 0.0;             ///< ω b                                                 [m/s]
   double in_the_air = 0.0;      ///< share of the steps
   double relative = 0.0;        ///< residual of the ledger
@@ -46,7 +46,7 @@ inline Rolling roll(const ThrownDisk& of) {
   const fem::Material stiff{of.youngs, 0.3, 1000.0, fem::Plane::strain};
   dynamics::Model model = body_model(mesh, stiff, 0.0, of.beta, 0.8);
   model.motion.gravity = dynamics::Table({{0.0, 0.0}, {of.ramp, 9.81}});
-  // The centre of the disk is the origin: the lowest node touches.
+  // The center of the disk is the origin: the lowest node touches.
   add_ground(model, mesh, {.profile = {{-1.0, -of.outer}, {1.0, -of.outer}}}, {of.friction, 0.0});
   const std::vector<Vec2> none(model.n_nodes()), v(model.n_nodes(), Vec2{of.speed, 0.0});
   Stepping run(model, dynamics::start(model, none, v));

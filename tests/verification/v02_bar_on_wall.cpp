@@ -22,7 +22,7 @@ constexpr double touch = 0.5, leave = 0.5 + 2.0 / 3.0;  // gap/v, and 2L/c later
 struct Hit {
   test::BarCourse course;
   std::vector<test::Phase> contacts;
-  double rebound = 0.0;  ///< velocity of the centre of mass after it [m/s]
+  double rebound = 0.0;  ///< velocity of the center of mass after it [m/s]
 };
 
 Hit hit(const test::Bar& bar) {

@@ -62,7 +62,7 @@ TEST(ThrownDisk, RollsInTheEnd) {
 
 namespace {
 
-/// Off centre by the radius, so that friction sets both spinning.
+/// Off center by the radius, so that friction sets both spinning.
 struct TwoDisks {
   mesh::Mesh mesh;
   Model model;

@@ -10,7 +10,7 @@ import numpy as np
 
 @dataclass(frozen=True)
 class Mesh:
-    """n nodes, e cells, nb candidates (nodes that may touch something); all numbered from 0."""
+    """n nodes, e cells, nb contact nodes (nodes that may touch something); all numbered from 0."""
 
     coordinates: np.ndarray  # (n, 2) reference position X, turning frame; of free bodies fixed [m]
     cells: np.ndarray        # (e, 4) or (e, 3) corner nodes, counter-clockwise; -1: none

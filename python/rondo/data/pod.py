@@ -125,7 +125,7 @@ class Pod:
 
     @cached_property
     def angle(self) -> np.ndarray:
-        """(t,) of the turning frame at the time of the field [rad]."""
+        """(t,) of the co-rotating frame at the time of the field [rad]."""
         return self._read("snapshots/angle")
 
     @cached_property

@@ -17,7 +17,7 @@ class Rigid:
     """What each of n nodes would do if its body were rigid, and what is left.
 
     places: (n, 2) m, fixed frame; deformation: (n, 2) m, along the axes that turn with the body;
-    angle: (n,) rad by which these have turned; center: (n, 2) m, the centre of mass of the body in
+    angle: (n,) rad by which these have turned; center: (n, 2) m, the center of mass of the body in
     its reference position. Nodes of the turning frame have their displacement as deformation, and
     nan as places."""
 
@@ -29,7 +29,7 @@ class Rigid:
 
 def rigid_motion(mesh: Mesh, displacement: Array) -> Rigid:
     """Of each free body the motion nearest to its displacement (n, 2): least squares by mass, so
-    the deformation moves neither its centre of mass nor turns it about that."""
+    the deformation moves neither its center of mass nor turns it about that."""
     reference = mesh.coordinates
     places = np.full_like(displacement, np.nan)
     deformation = displacement.copy()

@@ -93,7 +93,7 @@ class Contact:
 class Crush:
     """Curves of a quasi-static crush, a row for each of t increments."""
 
-    depth: np.ndarray           # (t,) of the centre below first touch [m]
+    depth: np.ndarray           # (t,) of the center below first touch [m]
     force: np.ndarray           # (t, 2) of the ground on the body: normal, tangential [N/m]
     contact_length: np.ndarray  # (t,) [m]
     pressure_max: np.ndarray    # (t,) [Pa]
@@ -271,7 +271,7 @@ class Run:
 
     @property
     def displacement(self) -> LazyArray:
-        """(t, n, 2) u in the turning frame [m]."""
+        """(t, n, 2) u in the co-rotating frame [m]."""
         return self.field("displacement")
 
     @property
@@ -299,7 +299,7 @@ class Run:
         return self.rigid(k).deformation
 
     def middle(self, k: int) -> np.ndarray:
-        """(2,) m: the centre of the turning frame, or the centre of mass where nothing is held."""
+        """(2,) m: the center of the co-rotating frame, or the center of mass where nothing is constrained."""
         if not self.mesh.free.all():
             return np.asarray(self.center[k])
         return np.average(self.position(k), axis=0, weights=self.mesh.mass)

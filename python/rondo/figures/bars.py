@@ -54,7 +54,7 @@ def bounce_pressure(time: np.ndarray) -> np.ndarray:
 
 
 def bounce_height(time: np.ndarray) -> np.ndarray:
-    """m, exact: how far the centre of mass is above its place in a bar that stands on the ground.
+    """m, exact: how far the center of mass is above its place in a bar that stands on the ground.
     The integral of weight and pressure, and free flight."""
     mirrored = _mirrored(time)
     since = np.clip(mirrored - 3 * TRANSIT, 0, 2 * TRANSIT)
@@ -118,10 +118,10 @@ def _velocities(ax: Axes, run: Run) -> None:
     time = history["time_s"]
     center = np.gradient(history["center_y_m"], time)
     for (name, value), line in zip((("foot", history["foot_vy"]), ("top", history["top_vy"]),
-                                    ("centre of mass", center)), style.CURVES):
+                                    ("center of mass", center)), style.CURVES):
         ax.plot(time, value, label=name, **{**line, "linewidth": 0.9})
     ramp = np.interp(time, (TOUCH, TOUCH + 2 * TRANSIT), (-SPEED, SPEED))
-    ax.plot(time, ramp, label="exact, centre", **EXACT)
+    ax.plot(time, ramp, label="exact, center", **EXACT)
     ax.set(xlim=(TOUCH - TRANSIT / 2, TOUCH + 3 * TRANSIT), xlabel="time (s)",
            ylabel="upward velocity (m/s)")
     ax.legend(loc="lower right", fontsize=6.5)
@@ -130,8 +130,8 @@ def _velocities(ax: Axes, run: Run) -> None:
 def _heights(ax: Axes, run: Run) -> None:
     history = run.history
     time = history["time_s"]
-    ax.plot(time, bounce_height(time), label="exact, centre of mass", **EXACT)
-    ax.plot(time, history["center_y_m"] - LENGTH / 2, label="centre of mass, less half the length",
+    ax.plot(time, bounce_height(time), label="exact, center of mass", **EXACT)
+    ax.plot(time, history["center_y_m"] - LENGTH / 2, label="center of mass, less half the length",
             **style.CURVES[0])
     ax.plot(time, GAP + history["foot_uy"], label="foot", **style.CURVES[1])
     ax.axhline(0, color=style.GROUND, lw=0.8, zorder=0)

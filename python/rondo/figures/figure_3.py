@@ -21,8 +21,8 @@ if TYPE_CHECKING:
     from ..data.run import Run
 
 TIMES = (0.0125, 0.0625, 0.1)  # s, those of the paper's figure 3
-WHOLE = (0.35, 0.42, 0.31)  # m from the centre: to both sides, down, up
-CLOSE = (0.11, 0.04, 0.055)  # m: to both sides of the centre, below and above the ledge
+WHOLE = (0.35, 0.42, 0.31)  # m from the center: to both sides, down, up
+CLOSE = (0.11, 0.04, 0.055)  # m: to both sides of the center, below and above the ledge
 ARROW = 0.022  # m, length of the arrow of the largest traction
 
 

@@ -18,7 +18,7 @@ if TYPE_CHECKING:
     from ..data.run import Run
 
 FRICTION = ("0.0", "0.2", "0.4", "0.6")
-WINDOW = (0.105, 0.018, 0.082)  # m: to both sides of the centre, below and above the ledge
+WINDOW = (0.105, 0.018, 0.082)  # m: to both sides of the center, below and above the ledge
 QUANTITIES = (("displacement", "|u| (mm)"),
               ("displacement_x", "u along x (mm)"))
 
@@ -53,7 +53,7 @@ def _displacement(runs: list[Run]) -> Figure:
                 ax.set_yticks([ledge, ledge + 0.05], ["0", "50"])
                 ax.tick_params(labelleft=column == 0, labelbottom=row == 1)
                 ax.set_ylabel("y (mm)" if column == 0 else "")
-                ax.set_xlabel("x off the centre (mm)" if row == 1 else "")
+                ax.set_xlabel("x off the center (mm)" if row == 1 else "")
                 name = f"μ = {run.friction:.1f}" if row == 0 else ""
                 letter(ax, "abcdefgh"[4 * row + column], name)
             figure.colorbar(body.cells, ax=axes, label=label, pad=0.01, aspect=12)
@@ -84,7 +84,7 @@ def _contact(runs: list[Run]) -> Figure:
             below.axhline(0, color="0.6", lw=0.5, zorder=0)
             below.text(0.5, 0.03, f"in all {_kilo(force[0])}", transform=below.transAxes,
                        ha="center", fontsize=7)
-            below.set_xlabel("x off the centre (mm)")
+            below.set_xlabel("x off the center (mm)")
             letter(above, "abcd"[column], f"μ = {run.friction:.1f}")
             letter(below, "efgh"[column])
         axes[0][0].set(ylabel="mean pressure (MPa)", ylim=(0, None), xlim=_shown(profiles))

@@ -20,7 +20,7 @@ BODIES = ("smooth", "treaded")
 FIELDS = (("displacement", "displacement"), ("velocity", "velocity"), ("contact", "contact force"))
 ROLLING, RECTIFIED, CRUSH = style.CURVES[1], style.CURVES[0], style.CURVES[2]
 CURVES = (  # what is compared: label, run, frame, look
-    ("rolling, turning frame", "turn", "rotating", ROLLING),
+    ("rolling, co-rotating frame", "turn", "rotating", ROLLING),
     ("rolling, rectified", "turn", "rectified", RECTIFIED),
     ("crush", "crush", "rotating", CRUSH),
 )
@@ -49,7 +49,7 @@ def _snapshots(paper: Paper) -> str:
 
 
 def _own(paper: Paper) -> Figure:
-    """The paper's own: the velocity of rolling in the turning frame, against a crush."""
+    """The paper's own: the velocity of rolling in the co-rotating frame, against a crush."""
     with style.paper():
         figure = plt.figure(figsize=(style.COLUMN, 3.0))
         ax = figure.add_subplot()

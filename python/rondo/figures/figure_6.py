@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Figure 6: the first modes of the velocity in steady rolling, turning frame and rectified."""
+"""Figure 6: the first modes of the velocity in steady rolling, co-rotating frame and rectified."""
 from __future__ import annotations
 
 from typing import TYPE_CHECKING

@@ -34,9 +34,9 @@ FPS = 30
 DPI = 128  # a power of two: sizes in inches are exact, and so are those in pixels
 SIZES = {".mp4": (960, 540), ".gif": (640, 360)}  # px, largest by default
 SMALLEST = 240  # px, width: labels and colour bar take 200 of them
-FOLLOW_BEYOND = 6.0  # outer radii that the centre moves: beyond, the picture moves with it
+FOLLOW_BEYOND = 6.0  # outer radii that the center moves: beyond, the picture moves with it
 LEVEL = 0.5  # of its height that a picture that follows the body does not follow upwards
-SIDE, TOP, BOTTOM = 1.15, 1.15, 1.45  # outer radii from the centre to the edges of the picture
+SIDE, TOP, BOTTOM = 1.15, 1.15, 1.45  # outer radii from the center to the edges of the picture
 AHEAD = 1.8  # the same to both sides where the picture moves with the body
 LEFT, RIGHT, BELOW, ABOVE = 0.62, 0.95, 0.45, 0.3  # in, about the picture: labels, bar, title
 SMALL = 1.5  # in, outer radius in the picture: a mesh drawn on smaller ones hides the colours
@@ -57,7 +57,7 @@ def animate(run: Run, path: str | os.PathLike[str], quantity: str = "displacemen
     evenly over the snapshots of the window; at most one for each, by default at most 300. fps:
     pictures a second; by default such that a film of few pictures lasts about 10 s, at most 30.
     limits: of the colours, in the unit of the colour bar; by default those of the whole film.
-    follow: the picture moves along with the body, or the centre of mass of bodies that nothing
+    follow: the picture moves along with the body, or the center of mass of bodies that nothing
     holds; by default where a held body goes far. width: [px]. deformation: factor on it, as of
     plot_field."""
     path = pathlib.Path(path)

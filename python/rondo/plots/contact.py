@@ -37,7 +37,7 @@ def ground_of(run: Run) -> Ground:
 
 @dataclasses.dataclass(frozen=True)
 class TractionProfile:
-    """Mean traction of the ground on the body in windows along x, from the centre of the disk (m).
+    """Mean traction of the ground on the body in windows along x, from the center of the disk (m).
 
     x: (b,) m, middles of the windows, half a window apart, so that each overlaps the next; window:
     m, their width; pressure: (b,) Pa; shear_x: (b,) Pa, > 0 pushes the body towards +x (contact.csv

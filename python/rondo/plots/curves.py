@@ -21,7 +21,7 @@ if TYPE_CHECKING:
 # What changes the energy, with its sign in the ledger (docs/theory.md, 5); the same colours in all
 # figures.
 TERMS: dict[str, tuple[int, str, dict[str, Any]]] = {
-    "work_frame": (1, "work of the turning frame", {"color": style.BLUE, "linestyle": "--"}),
+    "work_frame": (1, "work of the co-rotating frame", {"color": style.BLUE, "linestyle": "--"}),
     "work_rim": (1, "work of the rim", {"color": style.SKY, "linestyle": "-", "linewidth": 1.8}),
     "work_load": (1, "work of pressures", {"color": "0.3", "linestyle": "--"}),
     "dissipation_friction": (-1, "friction", {"color": style.VERMILLION, "linestyle": "-."}),

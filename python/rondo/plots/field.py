@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Fields of a run drawn on the deformed body, in the fixed or in the turning frame."""
+"""Fields of a run drawn on the deformed body, in the fixed or in the co-rotating frame."""
 from __future__ import annotations
 
 import dataclasses
@@ -47,7 +47,7 @@ def nodal(run: Run, index: int, quantity: str, frame: str = "fixed") -> Nodal:
 
     quantity: "displacement" or "velocity" (as the turning frame sees them), "deformation" (the
     displacement without the motion of free bodies as rigid ones): their magnitude; with "_x", "_y"
-    a component along the axes of `frame`, with "_radial", "_tangential" about the centre; or a
+    a component along the axes of `frame`, with "_radial", "_tangential" about the center; or a
     field with one number per node that the run holds, as "von_mises".
     """
     base, _, ending = quantity.partition("_")

@@ -8,9 +8,9 @@ from matplotlib.axes import Axes
 from .. import style
 
 LABELS = {  # of columns, where their name does not say it
-    "angle_rad": "angle", "center_x_m": "centre, x", "center_y_m": "centre, y",
+    "angle_rad": "angle", "center_x_m": "center, x", "center_y_m": "center, y",
     "force_x": "horizontal force", "force_y": "vertical force",
-    "torque": "torque about the centre", "contact_nodes": "nodes in contact",
+    "torque": "torque about the center", "contact_nodes": "nodes in contact",
     "sticking_nodes": "nodes that stick", "contact_length_m": "contact length",
     "penetration_max_m": "largest penetration", "kinetic": "kinetic energy",
     "strain": "strain energy", "depth_m": "depth", "pressure_max_pa": "largest pressure",

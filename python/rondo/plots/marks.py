@@ -25,7 +25,7 @@ def minus(text: str) -> str:
 
 
 def edge_nodes(run: Run) -> NDArray[np.int64]:
-    """The nodes on the outer edge of a disk: those farthest from the centre."""
+    """The nodes on the outer edge of a disk: those farthest from the center."""
     radius = np.linalg.norm(run.mesh.coordinates, axis=1)
     return np.flatnonzero(radius > radius.max() * (1 - 1e-9))
 

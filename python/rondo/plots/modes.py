@@ -170,7 +170,7 @@ def draw_mode(ax: Axes, pod: Pod, mode: int, window: Window | None = None) -> No
 
 
 def edge_angle(pod: Pod) -> Array:
-    """(nb,) degrees, -180 to 180: candidates, counter-clockwise from straight down."""
+    """(nb,) degrees, -180 to 180: contact nodes, counter-clockwise from straight down."""
     points = turned(pod.mesh.coordinates[pod.mesh.boundary], 0.5 * np.pi)
     return np.degrees(np.arctan2(points[:, 1], points[:, 0]))
 

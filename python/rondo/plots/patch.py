@@ -74,7 +74,7 @@ def rows_of(run: Run) -> Rows:
 
 def patch_of(run: Run, rows: Rows, k: int, moving: bool = True) -> Patch:
     """The patch of snapshot k. Places on the ground are lengths along it, to the right: from what
-    is straight beneath the centre of the body, or, not `moving`, from x = 0. Where bodies touch
+    is straight beneath the center of the body, or, not `moving`, from x = 0. Where bodies touch
     each other they are along the line nearest to the nodes in contact, from their middle."""
     assert run.contact is not None
     there = rows.index == k
@@ -153,7 +153,7 @@ def plot_contact(run: Run, time: float, ax: Axes | None = None) -> Axes:
 def _place_label(ground: Ground | None, moving: bool = True) -> str:
     if ground is None:
         return "along the contact, from its middle (mm)"
-    return f"along the ground, from {'beneath the centre' if moving else 'x = 0'} (mm)"
+    return f"along the ground, from {'beneath the center' if moving else 'x = 0'} (mm)"
 
 
 def _draw_patch(ax: Axes, patch: Patch, friction: float) -> None:
@@ -189,7 +189,7 @@ def plot_contact_map(run: Run, quantity: str = "pressure", ax: Axes | None = Non
                      moving: bool = True) -> Axes:
     """Pressure or shear over place and time, of a crush over place and depth: each node in contact
     as wide as half way to its neighbours, white where nothing touches. moving: places are from
-    beneath the centre of the body, else from x = 0."""
+    beneath the center of the body, else from x = 0."""
     if quantity not in QUANTITIES:
         raise Error(f'quantity "{quantity}": allowed are "pressure" and "shear"')
     rows = rows_of(run)

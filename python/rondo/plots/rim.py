@@ -49,7 +49,7 @@ class Rim:
 
 
 def draw_rim(ax: Axes, run: Run, index: int, frame: str = "fixed") -> Rim | None:
-    """The rim of the snapshot `index`, its mark hidden; None where nothing is held."""
+    """The rim of the snapshot `index`, its mark hidden; None where nothing is constrained."""
     if not run.held.any():
         return None
     radius, sides = shape(run.mesh.coordinates, run.mesh.cells, run.held)
@@ -59,7 +59,7 @@ def draw_rim(ax: Axes, run: Run, index: int, frame: str = "fixed") -> Rim | None
 
 
 def draw_still_rim(ax: Axes, coordinates: Array, cells: Cells, held: NDArray[np.bool_]) -> None:
-    """The rim in the turning frame, of the nodes that are held (n,)."""
+    """The rim in the co-rotating frame, of the nodes that are held (n,)."""
     if held.any():
         radius, sides = shape(coordinates, cells, held)
         disk, line, _ = _artists(ax, radius)

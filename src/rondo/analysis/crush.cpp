@@ -28,7 +28,7 @@ constexpr Vec2 normal{0.0, 1.0};  ///< a contact frame's vector times it is alon
 struct Sums {
   Vec2 contact;         ///< of the ground: normal, tangential [N/m]
   Vec2 force;           ///< the same along the fixed axes [N/m]
-  double torque = 0.0;  ///< about the centre [N]
+  double torque = 0.0;  ///< about the center [N]
   int nodes = 0, sticking = 0;
   double length = 0.0;                 ///< [m]
   double pressure = 0.0, shear = 0.0;  ///< largest [Pa]
@@ -63,10 +63,10 @@ struct CrushRecord {
 using R = CrushRecord;
 constexpr std::array crush_columns{
     Column<R>{"depth_m", "m",
-              "of the centre below first touch; with `force_y` the curve of force over depth; the "
+              "of the center below first touch; with `force_y` the curve of force over depth; the "
               "slide is `center_x_m`",
               [](const R& r) { return r.state.depth; }},
-    Column<R>{"pressure_max_pa", "Pa", "largest of all candidates",
+    Column<R>{"pressure_max_pa", "Pa", "largest of all contact nodes",
               [](const R& r) { return r.sums.pressure; }},
     Column<R>{"shear_max_pa", "Pa", "likewise", [](const R& r) { return r.sums.shear; }},
     Column<R>{"contact_residual", "1", "of the contact law, from the whole field",
@@ -99,7 +99,7 @@ io::ResultsWords words() {
   return {.analysis = "crush",
           .time_unit = "1",
           .time =
-              "share of the depth, above 1 while the body slides, of displacement, centre, "
+              "share of the depth, above 1 while the body slides, of displacement, center, "
               "contact and fields; NaN: snapshot not written",
           .velocity_time = "of velocity: half an increment before /frame/time",
           .velocity_unit = "m",
@@ -114,10 +114,10 @@ io::ResultsWords words() {
 
 /// The curve of force over depth, a value for each snapshot.
 std::vector<io::Series> series() {
-  return {{"/crush/depth", "m", "depth of the centre below first touch"},
+  return {{"/crush/depth", "m", "depth of the center below first touch"},
           {"/crush/force", "N/m", "force of the ground on the body: normal, tangential", 2},
-          {"/crush/contact_length", "m", "/mesh/tributary of the candidates in contact, summed"},
-          {"/crush/pressure_max", "Pa", "largest pressure of all candidates"}};
+          {"/crush/contact_length", "m", "/mesh/tributary of the contact nodes in contact, summed"},
+          {"/crush/pressure_max", "Pa", "largest pressure of all contact nodes"}};
 }
 
 double depth_of(const AnalysisCase& a, int k) {
@@ -128,7 +128,7 @@ double slide_of(const AnalysisCase& a, int k) {
   return k <= a.increments ? 0.0 : a.slide * (k - a.increments) / a.slide_increments;
 }
 
-/// What increment k brings the centre to.
+/// What increment k brings the center to.
 std::string target(const AnalysisCase& a, int k) {
   const std::string depth = fmt::format("depth {:.6g} m", depth_of(a, k));
   return k <= a.increments ? depth : fmt::format("{}, slide {:.6g} m", depth, slide_of(a, k));
@@ -170,7 +170,7 @@ class CrushAnalysis final : public Analysis {
         strain_(setup_.mesh) {
     tell_physical_figures(c, setup_);
     if (options.resume)
-      throw case_error(c, "analysis.kind", "a crush has no checkpoints to go on from",
+      throw case_error(c, "analysis.kind", "a crush has no checkpoints to resume from",
                        "\"dynamic\", or --overwrite instead of --resume");
   }
 
@@ -238,7 +238,7 @@ CheckReport CrushAnalysis::check(double /*trial*/) {
   r.lines = setup_.figures;
   r.lines.insert(
       r.lines.end(),
-      {{"condensed", fmt::format("{} candidates", setup_.within_reach)},
+      {{"condensed", fmt::format("{} contact nodes", setup_.within_reach)},
        {"increments", reached(n_increments(), case_.analysis.depth, case_.analysis.slide)}});
   r.warnings = warnings();
   return r;

@@ -74,7 +74,7 @@ std::string beyond_files(const Setup& setup, const dynamics::State& state) {
   std::string found = too_large("displacement", displacement, "m");
   if (found.empty()) found = too_large("velocity", largest_of(state.v), "m/s");
   if (found.empty() && !(norm(state.frame.center) <= largest_written))
-    found = fmt::format("the centre, {:.3g} m away, is out of the range of the result files",
+    found = fmt::format("the center, {:.3g} m away, is out of the range of the result files",
                         norm(state.frame.center));
   if (found.empty()) found = stress_too_large(setup.mesh, setup.materials, displacement);
   Largest force;

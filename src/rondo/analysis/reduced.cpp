@@ -52,10 +52,11 @@ void check_case(const Case& c, const RunOptions& options, const Setup& setup) {
                      "\"symplectic\", which it stands for");
   const dynamics::Model& model = setup.model;
   if (is_general(model) || !model.pressures.empty() || has_sharp_corners(model))
-    throw case_error(c, "ground.profile",
-                     "a reduced run knows one held disk on ground without sharp convex corners; "
-                     "here are such corners, pressures, free bodies or contact of bodies",
-                     "ground.fillet > 0, and none of the others");
+    throw case_error(
+        c, "ground.profile",
+        "a reduced run knows one constrained disk on ground without sharp convex corners; "
+        "here are such corners, pressures, free bodies or contact of bodies",
+        "ground.fillet > 0, and none of the others");
 }
 
 void check_model(const Case& c, const RunOptions& options, const ReducedFile& file,

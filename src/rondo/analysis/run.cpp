@@ -39,8 +39,8 @@ std::string what_is_kept(const Run& run, std::optional<Recorder>& recorder) {
   if (!run.analysis.resumable()) return kept;
   const long long before = run.from ? run.from->state.step : 0;
   const long long step = recorder ? recorder->saved_step() : before;
-  return step > 0 ? fmt::format("{}; --resume goes on from step {}", kept, step)
-                  : kept + "; there is no checkpoint yet to go on from";
+  return step > 0 ? fmt::format("{}; --resume resumes from step {}", kept, step)
+                  : kept + "; there is no checkpoint yet to resume from";
 }
 
 /// The loop with its output. A file that cannot be written ends the run: run.json says so, where

@@ -72,7 +72,7 @@ struct AnalysisCase {
   AnalysisKind kind = AnalysisKind::dynamic;
   double depth = 0.0;        ///< of a crush, below first touch: > 0                          [m]
   int increments = 0;        ///< of a crush, >= 1
-  double slide = 0.0;        ///< of a crush: travel of the centre along +x after the pressing  [m]
+  double slide = 0.0;        ///< of a crush: travel of the center along +x after the pressing  [m]
   int slide_increments = 0;  ///< >= 1 where there is a slide, else 0
 };
 
@@ -81,7 +81,7 @@ enum class InitialState { rest, stationary };
 /// Rigid motion of the free bodies of a physical surface at t = 0, instead of that of [initial].
 struct InitialRegion {
   std::string surface;
-  Vec2 velocity;                  ///< of the centre of mass [m/s]
+  Vec2 velocity;                  ///< of the center of mass [m/s]
   double angular_velocity = 0.0;  ///< about it, > 0 clockwise [rad/s]
 };
 
@@ -92,7 +92,7 @@ struct Initial {
   // Of free bodies only: the mesh is turned by `angle` about the origin, then moved by `position`.
   Vec2 position;                  ///< [m]
   double angle = 0.0;             ///< [rad]
-  double angular_velocity = 0.0;  ///< of each about its centre of mass, > 0 clockwise [rad/s]
+  double angular_velocity = 0.0;  ///< of each about its center of mass, > 0 clockwise [rad/s]
   std::vector<InitialRegion> regions;
 };
 

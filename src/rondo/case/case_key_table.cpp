@@ -120,7 +120,7 @@ constexpr CaseKey keys[] = {
      required, "inner radius R_i, bonded to the rigid rim"},
     {"disk.rim", "-", CHOICE(free_rim), choice("bonded", "free"), optional,
      "\"bonded\": the inner boundary turns and moves with the rim, as `[motion]` says. \"free\": "
-     "there is no rim and nothing holds the disk; see [free bodies](#free-bodies)"},
+     "there is no rim and the disk is unconstrained; see [free bodies](#free-bodies)"},
 
     {"disk.mesh.radial", "-", FIELD(disk.radial), between(1, 100000), required,
      "layers of quadrilaterals between the radii; with a tread, between the rim and the bottom of "
@@ -151,7 +151,8 @@ constexpr CaseKey keys[] = {
     {"mesh.scale", "m", FIELD(mesh->scale), positive, optional,
      "metres of one unit of length of the file"},
     {"mesh.clamped", "-", FIELD(mesh->clamped), any, optional,
-     "physical curve held in the turning frame (u = 0); \"\": none, all bodies are free"},
+     "physical curve constrained in the co-rotating frame (u = 0); \"\": none, all bodies are "
+     "free"},
     {"mesh.contact", "-", FIELD(mesh->contact), any, optional,
      "physical curve whose nodes may touch the ground or other bodies; \"\": none"},
 
@@ -189,18 +190,18 @@ constexpr CaseKey keys[] = {
      "β. Damps it at the ratio β w/2: short waves most. It lowers the critical step"},
 
     {"motion.angular_velocity", "rad/s", FIELD(motion.angular_velocity), any,
-     required.if_(is_held, "required if held and dynamic").body(never),
+     required.if_(is_held, "required if constrained and dynamic").body(never),
      "angular velocity ω of the rim; > 0 turns clockwise, which rolls towards +x. So do all "
      "angular "
      "velocities of a case, and `angle_rad` of history.csv, its integral"},
     {"motion.speed", "m/s", FIELD(motion.speed), any,
-     required.if_(is_held, "required if held and dynamic").body(never),
-     "speed V of the centre along x"},
+     required.if_(is_held, "required if constrained and dynamic").body(never),
+     "speed V of the center along x"},
     {"motion.height", "m", FIELD(motion.height), any,
-     required.if_(is_held, "required if held and dynamic").body(never),
-     "height h of the centre above y = 0"},
+     required.if_(is_held, "required if constrained and dynamic").body(never),
+     "height h of the center above y = 0"},
     {"motion.start_x", "m", FIELD(motion.start_x), any, optional.if_(is_held).body(never),
-     "x of the centre at t = 0"},
+     "x of the center at t = 0"},
     {"motion.gravity", "m/s2", FIELD(motion.gravity), any, optional.body(never),
      "acceleration of gravity, downwards: 9.81 on Earth"},
 
@@ -257,14 +258,14 @@ constexpr CaseKey keys[] = {
      "... after they were turned by this angle, counter-clockwise, about the origin of the mesh"},
     {"initial.angular_velocity", "rad/s", FIELD(initial.angular_velocity), any,
      optional.if_(may_be_free).body(may_be_free),
-     "free bodies only: each turns about its centre of mass, signed as `motion.angular_velocity`"},
+     "free bodies only: each turns about its center of mass, signed as `motion.angular_velocity`"},
 
     {"initial.region[].surface", "-", FIELD(initial.regions[k].surface), any,
      required.if_(may_be_free).body(may_be_free),
      "physical surface of the mesh: its free bodies..."},
     {"initial.region[].velocity", "m/s", FIELD(initial.regions[k].velocity), any,
      optional.if_(may_be_free, "that of [initial]").body(may_be_free),
-     "... have this velocity of their centres of mass"},
+     "... have this velocity of their centers of mass"},
     {"initial.region[].angular_velocity", "rad/s", FIELD(initial.regions[k].angular_velocity), any,
      optional.if_(may_be_free, "that of [initial]").body(may_be_free),
      "... and turn about them like this, signed likewise"},
@@ -275,14 +276,14 @@ constexpr CaseKey keys[] = {
     {"analysis.depth", "m", FIELD(analysis.depth),
      with(positive, "< disk.outer_radius - disk.inner_radius"),
      required.of(of_crush).said("required if crush").body(never),
-     "how far the centre comes down from the place where the undeformed body first touches the "
+     "how far the center comes down from the place where the undeformed body first touches the "
      "ground; refused in a dynamic case"},
     {"analysis.increments", "-", FIELD(analysis.increments), between(1, 1000000),
      required.of(of_crush).said("required if crush").body(never),
      "equal parts of the depth, each an equilibrium; refused in a dynamic case"},
     {"analysis.slide", "m", FIELD(analysis.slide), any,
      optional.of(of_crush).if_(has_slide, "none").body(never),
-     "how far the centre of a crush then moves along +x, at the full depth and without turning; "
+     "how far the center of a crush then moves along +x, at the full depth and without turning; "
      "refused in a dynamic case"},
     {"analysis.slide_increments", "-", FIELD(analysis.slide_increments), between(1, 1000000),
      optional.of(of_crush).if_(has_slide, "required if slide").body(never),
@@ -292,7 +293,7 @@ constexpr CaseKey keys[] = {
      required.said("required if dynamic").body(never).free_on_resume(),
      "end of the run, which starts at t = 0"},
     {"time.safety", "-", FIELD(time.safety), with(share, "not together with time.step"),
-     optional.if_(is_by_safety).body(never), "time step over the critical step"},
+     optional.if_(is_by_safety).body(never), "time-step factor: step over the critical step"},
     {"time.step", "s", FIELD(time.step), with(positive, "not together with time.safety"),
      optional.if_(is_by_step, "none").body(never),
      "a given time step instead; at most 1e12 steps to the end"},
@@ -330,7 +331,7 @@ constexpr CaseKey keys[] = {
     {"output.checkpoint_interval", "s", FIELD(output.checkpoint_interval), positive,
      optional.body(never).free_on_resume(),
      "wall time between checkpoints (docs/results.md, [Going on with a "
-     "run](results.md#going-on-with-a-run)); there is one at the end and at a signal anyway. A "
+     "run](results.md#resuming-a-run)); there is one at the end and at a signal anyway. A "
      "crush writes none"},
 
     {"output.probe[].name", "-", FIELD(output.probes[k].name), any, required,

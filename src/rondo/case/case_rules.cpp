@@ -93,7 +93,7 @@ void check_motion(CaseValues& in, const Case& c) {
   for (const std::string_view path :
        {"motion.angular_velocity", "motion.speed", "motion.height", "motion.start_x"})
     if (in.has(path) && means_to(*find_case_key(path), c.analysis.kind))
-      in.fault(path, "means nothing to a body that nothing holds",
+      in.fault(path, "means nothing to an unconstrained body",
                "initial.position, initial.velocity, initial.angular_velocity in its place");
 }
 
@@ -117,7 +117,7 @@ void check_body_contact(CaseValues& in, Case& c) {
   if (!c.mesh)
     c.warnings.emplace_back(
         "contact.between: a generated disk is one body, and the walls of its grooves are no "
-        "candidates: it touches nothing but the ground; for grooves that close take a [mesh]");
+        "contact nodes: it touches nothing but the ground; for grooves that close take a [mesh]");
   if (c.mesh && c.mesh->contact.empty())
     in.fault("contact.between", "no part of the mesh may touch anything",
              "mesh.contact = \"tread\" beside it, a physical curve; " +
@@ -128,7 +128,7 @@ void check_body_contact(CaseValues& in, Case& c) {
 void check_placing(CaseValues& in) {
   const auto refuse = [&](std::string_view key) {
     in.fault(key,
-             "is for bodies that nothing holds: the rim gives a bonded disk its place and its "
+             "is for unconstrained bodies: the rim gives a bonded disk its place and its "
              "motion ([motion])",
              "disk.rim = \"free\" beside it");
   };
@@ -203,7 +203,7 @@ void check_output(CaseValues& in, Case& c) {
 
 std::string_view why_not_cyclic(const Case& c) {
   if (c.mesh) return "a mesh from a file is not known to be of equal sectors";
-  if (c.free_rim) return "a free disk does not stay in the turning frame of its sectors";
+  if (c.free_rim) return "a free disk does not stay in the co-rotating frame of its sectors";
   if (c.body_contact.between != BodyContact::none) return "there is a [contact] of bodies";
   if (c.time.scheme != Scheme::symplectic)
     return "a scheme other than \"symplectic\" is one of the general step alone";

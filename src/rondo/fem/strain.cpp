@@ -5,7 +5,7 @@
 
 namespace rondo::fem {
 
-/// The gradient at the centre of a bilinear cell maps its diagonals, that of a triangle two edges:
+/// The gradient at the center of a bilinear cell maps its diagonals, that of a triangle two edges:
 /// [a b] and what they change by give ∂u/∂X = [δa δb] [a b]⁻¹.
 Deformation deformation(const mesh::Mesh& mesh, std::span<const Vec2> u) noexcept {
   Deformation d;

@@ -10,7 +10,7 @@
 
 namespace rondo::fem {
 
-/// Of all cells, at their centres; the first cell of equal ones.
+/// Of all cells, at their centers; the first cell of equal ones.
 struct Deformation {
   double strain = 0.0;  ///< largest |principal strain| of the law of the material
   std::size_t strain_cell = 0;

@@ -61,10 +61,11 @@ void write_cells(h5::File& file, const mesh::Mesh& m) {
 
 void write_mesh(h5::File& file, const mesh::Mesh& m, std::span<const double> mass) {
   const std::size_t n = m.n_nodes(), nb = m.boundary.size();
-  file.write("/mesh/coordinates", {n, 2}, m.coordinates,
-             {"m",
-              "reference position X of each node: turning frame, from the centre; of free bodies "
-              "fixed frame"});
+  file.write(
+      "/mesh/coordinates", {n, 2}, m.coordinates,
+      {"m",
+       "reference position X of each node: co-rotating frame, from the center; of free bodies "
+       "fixed frame"});
   write_cells(file, m);
   file.write("/mesh/boundary", {nb}, m.boundary,
              {"1", "nodes that may touch something, in order along the boundary"});
@@ -128,7 +129,7 @@ void check_nodes(const h5::File& file, const mesh::Mesh& m) {
       if (!is_node(m.cells[c][static_cast<std::size_t>(k)]))
         damaged(file, fmt::format("has cell {} with a node that is none of the {}", c, n));
   for (const int node : m.boundary)
-    if (!is_node(node)) damaged(file, fmt::format("has candidate {} among {} nodes", node, n));
+    if (!is_node(node)) damaged(file, fmt::format("has contact node {} among {} nodes", node, n));
   for (std::size_t i = 0; i < m.n_nodes(); ++i)
     if (!std::isfinite(m.coordinates[i].x) || !std::isfinite(m.coordinates[i].y))
       damaged(file, fmt::format("has node {} at a place that is not finite", i));

@@ -62,7 +62,7 @@ void write_figures(h5::File& file, std::span<const SpinModes> spins, std::size_t
       diameters.push_back(mode.diameters);
     }
   file.write("/modes/frequency", {n}, frequency,
-             {"rad/s", "omega of each mode in the turning frame"});
+             {"rad/s", "omega of each mode in the co-rotating frame"});
   file.write("/modes/angular_velocity", {n}, angular_velocity,
              {"rad/s", "of the body, as in the case: > 0 rolls towards +x"});
   file.write("/modes/nodal_diameters", {n}, diameters, {"1", "of each mode; -1: unknown"});

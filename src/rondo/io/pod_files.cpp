@@ -95,7 +95,7 @@ void write_snapshots(h5::File& file, const PodContent& c, const Counts& n) {
         {c.time_unit,
          c.time_unit == "s" ? "of each snapshot" : "of each snapshot: share of the load"});
   write(file, "/snapshots/angle", {n.times}, c.angle,
-        {"rad", "angle of the turning frame, counter-clockwise, at the time of the quantity"});
+        {"rad", "angle of the co-rotating frame, counter-clockwise, at the time of the quantity"});
   write(
       file, "/snapshots/run", {n.times}, c.run,
       {"1", "run of each snapshot, from 0: the attributes run_0, run_1, ... name the directories"});

@@ -114,7 +114,7 @@ Results::Results(const std::filesystem::path& directory, const ResultsLayout& la
     file_.write("/mesh/free_body", {c_.nodes}, free_body_,
                 {"1",
                  "number of the free body of each node, in the order of their first nodes: such "
-                 "a node moves in the fixed frame; -1: in the turning frame"});
+                 "a node moves in the fixed frame; -1: in the co-rotating frame"});
   if (c_.times > 0) {
     create_frame();
     create_snapshots();

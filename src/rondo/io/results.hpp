@@ -38,7 +38,7 @@ struct ResultsWords {
   std::string analysis = "dynamic";
   std::string time_unit = "s";
   std::string time =
-      "of displacement, angle, centre, contact and fields; NaN: snapshot not written";
+      "of displacement, angle, center, contact and fields; NaN: snapshot not written";
   std::string velocity_time = "of velocity: half a step before /frame/time";
   std::string velocity_unit = "m/s";
   std::string velocity;        ///< empty: du/dt in the frames of the nodes
@@ -124,7 +124,8 @@ class Results {
   void write_series(std::span<const double> values);
   /// Of displacements and velocities, for descriptions.
   [[nodiscard]] std::string frame() const {
-    return free_body_.empty() ? "turning frame" : "turning frame, of free bodies fixed frame";
+    return free_body_.empty() ? "co-rotating frame"
+                              : "co-rotating frame, of free bodies fixed frame";
   }
   [[nodiscard]] bool is_free(std::size_t node) const {
     return !free_body_.empty() && free_body_[node] >= 0;

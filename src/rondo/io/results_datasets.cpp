@@ -18,13 +18,14 @@ void Results::create_frame() {
   const h5::Label time_velocity = {words_.time_unit, words_.velocity_time};
   add_rows(d_.time, "/frame/time", Type::float64, times, time);
   add_rows(d_.time_velocity, "/frame/time_velocity", Type::float64, times, time_velocity);
-  add_rows(d_.angle, "/frame/angle", Type::float64, times,
-           {"rad",
-            "angle of the turning frame, counter-clockwise: position = center + R(angle) (X + u)"});
+  add_rows(
+      d_.angle, "/frame/angle", Type::float64, times,
+      {"rad",
+       "angle of the co-rotating frame, counter-clockwise: position = center + R(angle) (X + u)"});
   add_rows(d_.angle_velocity, "/frame/angle_velocity", Type::float64, times,
-           {"rad", "angle of the turning frame at /frame/time_velocity"});
+           {"rad", "angle of the co-rotating frame at /frame/time_velocity"});
   add_rows(d_.center, "/frame/center", Type::float64, {c_.times, 2},
-           {"m", "centre of the turning frame, x, y in the fixed frame"});
+           {"m", "center of the co-rotating frame, x, y in the fixed frame"});
 }
 
 void Results::create_snapshots() {

@@ -189,10 +189,10 @@ std::string mesh_difference(const RunReader& run_a, const RunReader& run_b) {
   if (const auto c = first_difference(a.cells, b.cells); c < a.cells.size())
     return fmt::format("cells differ at cell {}", c);
   if (const auto k = first_difference(a.boundary, b.boundary); k < a.boundary.size())
-    return fmt::format("candidates differ: number {} is node {} against {}", k, a.boundary[k],
+    return fmt::format("contact nodes differ: number {} is node {} against {}", k, a.boundary[k],
                        b.boundary[k]);
   if (const auto k = first_difference(a.tributary, b.tributary); k < a.tributary.size())
-    return fmt::format("tributary lengths differ at candidate {} by {:.3g} m", k,
+    return fmt::format("tributary lengths differ at contact node {} by {:.3g} m", k,
                        std::abs(a.tributary[k] - b.tributary[k]));
   if (first_difference(a.sector, b.sector) < a.sector.size() ||
       first_difference(a.sector_node, b.sector_node) < a.sector_node.size())

@@ -170,11 +170,11 @@ std::string Draft::node_text(int node) const {
 
 std::string Draft::cell_text(int cell) const {
   const Cell& nodes = mesh.cells[static_cast<std::size_t>(cell)];
-  Vec2 centre;
+  Vec2 center;
   for (int a = 0; a < n_corners(nodes); ++a)
-    centre += mesh.coordinates[static_cast<std::size_t>(nodes[static_cast<std::size_t>(a)])];
+    center += mesh.coordinates[static_cast<std::size_t>(nodes[static_cast<std::size_t>(a)])];
   return fmt::format("element {} at {}", cell_tag[static_cast<std::size_t>(cell)],
-                     place_text(centre / n_corners(nodes)));
+                     place_text(center / n_corners(nodes)));
 }
 
 Draft draft_mesh(const RawMesh& raw, const TagIndex& index, const MeshRequest& request,

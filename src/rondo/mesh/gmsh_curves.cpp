@@ -225,8 +225,8 @@ void add_boundary(const CurveInput& in, Draft& draft, Findings& findings) {
                  "a contact curve with free nodes");
   else
     findings.warnings.push_back(
-        fmt::format("{} nodes of the contact curve \"{}\" are clamped and are no contact "
-                    "candidates: {}",
+        fmt::format("{} nodes of the contact curve \"{}\" are clamped and are no "
+                    "contact nodes: {}",
                     held.size(), in.request.contact, nodes));
 }
 

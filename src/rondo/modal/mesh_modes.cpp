@@ -28,7 +28,7 @@ struct Reduced {
   Eigen::MatrixXd rigid;  ///< M-orthonormal rigid-body motions of the free bodies
 };
 
-/// Three columns for each body, M-orthonormal: along x, along y, about the centre of mass.
+/// Three columns for each body, M-orthonormal: along x, along y, about the center of mass.
 Eigen::MatrixXd rigid_motions(const MeshBody& body, const Reduced& r) {
   const std::vector<int> bodies = free_bodies(body.mesh);
   const mesh::Bodies all = mesh::find_bodies(body.mesh);

@@ -13,7 +13,7 @@ namespace rondo::dynamics {
 /// What the contacts of a step found. Sums are over the active contacts.
 struct ContactReport {
   Vec2 impulse;                  ///< of the ground on the body, fixed frame             [N·s/m]
-  double angular_impulse = 0.0;  ///< about the centre                                [N·s]
+  double angular_impulse = 0.0;  ///< about the center                                [N·s]
   int nodes = 0;                 ///< candidates with r_n > 0
   int sticking = 0;              ///< of these, those that stick
   int pairs = 0;                 ///< nodes held by two facets

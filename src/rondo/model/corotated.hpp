@@ -11,7 +11,7 @@
 
 namespace rondo::dynamics {
 
-/// Centre of mass and mean rotation of a body (9.1), (9.2). @param u (n) x - X of its nodes   [m]
+/// Center of mass and mean rotation of a body (9.1), (9.2). @param u (n) x - X of its nodes   [m]
 /// @param before the pose of a step ago: whole turns are counted from there.
 Pose mean_pose(const Model& model, const FreeBody& body, std::span<const Vec2> u,
                const Pose& before) noexcept;

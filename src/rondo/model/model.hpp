@@ -33,7 +33,7 @@ struct ContactModel {
 struct FreeBody {
   std::vector<int> nodes;  ///< ascending
   double mass = 0.0;       ///< [kg/m]
-  Vec2 center;             ///< centre of mass of X                             [m]
+  Vec2 center;             ///< center of mass of X                             [m]
 };
 
 /// Contact of boundaries of deformable bodies, node to segment.

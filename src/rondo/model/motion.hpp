@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-/// @file  Motion of the rim: angle and centre, integrated exactly (docs/theory.md, section 1).
+/// @file  Motion of the rim: angle and center, integrated exactly (docs/theory.md, section 1).
 #pragma once
 #include <array>
 #include <vector>
@@ -35,23 +35,23 @@ class Table {
 
 struct Motion {
   Table angular_velocity;  ///< ω > 0 rolls towards +x; counter-clockwise rate s = -ω  [rad/s]
-  Table speed;             ///< V, of the centre along x                               [m/s]
-  Table height;            ///< h, of the centre above y = 0                           [m]
+  Table speed;             ///< V, of the center along x                               [m/s]
+  Table height;            ///< h, of the center above y = 0                           [m]
   Table gravity;           ///< downwards                                              [m/s2]
-  double start_x = 0.0;    ///< x of the centre at t = 0                               [m]
+  double start_x = 0.0;    ///< x of the center at t = 0                               [m]
 
   [[nodiscard]] double angle(double t) const noexcept { return turn(0.0, t); }
-  /// θ(from + length) - θ(from); before t = 0 as for the centre                        [rad]
+  /// θ(from + length) - θ(from); before t = 0 as for the center                        [rad]
   [[nodiscard]] double turn(double from, double length) const noexcept;
   [[nodiscard]] Vec2 center(double t) const noexcept {
     return {start_x + speed.integral(0, t), height.at(t)};
   }
-  /// c(from + length) - c(from), without cancellation of the position. Before t = 0 the centre is
+  /// c(from + length) - c(from), without cancellation of the position. Before t = 0 the center is
   /// taken to have moved with its initial velocity and acceleration: the start is no kink.
   [[nodiscard]] Vec2 advance(double from, double length) const noexcept;
 };
 
-/// (ω R - V) / max(|V|, |ω R|), of the speeds of rim and centre; 0 where both vanish.
+/// (ω R - V) / max(|V|, |ω R|), of the speeds of rim and center; 0 where both vanish.
 double slip_ratio(double rim_speed, double speed) noexcept;
 
 /// All that a step at t_{n+1} needs to know of the frame.

@@ -14,7 +14,7 @@ namespace rondo::dynamics {
 /// What the body's internal forces do to the rim in a step, turning frame.
 struct RimImpulse {
   Vec2 impulse;                  ///< [N·s/m]
-  double angular_impulse = 0.0;  ///< about the centre                                [N·s]
+  double angular_impulse = 0.0;  ///< about the center                                [N·s]
 };
 
 class Rim {
@@ -39,7 +39,7 @@ class Rim {
   virtual void restore(long long step, std::span<const double> saved) = 0;
 };
 
-/// Angle and centre are tables of time (motion.hpp).
+/// Angle and center are tables of time (motion.hpp).
 class DrivenRim final : public Rim {
  public:
   /// @param motion must outlive it. @param dt Δt [s]

@@ -116,7 +116,7 @@ void put_state(File& file, const dynamics::SavedState& s) {
   for (const dynamics::Pose& p : s.poses)
     poses.push_back({p.center.x, p.center.y, p.rotation.re, p.rotation.im, p.angle});
   put(file, "/state/poses", poses,
-      {"1", "of each free body: centre [m], e^(i angle), angle [rad]"});
+      {"1", "of each free body: center [m], e^(i angle), angle [rad]"});
   std::vector<std::int64_t> keys;
   std::vector<Vec2> impulses;
   for (const auto& [key, impulse] : s.impulses) {

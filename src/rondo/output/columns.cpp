@@ -11,22 +11,23 @@ using P = ContactRecord;
 
 constexpr std::array history{
     Column<H>{"time_s", "s", "end of the interval", [](const H& r) { return r.time; }},
-    Column<H>{"angle_rad", "rad",
-              "∫ω dt, by which the rim has turned, > 0 clockwise like `motion.angular_velocity` "
-              "(−θ, `/frame/angle`); where nothing is held, the mean rotation of the first body, "
-              "likewise",
-              [](const H& r) { return 0.0 - r.angle; }},  // no -0
-    Column<H>{"center_x_m", "m",
-              "centre, fixed frame; where nothing is held, the centre of mass of the first body",
-              [](const H& r) { return r.center.x; }},
+    Column<H>{
+        "angle_rad", "rad",
+        "∫ω dt, by which the rim has turned, > 0 clockwise like `motion.angular_velocity` "
+        "(−θ, `/frame/angle`); where nothing is constrained, the mean rotation of the first body, "
+        "likewise",
+        [](const H& r) { return 0.0 - r.angle; }},  // no -0
+    Column<H>{
+        "center_x_m", "m",
+        "center, fixed frame; where nothing is constrained, the center of mass of the first body",
+        [](const H& r) { return r.center.x; }},
     Column<H>{"center_y_m", "m", "likewise", [](const H& r) { return r.center.y; }},
     Column<H>{"force_x", "N/m", "of the ground on the body, mean over the interval",
               [](const H& r) { return r.force.x; }},
     Column<H>{"force_y", "N/m", "likewise", [](const H& r) { return r.force.y; }},
-    Column<H>{
-        "torque", "N·m/m",
-        "of the ground on the body about the centre, mean over the interval",
-        [](const H& r) { return r.torque; }},
+    Column<H>{"torque", "N·m/m",
+              "of the ground on the body about the center, mean over the interval",
+              [](const H& r) { return r.torque; }},
     Column<H>{"contact_nodes", "1", "nodes with a normal force",
               [](const H& r) { return static_cast<double>(r.nodes); }},
     Column<H>{"sticking_nodes", "1", "of these, those that stick",
@@ -35,10 +36,11 @@ constexpr std::array history{
               [](const H& r) { return r.contact_length; }},
     Column<H>{"penetration_max_m", "m", "largest in the interval",
               [](const H& r) { return r.penetration; }},
-    Column<H>{"slip_ratio", "1",
-              "(ωRₒ − V) / max(|V|, |ωRₒ|); 0 where both vanish, and where nothing is held. Rₒ of "
-              "a mesh: the largest distance of a candidate from the centre",
-              [](const H& r) { return r.slip_ratio; }},
+    Column<H>{
+        "slip_ratio", "1",
+        "(ωRₒ − V) / max(|V|, |ωRₒ|); 0 where both vanish, and where nothing is constrained. Rₒ of "
+        "a mesh: the largest distance of a contact node from the center",
+        [](const H& r) { return r.slip_ratio; }},
     Column<H>{"kinetic", "J/m", "kinetic part of the energy E, half a step before `time_s`",
               [](const H& r) { return r.balance.kinetic; }},
     Column<H>{"strain", "J/m", "strain part of the energy E, likewise",

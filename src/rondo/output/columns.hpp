@@ -16,7 +16,7 @@ struct HistoryRecord {
   double angle = 0.0;   ///< θ of the turning frame                                       [rad]
   Vec2 center;          ///< [m]
   Vec2 force;           ///< of the ground on the body                                    [N/m]
-  double torque = 0.0;  ///< of the ground about the centre                               [N]
+  double torque = 0.0;  ///< of the ground about the center                               [N]
   int nodes = 0, sticking = 0;
   double contact_length = 0.0;  ///< [m]
   double penetration = 0.0;     ///< [m]

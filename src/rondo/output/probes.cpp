@@ -43,7 +43,8 @@ ProbeValues look_at(const ProbedBody& body, const ProbeSite& site, const dynamic
 
 std::vector<ColumnLabel> probe_columns(const std::vector<Probe>& probes) {
   static constexpr std::array<std::array<const char*, 3>, 8> quantities{
-      {{"ux", "m", "displacement at `time_s`: turning frame; of a free body x − X, fixed frame"},
+      {{"ux", "m",
+        "displacement at `time_s`: co-rotating frame; of a free body x − X, fixed frame"},
        {"uy", "m", "likewise"},
        {"vx", "m/s", "velocity in the same frame, half a step before `time_s`"},
        {"vy", "m/s", "likewise"},

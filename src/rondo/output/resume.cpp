@@ -57,14 +57,13 @@ void compare_cases(const Checkpoint& k, const Case& c, const Setup& setup,
       faults.push_back(differs(key, now.written(value.place), "is not in the checkpoint's case",
                                "the case that the run began with"));
     else if (!same(value, before->second))
-      faults.push_back(differs(key, now.written(value.place),
-                               "the run to go on with has another value",
+      faults.push_back(differs(key, now.written(value.place), "the run to resume has another value",
                                then.written(before->second.place)));
   }
   for (const auto& [key, value] : then.values)
     if (!now.values.contains(key))
       faults.push_back(
-          differs(key, "nothing", "the run to go on with has a value", then.written(value.place)));
+          differs(key, "nothing", "the run to resume has a value", then.written(value.place)));
 }
 
 void compare_programs(const RunIdentity& then, const RunIdentity& now, std::vector<Fault>& faults) {

@@ -32,7 +32,7 @@ struct Trial {
   std::vector<Vec2> slip;  ///< (nb) gap, increment of slip [m]
 };
 
-/// Along the tangent the centre's travel counts backwards: t = (-1, 0).
+/// Along the tangent the center's travel counts backwards: t = (-1, 0).
 CondensedProblem make_problem(const CrushModel& model, const Trial& trial, const Condensation& body,
                               const CrushState& state) {
   const auto& set = body.set();

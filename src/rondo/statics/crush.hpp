@@ -42,8 +42,8 @@ struct CrushWorks {
 
 /// After an increment.
 struct CrushState {
-  double depth = 0.0;                   ///< of the centre below first touch               [m]
-  double slide = 0.0;                   ///< of the centre along +x since first touch      [m]
+  double depth = 0.0;                   ///< of the center below first touch               [m]
+  double slide = 0.0;                   ///< of the center along +x since first touch      [m]
   std::vector<Vec2> u;                  ///< (n) displacement, fixed axes                  [m]
   std::vector<Vec2> force;              ///< (nb) normal, tangential                       [N/m]
   std::vector<Vec2> slip;               ///< (nb) gap, increment of slip                   [m]
@@ -70,11 +70,11 @@ struct CrushReport {
 /// Adds the candidates to the set whose clearance is at most `reach` [m]; how many.
 std::size_t append_within(const CrushModel& model, double reach, Condensation& body);
 
-/// Brings the centre to `depth` [m] below first touch in one increment.
+/// Brings the center to `depth` [m] below first touch in one increment.
 [[nodiscard]] CrushReport press(const CrushModel& model, double depth, Condensation& body,
                                 CrushState& state);
 
-/// Brings the centre to `slide` [m] along +x in one increment, at the state's depth.
+/// Brings the center to `slide` [m] along +x in one increment, at the state's depth.
 [[nodiscard]] CrushReport draw(const CrushModel& model, double slide, Condensation& body,
                                CrushState& state);
 

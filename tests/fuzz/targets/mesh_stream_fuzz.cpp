@@ -45,8 +45,8 @@ void check_mesh(const Mesh& m) {
     for (int a = 0; a < n_corners(cell); ++a)
       fuzz::check(known(cell[static_cast<std::size_t>(a)]), "a cell without its node");
   fuzz::check(check_cells(m).count() == 0, "a bad cell");
-  fuzz::check(m.boundary.size() == m.tributary.size(), "candidates without length");
-  fuzz::check(std::ranges::all_of(m.boundary, known), "a candidate is no node");
+  fuzz::check(m.boundary.size() == m.tributary.size(), "contact nodes without length");
+  fuzz::check(std::ranges::all_of(m.boundary, known), "a contact node is no node");
   fuzz::check(std::ranges::all_of(m.clamped, known), "a clamped node is none");
   fuzz::check(m.region.empty() || m.region.size() == m.cells.size(), "cells without region");
   for (const int region : m.region)
@@ -55,7 +55,7 @@ void check_mesh(const Mesh& m) {
     for (const Edge& edge : curve.edges)
       fuzz::check(known(edge[0]) && known(edge[1]), "an edge without its node");
   for (const double length : m.tributary)
-    fuzz::check(std::isfinite(length) && length > 0.0, "a candidate without length");
+    fuzz::check(std::isfinite(length) && length > 0.0, "a contact node without length");
   // Each node has a share of a cell, so that it has a mass.
   for (const double area : fem::nodal_areas(m))
     fuzz::check(std::isfinite(area) && area > 0.0, "a node without area");

@@ -65,7 +65,7 @@ TEST(BuildMesh, ContactsAndPressuresGoIntoTheModel) {
   EXPECT_FALSE(build(file.read({"contact.between=bodies"}), 1).model.surfaces->self);
 }
 
-/// Turned about the origin of the file, then moved; each turns about its own centre of mass.
+/// Turned about the origin of the file, then moved; each turns about its own center of mass.
 TEST(BuildMesh, FreeBodiesArePlacedAndMove) {
   const MeshCaseFile file(squares);
   const auto s = build(
@@ -134,7 +134,7 @@ TEST(BuildMesh, AFreeDiskTurnsAsAWhole) {
   EXPECT_EQ(s.mesh.n_sectors, 0);
   EXPECT_FALSE(s.model.sector);
   EXPECT_NEAR(s.velocity[0].x, -0.2, 1e-15);  // node 0 is at (0, -0.1): clockwise
-  // Clockwise, so that the outward normal, on the right, points to the centre.
+  // Clockwise, so that the outward normal, on the right, points to the center.
   ASSERT_EQ(s.model.pressures[0].edges.size(), 20U);
   const auto& edge = s.model.pressures[0].edges[0];
   const Vec2 a = s.model.reference[static_cast<std::size_t>(edge[0])],

@@ -312,7 +312,7 @@ const std::vector<Wrong> wrongs{
      "position = [0, 1]",
      "initial.position",
      31,
-     {"for bodies that nothing holds", "disk.rim = \"free\""}},
+     {"for unconstrained bodies", "disk.rim = \"free\""}},
     {"BetweenUnknown",
      37,
      "[contact]\nbetween = 'some'",

@@ -36,7 +36,7 @@ TEST(Ground, LedgeDistances) {
   EXPECT_NEAR(ground.distance({0.5, 0.03}), 0.03, 1e-15);     // above the upper one
   EXPECT_NEAR(ground.distance({-0.01, -0.05}), 0.01, 1e-15);  // before the wall
   EXPECT_NEAR(ground.distance({0.004, -0.05}), -0.004, 1e-15);
-  // Round the fillet, centre (0.02, -0.02): all points on a circle have the same gap.
+  // Round the fillet, center (0.02, -0.02): all points on a circle have the same gap.
   for (const double angle : {95.0, 120.0, 135.0, 170.0}) {
     const Vec2 direction = direction_at(angle * std::numbers::pi / 180);
     EXPECT_NEAR(ground.distance(Vec2{0.02, -0.02} + 0.025 * direction), 0.005, 1e-15) << angle;

@@ -167,7 +167,7 @@ TEST(GeneralContact, AStackComesToRest) {
   EXPECT_LT(seen.penetration, 2e-3);
 }
 
-/// The ground's torque is about the body's centre: none for a block that rests, wherever it is.
+/// The ground's torque is about the body's center: none for a block that rests, wherever it is.
 TEST(GeneralContact, ABlockAtRestFeelsNoTorque) {
   mesh::Mesh mesh;
   test::add_block(mesh, {.corner = {5.0, 1e-4}, .columns = 4, .rows = 4});

@@ -374,7 +374,7 @@ TEST(RunReader, WhatDoesNotFitIsNamed) {
     h.time_velocity = {0.0, 0.0, 0.1};
   });
   expect("/mesh has cell 1 with a node", [](Hand& h) { h.run.mesh.cells[1][2] = 24; });
-  expect("/mesh has candidate -1", [](Hand& h) { h.run.mesh.boundary[2] = -1; });
+  expect("/mesh has contact node -1", [](Hand& h) { h.run.mesh.boundary[2] = -1; });
   expect("/mesh has node 3 at a place that is not",
          [](Hand& h) { h.run.mesh.coordinates[3].y = nan; });
   expect("/mesh has node 2 with the mass 0", [](Hand& h) { h.run.mass[2] = 0.0; });
@@ -405,9 +405,9 @@ TEST(MeshDifference, NamesWhatDiffersFirst) {
   EXPECT_EQ(difference([](Hand& h) { std::swap(h.run.mesh.cells[3], h.run.mesh.cells[4]); }),
             "cells differ at cell 3");
   EXPECT_EQ(difference([](Hand& h) { h.run.mesh.boundary[1] = 0; }),
-            "candidates differ: number 1 is node 5 against 0");
+            "contact nodes differ: number 1 is node 5 against 0");
   EXPECT_EQ(difference([](Hand& h) { h.run.mesh.tributary[1] += 0.5; }),
-            "tributary lengths differ at candidate 1 by 0.5 m");
+            "tributary lengths differ at contact node 1 by 0.5 m");
   EXPECT_EQ(difference([](Hand& h) { h.run.mass[7] = 9.0; }),
             "masses differ at node 7: 8 kg/m against 9");
   EXPECT_EQ(difference([](Hand& h) { std::swap(h.run.mesh.sector[0], h.run.mesh.sector[3]); }),

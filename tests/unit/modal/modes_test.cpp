@@ -173,7 +173,7 @@ TEST(Modes, OfEqualBodiesEachIsThere) {
   for (int k = 1; k < 6; ++k) row = test::beside(row, one, {1.0 * k, 0.0});
   const auto b = test::body_of(row);
   for (const double spin : {0.0, 60.0}) {
-    // About their own centres, all of them: the Coriolis and centrifugal terms know no place.
+    // About their own centers, all of them: the Coriolis and centrifugal terms know no place.
     const modal::Modes found = modal::mesh_modes(b.any(), spin, 12);
     const auto expected = test::frequencies(modal::cyclic_modes(single.cyclic(), spin, 12));
     EXPECT_TRUE(found.counted);

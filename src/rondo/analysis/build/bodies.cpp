@@ -157,7 +157,7 @@ void warn_of_locking_triangles(const Case& c, const mesh::Mesh& mesh,
 void refuse_for_held_bodies(const Case& c) {
   const Initial& i = c.initial;
   const auto refuse = [&](const std::string& key) {
-    throw case_error(c, key, "is for bodies that nothing holds, and the mesh has none",
+    throw case_error(c, key, "is for unconstrained bodies, and the mesh has none",
                      "[motion], which moves what mesh.clamped holds");
   };
   if (i.position != Vec2{}) refuse("initial.position");

@@ -15,7 +15,7 @@ struct CrushSetup {
   std::vector<int> free;
   statics::CrushModel model;
   double ground_height = 0.0;  ///< y of the ground                                      [m]
-  double touch_height = 0.0;   ///< of the centre above the ground at first touch        [m]
+  double touch_height = 0.0;   ///< of the center above the ground at first touch        [m]
   double reach = 0.0;          ///< largest clearance of the candidates condensed at first [m]
   std::size_t within_reach = 0;
   std::vector<Told> figures;          ///< of a physical kind, for `rondo check`

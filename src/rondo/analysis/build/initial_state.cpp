@@ -29,9 +29,9 @@ void set_stationary(const Case& c, Setup& s, SharedBody* shared) {
                                                                held_nodes(m), spin);
   if (stationary.status != statics::SpinStatus::solved)
     throw case_error(c, "motion.angular_velocity",
-                     "no stationary state: at this spin the centrifugal softening "
+                     "no stationary state: at this rotation speed the centrifugal softening "
                      "exceeds the stiffness",
-                     "a lower spin, or a stiffer material");
+                     "a lower rotation speed, or a stiffer material");
   s.displacement = std::move(stationary.u);
   if (!shared) return;
   shared->spin = spin;

@@ -13,7 +13,7 @@ namespace rondo::study {
 // What is warned of, beyond what any body of rubber, plastic, metal or foam does.
 inline constexpr double fast_share = 0.5;      ///< of the slowest shear wave
 inline constexpr double deep_share = 0.2;      ///< deflection over thickness
-inline constexpr double wide_slip = 0.5;       ///< |slip ratio| where rim and centre both move
+inline constexpr double wide_slip = 0.5;       ///< |slip ratio| where rim and center both move
 inline constexpr double slow_sound = 5.0;      ///< sqrt(E/ρ) [m/s]
 inline constexpr double fast_sound = 3e4;      ///< sqrt(E/ρ) [m/s]
 inline constexpr double least_density = 10.0;  ///< of a material of at least soft_modulus [kg/m3]

@@ -67,7 +67,7 @@ std::string beyond_softening(const Case& c, double spin, Interval omega) {
       "exceeds the stiffness (K - s²M is not positive definite). There is no equilibrium: "
       "what is deformed in general grows, at up to {:.3g} 1/s, by e^{:.3g} in this run, which ends "
       "with exit code 3 "
-      "once its strains mean nothing. A slower spin, a stiffer material, or "
+      "once its strains mean nothing. A lower rotation speed, a stiffer material, or "
       "material.stress_stiffening = \"centrifugal\"",
       spin, omega.low, omega.high, std::sqrt(std::max(0.0, spin * spin - omega.low * omega.low)),
       softening_growth(c, omega.low));

@@ -10,10 +10,10 @@ namespace rondo::study {
 namespace {
 
 constexpr std::array crush_columns{
-    FigureColumn{"depth_m", "m", "of the centre below first touch, at the end"},
+    FigureColumn{"depth_m", "m", "of the center below first touch, at the end"},
     FigureColumn{"force_x", "N/m", "of the ground on the body, at the end"},
     FigureColumn{"force_y", "N/m", "of the ground on the body, at the end"},
-    FigureColumn{"torque", "N·m/m", "about the centre, at the end"},
+    FigureColumn{"torque", "N·m/m", "about the center, at the end"},
     FigureColumn{"contact_length_m", "m", "at the end"},
     FigureColumn{"pressure_max_pa", "Pa", "at the end"},
     FigureColumn{"shear_max_pa", "Pa", "at the end"},

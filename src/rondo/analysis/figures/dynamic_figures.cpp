@@ -22,7 +22,7 @@ constexpr std::array dynamic_columns{
     FigureColumn{"force_y_mean", "N/m", "of the ground on the body, mean over the window"},
     FigureColumn{"force_y_peak", "N/m", "the value of largest magnitude in the window"},
     FigureColumn{"force_y_fluctuation", "N/m", "root mean square about the mean"},
-    FigureColumn{"torque_mean", "N·m/m", "about the centre, mean over the window"},
+    FigureColumn{"torque_mean", "N·m/m", "about the center, mean over the window"},
     FigureColumn{"torque_peak", "N·m/m", "the value of largest magnitude in the window"},
     FigureColumn{"torque_fluctuation", "N·m/m", "root mean square about the mean"},
     FigureColumn{"contact_length_mean_m", "m", "mean over the window"},
@@ -30,7 +30,7 @@ constexpr std::array dynamic_columns{
     FigureColumn{"slip_ratio_mean", "1", "mean over the window"},
     FigureColumn{"friction_power", "W/m", "dissipated by friction in the window, over its length"},
     FigureColumn{"impact_power", "W/m", "lost in impacts in the window, over its length"},
-    FigureColumn{"energy_residual_relative", "1", "of the ledger, of the whole run"},
+    FigureColumn{"energy_residual_relative", "1", "of the energy balance, of the whole run"},
     FigureColumn{"contact_residual_max", "1", "of the contact law, of the whole run"},
     FigureColumn{"penetration_max_m", "m", "of the whole run"},
 };

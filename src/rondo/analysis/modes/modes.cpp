@@ -374,7 +374,7 @@ void ModesAnalysis::judge(const SpinSummary& s) {
   if (s.unstable > 0 && !wrong_)
     wrong_ = fmt::format(
         "at {} rad/s the spin softens the body more than it is stiff: K - s²M has {} negative "
-        "eigenvalue{}, there is no stable state and there are no modes; a lower spin",
+        "eigenvalue{}, there is no stable state and there are no modes; a lower rotation speed",
         s.angular_velocity, s.unstable, s.unstable == 1 ? "" : "s");
   else if (s.unstable == 0 && !s.counted)
     say(fmt::format("at {} rad/s the modes are not counted: some may be missing",

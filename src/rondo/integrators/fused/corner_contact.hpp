@@ -71,7 +71,7 @@ class CornerContact {
     Vec2 change;  ///< K u_n before the step; after it, by how much that has changed     [N/m]
     Vec2 free;    ///< v_{n+3/2} without impulse                                      [m/s]
   };
-  /// How far the boundary may be from where it is during a batch, and from the centre [m].
+  /// How far the boundary may be from where it is during a batch, and from the center [m].
   struct Extent {
     double reach, farthest;
   };

@@ -159,7 +159,7 @@ void GeneralContact::solve_on_ground(const BodyFrames& frames, Rows rows, State&
   const ContactStep& step = frames.of(model_, k).contact;
   const Vec2 before = report.impulse;
   state.v_next[k] = solve_contacts(step, node, touches, active, report);
-  // The moment was taken about the centre of the node's frame.
+  // The moment was taken about the center of the node's frame.
   report.angular_impulse += cross(step.center - center_, report.impulse - before);
   state.active.insert(state.active.end(), active.begin(), active.end());
   for (std::size_t j = 0; j < rows.size(); ++j) rows_[at(rows[j])].impulse = active[j].impulse;

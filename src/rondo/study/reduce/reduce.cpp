@@ -65,7 +65,7 @@ void check_run(const io::RunReader& run, const Case& c) {
     throw request_error("RUN", name,
                         "the body has no equal sectors round a rim that holds it: its fields "
                         "cannot be moved to the fixed frame",
-                        "runs of a [disk] whose rim is held");
+                        "runs of a [disk] whose rim is constrained");
   if (run.status() != "done")
     throw request_error("RUN", name,
                         fmt::format("the run is not finished (status {})", run.status()),

@@ -31,7 +31,7 @@ void MemberFaults::raise(const std::vector<Member>& members) const {
   for (const Found& found : found_) {
     if (faults.size() == most_told) {
       faults.push_back({file, 0, 0, "", "",
-                        fmt::format("and {} more kinds of faults", found_.size() - most_told), ""});
+                        fmt::format("and {} more kinds of errors", found_.size() - most_told), ""});
       break;
     }
     const std::string whom = name_of(study_, members[found.first], found.first + 1);

@@ -21,7 +21,7 @@ inline constexpr int target_increments = 20;
 struct TargetFound {
   double force = 0.0;   ///< asked for [N/m]
   double depth = 0.0;   ///< below first touch [m]; 0: none
-  double height = 0.0;  ///< of the centre above y = 0 [m]
+  double height = 0.0;  ///< of the center above y = 0 [m]
   int crushes = 0;      ///< that were solved for it
   std::string trouble;  ///< why there is none; empty: found
 };

@@ -109,7 +109,7 @@ struct CyclicHeight {
   const double* turn_x;  ///< cos φ, sin φ of the sectors
   const double* turn_y;
   double rotation_x, rotation_y;  ///< R(θ_{n+1})
-  double limit;                   ///< top of the ground - y of the centre              [m]
+  double limit;                   ///< top of the ground - y of the center              [m]
   int first, last;                ///< columns looked at
 };
 
