@@ -94,7 +94,7 @@ def test_every_column_has_its_unit(any_run):
     units = any_run.history.units
     assert sorted(units) == sorted(any_run.history)
     assert units["time_s"] == any_run.time_unit == ("1" if any_run.is_crush else "s")
-    assert (units["force_y"], units["torque"], units["strain"]) == ("N/m", "N", "J/m")
+    assert (units["force_y"], units["torque"], units["strain"]) == ("N/m", "N·m/m", "J/m")
     for name in ("angle_rad", "center_x_m", "penetration_max_m"):
         assert name.endswith("_" + units[name])
 
