@@ -10,7 +10,7 @@ set(RONDO_PUBLIC_HEADERS
     integrators/integrator.hpp integrators/start.hpp)
 set(RONDO_INCLUDED_HEADERS
     core/complex.hpp core/field.hpp core/sum.hpp core/vec2.hpp
-    case/analysis_kinds.hpp analysis/build/bodies.hpp io/h5/h5.hpp
+    analysis/error_estimate.hpp case/analysis_kinds.hpp analysis/build/bodies.hpp io/h5/h5.hpp
     fem/element.hpp fem/nodal_dilatation.hpp modal/critical_speeds.hpp modal/modes.hpp
     contact/law.hpp contact/coupled/band.hpp contact/coupled/coupled.hpp
     contact/coupled/problem_file.hpp

@@ -15,7 +15,7 @@ cat <<EOT
 
 The results are in $out:
   figures/      pictures of the run, PNG and SVG: the disk, the forces, the energy, the modes
-  history.csv   contact forces and the energy ledger over time (any spreadsheet, pandas)
+  history.csv   contact forces and the energy balance over time (any spreadsheet, pandas)
   fields.xdmf   the rolling disk: open it in ParaView and press play
   results.h5    every array (HDF5: h5py, MATLAB, Julia), described in docs/results.md
   pod/          modes of the displacement as seen from the ground: modes.xdmf for ParaView

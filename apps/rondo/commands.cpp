@@ -43,7 +43,7 @@ int finish(const study::RunReport& r, const std::filesystem::path& directory) {
     spdlog::info("{} in {:.2f} s ({:.1f} ns per dof and step)", r.reached, r.loop_wall_s,
                  r.ns_per_dof_step);
   spdlog::info(
-      "energy ledger closes to {:.1e}, contact law to {:.1e}, largest penetration {:.2g} m",
+      "energy balance closes to {:.1e}, contact law to {:.1e}, largest penetration {:.2g} m",
       r.energy_residual_relative, r.contact_residual_max, r.penetration_max_m);
   spdlog::info("largest strain {:.2g}, smallest J of an element {:.2g}", r.strain_max,
                r.jacobian_min);

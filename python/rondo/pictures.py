@@ -32,7 +32,7 @@ def _history(run: Run, *columns: str, ax: Axes | None = None) -> Axes:
 
 
 def _energy(run: Run, ax: Axes | None = None) -> Axes:
-    """The energy ledger."""
+    """The energy balance."""
     from .plots.curves import plot_energy
     return plot_energy(run, ax=ax)
 

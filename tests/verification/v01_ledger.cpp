@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-/// V1: the energy ledger closes to round-off at every step, in contact, with friction, damping,
+/// V1: the energy balance closes to round-off at every step, in contact, with friction, damping,
 /// spin tables and restitution, for both schemes and both operators.
 #include <gtest/gtest.h>
 

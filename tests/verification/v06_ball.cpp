@@ -57,7 +57,7 @@ TEST_P(Ball, BouncesAndComesToRest) {
     if (pressed && flies) apexes.push_back(top);  // the one before this bounce; first: the start
     top = pressed ? 0.0 : std::max(top, y);
     flies = !pressed;
-    if (y != before) last_move = time;
+    if (std::abs(y - before) > gravity * dt * dt) last_move = time;
     before = y;
   }
   EXPECT_GE(impact, 0.451524);
@@ -68,11 +68,12 @@ TEST_P(Ball, BouncesAndComesToRest) {
   ASSERT_GT(apexes.size(), GetParam().apexes);
   for (std::size_t k = 1; k <= GetParam().apexes; ++k)
     EXPECT_NEAR(apexes[k], std::pow(e, 2.0 * static_cast<double>(k)) * height, late) << k;
-  // At rest by the time, and for good: the last bounces, shorter than a step, are not there.
+  // At rest by the time: the last bounces, shorter than a step, are not there. What is left, less
+  // than gravity does in a step, changes sign and is e times as much at each, by Moreau's law.
   EXPECT_LE(last_move, GetParam().rest);
   EXPECT_GT(last_move, GetParam().rest - 50.0 * dt);
   RecordProperty("rest", fmt::format("{:.6f}", last_move));
-  EXPECT_EQ(run.state().v[0], Vec2{});
+  EXPECT_LT(norm(run.state().v[0]), 1e-300);
   // All the energy of the fall is lost in impacts, but for the depth that it rests at.
   EXPECT_NEAR(run.balance().works.loss_impact, 2.0 * gravity * height, 1e-8);
   EXPECT_LT(run.balance().relative, 1e-11);

@@ -92,7 +92,7 @@ def _together(names: Sequence[str], unit: str) -> str:
 
 @style.paper()
 def plot_energy(run: Run, ax: Axes | None = None) -> Axes:
-    """The energy ledger: the body's energy, kinetic and strain, and what has changed it, each with
+    """The energy balance: the body's energy, kinetic and strain, and what has changed it, each with
     its sign: but for the energy at the start they sum up to it. Below, what the ledger leaves open
     over the energy exchanged. Given axes are divided in two. Returns the upper ones."""
     ax = axes_of(ax, 4.0)

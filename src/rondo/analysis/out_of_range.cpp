@@ -152,7 +152,7 @@ OutOfBound find_out_of_bound(const dynamics::Balance& b, const ContactStatistics
                         b.strain),
             true};
   if (b.relative > bounds.ledger)
-    return {fmt::format("the energy ledger does not close: relative residual {:.3g}, bound {:.0e}",
+    return {fmt::format("the energy balance does not close: relative residual {:.3g}, bound {:.0e}",
                         b.relative, bounds.ledger),
             true};
   if (bounds.guards_impacts && impact_gain(b) > impact_gain_bound)

@@ -8,6 +8,7 @@
 #include <utility>
 #include <vector>
 
+#include "rondo/analysis/error_estimate.hpp"
 #include "rondo/case/case.hpp"
 #include "rondo/rom/reduced_model.hpp"
 
@@ -38,27 +39,6 @@ const char* name_in(const Names& names, Value value) noexcept {
   return "";
 }
 
-/// Errors of means of forces over the mean vertical force.
-struct ForceErrors {
-  double x = 0.0, y = 0.0;
-};
-
-/// Times the largest error of a run left out: the runs stand at the corners of their range, where
-/// most of the contact slides, and friction is more sensitive in between. Measured to cover most
-/// predictions (docs/reduced.md, 8b).
-inline constexpr double estimate_over_largest = 2.0;
-
-/// What a prediction may be off by, from the errors of the runs behind the model, each predicted
-/// from the others.
-struct ErrorEstimate {
-  std::vector<std::string> runs;    ///< those that were left out in turn
-  std::vector<ForceErrors> errors;  ///< of each, with its sign
-  std::string none;                 ///< why there are none; empty: there are
-
-  /// The largest of each, times estimate_over_largest. @pre there are errors
-  [[nodiscard]] ForceErrors estimate() const noexcept;
-};
-
 struct ReducedFile {
   rom::ReducedModel model;
   mesh::Mesh mesh;           ///< without `clamped`
@@ -69,10 +49,6 @@ struct ReducedFile {
   Eigen::Index displacement_modes = 0, velocity_modes = 0;
   ErrorEstimate estimate;
 };
-
-/// "F_x 1.2 %, F_y 0.3 % of F_y (twice the largest of 8 runs, each predicted from the others)", or
-/// that there is none and why.
-std::string in_words(const ErrorEstimate& estimate);
 
 /// Mesh and material of a case as text: a model serves the cases that have the same.
 std::string body_text(const Case& c);

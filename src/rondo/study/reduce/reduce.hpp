@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "rondo/analysis/reduced_file.hpp"
+#include "rondo/analysis/error_estimate.hpp"
 
 namespace rondo::study {
 

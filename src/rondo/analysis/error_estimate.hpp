@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: BSD-3-Clause
+/// @file  How far off a reduced model may be (docs/reduced.md, 8b).
+#pragma once
+#include <string>
+#include <vector>
+
+namespace rondo::study {
+
+/// Errors of means of forces over the mean vertical force.
+struct ForceErrors {
+  double x = 0.0, y = 0.0;
+};
+
+/// Times the largest error of a run left out: the runs stand at the corners of their range, where
+/// most of the contact slides, and friction is more sensitive in between. Measured to cover most
+/// predictions (docs/reduced.md, 8b).
+inline constexpr double estimate_over_largest = 2.0;
+
+/// What a prediction may be off by, from the errors of the runs behind the model, each predicted
+/// from the others.
+struct ErrorEstimate {
+  std::vector<std::string> runs;    ///< those that were left out in turn
+  std::vector<ForceErrors> errors;  ///< of each, with its sign
+  std::string none;                 ///< why there are none; empty: there are
+
+  /// The largest of each, times estimate_over_largest. @pre there are errors
+  [[nodiscard]] ForceErrors estimate() const noexcept;
+};
+
+/// "F_x 1.2 %, F_y 0.3 % of F_y (twice the largest of 8 runs, each predicted from the others)", or
+/// that there is none and why.
+std::string in_words(const ErrorEstimate& estimate);
+
+}  // namespace rondo::study
