@@ -26,13 +26,13 @@ int finish(const study::RunReport& r, const std::filesystem::path& directory) {
       return exit_numerical;
     case study::RunStatus::interrupted:
       spdlog::warn("interrupted after {}; the results so far are in {}{}", r.reached,
-                   directory.string(), r.resumable ? "; --resume resumes it" : "");
+                   directory.string(), r.resumable ? "; continue with --resume" : "");
       return exit_interrupted;
     case study::RunStatus::done:
       break;
   }
   if (r.was_complete) {
-    spdlog::info("{} has come to its end, {}: nothing to do; a later time.end resumes it",
+    spdlog::info("{} has come to its end, {}: nothing to do; with a later time.end it continues",
                  directory.string(), r.reached);
     return exit_done;
   }
@@ -67,7 +67,7 @@ void complete(RunArguments& arguments) {
     if (!arguments.options.resume && std::filesystem::exists(given / "run.json", error))
       throw InputError(Fault{given.string(), 0, 0, "", "",
                              "is the results directory of a run, not a case file",
-                             "--resume to resume it, or case.toml in it with another -o"});
+                             "--resume to continue it, or case.toml in it with another -o"});
     if (arguments.options.resume) {
       if (into.empty()) into = given;
       arguments.case_file = (given / "case.toml").string();

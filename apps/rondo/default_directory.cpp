@@ -26,7 +26,7 @@ std::filesystem::path resumed_directory(const std::filesystem::path& input,
       !std::filesystem::exists(before / record, error))
     return here;
   spdlog::warn(
-      "{}: results are there, where earlier versions put them; -o {} to go on with them "
+      "{}: results are there, where earlier versions put them; -o {} to resume them "
       "without this warning, -o {} to begin in the working folder",
       before.string(), before.string(), here.string());
   return before;

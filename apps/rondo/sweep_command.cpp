@@ -67,7 +67,7 @@ int finish(const study::SweepReport& report, const std::filesystem::path& direct
     spdlog::warn("and {} more: {}", report.failed - report.failures.size(),
                  (directory / "sweep.json").string());
   if (report.interrupted > 0) {
-    spdlog::warn("interrupted with {} of {} runs done; --resume resumes it", report.done,
+    spdlog::warn("interrupted with {} of {} runs done; continue with --resume", report.done,
                  report.members);
     return exit_interrupted;
   }

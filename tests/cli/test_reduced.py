@@ -276,7 +276,7 @@ class Reduced(ProgramTest):
         process.send_signal(signal.SIGINT)
         _, said = process.communicate(timeout=60)
         self.assertEqual(process.returncode, 130, said)
-        self.assertNotIn("--resume resumes it", said)
+        self.assertNotIn("continue with --resume", said)
         self.assertEqual(summary(out)["status"], "interrupted")
         self.assertFalse((out / "checkpoint.h5").exists())
 

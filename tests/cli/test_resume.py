@@ -471,7 +471,7 @@ class TwoPrograms(ResumeTest):
         self.assertEqual(summary(self.out)["status"], "running")
         refused = run("run", case, "-o", self.out)
         self.assertEqual(refused.returncode, 2)
-        self.assertIn("--resume to resume it", refused.stderr)
+        self.assertIn("--resume to continue it", refused.stderr)
         with h5py.File(self.out / "checkpoint.h5") as f:
             reached = f["/run/steps_done"][0] * f["/run/step"][0]
         done = run("run", case, "-o", self.out, "--resume", "--set", f"time.end={reached + 0.01}")

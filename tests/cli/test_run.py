@@ -164,7 +164,7 @@ class Run(RunTest):
         later = ("run", self.case(), "--resume", "--quiet", "--set", "time.end=0.025")
         done = run(*later, cwd=work)
         self.assertEqual(done.returncode, 0, done.stderr)
-        self.assertIn(f"-o {before} to go on with them", done.stderr)
+        self.assertIn(f"-o {before} to resume them", done.stderr)
         self.assertGreater(history(before)["time_s"][-1], 0.0249)
         self.assertEqual(list(work.iterdir()), [])
         self.assertEqual(run(*later, "-o", "case", cwd=work).returncode, 0)

@@ -289,7 +289,7 @@ class Refused(SweepTest):
         self.assertEqual(run("sweep", study, "-o", before, "--quiet").returncode, 0)
         done = run("sweep", study, "--resume", cwd=work)
         self.assertEqual(done.returncode, 0, done.stderr)
-        self.assertIn(f"-o {before} to go on with them", done.stderr)
+        self.assertIn(f"-o {before} to resume them", done.stderr)
         self.assertIn("9 were there already", done.stderr)
         done = run("sweep", study, "--quiet", cwd=work)
         self.assertEqual((done.returncode, done.stderr), (0, ""))

@@ -116,7 +116,7 @@ io::ResultsWords words() {
 std::vector<io::Series> series() {
   return {{"/crush/depth", "m", "depth of the center below first touch"},
           {"/crush/force", "N/m", "force of the ground on the body: normal, tangential", 2},
-          {"/crush/contact_length", "m", "/mesh/tributary of the contact nodes in contact, summed"},
+          {"/crush/contact_length", "m", "/mesh/tributary of the nodes in contact, summed"},
           {"/crush/pressure_max", "Pa", "largest pressure of all contact nodes"}};
 }
 

@@ -192,8 +192,7 @@ constexpr CaseKey keys[] = {
     {"motion.angular_velocity", "rad/s", FIELD(motion.angular_velocity), any,
      required.if_(is_held, "required if constrained and dynamic").body(never),
      "angular velocity ω of the rim; > 0 turns clockwise, which rolls towards +x. So do all "
-     "angular "
-     "velocities of a case, and `angle_rad` of history.csv, its integral"},
+     "angular velocities of a case, and `angle_rad` of history.csv, its integral"},
     {"motion.speed", "m/s", FIELD(motion.speed), any,
      required.if_(is_held, "required if constrained and dynamic").body(never),
      "speed V of the center along x"},
@@ -220,9 +219,8 @@ constexpr CaseKey keys[] = {
     {"ground.impact", "-", FIELD(ground->impact), choice("moreau", "energy-safe"),
      optional.of(in_motion).body(never),
      "law of the impacts. \"moreau\": a node that arrives or leaves with w_n⁻ goes on with -e "
-     "w_n⁻. "
-     "\"energy-safe\": one that leaves while it is pressed is sent back no faster; no impact then "
-     "creates energy at any step, but more is lost ([theory.md](theory.md), 4.3)"},
+     "w_n⁻. \"energy-safe\": one that leaves while it is pressed is sent back no faster; no impact "
+     "then creates energy at any step, but more is lost ([theory.md](theory.md), 4.3)"},
 
     {"contact.between", "-", FIELD(body_contact.between), choice("none", "bodies", "all"), optional,
      "\"bodies\": bodies touch each other; \"all\": the boundary of a body may touch itself as "
@@ -236,8 +234,7 @@ constexpr CaseKey keys[] = {
 
     {"load.pressure[].curve", "-", FIELD(pressures[k].curve), any, required,
      "physical curve of the mesh, not all of it held; of a disk \"tread\", the tops of the lands, "
-     "or, "
-     "where disk.rim is \"free\", \"rim\", its inner boundary"},
+     "or, where disk.rim is \"free\", \"rim\", its inner boundary"},
     {"load.pressure[].value", "Pa", FIELD(pressures[k].pressure), any, required,
      "pressure against the outward normal, > 0 presses on the body"},
 
@@ -330,7 +327,7 @@ constexpr CaseKey keys[] = {
      "keep the stress with the snapshots"},
     {"output.checkpoint_interval", "s", FIELD(output.checkpoint_interval), positive,
      optional.body(never).free_on_resume(),
-     "wall time between checkpoints (docs/results.md, [Going on with a "
+     "wall time between checkpoints (docs/results.md, [Resuming a "
      "run](results.md#resuming-a-run)); there is one at the end and at a signal anyway. A "
      "crush writes none"},
 

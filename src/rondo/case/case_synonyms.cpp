@@ -6,8 +6,7 @@ namespace {
 
 constexpr std::string_view no_load =
     "no key gives a load: motion.height brings the rim down, and a sweep finds the height that "
-    "bears "
-    "a load (docs/studies.md); [[load.pressure]] presses on a curve";
+    "bears a load (docs/studies.md); [[load.pressure]] presses on a curve";
 
 // A key of the same name in the table that was written comes before the one that stands here.
 constexpr Synonym synonyms[] = {

@@ -28,7 +28,7 @@ constexpr std::array history{
     Column<H>{"torque", "N·m/m",
               "of the ground on the body about the center, mean over the interval",
               [](const H& r) { return r.torque; }},
-    Column<H>{"contact_nodes", "1", "nodes with a normal force",
+    Column<H>{"contact_nodes", "1", "of the nodes that may touch, those with a normal force",
               [](const H& r) { return static_cast<double>(r.nodes); }},
     Column<H>{"sticking_nodes", "1", "of these, those that stick",
               [](const H& r) { return static_cast<double>(r.sticking); }},

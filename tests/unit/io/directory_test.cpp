@@ -62,7 +62,7 @@ TEST(ResultsDirectory, IsGoneOnWithAsItIs) {
   put_text(folder / "checkpoint.h5", "old");
   put_text(folder / "run.json", "old");
   const std::string what = error_of<InputError>([&] { begin(folder.path()); });
-  EXPECT_NE(what.find("--resume to resume it"), std::string::npos) << what;
+  EXPECT_NE(what.find("--resume to continue it"), std::string::npos) << what;
   static_cast<void>(take_results_directory(folder.path(), DirectoryUse::go_on));
   EXPECT_EQ(text_of(folder / "run.json"), "old");
   EXPECT_EQ(mark_of_run(folder.path()), "run.json");

@@ -84,11 +84,11 @@ void tell_deflection(double deflection, const Wall& wall, const fem::Material& m
       "contact pressure",
       fmt::format("about {:.2g} Pa, {:.2g} of E", of_modulus * m.youngs_modulus, of_modulus));
   if (share > deep_share)
-    to.warnings.push_back(fmt::format(
-        "the rim comes down by {:.4g} m, {:.3g} % of the {:.4g} m between it and the ground at "
-        "first "
-        "touch, with a pressure of about {:.2g} of E: the law of the material is for small strains",
-        deflection, 100.0 * share, wall.thickness, of_modulus));
+    to.warnings.push_back(
+        fmt::format("the rim comes down by {:.4g} m, {:.3g} % of the {:.4g} m between it and the "
+                    "ground at first touch, with a pressure of about {:.2g} of E: the law of the "
+                    "material is for small strains",
+                    deflection, 100.0 * share, wall.thickness, of_modulus));
 }
 
 void tell_slip(const Case& c, double radius, const Tell& to) {
@@ -106,8 +106,7 @@ void tell_slip(const Case& c, double radius, const Tell& to) {
   if (worst > wide_slip)
     to.warnings.push_back(
         fmt::format("the slip ratio is {:.3g}: motion.angular_velocity times the radius of {:.4g} "
-                    "m is far from "
-                    "motion.speed; {}",
+                    "m is far from motion.speed; {}",
                     both_move.high == worst ? both_move.high : both_move.low, radius, si));
 }
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// @file  How far off a model's predictions are, from the runs that it is built from: each is left
-/// out in turn and predicted (docs/reduced.md, 5b).
+/// out in turn and predicted (docs/reduced.md, 8b).
 #pragma once
 #include <functional>
 #include <optional>

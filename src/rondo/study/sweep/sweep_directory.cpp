@@ -39,7 +39,7 @@ void accept(const SweepRequest& request, const std::string& hash) {
   if (request.overwrite) return;
   if (!request.resume)
     io::refuse_directory(directory, "holds a sweep",
-                         "give --resume to resume it or --overwrite to begin anew, or choose "
+                         "give --resume to continue it or --overwrite to begin anew, or choose "
                          "another -o");
   if (text_in(found, "members_hash") != hash)
     io::refuse_directory(directory,
