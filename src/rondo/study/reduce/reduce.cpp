@@ -254,6 +254,10 @@ ReducedFile make_file(const ReduceRequest& request, const Source& source, const 
 std::string why_no_estimate(const ReduceRequest& r, const Source& source) {
   if (!r.error_estimate) return "not asked for (--no-error-estimate)";
   if (is_turning(r)) return "in the co-rotating frame it would take steps of the mesh";
+  if (std::ranges::any_of(source.cases, [](const Case& c) {
+        return c.ground && c.ground->impact == contact::Impact::energy_safe;
+      }))
+    return "runs of ground.impact = \"energy-safe\" are predicted in explicit steps only";
   const std::size_t runs = source.runs.size();
   if (runs < least_runs_to_estimate)
     return fmt::format("{} run{}, and {} are needed to leave one out", runs, runs == 1 ? "" : "s",
