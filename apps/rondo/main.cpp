@@ -67,6 +67,11 @@ CLI::App* add_run(CLI::App& program, app::RunArguments& arguments, bool& quiet) 
                   "of a reduced run: midpoint (implicit), or explicit (central differences)")
       ->capture_default_str()
       ->needs(reduced);
+  run->add_option("--snapshots", options.reduced_snapshots,
+                  "of a reduced run: fields, or modes (coordinates alone, far cheaper, no stress; "
+                  "lifted when read in Python)")
+      ->capture_default_str()
+      ->needs(reduced);
   run->add_flag("--realtime-factor", arguments.realtime_factor,
                 "says how much faster than the motion itself the steps were");
   run->add_flag("--quiet", quiet, "prints warnings and errors only");

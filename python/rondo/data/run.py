@@ -15,6 +15,7 @@ from .arrays import LazyArray
 from .errors import Error, UnfinishedRunError, unknown
 from .files import check_format, opened, read_case, read_json, read_table, require
 from .history import History
+from .lifted import Coordinates, LiftedArray
 from .mesh import Mesh, read_mesh
 from .pod import Pod, open_pod
 from .rigid import Rigid, rigid_motion
@@ -135,6 +136,8 @@ class Run:
             self._has_contact = "contact" in file
             self._datasets = [f"{group}/{name}" for group in ("snapshots", "fields")
                               if group in file for name in file[group]]
+            # Of a reduced run with --snapshots modes; else none.
+            self._coordinates = Coordinates(self.path, self.mesh, t) if "reduced" in file else None
         self._fields: dict[str, LazyArray] = {}  # those asked for so far
         self.times_velocity: np.ndarray = frame["time_velocity"]
         self.angle: np.ndarray = frame["angle"]
@@ -244,6 +247,8 @@ class Run:
     def field_names(self) -> list[str]:
         """What field() takes."""
         names = {name.split("/")[1] for name in self._datasets}
+        if self._coordinates:
+            names |= {"displacement", "velocity"}
         if "cauchy_stress" in names:
             names |= {f"stress_{component}" for component in STRESS}
         return sorted(names)
@@ -255,7 +260,8 @@ class Run:
         "position", "contact_force" (t, n, 3) for pictures. Stress, position and contact force are
         along the fixed axes. Stress is the mean of the cells around a node: that of a probe in the
         history is of its cell alone, and on coarse meshes they differ (docs/results.md).
-        "fields/displacement", "fields/velocity": these along the fixed axes."""
+        "fields/displacement", "fields/velocity": these along the fixed axes. Of a reduced run with
+        --snapshots modes displacement and velocity alone, lifted as they are read."""
         if name in self._fields:
             return self._fields[name]
         component = None
@@ -267,7 +273,12 @@ class Run:
                 self._fields[name] = LazyArray(self.path, candidate, self.n_snapshots, component)
                 return self._fields[name]
         self.need_snapshots()
-        raise unknown(self.directory, "field", name, self.field_names)
+        there = self.field_names
+        if self._coordinates:
+            if name in there:
+                return self._fields.setdefault(name, LiftedArray(self._coordinates, name))
+            there.append("stress and others: the run again with rondo run --snapshots fields")
+        raise unknown(self.directory, "field", name, there)
 
     @property
     def displacement(self) -> LazyArray:

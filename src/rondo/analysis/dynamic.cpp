@@ -45,7 +45,7 @@ void take_contacts(const dynamics::State& state, double dt, std::vector<ContactF
   }
 }
 
-void fill(const Setup& setup, const dynamics::State& state, Snapshot& s) {
+Snapshot& fill(const Setup& setup, const dynamics::State& state, Snapshot& s) {
   s.time = state.frame.time;
   s.time_velocity = state.step == 0 ? 0.0 : state.frame.time - 0.5 * setup.model.dt;
   s.angle = state.frame.angle;
@@ -55,6 +55,7 @@ void fill(const Setup& setup, const dynamics::State& state, Snapshot& s) {
   s.v = state.v;
   s.poses = state.poses;
   take_contacts(state, setup.model.dt, s.contacts);
+  return s;
 }
 
 }  // namespace
@@ -302,7 +303,9 @@ void DynamicAnalysis::look() {
 void DynamicAnalysis::record_state(Recorder& recorder) {
   const bool looked_at = is_looked_at();
   record_snapshot(recorder);
-  if (looked_at) look();
+  if (!looked_at) return;
+  complete(state_);
+  look();
 }
 
 void DynamicAnalysis::record_snapshot(Recorder& recorder) {
@@ -310,12 +313,12 @@ void DynamicAnalysis::record_snapshot(Recorder& recorder) {
   const std::string beyond = beyond_files(setup_, state_);
   if (beyond.empty()) {
     ++next_;
-    fill(setup_, state_, recorder.next_snapshot());
+    add_series(state_, fill(setup_, state_, recorder.next_snapshot()));
     return recorder.add_snapshot();
   }
-  if (trouble_) return;  // and that is why
-  trouble_ = fmt::format("step {} of {}, t = {:.9g} s: {}", state_.step, setup_.n_steps,
-                         state_.frame.time, beyond);
+  if (!trouble_)  // else that is why
+    trouble_ = fmt::format("step {} of {}, t = {:.9g} s: {}", state_.step, setup_.n_steps,
+                           state_.frame.time, beyond);
 }
 
 void DynamicAnalysis::keep_difficult_contacts() {
@@ -352,6 +355,7 @@ std::vector<double> DynamicAnalysis::last_row() {
 /// a run that goes on later has not looked there.
 void DynamicAnalysis::close() {
   dynamics::StepReport beyond;
+  complete(state_);
   integrator_->advance({&beyond, 1});
   balance_ = beyond.balance;
   judge(beyond);

@@ -48,6 +48,10 @@ class DynamicAnalysis : public Analysis, public Resumable {
   [[nodiscard]] const Setup& setup() const noexcept { return setup_; }
   /// The law sees velocities alone. Gaps in it push bodies out of the ground, which does work.
   [[nodiscard]] virtual bool guards_impacts() const noexcept { return true; }
+  /// Fills the fields of the state after the last step, where the integrator left some out.
+  virtual void complete(dynamics::State& /*state*/) {}
+  /// Adds the values of the plan's series to a snapshot of the state.
+  virtual void add_series(const dynamics::State& /*state*/, Snapshot& /*snapshot*/) {}
   /// The step was chosen anew: what hangs on it is, too.
   void plan_snapshots();
 

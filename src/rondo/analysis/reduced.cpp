@@ -23,9 +23,13 @@ namespace {
 constexpr std::array<std::pair<const char*, rom::StepScheme>, 2> step_names{
     {{"midpoint", rom::StepScheme::midpoint}, {"explicit", rom::StepScheme::central}}};
 
+constexpr std::array<std::pair<const char*, bool>, 2> snapshot_names{
+    {{"fields", true}, {"modes", false}}};
+
 struct ReducedRun {
   ReducedFile file;
   rom::StepScheme scheme = rom::StepScheme::midpoint;
+  bool lifts = true;                  ///< snapshots are fields
   double step_factor = 1.0;           ///< taken
   double full_step = 0.0;             ///< of the full run [s]
   std::vector<std::string> warnings;  ///< for the user
@@ -38,6 +42,12 @@ void demand_step_name(const std::string& name) {
   if (!known) throw request_error("--reduced-step", name, "no such step", "midpoint or explicit");
 }
 
+void demand_snapshot_name(const std::string& name) {
+  const bool known =
+      std::ranges::any_of(snapshot_names, [&](const auto& kind) { return name == kind.first; });
+  if (!known) throw request_error("--snapshots", name, "no such snapshots", "fields or modes");
+}
+
 void check_case(const Case& c, const RunOptions& options, const Setup& setup) {
   if (options.resume)
     throw request_error("--resume", "",
@@ -47,6 +57,7 @@ void check_case(const Case& c, const RunOptions& options, const Setup& setup) {
     throw request_error("--step-factor", fmt::format("{:.9g}", options.step_factor),
                         "not a factor for the step of the full run", "a number above 0, e.g. 20");
   demand_step_name(options.reduced_step);
+  demand_snapshot_name(options.reduced_snapshots);
   if (c.time.scheme != Scheme::symplectic)
     throw case_error(c, "time.scheme", "a reduced run has a scheme of its own",
                      "\"symplectic\", which it stands for");
@@ -200,6 +211,8 @@ ReducedRun prepare_reduced(const Case& c, const RunOptions& options, Setup& setu
   check_model(c, options, run.file, setup);
   for (const auto& [name, scheme] : step_names)
     if (options.reduced_step == name) run.scheme = scheme;
+  for (const auto& [name, lifts] : snapshot_names)
+    if (options.reduced_snapshots == name) run.lifts = lifts;
   check_impacts(c, run);
   run.step_factor = options.step_factor;
   run.full_step = setup.model.dt;
@@ -225,7 +238,7 @@ void describe_reduced(const ReducedRun& run, const RunOptions& options, Json& js
     json["contact_points"] = run.file.model.contact.points.size();
   json["step_factor"] = run.step_factor;
   json["full_step"] = run.full_step;
-  json["lifted"] = true;
+  json["lifted"] = run.lifts;
   const ErrorEstimate& estimate = run.file.estimate;
   json["reduced_error_estimate"] = nullptr;
   if (estimate.errors.empty()) {
@@ -254,6 +267,20 @@ void add_figures(const ReducedRun& run, double time, Json& json) {
                      {"steps_not_converged", f.not_converged}};
 }
 
+/// Snapshots of modes: no field of all nodes, and no stress.
+void plan_modes(const ReducedRun& run, io::ResultsLayout& results) {
+  const rom::ReducedModel& m = run.file.model;
+  const auto r = static_cast<std::size_t>(m.size());
+  results.stress = false;
+  results.modes = {
+      {m.basis.data(), static_cast<std::size_t>(m.basis.size())}, r, name_in(frame_names, m.frame)};
+  results.series = {{"/reduced/displacement", "kg^(1/2) m", "coefficients q of /reduced/modes", r},
+                    {"/reduced/velocity", "kg^(1/2) m/s",
+                     "coefficients p of /reduced/modes, at /frame/time_velocity", r},
+                    {"/reduced/angle", "rad",
+                     "angles that lift displacement and velocity from the rectified frame", 2}};
+}
+
 /// The loop, the files and the figures are those of motion in time; the steps are those of the
 /// modes.
 class ReducedAnalysis final : public DynamicAnalysis {
@@ -264,6 +291,11 @@ class ReducedAnalysis final : public DynamicAnalysis {
   }
 
   [[nodiscard]] Resumable* resumable() noexcept override { return nullptr; }
+  [[nodiscard]] RecordPlan record_plan() const override {
+    RecordPlan plan = DynamicAnalysis::record_plan();
+    if (!run_.lifts) plan_modes(run_, plan.results);
+    return plan;
+  }
   [[nodiscard]] std::vector<std::string> warnings() const override {
     std::vector<std::string> all = DynamicAnalysis::warnings();
     all.insert(all.end(), run_.warnings.begin(), run_.warnings.end());
@@ -287,15 +319,41 @@ class ReducedAnalysis final : public DynamicAnalysis {
   }
   [[nodiscard]] std::unique_ptr<dynamics::Integrator> make_integrator(
       dynamics::State& start) override {
-    return std::make_unique<rom::ReducedIntegrator>(
+    auto made = std::make_unique<rom::ReducedIntegrator>(
         rom::IntegratorInput{setup().mesh, setup().model, run_.file.model, run_.figures,
-                             run_.scheme},
+                             run_.scheme, lifts_states()},
         start);
+    integrator_ = made.get();
+    return made;
+  }
+  void complete(dynamics::State& state) override {
+    if (integrator_ && !lifts_states()) integrator_->lift(state);
+  }
+  void add_series(const dynamics::State& state, Snapshot& snapshot) override {
+    if (run_.lifts) return;
+    if (integrator_)
+      return fill_series(integrator_->displacement(), integrator_->state_velocity(),
+                         {snapshot.angle, integrator_->state_velocity_angle()}, snapshot);
+    rom::Lift lift(setup().mesh, run_.file.model);
+    const std::vector<double>& mass = setup().model.mass;
+    fill_series(lift.restrict_to_modes(0.0, state.u, mass),
+                lift.restrict_to_modes(0.0, state.v, mass), {0.0, 0.0}, snapshot);
   }
 
  private:
+  /// Probes want their cells at every row.
+  [[nodiscard]] bool lifts_states() const noexcept { return run_.lifts || !setup().probes.empty(); }
+  static void fill_series(const Eigen::VectorXd& q, const Eigen::VectorXd& p,
+                          const std::array<double, 2>& angles, Snapshot& snapshot) {
+    std::vector<double>& values = snapshot.series;
+    values.assign(q.begin(), q.end());
+    values.insert(values.end(), p.begin(), p.end());
+    values.insert(values.end(), angles.begin(), angles.end());
+  }
+
   const RunOptions& options_;
   ReducedRun run_;
+  rom::ReducedIntegrator* integrator_ = nullptr;  ///< none before the first step
 };
 
 }  // namespace

@@ -74,8 +74,8 @@ Results::Counts Results::counts_of(const ResultsLayout& layout) noexcept {
   RONDO_DEMAND(layout.mesh != nullptr, layout.n_snapshots);
   const mesh::Mesh& m = *layout.mesh;
   const bool contact = layout.contact && !m.boundary.empty();
-  return {m.n_nodes(),       m.boundary.size(), layout.n_snapshots,
-          layout.components, contact,           layout.stress};
+  return {m.n_nodes(), m.boundary.size(), layout.n_snapshots, layout.components,
+          contact,     layout.stress,     layout.modes.count};
 }
 
 /// Of results.h5: what describes the datasets, and an entry for each row.
@@ -117,9 +117,11 @@ Results::Results(const std::filesystem::path& directory, const ResultsLayout& la
                  "a node moves in the fixed frame; -1: in the co-rotating frame"});
   if (c_.times > 0) {
     create_frame();
-    create_snapshots();
-    create_fields();
+    if (c_.modes == 0) create_snapshots();
+    create_contact();
+    if (c_.modes == 0) create_fields();
     create_series();
+    if (c_.modes > 0) write_modes(layout.modes);
     reserve();
   }
   if (kept) {
@@ -130,7 +132,7 @@ Results::Results(const std::filesystem::path& directory, const ResultsLayout& la
   // From here on the file is there, and at any moment whole.
   file_.flush();
   replace_file(unfinished_.path, directory_ / results_name);
-  begin_xdmf(*layout.mesh);
+  if (c_.modes == 0) begin_xdmf(*layout.mesh);
 }
 
 /// With the grids of the snapshots that are there.
@@ -170,6 +172,8 @@ void Results::check(const Snapshot& s) const {
 }
 
 void Results::write_fields(const Snapshot& s) {
+  d_.displacement.write_row(written_, s.displacement.values);
+  d_.velocity.write_row(written_, s.velocity.values);
   const Complex turn = rotation(s.angle);
   const auto to_fixed = [&](std::size_t i, const Space& a) {
     return is_free(i) ? a : turned(turn, a);
@@ -187,7 +191,6 @@ void Results::write_fields(const Snapshot& s) {
     vectors_[i] = rounded(to_fixed(i, in_space(s.velocity[i])));
   row(d_.field_velocity, vectors_);
   if (c_.stress) write_stress(s);
-  if (c_.contact) write_contact(s);
 }
 
 void Results::write_stress(const Snapshot& s) {
@@ -207,7 +210,7 @@ void Results::write_contact(const Snapshot& s) {
     for (std::size_t i = k * c_.components; i < (k + 1) * c_.components; ++i)
       traction_[i] = s.contact_force.values[i] / tributary_[k];
   }
-  row(d_.field_force, forces_);
+  if (c_.modes == 0) row(d_.field_force, forces_);
   d_.force.write_row(written_, s.contact_force.values);
   row(d_.traction, traction_);
 }
@@ -224,17 +227,16 @@ void Results::write_series(std::span<const double> values) {
 /// The time comes last: where it is a number, the snapshot is complete.
 void Results::write(const Snapshot& s) {
   check(s);
-  write_fields(s);
+  if (c_.modes == 0) write_fields(s);
+  if (c_.contact) write_contact(s);
   write_series(s.series);
-  d_.displacement.write_row(written_, s.displacement.values);
-  d_.velocity.write_row(written_, s.velocity.values);
   d_.center.write_row(written_, std::span<const Vec2>(&s.center, 1));
   row(d_.angle, s.angle);
   row(d_.angle_velocity, s.angle_velocity);
   row(d_.time_velocity, s.time_velocity);
   row(d_.time, s.time);
   ++written_;
-  xdmf_->add(s.time);
+  if (xdmf_) xdmf_->add(s.time);
 }
 
 void Results::close() {
@@ -244,7 +246,7 @@ void Results::close() {
   d_ = {};
   series_rows_.clear();
   file_.close();
-  xdmf_->close();
+  if (xdmf_) xdmf_->close();
 }
 
 Results::~Results() {
@@ -255,18 +257,21 @@ Results::~Results() {
 }
 
 void Results::sync() const {
-  for (const char* name : {results_name, "fields.xdmf"}) sync_file(directory_ / name);
+  sync_file(directory_ / results_name);
+  if (xdmf_) sync_file(directory_ / "fields.xdmf");
 }
 
 std::size_t Results::bytes(const ResultsLayout& layout) noexcept {
   const Counts c = counts_of(layout);
   constexpr std::size_t real = 8, single = 4;
-  const std::size_t node =
+  const std::size_t fields =
       2 * c.components * real + (9U + (c.contact ? 3U : 0U) + (c.stress ? 7U : 0U)) * single;
+  const std::size_t node = c.modes == 0 ? fields : 0;
   const std::size_t candidate = c.contact ? 2 * c.components * real : 0;
   std::size_t frame = 6 * real;
   for (const Series& s : layout.series) frame += s.components * real;
   return index_bytes(c) + mesh_bytes(*layout.mesh) + layout.free_body.size() * sizeof(int) +
+         layout.modes.basis.size() * real +
          c.times * (frame + c.nodes * node + c.candidates * candidate);
 }
 

@@ -46,6 +46,13 @@ struct ResultsWords {
   std::string force = "impulse of the step over its length";
 };
 
+/// What lifts the reduced coordinates among the series, where snapshots are kept by these.
+struct ReducedModes {
+  std::span<const double> basis;  ///< (count, n, 2) mode after mode, node after node x, y
+  std::size_t count = 0;          ///< 0: snapshots are fields of all nodes
+  std::string frame;              ///< "rectified" or "turning"
+};
+
 struct ResultsLayout {
   const mesh::Mesh* mesh = nullptr;
   std::span<const double> mass;  ///< (n) lumped mass per unit thickness [kg/m]
@@ -58,6 +65,7 @@ struct ResultsLayout {
   std::size_t components = 2;  ///< of the vectors of a snapshot
   ResultsWords words = {};
   std::vector<Series> series = {};
+  ReducedModes modes = {};  ///< with them: neither /snapshots, /fields, stress nor fields.xdmf
 };
 
 /// One snapshot; spans are only read during the call. Times and rates are in the units of the
@@ -79,9 +87,10 @@ struct Snapshot {
 
 class Results {
  public:
-  /// Creates directory/results.h5 and directory/fields.xdmf. @param kept goes on with files that
-  /// are there, after so many of their snapshots: these are copied into a new results.h5, which
-  /// takes the old one's place once it is whole. @pre the same mesh, at most as many as planned.
+  /// Creates directory/results.h5 and, of fields, directory/fields.xdmf. @param kept goes on with
+  /// files that are there, after so many of their snapshots: these are copied into a new
+  /// results.h5, which takes the old one's place once it is whole. @pre the same mesh, at most as
+  /// many as planned.
   /// @throws FileError: damaged, or fewer snapshots there
   Results(const std::filesystem::path& directory, const ResultsLayout& layout,
           std::optional<std::size_t> kept = {});
@@ -105,6 +114,7 @@ class Results {
   struct Counts {
     std::size_t nodes, candidates, times, components;
     bool contact, stress;
+    std::size_t modes;  ///< 0: fields of all nodes
   };
   [[nodiscard]] static Counts counts_of(const ResultsLayout& layout) noexcept;
   [[nodiscard]] static std::size_t index_bytes(const Counts& counts) noexcept;
@@ -113,8 +123,10 @@ class Results {
                 const h5::Label& label);
   void create_frame();
   void create_snapshots();
+  void create_contact();
   void create_fields();
   void create_series();
+  void write_modes(const ReducedModes& modes);
   void reserve();
   void resize(std::size_t rows);
   void check(const Snapshot& s) const;
@@ -159,7 +171,7 @@ class Results {
   std::vector<Series> series_;
   std::vector<h5::Dataset> series_rows_;  ///< one for each of them
   std::vector<h5::Dataset*> all_rows_;    ///< those that there are, of d_ and series_rows_
-  std::unique_ptr<Xdmf> xdmf_;
+  std::unique_ptr<Xdmf> xdmf_;            ///< none: no fields
 };
 
 }  // namespace rondo::io

@@ -37,6 +37,9 @@ void Results::create_snapshots() {
                                                         : words_.velocity};
   add_rows(d_.velocity, "/snapshots/velocity", Type::float64, {c_.times, c_.nodes, c_.components},
            velocity);
+}
+
+void Results::create_contact() {
   if (!c_.contact) return;
   const h5::Shape shape = {c_.times, c_.candidates, c_.components};
   add_rows(
@@ -68,6 +71,15 @@ void Results::create_fields() {
            {"Pa",
             "Cauchy stress at each node along the fixed axes: "
             "xx, xy, xz, yy, yz, zz"});
+}
+
+/// Once: the directory stands without the model's file.
+void Results::write_modes(const ReducedModes& modes) {
+  file_.write("/reduced/modes", {modes.count, c_.nodes, 2}, modes.basis,
+              {"kg^(-1/2)",
+               "modes Φ of the reduced model, node: x, y, in the frame that the attribute `frame` "
+               "names; u = T(-angle) Φᵀ q where that is rectified, Φᵀ q where it is turning"});
+  file_.set_attribute("/reduced/modes", "frame", modes.frame);
 }
 
 void Results::create_series() {

@@ -19,9 +19,10 @@ namespace {
 
 constexpr const char* format_name = "rondo results 1";
 
-[[noreturn]] void refuse(const fs::path& directory, const std::string& what) {
-  throw request_error("RUN", directory.string(), what,
-                      "the directory of a run, as `rondo run CASE.toml -o RUN` makes it");
+[[noreturn]] void refuse(
+    const fs::path& directory, const std::string& what,
+    const char* wanted = "the directory of a run, as `rondo run CASE.toml -o RUN` makes it") {
+  throw request_error("RUN", directory.string(), what, wanted);
 }
 
 /// results.h5 of a directory that holds one.
@@ -123,6 +124,10 @@ void RunReader::read_times() {
 }
 
 void RunReader::open_snapshots() {
+  if (file_.contains("/reduced/modes"))
+    refuse(directory_,
+           "holds snapshots of modes (rondo run --snapshots modes), which are read in Python only",
+           "the same run with --snapshots fields");
   const auto open = [&](const char* name, std::size_t points, h5::Dataset& dataset) {
     if (file_.contains(name)) dataset = file_.dataset(name, {n_planned_, points, 2});
   };

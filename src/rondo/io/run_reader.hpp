@@ -31,8 +31,9 @@ struct RunTimes {
 
 class RunReader {
  public:
-  /// @throws InputError: `directory` is not there or holds no results.h5; FileError: results.h5 is
-  /// damaged, truncated, not of this program, or its datasets do not fit each other
+  /// @throws InputError: `directory` is not there, holds no results.h5 or snapshots of modes;
+  /// FileError: results.h5 is damaged, truncated, not of this program, or its datasets do not fit
+  /// each other
   explicit RunReader(std::filesystem::path directory);
 
   [[nodiscard]] const std::filesystem::path& directory() const noexcept { return directory_; }

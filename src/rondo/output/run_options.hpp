@@ -30,6 +30,7 @@ struct RunOptions {
   std::filesystem::path reduced;          ///< model to run on instead of the mesh; empty: the mesh
   double step_factor = 20.0;              ///< with it: step over that of the full run
   std::string reduced_step = "midpoint";  ///< with it: or "explicit"
+  std::string reduced_snapshots = "fields";  ///< with it: or "modes", lifted when they are read
 };
 
 /// How a run ended. `failed` is an outcome of the numerics: not finite, or a residual out of bound.

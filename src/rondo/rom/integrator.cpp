@@ -49,6 +49,7 @@ ReducedIntegrator::ReducedIntegrator(const IntegratorInput& input, const dynamic
       lift_(input.mesh, input.reduced),
       q_(lift_.restrict_to_modes(0.0, start.u, input.model.mass)),
       p_(lift_.restrict_to_modes(0.0, start.v, input.model.mass)) {
+  if (!input.lifts) boundary_lift_.emplace(input.mesh, input.reduced);
   if (input.model.contact)
     contact_ = std::make_unique<ContactSolver>(
         input.mesh, input.reduced, input.model.contact->ground,
@@ -331,16 +332,23 @@ void ReducedIntegrator::fill_contacts(double angle,
   active.resize(kept);
 }
 
+double ReducedIntegrator::state_velocity_angle() const noexcept {
+  if (input_.scheme == StepScheme::central) return frame_.angle;
+  return input_.model.motion.angle(frame_.time - 0.5 * input_.model.dt);
+}
+
+void ReducedIntegrator::lift(dynamics::State& state) const noexcept {
+  lift_.lift(frame_.angle, q_, state.u);
+  lift_.lift(state_velocity_angle(), state_velocity(), state.v);
+}
+
 void ReducedIntegrator::fill(dynamics::State& state) {
   state.step = n_;
   state.frame = frame_;
-  lift_.lift(frame_.angle, q_, state.u);
-  if (input_.scheme == StepScheme::central) {
-    lift_.lift(frame_.angle, carried_, state.v);
-  } else {
-    const double half = frame_.time - 0.5 * input_.model.dt;
-    lift_.lift(input_.model.motion.angle(half), p_mid_, state.v);
-  }
+  if (boundary_lift_)
+    boundary_lift_->lift(frame_.angle, q_, state.u);
+  else
+    lift(state);
   fill_contacts(frame_.angle, state.active);
 }
 

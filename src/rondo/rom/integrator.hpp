@@ -5,6 +5,7 @@
 /// before, P̄.
 #pragma once
 #include <memory>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -37,6 +38,8 @@ struct IntegratorInput {
   const rom::ReducedModel& reduced;
   StepFigures& figures;  ///< counted here
   StepScheme scheme = StepScheme::midpoint;
+  /// false: of the fields of a state only u on the boundary is filled; lift() makes the others
+  bool lifts = true;
 };
 
 class ReducedIntegrator final : public dynamics::Integrator {
@@ -57,6 +60,14 @@ class ReducedIntegrator final : public dynamics::Integrator {
   /// (r) coefficients of displacement and velocity, after the last step.
   [[nodiscard]] const VectorXd& displacement() const noexcept { return q_; }
   [[nodiscard]] const VectorXd& velocity() const noexcept { return p_; }
+  /// (r) of the velocity that a state has, half a step before its displacement, and the angle that
+  /// lifts it: central differences carry it to the frame of the displacement. @pre a step is made
+  [[nodiscard]] const VectorXd& state_velocity() const noexcept {
+    return input_.scheme == StepScheme::central ? carried_ : p_mid_;
+  }
+  [[nodiscard]] double state_velocity_angle() const noexcept;
+  /// u and v of the state after the last step, on all nodes.
+  void lift(dynamics::State& state) const noexcept;
 
  private:
   struct Motion;
@@ -78,7 +89,8 @@ class ReducedIntegrator final : public dynamics::Integrator {
   const IntegratorInput input_;
   std::vector<int> candidates_;  ///< (N) place in mesh.boundary, ring after ring
   mutable rom::Lift lift_;
-  std::unique_ptr<ContactSolver> contact_;  ///< none: no ground
+  std::optional<rom::BoundaryLift> boundary_lift_;  ///< none: states are lifted whole
+  std::unique_ptr<ContactSolver> contact_;          ///< none: no ground
   std::unique_ptr<StepMatrices> matrices_;
   dynamics::Ledger ledger_;
   long long n_ = 0;  ///< steps made

@@ -46,6 +46,13 @@ VectorXd weighted_field(std::span<const Vec2> field, const VectorXd& roots) {
   return out;
 }
 
+MatrixXd rows_of(const MatrixXd& basis, const std::vector<int>& nodes) {
+  MatrixXd rows(static_cast<Index>(2 * nodes.size()), basis.cols());
+  for (std::size_t k = 0; k < nodes.size(); ++k)
+    rows.middleRows(static_cast<Index>(2 * k), 2) = basis.middleRows(Index{2} * nodes[k], 2);
+  return rows;
+}
+
 }  // namespace
 
 VectorXd mass_roots(std::span<const double> mass) {
@@ -132,18 +139,21 @@ void set_contact(const mesh::Mesh& mesh, ContactForm form, MatrixXd weights, Red
 }
 
 Lift::Lift(const mesh::Mesh& mesh, const ReducedModel& model)
-    : model_(model),
-      moves_(model.frame == ModelFrame::rectified),
-      rings_(pod::node_rings(mesh)),
+    : Lift(model.basis, model.frame, pod::node_rings(mesh)) {}
+
+Lift::Lift(const MatrixXd& basis, ModelFrame frame, pod::Rings rings)
+    : basis_(basis),
+      moves_(frame == ModelFrame::rectified),
+      rings_(std::move(rings)),
       rectifier_(rings_.n_sectors, rings_.n_rings(), pod::Components::cartesian,
                  pod::Shift::fourier),
-      ordered_(mesh.n_nodes()),
-      field_(model.basis.rows()) {}
+      ordered_(rings_.point.size()),
+      field_(basis.rows()) {}
 
 void Lift::lift(double theta, const VectorXd& q, std::span<Vec2> out) {
   // The library knows the processor: this product is most of what a snapshot costs.
   const OneBlasThread one;
-  pod::multiply(model_.basis, q, field_);
+  pod::multiply(basis_, q, field_);
   const std::span<Vec2> rectified = as_field(field_.data(), field_.size());
   std::copy(rectified.begin(), rectified.end(), out.begin());
   if (moves_)
@@ -159,7 +169,19 @@ VectorXd Lift::restrict_to_modes(double theta, std::span<const Vec2> field,
     in_rings(rings_, rectified, ordered_,
              [&](std::span<Vec2> values) { rectifier_.apply(theta, values); });
   for (std::size_t i = 0; i < mass.size(); ++i) rectified[i] = mass[i] * rectified[i];
-  return model_.basis.transpose() * field_;
+  return basis_.transpose() * field_;
+}
+
+BoundaryLift::BoundaryLift(const mesh::Mesh& mesh, const ReducedModel& model)
+    : boundary_(mesh.boundary),
+      basis_(rows_of(model.basis, mesh.boundary)),
+      lift_(basis_, model.frame, pod::boundary_rings(mesh)),
+      values_(mesh.boundary.size()) {}
+
+void BoundaryLift::lift(double theta, const VectorXd& q, std::span<Vec2> u) {
+  lift_.lift(theta, q, values_);
+  for (std::size_t k = 0; k < values_.size(); ++k)
+    u[static_cast<std::size_t>(boundary_[k])] = values_[k];
 }
 
 }  // namespace rondo::rom

@@ -72,6 +72,8 @@ class Lift {
  public:
   /// The model must outlive it. @pre pod::node_rings(mesh) has sectors
   Lift(const mesh::Mesh& mesh, const ReducedModel& model);
+  /// Of some points: the rows of the basis are theirs, and must outlive it.
+  Lift(const Eigen::MatrixXd& basis, ModelFrame frame, pod::Rings rings);
   /// out = T(-θ) Φ q; Φ q in the turning frame. @param out (n)
   void lift(double theta, const Eigen::VectorXd& q, std::span<Vec2> out);
   /// ΦᵀM T(θ) u, or ΦᵀM u: of fields in the span of the modes, the inverse. @param mass (n)
@@ -79,12 +81,27 @@ class Lift {
                                                   std::span<const double> mass);
 
  private:
-  const ReducedModel& model_;
+  const Eigen::MatrixXd& basis_;
   bool moves_;
   pod::Rings rings_;
   pod::Rectifier rectifier_;
   std::vector<Vec2> ordered_;  ///< (n) ring after ring
   Eigen::VectorXd field_;      ///< (2n)
+};
+
+/// The boundary's share of Lift, at a fraction of its cost.
+class BoundaryLift {
+ public:
+  /// The mesh must outlive it.
+  BoundaryLift(const mesh::Mesh& mesh, const ReducedModel& model);
+  /// Fills the boundary's nodes of u (n) and leaves the others alone.
+  void lift(double theta, const Eigen::VectorXd& q, std::span<Vec2> u);
+
+ private:
+  const std::vector<int>& boundary_;
+  const Eigen::MatrixXd basis_;  ///< (2nb, r)
+  Lift lift_;
+  std::vector<Vec2> values_;  ///< (nb)
 };
 
 }  // namespace rondo::rom
