@@ -190,7 +190,8 @@ DirectoryLock take_results_directory(const fs::path& directory, DirectoryUse use
     remove_one(directory / "run.json");
   }
   if (use != DirectoryUse::begin) return lock;
-  const std::string go_on = is_there(directory / "checkpoint.h5") ? ", --resume to continue it" : "";
+  const std::string go_on =
+      is_there(directory / "checkpoint.h5") ? ", --resume to continue it" : "";
   if (const std::string mark = mark_of_run(directory); !mark.empty())
     refuse_directory(directory, fmt::format("holds another run ({} is there)", mark),
                      fmt::format("{}{}, or give --overwrite", elsewhere, go_on));

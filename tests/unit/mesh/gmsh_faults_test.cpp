@@ -173,7 +173,8 @@ TEST(GmshFaults, Volumes) {
 TEST(GmshFaults, NoCells) {
   Msh msh = squares();
   msh.elements.resize(first_square);
-  expect_refused(msh, {"no triangles and no quadrilaterals", "Mesh.SaveAll", "Physical Surface(\"body\")"});
+  expect_refused(
+      msh, {"no triangles and no quadrilaterals", "Mesh.SaveAll", "Physical Surface(\"body\")"});
 }
 
 // Physical groups -----------------------------------------------------------------------------

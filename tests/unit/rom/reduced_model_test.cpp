@@ -223,8 +223,8 @@ TEST(ContactRows, BetweenTheNodesAreTheLiftedField) {
     const double phase = 2.0 * std::numbers::pi / b.mesh.n_sectors * j / phases;
     lift.lift(phase, q, field);
     for (std::size_t k = 0; k < ring.point.size(); ++k) {
-      const auto node = static_cast<std::size_t>(
-          b.mesh.boundary[static_cast<std::size_t>(ring.point[k])]);
+      const auto node =
+          static_cast<std::size_t>(b.mesh.boundary[static_cast<std::size_t>(ring.point[k])]);
       const std::size_t point = k * phases + static_cast<std::size_t>(j);
       const Vec2 u = rotation(phase) * field[node];
       EXPECT_NEAR(at[static_cast<Index>(2 * point)], u.x, 1e-13 * at.norm());

@@ -24,7 +24,8 @@ std::size_t mesh_memory(std::size_t nodes) noexcept {
 
 bool has_wide_rows(const Case& c, const mesh::Mesh& mesh) noexcept {
   const auto by_mean = [](const fem::Material& m) { return fem::element_law(m).mean_bulk > 0.0; };
-  return (by_mean(c.material) || std::ranges::any_of(c.regions, by_mean, &MaterialRegion::material)) &&
+  return (by_mean(c.material) ||
+          std::ranges::any_of(c.regions, by_mean, &MaterialRegion::material)) &&
          std::ranges::any_of(mesh.cells,
                              [](const mesh::Cell& cell) { return mesh::n_corners(cell) == 3; });
 }

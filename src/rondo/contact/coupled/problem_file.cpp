@@ -85,8 +85,7 @@ std::string bad_number(const ProblemFile& f) {
       !all_in_range(f.impulse))
     return fmt::format("a number is larger than {:.0e}", largest);
   for (std::size_t j = 0; j < p.size(); ++j)
-    if (p.friction[j] < 0.0)
-      return fmt::format("contact {}: friction >= 0 does not hold", j);
+    if (p.friction[j] < 0.0) return fmt::format("contact {}: friction >= 0 does not hold", j);
   return f.result.iterations < 0 ? "iterations is no count" : "";
 }
 
