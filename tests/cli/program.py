@@ -120,3 +120,9 @@ class RunTest(ProgramTest):
         self.assertEqual(done.returncode, 0, done.stderr)
         self.assertEqual(done.stdout, "")
         return done
+
+
+def corner_areas(places, cells):
+    """(corner, ..., cell) Cross products of the edges of quadrilaterals at their corners."""
+    x = [places[..., cells[:, a], :] for a in range(4)]
+    return np.array([np.cross(x[(a + 1) % 4] - x[a], x[a - 1] - x[a]) for a in range(4)])

@@ -8,7 +8,7 @@ import unittest
 import h5py
 import numpy as np
 
-from program import ProgramTest, ROOT, SMALL, history, replaced, run, summary
+from program import ProgramTest, ROOT, SMALL, corner_areas, history, replaced, run, summary
 
 SPIN = (ROOT / "cases" / "spin-up-undamped.toml").read_text()
 SPIN = replaced(replaced(SPIN, "radial", "radial = 4"), "circumferential", "circumferential = 60")
@@ -167,19 +167,18 @@ class Stability(ProgramTest):
         s = summary(out)
         self.assertEqual(done.returncode, 0, done.stderr)
         self.assertIn(f"the largest strain is {s['strain_max']:.3g}", done.stderr)
+        self.assertIn("66.7 % of the 0.15 m", s["warnings"][0])  # of before the first step
+        self.assertIn("above 10 % results are rough", s["warnings"][-1])
         self.assertGreater(s["strain_max"], 0.4)
         self.assertLess(s["jacobian_min"], 0.6)
         with h5py.File(out / "results.h5") as f:
             cells, x = f["/mesh/cells"][:], f["/mesh/coordinates"][:]
             u, t = f["/snapshots/displacement"][:], f["/frame/time"][:]
-        a, b = x[cells[:, 2]] - x[cells[:, 0]], x[cells[:, 3]] - x[cells[:, 1]]
-        moved = x + u
-        area = np.cross(moved[:, cells[:, 2]] - moved[:, cells[:, 0]],
-                        moved[:, cells[:, 3]] - moved[:, cells[:, 1]]) / np.cross(a, b)
+        corner = corner_areas(x + u, cells) / corner_areas(x, cells)
         looked = np.abs(t - s["jacobian_min_time"]).argmin()  # at a snapshot
-        self.assertAlmostEqual(s["jacobian_min"], area[looked].min(), delta=1e-12)
+        self.assertAlmostEqual(s["jacobian_min"], corner[:, looked].min(), delta=1e-12)
         self.assertAlmostEqual(s["jacobian_min_time"], t[looked], delta=1e-12)
-        self.assertLess(s["jacobian_min"], area.min() + 0.05)
+        self.assertLess(s["jacobian_min"], corner.min() + 0.05)
         shallow = run("run", self.case(SMALL), "-o", out, "--quiet", "--overwrite")
         self.assertEqual(shallow.stderr, "")
         self.assertTrue(0.01 < summary(out)["strain_max"] < 0.1)
@@ -190,9 +189,17 @@ class Stability(ProgramTest):
         done = run("run", self.case(through), "-o", out, "--quiet")
         self.assertEqual(done.returncode, 3, done.stderr)
         s = summary(out)
-        self.assertIn(f"element {s['jacobian_min_cell']} near", done.stderr)
+        self.assertIn(f"cell {s['jacobian_min_cell']} of /mesh/cells near", done.stderr)
         self.assertIn("is inverted", done.stderr)
         self.assertIn(f"t = {s['jacobian_min_time']:.9g} s", done.stderr)
+        self.assertLessEqual(s["jacobian_min"], 0.0)
+
+    def test_an_inverted_corner_ends_the_run(self):
+        """Of a cell whose area is positive: J = 0.15 at its center."""
+        ledge = (ROOT / "cases" / "ledge-smooth.toml").read_text()
+        done, s = self.ends(ledge, "ledge", "motion.height=0.22", "output.snapshots=60")
+        self.assertEqual(done.returncode, 3, done.stderr)
+        self.assertIn("is inverted", done.stderr)
         self.assertLessEqual(s["jacobian_min"], 0.0)
 
     def test_steps_near_the_critical_one_with_contact(self):

@@ -83,7 +83,7 @@ class Analysis {
   virtual void close() {}
 
   // After it ------------------------------------------------------------------------------------
-  /// Adds figures to run.json and to the report. @param report status, times, snapshots are there
+  /// Adds to run.json, with later "warnings", and to the report: status, times, snapshots are there
   virtual void summarise(Json& json, RunReport& report) const = 0;
 };
 

@@ -374,13 +374,13 @@ void DynamicAnalysis::summarise(Json& j, RunReport& r) const {
   r.energy_residual_relative = balance_.relative;
   r.contact_residual_max = contact_.residual;
   r.penetration_max_m = contact_.penetration;
+  for (const std::string& warning : warnings_) j["warnings"].push_back(warning);
   strain_->summarise({}, j, r);
   j["steps_done"] = steps_;
   j["end_time"] = time;
   j["ns_per_dof_step"] = r.ns_per_dof_step;
   j["energy_residual_relative"] = balance_.relative;
   j["energy_exchanged"] = balance_.exchanged;
-  j["warnings"] = warnings_;
   j["contact_residual_max"] = contact_.residual;
   j["penetration_max_m"] = contact_.penetration;
   j["contact"] = {{"steps_in_contact", contact_.contact_steps},

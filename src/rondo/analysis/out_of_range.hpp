@@ -11,7 +11,7 @@
 namespace rondo::study {
 
 /// Strain energy of root-mean-square strains of 1 in the stiffest material [J/m]: beyond what small
-/// strains can mean. It is looked at in every step; cells that turn inside out now and then.
+/// strains can mean. Compared at every step; an inverted cell is seen at looks of StrainWatch.
 double largest_strain_energy(const Setup& setup);
 
 /// What is out of bound, and when: a half step (velocities, ledger) comes before its step's

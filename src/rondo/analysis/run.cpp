@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <chrono>
 #include <new>
 #include <optional>
@@ -66,17 +67,31 @@ Loop record(Run& run, const Json& json) {
   }
 }
 
-void add_resumed(const Run& run, Json& json) {
-  if (!run.from) return;
-  Json steps = Json::array();
+/// An array of the run.json of a run that is resumed; empty where there is none.
+Json array_before(const Run& run, const char* key) {
+  if (!run.from) return Json::array();
   try {
     const Json before = io::read_json(run.options.directory / "run.json");
-    const auto found = before.find("resumed_at_steps");
-    if (found != before.end() && found->is_array()) steps = *found;
+    const auto found = before.find(key);
+    if (found != before.end() && found->is_array()) return *found;
   } catch (const FileError&) {  // a lost run.json loses nothing else
   }
+  return Json::array();
+}
+
+/// Those before a checkpoint stay; what is said again at the start stands there once.
+void add_warnings(const Run& run, Json& json) {
+  Json all = array_before(run, "warnings");
+  for (const std::string& warning : run.analysis.warnings())
+    if (std::find(all.begin(), all.end(), Json(warning)) == all.end()) all.push_back(warning);
+  json["warnings"] = std::move(all);
+}
+
+void add_resumed(const Run& run, Json& json) {
+  if (!run.from) return;
+  Json steps = array_before(run, "resumed_at_steps");
   steps.push_back(run.from->state.step);
-  json["resumed_at_steps"] = steps;
+  json["resumed_at_steps"] = std::move(steps);
 }
 
 /// The run has come to its end and its files are closed.
@@ -113,6 +128,7 @@ Json describe(const Run& run) {
   json["columns"] = Json::array();
   for (const ColumnLabel& column : run.plan.columns)
     json["columns"].push_back({{"name", column.name}, {"unit", column.unit}});
+  add_warnings(run, json);
   add_resumed(run, json);
   return json;
 }

@@ -5,22 +5,10 @@
 
 #include <cmath>
 
+#include "rondo/mesh/locate.hpp"
 #include "rondo/model/corotated.hpp"
 
 namespace rondo::study {
-namespace {
-
-/// Mean of its corners, undeformed [m].
-Vec2 middle_of(const mesh::Mesh& mesh, std::size_t cell) {
-  const int n = mesh::n_corners(mesh.cells[cell]);
-  Vec2 sum;
-  for (int a = 0; a < n; ++a)
-    sum +=
-        mesh.coordinates[static_cast<std::size_t>(mesh.cells[cell][static_cast<std::size_t>(a)])];
-  return sum / n;
-}
-
-}  // namespace
 
 bool is_look(long long step, bool snapshot, long long before) noexcept {
   if (step % steps_between_looks == 0) return true;
@@ -34,8 +22,8 @@ StrainWatch::StrainWatch(const mesh::Mesh& mesh, const dynamics::Model* model)
 }
 
 std::string StrainWatch::cell_text(std::size_t cell) const {
-  const Vec2 at = middle_of(mesh_, cell);
-  return fmt::format("element {} near ({:.4g}, {:.4g})", cell, at.x, at.y);
+  const Vec2 at = mesh::middle_of(mesh_.coordinates, mesh_.cells[cell]);
+  return fmt::format("cell {} of /mesh/cells near ({:.4g}, {:.4g})", cell, at.x, at.y);
 }
 
 std::string StrainWatch::look(std::span<const Vec2> u, std::span<const dynamics::Pose> poses,
@@ -48,7 +36,7 @@ std::string StrainWatch::look(std::span<const Vec2> u, std::span<const dynamics:
   largest_.add(now, time);
   if (now.jacobian > 0.0) return {};
   return fmt::format(
-      "{} of the undeformed mesh is inverted: J = {:.3g}, its area over that undeformed. The body "
+      "{} of the undeformed mesh is inverted: J = {:.3g}, least of its corners. The body "
       "has left what its mesh and small strains mean; a smaller load, or a stiffer material",
       cell_text(now.jacobian_cell), now.jacobian);
 }
@@ -57,7 +45,7 @@ void StrainWatch::summarise(const TimeWords& words, Json& j, RunReport& r) const
   const fem::Deformation& found = largest_.found;
   if (!std::isfinite(found.jacobian)) return;  // the run had no look
   const auto place = [&](std::size_t cell) {
-    const Vec2 at = middle_of(mesh_, cell);
+    const Vec2 at = mesh::middle_of(mesh_.coordinates, mesh_.cells[cell]);
     return Json::array({at.x, at.y});
   };
   const auto where = [&](std::size_t cell, double time) {
@@ -74,10 +62,12 @@ void StrainWatch::summarise(const TimeWords& words, Json& j, RunReport& r) const
   r.strain_max = found.strain;
   r.jacobian_min = found.jacobian;
   if (found.strain <= small_strain) return;
-  r.warnings.push_back(fmt::format(
-      "the largest strain is {:.3g} ({}): the law of the material is for small strains, and above "
-      "{:.0f} % what it says is a rough figure",
-      found.strain, where(found.strain_cell, largest_.strain_time), 100.0 * small_strain));
+  const std::string warning = fmt::format(
+      "the largest strain is {:.3g} ({}): the law of the material is for small strains: above "
+      "{:.0f} % results are rough",
+      found.strain, where(found.strain_cell, largest_.strain_time), 100.0 * small_strain);
+  j["warnings"].push_back(warning);
+  r.warnings.push_back(warning);
 }
 
 }  // namespace rondo::study

@@ -1,9 +1,26 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "rondo/fem/strain.hpp"
 
+#include <array>
 #include <cmath>
 
 namespace rondo::fem {
+namespace {
+
+void keep_smaller(double jacobian, std::size_t cell, Deformation& d) noexcept {
+  if (!(jacobian < d.jacobian)) return;
+  d.jacobian = jacobian;
+  d.jacobian_cell = cell;
+}
+
+/// Twice the areas at the corners i, j, k, l of a quadrilateral, from its diagonals a = ik, b = jl
+/// and the edge ij: the corners at the ends of a diagonal have all of it together.
+std::array<double, 4> corner_areas(Vec2 a, Vec2 b, Vec2 edge) noexcept {
+  const double whole = cross(a, b), at_i = cross(edge, b), at_j = cross(edge, a);
+  return {at_i, at_j, whole - at_i, whole - at_j};
+}
+
+}  // namespace
 
 /// The gradient at the center of a bilinear cell maps its diagonals, that of a triangle two edges:
 /// [a b] and what they change by give ∂u/∂X = [δa δb] [a b]⁻¹.
@@ -23,15 +40,19 @@ Deformation deformation(const mesh::Mesh& mesh, std::span<const Vec2> u) noexcep
     const double yx = scale * (da.y * b.y - db.y * a.y), yy = scale * (db.y * a.x - da.y * b.x);
     const double deviation = std::sqrt((xx - yy) * (xx - yy) + (xy + yx) * (xy + yx));
     const double strain = 0.5 * (std::abs(xx + yy) + deviation);
-    const double jacobian = (1.0 + xx) * (1.0 + yy) - xy * yx;
     if (strain > d.strain) {
       d.strain = strain;
       d.strain_cell = e;
     }
-    if (jacobian < d.jacobian) {
-      d.jacobian = jacobian;
-      d.jacobian_cell = e;
+    if (triangle) {
+      keep_smaller((1.0 + xx) * (1.0 + yy) - xy * yx, e, d);
+      continue;
     }
+    const Vec2 edge = mesh.coordinates[j] - mesh.coordinates[i];
+    const std::array<double, 4> undeformed = corner_areas(a, b, edge),
+                                now = corner_areas(a + da, b + db, edge + (u[j] - u[i]));
+    for (std::size_t c = 0; c < 4; ++c)  // divides only where the smallest so far is beaten
+      if (now[c] < d.jacobian * undeformed[c]) keep_smaller(now[c] / undeformed[c], e, d);
   }
   return d;
 }

@@ -10,11 +10,11 @@
 
 namespace rondo::fem {
 
-/// Of all cells, at their centers; the first cell of equal ones.
+/// Of all cells; the first cell of equal ones.
 struct Deformation {
-  double strain = 0.0;  ///< largest |principal strain| of the law of the material
+  double strain = 0.0;  ///< largest |principal strain| of the law of the material, at the centers
   std::size_t strain_cell = 0;
-  /// Smallest det(I + ∂u/∂X): the cell's area over that undeformed; <= 0: it is inverted.
+  /// Smallest det(I + ∂u/∂X) at a corner; <= 0: the cell is inverted, there at the least.
   double jacobian = std::numeric_limits<double>::infinity();
   std::size_t jacobian_cell = 0;
 };

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "rondo/mesh/gmsh_draft.hpp"
+#include "rondo/mesh/locate.hpp"
 #include "rondo/mesh/mesh_check.hpp"
 #include "rondo/mesh/physical_group.hpp"
 
@@ -169,12 +170,9 @@ std::string Draft::node_text(int node) const {
 }
 
 std::string Draft::cell_text(int cell) const {
-  const Cell& nodes = mesh.cells[static_cast<std::size_t>(cell)];
-  Vec2 center;
-  for (int a = 0; a < n_corners(nodes); ++a)
-    center += mesh.coordinates[static_cast<std::size_t>(nodes[static_cast<std::size_t>(a)])];
-  return fmt::format("element {} at {}", cell_tag[static_cast<std::size_t>(cell)],
-                     place_text(center / n_corners(nodes)));
+  const auto e = static_cast<std::size_t>(cell);
+  return fmt::format("element {} at {}", cell_tag[e],
+                     place_text(middle_of(mesh.coordinates, mesh.cells[e])));
 }
 
 Draft draft_mesh(const RawMesh& raw, const TagIndex& index, const MeshRequest& request,

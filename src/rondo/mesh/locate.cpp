@@ -52,6 +52,14 @@ double distance_to_segment(Vec2 a, Vec2 b, Vec2 p) {
 
 }  // namespace
 
+Vec2 middle_of(std::span<const Vec2> coordinates, const Cell& cell) noexcept {
+  Vec2 sum;
+  const int n = n_corners(cell);
+  for (int a = 0; a < n; ++a)
+    sum += coordinates[static_cast<std::size_t>(cell[static_cast<std::size_t>(a)])];
+  return sum / n;
+}
+
 std::optional<std::array<double, 4>> shape_functions(std::span<const Vec2> corners, Vec2 p) {
   if (corners.size() == 4) return bilinear_at(corners, p);
   const auto n = barycentric(corners, p);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-/// @file  Which cell holds a point, and where in the cell it is.
+/// @file  Where a cell is, which cell holds a point, and where in the cell it is.
 #pragma once
 #include <array>
 #include <optional>
@@ -9,6 +9,9 @@
 #include "rondo/mesh/mesh.hpp"
 
 namespace rondo::mesh {
+
+/// Mean of the corners of a cell [m]. @param coordinates (n) of the nodes, wherever they are
+Vec2 middle_of(std::span<const Vec2> coordinates, const Cell& cell) noexcept;
 
 /// Shape functions N_a at a point p = Σ N_a x_a of a cell, 0 past its corners: barycentric
 /// (triangle), bilinear (quadrilateral, by Newton's method). None where p is outside, by more than

@@ -65,7 +65,7 @@ void for_deformation(Known& d, Visit&& visit) {
   visit("/deformation/strain", d.found.strain, {"1", "largest |principal strain|"});
   visit("/deformation/strain_cell", d.found.strain_cell, {"1", "its cell"});
   visit("/deformation/strain_time", d.strain_time, {"s", "its time"});
-  visit("/deformation/jacobian", d.found.jacobian, {"1", "smallest area over that undeformed"});
+  visit("/deformation/jacobian", d.found.jacobian, {"1", "smallest J of a corner"});
   visit("/deformation/jacobian_cell", d.found.jacobian_cell, {"1", "its cell"});
   visit("/deformation/jacobian_time", d.jacobian_time, {"s", "its time"});
 }

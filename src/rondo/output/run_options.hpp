@@ -53,7 +53,7 @@ struct RunReport {
   double contact_residual_max = 0.0;
   double penetration_max_m = 0.0;
   double strain_max = 0.0;    ///< largest |principal strain| seen
-  double jacobian_min = 1.0;  ///< smallest area of a cell over that undeformed
+  double jacobian_min = 1.0;  ///< smallest J at a corner of an element
   std::size_t snapshots = 0;
   std::vector<std::string> warnings;  ///< of what only the run could tell; the caller prints them
 };

@@ -5,6 +5,7 @@
 #include "rondo/analysis/build/build.hpp"
 #include "rondo/analysis/build/crush_setup.hpp"
 #include "rondo/analysis/build/physical.hpp"
+#include "rondo/mesh/locate.hpp"
 #include "unit/case/case_fixture.hpp"
 
 namespace rondo::study::test {
@@ -86,6 +87,48 @@ TEST(Physical, NotOfWhatIsMeant) {
   EXPECT_EQ(warning({"motion.speed=0"}), "");
   EXPECT_EQ(warning({"motion.angular_velocity=0"}), "");
   EXPECT_EQ(warning({"motion.height=0.4", "motion.angular_velocity=[[0, 33.3], [1, 33.3]]"}), "");
+}
+
+/// A core of steel under rubber: what touches is the rubber, whatever [material] says.
+TEST(Physical, OfTwoMaterials) {
+  const Case c = read_text(wheel);
+  study::Setup s = build(c, 1);
+  fem::Material rubber = s.materials[0], steel = rubber;
+  steel.youngs_modulus = 2.1e11;
+  steel.density = 7850.0;
+  s.mesh.region_names = {"core", "rubber"};
+  for (const mesh::Cell& cell : s.mesh.cells)
+    s.mesh.region.push_back(norm(mesh::middle_of(s.mesh.coordinates, cell)) > 0.2 ? 1 : 0);
+  const auto told = [&](const fem::Material& core, const fem::Material& tread) {
+    s.materials = {core, tread};
+    s.figures.clear();
+    tell_physical_figures(c, s);
+  };
+  told(steel, rubber);
+  EXPECT_TRUE(has(figure(s, "contact pressure"), "1.5e+06 Pa, 0.073 of E"));
+  EXPECT_EQ(figure(s, "stiffness"), "E = 2e+07 Pa, as rubber; to E = 2.1e+11 Pa, as metals");
+  told(rubber, steel);
+  EXPECT_TRUE(has(figure(s, "contact pressure"), "1.5e+10 Pa, 0.073 of E"));
+}
+
+/// They are told with what is refused, which they may be the cause of.
+TEST(Physical, UnitsBesideARefusal) {
+  const auto refusal = [](const std::vector<std::string>& settings) -> std::string {
+    SharedBody shared;
+    std::string alone, all;
+    for (SharedBody* kept : {static_cast<SharedBody*>(nullptr), &shared}) try {
+        static_cast<void>(build(read_text(wheel, settings), 1, kept));
+      } catch (const InputError& error) {
+        (kept ? all : alone) = error.what();
+      }
+    EXPECT_EQ(alone, all);
+    return alone;
+  };
+  const std::string told = refusal({"time.step=1", "material.density=1.1e6"});
+  EXPECT_TRUE(has(told, "above the critical step"));
+  EXPECT_TRUE(has(told, "this may be the cause: a material with"));
+  EXPECT_TRUE(has(refusal({"motion.start_x=1e300", "material.density=1.1e6"}), "heavier than any"));
+  EXPECT_FALSE(has(refusal({"time.step=1"}), "cause"));
 }
 
 TEST(Physical, OfACrush) {

@@ -43,12 +43,28 @@ TEST(Strain, NamesTheCell) {
   EXPECT_LT(deformation(m, u).jacobian, 0.0);
 }
 
-/// Area over area of a cell whose map is not linear.
-TEST(Strain, JacobianIsTheAreaOfACell) {
+/// Where the map is not linear: the areas at the corners are not that of the center.
+TEST(Strain, JacobianIsTheLeastOfTheCorners) {
   mesh::Mesh m;
   m.coordinates = {{0.0, 0.0}, {1.0, 0.0}, {1.0, 1.0}, {0.0, 1.0}};
   m.cells = {{0, 1, 2, 3}};
-  EXPECT_NEAR(deformation(m, std::vector<Vec2>{{}, {}, {0.5, 0.25}, {}}).jacobian, 1.375, 1e-15);
+  EXPECT_EQ(deformation(m, std::vector<Vec2>{{}, {}, {0.5, 0.25}, {}}).jacobian, 1.0);  // corner 0
+  // Pushed through the diagonal: area 0.3 of 1, and that corner is inverted.
+  EXPECT_NEAR(deformation(m, std::vector<Vec2>{{}, {}, {-0.7, -0.7}, {}}).jacobian, -0.4, 1e-15);
+  // Over that undeformed at the same corner: 0.25 over 0.5 of a trapezium.
+  m.coordinates[2] = {0.5, 1.0};
+  EXPECT_NEAR(deformation(m, std::vector<Vec2>{{}, {}, {-0.25, 0.0}, {}}).jacobian, 0.5, 1e-15);
+}
+
+TEST(Strain, EveryCornerIsLookedAt) {
+  mesh::Mesh m;
+  m.coordinates = {{0.0, 0.0}, {1.0, 0.0}, {1.0, 1.0}, {0.0, 1.0}};
+  m.cells = {{0, 1, 2, 3}};
+  for (std::size_t corner = 0; corner < 4; ++corner) {
+    std::vector<Vec2> u(4);
+    u[corner] = 1.4 * (Vec2{0.5, 0.5} - m.coordinates[corner]);
+    EXPECT_NEAR(deformation(m, u).jacobian, -0.4, 1e-15) << corner;
+  }
 }
 
 TEST(Strain, TheLargestStays) {

@@ -215,36 +215,32 @@ std::string body_key(const Case& c) {
 namespace {
 
 /// What takes time, and hangs on body_key() alone.
-Setup make_body(const Case& c, int threads) {
-  Setup s;
+void make_body(const Case& c, int threads, Setup& s) {
   s.mesh = build_mesh(c, &s.warnings);
+  s.materials = materials_of(c, s.mesh);
+  warn_of_units(c, s.mesh, s.materials, s.warnings);
   demand_memory(c, s.mesh.n_nodes(), motion_memory(c, s.mesh));
   check_places(c, s.mesh);
-  s.materials = materials_of(c, s.mesh);
   s.probes = find_probes(c, s.mesh);  // before free bodies are moved to where they start
   make_model(c, s);
   s.dilatation = fem::NodalDilatation(s.mesh, s.materials);
   add_stress_stiffening(c, s);
   choose_threads(s, threads);
   s.critical = find_critical_step(c, s);
-  return s;
 }
 
-Setup shared_body(const Case& c, int threads, SharedBody& shared) {
+void demand_shared_body(const Case& c, int threads, SharedBody& shared) {
   std::string key = fmt::format("{}\nthreads = {}\n", body_key(c), threads);
   if (shared.key != key) {
     shared = {};
-    shared.setup = make_body(c, threads);
+    make_body(c, threads, shared.setup);
     shared.key = std::move(key);
   }
   check_places(c, shared.setup.mesh);
-  return shared.setup;
 }
 
-}  // namespace
-
-Setup build(const Case& c, int threads, SharedBody* shared) {
-  Setup s = shared ? shared_body(c, threads, *shared) : make_body(c, threads);
+/// What hangs on the rest of the case.
+void set_up_run(const Case& c, Setup& s, SharedBody* shared) {
   set_motion_and_friction(c, s.model);
   set_initial_fields(c, s, shared);
   check_start(c, s);
@@ -252,8 +248,35 @@ Setup build(const Case& c, int threads, SharedBody* shared) {
   s.n_steps = count_steps(c, s.model.dt);
   check_stability(c, s);
   tell_physical_figures(c, s);
-  if (shared) shared->setup.frequencies_above = s.frequencies_above;
-  return s;
+}
+
+/// Units that look wrong are told with what is refused: they may be its cause.
+InputError with_units(const Case& c, const Setup& s, const InputError& refusal) {
+  std::vector<std::string> units;
+  if (!s.materials.empty()) warn_of_units(c, s.mesh, s.materials, units);
+  std::vector<Fault> faults = refusal.faults();
+  for (const std::string& text : units)
+    faults.push_back({c.file.string(), 0, 0, "", "", "this may be the cause: " + text, ""});
+  return InputError(std::move(faults));
+}
+
+}  // namespace
+
+Setup build(const Case& c, int threads, SharedBody* shared) {
+  Setup s;
+  try {
+    if (shared) {
+      demand_shared_body(c, threads, *shared);
+      s = shared->setup;
+    } else {
+      make_body(c, threads, s);
+    }
+    set_up_run(c, s, shared);
+    if (shared) shared->setup.frequencies_above = s.frequencies_above;
+    return s;
+  } catch (const InputError& refusal) {
+    throw with_units(c, shared && s.materials.empty() ? shared->setup : s, refusal);
+  }
 }
 
 }  // namespace rondo::study

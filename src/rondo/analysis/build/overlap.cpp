@@ -112,12 +112,8 @@ class Overlaps {
     for (std::size_t k = 0; k < in_.mesh.n_nodes(); ++k)
       if (bodies_.of_node[k] >= 0)
         if (const auto found = look_at(in_.x[k], static_cast<int>(k))) return found;
-    for (const mesh::Cell& cell : in_.mesh.cells) {
-      const int n = mesh::n_corners(cell);
-      Vec2 sum;
-      for (int a = 0; a < n; ++a) sum += in_.x[at(cell[at(a)])];
-      if (const auto found = look_at(sum / n, cell[0])) return found;
-    }
+    for (const mesh::Cell& cell : in_.mesh.cells)
+      if (const auto found = look_at(mesh::middle_of(in_.x, cell), cell[0])) return found;
     return std::nullopt;
   }
 

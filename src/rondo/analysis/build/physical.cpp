@@ -137,9 +137,30 @@ void tell_speed(double speed, const std::vector<fem::Material>& materials, const
                     speed, share, shear, si));
 }
 
-void tell_stiffness(const fem::Material& m, const Tell& to) {
-  to.figures.emplace_back(
-      "stiffness", fmt::format("E = {:.3g} Pa, {}", m.youngs_modulus, order_of(m.youngs_modulus)));
+void tell_stiffness(const std::vector<fem::Material>& materials, const Tell& to) {
+  Range e;
+  for (const fem::Material& m : materials) e.take(m.youngs_modulus);
+  const auto text = [](double modulus) {
+    return fmt::format("E = {:.3g} Pa, {}", modulus, order_of(modulus));
+  };
+  to.figures.emplace_back("stiffness",
+                          e.low == e.high ? text(e.low) : text(e.low) + "; to " + text(e.high));
+}
+
+/// The softest of what may touch. @pre there are candidates
+const fem::Material& touching_material(const mesh::Mesh& mesh,
+                                       const std::vector<fem::Material>& materials) {
+  std::vector<char> touches(mesh.n_nodes(), 0);
+  for (const int node : mesh.boundary) touches[static_cast<std::size_t>(node)] = 1;
+  const fem::Material* softest = nullptr;
+  for (std::size_t e = 0; e < mesh.cells.size(); ++e) {
+    const fem::Material& m = fem::material_of(mesh, materials, e);
+    if (softest && softest->youngs_modulus <= m.youngs_modulus) continue;
+    for (int a = 0; a < mesh::n_corners(mesh.cells[e]); ++a)
+      if (touches[static_cast<std::size_t>(mesh.cells[e][static_cast<std::size_t>(a)])])
+        softest = &m;
+  }
+  return *softest;
 }
 
 }  // namespace
@@ -171,8 +192,7 @@ void warn_of_units(const Case& c, const mesh::Mesh& mesh,
 
 void tell_physical_figures(const Case& c, Setup& s) {
   const Tell to{s.figures, s.warnings};
-  warn_of_units(c, s.mesh, s.materials, s.warnings);
-  tell_stiffness(c.material, to);
+  tell_stiffness(s.materials, to);
   const std::optional<Wall> wall = is_held(c) ? wall_of(s.mesh) : std::nullopt;
   if (has_candidates(s.model))  // alone in space only spin strains: see the check of softening
     tell_speed(fastest(c, s, wall ? wall->radius : extent_of(s.mesh)), s.materials, to);
@@ -182,16 +202,16 @@ void tell_physical_figures(const Case& c, Setup& s) {
     const double gap = s.model.contact->ground.distance(c.motion.center(t));
     deflection = std::max(deflection, wall->radius - gap);
   });
-  tell_deflection(deflection, *wall, c.material, to);
+  tell_deflection(deflection, *wall, touching_material(s.mesh, s.materials), to);
   tell_slip(c, wall->radius, to);
 }
 
 void tell_physical_figures(const Case& c, CrushSetup& s) {
   const Tell to{s.figures, s.warnings};
   warn_of_units(c, s.mesh, s.materials, s.warnings);
-  tell_stiffness(c.material, to);
+  tell_stiffness(s.materials, to);
   if (const std::optional<Wall> wall = wall_of(s.mesh))
-    tell_deflection(c.analysis.depth, *wall, c.material, to);
+    tell_deflection(c.analysis.depth, *wall, touching_material(s.mesh, s.materials), to);
 }
 
 }  // namespace rondo::study

@@ -26,8 +26,9 @@ inline constexpr double least_size = 1e-4;        ///< likewise [m]
 void warn_of_units(const Case& c, const mesh::Mesh& mesh,
                    const std::vector<fem::Material>& materials, std::vector<std::string>& warnings);
 
-/// Fills figures and warnings. @pre the fields of the start are set
+/// Fills figures and warnings, but those of units. @pre the fields of the start are set
 void tell_physical_figures(const Case& c, Setup& s);
+/// With those of units.
 void tell_physical_figures(const Case& c, CrushSetup& s);
 
 }  // namespace rondo::study

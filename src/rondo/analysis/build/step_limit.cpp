@@ -7,19 +7,13 @@
 #include <cmath>
 
 #include "rondo/analysis/build/build.hpp"
+#include "rondo/mesh/locate.hpp"
 
 namespace rondo::study {
 namespace {
 
 std::size_t at(int index) noexcept {
   return static_cast<std::size_t>(index);
-}
-
-Vec2 middle_of(const mesh::Mesh& mesh, std::size_t cell) {
-  Vec2 sum;
-  const int n = mesh::n_corners(mesh.cells[cell]);
-  for (int a = 0; a < n; ++a) sum += mesh.coordinates[at(mesh.cells[cell][at(a)])];
-  return sum / static_cast<double>(n);
 }
 
 /// Parts of the body: number of each cell's, and what it is called.
@@ -78,7 +72,7 @@ StepLimit find_step_limit(const Case& c, const Setup& s) {
   StepLimit limit;
   limit.cell = static_cast<std::size_t>(worst - values.begin());
   limit.step = step_of(*worst);
-  limit.place = middle_of(s.mesh, limit.cell);
+  limit.place = mesh::middle_of(s.mesh.coordinates, s.mesh.cells[limit.cell]);
   const int part = parts.of_cell[limit.cell];
   limit.part = parts.names[at(part)];
   double elsewhere = 0.0;
@@ -98,8 +92,8 @@ std::vector<std::pair<std::string, std::string>> lines_of(const StepLimit& limit
   const auto seconds = [](double step) { return fmt::format("{:.6g} s", step); };
   std::vector<std::pair<std::string, std::string>> lines{
       {"set by",
-       fmt::format("cell {} at ({:.6g}, {:.6g}) m, {}: {} by the element bound", limit.cell,
-                   limit.place.x, limit.place.y, limit.part, seconds(limit.step))}};
+       fmt::format("cell {} of /mesh/cells at ({:.6g}, {:.6g}) m, {}: {} by the element bound",
+                   limit.cell, limit.place.x, limit.place.y, limit.part, seconds(limit.step))}};
   if (limit.without_worst > 0.0)
     lines.emplace_back("without the worst",
                        seconds(limit.without_worst) + ": a hundredth of the elements left out");

@@ -325,6 +325,7 @@ class ModesAnalysis final : public Analysis {
   void summarise(Json& json, RunReport& r) const override {
     const Progress at = progress();
     if (wrong_) json["message"] = *wrong_;
+    for (const std::string& warning : said_) json["warnings"].push_back(warning);
     io::write_json(request_.run.directory / "modes.json",
                    modes_json(case_, request_, report_, json));
     r.steps = at.done;
@@ -353,7 +354,10 @@ class ModesAnalysis final : public Analysis {
     const std::vector<ModeLine>& campbell = sweep_.empty() ? report_.modes : sweep_lines_;
     io::write_file(directory / "campbell.csv", campbell_table(campbell, body_.mesh.n_sectors));
   }
-  void say(const std::string& text) const { give_warnings({text}, request_.run); }
+  void say(const std::string& text) {
+    give_warnings({text}, request_.run);
+    said_.push_back(text);
+  }
   void judge(const SpinSummary& s);
 
   const Case& case_;
@@ -365,6 +369,7 @@ class ModesAnalysis final : public Analysis {
   std::vector<Solved> solved_;         ///< of spins_
   std::vector<ModeLine> sweep_lines_;  ///< of sweep_
   ModesReport report_;
+  std::vector<std::string> said_;     ///< warnings
   std::optional<std::string> wrong_;  ///< the first thing, which ends nothing but counts at the end
   std::optional<std::string> trouble_;
 };
