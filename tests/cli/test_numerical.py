@@ -234,7 +234,8 @@ class Stability(ProgramTest):
         [warning] = [w for w in s["warnings"] if "in the ground" in w]
         for part in ("t = ", "node ", "mesh.contact = \"foot\"", "\"sides\""):
             self.assertIn(part, warning)
-        done, s = self.ends(text, "boundary", *topples)
+        # At 12 s it lies on its side and the corner of a cell is inverted.
+        done, s = self.ends(text, "boundary", *topples[1:], "time.end=11")
         self.assertEqual(done.returncode, 0, done.stderr)
         self.assertNotIn("in the ground", " ".join(s["warnings"]))
 

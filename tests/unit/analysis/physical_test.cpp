@@ -114,10 +114,11 @@ TEST(Physical, OfTwoMaterials) {
 /// They are told with what is refused, which they may be the cause of.
 TEST(Physical, UnitsBesideARefusal) {
   const auto refusal = [](const std::vector<std::string>& settings) -> std::string {
+    const Case c = read_text(wheel, settings);
     SharedBody shared;
     std::string alone, all;
     for (SharedBody* kept : {static_cast<SharedBody*>(nullptr), &shared}) try {
-        static_cast<void>(build(read_text(wheel, settings), 1, kept));
+        static_cast<void>(build(c, 1, kept));
       } catch (const InputError& error) {
         (kept ? all : alone) = error.what();
       }
