@@ -11,6 +11,7 @@ from collections.abc import Callable, Sequence
 from rondo import __version__, open_modes, open_paper, open_sweep, open_validation
 from rondo import open as open_run
 from rondo.data.errors import Error, UnfinishedRunError
+from rondo.data.names import FRAME, OLDER_FRAMES
 from rondo.data.run import Run
 
 WRONG = 2  # exit code of wrong input, as the program's
@@ -59,7 +60,8 @@ def _parser() -> argparse.ArgumentParser:
 
     campbell = commands.add_parser("campbell", help="draw the frequencies of a body over its spin")
     campbell.add_argument("directory", type=pathlib.Path, help="of `rondo modes`")
-    campbell.add_argument("--frame", choices=("turning", "fixed"), default="turning",
+    campbell.add_argument("--frame", choices=(FRAME, "fixed", *OLDER_FRAMES), default=FRAME,
+                          metavar=f"{{{FRAME},fixed}}",
                           help="in which frequencies are seen; default %(default)s")
     campbell.add_argument("-o", "--output", type=pathlib.Path, metavar="FOLDER",
                           help="where campbell-FRAME.png and .svg go; default DIRECTORY/figures")
@@ -176,8 +178,12 @@ def _means(options: argparse.Namespace) -> None:
 def _campbell(options: argparse.Namespace) -> None:
     from rondo import style
 
-    figure = open_modes(options.directory).plot_campbell(options.frame)
-    for path in style.save(figure, _folder(options) / f"campbell-{options.frame}"):
+    frame = options.frame
+    if frame in OLDER_FRAMES:
+        print(f"rondo: warning: --frame {frame} is called {FRAME}", file=sys.stderr)
+        frame = FRAME
+    figure = open_modes(options.directory).plot_campbell(frame)
+    for path in style.save(figure, _folder(options) / f"campbell-{frame}"):
         print(path)
 
 

@@ -80,7 +80,7 @@ def _modes(pod: Pod, count: int = 6) -> Figure:
     return plot_modes(pod, count)
 
 
-def _campbell(modes: Modes, frame: str = "turning", ax: Axes | None = None) -> Figure:
+def _campbell(modes: Modes, frame: str = "co-rotating", ax: Axes | None = None) -> Figure:
     """Frequencies over the spin; see rondo.plots.campbell.plot_campbell."""
     from .plots.campbell import plot_campbell
     return plot_campbell(modes, frame, ax)

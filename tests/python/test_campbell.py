@@ -44,7 +44,7 @@ def test_branches(modes: pathlib.Path) -> None:
 def test_what_is_drawn(modes: pathlib.Path) -> None:
     found = rondo.open_modes(modes)
     branches = [b for b in found.branches if b.order == 1 and b.diameters <= 6]
-    for frame, lines in ("turning", [b.frequency for b in branches]), ("fixed", None):
+    for frame, lines in ("co-rotating", [b.frequency for b in branches]), ("fixed", None):
         figure = found.plot_campbell(frame)
         ax, = figure.axes
         assert without_unit(figure) == []
@@ -59,8 +59,11 @@ def test_what_is_drawn(modes: pathlib.Path) -> None:
             for branch, curve in zip(branches, ax.lines):
                 at = np.searchsorted(curve.get_xdata(), branch.spin)
                 assert np.allclose(curve.get_ydata()[at], branch.frequency_fixed)
-    with pytest.raises(rondo.Error, match="turning"):
-        found.plot_campbell("rotating")
+    with pytest.raises(rondo.Error, match="co-rotating"):
+        found.plot_campbell("standing")
+    with pytest.warns(DeprecationWarning, match='"turning" is called "co-rotating"') as said:
+        assert len(found.plot_campbell("turning").axes[0].lines) > len(branches)
+    assert [warning.filename for warning in said] == [__file__]
 
 
 def test_command(modes: pathlib.Path, tmp_path: pathlib.Path) -> None:
@@ -71,6 +74,10 @@ def test_command(modes: pathlib.Path, tmp_path: pathlib.Path) -> None:
     done = campbell(modes, "-o", tmp_path, "--frame", "fixed")
     assert (done.returncode, done.stderr) == (0, "")
     assert {p.name for p in tmp_path.iterdir()} == {"campbell-fixed.png", "campbell-fixed.svg"}
+    done = campbell(modes, "-o", tmp_path / "older", "--frame", "turning")
+    assert (done.returncode, done.stderr) == (
+        0, "rondo: warning: --frame turning is called co-rotating\n")
+    assert (tmp_path / "older" / "campbell-co-rotating.svg").is_file()
     done = campbell(tmp_path)
     assert done.returncode == 2 and "has no modes.json" in done.stderr
     (tmp_path / "modes.json").write_text("{}")

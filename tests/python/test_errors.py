@@ -204,6 +204,8 @@ def test_names_that_are_not_there(smooth, air):
     says(rondo.UnknownNameError, run.pod, "velocity", words=["velocity-rectified", "to make it: "
          f"rondo pod {smooth} --field velocity --frame co-rotating"])
     says(rondo.UnknownNameError, rondo.open(air).field, "contact_force", words=["displacement"])
+    for name in "force_y_mean", "contact_length_mean_m", "time_mean":  # which a sweep would have
+        says(rondo.UnknownNameError, run.history.__getitem__, name, words=["history.csv", name])
     assert run.history.get("force") is None and "force" not in run.history
     assert run.pods.get("x") is None
 

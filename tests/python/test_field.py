@@ -63,7 +63,7 @@ def test_components_are_those_of_the_vectors(run: rondo.Run) -> None:
     values = {name: field.nodal(run, k, f"displacement_{name}") for name in field.COMPONENTS}
     assert np.allclose(values["x"].values, cos * u[:, 0] - sin * u[:, 1], atol=1e-12)
     assert np.allclose(values["y"].values, sin * u[:, 0] + cos * u[:, 1], atol=1e-12)
-    assert np.allclose(field.nodal(run, k, "displacement_y", "turning").values, u[:, 1])
+    assert np.allclose(field.nodal(run, k, "displacement_y", "co-rotating").values, u[:, 1])
     size = field.nodal(run, k, "displacement")
     assert size.unit == "mm" and not size.signed and values["x"].signed
     assert np.allclose(size.values, np.linalg.norm(u, axis=1))
@@ -86,8 +86,17 @@ def test_what_cannot_be_drawn_is_refused(paper: rondo.Paper) -> None:
         field.nodal(run, 0, "cauchy_stress")
     with pytest.raises(rondo.Error, match="temperature"):
         field.nodal(run, 0, "temperature")
-    with pytest.raises(rondo.Error, match='"standing": allowed are "fixed" and "turning"'):
+    with pytest.raises(rondo.Error, match='"standing": allowed are "fixed" and "co-rotating"'):
         run.plot_field(0.1, frame="standing")
+
+
+def test_the_older_word_for_the_frame_is_warned_of(smooth):
+    run = rondo.open(smooth)
+    for older in "turning", "rotating":
+        with pytest.warns(DeprecationWarning, match=f'"{older}" is called "co-rotating"') as said:
+            ax = run.plot_field(run.times[-1], frame=older)
+        assert [warning.filename for warning in said] == [__file__]
+        assert ax.get_xlabel() == "X (m)"
 
 
 # Pictures
@@ -120,7 +129,7 @@ def test_frames_and_magnified_displacement(paper: rondo.Paper) -> None:
     run = paper.run("ledge-smooth")
     k = run.n_snapshots - 1
     u, x = np.asarray(run.displacement[k]), run.mesh.coordinates
-    assert np.array_equal(field.positions(run, k, "turning", 3.0), x + 3.0 * u)
+    assert np.array_equal(field.positions(run, k, "co-rotating", 3.0), x + 3.0 * u)
     assert np.array_equal(field.positions(run, k), run.position(k))
     still = field.positions(run, k, "fixed", 0.0) - run.center[k]
     assert np.allclose(np.linalg.norm(still, axis=1), np.linalg.norm(x, axis=1))
@@ -162,7 +171,8 @@ def marked(ax: plt.Axes) -> set[tuple[float, float]]:
     return shown | {tuple(p) for line in dots for p in line.get_xydata()}
 
 
-@pytest.mark.parametrize("frame, deformation", [("fixed", 1.0), ("turning", 1.0), ("fixed", 2.0)])
+@pytest.mark.parametrize("frame, deformation", [("fixed", 1.0), ("co-rotating", 1.0),
+                                                ("fixed", 2.0)])
 def test_the_contact_is_the_nodes_with_a_force(run: rondo.Run, frame: str,
                                                deformation: float) -> None:
     k = run.n_snapshots - 1

@@ -54,7 +54,7 @@ def test_a_rigid_motion_leaves_no_deformation():
     assert np.abs(rigid.deformation[:7]).max() < 1e-14
     assert np.allclose(rigid.places[:7], (x + u)[:7], atol=1e-14)
     assert np.allclose(rigid.angle, [2.5] * 4 + [-3.0] * 3 + [0, 0])
-    assert np.array_equal(rigid.deformation[7:], u[7:])  # nodes of the turning frame
+    assert np.array_equal(rigid.deformation[7:], u[7:])  # nodes of the co-rotating frame
     for body, angle, shift in motions:  # a stretch about the center of mass
         middle = np.average(x[body], axis=0, weights=mesh.mass[body])
         u[body] += 0.1 * (x[body] - middle) @ turn(angle).T
@@ -90,7 +90,7 @@ def test_magnified(free):
     k, factor = 3, 4.0
     once, still, more = (field.positions(run, k, deformation=f) for f in (1.0, 0.0, factor))
     assert np.allclose(once, run.position(k))
-    assert np.allclose(field.positions(run, k, "turning"), once, atol=1e-14)
+    assert np.allclose(field.positions(run, k, "co-rotating"), once, atol=1e-14)
     assert np.allclose(more - still, factor * (once - still), atol=1e-12)
     sides = run.mesh.cells[:, :2]  # a body that is not deformed is as long as at the start
     lengths = [np.linalg.norm(p[sides[:, 0]] - p[sides[:, 1]], axis=1)

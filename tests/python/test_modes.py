@@ -11,9 +11,9 @@ import rondo
 from rondo.plots import amplitude, modes
 from rondo.plots.field import outline
 
-PODS = [("turn-smooth", "velocity", "rotating"), ("turn-treaded", "displacement", "rectified"),
-        ("crush-treaded", "displacement", "rotating")]
-CONTACTS = [("turn-treaded", "contact", "rectified"), ("crush-smooth", "contact", "rotating")]
+PODS = [("turn-smooth", "velocity", "co-rotating"), ("turn-treaded", "displacement", "rectified"),
+        ("crush-treaded", "displacement", "co-rotating")]
+CONTACTS = [("turn-treaded", "contact", "rectified"), ("crush-smooth", "contact", "co-rotating")]
 
 
 @pytest.fixture(autouse=True)
@@ -128,7 +128,7 @@ def test_the_first_rectified_mode_is_the_motion(paper: rondo.Paper) -> None:
         assert figure.axes[1].lines[0].get_ydata().mean() > 0.9
 
 
-@pytest.mark.parametrize("frame, largest", [("rotating", modes.LARGEST),
+@pytest.mark.parametrize("frame, largest", [("co-rotating", modes.LARGEST),
                                             ("rectified", modes.LARGEST_CLOSE)])
 def test_outlines_do_not_cross_themselves(paper: rondo.Paper, frame: str, largest: float) -> None:
     pod = paper.pod("turn-treaded", "velocity", frame)

@@ -242,7 +242,7 @@ def test_figure_5_is_of_the_velocity_in_the_turning_frame(paper: rondo.Paper,
     ax = figures["figure-5"].axes[0]
     for body in ("smooth", "treaded"):
         for kind, run in (("rolling", "turn"), ("crush", "crush")):
-            left = paper.pod(f"{run}-{body}", "velocity", "rotating").discarded_energy
+            left = paper.pod(f"{run}-{body}", "velocity", "co-rotating").discarded_energy
             drawn = curve(ax, f"{kind}, {body}")
             assert np.array_equal(drawn[:, 1], left[drawn[:, 0].astype(int) - 1])
 

@@ -3,6 +3,7 @@
 import csv
 import json
 import pathlib
+import warnings
 
 import h5py
 import numpy as np
@@ -218,6 +219,12 @@ def test_pod_arrays(smooth):
     assert run.pods["contact-rotating"].points is run.pods["contact-rotating"].mesh.boundary
     assert run.pod("velocity", "rectified") is run.pods["velocity-rectified"]
     assert run.pods["velocity-rectified"].unit == "m/s"
+    with pytest.warns(DeprecationWarning, match="co-rotating") as said:
+        assert run.pod("contact", "rotating") is run.pods["contact-rotating"]
+    assert [warning.filename for warning in said] == [__file__]
+    with warnings.catch_warnings():
+        warnings.simplefilter("error")
+        assert run.pod("contact", "co-rotating") is run.pods["contact-rotating"]
 
 
 def test_a_snapshot_from_its_modes(smooth):

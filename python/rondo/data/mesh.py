@@ -12,7 +12,7 @@ import numpy as np
 class Mesh:
     """n nodes, e cells, nb contact nodes (nodes that may touch something); all numbered from 0."""
 
-    coordinates: np.ndarray  # (n, 2) reference position X, turning frame; of free bodies fixed [m]
+    coordinates: np.ndarray  # (n, 2) reference position X [m], co-rotating frame; of free bodies fixed
     cells: np.ndarray        # (e, 4) or (e, 3) corner nodes, counter-clockwise; -1: none
     boundary: np.ndarray     # (nb,) candidates, in order along the boundary
     tributary: np.ndarray    # (nb,) length of boundary that each candidate stands for [m]
@@ -20,7 +20,7 @@ class Mesh:
     sector: np.ndarray | None       # (n,) counter-clockwise from straight down; None: not cyclic
     sector_node: np.ndarray | None  # (n,) number within the sector, the same in all; or None
     free_body: np.ndarray | None = None  # (n,) free body that a node belongs to, which moves in the
-    #                                      fixed frame; -1: turning frame; None: all of them
+    #                                      fixed frame; -1: co-rotating frame; None: all of them
     region: np.ndarray | None = None     # (e,) place of a cell's physical surface in region_names
     region_names: tuple[str, ...] = ()   # of the mesh file
 

@@ -29,7 +29,7 @@ class Branch:
     wave: str  # "backward", "forward", "standing", "rigid"; "" off disks
     order: int
     spin: Array  # (k,) rad/s, ascending, > 0 rolls towards +x
-    frequency: Array  # (k,) rad/s, in the turning frame
+    frequency: Array  # (k,) rad/s, in the co-rotating frame
     frequency_fixed: Array  # (k,) rad/s, in the fixed frame; NaN off disks
 
 

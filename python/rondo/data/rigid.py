@@ -18,8 +18,8 @@ class Rigid:
 
     places: (n, 2) m, fixed frame; deformation: (n, 2) m, along the axes that turn with the body;
     angle: (n,) rad by which these have turned; center: (n, 2) m, the center of mass of the body in
-    its reference position. Nodes of the turning frame have their displacement as deformation, and
-    nan as places."""
+    its reference position. Nodes of the co-rotating frame have their displacement as deformation,
+    and nan as places."""
 
     places: Array
     deformation: Array

@@ -17,6 +17,7 @@ from .files import check_format, opened, read_case, read_json, read_table, requi
 from .history import History
 from .lifted import Coordinates, LiftedArray
 from .mesh import Mesh, read_mesh
+from .names import frame_named
 from .pod import Pod, open_pod
 from .rigid import Rigid, rigid_motion
 
@@ -104,7 +105,7 @@ class Run:
     """What a run left, n nodes and t complete snapshots.
 
     directory; info: run.json; case: case.toml; times, times_velocity: (t,) [s], of a crush the
-    share of its depth; angle, angle_velocity: (t,) of the turning frame at these times [rad];
+    share of its depth; angle, angle_velocity: (t,) of the co-rotating frame at these times [rad];
     center: (t, 2) in the fixed frame [m]; mesh."""
 
     # Pictures: what rondo/pictures.py gives this class, as nothing here knows how to draw.
@@ -231,7 +232,7 @@ class Run:
     @cached_property
     def held(self) -> np.ndarray:
         """(n,) True where a node is held by the rim: on the inner circle of a disk; of a mesh from
-        a file where nothing has moved in the turning frame."""
+        a file where nothing has moved in the co-rotating frame."""
         mesh = self.mesh
         if "disk" in self.case:
             radius: np.ndarray = np.linalg.norm(mesh.coordinates, axis=1)
@@ -254,8 +255,8 @@ class Run:
         return sorted(names)
 
     def field(self, name: str) -> LazyArray:
-        """A field of all snapshots: "displacement", "velocity" (t, n, 2) in the turning frame, of
-        free bodies in the fixed frame;
+        """A field of all snapshots: "displacement", "velocity" (t, n, 2) in the co-rotating frame,
+        of free bodies in the fixed frame;
         "von_mises", "stress_xx", "stress_xy", ... (t, n) and "cauchy_stress" (t, n, 6) with stress;
         "position", "contact_force" (t, n, 3) for pictures. Stress, position and contact force are
         along the fixed axes. Stress is the mean of the cells around a node: that of a probe in the
@@ -287,7 +288,7 @@ class Run:
 
     @property
     def velocity(self) -> LazyArray:
-        """(t, n, 2) du/dt in the turning frame, at times_velocity [m/s]; in a crush du over the
+        """(t, n, 2) du/dt in the co-rotating frame, at times_velocity [m/s]; in a crush du over the
         share of the depth [m]."""
         return self.field("velocity")
 
@@ -310,7 +311,8 @@ class Run:
         return self.rigid(k).deformation
 
     def middle(self, k: int) -> np.ndarray:
-        """(2,) m: the center of the co-rotating frame, or the center of mass where nothing is constrained."""
+        """(2,) m: the center of the co-rotating frame; where nothing is constrained, the center of
+        mass."""
         if not self.mesh.free.all():
             return np.asarray(self.center[k])
         return np.average(self.position(k), axis=0, weights=self.mesh.mass)
@@ -374,9 +376,8 @@ class Run:
 
     def pod(self, field: str, frame: str = "co-rotating") -> Pod:
         """The POD of a field ("displacement", "velocity", "contact") in a frame ("co-rotating", in
-        the files and in earlier versions "rotating", or "rectified")."""
-        if frame in ("rotating", "turning"):
-            frame = "co-rotating"
+        the files "rotating", or "rectified")."""
+        frame = frame_named(frame)
         name = f"{field}-{frame.removeprefix('co-')}"
         if name not in self.pods:
             raise unknown(self.directory, "POD", name,

@@ -14,7 +14,7 @@ import numpy as np
 from .errors import Error, UnfinishedRunError, unknown
 from .files import check_format, read_json, read_table, require, some
 from .history import units_of
-from .names import find_name
+from .names import find_figure
 from .run import STATUS, Run, open_run
 from .sweep_table import read_members
 
@@ -125,14 +125,14 @@ class Sweep:
         return list(self._columns)
 
     def __getitem__(self, name: str) -> np.ndarray:
-        found = find_name(name, self._columns)
+        found = find_figure(name, self._columns)
         if found is None:
             raise unknown(self.directory, "column", name, self._columns)
         return self._columns[found]
 
     def unit_of(self, name: str) -> str:
         """Of the column that `sweep[name]` is."""
-        return self.units.get(find_name(name, self.units) or name, "unknown")
+        return self.units.get(find_figure(name, self.units) or name, "unknown")
 
     def __contains__(self, name: object) -> bool:
         """Whether there is a column of just this name."""

@@ -68,8 +68,8 @@ def _damped_curve(curve: Axes, error: Axes, run: Run, closed_form: float) -> Non
 
 def _stationary_disk(ax: Axes, run: Run) -> None:
     last = run.n_snapshots - 1
-    body = draw_body(ax, run, last, frame="turning", mesh_width=0)
-    frame_axes(ax, run, last, "turning")
+    body = draw_body(ax, run, last, frame="co-rotating", mesh_width=0)
+    frame_axes(ax, run, last, "co-rotating")
     ax.set_adjustable("datalim")  # as high as the axes beside it
     ax.figure.colorbar(body.cells, ax=ax, label="displacement (mm)", shrink=0.9, pad=0.01,
                        aspect=15)

@@ -20,9 +20,9 @@ BODIES = ("smooth", "treaded")
 FIELDS = (("displacement", "displacement"), ("velocity", "velocity"), ("contact", "contact force"))
 ROLLING, RECTIFIED, CRUSH = style.CURVES[1], style.CURVES[0], style.CURVES[2]
 CURVES = (  # what is compared: label, run, frame, look
-    ("rolling, co-rotating frame", "turn", "rotating", ROLLING),
+    ("rolling, co-rotating frame", "turn", "co-rotating", ROLLING),
     ("rolling, rectified", "turn", "rectified", RECTIFIED),
-    ("crush", "crush", "rotating", CRUSH),
+    ("crush", "crush", "co-rotating", CRUSH),
 )
 OWN = (  # the same colours, with lines of their own for the two bodies
     ("rolling", "turn", [{**ROLLING, "linestyle": line} for line in ("-", "--")]),
@@ -44,7 +44,7 @@ def _axes(ax: Axes, least: float) -> None:
 
 def _snapshots(paper: Paper) -> str:
     """Of rolling: no POD has more modes, so counts near these say how many were taken."""
-    counts = [len(paper.pod(f"turn-{body}", "velocity", "rotating").time) for body in BODIES]
+    counts = [len(paper.pod(f"turn-{body}", "velocity", "co-rotating").time) for body in BODIES]
     return f"{counts[0]} (smooth) and {counts[1]} (treaded) snapshots"
 
 
@@ -56,7 +56,7 @@ def _own(paper: Paper) -> Figure:
         _axes(ax, LEAST_OWN)
         for name, run, curves in OWN:
             for body, curve in zip(BODIES, curves):
-                pod = paper.pod(f"{run}-{body}", "velocity", "rotating")
+                pod = paper.pod(f"{run}-{body}", "velocity", "co-rotating")
                 draw_decay(ax, pod, f"{name}, {body}", curve)
         ax.set(xlabel="modes kept (–)", ylabel="share of the energy\nof the velocity left out (–)")
         figure.supxlabel(f"Rolling: of {_snapshots(paper)};\ncounts near these are set by them.",

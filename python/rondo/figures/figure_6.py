@@ -16,14 +16,14 @@ LOWER = ((-0.75, 0.75), (-1.16, -0.3))  # over the outer radius: the part above 
 
 
 def draw(paper: Paper) -> dict[str, Figure]:
-    """The turning frame first, the paper's own. In the rectified one the modes are near the
+    """The co-rotating frame first, the paper's own. In the rectified one the modes are near the
     contact, and only the lower part of the body is shown."""
     figures = {}
     for name in ("smooth", "treaded"):
         radius = paper.run(f"turn-{name}").outer_radius
         (left, right), (low, high) = LOWER
         lower = ((left * radius, right * radius), (low * radius, high * radius))
-        for frame, window in (("rotating", None), ("rectified", lower)):
+        for frame, window in (("co-rotating", None), ("rectified", lower)):
             pod = paper.pod(f"turn-{name}", "velocity", frame)
-            figures[f"figure-6-{frame}-{name}"] = plot_modes(pod, COUNT, window)
+            figures[f"figure-6-{frame.removeprefix('co-')}-{name}"] = plot_modes(pod, COUNT, window)
     return figures

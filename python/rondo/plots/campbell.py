@@ -10,6 +10,7 @@ from matplotlib.figure import Figure
 
 from .. import style
 from ..data.errors import Error
+from ..data.names import FRAME, frame_named
 
 if TYPE_CHECKING:
     from ..data.modes import Branch, Modes
@@ -20,29 +21,30 @@ SHADES = (style.BLACK, style.BLUE, style.VERMILLION, style.GREEN, style.PURPLE, 
 MOST = len(SHADES) - 1  # nodal diameters drawn
 
 
-def plot_campbell(modes: Modes, frame: str = "turning", ax: Axes | None = None) -> Figure:
+def plot_campbell(modes: Modes, frame: str = FRAME, ax: Axes | None = None) -> Figure:
     """The lowest frequency of each wave over the spin, one colour for each number of nodal
     diameters n, up to 6; all orders where n is not known.
 
-    frame "turning": with thin lines n s, on which a wave stands still in the fixed frame: where one
-    meets its backward wave is the critical speed of n. frame "fixed": the same waves as seen from
-    outside, where a critical speed is a zero.
+    frame "co-rotating": with thin lines n s, on which a wave stands still in the fixed frame: where
+    one meets its backward wave is the critical speed of n. frame "fixed": the same waves as seen
+    from outside, where a critical speed is a zero.
     """
     import matplotlib.pyplot as plt
 
-    if frame not in ("turning", "fixed"):
-        raise Error(f'frame "{frame}": "turning" or "fixed"')
+    frame = frame_named(frame)
+    if frame not in (FRAME, "fixed"):
+        raise Error(f'frame "{frame}": "{FRAME}" or "fixed"')
     branches = [b for b in modes.branches if b.wave != "rigid" and b.diameters <= MOST
                 and (b.order == 1 or b.diameters < 0)]
     if frame == "fixed" and any(b.diameters < 0 for b in branches):
-        raise Error(f"{modes.directory}: waves are known on disks only; frame=\"turning\" draws "
-                    "the frequencies of this mesh")
+        raise Error(f"{modes.directory}: waves are known on disks only; frame=\"{FRAME}\" "
+                    "draws the frequencies of this mesh")
     with style.paper():
         if ax is None:
             ax = plt.figure(figsize=(style.PAGE, 0.55 * style.PAGE)).add_subplot()
         for branch in branches:
             _draw(ax, branch, frame)
-        if frame == "turning":
+        if frame == FRAME:
             _draw_standing(ax, modes, branches)
         ax.set(xlabel="spin (rad/s)", ylabel=f"frequency in the {frame} frame (rad/s)")
         ax.set_xlim(modes.spins.min(), modes.spins.max())
@@ -86,7 +88,7 @@ def _legend(ax: Axes, branches: list[Branch], frame: str) -> None:
     waves = {b.wave for b in branches}
     handles += [Line2D([], [], color="0.3", linestyle=line, label=wave)
                 for wave, line in LINES.items() if wave in waves]
-    if frame == "turning" and any(b.diameters > 0 for b in branches):
+    if frame == FRAME and any(b.diameters > 0 for b in branches):
         handles.append(Line2D([], [], color="0.3", lw=0.5, label="n × spin"))
     if handles:
         ax.legend(handles=handles, loc="center left", bbox_to_anchor=(1.0, 0.5))

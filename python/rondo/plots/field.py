@@ -16,13 +16,14 @@ from numpy.typing import NDArray
 from .. import style
 from ..data.errors import Error
 from ..data.ground import Ground
+from ..data.names import FRAME, frame_named
 from .cells import Array, Cells, cell_means, component, corners, loops, outline, turned
 from .rim import Rim, draw_rim
 
 if TYPE_CHECKING:
     from ..data.run import Run
 
-FRAMES = ("fixed", "turning")
+FRAMES = ("fixed", FRAME)
 COMPONENTS = ("x", "y", "radial", "tangential")
 VECTORS = ("displacement", "deformation", "velocity")
 NAMES = {"von_mises": "von Mises stress"}  # in figures, where not the name of the field itself
@@ -45,7 +46,7 @@ class Nodal:
 def nodal(run: Run, index: int, quantity: str, frame: str = "fixed") -> Nodal:
     """A quantity of the snapshot `index` at the nodes.
 
-    quantity: "displacement" or "velocity" (as the turning frame sees them), "deformation" (the
+    quantity: "displacement" or "velocity" (as the co-rotating frame sees them), "deformation" (the
     displacement without the motion of free bodies as rigid ones): their magnitude; with "_x", "_y"
     a component along the axes of `frame`, with "_radial", "_tangential" about the center; or a
     field with one number per node that the run holds, as "von_mises".
@@ -88,8 +89,9 @@ def _part_of_vectors(run: Run, index: int, base: str, ending: str, frame: str) -
 def positions(run: Run, index: int, frame: str = "fixed", deformation: float = 1.0) -> Array:
     """(n, 2) m: the nodes of a snapshot, the displacement magnified by `deformation`; of free
     bodies what is not their motion as rigid ones. These are where they are, in both frames."""
+    frame = frame_named(frame)
     if frame not in FRAMES:
-        raise Error(f'frame "{frame}": allowed are "fixed" and "turning"')
+        raise Error(f'frame "{frame}": allowed are "fixed" and "{FRAME}"')
     if frame == "fixed" and deformation == 1.0:
         return run.position(index)
     rigid = run.rigid(index)
@@ -226,12 +228,12 @@ def plot_field(run: Run, time: float, quantity: str = "displacement", ax: Axes |
                limits: tuple[float, float] | None = None, colorbar: bool = True) -> Axes:
     """The body at the snapshot nearest to `time` (s; of a crush: share of the depth, 0 to 1).
 
-    frame: "fixed" (with the ground) or "turning"; nodes in contact are marked in both.
+    frame: "fixed" (with the ground) or "co-rotating"; nodes in contact are marked in both.
     deformation: factor on the displacement, of free bodies on what is not their motion as rigid
     ones; limits: of the colours, in the unit of the colour bar
     (mm, m/s, MPa); by default those of the cells as drawn.
     """
-    index = run.index(time)
+    frame, index = frame_named(frame), run.index(time)
     with style.paper():
         if ax is None:
             ax = plt.figure(figsize=(style.COLUMN, 0.85 * style.COLUMN)).add_subplot()

@@ -36,7 +36,7 @@ class Rim:
     disk: Polygon
     line: Line2D
     mark: Line2D
-    sides: Array  # (3 k, 2) m, turning frame: ends of k sides, each with nan behind it
+    sides: Array  # (3 k, 2) m, co-rotating frame: ends of k sides, each with nan behind it
 
     def update(self, index: int) -> None:
         fixed = self.frame == "fixed"

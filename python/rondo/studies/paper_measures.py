@@ -128,9 +128,9 @@ class Measures:
         return self.modes_for(share, run, pod) / self.modes_for(share, run, other)
 
     def least_pair(self, run: str, pod: str, modes: int) -> float:
-        """A picture that stands still in the fixed frame is, in the turning one, a Fourier series
-        over one turn, cosine and sine of each harmonic of the same energy: the least ratio of the
-        singular values of a pair."""
+        """A picture that stands still in the fixed frame is, in the co-rotating one, a Fourier
+        series over one turn, cosine and sine of each harmonic of the same energy: the least ratio
+        of the singular values of a pair."""
         spectrum = read_table(self._runs / run / "pod" / pod / "spectrum.csv")
         sigma = spectrum["singular_value"][:modes]
         if len(sigma) < modes:

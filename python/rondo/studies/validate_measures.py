@@ -41,7 +41,7 @@ class Model:
     path: pathlib.Path
     basis: np.ndarray  # (r, n) x + iy, orthonormal in the mass [kg^(-1/2)]
     mass: np.ndarray   # (n,) [kg/m]
-    turning: bool      # its modes are of the turning frame
+    turning: bool      # its modes are of the co-rotating frame
     runs: list[str]    # that it was built from, as they were named
 
 
