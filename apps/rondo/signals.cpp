@@ -19,7 +19,7 @@ extern "C" void request_stop(int) {
 
 /// Nothing but what may be called from a signal handler.
 extern "C" void end_at_once(int) {
-  constexpr char text[] = "rondo: warning: interrupted before the first step\n";
+  constexpr char text[] = "rondo: warning: interrupted\n";
   static_cast<void>(!write(STDERR_FILENO, text, sizeof text - 1));
   _exit(exit_interrupted);
 }

@@ -16,6 +16,7 @@
 #include "mpi_team.hpp"
 #include "progress.hpp"
 #include "rondo/analysis/build/memory.hpp"
+#include "rondo/analysis/strain_watch.hpp"
 #include "rondo/core/bytes.hpp"
 #include "rondo/core/error.hpp"
 #include "signals.hpp"
@@ -66,6 +67,12 @@ int finish(const study::SweepReport& report, const std::filesystem::path& direct
   if (report.failed > report.failures.size())
     spdlog::warn("and {} more: {}", report.failed - report.failures.size(),
                  (directory / "sweep.json").string());
+  if (report.strained > 0)
+    spdlog::warn(
+        "{} of {} runs done {} a largest strain above {:.0f} %, the largest {:.3g} in run {}: the "
+        "law of the material is for small strains (strain_max in results.csv)",
+        report.strained, report.done, report.strained == 1 ? "has" : "have",
+        100.0 * study::small_strain, report.strain_max, report.strain_run);
   if (report.interrupted > 0) {
     spdlog::warn("interrupted with {} of {} runs done; continue with --resume", report.done,
                  report.members);

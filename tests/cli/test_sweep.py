@@ -147,6 +147,24 @@ target = { force_y = [5e4, 8e4] }
 """)
         np.testing.assert_allclose(column(self.out, "force_y"), [5e4, 8e4], rtol=1e-6)
 
+    def test_strains_are_in_the_table_and_told(self):
+        self.case(replaced(replaced(SMALL, "end", None), "[time]", None)
+                  .replace("snapshots = 11", "stress = false")
+                  + "[analysis]\nkind = \"crush\"\ndepth = 0.01\nincrements = 5\n")
+        text = "schema = 1\nbase = \"case.toml\"\n[[vary]]\nkey = \"analysis.depth\"\n"
+        done = self.sweep(text=text + "values = [0.1, 0.001, 0.08]\n")
+        said = [json.loads((self.out / "runs" / f"000{k}" / "run.json").read_text())
+                for k in (1, 2, 3)]
+        strain = column(self.out, "strain_max")
+        np.testing.assert_array_equal(strain, [run["strain_max"] for run in said])
+        np.testing.assert_array_equal(column(self.out, "jacobian_min"),
+                                      [run["jacobian_min"] for run in said])
+        self.assertTrue(strain[0] > strain[2] > 0.1 > strain[1])
+        self.assertIn(f"2 of 3 runs done have a largest strain above 10 %, the largest "
+                      f"{strain[0]:.3g} in run 1: ", done.stderr)
+        self.assertNotIn("largest strain",
+                         self.sweep("--overwrite", text=text + "values = [0.001]\n").stderr)
+
     def test_the_height_that_bears_a_load(self):
         text = """schema = 1
 base = "case.toml"

@@ -16,11 +16,11 @@ FIGURES = ["steps", "end_time_s", "force_x_mean", "force_x_peak", "force_x_fluct
            "force_y_mean", "force_y_peak", "force_y_fluctuation", "torque_mean", "torque_peak",
            "torque_fluctuation", "contact_length_mean_m", "contact_length_peak_m",
            "slip_ratio_mean", "friction_power", "impact_power", "energy_residual_relative",
-           "contact_residual_max", "penetration_max_m"]
+           "contact_residual_max", "penetration_max_m", "strain_max", "jacobian_min"]
 CRUSH_FIGURES = ["steps", "end_time_s", "depth_m", "force_x", "force_y", "torque",
                  "contact_length_m", "pressure_max_pa", "shear_max_pa", "strain",
                  "dissipation_friction", "energy_residual_relative", "contact_residual_max",
-                 "penetration_max_m"]
+                 "penetration_max_m", "strain_max", "jacobian_min"]
 
 Row = dict[str, Any]
 FRICTION, SPIN, SCHEME = "ground.friction", "motion.angular_velocity", "solver.scheme"
@@ -60,6 +60,8 @@ def write(directory: pathlib.Path, parameters: Sequence[tuple[str, str, str]], r
 
 def unit_of(name: str) -> str:
     """As the program gives it in sweep.json."""
+    if name == "strain_max":
+        return "1"
     for begin, unit in (("force_", "N/m"), ("torque", "N·m/m"), ("strain", "J/m"),
                         ("dissipation", "J/m")):
         if name.startswith(begin):
@@ -87,7 +89,7 @@ def forces(friction: float, spin: float) -> Row:
             "contact_length_peak_m": 0.05, "slip_ratio_mean": slip,
             "friction_power": abs(pull * slip) * 10.0, "impact_power": 12.0,
             "energy_residual_relative": 2e-15, "contact_residual_max": 1e-14,
-            "penetration_max_m": 1e-12}
+            "penetration_max_m": 1e-12, "strain_max": 0.05, "jacobian_min": 0.9}
 
 
 def grid(directory: pathlib.Path, frictions: Sequence[float] = FRICTIONS,
@@ -143,6 +145,7 @@ def loaded(directory: pathlib.Path) -> pathlib.Path:
                      "contact_length_m": 0.2 * depth**0.5, "pressure_max_pa": 3e6,
                      "shear_max_pa": 1e6 * friction, "strain": load * depth / 2,
                      "dissipation_friction": friction, "energy_residual_relative": 1e-15,
-                     "contact_residual_max": 1e-14, "penetration_max_m": 1e-12})
+                     "contact_residual_max": 1e-14, "penetration_max_m": 1e-12,
+                     "strain_max": 0.05, "jacobian_min": 0.9})
     parameters = [(HEIGHT, "m", "target"), (FRICTION, "-", "values")]
     return write(directory, parameters, rows, CRUSH_FIGURES, targets=[LOAD], analysis="crush")

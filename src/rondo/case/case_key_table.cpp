@@ -252,7 +252,8 @@ constexpr CaseKey keys[] = {
      optional.if_(may_be_free).body(may_be_free),
      "free bodies only: they are moved by that much..."},
     {"initial.angle", "rad", FIELD(initial.angle), any, optional.if_(may_be_free).body(may_be_free),
-     "... after they were turned by this angle, counter-clockwise, about the origin of the mesh"},
+     "... after they were turned by this angle, counter-clockwise (unlike angular velocities, "
+     "which are clockwise), about the origin of the mesh"},
     {"initial.angular_velocity", "rad/s", FIELD(initial.angular_velocity), any,
      optional.if_(may_be_free).body(may_be_free),
      "free bodies only: each turns about its center of mass, signed as `motion.angular_velocity`"},

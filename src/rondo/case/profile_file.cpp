@@ -14,7 +14,8 @@ namespace {
 constexpr std::size_t most_faults = 5;
 constexpr std::size_t longest_found = 40;  ///< characters of a field repeated in a message
 constexpr std::string_view blank = " \t\r\v\f";
-constexpr std::string_view allowed = "x, y in m, one point a line from left to right";
+constexpr std::string_view allowed =
+    "x and y in m, comma or white space between x and y, one point a line from left to right";
 
 struct Token {
   std::string_view text;
@@ -45,9 +46,23 @@ bool is_number(std::string_view text, double& value) {
   return error != std::errc::invalid_argument && end == text.data() + text.size();
 }
 
+/// As a number begins; no name of a column does.
+bool begins_as_number(std::string_view text) {
+  return !text.empty() && std::string_view("0123456789+-.").find(text[0]) != text.npos;
+}
+
+/// Names of columns: words with letters. "0;0" is none, but numbers that are divided otherwise.
 bool is_header(const std::vector<Token>& tokens) {
+  const auto has_letter = [](const Token& t) {
+    return std::ranges::any_of(t.text, [](unsigned char c) {
+      return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || c >= 0x80;  // or of UTF-8
+    });
+  };
   double value = 0.0;
-  return std::ranges::none_of(tokens, [&](const Token& t) { return is_number(t.text, value); });
+  return std::ranges::any_of(tokens, has_letter) &&
+         std::ranges::none_of(tokens, [&](const Token& t) {
+           return begins_as_number(t.text) || is_number(t.text, value);
+         });
 }
 
 /// One file while it is read.

@@ -6,6 +6,7 @@
 
 #include "rondo/analysis/build/build.hpp"
 #include "rondo/analysis/build/crush_setup.hpp"
+#include "rondo/analysis/build/overlap.hpp"
 #include "unit/analysis/mesh_fixture.hpp"
 
 namespace rondo::study {
@@ -285,6 +286,28 @@ TEST(WrongMeshes, SidesOfTwoBodiesThatNothingJoins) {
     EXPECT_NE(faults[0].allowed.find("BooleanFragments"), std::string::npos);
   }
   EXPECT_TRUE(faults_of_build(touching, {"contact.between=bodies"}).empty());
+}
+
+/// A crush refuses contact.between, which is therefore no advice to it.
+TEST(WrongMeshes, SidesThatCoincideInACrush) {
+  const MeshCaseFile touching(squares, 0.0), apart(squares, 0.1);
+  for (const AnalysisKind kind : {AnalysisKind::dynamic, AnalysisKind::crush}) {
+    Case c = touching.read({});
+    c.analysis.kind = kind;
+    const auto s = build(apart.read({}), 1);
+    std::vector<Vec2> x = s.mesh.coordinates;
+    for (Vec2& place : x)
+      if (place.x > 1.05) place.x -= 0.1;
+    std::vector<std::string> warnings;
+    try {
+      refuse_overlaps(c, {s.mesh, x}, warnings);
+      ADD_FAILURE();
+    } catch (const InputError& error) {
+      const std::string& advice = error.faults().at(0).allowed;
+      EXPECT_NE(advice.find("BooleanFragments"), std::string::npos);
+      EXPECT_EQ(advice.find("contact.between") == std::string::npos, kind == AnalysisKind::crush);
+    }
+  }
 }
 
 /// Bars that cross: no node of one is in the other. And a body twice at one place.

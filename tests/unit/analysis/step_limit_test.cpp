@@ -60,11 +60,32 @@ TEST(StepLimit, OfAMeshIsACellAndItsSurface) {
   EXPECT_EQ(limit.part, "surface \"right\"");
   EXPECT_GT(limit.place.x, 1.1);
   EXPECT_NEAR(limit.without_part, 2.0 * limit.step, 1e-9 * limit.step);  // √4
-  const auto lines = lines_of(limit);
-  ASSERT_EQ(lines.size(), 3U);
-  EXPECT_NE(lines[0].second.find("surface \"right\""), std::string::npos);
-  // One in two of that stiffness is as bad as the worst.
+  // One in two of that stiffness is as bad as the worst, of which nothing is then said.
   EXPECT_NEAR(limit.without_worst, limit.step, 1e-9 * limit.step);
+  const auto lines = lines_of(limit);
+  ASSERT_EQ(lines.size(), 2U);
+  EXPECT_NE(lines[0].second.find("surface \"right\""), std::string::npos);
+  EXPECT_EQ(lines[0].second.find(" s"), lines[0].second.find(" surface"));  // no second step
+  EXPECT_EQ(lines[1], (std::pair<std::string, std::string>{
+                          "without that surface", "2 times the step, by the element bound"}));
+}
+
+TEST(StepLimit, WithoutTheWorstIsAFactorToo) {
+  StepLimit limit;
+  limit.step = 1e-6;
+  limit.without_worst = 1.12e-6;
+  const auto lines = lines_of(limit);
+  ASSERT_EQ(lines.size(), 2U);
+  EXPECT_EQ(lines[1].first, "without the worst");
+  EXPECT_EQ(lines[1].second.find("1.12 times the step"), 0U) << lines[1].second;
+}
+
+TEST(StepLimit, CellsOfNoPhysicalSurface) {
+  const MeshCaseFile file(squares);
+  const Case c = file.read({});
+  auto s = build(c, 1);
+  for (std::string& name : s.mesh.region_names) name.clear();
+  EXPECT_EQ(find_step_limit(c, s).part, "no physical surface");
 }
 
 }  // namespace rondo::study

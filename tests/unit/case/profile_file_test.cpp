@@ -70,7 +70,11 @@ TEST(ProfileFile, FaultsNameLineAndColumn) {
   begins("0, 0,\n1, 0\n", "road.csv:1:6: ground.profile: the line must have 2 numbers, not 3");
   begins("O, 0\n1, 0\n", "road.csv:1:1: ground.profile = O: is not a number");
   begins("x, y\nz, w\n", "road.csv:2:1: ground.profile = z: is not a number");
-  begins("0;0\n1;0\n", "road.csv:2:1: ground.profile = 1;0: the line must have 2 numbers, not 1");
+  begins("0;0\n1;0\n", "road.csv:1:1: ground.profile = 0;0: the line must have 2 numbers, not 1");
+  begins("1e3;2e3\n2e3;0\n",
+         "road.csv:1:1: ground.profile = 1e3;2e3: the line must have 2 numbers, not 1");
+  begins("x;y\n0;0\n", "road.csv:2:1: ground.profile = 0;0: the line must have 2 numbers, not 1");
+  EXPECT_NE(said("0;0\n").find("comma or white space between x and y"), std::string::npos);
   begins("0, 0\n1, 1mm\n", "road.csv:2:4: ground.profile = 1mm: is not a number");
   begins("0, 0\n1, ,\n", "road.csv:2:5: ground.profile: the line must have 2 numbers, not 3");
   begins("0, 0\n1, nan\n", "road.csv:2:4: ground.profile = nan: must be a finite number");

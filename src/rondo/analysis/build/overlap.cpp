@@ -207,15 +207,18 @@ void refuse_overlaps(const Case& c, const PlacedBodies& bodies,
   const std::string which =
       fmt::format("{} and {}, at ({:.6g}, {:.6g})", overlaps.name_of(found->body),
                   overlaps.name_of(found->other), found->place.x, found->place.y);
-  if (found->is_side)
+  if (found->is_side) {
+    const bool may_touch = c.analysis.kind != AnalysisKind::crush;  // one has no contact of bodies
     throw case_error(
         c, "mesh.file",
         fmt::format("the sides of two bodies coincide, and neither cells nor a contact "
                     "join them: {}",
                     which),
-        fmt::format("{}; where they should be two: contact.between = \"bodies\", with "
-                    "both sides in mesh.contact",
-                    one_body));
+        fmt::format("{}{}", one_body,
+                    may_touch ? "; where they should be two: contact.between = \"bodies\", with "
+                                "both sides in mesh.contact"
+                              : ""));
+  }
   if (bodies.contact_between)
     throw case_error(c, "contact.between",
                      fmt::format("two bodies start {:.4g} m inside each other, more than half an "

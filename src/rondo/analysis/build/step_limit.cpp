@@ -20,6 +20,7 @@ std::size_t at(int index) noexcept {
 struct Parts {
   std::vector<int> of_cell;
   std::vector<std::string> names;
+  std::string kind;  ///< what each is
 };
 
 /// Layers of a generated disk, by the radii of their nodes.
@@ -31,7 +32,7 @@ Parts layers_of(const mesh::Mesh& mesh, Vec2 center) {
   radii.erase(
       std::unique(radii.begin(), radii.end(), [&](double a, double b) { return b - a < same; }),
       radii.end());
-  Parts parts;
+  Parts parts{{}, {}, "layer"};
   for (std::size_t k = 1; k < radii.size(); ++k)
     parts.names.push_back(fmt::format("layer {} of {} from the rim, r = {:.6g} to {:.6g} m", k,
                                       radii.size() - 1, radii[k - 1], radii[k]));
@@ -48,10 +49,12 @@ Parts parts_of(const Case& c, const Setup& s) {
   if (!c.mesh)
     return layers_of(s.mesh,
                      s.model.free_bodies.empty() ? Vec2{} : s.model.free_bodies.front().center);
-  if (s.mesh.region.empty()) return {std::vector<int>(s.mesh.cells.size(), 0), {"the body"}};
-  Parts parts{s.mesh.region, {}};
+  if (s.mesh.region.empty())
+    return {std::vector<int>(s.mesh.cells.size(), 0), {"the body"}, "body"};
+  Parts parts{s.mesh.region, {}, "surface"};
   for (const std::string& name : s.mesh.region_names)
-    parts.names.push_back(fmt::format("surface \"{}\"", name));
+    parts.names.push_back(name.empty() ? "no physical surface"
+                                       : fmt::format("surface \"{}\"", name));
   return parts;
 }
 
@@ -75,6 +78,7 @@ StepLimit find_step_limit(const Case& c, const Setup& s) {
   limit.place = mesh::middle_of(s.mesh.coordinates, s.mesh.cells[limit.cell]);
   const int part = parts.of_cell[limit.cell];
   limit.part = parts.names[at(part)];
+  limit.part_kind = parts.kind;
   double elsewhere = 0.0;
   std::vector<double> sorted;
   for (std::size_t e = 0; e < values.size(); ++e) {
@@ -89,16 +93,18 @@ StepLimit find_step_limit(const Case& c, const Setup& s) {
 }
 
 std::vector<std::pair<std::string, std::string>> lines_of(const StepLimit& limit) {
-  const auto seconds = [](double step) { return fmt::format("{:.6g} s", step); };
+  const auto times = [&](double step) {
+    return fmt::format("{:.3g} times the step, by the element bound", step / limit.step);
+  };
   std::vector<std::pair<std::string, std::string>> lines{
-      {"set by",
-       fmt::format("cell {} of /mesh/cells at ({:.6g}, {:.6g}) m, {}: {} by the element bound",
-                   limit.cell, limit.place.x, limit.place.y, limit.part, seconds(limit.step))}};
-  if (limit.without_worst > 0.0)
+      {"set by", fmt::format("cell {} of /mesh/cells at ({:.6g}, {:.6g}) m, {}", limit.cell,
+                             limit.place.x, limit.place.y, limit.part)}};
+  constexpr double same = 1.005;  // as printed
+  if (limit.without_worst >= same * limit.step)
     lines.emplace_back("without the worst",
-                       seconds(limit.without_worst) + ": a hundredth of the elements left out");
+                       times(limit.without_worst) + ": a hundredth of the elements left out");
   if (limit.without_part > 0.0)
-    lines.emplace_back("without that part", seconds(limit.without_part));
+    lines.emplace_back("without that " + limit.part_kind, times(limit.without_part));
   return lines;
 }
 

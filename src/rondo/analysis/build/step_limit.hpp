@@ -14,6 +14,7 @@ struct StepLimit {
   std::size_t cell = 0;        ///< the one with the smallest step
   Vec2 place;                  ///< of its middle, in the undeformed body [m]
   std::string part;            ///< of the body that it is in: a layer of a disk, a surface
+  std::string part_kind;       ///< "layer", "surface"
   double step = 0.0;           ///< with all elements
   double without_worst = 0.0;  ///< without the worst hundredth of them, one at the least
   double without_part = 0.0;   ///< without that part; 0: there is no other
@@ -22,7 +23,7 @@ struct StepLimit {
 /// @pre of a dynamic case, whose stiffness and prestress are there
 StepLimit find_step_limit(const Case& c, const Setup& s);
 
-/// What `rondo check` says of it.
+/// What `rondo check` says of it: steps as factors of `step`, as the critical step is a larger one.
 std::vector<std::pair<std::string, std::string>> lines_of(const StepLimit& limit);
 
 }  // namespace rondo::study

@@ -22,6 +22,8 @@ constexpr std::array crush_columns{
     FigureColumn{"energy_residual_relative", "1", "of the balance of energies"},
     FigureColumn{"contact_residual_max", "1", "of the contact law"},
     FigureColumn{"penetration_max_m", "m", "of all increments"},
+    FigureColumn{"strain_max", "1", "largest principal strain, of all increments"},
+    FigureColumn{"jacobian_min", "1", "least area of an element over that undeformed"},
 };
 
 std::vector<double> figures_of(const std::filesystem::path& directory, const Window& /*none*/) {
@@ -31,7 +33,7 @@ std::vector<double> figures_of(const std::filesystem::path& directory, const Win
   for (const char* name : {"depth_m", "force_x", "force_y", "torque", "contact_length_m",
                            "pressure_max_pa", "shear_max_pa", "strain", "dissipation_friction"})
     figures.push_back(column(history, name, file).back());
-  add_residuals(directory, figures);
+  add_figures_of_all(directory, figures);
   return figures;
 }
 

@@ -33,6 +33,8 @@ constexpr std::array dynamic_columns{
     FigureColumn{"energy_residual_relative", "1", "of the energy balance, of the whole run"},
     FigureColumn{"contact_residual_max", "1", "of the contact law, of the whole run"},
     FigureColumn{"penetration_max_m", "m", "of the whole run"},
+    FigureColumn{"strain_max", "1", "largest principal strain, of the whole run"},
+    FigureColumn{"jacobian_min", "1", "least area of an element over that undeformed"},
 };
 
 /// Of a run's rows those in the window.
@@ -101,7 +103,7 @@ std::vector<double> figures_of(const std::filesystem::path& directory, const Win
   const Intervals length = rows.of("contact_length_m");
   figures.insert(figures.end(), {mean(length), peak(length), mean(rows.of("slip_ratio")),
                                  rows.rate("dissipation_friction"), rows.rate("loss_impact")});
-  add_residuals(directory, figures);
+  add_figures_of_all(directory, figures);
   return figures;
 }
 

@@ -16,9 +16,10 @@ double number_of(const Json& j, const char* key) {
 
 }  // namespace
 
-void add_residuals(const std::filesystem::path& directory, std::vector<double>& figures) {
+void add_figures_of_all(const std::filesystem::path& directory, std::vector<double>& figures) {
   const Json j = io::read_json(directory / "run.json");
-  for (const char* key : {"energy_residual_relative", "contact_residual_max", "penetration_max_m"})
+  for (const char* key : {"energy_residual_relative", "contact_residual_max", "penetration_max_m",
+                          "strain_max", "jacobian_min"})
     figures.push_back(number_of(j, key));
 }
 

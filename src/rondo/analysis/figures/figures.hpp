@@ -25,8 +25,8 @@ struct FigureTable {
   bool has_window = true;  ///< false: the end alone counts, and a window means nothing
 };
 
-/// Adds the residuals of energy and contact and the penetration, from run.json; NaN where it has
-/// none. @throws FileError
-void add_residuals(const std::filesystem::path& directory, std::vector<double>& figures);
+/// Adds the residuals of energy and contact, the penetration, strain_max and jacobian_min, from
+/// run.json; NaN where it has none. @throws FileError
+void add_figures_of_all(const std::filesystem::path& directory, std::vector<double>& figures);
 
 }  // namespace rondo::study

@@ -35,10 +35,10 @@ void MemberFaults::raise(const std::vector<Member>& members) const {
       break;
     }
     const std::string whom = name_of(study_, members[found.first], found.first + 1);
-    const std::string more =
-        found.members == 1
-            ? ""
-            : fmt::format(" and {} of {} others", found.members - 1, members.size() - 1);
+    const std::string more = found.members == 1
+                                 ? ""
+                                 : fmt::format(" and {} of {} other{}", found.members - 1,
+                                               members.size() - 1, members.size() == 2 ? "" : "s");
     faults.push_back({file, 0, 0, "", "", whom + more + ": " + found.text, ""});
   }
   throw InputError(std::move(faults));

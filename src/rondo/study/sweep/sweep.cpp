@@ -12,6 +12,7 @@
 
 #include "rondo/analysis/build/build.hpp"
 #include "rondo/analysis/run.hpp"
+#include "rondo/analysis/strain_watch.hpp"
 #include "rondo/case/case_keys.hpp"
 #include "rondo/case/case_source.hpp"
 #include "rondo/core/error.hpp"
@@ -158,6 +159,7 @@ class Sweep {
                              run_directory(request_.directory, m, rows_.size()).string() + ": " +
                              row.message);
     }
+    add_strains(r);
     r.wall_s = wall();
     return r;
   }
@@ -167,6 +169,21 @@ class Sweep {
 
   [[nodiscard]] double wall() const {
     return std::chrono::duration<double>(Clock::now() - begin_).count();
+  }
+
+  void add_strains(SweepReport& r) const {
+    const std::span<const FigureColumn> columns = plan_.type->figures.columns;
+    const auto found = std::ranges::find(columns, "strain_max", &FigureColumn::name);
+    if (found == columns.end()) return;
+    const auto place = static_cast<std::size_t>(found - columns.begin());
+    for (std::size_t m = 0; m < rows_.size(); ++m) {
+      if (rows_[m].figures.empty()) continue;
+      const double strain = rows_[m].figures[place];  // NaN is above nothing
+      r.strained += strain > small_strain ? 1 : 0;
+      if (!(strain > r.strain_max)) continue;
+      r.strain_max = strain;
+      r.strain_run = m + 1;
+    }
   }
 
   [[nodiscard]] Json describe_parameters() const {
@@ -232,9 +249,9 @@ void warn_of_members(const SweepRequest& request, const PlannedSweep& plan) {
     for (const std::string& warning : plan.members[m].warnings)
       ++said.try_emplace(warning, m + 1, 0).first->second.second;
   for (const auto& [text, of] : said)
-    request.warn(of.second == 1
-                     ? fmt::format("run {}: {}", of.first, text)
-                     : fmt::format("run {} and {} others: {}", of.first, of.second - 1, text));
+    request.warn(of.second == 1 ? fmt::format("run {}: {}", of.first, text)
+                                : fmt::format("run {} and {} other{}: {}", of.first, of.second - 1,
+                                              of.second == 2 ? "" : "s", text));
 }
 
 /// Once, before the runs: what a target is not.

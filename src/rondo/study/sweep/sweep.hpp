@@ -34,6 +34,9 @@ struct SweepReport {
   std::size_t kept = 0;               ///< of those done and failed, that were there already
   int code = 0;                       ///< of the worst failure, as of a run; 130: interrupted
   std::vector<std::string> failures;  ///< some, with the run's number
+  std::size_t strained = 0;           ///< of those done, whose largest strain is above small_strain
+  double strain_max = 0.0;            ///< the largest of all
+  std::size_t strain_run = 0;         ///< the run that has it, from 1; 0: none has a strain
   double wall_s = 0.0;
 };
 
