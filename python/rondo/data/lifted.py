@@ -37,7 +37,7 @@ class Coordinates:
             return str(file["reduced/modes"].attrs["frame"]) == "rectified"
 
     def lift(self, name: str, snapshots: np.ndarray) -> np.ndarray:
-        """(k, n, 2): displacement or velocity of these snapshots in the turning frame."""
+        """(k, n, 2): displacement or velocity of these snapshots in the co-rotating frame."""
         with opened(self.path) as file:
             q = file[f"reduced/{name}"][:self.length][snapshots]
             angles = file["reduced/angle"][:self.length, list(UNITS).index(name)][snapshots]
@@ -75,7 +75,7 @@ class LiftedArray(LazyArray):
         self.coordinates, self.name = coordinates, name
         self.shape = (self.shape[0], coordinates.mesh.n_nodes, 2)
         self.units = UNITS[name]
-        self.description = f"{name} of each node, turning frame, lifted from {self.dataset}"
+        self.description = f"{name} of each node, co-rotating frame, lifted from {self.dataset}"
 
     def __getitem__(self, key: Any) -> Any:
         """As numpy's indexing: integers, slices, lists of integers, masks; no new axes."""
