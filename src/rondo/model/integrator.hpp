@@ -44,8 +44,8 @@ class Integrator {
   /// u, v, contacts and, where it has room for it, v_next of the last of them; `force` and
   /// `force_before` are left alone.
   /// @pre at least one report; *last was made for this model, not copied (a copy has no room for
-  /// contacts). Allocates nothing; the general integrator, and the fused ones near sharp corners, as
-  /// little as the contacts of a step need more place than any before.
+  /// contacts). Allocates nothing; the general integrator, and the fused ones near sharp corners,
+  /// as little as the contacts of a step need more place than any before.
   virtual void advance(std::span<StepReport> reports, State* last = nullptr) noexcept = 0;
 
   /// Fields as they stand between two steps: u_{n+2} and v_{n+3/2}, n + 1 the last step made.

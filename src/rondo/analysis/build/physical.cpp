@@ -152,15 +152,18 @@ const fem::Material& touching_material(const mesh::Mesh& mesh,
                                        const std::vector<fem::Material>& materials) {
   std::vector<char> touches(mesh.n_nodes(), 0);
   for (const int node : mesh.boundary) touches[static_cast<std::size_t>(node)] = 1;
-  const fem::Material* softest = nullptr;
+  double least = std::numeric_limits<double>::infinity();
+  std::size_t softest = 0;
   for (std::size_t e = 0; e < mesh.cells.size(); ++e) {
-    const fem::Material& m = fem::material_of(mesh, materials, e);
-    if (softest && softest->youngs_modulus <= m.youngs_modulus) continue;
-    for (int a = 0; a < mesh::n_corners(mesh.cells[e]); ++a)
-      if (touches[static_cast<std::size_t>(mesh.cells[e][static_cast<std::size_t>(a)])])
-        softest = &m;
+    const double modulus = fem::material_of(mesh, materials, e).youngs_modulus;
+    if (modulus >= least) continue;
+    for (int a = 0; a < mesh::n_corners(mesh.cells[e]); ++a) {
+      if (!touches[static_cast<std::size_t>(mesh.cells[e][static_cast<std::size_t>(a)])]) continue;
+      least = modulus;
+      softest = e;
+    }
   }
-  return *softest;
+  return fem::material_of(mesh, materials, softest);
 }
 
 }  // namespace
