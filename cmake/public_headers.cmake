@@ -14,5 +14,5 @@ set(RONDO_INCLUDED_HEADERS
     fem/element.hpp fem/nodal_dilatation.hpp modal/critical_speeds.hpp modal/modes.hpp
     contact/law.hpp contact/coupled/band.hpp contact/coupled/coupled.hpp
     contact/coupled/problem_file.hpp
-    model/contact_node.hpp model/ledger.hpp model/motion.hpp model/saved_state.hpp
-    model/scheme.hpp)
+    model/contact_node.hpp model/ledger.hpp model/motion.hpp model/rim_body.hpp
+    model/saved_state.hpp model/scheme.hpp)

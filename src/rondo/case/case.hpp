@@ -15,6 +15,7 @@
 #include "rondo/fem/elasticity.hpp"
 #include "rondo/mesh/disk.hpp"
 #include "rondo/model/motion.hpp"
+#include "rondo/model/rim_body.hpp"
 #include "rondo/model/scheme.hpp"
 
 namespace rondo::study {
@@ -137,6 +138,7 @@ struct Case {
   std::vector<PressureCase> pressures;
   Damping damping;
   dynamics::Motion motion;
+  std::optional<dynamics::RimBody> rim;  ///< absent: the rim follows the motion
   std::optional<GroundCase> ground;  ///< absent: no contact
   BodyContactCase body_contact;
   Initial initial;

@@ -15,6 +15,7 @@
 #include "rondo/fem/sector_stiffness.hpp"
 #include "rondo/mesh/mesh.hpp"
 #include "rondo/model/motion.hpp"
+#include "rondo/model/rim_body.hpp"
 #include "rondo/model/scheme.hpp"
 
 namespace rondo::dynamics {
@@ -87,6 +88,7 @@ struct Model {
   double mass_damping = 0.0;       ///< α                            [1/s]
   double stiffness_damping = 0.0;  ///< β                            [s]
   Motion motion;
+  std::optional<RimBody> rim;  ///< absent: the rim follows the motion
   std::optional<ContactModel> contact;
   std::vector<FreeBody> free_bodies;       ///< none: everything moves in the turning frame
   std::vector<int> free_body;              ///< (n) place in free_bodies, -1: in the turning frame;

@@ -85,6 +85,11 @@ double prolonged_integral(const Table& table, double from, double length) noexce
 
 }  // namespace
 
+Vec2 Motion::gravity_at(double t) const noexcept {
+  const double g = gravity.at(t);
+  return slope == 0.0 ? Vec2{0.0, -g} : Vec2{g * std::sin(slope), -g * std::cos(slope)};
+}
+
 double Motion::turn(double from, double length) const noexcept {
   return from < 0.0 ? -prolonged_integral(angular_velocity, from, length)
                     : -angular_velocity.integral(from, length);
@@ -110,7 +115,7 @@ FrameStep frame_step(const Motion& motion, long long n, double dt) noexcept {
   f.advance = motion.advance(t, dt);
   f.advance_before = motion.advance(before, dt);
   const Vec2 acceleration = (f.advance - f.advance_before) / (dt * dt);
-  f.pull = conj(f.rotation) * (acceleration + Vec2{0.0, motion.gravity.at(t)});
+  f.pull = conj(f.rotation) * (acceleration - motion.gravity_at(t));
   return f;
 }
 

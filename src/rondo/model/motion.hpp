@@ -37,9 +37,12 @@ struct Motion {
   Table angular_velocity;  ///< ω > 0 rolls towards +x; counter-clockwise rate s = -ω  [rad/s]
   Table speed;             ///< V, of the center along x                               [m/s]
   Table height;            ///< h, of the center above y = 0                           [m]
-  Table gravity;           ///< downwards                                              [m/s2]
+  Table gravity;           ///< downwards, tilted by the slope                          [m/s2]
   double start_x = 0.0;    ///< x of the center at t = 0                               [m]
+  double slope = 0.0;      ///< of the ground, by which gravity is tilted: > 0 descends to +x [rad]
 
+  /// g, fixed frame [m/s2]
+  [[nodiscard]] Vec2 gravity_at(double t) const noexcept;
   [[nodiscard]] double angle(double t) const noexcept { return turn(0.0, t); }
   /// θ(from + length) - θ(from); before t = 0 as for the center                        [rad]
   [[nodiscard]] double turn(double from, double length) const noexcept;

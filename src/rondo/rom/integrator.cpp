@@ -109,7 +109,7 @@ ReducedIntegrator::Motion ReducedIntegrator::motion_of_step() const {
   m.spin_rate = -of.angular_velocity.change(t, dt) / dt;
   m.velocity_before = center_velocity(of, t);
   m.velocity = center_velocity(of, end);
-  m.pull = (m.velocity - m.velocity_before) / dt + Vec2{0.0, of.gravity.at(t + 0.5 * dt)};
+  m.pull = (m.velocity - m.velocity_before) / dt - of.gravity_at(t + 0.5 * dt);
   if (turning) m.pull = rotation(-of.angle(t + 0.5 * dt)) * m.pull;
   return m;
 }

@@ -9,7 +9,7 @@ FrameStep fixed_frame_step(const Model& model, long long n) noexcept {
   FrameStep f;
   f.time = static_cast<double>(n) * model.dt;
   f.rotation = {1.0, 0.0};
-  f.pull = {0.0, model.motion.gravity.at(f.time)};
+  f.pull = Vec2{} - model.motion.gravity_at(f.time);
   return f;
 }
 
