@@ -7,10 +7,10 @@
 #include "rondo/core/contract.hpp"
 #include "rondo/fem/stiffness_product.hpp"
 #include "rondo/integrators/general/body_frames.hpp"
+#include "rondo/integrators/general/wheel_integrator.hpp"
 #include "rondo/model/corotated.hpp"
 #include "rondo/model/internal_force.hpp"
 #include "rondo/model/pressure.hpp"
-#include "rondo/model/rim.hpp"
 
 namespace rondo::dynamics {
 namespace {
@@ -55,6 +55,44 @@ void find_start_forces(const Model& model, State& state) {
   apply_stiffness(model, state.v, state.force_before);
 }
 
+/// v_{1/2} by half a step without contact (3.7).
+void start_body(const Model& model, std::span<const Vec2> load, State& state) {
+  const double half = 0.5 * model.dt;
+  const FrameStep fixed = fixed_frame_step(model, 0);
+  for_free_nodes(model, [&](std::size_t k) {
+    const FrameStep& frame = in_fixed_frame(model, k) ? fixed : state.frame;
+    const VelocityUpdate update =
+        velocity_update(model.scheme, half, model.mass_damping, frame.spin);
+    const Vec2 v = state.v[k];
+    const Vec2 f = acceleration(model, state, frame, k, state.force_before[k], load[k]);
+    state.v_next[k] = v + (half * f - update.drag * v) / update.a;
+  });
+}
+
+/// The same of a body on a loaded rim (10.6): v_{1/2} is what the absolute velocities leave.
+void start_wheel(const Model& model, std::span<const Vec2> load, State& state) {
+  LoadedRim rim(model);
+  const Vec2 center_velocity = rim.velocity(), gravity = model.motion.gravity_at(0.0);
+  const double spin = rim.spin();
+  const auto arm = [&](std::size_t k) { return model.reference[k] + state.u[k]; };
+  const auto force = [&](std::size_t k) {
+    return state.force[k] + model.stiffness_damping * state.force_before[k] +
+           model.mass_damping * model.mass[k] * state.v[k];
+  };
+  RimForce sum;
+  for_free_nodes(model, [&](std::size_t k) {
+    sum.force += force(k);
+    sum.moment += cross(arm(k), force(k));
+  });
+  rim.start(sum);
+  state.rim = rim.save();
+  for_free_nodes(model, [&](std::size_t k) {
+    const Vec2 velocity = center_velocity + state.v[k] + spin * turn90(arm(k)) +
+                          0.5 * model.dt * (gravity - (force(k) - load[k]) / model.mass[k]);
+    state.v_next[k] = travel_on_rim(rim, model.dt, arm(k), velocity) / model.dt;
+  });
+}
+
 }  // namespace
 
 State start(const Model& model, std::vector<Vec2> u0, std::vector<Vec2> v0) {
@@ -66,23 +104,17 @@ State start(const Model& model, std::vector<Vec2> u0, std::vector<Vec2> v0) {
   clear_clamped(model, state);
   state.v_next.resize(model.n_nodes());
   if (model.contact) state.active.reserve(2 * model.contact->nodes.size());
-  state.frame = make_rim(model)->start();
+  state.frame = frame_step(model.motion, 0, model.dt);
   for (const FreeBody& body : model.free_bodies) state.poses.push_back({body.center});
   state.force.resize(model.n_nodes());
   state.force_before.resize(model.n_nodes());
   find_start_forces(model, state);
   std::vector<Vec2> load(model.n_nodes());
   pressure_forces(model, state.u, 0.0, load);
-  const double half = 0.5 * model.dt;
-  const FrameStep fixed = fixed_frame_step(model, 0);
-  for_free_nodes(model, [&](std::size_t k) {
-    const FrameStep& frame = in_fixed_frame(model, k) ? fixed : state.frame;
-    const VelocityUpdate update =
-        velocity_update(model.scheme, half, model.mass_damping, frame.spin);
-    const Vec2 v = state.v[k];
-    const Vec2 f = acceleration(model, state, frame, k, state.force_before[k], load[k]);
-    state.v_next[k] = v + (half * f - update.drag * v) / update.a;
-  });
+  if (model.rim)
+    start_wheel(model, load, state);
+  else
+    start_body(model, load, state);
   return state;
 }
 

@@ -119,6 +119,20 @@ ContactStep::ContactStep(const Model& model, const FrameStep& f,
       dt(model.dt),
       law(model.contact ? model.contact->law : contact::Law{}) {}
 
+namespace {
+
+FrameStep at_rest(const FrameStep& frame) noexcept {
+  FrameStep f;
+  f.rotation = frame.rotation;
+  f.center = frame.center;
+  return f;
+}
+
+}  // namespace
+
+ContactStep::ContactStep(const Model& model, const FrameStep& frame) noexcept
+    : ContactStep(model, at_rest(frame), {{1.0, 0.0}, {0.0, 0.0}}) {}
+
 Vec2 drive_of(const ContactStep& s, Vec2 arm) noexcept {
   return s.rotation * (s.turn_minus_one * arm) / s.dt + s.center_rate;
 }

@@ -40,9 +40,19 @@ struct ContactReport {
   void add(const ContactReport& other) noexcept;
 };
 
+/// With a loaded rim nothing else than friction and impacts is between the ground's impulses and
+/// what they do (10.5): no work of the rim remains, not even of round-off.
+inline void add_contact_works(const ContactReport& report, Works& works) noexcept {
+  works.dissipation_friction = report.dissipation_friction;
+  works.loss_impact = report.loss_impact;
+  works.contact = -report.dissipation_friction - report.loss_impact;
+}
+
 /// What the contacts of one step share.
 struct ContactStep {
   ContactStep(const Model& model, const FrameStep& frame, const VelocityUpdate& update) noexcept;
+  /// Of absolute velocities in the axes of the co-rotating frame (10.4): w is the velocity itself.
+  ContactStep(const Model& model, const FrameStep& frame) noexcept;
 
   Complex rotation;         ///< R(θ_{n+1})
   Complex rotation_next;    ///< R(θ_{n+2})

@@ -13,12 +13,22 @@
 
 namespace rondo::dynamics {
 
+/// Motion of a loaded rim around t_{n+1}, and what holds it where it is not free; with > 0
+/// clockwise, as the user's signs are.
+struct RimReport {
+  Vec2 velocity;        ///< of the center, mean of both half steps                  [m/s]
+  double spin = 0.0;    ///< ω, likewise, > 0 clockwise                              [rad/s]
+  Vec2 force;           ///< that holds the center; 0 where it is free               [N/m]
+  double torque = 0.0;  ///< that holds the spin, > 0 clockwise; 0 where it is free  [N]
+};
+
 /// What a step leaves for those who look on.
 struct StepReport {
   long long step = 0;     ///< n + 1
   FrameStep frame;        ///< of t_{n+1}
   ContactReport contact;  ///< of t_{n+1}
   Balance balance;        ///< of t_{n+1/2}
+  RimReport rim;          ///< of t_{n+1}, of a loaded rim
 };
 
 /// What goes on to the same bits from what it was before.

@@ -5,58 +5,71 @@
 #include <cmath>
 
 namespace rondo::dynamics {
+namespace {
 
-void Ledger::compare(double kinetic, double strain) noexcept {
+/// A work and how it counts in the balance: +1 is done on the body, -1 lost; 0: part of another.
+struct Term {
+  double Works::*work;
+  double sign;
+};
+
+/// The scheme's comes last: what a run exchanges by itself is what stands before it.
+constexpr std::array<Term, Ledger::n_works> terms{{{&Works::frame, 1.0},
+                                                   {&Works::contact, 1.0},
+                                                   {&Works::load, 1.0},
+                                                   {&Works::dissipation_mass, -1.0},
+                                                   {&Works::dissipation_stiffness, -1.0},
+                                                   {&Works::gravity, 1.0},
+                                                   {&Works::rim_load, 1.0},
+                                                   {&Works::torque, 1.0},
+                                                   {&Works::held, 1.0},
+                                                   {&Works::dissipation_brake, -1.0},
+                                                   {&Works::dissipation_support, -1.0},
+                                                   {&Works::dissipation_friction, 0.0},
+                                                   {&Works::loss_impact, 0.0},
+                                                   {&Works::rim, 0.0},
+                                                   {&Works::scheme, 1.0}}};
+
+}  // namespace
+
+void Ledger::compare(const StepEnergy& energy) noexcept {
   Balance& b = balance_;
-  b.kinetic = kinetic;
-  b.strain = strain;
-  if (!started_) start_ = b.kinetic + b.strain;
+  b.kinetic = energy.kinetic;
+  b.strain = energy.strain;
+  b.kinetic_rim = energy.kinetic_rim;
+  b.support = energy.support;
+  const double whole = b.kinetic + b.strain + b.kinetic_rim + b.support;
+  if (!started_) start_ = whole;
   started_ = true;
-  b.works = {.frame = frame_.value(),
-             .contact = contact_.value(),
-             .dissipation_friction = friction_.value(),
-             .loss_impact = impact_.value(),
-             .load = load_.value(),
-             .rim = rim_.value(),
-             .dissipation_mass = mass_.value(),
-             .dissipation_stiffness = stiffness_.value(),
-             .scheme = scheme_.value()};
-  const Works& w = b.works;
   CompensatedSum rest;
-  for (const double term : {b.kinetic, b.strain, -start_, -w.frame, -w.contact, -w.load,
-                            w.dissipation_mass, w.dissipation_stiffness, -w.scheme})
-    rest.add(term);
+  for (const double part : {b.kinetic, b.strain, b.kinetic_rim, b.support, -start_}) rest.add(part);
+  double works = 0.0;
+  for (std::size_t i = 0; i < terms.size(); ++i) {
+    const auto [work, sign] = terms[i];
+    const double value = b.works.*work = works_[i].value();
+    if (sign != 0.0) rest.add(-sign * value);
+    if (sign != 0.0 && work != &Works::scheme) works += std::abs(value);
+  }
   b.residual = rest.value();
-  const double works = std::abs(w.frame) + std::abs(w.contact) + std::abs(w.load) +
-                       std::abs(w.dissipation_mass) + std::abs(w.dissipation_stiffness);
-  b.exchanged = std::max(b.exchanged, std::abs(b.kinetic + b.strain) + works + std::abs(w.scheme));
+  b.exchanged = std::max(b.exchanged, std::abs(whole) + works + std::abs(b.works.scheme));
   b.otherwise = std::max(b.otherwise, std::abs(start_) + works);
   if (b.residual != 0.0) b.relative = std::max(b.relative, std::abs(b.residual) / b.exchanged);
 }
 
 void Ledger::add(const StepEnergy& step) noexcept {
-  compare(step.kinetic, step.strain);
+  compare(step);
   add_works(step.works);
 }
 
 void Ledger::add_works(const Works& w) noexcept {
-  frame_.add(w.frame);
-  contact_.add(w.contact);
-  friction_.add(w.dissipation_friction);
-  impact_.add(w.loss_impact);
-  load_.add(w.load);
-  rim_.add(w.rim);
-  mass_.add(w.dissipation_mass);
-  stiffness_.add(w.dissipation_stiffness);
-  scheme_.add(w.scheme);
+  for (std::size_t i = 0; i < terms.size(); ++i) works_[i].add(w.*terms[i].work);
 }
 
 std::array<double, Ledger::n_numbers> Ledger::save() const noexcept {
   std::array<double, n_numbers> numbers{};
   std::size_t i = 0;
-  for (const CompensatedSum* sum :
-       {&frame_, &contact_, &load_, &friction_, &impact_, &rim_, &mass_, &stiffness_, &scheme_})
-    for (const double part : {sum->sum(), sum->correction()}) numbers[i++] = part;
+  for (const CompensatedSum& sum : works_)
+    for (const double part : {sum.sum(), sum.correction()}) numbers[i++] = part;
   for (const double number :
        {started_ ? 1.0 : 0.0, start_, balance_.exchanged, balance_.otherwise, balance_.relative})
     numbers[i++] = number;
@@ -65,9 +78,8 @@ std::array<double, Ledger::n_numbers> Ledger::save() const noexcept {
 
 void Ledger::restore(std::span<const double, n_numbers> numbers) noexcept {
   std::size_t i = 0;
-  for (CompensatedSum* sum :
-       {&frame_, &contact_, &load_, &friction_, &impact_, &rim_, &mass_, &stiffness_, &scheme_}) {
-    *sum = {numbers[i], numbers[i + 1]};
+  for (CompensatedSum& sum : works_) {
+    sum = {numbers[i], numbers[i + 1]};
     i += 2;
   }
   started_ = numbers[i++] != 0.0;

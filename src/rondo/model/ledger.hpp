@@ -19,20 +19,31 @@ struct Works {
   double rim = 0.0;   ///< done by the rim against the ground's impulses
   double dissipation_mass = 0.0;
   double dissipation_stiffness = 0.0;
-  double scheme = 0.0;  ///< 0 for symplectic; what the scheme as printed creates
+  double scheme = 0.0;  ///< what the scheme itself creates: 0 for symplectic; 10.5 of a loaded rim
+  // Of a loaded rim alone (docs/theory.md, 10.5).
+  double gravity = 0.0;   ///< on nodes and rim
+  double rim_load = 0.0;  ///< of the forces on the center
+  double torque = 0.0;    ///< of the torque on the rim
+  double held = 0.0;      ///< of what holds degrees of freedom of the rim
+  double dissipation_brake = 0.0;
+  double dissipation_support = 0.0;
 };
 
 /// Sums over the nodes of the step at t_{n+1}: the energy before it, and what it does [J/m].
 struct StepEnergy {
-  double kinetic = 0.0;  ///< ½ v_{n+1/2}ᵀ M v_{n+1/2}
-  double strain = 0.0;   ///< ½ u_{n+1}ᵀ K u_n
-  Works works;           ///< of this step alone
+  double kinetic = 0.0;      ///< ½ v_{n+1/2}ᵀ M v_{n+1/2}, of absolute velocities with a loaded rim
+  double strain = 0.0;       ///< ½ u_{n+1}ᵀ K u_n
+  double kinetic_rim = 0.0;  ///< of a loaded rim
+  double support = 0.0;      ///< of its springs
+  Works works;               ///< of this step alone
 };
 
 /// The balance at half step n+1/2.
 struct Balance {
-  double kinetic = 0.0;  ///< ½ v_{n+1/2}ᵀ M v_{n+1/2}                               [J/m]
-  double strain = 0.0;   ///< ½ u_{n+1}ᵀ K u_n                                       [J/m]
+  double kinetic = 0.0;      ///< as in StepEnergy                                     [J/m]
+  double strain = 0.0;       ///< ½ u_{n+1}ᵀ K u_n                                     [J/m]
+  double kinetic_rim = 0.0;  ///< [J/m]
+  double support = 0.0;      ///< [J/m]
   Works works;
   double residual = 0.0;   ///< E - E_{1/2} - works                                    [J/m]
   double exchanged = 0.0;  ///< largest so far of |E| + Σ |works|                      [J/m]
@@ -45,8 +56,9 @@ class Ledger {
  public:
   /// Compares the energy before the step with the works so far, then adds the works of the step.
   void add(const StepEnergy& step) noexcept;
-  /// The two parts of add(), for a scheme that knows energies at the ends of its steps.
-  void compare(double kinetic, double strain) noexcept;
+  /// The two parts of add(), for a scheme that knows energies at the ends of its steps. compare()
+  /// takes no notice of the works.
+  void compare(const StepEnergy& energy) noexcept;
   void add_works(const Works& step) noexcept;
 
   /// Of the half step before the step added last.
@@ -54,12 +66,13 @@ class Ledger {
 
   /// All that it remembers: with these numbers another ledger goes on to the same bits. Its last()
   /// is not among them, only the largest values in it.
-  static constexpr std::size_t n_numbers = 23;
+  static constexpr std::size_t n_works = 15;
+  static constexpr std::size_t n_numbers = 2 * n_works + 5;
   [[nodiscard]] std::array<double, n_numbers> save() const noexcept;
   void restore(std::span<const double, n_numbers> numbers) noexcept;
 
  private:
-  CompensatedSum frame_, contact_, load_, friction_, impact_, rim_, mass_, stiffness_, scheme_;
+  std::array<CompensatedSum, n_works> works_;
   double start_ = 0.0;
   bool started_ = false;
   Balance balance_;

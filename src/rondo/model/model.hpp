@@ -143,6 +143,7 @@ struct State {
   std::vector<Vec2> force;            ///< (n) K u_{n+1}, of the reference step      [N/m]
   std::vector<Vec2> force_before;     ///< (n) K u_n, of the reference step          [N/m]
   std::vector<Pose> poses;            ///< (free_bodies) at t_{n+1}
+  std::vector<double> rim;            ///< at step 0: what a loaded rim carries (loaded_rim.hpp)
   std::vector<ActiveContact> active;  ///< capacity for every candidate twice
 };
 

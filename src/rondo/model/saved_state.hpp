@@ -18,12 +18,13 @@ struct SavedState {
   std::vector<Vec2> u;         ///< (n) displacement                                  [m]
   std::vector<Vec2> v;         ///< (n) velocity                                      [m/s]
   std::vector<Vec2> force;     ///< (n) K u; with stiffness damping, or free bodies   [N/m]
+  std::vector<Vec2> u_before;  ///< (n) u a step before; with a loaded rim            [m]
   std::vector<Vec2> gradient;  ///< (n) derivative of the energy, general model       [N/m]
   std::vector<double> energy;  ///< (free_bodies)                                     [J/m]
   std::vector<Pose> poses;     ///< (free_bodies)
   /// By contact, ascending: coupled contacts start from the impulses of the step before [N·s/m].
   std::vector<std::pair<std::uint64_t, Vec2>> impulses;
-  std::vector<double> rim;  ///< what the rim carries (rim.hpp)
+  std::vector<double> rim;  ///< what a loaded rim carries (loaded_rim.hpp)
   std::array<double, Ledger::n_numbers> ledger{};
 };
 

@@ -110,6 +110,7 @@ void put_state(File& file, const dynamics::SavedState& s) {
   put(file, "/state/u", s.u, {"m", "displacement, in the integrator's own components"});
   put(file, "/state/v", s.v, {"m/s", "velocity, in the integrator's own components"});
   put(file, "/state/force", s.force, {"N/m", "K u, in the integrator's own components"});
+  put(file, "/state/u_before", s.u_before, {"m", "u a step before, likewise"});
   put(file, "/state/gradient", s.gradient, {"N/m", "derivative of the energy of free bodies"});
   put(file, "/state/energy", s.energy, {"J/m", "energy of each free body"});
   std::vector<std::array<double, 5>> poses;
@@ -125,7 +126,7 @@ void put_state(File& file, const dynamics::SavedState& s) {
   }
   put(file, "/state/contact", keys, {"1", "contacts that share nodes, by number"});
   put(file, "/state/impulse", impulses, {"N*s/m", "their impulses in the last step"});
-  put(file, "/state/rim", s.rim, {"1", "what the rim carries"});
+  put(file, "/state/rim", s.rim, {"1", "what a loaded rim carries"});
   put(file, "/state/ledger", std::vector<double>(s.ledger.begin(), s.ledger.end()),
       {"J/m", "sums of the energy ledger and what their rounding left"});
 }
@@ -134,6 +135,7 @@ void get_state(const File& file, dynamics::SavedState& s) {
   s.u = get<Vec2>(file, "/state/u");
   s.v = get<Vec2>(file, "/state/v", s.u.size());
   s.force = get<Vec2>(file, "/state/force");
+  s.u_before = get<Vec2>(file, "/state/u_before");
   s.gradient = get<Vec2>(file, "/state/gradient");
   s.energy = get<double>(file, "/state/energy");
   s.rim = get<double>(file, "/state/rim");

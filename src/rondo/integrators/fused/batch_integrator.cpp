@@ -23,14 +23,10 @@ void sort_by_candidate(std::vector<ActiveContact>& active) noexcept {
         at, at + 1);
 }
 
+constexpr std::size_t steps_at_once = 64;
 /// Steps between two looks for sharp corners: few enough that a node comes no farther in them than
 /// is looked around it, many enough that looking costs little.
-constexpr int steps_between_looks = 16;
-
-std::size_t steps_at_once(const Model& model, const Rim& rim) {
-  const int most = has_sharp_corners(model) ? steps_between_looks : rim.steps_ahead();
-  return static_cast<std::size_t>(std::min(most, rim.steps_ahead()));
-}
+constexpr std::size_t steps_between_looks = 16;
 
 }  // namespace
 
@@ -40,20 +36,19 @@ BatchIntegrator::BatchIntegrator(const Model& model, long long step, std::size_t
       n_parts_(n_parts + (has_sharp_corners(model) ? 1 : 0)),
       step_(step),
       threads_(std::min(model.threads, static_cast<int>(n_pieces))),
-      rim_(make_rim(model)),
-      steps_(steps_at_once(model, *rim_)),
+      steps_(has_sharp_corners(model) ? steps_between_looks : steps_at_once),
       pressures_(steps_.size() * model.pressures.size()),
       parts_(steps_.size() * n_parts_) {
   if (has_sharp_corners(model)) corners_.emplace(model);
-  rim_->restore(step, {});
 }
 
 void BatchIntegrator::set_step(std::size_t i) noexcept {
-  steps_[i] = step_context(model_, rim_->next());
-  const std::size_t n = model_.pressures.size();
-  for (std::size_t l = 0; l < n; ++l)
-    pressures_[i * n + l] = model_.pressures[l].pressure.at(steps_[i].frame.time);
-  steps_[i].pressures = pressures_.data() + i * n;
+  const long long n = step_ + static_cast<long long>(i) + 1;
+  steps_[i] = step_context(model_, frame_step(model_.motion, n, model_.dt));
+  double* const pressures = pressures_.data() + i * model_.pressures.size();
+  for (std::size_t l = 0; l < model_.pressures.size(); ++l)
+    pressures[l] = model_.pressures[l].pressure.at(steps_[i].frame.time);
+  steps_[i].pressures = pressures;
 }
 
 void BatchIntegrator::advance_batch(std::span<StepReport> reports) noexcept {
@@ -81,7 +76,7 @@ void BatchIntegrator::advance_batch(std::span<StepReport> reports) noexcept {
     const WholeStep whole = whole_step(model_, parts);
     ledger_.add(whole.energy);
     reports[i] = {batch.first + static_cast<long long>(i) + 1, steps_[i].frame, whole.contact,
-                  ledger_.last()};
+                  ledger_.last(), {}};
   }
   step_ = batch.first + static_cast<long long>(reports.size());
   if (corners_) reports.back().contact.unseen = corners_->unseen(*this);
@@ -138,7 +133,6 @@ void BatchIntegrator::fields(State& state) const noexcept {
 SavedState BatchIntegrator::save() const {
   SavedState saved;
   saved.step = step_;
-  saved.rim = rim_->save();
   saved.u.resize(model_.n_nodes());
   saved.v.resize(model_.n_nodes());
   if (model_.stiffness_damping > 0.0) saved.force.resize(model_.n_nodes());
@@ -152,7 +146,6 @@ void BatchIntegrator::restore(const SavedState& saved) {
   RONDO_DEMAND(saved.u.size() == model_.n_nodes() && saved.v.size() == model_.n_nodes(),
                saved.u.size(), saved.v.size());
   step_ = saved.step;
-  rim_->restore(step_, saved.rim);
   restore_fields(saved);
   if (corners_) corners_->set_impulses(saved.impulses);
   ledger_.restore(saved.ledger);

@@ -2,7 +2,6 @@
 /// @file  What both operators share: the steps of a call in batches, which the threads make without
 /// coming back in between; the ledger of them.
 #pragma once
-#include <memory>
 #include <optional>
 #include <span>
 #include <vector>
@@ -11,7 +10,6 @@
 #include "rondo/integrators/fused/corner_contact.hpp"
 #include "rondo/integrators/fused/step_context.hpp"
 #include "rondo/model/integrator.hpp"
-#include "rondo/model/rim.hpp"
 
 namespace rondo::dynamics {
 
@@ -76,8 +74,7 @@ class BatchIntegrator : public Integrator, public Resumable, protected Candidate
   void make_batch(const Batch& batch, Share share) noexcept;
 
   const int threads_;
-  const std::unique_ptr<Rim> rim_;
-  std::vector<StepContext> steps_;  ///< of a batch: as many as the rim knows ahead
+  std::vector<StepContext> steps_;  ///< of a batch
   std::vector<double> pressures_;   ///< (steps of a batch, pressures of the model)        [Pa]
   std::vector<PartialStep> parts_;  ///< (steps of a batch, n_parts_)
   std::optional<CornerContact> corners_;

@@ -10,17 +10,14 @@
 
 namespace rondo::dynamics {
 
-GeneralIntegrator::GeneralIntegrator(const Model& model, const State& start,
-                                     std::unique_ptr<Rim> rim)
+GeneralIntegrator::GeneralIntegrator(const Model& model, const State& start)
     : model_(model),
-      rim_(std::move(rim)),
       state_(start),
       internal_(make_internal_force(model, start.u, start.poses)),
       contact_(model),
       damping_(model.stiffness_damping > 0.0 ? model.n_nodes() : 0),
       load_(model.pressures.empty() ? 0 : model.n_nodes()) {
-  RONDO_DEMAND(model.free_bodies.empty() || model.scheme == Scheme::symplectic);
-  rim_->restore(start.step, {});
+  RONDO_DEMAND(!model.rim && (model.free_bodies.empty() || model.scheme == Scheme::symplectic));
   state_.v.resize(model.n_nodes());
   take_poses();
 }
@@ -43,22 +40,8 @@ void GeneralIntegrator::find_forces(double& strain) noexcept {
   take_poses();
   strain = internal_->half_step_energy(state_.u, state_.v);
   if (!damping_.empty()) internal_->damping(damping_);
-  if (rim_->steps_ahead() == 1) rim_->take(impulse_on_rim());
-  state_.frame = rim_->next();
+  state_.frame = frame_step(model_.motion, state_.step, model_.dt);
   if (!load_.empty()) pressure_forces(model_, state_.u, state_.frame.time, load_);
-}
-
-/// Of the internal forces in the turning frame, whose reaction the rim feels.
-RimImpulse GeneralIntegrator::impulse_on_rim() const noexcept {
-  const std::span<const Vec2> gradient = internal_->gradient();
-  RimImpulse sum;
-  for_free_nodes(model_, [&](std::size_t k) {
-    if (in_fixed_frame(model_, k)) return;
-    const Vec2 impulse = model_.dt * (damping_.empty() ? gradient[k] : gradient[k] + damping_[k]);
-    sum.impulse += impulse;
-    sum.angular_impulse += cross(model_.reference[k] + state_.u[k], impulse);
-  });
-  return sum;
 }
 
 /// v⁺ = v⁻ + [Δt f/m - drag v⁻]/a, without contact (3.4).
@@ -149,7 +132,6 @@ SavedState GeneralIntegrator::save() const {
   saved.step = state_.step;
   saved.u = state_.u;
   saved.v = state_.v_next;
-  saved.rim = rim_->save();
   internal_->save(saved);
   saved.impulses = contact_.impulses();
   saved.ledger = ledger_.save();
@@ -162,7 +144,6 @@ void GeneralIntegrator::restore(const SavedState& saved) {
   state_.step = saved.step;
   state_.u = saved.u;
   state_.v_next = saved.v;
-  rim_->restore(saved.step, saved.rim);
   internal_->restore(saved);
   take_poses();
   contact_.set_impulses(saved.impulses);

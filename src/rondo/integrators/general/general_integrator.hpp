@@ -13,16 +13,13 @@
 #include "rondo/integrators/general/general_contact.hpp"
 #include "rondo/model/integrator.hpp"
 #include "rondo/model/internal_force.hpp"
-#include "rondo/model/rim.hpp"
 
 namespace rondo::dynamics {
 
 class GeneralIntegrator final : public Integrator, public Resumable {
  public:
-  /// @pre the assembled stiffness is there; scheme "symplectic" if a body is free.
-  GeneralIntegrator(const Model& model, const State& start)
-      : GeneralIntegrator(model, start, make_rim(model)) {}
-  GeneralIntegrator(const Model& model, const State& start, std::unique_ptr<Rim> rim);
+  /// @pre the assembled stiffness is there, no loaded rim; scheme "symplectic" if a body is free.
+  GeneralIntegrator(const Model& model, const State& start);
 
   void advance(std::span<StepReport> reports, State* last = nullptr) noexcept override;
   void fields(State& state) const noexcept override;
@@ -38,13 +35,11 @@ class GeneralIntegrator final : public Integrator, public Resumable {
   void move(double& kinetic) noexcept;
   void take_poses() noexcept;
   void find_forces(double& strain) noexcept;
-  [[nodiscard]] RimImpulse impulse_on_rim() const noexcept;
   void free_velocities(const BodyFrames& frames) noexcept;
   void add_works(const BodyFrames& frames, Works& works) const noexcept;
   void report_frame(StepReport& report) const noexcept;
 
   const Model& model_;
-  const std::unique_ptr<Rim> rim_;
   State state_;
   Ledger ledger_;
   const std::unique_ptr<InternalForce> internal_;
