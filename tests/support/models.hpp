@@ -98,6 +98,16 @@ inline void add_ground(Built& b, const contact::GroundShape& shape, contact::Law
       dynamics::ContactModel{contact::Ground(shape), law, b.mesh.boundary, b.mesh.tributary});
 }
 
+/// @param rim without the bonded nodes, which are added
+inline void set_rim(Built& b, dynamics::RimBody rim) {
+  for (const int node : b.mesh.clamped) {
+    const auto k = static_cast<std::size_t>(node);
+    rim.mass += b.model.mass[k];
+    rim.inertia += b.model.mass[k] * dot(b.model.reference[k], b.model.reference[k]);
+  }
+  b.model.rim = rim;
+}
+
 inline dynamics::State start_at_rest(const dynamics::Model& model) {
   const std::vector<Vec2> zero(model.n_nodes());
   return dynamics::start(model, zero, zero);

@@ -7,9 +7,9 @@
 #include "rondo/core/contract.hpp"
 #include "rondo/fem/stiffness_product.hpp"
 #include "rondo/integrators/general/body_frames.hpp"
-#include "rondo/integrators/general/wheel_integrator.hpp"
 #include "rondo/model/corotated.hpp"
 #include "rondo/model/internal_force.hpp"
+#include "rondo/model/loaded_rim.hpp"
 #include "rondo/model/pressure.hpp"
 
 namespace rondo::dynamics {

@@ -177,4 +177,15 @@ void LoadedRim::restore(long long step, std::span<const double> s) {
   frame_.center = {x_.value(), y_.value()};
 }
 
+/// y₂ = e^{-iδ}(y₁ + Δt R̄(V - ċ)), less y₁.
+Vec2 travel_on_rim(const LoadedRim& rim, double dt, Vec2 arm, Vec2 velocity) noexcept {
+  const Vec2 way = dt * (velocity - conj(rim.frame().rotation) * rim.velocity());
+  return way + conj(rim.turn()) * (arm + way);
+}
+
+Vec2 velocity_on_rim(const LoadedRim& rim, double dt, Vec2 arm, Vec2 travel) noexcept {
+  const Vec2 way = travel + rim.turn() * (arm + travel);
+  return way / dt + conj(rim.frame().rotation) * rim.velocity();
+}
+
 }  // namespace rondo::dynamics

@@ -6,10 +6,12 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <memory>
 #include <utility>
 #include <vector>
 
 #include "rondo/integrators/general/general_integrator.hpp"
+#include "rondo/integrators/general/wheel_integrator.hpp"
 #include "rondo/integrators/integrator.hpp"
 #include "rondo/integrators/start.hpp"
 
@@ -19,10 +21,10 @@ namespace rondo::test {
 class Reference {
  public:
   Reference(const dynamics::Model& model, dynamics::State start)
-      : state(std::move(start)), steps_(model, state) {}
+      : state(std::move(start)), steps_(reference(model, state)) {}
 
   const dynamics::StepReport& step() {
-    steps_.advance({&last, 1}, &state);
+    steps_->advance({&last, 1}, &state);
     return last;
   }
 
@@ -30,7 +32,13 @@ class Reference {
   dynamics::StepReport last;
 
  private:
-  dynamics::GeneralIntegrator steps_;
+  static std::unique_ptr<dynamics::Integrator> reference(const dynamics::Model& model,
+                                                         const dynamics::State& start) {
+    if (model.rim) return std::make_unique<dynamics::WheelIntegrator>(model, start);
+    return std::make_unique<dynamics::GeneralIntegrator>(model, start);
+  }
+
+  std::unique_ptr<dynamics::Integrator> steps_;
 };
 
 /// The largest difference of quantities of a kind, and their largest size.
@@ -62,8 +70,8 @@ class Comparison {
   void see(const dynamics::StepReport& a, const dynamics::StepReport& b) {
     ASSERT_EQ(a.step, b.step);
     ASSERT_EQ(a.frame.time, b.frame.time);
-    ASSERT_EQ(a.frame.rotation, b.frame.rotation);
-    ASSERT_EQ(a.frame.center, b.frame.center);
+    see(a.frame, b.frame);
+    see(a.rim, b.rim);
     const dynamics::ContactReport &c = a.contact, &d = b.contact;
     if (contacts_ == Contacts::one_by_one) {
       ASSERT_EQ(c.nodes, d.nodes) << "step " << a.step;
@@ -84,7 +92,7 @@ class Comparison {
   }
   void see(const dynamics::State& a, const dynamics::State& b) {
     ASSERT_EQ(a.step, b.step);
-    ASSERT_EQ(a.frame.angle, b.frame.angle);
+    frame_.see(a.frame.angle, b.frame.angle);
     u_.see(a.u, b.u);
     v_.see(a.v, b.v);
     v_.see(a.v_next, b.v_next);
@@ -101,11 +109,28 @@ class Comparison {
                                   {"normal", normal_},
                                   {"relative velocity", slip_},
                                   {"work of a step", work_},
-                                  {"energy", energy_}})
+                                  {"energy", energy_},
+                                  {"place of the rim", frame_},
+                                  {"velocity of the rim", rim_},
+                                  {"reaction of the rim", reaction_}})
       EXPECT_LE(d.error, bound * d.size) << kind;
   }
+  /// A rim that follows its tables is where it is to the bit.
+  void expect_the_same_frames() const { EXPECT_EQ(frame_.error, 0.0); }
 
  private:
+  void see(const dynamics::FrameStep& a, const dynamics::FrameStep& b) {
+    frame_.see(a.center, b.center);
+    frame_.see({a.rotation.re, a.rotation.im}, {b.rotation.re, b.rotation.im});
+  }
+  void see(const dynamics::RimReport& a, const dynamics::RimReport& b) {
+    rim_.see(a.velocity, b.velocity);
+    rim_.see(a.spin, b.spin);
+    // On a loaded rim relative velocities are what absolute ones of that size leave.
+    v_.size = std::max({v_.size, norm(a.velocity), radius * std::abs(a.spin)});
+    reaction_.see(a.force, b.force);
+    reaction_.see(a.torque, b.torque);
+  }
   static constexpr double radius = 0.3;  // of the disk [m]
 
   void see(const dynamics::Balance& a, const dynamics::Balance& b) {
@@ -120,6 +145,14 @@ class Comparison {
                                      {w.dissipation_mass, x.dissipation_mass},
                                      {w.dissipation_stiffness, x.dissipation_stiffness},
                                      {w.scheme, x.scheme},
+                                     {a.kinetic_rim, b.kinetic_rim},
+                                     {a.support, b.support},
+                                     {w.gravity, x.gravity},
+                                     {w.rim_load, x.rim_load},
+                                     {w.torque, x.torque},
+                                     {w.held, x.held},
+                                     {w.dissipation_brake, x.dissipation_brake},
+                                     {w.dissipation_support, x.dissipation_support},
                                      {a.exchanged, b.exchanged},
                                      {a.otherwise, b.otherwise},
                                      {a.residual, b.residual}})
@@ -153,7 +186,8 @@ class Comparison {
   }
 
   Contacts contacts_;
-  Difference u_, v_, impulse_, length_, normal_, slip_, work_, energy_;
+  Difference u_, v_, impulse_, length_, normal_, slip_, work_, energy_, frame_, rim_;
+  Difference reaction_{0.0, 1e4};  // a sum of forces of that size [N/m]
   Difference gap_{0.0, radius};  // a difference of positions of that size
 };
 

@@ -46,6 +46,9 @@ std::vector<double> numbers(const StepReport& s) {
   append(out, {c.work, c.dissipation_friction, c.loss_impact, c.work_rim});
   append(out, {w.frame, w.contact, w.dissipation_friction, w.loss_impact, w.rim});
   append(out, {w.dissipation_mass, w.dissipation_stiffness, w.scheme, w.load});
+  append(out, {w.gravity, w.rim_load, w.torque, w.held, w.dissipation_brake});
+  append(out, {w.dissipation_support, b.kinetic_rim, b.support, s.rim.spin, s.rim.torque});
+  append(out, std::array{s.rim.velocity, s.rim.force});
   append(out, {b.kinetic, b.strain, b.residual, b.exchanged, b.otherwise, b.relative});
   return out;
 }
@@ -140,7 +143,11 @@ std::vector<test::Built> disks() {
   return {test::build(test::everything("", 4, 61)),
           test::build(test::everything("", 3, mesh::Tread{20, 0.02, 3, 1, 2})),
           test::build(test::everything("", 3, mesh::Tread{3, 0.02, 20, 10, 2})),
-          test::build(ledge)};
+          test::build(ledge),
+          test::build(test::on_rim(test::everything("", 4, 61), true, true, true)),
+          test::build(test::on_rim(ledge, false, true, true)),
+          test::build(test::on_rim(test::everything("", 3, mesh::Tread{20, 0.02, 3, 1, 2}), false,
+                                   true, true))};
 }
 
 class Integrators : public testing::TestWithParam<StiffnessOperator> {};

@@ -21,6 +21,7 @@ struct RollingCase {
   std::optional<contact::GroundShape> ground;
   bool stiffened = false;  ///< by the stress of the initial spin
   bool pressed = false;    ///< by pressures on its boundary
+  std::optional<dynamics::RimBody> rim{};  ///< without the bonded nodes
 };
 
 /// For the names that the tests print.
@@ -63,6 +64,46 @@ inline RollingCase sharp(RollingCase c) {
   c.name += "_sharp";
   c.ground->fillet = 0.0;
   return c;
+}
+
+/// The same on a loaded rim: what is free of it has tables of loads and a support.
+inline RollingCase on_rim(RollingCase c, bool x, bool y, bool spin) {
+  using dynamics::Table;
+  c.name += std::string("_rim") + (x ? "_x" : "") + (y ? "_y" : "") + (spin ? "_spin" : "");
+  c.disk.motion.slope = 0.05;
+  dynamics::RimBody& rim = c.rim.emplace();
+  rim.free_x = x;
+  rim.free_y = y;
+  rim.free_spin = spin;
+  rim.mass = 100.0;
+  rim.inertia = 1.0;
+  if (x) rim.force_x = Table({{0.0, 0.0}, {0.01, 3.0e4}});
+  if (x) rim.support_x = {.stiffness = 1.0e5, .damping = 2.0e3, .at = 0.02};
+  if (y) rim.force_y = Table({{0.0, -5.0e4}, {0.01, -1.5e5}});
+  if (y) rim.support_y = {.stiffness = 2.0e5, .damping = 6.0e4, .at = 0.3};
+  if (spin) rim.torque = Table({{0.0, 0.0}, {0.01, 8.0e3}, {0.02, -2.0e3}});
+  if (spin) rim.brake = Table({{0.0, 0.0}, {0.02, 0.0}, {0.03, 3.0e4}});
+  return c;
+}
+
+/// On a loaded rim: what differs between the operators, and each degree of freedom free or held.
+inline std::vector<RollingCase> wheel_cases() {
+  const mesh::Tread tread{20, 0.02, 3, 1, 2};
+  std::vector<RollingCase> all;
+  const RollingCase smooth = everything("smooth", 6, 90);
+  for (const unsigned free : {0U, 1U, 2U, 4U, 6U, 7U})
+    all.push_back(on_rim(smooth, (free & 1U) != 0, (free & 2U) != 0, (free & 4U) != 0));
+  RollingCase undamped = everything("undamped", 6, 90);
+  undamped.disk.alpha = undamped.disk.beta = 0.0;
+  RollingCase flying = everything("flying", 4, 61);
+  flying.ground.reset();
+  RollingCase weightless = pressed(everything("weightless", 4, 61));
+  weightless.disk.motion.gravity = dynamics::Table(0.0);
+  for (const RollingCase& c :
+       {undamped, flying, weightless, everything("treaded", 3, tread),
+        pressed(everything("treaded", 3, tread)), everything("columns_100", 1, 100)})
+    all.push_back(on_rim(c, true, true, true));
+  return all;
 }
 
 /// Each difference between the operators that a step could depend on, and numbers of sectors that
@@ -142,6 +183,7 @@ inline Built build(const RollingCase& c) {
     b.model.contact->edges = b.mesh.contact_edges;
   }
   if (c.pressed) add_pressures(b);
+  if (c.rim) set_rim(b, *c.rim);
   return b;
 }
 

@@ -4,6 +4,7 @@
 #include <omp.h>
 
 #include <algorithm>
+#include <cmath>
 
 #include "rondo/core/contract.hpp"
 #include "rondo/integrators/fused/cyclic_plan.hpp"
@@ -30,47 +31,64 @@ constexpr std::size_t steps_between_looks = 16;
 
 }  // namespace
 
-BatchIntegrator::BatchIntegrator(const Model& model, long long step, std::size_t n_parts,
+BatchIntegrator::BatchIntegrator(const Model& model, const State& start, std::size_t n_parts,
                                  std::size_t n_pieces)
     : model_(model),
       n_parts_(n_parts + (has_sharp_corners(model) ? 1 : 0)),
-      step_(step),
+      step_(start.step),
       threads_(std::min(model.threads, static_cast<int>(n_pieces))),
       steps_(has_sharp_corners(model) ? steps_between_looks : steps_at_once),
       pressures_(steps_.size() * model.pressures.size()),
       parts_(steps_.size() * n_parts_) {
   if (has_sharp_corners(model)) corners_.emplace(model);
+  if (!model.rim) return;
+  rim_.emplace(model);
+  rim_->restore(start.step, start.rim);
 }
 
 void BatchIntegrator::set_step(std::size_t i) noexcept {
   const long long n = step_ + static_cast<long long>(i) + 1;
   steps_[i] = step_context(model_, frame_step(model_.motion, n, model_.dt));
+  set_pressures(i);
+}
+
+void BatchIntegrator::set_pressures(std::size_t i) noexcept {
   double* const pressures = pressures_.data() + i * model_.pressures.size();
   for (std::size_t l = 0; l < model_.pressures.size(); ++l)
     pressures[l] = model_.pressures[l].pressure.at(steps_[i].frame.time);
   steps_[i].pressures = pressures;
 }
 
-void BatchIntegrator::advance_batch(std::span<StepReport> reports) noexcept {
-  for (std::size_t i = 0; i < reports.size(); ++i) set_step(i);
-  const std::span steps = std::span(steps_).first(reports.size());
-  if (corners_) {
-    corners_->look_out(steps, *this);
-    within_ = corners_->any_near() && hold_within(corners_->nodes());
-    for (std::size_t i = 0; i < steps.size(); ++i) parts_[(i + 1) * n_parts_ - 1] = {};
-  }
-  const Batch batch{steps, parts_.data(), step_};
+void BatchIntegrator::look_for_corners(std::span<StepContext> steps) noexcept {
+  if (!corners_) return;
+  corners_->look_out(steps, *this);
+  within_ = corners_->any_near() && hold_within(corners_->nodes());
+}
+
+template <class Work>
+void BatchIntegrator::in_all_threads(Work&& work) noexcept {
   if (threads_ > 1) {
 #pragma omp parallel num_threads(threads_)
     {
       const StepTraps traps;
-      make_batch(batch, {static_cast<std::size_t>(omp_get_thread_num()),
-                         static_cast<std::size_t>(omp_get_num_threads())});
+      work(Share{static_cast<std::size_t>(omp_get_thread_num()),
+                 static_cast<std::size_t>(omp_get_num_threads())});
     }
   } else {
     const StepTraps traps;
-    make_batch(batch, {});
+    work(Share{});
   }
+}
+
+void BatchIntegrator::advance_batch(std::span<StepReport> reports) noexcept {
+  if (rim_) return advance_on_rim(reports);
+  for (std::size_t i = 0; i < reports.size(); ++i) set_step(i);
+  const std::span steps = std::span(steps_).first(reports.size());
+  look_for_corners(steps);
+  if (corners_)
+    for (std::size_t i = 0; i < steps.size(); ++i) parts_[(i + 1) * n_parts_ - 1] = {};
+  const Batch batch{steps, parts_.data(), step_};
+  in_all_threads([&](Share share) { make_batch(batch, share); });
   for (std::size_t i = 0; i < reports.size(); ++i) {
     const std::span parts = std::span<const PartialStep>(parts_).subspan(i * n_parts_, n_parts_);
     const WholeStep whole = whole_step(model_, parts);
@@ -79,7 +97,7 @@ void BatchIntegrator::advance_batch(std::span<StepReport> reports) noexcept {
                   ledger_.last(), {}};
   }
   step_ = batch.first + static_cast<long long>(reports.size());
-  if (corners_) reports.back().contact.unseen = corners_->unseen(*this);
+  if (corners_) reports.back().contact.unseen = corners_->unseen(*this, 0.0);
 }
 
 bool BatchIntegrator::hold_within(std::span<const int>) noexcept {
@@ -100,6 +118,76 @@ void BatchIntegrator::make_batch(const Batch& batch, Share share) noexcept {
     step_ = before + 1;  // the others do not look at it
     corners_->solve(step, *this, parts[n_parts_ - 1]);
   }
+}
+
+/// Frames of the steps to come if the rim went on as it does: where corners are looked for.
+void BatchIntegrator::expect_steps(std::size_t n) noexcept {
+  LoadedRim expected = *rim_;
+  for (std::size_t i = 0; i < n; ++i) {
+    expected.move();
+    steps_[i].frame = expected.frame();
+  }
+}
+
+void BatchIntegrator::advance_on_rim(std::span<StepReport> reports) noexcept {
+  const long long first = step_;
+  FrameStep expected;
+  if (corners_) {
+    expect_steps(reports.size());
+    expected = steps_[reports.size() - 1].frame;
+    look_for_corners(std::span(steps_).first(reports.size()));
+  }
+  in_all_threads([&](Share share) { make_steps_on_rim(reports, first, share); });
+  step_ = first + static_cast<long long>(reports.size());
+  if (!corners_) return;
+  const FrameStep& last = reports.back().frame;
+  const double astray = norm(last.center - expected.center) +
+                        std::abs(last.angle - expected.angle) * corners_->farthest();
+  reports.back().contact.unseen = corners_->unseen(*this, astray);
+}
+
+/// Step by step: forces and impulses by all threads, the rim by one, places by all.
+void BatchIntegrator::make_steps_on_rim(std::span<StepReport> reports, long long first,
+                                        Share share) noexcept {
+  for (std::size_t i = 0; i < reports.size(); ++i) {
+    const long long before = first + static_cast<long long>(i);
+    if (share.thread == 0) begin_step(before);
+    wait_for_others(share);
+    make_steps({std::span(steps_).first(1), parts_.data(), before}, share);
+    if (share.thread == 0) end_step(reports[i]);
+    wait_for_others(share);
+    go_on(way_, before, share);
+    wait_for_others(share);
+  }
+}
+
+void BatchIntegrator::begin_step(long long before) noexcept {
+  step_ = before;
+  const char* held = steps_.front().held;
+  rim_->move();
+  steps_.front() = wheel_context(model_, rim_->frame(), conj(rim_->turn_before()));
+  steps_.front().held = held;
+  set_pressures(0);
+  if (!corners_) return;
+  parts_[n_parts_ - 1] = {};
+  if (corners_->any_near() && !within_) corners_->find(steps_.front(), *this);
+}
+
+void BatchIntegrator::end_step(StepReport& report) noexcept {
+  const StepContext& step = steps_.front();
+  const std::span parts = std::span(parts_).first(n_parts_);
+  if (corners_ && corners_->any_near() && !within_) corners_->solve(step, *this, parts.back());
+  report = {};
+  if (model_.contact)
+    for (const PartialStep& part : parts) report.contact.add(part.contact);
+  const StepSums sums = add_up(parts, kernels::n_wheel_sums);
+  rim_->take(rim_force(step, sums));
+  way_ = wheel_way(model_, *rim_);
+  ledger_.add(wheel_energy(model_, step, sums, report.contact, *rim_));
+  report.step = step_ + 1;
+  report.frame = rim_->frame();
+  report.balance = ledger_.last();
+  report.rim = rim_->report();
 }
 
 void BatchIntegrator::advance(std::span<StepReport> reports, State* last) noexcept {
@@ -135,7 +223,11 @@ SavedState BatchIntegrator::save() const {
   saved.step = step_;
   saved.u.resize(model_.n_nodes());
   saved.v.resize(model_.n_nodes());
-  if (model_.stiffness_damping > 0.0) saved.force.resize(model_.n_nodes());
+  if (model_.stiffness_damping > 0.0 || rim_) saved.force.resize(model_.n_nodes());
+  if (rim_) {
+    saved.rim = rim_->save();
+    saved.u_before.resize(model_.n_nodes());
+  }
   save_fields(saved);
   if (corners_) saved.impulses = corners_->impulses();
   saved.ledger = ledger_.save();
@@ -146,6 +238,7 @@ void BatchIntegrator::restore(const SavedState& saved) {
   RONDO_DEMAND(saved.u.size() == model_.n_nodes() && saved.v.size() == model_.n_nodes(),
                saved.u.size(), saved.v.size());
   step_ = saved.step;
+  if (rim_) rim_->restore(saved.step, saved.rim);
   restore_fields(saved);
   if (corners_) corners_->set_impulses(saved.impulses);
   ledger_.restore(saved.ledger);

@@ -9,6 +9,7 @@
 #include "rondo/core/barrier.hpp"
 #include "rondo/integrators/fused/corner_contact.hpp"
 #include "rondo/integrators/fused/step_context.hpp"
+#include "rondo/integrators/fused/wheel_sums.hpp"
 #include "rondo/model/integrator.hpp"
 
 namespace rondo::dynamics {
@@ -40,14 +41,19 @@ class BatchIntegrator : public Integrator, public Resumable, protected Candidate
 
   /// @param n_parts of the body, of which each step has sums
   /// @param n_pieces of work that threads share: no more threads are started
-  BatchIntegrator(const Model& model, long long step, std::size_t n_parts, std::size_t n_pieces);
+  BatchIntegrator(const Model& model, const State& start, std::size_t n_parts,
+                  std::size_t n_pieces);
 
   /// A thread's share of a batch; all threads are in it at the same time.
   virtual void make_steps(const Batch& batch, Share share) noexcept = 0;
+  /// On a loaded rim, after make_steps() of one step: a thread's share of u_{n+2}.
+  /// @param step number of the last step made before
+  virtual void go_on(const kernels::WheelWay& way, long long step, Share share) noexcept = 0;
   /// u_{n+1} and v_{n+1/2}, n the last step made, of the free nodes.
   virtual void save_displacement(std::vector<Vec2>& u) const noexcept = 0;
   virtual void save_velocity(std::vector<Vec2>& v) const noexcept = 0;
-  /// u, v and force of the free nodes, as they are held; the force where `saved` has room for it.
+  /// u, v and force of the free nodes, as they are held; the force where `saved` has room for it;
+  /// u_before with a loaded rim.
   virtual void save_fields(SavedState& saved) const noexcept = 0;
   virtual void restore_fields(const SavedState& saved) noexcept = 0;
   /// Adds the contacts of the last step made; the two of a node one after the other.
@@ -71,13 +77,25 @@ class BatchIntegrator : public Integrator, public Resumable, protected Candidate
  private:
   void advance_batch(std::span<StepReport> reports) noexcept;
   void set_step(std::size_t i) noexcept;
+  void set_pressures(std::size_t i) noexcept;
+  void look_for_corners(std::span<StepContext> steps) noexcept;
+  template <class Work>
+  void in_all_threads(Work&& work) noexcept;
   void make_batch(const Batch& batch, Share share) noexcept;
+  // On a loaded rim:
+  void advance_on_rim(std::span<StepReport> reports) noexcept;
+  void expect_steps(std::size_t n) noexcept;
+  void make_steps_on_rim(std::span<StepReport> reports, long long first, Share share) noexcept;
+  void begin_step(long long before) noexcept;
+  void end_step(StepReport& report) noexcept;
 
   const int threads_;
   std::vector<StepContext> steps_;  ///< of a batch
   std::vector<double> pressures_;   ///< (steps of a batch, pressures of the model)        [Pa]
   std::vector<PartialStep> parts_;  ///< (steps of a batch, n_parts_)
   std::optional<CornerContact> corners_;
+  std::optional<LoadedRim> rim_;
+  kernels::WheelWay way_{};  ///< of the step in hand, on a loaded rim
   bool within_ = false;  ///< corners are near, and make_steps() takes care of them
   Barrier barrier_;
   Ledger ledger_;

@@ -47,6 +47,7 @@ Model boundary_of(const Model& model) {
   b.contact = model.contact;
   b.coupled = model.coupled;
   b.motion = model.motion;
+  b.rim = model.rim;
   b.scheme = model.scheme;
   b.mass_damping = model.mass_damping;
   b.dt = model.dt;
@@ -106,6 +107,7 @@ CornerContact::Extent CornerContact::extent(std::size_t n_steps,
   const double time = static_cast<double>(n_steps) * boundary_.dt;
   const double touch = contact_.finder().deepest();
   way_ = 4.0 * touch + 2.0 * time * fastest;
+  farthest_ = farthest;
   return {touch + way_, farthest};
 }
 
@@ -131,13 +133,13 @@ void CornerContact::look_out(std::span<StepContext> steps, const CandidateFields
   contact_.set_impulses({});
 }
 
-double CornerContact::unseen(const CandidateFields& fields) const noexcept {
+double CornerContact::unseen(const CandidateFields& fields, double astray) const noexcept {
   double squared = 0.0;
   for (std::size_t k = 0; k < boundary_.n_nodes(); ++k) {
     const Vec2 way = fields.motion_of(k).u - begin_[k];
     squared = std::max(squared, dot(way, way));
   }
-  const double moved = std::sqrt(squared);
+  const double moved = std::sqrt(squared) + astray;
   if (!(moved > way_)) return 0.0;
   const Box within = widened(around_, moved);
   const std::span<const contact::Corner> corners = boundary_.contact->ground.corners();
@@ -209,8 +211,9 @@ void CornerContact::find(const StepContext& step, const CandidateFields& fields)
       const std::size_t k = at(row.rows.node[at(i)]);
       if (std::exchange(is_held_[k], char{1})) continue;
       const CandidateMotion motion = fields.motion_of(k);
-      state_.v[k] = motion.v;
-      held_.push_back({k, motion.force, {}});
+      const Complex back{step.wheel.back_x, step.wheel.back_y};  // 0 but with a loaded rim
+      state_.v[k] = motion.v + back * motion.v;
+      held_.push_back({k, {.change = motion.force, .load = load_on(step, k), .moved = motion.moved}});
     }
 }
 
@@ -221,7 +224,8 @@ void CornerContact::solve(const StepContext& step, CandidateFields& fields,
   for (Held& h : held_) {
     const CandidateMotion motion = fields.motion_of(h.candidate);
     state_.v_next[h.candidate] = h.free = motion.v;
-    h.change = motion.force - h.change;
+    h.forces.change = motion.force - h.forces.change;
+    h.forces.elastic = motion.force;
   }
   const VelocityUpdate update =
       velocity_update(boundary_.scheme, boundary_.dt, boundary_.mass_damping, step.frame.spin);
@@ -237,7 +241,10 @@ void CornerContact::solve(const StepContext& step, CandidateFields& fields,
                            state_.v[k],
                            h.free};
     fields.move(k, after, state_.u[k] + boundary_.dt * after);
-    correct_sums(step, node, after, {h.change, load_on(step, k)}, part.sums);
+    if (boundary_.rim)
+      correct_wheel_sums(node, after, h.forces, part.sums);
+    else
+      correct_sums(step, node, after, h.forces, part.sums);
   }
 }
 

@@ -16,9 +16,10 @@ namespace rondo::dynamics {
 
 /// A candidate between two steps, turning frame.
 struct CandidateMotion {
-  Vec2 u;      ///< u_{n+1}                                                           [m]
-  Vec2 v;      ///< v_{n+1/2}                                                         [m/s]
-  Vec2 force;  ///< K u_n, with β only                                                [N/m]
+  Vec2 u;        ///< u_{n+1}                                                         [m]
+  Vec2 v;        ///< v_{n+1/2}; with a loaded rim V in the axes of R_n                   [m/s]
+  Vec2 force{};  ///< K u_n, with β or a loaded rim                                    [N/m]
+  Vec2 moved{};  ///< u_{n+1} - u_n, with a loaded rim                                  [m]
 };
 
 /// What a fused integrator lets be seen and changed of single candidates, between two steps.
@@ -26,6 +27,7 @@ class CandidateFields {
  public:
   /// @param candidate place in ContactModel::nodes
   [[nodiscard]] virtual CandidateMotion motion_of(std::size_t candidate) const noexcept = 0;
+  /// @param u not looked at with a loaded rim, which has not moved yet
   virtual void move(std::size_t candidate, Vec2 v, Vec2 u) noexcept = 0;
 
  protected:
@@ -43,7 +45,8 @@ class CornerContact {
   [[nodiscard]] bool any_near() const noexcept { return n_near_ > 0; }
   /// After the batch: how far a candidate has come in it, where that is farther than was looked for
   /// and a corner is within it, so that a touch may be missed; else 0                     [m]
-  [[nodiscard]] double unseen(const CandidateFields& fields) const noexcept;
+  /// @param astray how far the frame was from where it was expected                          [m]
+  [[nodiscard]] double unseen(const CandidateFields& fields, double astray) const noexcept;
   /// Candidates that may be held in the batch, and their neighbours.
   [[nodiscard]] std::span<const int> nodes() const noexcept { return nodes_; }
 
@@ -55,6 +58,8 @@ class CornerContact {
 
   /// Adds the contacts of the last step.
   void save_active(std::vector<ActiveContact>& active) const;
+  /// The farthest a candidate is from the center, as last looked for                       [m]
+  [[nodiscard]] double farthest() const noexcept { return farthest_; }
   [[nodiscard]] const GeneralContact::KeptImpulses& impulses() const noexcept {
     return contact_.impulses();
   }
@@ -68,8 +73,8 @@ class CornerContact {
  private:
   struct Held {
     std::size_t candidate;
-    Vec2 change;  ///< K u_n before the step; after it, by how much that has changed     [N/m]
-    Vec2 free;    ///< v_{n+3/2} without impulse                                      [m/s]
+    NodeForces forces;  ///< `elastic` and `change`: K u_n before the step
+    Vec2 free{};        ///< v_{n+3/2} without impulse                                [m/s]
   };
   /// How far the boundary may be from where it is during a batch, and from the center [m].
   struct Extent {
@@ -88,6 +93,7 @@ class CornerContact {
   std::vector<NearCorner> near_;  ///< the first n_near_ count
   std::size_t n_near_ = 0;
   std::vector<Vec2> begin_;   ///< (nb) u where the batch began                           [m]
+  double farthest_ = 0.0;     ///< from the center                                         [m]
   double way_ = 0.0;          ///< that a candidate may come from there                   [m]
   Box around_{};              ///< that holds the boundary in the batch, way_ beside it    [m]
   std::vector<int> nodes_;    ///< of the near edges and their neighbours

@@ -28,7 +28,7 @@ CyclicChunk::CyclicChunk(const Model& model, const CyclicPlan& plan, const kerne
       loads_(plan.loads.empty() ? 0
                                 : static_cast<std::size_t>(
                                       CyclicPlan::lead + plan.stride * 2 * std::ssize(plan.loads))),
-      sums_(static_cast<std::size_t>(plan.depth * kernels::n_sums * kernels::lanes) *
+      sums_(static_cast<std::size_t>(plan.depth * plan.n_sums() * kernels::lanes) *
             range.n_groups),
       contact_(model.contact ? static_cast<std::size_t>(plan.depth) * range.n_groups : 0) {
   const int n = plan.n_sectors;
@@ -99,6 +99,11 @@ int CyclicChunk::field_now() const noexcept {
   return steps_ % 2 == 0 ? field_u_even : field_u_odd;
 }
 
+/// u of the step to come; on a loaded rim it still is that of the step before.
+int CyclicChunk::field_next() const noexcept {
+  return steps_ % 2 == 0 ? field_u_odd : field_u_even;
+}
+
 /// K u_0 by the very blocks of the steps: with others, alike to round-off, the ledger would begin
 /// with their difference.
 Vec2 CyclicChunk::initial_force(const std::vector<Vec2>& u, int a, int c) const noexcept {
@@ -133,7 +138,21 @@ void CyclicChunk::load(const State& state) {
     put(a, field_v, c, v);
     if (plan_.keeps_force) put(a, field_force, c, initial_force(state.u, a, c));
   });
+  if (plan_.wheel) load_on_rim(state);
   show_to_others();
+}
+
+/// Of the velocities it is V in the axes of R_n that is carried; u_n stays.
+void CyclicChunk::load_on_rim(const State& state) {
+  LoadedRim rim(model_);
+  rim.restore(state.step, state.rim);
+  for_own_nodes([&](int a, int c, std::size_t node) {
+    const Complex to_sector = conj(turn(c));
+    const Vec2 arm = model_.reference[node] + state.u[node];
+    put(a, field_next(), c, to_sector * state.u[node]);
+    put(a, field_v, c,
+        to_sector * velocity_on_rim(rim, model_.dt, arm, model_.dt * state.v_next[node]));
+  });
 }
 
 void CyclicChunk::restore(const SavedState& saved) noexcept {
@@ -141,6 +160,7 @@ void CyclicChunk::restore(const SavedState& saved) noexcept {
     put(a, field_now(), c, saved.u[node]);
     put(a, field_v, c, saved.v[node]);
     if (plan_.keeps_force) put(a, field_force, c, saved.force[node]);
+    if (plan_.wheel) put(a, field_next(), c, saved.u_before[node]);
   });
   show_to_others();
 }
@@ -156,6 +176,7 @@ void CyclicChunk::save(SavedState& saved) const noexcept {
     saved.u[node] = at(a, field_now(), c);
     saved.v[node] = at(a, field_v, c);
     if (plan_.keeps_force) saved.force[node] = at(a, field_force, c);
+    if (plan_.wheel) saved.u_before[node] = at(a, field_next(), c);
   });
 }
 
@@ -168,7 +189,10 @@ void CyclicChunk::save_displacement(std::vector<Vec2>& u) const noexcept {
 }
 
 void CyclicChunk::save_velocity(std::vector<Vec2>& v) const noexcept {
-  save_field(field_v, v);
+  if (!plan_.wheel) return save_field(field_v, v);
+  for_own_nodes([&](int a, int c, std::size_t node) {
+    v[node] = turn(c) * (at(a, field_now(), c) - at(a, field_next(), c)) / model_.dt;
+  });
 }
 
 std::array<int, 3> CyclicChunk::edge_fields() const noexcept {
@@ -195,13 +219,16 @@ std::size_t CyclicChunk::candidate_at(int row, int column) const noexcept {
 CandidateMotion CyclicChunk::motion_of(CyclicPlace place, int field_u) const noexcept {
   const int c = place.sector - range_.first;
   const Complex frame = turn(c);
-  return {frame * at(place.row, field_u, c), frame * at(place.row, field_v, c),
-          plan_.keeps_force ? frame * at(place.row, field_force, c) : Vec2{}};
+  const Vec2 u = at(place.row, field_u, c);
+  return {frame * u, frame * at(place.row, field_v, c),
+          plan_.keeps_force ? frame * at(place.row, field_force, c) : Vec2{},
+          plan_.wheel ? frame * (u - at(place.row, field_next(), c)) : Vec2{}};
 }
 
 void CyclicChunk::set_motion(CyclicPlace place, int field_u, Vec2 v, Vec2 u) noexcept {
   const int c = place.sector - range_.first;
   put(place.row, field_v, c, conj(turn(c)) * v);
+  if (plan_.wheel) return;
   put(place.row, field_u, c, conj(turn(c)) * u);
   if (plan_.halo == Halo::ring) wrap(place.row, field_u);
 }
@@ -212,7 +239,7 @@ CandidateMotion CyclicChunk::motion_of(CyclicPlace place) const noexcept {
 
 void CyclicChunk::move(CyclicPlace place, Vec2 v, Vec2 u) noexcept {
   set_motion(place, field_now(), v, u);
-  if (plan_.halo != Halo::ring) give_edges();
+  if (plan_.halo != Halo::ring && !plan_.wheel) give_edges();
 }
 
 class CyclicChunk::InPass final : public CandidateFields {
@@ -259,33 +286,66 @@ void CyclicChunk::find_touching(const Work& work, int a) noexcept {
   }
 }
 
+/// What a contact's impulse adds to the sums, and where it leaves the node.
+void CyclicChunk::take_impulse(const Work& work, const Touching& t, const ContactNode& node,
+                               Vec2 after, StepSums* sums) noexcept {
+  const Complex frame = turn(t.column);
+  const Vec2 u = at(t.row, work.now, t.column), v = conj(frame) * after;
+  put(t.row, field_v, t.column, v);
+  if (!plan_.wheel) put(t.row, work.next, t.column, u + model_.dt * v);
+  if (!sums) return;
+  NodeForces forces{.load = frame * load_on(work, t.row, t.column)};
+  if (plan_.keeps_force) forces.change = frame * (at(t.row, field_force, t.column) - t.force);
+  if (!plan_.wheel) return correct_sums(*work.step, node, after, forces, *sums);
+  forces.elastic = frame * at(t.row, field_force, t.column);
+  forces.moved = frame * (u - at(t.row, work.next, t.column));
+  correct_wheel_sums(node, after, forces, *sums);
+}
+
 void CyclicChunk::solve_node(const Work& work, const Touching& t) noexcept {
   const kernels::CyclicRow& row = plan_.rows[static_cast<std::size_t>(t.row)];
   const std::size_t k = candidate_at(t.row, t.column);
   const Complex frame = turn(t.column);
   const Vec2 u = at(t.row, work.now, t.column);
+  const Complex back{work.step->wheel.back_x, work.step->wheel.back_y};
+  const Vec2 before = plan_.wheel ? t.v + back * t.v : t.v;
   const ContactNode node{k,
                          row.mass,
                          model_.contact->tributary[k],
                          frame * (Vec2{row.x, row.y} + u),
-                         frame * t.v,
+                         frame * before,
                          frame * at(t.row, field_v, t.column)};
   std::array<ActiveContact, 2> contacts;
   const std::span active(contacts.data(), static_cast<std::size_t>(t.touches.count));
   ContactReport report;
   const Vec2 after = solve_contacts(*work.step->contact, node, t.touches, active, report);
-  const Vec2 v = conj(frame) * after;
-  put(t.row, field_v, t.column, v);
-  put(t.row, work.next, t.column, u + model_.dt * v);
-  if (t.column < 0 || t.column >= range_.columns) return;  // a neighbour's, who reports it
-  PartialStep& part =
-      contact_[work.place * range_.n_groups + static_cast<std::size_t>(t.column / group_columns)];
-  part.contact.add(report);
-  const Vec2 change =
-      plan_.keeps_force ? frame * (at(t.row, field_force, t.column) - t.force) : Vec2{};
-  correct_sums(*work.step, node, after, {change, frame * load_on(work, t.row, t.column)},
-               part.sums);
+  // Of a neighbour's node it is the neighbour who reports.
+  const bool own = t.column >= 0 && t.column < range_.columns;
+  PartialStep* part = own ? &contact_[work.place * range_.n_groups +
+                                      static_cast<std::size_t>(t.column / group_columns)]
+                          : nullptr;
+  take_impulse(work, t, node, after, part ? &part->sums : nullptr);
+  if (!part) return;
+  part->contact.add(report);
   if (work.last) active_.insert(active_.end(), active.begin(), active.end());
+}
+
+/// Fields and columns of up to most_rows rows.
+kernels::CyclicStrip CyclicChunk::strip_from(int first, int now, int next) noexcept {
+  kernels::CyclicStrip s{};
+  s.rows = plan_.rows.data() + first;
+  s.n_rows = std::min(kernels::most_rows, plan_.n_local - first);
+  s.mirror = plan_.mirror.empty() ? nullptr : plan_.mirror.data() + first;
+  s.row_size = plan_.row_size();
+  s.now = field(0, now);
+  s.next = field(0, next);
+  s.velocity = field(0, field_v);
+  s.force = field(0, field_force);
+  s.stride = plan_.stride;
+  s.turn_x = turn_x_.data() + halo_columns;
+  s.turn_y = turn_y_.data() + halo_columns;
+  s.columns = range_.columns;
+  return s;
 }
 
 void CyclicChunk::strip(const Work& work, int i) noexcept {
@@ -297,26 +357,16 @@ void CyclicChunk::strip(const Work& work, int i) noexcept {
   if (work.step->contact)
     for (int a = first; a < first + n; ++a)
       if (plan_.contact_row[static_cast<std::size_t>(a)] >= 0) find_touching(work, a);
-  kernels::CyclicStrip s;
-  s.rows = plan_.rows.data() + first;
-  s.n_rows = n;
-  s.mirror = plan_.mirror.empty() ? nullptr : plan_.mirror.data() + first;
-  s.row_size = plan_.row_size();
-  s.now = field(0, work.now);
-  s.next = field(0, work.next);
-  s.velocity = field(0, field_v);
-  s.force = field(0, field_force);
-  s.stride = plan_.stride;
-  s.turn_x = turn_x_.data() + halo_columns;
-  s.turn_y = turn_y_.data() + halo_columns;
+  kernels::CyclicStrip s = strip_from(first, work.now, work.next);
   s.first_pack = work.extent.first_pack;
   s.last_pack = work.extent.last_pack;
-  s.columns = range_.columns;
   s.keep_tail = plan_.halo != Halo::wide;
   s.lowest = first == 0;
   s.highest = first + n == plan_.n_local;
   s.step = &work.step->factors;
-  s.sums = sums_.data() + work.place * range_.n_groups * kernels::n_sums * kernels::lanes;
+  s.wheel = &work.step->wheel;
+  s.sums = sums_.data() + work.place * range_.n_groups *
+                             static_cast<std::size_t>(plan_.n_sums() * kernels::lanes);
   const std::size_t load = plan_.first_load(i);
   const bool loaded = load < plan_.first_load(i + 1);
   s.loads = loaded ? loads_.data() + CyclicPlan::lead +
@@ -325,9 +375,12 @@ void CyclicChunk::strip(const Work& work, int i) noexcept {
   s.load_of = plan_.load_of.data() + load;
   s.pressures = work.step->pressures;
   const kernels::Terms& terms = work.step->terms;
-  table_.cyclic_strip[loaded][terms.stiffness_damping][terms.unsteady](s);
+  if (plan_.wheel)
+    table_.wheel_strip[loaded][work.step->heavy](s);
+  else
+    table_.cyclic_strip[loaded][terms.stiffness_damping][terms.unsteady](s);
   for (const Touching& t : touching_) solve_node(work, t);
-  if (plan_.halo == Halo::ring)
+  if (plan_.halo == Halo::ring && !plan_.wheel)
     for (int a = first; a < first + n; ++a) wrap(a, work.next);
   if (work.corners && i == plan_.last_contact_strip)
     work.corners->solve(*work.step, fields, *work.held);
@@ -360,9 +413,20 @@ void CyclicChunk::pass(std::span<const StepContext> steps, PartialStep* parts, s
       while (done[i] < n_strips && plan_.needs[static_cast<std::size_t>(done[i])] < done[i - 1])
         strip(work[i], done[i]++);
   }
-  steps_ += static_cast<long long>(n);
+  if (!plan_.wheel) steps_ += static_cast<long long>(n);
   ++passes_;
   hand_over(n, parts, stride);
+}
+
+void CyclicChunk::go_on(const kernels::WheelWay& way) noexcept {
+  const int next = field_next();
+  for (int first = 0; first < plan_.n_local; first += kernels::most_rows) {
+    kernels::CyclicStrip s = strip_from(first, field_now(), next);
+    s.way = &way;
+    table_.wheel_strip_way(s);
+  }
+  ++steps_;
+  show_to_others();
 }
 
 void CyclicChunk::hand_over(std::size_t n_steps, PartialStep* parts,
@@ -372,11 +436,12 @@ void CyclicChunk::hand_over(std::size_t n_steps, PartialStep* parts,
       const std::size_t place = i * range_.n_groups + g;
       PartialStep& part = parts[i * stride + range_.first_group + g];
       part = contact_.empty() ? PartialStep{} : contact_[place];
-      const double* sums = sums_.data() + place * kernels::n_sums * kernels::lanes;
-      for (double& sum : part.sums) {
+      const auto n_sums = static_cast<std::size_t>(plan_.n_sums());
+      const double* sums = sums_.data() + place * n_sums * kernels::lanes;
+      for (std::size_t k = 0; k < n_sums; ++k) {
         double lanes = 0.0;
         for (int lane = 0; lane < kernels::lanes; ++lane) lanes += *sums++;
-        sum += lanes;
+        part.sums[k] += lanes;
       }
     }
 }

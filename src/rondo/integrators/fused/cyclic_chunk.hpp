@@ -9,6 +9,7 @@
 #include "rondo/integrators/fused/corner_contact.hpp"
 #include "rondo/integrators/fused/cyclic_plan.hpp"
 #include "rondo/integrators/fused/step_context.hpp"
+#include "rondo/model/loaded_rim.hpp"
 #include "rondo/model/saved_state.hpp"
 
 namespace rondo::dynamics {
@@ -37,6 +38,9 @@ class CyclicChunk {
   /// @pre at most plan.depth steps, the halo taken.
   void pass(std::span<const StepContext> steps, PartialStep* parts, std::size_t stride,
             CornerContact* corners) noexcept;
+
+  /// On a loaded rim, after pass(): u_{n+2}, once the rim's own way is known; gives the edges.
+  void go_on(const kernels::WheelWay& way) noexcept;
 
   /// One of this chunk's own nodes, by row and sector, between two passes.
   [[nodiscard]] CandidateMotion motion_of(CyclicPlace place) const noexcept;
@@ -85,10 +89,13 @@ class CyclicChunk {
   void fill_loads();
   [[nodiscard]] Vec2 load_on(const Work& work, int row, int column) const noexcept;
   [[nodiscard]] Vec2 initial_force(const std::vector<Vec2>& u, int a, int c) const noexcept;
+  [[nodiscard]] kernels::CyclicStrip strip_from(int first, int now, int next) noexcept;
   void strip(const Work& work, int i) noexcept;
   [[nodiscard]] std::size_t candidate_at(int row, int column) const noexcept;
   void find_touching(const Work& work, int a) noexcept;
   void solve_node(const Work& work, const Touching& t) noexcept;
+  void take_impulse(const Work& work, const Touching& t, const ContactNode& node, Vec2 after,
+                    StepSums* sums) noexcept;
   /// visit(row, column, node) of this chunk's own nodes.
   template <class Visit>
   void for_own_nodes(Visit&& visit) const noexcept;
@@ -97,6 +104,8 @@ class CyclicChunk {
   void wrap(int a, int field) noexcept;
   void hand_over(std::size_t n_steps, PartialStep* parts, std::size_t stride) const noexcept;
   [[nodiscard]] int field_now() const noexcept;
+  [[nodiscard]] int field_next() const noexcept;
+  void load_on_rim(const State& state);
   [[nodiscard]] std::array<int, 3> edge_fields() const noexcept;
   [[nodiscard]] std::size_t n_edge_fields() const noexcept;
   [[nodiscard]] int edge_width() const noexcept;
@@ -114,7 +123,7 @@ class CyclicChunk {
   std::vector<int> low_;
   std::vector<Touching> touching_;
   std::vector<ActiveContact> active_;
-  long long steps_ = 0;  ///< made so far: tells which field u is in
+  long long steps_ = 0;  ///< made so far: tells which field u is in; on a loaded rim by go_on()
   std::size_t passes_ = 0;
 };
 

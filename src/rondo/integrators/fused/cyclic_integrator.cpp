@@ -12,7 +12,7 @@ CyclicIntegrator::CyclicIntegrator(const Model& model, const State& start,
 
 CyclicIntegrator::CyclicIntegrator(const Model& model, const State& start,
                                    const kernels::Table& table, CyclicPlan plan)
-    : BatchIntegrator(model, start.step, plan.n_groups, plan.chunks.size()),
+    : BatchIntegrator(model, start, plan.n_groups, plan.chunks.size()),
       plan_(std::move(plan)) {
   chunks_.reserve(plan_.chunks.size());
   for (const CyclicChunkRange& range : plan_.chunks) {
@@ -33,10 +33,16 @@ void CyclicIntegrator::make_steps(const Batch& batch, Share share) noexcept {
         chunks_[c].take_halo(chunks_[(c + n - 1) % n], chunks_[(c + 1) % n]);
       chunks_[c].pass(steps, batch.parts + done * n_parts_, n_parts_,
                       c == holder_ ? corners_within() : nullptr);
-      if (plan_.halo != Halo::ring) chunks_[c].give_edges();
+      if (plan_.halo != Halo::ring && !plan_.wheel) chunks_[c].give_edges();
     }
     wait_for_others(share);
   }
+}
+
+void CyclicIntegrator::go_on(const kernels::WheelWay& way, long long /*step*/,
+                             Share share) noexcept {
+  const std::size_t n = chunks_.size();
+  for (std::size_t c = share.first(n); c < share.last(n); ++c) chunks_[c].go_on(way);
 }
 
 void CyclicIntegrator::save_displacement(std::vector<Vec2>& u) const noexcept {

@@ -20,6 +20,7 @@ class CyclicIntegrator : public BatchIntegrator {
   CyclicIntegrator(const Model& model, const State& start, const kernels::Table& table,
                    CyclicPlan plan);
   void make_steps(const Batch& batch, Share share) noexcept override;
+  void go_on(const kernels::WheelWay& way, long long step, Share share) noexcept override;
   void save_displacement(std::vector<Vec2>& u) const noexcept override;
   void save_velocity(std::vector<Vec2>& v) const noexcept override;
   void save_fields(SavedState& saved) const noexcept override;

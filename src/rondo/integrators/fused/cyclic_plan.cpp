@@ -38,7 +38,8 @@ void choose_chunks(CyclicPlan& plan, int threads, const CyclicTuning& tuning) {
   const std::size_t bytes = static_cast<std::size_t>(plan.n_local) *
                             static_cast<std::size_t>(plan.n_sectors * plan.n_fields()) *
                             sizeof(double);
-  const bool in_cache = bytes < tuning.cache_bytes * static_cast<std::size_t>(threads);
+  const bool in_cache =
+      plan.wheel || bytes < tuning.cache_bytes * static_cast<std::size_t>(threads);
   const int for_threads = std::min(threads, groups);
   const int for_cache = in_cache ? 1 : std::max(1, plan.n_sectors / tuning.chunk_columns);
   const int n_chunks =
@@ -49,6 +50,8 @@ void choose_chunks(CyclicPlan& plan, int threads, const CyclicTuning& tuning) {
                        [](const auto& a, const auto& b) { return a.columns < b.columns; });
   if (plan.chunks.size() == 1)
     plan.halo = Halo::ring;
+  else if (plan.wheel)
+    plan.halo = Halo::narrow;
   else
     plan.halo = narrowest->columns >= tuning.wide_halo_columns ? Halo::wide : Halo::narrow;
   const bool one_by_one = plan.halo == Halo::ring ? in_cache : plan.halo == Halo::narrow;
@@ -224,7 +227,8 @@ CyclicPlan make_cyclic_plan(const Model& model, const CyclicTuning& tuning) {
   CyclicPlan plan;
   plan.n_local = static_cast<int>(k.n_local());
   plan.n_sectors = k.n_sectors;
-  plan.keeps_force = model.stiffness_damping > 0.0;
+  plan.wheel = model.rim.has_value();
+  plan.keeps_force = plan.wheel || model.stiffness_damping > 0.0;
   choose_chunks(plan, model.threads, tuning);
   plan.stride = choose_stride(plan);
   add_rows(model, k, plan);

@@ -45,7 +45,8 @@ struct CyclicPlace {
 
 struct CyclicPlan {
   int n_local = 0, n_sectors = 0;
-  bool keeps_force = false;              ///< K u_n is a field: β > 0
+  bool keeps_force = false;              ///< K u_n is a field: β > 0, or a loaded rim
+  bool wheel = false;                    ///< on a loaded rim: v is V in the axes of R, one step a pass
   std::ptrdiff_t stride = 0;             ///< doubles between the fields of a row
   std::vector<kernels::CyclicRow> rows;  ///< (n_local)
   std::vector<kernels::CyclicEntry> entries;
@@ -70,6 +71,9 @@ struct CyclicPlan {
   /// Rows that are worked on together: this one and those above it, up to most_rows.
   [[nodiscard]] int n_strips() const noexcept {
     return (n_local + kernels::most_rows - 1) / kernels::most_rows;
+  }
+  [[nodiscard]] int n_sums() const noexcept {
+    return wheel ? int{kernels::n_wheel_sums} : int{kernels::n_sums};
   }
   /// A strip's first load; of the one past the last, loads.size().
   [[nodiscard]] std::size_t first_load(int strip) const noexcept;

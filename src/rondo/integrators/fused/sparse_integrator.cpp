@@ -33,7 +33,7 @@ SparseIntegrator::SparseIntegrator(const Model& model, const State& start,
 
 SparseIntegrator::SparseIntegrator(const Model& model, const State& start,
                                    const kernels::Table& table, SparsePlan plan)
-    : BatchIntegrator(model, start.step, plan.n_blocks, plan.n_blocks),
+    : BatchIntegrator(model, start, plan.n_blocks, plan.n_blocks),
       table_(table),
       plan_(std::move(plan)),
       u_{LargeArray(plan_.n_packs * 2 * lanes), LargeArray(plan_.n_packs * 2 * lanes)},
@@ -61,6 +61,23 @@ void SparseIntegrator::load(const State& start) {
     put(motion, start.v_next[node]);
     if (plan_.keeps_force) put(motion + force_at, start.force[node]);
   }
+  if (plan_.wheel) load_on_rim(start);
+}
+
+/// Of the velocities it is V in the axes of R_n that is carried; u_n stays.
+void SparseIntegrator::load_on_rim(const State& start) {
+  LoadedRim rim(model_);
+  rim.restore(start.step, start.rim);
+  double* before = u_[parity(step_ + 1)].data();
+  for (std::size_t i = 0; i < plan_.node.size(); ++i) {
+    const auto node = static_cast<std::size_t>(plan_.node[i]);
+    const Vec2 u = start.u[node];
+    before[2 * i] = u.x;
+    before[2 * i + 1] = u.y;
+    put(motion_.data() + motion_at(i),
+        velocity_on_rim(rim, model_.dt, model_.reference[node] + u,
+                        model_.dt * start.v_next[node]));
+  }
 }
 
 void SparseIntegrator::save_displacement(std::vector<Vec2>& u) const noexcept {
@@ -70,6 +87,15 @@ void SparseIntegrator::save_displacement(std::vector<Vec2>& u) const noexcept {
 }
 
 void SparseIntegrator::save_velocity(std::vector<Vec2>& v) const noexcept {
+  const double *now = u_[parity(step_)].data(), *before = u_[parity(step_ + 1)].data();
+  if (plan_.wheel) {
+    for (std::size_t i = 0; i < plan_.node.size(); ++i) {
+      const auto row = static_cast<int>(i);
+      v[static_cast<std::size_t>(plan_.node[i])] =
+          (pair_at(now, row) - pair_at(before, row)) / model_.dt;
+    }
+    return;
+  }
   for (std::size_t i = 0; i < plan_.node.size(); ++i)
     v[static_cast<std::size_t>(plan_.node[i])] = vector_at(motion_.data() + motion_at(i));
 }
@@ -81,6 +107,12 @@ void SparseIntegrator::save_fields(SavedState& saved) const noexcept {
     for (std::size_t i = 0; i < plan_.node.size(); ++i)
       saved.force[static_cast<std::size_t>(plan_.node[i])] =
           vector_at(motion_.data() + motion_at(i) + force_at);
+  if (!plan_.wheel) return;
+  const double* before = u_[parity(step_ + 1)].data();
+  for (std::size_t i = 0; i < plan_.node.size(); ++i) {
+    saved.v[static_cast<std::size_t>(plan_.node[i])] = vector_at(motion_.data() + motion_at(i));
+    saved.u_before[static_cast<std::size_t>(plan_.node[i])] = pair_at(before, static_cast<int>(i));
+  }
 }
 
 void SparseIntegrator::restore_fields(const SavedState& saved) noexcept {
@@ -92,6 +124,10 @@ void SparseIntegrator::restore_fields(const SavedState& saved) noexcept {
     double* motion = motion_.data() + motion_at(i);
     put(motion, saved.v[node]);
     if (plan_.keeps_force) put(motion + force_at, saved.force[node]);
+    if (!plan_.wheel) continue;
+    double* before = u_[parity(step_ + 1)].data() + 2 * i;
+    before[0] = saved.u_before[node].x;
+    before[1] = saved.u_before[node].y;
   }
 }
 
@@ -103,13 +139,15 @@ void SparseIntegrator::save_active(std::vector<ActiveContact>& active) const noe
 CandidateMotion SparseIntegrator::motion_of(std::size_t candidate) const noexcept {
   const int row = plan_.row[candidate];
   const double* motion = motion_.data() + motion_at(static_cast<std::size_t>(row));
-  return {pair_at(u_[parity(step_)].data(), row), vector_at(motion),
-          plan_.keeps_force ? vector_at(motion + force_at) : Vec2{}};
+  const Vec2 u = pair_at(u_[parity(step_)].data(), row);
+  return {u, vector_at(motion), plan_.keeps_force ? vector_at(motion + force_at) : Vec2{},
+          plan_.wheel ? u - pair_at(u_[parity(step_ + 1)].data(), row) : Vec2{}};
 }
 
 void SparseIntegrator::move(std::size_t candidate, Vec2 v, Vec2 u) noexcept {
   const auto row = static_cast<std::size_t>(plan_.row[candidate]);
   put(motion_.data() + motion_at(row), v);
+  if (plan_.wheel) return;
   double* now = u_[parity(step_)].data();
   now[2 * row] = u.x;
   now[2 * row + 1] = u.y;
@@ -146,21 +184,29 @@ void SparseIntegrator::solve_node(const Work& work, const Touching& t, PartialSt
   const SparseCandidate& c = t.candidate;
   const auto k = static_cast<std::size_t>(c.candidate);
   double* motion = motion_.data() + motion_at(static_cast<std::size_t>(c.row));
+  const Complex back{work.step->wheel.back_x, work.step->wheel.back_y};
   const ContactNode node{k,
                          model_.mass[static_cast<std::size_t>(model_.contact->nodes[k])],
                          model_.contact->tributary[k],
                          c.reference + t.u,
-                         t.v,
+                         plan_.wheel ? t.v + back * t.v : t.v,
                          vector_at(motion)};
   std::array<ActiveContact, 2> contacts;
   const std::span active(contacts.data(), static_cast<std::size_t>(t.touches.count));
   const Vec2 after = solve_contacts(*work.step->contact, node, t.touches, active, part.contact);
   put(motion, after);
-  const Vec2 u = t.u + model_.dt * after;
-  work.next[2 * c.row] = u.x;
-  work.next[2 * c.row + 1] = u.y;
-  const Vec2 change = plan_.keeps_force ? vector_at(motion + force_at) - t.force : Vec2{};
-  correct_sums(*work.step, node, after, {change, load_on(work, c.row)}, part.sums);
+  NodeForces forces{.load = load_on(work, c.row)};
+  if (plan_.keeps_force) forces.change = vector_at(motion + force_at) - t.force;
+  if (plan_.wheel) {
+    forces.elastic = vector_at(motion + force_at);
+    forces.moved = t.u - pair_at(work.next, c.row);
+    correct_wheel_sums(node, after, forces, part.sums);
+  } else {
+    const Vec2 u = t.u + model_.dt * after;
+    work.next[2 * c.row] = u.x;
+    work.next[2 * c.row + 1] = u.y;
+    correct_sums(*work.step, node, after, forces, part.sums);
+  }
   std::vector<ActiveContact>& all = work.contacts->active;
   if (work.last) all.insert(all.end(), active.begin(), active.end());
 }
@@ -180,18 +226,10 @@ Vec2 SparseIntegrator::load_on(const Work& work, int row) const noexcept {
 
 void SparseIntegrator::update_rows(const Work& work, std::size_t block,
                                    PartialStep& part) noexcept {
-  std::array<double, kernels::n_sums * lanes> sums;
-  kernels::SparseRows rows;
-  rows.start = plan_.start.data();
-  rows.blocks = plan_.blocks.data();
-  rows.column = plan_.column.data();
-  rows.constants = plan_.constants.data();
-  rows.now = work.now;
-  rows.next = work.next;
-  rows.motion = motion_.data();
-  rows.first_pack = static_cast<std::ptrdiff_t>(plan_.first_pack(block));
-  rows.last_pack = static_cast<std::ptrdiff_t>(plan_.first_pack(block + 1));
+  std::array<double, kernels::most_sums * lanes> sums;
+  kernels::SparseRows rows = rows_from(work.now, work.next, block);
   rows.step = &work.step->factors;
+  rows.wheel = &work.step->wheel;
   rows.sums = sums.data();
   const bool loaded = !plan_.first_load.empty();
   rows.first_load = plan_.first_load.data();
@@ -199,8 +237,40 @@ void SparseIntegrator::update_rows(const Work& work, std::size_t block,
   rows.load_of = plan_.load_of.data();
   rows.pressures = work.step->pressures;
   const kernels::Terms& terms = work.step->terms;
-  table_.sparse_rows[loaded][terms.stiffness_damping][terms.unsteady](rows);
-  for (std::size_t k = 0; k < part.sums.size(); ++k) part.sums[k] = sum_of(sums.data() + k * lanes);
+  if (plan_.wheel)
+    table_.wheel_rows[loaded][work.step->heavy](rows);
+  else
+    table_.sparse_rows[loaded][terms.stiffness_damping][terms.unsteady](rows);
+  const std::size_t n_sums =
+      plan_.wheel ? std::size_t{kernels::n_wheel_sums} : std::size_t{kernels::n_sums};
+  for (std::size_t k = 0; k < n_sums; ++k) part.sums[k] = sum_of(sums.data() + k * lanes);
+}
+
+/// K, fields and constants of a block's packs.
+kernels::SparseRows SparseIntegrator::rows_from(const double* now, double* next,
+                                                std::size_t block) noexcept {
+  kernels::SparseRows rows{};
+  rows.start = plan_.start.data();
+  rows.blocks = plan_.blocks.data();
+  rows.column = plan_.column.data();
+  rows.constants = plan_.constants.data();
+  rows.now = now;
+  rows.next = next;
+  rows.motion = motion_.data();
+  rows.first_pack = static_cast<std::ptrdiff_t>(plan_.first_pack(block));
+  rows.last_pack = static_cast<std::ptrdiff_t>(plan_.first_pack(block + 1));
+  return rows;
+}
+
+void SparseIntegrator::go_on(const kernels::WheelWay& way, long long step, Share share) noexcept {
+  const std::size_t n = plan_.n_blocks;
+  double* next = u_[parity(step + 1)].data();
+  for (std::size_t block = share.first(n); block < share.last(n); ++block) {
+    kernels::SparseRows rows = rows_from(u_[parity(step)].data(), next, block);
+    rows.way = &way;
+    table_.wheel_rows_way(rows);
+    if (block + 1 == n) rest_padding(next);
+  }
 }
 
 /// What fills up the last pack has no mass and no stiffness, but the pull and the frame move it:
@@ -219,7 +289,7 @@ void SparseIntegrator::make_block(const Work& work, std::size_t block) noexcept 
   update_rows(work, block, part);
   if (work.step->contact)
     for (const Touching& t : work.contacts->touching) solve_node(work, t, part);
-  if (block + 1 == plan_.n_blocks) rest_padding(work.next);
+  if (block + 1 == plan_.n_blocks && !plan_.wheel) rest_padding(work.next);
 }
 
 /// A thread's blocks are the same in every step. A product reads u of other threads' blocks: all of

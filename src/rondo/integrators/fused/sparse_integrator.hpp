@@ -42,7 +42,9 @@ class SparseIntegrator : public BatchIntegrator {
   SparseIntegrator(const Model& model, const State& start, const kernels::Table& table,
                    SparsePlan plan);
   void load(const State& start);
+  void load_on_rim(const State& start);
   void make_steps(const Batch& batch, Share share) noexcept override;
+  void go_on(const kernels::WheelWay& way, long long step, Share share) noexcept override;
   void save_displacement(std::vector<Vec2>& u) const noexcept override;
   void save_velocity(std::vector<Vec2>& v) const noexcept override;
   void save_fields(SavedState& saved) const noexcept override;
@@ -58,6 +60,8 @@ class SparseIntegrator : public BatchIntegrator {
   }
 
   void make_block(const Work& work, std::size_t block) noexcept;
+  [[nodiscard]] kernels::SparseRows rows_from(const double* now, double* next,
+                                              std::size_t block) noexcept;
   void update_rows(const Work& work, std::size_t block, PartialStep& part) noexcept;
   void find_touching(const Work& work, std::size_t block) const noexcept;
   void look_at(const Work& work, const SparseCandidate& c) const noexcept;

@@ -153,7 +153,8 @@ SparsePlan make_sparse_plan(const Model& model) {
   constexpr std::size_t most_nodes = 1U << 30U;  // twice the node is a column
   RONDO_DEMAND(model.free.size() < most_nodes, model.free.size());
   SparsePlan plan;
-  plan.keeps_force = model.stiffness_damping > 0.0;
+  plan.wheel = model.rim.has_value();
+  plan.keeps_force = plan.wheel || model.stiffness_damping > 0.0;
   plan.node = row_order(k, model.free);
   sort_by_length(k, plan.node);
   plan.n_packs = packs_of(plan.node.size());

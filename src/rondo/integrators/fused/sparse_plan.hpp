@@ -21,7 +21,8 @@ struct SparseCandidate {
 };
 
 struct SparsePlan {
-  bool keeps_force = false;  ///< K u_n is kept: β > 0
+  bool keeps_force = false;  ///< K u_n is kept: β > 0, or a loaded rim
+  bool wheel = false;        ///< on a loaded rim
   std::vector<int> node;     ///< (rows) node of the model; what fills up the last pack has none
   std::size_t n_packs = 0;
   std::size_t n_blocks = 1;

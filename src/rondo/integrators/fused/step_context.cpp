@@ -26,7 +26,7 @@ StepContext step_context(const Model& model, const FrameStep& f) noexcept {
 }
 
 void correct_sums(const StepContext& step, const ContactNode& node, Vec2 after,
-                  const NodeForces& forces, std::array<double, kernels::n_sums>& sums) noexcept {
+                  const NodeForces& forces, StepSums& sums) noexcept {
   const kernels::StepFactors& f = step.factors;
   const Vec2 change = after - node.free;
   const Vec2 frame = Complex{f.rate_x, f.rate_y} * node.arm + Vec2{f.pull_x, f.pull_y};
@@ -37,11 +37,49 @@ void correct_sums(const StepContext& step, const ContactNode& node, Vec2 after,
   sums[kernels::sum_load] += dot(change, forces.load);
 }
 
+StepContext wheel_context(const Model& model, const FrameStep& f, Complex back) noexcept {
+  StepContext s;
+  s.frame = f;
+  const double dt = model.dt;
+  const Vec2 gravity = model.motion.gravity_at(f.time);
+  const Vec2 pull = dt * (conj(f.rotation) * gravity);
+  s.wheel = {.dt = dt,
+             .back_x = back.re,
+             .back_y = back.im,
+             .pull_x = pull.x,
+             .pull_y = pull.y,
+             .alpha_over_dt = model.mass_damping / dt,
+             .beta_over_dt = model.stiffness_damping / dt};
+  s.heavy = gravity != Vec2{};
+  if (model.contact) s.contact.emplace(model, f);
+  return s;
+}
+
+void correct_wheel_sums(const ContactNode& node, Vec2 after, const NodeForces& forces,
+                        StepSums& sums) noexcept {
+  const Vec2 change = after - node.free;
+  sums[kernels::wheel_force_after] += dot(forces.elastic, change);
+  sums[kernels::wheel_force_across] += cross(forces.elastic, change);
+  sums[kernels::wheel_mass_mean] += node.mass * dot(forces.moved, change);
+  sums[kernels::wheel_change_mean] += dot(forces.change, change);
+  sums[kernels::wheel_load_mean] += dot(forces.load, change);
+  sums[kernels::wheel_momentum_x] += node.mass * change.x;
+  sums[kernels::wheel_momentum_y] += node.mass * change.y;
+}
+
+StepSums add_up(std::span<const PartialStep> parts, int n_sums) noexcept {
+  const auto n = static_cast<std::size_t>(n_sums);
+  std::array<CompensatedSum, kernels::most_sums> sums;
+  for (const PartialStep& part : parts)
+    for (std::size_t k = 0; k < n; ++k) sums[k].add(part.sums[k]);
+  StepSums total{};
+  for (std::size_t k = 0; k < n; ++k) total[k] = sums[k].value();
+  return total;
+}
+
 namespace {
 
-using Totals = std::array<double, kernels::n_sums>;
-
-StepEnergy energy_of(const Model& model, const Totals& total,
+StepEnergy energy_of(const Model& model, const StepSums& total,
                      const ContactReport& contact) noexcept {
   const double dt = model.dt, alpha = model.mass_damping, beta = model.stiffness_damping;
   StepEnergy e;
@@ -61,15 +99,10 @@ StepEnergy energy_of(const Model& model, const Totals& total,
 }  // namespace
 
 WholeStep whole_step(const Model& model, std::span<const PartialStep> parts) noexcept {
-  std::array<CompensatedSum, kernels::n_sums> sums;
   WholeStep whole;
-  for (const PartialStep& part : parts) {
-    for (std::size_t k = 0; k < sums.size(); ++k) sums[k].add(part.sums[k]);
-    if (model.contact) whole.contact.add(part.contact);
-  }
-  Totals total{};
-  for (std::size_t k = 0; k < sums.size(); ++k) total[k] = sums[k].value();
-  whole.energy = energy_of(model, total, whole.contact);
+  if (model.contact)
+    for (const PartialStep& part : parts) whole.contact.add(part.contact);
+  whole.energy = energy_of(model, add_up(parts, kernels::n_sums), whole.contact);
   return whole;
 }
 

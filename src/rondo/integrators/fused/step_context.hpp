@@ -15,6 +15,8 @@ struct StepContext {
   FrameStep frame;
   kernels::StepFactors factors{};
   kernels::Terms terms;
+  kernels::WheelFactors wheel{};  ///< instead of `factors`, with a loaded rim
+  bool heavy = false;             ///< there is gravity, with a loaded rim
   std::optional<ContactStep> contact;
   const double* pressures = nullptr;  ///< of Model::pressures at t_n                     [Pa]
   /// (nb) candidates whose contacts are solved by CornerContact; null: none.
@@ -23,23 +25,33 @@ struct StepContext {
 
 /// @param frame of the step, by the rim
 StepContext step_context(const Model& model, const FrameStep& frame) noexcept;
+/// Of a step whose velocity before has been in the axes of the frame that `back` + 1 turns to this.
+StepContext wheel_context(const Model& model, const FrameStep& frame, Complex back) noexcept;
 
-/// What a part of the body gives in one step: raw sums (kernels::Sum), and its contacts.
+/// Raw sums: kernels::Sum, or kernels::WheelSum.
+using StepSums = std::array<double, kernels::most_sums>;
+
+/// What a part of the body gives in one step: raw sums, and its contacts.
 struct PartialStep {
-  std::array<double, kernels::n_sums> sums{};
+  StepSums sums{};
   ContactReport contact;
 };
 
 /// Forces on a node, in the frame of its vectors [N/m].
 struct NodeForces {
-  Vec2 change;  ///< K u_{n+1} - K u_n, with β only
-  Vec2 load;
+  Vec2 change{};   ///< K u_{n+1} - K u_n, with β only
+  Vec2 load{};
+  Vec2 elastic{};  ///< K u_{n+1}, with a loaded rim only
+  Vec2 moved{};    ///< u_{n+1} - u_n [m], with a loaded rim only
 };
 
 /// Adds to the sums, which were made with the velocity free of contact, what the impulse changed.
 /// @param node  arm, velocities before and without impulse; `after`: v⁺.
 void correct_sums(const StepContext& step, const ContactNode& node, Vec2 after,
-                  const NodeForces& forces, std::array<double, kernels::n_sums>& sums) noexcept;
+                  const NodeForces& forces, StepSums& sums) noexcept;
+/// The same with a loaded rim.
+void correct_wheel_sums(const ContactNode& node, Vec2 after, const NodeForces& forces,
+                        StepSums& sums) noexcept;
 
 /// The whole from its parts, in their order: compensated sums, as energies (5.1) and works (5.3).
 struct WholeStep {
@@ -47,5 +59,8 @@ struct WholeStep {
   ContactReport contact;
 };
 WholeStep whole_step(const Model& model, std::span<const PartialStep> parts) noexcept;
+
+/// The raw sums of all parts, in their order.
+StepSums add_up(std::span<const PartialStep> parts, int n_sums) noexcept;
 
 }  // namespace rondo::dynamics

@@ -61,11 +61,4 @@ class WheelIntegrator final : public Integrator, public Resumable {
   Forces forces_;
 };
 
-/// u_{n+2} - u_{n+1} of a node. @param arm X + u_{n+1} [m]
-/// @param velocity V of the half step after, in the axes of R_{n+1} [m/s]
-[[nodiscard]] Vec2 travel_on_rim(const LoadedRim& rim, double dt, Vec2 arm, Vec2 velocity) noexcept;
-
-/// V of the half step between, in the axes of R_n, of a node that goes from u_n by `travel`.
-[[nodiscard]] Vec2 velocity_on_rim(const LoadedRim& rim, double dt, Vec2 arm, Vec2 travel) noexcept;
-
 }  // namespace rondo::dynamics

@@ -26,6 +26,50 @@ enum Sum {
   n_sums
 };
 
+/// Sums over the nodes of a step on a loaded rim, co-rotating frame, before the factors of (10.5): a
+/// of V in the axes of R_{n+1} before (a⁻) and after (a⁺), p = K u_{n+1}, d = u_{n+1} - u_n,
+/// e = p - K u_n, y = X + u_{n+1}; a × b = a_x b_y - a_y b_x.
+enum WheelSum {
+  wheel_kinetic,        ///< m |a⁻|²
+  wheel_strain,         ///< u_n·p
+  wheel_force_arm,      ///< y·p
+  wheel_force_moment,   ///< y × p
+  wheel_force_after,    ///< p·a⁺
+  wheel_force_across,   ///< p × a⁺
+  wheel_force_moved,    ///< p·d
+  wheel_force_turned,   ///< p × d
+  wheel_mass_mean,      ///< m d·(a⁻ + a⁺)
+  wheel_mass_moment,    ///< m y × d
+  wheel_change_mean,    ///< e·(a⁻ + a⁺)
+  wheel_change_moment,  ///< y × e
+  wheel_load_mean,      ///< f·(a⁻ + a⁺), f of the loads
+  wheel_force_x,        ///< p
+  wheel_force_y,
+  wheel_change_x,  ///< e
+  wheel_change_y,
+  wheel_mass_x,  ///< m d
+  wheel_mass_y,
+  wheel_momentum_x,  ///< m (a⁻ + a⁺); with gravity only
+  wheel_momentum_y,
+  n_wheel_sums
+};
+inline constexpr int most_sums = n_wheel_sums;
+
+/// What all nodes of a step on a loaded rim share: forces and velocities.
+struct WheelFactors {
+  double dt;                        ///< Δt [s]
+  double back_x, back_y;            ///< e^{-iδ⁻} - 1
+  double pull_x, pull_y;            ///< Δt Rᵀ g                                      [m/s]
+  double alpha_over_dt;             ///< α/Δt                                         [1/s²]
+  double beta_over_dt;              ///< β/Δt [-]
+};
+/// The same of the way to u_{n+2}, which is known once the rim is.
+struct WheelWay {
+  double turn_x, turn_y;  ///< e^{-iδ⁺} - 1
+  double way_x, way_y;    ///< Δt e^{-iδ⁺}                                            [s]
+  double hub_x, hub_y;    ///< Rᵀ ċ⁺                                                  [m/s]
+};
+
 /// What all nodes of a step share. Complex numbers as (x, y).
 struct StepFactors {
   double dt;                    ///< Δt [s]
@@ -81,8 +125,8 @@ struct CyclicStrip {
   const MirrorRow* mirror;  ///< of each row; null: rows have entries
   std::ptrdiff_t row_size;  ///< between rows
   double* now;              ///< u_{n+1} of the chunk's first row, sector 0
-  double* next;             ///< u_{n+2}
-  double* velocity;         ///< v⁻, becomes v⁺
+  double* next;             ///< u_{n+2}; on a loaded rim u_n till wheel_strip_way
+  double* velocity;         ///< v⁻, becomes v⁺; on a loaded rim V in the axes of R_n, of R_{n+1}
   double* force;            ///< K u_n, becomes K u_{n+1}
   std::ptrdiff_t stride;
   const double* turn_x;  ///< cos φ of the chunk's sectors (padded like a field)
@@ -93,7 +137,9 @@ struct CyclicStrip {
   bool keep_tail;        ///< lanes past `columns` in the last own pack stay as they are
   bool lowest, highest;  ///< no free row below the first, none above the last
   const StepFactors* step;
-  double* sums;  ///< (groups, n_sums, lanes): added to
+  const WheelFactors* wheel;  ///< instead of `step`
+  const WheelWay* way;        ///< of wheel_strip_way alone
+  double* sums;  ///< (groups, n_sums or n_wheel_sums, lanes): added to
   // Loads on nodes, unused by kernels without: f = Σ pressure · force, in the sector's frame.
   const double* loads;      ///< force per pressure of the first, sector 0; components and loads are
                             ///< `stride` apart                                           [m]
@@ -127,7 +173,9 @@ struct SparseRows {
                                ///< v and K u_n, which becomes K u_{n+1}
   std::ptrdiff_t first_pack, last_pack;
   const StepFactors* step;
-  double* sums;  ///< (n_sums, lanes) of these packs: set
+  const WheelFactors* wheel;  ///< instead of `step`; `next` and `motion` then as in CyclicStrip
+  const WheelWay* way;
+  double* sums;  ///< (n_sums or n_wheel_sums, lanes) of these packs: set
   // Loads on nodes, unused by kernels without: f = Σ pressure · force.
   const int* first_load;    ///< (packs + 1) of a pack
   const double* loads;      ///< (loads, 2, lanes) force per pressure                     [m]
@@ -144,6 +192,11 @@ struct Table {
   int (*low_columns)(const CyclicHeight&, int* columns) noexcept;
   /// [loaded][stiffness_damping][unsteady]
   void (*sparse_rows[2][2][2])(const SparseRows&) noexcept;
+  // On a loaded rim; K u_n is always kept there. [loaded][heavy]
+  void (*wheel_strip[2][2])(const CyclicStrip&) noexcept;
+  void (*wheel_strip_way)(const CyclicStrip&) noexcept;
+  void (*wheel_rows[2][2])(const SparseRows&) noexcept;
+  void (*wheel_rows_way)(const SparseRows&) noexcept;
 };
 
 extern const Table avx512_table, avx2_table, baseline_table;

@@ -1,0 +1,137 @@
+// SPDX-License-Identifier: BSD-3-Clause
+/// @file  Loops of the cyclic operator on a loaded rim. Included after a pack_*.hpp.
+#pragma once
+#include "rondo/integrators/fused/kernels/cyclic.hpp"
+#include "rondo/integrators/fused/kernels/wheel_update.hpp"
+
+namespace {
+
+using rondo::dynamics::kernels::n_wheel_sums;
+
+/// A vector of the co-rotating frame in the frames of a pack of sectors.
+inline Vectors to_sectors(const CyclicStrip& s, std::ptrdiff_t column, double x,
+                          double y) noexcept {
+  const Pack cosine = load(s.turn_x + column), sine = load(s.turn_y + column);
+  const Pack px = all(x), py = all(y);
+  return {fma(py, sine, px * cosine), fnma(px, sine, py * cosine)};
+}
+/// And back.
+inline Vectors from_sectors(const CyclicStrip& s, std::ptrdiff_t column, Vectors a) noexcept {
+  const Pack cosine = load(s.turn_x + column), sine = load(s.turn_y + column);
+  return {fnma(a.y, sine, a.x * cosine), fma(a.x, sine, a.y * cosine)};
+}
+
+/// Lanes of a pack that are the chunk's own.
+inline int own_lanes(const CyclicStrip& s, std::ptrdiff_t column) noexcept {
+  const std::ptrdiff_t left = s.columns - column;
+  return left < lanes ? static_cast<int>(left) : lanes;
+}
+
+inline Vectors own_of(int own, Vectors a) noexcept {
+  const Vectors zero = {all(0.0), all(0.0)};
+  return first_of(own, a, zero);
+}
+
+/// What is of no sector of the chunk's own weighs nothing in the sums.
+inline WheelNodes own_nodes(int own, const WheelNodes& n) noexcept {
+  WheelNodes m = n;
+  m.u = own_of(own, n.u);
+  m.u_before = own_of(own, n.u_before);
+  m.a = own_of(own, n.a);
+  m.force = own_of(own, n.force);
+  m.before = own_of(own, n.before);
+  m.pull = own_of(own, n.pull);
+  m.load = own_of(own, n.load);
+  return m;
+}
+
+/// Update and sums of one pack of a row.
+template <bool Loaded, bool Heavy>
+inline void wheel_pack(const CyclicStrip& s, const WheelPacks& f, const RowInHand& row, Pack mass,
+                       Vectors reference, std::ptrdiff_t column, Vectors force, WheelSums& sums,
+                       Resultants& resultants) noexcept {
+  const std::ptrdiff_t at = row.at + column;
+  double* a = s.velocity + at;
+  double* p = s.force + at;
+  const Vectors none = {all(0.0), all(0.0)};
+  WheelNodes n;
+  n.pull = n.load = none;
+  n.u = load_vectors(s.now + at, s.stride);
+  n.u_before = load_vectors(s.next + at, s.stride);
+  n.a = load_vectors(a, s.stride);
+  n.force = force;
+  n.before = load_vectors(p, s.stride);
+  n.reference = reference;
+  n.mass = mass;
+  n.dt_over_mass = row.dt_over_mass;
+  if constexpr (Heavy) n.pull = to_sectors(s, column, s.wheel->pull_x, s.wheel->pull_y);
+  if constexpr (Loaded) n.load = load_on(s, row, column);
+  const int own = own_lanes(s, column);
+  if (own < lanes) n = own_nodes(own, n);
+  const Vectors after = wheel_update<Loaded, Heavy>(f, n, sums, resultants);
+  store_vectors(a, s.stride, after);
+  store_vectors(p, s.stride, n.force);
+}
+
+/// All rows of the strip on packs [first, last), at most a group.
+template <bool Loaded, bool Heavy>
+inline void wheel_group(const CyclicStrip& s, const WheelPacks& f, int first, int last,
+                        double* sums) noexcept {
+  Forces force;
+  product(s, first, last - first, force);
+  Resultants resultants[group_packs];
+  for (int i = 0; i < group_packs; ++i) resultants[i] = no_resultants();
+  const auto add = [&](int k, Pack value) {
+    store(sums + k * lanes, load(sums + k * lanes) + value);
+  };
+  for (int r = 0; r < s.n_rows; ++r) {
+    const CyclicRow& row = s.rows[r];
+    const RowInHand in_hand = {row.at, {}, all(row.dt_over_mass), row.first_load, row.n_loads};
+    const Vectors reference = {all(row.x), all(row.y)};
+    const Pack mass = all(row.mass);
+    WheelSums own = no_wheel_sums();
+    for (int pack = first; pack < last; ++pack)
+      wheel_pack<Loaded, Heavy>(s, f, in_hand, mass, reference,
+                                static_cast<std::ptrdiff_t>(pack) * lanes, force[r][pack - first],
+                                own, resultants[pack - first]);
+    for_sums<Loaded>(own, [&](int k, Pack value, bool with_mass) {
+      add(k, with_mass ? mass * value : value);
+    });
+  }
+  for (int pack = first; pack < last; ++pack) {
+    const std::ptrdiff_t column = static_cast<std::ptrdiff_t>(pack) * lanes;
+    const Resultants& r = resultants[pack - first];
+    const Resultants turned = {
+        from_sectors(s, column, r.force), from_sectors(s, column, r.change),
+        from_sectors(s, column, r.mass), from_sectors(s, column, r.momentum)};
+    for_resultants<Loaded, Heavy>(turned, add);
+  }
+}
+
+template <bool Loaded, bool Heavy>
+void wheel_strip(const CyclicStrip& s) noexcept {
+  const WheelPacks f(*s.wheel);
+  const int own = (s.columns + lanes - 1) / lanes;
+  double* sums = s.sums;
+  for (int pack = 0; pack < own; pack += group_packs, sums += n_wheel_sums * lanes)
+    wheel_group<Loaded, Heavy>(s, f, pack, pack + group_packs < own ? pack + group_packs : own,
+                               sums);
+}
+
+void wheel_strip_way(const CyclicStrip& s) noexcept {
+  const int own = (s.columns + lanes - 1) / lanes;
+  for (int pack = 0; pack < own; ++pack) {
+    const std::ptrdiff_t column = static_cast<std::ptrdiff_t>(pack) * lanes;
+    const Vectors hub = to_sectors(s, column, s.way->hub_x, s.way->hub_y);
+    for (int r = 0; r < s.n_rows; ++r) {
+      const CyclicRow& row = s.rows[r];
+      const std::ptrdiff_t at = row.at + column;
+      const Vectors u = wheel_way(*s.way, hub, {all(row.x), all(row.y)},
+                                  load_vectors(s.now + at, s.stride),
+                                  load_vectors(s.velocity + at, s.stride));
+      store_vectors(s.next + at, s.stride, own_of(own_lanes(s, column), u));
+    }
+  }
+}
+
+}  // namespace

@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: BSD-3-Clause
+/// @file  Loops of the sparse operator on a loaded rim. Included after a pack_*.hpp.
+#pragma once
+#include "rondo/integrators/fused/kernels/sparse.hpp"
+#include "rondo/integrators/fused/kernels/wheel_update.hpp"
+
+namespace {
+
+template <bool Loaded, bool Heavy>
+void wheel_rows(const SparseRows& s) noexcept {
+  const WheelPacks f(*s.wheel);
+  Pack total[rondo::dynamics::kernels::n_wheel_sums];
+  for (Pack& sum : total) sum = all(0.0);
+  Resultants resultants = no_resultants();
+  for (std::ptrdiff_t pack = s.first_pack; pack < s.last_pack; ++pack) {
+    double* motion = s.motion + pack * 4 * lanes;
+    const double* constants = s.constants + pack * 4 * lanes;
+    WheelNodes n;
+    load_pairs(s.now + pack * 2 * lanes, n.u.x, n.u.y);
+    load_pairs(s.next + pack * 2 * lanes, n.u_before.x, n.u_before.y);
+    n.a = load_vectors(motion, lanes);
+    n.force = sparse_product(s, pack);
+    n.before = load_vectors(motion + 2 * lanes, lanes);
+    n.reference = load_vectors(constants, lanes);
+    n.mass = load(constants + 2 * lanes);
+    n.dt_over_mass = load(constants + 3 * lanes);
+    if constexpr (Heavy) n.pull = {all(s.wheel->pull_x), all(s.wheel->pull_y)};
+    if constexpr (Loaded) n.load = load_on(s, pack);
+    WheelSums own = no_wheel_sums();
+    const Vectors after = wheel_update<Loaded, Heavy>(f, n, own, resultants);
+    for_sums<Loaded>(own, [&](int k, Pack value, bool with_mass) {
+      total[k] = with_mass ? fma(n.mass, value, total[k]) : total[k] + value;
+    });
+    store_vectors(motion, lanes, after);
+    store_vectors(motion + 2 * lanes, lanes, n.force);
+  }
+  for_resultants<Loaded, Heavy>(resultants, [&](int k, Pack value) { total[k] = value; });
+  for (int k = 0; k < rondo::dynamics::kernels::n_wheel_sums; ++k)
+    store(s.sums + k * lanes, total[k]);
+}
+
+void wheel_rows_way(const SparseRows& s) noexcept {
+  const Vectors hub = {all(s.way->hub_x), all(s.way->hub_y)};
+  for (std::ptrdiff_t pack = s.first_pack; pack < s.last_pack; ++pack) {
+    Vectors u;
+    load_pairs(s.now + pack * 2 * lanes, u.x, u.y);
+    u = wheel_way(*s.way, hub, load_vectors(s.constants + pack * 4 * lanes, lanes), u,
+                  load_vectors(s.motion + pack * 4 * lanes, lanes));
+    store_pairs(s.next + pack * 2 * lanes, u.x, u.y);
+  }
+}
+
+}  // namespace

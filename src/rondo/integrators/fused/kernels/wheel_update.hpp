@@ -1,0 +1,145 @@
+// SPDX-License-Identifier: BSD-3-Clause
+/// @file  Velocity update, way and ledger terms of a pack of nodes on a loaded rim (docs/theory.md,
+/// section 10), for both operators. Included after a pack_*.hpp.
+#pragma once
+#include "rondo/integrators/fused/kernels/update.hpp"
+
+namespace {
+
+using rondo::dynamics::kernels::WheelFactors;
+using rondo::dynamics::kernels::WheelWay;
+
+/// a × b + c, lane by lane.
+inline Pack add_cross(Vectors a, Vectors b, Pack c) noexcept {
+  return fma(a.x, b.y, fnma(a.y, b.x, c));
+}
+inline Vectors plus(Vectors a, Vectors b) noexcept {
+  return {a.x + b.x, a.y + b.y};
+}
+inline Vectors minus(Vectors a, Vectors b) noexcept {
+  return {a.x - b.x, a.y - b.y};
+}
+/// s a + b
+inline Vectors add_times(Pack s, Vectors a, Vectors b) noexcept {
+  return {fma(s, a.x, b.x), fma(s, a.y, b.y)};
+}
+/// z a + b, a complex z.
+inline Vectors add_turned(Vectors z, Vectors a, Vectors b) noexcept {
+  return {fma(z.x, a.x, fnma(z.y, a.y, b.x)), fma(z.x, a.y, fma(z.y, a.x, b.y))};
+}
+
+/// Of the packs in hand. Those of masses are without them where all nodes of a row have the same.
+struct WheelSums {
+  Pack kinetic, strain, force_arm, force_moment, force_after, force_across, force_moved,
+      force_turned, mass_mean, mass_moment, change_mean, change_moment, load_mean;
+};
+
+inline WheelSums no_wheel_sums() noexcept {
+  const Pack zero = all(0.0);
+  return {zero, zero, zero, zero, zero, zero, zero, zero, zero, zero, zero, zero, zero};
+}
+
+/// Vectors that are summed up: in the frames of their nodes, masses included.
+struct Resultants {
+  Vectors force, change, mass, momentum;
+};
+
+inline Resultants no_resultants() noexcept {
+  const Vectors zero = {all(0.0), all(0.0)};
+  return {zero, zero, zero, zero};
+}
+
+/// WheelFactors in every lane.
+struct WheelPacks {
+  explicit WheelPacks(const WheelFactors& f) noexcept
+      : alpha_over_dt(all(f.alpha_over_dt)),
+        beta_over_dt(all(f.beta_over_dt)),
+        back{all(f.back_x), all(f.back_y)} {}
+  Pack alpha_over_dt, beta_over_dt;
+  Vectors back;
+};
+
+/// What the update of a pack reads; `pull` with gravity only, `load` of loaded nodes only.
+struct WheelNodes {
+  Vectors u, u_before, a, force, before, reference, pull, load;
+  Pack mass, dt_over_mass;
+};
+
+/// a⁺ = a⁻ + Δt (g - (q - f)/m) with q = p + β e/Δt + α m d/Δt, and its part of the sums.
+template <bool Loaded, bool Heavy>
+inline Vectors wheel_update(const WheelPacks& f, const WheelNodes& n, WheelSums& s,
+                            Resultants& r) noexcept {
+  const Vectors before = add_turned(f.back, n.a, n.a);
+  const Vectors moved = minus(n.u, n.u_before), change = minus(n.force, n.before);
+  const Vectors arm = plus(n.reference, n.u);
+  Vectors q = add_times(f.beta_over_dt, change, n.force);
+  q = add_times(f.alpha_over_dt * n.mass, moved, q);
+  if constexpr (Loaded) q = minus(q, n.load);
+  Vectors after = {fnma(n.dt_over_mass, q.x, before.x), fnma(n.dt_over_mass, q.y, before.y)};
+  if constexpr (Heavy) after = plus(after, n.pull);
+
+  const Vectors twice_mean = plus(before, after);
+  s.kinetic = add_dot(before, before, s.kinetic);
+  s.strain = add_dot(n.u_before, n.force, s.strain);
+  s.force_arm = add_dot(arm, n.force, s.force_arm);
+  s.force_moment = add_cross(arm, n.force, s.force_moment);
+  s.force_after = add_dot(n.force, after, s.force_after);
+  s.force_across = add_cross(n.force, after, s.force_across);
+  s.force_moved = add_dot(n.force, moved, s.force_moved);
+  s.force_turned = add_cross(n.force, moved, s.force_turned);
+  s.mass_mean = add_dot(moved, twice_mean, s.mass_mean);
+  s.mass_moment = add_cross(arm, moved, s.mass_moment);
+  s.change_mean = add_dot(change, twice_mean, s.change_mean);
+  s.change_moment = add_cross(arm, change, s.change_moment);
+  if constexpr (Loaded) s.load_mean = add_dot(n.load, twice_mean, s.load_mean);
+  r.force = plus(r.force, n.force);
+  r.change = plus(r.change, change);
+  r.mass = add_times(n.mass, moved, r.mass);
+  if constexpr (Heavy) r.momentum = add_times(n.mass, twice_mean, r.momentum);
+  return after;
+}
+
+/// u_{n+2} = u + (e^{-iδ} - 1) y + Δt e^{-iδ} (a⁺ - h). @param hub h in the frame of the nodes
+inline Vectors wheel_way(const WheelWay& w, Vectors hub, Vectors reference, Vectors u,
+                         Vectors a) noexcept {
+  const Vectors turn = {all(w.turn_x), all(w.turn_y)}, way = {all(w.way_x), all(w.way_y)};
+  const Vectors zero = {all(0.0), all(0.0)};
+  const Vectors step = add_turned(turn, plus(reference, u), add_turned(way, minus(a, hub), zero));
+  return plus(u, step);
+}
+
+/// visit(which sum, value) of all, masses included.
+template <bool Loaded, bool Heavy, class Visit>
+inline void for_resultants(const Resultants& r, Visit&& visit) noexcept {
+  using namespace rondo::dynamics::kernels;
+  visit(wheel_force_x, r.force.x);
+  visit(wheel_force_y, r.force.y);
+  visit(wheel_change_x, r.change.x);
+  visit(wheel_change_y, r.change.y);
+  visit(wheel_mass_x, r.mass.x);
+  visit(wheel_mass_y, r.mass.y);
+  if constexpr (Heavy) {
+    visit(wheel_momentum_x, r.momentum.x);
+    visit(wheel_momentum_y, r.momentum.y);
+  }
+}
+/// visit(which sum, value, whether the mass is to be multiplied).
+template <bool Loaded, class Visit>
+inline void for_sums(const WheelSums& s, Visit&& visit) noexcept {
+  using namespace rondo::dynamics::kernels;
+  visit(wheel_kinetic, s.kinetic, true);
+  visit(wheel_strain, s.strain, false);
+  visit(wheel_force_arm, s.force_arm, false);
+  visit(wheel_force_moment, s.force_moment, false);
+  visit(wheel_force_after, s.force_after, false);
+  visit(wheel_force_across, s.force_across, false);
+  visit(wheel_force_moved, s.force_moved, false);
+  visit(wheel_force_turned, s.force_turned, false);
+  visit(wheel_mass_mean, s.mass_mean, true);
+  visit(wheel_mass_moment, s.mass_moment, true);
+  visit(wheel_change_mean, s.change_mean, false);
+  visit(wheel_change_moment, s.change_moment, false);
+  if constexpr (Loaded) visit(wheel_load_mean, s.load_mean, false);
+}
+
+}  // namespace
