@@ -47,8 +47,8 @@ inline WheelNodes own_nodes(int own, const WheelNodes& n) noexcept {
 
 /// Update and sums of one pack of a row.
 template <bool Loaded, bool Heavy>
-inline void wheel_pack(const CyclicStrip& s, const WheelPacks& f, const RowInHand& row, Pack mass,
-                       Vectors reference, std::ptrdiff_t column, Vectors force, WheelSums& sums,
+inline void wheel_pack(const CyclicStrip& s, const WheelPacks& f, const CyclicRow& row,
+                       std::ptrdiff_t column, Vectors force, WheelSums& sums,
                        Resultants& resultants) noexcept {
   const std::ptrdiff_t at = row.at + column;
   double* a = s.velocity + at;
@@ -61,9 +61,9 @@ inline void wheel_pack(const CyclicStrip& s, const WheelPacks& f, const RowInHan
   n.a = load_vectors(a, s.stride);
   n.force = force;
   n.before = load_vectors(p, s.stride);
-  n.reference = reference;
-  n.mass = mass;
-  n.dt_over_mass = row.dt_over_mass;
+  n.reference = {all(row.x), all(row.y)};
+  n.mass = all(row.mass);
+  n.dt_over_mass = all(row.dt_over_mass);
   if constexpr (Heavy) n.pull = to_sectors(s, column, s.wheel->pull_x, s.wheel->pull_y);
   if constexpr (Loaded) n.load = load_on(s, row, column);
   const int own = own_lanes(s, column);
@@ -79,33 +79,21 @@ inline void wheel_group(const CyclicStrip& s, const WheelPacks& f, int first, in
                         double* sums) noexcept {
   Forces force;
   product(s, first, last - first, force);
-  Resultants resultants[group_packs];
-  for (int i = 0; i < group_packs; ++i) resultants[i] = no_resultants();
   const auto add = [&](int k, Pack value) {
     store(sums + k * lanes, load(sums + k * lanes) + value);
   };
-  for (int r = 0; r < s.n_rows; ++r) {
-    const CyclicRow& row = s.rows[r];
-    const RowInHand in_hand = {row.at, {}, all(row.dt_over_mass), row.first_load, row.n_loads};
-    const Vectors reference = {all(row.x), all(row.y)};
-    const Pack mass = all(row.mass);
-    WheelSums own = no_wheel_sums();
-    for (int pack = first; pack < last; ++pack)
-      wheel_pack<Loaded, Heavy>(s, f, in_hand, mass, reference,
-                                static_cast<std::ptrdiff_t>(pack) * lanes, force[r][pack - first],
-                                own, resultants[pack - first]);
-    for_sums<Loaded>(own, [&](int k, Pack value, bool with_mass) {
-      add(k, with_mass ? mass * value : value);
-    });
-  }
+  WheelSums own = no_wheel_sums();
   for (int pack = first; pack < last; ++pack) {
     const std::ptrdiff_t column = static_cast<std::ptrdiff_t>(pack) * lanes;
-    const Resultants& r = resultants[pack - first];
+    Resultants r = no_resultants();
+    for (int i = 0; i < s.n_rows; ++i)
+      wheel_pack<Loaded, Heavy>(s, f, s.rows[i], column, force[i][pack - first], own, r);
     const Resultants turned = {
         from_sectors(s, column, r.force), from_sectors(s, column, r.change),
         from_sectors(s, column, r.mass), from_sectors(s, column, r.momentum)};
-    for_resultants<Loaded, Heavy>(turned, add);
+    for_resultants<Heavy>(turned, add);
   }
+  for_sums<Loaded>(own, add);
 }
 
 template <bool Loaded, bool Heavy>
@@ -119,6 +107,7 @@ void wheel_strip(const CyclicStrip& s) noexcept {
 }
 
 void wheel_strip_way(const CyclicStrip& s) noexcept {
+  const WayPacks way(*s.way);
   const int own = (s.columns + lanes - 1) / lanes;
   for (int pack = 0; pack < own; ++pack) {
     const std::ptrdiff_t column = static_cast<std::ptrdiff_t>(pack) * lanes;
@@ -126,7 +115,7 @@ void wheel_strip_way(const CyclicStrip& s) noexcept {
     for (int r = 0; r < s.n_rows; ++r) {
       const CyclicRow& row = s.rows[r];
       const std::ptrdiff_t at = row.at + column;
-      const Vectors u = wheel_way(*s.way, hub, {all(row.x), all(row.y)},
+      const Vectors u = wheel_way(way, hub, {all(row.x), all(row.y)},
                                   load_vectors(s.now + at, s.stride),
                                   load_vectors(s.velocity + at, s.stride));
       store_vectors(s.next + at, s.stride, own_of(own_lanes(s, column), u));

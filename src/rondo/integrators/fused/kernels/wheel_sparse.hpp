@@ -9,8 +9,7 @@ namespace {
 template <bool Loaded, bool Heavy>
 void wheel_rows(const SparseRows& s) noexcept {
   const WheelPacks f(*s.wheel);
-  Pack total[rondo::dynamics::kernels::n_wheel_sums];
-  for (Pack& sum : total) sum = all(0.0);
+  WheelSums sums = no_wheel_sums();
   Resultants resultants = no_resultants();
   for (std::ptrdiff_t pack = s.first_pack; pack < s.last_pack; ++pack) {
     double* motion = s.motion + pack * 4 * lanes;
@@ -26,25 +25,24 @@ void wheel_rows(const SparseRows& s) noexcept {
     n.dt_over_mass = load(constants + 3 * lanes);
     if constexpr (Heavy) n.pull = {all(s.wheel->pull_x), all(s.wheel->pull_y)};
     if constexpr (Loaded) n.load = load_on(s, pack);
-    WheelSums own = no_wheel_sums();
-    const Vectors after = wheel_update<Loaded, Heavy>(f, n, own, resultants);
-    for_sums<Loaded>(own, [&](int k, Pack value, bool with_mass) {
-      total[k] = with_mass ? fma(n.mass, value, total[k]) : total[k] + value;
-    });
+    const Vectors after = wheel_update<Loaded, Heavy>(f, n, sums, resultants);
     store_vectors(motion, lanes, after);
     store_vectors(motion + 2 * lanes, lanes, n.force);
   }
-  for_resultants<Loaded, Heavy>(resultants, [&](int k, Pack value) { total[k] = value; });
-  for (int k = 0; k < rondo::dynamics::kernels::n_wheel_sums; ++k)
-    store(s.sums + k * lanes, total[k]);
+  const Pack none = all(0.0);  // what this kernel has not
+  for (int k = 0; k < rondo::dynamics::kernels::n_wheel_sums; ++k) store(s.sums + k * lanes, none);
+  const auto set = [&](int k, Pack value) { store(s.sums + k * lanes, value); };
+  for_sums<Loaded>(sums, set);
+  for_resultants<Heavy>(resultants, set);
 }
 
 void wheel_rows_way(const SparseRows& s) noexcept {
+  const WayPacks way(*s.way);
   const Vectors hub = {all(s.way->hub_x), all(s.way->hub_y)};
   for (std::ptrdiff_t pack = s.first_pack; pack < s.last_pack; ++pack) {
     Vectors u;
     load_pairs(s.now + pack * 2 * lanes, u.x, u.y);
-    u = wheel_way(*s.way, hub, load_vectors(s.constants + pack * 4 * lanes, lanes), u,
+    u = wheel_way(way, hub, load_vectors(s.constants + pack * 4 * lanes, lanes), u,
                   load_vectors(s.motion + pack * 4 * lanes, lanes));
     store_pairs(s.next + pack * 2 * lanes, u.x, u.y);
   }

@@ -28,7 +28,7 @@ inline Vectors add_turned(Vectors z, Vectors a, Vectors b) noexcept {
   return {fma(z.x, a.x, fnma(z.y, a.y, b.x)), fma(z.x, a.y, fma(z.y, a.x, b.y))};
 }
 
-/// Of the packs in hand. Those of masses are without them where all nodes of a row have the same.
+/// Of the packs in hand.
 struct WheelSums {
   Pack kinetic, strain, force_arm, force_moment, force_after, force_across, force_moved,
       force_turned, mass_mean, mass_moment, change_mean, change_moment, load_mean;
@@ -73,13 +73,14 @@ inline Vectors wheel_update(const WheelPacks& f, const WheelNodes& n, WheelSums&
   const Vectors moved = minus(n.u, n.u_before), change = minus(n.force, n.before);
   const Vectors arm = plus(n.reference, n.u);
   Vectors q = add_times(f.beta_over_dt, change, n.force);
-  q = add_times(f.alpha_over_dt * n.mass, moved, q);
+  const Vectors momentum = {n.mass * moved.x, n.mass * moved.y};  // over Δt
+  q = add_times(f.alpha_over_dt, momentum, q);
   if constexpr (Loaded) q = minus(q, n.load);
   Vectors after = {fnma(n.dt_over_mass, q.x, before.x), fnma(n.dt_over_mass, q.y, before.y)};
   if constexpr (Heavy) after = plus(after, n.pull);
 
   const Vectors twice_mean = plus(before, after);
-  s.kinetic = add_dot(before, before, s.kinetic);
+  s.kinetic = fma(n.mass, fma(before.x, before.x, before.y * before.y), s.kinetic);
   s.strain = add_dot(n.u_before, n.force, s.strain);
   s.force_arm = add_dot(arm, n.force, s.force_arm);
   s.force_moment = add_cross(arm, n.force, s.force_moment);
@@ -87,29 +88,36 @@ inline Vectors wheel_update(const WheelPacks& f, const WheelNodes& n, WheelSums&
   s.force_across = add_cross(n.force, after, s.force_across);
   s.force_moved = add_dot(n.force, moved, s.force_moved);
   s.force_turned = add_cross(n.force, moved, s.force_turned);
-  s.mass_mean = add_dot(moved, twice_mean, s.mass_mean);
-  s.mass_moment = add_cross(arm, moved, s.mass_moment);
+  s.mass_mean = add_dot(momentum, twice_mean, s.mass_mean);
+  s.mass_moment = add_cross(arm, momentum, s.mass_moment);
   s.change_mean = add_dot(change, twice_mean, s.change_mean);
   s.change_moment = add_cross(arm, change, s.change_moment);
   if constexpr (Loaded) s.load_mean = add_dot(n.load, twice_mean, s.load_mean);
   r.force = plus(r.force, n.force);
   r.change = plus(r.change, change);
-  r.mass = add_times(n.mass, moved, r.mass);
+  r.mass = plus(r.mass, momentum);
   if constexpr (Heavy) r.momentum = add_times(n.mass, twice_mean, r.momentum);
   return after;
 }
 
+/// WheelWay in every lane.
+struct WayPacks {
+  explicit WayPacks(const WheelWay& w) noexcept
+      : turn{all(w.turn_x), all(w.turn_y)}, way{all(w.way_x), all(w.way_y)} {}
+  Vectors turn, way;
+};
+
 /// u_{n+2} = u + (e^{-iδ} - 1) y + Δt e^{-iδ} (a⁺ - h). @param hub h in the frame of the nodes
-inline Vectors wheel_way(const WheelWay& w, Vectors hub, Vectors reference, Vectors u,
+inline Vectors wheel_way(const WayPacks& w, Vectors hub, Vectors reference, Vectors u,
                          Vectors a) noexcept {
-  const Vectors turn = {all(w.turn_x), all(w.turn_y)}, way = {all(w.way_x), all(w.way_y)};
   const Vectors zero = {all(0.0), all(0.0)};
-  const Vectors step = add_turned(turn, plus(reference, u), add_turned(way, minus(a, hub), zero));
+  const Vectors step =
+      add_turned(w.turn, plus(reference, u), add_turned(w.way, minus(a, hub), zero));
   return plus(u, step);
 }
 
-/// visit(which sum, value) of all, masses included.
-template <bool Loaded, bool Heavy, class Visit>
+/// visit(which sum, value) of all.
+template <bool Heavy, class Visit>
 inline void for_resultants(const Resultants& r, Visit&& visit) noexcept {
   using namespace rondo::dynamics::kernels;
   visit(wheel_force_x, r.force.x);
@@ -123,23 +131,23 @@ inline void for_resultants(const Resultants& r, Visit&& visit) noexcept {
     visit(wheel_momentum_y, r.momentum.y);
   }
 }
-/// visit(which sum, value, whether the mass is to be multiplied).
+/// The same.
 template <bool Loaded, class Visit>
 inline void for_sums(const WheelSums& s, Visit&& visit) noexcept {
   using namespace rondo::dynamics::kernels;
-  visit(wheel_kinetic, s.kinetic, true);
-  visit(wheel_strain, s.strain, false);
-  visit(wheel_force_arm, s.force_arm, false);
-  visit(wheel_force_moment, s.force_moment, false);
-  visit(wheel_force_after, s.force_after, false);
-  visit(wheel_force_across, s.force_across, false);
-  visit(wheel_force_moved, s.force_moved, false);
-  visit(wheel_force_turned, s.force_turned, false);
-  visit(wheel_mass_mean, s.mass_mean, true);
-  visit(wheel_mass_moment, s.mass_moment, true);
-  visit(wheel_change_mean, s.change_mean, false);
-  visit(wheel_change_moment, s.change_moment, false);
-  if constexpr (Loaded) visit(wheel_load_mean, s.load_mean, false);
+  visit(wheel_kinetic, s.kinetic);
+  visit(wheel_strain, s.strain);
+  visit(wheel_force_arm, s.force_arm);
+  visit(wheel_force_moment, s.force_moment);
+  visit(wheel_force_after, s.force_after);
+  visit(wheel_force_across, s.force_across);
+  visit(wheel_force_moved, s.force_moved);
+  visit(wheel_force_turned, s.force_turned);
+  visit(wheel_mass_mean, s.mass_mean);
+  visit(wheel_mass_moment, s.mass_moment);
+  visit(wheel_change_mean, s.change_mean);
+  visit(wheel_change_moment, s.change_moment);
+  if constexpr (Loaded) visit(wheel_load_mean, s.load_mean);
 }
 
 }  // namespace
