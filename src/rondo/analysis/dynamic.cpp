@@ -49,7 +49,8 @@ Snapshot& fill(const Setup& setup, const dynamics::State& state, Snapshot& s) {
   s.time = state.frame.time;
   s.time_velocity = state.step == 0 ? 0.0 : state.frame.time - 0.5 * setup.model.dt;
   s.angle = state.frame.angle;
-  s.angle_velocity = setup.model.motion.angle(s.time_velocity);
+  s.angle_velocity = setup.model.rim ? state.frame.angle - 0.5 * state.frame.turn_before
+                                     : setup.model.motion.angle(s.time_velocity);
   s.center = state.frame.center;
   s.u = state.u;
   s.v = state.v;
@@ -255,6 +256,8 @@ void DynamicAnalysis::judge(const dynamics::StepReport& step) {
   OutOfBound found = step.contact.unseen > 0.0
                          ? OutOfBound{missed_corner(step.contact.unseen), false}
                          : find_out_of_bound(step.balance, contact_, bounds_);
+  if (found.what.empty() && setup_.model.rim)
+    found = {turned_too_far(step.frame.turn, setup_.model.dt), false};
   if (found.what.empty()) return;
   if (found.not_finite) {
     dynamics::State now(setup_.model);  // after the steps of this call

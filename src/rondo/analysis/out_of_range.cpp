@@ -9,6 +9,7 @@
 #include <span>
 
 #include "rondo/analysis/build/bodies.hpp"
+#include "rondo/model/loaded_rim.hpp"
 #include "rondo/output/run_options.hpp"
 
 namespace rondo::study {
@@ -124,6 +125,14 @@ std::string missed_corner(double way) {
       "a node has moved {:.3g} m in the last steps, farther than touches of the sharp corners of "
       "the ground were looked for: one may be missed; a smaller time.step, or ground.fillet > 0",
       way);
+}
+
+std::string turned_too_far(double turn, double dt) {
+  if (std::abs(turn) <= dynamics::most_turn) return {};
+  return fmt::format(
+      "the rim turns by {:.3g} rad in a step, more than {:.3g}: differences of places no longer show "
+      "its spin; a time.step below {:.3g} s, or less of rim.torque",
+      turn, dynamics::most_turn, dynamics::most_turn / std::abs(turn) * dt);
 }
 
 double impact_gain(const dynamics::Balance& b) noexcept {

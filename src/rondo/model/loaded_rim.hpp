@@ -12,6 +12,9 @@
 
 namespace rondo::dynamics {
 
+/// Turns in a step above this are no longer seen in differences of places [rad].
+inline constexpr double most_turn = 0.3;
+
 /// What the internal forces q of the free nodes do to the rim, co-rotating frame.
 struct RimForce {
   Vec2 force;           ///< Σ q                                                         [N/m]

@@ -84,7 +84,7 @@ void for_texts(Known& identity, Visit&& visit) {
 template <class Known, class Visit>
 void for_scalars(Known& k, Visit&& visit) {
   const std::string row = "since the last row of history.csv", loop = "of the loop so far, ";
-  auto& [next, since, done, impulse, angular_impulse, penetration] = k.history;
+  auto& [next, since, done, impulse, angular_impulse, penetration, hub, hub_angular] = k.history;
   visit("/run/step", k.identity.step, {"s", "length of a step"});
   visit("/run/steps_done", k.state.step, {"1", "steps made"});
   visit("/run/steps", k.n_steps, {"1", "steps of the whole run"});
@@ -102,6 +102,9 @@ void for_scalars(Known& k, Visit&& visit) {
   visit("/history/impulse_y", impulse.y, {"N*s/m", row});
   visit("/history/angular_impulse", angular_impulse, {"N*s", row});
   visit("/history/penetration", penetration, {"m", "largest " + row});
+  visit("/history/hub_impulse_x", hub.x, {"N*s/m", row});
+  visit("/history/hub_impulse_y", hub.y, {"N*s/m", row});
+  visit("/history/hub_angular_impulse", hub_angular, {"N*s", row});
   for_contact(k.contact, visit);
   for_deformation(k.deformation, visit);
 }

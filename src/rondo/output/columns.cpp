@@ -41,12 +41,15 @@ constexpr std::array history{
         "(ωRₒ − V) / max(|V|, |ωRₒ|); 0 where both vanish, and where nothing is constrained. Rₒ of "
         "a mesh: the largest distance of a contact node from the center",
         [](const H& r) { return r.slip_ratio; }},
-    Column<H>{"kinetic", "J/m", "kinetic part of the energy E, half a step before `time_s`",
+    Column<H>{"kinetic", "J/m",
+              "kinetic part of the energy E, half a step before `time_s`; with a `[rim]` of "
+              "absolute velocities, without the rim's own",
               [](const H& r) { return r.balance.kinetic; }},
     Column<H>{"strain", "J/m", "strain part of the energy E, likewise",
               [](const H& r) { return r.balance.strain; }},
     Column<H>{"work_frame", "J/m",
-              "of the inertia of the frame and of gravity; all works are cumulative from the start",
+              "of the inertia of the frame and of gravity; 0 with a `[rim]`. All works are cumulative "
+              "from the start",
               [](const H& r) { return r.balance.works.frame; }},
     Column<H>{"work_contact", "J/m",
               "of the ground's impulses: `work_rim` − `dissipation_friction` − `loss_impact`",
@@ -55,17 +58,54 @@ constexpr std::array history{
               [](const H& r) { return r.balance.works.dissipation_friction; }},
     Column<H>{"loss_impact", "J/m", "in impacts",
               [](const H& r) { return r.balance.works.loss_impact; }},
-    Column<H>{"work_rim", "J/m", "of the rim against the ground's impulses",
+    Column<H>{"work_rim", "J/m", "of the rim against the ground's impulses; 0 with a `[rim]`",
               [](const H& r) { return r.balance.works.rim; }},
     Column<H>{"dissipation_mass", "J/m", "by `damping.mass`",
               [](const H& r) { return r.balance.works.dissipation_mass; }},
     Column<H>{"dissipation_stiffness", "J/m", "by `damping.stiffness`",
               [](const H& r) { return r.balance.works.dissipation_stiffness; }},
-    Column<H>{"work_scheme", "J/m", "created by the scheme `as-printed`; else 0",
+    Column<H>{"work_scheme", "J/m",
+              "created by the scheme `as-printed`; with a `[rim]` what the central differences of a "
+              "turning body leave, of third order in a step; else 0",
               [](const H& r) { return r.balance.works.scheme; }},
     Column<H>{"energy_residual", "J/m", "energy less all works: what the energy balance leaves",
               [](const H& r) { return r.balance.residual; }},
     Column<H>{"work_load", "J/m", "of pressures", [](const H& r) { return r.balance.works.load; }}};
+
+constexpr std::array rim{
+    Column<H>{"spin_rad_s", "rad/s",
+              "angular velocity of the rim at `time_s`, > 0 clockwise: mean of the half steps before "
+              "and after",
+              [](const H& r) { return r.rim.spin; }},
+    Column<H>{"speed_x", "m/s", "velocity of the center, likewise",
+              [](const H& r) { return r.rim.velocity.x; }},
+    Column<H>{"speed_y", "m/s", "likewise", [](const H& r) { return r.rim.velocity.y; }},
+    Column<H>{"hub_force_x", "N/m",
+              "that holds the center along x, mean over the interval; 0 where `rim.free` has "
+              "\"speed\"",
+              [](const H& r) { return r.rim.force.x; }},
+    Column<H>{"hub_force_y", "N/m", "along y; 0 where `rim.free` has \"height\"",
+              [](const H& r) { return r.rim.force.y; }},
+    Column<H>{"hub_torque", "N·m/m",
+              "that holds the spin, > 0 drives towards +x, mean over the interval; 0 where "
+              "`rim.free` has \"angular_velocity\"",
+              [](const H& r) { return r.rim.torque; }},
+    Column<H>{"kinetic_rim", "J/m", "kinetic energy of the rim with what is bonded to it",
+              [](const H& r) { return r.balance.kinetic_rim; }},
+    Column<H>{"support_energy", "J/m", "of the springs of `[rim.support]`",
+              [](const H& r) { return r.balance.support; }},
+    Column<H>{"work_gravity", "J/m", "of gravity on body and rim",
+              [](const H& r) { return r.balance.works.gravity; }},
+    Column<H>{"work_rim_load", "J/m", "of `rim.force_x` and `rim.force_y`",
+              [](const H& r) { return r.balance.works.rim_load; }},
+    Column<H>{"work_torque", "J/m", "of `rim.torque`",
+              [](const H& r) { return r.balance.works.torque; }},
+    Column<H>{"work_held", "J/m", "of what holds speed, height or spin as `[motion]` says",
+              [](const H& r) { return r.balance.works.held; }},
+    Column<H>{"dissipation_brake", "J/m", "by `rim.brake`",
+              [](const H& r) { return r.balance.works.dissipation_brake; }},
+    Column<H>{"dissipation_support", "J/m", "by the dashpots of `[rim.support]`",
+              [](const H& r) { return r.balance.works.dissipation_support; }}};
 
 constexpr std::array contact{
     Column<P>{"time_s", "s", "of the snapshot", [](const P& r) { return r.time; }},
@@ -87,6 +127,10 @@ constexpr std::array contact{
 
 std::span<const Column<HistoryRecord>> history_columns() noexcept {
   return history;
+}
+
+std::span<const Column<HistoryRecord>> rim_columns() noexcept {
+  return rim;
 }
 
 std::span<const Column<ContactRecord>> contact_columns() noexcept {

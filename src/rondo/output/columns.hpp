@@ -6,7 +6,7 @@
 
 #include "rondo/core/column.hpp"
 #include "rondo/core/vec2.hpp"
-#include "rondo/model/ledger.hpp"
+#include "rondo/model/integrator.hpp"
 
 namespace rondo::study {
 
@@ -22,6 +22,7 @@ struct HistoryRecord {
   double penetration = 0.0;     ///< [m]
   double slip_ratio = 0.0;      ///< [1]
   dynamics::Balance balance;
+  dynamics::RimReport rim;  ///< of a loaded rim; what holds it as means over the interval
 };
 
 /// A row of contact.csv: a node in contact in a snapshot.
@@ -34,6 +35,8 @@ struct ContactRecord {
 };
 
 [[nodiscard]] std::span<const Column<HistoryRecord>> history_columns() noexcept;
+/// Those that a run with a loaded rim has besides.
+[[nodiscard]] std::span<const Column<HistoryRecord>> rim_columns() noexcept;
 [[nodiscard]] std::span<const Column<ContactRecord>> contact_columns() noexcept;
 
 }  // namespace rondo::study

@@ -34,15 +34,21 @@ History::History(const Case& c, const Setup& setup, const HistoryPlace& place)
 
 std::vector<ColumnLabel> History::columns() const {
   std::vector<ColumnLabel> labels = labels_of(history_columns());
+  if (setup_.model.rim) {
+    const std::vector<ColumnLabel> rim = labels_of(rim_columns());
+    labels.insert(labels.end(), rim.begin(), rim.end());
+  }
   const std::vector<ColumnLabel> probes = probe_columns(case_.output.probes);
   labels.insert(labels.end(), probes.begin(), probes.end());
   return labels;
 }
 
-double History::slip_ratio(double time) const {
+double History::slip_ratio(const dynamics::StepReport& step) const {
   if (radius_ == 0.0) return 0.0;
-  return dynamics::slip_ratio(case_.motion.angular_velocity.at(time) * radius_,
-                              case_.motion.speed.at(time));
+  if (setup_.model.rim)
+    return dynamics::slip_ratio(step.rim.spin * radius_, step.rim.velocity.x);
+  return dynamics::slip_ratio(case_.motion.angular_velocity.at(step.frame.time) * radius_,
+                              case_.motion.speed.at(step.frame.time));
 }
 
 /// The step nearest to a multiple of the interval writes the row.
@@ -79,6 +85,8 @@ void History::observe(const dynamics::StepReport& step, const dynamics::State* s
   at_.impulse += report.impulse;
   at_.angular_impulse += report.angular_impulse;
   at_.penetration = std::max(at_.penetration, report.penetration);
+  at_.hub_impulse += dt_ * step.rim.force;
+  at_.hub_angular_impulse += dt_ * step.rim.torque;
   if (!is_due(step.frame.time)) return;
   append_row(step, state, rows);
   if (interval_ > 0.0)
@@ -107,9 +115,15 @@ void History::append_row(const dynamics::StepReport& step, const dynamics::State
   r.sticking = step.contact.sticking;
   r.contact_length = step.contact.length;
   r.penetration = at_.penetration;
-  r.slip_ratio = slip_ratio(r.time);
+  r.slip_ratio = slip_ratio(step);
   r.balance = step.balance;
   append_values(history_columns(), r, rows);
+  if (setup_.model.rim) {
+    r.rim = step.rim;
+    r.rim.force = at_.hub_impulse / span;
+    r.rim.torque = at_.hub_angular_impulse / span;
+    append_values(rim_columns(), r, rows);
+  }
   append_probes(state, rows);
 }
 

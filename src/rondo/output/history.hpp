@@ -18,6 +18,8 @@ struct HistoryPlace {
   long long done = 0;   ///< the last step seen
   Vec2 impulse;         ///< since the last row                                      [N·s/m]
   double angular_impulse = 0.0, penetration = 0.0;
+  Vec2 hub_impulse;  ///< of what holds a loaded rim, likewise                    [N·s/m]
+  double hub_angular_impulse = 0.0;
 };
 
 class History {
@@ -38,7 +40,7 @@ class History {
   [[nodiscard]] long long next_probed() const noexcept;
 
  private:
-  [[nodiscard]] double slip_ratio(double time) const;
+  [[nodiscard]] double slip_ratio(const dynamics::StepReport& step) const;
   [[nodiscard]] bool is_due(double time) const noexcept;
   void append_row(const dynamics::StepReport& step, const dynamics::State* state,
                   std::vector<double>& rows);
