@@ -139,7 +139,7 @@ struct Case {
   Damping damping;
   dynamics::Motion motion;
   std::optional<dynamics::RimBody> rim;  ///< absent: the rim follows the motion
-  std::optional<GroundCase> ground;  ///< absent: no contact
+  std::optional<GroundCase> ground;      ///< absent: no contact
   BodyContactCase body_contact;
   Initial initial;
   AnalysisCase analysis;

@@ -47,6 +47,9 @@ void check_crush(CaseValues& in, Case& c) {
   check_flat(in, c);
   if (c.body_contact.between != BodyContact::none)
     in.fault("contact.between", "a crush knows no contact but with the ground", "\"none\"");
+  if (in.has_table("rim"))
+    in.fault("rim", "a crush brings its rim down by analysis.depth, and forces move none",
+             "a dynamic analysis; for the depth that bears a load, rim.force_y in one");
   if (!c.pressures.empty())
     in.fault("load.pressure[0]", "a crush knows no load but the ground", "a dynamic analysis");
 }

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // To add a key: its row here, its member in case.hpp, `docs/cases.md` written again (the test
 // Manual.HasTheKeys says how).
+#include <numbers>
+
 #include "rondo/case/case_keys.hpp"
 
 namespace rondo::study {
@@ -12,6 +14,8 @@ constexpr Allowed positive{{0.0, infinity, true, false}};
 constexpr Allowed not_negative{{0.0, infinity, false, false}};
 constexpr Allowed poisson{{-1.0, 0.5, true, true}};
 constexpr Allowed share{{0.0, 1.0, true, false}};
+constexpr double right_angle = 0.5 * std::numbers::pi;
+constexpr Allowed less_than_upright{{-right_angle, right_angle, true, true}};
 
 constexpr Allowed between(double low, double high) {
   return {{low, high, false, false}};
@@ -30,20 +34,21 @@ constexpr Allowed with(Allowed allowed, std::string_view also) {
   return allowed;
 }
 
-constexpr unsigned bit(AnalysisKind kind) {
-  return 1U << static_cast<unsigned>(kind);
-}
-// A kind of analysis that is not named here has the keys of a dynamic one.
-constexpr Analyses in_motion{~bit(AnalysisKind::crush)};
-constexpr Analyses in_motion_untold{~bit(AnalysisKind::crush), false};
-constexpr Analyses in_motion_but_written{~bit(AnalysisKind::crush), true, true};
-constexpr Analyses of_crush{bit(AnalysisKind::crush)};
-
 bool is_smooth(const Case& c) {
   return !c.disk.tread;
 }
-bool is_as_printed(const Case& c) {
-  return c.time.scheme == Scheme::as_printed;
+/// Mass damping acts at the old half step, so that the critical step hangs on it.
+bool is_lagged(const Case& c) {
+  return c.time.scheme == Scheme::as_printed || c.rim;
+}
+bool has_free_x(const Case& c) {
+  return c.rim && c.rim->free_x;
+}
+bool has_free_y(const Case& c) {
+  return c.rim && c.rim->free_y;
+}
+bool has_free_spin(const Case& c) {
+  return c.rim && c.rim->free_spin;
 }
 bool has_slide(const Case& c) {
   return c.analysis.slide_increments != 0;
@@ -57,53 +62,6 @@ bool is_by_safety(const Case& c) {
 
 constexpr Use optional{};
 constexpr Use required{true};
-
-std::size_t one(const Case& /*c*/) {
-  return 1;
-}
-std::size_t without_mesh(const Case& c) {
-  return c.mesh ? 0 : 1;
-}
-
-template <class T>
-void set_there(std::optional<T>& part, std::size_t n) {
-  part.reset();
-  if (n > 0) part.emplace();
-}
-
-constexpr CaseTable tables[] = {
-    {"", one, nullptr},
-    {"disk", without_mesh, nullptr},
-    {"disk.mesh", without_mesh, nullptr},
-    {"disk.tread", [](const Case& c) -> std::size_t { return !c.mesh && c.disk.tread ? 1 : 0; },
-     [](Case& c, std::size_t n) { set_there(c.disk.tread, n); }},
-    {"mesh", [](const Case& c) -> std::size_t { return c.mesh ? 1 : 0; },
-     [](Case& c, std::size_t n) { set_there(c.mesh, n); }},
-    {"material", one, nullptr},
-    {"material.region[]", [](const Case& c) { return c.regions.size(); },
-     [](Case& c, std::size_t n) {
-       c.regions.resize(n, {{}, c.material});
-     }},
-    {"damping", one, nullptr, in_motion},
-    {"motion", one, nullptr, in_motion},
-    {"ground", [](const Case& c) -> std::size_t { return c.ground ? 1 : 0; },
-     [](Case& c, std::size_t n) { set_there(c.ground, n); }},
-    {"contact", one, nullptr, in_motion_untold},
-    {"load.pressure[]", [](const Case& c) { return c.pressures.size(); },
-     [](Case& c, std::size_t n) { c.pressures.resize(n); }, in_motion_untold},
-    {"initial", one, nullptr, in_motion},
-    {"initial.region[]", [](const Case& c) { return c.initial.regions.size(); },
-     [](Case& c, std::size_t n) {
-       c.initial.regions.resize(n, {{}, c.initial.velocity, c.initial.angular_velocity});
-     },
-     in_motion_untold},
-    {"analysis", one, nullptr},
-    {"time", one, nullptr, in_motion},
-    {"solver", one, nullptr},
-    {"output", one, nullptr},
-    {"output.probe[]", [](const Case& c) { return c.output.probes.size(); },
-     [](Case& c, std::size_t n) { c.output.probes.resize(n); }, in_motion},
-};
 
 #define FIELD(member) [](Case& c, [[maybe_unused]] std::size_t k) { return field_of(c.member); }
 #define CHOICE(member) [](Case& c, std::size_t /*k*/) -> Field { return choice_of(c.member); }
@@ -183,7 +141,7 @@ constexpr CaseKey keys[] = {
     {"material.region[].density", "kg/m3", FIELD(regions[k].material.density), positive,
      optional.said("that of [material]"), "its density"},
 
-    {"damping.mass", "1/s", FIELD(damping.mass), not_negative, optional.body(is_as_printed),
+    {"damping.mass", "1/s", FIELD(damping.mass), not_negative, optional.body(is_lagged),
      "α. Damps a mode of angular frequency w at the ratio α/(2w): slow motions most; of a free "
      "body it brakes flight and spin too"},
     {"damping.stiffness", "s", FIELD(damping.stiffness), not_negative, optional,
@@ -203,6 +161,45 @@ constexpr CaseKey keys[] = {
      "x of the center at t = 0"},
     {"motion.gravity", "m/s2", FIELD(motion.gravity), any, optional.body(never),
      "acceleration of gravity, downwards: 9.81 on Earth"},
+    {"motion.slope", "rad", FIELD(motion.slope), less_than_upright, optional.body(never),
+     "slope of the ground, whose axes stay those of the case: gravity is tilted by it instead, "
+     "towards +x where > 0, downhill"},
+
+    {"rim.free", "-",
+     [](Case& c, std::size_t /*k*/) -> Field {
+       return ChoiceList{{&c.rim->free_x, &c.rim->free_y, &c.rim->free_spin}};
+     },
+     choice("speed", "height", "angular_velocity"), required,
+     "what forces move: of these, `[motion]` gives the value at t = 0. The others are held, as "
+     "`[motion]` says. []: all of them, for their reactions"},
+    {"rim.mass", "kg/m", FIELD(rim->mass), not_negative,
+     optional.said("required if speed or height is free"),
+     "mass of the rim and what it carries, without the nodes that are bonded to it"},
+    {"rim.inertia", "kg m", FIELD(rim->inertia), not_negative,
+     optional.said("required if angular_velocity is free"),
+     "moment of inertia about the center, likewise"},
+    {"rim.force_x", "N/m", FIELD(rim->force_x), any, optional.if_(has_free_x).body(never),
+     "force on the center, along x"},
+    {"rim.force_y", "N/m", FIELD(rim->force_y), any, optional.if_(has_free_y).body(never),
+     "force on the center, upwards: a load is negative"},
+    {"rim.torque", "N", FIELD(rim->torque), any, optional.if_(has_free_spin).body(never),
+     "torque on the rim, clockwise as angular velocities: > 0 drives towards +x, < 0 backwards"},
+    {"rim.brake", "N", FIELD(rim->brake), not_negative, optional.if_(has_free_spin).body(never),
+     "torque of a brake: against the spin, which it brings to rest and never reverses"},
+    {"rim.support.x.stiffness", "N/m2", FIELD(rim->support_x.stiffness), not_negative,
+     optional.if_(has_free_x), "of a spring between the center and a fixed place, along x"},
+    {"rim.support.x.damping", "N s/m2", FIELD(rim->support_x.damping), not_negative,
+     optional.if_(has_free_x).body(never), "of a dashpot beside it"},
+    {"rim.support.x.at", "m", FIELD(rim->support_x.at), any,
+     optional.if_(has_free_x).said("the center's x at t = 0").body(never),
+     "x of the center where the spring is at rest"},
+    {"rim.support.y.stiffness", "N/m2", FIELD(rim->support_y.stiffness), not_negative,
+     optional.if_(has_free_y), "the same along y"},
+    {"rim.support.y.damping", "N s/m2", FIELD(rim->support_y.damping), not_negative,
+     optional.if_(has_free_y).body(never), "of a dashpot beside it"},
+    {"rim.support.y.at", "m", FIELD(rim->support_y.at), any,
+     optional.if_(has_free_y).said("the center's height at t = 0").body(never),
+     "height of the center where the spring is at rest"},
 
     {"ground.profile", "m", FIELD(ground->shape.profile), any, required,
      "surface of the ground, see below; required where there is a `[ground]`. Of a CSV file, whose "
@@ -346,10 +343,6 @@ constexpr CaseKey keys[] = {
 
 std::span<const CaseKey> case_keys() noexcept {
   return keys;
-}
-
-std::span<const CaseTable> case_tables() noexcept {
-  return tables;
 }
 
 }  // namespace rondo::study

@@ -28,6 +28,7 @@ constexpr Words words[] = {
     {"boolean", "true or false"},
     {"string", "any text"},
     {"string", ""},
+    {"array of strings", ""},
     {"float or array of pairs", "a finite number or [[t, value], ...] with t increasing"},
     {"string or array of pairs",
      "\"flat\", [[x, y], ...] from left to right, or the name of a CSV file with columns x, y"},
@@ -51,13 +52,13 @@ std::string range_text(const Range& r, bool whole) {
 }
 
 /// "a" or "b"; "a", "b" or "c".
-std::string choices_text(const Allowed& allowed) {
+std::string choices_text(const Allowed& allowed, std::string_view last = " or ") {
   const auto& choices = allowed.choices;
   const auto n = static_cast<std::size_t>(
       std::find(choices.begin(), choices.end(), std::string_view{}) - choices.begin());
   std::string said;
   for (std::size_t i = 0; i < n; ++i)
-    said += fmt::format("{}\"{}\"", i == 0 ? "" : i + 1 < n ? ", " : " or ", choices[i]);
+    said += fmt::format("{}\"{}\"", i == 0 ? "" : i + 1 < n ? ", " : last, choices[i]);
   return said;
 }
 
@@ -108,6 +109,7 @@ struct TypeOf {
   KeyType operator()(const std::string* /*value*/) const { return text; }
   KeyType operator()(const std::filesystem::path* /*value*/) const { return text; }
   KeyType operator()(const Choice& /*value*/) const { return choice; }
+  KeyType operator()(const ChoiceList& /*value*/) const { return choices; }
   KeyType operator()(const Vec2* /*value*/) const { return vector; }
   KeyType operator()(const Matrix* /*value*/) const { return matrix; }
   KeyType operator()(const dynamics::Table* /*value*/) const { return history; }
@@ -120,6 +122,10 @@ bool Range::contains(double value) const noexcept {
   const bool above = low_open ? value > low : value >= low;
   const bool below = high_open ? value < high : value <= high;
   return above && below;
+}
+
+bool Range::is_bounded() const noexcept {
+  return low > -infinity || high < infinity;
 }
 
 std::span<const CaseKey> keys_of(const CaseTable& table) {
@@ -192,6 +198,9 @@ void reset(const CaseKey& key, Case& c) {
         const auto to = std::get<decltype(from)>(key.field(c, 0));
         if constexpr (std::is_same_v<decltype(from), Choice>)
           to.set(to.target, from.get(from.target));
+        else if constexpr (std::is_same_v<decltype(from), ChoiceList>)
+          for (std::size_t i = 0; i < from.among.size() && from.among[i]; ++i)
+            *to.among[i] = *from.among[i];
         else
           *to = *from;
       },
@@ -199,7 +208,8 @@ void reset(const CaseKey& key, Case& c) {
 }
 
 KeyType type_of(const CaseKey& key) {
-  return key.allowed.is_choice() ? choice : std::visit(TypeOf{}, key.field(whole_case(), 0));
+  const KeyType type = std::visit(TypeOf{}, key.field(whole_case(), 0));
+  return type == text && key.allowed.is_choice() ? choice : type;
 }
 
 std::optional<std::size_t> find_choice(const Allowed& allowed, std::string_view name) {
@@ -221,8 +231,11 @@ std::string allowed_text(const CaseKey& key) {
   const KeyType type = type_of(key);
   const std::string_view also = key.allowed.also;
   if (type == choice) return choices_text(key.allowed);
-  if (type != integer && type != number) return std::string(words_of(type).allowed);
+  if (type == choices) return fmt::format("[], or any of {}", choices_text(key.allowed, ", "));
   const std::string range = range_text(key.allowed.range, type == integer);
+  if (type == history && key.allowed.range.is_bounded())
+    return fmt::format("{}; values {}", words_of(type).allowed, range);
+  if (type != integer && type != number) return std::string(words_of(type).allowed);
   if (also.empty()) return range;
   return range + (also.starts_with("<") ? " and " : "; ") + std::string(also);
 }

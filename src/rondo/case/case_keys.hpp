@@ -19,7 +19,18 @@
 
 namespace rondo::study {
 
-enum class KeyType { integer, number, boolean, text, choice, history, profile, vector, matrix };
+enum class KeyType {
+  integer,
+  number,
+  boolean,
+  text,
+  choice,
+  choices,
+  history,
+  profile,
+  vector,
+  matrix
+};
 
 /// An enum or a bool, by the index of its value among the choices of its key.
 struct Choice {
@@ -35,12 +46,17 @@ Choice choice_of(E& target) {
           [](void* p, std::size_t index) { *static_cast<E*>(p) = static_cast<E>(index); }};
 }
 
+/// Some of the choices of a key: of each whether it is among them; null beyond the last.
+struct ChoiceList {
+  std::array<bool*, 8> among{};
+};
+
 using Matrix = std::array<std::array<double, 2>, 2>;
 
 /// Where in a case the value of a key is.
 using Field =
     std::variant<int*, double*, std::optional<double>*, bool*, std::string*, std::filesystem::path*,
-                 Choice, Vec2*, Matrix*, dynamics::Table*, std::vector<Vec2>*>;
+                 Choice, ChoiceList, Vec2*, Matrix*, dynamics::Table*, std::vector<Vec2>*>;
 
 template <class T>
 Field field_of(T& target) {
@@ -59,11 +75,12 @@ struct Range {
 
   /// False for NaN.
   [[nodiscard]] bool contains(double value) const noexcept;
+  [[nodiscard]] bool is_bounded() const noexcept;
 };
 
 /// What may stand there, beside what the type says.
 struct Allowed {
-  Range range;                                ///< of numbers
+  Range range;                                ///< of numbers, and of the values of tables
   std::array<std::string_view, 8> choices{};  ///< in the order of the enum; none: no choice
   std::string_view also{};                    ///< a bound that involves other keys: a rule
 
@@ -81,6 +98,15 @@ struct Analyses {
     return ((bits >> static_cast<unsigned>(kind)) & 1U) != 0;
   }
 };
+
+constexpr unsigned bit_of(AnalysisKind kind) {
+  return 1U << static_cast<unsigned>(kind);
+}
+// A kind of analysis that is not named here has the keys of a dynamic one.
+inline constexpr Analyses in_motion{~bit_of(AnalysisKind::crush)};
+inline constexpr Analyses in_motion_untold{~bit_of(AnalysisKind::crush), false};
+inline constexpr Analyses in_motion_but_written{~bit_of(AnalysisKind::crush), true, true};
+inline constexpr Analyses of_crush{bit_of(AnalysisKind::crush)};
 
 constexpr bool always(const Case& /*c*/) {
   return true;

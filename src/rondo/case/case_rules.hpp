@@ -12,6 +12,9 @@ void check_analysis(CaseValues& in, Case& c);
 /// All other rules, and the warnings. @pre what means nothing to the analysis is left out
 void check_case(CaseValues& in, Case& c);
 
+/// Rules of [rim], and where its supports are at rest if the case does not say.
+void check_rim(CaseValues& in, Case& c);
+
 /// For keys that another key requires; says nothing where the kind of analysis is at fault.
 void require(CaseValues& in, std::string_view key);
 

@@ -4,9 +4,9 @@
 namespace rondo::study {
 namespace {
 
-constexpr std::string_view no_load =
-    "no key gives a load: motion.height brings the rim down, and a sweep finds the height that "
-    "bears a load (docs/studies.md); [[load.pressure]] presses on a curve";
+constexpr std::string_view load =
+    "a load on the rim is rim.force_y, where [rim] has free = [\"height\"]; for a crush there is "
+    "analysis.depth, and [[load.pressure]] presses on a curve";
 
 // A key of the same name in the table that was written comes before the one that stands here.
 constexpr Synonym synonyms[] = {
@@ -35,12 +35,31 @@ constexpr Synonym synonyms[] = {
     {"duration", "time.end"},
     {"t_end", "time.end"},
     {"radius", "disk.outer_radius"},
-    {"load", "", no_load},
-    {"normal_load", "", no_load},
-    {"vertical_load", "", no_load},
-    {"force", "", no_load},
-    {"force_y", "", no_load},
-    {"weight", "", no_load},
+    {"load", "", load},
+    {"normal_load", "", load},
+    {"vertical_load", "", load},
+    {"force", "", load},
+    {"weight", "", load},
+    {"drag", "rim.force_x"},
+    {"moment", "rim.torque"},
+    {"driving_torque", "rim.torque"},
+    {"drive_torque", "rim.torque"},
+    {"braking_torque", "rim.brake"},
+    {"brake_torque", "rim.brake"},
+    {"rim_mass", "rim.mass"},
+    {"hub_mass", "rim.mass"},
+    {"moment_of_inertia", "rim.inertia"},
+    {"rim_inertia", "rim.inertia"},
+    {"dofs", "rim.free"},
+    {"degrees_of_freedom", "rim.free"},
+    {"spring", "rim.support.y.stiffness"},
+    {"suspension", "rim.support.y.stiffness"},
+    {"dashpot", "rim.support.y.damping"},
+    {"damper", "rim.support.y.damping"},
+    {"incline", "motion.slope"},
+    {"inclination", "motion.slope"},
+    {"gradient", "motion.slope"},
+    {"tilt", "motion.slope"},
 };
 
 }  // namespace

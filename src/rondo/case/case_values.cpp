@@ -217,6 +217,22 @@ void CaseValues::take(const Reading& in, const Choice& target) {
   if (const auto name = text(in)) target.set(target.target, *find_choice(in.key.allowed, *name));
 }
 
+void CaseValues::take(const Reading& in, const ChoiceList& target) {
+  if (in.value.type != ValueType::array) return wrong_type(in, in.value, "an array of strings");
+  for (std::size_t i = 0; i < target.among.size() && target.among[i]; ++i) *target.among[i] = false;
+  for (const CaseValue& item : in.value.items) {
+    const auto found = find_choice(in.key.allowed, item.text);
+    if (item.type != ValueType::text)
+      wrong_type(in, item, "a string");
+    else if (!found)
+      bad(in, item, "is not one of the choices");
+    else if (*target.among[*found])
+      bad(in, item, "stands there twice");
+    else
+      *target.among[*found] = true;
+  }
+}
+
 bool CaseValues::pair(const Reading& in, const CaseValue& value, std::array<double, 2>& target) {
   if (value.type != ValueType::array) return wrong_type(in, value, "a pair of floats"), false;
   if (value.items.size() != 2)
@@ -260,19 +276,28 @@ void CaseValues::take(const Reading& in, dynamics::Table& target) {
     double constant = 0.0;
     if (value.type != ValueType::number && value.type != ValueType::integer)
       return wrong_type(in, value, "a float or an array of pairs");
-    if (finite(in, value, constant)) target = dynamics::Table(constant);
+    if (!finite(in, value, constant)) return;
+    if (!in.key.allowed.range.contains(constant)) return bad(in, value, "is out of bounds");
+    target = dynamics::Table(constant);
     return;
   }
   if (value.items.empty()) return bad(in, value, "must have at least one point");
+  take_points(in, target);
+}
+
+void CaseValues::take_points(const Reading& in, dynamics::Table& target) {
   auto points = pairs(in);
   std::size_t n_bad = 0;
-  for (std::size_t i = 1; i < points.size() && n_bad < most_faults_of_a_key; ++i)
-    if (points[i][0] <= points[i - 1][0]) {
-      bad(in, value.items[i],
-          fmt::format("the times must increase, but {} follows {}", points[i][0],
-                      points[i - 1][0]));
-      ++n_bad;
-    }
+  const auto fault = [&](std::size_t i, std::string message) {
+    bad(in, in.value.items[i], std::move(message));
+    ++n_bad;
+  };
+  for (std::size_t i = 0; i < points.size() && n_bad < most_faults_of_a_key; ++i) {
+    if (i > 0 && points[i][0] <= points[i - 1][0])
+      fault(i, fmt::format("the times must increase, but {} follows {}", points[i][0],
+                           points[i - 1][0]));
+    if (!in.key.allowed.range.contains(points[i][1])) fault(i, "the value is out of bounds");
+  }
   if (!points.empty() && n_bad == 0) target = dynamics::Table(std::move(points));
 }
 
@@ -313,7 +338,7 @@ void CaseValues::read(const CaseKey& key, const std::string& path, const Field& 
   std::visit(
       [&](auto target) {
         using T = decltype(target);
-        if constexpr (std::is_same_v<T, Choice>) {
+        if constexpr (std::is_same_v<T, Choice> || std::is_same_v<T, ChoiceList>) {
           take(in, target);
         } else if constexpr (std::is_same_v<T, double*> ||
                              std::is_same_v<T, std::optional<double>*>) {

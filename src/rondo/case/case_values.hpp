@@ -70,8 +70,10 @@ class CaseValues {
   void take(const Reading& in, bool& target);
   void take(const Reading& in, std::string& target);
   void take(const Reading& in, const Choice& target);
+  void take(const Reading& in, const ChoiceList& target);
   void take(const Reading& in, Vec2& target);
   void take(const Reading& in, Matrix& target);
+  void take_points(const Reading& in, dynamics::Table& target);
   void take(const Reading& in, dynamics::Table& target);
   void take(const Reading& in, std::vector<Vec2>& target);
   void take_profile_file(const Reading& in, std::vector<Vec2>& target);

@@ -40,6 +40,12 @@ struct ValueText {
   std::string operator()(const Choice& value) const {
     return toml_string(allowed.choices[value.get(value.target)]);
   }
+  std::string operator()(const ChoiceList& value) const {
+    std::string said;
+    for (std::size_t i = 0; i < value.among.size() && value.among[i]; ++i)
+      if (*value.among[i]) said += (said.empty() ? "" : ", ") + toml_string(allowed.choices[i]);
+    return "[" + said + "]";
+  }
   std::string operator()(const Vec2* value) const { return pair_text(value->x, value->y); }
   std::string operator()(const Matrix* value) const {
     const auto& g = *value;

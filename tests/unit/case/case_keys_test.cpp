@@ -36,7 +36,12 @@ TEST(CaseKeys, Synonyms) {
   EXPECT_EQ(meant_text("motion.velocity"), "did you mean motion.speed?");
   EXPECT_EQ(meant_text("ground.frction"), "did you mean ground.friction?");
   EXPECT_EQ(meant_text("ground.colour"), "");
-  EXPECT_NE(meant_text("motion.load").find("motion.height"), std::string::npos);
+  EXPECT_NE(meant_text("motion.load").find("rim.force_y"), std::string::npos);
+  EXPECT_EQ(meant_text("motion.force_y"), "did you mean rim.force_y?");
+  EXPECT_EQ(meant_text("rim.moment"), "did you mean rim.torque?");
+  EXPECT_EQ(meant_text("rim.spring"), "did you mean rim.support.y.stiffness?");
+  EXPECT_EQ(meant_text("rim.support.x.spring"), "did you mean rim.support.x.stiffness?");
+  EXPECT_EQ(meant_text("ground.incline"), "did you mean motion.slope?");
   for (const Synonym& synonym : synonyms_of_keys()) {
     EXPECT_NE(synonym.key.empty(), synonym.instead.empty()) << synonym.word;
     EXPECT_TRUE(synonym.key.empty() || find_case_key(synonym.key) != nullptr) << synonym.key;

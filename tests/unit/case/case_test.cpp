@@ -173,7 +173,9 @@ TEST(ReadCase, FillsInDefaults) {
 /// What the manual says of a default is what a case without the key is run with.
 TEST(ReadCase, DefaultsAreThoseOfTheManual) {
   const std::string ground = "[ground]\nprofile = 'flat'\n";
-  const std::string held = "\n" + write_case(read_text(least + ground));
+  const std::string rim =
+      "[rim]\nfree = ['speed', 'height', 'angular_velocity']\nmass = 1\ninertia = 1\n";
+  const std::string held = "\n" + write_case(read_text(least + ground + rim));
   const std::string free = "\n" + write_case(read_text(free_disk + ground));
   const auto is_for_free_bodies = [](std::string_view key) {
     return key == "initial.position" || key == "initial.angle" || key == "initial.angular_velocity";

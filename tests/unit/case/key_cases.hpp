@@ -34,8 +34,13 @@ surface = "core"
 [[initial.region]]
 surface = "core"
 )";
-    return std::vector<Case>{read_text(base, probe), read_text(treaded(), pressure),
-                             read_text(with_line(34, "step = 1e-6")), read_text(bodies),
+    const std::vector<std::string> rim{"rim.free=['speed', 'height', 'angular_velocity']",
+                                       "rim.mass=100", "rim.inertia=1", "motion.gravity=9.81"};
+    return std::vector<Case>{read_text(base, probe),
+                             read_text(treaded(), pressure),
+                             read_text(with_line(34, "step = 1e-6")),
+                             read_text(bodies),
+                             read_text(base, rim),
                              read_text(base, crush)};
   }();
   return cases;
@@ -72,6 +77,7 @@ struct Change {
   void operator()(const Choice& value) const {
     value.set(value.target, value.get(value.target) == 0 ? 1 : 0);
   }
+  void operator()(const ChoiceList& value) const { *value.among[1] = !*value.among[1]; }
   void operator()(Vec2* value) const { *value = {value->x + 0.1, -0.3}; }
   void operator()(Matrix* value) const { *value = {{{0.1, -2.0}, {1e-300, 0.7}}}; }
   void operator()(dynamics::Table* value) const {

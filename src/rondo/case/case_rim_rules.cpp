@@ -1,0 +1,118 @@
+// SPDX-License-Identifier: BSD-3-Clause
+/// Rules of [rim]: what is free has a load and no table, what is held the other way round
+/// (docs/cases.md).
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "rondo/case/case_rules.hpp"
+
+namespace rondo::study {
+namespace {
+
+using dynamics::RimBody;
+using dynamics::Table;
+
+bool is_below_zero(const Table& table) {
+  return std::ranges::any_of(table.points(), [](const auto& point) { return point[1] < 0.0; });
+}
+
+bool is_above_zero(const Table& table) {
+  return std::ranges::any_of(table.points(), [](const auto& point) { return point[1] > 0.0; });
+}
+
+/// There must be a rim, and a step that knows it.
+void check_body(CaseValues& in, const Case& c) {
+  constexpr std::string_view has_none = "there is no rim, whose motion [rim] is about";
+  if (!c.mesh && c.free_rim) in.fault("disk.rim", std::string(has_none), "\"bonded\", or no [rim]");
+  if (c.mesh && !is_held(c) && in.good({"mesh.clamped"}))
+    in.fault("mesh.clamped", std::string(has_none),
+             "the physical curve that is bonded to the rim, or no [rim]");
+  if (c.time.scheme != Scheme::symplectic)
+    in.fault("time.scheme", "knows no rim that forces move: it is for spins as given",
+             "\"symplectic\", or no [rim]");
+}
+
+/// A load of a degree of freedom.
+struct Load {
+  std::string_view key;
+  std::string_view dof;  ///< as in rim.free
+  bool is_free;
+  bool is_zero;
+};
+
+void check_loads(CaseValues& in, const RimBody& rim) {
+  const dynamics::RimSupport &x = rim.support_x, &y = rim.support_y;
+  const Load loads[] = {
+      {"rim.force_x", "speed", rim.free_x, rim.force_x.largest() == 0.0},
+      {"rim.force_y", "height", rim.free_y, rim.force_y.largest() == 0.0},
+      {"rim.torque", "angular_velocity", rim.free_spin, rim.torque.largest() == 0.0},
+      {"rim.brake", "angular_velocity", rim.free_spin, rim.brake.largest() == 0.0},
+      {"rim.support.x.stiffness", "speed", rim.free_x, x.stiffness == 0.0},
+      {"rim.support.x.damping", "speed", rim.free_x, x.damping == 0.0},
+      {"rim.support.y.stiffness", "height", rim.free_y, y.stiffness == 0.0},
+      {"rim.support.y.damping", "height", rim.free_y, y.damping == 0.0},
+  };
+  for (const Load& load : loads)
+    if (!load.is_free && !load.is_zero)
+      in.fault(load.key,
+               fmt::format("does nothing while motion.{} is held: it is not in rim.free", load.dof),
+               fmt::format("0, or rim.free with \"{}\"", load.dof));
+}
+
+void check_start(CaseValues& in, std::string_view dof, const Table& motion) {
+  const std::string key = fmt::format("motion.{}", dof);
+  const auto& points = motion.points();
+  if (!in.good({key}) || (points.size() == 1 && points[0][0] == 0.0)) return;
+  in.fault(key, "is a table, but free in rim.free: forces move it",
+           fmt::format("a number, the value at t = 0; or rim.free without \"{}\"", dof));
+}
+
+void check_inertia(CaseValues& in, std::string_view key, std::string_view what) {
+  if (!in.has(key))
+    in.fault(key, fmt::format("is missing: rim.free has {}", what),
+             fmt::format("{}; that of the bonded nodes is added to it",
+                         allowed_text(*find_case_key(key))));
+}
+
+void check_free(CaseValues& in, const Case& c) {
+  const RimBody& rim = *c.rim;
+  check_loads(in, rim);
+  if (rim.free_x) check_start(in, "speed", c.motion.speed);
+  if (rim.free_y) check_start(in, "height", c.motion.height);
+  if (rim.free_spin) check_start(in, "angular_velocity", c.motion.angular_velocity);
+  if (rim.free_x || rim.free_y)
+    check_inertia(in, "rim.mass",
+                  rim.free_x && rim.free_y ? "\"speed\" and \"height\""
+                  : rim.free_x             ? "\"speed\""
+                                           : "\"height\"");
+  if (rim.free_spin) check_inertia(in, "rim.inertia", "\"angular_velocity\"");
+}
+
+void warn(Case& c) {
+  const RimBody& rim = *c.rim;
+  const bool is_pressed = is_below_zero(rim.force_y) || is_above_zero(c.motion.gravity) ||
+                          rim.support_y.stiffness > 0.0;
+  if (rim.free_y && c.ground && !is_pressed)
+    c.warnings.emplace_back(
+        "rim.free has \"height\", and nothing presses the wheel on the ground: rim.force_y is "
+        "nowhere below 0, motion.gravity nowhere above, and rim.support.y has no stiffness");
+  if (rim.free_spin && c.stress_stiffening != StressStiffening::none)
+    c.warnings.emplace_back(
+        "material.stress_stiffening: the stress is that of the spin at t = 0, and stays as it is "
+        "while the rim, free to spin, turns faster or slower");
+}
+
+}  // namespace
+
+void check_rim(CaseValues& in, Case& c) {
+  if (!c.rim || c.analysis.kind == AnalysisKind::crush) return;
+  check_body(in, c);
+  if (!in.has("rim.support.x.at")) c.rim->support_x.at = c.motion.start_x;
+  if (!in.has("rim.support.y.at")) c.rim->support_y.at = c.motion.height.at(0.0);
+  if (!in.has("rim.free") || !in.good({"rim.free"})) return;
+  check_free(in, c);
+  warn(c);
+}
+
+}  // namespace rondo::study

@@ -1,0 +1,67 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "rondo/case/case_keys.hpp"
+
+namespace rondo::study {
+namespace {
+
+std::size_t one(const Case& /*c*/) {
+  return 1;
+}
+std::size_t without_mesh(const Case& c) {
+  return c.mesh ? 0 : 1;
+}
+
+std::size_t with_rim(const Case& c) {
+  return c.rim ? 1 : 0;
+}
+
+template <class T>
+void set_there(std::optional<T>& part, std::size_t n) {
+  part.reset();
+  if (n > 0) part.emplace();
+}
+
+constexpr CaseTable tables[] = {
+    {"", one, nullptr},
+    {"disk", without_mesh, nullptr},
+    {"disk.mesh", without_mesh, nullptr},
+    {"disk.tread", [](const Case& c) -> std::size_t { return !c.mesh && c.disk.tread ? 1 : 0; },
+     [](Case& c, std::size_t n) { set_there(c.disk.tread, n); }},
+    {"mesh", [](const Case& c) -> std::size_t { return c.mesh ? 1 : 0; },
+     [](Case& c, std::size_t n) { set_there(c.mesh, n); }},
+    {"material", one, nullptr},
+    {"material.region[]", [](const Case& c) { return c.regions.size(); },
+     [](Case& c, std::size_t n) {
+       c.regions.resize(n, {{}, c.material});
+     }},
+    {"damping", one, nullptr, in_motion},
+    {"motion", one, nullptr, in_motion},
+    {"rim", with_rim, [](Case& c, std::size_t n) { set_there(c.rim, n); }, in_motion_untold},
+    {"rim.support.x", with_rim, nullptr, in_motion_untold},
+    {"rim.support.y", with_rim, nullptr, in_motion_untold},
+    {"ground", [](const Case& c) -> std::size_t { return c.ground ? 1 : 0; },
+     [](Case& c, std::size_t n) { set_there(c.ground, n); }},
+    {"contact", one, nullptr, in_motion_untold},
+    {"load.pressure[]", [](const Case& c) { return c.pressures.size(); },
+     [](Case& c, std::size_t n) { c.pressures.resize(n); }, in_motion_untold},
+    {"initial", one, nullptr, in_motion},
+    {"initial.region[]", [](const Case& c) { return c.initial.regions.size(); },
+     [](Case& c, std::size_t n) {
+       c.initial.regions.resize(n, {{}, c.initial.velocity, c.initial.angular_velocity});
+     },
+     in_motion_untold},
+    {"analysis", one, nullptr},
+    {"time", one, nullptr, in_motion},
+    {"solver", one, nullptr},
+    {"output", one, nullptr},
+    {"output.probe[]", [](const Case& c) { return c.output.probes.size(); },
+     [](Case& c, std::size_t n) { c.output.probes.resize(n); }, in_motion},
+};
+
+}  // namespace
+
+std::span<const CaseTable> case_tables() noexcept {
+  return tables;
+}
+
+}  // namespace rondo::study
