@@ -39,6 +39,11 @@ CriticalStep critical_step(const fem::BlockCsr& k, std::span<const double> mass,
 CriticalStep critical_step(const fem::SectorStiffness& k, std::span<const double> mass,
                            LaggedDamping damping, double element_eigenvalue_bound);
 
+/// Upper bound of the eigenvalues of one harmonic of such a body, found likewise [1/s²].
+/// @pre 0 <= harmonic <= N/2
+double harmonic_eigenvalue_bound(const fem::SectorStiffness& k, std::span<const double> mass,
+                                 int harmonic, double element_eigenvalue_bound);
+
 /// How far, of its largest diagonal entry, a matrix that was factorised may be from the one whose
 /// factor came out, with at most m numbers in a row or column of the factor (3.8): 1e-8 at the
 /// least.

@@ -100,33 +100,44 @@ class Enclosure {
 };
 
 /// Floating-point operations of the enclosure, about: as if by factorisations of bands.
-double operations(fem::Harmonics& harmonics) {
+/// @param included harmonics
+double operations(fem::Harmonics& harmonics, int included) {
   const Matrix& a = harmonics.lower(0, 0.0, 1.0);
   Index band = 1;
   for (Index j = 0; j < a.cols(); ++j)
     band = std::max(band, Index{a.innerIndexPtr()[a.outerIndexPtr()[j + 1] - 1]} - j);
-  const double count = harmonics.count(), b = static_cast<double>(band);
+  const double count = included, b = static_cast<double>(band);
   const double factorisations = count + 20.0 * std::log2(count);
   return factorisations * 4.0 * static_cast<double>(a.rows()) * b * b;
 }
 
-/// Largest Ritz value plus residual of all harmonics. The real form of a Hermitian matrix has its
-/// eigenvalues, each twice.
-std::optional<RitzPair> largest_of_all(fem::Harmonics& harmonics) {
+/// Of one harmonic. The real form of a Hermitian matrix has its eigenvalues, each twice.
+std::optional<RitzPair> largest_of(fem::Harmonics& harmonics, int harmonic) {
   using Vector = Eigen::VectorXcd;
+  const Matrix& a = harmonics.lower(harmonic, 1.0, 0.0);
+  const auto product = [&](const double* x, double* y) {
+    const auto* from = reinterpret_cast<const std::complex<double>*>(x);
+    Eigen::Map<Vector>(reinterpret_cast<std::complex<double>*>(y), a.rows()).noalias() =
+        a.selfadjointView<Eigen::Lower>() * Eigen::Map<const Vector>(from, a.rows());
+  };
+  return largest_ritz_pair({2 * a.rows(), product});
+}
+
+/// Largest Ritz value plus residual of all harmonics.
+std::optional<RitzPair> largest_of_all(fem::Harmonics& harmonics) {
   RitzPair largest;
   for (int k = 0; k < harmonics.count(); ++k) {
-    const Matrix& a = harmonics.lower(k, 1.0, 0.0);
-    const auto product = [&](const double* x, double* y) {
-      const auto* from = reinterpret_cast<const std::complex<double>*>(x);
-      Eigen::Map<Vector>(reinterpret_cast<std::complex<double>*>(y), a.rows()).noalias() =
-          a.selfadjointView<Eigen::Lower>() * Eigen::Map<const Vector>(from, a.rows());
-    };
-    const auto pair = largest_ritz_pair({2 * a.rows(), product});
+    const auto pair = largest_of(harmonics, k);
     if (!pair) return std::nullopt;
     if (pair->value + pair->residual > largest.value + largest.residual) largest = *pair;
   }
   return largest;
+}
+
+/// The bound is a number above 0, and so are the entries numbers.
+bool in_range(fem::Harmonics& harmonics, double element_eigenvalue_bound) {
+  return element_eigenvalue_bound > 0.0 && std::isfinite(element_eigenvalue_bound) &&
+         std::isfinite(harmonics.lower(0, 1.0, 0.0).norm());
 }
 
 }  // namespace
@@ -143,10 +154,8 @@ CriticalStep critical_step(const fem::SectorStiffness& k, std::span<const double
   out.omega = out.element_bound;
   out.step = critical_step_of(out.omega, damping);
   fem::Harmonics harmonics(k, mass);
-  const bool in_range = element_eigenvalue_bound > 0.0 && std::isfinite(element_eigenvalue_bound) &&
-                        std::isfinite(harmonics.lower(0, 1.0, 0.0).norm());
-  if (!in_range) return out;
-  if (operations(harmonics) <= most_operations) {
+  if (!in_range(harmonics, element_eigenvalue_bound)) return out;
+  if (operations(harmonics, harmonics.count()) <= most_operations) {
     Enclosure largest(harmonics, element_eigenvalue_bound);
     for (const int harmonic : scattered(harmonics.count())) largest.include(harmonic);
     out.omega = std::min(out.element_bound, std::sqrt(largest.upper()));
@@ -159,6 +168,20 @@ CriticalStep critical_step(const fem::SectorStiffness& k, std::span<const double
   }
   out.step = critical_step_of(out.omega, damping);
   return out;
+}
+
+double harmonic_eigenvalue_bound(const fem::SectorStiffness& k, std::span<const double> mass,
+                                 int harmonic, double element_eigenvalue_bound) {
+  fem::Harmonics harmonics(k, mass);
+  if (!in_range(harmonics, element_eigenvalue_bound)) return element_eigenvalue_bound;
+  if (operations(harmonics, 1) <= most_operations) {
+    Enclosure largest(harmonics, element_eigenvalue_bound);
+    largest.include(harmonic);
+    return std::min(element_eigenvalue_bound, largest.upper());
+  }
+  const auto pair = largest_of(harmonics, harmonic);
+  return pair ? std::min(element_eigenvalue_bound, pair->value + pair->residual)
+              : element_eigenvalue_bound;
 }
 
 }  // namespace rondo::dynamics

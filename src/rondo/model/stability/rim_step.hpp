@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: BSD-3-Clause
+/// @file  Critical step of a body on a rim that forces move (docs/theory.md, 10). With absolute
+/// coordinates of nodes and rim the mass matrix is diagonal, and the largest eigenvalue of a
+/// positive semidefinite matrix is at most the sum of those of its diagonal blocks: of the body
+/// with its rim held, and of the rim on the body held.
+#pragma once
+#include <array>
+#include <functional>
+#include <limits>
+#include <span>
+
+#include "rondo/core/vec2.hpp"
+#include "rondo/model/stability/critical_step.hpp"
+
+namespace rondo::dynamics {
+
+/// The degrees of freedom x, y and θ of a rim.
+struct RimDofs {
+  static constexpr double held = std::numeric_limits<double>::infinity();
+  /// M, M [kg/m] and I [kg·m], bonded nodes included; `held` where it is.
+  std::array<double, 3> inertia{held, held, held};
+  std::array<double, 2> spring{};  ///< stiffness of the supports along x and y [N/m²]
+};
+
+/// Squares of frequencies of the rim on the body held; 0 where it is held [1/s²].
+struct RimFrequencies {
+  double translation = 0.0;  ///< the larger one of x and y
+  double rotation = 0.0;     ///< of θ
+  double largest = 0.0;      ///< of all three, which couple on a body without symmetry
+};
+
+/// out = K u, both (n); clamped nodes give 0.
+using StiffnessProduct = std::function<void(std::span<const Vec2> u, std::span<Vec2> out)>;
+
+/// Of Gᵀ K G and the springs, G = (e_x, e_y, JX) on the free nodes. @param reference (n) X [m]
+RimFrequencies rim_frequencies(const StiffnessProduct& k, std::span<const Vec2> reference,
+                               std::span<const int> free, const RimDofs& rim);
+
+/// ω̂² = ω_c² + the largest of the rim, on any mesh. @param held the step with the rim held
+CriticalStep with_rim(const CriticalStep& held, const RimFrequencies& rim, LaggedDamping damping);
+
+/// On a body of equal sectors translations meet harmonic 1 alone and the rotation harmonic 0:
+/// ω̂² = max(ω_c², ω_{c,1}² + k_x/M, ω_{c,0}² + k_θ/I). @param mass (n) of every node of the mesh
+CriticalStep with_rim(const CriticalStep& held, const fem::SectorStiffness& k,
+                      std::span<const double> mass, const RimFrequencies& rim,
+                      LaggedDamping damping);
+
+}  // namespace rondo::dynamics
