@@ -58,6 +58,9 @@ void check_case(const Case& c, const RunOptions& options, const Setup& setup) {
                         "not a factor for the step of the full run", "a number above 0, e.g. 20");
   demand_step_name(options.reduced_step);
   demand_snapshot_name(options.reduced_snapshots);
+  if (c.rim)
+    throw case_error(c, "rim", "a reduced run moves its rim as [motion] says, and by no force",
+                     "no [rim], or a run without --reduced");
   if (c.time.scheme != Scheme::symplectic)
     throw case_error(c, "time.scheme", "a reduced run has a scheme of its own",
                      "\"symplectic\", which it stands for");

@@ -17,8 +17,9 @@ struct RimSupport {
 /// motion; of a free one these give the value at t = 0.
 struct RimBody {
   bool free_x = false, free_y = false, free_spin = false;
-  double mass = 0.0;     ///< of a case: without that of the bonded nodes; of a model: with  [kg/m]
-  double inertia = 0.0;  ///< about the center, likewise                                [kg·m]
+  /// M, that of the clamped nodes included in a Model, and not in a Case               [kg/m]
+  double mass = 0.0;
+  double inertia = 0.0;    ///< I, about the center, likewise                             [kg·m]
   Table force_x, force_y;  ///< on the center, fixed frame                              [N/m]
   Table torque;            ///< > 0 drives towards +x: clockwise                        [N]
   Table brake;             ///< >= 0, of Coulomb's kind: it never reverses the spin     [N]

@@ -11,6 +11,7 @@
 #include "rondo/analysis/build/initial_state.hpp"
 #include "rondo/analysis/build/memory.hpp"
 #include "rondo/analysis/build/physical.hpp"
+#include "rondo/analysis/build/rim.hpp"
 #include "rondo/analysis/build/stability.hpp"
 #include "rondo/case/case_keys.hpp"
 #include "rondo/integrators/fused/batch_integrator.hpp"
@@ -90,6 +91,7 @@ void make_model(const Case& c, Setup& s) {
   model.mass = fem::lumped_mass(s.mesh, s.materials);
   model.free = fem::free_nodes(s.mesh);
   find_bodies(c, s);
+  add_rim(c, s.mesh, model);
   add_contacts(c, s.mesh, model);
   add_pressures(c, s.mesh, model);
   if (s.mesh.n_sectors > 0) model.sector = fem::assemble_sector(s.mesh, s.materials);
@@ -104,6 +106,7 @@ void make_model(const Case& c, Setup& s) {
 void set_motion_and_friction(const Case& c, dynamics::Model& model) {
   model.mass_damping = c.damping.mass;
   model.motion = c.motion;
+  set_rim_loads(c, model);
   model.coupled = {c.contact_iterations, c.dump_contacts};
   if (model.contact) model.contact->law = law_of(*c.ground);
 }
@@ -164,16 +167,22 @@ double choose_step(const Case& c, const dynamics::CriticalStep& critical) {
   return *c.time.step;
 }
 
-dynamics::CriticalStep find_critical_step(const Case& c, const Setup& s) {
+/// With the rim held; of one of its own proven where it can be, also on a small disk.
+dynamics::CriticalStep body_step(const Setup& s, dynamics::LaggedDamping damping) {
   const dynamics::Model& m = s.model;
-  const bool lagged = c.time.scheme == Scheme::as_printed;
-  const dynamics::LaggedDamping damping{c.damping.stiffness, lagged ? c.damping.mass : 0.0};
-  if (by_harmonics(m))
+  if (by_harmonics(m) || (m.rim && m.sector))
     return dynamics::critical_step(*m.sector, m.mass, damping,
                                    fem::sector_eigenvalue_bound(s.mesh, s.materials, s.prestress));
   return dynamics::critical_step(m.stiffness, m.mass, m.free, damping,
                                  fem::element_eigenvalue_bound(s.mesh, s.materials, s.prestress),
                                  m.threads);
+}
+
+dynamics::CriticalStep find_critical_step(const Case& c, const Setup& s) {
+  const bool lagged = c.time.scheme == Scheme::as_printed || c.rim;
+  const dynamics::LaggedDamping damping{c.damping.stiffness, lagged ? c.damping.mass : 0.0};
+  const dynamics::CriticalStep held = body_step(s, damping);
+  return s.model.rim ? step_with_rim(s.model, held, damping) : held;
 }
 
 }  // namespace

@@ -9,6 +9,7 @@
 #include <optional>
 
 #include "rondo/analysis/build/bodies.hpp"
+#include "rondo/analysis/build/rim.hpp"
 
 namespace rondo::study {
 namespace {
@@ -99,11 +100,13 @@ void tell_slip(const Case& c, double radius, const Tell& to) {
     slip.take(ratio);
     if (rim != 0.0 && speed != 0.0) both_move.take(ratio);
   });
-  to.figures.emplace_back("slip ratio", slip.low == slip.high
-                                            ? fmt::format("{:.3g}", slip.low + 0.0)
-                                            : fmt::format("{:.3g} to {:.3g}", slip.low, slip.high));
+  const bool is_given = !c.rim || !(c.rim->free_x || c.rim->free_spin);
+  to.figures.emplace_back(is_given ? "slip ratio" : "slip at t = 0",
+                          slip.low == slip.high
+                              ? fmt::format("{:.3g}", slip.low + 0.0)
+                              : fmt::format("{:.3g} to {:.3g}", slip.low, slip.high));
   const double worst = std::max(both_move.high, -both_move.low);
-  if (worst > wide_slip)
+  if (worst > wide_slip && is_given)
     to.warnings.push_back(
         fmt::format("the slip ratio is {:.3g}: motion.angular_velocity times the radius of {:.4g} "
                     "m is far from motion.speed; {}",
@@ -145,6 +148,16 @@ void tell_stiffness(const std::vector<fem::Material>& materials, const Tell& to)
   };
   to.figures.emplace_back("stiffness",
                           e.low == e.high ? text(e.low) : text(e.low) + "; to " + text(e.high));
+}
+
+/// Most that the center comes down below first touch; < 0: how far it stays above [m].
+double deflection_by_motion(const Case& c, const Setup& s, const Wall& wall) {
+  double deflection = -std::numeric_limits<double>::infinity();
+  each_time(c, [&](double t) {
+    const double gap = s.model.contact->ground.distance(c.motion.center(t));
+    deflection = std::max(deflection, wall.radius - gap);
+  });
+  return deflection;
 }
 
 /// The softest of what may touch. @pre there are candidates
@@ -199,13 +212,11 @@ void tell_physical_figures(const Case& c, Setup& s) {
   const std::optional<Wall> wall = is_held(c) ? wall_of(s.mesh) : std::nullopt;
   if (has_candidates(s.model))  // alone in space only spin strains: see the check of softening
     tell_speed(fastest(c, s, wall ? wall->radius : extent_of(s.mesh)), s.materials, to);
+  if (s.model.rim) tell_rim(c, s);
   if (!wall || !s.model.contact) return;
-  double deflection = -std::numeric_limits<double>::infinity();
-  each_time(c, [&](double t) {
-    const double gap = s.model.contact->ground.distance(c.motion.center(t));
-    deflection = std::max(deflection, wall->radius - gap);
-  });
-  tell_deflection(deflection, *wall, touching_material(s.mesh, s.materials), to);
+  if (!s.model.rim || !s.model.rim->free_y)  // else the run tells how far it comes down
+    tell_deflection(deflection_by_motion(c, s, *wall), *wall,
+                    touching_material(s.mesh, s.materials), to);
   tell_slip(c, wall->radius, to);
 }
 

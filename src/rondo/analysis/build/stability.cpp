@@ -147,7 +147,7 @@ void warn_of_printed_scheme(const Case& c, Setup& s) {
 /// Impulses of one half step act on velocities of the next, whose frame has turned by half of φ,
 /// the turn in a step: with friction μ the law has one solution where μ tan(φ/2) < 1 (4.3).
 void refuse_wide_turns(const Case& c, double dt) {
-  if (!c.ground || !is_held(c)) return;
+  if (!c.ground || !is_held(c) || c.rim) return;
   const double turn = largest_until(c.motion.angular_velocity, c.time.end) * dt;
   const double most = 2.0 * std::atan2(1.0, c.ground->friction);
   if (turn < most) return;
@@ -156,6 +156,18 @@ void refuse_wide_turns(const Case& c, double dt) {
                                "contact law, whose friction allows less than {:.3g} rad",
                                turn, dt, most),
                    fmt::format("time.step below {:.6g}", most / turn * dt));
+}
+
+/// A rim of its own; of one that is free the start tells, and the run looks on.
+void refuse_wide_rim_turns(const Case& c, double dt) {
+  if (!c.rim) return;
+  const double fastest = largest_until(c.motion.angular_velocity, c.time.end);
+  if (fastest * dt <= largest_turn) return;
+  throw case_error(c, c.time.step ? "time.step" : "motion.angular_velocity",
+                   fmt::format("the rim turns by {:.3g} rad in a step of {:.3g} s: with a [rim] at "
+                               "most {} rad are resolved",
+                               fastest * dt, dt, largest_turn),
+                   fmt::format("time.step of at most {:.6g}", largest_turn / fastest));
 }
 
 void refuse_large_turns(const Case& c, const Setup& s) {
@@ -215,6 +227,7 @@ void warn_of_fast_contact(const Case& c, Setup& s) {
 
 void check_stability(const Case& c, Setup& s) {
   refuse_wide_turns(c, s.model.dt);
+  refuse_wide_rim_turns(c, s.model.dt);
   refuse_large_turns(c, s);
   warn_of_softening(c, s);
   warn_of_contact_step(s);
@@ -241,7 +254,7 @@ void check_places(const Case& c, const mesh::Mesh& mesh) {
   }
   if (!is_held(c)) return;
   refuse_beyond(c.motion.start_x, "motion.start_x");
-  refuse_beyond(c.motion.center(c.time.end).x, "motion.speed");
+  if (!c.rim || !c.rim->free_x) refuse_beyond(c.motion.center(c.time.end).x, "motion.speed");
   refuse_beyond(largest_until(c.motion.height, c.time.end), "motion.height");
 }
 

@@ -13,7 +13,7 @@ inline constexpr double contact_step_share = 0.985;
 inline constexpr double contact_damping_ratio = 0.005;
 /// Growth, as a power of e over the run, above which it is spoken of.
 inline constexpr double growth_spoken_of = 10.0;
-/// Largest turn of a free body in a step [rad].
+/// Largest turn of a free body, or of a rim of its own, in a step [rad].
 inline constexpr double largest_turn = 0.3;
 
 /// Above this size the check of spin softening, a Cholesky factorisation, is left out...
@@ -24,7 +24,8 @@ inline constexpr std::size_t softening_check_harmonic_dofs = 20000;
 /// Whether the check is made. `harmonic_dofs`: as many as a sector has; 0: not by harmonics.
 bool softening_is_checked(std::size_t dofs, std::size_t harmonic_dofs) noexcept;
 
-/// Adds warnings. @throws InputError: a free body that turns by more than largest_turn in a step.
+/// Adds warnings. @throws InputError: a free body, or a rim of its own, that turns by more than
+/// largest_turn in a step.
 /// @pre all else of the setup is there
 void check_stability(const Case& c, Setup& s);
 

@@ -43,6 +43,9 @@ struct Body {
 Body make_body(const Case& c) {
   Body b;
   b.warnings = c.warnings;
+  if (c.rim && (c.rim->free_x || c.rim->free_y || c.rim->free_spin))
+    b.warnings.emplace_back(
+        "[rim] means nothing to modes: they are those of the body whose rim is held");
   b.mesh = build_mesh(c, &b.warnings);
   refuse_overlaps(c, {b.mesh, b.mesh.coordinates, c.body_contact.between != BodyContact::none},
                   b.warnings);

@@ -66,6 +66,10 @@ void check_run(const io::RunReader& run, const Case& c) {
                         "the body has no equal sectors round a rim that holds it: its fields "
                         "cannot be moved to the fixed frame",
                         "runs of a [disk] whose rim is constrained");
+  if (c.rim)
+    throw request_error("RUN", name,
+                        "its rim was moved by forces, and a reduced one is by [motion]",
+                        "runs without [rim]");
   if (run.status() != "done")
     throw request_error("RUN", name,
                         fmt::format("the run is not finished (status {})", run.status()),

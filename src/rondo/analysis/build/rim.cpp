@@ -1,0 +1,149 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "rondo/analysis/build/rim.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "rondo/mesh/physical_group.hpp"
+#include "rondo/model/stability/rim_step.hpp"
+
+namespace rondo::study {
+namespace {
+
+using dynamics::RimBody;
+
+std::size_t at(int index) noexcept {
+  return static_cast<std::size_t>(index);
+}
+
+/// Of the clamped nodes, about the origin.
+struct Bonded {
+  double mass = 0.0;     ///< [kg/m]
+  double inertia = 0.0;  ///< [kg·m]
+  Vec2 moment;           ///< Σ m X [kg]
+  double radius = 0.0;   ///< the largest |X| [m]
+};
+
+Bonded bonded_nodes(const mesh::Mesh& mesh, const std::vector<double>& mass) {
+  Bonded b;
+  for (const int node : mesh.clamped) {
+    const Vec2 x = mesh.coordinates[at(node)];
+    b.mass += mass[at(node)];
+    b.inertia += mass[at(node)] * dot(x, x);
+    b.moment += mass[at(node)] * x;
+    b.radius = std::max(b.radius, norm(x));
+  }
+  return b;
+}
+
+void refuse_free_bodies(const Case& c, const dynamics::Model& model) {
+  if (model.free_bodies.empty()) return;
+  throw case_error(c, "rim",
+                   fmt::format("{} of the bodies of the mesh are free, and the step of a [rim] "
+                               "knows none beside it",
+                               model.free_bodies.size()),
+                   "mesh.clamped that holds every body, or no [rim]; " +
+                       mesh::physical_group_line("Curve", "rim"));
+}
+
+void refuse_unbalanced(const Case& c, const Bonded& b) {
+  constexpr double round_off = 1e-9;
+  if (norm(b.moment) <= round_off * b.mass * b.radius) return;
+  const Vec2 center = b.moment / b.mass;
+  throw case_error(c, c.mesh ? "mesh.clamped" : "rim",
+                   fmt::format("the center of mass of the nodes bonded to the rim is ({:.4g}, "
+                               "{:.4g}) m, and a [rim] turns about the origin of the mesh",
+                               center.x, center.y),
+                   "a curve whose nodes are balanced about the origin, as evenly spaced ones on "
+                   "circles, or no [rim]");
+}
+
+std::string free_text(const RimBody& rim) {
+  std::string free, held;
+  const auto add = [&](bool is_free, const char* name) {
+    std::string& to = is_free ? free : held;
+    to += (to.empty() ? "" : ", ") + std::string(name);
+  };
+  add(rim.free_x, "speed");
+  add(rim.free_y, "height");
+  add(rim.free_spin, "angular_velocity");
+  return fmt::format("{}{}{}{}{}", free.empty() ? "" : "free ", free,
+                     free.empty() || held.empty() ? "" : "; ", held.empty() ? "" : "held ", held);
+}
+
+/// Those of what is free at the end of the run; the weight is of rim and body.
+std::string load_text(const Case& c, const dynamics::Model& model) {
+  const RimBody& rim = *model.rim;
+  const double end = c.time.end;
+  std::vector<std::string> loads;
+  if (rim.free_x) loads.push_back(fmt::format("force_x {:.6g} N/m", rim.force_x.at(end)));
+  if (rim.free_y) loads.push_back(fmt::format("force_y {:.6g} N/m", rim.force_y.at(end)));
+  if (rim.free_spin) loads.push_back(fmt::format("torque {:.6g} N", rim.torque.at(end)));
+  if (rim.free_spin) loads.push_back(fmt::format("brake {:.6g} N", rim.brake.at(end)));
+  double mass = rim.mass;
+  for (const int node : model.free) mass += model.mass[at(node)];
+  const Vec2 weight = mass * model.motion.gravity_at(end);
+  if ((rim.free_x || rim.free_y) && norm(weight) > 0.0)
+    loads.push_back(fmt::format("weight ({:.6g}, {:.6g}) N/m", weight.x + 0.0, weight.y));
+  return fmt::format("{}", fmt::join(loads, ", "));
+}
+
+void tell_support(const char* name, const dynamics::RimSupport& support, Setup& s) {
+  if (support.stiffness == 0.0 && support.damping == 0.0) return;
+  s.figures.emplace_back(
+      name, fmt::format("spring {:.6g} N/m2 at rest at {:.6g} m, dashpot {:.6g} N s/m2",
+                        support.stiffness, support.at, support.damping));
+}
+
+}  // namespace
+
+void add_rim(const Case& c, const mesh::Mesh& mesh, dynamics::Model& model) {
+  if (!c.rim) return;
+  refuse_free_bodies(c, model);
+  const Bonded bonded = bonded_nodes(mesh, model.mass);
+  refuse_unbalanced(c, bonded);
+  model.rim = c.rim;
+  model.rim->mass += bonded.mass;
+  model.rim->inertia += bonded.inertia;
+}
+
+void set_rim_loads(const Case& c, dynamics::Model& model) {
+  if (!c.rim) return;
+  const double mass = model.rim->mass, inertia = model.rim->inertia;
+  model.rim = c.rim;
+  model.rim->mass = mass;
+  model.rim->inertia = inertia;
+}
+
+dynamics::CriticalStep step_with_rim(const dynamics::Model& model,
+                                     const dynamics::CriticalStep& held,
+                                     dynamics::LaggedDamping damping) {
+  const RimBody& rim = *model.rim;
+  dynamics::RimDofs dofs;
+  if (rim.free_x) dofs.inertia[0] = rim.mass;
+  if (rim.free_y) dofs.inertia[1] = rim.mass;
+  if (rim.free_spin) dofs.inertia[2] = rim.inertia;
+  dofs.spring = {rim.support_x.stiffness, rim.support_y.stiffness};
+  const auto product = [&](std::span<const Vec2> u, std::span<Vec2> out) {
+    apply_stiffness(model, u, out);
+  };
+  const auto frequencies = dynamics::rim_frequencies(product, model.reference, model.free, dofs);
+  return model.sector ? dynamics::with_rim(held, *model.sector, model.mass, frequencies, damping)
+                      : dynamics::with_rim(held, frequencies, damping);
+}
+
+void tell_rim(const Case& c, Setup& s) {
+  const RimBody& rim = *s.model.rim;
+  s.figures.emplace_back("rim", free_text(rim));
+  s.figures.emplace_back("rim mass", fmt::format("{:.6g} kg/m, of which {:.6g} of bonded nodes",
+                                                 rim.mass, rim.mass - c.rim->mass));
+  s.figures.emplace_back("rim inertia", fmt::format("{:.6g} kg m, of which {:.6g} of bonded nodes",
+                                                    rim.inertia, rim.inertia - c.rim->inertia));
+  if (const std::string loads = load_text(c, s.model); !loads.empty())
+    s.figures.emplace_back("load at the end", loads);
+  if (rim.free_x) tell_support("support along x", rim.support_x, s);
+  if (rim.free_y) tell_support("support along y", rim.support_y, s);
+}
+
+}  // namespace rondo::study

@@ -1,0 +1,25 @@
+// SPDX-License-Identifier: BSD-3-Clause
+/// @file  The rim of a case with [rim]: its body, its critical step, what `rondo check` tells of
+/// it.
+#pragma once
+#include "rondo/case/setup.hpp"
+
+namespace rondo::study {
+
+/// Fills model.rim, mass and inertia with those of the clamped nodes. Nothing without a [rim].
+/// @throws InputError: a body that is free; clamped nodes whose center of mass is not the origin,
+/// about which the rim turns. @pre masses and free bodies are found
+void add_rim(const Case& c, const mesh::Mesh& mesh, dynamics::Model& model);
+
+/// Loads, brake and supports of the case: masses stay. Nothing without a rim.
+void set_rim_loads(const Case& c, dynamics::Model& model);
+
+/// @param held the critical step with the rim held. @pre a rim; K is there
+dynamics::CriticalStep step_with_rim(const dynamics::Model& model,
+                                     const dynamics::CriticalStep& held,
+                                     dynamics::LaggedDamping damping);
+
+/// Adds figures: what is free, masses, loads at the end of the run. @pre a rim
+void tell_rim(const Case& c, Setup& s);
+
+}  // namespace rondo::study
