@@ -42,15 +42,10 @@ void print_plan(const study::DrySweep& dry, int workers) {
   std::size_t disk = 0;
   for (std::size_t m = 0; m < dry.plan.members.size(); ++m) {
     const study::PlannedMember& member = dry.plan.members[m];
-    std::string found;
-    for (std::size_t k = 0; k < dry.study.parameters.size(); ++k)
-      if (dry.study.parameters[k].is_target)
-        found = fmt::format(" -> {} = {:.9g}", dry.study.parameters[k].key, member.targets[k]);
     const std::string time =
         member.seconds > 0.0 ? fmt::format(", about {:.2g} s", member.seconds) : "";
-    fmt::print("{}{}: {} nodes, {} {}{}{}\n", study::name_of(dry.study, member.member, m + 1),
-               found, member.nodes, member.steps, dry.plan.type->unit, member.steps == 1 ? "" : "s",
-               time);
+    fmt::print("{}: {} nodes, {} {}{}{}\n", study::name_of(dry.study, member.member, m + 1),
+               member.nodes, member.steps, dry.plan.type->unit, member.steps == 1 ? "" : "s", time);
     seconds += member.seconds;
     longest = std::max(longest, member.seconds);
     disk += member.disk_bytes;

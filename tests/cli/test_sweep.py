@@ -139,13 +139,6 @@ values = [0, 0.4]
         run("run", self.folder / "case.toml", "-o", alone, "--set", "ground.friction=0.4")
         self.assertEqual((alone / "history.csv").read_bytes(),
                          (self.out / "runs" / "0004" / "history.csv").read_bytes())
-        self.sweep("--overwrite", text="""schema = 1
-base = "case.toml"
-[[vary]]
-key = "analysis.depth"
-target = { force_y = [5e4, 8e4] }
-""")
-        np.testing.assert_allclose(column(self.out, "force_y"), [5e4, 8e4], rtol=1e-6)
 
     def test_strains_are_in_the_table_and_told(self):
         self.case(replaced(replaced(SMALL, "end", None), "[time]", None)
@@ -165,33 +158,26 @@ target = { force_y = [5e4, 8e4] }
         self.assertNotIn("largest strain",
                          self.sweep("--overwrite", text=text + "values = [0.001]\n").stderr)
 
-    def test_the_height_that_bears_a_load(self):
+    def test_loads_of_a_rim_are_varied_and_tables_of_the_base_replaced(self):
+        """What a member has is what the case alone would have, whatever the base says."""
+        self.case(replaced(SMALL, "height", "height = 0.3")
+                  + "[rim]\nfree = [\"height\", \"angular_velocity\"]\nmass = 100\ninertia = 1\n"
+                    "force_y = [[0, 0], [0.01, -1e5]]\n[rim.support.y]\ndamping = 6e4\n")
         text = """schema = 1
 base = "case.toml"
 [[vary]]
-key = "motion.height"
-target = { force_y = [5e4, 1e5] }
+key = "rim.force_y"
+values = [-5e4, [[0, 0], [0.005, -1e5]]]
 [[vary]]
-key = "ground.friction"
-values = [0.0, 0.3]
+key = "rim.torque"
+values = [0, 1000]
+[[vary]]
+key = "rim.mass"
+values = [50, 100]
 """
-        self.assertIn("target.force_y is the load at rest", self.sweep(text=text).stderr)
-        rows = table(self.out)
-        self.assertEqual([float(row["target.force_y"]) for row in rows], [5e4, 5e4, 1e5, 1e5])
-        crush = self.case(replaced(replaced(SMALL, "end", None), "[time]", None)
-                          .replace("snapshots = 11", "stress = false"), "crush.toml")
-        for row in rows:
-            out = self.folder / "crush"
-            done = run("run", crush, "-o", out, "--overwrite", "--set", "analysis.kind=crush",
-                       "--set", f"analysis.depth={0.3 - float(row['motion.height'])!r}", "--set",
-                       "analysis.increments=20", "--set",
-                       f"ground.friction={row['ground.friction']}")
-            self.assertEqual(done.returncode, 0, done.stderr)
-            self.assertAlmostEqual(history(out)["force_y"][-1] / float(row["target.force_y"]), 1,
-                                   delta=1e-6)  # what docs/studies.md says
-        member = (self.out / "runs" / "0001" / "case.toml").read_text()
-        self.assertIn("[0.0, 0.3]", member)  # it still comes down by the base's table
-        self.assertIn(rows[0]["motion.height"], member)
+        listed = self.sweep("--dry-run", text=text).stdout
+        self.assertIn("run 3 (rim.force_y = -50000.0, rim.torque = 1000, rim.mass = 50)", listed)
+        self.assertIn("8 runs", listed)
 
     def test_one_pod_of_all_runs(self):
         self.sweep(text=STUDY.replace("base", "snapshots = true\nbase"))
@@ -241,19 +227,18 @@ class Refused(SweepTest):
                      "run 2 (ground.friction = 0.0, motion.speed = 9, motion.height = 0.2) and 8 "
                      "of 17 others: ", "deep inside the ground")
 
-    def test_loads_that_no_height_bears(self):
-        self.refused("schema = 1\nbase = \"case.toml\"\n[[vary]]\nkey = \"motion.height\"\n"
-                     "target = { force_y = [1e12] }\n", "at the largest depth tried", "N/m")
-
-    def test_a_target_of_the_other_analysis(self):
+    def test_a_target_is_a_load_of_the_rim_now(self):
         target = ("schema = 1\nbase = \"case.toml\"\n[[vary]]\nkey = \"%s\"\n"
                   "target = { force_y = [1e5] }\n")
-        self.refused(target % "analysis.depth", "means nothing to a dynamic analysis",
-                     "motion.height")
-        self.case(replaced(replaced(SMALL, "end", None), "[time]", None)
-                  .replace("snapshots = 11", "stress = false")
-                  + "[analysis]\nkind = \"crush\"\ndepth = 0.01\nincrements = 5\n")
-        self.refused(target % "motion.height", "means nothing to a crush", "analysis.depth")
+        self.refused(target % "motion.height", "study.toml:5:10: vary[0].target", "rim.force_y",
+                     "free = [\"height\"]")
+        self.refused(target % "analysis.depth", "values of analysis.depth")
+
+    def test_a_load_of_what_is_held(self):
+        self.case(SMALL + "[rim]\nfree = []\n")
+        self.refused("schema = 1\nbase = \"case.toml\"\n[[vary]]\nkey = \"rim.force_y\"\n"
+                     "values = [0, -1e5]\n", "run 2 (rim.force_y = -100000.0)",
+                     "does nothing while motion.height is held", "rim.free with \"height\"")
 
     def test_a_window_without_rows(self):
         self.refused(STUDY + "[window]\nfrom = 0.5\n", "there are not two rows")

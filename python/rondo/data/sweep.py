@@ -29,8 +29,9 @@ SAME = 1e-9  # relative: a number that is asked for and one of the table
 
 @dataclass(frozen=True)
 class Parameter:
-    """What the members differ in. kind: "values"; "uniform", sampled between two bounds; "target",
-    found for each member such that the force in the column "target.…" before it is reached."""
+    """What the members differ in. kind: "values"; "uniform", sampled between two bounds; of
+    earlier versions "target", found for each member such that the force in the column "target.…"
+    before it is reached."""
 
     key: str
     unit: str  # "1" without dimension

@@ -56,8 +56,8 @@ values = [0, 0.25, 1e3]
 key = "motion.speed"
 uniform = [5, 10.5]
 [[vary]]
-key = "motion.height"
-target = { force_y = [1e5, 200000] }
+key = "rim.force_y"
+values = [-1e5, -200000]
 )");
   EXPECT_EQ(study.title, "Friction");
   EXPECT_EQ(study.base, "folder/case.toml");
@@ -71,8 +71,7 @@ target = { force_y = [1e5, 200000] }
   ASSERT_EQ(study.parameters.size(), 3U);
   EXPECT_EQ(study.parameters[0].values, (Texts{"0", "0.25", "1000.0"}));
   EXPECT_EQ(study.parameters[1].uniform, (std::array{5.0, 10.5}));
-  EXPECT_TRUE(study.parameters[2].is_target);
-  EXPECT_EQ(study.parameters[2].values, (Texts{"100000.0", "200000"}));
+  EXPECT_EQ(study.parameters[2].values, (Texts{"-100000.0", "-200000"}));
   EXPECT_EQ(study.parameters[2].line, 19);
 }
 
@@ -136,11 +135,7 @@ TEST(SweepStudy, EveryFaultIsNamedAtItsPlace) {
             "no kind of sample", 8},
            {top + vary + "uniform = [0, 1]\n[sample]\ncount = 0\n", "sample.count", "out of bounds",
             7},
-           {top + vary + "target = { force_y = [1e5] }\n", "vary[0].key", "has no target", 4},
-           {top + "[[vary]]\nkey = \"motion.height\"\ntarget = { force_y = [-1] }\n",
-            "vary[0].target.force_y", "no force", 5},
-           {top + "[[vary]]\nkey = \"motion.height\"\ntarget = { force_x = [1] }\n",
-            "vary[0].target.force_x", "unknown key", 5},
+           {top + vary + "targets = 3\n", "vary[0].targets", "unknown key", 5},
            {top + values + values, "vary[1].key", "varied twice", 7},
            {top + values + "[window]\nfrom = 2\nto = 1\n", "window.to", "not after", 8},
            {top + "set = [\"time.end\"]\n" + values, "set", "not a setting", 3},
@@ -252,4 +247,23 @@ TEST(LatinHypercube, IsTheSameEverywhereForASeed) {
   EXPECT_NE(latin_hypercube(2, 9, 4), latin_hypercube(2, 9, 5));
   // The first number of the engine of seed 0, its upper 53 bits.
   EXPECT_EQ(latin_hypercube(1, 1, 0)[0][0], 0x1p-53 * (2947667278772165694U >> 11U));
+}
+
+/// Of a version before; it says what to write now.
+TEST(SweepStudy, ATargetIsALoadOfTheRim) {
+  const auto only_fault = [](const std::string& key) {
+    const auto faults =
+        faults_of(top + "[[vary]]\nkey = \"" + key + "\"\ntarget = { force_y = [1e5] }\n");
+    EXPECT_EQ(faults.size(), 1U) << key;
+    return faults.empty() ? Fault{} : faults[0];
+  };
+  const Fault height = only_fault("motion.height"), depth = only_fault("analysis.depth");
+  for (const Fault& fault : {height, depth}) {
+    EXPECT_EQ(fault.key, "vary[0].target");
+    EXPECT_EQ(fault.line, 5);
+    EXPECT_NE(fault.message.find("known no more"), std::string::npos) << fault.text();
+  }
+  EXPECT_NE(height.allowed.find("key = \"rim.force_y\""), std::string::npos) << height.allowed;
+  EXPECT_NE(height.allowed.find("free = [\"height\"]"), std::string::npos) << height.allowed;
+  EXPECT_NE(depth.allowed.find("values of analysis.depth"), std::string::npos) << depth.allowed;
 }

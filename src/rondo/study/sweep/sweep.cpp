@@ -192,9 +192,7 @@ class Sweep {
       const CaseKey* key = find_case_key(vary.key);
       all.push_back({{"key", vary.key},
                      {"unit", std::string(key ? key->unit : "-")},
-                     {"kind", vary.is_target ? "target"
-                              : vary.uniform ? "uniform"
-                                             : "values"}});
+                     {"kind", vary.uniform ? "uniform" : "values"}});
     }
     return all;
   }
@@ -254,16 +252,6 @@ void warn_of_members(const SweepRequest& request, const PlannedSweep& plan) {
                                               of.second == 2 ? "" : "s", text));
 }
 
-/// Once, before the runs: what a target is not.
-void say_of_loads(const SweepRequest& request, const SweepStudy& study) {
-  const auto is_height = [](const Vary& v) { return v.is_target && v.key == "motion.height"; };
-  if (request.warn && std::ranges::any_of(study.parameters, is_height))
-    request.warn(
-        fmt::format("target.{} is the load at rest: in rolling the mean force is another by some "
-                    "percent, most at small loads; {}_mean in results.csv (docs/studies.md, Loads)",
-                    target_force_y, target_force_y));
-}
-
 /// The leader's part before the runs; where it fails, all do.
 std::optional<io::DirectoryLock> begin(const SweepRequest& request, const Sweep& sweep,
                                        const SweepStudy& study, const PlannedSweep& plan,
@@ -277,7 +265,6 @@ std::optional<io::DirectoryLock> begin(const SweepRequest& request, const Sweep&
       clear_sweep(request);
       sweep.write("running");
       warn_of_members(request, plan);
-      say_of_loads(request, study);
       if (request.begin) request.begin(plan, team.workers());
     } catch (const std::exception&) {
       static_cast<void>(team.from_leader(leader_failed));

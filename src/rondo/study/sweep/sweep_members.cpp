@@ -19,7 +19,6 @@
 #include "rondo/io/h5/hash.hpp"
 #include "rondo/output/run_files.hpp"
 #include "rondo/study/sweep/member_faults.hpp"
-#include "rondo/study/sweep/member_targets.hpp"
 
 namespace rondo::study {
 
@@ -224,18 +223,14 @@ PlannedSweep plan_sweep(const MembersRequest& request, Team& team) {
     PlannedMember& planned = plan.members.emplace_back();
     planned.member = member;
     planned.settings = settings_of(study, member);
-    planned.targets.assign(study.parameters.size(), 0.0);
   }
   MemberFaults faults(study, members.size());
-  const auto stopped = [&] {
-    plan.stopped = true;
-    return std::move(plan);
-  };
-  if (!find_targets(request, team, plan.members, faults)) return stopped();
-  if (faults.any()) faults.raise(members);
   read_members(study, plan, faults);
   limit_workers(plan.members, team);
-  if (!build_members(request, team, plan, faults)) return stopped();
+  if (!build_members(request, team, plan, faults)) {
+    plan.stopped = true;
+    return plan;
+  }
   if (faults.any()) faults.raise(members);
   limit_workers(plan.members, team);
   plan.order = by_cost(plan.members);

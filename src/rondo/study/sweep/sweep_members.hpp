@@ -25,8 +25,7 @@ struct MemberCost {
 
 struct PlannedMember : MemberCost {
   Member member;
-  std::vector<std::string> settings;  ///< all of them, targets solved
-  std::vector<double> targets;        ///< (parameters) value found of a target; else 0
+  std::vector<std::string> settings;  ///< all of them
   std::string hash;                   ///< of the case as run and its mesh
   std::string body;                   ///< likewise of what members share: see body_key()
 };
@@ -50,7 +49,7 @@ struct PlannedSweep {
   bool stopped = false;  ///< before all was checked
 };
 
-/// Reads every member's case, solves targets, builds every member once. @throws InputError with all
+/// Reads every member's case, builds every member once. @throws InputError with all
 /// faults of all members, each once, with the members that it concerns; FileError
 [[nodiscard]] PlannedSweep plan_sweep(const MembersRequest& request, Team& team);
 

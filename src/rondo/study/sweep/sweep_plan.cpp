@@ -85,18 +85,15 @@ std::vector<Member> members_of(const SweepStudy& study) {
 std::vector<std::string> settings_of(const SweepStudy& study, const Member& member) {
   std::vector<std::string> settings = study.settings;
   for (std::size_t k = 0; k < study.parameters.size(); ++k)
-    if (!study.parameters[k].is_target)
-      settings.push_back(study.parameters[k].key + "=" + member.values[k]);
+    settings.push_back(study.parameters[k].key + "=" + member.values[k]);
   return settings;
 }
 
 std::string name_of(const SweepStudy& study, const Member& member, std::size_t number) {
   std::string said;
-  for (std::size_t k = 0; k < study.parameters.size(); ++k) {
-    const Vary& vary = study.parameters[k];
-    said += fmt::format("{}{}{} = {}", said.empty() ? "" : ", ", vary.is_target ? "target." : "",
-                        vary.is_target ? target_force_y : vary.key, member.values[k]);
-  }
+  for (std::size_t k = 0; k < study.parameters.size(); ++k)
+    said += fmt::format("{}{} = {}", said.empty() ? "" : ", ", study.parameters[k].key,
+                        member.values[k]);
   return fmt::format("run {} ({})", number, said);
 }
 

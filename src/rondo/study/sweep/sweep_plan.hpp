@@ -10,7 +10,7 @@
 namespace rondo::study {
 
 struct Member {
-  std::vector<std::string> values;  ///< (parameters) as TOML; of a target, the force
+  std::vector<std::string> values;  ///< (parameters) as TOML
 };
 
 /// In the order of their numbers: the last parameter of the grid changes fastest, and the points of
@@ -21,7 +21,7 @@ struct Member {
 [[nodiscard]] std::vector<std::vector<double>> latin_hypercube(int dimensions, int n,
                                                                std::uint64_t seed);
 
-/// "a.b=value" of a member, without those of targets.
+/// "a.b=value" of a member.
 [[nodiscard]] std::vector<std::string> settings_of(const SweepStudy& study, const Member& member);
 
 /// A member's name in messages: "run 3 (ground.friction = 0.2, motion.speed = 10.0)".

@@ -42,10 +42,7 @@ std::string number_text(double value) {
 
 std::string header(const SweepTables& t) {
   std::string text = "run";
-  for (const Vary& vary : t.study.parameters) {
-    if (vary.is_target) text += fmt::format(",target.{}", target_force_y);
-    text += fmt::format(",{}", vary.key);
-  }
+  for (const Vary& vary : t.study.parameters) text += fmt::format(",{}", vary.key);
   text += ",status,steps,end_time_s";
   for (const FigureColumn& column : t.plan.type->figures.columns)
     text += fmt::format(",{}", column.name);
@@ -57,10 +54,8 @@ std::string line_of(const SweepTables& t, std::size_t m) {
   const PlannedMember& member = t.plan.members[m];
   const MemberRow& row = t.rows[m];
   std::string text = fmt::format("{}", m + 1);
-  for (std::size_t k = 0; k < t.study.parameters.size(); ++k) {
-    text += fmt::format(",{}", quoted(plain(member.member.values[k])));
-    if (t.study.parameters[k].is_target) text += fmt::format(",{}", number_text(member.targets[k]));
-  }
+  for (const std::string& value : member.member.values)
+    text += fmt::format(",{}", quoted(plain(value)));
   text += fmt::format(",{},{},{}", name_of(row.status), row.steps, row.end_time);
   for (std::size_t k = 0; k < t.plan.type->figures.columns.size(); ++k)
     text += fmt::format(",{}", number_text(row.figures.empty() ? none : row.figures[k]));
@@ -88,17 +83,10 @@ std::string unit_of(const Vary& vary) {
 /// Numbers as they are; of texts and tables the place in a list, which is the attribute `values`.
 void write_parameter(io::h5::File& file, const SweepTables& t, std::size_t k) {
   const Vary& vary = t.study.parameters[k];
-  std::vector<double> values, found;
-  for (const PlannedMember& member : t.plan.members) {
+  std::vector<double> values;
+  for (const PlannedMember& member : t.plan.members)
     values.push_back(number_of(member.member.values[k]));
-    found.push_back(member.targets[k]);
-  }
   const std::string name = "/parameters/" + vary.key;
-  if (vary.is_target) {
-    write_column(file, fmt::format("/parameters/target.{}", target_force_y), values,
-                 {"N/m", "vertical force of the ground asked for"});
-    return write_column(file, name, found, {unit_of(vary), "found for the target"});
-  }
   const bool numbers = std::ranges::none_of(values, [](double value) { return std::isnan(value); });
   if (numbers) return write_column(file, name, values, {unit_of(vary), "key of the case file"});
   std::map<std::string, std::size_t> places;

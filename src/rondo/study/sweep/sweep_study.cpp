@@ -18,13 +18,13 @@ namespace rondo::study {
 namespace {
 
 constexpr std::array top_keys{"schema", "title", "base", "set", "snapshots"};
-constexpr std::array vary_keys{"key", "values", "linspace", "uniform", "target"};
+constexpr std::array vary_keys{"key", "values", "linspace", "uniform"};
 constexpr std::array sample_keys{"kind", "count", "seed"};
 constexpr std::array window_keys{"from", "to"};
 
 bool is_study_table(std::string_view path) {
   const std::string any = without_indices(path);
-  return any == "sample" || any == "window" || any == "vary[].target";
+  return any == "sample" || any == "window";
 }
 
 bool is_study_list(std::string_view path) {
@@ -44,7 +44,6 @@ std::string list_of(const std::array<const char*, N>& words) {
 std::string allowed_beside(std::string_view path) {
   const std::string table = without_indices(table_of(path));
   if (table == "vary[]") return "in [[vary]]: " + list_of(vary_keys);
-  if (table == "vary[].target") return fmt::format("in target: {}", target_force_y);
   if (table == "sample") return "in [sample]: " + list_of(sample_keys);
   if (table == "window") return "in [window]: " + list_of(window_keys);
   return "at the top: " + list_of(top_keys) + ", [[vary]], [sample], [window]";
@@ -56,7 +55,7 @@ bool is_known(std::string_view path) {
     return std::ranges::any_of(words, [&](const char* word) { return any == table + word; });
   };
   return in(top_keys, "") || in(vary_keys, "vary[].") || in(sample_keys, "sample.") ||
-         in(window_keys, "window.") || any == fmt::format("vary[].target.{}", target_force_y);
+         in(window_keys, "window.") || any == "vary[].target";  // told by refuse_target()
 }
 
 /// Reads the values of a study, and gathers all faults.
@@ -244,20 +243,15 @@ void read_values(Reader& in, const std::string& path, Vary& vary) {
   }
 }
 
-void read_target(Reader& in, const std::string& table, Vary& vary) {
-  const std::string path = fmt::format("{}.target.{}", table, target_force_y);
-  vary.is_target = true;
-  if (vary.key != "motion.height" && vary.key != "analysis.depth")
-    in.fault(table + ".key", "has no target", "motion.height or analysis.depth");
-  if (!in.find(path))
-    return in.fault(table + ".target", "is missing a list of forces",
-                    fmt::format("target = {{ {} = [F, ...] }}, N/m", target_force_y));
-  read_values(in, path, vary);
-  const CaseValue* value = in.find(path);
-  if (value->type != ValueType::array) return;
-  for (const CaseValue& item : value->items)
-    if (!(item.number > 0.0) || !std::isfinite(item.number))
-      return in.fault(path, "holds what is no force", "numbers > 0, N/m");
+/// Heights and depths of loads were searched for once; now a load is given.
+void refuse_target(Reader& in, const std::string& table, const Vary& vary) {
+  const std::string path = table + ".target";
+  if (!in.find(path)) return;
+  in.fault(path, "is known no more: a load is given, and its height follows in the run",
+           vary.key == "analysis.depth"
+               ? "values of analysis.depth: force_y over depth_m is in history.csv of each crush"
+               : "key = \"rim.force_y\" and values = [-1.0e5, ...], N/m, with a base that has "
+                 "[rim] with free = [\"height\"]; for a crush values of analysis.depth");
 }
 
 void check_key(Reader& in, const std::string& path, const Vary& vary) {
@@ -283,16 +277,13 @@ Vary read_vary(Reader& in, const std::string& table) {
   int kinds = 0;
   for (const char* kind : {"values", "linspace", "uniform"})
     kinds += in.find(table + "." + kind) != nullptr ? 1 : 0;
-  const bool target = in.has_table(table + ".target");
-  if (in.find(table + ".target"))
-    in.fault(table + ".target", "must be a table", "target = { force_y = [F, ...] }");
-  if (kinds + (target ? 1 : 0) != 1)
-    in.fault(table, kinds == 0 && !target ? "has no values" : "has values twice",
-             "one of values, linspace, uniform, target");
+  refuse_target(in, table, vary);
+  if (kinds != 1 && !in.find(table + ".target"))
+    in.fault(table, kinds == 0 ? "has no values" : "has values twice",
+             "one of values, linspace, uniform");
   if (in.find(table + ".values")) read_values(in, table + ".values", vary);
   if (in.find(table + ".linspace")) read_linspace(in, table + ".linspace", vary);
   if (in.find(table + ".uniform")) read_uniform(in, table + ".uniform", vary);
-  if (target) read_target(in, table, vary);
   return vary;
 }
 
@@ -363,9 +354,8 @@ SweepStudy read(const std::filesystem::path& file, CaseSource source) {
 void check_settings(const SweepStudy& study) {
   std::vector<Fault> faults;
   const std::string file = study.file.string();
-  const auto is_hidden = [&](const std::string& key) {  // a target needs a value to begin with
-    return std::ranges::any_of(
-        study.parameters, [&](const Vary& vary) { return vary.key == key && !vary.is_target; });
+  const auto is_hidden = [&](const std::string& key) {
+    return std::ranges::find(study.parameters, key, &Vary::key) != study.parameters.end();
   };
   for (const std::string& setting : study.settings)
     if (is_hidden(key_of(setting)))

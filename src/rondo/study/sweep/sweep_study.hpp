@@ -13,16 +13,12 @@
 
 namespace rondo::study {
 
-/// What the crush of a member is to give (see sweep_target.hpp).
-inline constexpr const char* target_force_y = "force_y";
-
 /// One parameter: a key of the case file.
 struct Vary {
   std::string key;                               ///< e.g. "ground.friction"
   std::vector<std::string> values;               ///< as TOML, of `values` or `linspace`
   std::optional<std::array<double, 2>> uniform;  ///< from, to: of a sample, instead of values
-  bool is_target = false;  ///< the values are forces [N/m] of which the key's own follow
-  int line = 0;            ///< of its table in the study file
+  int line = 0;                                  ///< of its table in the study file
 };
 
 /// How parameters given as `uniform` are sampled.
