@@ -14,7 +14,7 @@ EDITS = [
     ("a synonym of a key elsewhere", "speed", "velocity = 10.0",
      ["motion.velocity", "did you mean motion.speed?"]),
     ("a load", "speed", "speed = 10.0\nload = 5e4",
-     ["motion.load", "motion.height brings the rim down", "[[load.pressure]]"]),
+     ["motion.load", "a load on the rim is rim.force_y", "[[load.pressure]]"]),
     ("wrong type", "youngs_modulus", 'youngs_modulus = "soft"', ["material.youngs_modulus", "string"]),
     ("boolean for number", "density", "density = true", ["material.density", "boolean"]),
     ("float for integer", "radial", "radial = 12.5", ["disk.mesh.radial", "12.5", "integer"]),
