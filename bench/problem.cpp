@@ -70,6 +70,21 @@ const CsrMatrix& Problem::csr() {
   return csr_;
 }
 
+namespace {
+
+/// Heavy, so that the disk stays where it stands while steps are timed.
+dynamics::RimBody loaded_rim() {
+  dynamics::RimBody rim;
+  rim.free_y = rim.free_spin = true;
+  rim.mass = 1e4;
+  rim.inertia = 1e2;
+  rim.force_y = dynamics::Table(-1.5e5);
+  rim.support_y = {.stiffness = 0.0, .damping = 6e5, .at = 0.3};
+  return rim;
+}
+
+}  // namespace
+
 std::unique_ptr<dynamics::Integrator> Problem::integrator(Steps steps, const Variant& variant) {
   const test::DiskCase defaults;
   model_.threads = variant.threads;
@@ -85,6 +100,8 @@ std::unique_ptr<dynamics::Integrator> Problem::integrator(Steps steps, const Var
   model_.pressures.clear();
   if (variant.pressure != 0.0)
     model_.pressures.push_back({mesh_.contact_edges, dynamics::Table(variant.pressure)});
+  model_.rim.reset();
+  if (variant.loaded_rim) model_.rim = loaded_rim();
   // The cyclic operator is to do without the assembled matrix, as on meshes too large for it.
   const bool assembled = steps != Steps::cyclic;
   if (assembled) assemble();

@@ -27,7 +27,8 @@ struct Variant {
   bool beta = true;      ///< with stiffness damping
   int threads = 1;
   contact::GroundShape ground{};
-  double pressure = 0.0;  ///< on the tread                                           [Pa]
+  double pressure = 0.0;    ///< on the tread                                           [Pa]
+  bool loaded_rim = false;  ///< height and spin are free, under a load
 };
 
 /// What a step has to do at the least, by the formulas of the scheme and the arrays of its

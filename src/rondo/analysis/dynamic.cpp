@@ -13,6 +13,7 @@
 #include "rondo/analysis/build/memory.hpp"
 #include "rondo/analysis/build/step_limit.hpp"
 #include "rondo/analysis/disk.hpp"
+#include "rondo/analysis/state_snapshot.hpp"
 #include "rondo/case/case_source.hpp"
 #include "rondo/integrators/start.hpp"
 #include "rondo/output/resume.hpp"
@@ -32,31 +33,6 @@ std::size_t steps_at_once(const Setup& setup) {
   const double fewest = cyclic ? 8.0 : 1.0;     // two passes of the cyclic operator
   const double dofs = 2.0 * static_cast<double>(setup.model.free.size());
   return static_cast<std::size_t>(std::clamp(dof_steps / dofs, fewest, 64.0));
-}
-
-/// A node held by two facets is pressed along the frame of the deeper one, listed first.
-void take_contacts(const dynamics::State& state, double dt, std::vector<ContactForce>& contacts) {
-  contacts.clear();
-  Vec2 normal;
-  for (const dynamics::ActiveContact& c : state.active) {
-    if (contacts.empty() || c.candidate != contacts.back().candidate) normal = c.normal;
-    const Vec2 force = from_frame(c.normal, c.impulse) / dt;
-    contacts.push_back({c.candidate, to_frame(normal, force), force, c.on_ground});
-  }
-}
-
-Snapshot& fill(const Setup& setup, const dynamics::State& state, Snapshot& s) {
-  s.time = state.frame.time;
-  s.time_velocity = state.step == 0 ? 0.0 : state.frame.time - 0.5 * setup.model.dt;
-  s.angle = state.frame.angle;
-  s.angle_velocity = setup.model.rim ? state.frame.angle - 0.5 * state.frame.turn_before
-                                     : setup.model.motion.angle(s.time_velocity);
-  s.center = state.frame.center;
-  s.u = state.u;
-  s.v = state.v;
-  s.poses = state.poses;
-  take_contacts(state, setup.model.dt, s.contacts);
-  return s;
 }
 
 }  // namespace
@@ -316,7 +292,7 @@ void DynamicAnalysis::record_snapshot(Recorder& recorder) {
   const std::string beyond = beyond_files(setup_, state_);
   if (beyond.empty()) {
     ++next_;
-    add_series(state_, fill(setup_, state_, recorder.next_snapshot()));
+    add_series(state_, fill_snapshot(setup_, state_, recorder.next_snapshot()));
     return recorder.add_snapshot();
   }
   if (!trouble_)  // else that is why

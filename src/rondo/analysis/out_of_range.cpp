@@ -130,7 +130,8 @@ std::string missed_corner(double way) {
 std::string turned_too_far(double turn, double dt) {
   if (std::abs(turn) <= dynamics::most_turn) return {};
   return fmt::format(
-      "the rim turns by {:.3g} rad in a step, more than {:.3g}: differences of places no longer show "
+      "the rim turns by {:.3g} rad in a step, more than {:.3g}: differences of places no longer "
+      "show "
       "its spin; a time.step below {:.3g} s, or less of rim.torque",
       turn, dynamics::most_turn, dynamics::most_turn / std::abs(turn) * dt);
 }

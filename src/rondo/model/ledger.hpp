@@ -31,8 +31,8 @@ struct Works {
 
 /// Sums over the nodes of the step at t_{n+1}: the energy before it, and what it does [J/m].
 struct StepEnergy {
-  double kinetic = 0.0;      ///< ½ v_{n+1/2}ᵀ M v_{n+1/2}, of absolute velocities with a loaded rim
-  double strain = 0.0;       ///< ½ u_{n+1}ᵀ K u_n
+  double kinetic = 0.0;  ///< ½ v_{n+1/2}ᵀ M v_{n+1/2}, of absolute velocities with a loaded rim
+  double strain = 0.0;   ///< ½ u_{n+1}ᵀ K u_n
   double kinetic_rim = 0.0;  ///< of a loaded rim
   double support = 0.0;      ///< of its springs
   Works works;               ///< of this step alone

@@ -74,10 +74,10 @@ void LoadedRim::advance(const RimForce& q, double h) noexcept {
   const double t = frame_.time;
   const Vec2 g = model_.motion.gravity_at(t), held = held_velocity(t);
   const Vec2 elastic = frame_.rotation * q.force;
-  const Line x{rim_.free_x, rim_.mass,        rim_.force_x.at(t), rim_.mass * g.x,
-               elastic.x,   rim_.support_x,   frame_.center.x,    velocity_before_.x};
-  const Line y{rim_.free_y, rim_.mass,        rim_.force_y.at(t), rim_.mass * g.y,
-               elastic.y,   rim_.support_y,   frame_.center.y,    velocity_before_.y};
+  const Line x{rim_.free_x, rim_.mass,      rim_.force_x.at(t), rim_.mass * g.x,
+               elastic.x,   rim_.support_x, frame_.center.x,    velocity_before_.x};
+  const Line y{rim_.free_y, rim_.mass,      rim_.force_y.at(t), rim_.mass * g.y,
+               elastic.y,   rim_.support_y, frame_.center.y,    velocity_before_.y};
   const Moved to_x = moved(x, held.x, h), to_y = moved(y, held.y, h);
   velocity_ = {to_x.velocity, to_y.velocity};
   Works& w = energy_.works = {};
@@ -156,9 +156,9 @@ void LoadedRim::take(const RimForce& q) noexcept {
 
 std::vector<double> LoadedRim::save() const {
   const Complex r = frame_.rotation;
-  return {x_.sum(),      x_.correction(),     y_.sum(), y_.correction(), angle_.sum(),
-          angle_.correction(), velocity_.x,   velocity_.y, spin_,        turn_,
-          r.re,          r.im};
+  return {
+      x_.sum(),    x_.correction(), y_.sum(), y_.correction(), angle_.sum(), angle_.correction(),
+      velocity_.x, velocity_.y,     spin_,    turn_,           r.re,         r.im};
 }
 
 void LoadedRim::restore(long long step, std::span<const double> s) {

@@ -47,10 +47,11 @@ constexpr std::array history{
               [](const H& r) { return r.balance.kinetic; }},
     Column<H>{"strain", "J/m", "strain part of the energy E, likewise",
               [](const H& r) { return r.balance.strain; }},
-    Column<H>{"work_frame", "J/m",
-              "of the inertia of the frame and of gravity; 0 with a `[rim]`. All works are cumulative "
-              "from the start",
-              [](const H& r) { return r.balance.works.frame; }},
+    Column<H>{
+        "work_frame", "J/m",
+        "of the inertia of the frame and of gravity; 0 with a `[rim]`. All works are cumulative "
+        "from the start",
+        [](const H& r) { return r.balance.works.frame; }},
     Column<H>{"work_contact", "J/m",
               "of the ground's impulses: `work_rim` − `dissipation_friction` − `loss_impact`",
               [](const H& r) { return r.balance.works.contact; }},
@@ -64,19 +65,21 @@ constexpr std::array history{
               [](const H& r) { return r.balance.works.dissipation_mass; }},
     Column<H>{"dissipation_stiffness", "J/m", "by `damping.stiffness`",
               [](const H& r) { return r.balance.works.dissipation_stiffness; }},
-    Column<H>{"work_scheme", "J/m",
-              "created by the scheme `as-printed`; with a `[rim]` what the central differences of a "
-              "turning body leave, of third order in a step; else 0",
-              [](const H& r) { return r.balance.works.scheme; }},
+    Column<H>{
+        "work_scheme", "J/m",
+        "created by the scheme `as-printed`; with a `[rim]` what the central differences of a "
+        "turning body leave, of third order in a step; else 0",
+        [](const H& r) { return r.balance.works.scheme; }},
     Column<H>{"energy_residual", "J/m", "energy less all works: what the energy balance leaves",
               [](const H& r) { return r.balance.residual; }},
     Column<H>{"work_load", "J/m", "of pressures", [](const H& r) { return r.balance.works.load; }}};
 
 constexpr std::array rim{
-    Column<H>{"spin_rad_s", "rad/s",
-              "angular velocity of the rim at `time_s`, > 0 clockwise: mean of the half steps before "
-              "and after",
-              [](const H& r) { return r.rim.spin; }},
+    Column<H>{
+        "spin_rad_s", "rad/s",
+        "angular velocity of the rim at `time_s`, > 0 clockwise: mean of the half steps before "
+        "and after",
+        [](const H& r) { return r.rim.spin; }},
     Column<H>{"speed_x", "m/s", "velocity of the center, likewise",
               [](const H& r) { return r.rim.velocity.x; }},
     Column<H>{"speed_y", "m/s", "likewise", [](const H& r) { return r.rim.velocity.y; }},

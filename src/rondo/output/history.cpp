@@ -45,8 +45,7 @@ std::vector<ColumnLabel> History::columns() const {
 
 double History::slip_ratio(const dynamics::StepReport& step) const {
   if (radius_ == 0.0) return 0.0;
-  if (setup_.model.rim)
-    return dynamics::slip_ratio(step.rim.spin * radius_, step.rim.velocity.x);
+  if (setup_.model.rim) return dynamics::slip_ratio(step.rim.spin * radius_, step.rim.velocity.x);
   return dynamics::slip_ratio(case_.motion.angular_velocity.at(step.frame.time) * radius_,
                               case_.motion.speed.at(step.frame.time));
 }

@@ -188,7 +188,7 @@ class Comparison {
   Contacts contacts_;
   Difference u_, v_, impulse_, length_, normal_, slip_, work_, energy_, frame_, rim_;
   Difference reaction_{0.0, 1e4};  // a sum of forces of that size [N/m]
-  Difference gap_{0.0, radius};  // a difference of positions of that size
+  Difference gap_{0.0, radius};    // a difference of positions of that size
 };
 
 }  // namespace rondo::test

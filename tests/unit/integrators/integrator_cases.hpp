@@ -19,8 +19,8 @@ struct RollingCase {
   DiskCase disk;
   contact::Law law{0.4, 0.0};
   std::optional<contact::GroundShape> ground;
-  bool stiffened = false;  ///< by the stress of the initial spin
-  bool pressed = false;    ///< by pressures on its boundary
+  bool stiffened = false;                  ///< by the stress of the initial spin
+  bool pressed = false;                    ///< by pressures on its boundary
   std::optional<dynamics::RimBody> rim{};  ///< without the bonded nodes
 };
 

@@ -93,8 +93,11 @@ void BatchIntegrator::advance_batch(std::span<StepReport> reports) noexcept {
     const std::span parts = std::span<const PartialStep>(parts_).subspan(i * n_parts_, n_parts_);
     const WholeStep whole = whole_step(model_, parts);
     ledger_.add(whole.energy);
-    reports[i] = {batch.first + static_cast<long long>(i) + 1, steps_[i].frame, whole.contact,
-                  ledger_.last(), {}};
+    reports[i] = {batch.first + static_cast<long long>(i) + 1,
+                  steps_[i].frame,
+                  whole.contact,
+                  ledger_.last(),
+                  {}};
   }
   step_ = batch.first + static_cast<long long>(reports.size());
   if (corners_) reports.back().contact.unseen = corners_->unseen(*this, 0.0);

@@ -96,7 +96,7 @@ class BatchIntegrator : public Integrator, public Resumable, protected Candidate
   std::optional<CornerContact> corners_;
   std::optional<LoadedRim> rim_;
   kernels::WheelWay way_{};  ///< of the step in hand, on a loaded rim
-  bool within_ = false;  ///< corners are near, and make_steps() takes care of them
+  bool within_ = false;      ///< corners are near, and make_steps() takes care of them
   Barrier barrier_;
   Ledger ledger_;
 };

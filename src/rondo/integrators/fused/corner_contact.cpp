@@ -213,7 +213,8 @@ void CornerContact::find(const StepContext& step, const CandidateFields& fields)
       const CandidateMotion motion = fields.motion_of(k);
       const Complex back{step.wheel.back_x, step.wheel.back_y};  // 0 but with a loaded rim
       state_.v[k] = motion.v + back * motion.v;
-      held_.push_back({k, {.change = motion.force, .load = load_on(step, k), .moved = motion.moved}});
+      held_.push_back(
+          {k, {.change = motion.force, .load = load_on(step, k), .moved = motion.moved}});
     }
 }
 

@@ -50,6 +50,9 @@ class CyclicChunk {
   [[nodiscard]] std::span<const ActiveContact> active() const noexcept { return active_; }
 
  private:
+  static constexpr int group_columns = kernels::group_packs * kernels::lanes;
+  /// Of a row, components each; u of even and of odd steps.
+  enum Field { field_u_even = 0, field_u_odd = 2, field_v = 4, field_force = 6 };
   /// Columns of the chunk that a step of a pass works on.
   struct Extent {
     int first_pack, last_pack;

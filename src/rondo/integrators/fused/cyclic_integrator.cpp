@@ -12,8 +12,7 @@ CyclicIntegrator::CyclicIntegrator(const Model& model, const State& start,
 
 CyclicIntegrator::CyclicIntegrator(const Model& model, const State& start,
                                    const kernels::Table& table, CyclicPlan plan)
-    : BatchIntegrator(model, start, plan.n_groups, plan.chunks.size()),
-      plan_(std::move(plan)) {
+    : BatchIntegrator(model, start, plan.n_groups, plan.chunks.size()), plan_(std::move(plan)) {
   chunks_.reserve(plan_.chunks.size());
   for (const CyclicChunkRange& range : plan_.chunks) {
     chunks_.emplace_back(model_, plan_, table, range);

@@ -45,9 +45,9 @@ struct CyclicPlace {
 
 struct CyclicPlan {
   int n_local = 0, n_sectors = 0;
-  bool keeps_force = false;              ///< K u_n is a field: β > 0, or a loaded rim
-  bool wheel = false;                    ///< on a loaded rim: v is V in the axes of R, one step a pass
-  std::ptrdiff_t stride = 0;             ///< doubles between the fields of a row
+  bool keeps_force = false;   ///< K u_n is a field: β > 0, or a loaded rim
+  bool wheel = false;         ///< on a loaded rim: v is V in the axes of R, one step a pass
+  std::ptrdiff_t stride = 0;  ///< doubles between the fields of a row
   std::vector<kernels::CyclicRow> rows;  ///< (n_local)
   std::vector<kernels::CyclicEntry> entries;
   std::vector<kernels::MirrorRow> mirror;  ///< (n_local), or empty: sectors are no mirrors

@@ -39,7 +39,7 @@ struct PartialStep {
 
 /// Forces on a node, in the frame of its vectors [N/m].
 struct NodeForces {
-  Vec2 change{};   ///< K u_{n+1} - K u_n, with β only
+  Vec2 change{};  ///< K u_{n+1} - K u_n, with β only
   Vec2 load{};
   Vec2 elastic{};  ///< K u_{n+1}, with a loaded rim only
   Vec2 moved{};    ///< u_{n+1} - u_n [m], with a loaded rim only

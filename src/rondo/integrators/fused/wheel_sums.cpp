@@ -28,11 +28,11 @@ double work_of_scheme(const StepSums& s, const LoadedRim& rim, double dt) noexce
   const Complex after = rim.turn(), before = rim.turn_before();
   const Vec2 p = vector_of(s, wheel_force_x);
   const Vec2 hub = conj(rim.frame().rotation) * rim.velocity();
-  const Vec2 on = Vec2{s[wheel_force_after], s[wheel_force_across]} -
-                  Vec2{dot(p, hub), cross(p, hub)};
+  const Vec2 on =
+      Vec2{s[wheel_force_after], s[wheel_force_across]} - Vec2{dot(p, hub), cross(p, hub)};
   const Vec2 back = {s[wheel_force_moved], s[wheel_force_turned]};
-  const double excess = -(after.re + before.re) * s[wheel_force_arm] -
-                        dt * (conj(after) * on).x + (conj(before) * back).x;
+  const double excess = -(after.re + before.re) * s[wheel_force_arm] - dt * (conj(after) * on).x +
+                        (conj(before) * back).x;
   return -0.5 * excess;
 }
 

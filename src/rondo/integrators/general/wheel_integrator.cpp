@@ -53,8 +53,7 @@ RimForce WheelIntegrator::find_forces(double& strain) noexcept {
   for_free_nodes(model_, [&](std::size_t k) { relative[k] = relative_before(k); });
   strain = internal_->half_step_energy(state_.u, relative);
   if (!forces_.damping.empty()) internal_->damping(forces_.damping);
-  if (!forces_.load.empty())
-    pressure_forces(model_, state_.u, state_.frame.time, forces_.load);
+  if (!forces_.load.empty()) pressure_forces(model_, state_.u, state_.frame.time, forces_.load);
   const std::span<const Vec2> gradient = internal_->gradient();
   RimForce sum;
   for_free_nodes(model_, [&](std::size_t k) {
@@ -117,8 +116,7 @@ StepReport WheelIntegrator::step() noexcept {
   StepEnergy energy;
   move(energy);
   const RimForce q = find_forces(energy.strain);
-  const Vec2 gravity =
-      conj(state_.frame.rotation) * model_.motion.gravity_at(state_.frame.time);
+  const Vec2 gravity = conj(state_.frame.rotation) * model_.motion.gravity_at(state_.frame.time);
   StepReport report;
   report.step = state_.step;
   report.contact = push(gravity);

@@ -40,9 +40,7 @@ class WheelIntegrator final : public Integrator, public Resumable {
   ContactReport push(Vec2 gravity) noexcept;
   void find_next() noexcept;
   void add_works(Vec2 gravity, Works& works) const noexcept;
-  [[nodiscard]] Vec2 arm(std::size_t k) const noexcept {
-    return model_.reference[k] + state_.u[k];
-  }
+  [[nodiscard]] Vec2 arm(std::size_t k) const noexcept { return model_.reference[k] + state_.u[k]; }
   [[nodiscard]] Vec2 relative_before(std::size_t k) const noexcept {
     return (state_.u[k] - before_[k]) / model_.dt;
   }

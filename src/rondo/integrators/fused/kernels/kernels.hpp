@@ -26,9 +26,9 @@ enum Sum {
   n_sums
 };
 
-/// Sums over the nodes of a step on a loaded rim, co-rotating frame, before the factors of (10.5): a
-/// of V in the axes of R_{n+1} before (a⁻) and after (a⁺), p = K u_{n+1}, d = u_{n+1} - u_n,
-/// e = p - K u_n, y = X + u_{n+1}; a × b = a_x b_y - a_y b_x.
+/// Sums over the nodes of a step on a loaded rim, co-rotating frame, before the factors of (10.5):
+/// a of V in the axes of R_{n+1} before (a⁻) and after (a⁺), p = K u_{n+1}, d = u_{n+1} - u_n, e =
+/// p - K u_n, y = X + u_{n+1}; a × b = a_x b_y - a_y b_x.
 enum WheelSum {
   wheel_kinetic,        ///< m |a⁻|²
   wheel_strain,         ///< u_n·p
@@ -57,11 +57,11 @@ inline constexpr int most_sums = n_wheel_sums;
 
 /// What all nodes of a step on a loaded rim share: forces and velocities.
 struct WheelFactors {
-  double dt;                        ///< Δt [s]
-  double back_x, back_y;            ///< e^{-iδ⁻} - 1
-  double pull_x, pull_y;            ///< Δt Rᵀ g                                      [m/s]
-  double alpha_over_dt;             ///< α/Δt                                         [1/s²]
-  double beta_over_dt;              ///< β/Δt [-]
+  double dt;              ///< Δt [s]
+  double back_x, back_y;  ///< e^{-iδ⁻} - 1
+  double pull_x, pull_y;  ///< Δt Rᵀ g                                      [m/s]
+  double alpha_over_dt;   ///< α/Δt                                         [1/s²]
+  double beta_over_dt;    ///< β/Δt [-]
 };
 /// The same of the way to u_{n+2}, which is known once the rim is.
 struct WheelWay {
@@ -126,8 +126,8 @@ struct CyclicStrip {
   std::ptrdiff_t row_size;  ///< between rows
   double* now;              ///< u_{n+1} of the chunk's first row, sector 0
   double* next;             ///< u_{n+2}; on a loaded rim u_n till wheel_strip_way
-  double* velocity;         ///< v⁻, becomes v⁺; on a loaded rim V in the axes of R_n, of R_{n+1}
-  double* force;            ///< K u_n, becomes K u_{n+1}
+  double* velocity;  ///< v⁻, becomes v⁺; on a loaded rim V in the axes of R_n, of R_{n+1}
+  double* force;     ///< K u_n, becomes K u_{n+1}
   std::ptrdiff_t stride;
   const double* turn_x;  ///< cos φ of the chunk's sectors (padded like a field)
   const double* turn_y;  ///< sin φ
@@ -139,7 +139,7 @@ struct CyclicStrip {
   const StepFactors* step;
   const WheelFactors* wheel;  ///< instead of `step`
   const WheelWay* way;        ///< of wheel_strip_way alone
-  double* sums;  ///< (groups, n_sums or n_wheel_sums, lanes): added to
+  double* sums;               ///< (groups, n_sums or n_wheel_sums, lanes): added to
   // Loads on nodes, unused by kernels without: f = Σ pressure · force, in the sector's frame.
   const double* loads;      ///< force per pressure of the first, sector 0; components and loads are
                             ///< `stride` apart                                           [m]

@@ -88,9 +88,9 @@ inline void wheel_group(const CyclicStrip& s, const WheelPacks& f, int first, in
     Resultants r = no_resultants();
     for (int i = 0; i < s.n_rows; ++i)
       wheel_pack<Loaded, Heavy>(s, f, s.rows[i], column, force[i][pack - first], own, r);
-    const Resultants turned = {
-        from_sectors(s, column, r.force), from_sectors(s, column, r.change),
-        from_sectors(s, column, r.mass), from_sectors(s, column, r.momentum)};
+    const Resultants turned = {from_sectors(s, column, r.force), from_sectors(s, column, r.change),
+                               from_sectors(s, column, r.mass),
+                               from_sectors(s, column, r.momentum)};
     for_resultants<Heavy>(turned, add);
   }
   for_sums<Loaded>(own, add);
@@ -115,9 +115,9 @@ void wheel_strip_way(const CyclicStrip& s) noexcept {
     for (int r = 0; r < s.n_rows; ++r) {
       const CyclicRow& row = s.rows[r];
       const std::ptrdiff_t at = row.at + column;
-      const Vectors u = wheel_way(way, hub, {all(row.x), all(row.y)},
-                                  load_vectors(s.now + at, s.stride),
-                                  load_vectors(s.velocity + at, s.stride));
+      const Vectors u =
+          wheel_way(way, hub, {all(row.x), all(row.y)}, load_vectors(s.now + at, s.stride),
+                    load_vectors(s.velocity + at, s.stride));
       store_vectors(s.next + at, s.stride, own_of(own_lanes(s, column), u));
     }
   }

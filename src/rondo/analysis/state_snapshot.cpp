@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "rondo/analysis/state_snapshot.hpp"
+
+#include <vector>
+
+namespace rondo::study {
+namespace {
+
+/// A node held by two facets is pressed along the frame of the deeper one, listed first.
+void take_contacts(const dynamics::State& state, double dt, std::vector<ContactForce>& contacts) {
+  contacts.clear();
+  Vec2 normal;
+  for (const dynamics::ActiveContact& c : state.active) {
+    if (contacts.empty() || c.candidate != contacts.back().candidate) normal = c.normal;
+    const Vec2 force = from_frame(c.normal, c.impulse) / dt;
+    contacts.push_back({c.candidate, to_frame(normal, force), force, c.on_ground});
+  }
+}
+
+}  // namespace
+
+Snapshot& fill_snapshot(const Setup& setup, const dynamics::State& state, Snapshot& s) {
+  s.time = state.frame.time;
+  s.time_velocity = state.step == 0 ? 0.0 : state.frame.time - 0.5 * setup.model.dt;
+  s.angle = state.frame.angle;
+  s.angle_velocity = setup.model.rim ? state.frame.angle - 0.5 * state.frame.turn_before
+                                     : setup.model.motion.angle(s.time_velocity);
+  s.center = state.frame.center;
+  s.u = state.u;
+  s.v = state.v;
+  s.poses = state.poses;
+  take_contacts(state, setup.model.dt, s.contacts);
+  return s;
+}
+
+}  // namespace rondo::study
