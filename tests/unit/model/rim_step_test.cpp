@@ -128,6 +128,19 @@ TEST(RimStep, IsABoundOfTheCoupledSystemAndNear) {
   }
 }
 
+/// Lighter than its bonded nodes, so that it vibrates faster than the mesh.
+TEST(RimStep, ALightRimSetsTheStep) {
+  const Body b = disk_of(2, 24);
+  for (std::size_t dof = 0; dof < 3; ++dof) {
+    RimDofs rim;
+    rim.inertia[dof] = 0.02 * (dof < 2 ? b.bonded_mass : b.bonded_inertia);
+    const double omega = std::sqrt(dense_square(b, rim));
+    EXPECT_GT(omega, 1.1 * held_step(b).omega) << dof;
+    EXPECT_GE(by_harmonics(b, rim), omega) << dof;
+    EXPECT_LE(by_harmonics(b, rim), 1.5 * omega) << dof;
+  }
+}
+
 /// A spring that is stiffer than the mesh sets the step.
 TEST(RimStep, SpringsCount) {
   const Body b = disk_of(2, 24);
