@@ -15,7 +15,7 @@ import numpy as np
 FIGURES = ["steps", "end_time_s", "force_x_mean", "force_x_peak", "force_x_fluctuation",
            "force_y_mean", "force_y_peak", "force_y_fluctuation", "torque_mean", "torque_peak",
            "torque_fluctuation", "contact_length_mean_m", "contact_length_peak_m",
-           "slip_ratio_mean", "friction_power", "impact_power", "energy_residual_relative",
+           "slip_ratio_mean", "center_y_mean", "speed_mean", "spin_mean", "friction_power", "impact_power", "energy_residual_relative",
            "contact_residual_max", "penetration_max_m", "strain_max", "jacobian_min"]
 CRUSH_FIGURES = ["steps", "end_time_s", "depth_m", "force_x", "force_y", "torque",
                  "contact_length_m", "pressure_max_pa", "shear_max_pa", "strain",
@@ -86,7 +86,8 @@ def forces(friction: float, spin: float) -> Row:
             "force_y_peak": 1.2 * vertical, "force_y_fluctuation": 0.05 * vertical,
             "torque_mean": -0.3 * pull, "torque_peak": 0.4 * abs(pull),
             "torque_fluctuation": 0.03 * abs(pull), "contact_length_mean_m": 0.04 + 0.01 * friction,
-            "contact_length_peak_m": 0.05, "slip_ratio_mean": slip,
+            "contact_length_peak_m": 0.05, "slip_ratio_mean": slip, "center_y_mean": 0.29,
+            "speed_mean": 10.0, "spin_mean": spin,
             "friction_power": abs(pull * slip) * 10.0, "impact_power": 12.0,
             "energy_residual_relative": 2e-15, "contact_residual_max": 1e-14,
             "penetration_max_m": 1e-12, "strain_max": 0.05, "jacobian_min": 0.9}

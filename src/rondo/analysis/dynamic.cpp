@@ -11,9 +11,9 @@
 
 #include "rondo/analysis/build/build.hpp"
 #include "rondo/analysis/build/memory.hpp"
+#include "rondo/analysis/build/rim.hpp"
 #include "rondo/analysis/build/step_limit.hpp"
 #include "rondo/analysis/disk.hpp"
-#include "rondo/analysis/state_snapshot.hpp"
 #include "rondo/case/case_source.hpp"
 #include "rondo/integrators/start.hpp"
 #include "rondo/output/resume.hpp"
@@ -140,6 +140,7 @@ void DynamicAnalysis::describe(Json& j) const {
   j["step"] = setup_.model.dt;
   j["steps"] = setup_.n_steps;
   j["dispatch"] = dispatch_level();
+  if (setup_.model.rim) j["rim"] = rim_facts(*setup_.model.rim);
 }
 
 /// A run that became longer with all of its snapshots.

@@ -5,8 +5,8 @@
 #include <cstddef>
 #include <vector>
 
+#include "rondo/case/setup.hpp"
 #include "rondo/core/vec2.hpp"
-#include "rondo/model/model.hpp"
 
 namespace rondo::study {
 
@@ -30,5 +30,9 @@ struct Snapshot {
   std::vector<ContactForce> contacts;  ///< ascending candidates
   std::vector<double> series;          ///< values of the plan's series, one after another
 };
+
+/// Fills and returns `snapshot` from a state of a motion: fields, contacts, place of the frame. Of
+/// a loaded rim the angle at the velocity's time is the mean of those at both ends of the step.
+Snapshot& fill_snapshot(const Setup& setup, const dynamics::State& state, Snapshot& snapshot);
 
 }  // namespace rondo::study

@@ -35,12 +35,13 @@ rondo::test::ManualTable table_of(std::string_view what, const Labels& labels) {
 
 TEST(Manual, HasTheColumns) {
   const Labels probe = history_of({"output.probe=[{name = 'NAME', position = [0.2, 0.0]}]"});
+  const Labels rim = history_of({"rim.free=[]"});
   const Labels crush = history_of({"analysis.kind=crush", "analysis.depth=0.01",
                                    "analysis.increments=1", "ground.profile=flat"});
   rondo::test::expect_in_manual(
       test::source_folder() / "docs" / "results.md",
       {table_of("history.csv", labels_of(history_columns())), table_of("probe", further(probe)),
-       table_of("crush", further(crush)), table_of("contact.csv", labels_of(contact_columns()))});
+       table_of("rim", further(rim)), table_of("crush", further(crush)), table_of("contact.csv", labels_of(contact_columns()))});
 }
 
 }  // namespace

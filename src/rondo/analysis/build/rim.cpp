@@ -133,6 +133,14 @@ dynamics::CriticalStep step_with_rim(const dynamics::Model& model,
                       : dynamics::with_rim(held, frequencies, damping);
 }
 
+Json rim_facts(const RimBody& rim) {
+  Json free = Json::array();
+  if (rim.free_x) free.push_back("speed");
+  if (rim.free_y) free.push_back("height");
+  if (rim.free_spin) free.push_back("angular_velocity");
+  return {{"free", free}, {"mass", rim.mass}, {"inertia", rim.inertia}};
+}
+
 void tell_rim(const Case& c, Setup& s) {
   const RimBody& rim = *s.model.rim;
   s.figures.emplace_back("rim", free_text(rim));

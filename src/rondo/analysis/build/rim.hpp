@@ -3,6 +3,7 @@
 /// it.
 #pragma once
 #include "rondo/case/setup.hpp"
+#include "rondo/output/run_files.hpp"
 
 namespace rondo::study {
 
@@ -18,6 +19,9 @@ void set_rim_loads(const Case& c, dynamics::Model& model);
 dynamics::CriticalStep step_with_rim(const dynamics::Model& model,
                                      const dynamics::CriticalStep& held,
                                      dynamics::LaggedDamping damping);
+
+/// For run.json: what is free, mass and inertia with the bonded nodes.
+[[nodiscard]] Json rim_facts(const dynamics::RimBody& rim);
 
 /// Adds figures: what is free, masses, loads at the end of the run. @pre a rim
 void tell_rim(const Case& c, Setup& s);

@@ -28,6 +28,9 @@ constexpr std::array dynamic_columns{
     FigureColumn{"contact_length_mean_m", "m", "mean over the window"},
     FigureColumn{"contact_length_peak_m", "m", "largest in the window"},
     FigureColumn{"slip_ratio_mean", "1", "mean over the window"},
+    FigureColumn{"center_y_mean", "m", "height of the center, mean over the window"},
+    FigureColumn{"speed_mean", "m/s", "of the center along x, mean over the window"},
+    FigureColumn{"spin_mean", "rad/s", "> 0 clockwise, mean over the window"},
     FigureColumn{"friction_power", "W/m", "dissipated by friction in the window, over its length"},
     FigureColumn{"impact_power", "W/m", "lost in impacts in the window, over its length"},
     FigureColumn{"energy_residual_relative", "1", "of the energy balance, of the whole run"},
@@ -102,7 +105,9 @@ std::vector<double> figures_of(const std::filesystem::path& directory, const Win
   }
   const Intervals length = rows.of("contact_length_m");
   figures.insert(figures.end(), {mean(length), peak(length), mean(rows.of("slip_ratio")),
-                                 rows.rate("dissipation_friction"), rows.rate("loss_impact")});
+                                 mean(rows.of("center_y_m")), rows.rate("center_x_m"),
+                                 rows.rate("angle_rad"), rows.rate("dissipation_friction"),
+                                 rows.rate("loss_impact")});
   add_figures_of_all(directory, figures);
   return figures;
 }

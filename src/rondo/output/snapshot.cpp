@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "rondo/analysis/state_snapshot.hpp"
+#include "rondo/output/snapshot.hpp"
 
 #include <vector>
 
