@@ -266,7 +266,7 @@ void CyclicChunk::strip(const Work& work, int i) noexcept {
   s.pressures = work.step->pressures;
   const kernels::Terms& terms = work.step->terms;
   if (plan_.wheel)
-    table_.wheel_strip[loaded][work.step->heavy](s);
+    table_.wheel->strip[loaded][work.step->heavy](s);
   else
     table_.cyclic_strip[loaded][terms.stiffness_damping][terms.unsteady](s);
   for (const Touching& t : touching_) solve_node(work, t);
@@ -313,7 +313,7 @@ void CyclicChunk::go_on(const kernels::WheelWay& way) noexcept {
   for (int first = 0; first < plan_.n_local; first += kernels::most_rows) {
     kernels::CyclicStrip s = strip_from(first, field_now(), next);
     s.way = &way;
-    table_.wheel_strip_way(s);
+    table_.wheel->strip_way(s);
   }
   ++steps_;
   show_to_others();

@@ -237,7 +237,7 @@ void SparseIntegrator::update_rows(const Work& work, std::size_t block,
   rows.pressures = work.step->pressures;
   const kernels::Terms& terms = work.step->terms;
   if (plan_.wheel)
-    table_.wheel_rows[loaded][work.step->heavy](rows);
+    table_.wheel->rows[loaded][work.step->heavy](rows);
   else
     table_.sparse_rows[loaded][terms.stiffness_damping][terms.unsteady](rows);
   const std::size_t n_sums =
@@ -267,7 +267,7 @@ void SparseIntegrator::go_on(const kernels::WheelWay& way, long long step, Share
   for (std::size_t block = share.first(n); block < share.last(n); ++block) {
     kernels::SparseRows rows = rows_from(u_[parity(step)].data(), next, block);
     rows.way = &way;
-    table_.wheel_rows_way(rows);
+    table_.wheel->rows_way(rows);
     if (block + 1 == n) rest_padding(next);
   }
 }

@@ -6,7 +6,6 @@
 namespace {
 
 using rondo::dynamics::kernels::CyclicEntry;
-using rondo::dynamics::kernels::CyclicHeight;
 using rondo::dynamics::kernels::CyclicRow;
 using rondo::dynamics::kernels::CyclicStrip;
 using rondo::dynamics::kernels::group_packs;
@@ -254,23 +253,6 @@ void cyclic_strip(const CyclicStrip& s) noexcept {
     group<Loaded, Beta, Unsteady>(s, f, pack, pack + group_packs < own ? pack + group_packs : own,
                                   sums);
   if (own < s.last_pack) group<Loaded, Beta, Unsteady>(s, f, own, s.last_pack, nullptr);
-}
-
-int low_columns(const CyclicHeight& h, int* columns) noexcept {
-  int found = 0;
-  const Pack rx = all(h.rotation_x), ry = all(h.rotation_y), limit = all(h.limit);
-  const Pack x = all(h.x), y = all(h.y);
-  for (int column = h.first; column < h.last; column += lanes) {
-    const Pack c = load(h.turn_x + column), s = load(h.turn_y + column);
-    const Vectors u = load_vectors(h.u + column, h.stride);
-    const Pack up_x = fma(rx, s, ry * c), up_y = fnma(ry, s, rx * c);
-    const Pack height = fma(up_x, x + u.x, up_y * (y + u.y));
-    for (unsigned bits = not_above(height, limit); bits != 0; bits &= bits - 1) {
-      const int at = column + __builtin_ctz(bits);
-      if (at < h.last) columns[found++] = at;
-    }
-  }
-  return found;
 }
 
 }  // namespace

@@ -183,6 +183,16 @@ struct SparseRows {
   const double* pressures;  ///< [Pa]
 };
 
+/// The loops of one instruction set on a loaded rim; K u_n is always kept there. In a file of their
+/// own: beside the others each would be compiled worse, for what both call is no longer put in
+/// place.
+struct WheelTable {
+  void (*strip[2][2])(const CyclicStrip&) noexcept;  ///< [loaded][heavy]
+  void (*strip_way)(const CyclicStrip&) noexcept;
+  void (*rows[2][2])(const SparseRows&) noexcept;  ///< [loaded][heavy]
+  void (*rows_way)(const SparseRows&) noexcept;
+};
+
 /// The loops of one instruction set.
 struct Table {
   const char* name;
@@ -192,13 +202,10 @@ struct Table {
   int (*low_columns)(const CyclicHeight&, int* columns) noexcept;
   /// [loaded][stiffness_damping][unsteady]
   void (*sparse_rows[2][2][2])(const SparseRows&) noexcept;
-  // On a loaded rim; K u_n is always kept there. [loaded][heavy]
-  void (*wheel_strip[2][2])(const CyclicStrip&) noexcept;
-  void (*wheel_strip_way)(const CyclicStrip&) noexcept;
-  void (*wheel_rows[2][2])(const SparseRows&) noexcept;
-  void (*wheel_rows_way)(const SparseRows&) noexcept;
+  const WheelTable* wheel;
 };
 
+extern const WheelTable avx512_wheel, avx2_wheel, baseline_wheel;
 extern const Table avx512_table, avx2_table, baseline_table;
 
 }  // namespace rondo::dynamics::kernels

@@ -1,0 +1,8 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "rondo/integrators/fused/kernels/pack_avx2.hpp"
+
+#include "rondo/integrators/fused/kernels/wheel_table.hpp"
+
+namespace rondo::dynamics::kernels {
+constinit const WheelTable avx2_wheel = wheel_table();
+}  // namespace rondo::dynamics::kernels

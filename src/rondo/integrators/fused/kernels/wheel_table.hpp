@@ -1,0 +1,18 @@
+// SPDX-License-Identifier: BSD-3-Clause
+/// @file  The table of one instruction set on a loaded rim. Included after a pack_*.hpp.
+#pragma once
+#include "rondo/integrators/fused/kernels/wheel_cyclic.hpp"
+#include "rondo/integrators/fused/kernels/wheel_sparse.hpp"
+
+namespace {
+
+constexpr rondo::dynamics::kernels::WheelTable wheel_table() noexcept {
+  return {{{wheel_strip<false, false>, wheel_strip<false, true>},
+           {wheel_strip<true, false>, wheel_strip<true, true>}},
+          wheel_strip_way,
+          {{wheel_rows<false, false>, wheel_rows<false, true>},
+           {wheel_rows<true, false>, wheel_rows<true, true>}},
+          wheel_rows_way};
+}
+
+}  // namespace
