@@ -41,7 +41,8 @@ TEST(Manual, HasTheColumns) {
   rondo::test::expect_in_manual(
       test::source_folder() / "docs" / "results.md",
       {table_of("history.csv", labels_of(history_columns())), table_of("probe", further(probe)),
-       table_of("rim", further(rim)), table_of("crush", further(crush)), table_of("contact.csv", labels_of(contact_columns()))});
+       table_of("rim", further(rim)), table_of("crush", further(crush)),
+       table_of("contact.csv", labels_of(contact_columns()))});
 }
 
 }  // namespace

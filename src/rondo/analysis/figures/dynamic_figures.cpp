@@ -104,10 +104,10 @@ std::vector<double> figures_of(const std::filesystem::path& directory, const Win
     figures.insert(figures.end(), {mean(f), peak(f), deviation(f)});
   }
   const Intervals length = rows.of("contact_length_m");
-  figures.insert(figures.end(), {mean(length), peak(length), mean(rows.of("slip_ratio")),
-                                 mean(rows.of("center_y_m")), rows.rate("center_x_m"),
-                                 rows.rate("angle_rad"), rows.rate("dissipation_friction"),
-                                 rows.rate("loss_impact")});
+  figures.insert(figures.end(),
+                 {mean(length), peak(length), mean(rows.of("slip_ratio")),
+                  mean(rows.of("center_y_m")), rows.rate("center_x_m"), rows.rate("angle_rad"),
+                  rows.rate("dissipation_friction"), rows.rate("loss_impact")});
   add_figures_of_all(directory, figures);
   return figures;
 }
