@@ -58,6 +58,13 @@ def _parser() -> argparse.ArgumentParser:
     film.add_argument("--frames", type=int, help="pictures; default at most 300")
     film.add_argument("--fps", type=int, help="pictures a second; default at most 30")
 
+    wheel = commands.add_parser(
+        "wheel", help="draw height, speeds, slip, forces, torques and energies of a rim that "
+                      "forces move")
+    wheel.add_argument("directory", type=pathlib.Path, help="of `rondo run` of a case with [rim]")
+    wheel.add_argument("-o", "--output", type=pathlib.Path, metavar="FOLDER",
+                       help="where wheel.png and .svg go; default DIRECTORY/figures")
+
     campbell = commands.add_parser("campbell", help="draw the frequencies of a body over its spin")
     campbell.add_argument("directory", type=pathlib.Path, help="of `rondo modes`")
     campbell.add_argument("--frame", choices=(FRAME, "fixed", *OLDER_FRAMES), default=FRAME,
@@ -105,7 +112,7 @@ def _parser() -> argparse.ArgumentParser:
                              help="from this time on")
         command.add_argument("--to", dest="to_time", type=float, metavar="SECONDS",
                              help="up to this time")
-    for command in figures, film, sweep, means:
+    for command in figures, film, wheel, sweep, means:
         command.add_argument("--unfinished", action="store_true",
                              help="also of what has not ended, was interrupted or has failed")
     return parser
@@ -175,6 +182,14 @@ def _means(options: argparse.Namespace) -> None:
         print(_mean_forces(run, options.from_time, options.to_time))
 
 
+def _wheel(options: argparse.Namespace) -> None:
+    from rondo import style
+
+    figure = open_run(options.directory, options.unfinished).plot_wheel()
+    for path in style.save(figure, _folder(options) / "wheel"):
+        print(path)
+
+
 def _campbell(options: argparse.Namespace) -> None:
     from rondo import style
 
@@ -211,7 +226,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
     code: int | None = 0
     commands: dict[str, Callable[[argparse.Namespace], int | None]] = {
         "paper": _paper, "figures": _figures, "animate": _animate, "means": _means,
-        "campbell": _campbell, "sweep": _sweep, "validate": _validate, "validation": _validation}
+        "wheel": _wheel, "campbell": _campbell, "sweep": _sweep, "validate": _validate, "validation": _validation}
     try:
         code = commands[options.command](options)
         sys.stdout.flush()
@@ -226,7 +241,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
         return WRONG
     except OSError as reason:
         # What else writes has said so itself.
-        figures = options.command in ("figures", "campbell", "sweep", "validation")
+        figures = options.command in ("figures", "wheel", "campbell", "sweep", "validation")
         place = reason.filename or (_folder(options) if figures else "output")
         advice = "; choose another -o" if figures else ""
         print(f"rondo: {place}: {reason.strerror or reason}{advice}", file=sys.stderr)

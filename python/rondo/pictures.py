@@ -57,6 +57,12 @@ def _contact_map(run: Run, quantity: str = "pressure", ax: Axes | None = None,
     return plot_contact_map(run, quantity, ax, moving)
 
 
+def _wheel(run: Run) -> Figure:
+    """A wheel on a [rim]: height, speeds, slip, forces, torques, energies over time."""
+    from .plots.wheel import plot_wheel
+    return plot_wheel(run)
+
+
 def _modes_of_run(run: Run, field: str, frame: str = "co-rotating", count: int = 6) -> Figure:
     """The first modes of a POD of this run."""
     return _modes(run.pod(field, frame), count)
@@ -123,6 +129,7 @@ def attach() -> None:
     Run.plot_field, Run.plot_history, Run.plot_energy = _field, _history, _energy
     Run.plot_spectrum, Run.plot_modes, Run.animate = _spectrum, _modes_of_run, _animate
     Run.plot_contact, Run.plot_contact_map = _contact, _contact_map
+    Run.plot_wheel = _wheel
     Pod.plot_spectrum, Pod.plot_modes = _decay, _modes
     Modes.plot_campbell = _campbell
     Sweep.plot_main_effects, Sweep.plot_map = _main_effects, _map

@@ -22,6 +22,18 @@ TREADED = replaced(SMALL, "circumferential", "[disk.tread]\npitches = 12\ndepth 
 IN_THE_AIR = "\n".join(line for line in SMALL.splitlines()
                        if not line.startswith(("[ground]", "profile", "friction")))
 LONG = replaced(SMALL, "end", "end = 500.0").replace("snapshots = 11", "snapshots = 100000")
+# Free to rise and to turn; braked; gravity, so that there is weight beside the load.
+WHEEL = replaced(SMALL, "height", """height = 0.3
+gravity = 9.81
+[rim]
+free = ["height", "angular_velocity"]
+mass = 100.0
+inertia = 1.0
+force_y = [[0.0, 0.0], [0.005, -5.0e4]]
+brake = [[0.0, 0.0], [0.01, 2.0e3]]
+[rim.support.y]
+stiffness = 1.0e5
+damping = 6.0e4""")
 EACH_STEP = ["--set", "output.history_interval=0"]
 TO_CRUSH = ["--set", "analysis.kind=crush", "--set", "analysis.depth=0.02", "--set",
             "analysis.increments=40"]
@@ -34,10 +46,11 @@ def ok(*arguments):
 
 @pytest.fixture(scope="session")
 def runs(tmp_path_factory):
-    """The folder of the runs `smooth` (with three PODs), `treaded`, `crush`, `air`."""
+    """The folder of the runs `smooth` (with three PODs), `treaded`, `crush`, `air`, `wheel`."""
     folder = tmp_path_factory.mktemp("runs")
     for name, text, settings in (("smooth", SMALL, []), ("treaded", TREADED, EACH_STEP),
-                                 ("crush", SMALL, TO_CRUSH), ("air", IN_THE_AIR, EACH_STEP)):
+                                 ("crush", SMALL, TO_CRUSH), ("air", IN_THE_AIR, EACH_STEP),
+                                 ("wheel", WHEEL, [])):
         case = folder / f"{name}.toml"
         case.write_text(text)
         ok("run", case, "-o", folder / name, *settings)
@@ -67,6 +80,12 @@ def crush(runs):
 def air(runs):
     """A run without ground."""
     return runs / "air"
+
+
+@pytest.fixture(scope="session")
+def wheel(runs):
+    """A run on a rim that forces move."""
+    return runs / "wheel"
 
 
 @pytest.fixture(scope="session")

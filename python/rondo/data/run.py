@@ -116,6 +116,7 @@ class Run:
     plot_contact: Callable[..., Axes]
     plot_contact_map: Callable[..., Axes]
     plot_modes: Callable[..., Figure]
+    plot_wheel: Callable[..., Figure]
     animate: Callable[..., pathlib.Path]
 
     def __init__(self, directory: pathlib.Path) -> None:
@@ -163,6 +164,11 @@ class Run:
     @property
     def is_crush(self) -> bool:
         return self.analysis == "crush"
+
+    @property
+    def has_rim(self) -> bool:
+        """Whether the case has a [rim]: the rim is a body with mass, free or held."""
+        return "rim" in self.case
 
     @property
     def time_unit(self) -> str:

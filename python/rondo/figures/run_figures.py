@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""The figures of any run: fields at three times, contact, forces, energies, spectra, modes of its
-PODs."""
+"""The figures of any run: fields at three times, contact, forces, the wheel, energies, spectra,
+modes of its PODs."""
 from __future__ import annotations
 
 import os
@@ -14,6 +14,7 @@ from matplotlib.figure import Figure
 from .. import style
 from ..plots import curves, field, patch
 from ..plots.modes import plot_modes, plot_pod_spectrum
+from ..plots.wheel import plot_wheel
 
 if TYPE_CHECKING:
     from ..data.run import Run
@@ -40,6 +41,8 @@ def draw_run(run: Run, folder: str | os.PathLike[str]) -> list[pathlib.Path]:
     history = run.history
     if len(history["time_s"]):
         keep("energy", curves.plot_energy(run).figure)
+        if run.has_rim:
+            keep("wheel", plot_wheel(run))
         if "ground" in run.case:
             keep("forces", curves.plot_history(run).figure)
             half = 0.5 * history["time_s"][-1]  # what came before is the start, not the course

@@ -5,13 +5,14 @@ from __future__ import annotations
 import os
 import pathlib
 from collections.abc import Iterable, Iterator
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import matplotlib
 import numpy as np
 from matplotlib.artist import Artist
 from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.figure import Figure
+from matplotlib.lines import Line2D
 from matplotlib.ticker import MaxNLocator
 
 from .. import style
@@ -36,6 +37,8 @@ SIZES = {".mp4": (960, 540), ".gif": (640, 360)}  # px, largest by default
 SMALLEST = 240  # px, width: labels and colour bar take 200 of them
 FOLLOW_BEYOND = 6.0  # outer radii that the center moves: beyond, the picture moves with it
 LEVEL = 0.5  # of its height that a picture that follows the body does not follow upwards
+HUB = 3.0  # pt, dot at the hub of a rim that forces move
+START: dict[str, Any] = {"color": style.VERMILLION, "linewidth": 0.6, "linestyle": (0, (6, 3))}
 SIDE, TOP, BOTTOM = 1.15, 1.15, 1.45  # outer radii from the center to the edges of the picture
 AHEAD = 1.8  # the same to both sides where the picture moves with the body
 LEFT, RIGHT, BELOW, ABOVE = 0.62, 0.95, 0.45, 0.3  # in, about the picture: labels, bar, title
@@ -58,7 +61,8 @@ def animate(run: Run, path: str | os.PathLike[str], quantity: str = "displacemen
     pictures a second; by default such that a film of few pictures lasts about 10 s, at most 30.
     limits: of the colours, in the unit of the colour bar; by default those of the whole film.
     follow: the picture moves along with the body, or the center of mass of bodies that nothing
-    holds; by default where a held body goes far. width: [px]. deformation: factor on it, as of
+    holds; by default where a held body goes far. With a [rim] it never moves up and down: ground and
+    the hub's first height stand still there, and the title has the height. width: [px]. deformation: factor on it, as of
     plot_field."""
     path = pathlib.Path(path)
     ending = path.suffix.lower()
@@ -144,7 +148,8 @@ def _views(run: Run, chosen: np.ndarray, follow: bool, deformation: float) -> tu
         below, above = run.outer_radius * np.array([[side, bottom], [side, TOP]])
     low, high = centers - below, centers + above
     for axis in range(2):
-        level = axis == 1 and np.ptp(centers[:, 1]) < LEVEL * (below + above)[1]
+        rises = np.ptp(centers[:, 1]) >= LEVEL * (below + above)[1]
+        level = axis == 1 and (run.has_rim or not rises)
         if level or not follow:
             low[:, axis], high[:, axis] = low[:, axis].min(), high[:, axis].max()
     return low, high
@@ -178,6 +183,7 @@ class _Film:
         inches = self.ax.figure.get_figheight() - BELOW - ABOVE  # of size[1]
         # Of what the rim holds its mark shows that it turns; the mesh takes half of the time.
         with_mesh = run.mesh.free.any() and inches * run.outer_radius / size[1] > SMALL
+        self.height = self._draw_height() if run.has_rim else None
         self.body = draw_body(self.ax, run, int(chosen[0]), quantity, "fixed", deformation, limits,
                               0.1 if with_mesh else 0.0)
         self.contact = draw_contact(self.ax, run, int(chosen[0]), deformation=deformation)
@@ -190,14 +196,27 @@ class _Film:
     def show(self, frame: int) -> None:
         index = int(self.chosen[frame])
         self.contact.update(index, self.body.update(index))
-        self.ax.set_title(snapshot_title(self.run, index, self.deformation))
+        title = snapshot_title(self.run, index, self.deformation)
+        if self.height is not None:
+            x, y = self.run.center[index]
+            self.height.set_data([x], [y])
+            title += f", hub at {1e3 * y:.1f} mm"
+        self.ax.set_title(title)
         self.ax.set_xlim(self.low[frame, 0], self.high[frame, 0])
         self.ax.set_ylim(self.low[frame, 1], self.high[frame, 1])
+
+    def _draw_height(self) -> Line2D:
+        """A dot at the hub, and a line where it was at first: the height is then seen to change."""
+        self.ax.axhline(float(self.run.center[self.chosen[0], 1]), zorder=1.2, **START)
+        dot, = self.ax.plot([], [], "o", color=style.OUTLINE, markersize=HUB, zorder=1.3)
+        return dot
 
     def _moving(self) -> list[Artist]:
         """What is not the same in all pictures, in the order of drawing."""
         found: list[Artist] = [self.body.cells, self.body.edge, *self.contact.lines,
                                *self.contact.dots, self.ax.title]
+        if self.height is not None:
+            found.append(self.height)
         if self.body.rim is not None:
             found += [self.body.rim.disk, self.body.rim.line, self.body.rim.mark]
         axes = [axis for axis, moves in zip((self.ax.xaxis, self.ax.yaxis), self.moves) if moves]

@@ -30,6 +30,13 @@ TERMS: dict[str, tuple[int, str, dict[str, Any]]] = {
     "dissipation_stiffness": (-1, "stiffness damping",
                               {"color": style.ORANGE, "linestyle": (0, (4, 1, 1, 1, 1, 1))}),
     "work_scheme": (1, "created by the scheme", {"color": "0.5", "linestyle": (0, (1, 1))}),
+    # Of a [rim] only: then there is no work of a frame, of a rim against the ground.
+    "work_gravity": (1, "work of gravity", {"color": style.BLUE, "linestyle": "--"}),
+    "work_rim_load": (1, "work of the load", {"color": style.SKY, "linestyle": "-"}),
+    "work_torque": (1, "work of the torque", {"color": style.SKY, "linestyle": "-."}),
+    "work_held": (1, "work of what holds the rim", {"color": style.BLUE, "linestyle": "-"}),
+    "dissipation_brake": (-1, "brake", {"color": style.VERMILLION, "linestyle": "-"}),
+    "dissipation_support": (-1, "dashpots of the rim", {"color": "0.5", "linestyle": "-"}),
 }
 
 PITCHES: dict[str, Any] = {"color": "0.75", "linewidth": 0.8}
@@ -112,7 +119,7 @@ def plot_energy(run: Run, ax: Axes | None = None) -> Axes:
     factor, unit = readable(size, "J/m")
     ax.axhline(0.0, color="0.8", linewidth=0.6, zorder=0)
     ax.plot(x, total * factor, color=style.BLACK, linewidth=1.4, zorder=3,
-            label="energy: kinetic and strain")
+            label=f"energy: kinetic and strain{', with the rim' if run.has_rim else ''}")
     for name, curve in drawn.items():
         ax.plot(x, curve * factor, label=_said(run, name), **TERMS[name][2])
     ax.set_ylabel(f"energy ({unit})")

@@ -15,6 +15,9 @@ LABELS = {  # of columns, where their name does not say it
     "penetration_max_m": "largest penetration", "kinetic": "kinetic energy",
     "strain": "strain energy", "depth_m": "depth", "pressure_max_pa": "largest pressure",
     "shear_max_pa": "largest shear",
+    "spin_rad_s": "spin", "speed_x": "speed of the hub, x", "speed_y": "speed of the hub, y",
+    "hub_force_x": "hub force, x", "hub_force_y": "hub force, y", "hub_torque": "hub torque",
+    "kinetic_rim": "kinetic energy of the rim", "support_energy": "energy of the supports",
 }
 CONSTANT = 1e-6  # span over size of a column that does not change
 LEVEL = 0.01  # least height of the axis on both sides of such a one, in its unit

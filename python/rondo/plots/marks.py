@@ -42,12 +42,16 @@ def edge_displacement(run: Run) -> Array:
 
 
 def energy(run: Run) -> Array:
-    """(rows of the history,) J/m: kinetic and strain energy together."""
-    return run.history["kinetic"] + run.history["strain"]
+    """(rows of the history,) J/m: kinetic and strain energy together, with those of a [rim]."""
+    of_rim = [run.history[name] for name in ("kinetic_rim", "support_energy")
+              if name in run.history]
+    return run.history["kinetic"] + run.history["strain"] + sum(of_rim)
 
 
+# Runs of earlier versions have no work_load, runs without [rim] none of those after work_scheme.
 WORKS = ("work_frame", "work_contact", "work_load", "dissipation_mass", "dissipation_stiffness",
-         "work_scheme")  # runs of earlier versions have no work_load
+         "work_scheme", "work_gravity", "work_rim_load", "work_torque", "work_held",
+         "dissipation_brake", "dissipation_support")
 
 
 def relative_residual(run: Run) -> Array:
