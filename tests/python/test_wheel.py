@@ -46,9 +46,9 @@ def test_the_panels_are_the_columns(wheel):
     np.testing.assert_allclose(speed["of the tread, ωR"].get_ydata(), 0.3 * run.history["spin_rad_s"])
     np.testing.assert_allclose(speed["of the hub, V"].get_ydata(), 10.0)
     torque = named(shown["torque"])
-    assert list(torque) == ["of the ground", "brake"]
+    assert list(torque) == ["of the ground", "brake, at most"]
     t = run.history["time_s"]
-    np.testing.assert_allclose(torque["brake"].get_ydata(), -2.0 * np.minimum(t / 0.01, 1))  # kN·m/m
+    np.testing.assert_allclose(torque["brake, at most"].get_ydata(), -2.0 * np.minimum(t / 0.01, 1))  # kN·m/m
     assert "kN·m/m" in shown["torque"].get_ylabel()
     assert list(named(shown["energy"])) == ["kinetic, of the rim", "springs", "work of what holds",
                                             "into the brake", "into dashpots"]
@@ -82,9 +82,12 @@ def test_torques_are_signed_as_the_spin(wheel):
     run = rondo.open(wheel)
     of = wheels._torques(run)
     late = run.history["time_s"] > 0.015
-    assert of["brake"][late].max() < 0 < of["of the ground"][late].mean()
+    assert of["brake, at most"][late].max() < 0 < of["of the ground"][late].mean()
     run.history["spin_rad_s"][:] *= -1
-    assert wheels._torques(run)["brake"][late].min() > 0
+    assert wheels._torques(run)["brake, at most"][late].min() > 0
+    run.history["spin_rad_s"][-5:] = 0.0  # locked: it still holds
+    assert wheels._torques(run)["brake, at most"][late].min() > 0
+    assert wheels._sense(np.array([0.0, 3.0, 0.0, -2.0, 0.0])).tolist() == [1, 1, 1, -1, -1]
 
 
 def test_other_runs_are_refused(smooth, crush, tmp_path):

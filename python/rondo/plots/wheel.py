@@ -115,9 +115,16 @@ def _torques(run: Run) -> dict[str, Array]:
     """> 0 drives, as the spin has it."""
     held = "angular_velocity" not in run.case["rim"]["free"]
     hub = {"that holds": run.history["hub_torque"]} if held else {}
-    sense = np.sign(run.history["spin_rad_s"])
+    brake = -_sense(run.history["spin_rad_s"]) * given(run, "brake")
     ground = {"of the ground": 0.0 - run.history["torque"]} if "ground" in run.case else {}
-    return ground | hub | _seen({"given": given(run, "torque"), "brake": -sense * given(run, "brake")})
+    return ground | hub | _seen({"given": given(run, "torque"), "brake, at most": brake})
+
+
+def _sense(spin: Array) -> Array:
+    """(rows,) 1, -1: the way the rim turns, or turned before it stood; before it ever did, 1."""
+    rows = np.arange(len(spin))
+    last = np.maximum.accumulate(np.where(spin != 0, rows, -1))
+    return np.where(last < 0, 1.0, np.sign(spin[last]))
 
 
 def _seen(curves: dict[str, Array]) -> dict[str, Array]:
