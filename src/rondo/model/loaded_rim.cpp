@@ -162,7 +162,7 @@ std::vector<double> LoadedRim::save() const {
 }
 
 void LoadedRim::restore(long long step, std::span<const double> s) {
-  RONDO_DEMAND(s.size() == 12 && step >= 0, s.size(), step);
+  RONDO_DEMAND(s.size() == n_numbers && step >= 0, s.size(), step);
   step_ = step;
   x_ = {s[0], s[1]};
   y_ = {s[2], s[3]};

@@ -48,6 +48,8 @@ class LoadedRim {
   [[nodiscard]] const StepEnergy& energy() const noexcept { return energy_; }
   [[nodiscard]] const RimReport& report() const noexcept { return report_; }
 
+  static constexpr std::size_t n_numbers = 12;  ///< of what is saved
+
   /// Before move(): what another one of the same model goes on with, to the same bits.
   [[nodiscard]] std::vector<double> save() const;
   /// @param step the last one made. @pre `saved` is of save()

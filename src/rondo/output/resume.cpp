@@ -16,6 +16,7 @@
 #include "rondo/core/error.hpp"
 #include "rondo/io/directory.hpp"
 #include "rondo/io/files.hpp"
+#include "rondo/model/loaded_rim.hpp"
 #include "rondo/output/run_files.hpp"
 #include "rondo/output/snapshot_schedule.hpp"
 
@@ -25,6 +26,7 @@ namespace {
 constexpr const char* or_begin_again = "; or --overwrite to begin again";
 
 constexpr auto first_of = [](const auto& pair) { return pair.first; };
+constexpr auto is_finite = [](double number) { return std::isfinite(number); };
 
 bool same(const CaseValue& a, const CaseValue& b) {
   return a.type == b.type && a.number == b.number && a.boolean == b.boolean && a.text == b.text &&
@@ -99,10 +101,13 @@ bool fits(const dynamics::SavedState& s, const Setup& setup) {
   const dynamics::Model& model = setup.model;
   const std::size_t n = model.n_nodes(), n_free = model.free_bodies.size();
   const bool general = is_general(model);
-  const std::size_t force = general || model.stiffness_damping > 0.0 ? n : 0;
+  const bool rim = model.rim.has_value();
+  const std::size_t force = general || rim || model.stiffness_damping > 0.0 ? n : 0;
+  const std::size_t rim_numbers = rim ? dynamics::LoadedRim::n_numbers : 0;
   return s.u.size() == n && s.v.size() == n && s.force.size() == force &&
          s.gradient.size() == (general ? n : 0) && s.energy.size() == n_free &&
-         s.poses.size() == n_free && s.rim.empty() && s.step > 0 &&
+         s.poses.size() == n_free && s.u_before.size() == (rim ? n : 0) &&
+         s.rim.size() == rim_numbers && std::ranges::all_of(s.rim, is_finite) && s.step > 0 &&
          std::ranges::is_sorted(s.impulses, {}, first_of);
 }
 
