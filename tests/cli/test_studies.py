@@ -6,7 +6,7 @@ import unittest
 
 import numpy as np
 
-from program import ProgramTest, ROOT, run
+from program import ProgramTest, ROOT, history, run
 
 RADIUS = 0.3  # m
 
@@ -30,6 +30,7 @@ class Traction(ProgramTest):
     def test_against_carter(self):
         t = swept(self.folder / "out", "traction")
         self.assertLess(t["energy_residual_relative"].max(), 1e-12)
+        np.testing.assert_allclose(t["force_y_mean"], 1.9e5, rtol=1.5e-4)  # the load
         print("\n| μ | slip of free rolling | slope | 2R/a | traction at −6 %, +6 % | largest distance "
               "from Carter |\n|---|---|---|---|---|---|")
         for friction, slope_within, curve_within in ((0.1, 0.26, 0.26), (0.2, 0.06, 0.12),
@@ -53,6 +54,32 @@ class Traction(ProgramTest):
             if friction <= 0.2:  # it slides as a whole at both ends
                 self.assertAlmostEqual(share[0] / friction, -1, delta=1e-9)
                 self.assertAlmostEqual(share[-1] / friction, 1, delta=1e-9)
+
+
+class LoadDeflection(ProgramTest):
+    def test_against_the_crush(self):
+        """Nodes come to rest up to a step's travel inside the ground: some 0.01 mm."""
+        t = swept(self.folder / "out", "load-deflection")
+        np.testing.assert_allclose(t["force_y_mean"], -t["rim.force_y"], rtol=1e-8)
+        done = run("run", ROOT / "cases" / "crush-smooth.toml", "-o", self.folder / "crush", "--quiet",
+                   "--set", "ground.friction=0")
+        self.assertEqual(done.returncode, 0, done.stderr)
+        crush = history(self.folder / "crush")
+        for k, force in enumerate(t["force_y_mean"], start=1):
+            height = history(self.folder / "out" / "runs" / f"{k:04d}")["center_y_m"][-1]
+            deeper = RADIUS - height - np.interp(force, crush["force_y"], crush["depth_m"])
+            self.assertTrue(0 <= deeper < 2e-5, (force, deeper))
+
+
+class Cleat(ProgramTest):
+    def test_over_speed(self):
+        t = swept(self.folder / "out", "cleat")
+        self.assertLess(t["energy_residual_relative"].max(), 1e-12)
+        np.testing.assert_allclose(t["force_y_mean"], 1.5e5, rtol=2e-3)  # the load, in the mean
+        peak, speed = t["force_y_peak"], t["motion.speed"]
+        self.assertEqual(speed[np.argmax(peak)], 10.0)
+        self.assertAlmostEqual(peak.max() / 1.5e5, 2.46, delta=0.02)
+        self.assertTrue((np.diff(peak[speed <= 10]) > 0).all() and (np.diff(peak[speed >= 10]) < 0).all())
 
 
 class Tread(ProgramTest):
