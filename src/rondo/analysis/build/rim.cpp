@@ -128,7 +128,8 @@ dynamics::CriticalStep step_with_rim(const dynamics::Model& model,
   const auto product = [&](std::span<const Vec2> u, std::span<Vec2> out) {
     apply_stiffness(model, u, out);
   };
-  const auto frequencies = dynamics::rim_frequencies(product, model.reference, model.free, dofs);
+  const auto frequencies =
+      dynamics::rim_frequencies(product, model.mass, model.reference, model.free, dofs);
   return model.sector ? dynamics::with_rim(held, *model.sector, model.mass, frequencies, damping)
                       : dynamics::with_rim(held, frequencies, damping);
 }

@@ -22,25 +22,35 @@ struct RimDofs {
   std::array<double, 2> spring{};  ///< stiffness of the supports along x and y [N/m²]
 };
 
-/// Squares of frequencies of the rim on the body held; 0 where it is held [1/s²].
-struct RimFrequencies {
+/// Largest eigenvalues of D^-½ Gᵀ A G D^-½, D the inertia of the rim; 0 where it is held.
+struct RimValues {
   double translation = 0.0;  ///< the larger one of x and y
   double rotation = 0.0;     ///< of θ
   double largest = 0.0;      ///< of all three, which couple on a body without symmetry
 };
 
+struct RimFrequencies {
+  RimValues stiffness;  ///< A = K and the springs: squares of frequencies on the body held [1/s²]
+  /// A = M of the free nodes. α damps velocities relative to the rim, which moves against the body
+  /// the faster the lighter it is: by so many α more [-]
+  RimValues mass;
+};
+
 /// out = K u, both (n); clamped nodes give 0.
 using StiffnessProduct = std::function<void(std::span<const Vec2> u, std::span<Vec2> out)>;
 
-/// Of Gᵀ K G and the springs, G = (e_x, e_y, JX) on the free nodes. @param reference (n) X [m]
-RimFrequencies rim_frequencies(const StiffnessProduct& k, std::span<const Vec2> reference,
-                               std::span<const int> free, const RimDofs& rim);
+/// G = (e_x, e_y, JX) on the free nodes. @param mass (n) [kg/m], reference (n) X [m]
+RimFrequencies rim_frequencies(const StiffnessProduct& k, std::span<const double> mass,
+                               std::span<const Vec2> reference, std::span<const int> free,
+                               const RimDofs& rim);
 
-/// ω̂² = ω_c² + the largest of the rim, on any mesh. @param held the step with the rim held
+/// ω̂² = ω_c² + the largest of the rim, α̂ = α (1 + that of the masses), on any mesh: the bound holds
+/// for K and for K Δt/2 + α M alike. @param held the step with the rim held
 CriticalStep with_rim(const CriticalStep& held, const RimFrequencies& rim, LaggedDamping damping);
 
 /// On a body of equal sectors translations meet harmonic 1 alone and the rotation harmonic 0:
-/// ω̂² = max(ω_c², ω_{c,1}² + k_x/M, ω_{c,0}² + k_θ/I). @param mass (n) of every node of the mesh
+/// ω̂² = max(ω_c², ω_{c,1}² + k_x/M, ω_{c,0}² + k_θ/I), the step the least of those of the three,
+/// each with its α̂. @param mass (n) of every node of the mesh
 CriticalStep with_rim(const CriticalStep& held, const fem::SectorStiffness& k,
                       std::span<const double> mass, const RimFrequencies& rim,
                       LaggedDamping damping);
