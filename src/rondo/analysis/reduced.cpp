@@ -58,9 +58,6 @@ void check_case(const Case& c, const RunOptions& options, const Setup& setup) {
                         "not a factor for the step of the full run", "a number above 0, e.g. 20");
   demand_step_name(options.reduced_step);
   demand_snapshot_name(options.reduced_snapshots);
-  if (c.rim)
-    throw case_error(c, "rim", "a reduced run moves its rim as [motion] says, and by no force",
-                     "no [rim], or a run without --reduced");
   if (c.time.scheme != Scheme::symplectic)
     throw case_error(c, "time.scheme", "a reduced run has a scheme of its own",
                      "\"symplectic\", which it stands for");
@@ -107,6 +104,20 @@ void check_impacts(const Case& c, const ReducedRun& run) {
                    "explicit steps",
                    "\"moreau\", or a model of rondo reduce --contact nodes and --reduced-step "
                    "explicit");
+}
+
+/// A rim that moves by itself stands beside the modes of what is seen from the fixed frame.
+void take_rim(const Case& c, const RunOptions& options, const Setup& setup, ReducedRun& run) {
+  if (!c.rim) return;
+  if (run.scheme != rom::StepScheme::midpoint)
+    throw request_error("--reduced-step", options.reduced_step,
+                        "with a [rim] the lines of the rim are part of the implicit step",
+                        "midpoint, or a case without [rim]");
+  if (run.file.model.frame != rom::ModelFrame::rectified)
+    throw request_error("--reduced", options.reduced.string(),
+                        "is a model of the co-rotating frame, which knows no [rim]",
+                        "a model of the rectified frame (rondo reduce without --frame)");
+  run.file.model.rim = rom::make_rim_modes(setup.mesh, setup.model.mass, run.file.model);
 }
 
 /// A thousandth of the range, of the value or of the scale is no news.
@@ -167,7 +178,7 @@ void warn_of_step(const Case& c, const Setup& setup, ReducedRun& run) {
 double step_of(const Case& c, const Setup& setup, const ReducedRun& run) {
   const double dt = run.full_step * run.step_factor;
   const dynamics::Table& spin = c.motion.angular_velocity;
-  const bool phases = c.ground && run.file.model.form == rom::ContactForm::nodes &&
+  const bool phases = c.ground && !(c.rim && c.rim->free_spin) && run.file.model.form == rom::ContactForm::nodes &&
                       run.file.model.frame == rom::ModelFrame::rectified;
   if (!phases || spin.points().size() != 1 || spin.largest() == 0.0) return dt;
   const double sector = 2.0 * std::numbers::pi / setup.mesh.n_sectors / spin.largest();
@@ -217,6 +228,7 @@ ReducedRun prepare_reduced(const Case& c, const RunOptions& options, Setup& setu
   for (const auto& [name, lifts] : snapshot_names)
     if (options.reduced_snapshots == name) run.lifts = lifts;
   check_impacts(c, run);
+  take_rim(c, options, setup, run);
   run.step_factor = options.step_factor;
   run.full_step = setup.model.dt;
   setup.model.dt = step_of(c, setup, run);

@@ -134,6 +134,25 @@ void ContactSolver::find(const FreeStep& step, bool next) {
   }
 }
 
+void ContactSolver::find_rim_responses(const FreeStep& step) {
+  rim_.clear();
+  if (!step.rim) return;
+  const ContactTable& t = *end_.table;
+  for (const PointContact& c : contacts_) {
+    const Vec2 arm = t.point(c.point) + t.at(c.point, *step.end.q);
+    const Vec2 push_arm = t.point(c.point) + t.at(c.point, *step.q_arm);
+    rim_.push_back(point_response(*step.rim, t, c.point, arm, push_arm, step.spin));
+  }
+}
+
+DelassusPair ContactSolver::pair_of(std::size_t at, std::size_t from) const {
+  DelassusPair w = end_.table->pair(contacts_[at].point, contacts_[from].point);
+  if (rim_.empty()) return w;
+  w.normal += rim_[at].normal * rim_[from].push;
+  w.tangential += rim_[at].tangential * rim_[from].push;
+  return w;
+}
+
 void ContactSolver::make_problem(const FreeStep& step, const contact::Law& law,
                                  const StepMatrices& matrices) {
   const std::size_t n = contacts_.size();
@@ -173,7 +192,7 @@ void ContactSolver::make_problem(const FreeStep& step, const contact::Law& law,
       p.bounce[i] = contact::restitution_shift(law, w, w);
     }
     for (std::size_t j = 0; j < n; ++j) {
-      const DelassusPair w = now.pair(c.point, contacts_[j].point);
+      const DelassusPair w = pair_of(i, j);
       const Vec2 from = contacts_[j].normal, side = turn90(from);
       p.column[i * n + j] = static_cast<int>(j);
       const Vec2 n_back = now.stands_still() ? normal : back_turn * normal;
@@ -199,6 +218,7 @@ ContactOutcome ContactSolver::solve(const FreeStep& step, const contact::Law& la
   ContactOutcome outcome;
   if (contacts_.empty()) return outcome;
   end_.table->prepare(points_, matrices);
+  find_rim_responses(step);
   make_problem(step, law, matrices);
   const contact::CoupledResult result =
       contact::solve_coupled(problem_, limits_, impulse_, status_, work_);

@@ -8,6 +8,7 @@
 #include "rondo/contact/coupled/coupled.hpp"
 #include "rondo/contact/ground.hpp"
 #include "rondo/rom/contact_table.hpp"
+#include "rondo/rom/rim_response.hpp"
 
 namespace rondo::rom {
 
@@ -28,6 +29,8 @@ struct FreeStep {
   double dt = 0.0;    ///< [s]
   double spin = 0.0;  ///< s, of the fields at places that stand still [rad/s]
   BodyState before, end;
+  const RimResponse* rim = nullptr;  ///< of a rim that moves by itself; none: it is driven
+  const VectorXd* q_arm = nullptr;   ///< (r) of the arms of impulses on such a rim
 };
 
 /// A point of the rim against a facet.
@@ -87,6 +90,8 @@ class ContactSolver {
   /// @param next by the gaps one step further on, which the velocities lead to
   void find(const FreeStep& step, bool next);
   void make_problem(const FreeStep& step, const contact::Law& law, const StepMatrices& matrices);
+  void find_rim_responses(const FreeStep& step);
+  [[nodiscard]] DelassusPair pair_of(std::size_t at, std::size_t from) const;
   [[nodiscard]] Vec2 opening(const BodyState& body, const Points& points, int point,
                              double spin) const;
   [[nodiscard]] Vec2 material_velocity(const BodyState& body, const Points& points,
@@ -105,6 +110,7 @@ class ContactSolver {
   std::vector<PointContact> contacts_;
   std::vector<Vec2> warm_;  ///< by material: impulses of the step before             [N·s/m]
   std::vector<int> points_;
+  std::vector<PointResponse> rim_;  ///< of the contacts; none: a driven rim
   contact::CoupledProblem problem_;
   contact::CoupledWorkspace work_;
   std::vector<Vec2> impulse_;

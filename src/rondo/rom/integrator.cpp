@@ -15,16 +15,6 @@ using dynamics::ContactReport;
 using dynamics::StepReport;
 using pod::multiply;
 
-/// The frame over one step. The midpoint rule sees its means over the step, central differences
-/// what it is at the end.
-struct ReducedIntegrator::Motion {
-  double dt, carry, spin, spin_rate;
-  double turn;  ///< of the step to come, central differences [rad]
-  double angle_before, angle;
-  Vec2 center_before, center, velocity_before, velocity;
-  Vec2 pull;  ///< c̈ - g, frame of the model [m/s2]
-};
-
 namespace {
 
 using Clock = std::chrono::steady_clock;
@@ -58,6 +48,7 @@ ReducedIntegrator::ReducedIntegrator(const IntegratorInput& input, const dynamic
        {&q_end_, &p_end_, &carried_, &q_mid_, &p_mid_, &load_, &push_, &work_, &other_})
     v->setZero(q_.size());
   p_mid_ = p_;
+  if (input.model.rim) rim_ = std::make_unique<MovingRim>(input.model, input.reduced);
   if (input.scheme == StepScheme::central) start_central();
   ledger_.compare(energy());
 }
@@ -123,7 +114,7 @@ void ReducedIntegrator::set_load(const Motion& m) {
 void ReducedIntegrator::use_matrices(const Motion& m) {
   const dynamics::Model& model = input_.model;
   const StepMatrixKey key{input_.scheme, m.dt,   model.mass_damping, model.stiffness_damping,
-                          m.carry,       m.spin, m.spin_rate};
+                          m.carry,       m.spin, m.spin_rate,        rim_ != nullptr};
   if (matrices_ && matrices_->key() == key) return;
   const auto begin = Clock::now();
   matrices_ = std::make_unique<StepMatrices>(input_.reduced, key);
@@ -134,6 +125,16 @@ void ReducedIntegrator::use_matrices(const Motion& m) {
 
 void ReducedIntegrator::step(StepReport& report) {
   const auto begin = Clock::now();
+  if (rim_)
+    step_on_rim(report);
+  else
+    step_driven(report);
+  const double seconds = seconds_since(begin);
+  input_.figures.wall_s += seconds;
+  input_.figures.slowest_step_s = std::max(input_.figures.slowest_step_s, seconds);
+}
+
+void ReducedIntegrator::step_driven(StepReport& report) {
   const Motion m = motion_of_step();
   use_matrices(m);
   set_load(m);
@@ -146,9 +147,6 @@ void ReducedIntegrator::step(StepReport& report) {
   report.step = n_;
   report.frame = frame_;
   balance(m, report);
-  const double seconds = seconds_since(begin);
-  input_.figures.wall_s += seconds;
-  input_.figures.slowest_step_s = std::max(input_.figures.slowest_step_s, seconds);
 }
 
 void ReducedIntegrator::solve_contact(const Motion& m, ContactReport& report) {
@@ -174,7 +172,11 @@ void ReducedIntegrator::solve_contact(const Motion& m, ContactReport& report) {
       contact_->table().add_push(c.point, from_frame(c.normal, c.impulse), push_);
     matrices_->add_response(push_, q_end_, p_end_);
     count_solver(outcome, report);
-    count_contacts(m, report);
+    find_middle();
+    const Vec2 moving = input_.scheme == StepScheme::central
+                            ? 0.5 * (m.velocity_before + m.velocity)
+                            : (m.center - m.center_before) / m.dt;
+    count_contacts(m, {conj(contact_->frame_rotation(m.angle)) * moving, q_mid_}, report);
   }
   input_.figures.contact_wall_s += seconds_since(begin);
 }
@@ -205,18 +207,15 @@ void ReducedIntegrator::find_middle() {
 }
 
 /// Works are those of the velocity that the ledger is in: the mean of before and after the push.
-void ReducedIntegrator::count_contacts(const Motion& m, ContactReport& report) {
-  const bool central = input_.scheme == StepScheme::central;
-  find_middle();
+void ReducedIntegrator::count_contacts(const Motion& m, const Carrier& carrier,
+                                       ContactReport& report) {
   const Complex turned = contact_->frame_rotation(m.angle);
-  const Vec2 moving =
-      central ? 0.5 * (m.velocity_before + m.velocity) : (m.center - m.center_before) / m.dt;
   const ContactTable& table = contact_->table();
   for (const PointContact& c : contact_->contacts()) {
     const Vec2 impulse = from_frame(c.normal, c.impulse);
     const Vec2 place = table.point(c.point) + table.at(c.point, q_end_);
-    const Vec2 arm = table.point(c.point) + table.at(c.point, q_mid_);
-    const Vec2 velocity = conj(turned) * moving + m.spin * turn90(arm) + table.at(c.point, p_mid_);
+    const Vec2 arm = table.point(c.point) + table.at(c.point, carrier.arm);
+    const Vec2 velocity = carrier.velocity + m.spin * turn90(arm) + table.at(c.point, p_mid_);
     report.impulse += turned * impulse;
     report.angular_impulse += cross(place, impulse);
     const double gap = input_.model.contact->ground.distance(m.center + turned * place);
@@ -238,7 +237,10 @@ dynamics::StepEnergy ReducedIntegrator::energy() {
   other_ = q_;
   if (input_.scheme == StepScheme::central) other_ += input_.model.dt * p_;
   multiply(input_.reduced.stiffness, other_, work_);
-  e.kinetic = 0.5 * p_.squaredNorm();
+  if (rim_)
+    e = rim_->energy(q_, p_);
+  else
+    e.kinetic = 0.5 * p_.squaredNorm();
   e.strain = 0.5 * q_.dot(work_);
   return e;
 }
@@ -331,6 +333,7 @@ void ReducedIntegrator::fill_contacts(double angle,
 }
 
 double ReducedIntegrator::state_velocity_angle() const noexcept {
+  if (rim_) return frame_.angle - 0.5 * frame_.turn_before;
   if (input_.scheme == StepScheme::central) return frame_.angle;
   return input_.model.motion.angle(frame_.time - 0.5 * input_.model.dt);
 }

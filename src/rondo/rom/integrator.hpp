@@ -12,6 +12,7 @@
 #include "rondo/core/blas_threads.hpp"
 #include "rondo/model/integrator.hpp"
 #include "rondo/rom/contact_problem.hpp"
+#include "rondo/rom/moving_rim.hpp"
 
 namespace rondo::rom {
 
@@ -70,8 +71,22 @@ class ReducedIntegrator final : public dynamics::Integrator {
   void lift(dynamics::State& state) const noexcept;
 
  private:
-  struct Motion;
+  /// The frame over one step. The midpoint rule sees its means over the step, central differences
+  /// what it is at the end.
+  struct Motion {
+    double dt, carry, spin, spin_rate;
+    double turn;  ///< of the step to come, central differences [rad]
+    double angle_before, angle;
+    Vec2 center_before, center, velocity_before, velocity;
+    Vec2 pull;  ///< c̈ - g, frame of the model [m/s2]
+  };
+  /// Rigid part of what contact points of the material move with in a step.
+  struct Carrier {
+    Vec2 velocity;        ///< ċ, frame of the model [m/s]
+    const VectorXd& arm;  ///< (r) displacement in the arms of s
+  };
   void step(dynamics::StepReport& report);
+  void step_driven(dynamics::StepReport& report);
   void start_central();
   [[nodiscard]] Motion motion_of_step() const;
   void set_load(const Motion& motion);
@@ -79,9 +94,14 @@ class ReducedIntegrator final : public dynamics::Integrator {
   void solve_contact(const Motion& motion, dynamics::ContactReport& report);
   void find_middle();
   void count_solver(const ContactOutcome& outcome, dynamics::ContactReport& report);
-  void count_contacts(const Motion& motion, dynamics::ContactReport& report);
+  void count_contacts(const Motion& motion, const Carrier& carrier,
+                      dynamics::ContactReport& report);
   void balance(const Motion& motion, dynamics::StepReport& report);
   [[nodiscard]] dynamics::StepEnergy energy();
+  // On a rim that moves by itself (integrator_rim.cpp).
+  void step_on_rim(dynamics::StepReport& report);
+  void press_on_rim(dynamics::ContactReport& report);
+  void balance_on_rim(dynamics::StepReport& report);
   void fill(dynamics::State& state);
   void fill_contacts(double angle, std::vector<dynamics::ActiveContact>& active) const;
 
@@ -92,6 +112,7 @@ class ReducedIntegrator final : public dynamics::Integrator {
   std::optional<rom::BoundaryLift> boundary_lift_;  ///< none: states are lifted whole
   std::unique_ptr<ContactSolver> contact_;          ///< none: no ground
   std::unique_ptr<StepMatrices> matrices_;
+  std::unique_ptr<MovingRim> rim_;  ///< none: [motion] drives the rim
   dynamics::Ledger ledger_;
   long long n_ = 0;  ///< steps made
   VectorXd q_, p_;   ///< (r) at the end of the last step; central: p half a step later

@@ -4,6 +4,7 @@
 #pragma once
 #include <Eigen/Core>
 #include <functional>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -11,6 +12,7 @@
 #include "rondo/mesh/mesh.hpp"
 #include "rondo/pod/rectify.hpp"
 #include "rondo/rom/contact_rows.hpp"
+#include "rondo/rom/rim_modes.hpp"
 
 namespace rondo::rom {
 
@@ -36,6 +38,7 @@ struct ReducedModel {
   Eigen::MatrixXd weights;  ///< (sectors, m) of the places in the points that stand still
   ContactRows contact;      ///< of these points; none where the points are nodes
   int n_sectors = 0;
+  std::optional<RimModes> rim;  ///< where a rim moves by itself: for the caller to make
 
   [[nodiscard]] Eigen::Index size() const noexcept { return basis.cols(); }
 };

@@ -22,8 +22,9 @@ MatrixXd product(const MatrixXd& a, const MatrixXd& b) {
   return c;
 }
 
-/// L = K - s² + ṡJ.
+/// L = K - s² + ṡJ; with a rim that moves by itself K + s² J D.
 MatrixXd restoring(const rom::ReducedModel& m, const StepMatrixKey& k) {
+  if (k.moving_rim) return m.stiffness + k.spin * k.spin * m.rim->turned_generator;
   MatrixXd l = m.stiffness + k.spin_rate * m.turn;
   l.diagonal().array() -= k.spin * k.spin;
   return l;

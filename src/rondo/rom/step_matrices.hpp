@@ -26,6 +26,7 @@ struct StepMatrixKey {
   double carry = 0.0;      ///< s, counter-clockwise, mean over the step: carries the fields [rad/s]
   double spin = 0.0;       ///< s of the velocity's equation; midpoint: the same        [rad/s]
   double spin_rate = 0.0;  ///< ṡ                                                       [rad/s2]
+  bool moving_rim = false;  ///< L = K + s² J D: the rim's spin is an unknown beside the modes (R.7)
 
   bool operator==(const StepMatrixKey&) const = default;
 };
@@ -39,6 +40,10 @@ class StepMatrices {
   StepMatrices(const rom::ReducedModel& model, const StepMatrixKey& key);
 
   [[nodiscard]] const StepMatrixKey& key() const noexcept { return key_; }
+  /// A⁻¹: change of p at the end of a step from a push on the modes.
+  [[nodiscard]] const MatrixXd& push_inverse() const noexcept { return push_; }
+  /// N; central: R = 2N - 1
+  [[nodiscard]] const MatrixXd& carry() const noexcept { return carry_; }
 
   /// A step without contact. In: q, p (r) at its beginning, push (r) Δt F. Out: q and p at its end,
   /// and `carried`, p before the push: p itself, with `central` moved to the end. Allocates

@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: BSD-3-Clause
+/// @file  What of a reduced body a rim feels that moves by itself: its rigid motions beside the
+/// modes (docs/reduced.md, 12). Made from the modes: model files hold nothing of it.
+#pragma once
+#include <Eigen/Core>
+#include <span>
+
+#include "rondo/mesh/mesh.hpp"
+
+namespace rondo::rom {
+
+struct ReducedModel;
+
+/// Rectified frame, r modes Φ; sums over the nodes that are not bonded to the rim.
+struct RimModes {
+  double mass = 0.0;     ///< m = Σ m                                                    [kg/m]
+  double inertia = 0.0;  ///< Σ m |X|²                                                   [kg·m]
+  Eigen::MatrixXd turned_generator;  ///< (r, r) J D of the model
+  Eigen::MatrixXd carried_turn;      ///< (r, r) G = ΦᵀM𝒟JΦ, symmetric to the last bit
+};
+
+/// @param mass (n) lumped, of all nodes. @pre the rectified frame; Φ is 0 on mesh.clamped
+[[nodiscard]] RimModes make_rim_modes(const mesh::Mesh& mesh, std::span<const double> mass,
+                                      const ReducedModel& model);
+
+}  // namespace rondo::rom
