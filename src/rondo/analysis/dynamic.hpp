@@ -52,6 +52,8 @@ class DynamicAnalysis : public Analysis, public Resumable {
   virtual void complete(dynamics::State& /*state*/) {}
   /// Adds the values of the plan's series to a snapshot of the state.
   virtual void add_series(const dynamics::State& /*state*/, Snapshot& /*snapshot*/) {}
+  /// While it runs, or at its end.
+  void warn(std::string warning);
   /// The step was chosen anew: what hangs on it is, too.
   void plan_snapshots();
 
@@ -63,7 +65,6 @@ class DynamicAnalysis : public Analysis, public Resumable {
   [[nodiscard]] bool is_looked_at() const noexcept;
   void look();
   void warn_of_impacts(const dynamics::StepReport& step);
-  void warn(std::string warning);
   void record_state(Recorder& recorder);
   void record_snapshot(Recorder& recorder);
   void keep_difficult_contacts();

@@ -36,16 +36,9 @@ struct ReducedRun {
   rom::StepFigures figures;           ///< filled while it runs
 };
 
-void demand_step_name(const std::string& name) {
-  const bool known =
-      std::ranges::any_of(step_names, [&](const auto& step) { return name == step.first; });
-  if (!known) throw request_error("--reduced-step", name, "no such step", "midpoint or explicit");
-}
-
-void demand_snapshot_name(const std::string& name) {
-  const bool known =
-      std::ranges::any_of(snapshot_names, [&](const auto& kind) { return name == kind.first; });
-  if (!known) throw request_error("--snapshots", name, "no such snapshots", "fields or modes");
+template <class Names>
+bool is_known(const Names& names, const std::string& name) {
+  return std::ranges::any_of(names, [&](const auto& known) { return name == known.first; });
 }
 
 void check_case(const Case& c, const RunOptions& options, const Setup& setup) {
@@ -56,8 +49,12 @@ void check_case(const Case& c, const RunOptions& options, const Setup& setup) {
   if (!(options.step_factor > 0.0 && std::isfinite(options.step_factor)))
     throw request_error("--step-factor", fmt::format("{:.9g}", options.step_factor),
                         "not a factor for the step of the full run", "a number above 0, e.g. 20");
-  demand_step_name(options.reduced_step);
-  demand_snapshot_name(options.reduced_snapshots);
+  if (!is_known(step_names, options.reduced_step))
+    throw request_error("--reduced-step", options.reduced_step, "no such step",
+                        "midpoint or explicit");
+  if (!is_known(snapshot_names, options.reduced_snapshots))
+    throw request_error("--snapshots", options.reduced_snapshots, "no such snapshots",
+                        "fields or modes");
   if (c.time.scheme != Scheme::symplectic)
     throw case_error(c, "time.scheme", "a reduced run has a scheme of its own",
                      "\"symplectic\", which it stands for");
@@ -120,57 +117,52 @@ void take_rim(const Case& c, const RunOptions& options, const Setup& setup, Redu
   run.file.model.rim = rom::make_rim_modes(setup.mesh, setup.model.mass, run.file.model);
 }
 
-/// A thousandth of the range, of the value or of the scale is no news.
-void warn_outside(const char* what, const ModelRange& built, const ModelRange& wanted,
-                  std::vector<std::string>& warnings, double scale = 0.0) {
-  if (built.empty() || wanted.empty()) return;
-  const double margin =
-      1e-3 * std::max({scale, built.high - built.low, std::abs(built.low), std::abs(built.high)});
-  if (wanted.low >= built.low - margin && wanted.high <= built.high + margin) return;
-  warnings.push_back(
-      fmt::format("{} is {:.6g} to {:.6g} in this case, and was {:.6g} to {:.6g} in the runs that "
-                  "the model was built from: what it says beyond is not known to be right",
-                  what, wanted.low, wanted.high, built.low, built.high));
+void add_said(std::string warning, std::vector<std::string>& warnings) {
+  if (!warning.empty()) warnings.push_back(std::move(warning));
 }
 
+/// What the motion says before the run; of a free rim its start says nothing.
 void warn_of_range(const Case& c, const Setup& setup, ReducedRun& run) {
   const ModelRanges& built = run.file.ranges;
+  const dynamics::RimBody rim = c.rim.value_or(dynamics::RimBody{});
   ModelRanges wanted;
   if (c.ground) wanted.friction.take(c.ground->friction);
   constexpr long long most = 10000;
   const long long samples = std::min(most, setup.n_steps);
   for (long long k = 0; k <= samples; ++k) {
     const double t = c.time.end * static_cast<double>(k) / static_cast<double>(samples);
-    wanted.angular_velocity.take(c.motion.angular_velocity.at(t));
-    wanted.speed.take(c.motion.speed.at(t));
-    wanted.height.take(c.motion.height.at(t));
-    wanted.slip_ratio.take(slip_ratio_at(c, t));
+    if (!rim.free_spin) wanted.angular_velocity.take(c.motion.angular_velocity.at(t));
+    if (!rim.free_x) wanted.speed.take(c.motion.speed.at(t));
+    if (!rim.free_y) wanted.height.take(c.motion.height.at(t));
+    if (!rim.free_spin && !rim.free_x) wanted.slip_ratio.take(slip_ratio_at(c, t));
   }
-  warn_outside("ground.friction", built.friction, wanted.friction, run.warnings);
-  warn_outside("motion.angular_velocity", built.angular_velocity, wanted.angular_velocity,
-               run.warnings);
-  warn_outside("motion.speed", built.speed, wanted.speed, run.warnings);
-  warn_outside("motion.height", built.height, wanted.height, run.warnings);
-  warn_outside("the slip ratio", built.slip_ratio, wanted.slip_ratio, run.warnings, 1.0);
+  const auto check = [&](const char* what, ModelRange ModelRanges::*range, double scale = 0.0) {
+    add_said(outside(what, built.*range, wanted.*range, scale), run.warnings);
+  };
+  check("ground.friction", &ModelRanges::friction);
+  check("motion.angular_velocity", &ModelRanges::angular_velocity);
+  check("motion.speed", &ModelRanges::speed);
+  check("motion.height", &ModelRanges::height);
+  check("the slip ratio", &ModelRanges::slip_ratio, 1.0);
   if (c.ground && built.friction.empty())
     run.warnings.emplace_back(
         "the model was built from runs without ground: its modes know no contact");
 }
 
-/// A point must not be passed in one step.
-void warn_of_step(const Case& c, const Setup& setup, ReducedRun& run) {
+/// A point must not be passed in one step. Empty: it is not.
+std::string passed_points(const Case& c, const Setup& setup, double spin, const ReducedRun& run) {
   const rom::ReducedModel& m = run.file.model;
   const bool standing = m.form != rom::ContactForm::nodes;
   // Nodes of a tread are not evenly spaced; in the mean they are.
   const double points =
       static_cast<double>(standing ? m.contact.points.size() : setup.mesh.boundary.size());
-  const double turned = c.motion.angular_velocity.largest() * setup.model.dt;
+  const double turned = spin * setup.model.dt;
   const double spacing = 2.0 * std::numbers::pi / points;
-  if (c.ground && turned > spacing)
-    run.warnings.push_back(
-        fmt::format("--step-factor: the disk turns by {:.3g} contact points in a step; contact "
-                    "wants 1 at the most, a factor of {:.3g}",
-                    turned / spacing, run.step_factor * spacing / turned));
+  if (!c.ground || turned <= spacing) return {};
+  return fmt::format(
+      "--step-factor: the disk turns by {:.3g} contact points in a step; contact "
+      "wants 1 at the most, a factor of {:.3g}",
+      turned / spacing, run.step_factor * spacing / turned);
 }
 
 /// The step that is asked for; where nodes come by at a constant spin, so much less that a whole
@@ -178,7 +170,8 @@ void warn_of_step(const Case& c, const Setup& setup, ReducedRun& run) {
 double step_of(const Case& c, const Setup& setup, const ReducedRun& run) {
   const double dt = run.full_step * run.step_factor;
   const dynamics::Table& spin = c.motion.angular_velocity;
-  const bool phases = c.ground && !(c.rim && c.rim->free_spin) && run.file.model.form == rom::ContactForm::nodes &&
+  const bool phases = c.ground && !(c.rim && c.rim->free_spin) &&
+                      run.file.model.form == rom::ContactForm::nodes &&
                       run.file.model.frame == rom::ModelFrame::rectified;
   if (!phases || spin.points().size() != 1 || spin.largest() == 0.0) return dt;
   const double sector = 2.0 * std::numbers::pi / setup.mesh.n_sectors / spin.largest();
@@ -236,7 +229,7 @@ ReducedRun prepare_reduced(const Case& c, const RunOptions& options, Setup& setu
   check_step(c, run, setup.model.dt);
   setup.n_steps = count_steps(c, setup.model.dt);
   warn_of_range(c, setup, run);
-  warn_of_step(c, setup, run);
+  add_said(passed_points(c, setup, c.motion.angular_velocity.largest(), run), run.warnings);
   warn_of_start(setup, run);
   return run;
 }
@@ -301,11 +294,18 @@ void plan_modes(const ReducedRun& run, io::ResultsLayout& results) {
 class ReducedAnalysis final : public DynamicAnalysis {
  public:
   ReducedAnalysis(const Case& c, const RunOptions& options)
-      : DynamicAnalysis(c, options), options_(options), run_(prepare_reduced(c, options, setup())) {
+      : DynamicAnalysis(c, options),
+        case_(c),
+        options_(options),
+        run_(prepare_reduced(c, options, setup())) {
     plan_snapshots();
   }
 
   [[nodiscard]] Resumable* resumable() noexcept override { return nullptr; }
+  void close() override {
+    DynamicAnalysis::close();
+    if (case_.rim) warn_of_rim();
+  }
   [[nodiscard]] RecordPlan record_plan() const override {
     RecordPlan plan = DynamicAnalysis::record_plan();
     if (!run_.lifts) plan_modes(run_, plan.results);
@@ -356,6 +356,24 @@ class ReducedAnalysis final : public DynamicAnalysis {
   }
 
  private:
+  /// Where a rim that moved by itself came.
+  void warn_of_rim() {
+    std::vector<std::string> warnings;
+    const ModelRanges& built = run_.file.ranges;
+    const rom::RimExtents& rim = run_.figures.rim;
+    const double told = case_.motion.angular_velocity.largest();  // before the run
+    // What comes out swings: 2 % of spin and speed are no news.
+    const auto check = [&](bool free, const char* what, const ModelRange& from, rom::Extent to,
+                           double share) {
+      if (free) add_said(outside(what, from, {to.low, to.high}, share * to.largest()), warnings);
+    };
+    check(case_.rim->free_spin, "the spin of the rim", built.angular_velocity, rim.spin, 20.0);
+    check(case_.rim->free_x, "the speed of the rim", built.speed, rim.speed, 20.0);
+    check(case_.rim->free_y, "the height of the rim", built.height, rim.height, 1.0);
+    if (passed_points(case_, setup(), told, run_).empty())
+      add_said(passed_points(case_, setup(), rim.spin.largest(), run_), warnings);
+    for (const std::string& warning : warnings) warn(warning);
+  }
   /// Probes want their cells at every row.
   [[nodiscard]] bool lifts_states() const noexcept { return run_.lifts || !setup().probes.empty(); }
   static void fill_series(const Eigen::VectorXd& q, const Eigen::VectorXd& p,
@@ -366,6 +384,7 @@ class ReducedAnalysis final : public DynamicAnalysis {
     values.insert(values.end(), angles.begin(), angles.end());
   }
 
+  const Case& case_;
   const RunOptions& options_;
   ReducedRun run_;
   rom::ReducedIntegrator* integrator_ = nullptr;  ///< none before the first step

@@ -205,6 +205,18 @@ void ModelRange::take(double value) noexcept {
   high = first ? value : std::max(high, value);
 }
 
+std::string outside(const char* what, const ModelRange& built, const ModelRange& wanted,
+                    double scale) {
+  if (built.empty() || wanted.empty()) return {};
+  const double margin =
+      1e-3 * std::max({scale, built.high - built.low, std::abs(built.low), std::abs(built.high)});
+  if (wanted.low >= built.low - margin && wanted.high <= built.high + margin) return {};
+  return fmt::format(
+      "{} is {:.6g} to {:.6g} in this case, and was {:.6g} to {:.6g} in the runs that "
+      "the model was built from: what it says beyond is not known to be right",
+      what, wanted.low, wanted.high, built.low, built.high);
+}
+
 ForceErrors ErrorEstimate::estimate() const noexcept {
   ForceErrors most;
   for (const ForceErrors& e : errors)

@@ -4,6 +4,7 @@
 /// and velocities both at whole steps; the velocity of a state is, as there, the one half a step
 /// before, P̄.
 #pragma once
+#include <algorithm>
 #include <memory>
 #include <optional>
 #include <span>
@@ -15,6 +16,22 @@
 #include "rondo/rom/moving_rim.hpp"
 
 namespace rondo::rom {
+
+/// Smallest and largest so far. None: low > high.
+struct Extent {
+  double low = 1.0, high = 0.0;
+  void take(double value) noexcept {
+    const bool none = low > high;
+    low = none ? value : std::min(low, value);
+    high = none ? value : std::max(high, value);
+  }
+  [[nodiscard]] double largest() const noexcept { return std::max(-low, high); }  ///< |value|
+};
+
+/// Where a rim that moves by itself came, signs as the user's.
+struct RimExtents {
+  Extent spin, speed, height;  ///< [rad/s], [m/s], [m]
+};
 
 /// What the steps so far took.
 struct StepFigures {
@@ -30,6 +47,7 @@ struct StepFigures {
   int contacts_max = 0;
   long long more_rows_than_modes = 0;  ///< steps with more rows of contact than modes
   long long not_converged = 0;         ///< steps whose contact missed the solver's tolerance
+  RimExtents rim;                      ///< none where [motion] drives the rim
 };
 
 /// What a reduced integrator works with; all must outlive it.

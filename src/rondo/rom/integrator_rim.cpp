@@ -31,6 +31,10 @@ void ReducedIntegrator::step_on_rim(StepReport& report) {
   report.step = n_;
   report.frame = frame_ = rim_->frame();
   report.rim = rim_->report();
+  RimExtents& rim = input_.figures.rim;
+  rim.spin.take(report.rim.spin);
+  rim.speed.take(report.rim.velocity.x);
+  rim.height.take(frame_.center.y);
 }
 
 void ReducedIntegrator::press_on_rim(ContactReport& report) {
