@@ -64,7 +64,11 @@ void MovingRim::begin(long long n, const VectorXd& q) {
   gravity_ = model_.motion.gravity_at(t + 0.5 * dt);
   const RimVector held = given(model_.motion, t + dt);
   for (Index k = 0; k < 3; ++k) end_[k] = is_free(k) ? now_[k] : held[k];
-  spin_ = rim_.free_spin ? 1.5 * now_[2] - 0.5 * spin_before_ : 0.5 * (now_[2] + held[2]);
+  const double ahead = 1.5 * now_[2] - 0.5 * spin_before_;
+  if (!rim_.free_spin)
+    spin_ = 0.5 * (now_[2] + held[2]);
+  else if (!(std::abs(ahead - spin_) <= same_spin * std::abs(ahead)))
+    spin_ = ahead;
   if (q_before_.size() == 0) q_before_ = q;
   q_arm_ = 1.5 * q - 0.5 * q_before_;
   braking_ = rim_.free_spin ? mean(rim_.brake, t, dt) : 0.0;

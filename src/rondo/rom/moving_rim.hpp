@@ -15,6 +15,10 @@ namespace rondo::rom {
 /// (ċ_x, ċ_y, s), or forces and torque on them; counter-clockwise.
 using RimVector = Eigen::Vector3d;
 
+/// Matrices serve the spins within this share of theirs: it changes F_x by 1e-6 of F_y, and the
+/// balance not at all.
+inline constexpr double same_spin = 2e-4;
+
 /// A step: begin(), use(), then try_step() and push() until settled(), finish().
 class MovingRim {
  public:

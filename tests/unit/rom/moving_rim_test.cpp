@@ -68,12 +68,11 @@ MatrixXd turned(const MatrixXd& translation) {
 }
 
 /// (R.8) as one dense system in (q̄, p̄, ċ̄, s̄), line by line. @param before the state a step
-/// earlier, @param late what that step left (R.9)
+/// earlier, @param sa s_A, @param late what that step left (R.9)
 VectorXd dense_step(const dynamics::Model& full, const ReducedModel& m, double t, const Now& now,
-                    const Now& before, const VectorXd& late) {
+                    const Now& before, double sa, const VectorXd& late) {
   const Index r = m.size();
   const double dt = full.dt, h = 0.5 * dt, alpha = full.mass_damping;
-  const double sa = 1.5 * now.v[2] - 0.5 * before.v[2];
   const VectorXd qa = 1.5 * now.q - 0.5 * before.q;
   const MatrixXd &K = m.stiffness, &D = m.generator, &J = m.turn, &E = m.translation;
   const MatrixXd T = turned(E), one = MatrixXd::Identity(r, r);
@@ -124,9 +123,14 @@ VectorXd dense_step(const dynamics::Model& full, const ReducedModel& m, double t
   return lhs.partialPivLu().solve(rhs);
 }
 
+/// s_A, from that of the step before.
+double matrix_spin(const Now& before, const Now& now, double last) {
+  const double ahead = 1.5 * now.v[2] - 0.5 * before.v[2];
+  return std::abs(ahead - last) <= same_spin * std::abs(ahead) ? last : ahead;
+}
+
 /// z: what the step from `now` to `next` leaves to the one after.
-VectorXd left_over(const Now& before, const Now& now, const Now& next) {
-  const double sa = 1.5 * now.v[2] - 0.5 * before.v[2];
+VectorXd left_over(const Now& before, const Now& now, const Now& next, double sa) {
   const VectorXd qa = 1.5 * now.q - 0.5 * before.q;
   return (0.5 * (now.v[2] + next.v[2]) - sa) * (next.q - now.q) +
          (next.v[2] - now.v[2]) * (0.5 * (now.q + next.q) - qa);
@@ -151,19 +155,22 @@ TEST(MovingRim, BordersTheStepAsTheDenseEquationsSay) {
     reduced.advance({&report, 1});
     Now now = state_of(reduced, report);
     VectorXd late = VectorXd::Zero(now.q.size());
+    const double spin = -33.333333;
+    double sa = matrix_spin({{}, {}, {10.0, 0.0, spin}, {}}, before, spin);
     for (int k = 2; k < 40; ++k) {
+      sa = matrix_spin(before, now, sa);
       const double dt = r.full.model.dt;
       const Index n = now.q.size();
       reduced.advance({&report, 1});
       const Now next = state_of(reduced, report);
       if (k > 2) {  // what the second step left is not known here
-        const VectorXd mean = dense_step(r.full.model, r.model, k * dt, now, before, late);
+        const VectorXd mean = dense_step(r.full.model, r.model, k * dt, now, before, sa, late);
         const double spun = std::abs(now.v[2]) * r.model.turned_reference.norm();
         EXPECT_LT((2.0 * mean.head(n) - now.q - next.q).norm(), 1e-11 * next.q.norm());
         EXPECT_LT((2.0 * mean.segment(n, n) - now.p - next.p).norm(), 1e-11 * spun);
         EXPECT_LT((2.0 * mean.tail(3) - now.v - next.v).norm(), 1e-12 * next.v.norm());
       }
-      late = left_over(before, now, next);
+      late = left_over(before, now, next, sa);
       before = now;
       now = next;
     }
@@ -236,14 +243,16 @@ TEST(MovingRim, KeepsItsMomentumInFlight) {
   const double mass = r.full.model.rim->mass + m.rim->mass;
   Eigen::Vector2d first(mass * 10.0, 0.0);
   Now before, now;
+  double sa = -33.333333;
   for (int k = 0; k < 2000; ++k) {
     dynamics::StepReport report;
     reduced.advance({&report, 1});
     const Now next = state_of(reduced, report);
     if (k > 1) {
+      sa = matrix_spin(before, now, sa);
       const Eigen::Vector2d momentum =
           mass * next.v.head<2>() + m.translation.transpose() * next.p +
-          next.v[2] * (across * next.q) - across * left_over(before, now, next);
+          next.v[2] * (across * next.q) - across * left_over(before, now, next, sa);
       ASSERT_LT((momentum - first).norm(), 1e-12 * first.norm()) << k;
     }
     before = now;
