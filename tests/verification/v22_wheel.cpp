@@ -9,6 +9,12 @@
 
 using namespace rondo;
 
+/// 0.8 of the critical one, with a rim that is free to move and with α.
+TEST(WheelUnderLoad, StepsAsTheOtherProgram) {
+  EXPECT_NEAR(test::Wheel({}).dt(), 1.989712e-5, 1e-6 * 1.989712e-5);
+  EXPECT_NEAR(test::Wheel({"damping.mass=0"}).dt(), 1.993297e-5, 1e-6 * 1.993297e-5);
+}
+
 /// Contact stops a node as deep in the ground as it came in its last step. With the ground as deep
 /// under each node, statics has the height of the run; with flat ground, the other program's.
 TEST(WheelUnderLoad, SettlesWhereStaticsHasIt) {
