@@ -47,6 +47,10 @@ TEST(WheelLedgerHeld, Closes) {
   const dynamics::Balance& b = wheel.run().balance();
   RecordProperty("relative", fmt::format("{:.2g}", b.relative));
   EXPECT_NE(b.works.held, 0.0);
+  const dynamics::FrameStep& f = wheel.run().report().frame;
+  const dynamics::Motion& motion = wheel.run().model().motion;
+  EXPECT_NEAR(f.angle, motion.angle(f.time), 1e-13 * std::abs(f.angle));  // where the tables say
+  EXPECT_LT(norm(f.center - motion.center(f.time)), 1e-13 * norm(f.center));
   EXPECT_LT(b.relative, 1e-14);
 }
 
