@@ -137,7 +137,18 @@ class WheelModes {
     entries.emplace_back(n + 1, n + 2, -pull.x);
     entries.emplace_back(n + 2, n + 1, -pull.x);
     entries.emplace_back(n + 2, n + 2, -bend);
-    for (const int node : at.touching) {  // they stay where they are: coordinates of their own
+    hold(b, at, entries);
+    Eigen::SparseMatrix<double> prestress(n + 3, n + 3);
+    prestress.setFromTriplets(entries.begin(), entries.end());
+    stiffness_ = strain.transpose() * fem::free_matrix(b.model.stiffness, b.model.free) * strain;
+    stiffness_ += prestress;
+    mass_[n] = mass_[n + 1] = b.model.rim->mass;
+    mass_[n + 2] = b.model.rim->inertia;
+  }
+
+  /// What sticks stays where it is: coordinates of its own, of no mass.
+  void hold(const Built& b, const LoadedWheel& at, std::vector<Eigen::Triplet<double>>& entries) {
+    for (const int node : at.touching) {
       const auto place = std::lower_bound(b.model.free.begin(), b.model.free.end(), node);
       const Eigen::Index i = place - b.model.free.begin();
       for (Eigen::Index a = 0; a < 2; ++a) {
@@ -145,12 +156,6 @@ class WheelModes {
         mass_[2 * i + a] = 0.0;
       }
     }
-    Eigen::SparseMatrix<double> prestress(n + 3, n + 3);
-    prestress.setFromTriplets(entries.begin(), entries.end());
-    stiffness_ = strain.transpose() * fem::free_matrix(b.model.stiffness, b.model.free) * strain;
-    stiffness_ += prestress;
-    mass_[n] = mass_[n + 1] = b.model.rim->mass;
-    mass_[n + 2] = b.model.rim->inertia;
   }
 
   Eigen::SparseMatrix<double> stiffness_;
