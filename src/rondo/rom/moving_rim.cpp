@@ -26,7 +26,7 @@ RimVector given(const dynamics::Motion& motion, double t) {
   return {motion.speed.at(t), motion.height.slope(t), -motion.angular_velocity.at(t)};
 }
 
-/// J v of columns x, y.
+/// E⊥: columns of unit fields along x and y, turned by -90 degrees.
 Eigen::Matrix<double, Eigen::Dynamic, 2> turned(const MatrixXd& translation) {
   Eigen::Matrix<double, Eigen::Dynamic, 2> out(translation.rows(), 2);
   out.col(0) = -translation.col(1);
@@ -49,6 +49,7 @@ MovingRim::MovingRim(const dynamics::Model& model, const ReducedModel& reduced)
   spin_before_ = now_[2];
   for (VectorXd* v : {&q_arm_, &late_, &turned_arm_, &carried_arm_, &load_modes_, &work_})
     v->setZero(r);
+  across_ = turned(reduced.translation);
   forward_.resize(r, 3);
   back_.resize(r, 3);
 }
@@ -98,14 +99,13 @@ void MovingRim::set_lines(const StepMatrices& matrices) {
   carried_arm_ += m.reference + q_arm_;
   forward_.leftCols(2) = m.translation;
   forward_.col(2) = turned_arm_ - h * spin_ * carried_arm_;
-  const auto turned_translation = turned(m.translation);
   MatrixXd along(m.size(), 3);  // of q̄ - q
-  along.leftCols(2) = spin_ * turned_translation;
+  along.leftCols(2) = spin_ * across_;
   along.col(2) = spin_ * (m.reference + q_arm_);
   back_ = h * (matrices.carry().transpose() * along);
   back_.leftCols(2) += m.translation;
   back_.col(2) += turned_arm_ + h * spin_ * carried_arm_;
-  const Eigen::Vector2d offset = turned_translation.transpose() * q_arm_;
+  const Eigen::Vector2d offset = across_.transpose() * q_arm_;
   const auto line = [&](const dynamics::RimSupport& s) {
     return rim_.mass + body_.mass + h * h * s.stiffness + h * s.damping;
   };
@@ -137,14 +137,12 @@ void MovingRim::hold(const StepMatrices& matrices) {
 void MovingRim::set_known(const StepMatrices& matrices, const VectorXd& q, const VectorXd& p) {
   const ReducedModel& m = reduced_;
   const double h = 0.5 * model_.dt;
-  const auto turned_translation = turned(m.translation);
   work_.noalias() = matrices.carry() * q;
   work_ = spin_ * (work_ - q) + 0.5 * late_;
   const VectorXd arm = m.reference + q_arm_;
-  const Eigen::Vector2d momentum =
-      m.translation.transpose() * p - turned_translation.transpose() * work_;
+  const Eigen::Vector2d momentum = m.translation.transpose() * p - across_.transpose() * work_;
   const double whole = rim_.mass + body_.mass;
-  const Eigen::Vector2d offset = turned_translation.transpose() * q_arm_;
+  const Eigen::Vector2d offset = across_.transpose() * q_arm_;
   const auto line = [&](Index k, const dynamics::RimSupport& s, double g, double c) {
     const double weight = whole * g;
     return whole * now_[k] + momentum[k] + offset[k] * now_[2] +
@@ -235,7 +233,7 @@ dynamics::StepEnergy MovingRim::energy(const VectorXd& q, const VectorXd& p) con
   e.kinetic = 0.5 * (p.squaredNorm() + body_.mass * c.squaredNorm() +
                      s * s * (body_.inertia + 2.0 * m.reference.dot(q) + q.squaredNorm())) +
               p.dot(m.translation * c) + s * (m.turned_reference.dot(p) + p.dot(m.turn * q)) +
-              s * c.dot(turned(m.translation).transpose() * q);
+              s * c.dot(across_.transpose() * q);
   e.kinetic_rim = 0.5 * (rim_.mass * c.squaredNorm() + rim_.inertia * s * s);
   const auto spring = [](const dynamics::RimSupport& at, double place) {
     return 0.5 * at.stiffness * (place - at.at) * (place - at.at);
@@ -250,7 +248,7 @@ void MovingRim::add_works(const RimVector& v, const RimVector& force, const Vect
   const Eigen::Vector2d g(gravity_.x, gravity_.y), c = v.head<2>();
   const Eigen::Vector2d momentum = (rim_.mass + body_.mass) * c +
                                    reduced_.translation.transpose() * p_mid +
-                                   v[2] * (turned(reduced_.translation).transpose() * q_arm_);
+                                   v[2] * (across_.transpose() * q_arm_);
   w.gravity += dt * g.dot(momentum);
   w.rim_load += dt * load_.head<2>().dot(c);
   w.torque += dt * load_[2] * v[2];
@@ -266,19 +264,17 @@ void MovingRim::add_works(const RimVector& v, const RimVector& force, const Vect
 double MovingRim::scheme_work(const VectorXd& q, const VectorXd& p, const VectorXd& q_end,
                               const VectorXd& p_end) {
   const ReducedModel& m = reduced_;
-  const auto turned_translation = turned(m.translation);
   const RimVector v = velocity_mean(), dv = end_ - now_;
   const VectorXd q_mid = 0.5 * (q + q_end), p_mid = 0.5 * (p + p_end);
   const VectorXd dq = q_end - q, dp = p_end - p;
   VectorXd moved = m.turn * late_;
-  double work = -(p_mid.dot(moved) + v.head<2>().dot(turned_translation.transpose() * late_) +
+  double work = -(p_mid.dot(moved) + v.head<2>().dot(across_.transpose() * late_) +
                   v[2] * (m.reference + q_arm_).dot(late_));
   late_ = (v[2] - spin_) * dq + dv[2] * (q_mid - q_arm_);
   const VectorXd whole = 0.5 * (end_[2] * q_end + now_[2] * q), rest = whole - v[2] * q_arm_;
-  moved = turned_translation * v.head<2>() + v[2] * m.reference + whole - m.turn * p_mid;
+  moved = across_ * v.head<2>() + v[2] * m.reference + whole - m.turn * p_mid;
   work += moved.dot(late_);
-  moved =
-      turned_translation * dv.head<2>() + dv[2] * (m.reference + q_arm_) + spin_ * dq - m.turn * dp;
+  moved = across_ * dv.head<2>() + dv[2] * (m.reference + q_arm_) + spin_ * dq - m.turn * dp;
   return work + moved.dot(rest);
 }
 
@@ -313,11 +309,9 @@ void MovingRim::move(const RimVector& v) {
   frame_.spin = end_[2];
   frame_.angle = angle_.value();
   frame_.turn_before = turn;
-  frame_.turn = dt * end_[2];
   frame_.rotation = rotation(frame_.angle);
   frame_.center = center_;
   frame_.advance_before = center_ - before;
-  frame_.advance = dt * Vec2{end_[0], end_[1]};
 }
 
 }  // namespace rondo::rom

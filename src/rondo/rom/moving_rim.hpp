@@ -61,7 +61,7 @@ class MovingRim {
   [[nodiscard]] const VectorXd& arm_modes() const noexcept { return q_arm_; }
   [[nodiscard]] const RimResponse& response() const noexcept { return response_; }
 
-  /// After finish().
+  /// After finish(); what comes after the step is not known: `turn` and `advance` are 0.
   [[nodiscard]] const dynamics::FrameStep& frame() const noexcept { return frame_; }
   [[nodiscard]] const dynamics::RimReport& report() const noexcept { return report_; }
 
@@ -102,9 +102,10 @@ class MovingRim {
   int tries_ = 0;
   RimVector direct_;  ///< impulses of contact on the rim with the body
 
-  VectorXd turned_arm_, carried_arm_;  ///< (r) ĵ = j + J q_A, f̂ = x + (G + 1) q_A
-  MatrixXd forward_, back_;            ///< (r, 3) B, Cᵀ
-  Eigen::Matrix3d mass_;               ///< D
+  Eigen::Matrix<double, Eigen::Dynamic, 2> across_;  ///< (r, 2) E⊥ = -E J
+  VectorXd turned_arm_, carried_arm_;                ///< (r) ĵ = j + J q_A, f̂ = x + (G + 1) q_A
+  MatrixXd forward_, back_;                          ///< (r, 3) B, Cᵀ
+  Eigen::Matrix3d mass_;                             ///< D
   RimResponse response_;
   VectorXd load_modes_, work_;
   dynamics::FrameStep frame_;
