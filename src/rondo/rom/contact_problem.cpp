@@ -40,7 +40,8 @@ ContactSolver::ContactSolver(const mesh::Mesh& mesh, const rom::ReducedModel& mo
   }
   phases_.push_back(
       {0.0, 0,
-       std::make_unique<ContactTable>(model.contact, model.contact.rows * model.generator)});
+       std::make_unique<ContactTable>(
+           model.contact, model.contact.rows * (model.rim ? model.rim->carry : model.generator))});
 }
 
 Complex ContactSolver::frame_rotation(double angle) const noexcept {

@@ -87,7 +87,7 @@ void ReducedIntegrator::balance_on_rim(StepReport& report) {
   w.dissipation_mass = model.dt * model.mass_damping * p_mid_.squaredNorm();
   multiply(rm.stiffness, p_mid_, work_);
   w.dissipation_stiffness = model.dt * model.stiffness_damping * p_mid_.dot(work_);
-  multiply(rm.generator, q_mid_, work_);
+  multiply(rm.rim->carry, q_mid_, work_);
   multiply(rm.stiffness, q_mid_, other_);
   w.scheme = model.dt * rim_->matrix_spin() * other_.dot(work_);
   rim_->finish(q_, p_, q_end_, p_end_, w);

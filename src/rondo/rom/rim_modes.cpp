@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "rondo/rom/rim_modes.hpp"
 
+#include <Eigen/Cholesky>
+
 #include "rondo/core/contract.hpp"
 #include "rondo/rom/reduced_model.hpp"
 
@@ -21,7 +23,9 @@ RimModes make_rim_modes(const mesh::Mesh& mesh, std::span<const double> mass,
     m.mass += mass[k];
     m.inertia += mass[k] * dot(mesh.coordinates[k], mesh.coordinates[k]);
   }
-  m.turned_generator = model.turn * model.generator;
+  const MatrixXd product_with_stiffness = model.generator * model.stiffness;
+  m.carry = 0.5 * (model.generator + model.stiffness.llt().solve(product_with_stiffness));
+  m.turned_carry = model.turn * m.carry;
   const Eigen::VectorXd roots = mass_roots(mass);
   const MatrixXd carried = roots.asDiagonal() * differentiate(mesh, model.basis);
   MatrixXd turned(carried.rows(), carried.cols());

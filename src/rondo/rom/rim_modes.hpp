@@ -15,8 +15,9 @@ struct ReducedModel;
 struct RimModes {
   double mass = 0.0;     ///< m = Σ m                                                    [kg/m]
   double inertia = 0.0;  ///< Σ m |X|²                                                   [kg·m]
-  Eigen::MatrixXd turned_generator;  ///< (r, r) J D of the model
-  Eigen::MatrixXd carried_turn;      ///< (r, r) G = ΦᵀM𝒟JΦ, symmetric to the last bit
+  Eigen::MatrixXd carry;  ///< (r, r) D̃ = ½(D + K⁻¹D K): K D̃ is skew, carrying takes no energy
+  Eigen::MatrixXd turned_carry;  ///< (r, r) J D̃
+  Eigen::MatrixXd carried_turn;  ///< (r, r) G = ΦᵀM𝒟JΦ, symmetric to the last bit
 };
 
 /// @param mass (n) lumped, of all nodes. @pre the rectified frame; Φ is 0 on mesh.clamped

@@ -26,7 +26,8 @@ struct StepMatrixKey {
   double carry = 0.0;      ///< s, counter-clockwise, mean over the step: carries the fields [rad/s]
   double spin = 0.0;       ///< s of the velocity's equation; midpoint: the same        [rad/s]
   double spin_rate = 0.0;  ///< ṡ                                                       [rad/s2]
-  bool moving_rim = false;  ///< L = K + s² J D: the rim's spin is an unknown beside the modes (R.7)
+  bool moving_rim = false;  ///< L = K + s² J D̃, D̃ of RimModes: the rim's spin is an unknown beside
+                            ///< the modes (R.7)
 
   bool operator==(const StepMatrixKey&) const = default;
 };
