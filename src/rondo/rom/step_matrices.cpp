@@ -34,7 +34,8 @@ MatrixXd restoring(const rom::ReducedModel& m, const StepMatrixKey& k) {
 MatrixXd carrying(const rom::ReducedModel& m, const StepMatrixKey& k) {
   const MatrixXd unit = MatrixXd::Identity(m.size(), m.size());
   if (m.frame == rom::ModelFrame::turning || k.carry == 0.0) return unit;
-  return inverse(unit - 0.5 * k.dt * k.carry * (k.moving_rim ? m.rim->carry : m.generator));
+  if (k.moving_rim) return inverse(unit - 0.5 * k.dt * k.carry * m.rim->carry);
+  return inverse(unit - 0.5 * k.dt * k.carry * m.generator);
 }
 
 }  // namespace
