@@ -280,6 +280,40 @@ TEST(MovingRim, RestsOnWhatItIsLoadedWith) {
   EXPECT_LT(reports.back().balance.relative, 1e-12);
 }
 
+/// The law anew from the motion alone: the rim moves with the impulses of the same step.
+TEST(MovingRim, ObeysTheLawInTheMotionItMakes) {
+  DiskCase c = rondo::test::rolling_disk(2, 48);
+  c.motion.height = Table(0.3);
+  RimBody rim = all_free();
+  rim.free_spin = false;
+  rim.force_y = Table({{0.0, 0.0}, {0.01, -1.5e5}});
+  rim.support_y.damping = 4e4;
+  Reduced r = on_rim(c, rim, {}, 5);
+  rondo::test::add_ground(r.full, {.profile = {{-10, 0}, {10, 0}}}, {0.3, 0.0});
+  r.full.model.dt *= 10.0;
+  const ReducedModel& m = r.model;
+  ReducedIntegrator reduced = r.start(rondo::test::start_at_rest(r.full.model));
+  Vec2 center{-0.35, 0.3};
+  int pressed = 0;
+  for (int k = 0; k < 200; ++k) {
+    const VectorXd before = m.contact.rows * reduced.displacement();
+    dynamics::StepReport report;
+    reduced.advance({&report, 1});
+    const VectorXd rate =
+        m.contact.rows * (reduced.velocity() - 33.333333 * (m.rim->carry * reduced.displacement()));
+    for (const PointContact& contact : reduced.contacts()) {
+      if (contact.impulse.x <= 0.0) continue;
+      const Index row = 2 * contact.point + 1;
+      const double gap =
+          center.y + m.contact.points[static_cast<std::size_t>(contact.point)].y + before[row];
+      EXPECT_NEAR(report.rim.velocity.y + rate[row] + gap / r.full.model.dt, 0.0, 1e-9) << k;
+      ++pressed;
+    }
+    center = report.frame.center;
+  }
+  EXPECT_GT(pressed, 100);
+}
+
 TEST(MovingRim, HeldTellsWhatHoldsIt) {
   Reduced held = loaded();
   held.full.model.contact.reset();
