@@ -40,11 +40,6 @@ class RimCase(ProgramTest):
         self.assertIn('rim.free with "height"', said)
         self.assertIn("rim.support.y.damping", said)
 
-    def test_a_reduced_run_refuses_it(self):
-        said = self.said("run", "--reduced", "model.h5", "-o", self.folder / "out", code=2).stderr
-        self.assertIn("rim: a reduced run moves its rim as [motion] says", said)
-        self.assertFalse((self.folder / "out").exists())
-
     def test_modes_are_those_of_a_rim_that_is_held(self):
         part = "[rim] means nothing to modes"
         self.assertIn(part, self.said("modes", "-o", self.folder / "modes").stderr)

@@ -11,7 +11,6 @@
 
 #include "rondo/analysis/build/build.hpp"
 #include "rondo/analysis/build/memory.hpp"
-#include "rondo/analysis/build/rim.hpp"
 #include "rondo/analysis/build/step_limit.hpp"
 #include "rondo/analysis/disk.hpp"
 #include "rondo/case/case_source.hpp"
@@ -173,6 +172,7 @@ Progress DynamicAnalysis::begin(Recorder& recorder) {
   bounds_ = {setup_.model.free_bodies.empty() ? residual_bound : free_residual_bound,
              largest_strain_energy(setup_), impact_cure(setup_.model), guards_impacts()};
   watch_.emplace(case_, setup_);
+  hub_.emplace(setup_);
   reports_.resize(steps_at_once(setup_));
   state_ = start(setup_.model, std::move(setup_.displacement), std::move(setup_.velocity));
   strain_.emplace(setup_.mesh, &setup_.model);
@@ -272,7 +272,10 @@ void DynamicAnalysis::look() {
   if (trouble_) return;
   std::string passing = watch_->look(state_);
   if (!passing.empty()) warn(std::move(passing));
-  const std::string wrong = strain_->look(state_.u, state_.poses, state_.frame.time);
+  const HubWatch::Seen hub = hub_->look(state_.frame.center, state_.frame.time);
+  if (!hub.warning.empty()) warn(hub.warning);
+  std::string wrong = strain_->look(state_.u, state_.poses, state_.frame.time);
+  if (wrong.empty()) wrong = hub.trouble;
   if (!wrong.empty())
     trouble_ = fmt::format("step {} of {}, t = {:.9g} s: {}", state_.step, setup_.n_steps,
                            state_.frame.time, wrong);

@@ -8,6 +8,7 @@
 
 #include "rondo/analysis/analysis.hpp"
 #include "rondo/analysis/boundary_watch.hpp"
+#include "rondo/analysis/build/rim.hpp"
 #include "rondo/analysis/out_of_range.hpp"
 #include "rondo/analysis/strain_watch.hpp"
 #include "rondo/case/setup.hpp"
@@ -88,6 +89,7 @@ class DynamicAnalysis : public Analysis, public Resumable {
   std::vector<std::string> warnings_;  ///< given while it ran
   Bounds bounds_;
   std::optional<BoundaryWatch> watch_;
+  std::optional<HubWatch> hub_;
   bool impacts_told_ = false;
   int problems_kept_ = 0;                       ///< contact problems kept as files
   const dynamics::StepReport* last_ = nullptr;  ///< the last step taken; none: all were made before

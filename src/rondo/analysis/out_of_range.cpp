@@ -130,10 +130,12 @@ std::string missed_corner(double way) {
 std::string turned_too_far(double turn, double dt) {
   if (std::abs(turn) <= dynamics::most_turn) return {};
   return fmt::format(
-      "the rim turns by {:.3g} rad in a step, more than {:.3g}: differences of places no longer "
-      "show "
-      "its spin; a time.step below {:.3g} s, or less of rim.torque",
-      turn, dynamics::most_turn, dynamics::most_turn / std::abs(turn) * dt);
+      "the rim turns by {:.3g} rad in a step of {:.3g} s, more than {:.3g}: differences of places "
+      "no "
+      "longer show its spin; smaller steps (time.step; --step-factor of a reduced run), or loads "
+      "and "
+      "a torque that spin it up less",
+      turn, dt, dynamics::most_turn);
 }
 
 double impact_gain(const dynamics::Balance& b) noexcept {

@@ -99,8 +99,9 @@ void check_impacts(const Case& c, const ReducedRun& run) {
   throw case_error(c, "ground.impact",
                    "a reduced run keeps what this law promises only with contact at nodes and "
                    "explicit steps",
-                   "\"moreau\", or a model of rondo reduce --contact nodes and --reduced-step "
-                   "explicit");
+                   c.rim ? "\"moreau\""
+                         : "\"moreau\", or a model of rondo reduce --contact nodes and "
+                           "--reduced-step explicit");
 }
 
 /// A rim that moves by itself stands beside the modes of what is seen from the fixed frame.

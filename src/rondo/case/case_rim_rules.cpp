@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <tuple>
 
 #include "rondo/case/case_rules.hpp"
 
@@ -53,6 +54,11 @@ void check_loads(CaseValues& in, const RimBody& rim) {
       {"rim.support.y.stiffness", "height", rim.free_y, y.stiffness == 0.0},
       {"rim.support.y.damping", "height", rim.free_y, y.damping == 0.0},
   };
+  for (const auto& [key, dof, is_free] : {std::tuple{"rim.support.x.at", "speed", rim.free_x},
+                                          std::tuple{"rim.support.y.at", "height", rim.free_y}})
+    if (!is_free && in.has(key))
+      in.fault(key, fmt::format("does nothing while motion.{} is held: it is not in rim.free", dof),
+               fmt::format("no such key, or rim.free with \"{}\"", dof));
   for (const Load& load : loads)
     if (!load.is_free && !load.is_zero)
       in.fault(load.key,

@@ -88,7 +88,9 @@ void check_material(CaseValues& in, Case& c) {
 }
 
 /// Nothing carries or turns a free body but what it starts with.
-void check_motion(CaseValues& in, const Case& c) {
+void check_motion(CaseValues& in, Case& c) {
+  if (c.motion.slope != 0.0 && c.motion.gravity.largest() == 0.0)
+    c.warnings.emplace_back("motion.slope tilts gravity, and motion.gravity is 0: it does nothing");
   if (is_held(c)) return;
   for (const std::string_view path :
        {"motion.angular_velocity", "motion.speed", "motion.height", "motion.start_x"})
@@ -204,6 +206,8 @@ void check_output(CaseValues& in, Case& c) {
 std::string_view why_not_cyclic(const Case& c) {
   if (c.mesh) return "a mesh from a file is not known to be of equal sectors";
   if (c.free_rim) return "a free disk does not stay in the co-rotating frame of its sectors";
+  if (c.rim && !c.pressures.empty())
+    return "with a [rim] pressures act on the edges as they lie, by the general step";
   if (c.body_contact.between != BodyContact::none) return "there is a [contact] of bodies";
   if (c.time.scheme != Scheme::symplectic)
     return "a scheme other than \"symplectic\" is one of the general step alone";

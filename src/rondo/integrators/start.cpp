@@ -84,7 +84,8 @@ void start_wheel(const Model& model, std::span<const Vec2> load, State& state) {
     sum.force += force(k);
     sum.moment += cross(arm(k), force(k));
   });
-  rim.start(sum);
+  const RimForce pressed = pressure_on_rim(model, load);
+  rim.start({sum.force + pressed.force, sum.moment + pressed.moment});
   state.rim = rim.save();
   for_free_nodes(model, [&](std::size_t k) {
     const Vec2 velocity = center_velocity + state.v[k] + spin * turn90(arm(k)) +

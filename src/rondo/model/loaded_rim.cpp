@@ -177,6 +177,20 @@ void LoadedRim::restore(long long step, std::span<const double> s) {
   frame_.center = {x_.value(), y_.value()};
 }
 
+RimForce pressure_on_rim(const Model& model, std::span<const Vec2> load) noexcept {
+  RimForce sum;
+  std::size_t next_free = 0;
+  for (std::size_t k = 0; k < load.size(); ++k) {
+    if (next_free < model.free.size() && static_cast<std::size_t>(model.free[next_free]) == k) {
+      ++next_free;
+      continue;
+    }
+    sum.force += load[k];
+    sum.moment += cross(model.reference[k], load[k]);
+  }
+  return sum;
+}
+
 /// y₂ = e^{-iδ}(y₁ + Δt R̄(V - ċ)), less y₁.
 Vec2 travel_on_rim(const LoadedRim& rim, double dt, Vec2 arm, Vec2 velocity) noexcept {
   const Vec2 way = dt * (velocity - conj(rim.frame().rotation) * rim.velocity());

@@ -75,6 +75,10 @@ class LoadedRim {
   RimReport report_;
 };
 
+/// Of forces on the nodes those on clamped ones, which the rim feels. @param load (n), or empty
+/// [N/m]
+[[nodiscard]] RimForce pressure_on_rim(const Model& model, std::span<const Vec2> load) noexcept;
+
 /// u_{n+2} - u_{n+1} of a node. @param arm X + u_{n+1} [m]
 /// @param velocity V of the half step after, in the axes of R_{n+1} [m/s]
 [[nodiscard]] Vec2 travel_on_rim(const LoadedRim& rim, double dt, Vec2 arm, Vec2 velocity) noexcept;

@@ -43,7 +43,8 @@ void find_free_bodies(const mesh::Mesh& mesh, Model& model) {
 
 bool is_general(const Model& model) noexcept {
   return model.scheme != Scheme::symplectic || !model.free_bodies.empty() ||
-         model.surfaces.has_value() || model.internal_force;
+         model.surfaces.has_value() || model.internal_force ||
+         (model.rim && !model.pressures.empty());
 }
 
 bool has_sharp_corners(const Model& model) noexcept {

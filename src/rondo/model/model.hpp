@@ -161,8 +161,9 @@ inline bool has_candidates(const Model& model) noexcept {
   return model.contact || model.surfaces;
 }
 
-/// The model has something that only the general integrator does: a free body, contact between
-/// bodies, another scheme than the symplectic one, a material of its own.
+/// The model has something that only a general integrator does: a free body, contact between
+/// bodies, another scheme than the symplectic one, a material of its own, pressures on a loaded rim
+/// (which act on the edges as they lie).
 [[nodiscard]] bool is_general(const Model& model) noexcept;
 
 /// The ground has corners that may touch the body between two candidates.

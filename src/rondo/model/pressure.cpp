@@ -13,7 +13,7 @@ void add_forces(const Model& model, std::span<const Vec2> u, std::span<const mes
   for (const mesh::Edge& edge : edges) {
     const auto a = static_cast<std::size_t>(edge[0]), b = static_cast<std::size_t>(edge[1]);
     Vec2 along = model.reference[b] - model.reference[a];
-    if (in_fixed_frame(model, a)) along += u[b] - u[a];
+    if (in_fixed_frame(model, a) || model.rim) along += u[b] - u[a];
     // The body is on the left of a → b: J along points into it, L times the inward normal.
     const Vec2 share = half * turn90(along);
     force[a] += share;

@@ -46,7 +46,8 @@ struct StepFigures {
   int iterations_max = 0;
   int contacts_max = 0;
   long long more_rows_than_modes = 0;  ///< steps with more rows of contact than modes
-  long long not_converged = 0;         ///< steps whose contact missed the solver's tolerance
+  long long not_converged = 0;         ///< steps whose contact missed the solver's
+                                       ///< tolerance, or whose brake no try held
   RimExtents rim;                      ///< none where [motion] drives the rim
 };
 

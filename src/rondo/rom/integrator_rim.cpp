@@ -26,6 +26,7 @@ void ReducedIntegrator::step_on_rim(StepReport& report) {
     if (contact_) press_on_rim(report.contact);
     find_middle();
   } while (!rim_->settled(p_mid_));
+  input_.figures.not_converged += rim_->gave_up() ? 1 : 0;
   ++n_;
   balance_on_rim(report);
   report.step = n_;

@@ -203,6 +203,7 @@ RimVector MovingRim::reaction(const VectorXd& p_mid) const {
 
 bool MovingRim::settled(const VectorXd& p_mid) {
   ++tries_;
+  gave_up_ = false;
   if (brake_ == Brake::off) return true;
   constexpr int most_tries = 4;
   if (brake_ == Brake::slips) {
@@ -211,7 +212,9 @@ bool MovingRim::settled(const VectorXd& p_mid) {
     return false;
   }
   const double torque = reaction(p_mid)[2];
-  if (std::abs(torque) <= braking_ * (1.0 + brake_slack) || tries_ >= most_tries) return true;
+  if (std::abs(torque) <= braking_ * (1.0 + brake_slack)) return true;
+  gave_up_ = tries_ >= most_tries;
+  if (gave_up_) return true;
   brake_ = Brake::slips;
   direction_ = torque > 0.0 ? -1.0 : 1.0;
   return false;

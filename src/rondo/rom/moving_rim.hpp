@@ -39,6 +39,8 @@ class MovingRim {
             VectorXd& p_end);
   /// false: the brake would reverse the wheel, or does not hold it; another try takes the other.
   [[nodiscard]] bool settled(const VectorXd& p_mid);
+  /// After settled(): no try was found that the brake can hold; the step is that of the last.
+  [[nodiscard]] bool gave_up() const noexcept { return gave_up_; }
 
   /// To the end of the step. @param modes the last push. Adds the works but those of contact and
   /// of the internal forces.
@@ -100,6 +102,7 @@ class MovingRim {
   Brake brake_ = Brake::off;
   double direction_ = 0.0;  ///< of the spin while the brake slips
   int tries_ = 0;
+  bool gave_up_ = false;
   RimVector direct_;  ///< impulses of contact on the rim with the body
 
   Eigen::Matrix<double, Eigen::Dynamic, 2> across_;  ///< (r, 2) E⊥ = -E J

@@ -158,7 +158,8 @@ class Integrators : public testing::TestWithParam<StiffnessOperator> {};
 TEST_P(Integrators, SameBitsForAnyNumberOfThreadsAndFromRunToRun) {
   std::vector<test::Built> all = disks();
   all.push_back(test::build(test::everything("", 6, 240)));  // work for every thread
-  for (test::Built& b : all) test::add_pressures(b);
+  for (test::Built& b : all)
+    if (!b.model.rim) test::add_pressures(b);
   for (const test::Built& b : all) {
     const Record one = run(b, GetParam(), 100, {});
     for (const Way way : {Way{1, 64}, Way{2, 7}, Way{3, 64}, Way{7, 64}}) {

@@ -97,11 +97,10 @@ inline std::vector<RollingCase> wheel_cases() {
   undamped.disk.alpha = undamped.disk.beta = 0.0;
   RollingCase flying = everything("flying", 4, 61);
   flying.ground.reset();
-  RollingCase weightless = pressed(everything("weightless", 4, 61));
+  RollingCase weightless = everything("weightless", 4, 61);
   weightless.disk.motion.gravity = dynamics::Table(0.0);
-  for (const RollingCase& c :
-       {undamped, flying, weightless, everything("treaded", 3, tread),
-        pressed(everything("treaded", 3, tread)), everything("columns_100", 1, 100)})
+  for (const RollingCase& c : {undamped, flying, weightless, everything("treaded", 3, tread),
+                               everything("columns_100", 1, 100)})
     all.push_back(on_rim(c, true, true, true));
   return all;
 }

@@ -3,7 +3,9 @@
 /// close open no ledger and give no momentum; where none closes it is as the fused steps have it.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
+#include <vector>
 
 #include "comparison.hpp"
 #include "integrator_cases.hpp"
@@ -124,4 +126,49 @@ TEST(WheelSurfaces, WhereNothingTouchesItIsTheFusedStep) {
   }
   EXPECT_GT(nodes, 0);
   comparison.expect_within(1e-10);
+}
+
+/// On the edges as they lie, those of the rim among them: all round the tread, and in a cavity that
+/// the rim closes on one side. With edges of the reference a body that is wound up would be turned.
+TEST(WheelPressures, OnClosedCurvesGiveNoMomentum) {
+  test::RollingCase c = test::everything("flying", 4, 61);
+  c.ground.reset();
+  c.disk.motion.gravity = Table(0.0);
+  RimBody rim;
+  rim.free_x = rim.free_y = rim.free_spin = true;
+  rim.mass = 5.0;
+  rim.inertia = 0.05;
+  c.rim = rim;
+  test::Built b = test::build(c);
+  const mesh::Cell& cell = b.mesh.cells.front();
+  std::vector<mesh::Edge> cavity;
+  for (std::size_t k = 0; k < 4; ++k) cavity.push_back({cell[k], cell[(k + 1) % 4]});
+  const std::vector<char> clamped = mesh::clamped_flags(b.mesh);
+  const auto is_clamped = [&](int node) { return clamped[static_cast<std::size_t>(node)] != 0; };
+  ASSERT_EQ(std::count_if(cell.begin(), cell.end(), is_clamped), 2);
+  b.model.pressures = {{b.mesh.contact_edges, Table({{0.0, 0.0}, {0.002, 3.0e5}})},
+                       {cavity, Table(4.0e5)}};
+  ASSERT_TRUE(is_general(b.model));
+  const Model model = test::model_with(b, StiffnessOperator::sparse);
+  std::vector<Vec2> wound(b.model.n_nodes());
+  for_free_nodes(b.model, [&](std::size_t k) {
+    const Vec2 x = b.model.reference[k];
+    wound[k] = 0.05 * (norm(x) - 0.15) / 0.15 * turn90(x);
+  });
+  State state = start(model, wound, std::vector<Vec2>(b.model.n_nodes()));
+  const auto steps = make_integrator(model, state);
+  StepReport report;
+  steps->advance({&report, 1}, &state);
+  const test::WheelMomenta first = test::wheel_momenta(model, state);
+  double turned = 0.0;
+  for (int n = 0; n < 1000; ++n) {
+    steps->advance({&report, 1}, &state);
+    turned = std::max(turned, std::abs(report.rim.spin - 30.0));
+  }
+  const test::WheelMomenta last = test::wheel_momenta(model, state);
+  EXPECT_GT(turned, 1.0);  // rim and body swing against each other
+  EXPECT_LT(norm(last.linear - first.linear), 1e-12 * norm(first.linear));
+  EXPECT_NEAR(last.angular, first.angular, 1e-12 * std::abs(first.angular));
+  EXPECT_LT(report.balance.relative, 1e-12);
+  EXPECT_NE(report.balance.works.load, 0.0);
 }

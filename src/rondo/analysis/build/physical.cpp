@@ -45,24 +45,6 @@ const char* order_of(double modulus) {
 }
 
 /// A round body on a rim: between what is held and what may touch.
-struct Wall {
-  double radius = 0.0, thickness = 0.0;  ///< [m]
-};
-
-/// None where nothing is held, or it is not round.
-std::optional<Wall> wall_of(const mesh::Mesh& mesh) {
-  constexpr double round = 0.9;
-  if (mesh.clamped.empty() || mesh.boundary.empty()) return std::nullopt;
-  const auto radius = [&](int node) {
-    return norm(mesh.coordinates[static_cast<std::size_t>(node)]);
-  };
-  Range outer, inner;
-  for (const int node : mesh.boundary) outer.take(radius(node));
-  for (const int node : mesh.clamped) inner.take(radius(node));
-  if (outer.low < round * outer.high || inner.high >= outer.low) return std::nullopt;
-  return Wall{outer.high, outer.high - inner.high};
-}
-
 struct Tell {
   std::vector<Told>& figures;
   std::vector<std::string>& warnings;
@@ -206,6 +188,19 @@ void warn_of_units(const Case& c, const mesh::Mesh& mesh,
                                    c.mesh ? "the lengths of the mesh (mesh.scale)" : "the radii"));
 }
 
+std::optional<Wall> wall_of(const mesh::Mesh& mesh) {
+  constexpr double round = 0.9;
+  if (mesh.clamped.empty() || mesh.boundary.empty()) return std::nullopt;
+  const auto radius = [&](int node) {
+    return norm(mesh.coordinates[static_cast<std::size_t>(node)]);
+  };
+  Range outer, inner;
+  for (const int node : mesh.boundary) outer.take(radius(node));
+  for (const int node : mesh.clamped) inner.take(radius(node));
+  if (outer.low < round * outer.high || inner.high >= outer.low) return std::nullopt;
+  return Wall{outer.high, outer.high - inner.high};
+}
+
 void tell_physical_figures(const Case& c, Setup& s) {
   const Tell to{s.figures, s.warnings};
   tell_stiffness(s.materials, to);
@@ -214,7 +209,7 @@ void tell_physical_figures(const Case& c, Setup& s) {
     tell_speed(fastest(c, s, wall ? wall->radius : extent_of(s.mesh)), s.materials, to);
   if (s.model.rim) tell_rim(c, s);
   if (!wall || !s.model.contact) return;
-  if (!s.model.rim || !s.model.rim->free_y)  // else the run tells how far it comes down
+  if (!s.model.rim || !s.model.rim->free_y)  // else the run looks (HubWatch)
     tell_deflection(deflection_by_motion(c, s, *wall), *wall,
                     touching_material(s.mesh, s.materials), to);
   tell_slip(c, wall->radius, to);

@@ -2,6 +2,7 @@
 /// @file  Whether the numbers of a case are those of a body in SI units, and small strains: figures
 /// for `rondo check`, and warnings by them (docs/cases.md, Physical figures).
 #pragma once
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -21,6 +22,13 @@ inline constexpr double soft_modulus = 1e4;    ///< [Pa]
 inline constexpr double largest_density = 2.5e4;  ///< [kg/m3]
 inline constexpr double largest_size = 10.0;      ///< half the length of the mesh [m]
 inline constexpr double least_size = 1e-4;        ///< likewise [m]
+
+/// Of a round body on a rim: outer radius, and how much of it is not rim [m].
+struct Wall {
+  double radius = 0.0, thickness = 0.0;
+};
+/// None where nothing is held, or it is not round.
+[[nodiscard]] std::optional<Wall> wall_of(const mesh::Mesh& mesh);
 
 /// Of materials and size alone: modes as well.
 void warn_of_units(const Case& c, const mesh::Mesh& mesh,

@@ -134,6 +134,30 @@ dynamics::CriticalStep step_with_rim(const dynamics::Model& model,
                       : dynamics::with_rim(held, frequencies, damping);
 }
 
+HubWatch::HubWatch(const Setup& setup) : setup_(setup) {
+  const dynamics::Model& model = setup.model;
+  if (model.rim && model.rim->free_y && model.contact) wall_ = wall_of(setup.mesh);
+}
+
+HubWatch::Seen HubWatch::look(Vec2 center, double time) {
+  if (!wall_) return {};
+  const double above = setup_.model.contact->ground.distance(center);
+  const double deflection = wall_->radius - above, share = deflection / wall_->thickness;
+  const std::string told = fmt::format(
+      "the hub is {:.4g} m above the ground, {:.3g} % of the {:.4g} m of the wall below "
+      "its free radius",
+      above, 100.0 * share, wall_->thickness);
+  if (share >= 1.0)
+    return {{},
+            told +
+                ": the rim is in the ground, which it does not touch in the model; less of "
+                "rim.force_y, or a stiffer body"};
+  if (told_ || share <= deep_share) return {};
+  told_ = true;
+  return {fmt::format("t = {:.9g} s: {}: the law of the material is for small strains", time, told),
+          {}};
+}
+
 Json rim_facts(const RimBody& rim) {
   Json free = Json::array();
   if (rim.free_x) free.push_back("speed");

@@ -2,6 +2,7 @@
 /// @file  The rim of a case with [rim]: its body, its critical step, what `rondo check` tells of
 /// it.
 #pragma once
+#include "rondo/analysis/build/physical.hpp"
 #include "rondo/case/setup.hpp"
 #include "rondo/output/run_files.hpp"
 
@@ -19,6 +20,24 @@ void set_rim_loads(const Case& c, dynamics::Model& model);
 dynamics::CriticalStep step_with_rim(const dynamics::Model& model,
                                      const dynamics::CriticalStep& held,
                                      dynamics::LaggedDamping damping);
+
+/// How near a hub that comes down by itself comes to the ground.
+class HubWatch {
+ public:
+  explicit HubWatch(const Setup& setup);
+
+  struct Seen {
+    std::string warning, trouble;  ///< empty: nothing new, all well
+  };
+  /// @param center [m] @param time [s]. Warns once, above deep_share of the wall; the rim in the
+  /// ground is trouble.
+  [[nodiscard]] Seen look(Vec2 center, double time);
+
+ private:
+  const Setup& setup_;
+  std::optional<Wall> wall_;  ///< none: nothing to look at
+  bool told_ = false;
+};
 
 /// For run.json: what is free, mass and inertia with the bonded nodes.
 [[nodiscard]] Json rim_facts(const dynamics::RimBody& rim);

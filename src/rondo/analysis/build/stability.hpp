@@ -3,6 +3,7 @@
 /// the figures (docs/cases.md, "What is warned of"; measured in docs/reliability.md).
 #pragma once
 #include "rondo/analysis/build/build.hpp"
+#include "rondo/model/loaded_rim.hpp"
 
 namespace rondo::study {
 
@@ -14,7 +15,7 @@ inline constexpr double contact_damping_ratio = 0.005;
 /// Growth, as a power of e over the run, above which it is spoken of.
 inline constexpr double growth_spoken_of = 10.0;
 /// Largest turn of a free body, or of a rim of its own, in a step [rad].
-inline constexpr double largest_turn = 0.3;
+inline constexpr double largest_turn = dynamics::most_turn;
 
 /// Above this size the check of spin softening, a Cholesky factorisation, is left out...
 inline constexpr std::size_t softening_check_dofs = 500000;

@@ -170,7 +170,6 @@ void BatchIntegrator::begin_step(long long before) noexcept {
   rim_->move();
   steps_.front() = wheel_context(model_, rim_->frame(), conj(rim_->turn_before()));
   steps_.front().held = held;
-  set_pressures(0);
   if (!corners_) return;
   parts_[n_parts_ - 1] = {};
   if (corners_->any_near() && !within_) corners_->find(steps_.front(), *this);

@@ -266,7 +266,7 @@ void CyclicChunk::strip(const Work& work, int i) noexcept {
   s.pressures = work.step->pressures;
   const kernels::Terms& terms = work.step->terms;
   if (plan_.wheel)
-    table_.wheel->strip[loaded][work.step->heavy](s);
+    table_.wheel->strip[work.step->heavy](s);
   else
     table_.cyclic_strip[loaded][terms.stiffness_damping][terms.unsteady](s);
   for (const Touching& t : touching_) solve_node(work, t);

@@ -237,7 +237,7 @@ void SparseIntegrator::update_rows(const Work& work, std::size_t block,
   rows.pressures = work.step->pressures;
   const kernels::Terms& terms = work.step->terms;
   if (plan_.wheel)
-    table_.wheel->rows[loaded][work.step->heavy](rows);
+    table_.wheel->rows[work.step->heavy](rows);
   else
     table_.sparse_rows[loaded][terms.stiffness_damping][terms.unsteady](rows);
   const std::size_t n_sums =

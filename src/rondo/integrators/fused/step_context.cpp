@@ -62,7 +62,6 @@ void correct_wheel_sums(const ContactNode& node, Vec2 after, const NodeForces& f
   sums[kernels::wheel_force_across] += cross(forces.elastic, change);
   sums[kernels::wheel_mass_mean] += node.mass * dot(forces.moved, change);
   sums[kernels::wheel_change_mean] += dot(forces.change, change);
-  sums[kernels::wheel_load_mean] += dot(forces.load, change);
   sums[kernels::wheel_momentum_x] += node.mass * change.x;
   sums[kernels::wheel_momentum_y] += node.mass * change.y;
 }

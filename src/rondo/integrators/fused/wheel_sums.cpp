@@ -57,7 +57,6 @@ StepEnergy wheel_energy(const Model& model, const StepContext& step, const StepS
   e.works.dissipation_mass = step.wheel.alpha_over_dt * half_work(mass, rim, dt);
   e.works.dissipation_stiffness = step.wheel.beta_over_dt * half_work(change, rim, dt);
   e.works.scheme = work_of_scheme(s, rim, dt);
-  e.works.load = 0.5 * dt * s[wheel_load_mean];
   if (step.heavy) e.works.gravity += 0.5 * dot(pull, vector_of(s, wheel_momentum_x));
   add_contact_works(contact, e.works);
   return e;

@@ -63,7 +63,9 @@ RimForce WheelIntegrator::find_forces(double& strain) noexcept {
     sum.force += q;
     sum.moment += cross(arm(k), q);
   });
-  return sum;
+  const RimForce pressed = pressure_on_rim(model_, forces_.load);
+  rim_load_ = pressed;
+  return {sum.force + pressed.force, sum.moment + pressed.moment};
 }
 
 /// V⁺ = V⁻ + Δt (g - R q/m) + r/m.
@@ -96,6 +98,9 @@ void WheelIntegrator::add_works(Vec2 gravity, Works& w) const noexcept {
   const double dt = model_.dt, alpha = model_.mass_damping;
   const Complex after = rim_.turn(), before = conj(rim_.turn_before());
   const double bend = after.re - before.re;  // cos δ⁺ - cos δ⁻
+  const Vec2 center = conj(state_.frame.rotation) * (rim_.velocity() + rim_.velocity_before());
+  w.load += 0.5 * dt *
+            (dot(center, rim_load_.force) + (rim_.spin() + rim_.spin_before()) * rim_load_.moment);
   const std::span<const Vec2> gradient = internal_->gradient();
   for_free_nodes(model_, [&](std::size_t k) {
     const Vec2 was = relative_before(k), is = relative_after(k);

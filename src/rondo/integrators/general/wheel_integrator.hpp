@@ -57,6 +57,7 @@ class WheelIntegrator final : public Integrator, public Resumable {
   const std::unique_ptr<InternalForce> internal_;
   GeneralContact contact_;
   Forces forces_;
+  RimForce rim_load_;  ///< of pressures on clamped nodes
 };
 
 }  // namespace rondo::dynamics

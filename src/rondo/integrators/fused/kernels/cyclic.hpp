@@ -146,9 +146,8 @@ struct RowInHand {
   int first_load, n_loads;
 };
 
-/// What the loads of a row do on one pack. @tparam Row RowInHand or CyclicRow
-template <class Row>
-inline Vectors load_on(const CyclicStrip& s, const Row& row, std::ptrdiff_t column) noexcept {
+/// What the loads of a row do on one pack.
+inline Vectors load_on(const CyclicStrip& s, const RowInHand& row, std::ptrdiff_t column) noexcept {
   Vectors load = {all(0.0), all(0.0)};
   for (int i = row.first_load; i < row.first_load + row.n_loads; ++i) {
     const Vectors force = load_vectors(s.loads + 2 * i * s.stride + column, s.stride);

@@ -42,7 +42,6 @@ enum WheelSum {
   wheel_mass_moment,    ///< m y × d
   wheel_change_mean,    ///< e·(a⁻ + a⁺)
   wheel_change_moment,  ///< y × e
-  wheel_load_mean,      ///< f·(a⁻ + a⁺), f of the loads
   wheel_force_x,        ///< p
   wheel_force_y,
   wheel_change_x,  ///< e
@@ -183,13 +182,14 @@ struct SparseRows {
   const double* pressures;  ///< [Pa]
 };
 
-/// The loops of one instruction set on a loaded rim; K u_n is always kept there. In a file of their
+/// The loops of one instruction set on a loaded rim; K u_n is always kept there, and pressures are
+/// those of the general step. In a file of their
 /// own: beside the others each would be compiled worse, for what both call is no longer put in
 /// place.
 struct WheelTable {
-  void (*strip[2][2])(const CyclicStrip&) noexcept;  ///< [loaded][heavy]
+  void (*strip[2])(const CyclicStrip&) noexcept;  ///< [heavy]
   void (*strip_way)(const CyclicStrip&) noexcept;
-  void (*rows[2][2])(const SparseRows&) noexcept;  ///< [loaded][heavy]
+  void (*rows[2])(const SparseRows&) noexcept;  ///< [heavy]
   void (*rows_way)(const SparseRows&) noexcept;
 };
 

@@ -41,12 +41,11 @@ inline WheelNodes own_nodes(int own, const WheelNodes& n) noexcept {
   m.force = own_of(own, n.force);
   m.before = own_of(own, n.before);
   m.pull = own_of(own, n.pull);
-  m.load = own_of(own, n.load);
   return m;
 }
 
 /// Update and sums of one pack of a row.
-template <bool Loaded, bool Heavy>
+template <bool Heavy>
 inline void wheel_pack(const CyclicStrip& s, const WheelPacks& f, const CyclicRow& row,
                        std::ptrdiff_t column, Vectors force, WheelSums& sums,
                        Resultants& resultants) noexcept {
@@ -55,7 +54,7 @@ inline void wheel_pack(const CyclicStrip& s, const WheelPacks& f, const CyclicRo
   double* p = s.force + at;
   const Vectors none = {all(0.0), all(0.0)};
   WheelNodes n;
-  n.pull = n.load = none;
+  n.pull = none;
   n.u = load_vectors(s.now + at, s.stride);
   n.u_before = load_vectors(s.next + at, s.stride);
   n.a = load_vectors(a, s.stride);
@@ -65,16 +64,15 @@ inline void wheel_pack(const CyclicStrip& s, const WheelPacks& f, const CyclicRo
   n.mass = all(row.mass);
   n.dt_over_mass = all(row.dt_over_mass);
   if constexpr (Heavy) n.pull = to_sectors(s, column, s.wheel->pull_x, s.wheel->pull_y);
-  if constexpr (Loaded) n.load = load_on(s, row, column);
   const int own = own_lanes(s, column);
   if (own < lanes) n = own_nodes(own, n);
-  const Vectors after = wheel_update<Loaded, Heavy>(f, n, sums, resultants);
+  const Vectors after = wheel_update<Heavy>(f, n, sums, resultants);
   store_vectors(a, s.stride, after);
   store_vectors(p, s.stride, n.force);
 }
 
 /// All rows of the strip on packs [first, last), at most a group.
-template <bool Loaded, bool Heavy>
+template <bool Heavy>
 inline void wheel_group(const CyclicStrip& s, const WheelPacks& f, int first, int last,
                         double* sums) noexcept {
   Forces force;
@@ -87,23 +85,22 @@ inline void wheel_group(const CyclicStrip& s, const WheelPacks& f, int first, in
     const std::ptrdiff_t column = static_cast<std::ptrdiff_t>(pack) * lanes;
     Resultants r = no_resultants();
     for (int i = 0; i < s.n_rows; ++i)
-      wheel_pack<Loaded, Heavy>(s, f, s.rows[i], column, force[i][pack - first], own, r);
+      wheel_pack<Heavy>(s, f, s.rows[i], column, force[i][pack - first], own, r);
     const Resultants turned = {from_sectors(s, column, r.force), from_sectors(s, column, r.change),
                                from_sectors(s, column, r.mass),
                                from_sectors(s, column, r.momentum)};
     for_resultants<Heavy>(turned, add);
   }
-  for_sums<Loaded>(own, add);
+  for_sums(own, add);
 }
 
-template <bool Loaded, bool Heavy>
+template <bool Heavy>
 void wheel_strip(const CyclicStrip& s) noexcept {
   const WheelPacks f(*s.wheel);
   const int own = (s.columns + lanes - 1) / lanes;
   double* sums = s.sums;
   for (int pack = 0; pack < own; pack += group_packs, sums += n_wheel_sums * lanes)
-    wheel_group<Loaded, Heavy>(s, f, pack, pack + group_packs < own ? pack + group_packs : own,
-                               sums);
+    wheel_group<Heavy>(s, f, pack, pack + group_packs < own ? pack + group_packs : own, sums);
 }
 
 void wheel_strip_way(const CyclicStrip& s) noexcept {

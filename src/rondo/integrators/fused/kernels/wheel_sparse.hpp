@@ -6,7 +6,7 @@
 
 namespace {
 
-template <bool Loaded, bool Heavy>
+template <bool Heavy>
 void wheel_rows(const SparseRows& s) noexcept {
   const WheelPacks f(*s.wheel);
   WheelSums sums = no_wheel_sums();
@@ -24,15 +24,14 @@ void wheel_rows(const SparseRows& s) noexcept {
     n.mass = load(constants + 2 * lanes);
     n.dt_over_mass = load(constants + 3 * lanes);
     if constexpr (Heavy) n.pull = {all(s.wheel->pull_x), all(s.wheel->pull_y)};
-    if constexpr (Loaded) n.load = load_on(s, pack);
-    const Vectors after = wheel_update<Loaded, Heavy>(f, n, sums, resultants);
+    const Vectors after = wheel_update<Heavy>(f, n, sums, resultants);
     store_vectors(motion, lanes, after);
     store_vectors(motion + 2 * lanes, lanes, n.force);
   }
   const Pack none = all(0.0);  // what this kernel has not
   for (int k = 0; k < rondo::dynamics::kernels::n_wheel_sums; ++k) store(s.sums + k * lanes, none);
   const auto set = [&](int k, Pack value) { store(s.sums + k * lanes, value); };
-  for_sums<Loaded>(sums, set);
+  for_sums(sums, set);
   for_resultants<Heavy>(resultants, set);
 }
 

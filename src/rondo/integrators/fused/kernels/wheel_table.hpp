@@ -7,11 +7,9 @@
 namespace {
 
 constexpr rondo::dynamics::kernels::WheelTable wheel_table() noexcept {
-  return {{{wheel_strip<false, false>, wheel_strip<false, true>},
-           {wheel_strip<true, false>, wheel_strip<true, true>}},
+  return {{wheel_strip<false>, wheel_strip<true>},
           wheel_strip_way,
-          {{wheel_rows<false, false>, wheel_rows<false, true>},
-           {wheel_rows<true, false>, wheel_rows<true, true>}},
+          {wheel_rows<false>, wheel_rows<true>},
           wheel_rows_way};
 }
 

@@ -31,12 +31,12 @@ inline Vectors add_turned(Vectors z, Vectors a, Vectors b) noexcept {
 /// Of the packs in hand.
 struct WheelSums {
   Pack kinetic, strain, force_arm, force_moment, force_after, force_across, force_moved,
-      force_turned, mass_mean, mass_moment, change_mean, change_moment, load_mean;
+      force_turned, mass_mean, mass_moment, change_mean, change_moment;
 };
 
 inline WheelSums no_wheel_sums() noexcept {
   const Pack zero = all(0.0);
-  return {zero, zero, zero, zero, zero, zero, zero, zero, zero, zero, zero, zero, zero};
+  return {zero, zero, zero, zero, zero, zero, zero, zero, zero, zero, zero, zero};
 }
 
 /// Vectors that are summed up: in the frames of their nodes, masses included.
@@ -59,14 +59,14 @@ struct WheelPacks {
   Vectors back;
 };
 
-/// What the update of a pack reads; `pull` with gravity only, `load` of loaded nodes only.
+/// What the update of a pack reads; `pull` with gravity only.
 struct WheelNodes {
-  Vectors u, u_before, a, force, before, reference, pull, load;
+  Vectors u, u_before, a, force, before, reference, pull;
   Pack mass, dt_over_mass;
 };
 
-/// a⁺ = a⁻ + Δt (g - (q - f)/m) with q = p + β e/Δt + α m d/Δt, and its part of the sums.
-template <bool Loaded, bool Heavy>
+/// a⁺ = a⁻ + Δt (g - q/m) with q = p + β e/Δt + α m d/Δt, and its part of the sums.
+template <bool Heavy>
 inline Vectors wheel_update(const WheelPacks& f, const WheelNodes& n, WheelSums& s,
                             Resultants& r) noexcept {
   const Vectors before = add_turned(f.back, n.a, n.a);
@@ -75,7 +75,6 @@ inline Vectors wheel_update(const WheelPacks& f, const WheelNodes& n, WheelSums&
   Vectors q = add_times(f.beta_over_dt, change, n.force);
   const Vectors momentum = {n.mass * moved.x, n.mass * moved.y};  // over Δt
   q = add_times(f.alpha_over_dt, momentum, q);
-  if constexpr (Loaded) q = minus(q, n.load);
   Vectors after = {fnma(n.dt_over_mass, q.x, before.x), fnma(n.dt_over_mass, q.y, before.y)};
   if constexpr (Heavy) after = plus(after, n.pull);
 
@@ -92,7 +91,6 @@ inline Vectors wheel_update(const WheelPacks& f, const WheelNodes& n, WheelSums&
   s.mass_moment = add_cross(arm, momentum, s.mass_moment);
   s.change_mean = add_dot(change, twice_mean, s.change_mean);
   s.change_moment = add_cross(arm, change, s.change_moment);
-  if constexpr (Loaded) s.load_mean = add_dot(n.load, twice_mean, s.load_mean);
   r.force = plus(r.force, n.force);
   r.change = plus(r.change, change);
   r.mass = plus(r.mass, momentum);
@@ -132,7 +130,7 @@ inline void for_resultants(const Resultants& r, Visit&& visit) noexcept {
   }
 }
 /// The same.
-template <bool Loaded, class Visit>
+template <class Visit>
 inline void for_sums(const WheelSums& s, Visit&& visit) noexcept {
   using namespace rondo::dynamics::kernels;
   visit(wheel_kinetic, s.kinetic);
@@ -147,7 +145,6 @@ inline void for_sums(const WheelSums& s, Visit&& visit) noexcept {
   visit(wheel_mass_moment, s.mass_moment);
   visit(wheel_change_mean, s.change_mean);
   visit(wheel_change_moment, s.change_moment);
-  if constexpr (Loaded) visit(wheel_load_mean, s.load_mean);
 }
 
 }  // namespace
