@@ -233,8 +233,7 @@ void DynamicAnalysis::judge(const dynamics::StepReport& step) {
   OutOfBound found = step.contact.unseen > 0.0
                          ? OutOfBound{missed_corner(step.contact.unseen), false}
                          : find_out_of_bound(step.balance, contact_, bounds_);
-  if (found.what.empty() && setup_.model.rim)
-    found = {turned_too_far(step.frame.turn, setup_.model.dt), false};
+  if (found.what.empty() && setup_.model.rim) found = {look_at_rim(step), false};
   if (found.what.empty()) return;
   if (found.not_finite) {
     dynamics::State now(setup_.model);  // after the steps of this call
@@ -245,6 +244,15 @@ void DynamicAnalysis::judge(const dynamics::StepReport& step) {
   trouble_ =
       fmt::format("step {} of {}, t = {:.9g} s: {}", step.step - (found.at_half_step ? 1 : 0),
                   setup_.n_steps, step.frame.time - half, found.what);
+}
+
+/// What is wrong with a loaded rim; empty: nothing.
+std::string DynamicAnalysis::look_at_rim(const dynamics::StepReport& step) {
+  const std::string turned = turned_too_far(step.frame.turn, setup_.model.dt);
+  if (!turned.empty()) return turned;
+  const HubWatch::Seen hub = hub_->look(step.frame.center, step.frame.time);
+  if (!hub.warning.empty()) warn(hub.warning);
+  return hub.trouble;
 }
 
 /// Once a run: what follows is the same.
@@ -272,10 +280,7 @@ void DynamicAnalysis::look() {
   if (trouble_) return;
   std::string passing = watch_->look(state_);
   if (!passing.empty()) warn(std::move(passing));
-  const HubWatch::Seen hub = hub_->look(state_.frame.center, state_.frame.time);
-  if (!hub.warning.empty()) warn(hub.warning);
-  std::string wrong = strain_->look(state_.u, state_.poses, state_.frame.time);
-  if (wrong.empty()) wrong = hub.trouble;
+  const std::string wrong = strain_->look(state_.u, state_.poses, state_.frame.time);
   if (!wrong.empty())
     trouble_ = fmt::format("step {} of {}, t = {:.9g} s: {}", state_.step, setup_.n_steps,
                            state_.frame.time, wrong);
