@@ -226,7 +226,8 @@ def main(arguments: Sequence[str] | None = None) -> int:
     code: int | None = 0
     commands: dict[str, Callable[[argparse.Namespace], int | None]] = {
         "paper": _paper, "figures": _figures, "animate": _animate, "means": _means,
-        "wheel": _wheel, "campbell": _campbell, "sweep": _sweep, "validate": _validate, "validation": _validation}
+        "wheel": _wheel, "campbell": _campbell, "sweep": _sweep, "validate": _validate,
+        "validation": _validation}
     try:
         code = commands[options.command](options)
         sys.stdout.flush()
