@@ -4,6 +4,7 @@ import matplotlib
 import matplotlib.pyplot as plt
 import numpy as np
 import pytest
+from matplotlib.backends.backend_agg import FigureCanvasAgg
 from test_cli import rondo_module
 
 import rondo
@@ -131,7 +132,7 @@ def test_the_energy_with_the_rim_is_that_of_the_ledger(wheel):
 def test_the_film_shows_the_height(wheel):
     """Ground and the line of the first height stand still, though the picture follows along x."""
     run = rondo.open(wheel)
-    run.center[:, 1] += np.linspace(0.0, 2.0, len(run.center))  # far up: others would follow
+    run.center[:, 1] += np.linspace(0.0, 1.5, len(run.center))  # far up: others would follow
     with matplotlib.rc_context({"figure.constrained_layout.use": False}):
         film = animation._Film(run, np.array([0, 5, 10]), "displacement", (0.0, 1.0), True, 333,
                                (640, 360))
@@ -146,6 +147,30 @@ def test_the_film_shows_the_height(wheel):
         assert seen[-1][0] < points[:, 1].min() and points[:, 1].max() < seen[-1][1]
     assert seen[0] == seen[1] == seen[2]
     assert film.height in film._moving()
+
+
+@pytest.mark.parametrize("follow", [None, False, True])
+def test_a_film_of_a_wheel_that_flies_off(wheel, tmp_path, monkeypatch, follow):
+    """It follows upwards; and where it must not, the picture is as wide as its labels need."""
+    run, shown = rondo.open(wheel), []
+    run.center[:, 1] += np.linspace(0.0, 30.0, len(run.center))
+    monkeypatch.setattr(animation, "_write", lambda film, *_: shown.append(film))
+    run.animate(tmp_path / "a.gif", frames=3, follow=follow)
+    film, = shown
+    width, height = film.ax.figure.get_size_inches() * animation.DPI
+    assert width >= animation.SMALLEST and height <= 365  # 360 but for rounding of the width
+    assert film.follow is (follow is not False) and film.moves[1] == film.follow
+    pictures = list(film.pictures(range(3)))
+    for artist in film.ax.figure.findobj(lambda artist: artist.get_animated()):
+        artist.set_animated(False)
+    for frame, (k, picture) in enumerate(zip((0, 5, 10), pictures)):
+        film.show(frame)
+        points, (bottom, top) = run.position(k), film.ax.get_ylim()
+        assert bottom < points[:, 1].min() and points[:, 1].max() < top
+        canvas = FigureCanvasAgg(film.ax.figure)
+        canvas.draw()
+        if film.follow:  # ground and the line of the first height are left behind below
+            assert np.abs(picture.astype(int) - np.asarray(canvas.buffer_rgba())).max() <= 1
 
 
 def test_a_film_without_rim_is_as_it_was(smooth):

@@ -36,7 +36,8 @@ DPI = 128  # a power of two: sizes in inches are exact, and so are those in pixe
 SIZES = {".mp4": (960, 540), ".gif": (640, 360)}  # px, largest by default
 SMALLEST = 240  # px, width: labels and colour bar take 200 of them
 FOLLOW_BEYOND = 6.0  # outer radii that the center moves: beyond, the picture moves with it
-LEVEL = 0.5  # of its height that a picture that follows the body does not follow upwards
+LEVEL = 0.5  # of its height that a picture that follows the body does not follow upwards; with a
+             # rim FOLLOW_BEYOND instead
 HUB = 3.0  # pt, dot at the hub of a rim that forces move
 START: dict[str, Any] = {"color": style.VERMILLION, "linewidth": 0.6, "linestyle": (0, (6, 3))}
 SIDE, TOP, BOTTOM = 1.15, 1.15, 1.45  # outer radii from the center to the edges of the picture
@@ -61,9 +62,9 @@ def animate(run: Run, path: str | os.PathLike[str], quantity: str = "displacemen
     pictures a second; by default such that a film of few pictures lasts about 10 s, at most 30.
     limits: of the colours, in the unit of the colour bar; by default those of the whole film.
     follow: the picture moves along with the body, or the center of mass of bodies that nothing
-    holds; by default where a held body goes far. With a [rim] it never moves up and down: ground and
-    the hub's first height stand still there, and the title has the height. width: [px]. deformation: factor on it, as of
-    plot_field."""
+    holds; by default where a held body goes far. With a [rim] it moves up and down where the hub
+    rises far only: else ground and the hub's first height stand still, and the title has the
+    height. width: [px]. deformation: factor on it, as of plot_field."""
     path = pathlib.Path(path)
     ending = path.suffix.lower()
     _check_place(path, ending)
@@ -77,8 +78,8 @@ def animate(run: Run, path: str | os.PathLike[str], quantity: str = "displacemen
         if limits is None:
             limits = _limits(run, chosen, quantity)
         if follow is None:
-            far = FOLLOW_BEYOND * run.outer_radius
-            follow = not run.mesh.free.any() and bool(np.ptp(run.center[chosen, 0]) > far)
+            way = np.ptp(run.center[chosen], axis=0).max()
+            follow = not run.mesh.free.any() and bool(way > FOLLOW_BEYOND * run.outer_radius)
         film = _Film(run, chosen, quantity, limits, follow, width, SIZES[ending], deformation)
         _write(film, path, fps)
     return path
@@ -147,11 +148,14 @@ def _views(run: Run, chosen: np.ndarray, follow: bool, deformation: float) -> tu
         bottom = TOP if "ground" not in run.case else BOTTOM
         below, above = run.outer_radius * np.array([[side, bottom], [side, TOP]])
     low, high = centers - below, centers + above
-    for axis in range(2):
-        rises = np.ptp(centers[:, 1]) >= LEVEL * (below + above)[1]
-        level = axis == 1 and (run.has_rim or not rises)
-        if level or not follow:
+    rise = FOLLOW_BEYOND * run.outer_radius if run.has_rim else LEVEL * (below + above)[1]
+    for axis, moves in enumerate((follow, follow and np.ptp(centers[:, 1]) >= rise)):
+        if not moves:
             low[:, axis], high[:, axis] = low[:, axis].min(), high[:, axis].max()
+    width, height = high[0] - low[0]
+    slim = max(0.0, 0.5 * (SLIM * height - width))
+    low[:, 0] -= slim
+    high[:, 0] += slim
     return low, high
 
 
@@ -207,7 +211,8 @@ class _Film:
 
     def _draw_height(self) -> Line2D:
         """A dot at the hub, and a line where it was at first: the height is then seen to change."""
-        self.ax.axhline(float(self.run.center[self.chosen[0], 1]), zorder=1.2, **START)
+        first = float(self.run.center[self.chosen[0], 1])
+        self.ground.append(self.ax.axhline(first, zorder=1.2, **START))
         dot, = self.ax.plot([], [], "o", color=style.OUTLINE, markersize=HUB, zorder=1.3)
         return dot
 
