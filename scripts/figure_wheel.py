@@ -17,6 +17,7 @@ from rondo import style  # noqa: E402
 
 RADIUS, COLUMNS = 0.3, 180  # m; of the mesh's edge
 SPEED = 10.0  # m/s, of the ramps
+SWUNG = 0.25  # s: the ramps begin at 0.2 s with a kink, at which the spin swings for 0.05 s
 CLEAT = 3.0  # m, where that of cases/studies/cleat.toml begins
 BEFORE, AFTER = 0.15, 1.5  # m, of the cleat that count as crossing it
 
@@ -42,22 +43,23 @@ def smooth(values: np.ndarray, rows: int) -> np.ndarray:
 
 def ramp(directory: pathlib.Path) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
     """Slip ratio, F_x/F_y and its rate [1/s] of a run whose torque or brake grows from 0.2 s on:
-    means over 8 nodes that come to the ground, in the order of slips up to 8 %."""
+    means over 8 nodes that come to the ground, in the order of time, of slips up to 8 %."""
     h = rondo.open(directory).history
     spacing = float(np.diff(h["time_s"]).mean())
     rows = max(1, round(8 * 2 * np.pi / COLUMNS / 33.7 / spacing))
-    late = h["time_s"] > 0.2
+    late = h["time_s"] > SWUNG
     x, y, slip = (smooth(h[name][late], rows) for name in ("force_x", "force_y", "slip_ratio"))
     rate = np.gradient(x / y, spacing)
     seen = np.abs(slip) < 0.08
-    order = np.argsort(slip[seen])
-    return slip[seen][order], (x / y)[seen][order], rate[seen][order]
+    return slip[seen], (x / y)[seen], rate[seen]
 
 
 def compare(held: tuple[np.ndarray, np.ndarray], of_ramp: tuple[np.ndarray, ...], name: str) -> None:
-    """Prints how far a ramp is from held slips, and by what way of rolling it is behind them."""
+    """Prints how far held slips are from a ramp, and by what way of rolling it is behind them."""
     slip, share = held
-    at, rate = (np.interp(slip, of_ramp[0], part, left=np.nan, right=np.nan) for part in of_ramp[1:])
+    order = np.argsort(of_ramp[0])  # of time but for ripples of 1e-5
+    at, rate = (np.interp(slip, of_ramp[0][order], part[order], left=np.nan, right=np.nan)
+                for part in of_ramp[1:])
     growing = (np.abs(slip) > 0.02) & (np.abs(rate) > 1e-2)  # not where it slides as a whole
     behind = SPEED * np.median((share - at)[growing] / rate[growing])
     print(f"{name}: at most {np.nanmax(np.abs(at - share)):.4f} in Fx/Fy from held slips, "
