@@ -182,7 +182,7 @@ void BatchIntegrator::end_step(StepReport& report) noexcept {
   report = {};
   if (model_.contact)
     for (const PartialStep& part : parts) report.contact.add(part.contact);
-  const StepSums sums = add_up(parts, kernels::n_wheel_sums);
+  const StepSums sums = wheel_sums(parts);
   rim_->take(rim_force(step, sums));
   way_ = wheel_way(model_, *rim_);
   ledger_.add(wheel_energy(model_, step, sums, report.contact, *rim_));

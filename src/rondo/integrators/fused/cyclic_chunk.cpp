@@ -319,6 +319,20 @@ void CyclicChunk::go_on(const kernels::WheelWay& way) noexcept {
   show_to_others();
 }
 
+namespace {
+
+double sum_in_order(const double* x) noexcept {
+  double sum = 0.0;
+  for (int lane = 0; lane < kernels::lanes; ++lane) sum += x[lane];
+  return sum;
+}
+/// So that few sums wait for others: a loaded rim has many.
+double sum_in_pairs(const double* x) noexcept {
+  return ((x[0] + x[4]) + (x[2] + x[6])) + ((x[1] + x[5]) + (x[3] + x[7]));
+}
+
+}  // namespace
+
 void CyclicChunk::hand_over(std::size_t n_steps, PartialStep* parts,
                             std::size_t stride) const noexcept {
   for (std::size_t i = 0; i < n_steps; ++i)
@@ -328,11 +342,8 @@ void CyclicChunk::hand_over(std::size_t n_steps, PartialStep* parts,
       part = contact_.empty() ? PartialStep{} : contact_[place];
       const auto n_sums = static_cast<std::size_t>(plan_.n_sums());
       const double* sums = sums_.data() + place * n_sums * kernels::lanes;
-      for (std::size_t k = 0; k < n_sums; ++k) {
-        double lanes = 0.0;
-        for (int lane = 0; lane < kernels::lanes; ++lane) lanes += *sums++;
-        part.sums[k] += lanes;
-      }
+      for (std::size_t k = 0; k < n_sums; ++k, sums += kernels::lanes)
+        part.sums[k] += plan_.wheel ? sum_in_pairs(sums) : sum_in_order(sums);
     }
 }
 

@@ -66,17 +66,16 @@ void correct_wheel_sums(const ContactNode& node, Vec2 after, const NodeForces& f
   sums[kernels::wheel_momentum_y] += node.mass * change.y;
 }
 
-StepSums add_up(std::span<const PartialStep> parts, int n_sums) noexcept {
-  const auto n = static_cast<std::size_t>(n_sums);
-  std::array<CompensatedSum, kernels::most_sums> sums;
+namespace {
+
+StepSums add_up(std::span<const PartialStep> parts) noexcept {
+  std::array<CompensatedSum, kernels::n_sums> sums;
   for (const PartialStep& part : parts)
-    for (std::size_t k = 0; k < n; ++k) sums[k].add(part.sums[k]);
+    for (std::size_t k = 0; k < sums.size(); ++k) sums[k].add(part.sums[k]);
   StepSums total{};
-  for (std::size_t k = 0; k < n; ++k) total[k] = sums[k].value();
+  for (std::size_t k = 0; k < sums.size(); ++k) total[k] = sums[k].value();
   return total;
 }
-
-namespace {
 
 StepEnergy energy_of(const Model& model, const StepSums& total,
                      const ContactReport& contact) noexcept {
@@ -101,7 +100,7 @@ WholeStep whole_step(const Model& model, std::span<const PartialStep> parts) noe
   WholeStep whole;
   if (model.contact)
     for (const PartialStep& part : parts) whole.contact.add(part.contact);
-  whole.energy = energy_of(model, add_up(parts, kernels::n_sums), whole.contact);
+  whole.energy = energy_of(model, add_up(parts), whole.contact);
   return whole;
 }
 

@@ -60,7 +60,4 @@ struct WholeStep {
 };
 WholeStep whole_step(const Model& model, std::span<const PartialStep> parts) noexcept;
 
-/// The raw sums of all parts, in their order.
-StepSums add_up(std::span<const PartialStep> parts, int n_sums) noexcept;
-
 }  // namespace rondo::dynamics

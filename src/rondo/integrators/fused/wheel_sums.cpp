@@ -38,6 +38,13 @@ double work_of_scheme(const StepSums& s, const LoadedRim& rim, double dt) noexce
 
 }  // namespace
 
+StepSums wheel_sums(std::span<const PartialStep> parts) noexcept {
+  StepSums sums{};
+  for (const PartialStep& part : parts)
+    for (std::size_t k = 0; k < sums.size(); ++k) sums[k] += part.sums[k];
+  return sums;
+}
+
 RimForce rim_force(const StepContext& step, const StepSums& s) noexcept {
   const double alpha = step.wheel.alpha_over_dt, beta = step.wheel.beta_over_dt;
   return {vector_of(s, wheel_force_x) + beta * vector_of(s, wheel_change_x) +

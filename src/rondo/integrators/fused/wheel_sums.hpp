@@ -7,6 +7,9 @@
 
 namespace rondo::dynamics {
 
+/// Of all parts, in their order.
+[[nodiscard]] StepSums wheel_sums(std::span<const PartialStep> parts) noexcept;
+
 [[nodiscard]] RimForce rim_force(const StepContext& step, const StepSums& sums) noexcept;
 
 /// @param rim which has taken rim_force()
