@@ -70,9 +70,8 @@ TEST(CaseRim, IsReadAndWrittenToTheSameBits) {
 }
 
 TEST(CaseRim, SupportsAreAtRestWhereTheCenterStarts) {
-  const Case c = read_text(wheel, {"rim.support.x.at=1"});
-  EXPECT_EQ(c.rim->support_x.at, 1.0);
-  EXPECT_EQ(c.rim->support_y.at, 0.29);
+  EXPECT_EQ(read_text(wheel, {"rim.support.y.at=1"}).rim->support_y.at, 1.0);
+  EXPECT_EQ(read_text(wheel).rim->support_y.at, 0.29);
   EXPECT_EQ(read_text(wheel).rim->support_x.at, -0.35);
 }
 
@@ -98,7 +97,9 @@ TEST(CaseRim, NoLoadOnWhatIsHeld) {
            {"support.x.stiffness = 3", "rim.support.x.stiffness", "speed"},
            {"support.x.damping = 3", "rim.support.x.damping", "speed"},
            {"support.y.stiffness = 3", "rim.support.y.stiffness", "height"},
-           {"support.y.damping = 3", "rim.support.y.damping", "height"}})
+           {"support.y.damping = 3", "rim.support.y.damping", "height"},
+           {"support.x.at = 0", "rim.support.x.at", "speed"},
+           {"support.y.at = 0.3", "rim.support.y.at", "height"}})
     expect_fault(with_rim(head + line + "\n"), key, rim_line + 1,
                  {"does nothing while motion." + dof + " is held", "rim.free with \"" + dof});
   EXPECT_TRUE(faults_of(with_rim(head + "force_x = 0.0\nbrake = 0\n")).empty());
