@@ -24,6 +24,7 @@ ALLOWED = {
     "integrators/fused": SOLIDS | {"model", "integrators/general"},
     "integrators": SOLIDS | {"model", "integrators/general", "integrators/fused"},
     "statics": SOLIDS,
+    "statics/steady": SOLIDS | {"statics"},
     "modal": {"core", "mesh", "fem"},
     "pod": {"core", "mesh"},
     "rom": SOLIDS | {"model", "integrators", "integrators/fused", "pod"},
@@ -47,7 +48,7 @@ ALLOWED["mesh_reader"] = {"mesh"}  # a program of its own; it shares the layout 
 # Libraries that only these modules may see.
 ONLY_IN = {"hdf5.h": {"io/h5"}, "toml++/": {"case"}, "CLI/": {"apps"}, "cholmod": {"statics"},
            "CholmodSupport": {"modal", "statics"}, "Spectra/": {"model/stability"},
-           "lapacke": {"pod"}, "xxhash": {"io/h5"}, "fftw3": {"pod"},
+           "lapacke": {"pod"}, "xxhash": {"io/h5"}, "fftw3": {"pod", "statics/steady"},
            "gmsh.h": {"mesh_reader"}, "mpi.h": {"apps"}}
 
 MOST_FILES = 25  # in a folder

@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: BSD-3-Clause
+/// @file  Where the power of steady rolling goes (docs/theory.md, 11.4): an identity to round-off,
+/// so that it judges a solution from its whole field.
+#pragma once
+#include "rondo/statics/steady/rolling_contact.hpp"
+
+namespace rondo::statics {
+
+/// drive + mass + stiffness + friction = scheme [W/m].
+struct RollingPower {
+  double drive = 0.0;      ///< V F_x + s T: of speed and spin against the ground's forces
+  double mass = 0.0;       ///< taken by mass damping
+  double stiffness = 0.0;  ///< taken by stiffness damping
+  double friction = 0.0;   ///< taken by friction, by the slip that the law sees
+  /// By which the velocity of the field differs from what the law sees: Σ r·(w - w_law).
+  double scheme = 0.0;
+  double residual = 0.0;  ///< what the identity leaves, over the largest of these          [-]
+};
+
+/// U_k of all rows under the solution's forces [m].
+[[nodiscard]] RollingHarmonics::Block spectrum_of(const RollingWindow& window,
+                                                  const RollingSolution& solution);
+
+[[nodiscard]] RollingPower rolling_power(const RollingWindow& window,
+                                         const RollingSolution& solution,
+                                         const RollingHarmonics::Block& spectrum);
+
+}  // namespace rondo::statics
