@@ -16,7 +16,7 @@
 #include "mpi_team.hpp"
 #include "progress.hpp"
 #include "rondo/analysis/build/memory.hpp"
-#include "rondo/analysis/strain_watch.hpp"
+#include "rondo/analysis/base/strain_watch.hpp"
 #include "rondo/core/bytes.hpp"
 #include "rondo/core/error.hpp"
 #include "signals.hpp"

@@ -36,6 +36,9 @@ STEPS = {"model", "integrators", "integrators/fused"}
 ALLOWED["output"] = SOLIDS | STEPS | {"case", "io"}
 ALLOWED["analysis/build"] = SOLIDS | STEPS | {"statics", "case", "output"}
 ALLOWED["analysis/figures"] = {"core", "io", "output"}
+ALLOWED["analysis/base"] = SOLIDS | {"model", "case", "io", "output"}
+ALLOWED["analysis/steady"] = (ALLOWED["analysis/build"] | ALLOWED["analysis/base"] |
+                              {"statics/steady", "modal", "analysis/base", "analysis/build"})
 ALLOWED["analysis"] = set(ALLOWED)
 ALLOWED["analysis/modes"] = ALLOWED["analysis"] | {"analysis"}
 ALLOWED["study/sweep"] = ALLOWED["analysis"] | {"analysis"}

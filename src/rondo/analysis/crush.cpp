@@ -8,12 +8,12 @@
 #include <chrono>
 #include <cmath>
 
+#include "rondo/analysis/base/disk.hpp"
+#include "rondo/analysis/base/strain_watch.hpp"
 #include "rondo/analysis/build/build.hpp"
 #include "rondo/analysis/build/crush_setup.hpp"
 #include "rondo/analysis/build/physical.hpp"
-#include "rondo/analysis/disk.hpp"
 #include "rondo/analysis/out_of_range.hpp"
-#include "rondo/analysis/strain_watch.hpp"
 #include "rondo/core/keep_larger.hpp"
 #include "rondo/output/columns.hpp"
 

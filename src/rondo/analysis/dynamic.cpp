@@ -9,10 +9,10 @@
 #include <limits>
 #include <utility>
 
+#include "rondo/analysis/base/disk.hpp"
 #include "rondo/analysis/build/build.hpp"
 #include "rondo/analysis/build/memory.hpp"
 #include "rondo/analysis/build/step_limit.hpp"
-#include "rondo/analysis/disk.hpp"
 #include "rondo/case/case_source.hpp"
 #include "rondo/integrators/start.hpp"
 #include "rondo/output/resume.hpp"

@@ -6,11 +6,11 @@
 #include <string>
 #include <vector>
 
-#include "rondo/analysis/analysis.hpp"
+#include "rondo/analysis/base/analysis.hpp"
+#include "rondo/analysis/base/strain_watch.hpp"
 #include "rondo/analysis/boundary_watch.hpp"
 #include "rondo/analysis/build/rim.hpp"
 #include "rondo/analysis/out_of_range.hpp"
-#include "rondo/analysis/strain_watch.hpp"
 #include "rondo/case/setup.hpp"
 #include "rondo/integrators/integrator.hpp"
 #include "rondo/output/contact_statistics.hpp"

@@ -5,7 +5,7 @@
 #include <cstddef>
 #include <string>
 
-#include "rondo/analysis/analysis.hpp"
+#include "rondo/analysis/base/analysis.hpp"
 
 namespace rondo::study {
 

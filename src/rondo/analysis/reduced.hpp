@@ -4,7 +4,7 @@
 #pragma once
 #include <memory>
 
-#include "rondo/analysis/analysis.hpp"
+#include "rondo/analysis/base/analysis.hpp"
 
 namespace rondo::study {
 

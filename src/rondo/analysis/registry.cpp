@@ -7,7 +7,9 @@
 #include "rondo/analysis/dynamic.hpp"
 #include "rondo/analysis/figures/crush_figures.hpp"
 #include "rondo/analysis/figures/dynamic_figures.hpp"
+#include "rondo/analysis/figures/steady_figures.hpp"
 #include "rondo/analysis/reduced.hpp"
+#include "rondo/analysis/steady/steady.hpp"
 
 namespace rondo::study {
 
@@ -15,6 +17,7 @@ std::span<const AnalysisType> analysis_types() noexcept {
   static const std::array types{
       AnalysisType{analysis_kinds[0].name, "step", make_dynamic, dynamic_figures()},
       AnalysisType{analysis_kinds[1].name, "increment", make_crush, crush_figures()},
+      AnalysisType{analysis_kinds[2].name, "place", make_steady_rolling, steady_figures()},
   };
   static_assert(types.size() == std::size(analysis_kinds), "a row a kind, in their order");
   return types;

@@ -6,7 +6,7 @@
 #include <string_view>
 #include <vector>
 
-#include "rondo/analysis/analysis.hpp"
+#include "rondo/analysis/base/analysis.hpp"
 #include "rondo/analysis/figures/figures.hpp"
 
 namespace rondo::study {

@@ -8,7 +8,7 @@
 #include <new>
 #include <optional>
 
-#include "rondo/analysis/disk.hpp"
+#include "rondo/analysis/base/disk.hpp"
 #include "rondo/analysis/loop.hpp"
 #include "rondo/analysis/registry.hpp"
 #include "rondo/io/files.hpp"

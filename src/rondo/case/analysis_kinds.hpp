@@ -11,9 +11,10 @@ namespace rondo::study {
 struct Case;
 class CaseValues;
 
-enum class AnalysisKind { dynamic, crush };
+enum class AnalysisKind { dynamic, crush, steady_rolling };
 
 void check_crush(CaseValues& in, Case& c);
+void check_steady_rolling(CaseValues& in, Case& c);
 
 struct KindOfCase {
   std::string_view name;
@@ -24,6 +25,8 @@ struct KindOfCase {
 inline constexpr KindOfCase analysis_kinds[] = {
     {"dynamic", nullptr, ""},
     {"crush", check_crush, "a crush is quasi-static, its ground flat"},
+    {"steady-rolling", check_steady_rolling,
+     "steady rolling has no start, no end and no impacts"},
 };
 
 constexpr const KindOfCase& rules_of(AnalysisKind kind) noexcept {

@@ -69,12 +69,21 @@ struct GroundCase {
   contact::Impact impact = contact::Impact::moreau;
 };
 
+enum class RollingSlip { bdf2, upwind };
+
 struct AnalysisCase {
   AnalysisKind kind = AnalysisKind::dynamic;
   double depth = 0.0;        ///< of a crush, below first touch: > 0                          [m]
   int increments = 0;        ///< of a crush, >= 1
   double slide = 0.0;        ///< of a crush: travel of the center along +x after the pressing  [m]
   int slide_increments = 0;  ///< >= 1 where there is a slide, else 0
+  // Of steady rolling.
+  int samples_per_sector = 8;              ///< P >= 1
+  RollingSlip slip = RollingSlip::bdf2;    ///< how slip is taken
+  bool massless_contact = true;            ///< with more than one sample always
+  std::optional<double> load;              ///< F_y > 0, instead of the height           [N/m]
+  std::optional<double> traction, torque;  ///< F_x, or clockwise on the rim, instead of the
+                                           ///< speed                                 [N/m], [N]
 };
 
 enum class InitialState { rest, stationary };
@@ -122,8 +131,8 @@ struct KeyPlace {
   std::string written;  ///< the value, as written
 };
 
-/// What means nothing to a crush (damping, motion, initial state, time, restitution, fillet, the
-/// times of the output) has its defaults there, whatever the file says.
+/// What means nothing to an analysis (of a crush: damping, motion, initial state, time,
+/// restitution, fillet, the times of the output) has its defaults there, whatever the file says.
 struct Case {
   std::filesystem::path file;
   std::map<std::string, KeyPlace> places;  ///< of the keys given, by dotted key

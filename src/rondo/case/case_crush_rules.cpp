@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <fmt/format.h>
 
-#include <algorithm>
-
 #include "rondo/case/case_rules.hpp"
 #include "rondo/mesh/physical_group.hpp"
 
@@ -25,15 +23,6 @@ void check_depth(CaseValues& in, const Case& c) {
              fmt::format("> 0 and < outer_radius - inner_radius = {:.6g}", thickness));
 }
 
-void check_flat(CaseValues& in, const Case& c) {
-  if (!in.has_table("ground")) return in.missing("ground.profile");
-  if (!in.good({"ground", "ground.profile", "ground.fillet"})) return;
-  const std::vector<Vec2>& profile = c.ground->shape.profile;
-  if (!std::all_of(profile.begin(), profile.end(), [&](Vec2 p) { return p.y == profile[0].y; }))
-    in.fault("ground.profile", "a crush needs flat ground: all points at one height",
-             "ground.profile = \"flat\"");
-}
-
 }  // namespace
 
 void check_crush(CaseValues& in, Case& c) {
@@ -44,7 +33,7 @@ void check_crush(CaseValues& in, Case& c) {
   if (c.mesh && !is_held(c) && in.good({"mesh.clamped"}))
     in.fault("mesh.clamped", "a crush presses a body down by what is held",
              "a physical curve of the mesh, " + mesh::physical_group_line("Curve", "rim"));
-  check_flat(in, c);
+  check_flat_ground(in, c, "a crush");
   if (c.body_contact.between != BodyContact::none)
     in.fault("contact.between", "a crush knows no contact but with the ground", "\"none\"");
   if (in.has_table("rim"))

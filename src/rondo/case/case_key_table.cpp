@@ -50,6 +50,22 @@ bool has_free_y(const Case& c) {
 bool has_free_spin(const Case& c) {
   return c.rim && c.rim->free_spin;
 }
+/// A load takes the place of the height, traction or torque that of the speed.
+bool has_load(const Case& c) {
+  return c.analysis.load.has_value();
+}
+bool has_traction(const Case& c) {
+  return c.analysis.traction.has_value();
+}
+bool has_torque(const Case& c) {
+  return c.analysis.torque.has_value();
+}
+bool has_height(const Case& c) {
+  return is_held(c) && !has_load(c);
+}
+bool has_speed(const Case& c) {
+  return is_held(c) && !has_traction(c) && !has_torque(c);
+}
 bool has_slide(const Case& c) {
   return c.analysis.slide_increments != 0;
 }
@@ -152,16 +168,17 @@ constexpr CaseKey keys[] = {
      "angular velocity ω of the rim; > 0 turns clockwise, which rolls towards +x. So do all "
      "angular velocities of a case, and `angle_rad` of history.csv, its integral"},
     {"motion.speed", "m/s", FIELD(motion.speed), any,
-     required.if_(is_held, "required if constrained and dynamic").body(never),
+     required.if_(has_speed, "required if constrained and dynamic").only_in(in_time).body(never),
      "speed V of the center along x"},
     {"motion.height", "m", FIELD(motion.height), any,
-     required.if_(is_held, "required if constrained and dynamic").body(never),
+     required.if_(has_height, "required if constrained and dynamic").only_in(in_time).body(never),
      "height h of the center above y = 0"},
     {"motion.start_x", "m", FIELD(motion.start_x), any, optional.if_(is_held).body(never),
      "x of the center at t = 0"},
     {"motion.gravity", "m/s2", FIELD(motion.gravity), any, optional.body(never),
      "acceleration of gravity, downwards: 9.81 on Earth"},
-    {"motion.slope", "rad", FIELD(motion.slope), less_than_upright, optional.body(never),
+    {"motion.slope", "rad", FIELD(motion.slope), less_than_upright,
+     optional.of(in_time_untold).body(never),
      "slope of the ground, whose axes stay those of the case: gravity is tilted by it instead, "
      "towards +x where > 0, downhill"},
 
@@ -205,16 +222,16 @@ constexpr CaseKey keys[] = {
      "surface of the ground, see below; required where there is a `[ground]`. Of a CSV file, whose "
      "name is relative to the case file's directory, the `case.toml` of the results has the "
      "points"},
-    {"ground.fillet", "m", FIELD(ground->shape.fillet), not_negative, optional.of(in_motion_untold),
+    {"ground.fillet", "m", FIELD(ground->shape.fillet), not_negative, optional.of(in_time_untold),
      "radius that rounds all convex corners; 0: they are sharp"},
     {"ground.friction", "-", FIELD(ground->friction), between(0, 100), optional.body(never),
      "Coulomb's coefficient of friction μ; 0: none"},
     {"ground.restitution", "-", FIELD(ground->restitution), between(0, 1),
-     optional.of(in_motion).body(never),
+     optional.of(in_time).body(never),
      "Newton's coefficient of restitution e of each node's impact; 0: a node that arrives stays "
      "until it is pulled off"},
     {"ground.impact", "-", FIELD(ground->impact), choice("moreau", "energy-safe"),
-     optional.of(in_motion).body(never),
+     optional.of(in_time).body(never),
      "law of the impacts. \"moreau\": a node that arrives or leaves with w_n⁻ goes on with -e "
      "w_n⁻. \"energy-safe\": one that leaves while it is pressed is sent back no faster; no impact "
      "then creates energy at any step, but more is lost ([theory.md](theory.md), 4.3)"},
@@ -267,7 +284,9 @@ constexpr CaseKey keys[] = {
 
     {"analysis.kind", "-", FIELD(analysis.kind), kind_of_analysis(), optional,
      "\"dynamic\": the body moves as `[motion]` says, over `[time]`. \"crush\": the body is "
-     "pressed on flat ground without turning, slowly"},
+     "pressed on flat ground without turning, slowly. \"steady-rolling\": the state that rolling "
+     "at "
+     "constant spin settles in, solved directly; see [steady rolling](#steady-rolling)"},
     {"analysis.depth", "m", FIELD(analysis.depth),
      with(positive, "< disk.outer_radius - disk.inner_radius"),
      required.of(of_crush).said("required if crush").body(never),
@@ -284,6 +303,30 @@ constexpr CaseKey keys[] = {
      optional.of(of_crush).if_(has_slide, "required if slide").body(never),
      "equal parts of the slide, each an equilibrium; refused in a dynamic case"},
 
+    {"analysis.samples_per_sector", "-", FIELD(analysis.samples_per_sector), between(1, 1000),
+     optional.of(of_steady_rolling).body(never),
+     "places of a sector, over its own length, at which steady rolling is solved; with a "
+     "`[disk.tread]` 16 where it is left out"},
+    {"analysis.slip", "-", FIELD(analysis.slip), choice("bdf2", "upwind"),
+     optional.of(of_steady_rolling).body(never),
+     "how the slip of a node is taken in steady rolling: from its places one and two samples "
+     "before, or from one alone, which is more robust and coarser"},
+    {"analysis.massless_contact", "-", FIELD(analysis.massless_contact), any,
+     optional.of(of_steady_rolling).body(never),
+     "the mass of the contact nodes is moved to the nodes below them. false: only with "
+     "`samples_per_sector = 1`"},
+    {"analysis.load", "N/m", FIELD(analysis.load), positive,
+     optional.of(of_steady_rolling).if_(has_load, "none").body(never),
+     "force of the ground on the steadily rolling body, upwards, instead of `motion.height`"},
+    {"analysis.traction", "N/m", FIELD(analysis.traction), any,
+     optional.of(of_steady_rolling).if_(has_traction, "none").body(never),
+     "force of the ground along +x, instead of `motion.speed`; < 0 brakes"},
+    {"analysis.torque", "N", FIELD(analysis.torque), any,
+     optional.of(of_steady_rolling).if_(has_torque, "none").body(never),
+     "torque on the rim, clockwise as angular velocities, instead of `motion.speed`: > 0 drives "
+     "towards +x. At constant spin it is balanced by the torque of the ground about the center, "
+     "counter-clockwise and as large. 0: free rolling"},
+
     {"time.end", "s", FIELD(time.end), positive,
      required.said("required if dynamic").body(never).free_on_resume(),
      "end of the run, which starts at t = 0"},
@@ -298,29 +341,29 @@ constexpr CaseKey keys[] = {
      "shows as `work_scheme`, and serves for comparison. The ledger closes in both"},
 
     {"solver.operator", "-", FIELD(solver_operator), choice("auto", "cyclic", "sparse"),
-     optional.of(in_motion),
+     optional.of(in_time),
      "how K u is formed: \"cyclic\" from the blocks of one sector, \"sparse\" from an assembled "
      "matrix; \"auto\" takes \"cyclic\" on every mesh of equal sectors, that is on every `[disk]`, "
      "but where it is free, there is a `[contact]` of bodies, or `time.scheme` is \"as-printed\": "
      "there \"cyclic\" is refused. The results are the same to round-off (docs/performance.md)"},
     {"solver.contact_iterations", "-", FIELD(contact_iterations), between(1, 1000000000),
-     optional.of(in_motion).body(never),
+     optional.of(in_time).body(never),
      "most iterations of contacts that share nodes and are solved together (sharp corners of the "
      "ground, bodies on each other). One that does not meet the law by then is counted in "
      "`run.json`, and its residual ends the run"},
     {"solver.dump_contacts", "-", FIELD(dump_contacts), between(0, 1000000000),
-     optional.of(in_motion).body(never),
+     optional.of(in_time).body(never),
      "such problems that took more iterations than this are kept as files in `contact-problems/` "
      "of the results directory, for those who improve the solver; 0: none"},
 
     {"output.history_interval", "s", FIELD(output.history_interval), not_negative,
-     optional.of(in_motion).body(never),
+     optional.of(in_time).body(never),
      "time between rows of `history.csv`; forces are means over it. 0: a row every step"},
     {"output.snapshots", "-", FIELD(output.snapshots), between(0, 1000000),
-     optional.of(in_motion).body(never),
+     optional.of(in_time).body(never),
      "number of fields kept, evenly spread over [snapshots_from, end], both ends included"},
     {"output.snapshots_from", "s", FIELD(output.snapshots_from), with(not_negative, "<= time.end"),
-     optional.of(in_motion).body(never), "time of the first snapshot"},
+     optional.of(in_time).body(never), "time of the first snapshot"},
     {"output.stress", "-", FIELD(output.stress), any, optional.body(never),
      "keep the stress with the snapshots"},
     {"output.checkpoint_interval", "s", FIELD(output.checkpoint_interval), positive,

@@ -104,9 +104,12 @@ constexpr unsigned bit_of(AnalysisKind kind) {
 }
 // A kind of analysis that is not named here has the keys of a dynamic one.
 inline constexpr Analyses in_motion{~bit_of(AnalysisKind::crush)};
-inline constexpr Analyses in_motion_untold{~bit_of(AnalysisKind::crush), false};
-inline constexpr Analyses in_motion_but_written{~bit_of(AnalysisKind::crush), true, true};
+inline constexpr Analyses in_motion_untold{in_motion.bits, false};
+inline constexpr Analyses in_motion_but_written{in_motion.bits, true, true};
+inline constexpr Analyses in_time{in_motion.bits & ~bit_of(AnalysisKind::steady_rolling)};
+inline constexpr Analyses in_time_untold{in_time.bits, false};
 inline constexpr Analyses of_crush{bit_of(AnalysisKind::crush)};
+inline constexpr Analyses of_steady_rolling{bit_of(AnalysisKind::steady_rolling)};
 
 constexpr bool always(const Case& /*c*/) {
   return true;
@@ -120,6 +123,7 @@ struct Use {
   using Test = bool (*)(const Case& c);
 
   bool required = false;
+  Analyses required_in{~0U};  ///< of those below, the analyses that require it
   std::string_view standard{};  ///< for the manual, where the default is not that of the struct
   Test when = always;           ///< it is written, and required if it is
   Analyses analyses{~0U};
@@ -140,6 +144,11 @@ struct Use {
   [[nodiscard]] constexpr Use of(Analyses which) const {
     Use use = *this;
     use.analyses = which;
+    return use;
+  }
+  [[nodiscard]] constexpr Use only_in(Analyses which) const {
+    Use use = *this;
+    use.required_in = which;
     return use;
   }
   [[nodiscard]] constexpr Use body(Test test) const {

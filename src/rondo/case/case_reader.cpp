@@ -50,7 +50,8 @@ void require_keys(CaseValues& in, const Case& c) {
         const bool asked = of_all || (in.good({"analysis.kind"}) &&  //
                                       means_to(key, c.analysis.kind));
         const std::string path = path_of(key, k);
-        if (key.use.required && key.use.when(c) && asked && !in.has(path)) in.missing(path);
+        const bool required = key.use.required && key.use.required_in.contain(c.analysis.kind);
+        if (required && key.use.when(c) && asked && !in.has(path)) in.missing(path);
       }
 }
 

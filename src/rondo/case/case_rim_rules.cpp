@@ -112,7 +112,7 @@ void warn(Case& c) {
 }  // namespace
 
 void check_rim(CaseValues& in, Case& c) {
-  if (!c.rim || c.analysis.kind == AnalysisKind::crush) return;
+  if (!c.rim || !in_time.contain(c.analysis.kind)) return;
   check_body(in, c);
   if (!in.has("rim.support.x.at")) c.rim->support_x.at = c.motion.start_x;
   if (!in.has("rim.support.y.at")) c.rim->support_y.at = c.motion.height.at(0.0);

@@ -218,6 +218,15 @@ void require(CaseValues& in, std::string_view key) {
   if (in.good({"analysis.kind"}) && !in.has(key)) in.missing(key);
 }
 
+void check_flat_ground(CaseValues& in, const Case& c, std::string_view who) {
+  if (!in.has_table("ground")) return in.missing("ground.profile");
+  if (!in.good({"ground", "ground.profile", "ground.fillet"})) return;
+  const std::vector<Vec2>& profile = c.ground->shape.profile;
+  if (!std::all_of(profile.begin(), profile.end(), [&](Vec2 p) { return p.y == profile[0].y; }))
+    in.fault("ground.profile", fmt::format("{} needs flat ground: all points at one height", who),
+             "ground.profile = \"flat\"");
+}
+
 void check_analysis(CaseValues& in, Case& c) {
   if (const auto check = rules_of(c.analysis.kind).check) check(in, c);
 }

@@ -15,6 +15,9 @@ void check_case(CaseValues& in, Case& c);
 /// Rules of [rim], and where its supports are at rest if the case does not say.
 void check_rim(CaseValues& in, Case& c);
 
+/// There is ground, and it is flat. @param who needs it
+void check_flat_ground(CaseValues& in, const Case& c, std::string_view who);
+
 /// For keys that another key requires; says nothing where the kind of analysis is at fault.
 void require(CaseValues& in, std::string_view key);
 

@@ -27,10 +27,24 @@ class CriticalProblem {
 
   [[nodiscard]] int n_harmonics() const noexcept { return elastic_.count(); }
 
-  CriticalSpeed lowest(int n) {
+  /// From here on all is about harmonic n.
+  void choose(int n) {
     n_ = n;
     a_ = elastic_.lower(n, 1.0, 0.0);
     if (stiffening_) a_sigma_ = stiffening_->lower(n, 1.0, 0.0);
+  }
+  /// A - s² Q is positive definite: no wave of this harmonic stands still at s or below.
+  [[nodiscard]] bool none_up_to(double squared) const {
+    const double n = n_;
+    Matrix m = a_;
+    if (stiffening_) m += squared * a_sigma_;
+    for (Index k = 0; k < m.cols(); ++k) m.coeffRef(k, k) -= squared * (n * n + 1.0);
+    for (Index k = 0; k < m.cols(); k += 2) m.coeffRef(k + 1, k) += Complex(0.0, 2.0 * n * squared);
+    return negative_eigenvalues(m) == 0;
+  }
+
+  CriticalSpeed lowest() {
+    const int n = n_;
     factor_.compute(a_);
     RONDO_DEMAND(factor_.info() == Eigen::Success, n);
     Operator<Complex> op;
@@ -59,15 +73,8 @@ class CriticalProblem {
     if (stiffening_) y -= a_sigma_.selfadjointView<Eigen::Lower>() * x;
     return y;
   }
-  /// A - s² Q is positive definite just below the spin found: none is lower.
-  [[nodiscard]] bool is_lowest(double mu) const {
-    const double squared = (1.0 - 1e-6) / mu, n = n_;
-    Matrix m = a_;
-    if (stiffening_) m += squared * a_sigma_;
-    for (Index k = 0; k < m.cols(); ++k) m.coeffRef(k, k) -= squared * (n * n + 1.0);
-    for (Index k = 0; k < m.cols(); k += 2) m.coeffRef(k + 1, k) += Complex(0.0, 2.0 * n * squared);
-    return negative_eigenvalues(m) == 0;
-  }
+  /// None is lower than the one found.
+  [[nodiscard]] bool is_lowest(double mu) const { return none_up_to((1.0 - 1e-6) / mu); }
 
   fem::Harmonics elastic_;
   std::optional<fem::Harmonics> stiffening_;
@@ -83,8 +90,19 @@ std::vector<CriticalSpeed> critical_speeds(const CyclicBody& body,
   CriticalProblem problem(body, stiffening);
   std::vector<CriticalSpeed> speeds;
   for (int n = body.free() ? 2 : 1; n <= std::min(last, problem.n_harmonics() - 1); ++n) {
-    const CriticalSpeed found = problem.lowest(n);
+    problem.choose(n);
+    const CriticalSpeed found = problem.lowest();
     if (found.spin > 0.0) speeds.push_back(found);
+  }
+  return speeds;
+}
+
+std::vector<CriticalSpeed> critical_speeds_up_to(const CyclicBody& body, double spin) {
+  CriticalProblem problem(body, nullptr);
+  std::vector<CriticalSpeed> speeds;
+  for (int n = 0; n < problem.n_harmonics(); ++n) {
+    problem.choose(n);
+    if (!problem.none_up_to(spin * spin)) speeds.push_back(problem.lowest());
   }
   return speeds;
 }

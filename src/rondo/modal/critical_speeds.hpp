@@ -21,4 +21,8 @@ struct CriticalSpeed {
 std::vector<CriticalSpeed> critical_speeds(const CyclicBody& body,
                                            const fem::SectorStiffness* stiffening, int last);
 
+/// Those of n = 0 … N/2 that are at |spin| or below, by a factorisation for each n; n = 0 is the
+/// spin that softens the body to nothing. @pre the body is clamped
+std::vector<CriticalSpeed> critical_speeds_up_to(const CyclicBody& body, double spin);
+
 }  // namespace rondo::modal

@@ -57,16 +57,6 @@ void refuse_held_curve(const Case& c, const mesh::Mesh& mesh, const std::string&
                "cavity that is inflated, a [mesh] whose mesh.clamped is another curve");
 }
 
-void add_pressures(const Case& c, const mesh::Mesh& mesh, dynamics::Model& model) {
-  for (std::size_t k = 0; k < c.pressures.size(); ++k) {
-    const auto& [name, pressure] = c.pressures[k];
-    const std::string key = item_of("load.pressure", k) + ".curve";
-    const std::vector<mesh::Edge>& edges = curve_of(c, mesh, key, name);
-    refuse_held_curve(c, mesh, key, name, edges);
-    model.pressures.push_back({edges, pressure});
-  }
-}
-
 /// Bodies that nothing holds, where they start. They turn, and so do the sectors of a free disk,
 /// which are none then.
 void find_bodies(const Case& c, Setup& s) {
@@ -186,6 +176,16 @@ dynamics::CriticalStep find_critical_step(const Case& c, const Setup& s) {
 }
 
 }  // namespace
+
+void add_pressures(const Case& c, const mesh::Mesh& mesh, dynamics::Model& model) {
+  for (std::size_t k = 0; k < c.pressures.size(); ++k) {
+    const auto& [name, pressure] = c.pressures[k];
+    const std::string key = item_of("load.pressure", k) + ".curve";
+    const std::vector<mesh::Edge>& edges = curve_of(c, mesh, key, name);
+    refuse_held_curve(c, mesh, key, name, edges);
+    model.pressures.push_back({edges, pressure});
+  }
+}
 
 long long count_steps(const Case& c, double dt) {
   const double steps = c.time.end / dt;

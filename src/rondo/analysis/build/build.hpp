@@ -24,6 +24,9 @@ struct SharedBody {
 /// Equal for cases that share a body.
 std::string body_key(const Case& c);
 
+/// The case's pressures. @throws InputError: no such curve, or one that is held
+void add_pressures(const Case& c, const mesh::Mesh& mesh, dynamics::Model& model);
+
 /// ceil(end / step), where that is not a whole number by the last bit. @throws InputError: too many
 long long count_steps(const Case& c, double dt);
 

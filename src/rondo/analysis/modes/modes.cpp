@@ -11,7 +11,7 @@
 #include <optional>
 #include <utility>
 
-#include "rondo/analysis/analysis.hpp"
+#include "rondo/analysis/base/analysis.hpp"
 #include "rondo/analysis/build/build.hpp"
 #include "rondo/analysis/build/memory.hpp"
 #include "rondo/analysis/build/overlap.hpp"

@@ -169,6 +169,13 @@ double lowest(const RollingWindow& w) {
   return least;
 }
 
+/// The speed is asked for, and nothing that sticks tells it.
+bool slides(const RollingDrive& drive, const Findings& found) {
+  const bool sticks =
+      std::ranges::any_of(found, [](const auto& f) { return f.status == Status::stick; });
+  return (drive.traction || drive.torque) && !sticks;
+}
+
 void fill(const RollingWindow& w, const RollingDrive& drive, Set& set, RollingSolution& s) {
   const RollingPoint& p = set.point;
   s.height = p.height;
@@ -215,7 +222,10 @@ RollingSolution solve_rolling(RollingWindow& window, const RollingDrive& drive,
     }
     if (window.include_touching(set.point.height, set.point.force)) continue;
     fill(window, drive, set, s);
-    if (s.residual <= bound) s.end = RollingEnd::solved;
+    if (s.residual <= bound)
+      s.end = RollingEnd::solved;
+    else if (slides(drive, set.found))
+      s.end = RollingEnd::sliding;
     return s;
   }
   s.end = RollingEnd::no_contact;

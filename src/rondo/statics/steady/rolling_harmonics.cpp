@@ -286,4 +286,10 @@ RollingHarmonics::Damped RollingHarmonics::damped(const Block& spectrum) const {
   return d;
 }
 
+/// N Σ R_kᴴ (iks U_k) over k = 1 and -1.
+double RollingHarmonics::weight(const Block& spectrum) const {
+  const Complexes power = load_of(1).dot(spectrum.col(1)) * (i * body_.spin);
+  return 2.0 * body_.stiffness.n_sectors * power.real();
+}
+
 }  // namespace rondo::statics

@@ -62,6 +62,8 @@ class RollingHarmonics {
     double by_mass = 0.0, by_stiffness = 0.0;
   };
   [[nodiscard]] Damped damped(const Block& spectrum) const;
+  /// Power of the weight along the deformation, over the turn [W/m].
+  [[nodiscard]] double weight(const Block& spectrum) const;
 
  private:
   struct Layer {

@@ -38,6 +38,7 @@ RollingPower rolling_power(const RollingWindow& w, const RollingSolution& s,
   power.drive = s.speed * s.forces.x + spin * s.forces.torque;
   power.mass = damped.by_mass;
   power.stiffness = damped.by_stiffness;
+  power.weight = h.weight(spectrum);
   double of_field = 0.0;  // Σ r·w by the field's own velocity
   for (std::size_t j = 0; j < w.pairs().size(); ++j) {
     const RollingPair& p = w.pairs()[j];
@@ -54,7 +55,7 @@ RollingPower rolling_power(const RollingWindow& w, const RollingSolution& s,
     power.friction -= force.x * s.gap_and_slip[row + 1] / pass;
   }
   power.scheme = of_field + power.friction;
-  const double left = power.drive + power.mass + power.stiffness - of_field;
+  const double left = power.drive + power.mass + power.stiffness - power.weight - of_field;
   const double largest = std::max({std::abs(s.speed * s.forces.x), std::abs(spin * s.forces.torque),
                                    power.mass, power.stiffness, std::abs(power.friction)});
   power.residual = largest > 0.0 ? std::abs(left) / largest : 0.0;

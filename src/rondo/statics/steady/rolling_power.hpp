@@ -6,12 +6,14 @@
 
 namespace rondo::statics {
 
-/// drive + mass + stiffness + friction = scheme [W/m].
+/// drive + mass + stiffness + friction - weight = scheme [W/m].
 struct RollingPower {
   double drive = 0.0;      ///< V F_x + s T: of speed and spin against the ground's forces
   double mass = 0.0;       ///< taken by mass damping
   double stiffness = 0.0;  ///< taken by stiffness damping
   double friction = 0.0;   ///< taken by friction, by the slip that the law sees
+  /// Given by gravity along the deformation; minus s times its torque about the center.
+  double weight = 0.0;
   /// By which the velocity of the field differs from what the law sees: Σ r·(w - w_law).
   double scheme = 0.0;
   double residual = 0.0;  ///< what the identity leaves, over the largest of these          [-]

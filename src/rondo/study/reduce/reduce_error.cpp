@@ -7,7 +7,7 @@
 #include <numbers>
 #include <system_error>
 
-#include "rondo/analysis/analysis.hpp"
+#include "rondo/analysis/base/analysis.hpp"
 #include "rondo/analysis/build/build.hpp"
 #include "rondo/integrators/start.hpp"
 #include "rondo/io/csv.hpp"

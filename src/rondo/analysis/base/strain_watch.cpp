@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "rondo/analysis/strain_watch.hpp"
+#include "rondo/analysis/base/strain_watch.hpp"
 
 #include <fmt/format.h>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "rondo/analysis/disk.hpp"
+#include "rondo/analysis/base/disk.hpp"
 
 #include <fmt/format.h>
 #include <sys/resource.h>

@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "rondo/analysis/figures/steady_figures.hpp"
+
+#include <array>
+#include <limits>
+
+#include "rondo/io/files.hpp"
+#include "rondo/output/run_files.hpp"
+
+namespace rondo::study {
+namespace {
+
+constexpr std::array steady_columns{
+    FigureColumn{"force_x", "N/m", "of the ground on the body, mean over a sector's pass"},
+    FigureColumn{"force_y", "N/m", "likewise"},
+    FigureColumn{"torque", "N", "on the rim, clockwise: > 0 drives"},
+    FigureColumn{"height_m", "m", "of the center above y = 0"},
+    FigureColumn{"speed", "m/s", "of the center"},
+    FigureColumn{"slip_ratio", "1", "as in history.csv"},
+    FigureColumn{"rolling_resistance", "N/m", "power lost over speed"},
+    FigureColumn{"stick_share", "1", "of the length of contact, what sticks"},
+    FigureColumn{"contact_length_m", "m", "mean over a sector's pass"},
+    FigureColumn{"pressure_max_pa", "Pa", "largest"},
+    FigureColumn{"shear_max_pa", "Pa", "largest"},
+    FigureColumn{"friction_power", "W/m", "taken by friction"},
+    FigureColumn{"energy_residual_relative", "1", "of the balance of powers"},
+    FigureColumn{"contact_residual_max", "1", "of the contact law"},
+    FigureColumn{"penetration_max_m", "m", "largest"},
+    FigureColumn{"strain_max", "1", "largest principal strain"},
+    FigureColumn{"jacobian_min", "1", "least area of an element over that undeformed"},
+};
+
+std::vector<double> figures_of(const std::filesystem::path& directory, const Window& /*none*/) {
+  const Json run = io::read_json(directory / "run.json");
+  const Json steady = run.value("steady", Json::object());
+  const auto number = [](const Json& j, const char* key) {
+    return j.contains(key) && j[key].is_number() ? j[key].get<double>()
+                                                 : std::numeric_limits<double>::quiet_NaN();
+  };
+  const double stick = number(steady, "stick_length"), slip = number(steady, "slip_length");
+  std::vector<double> figures;
+  for (const char* key :
+       {"force_x", "force_y", "torque", "height", "speed", "slip_ratio", "rolling_resistance"})
+    figures.push_back(number(steady, key));
+  figures.push_back(stick / (stick + slip));
+  figures.push_back(stick + slip);
+  figures.push_back(number(steady, "pressure_max"));
+  figures.push_back(number(steady, "shear_max"));
+  figures.push_back(number(steady.value("power", Json::object()), "friction"));
+  add_figures_of_all(directory, figures);
+  return figures;
+}
+
+}  // namespace
+
+FigureTable steady_figures() noexcept {
+  return {steady_columns, figures_of, false};
+}
+
+}  // namespace rondo::study

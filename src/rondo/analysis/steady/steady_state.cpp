@@ -1,0 +1,273 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "rondo/analysis/steady/steady_state.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace rondo::study {
+namespace {
+
+using contact::Status;
+using Eigen::Index;
+
+constexpr Vec2 normal{0.0, 1.0};  ///< a contact frame's vector times it is along the fixed axes
+constexpr int most_rounds = 20;   ///< of the torque of the weight, which the deformation moves
+
+int wrapped(int value, int count) noexcept {
+  return (value % count + count) % count;
+}
+
+statics::RollingDrive drive_of(const Case& c) {
+  const AnalysisCase& a = c.analysis;
+  const double floor = c.ground->shape.profile.front().y;
+  statics::RollingDrive d;
+  d.height = c.motion.height.at(0.0) - floor;
+  d.speed = c.motion.speed.at(0.0);
+  if (a.traction || a.torque) d.speed = c.motion.angular_velocity.at(0.0) * c.disk.outer_radius;
+  d.friction = c.ground->friction;
+  d.load = a.load;
+  d.traction = a.traction;
+  d.torque = a.torque;
+  return d;
+}
+
+Json json_of(const statics::RollingSlope& slope) {
+  return {{"force_x", slope.forces.x},
+          {"force_y", slope.forces.y},
+          {"torque", slope.forces.torque},
+          {"height", slope.height},
+          {"speed", slope.speed}};
+}
+
+}  // namespace
+
+SteadyState::SteadyState(const Case& c, const SteadyBody& body)
+    : case_(c),
+      body_(body),
+      window_(*body.window),
+      drive_(drive_of(c)),
+      candidate_of_(body.mesh.n_nodes()),
+      sums_(static_cast<std::size_t>(c.analysis.samples_per_sector)) {
+  for (std::size_t k = 0; k < body.mesh.boundary.size(); ++k)
+    candidate_of_[static_cast<std::size_t>(body.mesh.boundary[k])] = k;
+  solve();
+  refuse();
+  if (solution_.end != statics::RollingEnd::solved) return;
+  find_fields();
+  sum_up();
+}
+
+/// Where the speed is asked for and Newton does not find it, from the statuses of free rolling.
+/// The weight has a torque about the center, as the deformation moves the body beside it.
+void SteadyState::solve() {
+  for (int round = 0; round < most_rounds; ++round) {
+    solution_ = statics::solve_rolling(window_, drive_, solution_.status);
+    if (solution_.end != statics::RollingEnd::solved && (drive_.traction || drive_.torque)) {
+      statics::RollingDrive rolling = drive_;
+      rolling.traction.reset();
+      rolling.torque.reset();
+      solution_ = solve_rolling(window_, drive_, statics::solve_rolling(window_, rolling).status);
+    }
+    if (solution_.end != statics::RollingEnd::solved) return;
+    spectrum_ = statics::spectrum_of(window_, solution_);
+    power_ = statics::rolling_power(window_, solution_, spectrum_);
+    if (!drive_.torque) return;
+    const double wanted = *case_.analysis.torque + power_.weight / spin();
+    const bool settled = std::abs(wanted - *drive_.torque) <= 1e-12 * std::abs(wanted);
+    if (settled || power_.weight == 0.0) return;
+    drive_.torque = wanted;
+  }
+}
+
+void SteadyState::refuse() const {
+  const AnalysisCase& a = case_.analysis;
+  if (solution_.end == statics::RollingEnd::no_contact) {
+    const double radius = case_.disk.outer_radius;
+    if (a.load)
+      throw case_error(case_, "analysis.load", "no contact was found that bears it",
+                       "a smaller load: one that presses the body in by a share of its wall");
+    throw case_error(
+        case_, "motion.height",
+        fmt::format("nothing touches: the center is {:.6g} m above the ground", drive_.height),
+        fmt::format("less than the outer radius as deformed by the spin, about {:.6g} "
+                    "m above the ground",
+                    radius));
+  }
+  if (solution_.end == statics::RollingEnd::sliding)
+    throw case_error(case_, a.torque ? "analysis.torque" : "analysis.traction",
+                     "the whole contact slides, and no speed follows from it: friction bears no "
+                     "more",
+                     fmt::format("nearer to 0: a traction below ground.friction = {:.6g} times the "
+                                 "load; or motion.speed instead",
+                                 drive_.friction));
+}
+
+std::string SteadyState::trouble() const {
+  if (solution_.end != statics::RollingEnd::solved)
+    return fmt::format(
+        "the contact was not solved: residual {:.3g}, bound {:.0e}, after {} Newton steps and {} "
+        "pivots; other analysis.samples_per_sector (4 to 32){}{}, or a smaller ground.friction",
+        solution_.residual, residual_bound, solution_.newton_steps, solution_.pivots,
+        case_.analysis.massless_contact ? "" : ", analysis.massless_contact = true",
+        case_.analysis.slip == RollingSlip::bdf2 ? ", analysis.slip = \"upwind\"" : "");
+  if (!(power_.residual <= residual_bound))
+    return fmt::format("the power does not balance: relative residual {:.3g}, bound {:.0e}",
+                       power_.residual, residual_bound);
+  return {};
+}
+
+double SteadyState::torque() const noexcept {
+  return solution_.forces.torque - power_.weight / spin();
+}
+
+double SteadyState::resistance() const noexcept {
+  if (solution_.speed == 0.0) return std::numeric_limits<double>::quiet_NaN();
+  return (-spin() * torque() - solution_.speed * solution_.forces.x) / solution_.speed;
+}
+
+SteadyState::Where SteadyState::where(std::size_t pair) const {
+  const statics::RollingPair& p = window_.pairs()[pair];
+  const statics::RollingHarmonics& h = window_.harmonics();
+  const int samples = h.body().samples, place = wrapped(sense() * p.sample, samples);
+  const int sector = wrapped(p.sample - sense() * place, h.turn()) / samples;
+  Where w{place, static_cast<std::size_t>(sector), 0, 0};
+  w.node = body_.sector.node(static_cast<std::size_t>(h.body().candidates[p.candidate]), w.sector);
+  w.candidate = candidate_of_[w.node];
+  return w;
+}
+
+void SteadyState::find_fields() {
+  const statics::RollingHarmonics& h = window_.harmonics();
+  u_ = h.fields(spectrum_, 0.0, false);
+  rate_ = h.fields(spectrum_, 0.0, true);
+}
+
+void SteadyState::sum_up() {
+  const statics::RollingHarmonics& h = window_.harmonics();
+  const double share = 1.0 / h.body().samples;
+  for (std::size_t j = 0; j < window_.pairs().size(); ++j) {
+    const auto row = static_cast<Index>(2 * j);
+    const Vec2 r{solution_.force[row + 1], solution_.force[row]};
+    if (!(r.y > 0.0)) continue;
+    const Where w = where(j);
+    const statics::RollingPair& p = window_.pairs()[j];
+    const Index local = 2 * h.body().candidates[p.candidate], sample = wrapped(p.sample, h.turn());
+    const Vec2 x =
+        body_.mesh.coordinates[body_.sector.node(static_cast<std::size_t>(local / 2), 0)];
+    const Vec2 arm = window_.frame(p.sample) * (x + Vec2{u_(local, sample), u_(local + 1, sample)});
+    const double tributary = body_.mesh.tributary[w.candidate];
+    const double slip = solution_.gap_and_slip[row + 1];
+    const bool sticks = solution_.status[j].status == Status::stick;
+    for (SteadySums* s : {&sums_[static_cast<std::size_t>(w.place)], &mean_}) {
+      const double part = s == &mean_ ? share : 1.0;
+      s->force += part * r;
+      s->torque += part * cross(arm, r);
+      ++s->nodes;
+      s->sticking += sticks ? 1 : 0;
+      (sticks ? s->stick_length : s->slip_length) += part * tributary;
+      s->pressure = std::max(s->pressure, r.y / tributary);
+      s->shear = std::max(s->shear, std::abs(r.x) / tributary);
+      s->friction -= part * r.x * slip;
+      s->slip = std::max(s->slip, std::abs(slip));
+      s->penetration = std::max(s->penetration, -solution_.gap_and_slip[row]);
+    }
+  }
+}
+
+const SteadySums& SteadyState::sums(int place) const {
+  return sums_[static_cast<std::size_t>(place)];
+}
+
+Vec2 SteadyState::center(int place) const {
+  return {case_.motion.start_x + solution_.speed * place * sample_time(),
+          case_.ground->shape.profile.front().y + solution_.height};
+}
+
+HistoryRecord SteadyState::record(int place) const {
+  const SteadySums& s = sums(place);
+  Snapshot now;
+  fill(place, now);
+  HistoryRecord h;
+  h.time = now.time;
+  h.angle = now.angle;
+  h.center = now.center;
+  h.force = s.force;
+  h.torque = s.torque;
+  h.nodes = s.nodes;
+  h.sticking = s.sticking;
+  h.contact_length = s.stick_length + s.slip_length;
+  h.penetration = s.penetration;
+  h.slip_ratio = dynamics::slip_ratio(-spin() * case_.disk.outer_radius, solution_.speed);
+  std::vector<Vec2> ku(now.u.size());
+  fem::apply(body_.sector, now.u, ku);
+  for (std::size_t i = 0; i < now.u.size(); ++i) {
+    h.balance.strain += 0.5 * dot(now.u[i], ku[i]);
+    h.balance.kinetic += 0.5 * body_.mass[i] * dot(now.v[i], now.v[i]);
+  }
+  return h;
+}
+
+void SteadyState::fill(int place, Snapshot& s) const {
+  const statics::RollingHarmonics& h = window_.harmonics();
+  const int samples = h.body().samples;
+  s.time = s.time_velocity = place * sample_time();
+  s.angle = s.angle_velocity = spin() * s.time;
+  s.center = center(place);
+  s.u.assign(body_.mesh.n_nodes(), {});
+  s.v.assign(body_.mesh.n_nodes(), {});
+  for (int j = 0; j < body_.sector.n_sectors; ++j) {
+    const auto sector = static_cast<std::size_t>(j);
+    const Index m = wrapped(j * samples + sense() * place, h.turn());
+    for (std::size_t a = 0; a < body_.sector.n_local(); ++a) {
+      const auto row = static_cast<Index>(2 * a);
+      const std::size_t node = body_.sector.node(a, sector);
+      s.u[node] = body_.sector.turn[sector] * Vec2{u_(row, m), u_(row + 1, m)};
+      s.v[node] = spin() * (body_.sector.turn[sector] * Vec2{rate_(row, m), rate_(row + 1, m)});
+    }
+  }
+  s.contacts.clear();
+  for (std::size_t k = 0; k < window_.pairs().size(); ++k) {
+    const Where w = where(k);
+    const auto row = static_cast<Index>(2 * k);
+    const Vec2 r{solution_.force[row + 1], solution_.force[row]};
+    if (w.place == place && r.y > 0.0)
+      s.contacts.push_back({w.candidate, to_frame(normal, r), r, true});
+  }
+  std::ranges::sort(s.contacts, {}, &ContactForce::candidate);
+}
+
+Json SteadyState::describe() const {
+  const statics::RollingSolution& s = solution_;
+  const AnalysisCase& a = case_.analysis;
+  const char* by_speed = a.torque ? "by_torque" : a.traction ? "by_traction" : "by_speed";
+  Json j;
+  j["force_x"] = s.forces.x;
+  j["force_y"] = s.forces.y;
+  j["torque"] = torque();
+  j["height"] = center(0).y;
+  j["speed"] = s.speed;
+  j["slip_ratio"] = dynamics::slip_ratio(-spin() * case_.disk.outer_radius, s.speed);
+  j["rolling_resistance"] = resistance();
+  j["stick_length"] = mean_.stick_length;
+  j["slip_length"] = mean_.slip_length;
+  j["pressure_max"] = mean_.pressure;
+  j["shear_max"] = mean_.shear;
+  j["slopes"] = {{"by_friction", json_of(s.by_friction)},
+                 {a.load ? "by_load" : "by_height", json_of(s.by_height)},
+                 {by_speed, json_of(s.by_speed)}};
+  j["power"] = {{"drive", power_.drive},         {"mass", power_.mass},
+                {"stiffness", power_.stiffness}, {"friction", power_.friction},
+                {"weight", power_.weight},       {"scheme", power_.scheme},
+                {"residual", power_.residual}};
+  j["residual"] = s.residual;
+  j["newton_steps"] = s.newton_steps;
+  j["pivots"] = s.pivots;
+  j["pairs"] = window_.pairs().size();
+  j["samples_per_sector"] = window_.harmonics().body().samples;
+  return j;
+}
+
+}  // namespace rondo::study

@@ -1,0 +1,107 @@
+// SPDX-License-Identifier: BSD-3-Clause
+/// Rules of steady rolling: a disk of equal sectors on flat ground, and of height and load, speed
+/// and traction or torque one each (docs/cases.md).
+#include <fmt/format.h>
+
+#include <cmath>
+
+#include "rondo/case/case_rules.hpp"
+
+namespace rondo::study {
+namespace {
+
+void check_body(CaseValues& in, const Case& c) {
+  if (in.has_table("mesh"))
+    in.fault("mesh", "is not known to be of equal sectors, which steady rolling is made of",
+             "a [disk], smooth or treaded; of a mesh, a dynamic analysis");
+  if (!c.mesh && c.free_rim)
+    in.fault("disk.rim", "steady rolling turns a disk by its rim", "\"bonded\"");
+  const bool is_thin = !c.mesh && !c.disk.tread && c.disk.radial < 2;
+  if (is_thin && c.analysis.massless_contact && in.good({"disk.mesh.radial"}))
+    in.fault("disk.mesh.radial", "the nodes below the contact nodes are held by the rim",
+             "at least 2");
+}
+
+void check_constant(CaseValues& in, std::string_view key, const dynamics::Table& value) {
+  if (in.good({key}) && value.points().size() > 1)
+    in.fault(key, "is a table, and a steady state has one value", "a number");
+}
+
+void check_motion(CaseValues& in, const Case& c) {
+  constexpr std::string_view spin = "motion.angular_velocity";
+  check_constant(in, spin, c.motion.angular_velocity);
+  check_constant(in, "motion.speed", c.motion.speed);
+  check_constant(in, "motion.height", c.motion.height);
+  check_constant(in, "motion.gravity", c.motion.gravity);
+  if (in.has(spin) && in.good({spin}) && c.motion.angular_velocity.at(0.0) == 0.0)
+    in.fault(spin, "a body that does not turn does not roll",
+             "not 0; analysis.kind = \"crush\" presses one that is at rest");
+  if (c.motion.slope != 0.0)
+    in.fault("motion.slope", "steady rolling knows no slope", "0, or a dynamic analysis");
+  for (std::size_t k = 0; k < c.pressures.size(); ++k)
+    check_constant(in, item_of("load.pressure", k) + ".value", c.pressures[k].pressure);
+}
+
+/// Of each pair one is given.
+void check_given(CaseValues& in) {
+  constexpr std::string_view height = "motion.height", load = "analysis.load",
+                             speed = "motion.speed", traction = "analysis.traction",
+                             torque = "analysis.torque";
+  if (in.has(load) && in.has(height))
+    in.fault(load, "stands beside motion.height: one follows from the other",
+             "one of motion.height and analysis.load");
+  if (!in.has(load) && !in.has(height))
+    in.fault(height, "is missing, and so is analysis.load: one of them says how deep the body is",
+             "one of motion.height and analysis.load");
+  constexpr const char* one = "one of motion.speed, analysis.traction and analysis.torque";
+  const std::string_view given[] = {speed, traction, torque};
+  std::string_view first;
+  for (const std::string_view key : given) {
+    if (!in.has(key)) continue;
+    if (!first.empty())
+      in.fault(key, fmt::format("stands beside {}: one follows from the other", first), one);
+    if (first.empty()) first = key;
+  }
+  if (first.empty())
+    in.fault(speed, "is missing, and so are analysis.traction and analysis.torque", one);
+}
+
+void check_traction(CaseValues& in, const Case& c) {
+  const AnalysisCase& a = c.analysis;
+  if (!a.load || !a.traction || !c.ground || !in.good({"ground.friction"})) return;
+  const double most = c.ground->friction * *a.load;
+  if (!(std::abs(*a.traction) < most))
+    in.fault("analysis.traction", "the whole contact would slide, and no speed follows from that",
+             fmt::format("> {0:.6g} and < {1:.6g}, ground.friction times analysis.load; or "
+                         "motion.speed instead",
+                         -most, most));
+}
+
+void check_samples(CaseValues& in, Case& c) {
+  constexpr std::string_view samples = "analysis.samples_per_sector";
+  AnalysisCase& a = c.analysis;
+  if (!in.has(samples) && c.disk.tread) a.samples_per_sector = 16;
+  if (!a.massless_contact && a.samples_per_sector > 1)
+    in.fault("analysis.massless_contact",
+             fmt::format("with {} samples a sector, contact nodes with mass chatter",
+                         a.samples_per_sector),
+             "true, or analysis.samples_per_sector = 1");
+}
+
+}  // namespace
+
+void check_steady_rolling(CaseValues& in, Case& c) {
+  check_body(in, c);
+  check_motion(in, c);
+  check_given(in);
+  check_traction(in, c);
+  check_samples(in, c);
+  check_flat_ground(in, c, "steady rolling");
+  if (c.body_contact.between != BodyContact::none)
+    in.fault("contact.between", "steady rolling knows no contact but with the ground", "\"none\"");
+  if (in.has_table("rim"))
+    in.fault("rim", "the rim of steady rolling has no motion of its own",
+             "analysis.load, analysis.traction or analysis.torque instead, or a dynamic analysis");
+}
+
+}  // namespace rondo::study
