@@ -38,10 +38,12 @@ TEST(Manual, HasTheColumns) {
   const Labels rim = history_of({"rim.free=[]"});
   const Labels crush = history_of({"analysis.kind=crush", "analysis.depth=0.01",
                                    "analysis.increments=1", "ground.profile=flat"});
+  const Labels steady = history_of({"analysis.kind=steady-rolling", "ground.profile=flat"});
   rondo::test::expect_in_manual(
       test::source_folder() / "docs" / "results.md",
       {table_of("history.csv", labels_of(history_columns())), table_of("probe", further(probe)),
        table_of("rim", further(rim)), table_of("crush", further(crush)),
+       table_of("steady-rolling", further(steady)),
        table_of("contact.csv", labels_of(contact_columns()))});
 }
 

@@ -177,6 +177,8 @@ TEST(ReadCase, DefaultsAreThoseOfTheManual) {
       "[rim]\nfree = ['speed', 'height', 'angular_velocity']\nmass = 1\ninertia = 1\n";
   const std::string held = "\n" + write_case(read_text(least + ground + rim));
   const std::string free = "\n" + write_case(read_text(free_disk + ground));
+  const std::string steady =
+      "\n" + write_case(read_text(least + ground + "[analysis]\nkind = 'steady-rolling'\n"));
   const auto is_for_free_bodies = [](std::string_view key) {
     return key == "initial.position" || key == "initial.angle" || key == "initial.angular_velocity";
   };
@@ -185,7 +187,8 @@ TEST(ReadCase, DefaultsAreThoseOfTheManual) {
                          !key.path.starts_with("mesh.") &&
                          key.path.find("[]") == std::string_view::npos;
     if (!written) continue;
-    const std::string& text = is_for_free_bodies(key.path) ? free : held;
+    const bool is_steady = !means_to(key, AnalysisKind::dynamic);
+    const std::string& text = is_steady ? steady : is_for_free_bodies(key.path) ? free : held;
     const auto table = table_of(key.path);
     const auto begin = text.find(fmt::format("\n[{}]\n", table));
     ASSERT_NE(begin, std::string::npos) << key.path;

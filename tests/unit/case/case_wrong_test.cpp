@@ -336,7 +336,7 @@ const std::vector<Wrong> wrongs{
      "[analysis]\nkind = \"squash\"",
      "analysis.kind",
      38,
-     {"\"dynamic\" or \"crush\""}},
+     {"\"dynamic\", \"crush\" or \"steady-rolling\""}},
     {"DepthOfADynamicCase",
      37,
      "[analysis]\ndepth = 0.02",

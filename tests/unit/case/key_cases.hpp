@@ -36,11 +36,20 @@ surface = "core"
 )";
     const std::vector<std::string> rim{"rim.free=['speed', 'height', 'angular_velocity']",
                                        "rim.mass=100", "rim.inertia=1", "motion.gravity=9.81"};
+    const std::vector<std::string> steady{"analysis.kind=steady-rolling", "ground.profile=flat",
+                                          "analysis.samples_per_sector=1"},
+        loaded{"analysis.kind=steady-rolling", "ground.profile=flat", "analysis.load=1e5",
+               "analysis.torque=100"},
+        pulled{"analysis.kind=steady-rolling", "ground.profile=flat", "analysis.traction=100"};
+    const std::string without_speed = with_line(20, "");
     return std::vector<Case>{read_text(base, probe),
                              read_text(treaded(), pressure),
                              read_text(with_line(34, "step = 1e-6")),
                              read_text(bodies),
                              read_text(base, rim),
+                             read_text(base, steady),
+                             read_text(with_line(21, "", without_speed), loaded),
+                             read_text(without_speed, pulled),
                              read_text(base, crush)};
   }();
   return cases;

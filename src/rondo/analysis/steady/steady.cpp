@@ -66,6 +66,8 @@ class SteadyRolling final : public Analysis {
   void summarise(Json& json, RunReport& report) const override;
 
  private:
+  /// A sweep without snapshots asks for none.
+  [[nodiscard]] bool keeps_fields() const noexcept { return case_.output.snapshots > 0; }
   [[nodiscard]] int samples() const noexcept { return case_.analysis.samples_per_sector; }
 
   const Case& case_;
@@ -74,6 +76,7 @@ class SteadyRolling final : public Analysis {
   StrainWatch strain_;
   std::optional<SteadyState> state_;
   double solve_s_ = 0.0;
+  Snapshot now_;
   int recorded_ = 0;  ///< places of a sector's pass whose results are kept
   std::optional<std::string> trouble_;
 };
@@ -86,7 +89,7 @@ CheckReport SteadyRolling::check(double /*trial*/) {
   r.candidates = body_->mesh.boundary.size();
   r.wave_speeds = fem::wave_speeds(case_.material);
   r.steps = samples();
-  r.snapshots = static_cast<std::size_t>(samples());
+  r.snapshots = keeps_fields() ? static_cast<std::size_t>(samples()) : 0;
   r.memory_bytes = steady_memory(case_, *body_);
   r.disk_bytes = disk_needed(record_plan(), false).all;
   r.lines = {
@@ -100,14 +103,14 @@ RecordPlan SteadyRolling::record_plan() const {
   RecordPlan plan;
   plan.results = {.mesh = &body_->mesh,
                   .mass = body_->mass,
-                  .n_snapshots = static_cast<std::size_t>(samples()),
+                  .n_snapshots = keeps_fields() ? static_cast<std::size_t>(samples()) : 0,
                   .contact = true,
                   .stress = case_.output.stress,
                   .words = words()};
   plan.columns = labels_of(history_columns());
   const std::vector<ColumnLabel> own = labels_of(std::span<const Column<R>>(steady_columns));
   plan.columns.insert(plan.columns.end(), own.begin(), own.end());
-  plan.n_rows = plan.results.n_snapshots;
+  plan.n_rows = static_cast<std::size_t>(samples());
   plan.materials = body_->materials;
   plan.ground = &ground_;
   return plan;
@@ -134,16 +137,18 @@ Progress SteadyRolling::begin(Recorder& /*recorder*/) {
 Progress SteadyRolling::advance(Recorder& recorder) {
   std::string wrong = state_->trouble();
   if (wrong.empty()) {
-    Snapshot& snapshot = recorder.next_snapshot();
-    state_->fill(recorded_, snapshot);
-    wrong = strain_.look(snapshot.u, {}, snapshot.time);
+    state_->fill(recorded_, now_);
+    wrong = strain_.look(now_.u, {}, now_.time);
   }
   if (!wrong.empty()) {
     trouble_ = wrong;
     return {recorded_, samples()};
   }
-  recorder.add_snapshot();
-  append_values(history_columns(), state_->record(recorded_), recorder.rows());
+  if (keeps_fields()) {
+    recorder.next_snapshot() = now_;
+    recorder.add_snapshot();
+  }
+  append_values(history_columns(), state_->record(recorded_, now_), recorder.rows());
   append_values(std::span<const Column<R>>(steady_columns), state_->sums(recorded_),
                 recorder.rows());
   recorder.rows_added();

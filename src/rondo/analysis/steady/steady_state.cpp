@@ -186,10 +186,8 @@ Vec2 SteadyState::center(int place) const {
           case_.ground->shape.profile.front().y + solution_.height};
 }
 
-HistoryRecord SteadyState::record(int place) const {
+HistoryRecord SteadyState::record(int place, const Snapshot& now) const {
   const SteadySums& s = sums(place);
-  Snapshot now;
-  fill(place, now);
   HistoryRecord h;
   h.time = now.time;
   h.angle = now.angle;

@@ -45,7 +45,8 @@ class SteadyState {
 
   /// While sector 0 is `place` samples beyond the lowest point, in the sense of the spin.
   [[nodiscard]] const SteadySums& sums(int place) const;
-  [[nodiscard]] HistoryRecord record(int place) const;
+  /// @param now as filled for it
+  [[nodiscard]] HistoryRecord record(int place, const Snapshot& now) const;
   void fill(int place, Snapshot& snapshot) const;
   /// For run.json.
   [[nodiscard]] Json describe() const;

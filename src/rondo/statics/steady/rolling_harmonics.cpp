@@ -4,6 +4,7 @@
 #include <fftw3.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numbers>
 #include <utility>
@@ -18,6 +19,12 @@ constexpr Complexes i{0.0, 1.0};
 
 std::size_t at(Eigen::Index index) noexcept {
   return static_cast<std::size_t>(index);
+}
+
+/// e^{ik 2π/N shift} of the shifts -1, 0 and 1.
+std::array<Complexes, 3> turns_of(int k, int sectors) {
+  const Complexes turn = std::polar(1.0, 2.0 * std::numbers::pi * k / sectors);
+  return {std::conj(turn), 1.0, turn};
 }
 
 }  // namespace
@@ -77,13 +84,13 @@ RollingHarmonics::Block RollingHarmonics::block(int k, const Layer& rows,
   const double s = body_.spin;
   const double rate = 2 * k == turn_ ? 0.0 : k * s;
   const Complexes elastic = 1.0 + i * (rate * body_.stiffness_damping);
-  const double phase = 2.0 * std::numbers::pi * k / stiffness.n_sectors;
+  const auto turns = turns_of(k, stiffness.n_sectors);
   Block z = Block::Zero(rows.size, columns.size);
   for (Eigen::Index a = rows.first / 2; a < (rows.first + rows.size) / 2; ++a) {
     for (const fem::SectorStiffness::Entry& e : stiffness.row(at(a))) {
       const Eigen::Index row = 2 * a - rows.first, column = 2 * e.column - columns.first;
       if (column < 0 || column >= columns.size) continue;
-      const Complexes turned = elastic * std::polar(1.0, phase * e.shift);
+      const Complexes turned = elastic * turns[static_cast<std::size_t>(e.shift + 1)];
       z(row, column) += turned * e.block[0];
       z(row + 1, column) += turned * e.block[1];
       z(row, column + 1) += turned * e.block[2];
@@ -254,12 +261,12 @@ Eigen::MatrixXd RollingHarmonics::fields(const Block& spectrum, double chi, bool
 
 Eigen::VectorXcd RollingHarmonics::stiffness_product(int k, const Eigen::VectorXcd& u) const {
   const fem::SectorStiffness& stiffness = body_.stiffness;
-  const double phase = 2.0 * std::numbers::pi * k / stiffness.n_sectors;
+  const auto turns = turns_of(k, stiffness.n_sectors);
   Eigen::VectorXcd f = Eigen::VectorXcd::Zero(u.size());
   for (std::size_t a = 0; a < mass_.size(); ++a) {
     const auto row = static_cast<Eigen::Index>(2 * a);
     for (const fem::SectorStiffness::Entry& e : stiffness.row(a)) {
-      const Complexes turned = std::polar(1.0, phase * e.shift);
+      const Complexes turned = turns[static_cast<std::size_t>(e.shift + 1)];
       const Complexes x = turned * u[2 * e.column], y = turned * u[2 * e.column + 1];
       f[row] += e.block[0] * x + e.block[2] * y;
       f[row + 1] += e.block[1] * x + e.block[3] * y;
