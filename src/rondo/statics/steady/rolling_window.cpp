@@ -24,11 +24,13 @@ RollingWindow::RollingWindow(const RollingHarmonics& harmonics, SlipDifference s
       time_(2.0 * std::numbers::pi / (harmonics.turn() * std::abs(harmonics.body().spin))),
       included_(harmonics.n_candidates(),
                 std::vector<char>(static_cast<std::size_t>(harmonics.turn()))) {
+  for (int m = 0; m < harmonics.turn(); ++m)
+    frames_.push_back(rotation(2.0 * std::numbers::pi * m / harmonics.turn()));
   find_slip_kernels();
 }
 
 Complex RollingWindow::frame(int sample) const noexcept {
-  return rotation(2.0 * std::numbers::pi * sample / harmonics_.turn());
+  return frames_[static_cast<std::size_t>(wrapped(sample, harmonics_.turn()))];
 }
 
 /// Of the way: Σ w_j R(j of a sample) C(ahead + j), in the frame of the later sample.

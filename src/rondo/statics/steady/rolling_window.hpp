@@ -59,6 +59,7 @@ class RollingWindow {
   void include(const std::vector<RollingPair>& pairs);
 
   const RollingHarmonics& harmonics_;
+  std::vector<Complex> frames_;  ///< (L)
   std::vector<double> weights_;  ///< of a point's own and its earlier places
   int back_;                     ///< towards the sample before
   double time_;

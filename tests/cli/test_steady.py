@@ -1,0 +1,174 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""rondo run on steady rolling: forces, what is given and given back, files, sweeps, wrong input."""
+import unittest
+
+import h5py
+import numpy as np
+
+from program import ROOT, ProgramTest, RunTest, history, replaced, run, said, summary
+
+CASE = (ROOT / "cases" / "steady-rolling.toml").read_text()
+SMALL = replaced(replaced(CASE, "radial", "radial = 4"), "circumferential", "circumferential = 60")
+TREAD = replaced(SMALL, "circumferential", None) + """
+[disk.tread]
+pitches = 30
+depth = 0.02
+land_columns = 2
+groove_columns = 1
+layers = 1
+"""
+FREE = replaced(replaced(SMALL, "speed", None), "height", None)  # neither speed nor height
+LOAD = ["--set", "analysis.load=1e5"]
+
+
+class Steady(RunTest):
+    text = SMALL
+
+    def steady(self, *settings, text=None):
+        arguments = [a for s in settings for a in ("--set", s)]
+        done = run("run", self.case(text or SMALL), "-o", self.out, "--quiet", "--overwrite", *arguments)
+        self.assertEqual(done.returncode, 0, done.stderr)
+        s = summary(self.out)
+        self.assertEqual((s["status"], s["analysis"]), ("done", "steady-rolling"))
+        self.assertLess(s["contact_residual_max"], 1e-10)
+        self.assertLess(s["energy_residual_relative"], 1e-12)
+        return s["steady"]
+
+    def test_forces_of_the_shipped_case(self):
+        s = self.steady(text=CASE)
+        self.assertAlmostEqual(s["force_x"], -22074.5, delta=0.05)
+        self.assertAlmostEqual(s["force_y"], 190099.7, delta=0.05)
+        lost = s["power"]["mass"] + s["power"]["stiffness"] + s["power"]["friction"] - s["power"]["scheme"]
+        self.assertAlmostEqual(s["rolling_resistance"], lost / 10.0, delta=1e-9 * lost)
+
+    def test_files_say_the_same(self):
+        s = self.steady()
+        h, n = history(self.out), s["samples_per_sector"]
+        for name, value in (("force_x", s["force_x"]), ("force_y", s["force_y"]), ("torque", s["torque"]),
+                            ("stick_length_m", s["stick_length"]), ("slip_length_m", s["slip_length"]),
+                            ("friction_power", s["power"]["friction"])):
+            np.testing.assert_allclose(np.mean(h[name]), value, rtol=1e-11, err_msg=name)
+        self.assertEqual(len(h["time_s"]), n)
+        with h5py.File(self.out / "results.h5") as f:
+            self.assertEqual(f["snapshots/displacement"].shape[0], n)
+            self.assertEqual(f.attrs["analysis"], "steady-rolling")
+            np.testing.assert_array_equal(f["frame/time"][:], f["frame/time_velocity"][:])
+            force = f["contact/force"][:].sum(axis=1)
+            np.testing.assert_allclose(force[:, 0], h["force_y"], rtol=1e-12)
+            np.testing.assert_allclose(-force[:, 1], h["force_x"], rtol=1e-12)
+            place = f["fields/position"][:, :, 1].min(axis=1)
+            np.testing.assert_allclose(place, 0.0, atol=1e-7)
+            # A sector does what the one before did, a pass later: the last snapshot goes on in the first.
+            u, v = f["snapshots/displacement"][:], f["snapshots/velocity"][:]
+            sector, local = f["mesh/sector"][:], f["mesh/sector_node"][:]
+            dt = f["frame/time"][1]
+        turn = 2 * np.pi / (sector.max() + 1)
+        node = {(s, a): k for k, (s, a) in enumerate(zip(sector, local))}
+        ahead = np.array([node[(s - 1) % (sector.max() + 1), a] for s, a in zip(sector, local)])
+        c, d = np.cos(turn), np.sin(turn)
+        after = u[0][ahead] @ np.array([[c, -d], [d, c]]).T  # the spin is clockwise
+        np.testing.assert_allclose(after - u[-1], dt * v[-1], atol=0.2 * dt * np.abs(v).max())
+        rate = (u[2] - u[0]) / (2 * dt)
+        np.testing.assert_allclose(rate, v[1], atol=0.02 * np.abs(v[1]).max())
+
+    def test_what_is_given_is_given_back(self):
+        s = self.steady("analysis.load=1e5", "analysis.traction=-4000", text=FREE)
+        self.assertAlmostEqual(s["force_y"], 1e5, delta=1e-5)
+        self.assertAlmostEqual(s["force_x"], -4000, delta=1e-5)
+        again = self.steady(f"motion.height={s['height']!r}", f"motion.speed={s['speed']!r}")
+        self.assertAlmostEqual(again["force_y"], 1e5, delta=0.1)
+        self.assertAlmostEqual(again["force_x"], -4000, delta=0.1)
+        slope = self.steady("analysis.load=1e5", "motion.speed=10", text=FREE)["slopes"]
+        self.assertEqual(sorted(slope), ["by_friction", "by_load", "by_speed"])
+        self.assertAlmostEqual(slope["by_load"]["force_y"], 1.0, delta=1e-9)
+
+    def test_a_driving_torque_pulls_the_body_forward(self):
+        for sense in (1, -1):  # turned the other way round, it goes to the other side
+            spin = f"motion.angular_velocity={33.3 * sense}"
+            rolling = self.steady("analysis.load=1e5", "analysis.torque=0", spin, text=FREE)
+            self.assertAlmostEqual(rolling["torque"], 0.0, delta=1e-6)
+            self.assertLess(sense * rolling["force_x"], 0.0)
+            self.assertGreater(sense * rolling["speed"], 0.0)
+            self.assertAlmostEqual(rolling["rolling_resistance"], -rolling["force_x"], delta=1e-6)
+            driven = self.steady("analysis.load=1e5", f"analysis.torque={2000 * sense}", spin, text=FREE)
+            self.assertAlmostEqual(driven["torque"], 2000 * sense, delta=1e-6)
+            self.assertGreater(sense * driven["force_x"], 5000.0)
+            self.assertLess(sense * driven["speed"], sense * rolling["speed"])
+
+    def test_weight_has_a_part_in_torque_and_power(self):
+        s = self.steady("analysis.load=1e5", "analysis.torque=1000", "motion.gravity=981", text=FREE)
+        self.assertAlmostEqual(s["torque"], 1000, delta=1e-6)
+        self.assertGreater(abs(s["power"]["weight"]), 1.0)
+
+    def test_pressure_stiffening_and_tread(self):
+        plain = self.steady()
+        pressed = self.steady("load.pressure=[{curve='tread', value=1e5}]")
+        self.assertLess(pressed["force_y"], plain["force_y"])
+        stiff = self.steady("material.stress_stiffening=centrifugal")
+        self.assertNotEqual(stiff["force_y"], plain["force_y"])
+        s = self.steady(text=TREAD)
+        self.assertEqual(s["samples_per_sector"], 16)
+        self.assertGreater(np.ptp(history(self.out)["force_y"]), 100.0)
+
+    def test_warns_above_the_critical_spin(self):
+        done = run("check", self.case(CASE), "--set", "motion.angular_velocity=181.7")
+        self.assertNotIn("critical spin", said(done))
+        done = run("check", self.case(CASE), "--set", "motion.angular_velocity=181.9")
+        self.assertIn("above the critical spin of this mesh, 181.78 rad/s (90 nodal diameters)", said(done))
+
+    def test_a_sweep_has_the_bits_of_runs_alone(self):
+        self.case(SMALL, "small.toml")
+        study = self.case("""schema = 1
+base = "small.toml"
+[[vary]]
+key = "motion.speed"
+values = [9.8, 10.0]
+[[vary]]
+key = "ground.friction"
+values = [0.1, 0.5]
+""", "study.toml")
+        self.assert_done(run("sweep", study, "-o", self.out))
+        table = np.genfromtxt(self.out / "results.csv", delimiter=",", names=True, dtype=None,
+                              encoding=None)
+        alone = self.folder / "alone"
+        for row in table:
+            self.assert_done(run("run", self.case(SMALL), "-o", alone, "--quiet", "--overwrite", "--set",
+                                 f"motion.speed={row['motionspeed']!r}", "--set",
+                                 f"ground.friction={row['groundfriction']!r}"))
+            s = summary(alone)["steady"]
+            self.assertEqual((row["force_x"], row["force_y"], row["torque"], row["rolling_resistance"]),
+                             (s["force_x"], s["force_y"], s["torque"], s["rolling_resistance"]))
+
+    def assert_done(self, done):
+        self.assertEqual(done.returncode, 0, done.stderr)
+
+
+class Refused(ProgramTest):
+    def refuse(self, part, *settings, text=SMALL, code=2):
+        arguments = [a for s in settings for a in ("--set", s)]
+        done = run("run", self.case(text), "-o", self.folder / "out", "--quiet", *arguments)
+        self.assertEqual(done.returncode, code, done.stderr)
+        self.assertIn(part, done.stderr)
+
+    def test_wrong_use(self):
+        self.refuse("nothing touches", "motion.height=0.31")
+        self.refuse("stands beside motion.height", "analysis.load=1e5")
+        self.refuse("so is analysis.load", text=replaced(SMALL, "height", None))
+        self.refuse("stands beside motion.speed", "analysis.torque=0")
+        self.refuse("would slide", "analysis.load=1e5", "analysis.traction=4e4", text=FREE)
+        self.refuse("the whole contact slides", "analysis.load=1e5", "analysis.torque=4e4", text=FREE)
+        self.refuse("does not turn", "motion.angular_velocity=0")
+        self.refuse("is a table", "motion.speed=[[0, 10], [1, 11]]")
+        self.refuse("needs flat ground", "ground.profile=[[0, 0], [1, 0.1]]")
+        self.refuse("every node of the curve \"rim\" is held", "load.pressure=[{curve='rim', value=1}]")
+        self.refuse("with 8 samples", "analysis.massless_contact=false")
+        self.refuse("held by the rim", "disk.mesh.radial=1")
+
+    def test_no_checkpoints(self):
+        done = run("run", self.case(SMALL), "-o", self.folder / "out", "--resume")
+        self.assertEqual(done.returncode, 2)
+        self.assertIn("no checkpoints", done.stderr)
+
+
+if __name__ == "__main__":
+    unittest.main()
