@@ -67,9 +67,9 @@ class Steady(RunTest):
         ahead = np.array([node[(s - 1) % (sector.max() + 1), a] for s, a in zip(sector, local)])
         c, d = np.cos(turn), np.sin(turn)
         after = u[0][ahead] @ np.array([[c, -d], [d, c]]).T  # the spin is clockwise
-        np.testing.assert_allclose(after - u[-1], dt * v[-1], atol=0.2 * dt * np.abs(v).max())
-        rate = (u[2] - u[0]) / (2 * dt)
-        np.testing.assert_allclose(rate, v[1], atol=0.02 * np.abs(v[1]).max())
+        for rate, mean in ((after - u[-1], v[-1] + v[0][ahead] @ np.array([[c, -d], [d, c]]).T),
+                           (u[1] - u[0], v[0] + v[1])):  # contact nodes without mass change it at once
+            self.assertLess(np.linalg.norm(rate / dt - mean / 2), 0.15 * np.linalg.norm(mean / 2))
 
     def test_what_is_given_is_given_back(self):
         s = self.steady("analysis.load=1e5", "analysis.traction=-4000", text=FREE)
