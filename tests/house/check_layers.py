@@ -44,8 +44,8 @@ ALLOWED["analysis/modes"] = ALLOWED["analysis"] | {"analysis"}
 ALLOWED["study/sweep"] = ALLOWED["analysis"] | {"analysis"}
 ALLOWED["study/pod"] = ALLOWED["study/sweep"] | {"study/sweep"}
 ALLOWED["study/reduce"] = ALLOWED["study/pod"] | {"study/pod"}
-ALLOWED["apps"] = {"core", "case", "output", "analysis/build", "analysis", "analysis/modes",
-                   "study/pod", "study/sweep", "study/reduce"}
+ALLOWED["apps"] = {"core", "case", "output", "analysis/base", "analysis/build", "analysis",
+                   "analysis/modes", "study/pod", "study/sweep", "study/reduce"}
 ALLOWED["mesh_reader"] = {"mesh"}  # a program of its own; it shares the layout of its output
 
 # Libraries that only these modules may see.
