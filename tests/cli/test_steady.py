@@ -164,6 +164,9 @@ class Refused(ProgramTest):
         self.refuse("with 8 samples", "analysis.massless_contact=false")
         self.refuse("held by the rim", "disk.mesh.radial=1")
 
+    def test_what_is_not_solved_is_no_result(self):
+        self.refuse("the contact was not solved: residual", "analysis.load=1e7", text=replaced(SMALL, "height", None), code=3)
+
     def test_no_checkpoints(self):
         done = run("run", self.case(SMALL), "-o", self.folder / "out", "--resume")
         self.assertEqual(done.returncode, 2)

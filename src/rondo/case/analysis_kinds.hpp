@@ -25,8 +25,7 @@ struct KindOfCase {
 inline constexpr KindOfCase analysis_kinds[] = {
     {"dynamic", nullptr, ""},
     {"crush", check_crush, "a crush is quasi-static, its ground flat"},
-    {"steady-rolling", check_steady_rolling,
-     "steady rolling has no start, no end and no impacts"},
+    {"steady-rolling", check_steady_rolling, "steady rolling has no start, no end and no impacts"},
 };
 
 constexpr const KindOfCase& rules_of(AnalysisKind kind) noexcept {

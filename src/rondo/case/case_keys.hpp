@@ -123,7 +123,7 @@ struct Use {
   using Test = bool (*)(const Case& c);
 
   bool required = false;
-  Analyses required_in{~0U};  ///< of those below, the analyses that require it
+  Analyses required_in{~0U};    ///< of those below, the analyses that require it
   std::string_view standard{};  ///< for the manual, where the default is not that of the struct
   Test when = always;           ///< it is written, and required if it is
   Analyses analyses{~0U};

@@ -179,7 +179,7 @@ TEST(ReadCase, DefaultsAreThoseOfTheManual) {
   const std::string free = "\n" + write_case(read_text(free_disk + ground));
   const std::string steady =
       "\n" + write_case(read_text(least + ground + "[analysis]\nkind = 'steady-rolling'\n",
-                                   {"motion.angular_velocity=1"}));
+                                  {"motion.angular_velocity=1"}));
   const auto is_for_free_bodies = [](std::string_view key) {
     return key == "initial.position" || key == "initial.angle" || key == "initial.angular_velocity";
   };

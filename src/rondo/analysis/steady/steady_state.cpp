@@ -109,10 +109,11 @@ std::string SteadyState::trouble() const {
   if (solution_.end != statics::RollingEnd::solved)
     return fmt::format(
         "the contact was not solved: residual {:.3g}, bound {:.0e}, after {} Newton steps and {} "
-        "pivots; other analysis.samples_per_sector (4 to 32){}{}, or a smaller ground.friction",
+        "pivots; other analysis.samples_per_sector (4 to 32){}{}, a smaller ground.friction{}",
         solution_.residual, residual_bound, solution_.newton_steps, solution_.pivots,
         case_.analysis.massless_contact ? "" : ", analysis.massless_contact = true",
-        case_.analysis.slip == RollingSlip::bdf2 ? ", analysis.slip = \"upwind\"" : "");
+        case_.analysis.slip == RollingSlip::bdf2 ? ", analysis.slip = \"upwind\"" : "",
+        case_.analysis.load ? " or analysis.load" : "");
   if (!(power_.residual <= residual_bound))
     return fmt::format("the power does not balance: relative residual {:.3g}, bound {:.0e}",
                        power_.residual, residual_bound);

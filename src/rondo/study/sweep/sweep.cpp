@@ -10,9 +10,9 @@
 #include <stdexcept>
 #include <system_error>
 
+#include "rondo/analysis/base/strain_watch.hpp"
 #include "rondo/analysis/build/build.hpp"
 #include "rondo/analysis/run.hpp"
-#include "rondo/analysis/base/strain_watch.hpp"
 #include "rondo/case/case_keys.hpp"
 #include "rondo/case/case_source.hpp"
 #include "rondo/core/error.hpp"
