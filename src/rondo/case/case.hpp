@@ -78,12 +78,12 @@ struct AnalysisCase {
   double slide = 0.0;        ///< of a crush: travel of the center along +x after the pressing  [m]
   int slide_increments = 0;  ///< >= 1 where there is a slide, else 0
   // Of steady rolling.
-  int samples_per_sector = 8;              ///< P >= 1
-  RollingSlip slip = RollingSlip::bdf2;    ///< how slip is taken
-  bool massless_contact = true;            ///< with more than one sample always
-  std::optional<double> load;              ///< F_y > 0, instead of the height           [N/m]
-  std::optional<double> traction, torque;  ///< F_x, or clockwise on the rim, instead of the
-                                           ///< speed                                 [N/m], [N]
+  int samples_per_sector = 8;                  ///< P >= 1
+  RollingSlip slip = RollingSlip::bdf2;        ///< how slip is taken
+  bool massless_contact = true;                ///< with more than one sample always
+  std::optional<double> load{};                ///< F_y > 0, instead of the height           [N/m]
+  std::optional<double> traction{}, torque{};  ///< F_x, or clockwise on the rim, instead of the
+                                               ///< speed                                 [N/m], [N]
 };
 
 enum class InitialState { rest, stationary };

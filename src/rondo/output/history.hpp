@@ -18,7 +18,7 @@ struct HistoryPlace {
   long long done = 0;   ///< the last step seen
   Vec2 impulse;         ///< since the last row                                      [N·s/m]
   double angular_impulse = 0.0, penetration = 0.0;
-  Vec2 hub_impulse;  ///< of what holds a loaded rim, likewise                    [N·s/m]
+  Vec2 hub_impulse{};  ///< of what holds a loaded rim, likewise                    [N·s/m]
   double hub_angular_impulse = 0.0;
 };
 
