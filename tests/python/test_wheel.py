@@ -55,6 +55,18 @@ def test_the_panels_are_the_columns(wheel):
                                             "into the brake", "into dashpots"]
 
 
+@pytest.mark.parametrize("count, above", [(7, 4), (6, 4), (5, 2), (3, 0), (2, 0), (1, 0)])
+def test_the_lowest_panels_of_each_width_name_the_time(wheel, monkeypatch, count, above):
+    """The last of an odd number is as wide as the page, with another scale than those above it."""
+    run = rondo.open(wheel)
+    some = wheels._panels(run)[:count]
+    monkeypatch.setattr(wheels, "_panels", lambda run: some)
+    axes = run.plot_wheel().axes
+    assert [ax.get_xlabel() for ax in axes] == above * [""] + (count - above) * ["time (ms)"]
+    labelled = [ax.xaxis.get_major_ticks()[0].label1.get_visible() for ax in axes]
+    assert labelled == above * [False] + (count - above) * [True]
+
+
 def test_the_ground_bears_load_and_weight(wheel):
     run = rondo.open(wheel)
     ax = next(ax for ax in run.plot_wheel().axes if "the ground" in ax.get_ylabel())

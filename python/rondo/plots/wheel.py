@@ -52,7 +52,7 @@ def plot_wheel(run: Run) -> Figure:
         alone = k == len(panels) - 1 and column == 0
         ax = figure.add_subplot(grid[row, slice(None) if alone else column])
         _draw(ax, run.history["time_s"] * 1e3, panel)
-        if row == rows - 1:
+        if alone or k + 2 + len(panels) % 2 >= len(panels):  # the last of its width in its column
             ax.set_xlabel("time (ms)")
         else:
             ax.tick_params(labelbottom=False)
