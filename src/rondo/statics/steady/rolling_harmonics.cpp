@@ -90,7 +90,8 @@ RollingHarmonics::Block RollingHarmonics::block(int k, const Layer& rows,
     for (const fem::SectorStiffness::Entry& e : stiffness.row(at(a))) {
       const Eigen::Index row = 2 * a - rows.first, column = 2 * e.column - columns.first;
       if (column < 0 || column >= columns.size) continue;
-      const Complexes turned = elastic * turns[static_cast<std::size_t>(e.shift + 1)];
+      const Complexes turned =
+          elastic * turns[static_cast<std::size_t>(std::ptrdiff_t{e.shift} + 1)];
       z(row, column) += turned * e.block[0];
       z(row + 1, column) += turned * e.block[1];
       z(row, column + 1) += turned * e.block[2];
@@ -266,7 +267,7 @@ Eigen::VectorXcd RollingHarmonics::stiffness_product(int k, const Eigen::VectorX
   for (std::size_t a = 0; a < mass_.size(); ++a) {
     const auto row = static_cast<Eigen::Index>(2 * a);
     for (const fem::SectorStiffness::Entry& e : stiffness.row(a)) {
-      const Complexes turned = turns[static_cast<std::size_t>(e.shift + 1)];
+      const Complexes turned = turns[static_cast<std::size_t>(std::ptrdiff_t{e.shift} + 1)];
       const Complexes x = turned * u[2 * e.column], y = turned * u[2 * e.column + 1];
       f[row] += e.block[0] * x + e.block[2] * y;
       f[row + 1] += e.block[1] * x + e.block[3] * y;
