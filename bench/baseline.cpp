@@ -127,7 +127,9 @@ class CsrSteps final : public dynamics::Integrator {
         dynamics::velocity_update(model_.scheme, model_.dt, model_.mass_damping, frame_.spin);
     const Constants c(model_, frame_, update);
     update_velocities(c, energy.works);
-    dynamics::StepReport report{step_, frame_, {}, {}};
+    dynamics::StepReport report;
+    report.step = step_;
+    report.frame = frame_;
     if (model_.contact) report.contact = solve_contact(c, update, energy.works);
     energy.works.contact = report.contact.work;
     energy.works.dissipation_friction = report.contact.dissipation_friction;
@@ -157,7 +159,10 @@ class CsrSteps final : public dynamics::Integrator {
       partial_[block] = {0.5 * kinetic, 0.5 * strain, 0.0};
     });
     const auto sum = total();
-    return {sum[0], sum[1], {}};
+    dynamics::StepEnergy energy;
+    energy.kinetic = sum[0];
+    energy.strain = sum[1];
+    return energy;
   }
 
   [[nodiscard]] Forces forces(const Constants& c, std::size_t i) const noexcept {
