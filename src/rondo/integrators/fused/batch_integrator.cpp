@@ -49,10 +49,6 @@ BatchIntegrator::BatchIntegrator(const Model& model, const State& start, std::si
 void BatchIntegrator::set_step(std::size_t i) noexcept {
   const long long n = step_ + static_cast<long long>(i) + 1;
   steps_[i] = step_context(model_, frame_step(model_.motion, n, model_.dt));
-  set_pressures(i);
-}
-
-void BatchIntegrator::set_pressures(std::size_t i) noexcept {
   double* const pressures = pressures_.data() + i * model_.pressures.size();
   for (std::size_t l = 0; l < model_.pressures.size(); ++l)
     pressures[l] = model_.pressures[l].pressure.at(steps_[i].frame.time);

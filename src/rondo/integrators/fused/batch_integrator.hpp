@@ -77,7 +77,6 @@ class BatchIntegrator : public Integrator, public Resumable, protected Candidate
  private:
   void advance_batch(std::span<StepReport> reports) noexcept;
   void set_step(std::size_t i) noexcept;
-  void set_pressures(std::size_t i) noexcept;
   void look_for_corners(std::span<StepContext> steps) noexcept;
   template <class Work>
   void in_all_threads(Work&& work) noexcept;

@@ -43,8 +43,7 @@ StepContext wheel_context(const Model& model, const FrameStep& f, Complex back) 
   const double dt = model.dt;
   const Vec2 gravity = model.motion.gravity_at(f.time);
   const Vec2 pull = dt * (conj(f.rotation) * gravity);
-  s.wheel = {.dt = dt,
-             .back_x = back.re,
+  s.wheel = {.back_x = back.re,
              .back_y = back.im,
              .pull_x = pull.x,
              .pull_y = pull.y,

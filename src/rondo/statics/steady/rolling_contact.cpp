@@ -207,12 +207,14 @@ RollingSolution solve_rolling(RollingWindow& window, const RollingDrive& drive,
   set.found = from;
   for (int round = 0; round < most_rounds; ++round) {
     const auto pairs = window.pairs().size();
+    s.end = pairs == 0 ? RollingEnd::no_contact : RollingEnd::not_solved;
     if (pairs == 0) break;
     const bool fresh = set.found.empty();
     set.found.resize(pairs);
     set.point.force.conservativeResizeLike(Eigen::VectorXd::Zero(static_cast<Index>(2 * pairs)));
     if (fresh) set.found = next_findings(window, set.point, drive.friction);
     if (!set.solve()) {
+      s.end = RollingEnd::no_contact;
       if (!drive.load) break;
       // Nothing is left that touches: from further down.
       set.point.height = radius * (1.0 - 2e-3 * (round + 1));
@@ -228,7 +230,6 @@ RollingSolution solve_rolling(RollingWindow& window, const RollingDrive& drive,
       s.end = RollingEnd::sliding;
     return s;
   }
-  s.end = RollingEnd::no_contact;
   s.height = set.point.height;
   s.speed = set.point.speed;
   s.force = Eigen::VectorXd::Zero(window.base().size());

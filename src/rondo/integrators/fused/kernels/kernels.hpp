@@ -56,7 +56,6 @@ inline constexpr int most_sums = n_wheel_sums;
 
 /// What all nodes of a step on a loaded rim share: forces and velocities.
 struct WheelFactors {
-  double dt;              ///< Δt [s]
   double back_x, back_y;  ///< e^{-iδ⁻} - 1
   double pull_x, pull_y;  ///< Δt Rᵀ g                                      [m/s]
   double alpha_over_dt;   ///< α/Δt                                         [1/s²]
