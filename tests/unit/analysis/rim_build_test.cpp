@@ -3,43 +3,13 @@
 #include <gtest/gtest.h>
 
 #include "rondo/analysis/build/build.hpp"
+#include "support/wheel.hpp"
 #include "unit/analysis/mesh_fixture.hpp"
 
 namespace rondo::study::test {
 namespace {
 
-/// The base of the wheel's figures (docs/wheel.md).
-const std::string wheel = R"(schema = 1
-[disk]
-outer_radius = 0.30
-inner_radius = 0.15
-[disk.mesh]
-radial = 12
-circumferential = 180
-[material]
-youngs_modulus = 2.0e7
-poissons_ratio = 0.3
-density = 1100.0
-[damping]
-mass = 200.0
-stiffness = 2.0e-5
-[motion]
-angular_velocity = 33.7
-speed = 10.0
-height = 0.30
-[rim]
-free = ["height", "angular_velocity"]
-mass = 100.0
-inertia = 1.0
-force_y = [[0, 0], [0.01, -1.5e5]]
-[rim.support.y]
-damping = 6.0e4
-[ground]
-profile = "flat"
-friction = 0.6
-[time]
-end = 0.01
-)";
+const std::string& wheel = rondo::test::wheel_text;
 
 std::string figure(const study::Setup& s, const std::string& name) {
   for (const auto& [what, value] : s.figures)
