@@ -6,42 +6,12 @@
 /// Wohlmuth, SIAM J. Sci. Comput. 30 (2008) 572); Lemke's pivoting where it cycles.
 #pragma once
 #include <Eigen/Core>
-#include <optional>
 #include <vector>
 
-#include "rondo/contact/law.hpp"
+#include "rondo/statics/steady/rolling_system.hpp"
 #include "rondo/statics/steady/rolling_window.hpp"
 
 namespace rondo::statics {
-
-/// Of each of two pairs one is given: height or load, speed or traction or torque.
-struct RollingDrive {
-  double height = 0.0;             ///< h, of the center above the ground; without a load    [m]
-  double speed = 0.0;              ///< V; without traction and torque; else where to start [m/s]
-  double friction = 0.0;           ///< μ >= 0
-  std::optional<double> load;      ///< F_y of the ground on the body, > 0                 [N/m]
-  std::optional<double> traction;  ///< F_x of the ground on the body                      [N/m]
-  std::optional<double> torque;    ///< of the ground about the center, counter-clockwise    [N]
-};
-
-/// What a pair does; `side`: of a slipping one the sign of r_x.
-struct RollingStatus {
-  contact::Status status = contact::Status::open;
-  int side = 0;
-  bool operator==(const RollingStatus&) const = default;
-};
-
-/// Of the ground on the body, means over a sector's pass.
-struct RollingForces {
-  double x = 0.0, y = 0.0;  ///< [N/m]
-  double torque = 0.0;      ///< about the center, counter-clockwise                         [N]
-};
-
-/// Derivatives of forces, height and speed by what is given.
-struct RollingSlope {
-  RollingForces forces;
-  double height = 0.0, speed = 0.0;
-};
 
 enum class RollingEnd {
   solved,

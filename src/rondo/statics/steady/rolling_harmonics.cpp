@@ -4,7 +4,6 @@
 #include <fftw3.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <numbers>
 #include <utility>
@@ -21,34 +20,20 @@ std::size_t at(Eigen::Index index) noexcept {
   return static_cast<std::size_t>(index);
 }
 
-/// e^{ik 2π/N shift} of the shifts -1, 0 and 1.
-std::array<Complexes, 3> turns_of(int k, int sectors) {
-  const Complexes turn = std::polar(1.0, 2.0 * std::numbers::pi * k / sectors);
-  return {std::conj(turn), 1.0, turn};
-}
-
 }  // namespace
 
 RollingHarmonics::RollingHarmonics(RollingBody body)
     : body_(std::move(body)), turn_(body_.stiffness.n_sectors * body_.samples) {
   RONDO_DEMAND(body_.spin != 0.0 && body_.samples >= 1, body_.spin, body_.samples);
-  find_layers();
+  layers_ = rolling_layers(body_.stiffness, body_.reference, body_.mass);
+  find_candidates();
   move_masses();
   find_compliance();
-  const auto size = static_cast<Eigen::Index>(2 * mass_.size());
-  base_ = Block::Zero(size, 2);
-  for (int k = 0; k < 2; ++k) base_.col(k) = solve(k, load_of(k));
+  base_ = Block::Zero(n_rows(), 2);
+  for (int k = 0; k < 2; ++k) base_.col(k) = solve(layers_, order(k), load_of(k));
 }
 
-/// Rows of the same distance from the center, one above the other.
-void RollingHarmonics::find_layers() {
-  const fem::SectorStiffness& k = body_.stiffness;
-  const auto radius = [&](std::size_t a) { return norm(body_.reference[k.node(a, 0)]); };
-  for (std::size_t a = 0; a < k.n_local(); ++a) {
-    const bool next = a == 0 || std::abs(radius(a) - radius(a - 1)) > 1e-9 * radius(a);
-    if (next) layers_.push_back({static_cast<Eigen::Index>(2 * a), 0});
-    layers_.back().size += 2;
-  }
+void RollingHarmonics::find_candidates() {
   for (const int row : body_.candidates) {
     RONDO_DEMAND(2 * row >= layers_.back().first, row);
     local_.push_back(2 * row - layers_.back().first);
@@ -57,83 +42,56 @@ void RollingHarmonics::find_layers() {
 
 /// A candidate's mass to the row of the layer below that is nearest in angle.
 void RollingHarmonics::move_masses() {
-  const fem::SectorStiffness& k = body_.stiffness;
-  for (std::size_t a = 0; a < k.n_local(); ++a) mass_.push_back(body_.mass[k.node(a, 0)]);
   if (!body_.massless) return;
   RONDO_DEMAND(layers_.size() >= 2);
-  const Layer& below = layers_[layers_.size() - 2];
-  for (const int row : body_.candidates) {
-    const Vec2 x = body_.reference[k.node(static_cast<std::size_t>(row), 0)];
+  RollingLayer &below = layers_[layers_.size() - 2], &last = layers_.back();
+  const auto place = [&](const RollingLayer& layer, std::size_t a) {
+    return body_.reference[body_.stiffness.node(at(layer.first / 2) + a, 0)];
+  };
+  for (const Eigen::Index number : local_) {
+    const Vec2 x = place(last, at(number / 2));
     std::size_t best = 0;
     double most = -2.0;
-    for (Eigen::Index b = below.first / 2; b < (below.first + below.size) / 2; ++b) {
-      const Vec2 y = body_.reference[k.node(at(b), 0)];
+    for (std::size_t b = 0; b < below.mass.size(); ++b) {
+      const Vec2 y = place(below, b);
       const double cosine = dot(x, y) / (norm(x) * norm(y));
-      if (cosine > most) most = cosine, best = at(b);
+      if (cosine > most) most = cosine, best = b;
     }
-    mass_[best] += mass_[static_cast<std::size_t>(row)];
-    mass_[static_cast<std::size_t>(row)] = 0.0;
+    below.mass[best] += std::exchange(last.mass[at(number / 2)], 0.0);
   }
 }
 
-/// Z_k = K(k)(1 + iksβ) + M(-(ks)² + iks(α + 2sJ) - s²); of the highest of an even turn, which has
-/// no derivative, K(k) - s²M.
-RollingHarmonics::Block RollingHarmonics::block(int k, const Layer& rows,
-                                                const Layer& columns) const {
-  const fem::SectorStiffness& stiffness = body_.stiffness;
-  const double s = body_.spin;
-  const double rate = 2 * k == turn_ ? 0.0 : k * s;
-  const Complexes elastic = 1.0 + i * (rate * body_.stiffness_damping);
-  const auto turns = turns_of(k, stiffness.n_sectors);
-  Block z = Block::Zero(rows.size, columns.size);
-  for (Eigen::Index a = rows.first / 2; a < (rows.first + rows.size) / 2; ++a) {
-    for (const fem::SectorStiffness::Entry& e : stiffness.row(at(a))) {
-      const Eigen::Index row = 2 * a - rows.first, column = 2 * e.column - columns.first;
-      if (column < 0 || column >= columns.size) continue;
-      const Complexes turned =
-          elastic * turns[static_cast<std::size_t>(std::ptrdiff_t{e.shift} + 1)];
-      z(row, column) += turned * e.block[0];
-      z(row + 1, column) += turned * e.block[1];
-      z(row, column + 1) += turned * e.block[2];
-      z(row + 1, column + 1) += turned * e.block[3];
-    }
-    if (rows.first != columns.first) continue;
-    const Eigen::Index row = 2 * a - rows.first;
-    const double m = mass_[at(a)];
-    const Complexes straight = m * (-rate * rate - s * s + i * (rate * body_.mass_damping));
-    const Complexes across = m * 2.0 * i * (rate * s);
-    z(row, row) += straight;
-    z(row + 1, row + 1) += straight;
-    z(row, row + 1) -= across;
-    z(row + 1, row) += across;
-  }
-  return z;
-}
-
-/// Of the last layer what is left once all below are eliminated.
-RollingHarmonics::Block RollingHarmonics::last_layer(int k) const {
-  Block s = block(k, layers_[0], layers_[0]);
-  for (std::size_t l = 1; l < layers_.size(); ++l) {
-    const Block up = block(k, layers_[l], layers_[l - 1]);
-    const Block down = block(k, layers_[l - 1], layers_[l]);
-    s = block(k, layers_[l], layers_[l]) - up * s.partialPivLu().solve(down);
-  }
-  return s;
+/// The highest of an even turn has no derivative.
+RollingOrder RollingHarmonics::order(int k) const noexcept {
+  const Complexes turn = std::polar(1.0, 2.0 * std::numbers::pi * k / body_.stiffness.n_sectors);
+  return {{std::conj(turn), 1.0, turn},
+          2 * k == turn_ ? 0.0 : k * body_.spin,
+          body_.spin,
+          body_.mass_damping,
+          body_.stiffness_damping};
 }
 
 /// One inverse real transform of the candidates' rows of Z_k⁻¹ over the harmonics.
 void RollingHarmonics::find_compliance() {
   const std::size_t n = 2 * n_candidates(), length = at(turn_), half = length / 2 + 1;
+  const std::size_t n_transfers = transfer_size(layers_);
+  transfers_.resize(half * n_transfers);
+  surface_.resize(half);
   std::vector<Complexes> spectra(n * n * half);
+#pragma omp parallel for num_threads(body_.threads) schedule(static)
   for (std::size_t k = 0; k < half; ++k) {
-    const Block g = last_layer(static_cast<int>(k)).inverse();
-    for (std::size_t r = 0; r < n; ++r)
-      for (std::size_t c = 0; c < n; ++c) {
-        const auto number = [&](std::size_t x) {
-          return local_[x / 2] + static_cast<Eigen::Index>(x % 2);
-        };
-        spectra[(r * n + c) * half + k] = g(number(r), number(c)) / static_cast<double>(length);
-      }
+    const Block g = eliminate(layers_, order(static_cast<int>(k)),
+                              std::span(transfers_).subspan(k * n_transfers, n_transfers));
+    Block& surface = surface_[k];
+    surface.resize(g.rows(), static_cast<Eigen::Index>(n));
+    for (std::size_t c = 0; c < n; ++c) {
+      const auto column = static_cast<Eigen::Index>(c);
+      surface.col(column) = g.col(local_[c / 2] + column % 2);
+      for (std::size_t r = 0; r < n; ++r)
+        spectra[(r * n + c) * half + k] =
+            surface(local_[r / 2] + static_cast<Eigen::Index>(r % 2), column) /
+            static_cast<double>(length);
+    }
   }
   history_.resize(n * n * length);
   const int size = turn_;
@@ -156,55 +114,27 @@ Eigen::Matrix2d RollingHarmonics::compliance(std::size_t a, std::size_t b,
   return g;
 }
 
-RollingHarmonics::Eliminated RollingHarmonics::eliminated(int k) const {
-  Eliminated e;
-  for (std::size_t l = 0; l < layers_.size(); ++l) {
-    Block here = block(k, layers_[l], layers_[l]);
-    if (l > 0) {
-      e.up.push_back(block(k, layers_[l], layers_[l - 1]));
-      e.down.push_back(block(k, layers_[l - 1], layers_[l]));
-      here -= e.up.back() * e.left.back().solve(e.down.back());
-    }
-    e.left.emplace_back(here);
-  }
-  return e;
-}
-
-/// U_k under loads on all rows.
-Eigen::VectorXcd RollingHarmonics::solve(int k, const Eigen::VectorXcd& load) const {
-  const Eliminated e = eliminated(k);
-  std::vector<Eigen::VectorXcd> right;
-  for (std::size_t l = 0; l < layers_.size(); ++l) {
-    right.push_back(load.segment(layers_[l].first, layers_[l].size));
-    if (l > 0) right[l] -= e.up[l - 1] * e.left[l - 1].solve(right[l - 1]);
-  }
-  Eigen::VectorXcd u(load.size());
-  for (std::size_t l = layers_.size(); l-- > 0;) {
-    if (l + 1 < layers_.size())
-      right[l] -= e.down[l] * u.segment(layers_[l + 1].first, layers_[l + 1].size);
-    u.segment(layers_[l].first, layers_[l].size) = e.left[l].solve(right[l]);
-  }
-  return u;
-}
-
 /// Spin and constant loads in harmonic 0; gravity, which turns past the sectors, in harmonic 1:
 /// R(-ψ)(0, -mg) = -mg (sin ψ, cos ψ).
 Eigen::VectorXcd RollingHarmonics::load_of(int k) const {
   const fem::SectorStiffness& stiffness = body_.stiffness;
   const double s = body_.spin;
-  Eigen::VectorXcd f = Eigen::VectorXcd::Zero(static_cast<Eigen::Index>(2 * mass_.size()));
-  for (std::size_t a = 0; a < mass_.size(); ++a) {
-    const auto row = static_cast<Eigen::Index>(2 * a);
-    if (k == 1) {
-      f[row] = 0.5 * i * (mass_[a] * body_.gravity);
-      f[row + 1] = -0.5 * (mass_[a] * body_.gravity);
-      continue;
+  Eigen::VectorXcd f = Eigen::VectorXcd::Zero(n_rows());
+  for (const RollingLayer& layer : layers_)
+    for (std::size_t b = 0; b < layer.mass.size(); ++b) {
+      const std::size_t a = at(layer.first / 2) + b;
+      const auto row = static_cast<Eigen::Index>(2 * a);
+      const double m = layer.mass[b];
+      if (k == 1) {
+        f[row] = 0.5 * i * (m * body_.gravity);
+        f[row + 1] = -0.5 * (m * body_.gravity);
+        continue;
+      }
+      const Vec2 load = body_.load.empty() ? Vec2{} : body_.load[a];
+      const Vec2 x = body_.reference[stiffness.node(a, 0)];
+      f[row] = s * s * m * x.x + load.x;
+      f[row + 1] = s * s * m * x.y + load.y;
     }
-    const Vec2 load = body_.load.empty() ? Vec2{} : body_.load[a];
-    const Vec2 x = body_.reference[stiffness.node(a, 0)];
-    f[row] = s * s * mass_[a] * x.x + load.x;
-    f[row + 1] = s * s * mass_[a] * x.y + load.y;
-  }
   return f;
 }
 
@@ -230,19 +160,21 @@ RollingHarmonics::Block RollingHarmonics::spectrum(const Eigen::MatrixXd& force)
                                           nullptr, 1, static_cast<int>(half), FFTW_ESTIMATE);
   fftw_execute(plan);
   fftw_destroy_plan(plan);
-  Block u(base_.rows(), static_cast<Eigen::Index>(half));
+  Block u = Block::Zero(n_rows(), static_cast<Eigen::Index>(half));
+  const RollingLayer& last = layers_.back();
+  const std::size_t n_transfers = transfer_size(layers_);
+#pragma omp parallel for num_threads(body_.threads) schedule(static)
   for (Eigen::Index k = 0; k < u.cols(); ++k) {
-    Eigen::VectorXcd load = Eigen::VectorXcd::Zero(u.rows());
-    for (std::size_t c = 0; c < n; ++c)
-      load[2 * body_.candidates[c / 2] + static_cast<Eigen::Index>(c % 2)] =
-          forces(k, static_cast<Eigen::Index>(c)) / static_cast<double>(turn_);
-    u.col(k) = solve(static_cast<int>(k), load);
+    u.col(k).segment(last.first, last.size) =
+        surface_[at(k)] * forces.row(k).transpose() / static_cast<double>(turn_);
+    follow(layers_, std::span(transfers_).subspan(at(k) * n_transfers, n_transfers), u.col(k));
     if (k < 2) u.col(k) += base_.col(k);
   }
   return u;
 }
 
-Eigen::MatrixXd RollingHarmonics::fields(const Block& spectrum, double chi, bool rate) const {
+Eigen::MatrixXd RollingHarmonics::fields(Eigen::Ref<const Block> spectrum, double chi,
+                                         bool rate) const {
   Block turned = spectrum.transpose();  // a column a row's component
   for (Eigen::Index k = 0; k < turned.rows(); ++k) {
     const bool last = 2 * k == turn_;  // has no derivative, and no phase
@@ -260,36 +192,17 @@ Eigen::MatrixXd RollingHarmonics::fields(const Block& spectrum, double chi, bool
   return out.transpose();
 }
 
-Eigen::VectorXcd RollingHarmonics::stiffness_product(int k, const Eigen::VectorXcd& u) const {
-  const fem::SectorStiffness& stiffness = body_.stiffness;
-  const auto turns = turns_of(k, stiffness.n_sectors);
-  Eigen::VectorXcd f = Eigen::VectorXcd::Zero(u.size());
-  for (std::size_t a = 0; a < mass_.size(); ++a) {
-    const auto row = static_cast<Eigen::Index>(2 * a);
-    for (const fem::SectorStiffness::Entry& e : stiffness.row(a)) {
-      const Complexes turned = turns[static_cast<std::size_t>(std::ptrdiff_t{e.shift} + 1)];
-      const Complexes x = turned * u[2 * e.column], y = turned * u[2 * e.column + 1];
-      f[row] += e.block[0] * x + e.block[2] * y;
-      f[row + 1] += e.block[1] * x + e.block[3] * y;
-    }
-  }
-  return f;
-}
-
 RollingHarmonics::Damped RollingHarmonics::damped(const Block& spectrum) const {
+  std::vector<RollingNorms> norms(at(spectrum.cols()));
+#pragma omp parallel for num_threads(body_.threads) schedule(static)
+  for (Eigen::Index k = 1; k < spectrum.cols(); ++k)
+    norms[at(k)] = norms_of(layers_, order(static_cast<int>(k)), spectrum.col(k));
   Damped d;
-  for (Eigen::Index k = 1; k < spectrum.cols(); ++k) {
-    if (2 * k == turn_) continue;
-    const Eigen::VectorXcd u = spectrum.col(k);
-    const double rate = static_cast<double>(k) * body_.spin;
-    double mass = 0.0;
-    for (std::size_t a = 0; a < mass_.size(); ++a)
-      mass += mass_[a] * u.segment<2>(static_cast<Eigen::Index>(2 * a)).squaredNorm();
-    const double both = 2.0 * body_.stiffness.n_sectors * rate * rate;  // k and -k
-    d.by_mass += both * body_.mass_damping * mass;
-    if (body_.stiffness_damping > 0.0)
-      d.by_stiffness +=
-          both * body_.stiffness_damping * u.dot(stiffness_product(static_cast<int>(k), u)).real();
+  for (int k = 1; 2 * k < turn_; ++k) {
+    const RollingNorms& of = norms[static_cast<std::size_t>(k)];
+    const double both = 2.0 * body_.stiffness.n_sectors * std::pow(k * body_.spin, 2);  // k and -k
+    d.by_mass += both * body_.mass_damping * of.mass;
+    d.by_stiffness += both * body_.stiffness_damping * of.stiffness;
   }
   return d;
 }

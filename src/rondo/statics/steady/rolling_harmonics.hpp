@@ -6,13 +6,13 @@
 /// of the sectors.
 #pragma once
 #include <Eigen/Core>
-#include <Eigen/LU>
 #include <complex>
 #include <span>
 #include <vector>
 
 #include "rondo/core/vec2.hpp"
 #include "rondo/fem/sector_stiffness.hpp"
+#include "rondo/statics/steady/rolling_layers.hpp"
 
 namespace rondo::statics {
 
@@ -29,6 +29,7 @@ struct RollingBody {
   bool massless = true;             ///< the candidates' mass is moved to the nodes below
   double gravity = 0.0;             ///< g, downwards                                     [m/s²]
   std::vector<Vec2> load{};         ///< (n_local) on the rows of every sector; empty: none [N/m]
+  int threads = 1;                  ///< same bits for any number
 };
 
 /// The harmonics eliminated from the rim outwards: what forces on the candidates do to them.
@@ -54,9 +55,10 @@ class RollingHarmonics {
   /// U_k of all rows under forces on the candidates: (2 n_local, L/2 + 1), k = 0 … L/2 [m].
   /// @param force (2C, L) on each candidate at each sample, in the frame of its sector [N/m]
   [[nodiscard]] Block spectrum(const Eigen::MatrixXd& force) const;
-  /// U(ψ_m + χ) of all rows at all samples: (2 n_local, L) [m]. @param rate the derivative by ψ
-  /// instead
-  [[nodiscard]] Eigen::MatrixXd fields(const Block& spectrum, double chi, bool rate) const;
+  /// U(ψ_m + χ) of rows of a spectrum at all samples: (rows, L) [m]. @param rate the derivative by
+  /// ψ instead
+  [[nodiscard]] Eigen::MatrixXd fields(Eigen::Ref<const Block> spectrum, double chi,
+                                       bool rate) const;
   /// Power that damping takes, N Σ_k (ks)² U_kᴴ (α M, β K(k)) U_k, over the turn [W/m].
   struct Damped {
     double by_mass = 0.0, by_stiffness = 0.0;
@@ -66,30 +68,22 @@ class RollingHarmonics {
   [[nodiscard]] double weight(const Block& spectrum) const;
 
  private:
-  struct Layer {
-    Eigen::Index first, size;  ///< of the rows' numbers, two a row
-  };
-  /// All layers of a harmonic, eliminated from the rim outwards.
-  struct Eliminated {
-    std::vector<Eigen::PartialPivLU<Block>> left;  ///< of each layer, once those below are gone
-    std::vector<Block> up, down;                   ///< (layers - 1) couplings to the layer below
-  };
-  void find_layers();
+  void find_candidates();
   void move_masses();
-  [[nodiscard]] Block block(int k, const Layer& rows, const Layer& columns) const;
-  [[nodiscard]] Block last_layer(int k) const;
-  [[nodiscard]] Eliminated eliminated(int k) const;
-  [[nodiscard]] Eigen::VectorXcd solve(int k, const Eigen::VectorXcd& load) const;
+  [[nodiscard]] RollingOrder order(int k) const noexcept;
+  [[nodiscard]] Eigen::Index n_rows() const noexcept {
+    return layers_.back().first + layers_.back().size;
+  }
   [[nodiscard]] Eigen::VectorXcd load_of(int k) const;
-  [[nodiscard]] Eigen::VectorXcd stiffness_product(int k, const Eigen::VectorXcd& u) const;
   void find_compliance();
 
   RollingBody body_;
   int turn_;
-  std::vector<Layer> layers_;
-  std::vector<double> mass_;         ///< (n_local) of a sector's rows, as moved
-  std::vector<Eigen::Index> local_;  ///< (candidates) first number of each in the last layer
-  std::vector<double> history_;      ///< (2C, 2C, L) real compliances
+  std::vector<RollingLayer> layers_;             ///< with masses as moved
+  std::vector<Eigen::Index> local_;              ///< (candidates) first number in the last layer
+  std::vector<std::complex<double>> transfers_;  ///< (L/2 + 1, transfer_size)
+  std::vector<Block> surface_;   ///< (L/2 + 1) of (last layer, 2C): it by forces on candidates
+  std::vector<double> history_;  ///< (2C, 2C, L) real compliances
   Block base_;  ///< (2 n_local, 2) U_0 and U_1 of what nothing touches                    [m]
 };
 

@@ -32,7 +32,9 @@ RollingPower rolling_power(const RollingWindow& w, const RollingSolution& s,
                            const RollingHarmonics::Block& spectrum) {
   const RollingHarmonics& h = w.harmonics();
   const double spin = h.body().spin, pass = h.body().samples;
-  const Eigen::MatrixXd u = h.fields(spectrum, 0.0, false), rate = h.fields(spectrum, 0.0, true);
+  const Index first = 2 * *std::ranges::min_element(h.body().candidates);  // all are beyond it
+  const auto surface = spectrum.bottomRows(spectrum.rows() - first);
+  const Eigen::MatrixXd u = h.fields(surface, 0.0, false), rate = h.fields(surface, 0.0, true);
   const RollingHarmonics::Damped damped = h.damped(spectrum);
   RollingPower power;
   power.drive = s.speed * s.forces.x + spin * s.forces.torque;
@@ -45,9 +47,9 @@ RollingPower rolling_power(const RollingWindow& w, const RollingSolution& s,
     const auto row = static_cast<Index>(2 * j);
     const Vec2 force{s.force[row + 1], s.force[row]};
     if (force == Vec2{}) continue;
-    const Index node = 2 * h.body().candidates[p.candidate], m = sample_of(w, p);
-    const Vec2 x =
-        h.body().reference[h.body().stiffness.node(static_cast<std::size_t>(node / 2), 0)];
+    const int row_of = h.body().candidates[p.candidate];
+    const Index node = 2 * row_of - first, m = sample_of(w, p);
+    const Vec2 x = h.body().reference[h.body().stiffness.node(static_cast<std::size_t>(row_of), 0)];
     const Vec2 arm = x + Vec2{u(node, m), u(node + 1, m)};
     const Vec2 way = turn90(arm) + Vec2{rate(node, m), rate(node + 1, m)};
     const Vec2 velocity = spin * (w.frame(p.sample) * way) + Vec2{s.speed, 0.0};

@@ -1,6 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "rondo/statics/steady/rolling_system.hpp"
 
+#include <lapacke.h>
+
+#include <limits>
+
 namespace rondo::statics {
 namespace {
 
@@ -9,15 +13,14 @@ using Eigen::Index;
 
 }  // namespace
 
-RollingSystem::RollingSystem(const RollingWindow& window, const RollingDrive& drive,
+RollingSystem::RollingSystem(const RollingProblem& problem, const RollingDrive& drive,
                              const std::vector<RollingStatus>& found, const RollingPoint& around)
-    : window_(window),
+    : problem_(problem),
       drive_(drive),
       found_(found),
       around_(around),
       has_height_(drive.load.has_value()),
-      has_speed_(drive.traction || drive.torque),
-      pass_(window.harmonics().body().samples) {
+      has_speed_(drive.traction || drive.torque) {
   for (std::size_t j = 0; j < found.size(); ++j) {
     if (found[j].status == Status::open) continue;
     rows_.push_back(static_cast<Index>(2 * j));
@@ -29,13 +32,30 @@ RollingSystem::RollingSystem(const RollingWindow& window, const RollingDrive& dr
   right_ = Eigen::VectorXd::Zero(size);
   for (Index k = 0; k < n; ++k) {
     const Index column = rows_[static_cast<std::size_t>(k)];
-    matrix_.col(k).head(n) = window.matrix().col(column)(rows_);
+    matrix_.col(k).head(n) = problem.matrix.col(column)(rows_);
     const double mu = column % 2 == 0 ? edge(static_cast<std::size_t>(column / 2)) : 0.0;
-    if (mu != 0.0) matrix_.col(k).head(n) += mu * window.matrix().col(column + 1)(rows_);
+    if (mu != 0.0) matrix_.col(k).head(n) += mu * problem.matrix.col(column + 1)(rows_);
   }
-  right_.head(n) = -window.base()(rows_);
+  right_.head(n) = -problem.base(rows_);
   add_border();
-  lu_.compute(matrix_);
+  factorise();
+}
+
+void RollingSystem::factorise() {
+  const auto n = static_cast<lapack_int>(matrix_.rows());
+  pivots_.resize(static_cast<std::size_t>(n));
+  singular_ = LAPACKE_dgetrf_work(LAPACK_COL_MAJOR, n, n, matrix_.data(), n, pivots_.data()) != 0;
+}
+
+/// Not finite: the system is singular.
+Eigen::VectorXd RollingSystem::solved(Eigen::VectorXd right) const {
+  const auto n = static_cast<lapack_int>(matrix_.rows());
+  if (singular_)
+    right.setConstant(std::numeric_limits<double>::quiet_NaN());
+  else
+    LAPACKE_dgetrs_work(LAPACK_COL_MAJOR, 'N', n, 1, matrix_.data(), n, pivots_.data(),
+                        right.data(), n);
+  return right;
 }
 
 /// μ with its sign where a pair slips.
@@ -48,8 +68,8 @@ double RollingSystem::edge(std::size_t pair) const noexcept {
 Eigen::VectorXd RollingSystem::torque_row() const {
   const Index n = around_.force.size() / 2;
   const Eigen::VectorXd normal = around_.force(Eigen::seqN(0, n, 2));
-  const Eigen::VectorXd arm = window_.base_x() + window_.matrix_x() * around_.force;
-  Eigen::VectorXd row = window_.matrix_x().transpose() * normal;
+  const Eigen::VectorXd arm = problem_.base_x + problem_.matrix_x * around_.force;
+  Eigen::VectorXd row = problem_.matrix_x.transpose() * normal;
   row(Eigen::seqN(0, n, 2)) += arm;
   row(Eigen::seqN(1, n, 2)).array() += around_.height;
   return row;
@@ -67,8 +87,8 @@ void RollingSystem::add_border() {
     const bool is_gap = row % 2 == 0;
     if (has_height_ && is_gap) matrix_(k, of_height) = 1.0;
     if (!has_height_ && is_gap) right_[k] -= drive_.height;
-    if (has_speed_ && !is_gap) matrix_(k, of_speed) = window_.time();
-    if (!has_speed_ && !is_gap) right_[k] -= drive_.speed * window_.time();
+    if (has_speed_ && !is_gap) matrix_(k, of_speed) = problem_.time;
+    if (!has_speed_ && !is_gap) right_[k] -= drive_.speed * problem_.time;
   }
   const auto sum = [&](Index to, const Eigen::VectorXd& row) {  // of all forces
     for (Index k = 0; k < n; ++k) {
@@ -77,19 +97,19 @@ void RollingSystem::add_border() {
       if (c % 2 == 0) matrix_(to, k) += edge(static_cast<std::size_t>(c / 2)) * row[c + 1];
     }
   };
-  Eigen::VectorXd ones = Eigen::VectorXd::Zero(window_.base().size());
+  Eigen::VectorXd ones = Eigen::VectorXd::Zero(problem_.base.size());
   const Index m = ones.size() / 2;
   if (has_height_) {
     ones(Eigen::seqN(0, m, 2)).setOnes();
     sum(of_height, ones);
-    right_[of_height] = *drive_.load * pass_;
+    right_[of_height] = *drive_.load * problem_.pass;
   }
   if (!has_speed_) return;
   if (drive_.traction) {
     ones.setZero();
     ones(Eigen::seqN(1, m, 2)).setOnes();
     sum(of_speed, ones);
-    right_[of_speed] = *drive_.traction * pass_;
+    right_[of_speed] = *drive_.traction * problem_.pass;
     return;
   }
   const Eigen::VectorXd row = torque_row();
@@ -97,8 +117,8 @@ void RollingSystem::add_border() {
   const Eigen::VectorXd normal = around_.force(Eigen::seqN(0, m, 2));
   const double shear = around_.force(Eigen::seqN(1, m, 2)).sum();
   const double now =
-      normal.dot(window_.base_x() + window_.matrix_x() * around_.force) + around_.height * shear;
-  right_[of_speed] = *drive_.torque * pass_ - now + row.dot(around_.force);
+      normal.dot(problem_.base_x + problem_.matrix_x * around_.force) + around_.height * shear;
+  right_[of_speed] = *drive_.torque * problem_.pass - now + row.dot(around_.force);
   if (has_height_) {
     matrix_(of_speed, of_height) = shear;
     right_[of_speed] += shear * around_.height;
@@ -106,7 +126,7 @@ void RollingSystem::add_border() {
 }
 
 Eigen::VectorXd RollingSystem::expand(const Eigen::VectorXd& part) const {
-  Eigen::VectorXd r = Eigen::VectorXd::Zero(window_.base().size());
+  Eigen::VectorXd r = Eigen::VectorXd::Zero(problem_.base.size());
   for (std::size_t k = 0; k < rows_.size(); ++k) {
     const Index row = rows_[k];
     r[row] = part[static_cast<Index>(k)];
@@ -120,7 +140,7 @@ Eigen::VectorXd RollingSystem::expand(const Eigen::VectorXd& part) const {
 
 RollingPoint RollingSystem::solve() const {
   RollingPoint p;
-  const Eigen::VectorXd z = lu_.solve(right_);
+  const Eigen::VectorXd z = solved(right_);
   p.force = expand(z);
   auto at = static_cast<Index>(rows_.size());
   p.height = has_height_ ? z[at++] : drive_.height;
@@ -131,28 +151,29 @@ RollingPoint RollingSystem::solve() const {
 /// @param right of the system. @param by_itself change of the forces that is not an unknown's
 RollingSlope RollingSystem::slope(const Eigen::VectorXd& right, const Eigen::VectorXd& by_itself,
                                   double height, double speed) const {
-  const Eigen::VectorXd z = lu_.solve(right);
+  const Eigen::VectorXd z = solved(right);
   const Eigen::VectorXd change = expand(z) + by_itself;
   auto at = static_cast<Index>(rows_.size());
   RollingSlope s;
   s.height = has_height_ ? z[at++] : height;
   s.speed = has_speed_ ? z[at] : speed;
   const Index m = change.size() / 2;
-  s.forces.y = change(Eigen::seqN(0, m, 2)).sum() / pass_;
-  s.forces.x = change(Eigen::seqN(1, m, 2)).sum() / pass_;
+  s.forces.y = change(Eigen::seqN(0, m, 2)).sum() / problem_.pass;
+  s.forces.x = change(Eigen::seqN(1, m, 2)).sum() / problem_.pass;
   const double shear = around_.force(Eigen::seqN(1, m, 2)).sum();
-  s.forces.torque = (torque_row().dot(change) + shear * s.height) / pass_;
+  s.forces.torque = (torque_row().dot(change) + shear * s.height) / problem_.pass;
   return s;
 }
 
-void RollingSystem::add_slopes(RollingSolution& s) const {
+RollingSystem::Slopes RollingSystem::slopes() const {
+  Slopes s;
   const auto n = static_cast<Index>(rows_.size());
-  const Eigen::VectorXd none = Eigen::VectorXd::Zero(window_.base().size());
+  const Eigen::VectorXd none = Eigen::VectorXd::Zero(problem_.base.size());
   Eigen::VectorXd right = Eigen::VectorXd::Zero(right_.size());
   const Index of_height = n, of_speed = n + (has_height_ ? 1 : 0);
   const double shear = around_.force(Eigen::seqN(1, none.size() / 2, 2)).sum();
   if (has_height_) {
-    right[of_height] = pass_;
+    right[of_height] = problem_.pass;
   } else {
     for (Index k = 0; k < n; ++k) right[k] = rows_[static_cast<std::size_t>(k)] % 2 == 0 ? -1.0 : 0;
     if (drive_.torque) right[of_speed] = -shear;
@@ -160,10 +181,10 @@ void RollingSystem::add_slopes(RollingSolution& s) const {
   s.by_height = slope(right, none, 1.0, 0.0);
   right.setZero();
   if (has_speed_)
-    right[of_speed] = pass_;
+    right[of_speed] = problem_.pass;
   else
     for (Index k = 0; k < n; ++k)
-      right[k] = rows_[static_cast<std::size_t>(k)] % 2 == 0 ? 0.0 : -window_.time();
+      right[k] = rows_[static_cast<std::size_t>(k)] % 2 == 0 ? 0.0 : -problem_.time;
   s.by_speed = slope(right, none, 0.0, 1.0);
   Eigen::VectorXd slipping = none;  // by μ alone
   for (std::size_t j = 0; j < found_.size(); ++j)
@@ -171,10 +192,11 @@ void RollingSystem::add_slopes(RollingSolution& s) const {
       slipping[static_cast<Index>(2 * j + 1)] =
           found_[j].side * around_.force[static_cast<Index>(2 * j)];
   right.setZero();
-  right.head(n) = -(window_.matrix() * slipping)(rows_);
+  right.head(n) = -(problem_.matrix * slipping)(rows_);
   if (drive_.traction) right[of_speed] = -slipping.sum();
   if (drive_.torque) right[of_speed] = -torque_row().dot(slipping);
   s.by_friction = slope(right, slipping, 0.0, 0.0);
+  return s;
 }
 
 }  // namespace rondo::statics

@@ -3,49 +3,72 @@
 /// where load, traction or torque are given instead; its derivatives.
 #pragma once
 #include <Eigen/Core>
-#include <Eigen/LU>
+#include <optional>
 #include <vector>
 
-#include "rondo/statics/steady/rolling_contact.hpp"
+#include "rondo/contact/law.hpp"
+#include "rondo/statics/steady/rolling_problem.hpp"
 
 namespace rondo::statics {
 
-/// Forces, height and speed around which the torque, which is not linear, is taken.
-struct RollingPoint {
-  Eigen::VectorXd force;  ///< (2 pairs)
+/// Of each of two pairs one is given: height or load, speed or traction or torque.
+struct RollingDrive {
+  double height = 0.0;             ///< h, of the center above the ground; without a load    [m]
+  double speed = 0.0;              ///< V; without traction and torque; else where to start [m/s]
+  double friction = 0.0;           ///< μ >= 0
+  std::optional<double> load;      ///< F_y of the ground on the body, > 0                 [N/m]
+  std::optional<double> traction;  ///< F_x of the ground on the body                      [N/m]
+  std::optional<double> torque;    ///< of the ground about the center, counter-clockwise    [N]
+};
+
+/// What a pair does; `side`: of a slipping one the sign of r_x.
+struct RollingStatus {
+  contact::Status status = contact::Status::open;
+  int side = 0;
+  bool operator==(const RollingStatus&) const = default;
+};
+
+/// Derivatives of forces, height and speed by what is given.
+struct RollingSlope {
+  RollingForces forces;
   double height = 0.0, speed = 0.0;
 };
 
 class RollingSystem {
  public:
-  /// @param found of each pair. All must outlive it.
-  RollingSystem(const RollingWindow& window, const RollingDrive& drive,
+  /// @param found of each pair. @param around what the torque, which is not linear, is taken at.
+  /// All must outlive it.
+  RollingSystem(const RollingProblem& problem, const RollingDrive& drive,
                 const std::vector<RollingStatus>& found, const RollingPoint& around);
 
   /// Not finite where there is no solution.
   [[nodiscard]] RollingPoint solve() const;
-  /// @pre `around` is the solution
-  void add_slopes(RollingSolution& solution) const;
+  /// By friction; by height or load; by speed, traction or torque. @pre `around` is the solution
+  struct Slopes {
+    RollingSlope by_friction, by_height, by_speed;
+  };
+  [[nodiscard]] Slopes slopes() const;
 
  private:
   [[nodiscard]] double edge(std::size_t pair) const noexcept;
-  [[nodiscard]] Eigen::VectorXd rows_of(const Eigen::VectorXd& window_rows) const;
   void add_border();
+  void factorise();
+  [[nodiscard]] Eigen::VectorXd solved(Eigen::VectorXd right) const;
   [[nodiscard]] RollingSlope slope(const Eigen::VectorXd& right, const Eigen::VectorXd& by_itself,
                                    double height, double speed) const;
   [[nodiscard]] Eigen::VectorXd expand(const Eigen::VectorXd& part) const;
   [[nodiscard]] Eigen::VectorXd torque_row() const;
 
-  const RollingWindow& window_;
+  const RollingProblem& problem_;
   const RollingDrive& drive_;
   const std::vector<RollingStatus>& found_;
   const RollingPoint& around_;
   bool has_height_, has_speed_;     ///< as unknowns
-  double pass_;                     ///< P
-  std::vector<Eigen::Index> rows_;  ///< of the window, each an unknown force
-  Eigen::MatrixXd matrix_;
+  std::vector<Eigen::Index> rows_;  ///< of the problem, each an unknown force
+  Eigen::MatrixXd matrix_;          ///< its factors, once it is factorised
   Eigen::VectorXd right_;
-  Eigen::PartialPivLU<Eigen::MatrixXd> lu_;
+  std::vector<int> pivots_;
+  bool singular_ = false;
 };
 
 }  // namespace rondo::statics

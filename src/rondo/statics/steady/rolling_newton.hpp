@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: BSD-3-Clause
+/// @file  Signorini's and Coulomb's law on the pairs of a rolling problem (docs/theory.md, 11.3).
+/// Method: Newton on statuses, the primal-dual active set (Alart, Curnier, CMAME 92 (1991) 353;
+/// Hüeber, Stadler, Wohlmuth, SIAM J. Sci. Comput. 30 (2008) 572), started from the solution on
+/// groups of pairs; Lemke's pivoting where it cycles.
+#pragma once
+#include <Eigen/Core>
+#include <vector>
+
+#include "rondo/statics/steady/rolling_system.hpp"
+
+namespace rondo::statics {
+
+/// Of the relative residual of a solution.
+inline constexpr double rolling_residual_bound = 1e-9;
+
+struct RollingState {
+  std::vector<RollingStatus> found;  ///< (pairs)
+  RollingPoint point;
+  double residual = 0.0;  ///< of the law, relative (6.4d)                                     [-]
+  bool touches = true;    ///< false: the active set that was left is empty
+  int newton_steps = 0, pivots = 0;
+
+  [[nodiscard]] bool solved() const noexcept {
+    return touches && residual <= rolling_residual_bound;
+  }
+};
+
+/// Largest law residual over the largest force, each pair's own scaled by its compliance.
+[[nodiscard]] double rolling_residual(const RollingProblem& problem, const RollingPoint& point,
+                                      double friction);
+
+/// Statuses near those of the solution, by groups of pairs. @param point to start from: of a drive
+/// with a load its height must be in the ground
+[[nodiscard]] RollingState rolling_start(const RollingProblem& problem, const RollingDrive& drive,
+                                         const RollingPoint& point);
+
+/// From `state` on; where Newton's method does not end, by pivoting, at a given height and speed;
+/// else by Newton's method on these, each trial at a given height and speed.
+void solve_rolling(const RollingProblem& problem, const RollingDrive& drive, RollingState& state);
+
+}  // namespace rondo::statics
