@@ -18,6 +18,15 @@ groove_columns = 1
 layers = 1
 """
 FREE = replaced(replaced(SMALL, "speed", None), "height", None)  # neither speed nor height
+STUDY = """schema = 1
+base = "small.toml"
+[[vary]]
+key = "motion.speed"
+values = [9.8, 10.0]
+[[vary]]
+key = "ground.friction"
+values = [0.1, 0.5]
+"""
 LOAD = ["--set", "analysis.load=1e5"]
 
 
@@ -118,15 +127,7 @@ class Steady(RunTest):
 
     def test_a_sweep_has_the_bits_of_runs_alone(self):
         self.case(SMALL, "small.toml")
-        study = self.case("""schema = 1
-base = "small.toml"
-[[vary]]
-key = "motion.speed"
-values = [9.8, 10.0]
-[[vary]]
-key = "ground.friction"
-values = [0.1, 0.5]
-""", "study.toml")
+        study = self.case(STUDY, "study.toml")
         self.assert_done(run("sweep", study, "-o", self.out))
         table = np.genfromtxt(self.out / "results.csv", delimiter=",", names=True, dtype=None,
                               encoding=None)
@@ -138,6 +139,25 @@ values = [0.1, 0.5]
             s = summary(alone)["steady"]
             self.assertEqual((row["force_x"], row["force_y"], row["torque"], row["rolling_resistance"]),
                              (s["force_x"], s["force_y"], s["torque"], s["rolling_resistance"]))
+
+    def test_a_sweep_writes_runs_only_with_their_snapshots(self):
+        self.case(SMALL, "small.toml")
+        self.assert_done(run("sweep", self.case(STUDY, "study.toml"), "-o", self.out))
+        self.assertFalse((self.out / "runs").exists())
+        whole = self.folder / "whole"
+        self.assert_done(run("sweep", self.case("snapshots = true\n" + STUDY, "study.toml"), "-o", whole))
+        self.assertEqual(len(list((whole / "runs").glob("*/results.h5"))), 4)
+        self.assertEqual((self.out / "results.csv").read_text(), (whole / "results.csv").read_text())
+        self.assert_done(run("sweep", self.case(STUDY, "study.toml"), "-o", self.out, "--resume"))
+
+    def test_a_member_that_is_not_solved_fails_alone(self):
+        self.case(replaced(SMALL, "height", None), "small.toml")
+        study = STUDY.replace("ground.friction", "analysis.load").replace("0.1, 0.5", "1e5, 1e7")
+        done = run("sweep", self.case(study, "study.toml"), "-o", self.out)
+        self.assertEqual(done.returncode, 3, done.stderr)
+        self.assertIn("is inverted", done.stderr)
+        table = np.genfromtxt(self.out / "results.csv", delimiter=",", names=True, dtype=None, encoding=None)
+        self.assertEqual(list(table["status"]), ["done", "failed"] * 2)
 
     def assert_done(self, done):
         self.assertEqual(done.returncode, 0, done.stderr)
@@ -165,7 +185,7 @@ class Refused(ProgramTest):
         self.refuse("held by the rim", "disk.mesh.radial=1")
 
     def test_what_is_not_solved_is_no_result(self):
-        self.refuse("the contact was not solved: residual", "analysis.load=1e7", text=replaced(SMALL, "height", None), code=3)
+        self.refuse("is inverted", "analysis.load=1e7", text=replaced(SMALL, "height", None), code=3)
 
     def test_no_checkpoints(self):
         done = run("run", self.case(SMALL), "-o", self.folder / "out", "--resume")

@@ -17,7 +17,8 @@ std::span<const AnalysisType> analysis_types() noexcept {
   static const std::array types{
       AnalysisType{analysis_kinds[0].name, "step", make_dynamic, dynamic_figures()},
       AnalysisType{analysis_kinds[1].name, "increment", make_crush, crush_figures()},
-      AnalysisType{analysis_kinds[2].name, "place", make_steady_rolling, steady_figures()},
+      AnalysisType{analysis_kinds[2].name, "place", make_steady_rolling, steady_figures(),
+                   solve_steady_rolling},
   };
   static_assert(types.size() == std::size(analysis_kinds), "a row a kind, in their order");
   return types;

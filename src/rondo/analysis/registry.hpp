@@ -17,6 +17,9 @@ struct AnalysisType {
   /// @throws InputError: the case cannot run so
   std::unique_ptr<Analysis> (*make)(const Case& c, const RunOptions& options);
   FigureTable figures;  ///< of a row of a sweep's results.csv
+  /// The figures without a directory, for members of a sweep that keep no snapshots: where writing
+  /// it takes longer than the run. Null: its runs have directories. @throws InputError as a run
+  DirectRun (*direct)(const Case& c, const RunOptions& options) = nullptr;
 };
 
 /// In the order of AnalysisKind.

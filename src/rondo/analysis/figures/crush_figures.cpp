@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "rondo/analysis/figures/crush_figures.hpp"
+#include "rondo/io/files.hpp"
 
 #include <array>
 
@@ -33,7 +34,7 @@ std::vector<double> figures_of(const std::filesystem::path& directory, const Win
   for (const char* name : {"depth_m", "force_x", "force_y", "torque", "contact_length_m",
                            "pressure_max_pa", "shear_max_pa", "strain", "dissipation_friction"})
     figures.push_back(column(history, name, file).back());
-  add_figures_of_all(directory, figures);
+  add_figures_of_all(io::read_json(directory / "run.json"), figures);
   return figures;
 }
 

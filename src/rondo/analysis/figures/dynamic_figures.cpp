@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "rondo/analysis/figures/dynamic_figures.hpp"
+#include "rondo/io/files.hpp"
 
 #include <fmt/format.h>
 
@@ -108,7 +109,7 @@ std::vector<double> figures_of(const std::filesystem::path& directory, const Win
                  {mean(length), peak(length), mean(rows.of("slip_ratio")),
                   mean(rows.of("center_y_m")), rows.rate("center_x_m"), rows.rate("angle_rad"),
                   rows.rate("dissipation_friction"), rows.rate("loss_impact")});
-  add_figures_of_all(directory, figures);
+  add_figures_of_all(io::read_json(directory / "run.json"), figures);
   return figures;
 }
 

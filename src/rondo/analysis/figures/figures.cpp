@@ -3,9 +3,6 @@
 
 #include <limits>
 
-#include "rondo/io/files.hpp"
-#include "rondo/output/run_files.hpp"
-
 namespace rondo::study {
 namespace {
 
@@ -16,8 +13,7 @@ double number_of(const Json& j, const char* key) {
 
 }  // namespace
 
-void add_figures_of_all(const std::filesystem::path& directory, std::vector<double>& figures) {
-  const Json j = io::read_json(directory / "run.json");
+void add_figures_of_all(const Json& j, std::vector<double>& figures) {
   for (const char* key : {"energy_residual_relative", "contact_residual_max", "penetration_max_m",
                           "strain_max", "jacobian_min"})
     figures.push_back(number_of(j, key));

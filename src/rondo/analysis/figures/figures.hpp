@@ -4,8 +4,11 @@
 #include <filesystem>
 #include <optional>
 #include <span>
+#include <string>
 #include <string_view>
 #include <vector>
+
+#include "rondo/output/run_files.hpp"
 
 namespace rondo::study {
 
@@ -25,8 +28,15 @@ struct FigureTable {
   bool has_window = true;  ///< false: the end alone counts, and a window means nothing
 };
 
-/// Adds the residuals of energy and contact, the penetration, strain_max and jacobian_min, from
-/// run.json; NaN where it has none. @throws FileError
-void add_figures_of_all(const std::filesystem::path& directory, std::vector<double>& figures);
+/// Of a run without files.
+struct DirectRun {
+  std::string trouble;          ///< what ended it; empty: it is done
+  long long steps = 0;          ///< done, as in run.json
+  std::vector<double> figures;  ///< as the columns; empty: there is trouble
+};
+
+/// Adds the residuals of energy and contact, the penetration, strain_max and jacobian_min; NaN
+/// where run.json has none.
+void add_figures_of_all(const Json& run, std::vector<double>& figures);
 
 }  // namespace rondo::study

@@ -30,8 +30,13 @@ constexpr std::array steady_columns{
     FigureColumn{"jacobian_min", "1", "least area of an element over that undeformed"},
 };
 
-std::vector<double> figures_of(const std::filesystem::path& directory, const Window& /*none*/) {
-  const Json run = io::read_json(directory / "run.json");
+std::vector<double> figures_in(const std::filesystem::path& directory, const Window& /*none*/) {
+  return steady_figures_of(io::read_json(directory / "run.json"));
+}
+
+}  // namespace
+
+std::vector<double> steady_figures_of(const Json& run) {
   const Json steady = run.value("steady", Json::object());
   const auto number = [](const Json& j, const char* key) {
     return j.contains(key) && j[key].is_number() ? j[key].get<double>()
@@ -47,14 +52,12 @@ std::vector<double> figures_of(const std::filesystem::path& directory, const Win
   figures.push_back(number(steady, "pressure_max"));
   figures.push_back(number(steady, "shear_max"));
   figures.push_back(number(steady.value("power", Json::object()), "friction"));
-  add_figures_of_all(directory, figures);
+  add_figures_of_all(run, figures);
   return figures;
 }
 
-}  // namespace
-
 FigureTable steady_figures() noexcept {
-  return {steady_columns, figures_of, false};
+  return {steady_columns, figures_in, false};
 }
 
 }  // namespace rondo::study

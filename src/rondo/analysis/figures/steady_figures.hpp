@@ -7,4 +7,7 @@ namespace rondo::study {
 
 [[nodiscard]] FigureTable steady_figures() noexcept;
 
+/// Of what run.json says.
+[[nodiscard]] std::vector<double> steady_figures_of(const Json& run);
+
 }  // namespace rondo::study

@@ -10,6 +10,7 @@
 
 #include "rondo/analysis/base/disk.hpp"
 #include "rondo/analysis/base/strain_watch.hpp"
+#include "rondo/analysis/figures/steady_figures.hpp"
 #include "rondo/analysis/steady/steady_state.hpp"
 
 namespace rondo::study {
@@ -42,6 +43,7 @@ class SteadyRolling final : public Analysis {
  public:
   SteadyRolling(const Case& c, const RunOptions& options)
       : case_(c),
+        threads_(options.threads),
         body_(shared_steady_body(c, options.shared)),
         ground_(c.ground->shape),
         strain_(body_->mesh) {
@@ -63,6 +65,9 @@ class SteadyRolling final : public Analysis {
   Progress begin(Recorder& recorder) override;
   Progress advance(Recorder& recorder) override;
   [[nodiscard]] const std::optional<std::string>& trouble() const override { return trouble_; }
+  /// All that begin() and advance() do, but for what is recorded. @return what is wrong; empty:
+  /// done
+  [[nodiscard]] std::string look_at_all();
   void summarise(Json& json, RunReport& report) const override;
 
  private:
@@ -71,6 +76,7 @@ class SteadyRolling final : public Analysis {
   [[nodiscard]] int samples() const noexcept { return case_.analysis.samples_per_sector; }
 
   const Case& case_;
+  int threads_;  ///< 0: chosen by size
   std::shared_ptr<SteadyBody> body_;
   contact::Ground ground_;
   StrainWatch strain_;
@@ -117,7 +123,7 @@ RecordPlan SteadyRolling::record_plan() const {
 }
 
 void SteadyRolling::prepare() {
-  find_harmonics(case_, *body_);
+  find_harmonics(case_, *body_, threads_);
   const auto begin = Clock::now();
   state_.emplace(case_, *body_);
   solve_s_ = std::chrono::duration<double>(Clock::now() - begin).count();
@@ -155,6 +161,15 @@ Progress SteadyRolling::advance(Recorder& recorder) {
   return {++recorded_, samples()};
 }
 
+std::string SteadyRolling::look_at_all() {
+  std::string wrong = state_->trouble();
+  for (recorded_ = 0; wrong.empty() && recorded_ < samples(); ++recorded_) {
+    state_->displace(recorded_, now_.u);
+    wrong = strain_.look(now_.u, {}, recorded_ * state_->sample_time());
+  }
+  return wrong;
+}
+
 void SteadyRolling::summarise(Json& j, RunReport& r) const {
   r.steps = recorded_;
   r.reached = fmt::format("{} places of a sector", recorded_);
@@ -178,6 +193,20 @@ void SteadyRolling::summarise(Json& j, RunReport& r) const {
 
 std::unique_ptr<Analysis> make_steady_rolling(const Case& c, const RunOptions& options) {
   return std::make_unique<SteadyRolling>(c, options);
+}
+
+DirectRun solve_steady_rolling(const Case& c, const RunOptions& options) {
+  SteadyRolling analysis(c, options);
+  analysis.prepare();
+  DirectRun run;
+  run.trouble = analysis.look_at_all();
+  Json json;
+  RunReport report;
+  analysis.summarise(json, report);
+  run.steps = report.steps;
+  if (!run.trouble.empty()) return run;
+  run.figures = steady_figures_of(json);
+  return run;
 }
 
 }  // namespace rondo::study

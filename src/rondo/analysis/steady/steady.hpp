@@ -4,11 +4,15 @@
 #include <memory>
 
 #include "rondo/analysis/base/analysis.hpp"
+#include "rondo/analysis/figures/figures.hpp"
 
 namespace rondo::study {
 
 /// @throws InputError: the case cannot run so, or a run is to be resumed
 [[nodiscard]] std::unique_ptr<Analysis> make_steady_rolling(const Case& c,
                                                             const RunOptions& options);
+
+/// Its figures alone. @throws InputError likewise
+[[nodiscard]] DirectRun solve_steady_rolling(const Case& c, const RunOptions& options);
 
 }  // namespace rondo::study

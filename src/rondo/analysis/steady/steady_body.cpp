@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <thread>
 
 #include "rondo/analysis/build/memory.hpp"
 #include "rondo/analysis/build/physical.hpp"
@@ -93,10 +94,14 @@ std::size_t steady_memory(const Case& c, const SteadyBody& b) {
   const auto sectors = static_cast<std::size_t>(b.mesh.n_sectors);
   const std::size_t candidates = b.mesh.boundary.size() / sectors;
   const std::size_t turn = samples * sectors;
-  constexpr std::size_t copies = 4;  // history, its spectra, two kernels
+  constexpr std::size_t copies = 5;  // history, its spectra, the last layer, two kernels
   const std::size_t compliance = copies * 4 * candidates * candidates * turn;
-  const std::size_t fields = copies * 2 * b.mesh.n_nodes() * samples;
-  return mesh_memory(b.mesh.n_nodes()) + (compliance + fields) * sizeof(double);
+  // Fields, rates, spectrum; how a layer follows the next; half a sector's pass touches at most.
+  const std::size_t layer = 2 * candidates;
+  const std::size_t fields = (4 + layer) * 2 * b.mesh.n_nodes() * samples;
+  const std::size_t pairs = std::min<std::size_t>(turn * candidates / 8, 4000);
+  return mesh_memory(b.mesh.n_nodes()) +
+         (compliance + fields + 10 * pairs * pairs) * sizeof(double);
 }
 
 std::shared_ptr<SteadyBody> make_steady_body(const Case& c) {
@@ -115,8 +120,13 @@ std::shared_ptr<SteadyBody> make_steady_body(const Case& c) {
   return body;
 }
 
-void find_harmonics(const Case& c, SteadyBody& b) {
+void find_harmonics(const Case& c, SteadyBody& b, int threads) {
   if (b.harmonics) return;
+  const auto samples = static_cast<std::size_t>(c.analysis.samples_per_sector);
+  if (threads == 0)
+    threads = samples * b.free.size() < single_thread_dofs
+                  ? 1
+                  : static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
   const auto begin = Clock::now();
   b.harmonics.emplace(statics::RollingBody{.stiffness = b.sector,
                                            .mass = b.mass,
@@ -128,7 +138,8 @@ void find_harmonics(const Case& c, SteadyBody& b) {
                                            .samples = c.analysis.samples_per_sector,
                                            .massless = c.analysis.massless_contact,
                                            .gravity = c.motion.gravity.at(0.0),
-                                           .load = load_of(c, b)});
+                                           .load = load_of(c, b),
+                                           .threads = threads});
   b.window.emplace(*b.harmonics, c.analysis.slip == RollingSlip::bdf2
                                      ? statics::SlipDifference::bdf2
                                      : statics::SlipDifference::upwind);

@@ -33,7 +33,8 @@ struct SteadyBody {
 [[nodiscard]] std::shared_ptr<SteadyBody> make_steady_body(const Case& c);
 
 /// Adds harmonics and window, if they are not there. @pre of this case
-void find_harmonics(const Case& c, SteadyBody& body);
+/// @param threads 0: chosen by size
+void find_harmonics(const Case& c, SteadyBody& body, int threads = 1);
 
 /// That of the run before where it fits, harmonics included; else a new one, which is then kept.
 /// @param shared null: nothing is kept

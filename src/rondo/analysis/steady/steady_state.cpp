@@ -109,8 +109,12 @@ std::string SteadyState::trouble() const {
   if (solution_.end != statics::RollingEnd::solved)
     return fmt::format(
         "the contact was not solved: residual {:.3g}, bound {:.0e}, after {} Newton steps and {} "
-        "pivots; other analysis.samples_per_sector (4 to 32){}{}, a smaller ground.friction{}",
+        "pivots; other analysis.samples_per_sector (4 to 32{}){}{}, a smaller ground.friction{}",
         solution_.residual, residual_bound, solution_.newton_steps, solution_.pivots,
+        window_.time() < case_.damping.stiffness
+            ? fmt::format("; fewer, as a sample of {:.2g} s is shorter than damping.stiffness",
+                          window_.time())
+            : "",
         case_.analysis.massless_contact ? "" : ", analysis.massless_contact = true",
         case_.analysis.slip == RollingSlip::bdf2 ? ", analysis.slip = \"upwind\"" : "",
         case_.analysis.load ? " or analysis.load" : "");
@@ -143,7 +147,6 @@ SteadyState::Where SteadyState::where(std::size_t pair) const {
 void SteadyState::find_fields() {
   const statics::RollingHarmonics& h = window_.harmonics();
   u_ = h.fields(spectrum_, 0.0, false);
-  rate_ = h.fields(spectrum_, 0.0, true);
 }
 
 void SteadyState::sum_up() {
@@ -209,24 +212,33 @@ HistoryRecord SteadyState::record(int place, const Snapshot& now) const {
   return h;
 }
 
-void SteadyState::fill(int place, Snapshot& s) const {
-  const statics::RollingHarmonics& h = window_.harmonics();
-  const int samples = h.body().samples;
+/// Polar components at a place into fixed ones of all nodes, times a number.
+void SteadyState::unroll(const Eigen::MatrixXd& field, int place, double by,
+                         std::vector<Vec2>& out) const {
+  const int samples = window_.harmonics().body().samples;
+  out.assign(body_.mesh.n_nodes(), {});
+  for (int j = 0; j < body_.sector.n_sectors; ++j) {
+    const auto sector = static_cast<std::size_t>(j);
+    const Index m = wrapped(j * samples + sense() * place, window_.harmonics().turn());
+    const Complex turn = by * body_.sector.turn[sector];
+    for (std::size_t a = 0; a < body_.sector.n_local(); ++a) {
+      const auto row = static_cast<Index>(2 * a);
+      out[body_.sector.node(a, sector)] = turn * Vec2{field(row, m), field(row + 1, m)};
+    }
+  }
+}
+
+void SteadyState::displace(int place, std::vector<Vec2>& u) const {
+  unroll(u_, place, 1.0, u);
+}
+
+void SteadyState::fill(int place, Snapshot& s) {
+  if (rate_.size() == 0) rate_ = window_.harmonics().fields(spectrum_, 0.0, true);
   s.time = s.time_velocity = place * sample_time();
   s.angle = s.angle_velocity = spin() * s.time;
   s.center = center(place);
-  s.u.assign(body_.mesh.n_nodes(), {});
-  s.v.assign(body_.mesh.n_nodes(), {});
-  for (int j = 0; j < body_.sector.n_sectors; ++j) {
-    const auto sector = static_cast<std::size_t>(j);
-    const Index m = wrapped(j * samples + sense() * place, h.turn());
-    for (std::size_t a = 0; a < body_.sector.n_local(); ++a) {
-      const auto row = static_cast<Index>(2 * a);
-      const std::size_t node = body_.sector.node(a, sector);
-      s.u[node] = body_.sector.turn[sector] * Vec2{u_(row, m), u_(row + 1, m)};
-      s.v[node] = spin() * (body_.sector.turn[sector] * Vec2{rate_(row, m), rate_(row + 1, m)});
-    }
-  }
+  displace(place, s.u);
+  unroll(rate_, place, spin(), s.v);
   s.contacts.clear();
   for (std::size_t k = 0; k < window_.pairs().size(); ++k) {
     const Where w = where(k);

@@ -47,7 +47,9 @@ class SteadyState {
   [[nodiscard]] const SteadySums& sums(int place) const;
   /// @param now as filled for it
   [[nodiscard]] HistoryRecord record(int place, const Snapshot& now) const;
-  void fill(int place, Snapshot& snapshot) const;
+  void fill(int place, Snapshot& snapshot);
+  /// @param u (n) [m]
+  void displace(int place, std::vector<Vec2>& u) const;
   /// For run.json.
   [[nodiscard]] Json describe() const;
 
@@ -56,6 +58,7 @@ class SteadyState {
   void refuse() const;
   void sum_up();
   void find_fields();
+  void unroll(const Eigen::MatrixXd& field, int place, double by, std::vector<Vec2>& out) const;
   [[nodiscard]] int sense() const noexcept { return spin() > 0.0 ? 1 : -1; }
   [[nodiscard]] double spin() const noexcept { return body_.harmonics->body().spin; }
   /// Where a pair is touched: place and sector.
@@ -73,7 +76,7 @@ class SteadyState {
   statics::RollingSolution solution_;
   statics::RollingHarmonics::Block spectrum_;
   statics::RollingPower power_;
-  Eigen::MatrixXd u_, rate_;               ///< (2 n_local, L)
+  Eigen::MatrixXd u_, rate_;               ///< (2 n_local, L); rates once a place is filled
   std::vector<std::size_t> candidate_of_;  ///< (n) place in mesh.boundary
   std::vector<SteadySums> sums_;           ///< (P)
   SteadySums mean_;

@@ -2,6 +2,8 @@
 #include "rondo/statics/steady/rolling_contact.hpp"
 
 #include <algorithm>
+#include <cmath>
+#include <optional>
 #include <utility>
 
 #include "rondo/core/blas_threads.hpp"
@@ -44,6 +46,16 @@ void fill(const RollingProblem& problem, const RollingDrive& drive, const Rollin
   s.by_friction = slopes.by_friction;
   s.by_height = slopes.by_height;
   s.by_speed = slopes.by_speed;
+}
+
+/// Load, traction and torque are those asked for, of the size of what bears them.
+bool brings(const RollingDrive& drive, const RollingSolution& s) {
+  const double size = std::abs(s.forces.x) + std::abs(s.forces.y);
+  const auto near = [&](const std::optional<double>& asked, double found, double arm) {
+    return !asked || std::abs(found - *asked) <= rolling_residual_bound * size * arm;
+  };
+  return near(drive.load, s.forces.y, 1.0) && near(drive.traction, s.forces.x, 1.0) &&
+         near(drive.torque, s.forces.torque, s.height);
 }
 
 /// Nothing of the height that was tried is left, or nothing was found.
@@ -89,7 +101,7 @@ RollingSolution solve_rolling(RollingWindow& window, const RollingDrive& drive,
     }
     if (window.include_touching(state.point.height, state.point.force)) continue;
     fill(window.problem(), drive, state, s);
-    if (state.solved())
+    if (state.solved() && brings(drive, s))
       s.end = RollingEnd::solved;
     else if (slides(drive, state))
       s.end = RollingEnd::sliding;

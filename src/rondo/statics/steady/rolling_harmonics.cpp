@@ -26,6 +26,8 @@ RollingHarmonics::RollingHarmonics(RollingBody body)
     : body_(std::move(body)), turn_(body_.stiffness.n_sectors * body_.samples) {
   RONDO_DEMAND(body_.spin != 0.0 && body_.samples >= 1, body_.spin, body_.samples);
   layers_ = rolling_layers(body_.stiffness, body_.reference, body_.mass);
+  for (int m = 0; m < turn_; ++m)
+    waves_.push_back(std::polar(1.0, 2.0 * std::numbers::pi * m / turn_));
   find_candidates();
   move_masses();
   find_compliance();
@@ -63,7 +65,7 @@ void RollingHarmonics::move_masses() {
 
 /// The highest of an even turn has no derivative.
 RollingOrder RollingHarmonics::order(int k) const noexcept {
-  const Complexes turn = std::polar(1.0, 2.0 * std::numbers::pi * k / body_.stiffness.n_sectors);
+  const Complexes turn = waves_[static_cast<std::size_t>(k) * at(body_.samples) % waves_.size()];
   return {{std::conj(turn), 1.0, turn},
           2 * k == turn_ ? 0.0 : k * body_.spin,
           body_.spin,
@@ -141,7 +143,7 @@ Eigen::VectorXcd RollingHarmonics::load_of(int k) const {
 Vec2 RollingHarmonics::place(std::size_t a, int sample) const noexcept {
   const int row = body_.candidates[a];
   const Vec2 x = body_.reference[body_.stiffness.node(static_cast<std::size_t>(row), 0)];
-  const Complexes wave = 2.0 * std::polar(1.0, 2.0 * std::numbers::pi * sample / turn_);
+  const Complexes wave = 2.0 * waves_[at((sample % turn_ + turn_) % turn_)];
   const auto along = [&](int component) {
     const Eigen::Index n = 2 * row + component;
     return base_(n, 0).real() + (base_(n, 1) * wave).real();

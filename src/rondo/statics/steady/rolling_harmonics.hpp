@@ -79,6 +79,7 @@ class RollingHarmonics {
 
   RollingBody body_;
   int turn_;
+  std::vector<std::complex<double>> waves_;      ///< (L) e^{i 2π m/L}
   std::vector<RollingLayer> layers_;             ///< with masses as moved
   std::vector<Eigen::Index> local_;              ///< (candidates) first number in the last layer
   std::vector<std::complex<double>> transfers_;  ///< (L/2 + 1, transfer_size)

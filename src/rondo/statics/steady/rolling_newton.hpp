@@ -5,6 +5,7 @@
 /// groups of pairs; Lemke's pivoting where it cycles.
 #pragma once
 #include <Eigen/Core>
+#include <limits>
 #include <vector>
 
 #include "rondo/statics/steady/rolling_system.hpp"
@@ -17,8 +18,9 @@ inline constexpr double rolling_residual_bound = 1e-9;
 struct RollingState {
   std::vector<RollingStatus> found;  ///< (pairs)
   RollingPoint point;
-  double residual = 0.0;  ///< of the law, relative (6.4d)                                     [-]
-  bool touches = true;    ///< false: the active set that was left is empty
+  /// Of the law, relative (6.4d); infinite: nothing was solved yet                            [-]
+  double residual = std::numeric_limits<double>::infinity();
+  bool touches = true;  ///< false: the active set that was left is empty
   int newton_steps = 0, pivots = 0;
 
   [[nodiscard]] bool solved() const noexcept {

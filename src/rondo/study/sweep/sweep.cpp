@@ -62,6 +62,7 @@ struct Runner {
 
   std::string run(std::size_t m, const std::atomic<bool>& stop) {
     const Case c = case_of(study, plan.members[m]);
+    if (plan.direct) return packed(direct_row(c, stop));
     const fs::path directory = run_directory(request.directory, m, plan.members.size());
     const bool kept = run_is_there(directory, c);
     if (!kept) {
@@ -71,6 +72,23 @@ struct Runner {
     MemberRow row = row_of(directory, *plan.type, study.window);
     row.kept = kept;
     return packed(row);
+  }
+
+  MemberRow direct_row(const Case& c, const std::atomic<bool>& stop) {
+    const auto begin = Clock::now();
+    RunOptions options;
+    options.threads = 1;
+    options.stop = &stop;
+    options.shared = &shared;
+    DirectRun run = plan.type->direct(c, options);
+    MemberRow row;
+    row.status = run.trouble.empty() ? MemberStatus::done : MemberStatus::failed;
+    row.code = run.trouble.empty() ? exit_done : exit_numerical;
+    row.message = std::move(run.trouble);
+    row.steps = run.steps;
+    row.figures = std::move(run.figures);
+    row.wall_s = std::chrono::duration<double>(Clock::now() - begin).count();
+    return row;
   }
 
   RunStatus make(const Case& c, const fs::path& directory, const std::atomic<bool>& stop) {
@@ -126,6 +144,7 @@ class Sweep {
 
   /// Of members that were not reached, as far as they were done before.
   void take_what_is_there() {
+    if (plan_.direct) return;
     for (std::size_t m = 0; m < rows_.size(); ++m) {
       if (rows_[m].status != MemberStatus::waiting) continue;
       const fs::path directory = run_directory(request_.directory, m, rows_.size());
@@ -155,8 +174,7 @@ class Sweep {
       ++r.failed;
       if (r.code != exit_interrupted) r.code = std::max(r.code, row.code);
       if (r.failures.size() < most_told)
-        r.failures.push_back(name_of(study_, plan_.members[m].member, m + 1) + " in " +
-                             run_directory(request_.directory, m, rows_.size()).string() + ": " +
+        r.failures.push_back(name_of(study_, plan_.members[m].member, m + 1) + place_of(m) + ": " +
                              row.message);
     }
     add_strains(r);
@@ -166,6 +184,11 @@ class Sweep {
 
  private:
   static constexpr std::size_t most_told = 5;
+
+  [[nodiscard]] std::string place_of(std::size_t m) const {
+    if (plan_.direct) return {};
+    return " in " + run_directory(request_.directory, m, rows_.size()).string();
+  }
 
   [[nodiscard]] double wall() const {
     return std::chrono::duration<double>(Clock::now() - begin_).count();

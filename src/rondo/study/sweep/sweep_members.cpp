@@ -89,6 +89,7 @@ void read_members(const SweepStudy& study, PlannedSweep& plan, MemberFaults& fau
       const Case c = case_of(study, member);
       check_window(study, c);
       plan.type = &type_of(c);
+      plan.direct = plan.type->direct && !study.snapshots;
       member.hash = hash_of(write_case(c) + meshes.of(c));
       member.body = hash_of(body_key(c) + meshes.of(c));
       member.memory_bytes = guessed_memory(c);
@@ -188,6 +189,7 @@ bool build_members(const MembersRequest& request, Team& team, PlannedSweep& plan
     if (pieces[k].state == Piece::State::missing) return false;
     demand_done(pieces[k]);
     take_check(nlohmann::json::parse(pieces[k].text), order[k], plan.members[order[k]], faults);
+    if (plan.direct) plan.members[order[k]].disk_bytes = 0;
   }
   return true;
 }

@@ -47,6 +47,8 @@ struct PlannedSweep {
   /// longest first.
   std::vector<std::size_t> order;
   bool stopped = false;  ///< before all was checked
+  /// Members have no directories: they take less time than these would, and are made anew.
+  bool direct = false;
 };
 
 /// Reads every member's case, builds every member once. @throws InputError with all
