@@ -5,59 +5,28 @@
 
 #include <cmath>
 #include <functional>
-#include <memory>
 #include <random>
-#include <vector>
 
-#include "rondo/statics/steady/rolling_power.hpp"
-#include "support/models.hpp"
+#include "support/steady_body.hpp"
 
 using namespace rondo;
 using namespace rondo::statics;
 
 namespace {
 
-struct Body {
-  Body(int radial, int columns, int samples, bool massless, double spin = -33.333333) {
-    const test::DiskCase c = test::rolling_disk(radial, columns);
-    mesh = mesh::make_disk(c.disk);
-    mass = fem::lumped_mass(mesh, {&c.material, 1});
-    sector = fem::assemble_sector(mesh, {&c.material, 1});
-    harmonics = std::make_unique<RollingHarmonics>(
-        RollingBody{.stiffness = sector,
-                    .mass = mass,
-                    .reference = mesh.coordinates,
-                    .candidates = {static_cast<int>(sector.n_local()) - 1},
-                    .spin = spin,
-                    .mass_damping = c.alpha,
-                    .stiffness_damping = c.beta,
-                    .samples = samples,
-                    .massless = massless});
+using test::at_height;
+using test::solved;
+
+struct Body : test::SteadyBody {
+  Body(int radial, int columns, int samples, bool massless, double spin = -33.333333)
+      : SteadyBody(disk(radial, columns, spin), samples, massless) {}
+
+  static test::DiskCase disk(int radial, int columns, double spin) {
+    test::DiskCase c = test::rolling_disk(radial, columns);
+    c.motion.angular_velocity = dynamics::Table(-spin);
+    return c;
   }
-  [[nodiscard]] RollingWindow window(SlipDifference slip) const { return {*harmonics, slip}; }
-
-  mesh::Mesh mesh;
-  std::vector<double> mass;
-  fem::SectorStiffness sector;
-  std::unique_ptr<RollingHarmonics> harmonics;
 };
-
-RollingSolution solved(RollingWindow& window, const RollingDrive& drive) {
-  RollingSolution s = solve_rolling(window, drive);
-  EXPECT_EQ(s.end, RollingEnd::solved);
-  EXPECT_LT(rolling_residual(window, s, drive.friction), 1e-10);
-  EXPECT_LT(rolling_power(window, s, spectrum_of(window, s)).residual, 1e-12);
-  return s;
-}
-
-RollingDrive at_height(double friction) {
-  return {.height = 0.29,
-          .speed = 10.0,
-          .friction = friction,
-          .load = {},
-          .traction = {},
-          .torque = {}};
-}
 
 RollingDrive at_load(double friction) {
   RollingDrive d = at_height(friction);
@@ -102,7 +71,6 @@ TEST(SteadyRolling, ManySamplesWithoutMassOnTheContactNodes) {
   }
 }
 
-/// Where the samples sit must not matter: as it does with one a pass.
 TEST(SteadyRolling, TheSlipOfEightSamplesMissesLittleOfThePowerOfFriction) {
   const Body b(12, 180, 8, true);
   RollingWindow w = b.window(SlipDifference::bdf2);

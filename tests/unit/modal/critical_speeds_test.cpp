@@ -4,8 +4,10 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
+#include <vector>
 
 #include "bodies.hpp"
 
@@ -74,4 +76,25 @@ TEST(CriticalSpeeds, OfAFreeDiskFromTwoDiametersOn) {
   const auto speeds = modal::critical_speeds(b.cyclic(), nullptr, 3);
   ASSERT_EQ(speeds.size(), 2U);
   EXPECT_EQ(speeds[0].diameters, 2);
+}
+
+TEST(CriticalSpeeds, UpToASpinAreThoseThatAreNotAboveIt) {
+  const auto b = test::body_of(test::ring(3, 36));
+  const auto all = modal::critical_speeds(b.cyclic(), nullptr, 18);
+  ASSERT_GT(all.size(), 6U);
+  std::vector<double> spins;
+  for (const modal::CriticalSpeed& c : all) spins.push_back(c.spin);
+  std::ranges::sort(spins);
+  EXPECT_TRUE(modal::critical_speeds_up_to(b.cyclic(), 0.999 * spins[0]).empty());
+  for (const std::size_t count : {std::size_t{1}, std::size_t{4}}) {
+    const double spin = 0.5 * (spins[count - 1] + spins[count]);
+    const auto found = modal::critical_speeds_up_to(b.cyclic(), spin);
+    ASSERT_EQ(found.size(), count);
+    for (const modal::CriticalSpeed& c : found) {
+      EXPECT_LT(c.spin, spin);
+      const auto same = std::ranges::find(all, c.diameters, &modal::CriticalSpeed::diameters);
+      ASSERT_NE(same, all.end());
+      EXPECT_NEAR(c.spin, same->spin, 1e-9 * same->spin);
+    }
+  }
 }

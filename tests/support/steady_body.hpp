@@ -1,0 +1,77 @@
+// SPDX-License-Identifier: BSD-3-Clause
+/// @file  Bodies whose steady rolling tests solve.
+#pragma once
+#include <gtest/gtest.h>
+
+#include <memory>
+#include <vector>
+
+#include "rondo/statics/steady/rolling_power.hpp"
+#include "support/models.hpp"
+
+namespace rondo::test {
+
+/// A disk with its harmonics, by spin and damping of the case.
+struct SteadyBody {
+  /// @param turned by which the mesh is turned against its samples [rad]
+  SteadyBody(const DiskCase& c, int samples, bool massless, double turned = 0.0) {
+    mesh = mesh::make_disk(c.disk);
+    for (Vec2& x : mesh.coordinates) x = rotation(turned) * x;
+    mass = fem::lumped_mass(mesh, {&c.material, 1});
+    sector = fem::assemble_sector(mesh, {&c.material, 1});
+    harmonics = std::make_unique<statics::RollingHarmonics>(
+        statics::RollingBody{.stiffness = sector,
+                             .mass = mass,
+                             .reference = mesh.coordinates,
+                             .candidates = candidates(),
+                             .spin = -c.motion.angular_velocity.at(0.0),
+                             .mass_damping = c.alpha,
+                             .stiffness_damping = c.beta,
+                             .samples = samples,
+                             .massless = massless});
+  }
+  SteadyBody(const SteadyBody&) = delete;
+  SteadyBody& operator=(const SteadyBody&) = delete;
+
+  [[nodiscard]] statics::RollingWindow window(statics::SlipDifference slip) const {
+    return {*harmonics, slip};
+  }
+
+  mesh::Mesh mesh;
+  std::vector<double> mass;
+  fem::SectorStiffness sector;
+  std::unique_ptr<statics::RollingHarmonics> harmonics;
+
+ private:
+  /// Rows of the sector whose nodes may touch.
+  [[nodiscard]] std::vector<int> candidates() const {
+    std::vector<char> touches(mesh.n_nodes(), 0);
+    for (const int node : mesh.boundary) touches[static_cast<std::size_t>(node)] = 1;
+    std::vector<int> rows;
+    for (std::size_t a = 0; a < sector.n_local(); ++a)
+      if (touches[sector.node(a, 0)] != 0) rows.push_back(static_cast<int>(a));
+    return rows;
+  }
+};
+
+/// Solved, and judged by the law and by where the power goes.
+inline statics::RollingSolution solved(statics::RollingWindow& window,
+                                       const statics::RollingDrive& drive) {
+  statics::RollingSolution s = solve_rolling(window, drive);
+  EXPECT_EQ(s.end, statics::RollingEnd::solved);
+  EXPECT_LT(rolling_residual(window, s, drive.friction), 1e-10);
+  EXPECT_LT(rolling_power(window, s, spectrum_of(window, s)).residual, 1e-12);
+  return s;
+}
+
+/// The disk of V18: V = 10 m/s, 0.29 m above the ground.
+inline statics::RollingDrive at_height(double friction) {
+  return {.height = 0.29,
+          .speed = 10.0,
+          .friction = friction,
+          .load = {},
+          .traction = {},
+          .torque = {}};
+}
+
+}  // namespace rondo::test
