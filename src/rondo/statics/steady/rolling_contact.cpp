@@ -80,6 +80,7 @@ RollingSolution solve_rolling(RollingWindow& window, const RollingDrive& drive,
   state.point.speed = drive.speed;
   window.include_below(state.point.height);
   state.found = from;
+  int unsolved = 0;
   for (int round = 0; round < most_rounds; ++round) {
     const RollingProblem& problem = window.problem();
     s.end = problem.pairs.empty() ? RollingEnd::no_contact : RollingEnd::not_solved;
@@ -99,7 +100,9 @@ RollingSolution solve_rolling(RollingWindow& window, const RollingDrive& drive,
       state.found.clear();
       continue;
     }
-    if (window.include_touching(state.point.height, state.point.force)) continue;
+    // Forces that are no solution leave all sorts of pairs in the ground: no further than once more.
+    const bool may_grow = state.solved() || ++unsolved < 2;
+    if (may_grow && window.include_touching(state.point.height, state.point.force)) continue;
     fill(window.problem(), drive, state, s);
     if (state.solved() && brings(drive, s))
       s.end = RollingEnd::solved;
