@@ -52,7 +52,8 @@ std::unique_ptr<dynamics::Integrator> DynamicAnalysis::make_integrator(dynamics:
 
 double DynamicAnalysis::seconds_per_step(double trial) {
   if (trial <= 0.0) return 0.0;
-  dynamics::State state = start(setup_.model, setup_.displacement, setup_.velocity);
+  dynamics::State state =
+      start(setup_.model, setup_.displacement, setup_.velocity, setup_.half_velocity);
   const auto integrator = make_integrator(state);
   std::array<dynamics::StepReport, 8> reports;  // only their time is of interest
   const auto begin = Clock::now();
@@ -174,7 +175,8 @@ Progress DynamicAnalysis::begin(Recorder& recorder) {
   watch_.emplace(case_, setup_);
   hub_.emplace(setup_);
   reports_.resize(steps_at_once(setup_));
-  state_ = start(setup_.model, std::move(setup_.displacement), std::move(setup_.velocity));
+  state_ = start(setup_.model, std::move(setup_.displacement), std::move(setup_.velocity),
+                 std::move(setup_.half_velocity));
   strain_.emplace(setup_.mesh, &setup_.model);
   if (!from_) record_state(recorder);
   start_integrator();

@@ -86,7 +86,7 @@ struct AnalysisCase {
                                                ///< speed                                 [N/m], [N]
 };
 
-enum class InitialState { rest, stationary };
+enum class InitialState { rest, stationary, steady_rolling };
 
 /// Rigid motion of the free bodies of a physical surface at t = 0, instead of that of [initial].
 struct InitialRegion {

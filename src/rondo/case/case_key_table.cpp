@@ -252,10 +252,11 @@ constexpr CaseKey keys[] = {
     {"load.pressure[].value", "Pa", FIELD(pressures[k].pressure), any, required,
      "pressure against the outward normal, > 0 presses on the body"},
 
-    {"initial.state", "-", FIELD(initial.state), choice("rest", "stationary"),
+    {"initial.state", "-", FIELD(initial.state), choice("rest", "stationary", "steady-rolling"),
      optional.body(may_be_free),
      "\"rest\": undeformed, at rest relative to the turning rim. \"stationary\": deformed, in "
-     "equilibrium with the spin at t = 0"},
+     "equilibrium with the spin at t = 0. \"steady-rolling\": as it rolls on the ground with the "
+     "motion at t = 0, [below](#a-start-in-steady-rolling)"},
     {"initial.velocity", "m/s", FIELD(initial.velocity), any, optional.body(may_be_free),
      "velocity added to every free node, in the fixed frame"},
     {"initial.displacement_gradient", "-", FIELD(initial.displacement_gradient), any,

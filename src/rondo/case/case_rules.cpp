@@ -154,6 +154,7 @@ void check_initial(CaseValues& in, Case& c) {
   warn_of_sign(c);
   if (c.initial.state == InitialState::stationary && !is_held(c))
     in.fault("initial.state", "nothing turns a free body: it has no stationary spin", "\"rest\"");
+  if (c.initial.state == InitialState::steady_rolling) check_steady_start(in, c);
   check_names(in, "initial.region[].surface", c);
   if (!may_be_free(c) && in.good({"disk.rim"})) check_placing(in);
   if (!c.mesh && c.free_rim && !c.initial.regions.empty())

@@ -2,6 +2,9 @@
 /// @file  What the table of keys cannot say: rules between several keys of a case. Each collects
 /// faults in `in`.
 #pragma once
+#include <optional>
+#include <string_view>
+
 #include "rondo/case/case_values.hpp"
 
 namespace rondo::study {
@@ -17,6 +20,13 @@ void check_rim(CaseValues& in, Case& c);
 
 /// There is ground, and it is flat. @param who needs it
 void check_flat_ground(CaseValues& in, const Case& c, std::string_view who);
+
+/// Of initial.state = "steady-rolling".
+void check_steady_start(CaseValues& in, const Case& c);
+
+/// Height of the ground where it is flat below the whole body at t = 0. @pre there is ground,
+/// without faults                                                                            [m]
+std::optional<double> flat_ground_below(const Case& c);
 
 /// For keys that another key requires; says nothing where the kind of analysis is at fault.
 void require(CaseValues& in, std::string_view key);

@@ -88,7 +88,81 @@ void check_samples(CaseValues& in, Case& c) {
              "true, or analysis.samples_per_sector = 1");
 }
 
+constexpr std::string_view start = "initial.state";
+
+void check_start_body(CaseValues& in, const Case& c) {
+  if (c.mesh)
+    in.fault(start, "a mesh from a file is not known to be of equal sectors, as steady rolling is",
+             "\"stationary\", and a run long enough to settle; or a [disk]");
+  if (!c.mesh && c.free_rim)
+    in.fault(start, "nothing turns a free body: it does not roll steadily", "\"rest\"");
+  if (!c.mesh && !c.disk.tread && c.disk.radial < 2 && in.good({"disk.mesh.radial"}))
+    in.fault("disk.mesh.radial",
+             "a start in steady rolling takes the contact nodes as without mass, and the nodes "
+             "below them are held by the rim",
+             "at least 2; or initial.state = \"stationary\"");
+}
+
+/// What moves at the start is no steady state; later it may.
+void check_still(CaseValues& in, std::string_view key, const dynamics::Table& value) {
+  if (in.good({key}) && value.slope(0.0) != 0.0)
+    in.fault(key, "changes from t = 0 on, and a start in steady rolling has one value",
+             "a number, or a table whose first two points, from t = 0 on, have the same value");
+}
+
+void check_start_motion(CaseValues& in, const Case& c) {
+  constexpr std::string_view spin = "motion.angular_velocity";
+  check_still(in, spin, c.motion.angular_velocity);
+  check_still(in, "motion.speed", c.motion.speed);
+  check_still(in, "motion.height", c.motion.height);
+  check_still(in, "motion.gravity", c.motion.gravity);
+  for (std::size_t k = 0; k < c.pressures.size(); ++k)
+    check_still(in, item_of("load.pressure", k) + ".value", c.pressures[k].pressure);
+  if (is_held(c) && in.good({spin}) && c.motion.angular_velocity.at(0.0) == 0.0)
+    in.fault(start, "the angular velocity at t = 0 is 0: a body that does not turn does not roll",
+             "\"rest\"; or motion.angular_velocity other than 0");
+  if (c.motion.slope != 0.0)
+    in.fault(start, "steady rolling knows no slope", "\"stationary\"; or motion.slope = 0");
+  if (c.rim && !c.pressures.empty())
+    in.fault(start,
+             "with a [rim] pressures act on the edges as they lie, in steady rolling on the "
+             "undeformed ones",
+             "\"stationary\"; or no [rim], or no [[load.pressure]]");
+}
+
 }  // namespace
+
+std::optional<double> flat_ground_below(const Case& c) {
+  const contact::GroundShape& shape = c.ground->shape;
+  const double reach = c.disk.outer_radius + shape.fillet;
+  const double from = c.motion.start_x - reach, to = c.motion.start_x + reach;
+  std::optional<double> height;
+  const std::size_t last = shape.profile.size() - 1;
+  for (std::size_t k = 0; k < last; ++k) {  // the end segments go on for ever
+    const Vec2 a = shape.profile[k], b = shape.profile[k + 1];
+    if ((k > 0 && a.x >= to) || (k + 1 < last && b.x <= from)) continue;
+    if (a.y != b.y || (height && *height != a.y)) return std::nullopt;
+    height = a.y;
+  }
+  return height;
+}
+
+void check_steady_start(CaseValues& in, const Case& c) {
+  check_start_body(in, c);
+  check_start_motion(in, c);
+  if (!in.has_table("ground"))
+    in.fault(start, "there is no ground to roll on", "\"stationary\"; or a [ground]");
+  else if (in.good({"ground", "ground.profile", "ground.fillet", "disk.outer_radius"}) &&
+           c.ground && contact::shape_faults(c.ground->shape).empty() && !c.mesh &&
+           !flat_ground_below(c))
+    in.fault("ground.profile",
+             fmt::format("is not flat below the body at t = 0, from x = {:.6g} to {:.6g} m, as a "
+                         "start in steady rolling wants it",
+                         c.motion.start_x - c.disk.outer_radius - c.ground->shape.fillet,
+                         c.motion.start_x + c.disk.outer_radius + c.ground->shape.fillet),
+             "another motion.start_x, or obstacles further away; or initial.state = "
+             "\"stationary\"");
+}
 
 void check_steady_rolling(CaseValues& in, Case& c) {
   check_body(in, c);

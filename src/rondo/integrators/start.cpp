@@ -96,8 +96,10 @@ void start_wheel(const Model& model, std::span<const Vec2> load, State& state) {
 
 }  // namespace
 
-State start(const Model& model, std::vector<Vec2> u0, std::vector<Vec2> v0) {
+State start(const Model& model, std::vector<Vec2> u0, std::vector<Vec2> v0,
+            std::vector<Vec2> half) {
   RONDO_DEMAND(u0.size() == model.n_nodes() && v0.size() == model.n_nodes(), u0.size(), v0.size());
+  RONDO_DEMAND(half.empty() || half.size() == model.n_nodes(), half.size());
   RONDO_DEMAND(model.dt > 0.0, model.dt);
   State state;
   state.u = std::move(u0);
@@ -116,6 +118,7 @@ State start(const Model& model, std::vector<Vec2> u0, std::vector<Vec2> v0) {
     start_wheel(model, load, state);
   else
     start_body(model, load, state);
+  if (!half.empty()) for_free_nodes(model, [&](std::size_t k) { state.v_next[k] = half[k]; });
   return state;
 }
 

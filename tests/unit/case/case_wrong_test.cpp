@@ -240,7 +240,7 @@ const std::vector<Wrong> wrongs{
     {"FilletNegative", 26, "fillet = -0.02", "ground.fillet", 26, {">= 0"}},
     {"FrictionNegative", 27, "friction = -0.3", "ground.friction", 27, {"0 to 100"}},
     {"RestitutionAboveOne", 28, "restitution = 1.01", "ground.restitution", 28, {"0 to 1"}},
-    {"StateUnknown", 30, "state = \"moving\"", "initial.state", 30, {"\"rest\" or \"stationary\""}},
+    {"StateUnknown", 30, "state = \"moving\"", "initial.state", 30, {"\"rest\", \"stationary\" or \"steady-rolling\""}},
     {"VelocityNumber",
      31,
      "velocity = 3",

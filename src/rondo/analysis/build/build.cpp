@@ -251,10 +251,10 @@ void demand_shared_body(const Case& c, int threads, SharedBody& shared) {
 /// What hangs on the rest of the case.
 void set_up_run(const Case& c, Setup& s, SharedBody* shared) {
   set_motion_and_friction(c, s.model);
-  set_initial_fields(c, s, shared);
-  check_start(c, s);
   s.model.dt = choose_step(c, s.critical);
   s.n_steps = count_steps(c, s.model.dt);
+  set_initial_fields(c, s, shared);
+  check_start(c, s);
   check_stability(c, s);
   tell_physical_figures(c, s);
 }

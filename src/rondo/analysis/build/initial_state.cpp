@@ -7,6 +7,7 @@
 
 #include "rondo/analysis/build/bodies.hpp"
 #include "rondo/analysis/build/overlap.hpp"
+#include "rondo/analysis/build/steady_start.hpp"
 #include "rondo/statics/stationary_spin.hpp"
 
 namespace rondo::study {
@@ -97,13 +98,15 @@ void set_initial_fields(const Case& c, Setup& s, SharedBody* shared) {
   s.displacement.assign(model.n_nodes(), Vec2{});
   s.velocity.assign(model.n_nodes(), Vec2{});
   if (c.initial.state == InitialState::stationary) set_stationary(c, s, shared);
+  if (c.initial.state == InitialState::steady_rolling) set_steady_rolling(c, s);
   const auto& g = c.initial.displacement_gradient;
   const std::vector<RigidMotion> motions = motions_of(c, s.mesh, model);
   for (const int node : model.free) {
     const std::size_t k = at(node);
     const Vec2 x = model.reference[k];
     s.displacement[k] += Vec2{g[0][0] * x.x + g[0][1] * x.y, g[1][0] * x.x + g[1][1] * x.y};
-    s.velocity[k] = c.initial.velocity;  // θ(0) = 0: both frames have the same axes
+    s.velocity[k] += c.initial.velocity;  // θ(0) = 0: both frames have the same axes
+    if (!s.half_velocity.empty()) s.half_velocity[k] += c.initial.velocity;
     if (!in_fixed_frame(model, k)) continue;
     const std::size_t b = at(model.free_body[k]);
     const double spin = -motions[b].angular_velocity;  // counter-clockwise

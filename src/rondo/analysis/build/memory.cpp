@@ -15,6 +15,12 @@
 #include "rondo/output/recorder.hpp"
 
 namespace rondo::study {
+namespace {
+
+/// Of a node, in a start in steady rolling: samples and harmonics of its displacement, twice.
+constexpr std::size_t rolling_numbers = 64;
+
+}  // namespace
 
 std::size_t mesh_memory(std::size_t nodes) noexcept {
   constexpr std::size_t program = 30'000'000;    // with its libraries
@@ -59,6 +65,8 @@ std::size_t motion_memory(const Case& c, const mesh::Mesh& mesh) noexcept {
                       std::min(snapshots, queue_length(snapshots, of_a_snapshot)) * of_a_snapshot;
   if (!sector_alone) bytes += stiffness_memory(nodes, wide_rows);
   if (factorised) bytes += factor_memory(harmonics ? of_a_sector : 2 * nodes, wide_rows);
+  if (c.initial.state == InitialState::steady_rolling)
+    bytes += nodes * rolling_numbers * sizeof(double);
   return bytes;
 }
 

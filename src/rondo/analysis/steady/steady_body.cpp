@@ -10,8 +10,8 @@
 
 #include "rondo/analysis/build/memory.hpp"
 #include "rondo/analysis/build/physical.hpp"
+#include "rondo/analysis/build/steady_start.hpp"
 #include "rondo/modal/critical_speeds.hpp"
-#include "rondo/model/pressure.hpp"
 #include "rondo/statics/stationary_spin.hpp"
 
 namespace rondo::study {
@@ -52,26 +52,10 @@ void warn_of_critical_spin(const Case& c, SteadyBody& b) {
 
 /// (n_local) in the frame of the sector: the curves of a disk are the same in all.
 std::vector<Vec2> load_of(const Case& c, const SteadyBody& b) {
-  if (c.pressures.empty()) return {};
   dynamics::Model model;
   model.reference = b.mesh.coordinates;
   add_pressures(c, b.mesh, model);
-  std::vector<Vec2> of_node(b.mesh.n_nodes());
-  for (const dynamics::NodalLoad& load : dynamics::nodal_loads(model))
-    of_node[static_cast<std::size_t>(load.node)] +=
-        model.pressures[static_cast<std::size_t>(load.load)].pressure.at(0.0) * load.force;
-  std::vector<Vec2> rows;
-  for (std::size_t a = 0; a < b.sector.n_local(); ++a) rows.push_back(of_node[b.sector.node(a, 0)]);
-  return rows;
-}
-
-std::vector<int> candidates_of(const SteadyBody& b) {
-  std::vector<char> touches(b.mesh.n_nodes(), 0);
-  for (const int node : b.mesh.boundary) touches[static_cast<std::size_t>(node)] = 1;
-  std::vector<int> rows;
-  for (std::size_t a = 0; a < b.sector.n_local(); ++a)
-    if (touches[b.sector.node(a, 0)] != 0) rows.push_back(static_cast<int>(a));
-  return rows;
+  return sector_load(model, b.sector);
 }
 
 /// Equal for cases that share harmonics.
@@ -131,7 +115,7 @@ void find_harmonics(const Case& c, SteadyBody& b, int threads) {
   b.harmonics.emplace(statics::RollingBody{.stiffness = b.sector,
                                            .mass = b.mass,
                                            .reference = b.mesh.coordinates,
-                                           .candidates = candidates_of(b),
+                                           .candidates = candidate_rows(b.mesh, b.sector),
                                            .spin = spin_of(c),
                                            .mass_damping = c.damping.mass,
                                            .stiffness_damping = c.damping.stiffness,
