@@ -58,11 +58,6 @@ void check_case(const Case& c, const RunOptions& options, const Setup& setup) {
   if (c.time.scheme != Scheme::symplectic)
     throw case_error(c, "time.scheme", "a reduced run has a scheme of its own",
                      "\"symplectic\", which it stands for");
-  if (c.initial.state == InitialState::steady_rolling)
-    throw case_error(c, "initial.state",
-                     "steady rolling is a state of the whole mesh, contact nodes without mass: the "
-                     "modes start without it",
-                     "\"stationary\" or \"rest\", and motion.height as a table that comes down");
   const dynamics::Model& model = setup.model;
   if (is_general(model) || !model.pressures.empty() || has_sharp_corners(model))
     throw case_error(

@@ -41,6 +41,7 @@ Value value_of(const char* option, const std::string& word,
 constexpr std::array quantities{Word<io::Quantity>{"displacement", io::Quantity::displacement},
                                 Word<io::Quantity>{"velocity", io::Quantity::velocity},
                                 Word<io::Quantity>{"contact", io::Quantity::contact}};
+constexpr double infinity = std::numeric_limits<double>::infinity();
 constexpr std::array weights{Word<Weight>{"mass", Weight::mass},
                              Word<Weight>{"delassus", Weight::delassus},
                              Word<Weight>{"none", Weight::none}};
@@ -187,7 +188,7 @@ std::vector<io::RunReader> open_runs(const PodRequest& request, const SnapshotCh
                                       "the velocity's times",
                                       name),
                           "run the case again, or --frame co-rotating");
-    if (choice.quantity == io::Quantity::velocity && run.analysis() != runs.front().analysis())
+    if (choice.quantity == io::Quantity::velocity && run.is_motion() != runs.front().is_motion())
       throw request_error("RUN", name,
                           "the velocity of a crush is its rate over the load, not over time",
                           "velocities of runs of one kind together");
@@ -202,12 +203,17 @@ std::vector<io::RunReader> open_runs(const PodRequest& request, const SnapshotCh
   return runs;
 }
 
+bool is_in_window(const std::vector<io::RunReader>& runs, std::size_t run, double time,
+                  const std::optional<double>& from, const std::optional<double>& to) {
+  const auto is_steady = [](const io::RunReader& r) { return r.analysis() == "steady-rolling"; };
+  if (is_steady(runs[run]) && !std::ranges::all_of(runs, is_steady)) return true;
+  return time >= from.value_or(-infinity) && time <= to.value_or(infinity);
+}
+
 /// The snapshots of all runs within the window, in the order of the runs.
 std::vector<SnapshotColumn> columns_of(const PodRequest& request, const SnapshotChoice& choice,
                                        const std::vector<io::RunReader>& runs) {
   const bool velocity = choice.quantity == io::Quantity::velocity;
-  const double from = request.from.value_or(-std::numeric_limits<double>::infinity());
-  const double to = request.to.value_or(std::numeric_limits<double>::infinity());
   std::vector<SnapshotColumn> columns;
   for (std::size_t r = 0; r < runs.size(); ++r) {
     const io::RunTimes& of = runs[r].times();
@@ -217,10 +223,13 @@ std::vector<SnapshotColumn> columns_of(const PodRequest& request, const Snapshot
         velocity && !of.angle_velocity.empty() ? of.angle_velocity : of.angle;
     const std::size_t before = columns.size();
     for (std::size_t j = 0; j < times.size(); ++j)
-      if (times[j] >= from && times[j] <= to) columns.push_back({r, j, times[j], angles[j]});
+      if (is_in_window(runs, r, times[j], request.from, request.to))
+        columns.push_back({.run = r, .snapshot = j, .time = times[j], .angle = angles[j]});
     if (columns.size() == before)
       throw request_error(
-          "--from, --to", fmt::format("{:.9g} to {:.9g} s", from, to),
+          "--from, --to",
+          fmt::format("{:.9g} to {:.9g} s", request.from.value_or(-infinity),
+                      request.to.value_or(infinity)),
           fmt::format("no snapshot of {} is in this window", runs[r].directory().string()),
           fmt::format("a window that meets [{:.9g}, {:.9g}] s, where its {} snapshots are",
                       times.front(), times.back(), times.size()));

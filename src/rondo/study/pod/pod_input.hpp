@@ -32,6 +32,11 @@ const char* unit_of(io::Quantity quantity, const io::RunReader& run) noexcept;
 /// no sectors, different meshes; FileError
 std::vector<io::RunReader> open_runs(const PodRequest& request, const SnapshotChoice& choice);
 
+/// Whether a snapshot is in the window: beside runs in time, those of a steady state, whose times
+/// are those of a sector's pass, all are.
+bool is_in_window(const std::vector<io::RunReader>& runs, std::size_t run, double time,
+                  const std::optional<double>& from, const std::optional<double>& to);
+
 /// The snapshots of all runs within the window, in the order of the runs. @throws InputError: none
 std::vector<SnapshotColumn> columns_of(const PodRequest& request, const SnapshotChoice& choice,
                                        const std::vector<io::RunReader>& runs);

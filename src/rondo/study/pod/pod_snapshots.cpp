@@ -108,18 +108,20 @@ void RunSnapshots::read_order(const SnapshotColumn& column, std::size_t first, s
     if (!(std::abs(v.x) < largest && std::abs(v.y) < largest)) out_of_range(run, column.time);
 }
 
-void RunSnapshots::store(Eigen::Ref<Eigen::VectorXd> out, std::size_t first,
-                         std::size_t count) const {
+void RunSnapshots::store(Eigen::Ref<Eigen::VectorXd> out, const SnapshotColumn& column,
+                         std::size_t first, std::size_t count) const {
   for (std::size_t i = 0; i < count; ++i) {
-    out[static_cast<Index>(2 * i)] = root_[first + i] * field_[i].x;
-    out[static_cast<Index>(2 * i + 1)] = root_[first + i] * field_[i].y;
+    const double root = column.weight * root_[first + i];
+    out[static_cast<Index>(2 * i)] = root * field_[i].x;
+    out[static_cast<Index>(2 * i + 1)] = root * field_[i].y;
   }
 }
 
 void RunSnapshots::read_columns(Index first, Eigen::Ref<Eigen::MatrixXd> out) {
   for (Index j = 0; j < out.cols(); ++j) {
-    read_order(columns_[size(first + j)], 0, order_.size());
-    store(out.col(j), 0, order_.size());
+    const SnapshotColumn& column = columns_[size(first + j)];
+    read_order(column, 0, order_.size());
+    store(out.col(j), column, 0, order_.size());
   }
 }
 
@@ -127,7 +129,7 @@ void RunSnapshots::read_rows(Index first, Eigen::Ref<Eigen::MatrixXd> out) {
   const std::size_t place = size(first) / 2, count = size(out.rows()) / 2;
   for (Index j = 0; j < out.cols(); ++j) {
     read_order(columns_[size(j)], place, count);
-    store(out.col(j), place, count);
+    store(out.col(j), columns_[size(j)], place, count);
   }
 }
 

@@ -17,8 +17,9 @@ enum class Weight { mass, delassus, none };
 /// One snapshot of one run.
 struct SnapshotColumn {
   std::size_t run = 0, snapshot = 0;
-  double time = 0.0;   ///< the field's own                                               [s]
-  double angle = 0.0;  ///< of the turning frame at that time                             [rad]
+  double time = 0.0;    ///< the field's own                                               [s]
+  double angle = 0.0;   ///< of the turning frame at that time                             [rad]
+  double weight = 1.0;  ///< by which the snapshot is multiplied
 };
 
 struct SnapshotChoice {
@@ -51,7 +52,8 @@ class RunSnapshots final : public pod::SnapshotMatrix {
 
  private:
   void read_order(const SnapshotColumn& column, std::size_t first, std::size_t count);
-  void store(Eigen::Ref<Eigen::VectorXd> out, std::size_t first, std::size_t count) const;
+  void store(Eigen::Ref<Eigen::VectorXd> out, const SnapshotColumn& column, std::size_t first,
+             std::size_t count) const;
 
   std::span<const io::RunReader> runs_;
   std::vector<SnapshotColumn> columns_;

@@ -20,6 +20,7 @@
 #include "rondo/study/pod/pod_input.hpp"
 #include "rondo/study/reduce/reduce_error.hpp"
 #include "rondo/study/reduce/reduce_modes.hpp"
+#include "rondo/study/reduce/reduce_steady.hpp"
 
 namespace rondo::study {
 namespace {
@@ -62,7 +63,7 @@ void check_run(const io::RunReader& run, const Case& c) {
   const std::string name = run.directory().string();
   if (!run.is_motion())
     throw request_error("RUN", name, "a crush does not roll: there is no motion to reduce",
-                        "runs of analysis.kind = \"dynamic\"");
+                        "runs of analysis.kind = \"dynamic\" or \"steady-rolling\"");
   if (c.mesh || c.free_rim || run.mesh().n_sectors == 0)
     throw request_error("RUN", name,
                         "the body has no equal sectors round a rim that holds it: its fields "
@@ -72,7 +73,10 @@ void check_run(const io::RunReader& run, const Case& c) {
     throw request_error("RUN", name,
                         fmt::format("the run is not finished (status {})", run.status()),
                         "finish it (rondo run RUN --resume), or leave it out");
-  if (run.n_snapshots() < 2)
+  if (!c.pressures.empty())
+    throw request_error("RUN", name, "a reduced run knows no pressures on the body",
+                        "runs without [[load.pressure]]");
+  if (!is_steady(run) && run.n_snapshots() < 2)
     throw request_error("RUN", name, fmt::format("{} snapshots make no model", run.n_snapshots()),
                         "a run with output.snapshots of 2 or more, some hundreds better");
 }
@@ -115,8 +119,9 @@ Source open_source(const ReduceRequest& r) {
   for (const std::filesystem::path& directory : pod.runs) {
     check_velocities(directory);
     const io::RunReader run(directory);
-    const Case& c = source.cases.emplace_back(read_case(directory / "case.toml"));
+    Case& c = source.cases.emplace_back(read_case(directory / "case.toml"));
     check_run(run, c);
+    if (is_steady(run)) take_steady(run, is_turning(r), c);
     const std::string difference = body_difference(body_text(c), body_text(source.cases.front()));
     if (!difference.empty())
       throw request_error(
@@ -136,7 +141,9 @@ Source open_source(const ReduceRequest& r) {
 RunSnapshots snapshots_of(const ReduceRequest& r, const Source& source, const char* field) {
   const PodRequest pod = pod_request(r, field);
   const SnapshotChoice choice = choice_of(pod);
-  return {source.runs, columns_of(pod, choice, source.runs), choice};
+  std::vector<SnapshotColumn> columns = columns_of(pod, choice, source.runs);
+  weigh_steady(source.runs, columns);
+  return {source.runs, std::move(columns), choice};
 }
 
 /// A rim that moved by itself: history.csv says how.
@@ -307,16 +314,18 @@ ErrorEstimate estimate_errors(const ReduceRequest& r, const Source& source, cons
     const PodRequest pod = pod_request(r, field);
     columns[k++] = columns_of(pod, choice_of(pod), source.runs);
   }
-  const auto n = static_cast<long long>(source.runs.size());
-  for (std::size_t run = 0; run < source.runs.size(); ++run) {
-    if (r.progress) r.progress(static_cast<long long>(run), n);
+  const std::vector<std::size_t> left_out = runs_to_leave_out(source.runs);
+  const auto n = static_cast<long long>(left_out.size());
+  for (long long done = 0; const std::size_t run : left_out) {
+    if (r.progress) r.progress(done++, n);
     const std::optional<MeanForce> own = mean_force_of(source.runs[run]);
     if (!own || !source.cases[run].ground || !(own->y > 0.0)) continue;
     const MatrixXd basis =
         basis_of(r, setup.mesh, roots, modes_without(*fields[0], columns[0], run),
                  modes_without(*fields[1], columns[1], run));
     const MeanForce found = predicted_force(
-        source.cases[run], make_model(r, setup, basis, contact, source.cases[run].rim.has_value()));
+        source.cases[run], make_model(r, setup, basis, contact, source.cases[run].rim.has_value()),
+        source.runs[run]);
     estimate.runs.push_back(source.runs[run].directory().string());
     estimate.errors.push_back({(found.x - own->x) / own->y, (found.y - own->y) / own->y});
   }
@@ -354,7 +363,7 @@ ReduceReport run_reduce(const ReduceRequest& request) {
   static_cast<void>(is_co_rotating(request.frame, request.warn));
   check_options(request);
   const Source source = open_source(request);
-  const Setup setup = build(source.cases.front(), 1);
+  const Setup setup = build(off_the_ground(source.cases.front()), 1);
   // Told before the work.
   const ContactChoice contact = choose_contact(request, setup.mesh);
   const VectorXd roots = rom::mass_roots(setup.model.mass);

@@ -12,12 +12,23 @@
 #include "rondo/integrators/start.hpp"
 #include "rondo/io/csv.hpp"
 #include "rondo/rom/integrator.hpp"
+#include "rondo/study/reduce/reduce_steady.hpp"
 
 namespace rondo::study {
 namespace {
 
 /// Start of what is averaged, of the whole time.
 constexpr double window = 0.75;
+
+/// Of a steady state its fields are where the modes begin: nothing has to come down and settle.
+Setup setup_of(const Case& c, const io::RunReader& run) {
+  if (!is_steady(run)) return build(c, 1);
+  Setup setup = build(off_the_ground(c), 1);
+  setup.model.motion = c.motion;
+  run.read(io::Quantity::displacement, 0, 0, setup.displacement);
+  run.read(io::Quantity::velocity, 0, 0, setup.velocity);
+  return setup;
+}
 
 }  // namespace
 
@@ -33,7 +44,7 @@ std::optional<MeanForce> mean_force_of(const io::RunReader& run) {
   MeanForce sum;
   double rows = 0.0;
   for (std::size_t k = 0; k < time->second.size(); ++k) {
-    if (time->second[k] <= window * time->second.back()) continue;
+    if (!is_steady(run) && time->second[k] <= window * time->second.back()) continue;
     sum.x += x->second[k];
     sum.y += y->second[k];
     rows += 1.0;
@@ -41,8 +52,8 @@ std::optional<MeanForce> mean_force_of(const io::RunReader& run) {
   return MeanForce{sum.x / rows, sum.y / rows};
 }
 
-MeanForce predicted_force(const Case& c, const rom::ReducedModel& model) {
-  Setup setup = build(c, 1);
+MeanForce predicted_force(const Case& c, const rom::ReducedModel& model, const io::RunReader& run) {
+  Setup setup = setup_of(c, run);
   dynamics::Model& full = setup.model;
   const double points =
       static_cast<double>(model.form == rom::ContactForm::nodes ? setup.mesh.boundary.size()

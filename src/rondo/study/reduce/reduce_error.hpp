@@ -14,7 +14,7 @@ namespace rondo::study {
 /// Fewer leave a single run to predict another from, which says nothing.
 inline constexpr std::size_t least_runs_to_estimate = 3;
 
-/// Means over the last quarter of a run.
+/// Means over the last quarter of a run, or over the pass of a steady state.
 struct MeanForce {
   double x = 0.0, y = 0.0;  ///< of the ground on the body [N/m]
 };
@@ -24,6 +24,8 @@ struct MeanForce {
 
 /// Of the case on the modes, in steps of the size `rondo run --reduced` takes by default, or less
 /// where a contact point would be passed in one. @pre the case has ground
-[[nodiscard]] MeanForce predicted_force(const Case& c, const rom::ReducedModel& model);
+/// @param run where it is a steady state, of which `c` is the motion, the modes start from it
+[[nodiscard]] MeanForce predicted_force(const Case& c, const rom::ReducedModel& model,
+                                        const io::RunReader& run);
 
 }  // namespace rondo::study

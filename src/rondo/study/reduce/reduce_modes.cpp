@@ -41,16 +41,16 @@ std::size_t place_of(Vec2 x, std::size_t n) {
 }
 
 /// Places round the disk, one a candidate, at which a force was found in any snapshot.
-std::vector<char> touched_places(const Setup& setup, std::span<const io::RunReader> runs,
+std::vector<char> touched_places(const Setup& setup, const std::vector<io::RunReader>& runs,
                                  const ReduceRequest& r) {
   const std::size_t n = setup.mesh.boundary.size();
   std::vector<char> touched(n, 0);
   std::vector<Vec2> force(n);
-  for (const io::RunReader& run : runs) {
+  for (std::size_t k = 0; k < runs.size(); ++k) {
+    const io::RunReader& run = runs[k];
     if (!run.has(io::Quantity::contact)) continue;
     for (std::size_t j = 0; j < run.n_snapshots(); ++j) {
-      const double time = run.times().time[j];
-      if ((r.from && time < *r.from) || (r.to && time > *r.to)) continue;
+      if (!is_in_window(runs, k, run.times().time[j], r.from, r.to)) continue;
       run.read(io::Quantity::contact, j, 0, force);
       const Complex turned = rotation(run.times().angle[j]);
       for (std::size_t i = 0; i < n; ++i) {
@@ -88,7 +88,7 @@ MatrixXd at_touched(const TouchedNodes& touched, const MatrixXd& modes, const Ve
 
 }  // namespace
 
-TouchedNodes touched_nodes(const Setup& setup, std::span<const io::RunReader> runs,
+TouchedNodes touched_nodes(const Setup& setup, const std::vector<io::RunReader>& runs,
                            const ReduceRequest& r) {
   const double share = r.contact_weight;
   const bool turning = is_co_rotating(r.frame, {});

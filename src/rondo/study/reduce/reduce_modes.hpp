@@ -38,7 +38,7 @@ struct TouchedNodes {
 /// The candidates at the angles in space where one of the runs touched the ground, and a third of
 /// these on either side; in the turning frame all. Weights in proportion to their lengths; their
 /// sum is contact_weight times the mass of the body. None where nothing touched, or it is 0.
-[[nodiscard]] TouchedNodes touched_nodes(const Setup& setup, std::span<const io::RunReader> runs,
+[[nodiscard]] TouchedNodes touched_nodes(const Setup& setup, const std::vector<io::RunReader>& runs,
                                          const ReduceRequest& request);
 
 /// @param snapshots of the field, weighted by mass. @param roots mass_roots()
