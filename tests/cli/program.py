@@ -82,10 +82,18 @@ def replaced(text, beginning, line):
     return "\n".join(lines) + "\n"
 
 
-def history(directory):
-    with open(directory / "history.csv", newline="") as file:
+def table(path):
+    with open(path, newline="") as file:
         rows = list(csv.DictReader(file))
     return {name: np.array([float(row[name]) for row in rows]) for name in rows[0]}
+
+
+def history(directory):
+    return table(directory / "history.csv")
+
+
+def contact(directory):
+    return table(directory / "contact.csv")
 
 
 def summary(directory):

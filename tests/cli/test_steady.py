@@ -5,7 +5,7 @@ import unittest
 import h5py
 import numpy as np
 
-from program import ROOT, ProgramTest, RunTest, history, replaced, run, said, summary
+from program import ROOT, ProgramTest, RunTest, contact, history, replaced, run, said, summary
 
 CASE = (ROOT / "cases" / "steady-rolling.toml").read_text()
 SMALL = replaced(replaced(CASE, "radial", "radial = 4"), "circumferential", "circumferential = 60")
@@ -28,6 +28,27 @@ key = "ground.friction"
 values = [0.1, 0.5]
 """
 LOAD = ["--set", "analysis.load=1e5"]
+SPIN = 33.333333  # rad/s, clockwise
+
+
+def polar_course(field, sector, local):
+    """(L, nodes of a sector, 2): a field (places, n, 2) along the axes of each node's sector, over the angle
+    counter-clockwise from straight down. A place further is a sample back, for the spin is clockwise."""
+    places, sectors, size = len(field), sector.max() + 1, local.max() + 1
+    course = np.full((places * sectors, size, 2), np.nan)
+    cos, sin = np.cos(2 * np.pi * sector / sectors), np.sin(2 * np.pi * sector / sectors)
+    for place, (x, y) in enumerate(np.moveaxis(field, 2, 1)):
+        course[(sector * places - place) % len(course), local] = np.stack([cos * x + sin * y, cos * y - sin * x],
+                                                                          axis=1)
+    return course
+
+
+def derivative(course):
+    """By the angle, of what is periodic: exact for its harmonics, the highest one without."""
+    harmonics = np.fft.rfft(course, axis=0)
+    order = 1j * np.arange(len(harmonics))
+    order[-1] = 0.0
+    return np.fft.irfft(harmonics * order[:, None, None], len(course), axis=0)
 
 
 class Steady(RunTest):
@@ -67,18 +88,34 @@ class Steady(RunTest):
             np.testing.assert_allclose(-force[:, 1], h["force_x"], rtol=1e-12)
             place = f["fields/position"][:, :, 1].min(axis=1)
             np.testing.assert_allclose(place, 0.0, atol=1e-7)
-            # A sector does what the one before did, a pass later: the last snapshot goes on in the first.
             u, v = f["snapshots/displacement"][:], f["snapshots/velocity"][:]
             sector, local = f["mesh/sector"][:], f["mesh/sector_node"][:]
-            dt = f["frame/time"][1]
-        turn = 2 * np.pi / (sector.max() + 1)
-        node = {(s, a): k for k, (s, a) in enumerate(zip(sector, local))}
-        ahead = np.array([node[(s - 1) % (sector.max() + 1), a] for s, a in zip(sector, local)])
-        c, d = np.cos(turn), np.sin(turn)
-        after = u[0][ahead] @ np.array([[c, -d], [d, c]]).T  # the spin is clockwise
-        for rate, mean in ((after - u[-1], v[-1] + v[0][ahead] @ np.array([[c, -d], [d, c]]).T),
-                           (u[1] - u[0], v[0] + v[1])):  # contact nodes without mass change it at once
-            self.assertLess(np.linalg.norm(rate / dt - mean / 2), 0.15 * np.linalg.norm(mean / 2))
+        # All sectors at all places are the course of one round the wheel; velocity is its derivative.
+        course = [polar_course(field, sector, local) for field in (u, v)]
+        rate = -SPIN * derivative(course[0])
+        np.testing.assert_allclose(course[1], rate, rtol=0, atol=1e-11 * np.abs(rate).max())
+
+    def test_contact_of_each_pair(self):
+        s = self.steady()
+        rows, h, n = contact(self.out), history(self.out), s["samples_per_sector"]
+        with h5py.File(self.out / "results.h5") as f:
+            width = dict(zip(f["mesh/boundary"][:], f["mesh/tributary"][:]))
+            np.testing.assert_array_equal(np.unique(rows["time_s"]), f["frame/time"][:])
+        width = np.array([width[int(k)] for k in rows["node"]])
+        force = -width * rows["shear_pa"]  # in the files shear is counted to the left
+        np.testing.assert_allclose(force.sum() / n, s["force_x"], rtol=1e-11)
+        power = -(force * rows["slip_speed"]).sum() / n
+        np.testing.assert_allclose(power, s["power"]["friction"], rtol=1e-11)
+        sticks = rows["sticks"] == 1
+        self.assertTrue(0 < sticks.sum() < len(sticks))
+        np.testing.assert_allclose(width[sticks].sum() / n, s["stick_length"], rtol=1e-11)
+        self.assertLess(np.abs(rows["slip_speed"][sticks]).max(), 1e-9)
+        bound = 0.4 * rows["pressure_pa"]
+        self.assertTrue((np.abs(rows["shear_pa"]) <= bound * (1 + 1e-9)).all())
+        slides = ~sticks & (np.abs(rows["slip_speed"]) > 1e-6)
+        np.testing.assert_allclose(rows["shear_pa"][slides], (np.sign(rows["slip_speed"]) * bound)[slides],
+                                   rtol=1e-9)
+        self.assertEqual(np.abs(rows["slip_speed"]).max(), h["slip_speed_max"].max())
 
     def test_what_is_given_is_given_back(self):
         s = self.steady("analysis.load=1e5", "analysis.traction=-4000", text=FREE)

@@ -32,6 +32,8 @@ struct ContactRecord {
   double abscissa = 0.0;  ///< along the ground; NaN: pressed against a body             [m]
   Vec2 position;          ///< fixed frame                                                [m]
   Vec2 traction;          ///< pressure, shear                                            [Pa]
+  double slip = 0.0;      ///< as in ContactForce                                        [m/s]
+  bool sticks = false;    ///< likewise
 };
 
 [[nodiscard]] std::span<const Column<HistoryRecord>> history_columns() noexcept;

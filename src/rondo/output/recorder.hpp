@@ -19,6 +19,7 @@
 #include "rondo/io/csv.hpp"
 #include "rondo/io/results.hpp"
 #include "rondo/output/checkpoint.hpp"
+#include "rondo/output/columns.hpp"
 #include "rondo/output/snapshot.hpp"
 #include "rondo/output/writer_thread.hpp"
 
@@ -42,7 +43,9 @@ struct OutputCost {
 /// What an analysis records; all that it points to must outlive the recorder.
 struct RecordPlan {
   io::ResultsLayout results;  ///< of results.h5 and fields.xdmf; no mesh: none, nor contact.csv
-  std::vector<ColumnLabel> columns;          ///< of history.csv; the first is the time. Empty: none
+  std::vector<ColumnLabel> columns;  ///< of history.csv; the first is the time. Empty: none
+  /// Of contact.csv behind those that it always has.
+  std::span<const Column<ContactRecord>> contact_columns;
   std::size_t own_bytes = 0;                 ///< on disk, of files that the analysis writes itself
   std::size_t n_rows = 0;                    ///< of history.csv, expected
   std::span<const fem::Material> materials;  ///< of the mesh's regions, for stress

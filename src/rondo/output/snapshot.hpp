@@ -16,6 +16,8 @@ struct ContactForce {
   Vec2 force;                 ///< normal, tangential                                    [N/m]
   Vec2 force_fixed;           ///< the same, fixed frame                                 [N/m]
   bool on_ground = true;      ///< false: only a body presses it
+  double slip = 0.0;    ///< velocity over the ground, along it; where the analysis has it [m/s]
+  bool sticks = false;  ///< likewise
 };
 
 struct Snapshot {

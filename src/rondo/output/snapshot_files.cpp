@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <limits>
+#include <utility>
 
 #include "rondo/io/files.hpp"
 #include "rondo/model/corotated.hpp"
@@ -11,9 +12,12 @@
 namespace rondo::study {
 namespace {
 
-io::Csv contact_file(const std::filesystem::path& directory, const Checkpoint* from) {
+io::Csv contact_file(const std::filesystem::path& directory, const RecordPlan& plan,
+                     const Checkpoint* from) {
   const std::filesystem::path file = directory / "contact.csv";
-  const std::vector<std::string> names = names_of(labels_of(contact_columns()));
+  std::vector<ColumnLabel> labels = labels_of(contact_columns());
+  for (ColumnLabel& label : labels_of(plan.contact_columns)) labels.push_back(std::move(label));
+  const std::vector<std::string> names = names_of(labels);
   return from ? io::Csv(file, names, from->files.contact_bytes) : io::Csv(file, names);
 }
 
@@ -25,8 +29,9 @@ SnapshotFiles::SnapshotFiles(const std::filesystem::path& directory, const Recor
       ground_(plan.ground),
       model_(plan.model),
       contact_(plan.results.contact),
+      further_columns_(plan.contact_columns),
       results_(directory, plan.results, from ? std::optional(from->files.snapshots) : std::nullopt),
-      contact_csv_(contact_file(directory, from)) {
+      contact_csv_(contact_file(directory, plan, from)) {
   if (plan.results.stress) stress_.emplace(mesh_, plan.materials);
   const std::size_t nb = contact_ ? mesh_.boundary.size() : 0;
   if (model_) elastic_.resize(mesh_.n_nodes());
@@ -34,7 +39,9 @@ SnapshotFiles::SnapshotFiles(const std::filesystem::path& directory, const Recor
   force_.resize(nb);
   force_fixed_.resize(nb);
   on_ground_.resize(nb);
-  rows_.reserve(contact_columns().size() * nb);
+  slip_.resize(nb);
+  sticks_.resize(nb);
+  rows_.reserve((contact_columns().size() + further_columns_.size()) * nb);
 }
 
 /// A node held by two facets gives the sum of both.
@@ -46,6 +53,8 @@ void SnapshotFiles::collect_contact(const Snapshot& snapshot) {
     force_[c.candidate] += c.force;
     force_fixed_[c.candidate] += c.force_fixed;
     if (c.on_ground) on_ground_[c.candidate] = 1;
+    slip_[c.candidate] = c.slip;
+    sticks_[c.candidate] = c.sticks ? 1 : 0;
   }
 }
 
@@ -66,7 +75,10 @@ void SnapshotFiles::write_contact_rows(const Snapshot& snapshot) {
     r.abscissa = on_ground_[k] && ground_ ? ground_->abscissa(r.position)
                                           : std::numeric_limits<double>::quiet_NaN();
     r.traction = force_[k] / mesh_.tributary[k];
+    r.slip = slip_[k];
+    r.sticks = sticks_[k] != 0;
     append_values(contact_columns(), r, rows_);
+    append_values(further_columns_, r, rows_);
   }
   contact_csv_.rows(rows_);
 }

@@ -37,6 +37,7 @@ class SnapshotFiles {
   const contact::Ground* ground_;
   const dynamics::Model* model_;
   const bool contact_;
+  const std::span<const Column<ContactRecord>> further_columns_;
   io::Results results_;  ///< first: what fails while it copies leaves all files as they were
   io::Csv contact_csv_;
   std::optional<fem::StressRecovery> stress_;
@@ -44,6 +45,8 @@ class SnapshotFiles {
   std::vector<Complex> rotations_;         ///< of the free bodies
   std::vector<Vec2> force_, force_fixed_;  ///< (nb)
   std::vector<char> on_ground_;            ///< (nb) 1: the ground presses it
+  std::vector<double> slip_;               ///< (nb)
+  std::vector<char> sticks_;               ///< (nb)
   std::vector<double> rows_;
 };
 

@@ -19,6 +19,11 @@ Labels history_of(const std::vector<std::string>& settings) {
   return make_analysis(c, {})->record_plan().columns;
 }
 
+Labels further_contact_of(const std::vector<std::string>& settings) {
+  const Case c = test::read_text(test::base, settings);
+  return labels_of(make_analysis(c, {})->record_plan().contact_columns);
+}
+
 /// Behind those that every history has.
 Labels further(Labels labels) {
   const auto shared = static_cast<std::ptrdiff_t>(history_columns().size());
@@ -38,13 +43,15 @@ TEST(Manual, HasTheColumns) {
   const Labels rim = history_of({"rim.free=[]"});
   const Labels crush = history_of({"analysis.kind=crush", "analysis.depth=0.01",
                                    "analysis.increments=1", "ground.profile=flat"});
-  const Labels steady = history_of({"analysis.kind=steady-rolling", "ground.profile=flat"});
+  const std::vector<std::string> rolls{"analysis.kind=steady-rolling", "ground.profile=flat"};
+  const Labels steady = history_of(rolls);
   rondo::test::expect_in_manual(
       test::source_folder() / "docs" / "results.md",
       {table_of("history.csv", labels_of(history_columns())), table_of("probe", further(probe)),
        table_of("rim", further(rim)), table_of("crush", further(crush)),
        table_of("steady-rolling", further(steady)),
-       table_of("contact.csv", labels_of(contact_columns()))});
+       table_of("contact.csv", labels_of(contact_columns())),
+       table_of("contact.csv steady-rolling", further_contact_of(rolls))});
 }
 
 }  // namespace

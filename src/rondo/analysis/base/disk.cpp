@@ -22,8 +22,11 @@ constexpr std::size_t small_files = 20'000;    ///< case.toml, run.json
 constexpr std::size_t checkpoints = 2;         ///< the new one is written beside the old
 
 /// A candidate in four in contact at a time: more than any but a flat body that lies on its face.
-std::size_t contact_csv_bytes(std::size_t candidates, std::size_t snapshots) {
-  return (candidates / 4 + 1) * snapshots * contact_columns().size() * bytes_of_a_number;
+std::size_t contact_csv_bytes(const RecordPlan& plan) {
+  if (!plan.results.contact) return 0;
+  const std::size_t candidates = plan.results.mesh->boundary.size();
+  const std::size_t columns = contact_columns().size() + plan.contact_columns.size();
+  return (candidates / 4 + 1) * plan.results.n_snapshots * columns * bytes_of_a_number;
 }
 
 std::size_t xdmf_bytes(const io::ResultsLayout& layout) {
@@ -62,8 +65,7 @@ DiskNeed disk_needed(const RecordPlan& plan, bool keeps_checkpoints) {
   if (!layout.mesh) return {plan.own_bytes + small_files, plan.own_bytes};
   for (const std::size_t bytes :
        {io::Results::bytes(layout), plan.n_rows * bytes_of_a_number * plan.columns.size(),
-        layout.contact ? contact_csv_bytes(layout.mesh->boundary.size(), layout.n_snapshots) : 0,
-        xdmf_bytes(layout)}) {
+        contact_csv_bytes(plan), xdmf_bytes(layout)}) {
     need.all += bytes;
     need.largest_file = std::max(need.largest_file, bytes);
   }

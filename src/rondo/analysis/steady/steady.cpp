@@ -31,6 +31,15 @@ constexpr std::array steady_columns{
     Column<R>{"friction_power", "W/m", "taken by friction", [](const R& r) { return r.friction; }},
 };
 
+using P = ContactRecord;
+constexpr std::array pair_columns{
+    Column<P>{"slip_speed", "m/s",
+              "of the node over the ground, along x, as the law of friction sees it",
+              [](const P& r) { return r.slip; }},
+    Column<P>{"sticks", "1", "1: it sticks; 0: it slips",
+              [](const P& r) { return r.sticks ? 1.0 : 0.0; }},
+};
+
 io::ResultsWords words() {
   io::ResultsWords w;
   w.analysis = "steady-rolling";
@@ -116,6 +125,7 @@ RecordPlan SteadyRolling::record_plan() const {
   plan.columns = labels_of(history_columns());
   const std::vector<ColumnLabel> own = labels_of(std::span<const Column<R>>(steady_columns));
   plan.columns.insert(plan.columns.end(), own.begin(), own.end());
+  plan.contact_columns = pair_columns;
   plan.n_rows = static_cast<std::size_t>(samples());
   plan.materials = body_->materials;
   plan.ground = &ground_;

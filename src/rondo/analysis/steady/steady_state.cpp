@@ -245,7 +245,11 @@ void SteadyState::fill(int place, Snapshot& s) {
     const auto row = static_cast<Index>(2 * k);
     const Vec2 r{solution_.force[row + 1], solution_.force[row]};
     if (w.place == place && r.y > 0.0)
-      s.contacts.push_back({w.candidate, to_frame(normal, r), r, true});
+      s.contacts.push_back({.candidate = w.candidate,
+                            .force = to_frame(normal, r),
+                            .force_fixed = r,
+                            .slip = solution_.gap_and_slip[row + 1],
+                            .sticks = solution_.status[k].status == Status::stick});
   }
   std::ranges::sort(s.contacts, {}, &ContactForce::candidate);
 }
