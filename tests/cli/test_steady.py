@@ -162,6 +162,24 @@ class Steady(RunTest):
         done = run("check", self.case(CASE), "--set", "motion.angular_velocity=181.9")
         self.assertIn("above the critical spin of this mesh, 181.78 rad/s (90 nodal diameters)", said(done))
 
+    def test_check_tells_what_the_case_means(self):
+        def lines(text, *settings):
+            done = run("check", self.case(text), *settings)
+            self.assertEqual(done.returncode, 0, done.stderr)
+            return {line[:19].strip(): line[19:] for line in done.stdout.splitlines()}, said(done)
+
+        told, _ = lines(CASE)
+        self.assertEqual(told["deflection"], "0.01 m, 6.67 % of the 0.15 m of the wall")
+        self.assertEqual(told["slip ratio"], "-1e-08")
+        self.assertEqual(told["contact pressure"], "about 1.5e+06 Pa, 0.073 of E")
+        self.assertIn("10 m/s", told["speed"])
+        self.assertIn("as rubber", told["stiffness"])
+        found, _ = lines(FREE, *LOAD, "--set", "analysis.torque=0")  # height and slip are not known yet
+        self.assertFalse({"deflection", "slip ratio"} & found.keys())
+        _, warned = lines(CASE, "--set", "motion.height=0.26", "--set", "motion.speed=2")
+        self.assertIn("comes down by 0.04 m", warned)
+        self.assertIn("the slip ratio is 0.8", warned)
+
     def test_a_sweep_has_the_bits_of_runs_alone(self):
         self.case(SMALL, "small.toml")
         study = self.case(STUDY, "study.toml")

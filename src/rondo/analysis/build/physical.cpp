@@ -223,4 +223,21 @@ void tell_physical_figures(const Case& c, CrushSetup& s) {
     tell_deflection(c.analysis.depth, *wall, touching_material(s.mesh, s.materials), to);
 }
 
+void tell_physical_figures(const Case& c, const mesh::Mesh& mesh,
+                           const std::vector<fem::Material>& materials, PhysicalFigures& told) {
+  const Tell to{told.figures, told.warnings};
+  tell_stiffness(materials, to);
+  const std::optional<Wall> wall = wall_of(mesh);
+  const double radius = wall ? wall->radius : extent_of(mesh);
+  const bool finds_speed = c.analysis.traction || c.analysis.torque;
+  const double rim = std::abs(c.motion.angular_velocity.at(0.0)) * radius;
+  tell_speed(finds_speed ? rim : std::max(rim, std::abs(c.motion.speed.at(0.0))), materials, to);
+  if (!wall) return;
+  if (!c.analysis.load) {
+    const double height = c.motion.height.at(0.0) - c.ground->shape.profile.front().y;
+    tell_deflection(wall->radius - height, *wall, touching_material(mesh, materials), to);
+  }
+  if (!finds_speed) tell_slip(c, wall->radius, to);
+}
+
 }  // namespace rondo::study

@@ -34,9 +34,18 @@ struct Wall {
 void warn_of_units(const Case& c, const mesh::Mesh& mesh,
                    const std::vector<fem::Material>& materials, std::vector<std::string>& warnings);
 
+struct PhysicalFigures {
+  std::vector<Told> figures;
+  std::vector<std::string> warnings;
+};
+
 /// Fills figures and warnings, but those of units. @pre the fields of the start are set
 void tell_physical_figures(const Case& c, Setup& s);
 /// With those of units.
 void tell_physical_figures(const Case& c, CrushSetup& s);
+/// Of steady rolling, what is given of it: no deflection under a load, no slip ratio under a
+/// traction or torque. But those of units.
+void tell_physical_figures(const Case& c, const mesh::Mesh& mesh,
+                           const std::vector<fem::Material>& materials, PhysicalFigures& told);
 
 }  // namespace rondo::study

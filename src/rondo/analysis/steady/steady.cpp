@@ -10,6 +10,7 @@
 
 #include "rondo/analysis/base/disk.hpp"
 #include "rondo/analysis/base/strain_watch.hpp"
+#include "rondo/analysis/build/physical.hpp"
 #include "rondo/analysis/figures/steady_figures.hpp"
 #include "rondo/analysis/steady/steady_state.hpp"
 
@@ -56,6 +57,7 @@ class SteadyRolling final : public Analysis {
         body_(shared_steady_body(c, options.shared)),
         ground_(c.ground->shape),
         strain_(body_->mesh) {
+    tell_physical_figures(c, body_->mesh, body_->materials, told_);
     if (options.resume)
       throw case_error(c, "analysis.kind", "steady rolling has no checkpoints to resume from",
                        "\"dynamic\", or --overwrite instead of --resume");
@@ -67,6 +69,7 @@ class SteadyRolling final : public Analysis {
   [[nodiscard]] std::vector<std::string> warnings() const override {
     std::vector<std::string> all = case_.warnings;
     all.insert(all.end(), body_->warnings.begin(), body_->warnings.end());
+    all.insert(all.end(), told_.warnings.begin(), told_.warnings.end());
     return all;
   }
   void describe(Json& json) const override;
@@ -89,6 +92,7 @@ class SteadyRolling final : public Analysis {
   std::shared_ptr<SteadyBody> body_;
   contact::Ground ground_;
   StrainWatch strain_;
+  PhysicalFigures told_;
   std::optional<SteadyState> state_;
   double solve_s_ = 0.0;
   Snapshot now_;
@@ -107,9 +111,10 @@ CheckReport SteadyRolling::check(double /*trial*/) {
   r.snapshots = keeps_fields() ? static_cast<std::size_t>(samples()) : 0;
   r.memory_bytes = steady_memory(case_, *body_);
   r.disk_bytes = disk_needed(record_plan(), false).all;
-  r.lines = {
-      {"sectors", fmt::format("{} of {} degrees of freedom, {} places each",
-                              body_->sector.n_sectors, 2 * body_->sector.n_local(), samples())}};
+  r.lines = told_.figures;
+  r.lines.emplace_back(
+      "sectors", fmt::format("{} of {} degrees of freedom, {} places each", body_->sector.n_sectors,
+                             2 * body_->sector.n_local(), samples()));
   r.warnings = warnings();
   return r;
 }
