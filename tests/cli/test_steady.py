@@ -128,6 +128,12 @@ class Steady(RunTest):
         self.assertEqual(sorted(slope), ["by_friction", "by_load", "by_speed"])
         self.assertAlmostEqual(slope["by_load"]["force_y"], 1.0, delta=1e-9)
 
+    def test_a_setting_takes_the_place_of_the_other(self):
+        s = self.steady("analysis.load=1e5", "analysis.torque=0")
+        self.assertEqual(s, self.steady("analysis.load=1e5", "analysis.torque=0", text=FREE))
+        self.assertEqual(self.steady(), self.steady("motion.height=0.29", "motion.speed=10.0",
+                                                    text=FREE + "load = 1e5\ntraction = 0.0\n"))
+
     def test_a_driving_torque_pulls_the_body_forward(self):
         for sense in (1, -1):  # turned the other way round, it goes to the other side
             spin = f"motion.angular_velocity={33.3 * sense}"
@@ -227,9 +233,10 @@ class Refused(ProgramTest):
 
     def test_wrong_use(self):
         self.refuse("nothing touches", "motion.height=0.31")
-        self.refuse("stands beside motion.height", "analysis.load=1e5")
+        self.refuse("stands beside motion.height", text=SMALL + "load = 1e5\n")
+        self.refuse("stands beside motion.height", "analysis.load=1e5", "motion.height=0.29")
         self.refuse("so is analysis.load", text=replaced(SMALL, "height", None))
-        self.refuse("stands beside motion.speed", "analysis.torque=0")
+        self.refuse("stands beside motion.speed", text=SMALL + "torque = 0\n")
         self.refuse("would slide", "analysis.load=1e5", "analysis.traction=4e4", text=FREE)
         self.refuse("the whole contact slides", "analysis.load=1e5", "analysis.torque=4e4", text=FREE)
         self.refuse("does not turn", "motion.angular_velocity=0")

@@ -184,13 +184,26 @@ void remove(CaseSource& from, const std::string& path) {
   std::erase_if(from.lists, at_or_below);
 }
 
-/// A setting of one of two keys that exclude each other takes the place of the file's other one.
-void remove_rival(CaseSource& from, std::string_view path) {
-  const std::string_view rival = path == "time.step"     ? "time.safety"
-                                 : path == "time.safety" ? "time.step"
-                                                         : "";
-  const auto found = from.values.find(rival);
-  if (found != from.values.end() && found->second.place.source == 0) from.values.erase(found);
+using Rivals = std::vector<std::string_view>;
+
+bool is_steady(const CaseSource& from) {
+  const auto kind = from.values.find("analysis.kind");
+  return kind != from.values.end() && kind->second.text == "steady-rolling";
+}
+
+/// A setting of one of several keys that exclude each other takes the place of the file's others.
+void remove_rivals(CaseSource& from, std::string_view path) {
+  const auto remove_others = [&](const Rivals& keys) {
+    if (std::ranges::find(keys, path) == keys.end()) return;
+    for (const std::string_view rival : keys) {
+      const auto found = rival == path ? from.values.end() : from.values.find(rival);
+      if (found != from.values.end() && found->second.place.source == 0) from.values.erase(found);
+    }
+  };
+  remove_others({"time.step", "time.safety"});
+  if (!is_steady(from)) return;
+  remove_others({"motion.height", "analysis.load"});
+  remove_others({"motion.speed", "analysis.traction", "analysis.torque"});
 }
 
 /// "v = TEXT" as a table with the one key v; the text as a string where it is not TOML.
@@ -263,7 +276,7 @@ void apply_setting(CaseSource& into, const std::string& setting) {
   into.sources.push_back(source_text(name, "v = " + text));
   const toml::table parsed = parsed_setting(text);
   remove(into, path);
-  remove_rival(into, path);
+  remove_rivals(into, path);
   Place place;
   place.source = source;
   for (auto dot = path.find('.'); dot != std::string::npos; dot = path.find('.', dot + 1))
