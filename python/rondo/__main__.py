@@ -65,6 +65,23 @@ def _parser() -> argparse.ArgumentParser:
     wheel.add_argument("-o", "--output", type=pathlib.Path, metavar="FOLDER",
                        help="where wheel.png and .svg go; default DIRECTORY/figures")
 
+    footprint = commands.add_parser(
+        "footprint", help="draw pressure, shear, slip and what sticks in the contact of steady "
+                          "rolling")
+    footprint.add_argument("directory", type=pathlib.Path,
+                           help='of `rondo run` with analysis.kind = "steady-rolling"')
+    footprint.add_argument("-o", "--output", type=pathlib.Path, metavar="FOLDER",
+                           help="where footprint.png and .svg go; default DIRECTORY/figures")
+
+    traction = commands.add_parser(
+        "traction", help="draw the longitudinal force of a sweep over slip: curves and carpets",
+        epilog="Curves over slip for each other parameter that varies, the rest at its middle "
+               "value; carpets over slip and a load for each value of the rest.")
+    traction.add_argument("directory", type=pathlib.Path,
+                          help="of `rondo sweep` over motion.speed (or the angular velocity)")
+    traction.add_argument("-o", "--output", type=pathlib.Path, metavar="FOLDER",
+                          help="where the .png and .svg files go; default DIRECTORY/figures")
+
     campbell = commands.add_parser("campbell", help="draw the frequencies of a body over its spin")
     campbell.add_argument("directory", type=pathlib.Path, help="of `rondo modes`")
     campbell.add_argument("--frame", choices=(FRAME, "fixed", *OLDER_FRAMES), default=FRAME,
@@ -112,7 +129,7 @@ def _parser() -> argparse.ArgumentParser:
                              help="from this time on")
         command.add_argument("--to", dest="to_time", type=float, metavar="SECONDS",
                              help="up to this time")
-    for command in figures, film, wheel, sweep, means:
+    for command in figures, film, wheel, footprint, traction, sweep, means:
         command.add_argument("--unfinished", action="store_true",
                              help="also of what has not ended, was interrupted or has failed")
     return parser
@@ -190,6 +207,21 @@ def _wheel(options: argparse.Namespace) -> None:
         print(path)
 
 
+def _footprint(options: argparse.Namespace) -> None:
+    from rondo import style
+
+    figure = open_run(options.directory, options.unfinished).plot_footprint()
+    for path in style.save(figure, _folder(options) / "footprint"):
+        print(path)
+
+
+def _traction(options: argparse.Namespace) -> None:
+    from rondo.figures.traction_figures import draw_traction
+
+    for path in draw_traction(open_sweep(options.directory, options.unfinished), _folder(options)):
+        print(path)
+
+
 def _campbell(options: argparse.Namespace) -> None:
     from rondo import style
 
@@ -226,7 +258,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
     code: int | None = 0
     commands: dict[str, Callable[[argparse.Namespace], int | None]] = {
         "paper": _paper, "figures": _figures, "animate": _animate, "means": _means,
-        "wheel": _wheel, "campbell": _campbell, "sweep": _sweep, "validate": _validate,
+        "wheel": _wheel, "footprint": _footprint, "traction": _traction, "campbell": _campbell, "sweep": _sweep, "validate": _validate,
         "validation": _validation}
     try:
         code = commands[options.command](options)
@@ -242,7 +274,8 @@ def main(arguments: Sequence[str] | None = None) -> int:
         return WRONG
     except OSError as reason:
         # What else writes has said so itself.
-        figures = options.command in ("figures", "wheel", "campbell", "sweep", "validation")
+        figures = options.command in ("figures", "wheel", "footprint", "traction", "campbell", "sweep",
+                                      "validation")
         place = reason.filename or (_folder(options) if figures else "output")
         advice = "; choose another -o" if figures else ""
         print(f"rondo: {place}: {reason.strerror or reason}{advice}", file=sys.stderr)

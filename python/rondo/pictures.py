@@ -63,6 +63,12 @@ def _wheel(run: Run) -> Figure:
     return plot_wheel(run)
 
 
+def _footprint(run: Run) -> Figure:
+    """Pressure, shear, slip and what sticks over the contact of steady rolling."""
+    from .plots.footprint import plot_footprint
+    return plot_footprint(run)
+
+
 def _modes_of_run(run: Run, field: str, frame: str = "co-rotating", count: int = 6) -> Figure:
     """The first modes of a POD of this run."""
     return _modes(run.pod(field, frame), count)
@@ -118,6 +124,19 @@ def _spread(sweep: Sweep, figures: Sequence[str] | None = None, ax: Axes | None 
     return plot_spread(sweep, figures, ax)
 
 
+def _traction(sweep: Sweep, by: str | None = None, ax: Axes | None = None,
+              share: bool = False) -> Axes:
+    """Longitudinal force over slip; see rondo.plots.traction.plot_traction."""
+    from .plots.traction import plot_traction
+    return plot_traction(sweep, by, ax, share)
+
+
+def _carpet(sweep: Sweep, by: str = "analysis.load", ax: Axes | None = None) -> Axes:
+    """Longitudinal force over slip and load; see rondo.plots.traction.plot_carpet."""
+    from .plots.traction import plot_carpet
+    return plot_carpet(sweep, by, ax)
+
+
 def _validation(validation: Validation, names: Sequence[str] = ()) -> Figure:
     """Profiles and errors; see rondo.plots.validation.plot_validation."""
     from .plots.validation import plot_validation
@@ -129,9 +148,10 @@ def attach() -> None:
     Run.plot_field, Run.plot_history, Run.plot_energy = _field, _history, _energy
     Run.plot_spectrum, Run.plot_modes, Run.animate = _spectrum, _modes_of_run, _animate
     Run.plot_contact, Run.plot_contact_map = _contact, _contact_map
-    Run.plot_wheel = _wheel
+    Run.plot_wheel, Run.plot_footprint = _wheel, _footprint
     Pod.plot_spectrum, Pod.plot_modes = _decay, _modes
     Modes.plot_campbell = _campbell
     Sweep.plot_main_effects, Sweep.plot_map = _main_effects, _map
     Sweep.plot_curves, Sweep.plot_spread = _curves, _spread
+    Sweep.plot_traction, Sweep.plot_carpet = _traction, _carpet
     Validation.plot = _validation

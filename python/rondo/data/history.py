@@ -36,8 +36,8 @@ class History(Mapping[str, np.ndarray]):
     """history["force_y"]: array (rows,); history.units["force_y"]: its unit."""
 
     def __init__(self, path: pathlib.Path, crush: bool = False, ground: bool = True,
-                 columns: Sequence[Mapping[str, Any]] = ()) -> None:
-        self.path, self.crush, self.ground = path, crush, ground
+                 columns: Sequence[Mapping[str, Any]] = (), instants: bool = False) -> None:
+        self.path, self.crush, self.ground, self.instants = path, crush, ground, instants
         self._columns = read_table(path)
         try:
             self.units = units_of(self._columns, columns)
@@ -92,7 +92,7 @@ class History(Mapping[str, np.ndarray]):
         """Mask (rows,) of the rows whose whole interval is between the two times [s]; None: no
         bound. At least one, or an error."""
         end = self["time_s"]
-        begin = np.append(0.0, end)[:-1]
+        begin = end if self.instants else np.append(0.0, end)[:-1]
         chosen: np.ndarray = np.ones(len(end), dtype=bool)
         if from_time is not None:
             chosen &= begin >= from_time
@@ -106,10 +106,11 @@ class History(Mapping[str, np.ndarray]):
     def mean(self, name: str, from_time: float | None = None,
              to_time: float | None = None) -> float:
         """Mean over time of a column, in its unit: rows weighted by their intervals, of which
-        forces and torque are the means."""
+        forces and torque are the means. Of steady rolling over the places of a sector's pass."""
         if self.crush:
             raise Error(f"{self.path}: a crush has no means over time")
         self.need_ground(name)
         chosen = self.window(from_time, to_time)
-        spans = np.diff(self["time_s"], prepend=0.0)
+        time = self["time_s"]
+        spans = np.ones(len(time)) if self.instants else np.diff(time, prepend=0.0)
         return float(np.average(self[name][chosen], weights=spans[chosen]))

@@ -117,6 +117,7 @@ class Run:
     plot_contact_map: Callable[..., Axes]
     plot_modes: Callable[..., Figure]
     plot_wheel: Callable[..., Figure]
+    plot_footprint: Callable[..., Figure]
     animate: Callable[..., pathlib.Path]
 
     def __init__(self, directory: pathlib.Path) -> None:
@@ -164,6 +165,20 @@ class Run:
     @property
     def is_crush(self) -> bool:
         return self.analysis == "crush"
+
+    @property
+    def is_steady(self) -> bool:
+        """Whether it is of steady rolling: snapshots and rows are places of a sector's pass."""
+        return self.analysis == "steady-rolling"
+
+    @property
+    def steady(self) -> dict[str, Any]:
+        """What run.json says of steady rolling: forces, slopes, powers (docs/results.md); an error
+        of other runs."""
+        if not self.is_steady or "steady" not in self.info:
+            raise Error(f"{self.directory}: no steady rolling: analysis.kind is \"{self.analysis}\", "
+                        f"status \"{self.status}\"")
+        return dict(self.info["steady"])
 
     @property
     def has_rim(self) -> bool:
@@ -367,7 +382,7 @@ class Run:
         """history.csv, a row for each interval of output. Of a run that is done it is whole. The
         stress of a probe is that of its cell; field() averages stress at the nodes."""
         history = History(self.directory / "history.csv", self.is_crush, "ground" in self.case,
-                          self.info.get("columns", ()))
+                          self.info.get("columns", ()), instants=self.is_steady)
         if self.status == "done":
             increments = self.info.get("increments_done") if self.is_crush else None
             history.check_end(None if self.is_crush else self.info.get("end_time"),

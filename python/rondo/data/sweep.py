@@ -76,6 +76,8 @@ class Sweep:
     plot_map: Callable[..., Axes]
     plot_curves: Callable[..., Axes]
     plot_spread: Callable[..., Axes]
+    plot_traction: Callable[..., Axes]
+    plot_carpet: Callable[..., Axes]
 
     def __init__(self, directory: pathlib.Path, info: dict[str, Any],
                  parameters: dict[str, Parameter], columns: dict[str, np.ndarray],
@@ -109,7 +111,7 @@ class Sweep:
 
     @property
     def analysis(self) -> str:
-        """ "dynamic" or "crush"."""
+        """ "dynamic", "crush" or "steady-rolling"."""
         return str(self.info.get("analysis"))
 
     @property

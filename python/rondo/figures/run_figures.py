@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """The figures of any run: fields at three times, contact, forces, the wheel, energies, spectra,
-modes of its PODs."""
+modes of its PODs; of steady rolling fields and footprint."""
 from __future__ import annotations
 
 import os
@@ -13,6 +13,7 @@ from matplotlib.figure import Figure
 
 from .. import style
 from ..plots import curves, field, patch
+from ..plots.footprint import plot_footprint
 from ..plots.modes import plot_modes, plot_pod_spectrum
 from ..plots.wheel import plot_wheel
 
@@ -34,12 +35,16 @@ def draw_run(run: Run, folder: str | os.PathLike[str]) -> list[pathlib.Path]:
         for quantity in ("displacement", "deformation", "von_mises"):
             if quantity in run.field_names or quantity == "deformation" and run.mesh.free.any():
                 keep(f"field-{quantity}", fields(run, quantity))
-        if run.contact is not None and len(run.contact.rows["time_s"]):
+        if run.is_steady:
+            keep("footprint", plot_footprint(run))
+        elif run.contact is not None and len(run.contact.rows["time_s"]):
             last = run.contact.rows["time_s"][-1]
             keep("contact", patch.plot_contact(run, last).figure)
             keep("contact-map", patch.plot_contact_map(run).figure)
     history = run.history
-    if len(history["time_s"]):
+    if run.is_steady and run.pitches:
+        keep("forces", curves.plot_history(run).figure)
+    if len(history["time_s"]) and not run.is_steady:  # without a course in time
         keep("energy", curves.plot_energy(run).figure)
         if run.has_rim:
             keep("wheel", plot_wheel(run))
@@ -58,12 +63,13 @@ def draw_run(run: Run, folder: str | os.PathLike[str]) -> list[pathlib.Path]:
 
 @style.paper()
 def fields(run: Run, quantity: str) -> Figure:
-    """A quantity at three snapshots, spread evenly up to the last, in the same colours."""
-    shown = np.unique(np.linspace(0, run.n_snapshots - 1, PANELS + 1).round().astype(int)[1:])
+    """A quantity at three snapshots, spread evenly up to the last, in the same colours; of steady
+    rolling at one."""
+    shown = np.zeros(1, dtype=int) if run.is_steady else np.unique(np.linspace(0, run.n_snapshots - 1, PANELS + 1).round().astype(int)[1:])
     nodal = [field.nodal(run, int(k), quantity) for k in shown]
     limits = field.full_range(np.stack([field.cell_means(n.values, run.mesh.cells) for n in nodal]),
                               any(n.signed for n in nodal))
-    figure = plt.figure(figsize=(style.PAGE, 2.5))
+    figure = plt.figure(figsize=(style.PAGE if len(shown) > 1 else style.COLUMN, 2.5))
     axes = figure.subplots(1, len(shown), squeeze=False)[0]
     for ax, index in zip(axes, shown):
         k = int(index)

@@ -102,6 +102,9 @@ def plot_energy(run: Run, ax: Axes | None = None) -> Axes:
     """The energy balance: the body's energy, kinetic and strain, and what has changed it, each with
     its sign: but for the energy at the start they sum up to it. Below, what the ledger leaves open
     over the energy exchanged. Given axes are divided in two. Returns the upper ones."""
+    if run.is_steady:
+        raise Error(f"{run.directory}: steady rolling has powers instead of energies that pass over "
+                    "time: run.steady[\"power\"]")
     ax = axes_of(ax, 4.0)
     spec = getattr(ax, "get_subplotspec", lambda: None)()  # not there before matplotlib 3.7
     if spec is None:
@@ -155,6 +158,9 @@ def force_spectrum(run: Run, column: str = "force_y", from_time: float | None = 
     middles; where intervals differ they are resampled evenly, linearly."""
     if run.is_crush:
         raise Error(f"{run.directory}: a crush has no course in time, and no spectrum")
+    if run.is_steady:
+        raise Error(f"{run.directory}: steady rolling has no course in time, and no spectrum; what "
+                    "repeats with each sector is in its history")
     chosen = run.history.window(from_time, to_time)
     rows = int(chosen.sum())
     if rows < MIN_ROWS:
