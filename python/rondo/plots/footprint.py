@@ -50,7 +50,8 @@ def footprint_of(run: Run) -> Footprint:
                     "places of a sector are one contact; of a motion, plot_contact(time) draws the "
                     "contact at a time")
     run.need_snapshots()
-    assert run.contact is not None and run.mesh.sector is not None  # with snapshots, of a disk
+    assert run.contact is not None  # with snapshots
+    assert run.mesh.sector is not None and run.mesh.sector_node is not None  # of a disk
     rows = run.contact.rows
     if "slip_speed" not in rows:
         raise Error(f"{run.contact.path}: no column slip_speed: the run is of an earlier version; "
