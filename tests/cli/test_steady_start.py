@@ -129,6 +129,7 @@ class Refused(ProgramTest):
 
     def test_wrong_use(self):
         self.refuse("nothing touches", "motion.height=0.31")
+        self.refuse("no steady rolling was found", "motion.angular_velocity=-33", "ground.friction=3", text=FLAT)
         self.refuse("does not turn", "motion.angular_velocity=0")
         self.refuse("changes from t = 0 on", "motion.height=[[0, 0.3], [0.01, 0.29]]")
         self.refuse("changes from t = 0 on", "motion.angular_velocity=[[0, 33], [0.01, 30]]")
