@@ -97,5 +97,46 @@ class Tread(ProgramTest):
         self.assertEqual(json.loads((self.folder / "out" / "sweep.json").read_text())["done"], 24)
 
 
+class SteadyTraction(ProgramTest):
+    def test_carpet(self):
+        t = swept(self.folder / "out", "steady-traction")
+        self.assertLess(t["contact_residual_max"].max(), 1e-10)
+        self.assertLess(t["energy_residual_relative"].max(), 1e-12)
+        np.testing.assert_allclose(t["force_y"], t["analysis.load"], rtol=1e-10)
+        used = t["force_x"] / (t["ground.friction"] * t["analysis.load"])
+        self.assertLess(np.abs(used).max(), 1 + 1e-9)
+        for friction in (0.2, 0.4, 0.8):
+            for load in np.unique(t["analysis.load"]):
+                of = (t["ground.friction"] == friction) & (t["analysis.load"] == load)
+                share, slip = used[of], t["slip_ratio"][of]
+                self.assertTrue((np.diff(share) < 2e-3).all(), (friction, load))  # faster: more braked
+                self.assertTrue(0.009 < np.interp(0.0, share[::-1], slip[::-1]) < 0.0135, (friction, load))
+                if friction == 0.2:
+                    np.testing.assert_allclose(share[[0, -1]], (1, -1), rtol=1e-9)
+        self.assertAlmostEqual(used.max(), 1.0, delta=1e-9)
+        most = used[(t["ground.friction"] == 0.8) & (t["analysis.load"] == 2.5e5)]
+        self.assertTrue(0.65 < most.max() < 0.7 and -0.75 < most.min() < -0.7)
+
+
+class SteadyResistance(ProgramTest):
+    def test_over_speed_and_damping(self):
+        t = swept(self.folder / "out", "steady-resistance")
+        np.testing.assert_allclose(t["rolling_resistance"], -t["force_x"], rtol=1e-6)
+        drag = t["rolling_resistance"].reshape(4, 12)  # damping, spin
+        self.assertTrue((np.diff(drag, axis=0) > 0).all() and (np.diff(drag, axis=1) > 0).all())
+        np.testing.assert_allclose(drag[3] / drag[2], 1.94, atol=0.07)  # twice the damping
+        self.assertAlmostEqual(drag[3, 0], 42.52, delta=0.05)
+
+
+class SteadyTread(ProgramTest):
+    def test_depth(self):
+        t = swept(self.folder / "out", "steady-tread")
+        drag, height = (t[key].reshape(4, 4) for key in ("rolling_resistance", "height_m"))
+        self.assertTrue((np.diff(drag, axis=0) > 0).all())  # deeper: more to pull
+        self.assertTrue((np.diff(height, axis=0) < 0).all())  # and softer
+        self.assertAlmostEqual(drag[0, 1], 139.6, delta=0.2)
+        self.assertAlmostEqual(drag[3, 1], 157.6, delta=0.2)
+
+
 if __name__ == "__main__":
     unittest.main()
