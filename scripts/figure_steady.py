@@ -79,7 +79,7 @@ def resistance(folder: pathlib.Path, path: pathlib.Path) -> None:
     print("\nresistance (N/m) over speed (m/s)")
     for beta, line in zip(np.unique(sweep[BETA]), style.CURVES):
         of = sweep.select({BETA: beta})
-        ax.plot(of["speed"], of["rolling_resistance"], ".", **line | {"linestyle": "-"},
+        ax.plot(of["speed"], of["rolling_resistance"], marker=".", **line,
                 label=f"{1e6 * beta:g} µs")
         print(f"{beta:g} s: " + ", ".join(f"{r:.1f} at {v:.1f}" for v, r in
                                           zip(of["speed"], of["rolling_resistance"])))
