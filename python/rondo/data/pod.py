@@ -4,13 +4,13 @@ from __future__ import annotations
 
 import os
 import pathlib
-from collections.abc import Callable
+from collections.abc import Callable, Iterator, Mapping
 from functools import cached_property
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from .errors import Error
+from .errors import Error, unknown
 from .files import check_format, opened, read_json, require
 from .mesh import Mesh, read_mesh
 
@@ -140,3 +140,28 @@ class Pod:
             raise Error(f"{self.directory}: {self.n_modes} modes are kept; {count} were asked for: "
                         "rondo pod --modes keeps more")
         return np.tensordot(self.coefficients[k, :count], self.spatial[:count], axes=1)
+
+
+class Pods(Mapping[str, Pod]):
+    """The PODs in a run's folder pod/, by name ("velocity-rectified"); opened when asked for."""
+
+    def __init__(self, folder: pathlib.Path) -> None:
+        self.folder = folder
+        self._names = sorted(found.parent.name for found in folder.glob("*/pod.json"))
+        self._opened: dict[str, Pod] = {}
+
+    def __getitem__(self, name: str) -> Pod:
+        if name not in self._names:
+            raise unknown(self.folder, "POD", name, self._names)
+        if name not in self._opened:
+            self._opened[name] = open_pod(self.folder / name)
+        return self._opened[name]
+
+    def __iter__(self) -> Iterator[str]:
+        return iter(self._names)
+
+    def __len__(self) -> int:
+        return len(self._names)
+
+    def __repr__(self) -> str:
+        return f"Pods({', '.join(self._names)})"

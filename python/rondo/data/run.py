@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import os
 import pathlib
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Callable
 from dataclasses import dataclass
 from functools import cached_property
 from typing import TYPE_CHECKING, Any
@@ -18,7 +18,7 @@ from .history import History
 from .lifted import Coordinates, LiftedArray
 from .mesh import Mesh, read_mesh
 from .names import frame_named
-from .pod import Pod, open_pod
+from .pod import Pod, Pods
 from .rigid import Rigid, rigid_motion
 
 if TYPE_CHECKING:
@@ -46,31 +46,6 @@ def open_run(path: str | os.PathLike[str], unfinished: bool = False) -> Run:
             f'{directory}: status "{run.status}": {meaning}{message}. {run.n_snapshots} snapshots '
             f'are there; rondo.open("{directory}", unfinished=True) reads them')
     return run
-
-
-class Pods(Mapping[str, Pod]):
-    """The PODs in a run's folder pod/, by name ("velocity-rectified"); opened when asked for."""
-
-    def __init__(self, folder: pathlib.Path) -> None:
-        self.folder = folder
-        self._names = sorted(found.parent.name for found in folder.glob("*/pod.json"))
-        self._opened: dict[str, Pod] = {}
-
-    def __getitem__(self, name: str) -> Pod:
-        if name not in self._names:
-            raise unknown(self.folder, "POD", name, self._names)
-        if name not in self._opened:
-            self._opened[name] = open_pod(self.folder / name)
-        return self._opened[name]
-
-    def __iter__(self) -> Iterator[str]:
-        return iter(self._names)
-
-    def __len__(self) -> int:
-        return len(self._names)
-
-    def __repr__(self) -> str:
-        return f"Pods({', '.join(self._names)})"
 
 
 @dataclass(frozen=True)

@@ -184,26 +184,19 @@ void remove(CaseSource& from, const std::string& path) {
   std::erase_if(from.lists, at_or_below);
 }
 
-using Rivals = std::vector<std::string_view>;
-
-bool is_steady(const CaseSource& from) {
-  const auto kind = from.values.find("analysis.kind");
-  return kind != from.values.end() && kind->second.text == "steady-rolling";
-}
-
 /// A setting of one of several keys that exclude each other takes the place of the file's others.
 void remove_rivals(CaseSource& from, std::string_view path) {
-  const auto remove_others = [&](const Rivals& keys) {
-    if (std::ranges::find(keys, path) == keys.end()) return;
-    for (const std::string_view rival : keys) {
-      const auto found = rival == path ? from.values.end() : from.values.find(rival);
-      if (found != from.values.end() && found->second.place.source == 0) from.values.erase(found);
-    }
-  };
-  remove_others({"time.step", "time.safety"});
-  if (!is_steady(from)) return;
-  remove_others({"motion.height", "analysis.load"});
-  remove_others({"motion.speed", "analysis.traction", "analysis.torque"});
+  static const std::vector<std::string_view> step{"time.step", "time.safety"},
+      height{"motion.height", "analysis.load"},
+      speed{"motion.speed", "analysis.traction", "analysis.torque"};
+  const auto kind = from.values.find("analysis.kind");
+  const bool steady = kind != from.values.end() && kind->second.text == "steady-rolling";
+  for (const auto* keys : {&step, &height, &speed})
+    if (std::ranges::find(*keys, path) != keys->end() && (steady || keys == &step))
+      std::erase_if(from.values, [&](const auto& entry) {
+        return entry.first != path && entry.second.place.source == 0 &&
+               std::ranges::find(*keys, entry.first) != keys->end();
+      });
 }
 
 /// "v = TEXT" as a table with the one key v; the text as a string where it is not TOML.
