@@ -59,7 +59,7 @@ def test_share_of_the_load(rolling):
     ax = rolling.select({FRICTION: 0.6}).plot_traction(share=True)
     shares = [named(ax, f"{load / 1e3:g} kN/m")[:, 1] for load in LOADS]
     np.testing.assert_allclose(shares[0], shares[2], rtol=1e-12, atol=1e-12)
-    assert ax.get_ylabel() == "traction (–)" and ax.get_legend().get_title().get_text() == LOAD
+    assert ax.get_ylabel() == "Fx/Fy (–)" and ax.get_legend().get_title().get_text() == LOAD
 
 
 def test_curves_of_a_motion(grid):

@@ -18,7 +18,7 @@ from .sweep_curves import plot_curves
 if TYPE_CHECKING:
     from ..data.sweep import Sweep
 
-FORCE, LOAD, SLIP, SHARE = "force_x", "force_y", "slip_ratio", "traction"
+FORCE, LOAD, SLIP, SHARE = "force_x", "force_y", "slip_ratio", "Fx/Fy"
 MOVE = ("motion.speed", "motion.angular_velocity", "analysis.traction", "analysis.torque")  # the slip
 HEIGHT = 3.4  # in
 SHIFT = 1.0  # of the whole range of slips: how far a carpet's last curve is from its first
