@@ -146,22 +146,22 @@ TEST(SteadyRolling, SlopesAreThoseOfDifferences) {
         expect_slopes(w, d, slope, change, by, bound);
       };
       expect(
-          s.by_friction, [](RollingDrive& e, double x) { e.friction += x; }, 1e-5);
+          s.slopes.by_friction, [](RollingDrive& e, double x) { e.friction += x; }, 1e-5);
       if (d.load)
         expect(
-            s.by_height, [](RollingDrive& e, double x) { *e.load += x; }, 1.0);
+            s.slopes.by_height, [](RollingDrive& e, double x) { *e.load += x; }, 1.0);
       else
         expect(
-            s.by_height, [](RollingDrive& e, double x) { e.height += x; }, 1e-7);
+            s.slopes.by_height, [](RollingDrive& e, double x) { e.height += x; }, 1e-7);
       if (d.torque)
         expect(
-            s.by_speed, [](RollingDrive& e, double x) { *e.torque += x; }, 1.0);
+            s.slopes.by_speed, [](RollingDrive& e, double x) { *e.torque += x; }, 1.0);
       else if (d.traction)
         expect(
-            s.by_speed, [](RollingDrive& e, double x) { *e.traction += x; }, 1.0);
+            s.slopes.by_speed, [](RollingDrive& e, double x) { *e.traction += x; }, 1.0);
       else
         expect(
-            s.by_speed, [](RollingDrive& e, double x) { e.speed += x; }, 1e-5);
+            s.slopes.by_speed, [](RollingDrive& e, double x) { e.speed += x; }, 1e-5);
     }
   }
 }

@@ -270,9 +270,9 @@ Json SteadyState::describe() const {
   j["slip_length"] = mean_.slip_length;
   j["pressure_max"] = mean_.pressure;
   j["shear_max"] = mean_.shear;
-  j["slopes"] = {{"by_friction", json_of(s.by_friction)},
-                 {a.load ? "by_load" : "by_height", json_of(s.by_height)},
-                 {by_speed, json_of(s.by_speed)}};
+  j["slopes"] = {{"by_friction", json_of(s.slopes.by_friction)},
+                 {a.load ? "by_load" : "by_height", json_of(s.slopes.by_height)},
+                 {by_speed, json_of(s.slopes.by_speed)}};
   j["power"] = {{"drive", power_.drive},         {"mass", power_.mass},
                 {"stiffness", power_.stiffness}, {"friction", power_.friction},
                 {"weight", power_.weight},       {"scheme", power_.scheme},

@@ -31,8 +31,7 @@ bool slides(const RollingDrive& drive, const RollingState& s) {
   return (drive.traction || drive.torque) && !sticks;
 }
 
-void fill(const RollingProblem& problem, const RollingDrive& drive, const RollingState& state,
-          RollingSolution& s) {
+void fill(const RollingProblem& problem, const RollingState& state, RollingSolution& s) {
   const RollingPoint& p = state.point;
   s.height = p.height;
   s.speed = p.speed;
@@ -42,10 +41,7 @@ void fill(const RollingProblem& problem, const RollingDrive& drive, const Rollin
   s.gap_and_slip = gaps_and_ways(problem, p);
   s.gap_and_slip(Eigen::seqN(1, p.force.size() / 2, 2)) /= problem.time;
   s.forces = forces_of(problem, p);
-  const auto slopes = RollingSystem(problem, drive, s.status, p).slopes();
-  s.by_friction = slopes.by_friction;
-  s.by_height = slopes.by_height;
-  s.by_speed = slopes.by_speed;
+  s.slopes = state.slopes;
 }
 
 /// Load, traction and torque are those asked for, of the size of what bears them.
@@ -100,10 +96,11 @@ RollingSolution solve_rolling(RollingWindow& window, const RollingDrive& drive,
       state.found.clear();
       continue;
     }
-    // Forces that are no solution leave all sorts of pairs in the ground: no further than once more.
+    // Forces that are no solution leave all sorts of pairs in the ground: no further than once
+    // more.
     const bool may_grow = state.solved() || ++unsolved < 2;
     if (may_grow && window.include_touching(state.point.height, state.point.force)) continue;
-    fill(window.problem(), drive, state, s);
+    fill(window.problem(), state, s);
     if (state.solved() && brings(drive, s))
       s.end = RollingEnd::solved;
     else if (slides(drive, state))

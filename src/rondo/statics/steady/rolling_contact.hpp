@@ -29,8 +29,7 @@ struct RollingSolution {
   RollingForces forces;
   int newton_steps = 0, pivots = 0;
   double residual = 0.0;  ///< of the law, relative (6.4d)                                   [-]
-  /// By friction; by height, or load where that is given; by speed, or traction or torque.
-  RollingSlope by_friction, by_height, by_speed;
+  RollingSlopes slopes;
 };
 
 /// The window grows by the pairs that are missing.

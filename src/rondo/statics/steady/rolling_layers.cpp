@@ -103,14 +103,18 @@ void follow_all(Layers layers, std::span<const Complexes> transfers,
   }
 }
 
-/// xᴴ B y of a real matrix.
-Complexes between(const Eigen::MatrixXd& b, const Complexes* x, const Complexes* y) {
-  Complexes sum{};
-  for (Index c = 0; c < b.cols(); ++c) {
-    double re = 0.0, im = 0.0;
-    for (Index r = 0; r < b.rows(); ++r) re += b(r, c) * x[r].real(), im += b(r, c) * x[r].imag();
-    sum += Complexes{re * y[c].real() + im * y[c].imag(), re * y[c].imag() - im * y[c].real()};
-  }
+/// Re xᴴ (e^{-iθ} B_-1 + B_0 + e^{iθ} B_1) y.
+double form(const std::array<Eigen::MatrixXd, 3>& b, Complexes turn, const Complexes* x,
+            const Complexes* y) {
+  const double *less = b[0].data(), *same = b[1].data(), *more = b[2].data();
+  const double cosine = turn.real(), sine = turn.imag();
+  double sum = 0.0;
+  for (Index c = 0, n = 0; c < b[1].cols(); ++c)
+    for (Index r = 0; r < b[1].rows(); ++r, ++n) {
+      const double re = x[r].real() * y[c].real() + x[r].imag() * y[c].imag();
+      const double im = x[r].real() * y[c].imag() - x[r].imag() * y[c].real();
+      sum += re * (same[n] + (less[n] + more[n]) * cosine) - im * ((more[n] - less[n]) * sine);
+    }
   return sum;
 }
 
@@ -191,21 +195,17 @@ void follow(Layers layers, std::span<const Complexes> transfers, Eigen::Ref<Eige
     follow_all<Eigen::Dynamic>(layers, transfers, u);
 }
 
-/// The blocks of shift -1 and 1 are each other's transposes: one of them, twice.
 RollingNorms norms_of(Layers layers, const RollingOrder& order,
                       Eigen::Ref<const Eigen::VectorXcd> u) {
   RollingNorms n;
+  const Complexes turn = order.turns[2];
   for (std::size_t l = 0; l < layers.size(); ++l) {
     const RollingLayer& layer = layers[l];
     const Complexes* here = u.data() + layer.first;
     for (std::size_t a = 0; a < layer.mass.size(); ++a)
       n.mass += layer.mass[a] * (std::norm(here[2 * a]) + std::norm(here[2 * a + 1]));
-    n.stiffness += between(layer.own[1], here, here).real() +
-                   2.0 * (order.turns[2] * between(layer.own[2], here, here)).real();
-    if (l == 0) continue;
-    const Complexes* below = u.data() + layers[l - 1].first;
-    for (std::size_t s = 0; s < 3; ++s)
-      n.stiffness += 2.0 * (order.turns[s] * between(layer.up[s], here, below)).real();
+    n.stiffness += form(layer.own, turn, here, here);
+    if (l > 0) n.stiffness += 2.0 * form(layer.up, turn, here, u.data() + layers[l - 1].first);
   }
   return n;
 }

@@ -77,16 +77,20 @@ void newton(const RollingProblem& problem, const RollingDrive& drive, RollingSta
     s.touches = !all_open(s.found);
     if (!s.touches) return;
     const RollingPoint before = s.point;
-    s.point = RollingSystem(problem, drive, s.found, before).solve();
+    const RollingSystem system(problem, drive, s.found, before);
+    s.point = system.solve();
     const Eigen::VectorXd moved = gaps_and_ways(problem, s.point);
     s.residual = residual_of(problem, s.point, moved, drive.friction);
     if (!s.point.force.allFinite()) return;
     Findings next = next_findings(problem, s.point, moved, drive.friction);
     const bool settled = next == s.found;
-    if (settled && (!drive.torque || is_near(s.point, before))) return;
-    if (!settled && !seen.insert(key_of(next)).second) return;
+    const bool done = settled && (!drive.torque || is_near(s.point, before));
+    const bool cycles = !settled && !seen.insert(key_of(next)).second;
+    if (s.solved() && (done || cycles)) s.slopes = system.slopes(s.point);
+    if (done || cycles) return;
     s.found = std::move(next);
   }
+  s.residual = std::numeric_limits<double>::infinity();  // no end
 }
 
 /// As make_complementary (condensed_contact.hpp), of a compliance that is not symmetric.
@@ -138,7 +142,11 @@ void pivot(const RollingProblem& problem, const RollingDrive& drive, RollingStat
   RollingState other = s;
   other.found = findings_of(z, drive.friction);
   other.touches = !all_open(other.found);
-  if (other.touches) other.point = RollingSystem(problem, drive, other.found, s.point).solve();
+  if (other.touches) {
+    const RollingSystem system(problem, drive, other.found, s.point);
+    other.point = system.solve();
+    other.slopes = system.slopes(other.point);
+  }
   other.residual = rolling_residual(problem, other.point, drive.friction);
   if (other.residual < s.residual || !std::isfinite(s.residual)) s = std::move(other);
 }
@@ -156,13 +164,11 @@ struct Miss {
   Eigen::Matrix2d change = Eigen::Matrix2d::Identity();
 };
 
-Miss miss_of(const RollingProblem& problem, const RollingDrive& drive, const RollingDrive& fixed,
-             const RollingState& s) {
+Miss miss_of(const RollingProblem& problem, const RollingDrive& drive, const RollingState& s) {
   const RollingForces now = forces_of(problem, s.point);
-  const auto slopes = RollingSystem(problem, fixed, s.found, s.point).slopes();
   const auto row = [&](double wanted, double RollingForces::*of, Index at, Miss& miss) {
     miss.left[at] = wanted - now.*of;
-    miss.change.row(at) << slopes.by_height.forces.*of, slopes.by_speed.forces.*of;
+    miss.change.row(at) << s.slopes.by_height.forces.*of, s.slopes.by_speed.forces.*of;
   };
   Miss miss;
   if (drive.load) row(*drive.load, &RollingForces::y, 0, miss);
@@ -185,7 +191,7 @@ void find_drive(const RollingProblem& problem, const RollingDrive& drive, Rollin
     fixed.height = at[0];
     fixed.speed = at[1];
     solve_at(problem, fixed, trial);
-    const Miss miss = trial.solved() ? miss_of(problem, drive, fixed, trial) : Miss{};
+    const Miss miss = trial.solved() ? miss_of(problem, drive, trial) : Miss{};
     const double distance = miss.left.norm();
     if (trial.solved() && distance < nearest) {
       nearest = distance;

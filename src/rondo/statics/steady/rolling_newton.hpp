@@ -20,7 +20,8 @@ struct RollingState {
   RollingPoint point;
   /// Of the law, relative (6.4d); infinite: nothing was solved yet                            [-]
   double residual = std::numeric_limits<double>::infinity();
-  bool touches = true;  ///< false: the active set that was left is empty
+  RollingSlopes slopes;  ///< of what is solved
+  bool touches = true;   ///< false: the active set that was left is empty
   int newton_steps = 0, pivots = 0;
 
   [[nodiscard]] bool solved() const noexcept {

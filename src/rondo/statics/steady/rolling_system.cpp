@@ -4,6 +4,7 @@
 #include <lapacke.h>
 
 #include <limits>
+#include <utility>
 
 namespace rondo::statics {
 namespace {
@@ -18,7 +19,6 @@ RollingSystem::RollingSystem(const RollingProblem& problem, const RollingDrive& 
     : problem_(problem),
       drive_(drive),
       found_(found),
-      around_(around),
       has_height_(drive.load.has_value()),
       has_speed_(drive.traction || drive.torque) {
   for (std::size_t j = 0; j < found.size(); ++j) {
@@ -37,7 +37,7 @@ RollingSystem::RollingSystem(const RollingProblem& problem, const RollingDrive& 
     if (mu != 0.0) matrix_.col(k).head(n) += mu * problem.matrix.col(column + 1)(rows_);
   }
   right_.head(n) = -problem.base(rows_);
-  add_border();
+  add_border(around);
   factorise();
 }
 
@@ -64,19 +64,19 @@ double RollingSystem::edge(std::size_t pair) const noexcept {
   return f.status == Status::slip ? f.side * drive_.friction : 0.0;
 }
 
-/// Derivatives of P T by (r_n, r_x) of all pairs, the arms' among them.
-Eigen::VectorXd RollingSystem::torque_row() const {
-  const Index n = around_.force.size() / 2;
-  const Eigen::VectorXd normal = around_.force(Eigen::seqN(0, n, 2));
-  const Eigen::VectorXd arm = problem_.base_x + problem_.matrix_x * around_.force;
+/// By (r_n, r_x) of all pairs: how the arms change is part of it.
+RollingSystem::Torque RollingSystem::torque_at(const RollingPoint& around) const {
+  const Index n = around.force.size() / 2;
+  const Eigen::VectorXd normal = around.force(Eigen::seqN(0, n, 2));
+  const Eigen::VectorXd arm = problem_.base_x + problem_.matrix_x * around.force;
   Eigen::VectorXd row = problem_.matrix_x.transpose() * normal;
   row(Eigen::seqN(0, n, 2)) += arm;
-  row(Eigen::seqN(1, n, 2)).array() += around_.height;
-  return row;
+  row(Eigen::seqN(1, n, 2)).array() += around.height;
+  return {std::move(row), around.force(Eigen::seqN(1, n, 2)).sum()};
 }
 
 /// Height and speed as columns; load, traction or torque as rows.
-void RollingSystem::add_border() {
+void RollingSystem::add_border(const RollingPoint& around) {
   const auto n = static_cast<Index>(rows_.size());
   Index at = n;
   const Index of_height = at;
@@ -112,16 +112,13 @@ void RollingSystem::add_border() {
     right_[of_speed] = *drive_.traction * problem_.pass;
     return;
   }
-  const Eigen::VectorXd row = torque_row();
-  sum(of_speed, row);
-  const Eigen::VectorXd normal = around_.force(Eigen::seqN(0, m, 2));
-  const double shear = around_.force(Eigen::seqN(1, m, 2)).sum();
-  const double now =
-      normal.dot(problem_.base_x + problem_.matrix_x * around_.force) + around_.height * shear;
-  right_[of_speed] = *drive_.torque * problem_.pass - now + row.dot(around_.force);
+  const Torque torque = torque_at(around);
+  sum(of_speed, torque.row);
+  const double now = forces_of(problem_, around).torque;
+  right_[of_speed] = (*drive_.torque - now) * problem_.pass + torque.row.dot(around.force);
   if (has_height_) {
-    matrix_(of_speed, of_height) = shear;
-    right_[of_speed] += shear * around_.height;
+    matrix_(of_speed, of_height) = torque.shear;
+    right_[of_speed] += torque.shear * around.height;
   }
 }
 
@@ -149,8 +146,9 @@ RollingPoint RollingSystem::solve() const {
 }
 
 /// @param right of the system. @param by_itself change of the forces that is not an unknown's
-RollingSlope RollingSystem::slope(const Eigen::VectorXd& right, const Eigen::VectorXd& by_itself,
-                                  double height, double speed) const {
+RollingSlope RollingSystem::slope(const Torque& torque, const Eigen::VectorXd& right,
+                                  const Eigen::VectorXd& by_itself, double height,
+                                  double speed) const {
   const Eigen::VectorXd z = solved(right);
   const Eigen::VectorXd change = expand(z) + by_itself;
   auto at = static_cast<Index>(rows_.size());
@@ -160,42 +158,41 @@ RollingSlope RollingSystem::slope(const Eigen::VectorXd& right, const Eigen::Vec
   const Index m = change.size() / 2;
   s.forces.y = change(Eigen::seqN(0, m, 2)).sum() / problem_.pass;
   s.forces.x = change(Eigen::seqN(1, m, 2)).sum() / problem_.pass;
-  const double shear = around_.force(Eigen::seqN(1, m, 2)).sum();
-  s.forces.torque = (torque_row().dot(change) + shear * s.height) / problem_.pass;
+  s.forces.torque = (torque.row.dot(change) + torque.shear * s.height) / problem_.pass;
   return s;
 }
 
-RollingSystem::Slopes RollingSystem::slopes() const {
-  Slopes s;
+RollingSlopes RollingSystem::slopes(const RollingPoint& around) const {
+  const Torque torque = torque_at(around);
+  RollingSlopes s;
   const auto n = static_cast<Index>(rows_.size());
   const Eigen::VectorXd none = Eigen::VectorXd::Zero(problem_.base.size());
   Eigen::VectorXd right = Eigen::VectorXd::Zero(right_.size());
   const Index of_height = n, of_speed = n + (has_height_ ? 1 : 0);
-  const double shear = around_.force(Eigen::seqN(1, none.size() / 2, 2)).sum();
   if (has_height_) {
     right[of_height] = problem_.pass;
   } else {
     for (Index k = 0; k < n; ++k) right[k] = rows_[static_cast<std::size_t>(k)] % 2 == 0 ? -1.0 : 0;
-    if (drive_.torque) right[of_speed] = -shear;
+    if (drive_.torque) right[of_speed] = -torque.shear;
   }
-  s.by_height = slope(right, none, 1.0, 0.0);
+  s.by_height = slope(torque, right, none, 1.0, 0.0);
   right.setZero();
   if (has_speed_)
     right[of_speed] = problem_.pass;
   else
     for (Index k = 0; k < n; ++k)
       right[k] = rows_[static_cast<std::size_t>(k)] % 2 == 0 ? 0.0 : -problem_.time;
-  s.by_speed = slope(right, none, 0.0, 1.0);
+  s.by_speed = slope(torque, right, none, 0.0, 1.0);
   Eigen::VectorXd slipping = none;  // by μ alone
   for (std::size_t j = 0; j < found_.size(); ++j)
     if (found_[j].status == Status::slip)
       slipping[static_cast<Index>(2 * j + 1)] =
-          found_[j].side * around_.force[static_cast<Index>(2 * j)];
+          found_[j].side * around.force[static_cast<Index>(2 * j)];
   right.setZero();
   right.head(n) = -(problem_.matrix * slipping)(rows_);
   if (drive_.traction) right[of_speed] = -slipping.sum();
-  if (drive_.torque) right[of_speed] = -torque_row().dot(slipping);
-  s.by_friction = slope(right, slipping, 0.0, 0.0);
+  if (drive_.torque) right[of_speed] = -torque.row.dot(slipping);
+  s.by_friction = slope(torque, right, slipping, 0.0, 0.0);
   return s;
 }
 

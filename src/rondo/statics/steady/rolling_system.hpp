@@ -28,10 +28,15 @@ struct RollingStatus {
   bool operator==(const RollingStatus&) const = default;
 };
 
-/// Derivatives of forces, height and speed by what is given.
+/// Derivatives of forces, height and speed by one of what is given.
 struct RollingSlope {
   RollingForces forces;
   double height = 0.0, speed = 0.0;
+};
+
+/// By friction; by height, or load where that is given; by speed, or traction or torque.
+struct RollingSlopes {
+  RollingSlope by_friction, by_height, by_speed;
 };
 
 class RollingSystem {
@@ -43,26 +48,28 @@ class RollingSystem {
 
   /// Not finite where there is no solution.
   [[nodiscard]] RollingPoint solve() const;
-  /// By friction; by height or load; by speed, traction or torque. @pre `around` is the solution
-  struct Slopes {
-    RollingSlope by_friction, by_height, by_speed;
-  };
-  [[nodiscard]] Slopes slopes() const;
+  /// @param around the solution
+  [[nodiscard]] RollingSlopes slopes(const RollingPoint& around) const;
 
  private:
   [[nodiscard]] double edge(std::size_t pair) const noexcept;
-  void add_border();
+  void add_border(const RollingPoint& around);
   void factorise();
   [[nodiscard]] Eigen::VectorXd solved(Eigen::VectorXd right) const;
-  [[nodiscard]] RollingSlope slope(const Eigen::VectorXd& right, const Eigen::VectorXd& by_itself,
-                                   double height, double speed) const;
+  /// The torque at a point: P dT = row·dr + shear dh.
+  struct Torque {
+    Eigen::VectorXd row;
+    double shear;
+  };
+  [[nodiscard]] Torque torque_at(const RollingPoint& around) const;
+  [[nodiscard]] RollingSlope slope(const Torque& torque, const Eigen::VectorXd& right,
+                                   const Eigen::VectorXd& by_itself, double height,
+                                   double speed) const;
   [[nodiscard]] Eigen::VectorXd expand(const Eigen::VectorXd& part) const;
-  [[nodiscard]] Eigen::VectorXd torque_row() const;
 
   const RollingProblem& problem_;
   const RollingDrive& drive_;
   const std::vector<RollingStatus>& found_;
-  const RollingPoint& around_;
   bool has_height_, has_speed_;     ///< as unknowns
   std::vector<Eigen::Index> rows_;  ///< of the problem, each an unknown force
   Eigen::MatrixXd matrix_;          ///< its factors, once it is factorised
