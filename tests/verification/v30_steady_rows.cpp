@@ -62,6 +62,23 @@ TEST(SteadyRollingRows, LoadGrowsWithSpeed) {
   }
 }
 
+/// The forces that V18 tends to when its mesh is refined.
+TEST(SteadyRollingRows, FineMesh) {
+  test::DiskCase c = test::rolling_disk(48, 5760);
+  c.disk.grading = 2.0;
+  const test::SteadyBody b(c, 1, true);
+  struct Row {
+    double friction, x, y;
+  };
+  for (const Row& row : {Row{0.0, 0.0, 189819.0}, Row{0.2, -21276.0, 189959.0},
+                         Row{0.4, -24898.0, 190093.0}, Row{0.6, -26056.0, 190187.0}}) {
+    RollingWindow w = b.window(SlipDifference::upwind);
+    const RollingSolution s = test::solved(w, test::at_height(row.friction));
+    EXPECT_NEAR(s.forces.x, row.x, 0.6) << row.friction;
+    EXPECT_NEAR(s.forces.y, row.y, 0.6) << row.friction;
+  }
+}
+
 TEST(SteadyRollingRows, Tread) {
   test::DiskCase c = test::rolling_disk(9, 0);
   c.disk.tread = mesh::Tread{60, 0.02, 3, 1, 2};
