@@ -28,7 +28,8 @@ struct SteadyBody {
                              .mass_damping = c.alpha,
                              .stiffness_damping = c.beta,
                              .samples = samples,
-                             .massless = massless});
+                             .massless = massless,
+                             .gravity = c.motion.gravity.at(0.0)});
   }
   SteadyBody(const SteadyBody&) = delete;
   SteadyBody& operator=(const SteadyBody&) = delete;

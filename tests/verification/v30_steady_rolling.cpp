@@ -166,6 +166,24 @@ TEST(SteadyRolling, SlopesAreThoseOfDifferences) {
   }
 }
 
+/// The weight of what the contact has moved beside the center has a torque, too.
+TEST(SteadyRolling, SlopesCountTheTorqueOfTheWeight) {
+  test::DiskCase c = Body::disk(12, 180, -33.333333);
+  c.motion.gravity = dynamics::Table(100.0);
+  const test::SteadyBody b(c, 1, false);
+  RollingWindow w = b.window(SlipDifference::upwind);
+  RollingDrive d = at_load(0.4);
+  d.torque = -3000.0;
+  const RollingSolution s = solved(w, d);
+  EXPECT_NEAR(s.forces.torque, -3000.0, 1e-6);
+  expect_slopes(
+      w, d, s.slopes.by_friction, [](RollingDrive& e, double x) { e.friction += x; }, 1e-5, 1e-6);
+  expect_slopes(
+      w, d, s.slopes.by_height, [](RollingDrive& e, double x) { *e.load += x; }, 1.0, 1e-6);
+  expect_slopes(
+      w, d, s.slopes.by_speed, [](RollingDrive& e, double x) { *e.torque += x; }, 1.0, 1e-6);
+}
+
 namespace {
 
 /// Meshes, spins of both signs, slips of ±1, friction 0 to 2. @return how many were pivoted

@@ -202,6 +202,7 @@ void SteadyRolling::summarise(Json& j, RunReport& r) const {
   r.notes.push_back(fmt::format(
       "traction {:.6g} N/m, load {:.6g} N/m, torque {:.6g} N, rolling resistance {:.6g} N/m", f.x,
       f.y, state_->torque(), state_->resistance()));
+  r.notes.push_back(state_->motion_text());
 }
 
 }  // namespace

@@ -83,7 +83,7 @@ std::size_t steady_memory(const Case& c, const SteadyBody& b) {
   // Fields, rates, spectrum; how a layer follows the next; half a sector's pass touches at most.
   const std::size_t layer = 2 * candidates;
   const std::size_t fields = (4 + layer) * 2 * b.mesh.n_nodes() * samples;
-  const std::size_t pairs = std::min<std::size_t>(turn * candidates / 8, 4000);
+  const std::size_t pairs = turn * candidates / 8;
   return mesh_memory(b.mesh.n_nodes()) +
          (compliance + fields + 10 * pairs * pairs) * sizeof(double);
 }

@@ -14,7 +14,6 @@ using contact::Status;
 using Eigen::Index;
 
 constexpr Vec2 normal{0.0, 1.0};  ///< a contact frame's vector times it is along the fixed axes
-constexpr int most_rounds = 20;   ///< of the torque of the weight, which the deformation moves
 
 int wrapped(int value, int count) noexcept {
   return (value % count + count) % count;
@@ -61,25 +60,20 @@ SteadyState::SteadyState(const Case& c, const SteadyBody& body)
 }
 
 /// Where the speed is asked for and Newton does not find it, from the statuses of free rolling.
-/// The weight has a torque about the center, as the deformation moves the body beside it.
 void SteadyState::solve() {
-  for (int round = 0; round < most_rounds; ++round) {
-    solution_ = statics::solve_rolling(window_, drive_, solution_.status);
-    if (solution_.end != statics::RollingEnd::solved && (drive_.traction || drive_.torque)) {
-      statics::RollingDrive rolling = drive_;
-      rolling.traction.reset();
-      rolling.torque.reset();
-      solution_ = solve_rolling(window_, drive_, statics::solve_rolling(window_, rolling).status);
-    }
-    if (solution_.end != statics::RollingEnd::solved) return;
-    spectrum_ = statics::spectrum_of(window_, solution_);
-    power_ = statics::rolling_power(window_, solution_, spectrum_);
-    if (!drive_.torque) return;
-    const double wanted = *case_.analysis.torque + power_.weight / spin();
-    const bool settled = std::abs(wanted - *drive_.torque) <= 1e-12 * std::abs(wanted);
-    if (settled || power_.weight == 0.0) return;
-    drive_.torque = wanted;
+  using statics::RollingEnd;
+  solution_ = statics::solve_rolling(window_, drive_);
+  if (solution_.end == RollingEnd::not_solved && (drive_.traction || drive_.torque)) {
+    statics::RollingDrive rolling = drive_;
+    rolling.traction.reset();
+    rolling.torque.reset();
+    const auto free = statics::solve_rolling(window_, rolling);
+    if (free.end == RollingEnd::solved)
+      solution_ = statics::solve_rolling(window_, drive_, free.status);
   }
+  if (solution_.end != RollingEnd::solved) return;
+  spectrum_ = statics::spectrum_of(window_, solution_);
+  power_ = statics::rolling_power(window_, solution_, spectrum_);
 }
 
 void SteadyState::refuse() const {
@@ -96,21 +90,38 @@ void SteadyState::refuse() const {
                     "m above the ground",
                     radius));
   }
-  if (solution_.end == statics::RollingEnd::sliding)
-    throw case_error(case_, a.torque ? "analysis.torque" : "analysis.traction",
-                     "the whole contact slides, and no speed follows from it: friction bears no "
-                     "more",
-                     fmt::format("nearer to 0: a traction below ground.friction = {:.6g} times the "
-                                 "load; or motion.speed instead",
-                                 drive_.friction));
+  if (solution_.end == statics::RollingEnd::sliding) {
+    const double most = drive_.friction * solution_.forces.y;
+    throw case_error(
+        case_, a.torque ? "analysis.torque" : "analysis.traction",
+        "the whole contact slides, and no speed follows from it: friction bears no more",
+        drive_.friction == 0.0
+            ? "motion.speed instead, as without friction none hangs on the traction; or "
+              "ground.friction above 0"
+            : fmt::format(
+                  "{} between some -{:.4g} and {:.4g} {}, ground.friction times the load{}; "
+                  "or motion.speed instead",
+                  a.torque ? "a torque" : "a traction", a.torque ? most * solution_.height : most,
+                  a.torque ? most * solution_.height : most, a.torque ? "N" : "N/m",
+                  a.torque ? " and the height" : ""));
+  }
+  if (solution_.end == statics::RollingEnd::solved && solution_.height <= case_.disk.inner_radius)
+    throw case_error(case_, a.load ? "analysis.load" : "motion.height",
+                     fmt::format("the ground is within the rim: the center is {:.6g} m above it",
+                                 solution_.height),
+                     fmt::format("what leaves it well above the inner radius, {:.6g} m",
+                                 case_.disk.inner_radius));
 }
 
 std::string SteadyState::trouble() const {
   if (solution_.end != statics::RollingEnd::solved)
     return fmt::format(
-        "the contact was not solved: residual {:.3g}, bound {:.0e}, after {} Newton steps and {} "
-        "pivots; other analysis.samples_per_sector (4 to 32{}){}{}, a smaller ground.friction{}",
-        solution_.residual, residual_bound, solution_.newton_steps, solution_.pivots,
+        "the contact was not solved: {}, after {} Newton steps and {} pivots; another "
+        "analysis.samples_per_sector (4 to 32{}){}{} or both, a smaller ground.friction{}",
+        std::isfinite(solution_.residual)
+            ? fmt::format("residual {:.3g}, bound {:.0e}", solution_.residual, residual_bound)
+            : "no set of contacts came to rest",
+        solution_.newton_steps, solution_.pivots,
         window_.time() < case_.damping.stiffness
             ? fmt::format("; fewer, as a sample of {:.2g} s is shorter than damping.stiffness",
                           window_.time())
@@ -125,12 +136,12 @@ std::string SteadyState::trouble() const {
 }
 
 double SteadyState::torque() const noexcept {
-  return solution_.forces.torque - power_.weight / spin();
+  return solution_.forces.torque;
 }
 
 double SteadyState::resistance() const noexcept {
   if (solution_.speed == 0.0) return std::numeric_limits<double>::quiet_NaN();
-  return (-spin() * torque() - solution_.speed * solution_.forces.x) / solution_.speed;
+  return (-spin() * torque() - solution_.speed * solution_.forces.x) / std::abs(solution_.speed);
 }
 
 SteadyState::Where SteadyState::where(std::size_t pair) const {
@@ -202,7 +213,7 @@ HistoryRecord SteadyState::record(int place, const Snapshot& now) const {
   h.sticking = s.sticking;
   h.contact_length = s.stick_length + s.slip_length;
   h.penetration = s.penetration;
-  h.slip_ratio = dynamics::slip_ratio(-spin() * case_.disk.outer_radius, solution_.speed);
+  h.slip_ratio = slip_ratio();
   std::vector<Vec2> ku(now.u.size());
   fem::apply(body_.sector, now.u, ku);
   for (std::size_t i = 0; i < now.u.size(); ++i) {
@@ -254,6 +265,15 @@ void SteadyState::fill(int place, Snapshot& s) {
   std::ranges::sort(s.contacts, {}, &ContactForce::candidate);
 }
 
+double SteadyState::slip_ratio() const noexcept {
+  return dynamics::slip_ratio(-spin() * case_.disk.outer_radius, solution_.speed);
+}
+
+std::string SteadyState::motion_text() const {
+  return fmt::format("center {:.6g} m high at {:.6g} m/s, slip ratio {:.4g} %", center(0).y,
+                     solution_.speed, 100.0 * slip_ratio());
+}
+
 Json SteadyState::describe() const {
   const statics::RollingSolution& s = solution_;
   const AnalysisCase& a = case_.analysis;
@@ -264,7 +284,7 @@ Json SteadyState::describe() const {
   j["torque"] = torque();
   j["height"] = center(0).y;
   j["speed"] = s.speed;
-  j["slip_ratio"] = dynamics::slip_ratio(-spin() * case_.disk.outer_radius, s.speed);
+  j["slip_ratio"] = slip_ratio();
   j["rolling_resistance"] = resistance();
   j["stick_length"] = mean_.stick_length;
   j["slip_length"] = mean_.slip_length;

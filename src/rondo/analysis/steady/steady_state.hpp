@@ -38,8 +38,11 @@ class SteadyState {
   [[nodiscard]] const SteadySums& mean() const noexcept { return mean_; }
   /// Of the rim, clockwise: what keeps the spin constant [N].
   [[nodiscard]] double torque() const noexcept;
-  /// Power lost over speed: (ω T - V F_x) / V; NaN where V is 0 [N/m].
+  /// Power lost over speed: (ω T - V F_x) / |V|; NaN where V is 0 [N/m].
   [[nodiscard]] double resistance() const noexcept;
+  [[nodiscard]] double slip_ratio() const noexcept;
+  /// Height, speed and slip, for the user.
+  [[nodiscard]] std::string motion_text() const;
   /// Length of a pass over the number of its places [s].
   [[nodiscard]] double sample_time() const noexcept { return window_.time(); }
 

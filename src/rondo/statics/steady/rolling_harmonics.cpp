@@ -33,6 +33,27 @@ RollingHarmonics::RollingHarmonics(RollingBody body)
   find_compliance();
   base_ = Block::Zero(n_rows(), 2);
   for (int k = 0; k < 2; ++k) base_.col(k) = solve(layers_, order(k), load_of(k));
+  find_weight_torque();
+}
+
+/// Minus the power of the weight over s, -2N Re(i R_1ᴴ U_1), and what each force adds to U_1.
+void RollingHarmonics::find_weight_torque() {
+  const Eigen::VectorXcd load = load_of(1);
+  const Complexes factor = -2.0 * i * static_cast<double>(body_.stiffness.n_sectors);
+  weight_torque_ = (factor * load.dot(base_.col(1))).real();
+  const RollingLayer& last = layers_.back();
+  const std::size_t n_transfers = transfer_size(layers_);
+  for (Eigen::Index c = 0; c < surface_[1].cols(); ++c) {
+    Eigen::VectorXcd u = Eigen::VectorXcd::Zero(n_rows());
+    u.segment(last.first, last.size) = surface_[1].col(c) / static_cast<double>(turn_);
+    follow(layers_, std::span(transfers_).subspan(n_transfers, n_transfers), u);
+    weight_by_force_.push_back(factor * load.dot(u));
+  }
+}
+
+Vec2 RollingHarmonics::weight_torque(std::size_t a, int sample) const noexcept {
+  const Complexes back = std::conj(waves_[at((sample % turn_ + turn_) % turn_)]);
+  return {(weight_by_force_[2 * a] * back).real(), (weight_by_force_[2 * a + 1] * back).real()};
 }
 
 void RollingHarmonics::find_candidates() {

@@ -64,6 +64,11 @@ class RollingHarmonics {
     double by_mass = 0.0, by_stiffness = 0.0;
   };
   [[nodiscard]] Damped damped(const Block& spectrum) const;
+  /// Torque of the weight about the center, counter-clockwise, as the deformation moves the body
+  /// beside it: without forces [N], and by a force on a candidate at a sample, in the frame of its
+  /// sector [m].
+  [[nodiscard]] double weight_torque() const noexcept { return weight_torque_; }
+  [[nodiscard]] Vec2 weight_torque(std::size_t a, int sample) const noexcept;
   /// Power of the weight along the deformation, over the turn [W/m].
   [[nodiscard]] double weight(const Block& spectrum) const;
 
@@ -76,6 +81,7 @@ class RollingHarmonics {
   }
   [[nodiscard]] Eigen::VectorXcd load_of(int k) const;
   void find_compliance();
+  void find_weight_torque();
 
   RollingBody body_;
   int turn_;
@@ -85,6 +91,8 @@ class RollingHarmonics {
   std::vector<std::complex<double>> transfers_;  ///< (L/2 + 1, transfer_size)
   std::vector<Block> surface_;   ///< (L/2 + 1) of (last layer, 2C): it by forces on candidates
   std::vector<double> history_;  ///< (2C, 2C, L) real compliances
+  double weight_torque_ = 0.0;
+  std::vector<std::complex<double>> weight_by_force_;  ///< (2C) of harmonic 1: its real part
   Block base_;  ///< (2 n_local, 2) U_0 and U_1 of what nothing touches                    [m]
 };
 

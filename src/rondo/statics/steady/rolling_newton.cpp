@@ -63,21 +63,22 @@ std::vector<int> key_of(const Findings& found) {
   return key;
 }
 
-/// The torque, which is not linear, is as asked for.
+/// The torque, which is not linear, is as asked for to round-off: the square of what is left.
 bool is_near(const RollingPoint& point, const RollingPoint& before) {
   const double change = (point.force - before.force).cwiseAbs().maxCoeff();
-  return change <= 1e-11 * point.force.cwiseAbs().maxCoeff();
+  return change <= 1e-8 * point.force.cwiseAbs().maxCoeff();
 }
 
 void newton(const RollingProblem& problem, const RollingDrive& drive, RollingState& s) {
   std::set<std::vector<int>> seen;
   s.touches = true;
-  for (int n = 0; n < most_newton_steps; ++n) {
+  for (int n = 0; n < most_newton_steps && s.work < most_rolling_work; ++n) {
     ++s.newton_steps;
     s.touches = !all_open(s.found);
     if (!s.touches) return;
     const RollingPoint before = s.point;
     const RollingSystem system(problem, drive, s.found, before);
+    s.work += 2.0 / 3.0 * std::pow(static_cast<double>(system.size()), 3);
     s.point = system.solve();
     const Eigen::VectorXd moved = gaps_and_ways(problem, s.point);
     s.residual = residual_of(problem, s.point, moved, drive.friction);
@@ -135,9 +136,13 @@ Findings findings_of(const LcpSolution& lcp, double friction) {
 void pivot(const RollingProblem& problem, const RollingDrive& drive, RollingState& s) {
   const Index m = problem.base.size() / 2;
   LcpSolution z;
-  const LemkeReport end =
-      solve_lemke(complementary(problem, drive), static_cast<int>(30 * m + 100), z);
+  const double a_pivot = 20.0 * std::pow(static_cast<double>(3 * m), 2);
+  const double affordable = (most_rolling_work - s.work) / a_pivot;
+  if (affordable < 1.0) return;
+  const auto most = static_cast<int>(std::min(30.0 * static_cast<double>(m) + 100.0, affordable));
+  const LemkeReport end = solve_lemke(complementary(problem, drive), most, z);
   s.pivots += end.pivots;
+  s.work += a_pivot * end.pivots;
   if (end.end != LemkeEnd::solved) return;
   RollingState other = s;
   other.found = findings_of(z, drive.friction);
@@ -187,7 +192,7 @@ void find_drive(const RollingProblem& problem, const RollingDrive& drive, Rollin
   Eigen::Vector2d at{s.point.height, s.point.speed}, step = Eigen::Vector2d::Zero();
   double nearest = std::numeric_limits<double>::infinity();
   RollingState trial = s;
-  for (int n = 0; n < most_trials && at.allFinite(); ++n) {
+  for (int n = 0; n < most_trials && at.allFinite() && trial.work < most_rolling_work; ++n) {
     fixed.height = at[0];
     fixed.speed = at[1];
     solve_at(problem, fixed, trial);
@@ -208,6 +213,8 @@ void find_drive(const RollingProblem& problem, const RollingDrive& drive, Rollin
     }
     at += step;
   }
+  s = std::move(trial);
+  s.residual = std::numeric_limits<double>::infinity();  // of another load or traction
 }
 
 /// Groups that stick, and those beside them: a zone of stick that is too long shrinks in a few
@@ -278,12 +285,16 @@ void solve_rolling(const RollingProblem& problem, const RollingDrive& drive, Rol
   newton(problem, drive, state);
   if (!state.touches || state.solved()) return;
   RollingState other = start_without_forces(problem, drive, begin);
+  other.newton_steps = state.newton_steps;
+  other.pivots = state.pivots;
+  other.work = state.work;
   const bool fixed = !drive.load && !drive.traction && !drive.torque;
   if (fixed)
     solve_at(problem, drive, other);
   else
     find_drive(problem, drive, other);
-  other.newton_steps += state.newton_steps;
+  state.newton_steps = other.newton_steps;
+  state.pivots = other.pivots;
   if (other.solved()) state = std::move(other);
 }
 

@@ -23,6 +23,7 @@ struct RollingState {
   RollingSlopes slopes;  ///< of what is solved
   bool touches = true;   ///< false: the active set that was left is empty
   int newton_steps = 0, pivots = 0;
+  double work = 0.0;  ///< of these, roughly, in floating-point operations
 
   [[nodiscard]] bool solved() const noexcept {
     return touches && residual <= rolling_residual_bound;
@@ -37,6 +38,9 @@ struct RollingState {
 /// with a load its height must be in the ground
 [[nodiscard]] RollingState rolling_start(const RollingProblem& problem, const RollingDrive& drive,
                                          const RollingPoint& point);
+
+/// Where this much work brought no solution there is none to wait for: half a minute.
+inline constexpr double most_rolling_work = 4e11;
 
 /// From `state` on; where Newton's method does not end, by pivoting, at a given height and speed;
 /// else by Newton's method on these, each trial at a given height and speed.

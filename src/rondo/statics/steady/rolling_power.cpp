@@ -37,10 +37,12 @@ RollingPower rolling_power(const RollingWindow& w, const RollingSolution& s,
   const Eigen::MatrixXd u = h.fields(surface, 0.0, false), rate = h.fields(surface, 0.0, true);
   const RollingHarmonics::Damped damped = h.damped(spectrum);
   RollingPower power;
-  power.drive = s.speed * s.forces.x + spin * s.forces.torque;
   power.mass = damped.by_mass;
   power.stiffness = damped.by_stiffness;
   power.weight = h.weight(spectrum);
+  // Of the ground alone: the weight's part is an entry of its own.
+  const double torque = s.forces.torque + power.weight / spin;
+  power.drive = s.speed * s.forces.x + spin * torque;
   double of_field = 0.0;  // Σ r·w by the field's own velocity
   for (std::size_t j = 0; j < w.pairs().size(); ++j) {
     const RollingPair& p = w.pairs()[j];
@@ -58,7 +60,7 @@ RollingPower rolling_power(const RollingWindow& w, const RollingSolution& s,
   }
   power.scheme = of_field + power.friction;
   const double left = power.drive + power.mass + power.stiffness - power.weight - of_field;
-  const double largest = std::max({std::abs(s.speed * s.forces.x), std::abs(spin * s.forces.torque),
+  const double largest = std::max({std::abs(s.speed * s.forces.x), std::abs(spin * torque),
                                    power.mass, power.stiffness, std::abs(power.friction)});
   power.residual = largest > 0.0 ? std::abs(left) / largest : 0.0;
   return power;

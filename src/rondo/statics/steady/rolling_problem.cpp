@@ -41,7 +41,8 @@ RollingForces forces_of(const RollingProblem& problem, const RollingPoint& p) {
   RollingForces f;
   f.y = normal.sum() / problem.pass;
   f.x = p.force(Eigen::seqN(1, m, 2)).sum() / problem.pass;
-  f.torque = x.dot(normal) / problem.pass + p.height * f.x;
+  f.torque = x.dot(normal) / problem.pass + p.height * f.x + problem.base_weight +
+             problem.weight.dot(p.force);
   return f;
 }
 
@@ -68,6 +69,8 @@ RollingProblem grouped(const RollingProblem& all, const std::vector<std::size_t>
   g.matrix = Eigen::MatrixXd::Zero(rows, rows);
   g.base_x = Eigen::VectorXd::Zero(rows / 2);
   g.matrix_x = Eigen::MatrixXd::Zero(rows / 2, rows);
+  g.base_weight = all.base_weight;
+  g.weight = Eigen::VectorXd::Zero(rows);
   const auto place = [&](std::size_t pair) { return static_cast<Index>(groups[pair]); };
   for (std::size_t q = 0; q < groups.size(); ++q) {
     const auto from = static_cast<Index>(2 * q);
@@ -75,6 +78,7 @@ RollingProblem grouped(const RollingProblem& all, const std::vector<std::size_t>
     g.pairs[groups[q]] = {all.pairs[q].candidate, group_of(all.pairs[q].sample)};
     g.base.segment<2>(2 * to) += share[to] * all.base.segment<2>(from);
     g.base_x[to] += share[to] * all.base_x[from / 2];
+    g.weight.segment<2>(2 * to) += share[to] * all.weight.segment<2>(from);
     for (std::size_t p = 0; p < groups.size(); ++p) {
       const auto row = static_cast<Index>(2 * p);
       const double both = share[to] * share[place(p)];

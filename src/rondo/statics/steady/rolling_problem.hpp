@@ -26,6 +26,9 @@ struct RollingProblem {
   Eigen::MatrixXd matrix;
   Eigen::VectorXd base_x;    ///< (pairs) place along x from the center, without forces [m]
   Eigen::MatrixXd matrix_x;  ///< (pairs, 2 pairs) and by them [m²/N]
+  /// Torque of the weight about the center without forces [N], and by those of all pairs.
+  double base_weight = 0.0;
+  Eigen::VectorXd weight;  ///< (2 pairs) [m]
 };
 
 /// Forces on all pairs, height and speed of the center.
@@ -41,7 +44,7 @@ struct RollingPoint {
 /// Of the ground on the body, means over a sector's pass.
 struct RollingForces {
   double x = 0.0, y = 0.0;  ///< [N/m]
-  double torque = 0.0;      ///< about the center, counter-clockwise                         [N]
+  double torque = 0.0;  ///< about the center, counter-clockwise, with that of the weight      [N]
 };
 [[nodiscard]] RollingForces forces_of(const RollingProblem& problem, const RollingPoint& point);
 

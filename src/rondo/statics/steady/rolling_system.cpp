@@ -72,6 +72,7 @@ RollingSystem::Torque RollingSystem::torque_at(const RollingPoint& around) const
   Eigen::VectorXd row = problem_.matrix_x.transpose() * normal;
   row(Eigen::seqN(0, n, 2)) += arm;
   row(Eigen::seqN(1, n, 2)).array() += around.height;
+  row += problem_.pass * problem_.weight;
   return {std::move(row), around.force(Eigen::seqN(1, n, 2)).sum()};
 }
 

@@ -18,7 +18,7 @@ struct RollingDrive {
   double friction = 0.0;           ///< μ >= 0
   std::optional<double> load;      ///< F_y of the ground on the body, > 0                 [N/m]
   std::optional<double> traction;  ///< F_x of the ground on the body                      [N/m]
-  std::optional<double> torque;    ///< of the ground about the center, counter-clockwise    [N]
+  std::optional<double> torque;    ///< of ground and weight, counter-clockwise              [N]
 };
 
 /// What a pair does; `side`: of a slipping one the sign of r_x.
@@ -46,6 +46,8 @@ class RollingSystem {
   RollingSystem(const RollingProblem& problem, const RollingDrive& drive,
                 const std::vector<RollingStatus>& found, const RollingPoint& around);
 
+  /// Of unknowns.
+  [[nodiscard]] Eigen::Index size() const noexcept { return right_.size(); }
   /// Not finite where there is no solution.
   [[nodiscard]] RollingPoint solve() const;
   /// @param around the solution

@@ -31,6 +31,7 @@ RollingWindow::RollingWindow(const RollingHarmonics& harmonics, SlipDifference s
                 std::vector<char>(static_cast<std::size_t>(harmonics.turn()))) {
   problem_.time = 2.0 * std::numbers::pi / (harmonics.turn() * std::abs(harmonics.body().spin));
   problem_.pass = harmonics.body().samples;
+  problem_.base_weight = harmonics.weight_torque();
   for (int m = 0; m < harmonics.turn(); ++m)
     frames_.push_back(rotation(2.0 * std::numbers::pi * m / harmonics.turn()));
   find_kernels();
@@ -112,12 +113,16 @@ void RollingWindow::include(const std::vector<RollingPair>& pairs) {
   const Index n = std::ssize(problem_.pairs);
   problem_.base.conservativeResize(2 * n);
   problem_.base_x.conservativeResize(n);
+  problem_.weight.conservativeResize(2 * n);
   problem_.matrix.conservativeResize(2 * n, 2 * n);
   problem_.matrix_x.conservativeResize(n, 2 * n);
   for (Index p = before; p < n; ++p) {
     const Place at = place(problem_.pairs[static_cast<std::size_t>(p)]);
     problem_.base.segment<2>(2 * p) << at.gap, at.way;
     problem_.base_x[p] = at.x;
+    const RollingPair& pair = problem_.pairs[static_cast<std::size_t>(p)];
+    const Vec2 by = frame(pair.sample) * harmonics_.weight_torque(pair.candidate, pair.sample);
+    problem_.weight.segment<2>(2 * p) << by.y, by.x;
   }
 #pragma omp parallel for num_threads(harmonics_.body().threads) schedule(static)
   for (Index q = 0; q < n; ++q) fill_column(q, q < before ? before : 0);
