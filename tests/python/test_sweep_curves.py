@@ -52,7 +52,13 @@ def test_a_traction_curve(grid):
     np.testing.assert_allclose(drawn, [[row["slip_ratio_mean"], row["force_x_mean"] / 1e3]
                                        for row in rows], rtol=1e-12, atol=1e-12)
     assert ax.get_xlabel() == "slip ratio, mean (–)"
-    assert crosses(ax) == [] and "(1 failed)" in said(ax)  # it has no slip at which to mark it
+    lost = grid.select({SCHEME: TWO[0]}).where(~grid.select({SCHEME: TWO[0]}).done)
+    friction, spin = lost[FRICTION].item(), lost[SPIN].item()
+    known = [s for s in SPINS if s != spin]  # it has no slip: read off its curve, over the spin
+    place = np.interp(spin, known, [sweeps.forces(friction, s)["slip_ratio_mean"] for s in known])
+    assert crosses(ax) == [pytest.approx(place)] and "(1 failed ×)" in said(ax)
+    broken = named(ax, f"{friction:g}")
+    assert np.isnan(broken[:, 1]).tolist() == [s == spin for s in SPINS]  # no line across the gap
     both = grid.plot_curves("force_x_mean", "slip_ratio_mean", FRICTION)
     assert not curves(both)  # of two schemes: points
     assert len({line.get_marker() for line in both.lines if line.get_label() != "_lost"}) == 3

@@ -211,9 +211,11 @@ class Levels:
 
 
 def by_level(places: Array, values: Array) -> Levels:
-    """Mean, least and greatest of the values (m,) at each of the places (m,)."""
+    """Mean, least and greatest of the values (m,) at each of the places (m,), NaN where none has a
+    value; what has none among others is left out."""
     at, which = np.unique(places, return_inverse=True)
     groups = [values[which == k] for k in range(len(at))]
+    groups = [group[np.isfinite(group)] if np.isfinite(group).any() else group for group in groups]
     return Levels(at, np.array([group.mean() for group in groups]),
                   np.array([group.min() for group in groups]),
                   np.array([group.max() for group in groups]))
