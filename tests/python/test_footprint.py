@@ -11,7 +11,7 @@ from test_errors import says
 
 import rondo
 from rondo import style
-from rondo.figures.run_figures import draw_run
+from rondo.figures.run_figures import draw_run, fields, pass_forces
 from rondo.plots.footprint import footprint_of
 
 STEADY = ["analysis.kind=steady-rolling", "motion.height=0.29", "ground.profile=flat"]
@@ -25,15 +25,17 @@ def closed_figures():
 
 @pytest.fixture(scope="module")
 def steady(tmp_path_factory):
-    """The runs `smooth`, `treaded` and `slides`, which slips as a whole."""
+    """The runs `smooth`, `treaded`, `back`, which rolls to the left, and `slides`, which slips as a
+    whole."""
     folder = tmp_path_factory.mktemp("steady")
     (folder / "case.toml").write_text(SMALL)
     (folder / "treaded.toml").write_text(TREADED)
     for name, case, more in (("smooth", "case", []), ("treaded", "treaded", []),
+                             ("back", "treaded", ["motion.speed=-10", "motion.angular_velocity=-33.3"]),
                              ("slides", "case", ["motion.speed=20"])):
         ok("run", folder / f"{case}.toml", "-o", folder / name,
            *(part for setting in STEADY + more for part in ("--set", setting)))
-    return {name: rondo.open(folder / name) for name in ("smooth", "treaded", "slides")}
+    return {name: rondo.open(folder / name) for name in ("smooth", "treaded", "back", "slides")}
 
 
 def line(ax, colour):
@@ -60,29 +62,48 @@ def test_folds_the_places_of_a_sector(steady):
 def test_the_picture(steady, name, lines):
     run = steady[name]
     figure = run.plot_footprint()
-    above, below = figure.axes
-    found, factor = footprint_of(run), 1e-6 if "MPa" in above.get_ylabel() else 1e-3
-    for ax, colour, values in ((above, style.BLUE, factor * found.pressure),
-                               (above, style.VERMILLION, factor * found.shear),
-                               (below, style.VERMILLION, found.slip)):
-        drawn, count = line(ax, colour)
-        assert count == lines  # one for each contact node of a sector
+    axes = figure.axes
+    above, below = axes[:lines], axes[lines:]  # a column for each contact node of a sector
+    assert len(axes) == 2 * lines
+    found, factor = footprint_of(run), 1e-6 if "MPa" in above[0].get_ylabel() else 1e-3
+    for row, colour, values in ((above, style.BLUE, factor * found.pressure),
+                                (above, style.VERMILLION, factor * found.shear),
+                                (below, style.VERMILLION, found.slip)):
+        assert [line(ax, colour)[1] for ax in row] == [1] * lines
+        drawn = np.concatenate([line(ax, colour)[0] for ax in row])
         order = np.lexsort((drawn[:, 1], drawn[:, 0]))
         expected = np.stack([1e3 * found.place, values], axis=1)
         expected = expected[np.lexsort((expected[:, 1], expected[:, 0]))]
         np.testing.assert_allclose(drawn[order], expected, rtol=1e-9, atol=1e-12)
-    names = [text.get_text() for text in above.get_legend().get_texts()]
-    assert names == [f"within ± μp, μ = {run.friction:g}", "pressure p", "shear, > 0 pushes along +x",
-                     "sticks"]
-    assert below.get_xlabel().endswith("(mm), rolls to the right")
-    assert above.get_ylabel().endswith("Pa)") and below.get_ylabel() == "slip speed (m/s)"
+    assert said_below(figure) == [f"within ± μp, μ = {run.friction:g}", "pressure p",
+                                  "shear, > 0 pushes along +x", "sticks"]
+    assert figure._supxlabel.get_text().endswith("(mm), rolls to the right")
+    assert above[0].get_ylabel().endswith("Pa)") and below[0].get_ylabel() == "slip velocity (m/s)"
     assert f"{run.steady['force_y'] / 1e3:.4g} kN/m" in said(figure).replace("−", "-")
+
+
+def said_below(figure):
+    """Of the legend, below the title."""
+    legend, = figure.legends
+    return [text.get_text() for text in legend.get_texts()]
+
+
+@pytest.mark.parametrize("name", ["treaded", "back"])
+def test_nodes_of_a_pitch_from_leading_to_trailing(steady, name):
+    """As they come to the ground: the leading one touches furthest ahead."""
+    run = steady[name]
+    figure = run.plot_footprint()
+    titles = [ax.get_title() for ax in figure.axes[:3]]
+    assert titles == ["node 1 of 3, leading", "node 2 of 3", "node 3 of 3, trailing"]
+    ahead = [np.sign(run.spin) * line(ax, style.BLUE)[0][:, 0] for ax in figure.axes[:3]]
+    assert max(ahead[0]) > max(ahead[2])
+    assert ("rolls to the right" if run.spin > 0 else "rolls to the left") in (
+        figure._supxlabel.get_text())
 
 
 def test_what_slides_has_no_stick(steady):
     figure = steady["slides"].plot_footprint()
-    names = [text.get_text() for text in figure.axes[0].get_legend().get_texts()]
-    assert "sticks" not in names and not footprint_of(steady["slides"]).sticks.any()
+    assert "sticks" not in said_below(figure) and not footprint_of(steady["slides"]).sticks.any()
 
 
 def test_means_are_over_places(steady):
@@ -106,7 +127,13 @@ def test_figures(steady, tmp_path, monkeypatch):
     draw_run(steady["smooth"], tmp_path)
     assert drawn == ["field-displacement", "field-von_mises", "footprint"]
     drawn.clear()
-    draw_run(steady["treaded"], tmp_path)
+    run = steady["treaded"]
+    for ax, column in zip(pass_forces(run).axes, ("force_y", "force_x")):
+        low, high = 1e3 * np.array(ax.get_ylim())
+        ripple = np.ptp(run.history[column])
+        assert high - low < 1.2 * ripple  # not from 0
+    assert fields(run, "displacement").axes[0].get_title() == "place 1 of 16"
+    draw_run(run, tmp_path)
     assert drawn == ["field-displacement", "field-von_mises", "footprint", "forces"]
 
 

@@ -43,7 +43,7 @@ def draw_run(run: Run, folder: str | os.PathLike[str]) -> list[pathlib.Path]:
             keep("contact-map", patch.plot_contact_map(run).figure)
     history = run.history
     if run.is_steady and run.pitches:
-        keep("forces", curves.plot_history(run).figure)
+        keep("forces", pass_forces(run))
     if len(history["time_s"]) and not run.is_steady:  # without a course in time
         keep("energy", curves.plot_energy(run).figure)
         if run.has_rim:
@@ -59,6 +59,19 @@ def draw_run(run: Run, folder: str | os.PathLike[str]) -> list[pathlib.Path]:
     if pods:
         keep("pod-spectrum", plot_pod_spectrum(pods, labels=[pod.name for pod in pods]).figure)
     return written
+
+
+@style.paper()
+def pass_forces(run: Run) -> Figure:
+    """The forces over the pass of a pitch in steady rolling, each on an axis round its values: what
+    they go up and down by is a small part of them."""
+    figure = plt.figure(figsize=(style.PAGE, 3.2))
+    above, below = figure.subplots(2, 1, sharex=True)
+    for ax, name in ((above, "force_y"), (below, "force_x")):
+        curves.plot_history(run, name, ax=ax)
+    above.set_xlabel("")
+    figure.align_ylabels()
+    return figure
 
 
 @style.paper()

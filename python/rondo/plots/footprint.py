@@ -21,7 +21,9 @@ if TYPE_CHECKING:
 
 Array = NDArray[np.float64]
 HEIGHT = 3.6  # in
-DARKEST = 0.84  # grey of where all sticks
+BELOW_TITLE = 0.17  # in, of the legend from the top
+COLUMNS = 6  # panels beside each other
+STICKS = "0.84"  # grey of where nodes stick
 MARGIN = 0.08  # of the length of the contact, on both sides
 
 
@@ -68,43 +70,106 @@ def footprint_of(run: Run) -> Footprint:
 
 @style.paper()
 def plot_footprint(run: Run) -> Figure:
-    """Above pressure and shear within its bounds, ± μ times the pressure; below the slip speed. All
-    contact nodes at all places of a sector's pass are drawn at where they are along x; of a tread a
-    line of another kind for each contact node of a pitch. Grey is where nodes stick, the darker the more of them."""
+    """Above pressure and shear within its bounds, ± μ times the pressure; below the slip velocity.
+    A contact node is drawn at all places of a sector's pass, at where it is along x; of a tread each
+    node of a pitch has panels of its own, from the leading to the trailing one. Grey is where it
+    sticks."""
     print_ = footprint_of(run)
-    figure = plt.figure(figsize=(style.PAGE, HEIGHT))
-    above, below = figure.subplots(2, 1, sharex=True, height_ratios=(1.7, 1))
-    friction = run.friction or 0.0
+    nodes = _leading_first(run, np.unique(print_.node))
+    columns = max(1, min(len(nodes), COLUMNS))
+    bands = max(1, -(-len(nodes) // columns))
+    figure = plt.figure(figsize=(style.PAGE, HEIGHT * bands))
+    axes = figure.subplots(2 * bands, columns, sharex=True, squeeze=False,
+                           height_ratios=(1.7, 1) * bands)
+    above, below = (axes[k::2].ravel() for k in (0, 1))
+    _share_y(above)
+    _share_y(below)
     factor, unit = readable(float(print_.pressure.max(initial=0.0)), "Pa")
-    for k, chosen in enumerate(_lines(print_)):
-        x, p, s = (values[chosen] for values in (1e3 * print_.place, factor * print_.pressure,
-                                                 factor * print_.shear))
-        look = {"linestyle": style.CURVES[k % len(style.CURVES)]["linestyle"]}
-        begin = "_" if k else ""  # said once
-        if friction:
-            above.fill_between(x, -friction * p, friction * p, linewidth=0, zorder=0.2, alpha=0.3,
-                               color=style.SKY, label=f"{begin}within ± μp, μ = {friction:g}")
-        above.plot(x, p, color=style.BLUE, label=f"{begin}pressure p", **look)
-        above.plot(x, s, color=style.VERMILLION, label=f"{begin}shear, > 0 pushes along +x", **look)
-        below.plot(x, print_.slip[chosen], color=style.VERMILLION, label="_slip", **look)
-    for ax in (above, below):
-        ax.axhline(0.0, color="0.8", linewidth=0.6, zorder=0.1)
-        _shade(ax, print_)
-    above.set_ylabel(f"traction ({unit})")
-    below.set_ylabel("slip speed (m/s)")
-    below.set_xlabel(f"along the ground, from beneath the center (mm), rolls {_way(run)}")
-    _frame(above, below, print_)
-    handles, names = above.get_legend_handles_labels()
-    if print_.sticks.any():
-        handles, names = [*handles, Patch(facecolor=str(DARKEST))], [*names, "sticks"]
-    above.legend(handles, names, loc="lower center", bbox_to_anchor=(0.5, 1.0), ncols=4)
-    figure.suptitle(_title(run), fontsize=style.RC["axes.titlesize"])
+    for k, node in enumerate(nodes):
+        _draw_node(above[k], below[k], print_, np.flatnonzero(print_.node == node), factor,
+                   run.friction or 0.0)
+        if len(nodes) > 1:
+            above[k].set_title(f"node {k + 1} of {len(nodes)}" + _edge(k, len(nodes)))
+    for ax in (*above[len(nodes):], *below[len(nodes):]):
+        ax.set_visible(len(nodes) == 0)
+    for k in range(0, len(above), columns):
+        above[k].set_ylabel(f"traction ({unit})")
+        below[k].set_ylabel("slip velocity (m/s)")
+    figure.supxlabel(f"along the ground, from beneath the center (mm), rolls {_way(run)}",
+                     fontsize=style.RC["axes.labelsize"])
+    _frame(below, print_)
+    _legend(figure, above, bool(print_.sticks.any()))
+    figure.suptitle(f"{_title(run)}\n\n", fontsize=style.RC["axes.titlesize"])
     return figure
 
 
-def _lines(print_: Footprint) -> list[NDArray[np.int64]]:
-    """The pairs of each contact node of a sector."""
-    return [np.flatnonzero(print_.node == node) for node in np.unique(print_.node)]
+def _leading_first(run: Run, nodes: NDArray[np.int64]) -> NDArray[np.int64]:
+    """Contact nodes of a sector in the order in which they come to the ground, beginning after the
+    groove: a disk that rolls to the right turns clockwise, smaller angles first."""
+    if len(nodes) < 2:
+        return nodes
+    mesh = run.mesh
+    assert mesh.sector is not None and mesh.sector_node is not None
+    first = [int(np.flatnonzero((mesh.sector == 0) & (mesh.sector_node == node))[0]) for node in nodes]
+    turn = 2 * np.pi / (int(mesh.sector.max()) + 1)
+    angle = np.arctan2(mesh.coordinates[first, 1], mesh.coordinates[first, 0]) % turn
+    ring = nodes[np.argsort(angle)]
+    gaps = np.diff(np.sort(angle), append=angle.min() + turn)
+    joined = _joined(run, nodes)
+    gaps[[pair in joined for pair in zip(ring, np.roll(ring, -1))]] = 0.0
+    ring = np.roll(ring, -1 - int(gaps.argmax()))
+    return ring if run.spin > 0 else ring[::-1]
+
+
+def _joined(run: Run, nodes: NDArray[np.int64]) -> set[tuple[int, int]]:
+    """Pairs of these nodes of a sector that are sides of a cell, the one at the smaller angle first."""
+    mesh = run.mesh
+    assert mesh.sector_node is not None
+    sides = np.stack([mesh.cells, np.roll(mesh.cells, -1, axis=1)], axis=-1).reshape(-1, 2)
+    sides = sides[np.isin(mesh.sector_node[sides], nodes).all(axis=1)]
+    one, other = mesh.coordinates[sides[:, 0]], mesh.coordinates[sides[:, 1]]
+    back = one[:, 0] * other[:, 1] < one[:, 1] * other[:, 0]
+    sides[back] = sides[back, ::-1]
+    return {(int(a), int(b)) for a, b in mesh.sector_node[sides]}
+
+
+def _edge(k: int, count: int) -> str:
+    return ", leading" if k == 0 else ", trailing" if k == count - 1 else ""
+
+
+def _share_y(axes: NDArray[np.object_]) -> None:
+    for ax in axes[1:]:
+        ax.sharey(axes[0])
+        ax.tick_params(labelleft=ax.get_subplotspec().is_first_col())
+
+
+def _draw_node(above: Axes, below: Axes, print_: Footprint, chosen: NDArray[np.int64],
+               factor: float, friction: float) -> None:
+    """One contact node at its places."""
+    x, p, s = (values[chosen] for values in (1e3 * print_.place, factor * print_.pressure,
+                                             factor * print_.shear))
+    if friction:
+        above.fill_between(x, -friction * p, friction * p, linewidth=0, zorder=0.2, alpha=0.3,
+                           color=style.SKY, label=f"within ± μp, μ = {friction:g}")
+    above.plot(x, p, color=style.BLUE, label="pressure p")
+    above.plot(x, s, color=style.VERMILLION, linestyle="--", label="shear, > 0 pushes along +x")
+    below.plot(x, print_.slip[chosen], color=style.VERMILLION, linestyle="--", label="_slip")
+    width = 1e3 * print_.spacing
+    sticks = x[print_.sticks[chosen]]
+    runs = np.split(sticks, np.flatnonzero(np.diff(sticks) > 1.5 * width) + 1) if len(sticks) else []
+    for ax in (above, below):
+        ax.axhline(0.0, color="0.8", linewidth=0.6, zorder=0.1)
+        for run in runs:
+            ax.axvspan(run[0] - 0.5 * width, run[-1] + 0.5 * width, color=STICKS, linewidth=0, zorder=0)
+
+
+def _legend(figure: Figure, above: NDArray[np.object_], sticks: bool) -> None:
+    handles, names = above[0].get_legend_handles_labels()
+    if sticks:
+        handles, names = [*handles, Patch(facecolor=STICKS)], [*names, "sticks"]
+    legend = figure.legend(handles, names, loc="upper center", ncols=4,
+                           bbox_to_anchor=(0.5, 1.0 - BELOW_TITLE / figure.get_figheight()))
+    legend.set_in_layout(False)  # the title has an empty line for it
 
 
 def _way(run: Run) -> str:
@@ -120,24 +185,12 @@ def _title(run: Run) -> str:
     return ", ".join(texts).replace("-", "−")
 
 
-def _shade(ax: Axes, print_: Footprint) -> None:
-    """Grey behind the places, by how many of the nodes there stick."""
-    cells = np.round((print_.place - print_.place[0]) / print_.spacing).astype(int) if len(
-        print_.place) else np.empty(0, dtype=int)
-    count = np.bincount(cells)
-    share = np.bincount(cells, weights=print_.sticks) / np.maximum(count, 1)
-    for cell in np.flatnonzero(share):
-        middle = 1e3 * (print_.place[0] + cell * print_.spacing)
-        half = 0.5e3 * print_.spacing
-        ax.axvspan(middle - half, middle + half, color=str(1.0 - (1.0 - DARKEST) * share[cell]), linewidth=0, zorder=0)
-
-
-def _frame(above: Axes, below: Axes, print_: Footprint) -> None:
+def _frame(below: NDArray[np.object_], print_: Footprint) -> None:
     if not len(print_.place):
         return
     low, high = 1e3 * print_.place[0], 1e3 * print_.place[-1]
     beside = MARGIN * (high - low) + 1e3 * print_.spacing
-    below.set_xlim(low - beside, high + beside)
+    below[0].set_xlim(low - beside, high + beside)
     most = float(np.abs(print_.slip).max())
     if most < 1e-9:  # round-off of what sticks
-        below.set_ylim(-1.0, 1.0)
+        below[0].set_ylim(-1.0, 1.0)
