@@ -12,6 +12,7 @@ from test_errors import says
 
 import rondo
 from rondo import style
+from rondo.plots.traction import round_slips
 
 SPEED, LOAD = "motion.speed", "analysis.load"
 SPEEDS, LOADS, FRICTIONS = (9.2, 9.6, 10.0, 10.4, 10.8), (5e4, 1e5, 2e5), (0.3, 0.6)
@@ -49,9 +50,10 @@ def rolling(tmp_path_factory):
 
 def test_curves(rolling):
     ax = rolling.select({LOAD: 5e4}).plot_traction()
-    assert ax.get_legend().get_title().get_text() == FRICTION and ax.get_xlabel() == "slip ratio (–)"
+    assert ax.get_legend().get_title().get_text() == "friction μ"
+    assert ax.get_xlabel() == "slip ratio (%)" and said(ax).endswith("; load = 50 kN/m")
     drawn = named(ax, "0.6")
-    expected = sorted((slip_of(v), 1e-3 * pull(0.6, 5e4, v)) for v in SPEEDS)
+    expected = sorted((100 * slip_of(v), 1e-3 * pull(0.6, 5e4, v)) for v in SPEEDS)
     np.testing.assert_allclose(drawn, expected, rtol=1e-12, atol=1e-12)
 
 
@@ -59,13 +61,13 @@ def test_share_of_the_load(rolling):
     ax = rolling.select({FRICTION: 0.6}).plot_traction(share=True)
     shares = [named(ax, f"{load / 1e3:g} kN/m")[:, 1] for load in LOADS]
     np.testing.assert_allclose(shares[0], shares[2], rtol=1e-12, atol=1e-12)
-    assert ax.get_ylabel() == "Fx/Fy (–)" and ax.get_legend().get_title().get_text() == LOAD
+    assert ax.get_ylabel() == "Fx/Fy (–)" and ax.get_legend().get_title().get_text() == "load"
 
 
 def test_curves_of_a_motion(grid):
     """The same of means over time, by the names that they have there."""
     ax = grid.select({"solver.scheme": "symplectic"}).plot_traction()
-    assert ax.get_xlabel() == "slip ratio, mean (–)" and len(curves(ax)) == 3
+    assert ax.get_xlabel() == "slip ratio, mean (%)" and len(curves(ax)) == 3
 
 
 def of(ax, colour):
@@ -75,20 +77,44 @@ def of(ax, colour):
 def test_carpet(rolling):
     ax = rolling.select({FRICTION: 0.6}).plot_carpet()
     over_slip, equal_slip = of(ax, style.BLUE), of(ax, style.VERMILLION)
-    slips = sorted(slip_of(v) for v in SPEEDS)
-    assert len(over_slip) == len(LOADS) and len(equal_slip) == len(SPEEDS)
+    slips = 100 * np.array(sorted(slip_of(v) for v in SPEEDS))
+    levels = np.arange(-6, 9, 2)  # round ones, between members
+    assert len(over_slip) == len(LOADS) and len(equal_slip) == len(levels)
     first = over_slip[0].get_xdata()[0]
     for line, load in zip(over_slip, LOADS):
         x, y = line.get_data()
         beside = np.ptp(slips) * (load - LOADS[0]) / np.ptp(LOADS)
-        np.testing.assert_allclose(x - first, np.array(slips) - slips[0] + beside, atol=1e-12)
+        np.testing.assert_allclose(x - first, slips - slips[0] + beside, atol=1e-10)
         np.testing.assert_allclose(y, [1e-3 * pull(0.6, load, v) for v in SPEEDS[::-1]], atol=1e-12)
-    for line, v in zip(equal_slip, SPEEDS[::-1]):
-        np.testing.assert_allclose(line.get_ydata(), [1e-3 * pull(0.6, load, v) for load in LOADS],
-                                   atol=1e-12)
+    for line, level in zip(equal_slip, levels):
+        expected = [np.interp(level, slips, [1e-3 * pull(0.6, load, v) for v in SPEEDS[::-1]])
+                    for load in LOADS]
+        np.testing.assert_allclose(line.get_ydata(), expected, atol=1e-10)
     names = {text.get_text() for text in ax.texts}
-    assert names == {"50 kN/m", "100 kN/m", "200 kN/m", "8 %", "4 %", "0 %", "−3.8 %", "−7.4 %"}
-    assert "15 members" in said(ax)
+    assert names == {"50 kN/m", "100 kN/m", "200 kN/m", "8 %", "6 %", "4 %", "2 %", "0 %", "−2 %", "−4 %",
+                     "−6 %"}
+    assert said(ax) == ("horizontal force over slip ratio (%) and load (kN/m): 15 members; μ = 0.6")
+
+
+@pytest.mark.parametrize("low, high, expected", [
+    (-7.4, 8.0, [-6, -4, -2, 0, 2, 4, 6, 8]), (-0.3, 0.31, [-0.3, -0.2, -0.1, 0, 0.1, 0.2, 0.3]),
+    (1.2, 1.21, [1.2, 1.202, 1.204, 1.206, 1.208, 1.21]), (-100.0, 100.0, [-100, -50, 0, 50, 100])])
+def test_round_slips(low, high, expected):
+    np.testing.assert_allclose(round_slips(low, high), expected, atol=1e-12)
+
+
+def test_a_slip_that_is_found_is_no_abscissa(tmp_path):
+    """Rolling without torque at many spins: refused, with what to do."""
+    rows = [{SPIN: spin, "force_x": -20.0 - spin, "force_y": 6e4, "speed": 0.33 * spin + 0.1 * k,
+             "slip_ratio": 0.001 * (-1) ** k} for k, spin in enumerate((10.0, 30.0, 50.0, 70.0))]
+    sweep = rondo.open_sweep(sweeps.write(tmp_path / "sweep", [(SPIN, "rad/s", "values")], rows,
+                                          [*FIGURES, "speed"], analysis="steady-rolling"))
+    says(rondo.Error, sweep.plot_traction, words=("traction or torque", "Vary motion.speed",
+                                                  "python3 -m rondo sweep"))
+    given = [{**row, "speed": 10.0} for row in rows]  # the slip is made by the spin
+    sweep = rondo.open_sweep(sweeps.write(tmp_path / "given", [(SPIN, "rad/s", "values")], given,
+                                          [*FIGURES, "speed"], analysis="steady-rolling"))
+    assert len(curves(sweep.plot_traction())) == 1
 
 
 def test_a_member_that_failed_leaves_a_gap(rolling):

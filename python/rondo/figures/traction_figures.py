@@ -12,7 +12,6 @@ import numpy as np
 from matplotlib.figure import Figure
 
 from .. import style
-from ..plots.sweep import heading
 from ..plots.traction import others_of
 
 if TYPE_CHECKING:
@@ -20,7 +19,6 @@ if TYPE_CHECKING:
 
 LOADS = ("analysis.load", "rim.force_y")
 MOST = 12  # carpets
-WIDTH = 5.5  # in, of a title
 
 
 def draw_traction(sweep: Sweep, folder: str | os.PathLike[str]) -> list[pathlib.Path]:
@@ -36,14 +34,14 @@ def draw_traction(sweep: Sweep, folder: str | os.PathLike[str]) -> list[pathlib.
     others = others_of(sweep)
     for key in others:
         middle = {rest: _middle(sweep, rest) for rest in others if rest != key}
-        keep(f"traction-{key}", _said(sweep.select(middle).plot_traction(key).figure, middle))
+        keep(f"traction-{key}", sweep.select(middle).plot_traction(key).figure)
     if not others:
         keep("traction", sweep.plot_traction().figure)
     for load in (key for key in LOADS if key in others):
         for chosen in _each(sweep, [key for key in others if key != load]):
             name = "-".join(["carpet", *(f"{value:g}" if isinstance(value, float) else value
                                          for value in chosen.values())])
-            keep(name, _said(sweep.select(chosen).plot_carpet(load).figure, chosen))
+            keep(name, sweep.select(chosen).plot_carpet(load).figure)
     return written
 
 
@@ -58,11 +56,3 @@ def _each(sweep: Sweep, keys: list[str]) -> Iterator[dict[str, float | str]]:
     there = dict.fromkeys(tuple(sweep[key][row].item() for key in keys) for row in range(len(sweep)))
     for values in list(there)[:MOST]:
         yield dict(zip(keys, values))
-
-
-def _said(figure: Figure, chosen: dict[str, float | str]) -> Figure:
-    """With the values of the rest in the title."""
-    title = figure.axes[0].title
-    parts = [title.get_text(), *(f"{key} = {value}" for key, value in chosen.items())]
-    title.set_text(heading(parts, WIDTH))
-    return figure

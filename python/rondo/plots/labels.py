@@ -17,14 +17,22 @@ LABELS = {  # of columns, where their name does not say it
     "shear_max_pa": "largest shear",
     "spin_rad_s": "spin", "speed_x": "speed of the hub, x", "speed_y": "speed of the hub, y",
     "hub_force_x": "hub force, x", "hub_force_y": "hub force, y", "hub_torque": "hub torque",
+    "slip_percent": "slip ratio",
     "kinetic_rim": "kinetic energy of the rim", "support_energy": "energy of the supports",
 }
+PARAMETERS = {"analysis.load": "load", "rim.force_y": "load", "ground.friction": "friction μ",
+              "motion.speed": "speed", "motion.angular_velocity": "spin"}  # in words
 CONSTANT = 1e-6  # span over size of a column that does not change
 LEVEL = 0.01  # least height of the axis on both sides of such a one, in its unit
 
 
 def column_label(column: str) -> str:
     return LABELS.get(column, column.replace("_", " "))
+
+
+def parameter_label(key: str) -> str:
+    """A key of a case in words, where there are some."""
+    return PARAMETERS.get(key, key)
 
 
 def readable(size: float, unit: str) -> tuple[float, str]:
