@@ -130,6 +130,7 @@ def main(folder: pathlib.Path, out: pathlib.Path) -> None:
         resistance(folder, out / "steady-resistance")
         carter(folder, out / "steady-carter")
         style.save(rondo.open(folder / "braked").plot_footprint(), out / "steady-footprint")
+        style.save(rondo.open(folder / "treaded").plot_footprint(), out / "steady-footprint-treaded")
 
 
 if __name__ == "__main__":
