@@ -28,6 +28,7 @@ NOT_RUN = [
     ("docs/how-to.md", "cmake --build --preset release"),
     ("docs/performance.md", "cmake --preset bench"),
     ("docs/performance.md", "rondo run cases/ledge-smooth.toml --set disk.mesh.radial=577"),
+    ("docs/performance.md", "/usr/bin/python3 bench/steady.py"),
     ("docs/performance.md", "cmake --build build/release --target bench_exceptions"),
     ("docs/python.md", "cmake --install build/release"),
     ("docs/reliability.md", "build/release/tests/verification/verification_long"),
