@@ -141,7 +141,7 @@ class Steady(RunTest):
             self.assertAlmostEqual(rolling["torque"], 0.0, delta=1e-6)
             self.assertLess(sense * rolling["force_x"], 0.0)
             self.assertGreater(sense * rolling["speed"], 0.0)
-            self.assertAlmostEqual(rolling["rolling_resistance"], -rolling["force_x"], delta=1e-6)
+            self.assertAlmostEqual(rolling["rolling_resistance"], -sense * rolling["force_x"], delta=1e-6)
             driven = self.steady("analysis.load=1e5", f"analysis.torque={2000 * sense}", spin, text=FREE)
             self.assertAlmostEqual(driven["torque"], 2000 * sense, delta=1e-6)
             self.assertGreater(sense * driven["force_x"], 5000.0)
@@ -213,7 +213,7 @@ class Steady(RunTest):
 
     def test_a_member_that_is_not_solved_fails_alone(self):
         self.case(replaced(SMALL, "height", None), "small.toml")
-        study = STUDY.replace("ground.friction", "analysis.load").replace("0.1, 0.5", "1e5, 1e7")
+        study = STUDY.replace("ground.friction", "analysis.load").replace("0.1, 0.5", "1e5, 7e6")
         done = run("sweep", self.case(study, "study.toml"), "-o", self.out)
         self.assertEqual(done.returncode, 3, done.stderr)
         self.assertIn("is inverted", done.stderr)
@@ -247,7 +247,8 @@ class Refused(ProgramTest):
         self.refuse("held by the rim", "disk.mesh.radial=1")
 
     def test_what_is_not_solved_is_no_result(self):
-        self.refuse("is inverted", "analysis.load=1e7", text=replaced(SMALL, "height", None), code=3)
+        self.refuse("is inverted", "analysis.load=7e6", text=replaced(SMALL, "height", None), code=3)
+        self.refuse("the ground is within the rim", "analysis.load=1e7", text=replaced(SMALL, "height", None))
 
     def test_no_checkpoints(self):
         done = run("run", self.case(SMALL), "-o", self.folder / "out", "--resume")

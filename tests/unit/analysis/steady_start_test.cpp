@@ -101,7 +101,8 @@ TEST(SteadyStart, WhatTouchesIsInContactInTheFirstStep) {
 
 TEST(SteadyStart, OtherSettingsOfInitialAreAdded) {
   const study::Setup s = build(study::test::read_text(text), 1),
-              pushed = build(study::test::read_text(text, {"initial.velocity=[0, 0.25]"}), 1);
+                     pushed =
+                         build(study::test::read_text(text, {"initial.velocity=[0, 0.25]"}), 1);
   const auto free = static_cast<std::size_t>(s.model.free.front());
   EXPECT_EQ(pushed.displacement, s.displacement);
   EXPECT_NEAR((pushed.velocity[free] - s.velocity[free]).y, 0.25, 1e-12);
@@ -110,8 +111,8 @@ TEST(SteadyStart, OtherSettingsOfInitialAreAdded) {
 
 TEST(SteadyStart, GroundIsFlatBelowTheBody) {
   const auto ground = [](const char* profile) {
-    return flat_ground_below(
-        study::test::read_text(text, {"initial.state=rest", std::string("ground.profile=") + profile}));
+    return flat_ground_below(study::test::read_text(
+        text, {"initial.state=rest", std::string("ground.profile=") + profile}));
   };
   EXPECT_EQ(ground("[[-1, 0.1], [1, 0.1]]"), 0.1);
   EXPECT_EQ(ground("[[0, 0], [0.3, 0], [0.3, 0.1], [1, 0.1]]"), 0.0);

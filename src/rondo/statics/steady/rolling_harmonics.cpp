@@ -46,7 +46,8 @@ void RollingHarmonics::find_weight_torque() {
   for (Eigen::Index c = 0; c < surface_[1].cols(); ++c) {
     Eigen::VectorXcd u = Eigen::VectorXcd::Zero(n_rows());
     u.segment(last.first, last.size) = surface_[1].col(c) / static_cast<double>(turn_);
-    follow(layers_, std::span(transfers_).subspan(n_transfers, n_transfers), u);
+    follow(layers_, std::span(transfers_).subspan(n_transfers, n_transfers),
+           {u.data(), at(u.size())});
     weight_by_force_.push_back(factor * load.dot(u));
   }
 }
@@ -190,7 +191,8 @@ RollingHarmonics::Block RollingHarmonics::spectrum(const Eigen::MatrixXd& force)
   for (Eigen::Index k = 0; k < u.cols(); ++k) {
     u.col(k).segment(last.first, last.size) =
         surface_[at(k)] * forces.row(k).transpose() / static_cast<double>(turn_);
-    follow(layers_, std::span(transfers_).subspan(at(k) * n_transfers, n_transfers), u.col(k));
+    follow(layers_, std::span(transfers_).subspan(at(k) * n_transfers, n_transfers),
+           {u.col(k).data(), at(u.rows())});
     if (k < 2) u.col(k) += base_.col(k);
   }
   return u;

@@ -92,7 +92,7 @@ Eigen::MatrixXcd eliminate_all(Layers layers, const RollingOrder& order,
 
 template <int Size>
 void follow_all(Layers layers, std::span<const Complexes> transfers,
-                Eigen::Ref<Eigen::VectorXcd> u) {
+                Eigen::Map<Eigen::VectorXcd>& u) {
   using Block = typename Blocks<Size>::Block;
   const Complexes* from = transfers.data() + transfers.size();
   for (std::size_t l = layers.size() - 1; l-- > 0;) {
@@ -141,7 +141,8 @@ std::vector<RollingLayer> rolling_layers(const fem::SectorStiffness& k,
         const bool is_own = 2 * e.column >= layer.first;
         const Index column = 2 * e.column - (is_own ? layer.first : below.first);
         if (column < 0 || column >= (is_own ? layer.size : below.size)) continue;
-        auto& to = (is_own ? layer.own : layer.up)[static_cast<std::size_t>(e.shift + 1)];
+        auto& to =
+            (is_own ? layer.own : layer.up)[static_cast<std::size_t>(std::ptrdiff_t{e.shift} + 1)];
         to.block<2, 2>(row, column) += Eigen::Map<const Eigen::Matrix2d>(e.block.data());
       }
   }
@@ -188,7 +189,8 @@ Eigen::VectorXcd solve(Layers layers, const RollingOrder& order, const Eigen::Ve
   return u;
 }
 
-void follow(Layers layers, std::span<const Complexes> transfers, Eigen::Ref<Eigen::VectorXcd> u) {
+void follow(Layers layers, std::span<const Complexes> transfers, std::span<Complexes> all) {
+  Eigen::Map<Eigen::VectorXcd> u(all.data(), std::ssize(all));
   if (all_of_one_row(layers))
     follow_all<2>(layers, transfers, u);
   else
@@ -196,7 +198,7 @@ void follow(Layers layers, std::span<const Complexes> transfers, Eigen::Ref<Eige
 }
 
 RollingNorms norms_of(Layers layers, const RollingOrder& order,
-                      Eigen::Ref<const Eigen::VectorXcd> u) {
+                      const Eigen::Ref<const Eigen::VectorXcd>& u) {
   RollingNorms n;
   const Complexes turn = order.turns[2];
   for (std::size_t l = 0; l < layers.size(); ++l) {

@@ -51,13 +51,13 @@ struct RollingOrder {
 
 /// Of all rows, once those of the last layer are there. @param u (2 n_local)
 void follow(std::span<const RollingLayer> layers, std::span<const std::complex<double>> transfers,
-            Eigen::Ref<Eigen::VectorXcd> u);
+            std::span<std::complex<double>> u);
 
 /// uᴴ M u and uᴴ K(k) u.
 struct RollingNorms {
   double mass = 0.0, stiffness = 0.0;
 };
 [[nodiscard]] RollingNorms norms_of(std::span<const RollingLayer> layers, const RollingOrder& order,
-                                    Eigen::Ref<const Eigen::VectorXcd> u);
+                                    const Eigen::Ref<const Eigen::VectorXcd>& u);
 
 }  // namespace rondo::statics
