@@ -76,6 +76,7 @@ void weigh_steady(std::span<const io::RunReader> runs, std::vector<SnapshotColum
 std::vector<std::size_t> runs_to_leave_out(std::span<const io::RunReader> runs) {
   std::vector<std::size_t> steady, chosen;
   for (std::size_t k = 0; k < runs.size(); ++k) (is_steady(runs[k]) ? steady : chosen).push_back(k);
+  if (steady.empty()) return chosen;
   const std::size_t n = std::min(most_left_out, steady.size());
   for (std::size_t k = 0; k < n; ++k) chosen.push_back(steady[k * steady.size() / n]);
   return chosen;
