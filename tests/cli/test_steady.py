@@ -239,6 +239,10 @@ class Refused(ProgramTest):
         self.refuse("stands beside motion.speed", text=SMALL + "torque = 0\n")
         self.refuse("would slide", "analysis.load=1e5", "analysis.traction=4e4", text=FREE)
         self.refuse("the whole contact slides", "analysis.load=1e5", "analysis.torque=4e4", text=FREE)
+        self.refuse("ground.friction = 0.4 times the load times the height", "analysis.load=1e5", "analysis.torque=4e4",
+                    text=FREE)
+        self.refuse("without friction", "analysis.load=1e5", "analysis.traction=0", "ground.friction=0", text=FREE)
+        self.refuse("without friction", "analysis.torque=100", "ground.friction=0")
         self.refuse("does not turn", "motion.angular_velocity=0")
         self.refuse("is a table", "motion.speed=[[0, 10], [1, 11]]")
         self.refuse("needs flat ground", "ground.profile=[[0, 0], [1, 0.1]]")

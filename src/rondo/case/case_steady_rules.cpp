@@ -72,9 +72,11 @@ void check_traction(CaseValues& in, const Case& c) {
   const double most = c.ground->friction * *a.load;
   if (!(std::abs(*a.traction) < most))
     in.fault("analysis.traction", "the whole contact would slide, and no speed follows from that",
-             fmt::format("> {0:.6g} and < {1:.6g}, ground.friction times analysis.load; or "
-                         "motion.speed instead",
-                         -most, most));
+             most > 0.0 ? fmt::format("> {0:.6g} and < {1:.6g}, ground.friction times "
+                                      "analysis.load; or motion.speed instead",
+                                      -most, most)
+                        : std::string("motion.speed instead, as no traction tells it without "
+                                      "friction; or ground.friction above 0"));
 }
 
 void check_samples(CaseValues& in, Case& c) {

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <string_view>
 
 namespace rondo::study {
 namespace {
@@ -13,6 +14,8 @@ namespace {
 using contact::Status;
 using Eigen::Index;
 
+constexpr std::string_view without_friction =
+    "motion.speed instead, as no traction tells it without friction; or ground.friction above 0";
 constexpr Vec2 normal{0.0, 1.0};  ///< a contact frame's vector times it is along the fixed axes
 
 int wrapped(int value, int count) noexcept {
@@ -90,21 +93,14 @@ void SteadyState::refuse() const {
                     "m above the ground",
                     radius));
   }
-  if (solution_.end == statics::RollingEnd::sliding) {
-    const double most = drive_.friction * solution_.forces.y;
+  if (solution_.end == statics::RollingEnd::sliding)
     throw case_error(
         case_, a.torque ? "analysis.torque" : "analysis.traction",
         "the whole contact slides, and no speed follows from it: friction bears no more",
-        drive_.friction == 0.0
-            ? "motion.speed instead, as without friction none hangs on the traction; or "
-              "ground.friction above 0"
-            : fmt::format(
-                  "{} between some -{:.4g} and {:.4g} {}, ground.friction times the load{}; "
-                  "or motion.speed instead",
-                  a.torque ? "a torque" : "a traction", a.torque ? most * solution_.height : most,
-                  a.torque ? most * solution_.height : most, a.torque ? "N" : "N/m",
-                  a.torque ? " and the height" : ""));
-  }
+        drive_.friction == 0.0 ? std::string(without_friction)
+                               : fmt::format("nearer to 0, below ground.friction = {:.6g} times "
+                                             "the load{}; or motion.speed instead",
+                                             drive_.friction, a.torque ? " times the height" : ""));
   if (solution_.end == statics::RollingEnd::solved && solution_.height <= case_.disk.inner_radius)
     throw case_error(case_, a.load ? "analysis.load" : "motion.height",
                      fmt::format("the ground is within the rim: the center is {:.6g} m above it",
