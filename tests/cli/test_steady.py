@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """rondo run on steady rolling: forces, what is given and given back, files, sweeps, wrong input."""
+import json
 import unittest
 
 import h5py
@@ -200,6 +201,15 @@ class Steady(RunTest):
             s = summary(alone)["steady"]
             self.assertEqual((row["force_x"], row["force_y"], row["torque"], row["rolling_resistance"]),
                              (s["force_x"], s["force_y"], s["torque"], s["rolling_resistance"]))
+
+    def test_threads_change_no_bit(self):
+        results = []
+        for threads in (1, 2, 3):
+            self.assert_done(run("run", self.case(SMALL), "-o", self.out, "--overwrite", "--threads", threads))
+            with h5py.File(self.out / "results.h5") as f:
+                results.append((json.dumps(summary(self.out)["steady"]), f["snapshots/displacement"][()].tobytes()))
+        self.assertEqual(results[1], results[0])
+        self.assertEqual(results[2], results[0])
 
     def test_a_sweep_writes_runs_only_with_their_snapshots(self):
         self.case(SMALL, "small.toml")
