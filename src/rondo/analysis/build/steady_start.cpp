@@ -7,6 +7,7 @@
 
 #include "rondo/case/case_rules.hpp"
 #include "rondo/model/pressure.hpp"
+#include "rondo/statics/steady/rolling_newton.hpp"
 #include "rondo/statics/steady/rolling_power.hpp"
 
 namespace rondo::study {
@@ -16,7 +17,6 @@ using statics::RollingHarmonics;
 
 /// Of a column's pass: as rough as a run, whose nodes come down one by one.
 constexpr int samples_of_a_column = 4;
-constexpr double bound = 1e-9;  ///< of the law's residual
 
 /// At t = 0, counter-clockwise.
 double spin_of(const dynamics::Model& m) {
@@ -57,7 +57,8 @@ void refuse(const Case& c, const statics::RollingSolution& found, double height)
     throw case_error(c, "initial.state",
                      fmt::format("no steady rolling was found to start in: residual {:.3g}, bound "
                                  "{:.0e}, after {} Newton steps and {} pivots",
-                                 found.residual, bound, found.newton_steps, found.pivots),
+                                 found.residual, statics::rolling_residual_bound,
+                                 found.newton_steps, found.pivots),
                      "a smaller ground.friction, another motion.height; or \"stationary\" and a "
                      "run long enough to settle");
 }

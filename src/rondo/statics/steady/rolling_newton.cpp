@@ -207,6 +207,8 @@ void find_drive(const RollingProblem& problem, const RollingDrive& drive, Rollin
         return;
       }
       step = miss.change.fullPivLu().solve(miss.left);
+    } else if (step.isZero(0.0)) {
+      break;  // nothing to halve: the same trial would end the same
     } else {
       at -= step;
       step *= 0.5;
