@@ -33,9 +33,10 @@ struct MeshCase {
   std::string contact;         ///< physical curve of candidates; empty: none
 };
 
-/// Material of a physical surface, where it differs from [material].
+/// Material of a part of the body, where it differs from [material].
 struct MaterialRegion {
-  std::string surface;
+  std::string surface;      ///< of a mesh: physical surface
+  std::vector<int> layers;  ///< of a disk: layers of elements, 1 at the rim
   fem::Material material;
 };
 
@@ -108,6 +109,13 @@ struct Initial {
 
 using dynamics::Scheme;
 
+/// Some of the elements of a body, by one of three.
+struct ElementChoice {
+  std::optional<double> slower_than;  ///< elements whose own critical step is below this [s]
+  std::vector<int> layers;            ///< of a disk: layers of elements, 1 at the rim
+  std::string region;                 ///< physical surface of a mesh
+};
+
 struct Time {
   double end = 0.0;            ///< > 0 [s]
   double safety = 0.8;         ///< step / critical step, 0 < safety <= 1
@@ -154,6 +162,7 @@ struct Case {
   AnalysisCase analysis;
   Time time;
   std::string solver_operator = "auto";  ///< "auto" | "cyclic" | "sparse"
+  std::vector<ElementChoice> implicit;   ///< elements that are implicit in the explicit step
   int contact_iterations = 10000;        ///< most that a coupled contact problem may take
   int dump_contacts = 0;  ///< contact problems that took more iterations are kept as files; 0: none
   Output output;

@@ -34,6 +34,12 @@ constexpr Allowed with(Allowed allowed, std::string_view also) {
   return allowed;
 }
 
+bool has_mesh(const Case& c) {
+  return c.mesh.has_value();
+}
+bool has_no_mesh(const Case& c) {
+  return !c.mesh;
+}
 bool is_smooth(const Case& c) {
   return !c.disk.tread;
 }
@@ -148,8 +154,11 @@ constexpr CaseKey keys[] = {
      "the body, so that it does not soften as it spins. \"none\": small strain alone, as "
      "published"},
 
-    {"material.region[].surface", "-", FIELD(regions[k].surface), any, required,
-     "physical surface of the mesh"},
+    {"material.region[].surface", "-", FIELD(regions[k].surface), any,
+     required.if_(has_mesh, "required with a [mesh]"), "physical surface of the mesh"},
+    {"material.region[].layers", "-", FIELD(regions[k].layers), between(1, 200000),
+     optional.if_(has_no_mesh, "required with a [disk]"),
+     "layers of elements of the disk, 1 at the rim; those of a tread count on"},
     {"material.region[].youngs_modulus", "Pa", FIELD(regions[k].material.youngs_modulus), positive,
      optional.said("that of [material]"), "its Young's modulus"},
     {"material.region[].poissons_ratio", "-", FIELD(regions[k].material.poissons_ratio), poisson,
@@ -356,6 +365,15 @@ constexpr CaseKey keys[] = {
      optional.of(in_time).body(never),
      "such problems that took more iterations than this are kept as files in `contact-problems/` "
      "of the results directory, for those who improve the solver; 0: none"},
+
+    {"solver.implicit[].slower_than", "s", FIELD(implicit[k].slower_than), positive,
+     optional.said("none"),
+     "elements whose own critical step is below this are implicit in the explicit step. One of "
+     "slower_than, layers and region chooses the elements of a table; several tables add up"},
+    {"solver.implicit[].layers", "-", FIELD(implicit[k].layers), between(1, 200000),
+     optional.said("none"), "these layers of elements of a `[disk]`, 1 at the rim"},
+    {"solver.implicit[].region", "-", FIELD(implicit[k].region), any, optional.said("none"),
+     "the elements of this physical surface of a `[mesh]`"},
 
     {"output.history_interval", "s", FIELD(output.history_interval), not_negative,
      optional.of(in_time).body(never),

@@ -34,6 +34,7 @@ constexpr Words words[] = {
      "\"flat\", [[x, y], ...] from left to right, or the name of a CSV file with columns x, y"},
     {"array of 2 floats", "[x, y], finite numbers"},
     {"array of 2 arrays of 2 floats", "[[a, b], [c, d]], finite numbers"},
+    {"array of integers", ""},
 };
 
 const Words& words_of(KeyType type) {
@@ -114,6 +115,7 @@ struct TypeOf {
   KeyType operator()(const Matrix* /*value*/) const { return matrix; }
   KeyType operator()(const dynamics::Table* /*value*/) const { return history; }
   KeyType operator()(const std::vector<Vec2>* /*value*/) const { return profile; }
+  KeyType operator()(const std::vector<int>* /*value*/) const { return integers; }
 };
 
 }  // namespace
@@ -235,6 +237,8 @@ std::string allowed_text(const CaseKey& key) {
   const std::string range = range_text(key.allowed.range, type == integer);
   if (type == history && key.allowed.range.is_bounded())
     return fmt::format("{}; values {}", words_of(type).allowed, range);
+  if (type == integers)
+    return fmt::format("[i, ...], each {}", range_text(key.allowed.range, true));
   if (type != integer && type != number) return std::string(words_of(type).allowed);
   if (also.empty()) return range;
   return range + (also.starts_with("<") ? " and " : "; ") + std::string(also);

@@ -29,7 +29,8 @@ enum class KeyType {
   history,
   profile,
   vector,
-  matrix
+  matrix,
+  integers
 };
 
 /// An enum or a bool, by the index of its value among the choices of its key.
@@ -54,9 +55,9 @@ struct ChoiceList {
 using Matrix = std::array<std::array<double, 2>, 2>;
 
 /// Where in a case the value of a key is.
-using Field =
-    std::variant<int*, double*, std::optional<double>*, bool*, std::string*, std::filesystem::path*,
-                 Choice, ChoiceList, Vec2*, Matrix*, dynamics::Table*, std::vector<Vec2>*>;
+using Field = std::variant<int*, double*, std::optional<double>*, bool*, std::string*,
+                           std::filesystem::path*, Choice, ChoiceList, Vec2*, Matrix*,
+                           dynamics::Table*, std::vector<Vec2>*, std::vector<int>*>;
 
 template <class T>
 Field field_of(T& target) {

@@ -73,14 +73,43 @@ void warn_of_locking(const std::string& key, const fem::Material& material, Case
                   key, material.poissons_ratio));
 }
 
+/// A part of a disk goes by its layers, one of a mesh by its surface. @param table that names it
+void check_part(CaseValues& in, const Case& c, const std::string& table) {
+  for (const char* key : {"surface", "region"})
+    if (!c.mesh && in.has(fmt::format("{}.{}", table, key)))
+      in.fault(fmt::format("{}.{}", table, key), "a [disk] has no physical surfaces",
+               fmt::format("{}.layers, or a [mesh]", table));
+  const std::string layers = table + ".layers";
+  if (c.mesh && in.has(layers))
+    in.fault(layers, "a [mesh] has no layers",
+             "its surface by name; " + mesh::physical_group_line("Surface", "tread"));
+}
+
+/// Each table chooses by one key.
+void check_implicit(CaseValues& in, const Case& c) {
+  for (std::size_t k = 0; k < c.implicit.size(); ++k) {
+    const std::string table = item_of("solver.implicit", k);
+    check_part(in, c, table);
+    int given = 0;
+    for (const char* key : {"slower_than", "layers", "region"})
+      given += in.has(fmt::format("{}.{}", table, key)) ? 1 : 0;
+    if (given != 1)
+      in.fault(table, given == 0 ? "chooses no elements" : "chooses elements by more than one key",
+               "one of slower_than, layers and region; several tables add up");
+  }
+}
+
 void check_material(CaseValues& in, Case& c) {
   if (c.stress_stiffening == StressStiffening::centrifugal && !is_held(c))
     in.fault("material.stress_stiffening",
              "nothing turns a free body: there is no spin whose stress could be taken", "\"none\"");
-  if (!c.mesh && !c.regions.empty())
-    in.fault("material.region[0]", "a [disk] is of one material",
-             "a [mesh] with physical surfaces, " + mesh::physical_group_line("Surface", "tread"));
-  check_names(in, "material.region[].surface", c);
+  for (std::size_t k = 0; k < c.regions.size(); ++k) {
+    const std::string table = item_of("material.region", k);
+    check_part(in, c, table);
+    if (!c.mesh && !in.has(table + ".layers") && !in.has(table + ".surface"))
+      in.missing(table + ".layers");
+  }
+  if (c.mesh) check_names(in, "material.region[].surface", c);
   warn_of_locking("material.poissons_ratio", c.material, c);
   for (std::size_t k = 0; k < c.regions.size(); ++k)
     if (c.regions[k].material.poissons_ratio != c.material.poissons_ratio)
@@ -242,6 +271,7 @@ void check_case(CaseValues& in, Case& c) {
   check_initial(in, c);
   check_time(in, c);
   check_operator(in, c);
+  check_implicit(in, c);
   check_output(in, c);
 }
 

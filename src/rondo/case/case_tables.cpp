@@ -32,7 +32,7 @@ constexpr CaseTable tables[] = {
     {"material", one, nullptr},
     {"material.region[]", [](const Case& c) { return c.regions.size(); },
      [](Case& c, std::size_t n) {
-       c.regions.resize(n, {{}, c.material});
+       c.regions.resize(n, {{}, {}, c.material});
      }},
     {"damping", one, nullptr, in_motion},
     {"motion", one, nullptr, in_motion},
@@ -53,6 +53,8 @@ constexpr CaseTable tables[] = {
     {"analysis", one, nullptr},
     {"time", one, nullptr, in_time},
     {"solver", one, nullptr},
+    {"solver.implicit[]", [](const Case& c) { return c.implicit.size(); },
+     [](Case& c, std::size_t n) { c.implicit.resize(n); }, in_time_untold},
     {"output", one, nullptr},
     {"output.probe[]", [](const Case& c) { return c.output.probes.size(); },
      [](Case& c, std::size_t n) { c.output.probes.resize(n); }, in_time},

@@ -301,6 +301,21 @@ void CaseValues::take_points(const Reading& in, dynamics::Table& target) {
   if (!points.empty() && n_bad == 0) target = dynamics::Table(std::move(points));
 }
 
+/// Each once, ascending.
+void CaseValues::take(const Reading& in, std::vector<int>& target) {
+  if (in.value.type != ValueType::array) return wrong_type(in, in.value, "an array of integers");
+  if (in.value.items.empty()) return bad(in, in.value, "must have at least one item");
+  target.clear();
+  for (const CaseValue& item : in.value.items) {
+    int number = 0;
+    take({in.key, in.path, item}, number);
+    if (number != 0 && std::find(target.begin(), target.end(), number) != target.end())
+      bad(in, item, "stands there twice");
+    target.push_back(number);
+  }
+  std::sort(target.begin(), target.end());
+}
+
 /// Relative to the case file, as the mesh; also where --set names it.
 void CaseValues::take_profile_file(const Reading& in, std::vector<Vec2>& target) {
   const auto folder = std::filesystem::path(source_.sources[0].name).parent_path();

@@ -57,17 +57,29 @@ struct ValueText {
       return toml_number(points[0][1]);
     return pairs_text(points, [](const auto& p) { return pair_text(p[0], p[1]); });
   }
+  std::string operator()(const std::vector<int>* value) const {
+    return fmt::format("[{}]", fmt::join(*value, ", "));
+  }
   std::string operator()(const std::vector<Vec2>* value) const {
     if (*value == contact::GroundShape{}.profile) return "\"flat\"";
     return pairs_text(*value, [](Vec2 p) { return pair_text(p.x, p.y); });
   }
 };
 
+/// One of several keys of a table in a list, of which another one is given.
+bool is_left_out(const Field& field) {
+  if (const auto* number = std::get_if<std::optional<double>*>(&field)) return !**number;
+  if (const auto* numbers = std::get_if<std::vector<int>*>(&field)) return (*numbers)->empty();
+  const auto* text = std::get_if<std::string*>(&field);
+  return text && (*text)->empty();
+}
+
 /// The keys of the k-th table of its kind that say something in this case, a line each.
 std::string lines_of(const CaseTable& table, std::size_t k, Case& c) {
   std::string lines;
   for (const CaseKey& key : keys_of(table))
-    if ((means_to(key, c.analysis.kind) || key.use.analyses.written) && key.use.when(c))
+    if ((means_to(key, c.analysis.kind) || key.use.analyses.written) && key.use.when(c) &&
+        !(table.is_list() && is_left_out(key.field(c, k))))
       lines += fmt::format("{} = {}\n", leaf_of(key.path), value_text(key, key.field(c, k)));
   return lines;
 }

@@ -9,6 +9,7 @@
 #include <system_error>
 
 #include "rondo/analysis/build/memory.hpp"
+#include "rondo/analysis/build/parts.hpp"
 #include "rondo/case/case_keys.hpp"
 #include "rondo/core/contract.hpp"
 #include "rondo/mesh/gmsh_reader.hpp"
@@ -58,7 +59,7 @@ std::vector<NameKey> curve_keys(const Case& c) {
 
 std::vector<NameKey> surface_keys(const Case& c) {
   std::vector<NameKey> keys;
-  for (std::size_t k = 0; k < c.regions.size(); ++k)
+  for (std::size_t k = 0; c.mesh && k < c.regions.size(); ++k)
     keys.push_back({item_of("material.region", k) + ".surface", c.regions[k].surface});
   for (std::size_t k = 0; k < c.initial.regions.size(); ++k)
     keys.push_back({item_of("initial.region", k) + ".surface", c.initial.regions[k].surface});
@@ -185,6 +186,7 @@ mesh::Mesh build_mesh(const Case& c, std::vector<std::string>* warnings) {
   const std::vector<double> size = element_sizes(mesh);
   if (!c.mesh) refuse_flat_elements(c, size);
   refuse_sizes_out_of_range(c, size);
+  if (!c.mesh) set_disk_regions(c, mesh);
   if (!c.mesh && c.free_rim) mesh.clamped.clear();
   if (warnings) warn_of_locking_triangles(c, mesh, *warnings);
   return mesh;
@@ -195,7 +197,7 @@ std::vector<fem::Material> materials_of(const Case& c, const mesh::Mesh& mesh) {
                                        c.material);
   const auto keys = surface_keys(c);
   for (std::size_t k = 0; k < c.regions.size(); ++k)
-    materials[at(region_of(c, mesh, keys[k]))] = c.regions[k].material;
+    materials[c.mesh ? at(region_of(c, mesh, keys[k])) : k + 1] = c.regions[k].material;
   return materials;
 }
 
@@ -245,7 +247,7 @@ std::vector<RigidMotion> motions_of(const Case& c, const mesh::Mesh& mesh,
   std::vector<int> given(motions.size(), -1);  // place in initial.regions
   const auto keys = surface_keys(c);
   for (std::size_t k = 0; k < initial.regions.size(); ++k) {
-    const NameKey& key = keys[c.regions.size() + k];
+    const NameKey& key = keys[(c.mesh ? c.regions.size() : 0) + k];
     const int region = region_of(c, mesh, key);
     bool moves = false;
     for (std::size_t e = 0; e < mesh.cells.size(); ++e) {

@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "rondo/analysis/build/build.hpp"
+#include "rondo/analysis/build/parts.hpp"
 #include "rondo/mesh/locate.hpp"
 
 namespace rondo::study {
@@ -14,48 +15,6 @@ namespace {
 
 std::size_t at(int index) noexcept {
   return static_cast<std::size_t>(index);
-}
-
-/// Parts of the body: number of each cell's, and what it is called.
-struct Parts {
-  std::vector<int> of_cell;
-  std::vector<std::string> names;
-  std::string kind;  ///< what each is
-};
-
-/// Layers of a generated disk, by the radii of their nodes.
-Parts layers_of(const mesh::Mesh& mesh, Vec2 center) {
-  std::vector<double> radii;
-  for (const Vec2 x : mesh.coordinates) radii.push_back(norm(x - center));
-  std::sort(radii.begin(), radii.end());
-  const double same = 1e-9 * radii.back();
-  radii.erase(
-      std::unique(radii.begin(), radii.end(), [&](double a, double b) { return b - a < same; }),
-      radii.end());
-  Parts parts{{}, {}, "layer"};
-  for (std::size_t k = 1; k < radii.size(); ++k)
-    parts.names.push_back(fmt::format("layer {} of {} from the rim, r = {:.6g} to {:.6g} m", k,
-                                      radii.size() - 1, radii[k - 1], radii[k]));
-  for (const mesh::Cell& cell : mesh.cells) {
-    double inner = radii.back();  // of its corners: the middle of a wide cell is further in
-    for (const int node : cell) inner = std::min(inner, norm(mesh.coordinates[at(node)] - center));
-    const auto outer = std::upper_bound(radii.begin(), radii.end(), inner + same);
-    parts.of_cell.push_back(static_cast<int>(outer - radii.begin()) - 1);
-  }
-  return parts;
-}
-
-Parts parts_of(const Case& c, const Setup& s) {
-  if (!c.mesh)
-    return layers_of(s.mesh,
-                     s.model.free_bodies.empty() ? Vec2{} : s.model.free_bodies.front().center);
-  if (s.mesh.region.empty())
-    return {std::vector<int>(s.mesh.cells.size(), 0), {"the body"}, "body"};
-  Parts parts{s.mesh.region, {}, "surface"};
-  for (const std::string& name : s.mesh.region_names)
-    parts.names.push_back(name.empty() ? "no physical surface"
-                                       : fmt::format("surface \"{}\"", name));
-  return parts;
 }
 
 }  // namespace
