@@ -20,9 +20,11 @@ ALLOWED = {
     "contact/coupled": {"core", "contact"},
     "model/stability": {"core", "mesh", "fem"},
     "model": SOLIDS,
-    "integrators/general": SOLIDS | {"model"},
-    "integrators/fused": SOLIDS | {"model", "integrators/general"},
-    "integrators": SOLIDS | {"model", "integrators/general", "integrators/fused"},
+    "integrators/implicit": SOLIDS | {"model"},
+    "integrators/general": SOLIDS | {"model", "integrators/implicit"},
+    "integrators/fused": SOLIDS | {"model", "integrators/implicit", "integrators/general"},
+    "integrators": SOLIDS | {"model", "integrators/implicit", "integrators/general",
+                             "integrators/fused"},
     "statics": SOLIDS,
     "statics/steady": SOLIDS | {"statics"},
     "modal": {"core", "mesh", "fem"},
@@ -34,7 +36,9 @@ ALLOWED = {
 ALLOWED["io"] = set(ALLOWED) - {"case"}
 STEPS = {"model", "integrators", "integrators/fused"}
 ALLOWED["output"] = SOLIDS | STEPS | {"case", "io"}
-ALLOWED["analysis/build"] = SOLIDS | STEPS | {"statics", "statics/steady", "case", "output"}
+ALLOWED["analysis/elements"] = SOLIDS | {"model", "case"}
+ALLOWED["analysis/build"] = SOLIDS | STEPS | {"statics", "statics/steady", "case", "output",
+                                              "analysis/elements"}
 ALLOWED["analysis/figures"] = {"core", "io", "output"}
 ALLOWED["analysis/base"] = SOLIDS | {"model", "case", "io", "output"}
 ALLOWED["analysis/steady"] = (ALLOWED["analysis/build"] | ALLOWED["analysis/base"] |

@@ -136,6 +136,10 @@ void DynamicAnalysis::describe(Json& j) const {
   j["operator"] = operator_name(setup_.model.stiffness_operator);
   j["threads"] = setup_.model.threads;
   j["critical_step"] = setup_.critical.step;
+  if (setup_.model.implicit) {
+    j["critical_step_plain"] = setup_.critical_plain;
+    j["implicit_dofs"] = 2 * setup_.model.implicit->nodes.size();
+  }
   j["largest_frequency"] = setup_.critical.omega;
   j["step"] = setup_.model.dt;
   j["steps"] = setup_.n_steps;

@@ -157,12 +157,18 @@ Vec2 solve_contacts(const ContactStep& s, const ContactNode& node, const contact
   }
   solve(s, s.turn / (node.mass * s.a), contacts, report);
   const Vec2 after = corrected_velocity(s, node, drive, contacts);
+  report_contacts(s, node, after, contacts, report);
+  return after;
+}
+
+void report_contacts(const ContactStep& s, const ContactNode& node, Vec2 after,
+                     std::span<ActiveContact> contacts, ContactReport& report) noexcept {
+  const Vec2 drive = drive_of(s, node.arm);
   for (ActiveContact& c : contacts) {
     c.after = to_frame(c.normal, drive + s.rotation_next * after);
     add_works(s, node, after, c, report);
   }
   report_node(s, node, contacts, report);
-  return after;
 }
 
 }  // namespace rondo::dynamics

@@ -90,4 +90,10 @@ struct ContactNode {
                                   std::span<ActiveContact> contacts,
                                   ContactReport& report) noexcept;
 
+/// What came of the impulses of a node's contacts, solved by whomever: their velocities w⁺, their
+/// works and the rest of the report. @param node its mass is the scale of the residual
+/// @param after v_{n+3/2}, turning frame
+void report_contacts(const ContactStep& step, const ContactNode& node, Vec2 after,
+                     std::span<ActiveContact> contacts, ContactReport& report) noexcept;
+
 }  // namespace rondo::dynamics

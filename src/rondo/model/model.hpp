@@ -69,6 +69,12 @@ inline const char* operator_name(StiffnessOperator which) noexcept {
   return which == StiffnessOperator::cyclic ? "cyclic" : "sparse";
 }
 
+/// Elements that are implicit in the explicit step (docs/theory.md, 3.9).
+struct ImplicitPart {
+  fem::BlockCsr stiffness;  ///< K_I: theirs alone, on all nodes                       [N/m²]
+  std::vector<int> nodes;   ///< their free nodes, ascending
+};
+
 class InternalForce;
 struct Model;
 struct Pose;
@@ -84,6 +90,7 @@ struct Model {
   fem::BlockCsr stiffness;                     ///< K on the free nodes, or empty [N/m²]
   InternalForceMaker internal_force;           ///< of another material than K's; empty: of K
   std::optional<fem::SectorStiffness> sector;  ///< K of one sector; absent: not cyclic
+  std::optional<ImplicitPart> implicit;        ///< absent: all elements are explicit
   StiffnessOperator stiffness_operator = StiffnessOperator::sparse;
   double mass_damping = 0.0;       ///< α                            [1/s]
   double stiffness_damping = 0.0;  ///< β                            [s]

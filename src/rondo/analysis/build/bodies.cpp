@@ -9,7 +9,7 @@
 #include <system_error>
 
 #include "rondo/analysis/build/memory.hpp"
-#include "rondo/analysis/build/parts.hpp"
+#include "rondo/analysis/elements/parts.hpp"
 #include "rondo/case/case_keys.hpp"
 #include "rondo/core/contract.hpp"
 #include "rondo/mesh/gmsh_reader.hpp"

@@ -13,6 +13,7 @@
 #include "rondo/analysis/build/physical.hpp"
 #include "rondo/analysis/build/rim.hpp"
 #include "rondo/analysis/build/stability.hpp"
+#include "rondo/analysis/elements/implicit.hpp"
 #include "rondo/case/case_keys.hpp"
 #include "rondo/integrators/fused/batch_integrator.hpp"
 #include "rondo/statics/stationary_spin.hpp"
@@ -140,6 +141,13 @@ void choose_threads(Setup& s, int asked) {
 }
 
 double choose_step(const Case& c, const dynamics::CriticalStep& critical) {
+  if (std::isinf(critical.step)) {  // nothing is explicit
+    if (c.time.step) return *c.time.step;
+    throw case_error(
+        c, "time.step",
+        "all elements are implicit: every step is stable, and none is chosen by itself",
+        "time.step, a tenth of the shortest period that counts or less");
+  }
   if (!(critical.omega > 0.0) || !std::isfinite(critical.omega) || !(critical.step > 0.0))
     throw case_error(c, "material.youngs_modulus",
                      fmt::format("with this density and mesh the largest frequency is {} rad/s, "
@@ -168,10 +176,13 @@ dynamics::CriticalStep body_step(const Setup& s, dynamics::LaggedDamping damping
                                  m.threads);
 }
 
-dynamics::CriticalStep find_critical_step(const Case& c, const Setup& s) {
+/// With implicit elements, of the others.
+dynamics::CriticalStep find_critical_step(const Case& c, Setup& s) {
   const bool lagged = c.time.scheme == Scheme::as_printed || c.rim;
   const dynamics::LaggedDamping damping{c.damping.stiffness, lagged ? c.damping.mass : 0.0};
   const dynamics::CriticalStep held = body_step(s, damping);
+  s.critical_plain = held.step;
+  if (s.model.implicit) return explicit_part_step(s, damping);
   return s.model.rim ? step_with_rim(s.model, held, damping) : held;
 }
 
@@ -234,6 +245,7 @@ void make_body(const Case& c, int threads, Setup& s) {
   make_model(c, s);
   s.dilatation = fem::NodalDilatation(s.mesh, s.materials);
   add_stress_stiffening(c, s);
+  add_implicit(c, s);
   choose_threads(s, threads);
   s.critical = find_critical_step(c, s);
 }

@@ -7,7 +7,7 @@
 #include <cmath>
 
 #include "rondo/analysis/build/build.hpp"
-#include "rondo/analysis/build/parts.hpp"
+#include "rondo/analysis/elements/parts.hpp"
 #include "rondo/mesh/locate.hpp"
 
 namespace rondo::study {
@@ -27,8 +27,10 @@ StepLimit find_step_limit(const Case& c, const Setup& s) {
                                             {c.damping.stiffness, lagged ? c.damping.mass : 0.0})
                : 0.0;
   };
-  const std::vector<double> values =
+  std::vector<double> values =
       fem::element_eigenvalues(s.mesh, s.materials, s.prestress, s.mesh.n_sectors > 0);
+  for (std::size_t e = 0; e < s.implicit_cells.size(); ++e)
+    if (s.implicit_cells[e]) values[e] = 0.0;
   const Parts parts = parts_of(c, s);
   const auto worst = std::max_element(values.begin(), values.end());
   StepLimit limit;

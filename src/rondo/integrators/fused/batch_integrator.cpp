@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "rondo/core/contract.hpp"
 #include "rondo/integrators/fused/cyclic_plan.hpp"
@@ -24,6 +25,10 @@ void sort_by_candidate(std::vector<ActiveContact>& active) noexcept {
         at, at + 1);
 }
 
+bool wants_tail(const Model& model) noexcept {
+  return model.implicit.has_value();
+}
+
 constexpr std::size_t steps_at_once = 64;
 /// Steps between two looks for sharp corners: few enough that a node comes no farther in them than
 /// is looked around it, many enough that looking costs little.
@@ -34,7 +39,7 @@ constexpr std::size_t steps_between_looks = 16;
 BatchIntegrator::BatchIntegrator(const Model& model, const State& start, std::size_t n_parts,
                                  std::size_t n_pieces)
     : model_(model),
-      n_parts_(n_parts + (has_sharp_corners(model) ? 1 : 0)),
+      n_parts_(n_parts + (has_sharp_corners(model) ? 1 : 0) + (wants_tail(model) ? 1 : 0)),
       step_(start.step),
       threads_(std::min(model.threads, static_cast<int>(n_pieces))),
       steps_(has_sharp_corners(model) ? steps_between_looks : steps_at_once),
@@ -53,6 +58,7 @@ void BatchIntegrator::set_step(std::size_t i) noexcept {
   for (std::size_t l = 0; l < model_.pressures.size(); ++l)
     pressures[l] = model_.pressures[l].pressure.at(steps_[i].frame.time);
   steps_[i].pressures = pressures;
+  if (tail_) steps_[i].held = tail_->held();
 }
 
 void BatchIntegrator::look_for_corners(std::span<StepContext> steps) noexcept {
@@ -103,20 +109,38 @@ bool BatchIntegrator::hold_within(std::span<const int>) noexcept {
   return false;
 }
 
-/// Where corners are near, step by step: what they hold is found before a step and solved after it.
+void BatchIntegrator::set_tail(std::unique_ptr<StepTail> tail) {
+  RONDO_DEMAND(wants_tail(model_) && !model_.rim);
+  tail_ = std::move(tail);
+}
+
+/// Where corners are near, or there is a tail, step by step.
 void BatchIntegrator::make_batch(const Batch& batch, Share share) noexcept {
-  if (!corners_ || !corners_->any_near() || within_) return make_steps(batch, share);
-  for (std::size_t i = 0; i < batch.steps.size(); ++i) {
-    const StepContext& step = batch.steps[i];
-    PartialStep* parts = batch.parts + i * n_parts_;
-    const long long before = batch.first + static_cast<long long>(i);
-    if (share.thread == 0) corners_->find(step, *this);
-    wait_for_others(share);
-    make_steps({batch.steps.subspan(i, 1), parts, before}, share);
-    if (share.thread > 0) continue;
-    step_ = before + 1;  // the others do not look at it
-    corners_->solve(step, *this, parts[n_parts_ - 1]);
+  if (!tail_ && (!corners_ || !corners_->any_near() || within_)) return make_steps(batch, share);
+  for (std::size_t i = 0; i < batch.steps.size(); ++i)
+    make_alone({batch.steps.subspan(i, 1), batch.parts + i * n_parts_,
+                batch.first + static_cast<long long>(i)},
+               share);
+}
+
+/// A step of its own: what corners hold is found before it and solved after it, as is the tail.
+void BatchIntegrator::make_alone(const Batch& batch, Share share) noexcept {
+  const StepContext& step = batch.steps.front();
+  const bool corners = corners_ && corners_->any_near() && !within_;
+  if (share.thread == 0) {
+    if (corners) corners_->find(step, *this);
+    if (tail_) tail_->before();
   }
+  wait_for_others(share);
+  make_steps(batch, share);
+  if (share.thread == 0) {
+    step_ = batch.first + 1;  // the others do not look at it
+    if (tail_) tail_->after(step, part_of_tail(batch.parts));
+    if (corners) corners_->solve(step, *this, batch.parts[n_parts_ - 1]);
+  }
+  if (!tail_) return;
+  wait_for_others(share);
+  show_changes(share);
 }
 
 /// Frames of the steps to come if the rim went on as it does: where corners are looked for.
@@ -206,6 +230,7 @@ void BatchIntegrator::advance(std::span<StepReport> reports, State* last) noexce
   last->active.clear();
   save_active(last->active);
   if (corners_) corners_->save_active(last->active);
+  if (tail_) tail_->save_active(last->active);
   sort_by_candidate(last->active);
   last->step = step_;
   last->frame = reports.back().frame;
@@ -228,6 +253,7 @@ SavedState BatchIntegrator::save() const {
   }
   save_fields(saved);
   if (corners_) saved.impulses = corners_->impulses();
+  if (tail_) tail_->save(saved);
   saved.ledger = ledger_.save();
   return saved;
 }
@@ -239,6 +265,7 @@ void BatchIntegrator::restore(const SavedState& saved) {
   if (rim_) rim_->restore(saved.step, saved.rim);
   restore_fields(saved);
   if (corners_) corners_->set_impulses(saved.impulses);
+  if (tail_) tail_->restore(saved);
   ledger_.restore(saved.ledger);
 }
 

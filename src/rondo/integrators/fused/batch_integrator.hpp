@@ -2,6 +2,7 @@
 /// @file  What both operators share: the steps of a call in batches, which the threads make without
 /// coming back in between; the ledger of them.
 #pragma once
+#include <memory>
 #include <optional>
 #include <span>
 #include <vector>
@@ -9,6 +10,7 @@
 #include "rondo/core/barrier.hpp"
 #include "rondo/integrators/fused/corner_contact.hpp"
 #include "rondo/integrators/fused/step_context.hpp"
+#include "rondo/integrators/fused/tail/step_tail.hpp"
 #include "rondo/integrators/fused/wheel_sums.hpp"
 #include "rondo/model/integrator.hpp"
 
@@ -46,6 +48,8 @@ class BatchIntegrator : public Integrator, public Resumable, protected Candidate
 
   /// A thread's share of a batch; all threads are in it at the same time.
   virtual void make_steps(const Batch& batch, Share share) noexcept = 0;
+  /// After a step and its tail: what others read of this share's fields.
+  virtual void show_changes(Share /*share*/) noexcept {}
   /// On a loaded rim, after make_steps() of one step: a thread's share of u_{n+2}.
   /// @param step number of the last step made before
   virtual void go_on(const kernels::WheelWay& way, long long step, Share share) noexcept = 0;
@@ -65,13 +69,17 @@ class BatchIntegrator : public Integrator, public Resumable, protected Candidate
   virtual bool hold_within(std::span<const int> candidates) noexcept;
   [[nodiscard]] CornerContact* corners_within() noexcept { return within_ ? &*corners_ : nullptr; }
 
+  /// In the constructor, where the model has such a tail.
+  void set_tail(std::unique_ptr<StepTail> tail);
+
   /// In make_steps(): until all threads are here.
   void wait_for_others(Share share) noexcept {
     if (share.n_threads > 1) barrier_.wait(static_cast<unsigned>(share.n_threads));
   }
 
   const Model& model_;
-  const std::size_t n_parts_;  ///< the last one is of CornerContact, if there are sharp corners
+  const std::size_t n_parts_;  ///< the last one is of CornerContact, if there are sharp corners,
+                               ///< the one before it, or the last, of the tail if there is one
   long long step_;             ///< number of the last step made
 
  private:
@@ -81,6 +89,10 @@ class BatchIntegrator : public Integrator, public Resumable, protected Candidate
   template <class Work>
   void in_all_threads(Work&& work) noexcept;
   void make_batch(const Batch& batch, Share share) noexcept;
+  void make_alone(const Batch& batch, Share share) noexcept;
+  [[nodiscard]] PartialStep& part_of_tail(PartialStep* parts) const noexcept {
+    return parts[n_parts_ - (corners_ ? 2 : 1)];
+  }
   // On a loaded rim:
   void advance_on_rim(std::span<StepReport> reports) noexcept;
   void expect_steps(std::size_t n) noexcept;
@@ -94,6 +106,7 @@ class BatchIntegrator : public Integrator, public Resumable, protected Candidate
   std::vector<PartialStep> parts_;  ///< (steps of a batch, n_parts_)
   std::optional<CornerContact> corners_;
   std::optional<LoadedRim> rim_;
+  std::unique_ptr<StepTail> tail_;
   kernels::WheelWay way_{};  ///< of the step in hand, on a loaded rim
   bool within_ = false;      ///< corners are near, and make_steps() takes care of them
   Barrier barrier_;

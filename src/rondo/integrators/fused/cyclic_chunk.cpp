@@ -161,7 +161,23 @@ void CyclicChunk::restore(const SavedState& saved) noexcept {
   show_to_others();
 }
 
-/// What is right of the chunk's own nodes, where it is read for the next pass.
+int CyclicChunk::field_of(RowField which) const noexcept {
+  return which == RowField::u ? field_now() : which == RowField::v ? field_v : field_force;
+}
+
+void CyclicChunk::copy_out(int row, RowField which, double* x, double* y) const noexcept {
+  const double* from =
+      fields_.data() + CyclicPlan::lead + row * plan_.row_size() + field_of(which) * plan_.stride;
+  std::copy_n(from, range_.columns, x + range_.first);
+  std::copy_n(from + plan_.stride, range_.columns, y + range_.first);
+}
+
+void CyclicChunk::copy_in(int row, RowField which, const double* x, const double* y) noexcept {
+  double* to = field(row, field_of(which));
+  std::copy_n(x + range_.first, range_.columns, to);
+  std::copy_n(y + range_.first, range_.columns, to + plan_.stride);
+}
+
 void CyclicChunk::show_to_others() noexcept {
   if (plan_.halo != Halo::ring) return give_edges();
   for (int a = 0; a < plan_.n_local; ++a) wrap(a, field_now());

@@ -46,6 +46,14 @@ class CyclicChunk {
   [[nodiscard]] CandidateMotion motion_of(CyclicPlace place) const noexcept;
   void move(CyclicPlace place, Vec2 v, Vec2 u) noexcept;
 
+  /// u_{n+1}, v_{n+1/2} or K u_n of a row between two passes: this chunk's own sectors, at their
+  /// places in x and y, which are of the whole ring.
+  enum class RowField { u, v, force };
+  void copy_out(int row, RowField which, double* x, double* y) const noexcept;
+  void copy_in(int row, RowField which, const double* x, const double* y) noexcept;
+  /// After copy_in(): what is right of the chunk's own nodes, where it is read for the next pass.
+  void show_to_others() noexcept;
+
   /// Contacts of the last step of the last pass, this chunk's own.
   [[nodiscard]] std::span<const ActiveContact> active() const noexcept { return active_; }
 
@@ -102,7 +110,7 @@ class CyclicChunk {
   /// visit(row, column, node) of this chunk's own nodes.
   template <class Visit>
   void for_own_nodes(Visit&& visit) const noexcept;
-  void show_to_others() noexcept;
+  [[nodiscard]] int field_of(RowField which) const noexcept;
   void save_field(int field, std::vector<Vec2>& out) const noexcept;
   void wrap(int a, int field) noexcept;
   void hand_over(std::size_t n_steps, PartialStep* parts, std::size_t stride) const noexcept;

@@ -4,7 +4,51 @@
 #include <algorithm>
 #include <utility>
 
+#include "rondo/integrators/fused/tail/implicit_tail.hpp"
+#include "rondo/integrators/implicit/ring_operator.hpp"
+
 namespace rondo::dynamics {
+
+/// Some rows round the ring, over all chunks, in polar components.
+class CyclicIntegrator::Rows final : public NodeFields {
+ public:
+  Rows(CyclicIntegrator& of, const NodeSet& nodes) : of_(of), row_size_(nodes.row_size) {
+    const fem::SectorStiffness& k = *of.model_.sector;
+    for (std::size_t i = 0; i < nodes.size(); i += row_size_) {
+      const auto found = std::find(k.nodes.begin(), k.nodes.end(), nodes.node[i]);
+      rows_.push_back(static_cast<int>(found - k.nodes.begin()));
+    }
+  }
+
+  void read(PlaneField& u, PlaneField& v) const noexcept override {
+    copy_out(CyclicChunk::RowField::u, u);
+    copy_out(CyclicChunk::RowField::v, v);
+  }
+  void read_force(PlaneField& force) const noexcept override {
+    copy_out(CyclicChunk::RowField::force, force);
+  }
+  void write(const PlaneField& u, const PlaneField& v) noexcept override {
+    for (CyclicChunk& chunk : of_.chunks_)
+      for (std::size_t a = 0; a < rows_.size(); ++a) {
+        const std::size_t at = a * row_size_;
+        chunk.copy_in(rows_[a], CyclicChunk::RowField::u, u.x.data() + at, u.y.data() + at);
+        chunk.copy_in(rows_[a], CyclicChunk::RowField::v, v.x.data() + at, v.y.data() + at);
+      }
+  }
+
+ private:
+  void copy_out(CyclicChunk::RowField which, PlaneField& to) const noexcept {
+    for (const CyclicChunk& chunk : of_.chunks_)
+      for (std::size_t a = 0; a < rows_.size(); ++a)
+        chunk.copy_out(rows_[a], which, to.x.data() + a * row_size_, to.y.data() + a * row_size_);
+  }
+
+  CyclicIntegrator& of_;
+  std::size_t row_size_;
+  std::vector<int> rows_;  ///< of the sector's stiffness
+};
+
+CyclicIntegrator::~CyclicIntegrator() = default;
 
 CyclicIntegrator::CyclicIntegrator(const Model& model, const State& start,
                                    const kernels::Table& table, const CyclicTuning& tuning)
@@ -18,6 +62,11 @@ CyclicIntegrator::CyclicIntegrator(const Model& model, const State& start,
     chunks_.emplace_back(model_, plan_, table, range);
     chunks_.back().load(start);
   }
+  if (!model_.implicit) return;
+  NodeSet nodes = ring_nodes(model_);
+  rows_ = std::make_unique<Rows>(*this, nodes);
+  auto implicit = ring_operator(model_, nodes, factored_spin(model_), table.ring_product);
+  set_tail(implicit_tail(model_, std::move(nodes), std::move(implicit), *rows_));
 }
 
 /// A thread's chunks are the same in every pass; the others' edges are read only between two
@@ -32,7 +81,7 @@ void CyclicIntegrator::make_steps(const Batch& batch, Share share) noexcept {
         chunks_[c].take_halo(chunks_[(c + n - 1) % n], chunks_[(c + 1) % n]);
       chunks_[c].pass(steps, batch.parts + done * n_parts_, n_parts_,
                       c == holder_ ? corners_within() : nullptr);
-      if (plan_.halo != Halo::ring && !plan_.wheel) chunks_[c].give_edges();
+      if (plan_.halo != Halo::ring && !plan_.stepwise) chunks_[c].give_edges();
     }
     wait_for_others(share);
   }
@@ -42,6 +91,11 @@ void CyclicIntegrator::go_on(const kernels::WheelWay& way, long long /*step*/,
                              Share share) noexcept {
   const std::size_t n = chunks_.size();
   for (std::size_t c = share.first(n); c < share.last(n); ++c) chunks_[c].go_on(way);
+}
+
+void CyclicIntegrator::show_changes(Share share) noexcept {
+  const std::size_t n = chunks_.size();
+  for (std::size_t c = share.first(n); c < share.last(n); ++c) chunks_[c].show_to_others();
 }
 
 void CyclicIntegrator::save_displacement(std::vector<Vec2>& u) const noexcept {

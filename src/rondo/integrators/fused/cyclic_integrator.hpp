@@ -3,6 +3,7 @@
 /// by sector contiguous, product, update and ledger in one pass over memory, many steps in one pass
 /// where the fields are larger than the cache (docs/performance.md).
 #pragma once
+#include <memory>
 #include <vector>
 
 #include "rondo/integrators/fused/batch_integrator.hpp"
@@ -15,12 +16,15 @@ class CyclicIntegrator : public BatchIntegrator {
   /// @pre model.sector is there. @throws std::bad_alloc
   CyclicIntegrator(const Model& model, const State& start, const kernels::Table& table,
                    const CyclicTuning& tuning = {});
+  ~CyclicIntegrator() override;
 
  private:
+  class Rows;
   CyclicIntegrator(const Model& model, const State& start, const kernels::Table& table,
                    CyclicPlan plan);
   void make_steps(const Batch& batch, Share share) noexcept override;
   void go_on(const kernels::WheelWay& way, long long step, Share share) noexcept override;
+  void show_changes(Share share) noexcept override;
   void save_displacement(std::vector<Vec2>& u) const noexcept override;
   void save_velocity(std::vector<Vec2>& v) const noexcept override;
   void save_fields(SavedState& saved) const noexcept override;
@@ -33,7 +37,8 @@ class CyclicIntegrator : public BatchIntegrator {
 
   CyclicPlan plan_;
   std::vector<CyclicChunk> chunks_;
-  std::size_t holder_ = 0;  ///< the chunk that has all candidates near corners
+  std::unique_ptr<Rows> rows_;  ///< of implicit elements, as the tail sees them
+  std::size_t holder_ = 0;      ///< the chunk that has all candidates near corners
 };
 
 }  // namespace rondo::dynamics

@@ -39,7 +39,7 @@ void choose_chunks(CyclicPlan& plan, int threads, const CyclicTuning& tuning) {
                             static_cast<std::size_t>(plan.n_sectors * plan.n_fields()) *
                             sizeof(double);
   const bool in_cache =
-      plan.wheel || bytes < tuning.cache_bytes * static_cast<std::size_t>(threads);
+      plan.stepwise || bytes < tuning.cache_bytes * static_cast<std::size_t>(threads);
   const int for_threads = std::min(threads, groups);
   const int for_cache = in_cache ? 1 : std::max(1, plan.n_sectors / tuning.chunk_columns);
   const int n_chunks =
@@ -50,7 +50,7 @@ void choose_chunks(CyclicPlan& plan, int threads, const CyclicTuning& tuning) {
                        [](const auto& a, const auto& b) { return a.columns < b.columns; });
   if (plan.chunks.size() == 1)
     plan.halo = Halo::ring;
-  else if (plan.wheel)
+  else if (plan.stepwise)
     plan.halo = Halo::narrow;
   else
     plan.halo = narrowest->columns >= tuning.wide_halo_columns ? Halo::wide : Halo::narrow;
@@ -228,6 +228,7 @@ CyclicPlan make_cyclic_plan(const Model& model, const CyclicTuning& tuning) {
   plan.n_local = static_cast<int>(k.n_local());
   plan.n_sectors = k.n_sectors;
   plan.wheel = model.rim.has_value();
+  plan.stepwise = plan.wheel || model.implicit.has_value();
   plan.keeps_force = plan.wheel || model.stiffness_damping > 0.0;
   choose_chunks(plan, model.threads, tuning);
   plan.stride = choose_stride(plan);

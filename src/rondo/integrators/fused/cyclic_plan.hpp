@@ -46,6 +46,7 @@ struct CyclicPlace {
 struct CyclicPlan {
   int n_local = 0, n_sectors = 0;
   bool keeps_force = false;   ///< K u_n is a field: β > 0, or a loaded rim
+  bool stepwise = false;      ///< one step a pass: on a loaded rim, or with a tail
   bool wheel = false;         ///< on a loaded rim: v is V in the axes of R, one step a pass
   std::ptrdiff_t stride = 0;  ///< doubles between the fields of a row
   std::vector<kernels::CyclicRow> rows;  ///< (n_local)

@@ -3,6 +3,8 @@
 
 #include <utility>
 
+#include "rondo/integrators/fused/tail/implicit_tail.hpp"
+
 namespace rondo::dynamics {
 namespace {
 
@@ -27,6 +29,43 @@ double sum_of(const double* x) noexcept {
 
 }  // namespace
 
+/// Some nodes, wherever their rows are.
+class SparseIntegrator::Rows final : public NodeFields {
+ public:
+  Rows(SparseIntegrator& of, const NodeSet& nodes) : of_(of) {
+    std::vector<std::size_t> row(of.model_.n_nodes());
+    for (std::size_t i = 0; i < of.plan_.node.size(); ++i)
+      row[static_cast<std::size_t>(of.plan_.node[i])] = i;
+    for (const int node : nodes.node) rows_.push_back(row[static_cast<std::size_t>(node)]);
+  }
+
+  void read(PlaneField& u, PlaneField& v) const noexcept override {
+    const double* now = of_.u_[parity(of_.step_)].data();
+    for (std::size_t i = 0; i < rows_.size(); ++i) {
+      u.put(i, pair_at(now, static_cast<int>(rows_[i])));
+      v.put(i, vector_at(of_.motion_.data() + of_.motion_at(rows_[i])));
+    }
+  }
+  void read_force(PlaneField& force) const noexcept override {
+    for (std::size_t i = 0; i < rows_.size(); ++i)
+      force.put(i, vector_at(of_.motion_.data() + of_.motion_at(rows_[i]) + force_at));
+  }
+  void write(const PlaneField& u, const PlaneField& v) noexcept override {
+    double* now = of_.u_[parity(of_.step_)].data();
+    for (std::size_t i = 0; i < rows_.size(); ++i) {
+      now[2 * rows_[i]] = u.x[i];
+      now[2 * rows_[i] + 1] = u.y[i];
+      put(of_.motion_.data() + of_.motion_at(rows_[i]), v.at(i));
+    }
+  }
+
+ private:
+  SparseIntegrator& of_;
+  std::vector<std::size_t> rows_;
+};
+
+SparseIntegrator::~SparseIntegrator() = default;
+
 SparseIntegrator::SparseIntegrator(const Model& model, const State& start,
                                    const kernels::Table& table)
     : SparseIntegrator(model, start, table, make_sparse_plan(model)) {}
@@ -44,6 +83,11 @@ SparseIntegrator::SparseIntegrator(const Model& model, const State& start,
     contacts.active.reserve(2 * plan_.candidates.size());
   }
   load(start);
+  if (!model_.implicit) return;
+  NodeSet nodes = implicit_nodes(model_);
+  rows_ = std::make_unique<Rows>(*this, nodes);
+  auto implicit = assembled_operator(model_, nodes, factored_spin(model_));
+  set_tail(implicit_tail(model_, std::move(nodes), std::move(implicit), *rows_));
 }
 
 std::size_t SparseIntegrator::motion_at(std::size_t row) const noexcept {

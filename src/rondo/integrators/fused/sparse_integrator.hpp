@@ -3,6 +3,7 @@
 /// one pass over memory (docs/performance.md).
 #pragma once
 #include <array>
+#include <memory>
 #include <vector>
 
 #include "rondo/core/large_array.hpp"
@@ -16,8 +17,10 @@ class SparseIntegrator : public BatchIntegrator {
   /// From u_n, v_{n+1/2} (start.v_next) and, with β, K u_n (start.force).
   /// @pre model.stiffness is there. @throws std::bad_alloc
   SparseIntegrator(const Model& model, const State& start, const kernels::Table& table);
+  ~SparseIntegrator() override;
 
  private:
+  class Rows;
   /// A candidate that touches, and what its row held before the update.
   struct Touching {
     SparseCandidate candidate;
@@ -74,6 +77,7 @@ class SparseIntegrator : public BatchIntegrator {
   std::array<LargeArray, 2> u_;     ///< (rows, 2) of even and of odd steps
   LargeArray motion_;               ///< as in kernels::SparseRows
   std::vector<Contacts> contacts_;  ///< of each thread
+  std::unique_ptr<Rows> rows_;      ///< of implicit elements, as the tail sees them
 };
 
 }  // namespace rondo::dynamics

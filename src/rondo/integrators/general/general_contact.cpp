@@ -50,6 +50,11 @@ GeneralContact::GeneralContact(const Model& model)
 
 ContactReport GeneralContact::solve(const BodyFrames& frames, Vec2 center, State& state) {
   if (model_.contact || model_.surfaces) finder_.find(state, rows_);
+  if (!held_.empty())
+    std::erase_if(rows_, [&](const ContactRow& row) {
+      const int candidate = candidate_[at(row.rows.node[0])];
+      return candidate >= 0 && held_[at(candidate)];
+    });
   return solve_found(frames, center, state);
 }
 

@@ -22,6 +22,9 @@ class GeneralContact {
   /// feels. @param center about which the ground's angular impulse is taken              [m]
   ContactReport solve(const BodyFrames& frames, Vec2 center, State& state);
 
+  /// Candidates whose contacts are solved elsewhere. @param held (nb)
+  void leave_out(std::vector<char> held) { held_ = std::move(held); }
+
   // The same of some sharp corners of the ground alone, in two parts: found at u, solved once the
   // velocities without impulses are there.
   /// As ContactFinder::find_at_corners. @return the contacts; each node of theirs has all of its
@@ -66,6 +69,7 @@ class GeneralContact {
   const Model& model_;
   ContactFinder finder_;
   std::vector<ContactRow> rows_;
+  std::vector<char> held_;         ///< (nb) candidates that are left out; empty: none
   std::vector<int> candidate_;     ///< (n) place among the candidates, -1: none
   std::vector<Complex> response_;  ///< (n) complex Delassus operator of the nodes in contact [m/kg]
   std::vector<int> node_start_, nodes_;

@@ -20,6 +20,13 @@ GeneralIntegrator::GeneralIntegrator(const Model& model, const State& start)
   RONDO_DEMAND(!model.rim && (model.free_bodies.empty() || model.scheme == Scheme::symplectic));
   state_.v.resize(model.n_nodes());
   take_poses();
+  if (!model.implicit) return;
+  NodeSet nodes = implicit_nodes(model);
+  const double spin = factored_spin(model);
+  auto implicit = assembled_operator(model, nodes, spin);
+  implicit_ =
+      std::make_unique<ImplicitElements>(model, std::move(nodes), std::move(implicit), spin);
+  if (implicit_->contact()) contact_.leave_out(implicit_->contact()->is_held());
 }
 
 void GeneralIntegrator::take_poses() noexcept {
@@ -58,6 +65,30 @@ void GeneralIntegrator::free_velocities(const BodyFrames& frames) noexcept {
     const Vec2 v = state_.v[k];
     state_.v_next[k] = v + (dt * acceleration - f.update.drag * v) / f.update.a;
   });
+}
+
+/// v⁺ of the nodes of implicit elements, and their contacts (3.9).
+void GeneralIntegrator::correct_implicit(const BodyFrames& frames, StepEnergy& energy,
+                                         ContactReport& report) {
+  ImplicitElements& implicit = *implicit_;
+  const std::vector<int>& nodes = implicit.nodes().node;
+  PlaneField v(nodes.size());
+  for (std::size_t i = 0; i < nodes.size(); ++i) {
+    const auto k = static_cast<std::size_t>(nodes[i]);
+    implicit.u().put(i, state_.u[k]);
+    implicit.before().put(i, state_.v[k]);
+    v.put(i, state_.v_next[k]);
+  }
+  const BodyFrame& frame = frames.of(model_, static_cast<std::size_t>(nodes.front()));
+  const ImplicitEnergy more =
+      implicit.solve(frame.frame.spin, model_.contact ? &frame.contact : nullptr, v, report);
+  for (std::size_t i = 0; i < nodes.size(); ++i)
+    state_.v_next[static_cast<std::size_t>(nodes[i])] = v.at(i);
+  energy.strain += more.strain;
+  energy.works.dissipation_stiffness += more.dissipation_stiffness;
+  if (!implicit.contact()) return;
+  const auto& active = implicit.contact()->active();
+  state_.active.insert(state_.active.end(), active.begin(), active.end());
 }
 
 /// (5.3)
@@ -99,6 +130,7 @@ StepReport GeneralIntegrator::step() noexcept {
   report.step = state_.step;
   report_frame(report);
   report.contact = contact_.solve(frames, report.frame.center, state_);
+  if (implicit_) correct_implicit(frames, energy, report.contact);
   add_works(frames, energy.works);
   energy.works.contact = report.contact.work;
   energy.works.dissipation_friction = report.contact.dissipation_friction;
@@ -134,6 +166,8 @@ SavedState GeneralIntegrator::save() const {
   saved.v = state_.v_next;
   internal_->save(saved);
   saved.impulses = contact_.impulses();
+  if (implicit_ && implicit_->contact())
+    for (const auto& impulse : implicit_->contact()->impulses()) saved.impulses.push_back(impulse);
   saved.ledger = ledger_.save();
   return saved;
 }
@@ -147,6 +181,7 @@ void GeneralIntegrator::restore(const SavedState& saved) {
   internal_->restore(saved);
   take_poses();
   contact_.set_impulses(saved.impulses);
+  if (implicit_ && implicit_->contact()) implicit_->contact()->set_impulses(saved.impulses);
   ledger_.restore(saved.ledger);
 }
 

@@ -11,6 +11,7 @@
 
 #include "rondo/integrators/general/body_frames.hpp"
 #include "rondo/integrators/general/general_contact.hpp"
+#include "rondo/integrators/implicit/implicit_elements.hpp"
 #include "rondo/model/integrator.hpp"
 #include "rondo/model/internal_force.hpp"
 
@@ -36,6 +37,7 @@ class GeneralIntegrator final : public Integrator, public Resumable {
   void take_poses() noexcept;
   void find_forces(double& strain) noexcept;
   void free_velocities(const BodyFrames& frames) noexcept;
+  void correct_implicit(const BodyFrames& frames, StepEnergy& energy, ContactReport& report);
   void add_works(const BodyFrames& frames, Works& works) const noexcept;
   void report_frame(StepReport& report) const noexcept;
 
@@ -44,6 +46,7 @@ class GeneralIntegrator final : public Integrator, public Resumable {
   Ledger ledger_;
   const std::unique_ptr<InternalForce> internal_;
   GeneralContact contact_;
+  std::unique_ptr<ImplicitElements> implicit_;  ///< null: there are none
   std::vector<Vec2> damping_;  ///< (n) β of the force, in the nodes' frames; empty: β = 0 [N/m]
   std::vector<Vec2> load_;     ///< (n) of pressures; empty: none                        [N/m]
 };

@@ -6,6 +6,8 @@
 #include <cstddef>
 #include <cstdint>
 
+#include "rondo/integrators/implicit/ring_terms.hpp"
+
 namespace rondo::dynamics::kernels {
 
 /// Columns are worked on in packs of eight at every level, so that sums have the same order.
@@ -202,6 +204,7 @@ struct Table {
   /// [loaded][stiffness_damping][unsteady]
   void (*sparse_rows[2][2][2])(const SparseRows&) noexcept;
   const WheelTable* wheel;
+  RingProduct ring_product;
 };
 
 extern const WheelTable avx512_wheel, avx2_wheel, baseline_wheel;

@@ -3,6 +3,7 @@
 #pragma once
 #include "rondo/integrators/fused/kernels/cyclic.hpp"
 #include "rondo/integrators/fused/kernels/low_columns.hpp"
+#include "rondo/integrators/fused/kernels/ring.hpp"
 #include "rondo/integrators/fused/kernels/sparse.hpp"
 
 namespace {
@@ -19,7 +20,8 @@ constexpr rondo::dynamics::kernels::Table table(
             {sparse_rows<false, true, false>, sparse_rows<false, true, true>}},
            {{sparse_rows<true, false, false>, sparse_rows<true, false, true>},
             {sparse_rows<true, true, false>, sparse_rows<true, true, true>}}},
-          &wheel};
+          &wheel,
+          ring_product};
 }
 
 }  // namespace

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "rondo/analysis/build/parts.hpp"
+#include "rondo/analysis/elements/parts.hpp"
 
 #include <fmt/format.h>
 

@@ -1,0 +1,20 @@
+// SPDX-License-Identifier: BSD-3-Clause
+/// @file  Implicit elements of whole layers of a disk: polar components, rows round the ring.
+#pragma once
+#include <memory>
+
+#include "rondo/integrators/implicit/implicit_operator.hpp"
+#include "rondo/integrators/implicit/ring_terms.hpp"
+
+namespace rondo::dynamics {
+
+/// The free nodes of the implicit elements, each row one local node over the sectors.
+/// @pre model.implicit and model.sector; the same elements in every sector
+[[nodiscard]] NodeSet ring_nodes(const Model& model);
+
+/// Of these nodes, by parallel cyclic reduction (circulant.hpp). @param spin s of A [rad/s]
+[[nodiscard]] std::unique_ptr<ImplicitOperator> ring_operator(const Model& model,
+                                                              const NodeSet& nodes, double spin,
+                                                              RingProduct product);
+
+}  // namespace rondo::dynamics

@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: BSD-3-Clause
+/// @file  The inner loop of block-circulant matrices, compiled once for each instruction set beside
+/// the other loops (fused/kernels). Plain pointers and numbers only, as there.
+#pragma once
+#include <cstddef>
+
+namespace rondo::dynamics {
+
+/// out_i(j) = [in_i(j)] + Σ_t Σ_m matrix_t(i, m) in_m(j + offset_t), i and m the rows, j the
+/// sector. Rows of `in` hold every sector twice, one round after the other, and 8 more numbers that
+/// are finite: j + offset_t is in them for any offset below the number of sectors.
+struct RingTerms {
+  int rows;                 ///< of in and out
+  int sectors;              ///< out holds up to seven more, which mean nothing
+  int n_terms;              ///< at most 3
+  bool with_self;           ///< in_i(j) is added
+  const double* matrix[3];  ///< (rows, rows) row-major
+  std::ptrdiff_t offset[3];
+  const double* in;
+  double* out;
+  std::ptrdiff_t stride;  ///< between rows of in, and of out
+};
+
+using RingProduct = void (*)(const RingTerms& terms) noexcept;
+
+}  // namespace rondo::dynamics
