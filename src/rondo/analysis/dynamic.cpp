@@ -34,6 +34,14 @@ std::size_t steps_at_once(const Setup& setup) {
   return static_cast<std::size_t>(std::clamp(dof_steps / dofs, fewest, 64.0));
 }
 
+Told implicit_line(const Setup& setup) {
+  const auto chosen = std::ranges::count(setup.implicit_cells, 1);
+  return {"implicit elements",
+          fmt::format("{} of {} ({} dofs): explicit, they would make the critical step {:.6g} s",
+                      chosen, setup.implicit_cells.size(), 2 * setup.model.implicit->nodes.size(),
+                      setup.critical_plain)};
+}
+
 }  // namespace
 
 DynamicAnalysis::DynamicAnalysis(const Case& c, const RunOptions& options)
@@ -91,9 +99,12 @@ CheckReport DynamicAnalysis::check(double trial) {
       {"step", fmt::format("{:.6g} s ({:.3g} of critical)", dt, dt / setup_.critical.step)},
       {"steps", fmt::format("{} to t = {:.6g} s", setup_.n_steps,
                             static_cast<double>(setup_.n_steps) * dt)}};
-  const auto limit = lines_of(find_step_limit(case_, setup_));
   r.lines.insert(r.lines.end(), steps.begin(), steps.begin() + 2);
-  r.lines.insert(r.lines.end(), limit.begin(), limit.end());
+  if (setup_.model.implicit) r.lines.push_back(implicit_line(setup_));
+  if (std::isfinite(setup_.critical.step)) {
+    const auto limit = lines_of(find_step_limit(case_, setup_));
+    r.lines.insert(r.lines.end(), limit.begin(), limit.end());
+  }
   r.lines.insert(r.lines.end(), steps.begin() + 2, steps.end());
   r.warnings = warnings();
   return r;
