@@ -39,4 +39,16 @@ Bodies find_bodies(const Mesh& mesh) {
   return bodies;
 }
 
+Mesh mesh_of_cells(const Mesh& mesh, std::span<const char> kept) {
+  Mesh part = mesh;
+  part.cells.clear();
+  part.region.clear();
+  for (std::size_t e = 0; e < mesh.cells.size(); ++e) {
+    if (!kept[e]) continue;
+    part.cells.push_back(mesh.cells[e]);
+    if (!mesh.region.empty()) part.region.push_back(mesh.region[e]);
+  }
+  return part;
+}
+
 }  // namespace rondo::mesh

@@ -3,6 +3,7 @@
 #pragma once
 #include <array>
 #include <cstddef>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -55,5 +56,8 @@ struct Bodies {
   std::vector<int> of_node;  ///< (n) -1: a node of no cell
 };
 Bodies find_bodies(const Mesh& mesh);
+
+/// The mesh with some of its cells; its nodes are those of the whole. @param kept (e) 1: these
+Mesh mesh_of_cells(const Mesh& mesh, std::span<const char> kept);
 
 }  // namespace rondo::mesh

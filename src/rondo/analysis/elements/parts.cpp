@@ -130,16 +130,4 @@ std::vector<char> chosen_cells(const Case& c, const Setup& s, const ElementChoic
                    "a longer slower_than; `rondo check` tells the critical step and what sets it");
 }
 
-mesh::Mesh mesh_of_cells(const mesh::Mesh& mesh, const std::vector<char>& cells) {
-  mesh::Mesh part = mesh;
-  part.cells.clear();
-  part.region.clear();
-  for (std::size_t e = 0; e < mesh.cells.size(); ++e) {
-    if (!cells[e]) continue;
-    part.cells.push_back(mesh.cells[e]);
-    if (!mesh.region.empty()) part.region.push_back(mesh.region[e]);
-  }
-  return part;
-}
-
 }  // namespace rondo::study

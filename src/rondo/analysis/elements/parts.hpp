@@ -29,8 +29,4 @@ void set_disk_regions(const Case& c, mesh::Mesh& mesh);
 std::vector<char> chosen_cells(const Case& c, const Setup& s, const ElementChoice& choice,
                                const std::string& table);
 
-/// The mesh with these cells alone; its nodes are those of the whole.
-/// @param cells (e) 1: kept
-mesh::Mesh mesh_of_cells(const mesh::Mesh& mesh, const std::vector<char>& cells);
-
 }  // namespace rondo::study
