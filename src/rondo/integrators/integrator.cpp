@@ -6,10 +6,12 @@
 #include "rondo/integrators/fused/sparse_integrator.hpp"
 #include "rondo/integrators/general/general_integrator.hpp"
 #include "rondo/integrators/general/wheel_integrator.hpp"
+#include "rondo/integrators/hati/hati_integrator.hpp"
 
 namespace rondo::dynamics {
 
 std::unique_ptr<Integrator> make_integrator(const Model& model, const State& start) {
+  if (model.subdomains) return std::make_unique<HatiIntegrator>(model, start);
   if (model.rim && is_general(model)) return std::make_unique<WheelIntegrator>(model, start);
   if (is_general(model)) return std::make_unique<GeneralIntegrator>(model, start);
   if (model.stiffness_operator == StiffnessOperator::cyclic)

@@ -29,6 +29,8 @@ struct StepReport {
   ContactReport contact;  ///< of t_{n+1}
   Balance balance;        ///< of t_{n+1/2}
   RimReport rim;          ///< of t_{n+1}, of a loaded rim
+  /// Of the scheme "hati": contact impulses are not those that the parts were joined with.
+  bool contact_felt_joint = false;
 };
 
 /// What goes on to the same bits from what it was before.

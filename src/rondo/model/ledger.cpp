@@ -28,6 +28,7 @@ constexpr std::array<Term, Ledger::n_works> terms{{{&Works::frame, 1.0},
                                                    {&Works::dissipation_friction, 0.0},
                                                    {&Works::loss_impact, 0.0},
                                                    {&Works::rim, 0.0},
+                                                   {&Works::interface, 0.0},
                                                    {&Works::scheme, 1.0}}};
 
 }  // namespace

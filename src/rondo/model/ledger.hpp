@@ -27,6 +27,8 @@ struct Works {
   double held = 0.0;      ///< of what holds degrees of freedom of the rim
   double dissipation_brake = 0.0;
   double dissipation_support = 0.0;
+  /// Of what joins the two parts of the scheme "hati": round-off (docs/theory.md, 12.4)
+  double interface = 0.0;
 };
 
 /// Sums over the nodes of the step at t_{n+1}: the energy before it, and what it does [J/m].
@@ -66,7 +68,7 @@ class Ledger {
 
   /// All that it remembers: with these numbers another ledger goes on to the same bits. Its last()
   /// is not among them, only the largest values in it.
-  static constexpr std::size_t n_works = 15;
+  static constexpr std::size_t n_works = 16;
   static constexpr std::size_t n_numbers = 2 * n_works + 5;
   [[nodiscard]] std::array<double, n_numbers> save() const noexcept;
   void restore(std::span<const double, n_numbers> numbers) noexcept;

@@ -17,6 +17,7 @@
 #include "rondo/model/motion.hpp"
 #include "rondo/model/rim_body.hpp"
 #include "rondo/model/scheme.hpp"
+#include "rondo/model/subdomains.hpp"
 
 namespace rondo::dynamics {
 
@@ -105,7 +106,8 @@ struct Model {
   std::vector<PressureLoad> pressures;
   CoupledSettings coupled;
   Scheme scheme = Scheme::symplectic;
-  double dt = 0.0;  ///< Δt                           [s]
+  std::optional<Subdomains> subdomains;  ///< of the scheme "hati" alone
+  double dt = 0.0;                       ///< Δt; of "hati" the coarse step  [s]
   int threads = 1;
 
   [[nodiscard]] std::size_t n_nodes() const noexcept { return reference.size(); }
@@ -162,6 +164,11 @@ inline bool in_fixed_frame(const Model& model, std::size_t node) noexcept {
 /// Fills body, free_bodies and free_body: a body of the mesh without a clamped node is free.
 /// @pre reference and mass are there.
 void find_free_bodies(const mesh::Mesh& mesh, Model& model);
+
+/// Step of what is explicit: the fine one of the scheme "hati", else Δt                    [s]
+inline double explicit_step(const Model& model) noexcept {
+  return model.subdomains ? model.dt / model.subdomains->ratio : model.dt;
+}
 
 /// Nodes of the mesh's boundary may touch something.
 inline bool has_candidates(const Model& model) noexcept {

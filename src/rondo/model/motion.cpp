@@ -100,9 +100,10 @@ Vec2 Motion::advance(double from, double length) const noexcept {
   return {speed.integral(from, length), height.change(from, length)};
 }
 
-FrameStep frame_step(const Motion& motion, long long n, double dt) noexcept {
-  const double t = static_cast<double>(n) * dt;
-  const double before = static_cast<double>(n - 1) * dt;
+namespace {
+
+/// At t, a step after `before`.
+FrameStep frame_at(const Motion& motion, double before, double t, double dt) noexcept {
   FrameStep f;
   f.time = t;
   f.spin = -motion.angular_velocity.at(t);
@@ -117,6 +118,17 @@ FrameStep frame_step(const Motion& motion, long long n, double dt) noexcept {
   const Vec2 acceleration = (f.advance - f.advance_before) / (dt * dt);
   f.pull = conj(f.rotation) * (acceleration - motion.gravity_at(t));
   return f;
+}
+
+}  // namespace
+
+FrameStep frame_step(const Motion& motion, long long n, double dt) noexcept {
+  return frame_at(motion, static_cast<double>(n - 1) * dt, static_cast<double>(n) * dt, dt);
+}
+
+FrameStep middle_frame_step(const Motion& motion, long long n, double dt) noexcept {
+  const double t = static_cast<double>(n) - 0.5;
+  return frame_at(motion, (t - 1.0) * dt, t * dt, dt);
 }
 
 double slip_ratio(double rim_speed, double speed) noexcept {

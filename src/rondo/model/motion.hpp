@@ -79,5 +79,7 @@ constexpr Vec2 frame_acceleration(const FrameStep& f, Vec2 arm) noexcept {
 
 /// The frame at t = n dt.
 FrameStep frame_step(const Motion& motion, long long n, double dt) noexcept;
+/// The frame at t = (n - 1/2) dt, in the middle of the n-th step.
+FrameStep middle_frame_step(const Motion& motion, long long n, double dt) noexcept;
 
 }  // namespace rondo::dynamics

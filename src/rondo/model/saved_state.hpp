@@ -25,6 +25,9 @@ struct SavedState {
   /// By contact, ascending: coupled contacts start from the impulses of the step before [N·s/m].
   std::vector<std::pair<std::uint64_t, Vec2>> impulses;
   std::vector<double> rim;  ///< what a loaded rim carries (loaded_rim.hpp)
+  /// Of each node where the parts of the scheme "hati" meet: u and v of the coarse part [m], [m/s],
+  /// and the multiplier [N/m]; (3 interface).
+  std::vector<Vec2> interface;
   std::array<double, Ledger::n_numbers> ledger{};
 };
 

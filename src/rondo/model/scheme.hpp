@@ -8,6 +8,7 @@ namespace rondo::dynamics {
 enum class Scheme {
   symplectic,  ///< at the mean of the two half steps: keeps energy
   as_printed,  ///< at the old half step, as printed by Adam et al. 2017: feeds one family of waves
+  hati,        ///< two parts of the body, each with a step of its own (docs/theory.md, section 12)
 };
 
 /// The velocity update of a node, v⁺ = v⁻ + [F - drag v⁻] / a, with F = (Δt f + i_c)/m.

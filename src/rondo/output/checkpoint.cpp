@@ -130,6 +130,8 @@ void put_state(File& file, const dynamics::SavedState& s) {
   put(file, "/state/contact", keys, {"1", "contacts that share nodes, by number"});
   put(file, "/state/impulse", impulses, {"N*s/m", "their impulses in the last step"});
   put(file, "/state/rim", s.rim, {"1", "what a loaded rim carries"});
+  put(file, "/state/interface", s.interface,
+      {"1", "where two parts meet: u [m] and v [m/s] of the coarse one, multiplier [N/m]"});
   put(file, "/state/ledger", std::vector<double>(s.ledger.begin(), s.ledger.end()),
       {"J/m", "sums of the energy ledger and what their rounding left"});
 }
@@ -142,6 +144,7 @@ void get_state(const File& file, dynamics::SavedState& s) {
   s.gradient = get<Vec2>(file, "/state/gradient");
   s.energy = get<double>(file, "/state/energy");
   s.rim = get<double>(file, "/state/rim");
+  s.interface = get<Vec2>(file, "/state/interface");
   for (const auto& p : get<std::array<double, 5>>(file, "/state/poses", s.energy.size()))
     s.poses.push_back({{p[0], p[1]}, {p[2], p[3]}, p[4]});
   const auto keys = get<std::int64_t>(file, "/state/contact");

@@ -100,14 +100,18 @@ void clear_without_checkpoint(const Case& c, const std::filesystem::path& direct
 bool fits(const dynamics::SavedState& s, const Setup& setup) {
   const dynamics::Model& model = setup.model;
   const std::size_t n = model.n_nodes(), n_free = model.free_bodies.size();
-  const bool general = is_general(model);
+  const bool parts = model.subdomains.has_value();
+  const bool general = is_general(model) && !parts;
   const bool rim = model.rim.has_value();
-  const std::size_t force = general || rim || model.stiffness_damping > 0.0 ? n : 0;
+  const bool of_force = general || rim || (model.stiffness_damping > 0.0 && !parts);
+  const std::size_t force = of_force ? n : 0;
+  const std::size_t joined = parts ? 3 * model.subdomains->interface.size() : 0;
   const std::size_t rim_numbers = rim ? dynamics::LoadedRim::n_numbers : 0;
   return s.u.size() == n && s.v.size() == n && s.force.size() == force &&
          s.gradient.size() == (general ? n : 0) && s.energy.size() == n_free &&
          s.poses.size() == n_free && s.u_before.size() == (rim ? n : 0) &&
-         s.rim.size() == rim_numbers && std::ranges::all_of(s.rim, is_finite) && s.step > 0 &&
+         s.interface.size() == joined && s.rim.size() == rim_numbers &&
+         std::ranges::all_of(s.rim, is_finite) && s.step > 0 &&
          std::ranges::is_sorted(s.impulses, {}, first_of);
 }
 
