@@ -228,7 +228,9 @@ class Reduced(ProgramTest):
             self.assertFalse(out.exists())
 
     def test_refuses_what_it_cannot_do(self):
+        parts = ["time.scheme=hati", "solver.hati.ratio=1", "solver.hati.fine.layers=[3]"]
         for settings, said in ((["time.scheme=as-printed"], "scheme of its own"),
+                               (parts, "scheme of its own"),
                                (["ground.profile=[[-9, -0.01], [0, -0.01], [0.1, 0], [9, 0]]"],
                                 "fillet")):
             _, done = self.reduced(*(x for s in settings for x in ("--set", s)), code=2)

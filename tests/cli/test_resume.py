@@ -154,6 +154,17 @@ class Killed(ResumeTest):
         self.assert_same(self.out)
         self.assertGreater(summary(self.out)["contact"]["clusters_solved"], 0)
 
+    def test_two_parts_go_on_to_the_same_bits(self):
+        text = replaced(LONG, "end", 'end = 3.0\nscheme = "hati"') + (
+            "\n[solver.hati]\nratio = 2\nfine = {layers = [4, 5, 6]}\n")
+        text = replaced(replaced(text, "radial", "radial = 6"), "circumferential",
+                        "circumferential = 60")
+        self.leave_alone(text)
+        self.kill_at_random_moments(text, 5, seed=13)
+        self.assertEqual(self.resume(text).returncode, 0)
+        self.assert_same(self.out)
+        self.assertGreater(len(summary(self.out)["resumed_at_steps"]), 0)
+
     def test_before_the_first_checkpoint_it_begins_anew(self):
         text = LONG.replace("checkpoint_interval = 0.02", "checkpoint_interval = 1000")
         process = self.start(text)

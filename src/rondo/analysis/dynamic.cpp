@@ -30,16 +30,10 @@ std::size_t steps_at_once(const Setup& setup) {
   const bool cyclic = setup.model.stiffness_operator == dynamics::StiffnessOperator::cyclic;
   const double dof_steps = cyclic ? 5e7 : 1e7;  // some 0.05 s
   const double fewest = cyclic ? 8.0 : 1.0;     // two passes of the cyclic operator
-  const double dofs = 2.0 * static_cast<double>(setup.model.free.size());
+  // The parts of a coarse step are made twice, the fine one in many steps.
+  const int made = setup.model.subdomains ? 2 * setup.model.subdomains->ratio : 1;
+  const double dofs = 2.0 * made * static_cast<double>(setup.model.free.size());
   return static_cast<std::size_t>(std::clamp(dof_steps / dofs, fewest, 64.0));
-}
-
-Told implicit_line(const Setup& setup) {
-  const auto chosen = std::ranges::count(setup.implicit_cells, 1);
-  return {"implicit elements",
-          fmt::format("{} of {} ({} dofs): explicit, they would make the critical step {:.6g} s",
-                      chosen, setup.implicit_cells.size(), 2 * setup.model.implicit->nodes.size(),
-                      setup.critical_plain)};
 }
 
 }  // namespace
@@ -54,7 +48,7 @@ void DynamicAnalysis::plan_snapshots() {
 }
 
 std::unique_ptr<dynamics::Integrator> DynamicAnalysis::make_integrator(dynamics::State& start) {
-  std::vector<Vec2>().swap(start.v);
+  if (!setup_.model.subdomains) std::vector<Vec2>().swap(start.v);  // whose steps begin with v_0
   return dynamics::make_integrator(setup_.model, start);
 }
 
@@ -76,7 +70,6 @@ double DynamicAnalysis::seconds_per_step(double trial) {
 }
 
 CheckReport DynamicAnalysis::check(double trial) {
-  const double dt = setup_.model.dt;
   CheckReport r;
   r.nodes = setup_.mesh.n_nodes();
   r.elements = setup_.mesh.cells.size();
@@ -92,20 +85,7 @@ CheckReport DynamicAnalysis::check(double trial) {
   r.disk_bytes = disk_needed(record_plan(), resumable() != nullptr).all;
   r.seconds = seconds_per_step(trial) * static_cast<double>(setup_.n_steps);
   r.lines = setup_.figures;
-  const std::vector<Told> steps = {
-      {"largest frequency", fmt::format("{:.6g} rad/s (element bound {:.6g})",
-                                        setup_.critical.omega, setup_.critical.element_bound)},
-      {"critical step", fmt::format("{:.6g} s", setup_.critical.step)},
-      {"step", fmt::format("{:.6g} s ({:.3g} of critical)", dt, dt / setup_.critical.step)},
-      {"steps", fmt::format("{} to t = {:.6g} s", setup_.n_steps,
-                            static_cast<double>(setup_.n_steps) * dt)}};
-  r.lines.insert(r.lines.end(), steps.begin(), steps.begin() + 2);
-  if (setup_.model.implicit) r.lines.push_back(implicit_line(setup_));
-  if (std::isfinite(setup_.critical.step)) {
-    const auto limit = lines_of(find_step_limit(case_, setup_));
-    r.lines.insert(r.lines.end(), limit.begin(), limit.end());
-  }
-  r.lines.insert(r.lines.end(), steps.begin() + 2, steps.end());
+  for (auto& told : step_lines(case_, setup_)) r.lines.push_back(std::move(told));
   r.warnings = warnings();
   return r;
 }
@@ -154,6 +134,14 @@ void DynamicAnalysis::describe(Json& j) const {
   j["largest_frequency"] = setup_.critical.omega;
   j["step"] = setup_.model.dt;
   j["steps"] = setup_.n_steps;
+  if (setup_.model.subdomains) {
+    const dynamics::Subdomains& parts = *setup_.model.subdomains;
+    j["critical_step_plain"] = setup_.critical_plain;
+    j["hati"] = {{"ratio", parts.ratio},
+                 {"fine_step", explicit_step(setup_.model)},
+                 {"fine_dofs", 2 * parts.fine.free.size()},
+                 {"interface_dofs", 2 * parts.interface.size()}};
+  }
   j["dispatch"] = dispatch_level();
   if (setup_.model.rim) j["rim"] = rim_facts(*setup_.model.rim);
 }
@@ -251,16 +239,17 @@ void DynamicAnalysis::judge(const dynamics::StepReport& step) {
                          ? OutOfBound{missed_corner(step.contact.unseen), false}
                          : find_out_of_bound(step.balance, contact_, bounds_);
   if (found.what.empty() && setup_.model.rim) found = {look_at_rim(step), false};
+  if (found.what.empty() && step.contact_felt_joint) found = {felt_joint(), false};
   if (found.what.empty()) return;
   if (found.not_finite) {
     dynamics::State now(setup_.model);  // after the steps of this call
     integrator_->fields(now);
     found.what = not_finite(now, found.what);
   }
-  const double half = found.at_half_step ? 0.5 * setup_.model.dt : 0.0;
-  trouble_ =
-      fmt::format("step {} of {}, t = {:.9g} s: {}", step.step - (found.at_half_step ? 1 : 0),
-                  setup_.n_steps, step.frame.time - half, found.what);
+  const bool before = found.at_half_step && !setup_.model.subdomains;
+  const double half = before ? 0.5 * setup_.model.dt : 0.0;
+  trouble_ = fmt::format("step {} of {}, t = {:.9g} s: {}", step.step - (before ? 1 : 0),
+                         setup_.n_steps, step.frame.time - half, found.what);
 }
 
 /// What is wrong with a loaded rim; empty: nothing.

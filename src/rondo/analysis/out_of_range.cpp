@@ -127,6 +127,13 @@ std::string missed_corner(double way) {
       way);
 }
 
+std::string felt_joint() {
+  return "impulses of contact changed when the force that joins the two parts was corrected: "
+         "contact "
+         "is nearer to the coarse part than solver.hati.ratio elements; a smaller ratio, or more "
+         "fine elements";
+}
+
 std::string turned_too_far(double turn, double dt) {
   if (std::abs(turn) <= dynamics::most_turn) return {};
   return fmt::format(

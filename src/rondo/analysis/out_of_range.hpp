@@ -45,6 +45,9 @@ std::string created_by_impacts(const dynamics::Balance& balance, double bound,
 /// What is said where a node has moved that far [m] between two looks for sharp corners.
 std::string missed_corner(double way);
 
+/// What is said where contact felt how the parts of the scheme "hati" were joined.
+std::string felt_joint();
+
 /// What is said of a loaded rim that turns by more than dynamics::most_turn in a step; empty: it
 /// does not. @param turn [rad] @param dt [s]
 std::string turned_too_far(double turn, double dt);

@@ -116,10 +116,16 @@ struct ElementChoice {
   std::string region;                 ///< physical surface of a mesh
 };
 
+/// Of the scheme "hati": which elements are explicit, in fine steps.
+struct HatiCase {
+  ElementChoice fine;  ///< by layers or region
+  int ratio = 1;       ///< m >= 1 fine steps in a coarse one
+};
+
 struct Time {
   double end = 0.0;            ///< > 0 [s]
   double safety = 0.8;         ///< step / critical step, 0 < safety <= 1
-  std::optional<double> step;  ///< given step [s]; excludes safety
+  std::optional<double> step;  ///< given step, of "hati" the fine one [s]; excludes safety
   Scheme scheme = Scheme::symplectic;
 };
 
@@ -163,6 +169,7 @@ struct Case {
   Time time;
   std::string solver_operator = "auto";  ///< "auto" | "cyclic" | "sparse"
   std::vector<ElementChoice> implicit;   ///< elements that are implicit in the explicit step
+  std::optional<HatiCase> hati;          ///< there where time.scheme is "hati"
   int contact_iterations = 10000;        ///< most that a coupled contact problem may take
   int dump_contacts = 0;  ///< contact problems that took more iterations are kept as files; 0: none
   Output output;

@@ -20,8 +20,9 @@ constexpr Allowed less_than_upright{{-right_angle, right_angle, true, true}};
 constexpr Allowed between(double low, double high) {
   return {{low, high, false, false}};
 }
-constexpr Allowed choice(std::string_view a, std::string_view b, std::string_view c = {}) {
-  return {{}, {a, b, c}};
+constexpr Allowed choice(std::string_view a, std::string_view b, std::string_view c = {},
+                         std::string_view d = {}) {
+  return {{}, {a, b, c, d}};
 }
 constexpr Allowed kind_of_analysis() {
   Allowed allowed;
@@ -71,6 +72,12 @@ bool has_height(const Case& c) {
 }
 bool has_speed(const Case& c) {
   return is_held(c) && !has_traction(c) && !has_torque(c);
+}
+bool has_fine_layers(const Case& c) {
+  return c.hati && !c.hati->fine.layers.empty();
+}
+bool has_fine_region(const Case& c) {
+  return c.hati && !c.hati->fine.region.empty();
 }
 bool has_slide(const Case& c) {
   return c.analysis.slide_increments != 0;
@@ -341,20 +348,26 @@ constexpr CaseKey keys[] = {
      required.said("required if dynamic").body(never).free_on_resume(),
      "end of the run, which starts at t = 0"},
     {"time.safety", "-", FIELD(time.safety), with(share, "not together with time.step"),
-     optional.if_(is_by_safety).body(never), "time-step factor: step over the critical step"},
+     optional.if_(is_by_safety).body(never),
+     "time-step factor: step over the critical step; of the scheme \"hati\" those of its fine "
+     "part"},
     {"time.step", "s", FIELD(time.step), with(positive, "not together with time.safety"),
      optional.if_(is_by_step, "none").body(never),
-     "a given time step instead; at most 1e12 steps to the end"},
-    {"time.scheme", "-", FIELD(time.scheme), choice("symplectic", "as-printed"), optional,
+     "a given time step instead, of the scheme \"hati\" the fine one; at most 1e12 steps to the "
+     "end"},
+    {"time.scheme", "-", FIELD(time.scheme), choice("symplectic", "as-printed", "hati"), optional,
      "\"symplectic\": gyroscopic and mass damping forces at the middle of the step; keeps energy. "
      "\"as-printed\": at the old half step, as published; it creates energy, which the ledger "
-     "shows as `work_scheme`, and serves for comparison. The ledger closes in both"},
+     "shows as `work_scheme`, and serves for comparison. \"hati\": two parts of the body, each "
+     "with a step of its own, [below](#two-parts-with-steps-of-their-own). The ledger closes in "
+     "all of them"},
 
     {"solver.operator", "-", FIELD(solver_operator), choice("auto", "cyclic", "sparse"),
      optional.of(in_time),
      "how K u is formed: \"cyclic\" from the blocks of one sector, \"sparse\" from an assembled "
      "matrix; \"auto\" takes \"cyclic\" on every mesh of equal sectors, that is on every `[disk]`, "
-     "but where it is free, there is a `[contact]` of bodies, or `time.scheme` is \"as-printed\": "
+     "but where it is free, there is a `[contact]` of bodies, or `time.scheme` is not "
+     "\"symplectic\": "
      "there \"cyclic\" is refused. The results are the same to round-off (docs/performance.md)"},
     {"solver.contact_iterations", "-", FIELD(contact_iterations), between(1, 1000000000),
      optional.of(in_time).body(never),
@@ -374,6 +387,17 @@ constexpr CaseKey keys[] = {
      optional.said("none"), "these layers of elements of a `[disk]`, 1 at the rim"},
     {"solver.implicit[].region", "-", FIELD(implicit[k].region), any, optional.said("none"),
      "the elements of this physical surface of a `[mesh]`"},
+
+    {"solver.hati.ratio", "-", FIELD(hati->ratio), between(1, 1000), required,
+     "m: fine steps in a coarse one. Nodes that may touch the ground must be at least m elements "
+     "away from the elements that are not fine"},
+    {"solver.hati.fine.layers", "-", FIELD(hati->fine.layers), between(1, 200000),
+     optional.if_(has_fine_layers, "none"),
+     "of a `[disk]`: the layers of elements, 1 at the rim, that are explicit, in fine steps; all "
+     "others are implicit, in coarse ones"},
+    {"solver.hati.fine.region", "-", FIELD(hati->fine.region), any,
+     optional.if_(has_fine_region, "none"),
+     "of a `[mesh]`: the physical surface whose elements are"},
 
     {"output.history_interval", "s", FIELD(output.history_interval), not_negative,
      optional.of(in_time).body(never),

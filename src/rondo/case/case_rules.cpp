@@ -73,18 +73,6 @@ void warn_of_locking(const std::string& key, const fem::Material& material, Case
                   key, material.poissons_ratio));
 }
 
-/// A part of a disk goes by its layers, one of a mesh by its surface. @param table that names it
-void check_part(CaseValues& in, const Case& c, const std::string& table) {
-  for (const char* key : {"surface", "region"})
-    if (!c.mesh && in.has(fmt::format("{}.{}", table, key)))
-      in.fault(fmt::format("{}.{}", table, key), "a [disk] has no physical surfaces",
-               fmt::format("{}.layers, or a [mesh]", table));
-  const std::string layers = table + ".layers";
-  if (c.mesh && in.has(layers))
-    in.fault(layers, "a [mesh] has no layers",
-             "its surface by name; " + mesh::physical_group_line("Surface", "tread"));
-}
-
 /// Each table chooses by one key.
 void check_implicit(CaseValues& in, const Case& c) {
   for (std::size_t k = 0; k < c.implicit.size(); ++k) {
@@ -199,7 +187,7 @@ void check_time(CaseValues& in, const Case& c) {
   if (time.step && in.good({"time.end", "time.step"}) && time.end / *time.step > most_steps)
     in.fault("time.step", fmt::format("the run would take {:.3g} steps", time.end / *time.step),
              fmt::format("at most {:.0e} steps", most_steps));
-  if (time.scheme != Scheme::symplectic && !is_held(c))
+  if (time.scheme == Scheme::as_printed && !is_held(c))
     in.fault("time.scheme", "shows what the spin of a rim does, and nothing turns a free body",
              "\"symplectic\"");
 }
@@ -232,6 +220,17 @@ void check_output(CaseValues& in, Case& c) {
 }
 
 }  // namespace
+
+void check_part(CaseValues& in, const Case& c, const std::string& table) {
+  for (const char* key : {"surface", "region"})
+    if (!c.mesh && in.has(fmt::format("{}.{}", table, key)))
+      in.fault(fmt::format("{}.{}", table, key), "a [disk] has no physical surfaces",
+               fmt::format("{}.layers, or a [mesh]", table));
+  const std::string layers = table + ".layers";
+  if (c.mesh && in.has(layers))
+    in.fault(layers, "a [mesh] has no layers",
+             "its surface by name; " + mesh::physical_group_line("Surface", "tread"));
+}
 
 std::string_view why_not_cyclic(const Case& c) {
   if (c.mesh) return "a mesh from a file is not known to be of equal sectors";
@@ -272,6 +271,7 @@ void check_case(CaseValues& in, Case& c) {
   check_time(in, c);
   check_operator(in, c);
   check_implicit(in, c);
+  check_hati(in, c);
   check_output(in, c);
 }
 

@@ -3,6 +3,7 @@
 /// faults in `in`.
 #pragma once
 #include <optional>
+#include <string>
 #include <string_view>
 
 #include "rondo/case/case_values.hpp"
@@ -17,6 +18,12 @@ void check_case(CaseValues& in, Case& c);
 
 /// Rules of [rim], and where its supports are at rest if the case does not say.
 void check_rim(CaseValues& in, Case& c);
+
+/// Rules of the scheme "hati", and that it says which part is fine.
+void check_hati(CaseValues& in, Case& c);
+
+/// A part of a disk goes by its layers, one of a mesh by its surface. @param table that names it
+void check_part(CaseValues& in, const Case& c, const std::string& table);
 
 /// There is ground, and it is flat. @param who needs it
 void check_flat_ground(CaseValues& in, const Case& c, std::string_view who);

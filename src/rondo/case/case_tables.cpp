@@ -15,6 +15,10 @@ std::size_t with_rim(const Case& c) {
   return c.rim ? 1 : 0;
 }
 
+std::size_t with_hati(const Case& c) {
+  return c.hati ? 1 : 0;
+}
+
 template <class T>
 void set_there(std::optional<T>& part, std::size_t n) {
   part.reset();
@@ -55,6 +59,8 @@ constexpr CaseTable tables[] = {
     {"solver", one, nullptr},
     {"solver.implicit[]", [](const Case& c) { return c.implicit.size(); },
      [](Case& c, std::size_t n) { c.implicit.resize(n); }, in_time_untold},
+    {"solver.hati", with_hati, [](Case& c, std::size_t n) { set_there(c.hati, n); }, in_time},
+    {"solver.hati.fine", with_hati, nullptr, in_time_untold},
     {"output", one, nullptr},
     {"output.probe[]", [](const Case& c) { return c.output.probes.size(); },
      [](Case& c, std::size_t n) { c.output.probes.resize(n); }, in_time},

@@ -42,8 +42,8 @@ constexpr std::array history{
         "a mesh: the largest distance of a contact node from the center",
         [](const H& r) { return r.slip_ratio; }},
     Column<H>{"kinetic", "J/m",
-              "kinetic part of the energy E, half a step before `time_s`; with a `[rim]` of "
-              "absolute velocities, without the rim's own",
+              "kinetic part of the energy E, half a step before `time_s`, with the scheme `hati` "
+              "at `time_s`; with a `[rim]` of absolute velocities, without the rim's own",
               [](const H& r) { return r.balance.kinetic; }},
     Column<H>{"strain", "J/m", "strain part of the energy E, likewise",
               [](const H& r) { return r.balance.strain; }},
@@ -110,6 +110,11 @@ constexpr std::array rim{
     Column<H>{"dissipation_support", "J/m", "by the dashpots of `[rim.support]`",
               [](const H& r) { return r.balance.works.dissipation_support; }}};
 
+constexpr std::array hati{
+    Column<H>{"work_interface", "J/m",
+              "of what joins the two parts of the body: round-off, no part of the balance",
+              [](const H& r) { return r.balance.works.interface; }}};
+
 constexpr std::array contact{
     Column<P>{"time_s", "s", "of the snapshot", [](const P& r) { return r.time; }},
     Column<P>{"node", "1", "number of the node",
@@ -134,6 +139,10 @@ std::span<const Column<HistoryRecord>> history_columns() noexcept {
 
 std::span<const Column<HistoryRecord>> rim_columns() noexcept {
   return rim;
+}
+
+std::span<const Column<HistoryRecord>> hati_columns() noexcept {
+  return hati;
 }
 
 std::span<const Column<ContactRecord>> contact_columns() noexcept {

@@ -39,6 +39,8 @@ struct ContactRecord {
 [[nodiscard]] std::span<const Column<HistoryRecord>> history_columns() noexcept;
 /// Those that a run with a loaded rim has besides.
 [[nodiscard]] std::span<const Column<HistoryRecord>> rim_columns() noexcept;
+/// Those of the scheme "hati".
+[[nodiscard]] std::span<const Column<HistoryRecord>> hati_columns() noexcept;
 [[nodiscard]] std::span<const Column<ContactRecord>> contact_columns() noexcept;
 
 }  // namespace rondo::study

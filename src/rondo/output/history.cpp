@@ -38,6 +38,10 @@ std::vector<ColumnLabel> History::columns() const {
     const std::vector<ColumnLabel> rim = labels_of(rim_columns());
     labels.insert(labels.end(), rim.begin(), rim.end());
   }
+  if (setup_.model.subdomains) {
+    const std::vector<ColumnLabel> hati = labels_of(hati_columns());
+    labels.insert(labels.end(), hati.begin(), hati.end());
+  }
   const std::vector<ColumnLabel> probes = probe_columns(case_.output.probes);
   labels.insert(labels.end(), probes.begin(), probes.end());
   return labels;
@@ -123,6 +127,7 @@ void History::append_row(const dynamics::StepReport& step, const dynamics::State
     r.rim.torque = at_.hub_angular_impulse / span;
     append_values(rim_columns(), r, rows);
   }
+  if (setup_.model.subdomains) append_values(hati_columns(), r, rows);
   append_probes(state, rows);
 }
 

@@ -46,7 +46,8 @@ std::vector<ColumnLabel> probe_columns(const std::vector<Probe>& probes) {
       {{"ux", "m",
         "displacement at `time_s`: co-rotating frame; of a free body x − X, fixed frame"},
        {"uy", "m", "likewise"},
-       {"vx", "m/s", "velocity in the same frame, half a step before `time_s`"},
+       {"vx", "m/s",
+        "velocity in the same frame, half a step before `time_s`, with the scheme `hati` at it"},
        {"vy", "m/s", "likewise"},
        {"sxx", "Pa",
         "stress at `time_s` in the same frame, of the cell alone: by the shape functions from its "

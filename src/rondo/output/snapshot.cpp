@@ -21,7 +21,8 @@ void take_contacts(const dynamics::State& state, double dt, std::vector<ContactF
 
 Snapshot& fill_snapshot(const Setup& setup, const dynamics::State& state, Snapshot& s) {
   s.time = state.frame.time;
-  s.time_velocity = state.step == 0 ? 0.0 : state.frame.time - 0.5 * setup.model.dt;
+  const double behind = setup.model.subdomains ? 0.0 : 0.5 * setup.model.dt;
+  s.time_velocity = state.step == 0 ? 0.0 : state.frame.time - behind;
   s.angle = state.frame.angle;
   s.angle_velocity = setup.model.rim ? state.frame.angle - 0.5 * state.frame.turn_before
                                      : setup.model.motion.angle(s.time_velocity);

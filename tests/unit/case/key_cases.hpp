@@ -22,7 +22,8 @@ inline const std::vector<Case>& cases_with_every_key() {
         pressure{"load.pressure=[{curve = 'rim', value = 3}]",
                  "material.region=[{layers = [2, 3], density = 7800}]",
                  "solver.implicit=[{slower_than = 1e-6}]"},
-        layers{"solver.implicit=[{layers = [1, 2]}]"};
+        layers{"solver.implicit=[{layers = [1, 2]}]"},
+        parts{"time.scheme=hati", "solver.hati.ratio=2", "solver.hati.fine.layers=[11, 12]"};
     const std::string bodies = R"(schema = 1
 time.end = 0.2
 [mesh]
@@ -39,6 +40,26 @@ surface = "core"
 [[solver.implicit]]
 region = "core"
 )";
+    const std::string part = R"(schema = 1
+[mesh]
+file = "/folder/two.msh"
+clamped = "rim"
+contact = "skin"
+[material]
+youngs_modulus = 5e6
+poissons_ratio = 0.3
+density = 1100
+[motion]
+angular_velocity = 3
+speed = 1
+height = 1
+[time]
+end = 0.2
+scheme = "hati"
+[solver.hati]
+ratio = 3
+fine = {region = "skin"}
+)";
     const std::vector<std::string> rim{"rim.free=['speed', 'height', 'angular_velocity']",
                                        "rim.mass=100", "rim.inertia=1", "motion.gravity=9.81"};
     const std::vector<std::string> steady{"analysis.kind=steady-rolling", "ground.profile=flat",
@@ -52,6 +73,8 @@ region = "core"
                              read_text(with_line(34, "step = 1e-6")),
                              read_text(bodies),
                              read_text(base, layers),
+                             read_text(base, parts),
+                             read_text(part),
                              read_text(base, rim),
                              read_text(base, steady),
                              read_text(with_line(21, "", without_speed), loaded),

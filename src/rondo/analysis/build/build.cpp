@@ -14,6 +14,7 @@
 #include "rondo/analysis/build/rim.hpp"
 #include "rondo/analysis/build/stability.hpp"
 #include "rondo/analysis/elements/implicit.hpp"
+#include "rondo/analysis/elements/subdomains.hpp"
 #include "rondo/case/case_keys.hpp"
 #include "rondo/integrators/fused/batch_integrator.hpp"
 #include "rondo/statics/stationary_spin.hpp"
@@ -140,6 +141,7 @@ void choose_threads(Setup& s, int asked) {
   s.model.threads = std::min(asked, most);
 }
 
+/// Of what is explicit.
 double choose_step(const Case& c, const dynamics::CriticalStep& critical) {
   if (std::isinf(critical.step)) {  // nothing is explicit
     if (c.time.step) return *c.time.step;
@@ -159,8 +161,8 @@ double choose_step(const Case& c, const dynamics::CriticalStep& critical) {
     throw case_error(
         c, "time.step",
         fmt::format(
-            "the step {:.6g} s is above the critical step {:.6g} s of this mesh and material",
-            *c.time.step, critical.step),
+            "the step {:.6g} s is above the critical step {:.6g} s of this mesh and material{}",
+            *c.time.step, critical.step, c.hati ? ", of its fine part" : ""),
         fmt::format("0 < step <= {:.6g}, or leave it out and give time.safety", critical.step));
   return *c.time.step;
 }
@@ -176,13 +178,14 @@ dynamics::CriticalStep body_step(const Setup& s, dynamics::LaggedDamping damping
                                  m.threads);
 }
 
-/// With implicit elements, of the others.
+/// Of what is explicit.
 dynamics::CriticalStep find_critical_step(const Case& c, Setup& s) {
   const bool lagged = c.time.scheme == Scheme::as_printed || c.rim;
   const dynamics::LaggedDamping damping{c.damping.stiffness, lagged ? c.damping.mass : 0.0};
   const dynamics::CriticalStep held = body_step(s, damping);
   s.critical_plain = held.step;
   if (s.model.implicit) return explicit_part_step(s, damping);
+  if (s.model.subdomains) return fine_part_step(s, damping);
   return s.model.rim ? step_with_rim(s.model, held, damping) : held;
 }
 
@@ -246,6 +249,7 @@ void make_body(const Case& c, int threads, Setup& s) {
   s.dilatation = fem::NodalDilatation(s.mesh, s.materials);
   add_stress_stiffening(c, s);
   add_implicit(c, s);
+  add_subdomains(c, s);
   choose_threads(s, threads);
   s.critical = find_critical_step(c, s);
 }
@@ -263,7 +267,8 @@ void demand_shared_body(const Case& c, int threads, SharedBody& shared) {
 /// What hangs on the rest of the case.
 void set_up_run(const Case& c, Setup& s, SharedBody* shared) {
   set_motion_and_friction(c, s.model);
-  s.model.dt = choose_step(c, s.critical);
+  const int ratio = s.model.subdomains ? s.model.subdomains->ratio : 1;
+  s.model.dt = ratio * choose_step(c, s.critical);
   s.n_steps = count_steps(c, s.model.dt);
   set_initial_fields(c, s, shared);
   check_start(c, s);

@@ -65,6 +65,8 @@ std::size_t motion_memory(const Case& c, const mesh::Mesh& mesh) noexcept {
                       std::min(snapshots, queue_length(snapshots, of_a_snapshot)) * of_a_snapshot;
   if (!sector_alone) bytes += stiffness_memory(nodes, wide_rows);
   if (factorised) bytes += factor_memory(harmonics ? of_a_sector : 2 * nodes, wide_rows);
+  // Of the scheme "hati": K of its parts, and the factor of the implicit one, not symmetric.
+  if (c.hati) bytes += stiffness_memory(nodes, wide_rows) + 2 * factor_memory(2 * nodes, wide_rows);
   if (c.initial.state == InitialState::steady_rolling)
     bytes += nodes * rolling_numbers * sizeof(double);
   return bytes;

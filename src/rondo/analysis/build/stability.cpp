@@ -112,7 +112,7 @@ bool is_energy_safe(const dynamics::Model& m) {
 }
 
 void warn_of_contact_step(Setup& s) {
-  const double share = s.model.dt / s.critical.step;
+  const double share = explicit_step(s.model) / s.critical.step;
   const double ratio = 0.5 * s.model.stiffness_damping * s.critical.omega;
   if (!has_candidates(s.model) || share <= contact_step_share || ratio >= contact_damping_ratio ||
       is_energy_safe(s.model))
@@ -213,20 +213,20 @@ void warn_of_fast_contact(const Case& c, Setup& s) {
     const auto at = [&](int end) { return s.mesh.coordinates[static_cast<std::size_t>(end)]; };
     shortest = std::min(shortest, norm(at(edge[1]) - at(edge[0])));
   }
-  const double way = largest_speed(c, s) * s.model.dt;
+  const double dt = explicit_step(s.model), way = largest_speed(c, s) * dt;
   if (!(way > 0.5 * shortest)) return;
   s.warnings.push_back(fmt::format(
       "at {:.4g} m/s what may touch moves by {:.3g} m in a step, more than half its shortest edge "
       "({:.3g} m): contacts may be missed or met too late. Such speeds are near or above that of "
       "waves ({:.4g} m/s), where small strains mean little; a smaller time.step helps the contact "
       "only",
-      way / s.model.dt, way, shortest, fem::wave_speeds(c.material).pressure));
+      way / dt, way, shortest, fem::wave_speeds(c.material).pressure));
 }
 
 }  // namespace
 
 void check_stability(const Case& c, Setup& s) {
-  refuse_wide_turns(c, s.model.dt);
+  refuse_wide_turns(c, explicit_step(s.model));
   refuse_wide_rim_turns(c, s.model.dt);
   refuse_large_turns(c, s);
   warn_of_softening(c, s);

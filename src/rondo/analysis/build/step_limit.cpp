@@ -53,11 +53,11 @@ StepLimit find_step_limit(const Case& c, const Setup& s) {
   return limit;
 }
 
-std::vector<std::pair<std::string, std::string>> lines_of(const StepLimit& limit) {
+std::vector<Told> lines_of(const StepLimit& limit) {
   const auto times = [&](double step) {
     return fmt::format("{:.3g} times the step, by the element bound", step / limit.step);
   };
-  std::vector<std::pair<std::string, std::string>> lines{
+  std::vector<Told> lines{
       {"set by", fmt::format("cell {} of /mesh/cells at ({:.6g}, {:.6g}) m, {}", limit.cell,
                              limit.place.x, limit.place.y, limit.part)}};
   constexpr double same = 1.005;  // as printed
@@ -66,6 +66,39 @@ std::vector<std::pair<std::string, std::string>> lines_of(const StepLimit& limit
                        times(limit.without_worst) + ": a hundredth of the elements left out");
   if (limit.without_part > 0.0)
     lines.emplace_back("without that " + limit.part_kind, times(limit.without_part));
+  return lines;
+}
+
+namespace {
+
+Told implicit_line(const Setup& setup) {
+  const auto chosen = std::ranges::count(setup.implicit_cells, 1);
+  const dynamics::Model& m = setup.model;
+  const auto& nodes = m.implicit ? m.implicit->nodes : m.subdomains->coarse.free;
+  return {"implicit elements",
+          fmt::format("{} of {} ({} dofs): explicit, they would make the critical step {:.6g} s",
+                      chosen, setup.implicit_cells.size(), 2 * nodes.size(), setup.critical_plain)};
+}
+
+}  // namespace
+
+std::vector<Told> step_lines(const Case& c, const Setup& s) {
+  const auto length = [](double seconds) { return fmt::format("{:.6g} s", seconds); };
+  const double step = explicit_step(s.model);
+  std::vector<Told> lines{
+      {"largest frequency", fmt::format("{:.6g} rad/s (element bound {:.6g})", s.critical.omega,
+                                        s.critical.element_bound)},
+      {"critical step", length(s.critical.step)}};
+  if (!s.implicit_cells.empty()) lines.push_back(implicit_line(s));
+  if (std::isfinite(s.critical.step))
+    for (Told& told : lines_of(find_step_limit(c, s))) lines.push_back(std::move(told));
+  lines.emplace_back("step",
+                     fmt::format("{} ({:.3g} of critical)", length(step), step / s.critical.step));
+  if (s.model.subdomains)
+    lines.emplace_back("coarse step", fmt::format("{}, {} of these", length(s.model.dt),
+                                                  s.model.subdomains->ratio));
+  lines.emplace_back("steps", fmt::format("{} to t = {:.6g} s", s.n_steps,
+                                          static_cast<double>(s.n_steps) * s.model.dt));
   return lines;
 }
 

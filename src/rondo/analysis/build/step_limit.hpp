@@ -24,6 +24,9 @@ struct StepLimit {
 StepLimit find_step_limit(const Case& c, const Setup& s);
 
 /// What `rondo check` says of it: steps as factors of `step`, as the critical step is a larger one.
-std::vector<std::pair<std::string, std::string>> lines_of(const StepLimit& limit);
+std::vector<Told> lines_of(const StepLimit& limit);
+
+/// What it says of the steps of a run, that among it.
+std::vector<Told> step_lines(const Case& c, const Setup& s);
 
 }  // namespace rondo::study

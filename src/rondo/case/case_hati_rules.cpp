@@ -1,0 +1,74 @@
+// SPDX-License-Identifier: BSD-3-Clause
+/// Rules of time.scheme = "hati": which part is fine, and what the scheme is not made for
+/// (docs/cases.md).
+#include <algorithm>
+
+#include "rondo/case/case_rules.hpp"
+
+namespace rondo::study {
+namespace {
+
+constexpr const char* elsewhere = "time.scheme = \"symplectic\"";
+
+void check_fine(CaseValues& in, const Case& c) {
+  const std::string fine = "solver.hati.fine";
+  check_part(in, c, fine);
+  const bool layers = in.has(fine + ".layers"), region = in.has(fine + ".region");
+  if (layers == region)
+    in.fault(fine, layers ? "chooses elements by more than one key" : "chooses no elements",
+             "{layers = [...]} of a [disk], or {region = \"...\"} of a [mesh]");
+}
+
+/// The matrix that joins the parts is factored once, for one angular velocity.
+void check_spin(CaseValues& in, const Case& c) {
+  constexpr std::string_view key = "motion.angular_velocity";
+  const auto& points = c.motion.angular_velocity.points();
+  if (in.good({key}) && !std::ranges::all_of(points, [&](const auto& point) {
+        return point[1] == points.front()[1];
+      }))
+    in.fault(key, "varies, and the scheme \"hati\" is factored for one angular velocity",
+             std::string("a number, or ") + elsewhere);
+}
+
+void check_motion(CaseValues& in, const Case& c) {
+  if (!is_held(c) && in.good({"disk.rim", "mesh.clamped"}))
+    in.fault("time.scheme", "\"hati\" knows no body that nothing holds", "\"symplectic\"");
+  if (is_held(c)) check_spin(in, c);
+  if (c.initial.state == InitialState::steady_rolling)
+    in.fault("initial.state",
+             "is known half a step after t = 0, and the scheme \"hati\" begins at t = 0",
+             std::string("\"rest\" or \"stationary\", or ") + elsewhere);
+}
+
+/// What acts on the body, but for the ground.
+void check_loads(CaseValues& in, const Case& c) {
+  if (!c.pressures.empty())
+    in.fault("load.pressure[0]", "the scheme \"hati\" knows no load but the ground", elsewhere);
+  if (c.body_contact.between != BodyContact::none)
+    in.fault("contact.between", "the scheme \"hati\" knows no contact but with the ground",
+             std::string("\"none\", or ") + elsewhere);
+  if (!c.implicit.empty())
+    in.fault("solver.implicit[0]",
+             "the scheme \"hati\" has its implicit elements: all that are not fine",
+             std::string("solver.hati.fine alone, or ") + elsewhere);
+}
+
+}  // namespace
+
+void check_hati(CaseValues& in, Case& c) {
+  if (c.time.scheme == Scheme::hati) {
+    if (!c.hati)
+      return in.fault("time.scheme", "\"hati\" needs to know which elements are explicit",
+                      "[solver.hati] with fine = {layers = [...]} and ratio beside it");
+    check_fine(in, c);
+    check_motion(in, c);
+    check_loads(in, c);
+    return;
+  }
+  const bool meant = means_to(*find_case_key("solver.hati.ratio"), c.analysis.kind);
+  if (c.hati && meant && in.good({"time.scheme"}))
+    in.fault("solver.hati", "is of the scheme \"hati\" alone", "time.scheme = \"hati\" beside it");
+  c.hati.reset();
+}
+
+}  // namespace rondo::study
