@@ -74,8 +74,8 @@ class ShippedCase(RunTest):
         facts, h = summary(self.out), history(self.out)
         self.assertEqual(facts["steps_done"], 803)
         late = h["time_s"] > 0.1005
-        self.assertAlmostEqual(np.mean(h["force_y"][late]), 48100, delta=150)
-        self.assertAlmostEqual(np.mean(h["force_x"][late]), -8473, delta=40)
+        self.assertAlmostEqual(np.mean(h["force_y"][late]), 48086, delta=100)
+        self.assertAlmostEqual(np.mean(h["force_x"][late]), -8467, delta=30)
         self.assertLess(facts["energy_residual_relative"], 1e-13)
 
 
