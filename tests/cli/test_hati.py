@@ -57,7 +57,7 @@ class Run(RunTest):
     def test_check_tells_both_steps(self):
         done = run("check", self.case(PARTS))
         self.assertEqual(done.returncode, 0, done.stderr)
-        for part in ("coarse step", "2 of these", "with all explicit"):
+        for part in ("coarse step", "2 of these", "implicit elements"):
             self.assertIn(part, done.stdout)
 
     def test_velocities_of_probes_are_of_the_same_time(self):
