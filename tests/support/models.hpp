@@ -58,7 +58,7 @@ inline double lagged_mass(const DiskCase& c) {
 
 struct Built {
   mesh::Mesh mesh;
-  fem::Material material;
+  std::vector<fem::Material> materials;  ///< one for each region of the mesh
   dynamics::Model model;
   dynamics::CriticalStep critical;
   std::vector<Vec2> prestress;  ///< (n) displacement whose stress stiffens the body; empty: none
@@ -66,10 +66,10 @@ struct Built {
 
 /// Stiffness, critical step, step.
 inline void set_stiffness(Built& b, const DiskCase& c) {
-  b.model.stiffness = fem::assemble_stiffness(b.mesh, {&c.material, 1}, b.prestress);
+  b.model.stiffness = fem::assemble_stiffness(b.mesh, b.materials, b.prestress);
   b.critical = dynamics::critical_step(
       b.model.stiffness, b.model.mass, b.model.free, {c.beta, lagged_mass(c)},
-      fem::element_eigenvalue_bound(b.mesh, {&c.material, 1}, b.prestress));
+      fem::element_eigenvalue_bound(b.mesh, b.materials, b.prestress));
   b.model.dt = c.safety * b.critical.step;
 }
 
@@ -77,9 +77,9 @@ inline void set_stiffness(Built& b, const DiskCase& c) {
 inline Built build(const DiskCase& c, mesh::Mesh mesh) {
   Built b;
   b.mesh = std::move(mesh);
-  b.material = c.material;
+  b.materials = {c.material};
   b.model.reference = b.mesh.coordinates;
-  b.model.mass = fem::lumped_mass(b.mesh, {&c.material, 1});
+  b.model.mass = fem::lumped_mass(b.mesh, b.materials);
   b.model.free = fem::free_nodes(b.mesh);
   b.model.mass_damping = c.alpha;
   b.model.stiffness_damping = c.beta;

@@ -44,7 +44,7 @@ inline dynamics::Model model_with(const Built& b, dynamics::StiffnessOperator of
   dynamics::Model model = b.model;
   model.stiffness_operator = of;
   if (of == dynamics::StiffnessOperator::sparse) return model;
-  model.sector = fem::assemble_sector(b.mesh, {&b.material, 1}, b.prestress);
+  model.sector = fem::assemble_sector(b.mesh, b.materials, b.prestress);
   model.stiffness = {};
   return model;
 }

@@ -11,6 +11,7 @@
 
 #include "integrator_cases.hpp"
 #include "rondo/integrators/general/general_integrator.hpp"
+#include "support/implicit.hpp"
 #include "support/stepping.hpp"
 
 namespace {
@@ -83,6 +84,35 @@ TEST_P(Allocations, NoneInTheStepsOfAnIntegrator) {
   integrator->fields(state);
   EXPECT_EQ(allocations - before, 0);
   EXPECT_GT(in_contact, 0);
+}
+
+/// Inside the body from the first step on; at the ground once as many contacts hang together as
+/// ever, and each node that touches has its column.
+TEST_P(Allocations, NoneInTheStepsOfImplicitElements) {
+  const auto [of, threads] = GetParam();
+  for (const bool at_the_ground : {false, true}) {
+    test::Built b = test::build(test::everything("", 6, 90));
+    const auto cells = test::cells_of_layers(b.mesh, {at_the_ground ? 6 : 3});
+    b.model.implicit = test::implicit_part(b.mesh, b.materials, cells);
+    b.model.motion = test::rolling_disk(6, 90).motion;
+    b.model.motion.angular_velocity = b.model.motion.speed = dynamics::Table(0.0);
+    b.model.motion.start_x = 0.3;
+    b.model.motion.height = dynamics::Table({{0.0, 0.3}, {0.01, 0.292}});
+    dynamics::Model model = test::model_with(b, of);
+    model.threads = threads;
+    dynamics::State state = test::start_at_rest(model);
+    const auto integrator = dynamics::make_integrator(model, state);
+    std::vector<dynamics::StepReport> reports(64);
+    for (int call = 0; at_the_ground && call < 20; ++call) integrator->advance(reports);
+    const long before = allocations;
+    long in_contact = 0;
+    for (int call = 0; call < 4; ++call) {
+      integrator->advance(reports, call % 2 == 0 ? nullptr : &state);
+      for (const dynamics::StepReport& report : reports) in_contact += report.contact.nodes;
+    }
+    EXPECT_EQ(allocations - before, 0) << at_the_ground;
+    EXPECT_GT(in_contact, 0);
+  }
 }
 
 /// It could not report that there is no memory.

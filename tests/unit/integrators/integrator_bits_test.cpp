@@ -15,6 +15,7 @@
 #include <vector>
 
 #include "integrator_cases.hpp"
+#include "support/implicit.hpp"
 #include "support/stepping.hpp"
 #include "support/traps.hpp"
 
@@ -136,7 +137,16 @@ void assert_same_bits(const Record& a, const Record& b) {
   ASSERT_TRUE(same(a.fields, b.fields));
 }
 
-/// Down to the fewest sectors there can be; on a sharp ledge.
+/// With layers of it implicit, all of the same material.
+test::Built implicit(const test::RollingCase& c, const std::vector<int>& layers) {
+  test::Built b = test::build(c);
+  const std::vector<char> cells = test::cells_of_layers(b.mesh, layers);
+  b.model.implicit = test::implicit_part(b.mesh, b.materials, cells);
+  return b;
+}
+
+/// Down to the fewest sectors there can be; on a sharp ledge; with implicit layers inside, and at
+/// the ground.
 std::vector<test::Built> disks() {
   test::RollingCase ledge = test::sharp(test::everything("", 4, 61));
   ledge.disk.motion.start_x = -0.02;
@@ -147,7 +157,9 @@ std::vector<test::Built> disks() {
           test::build(test::on_rim(test::everything("", 4, 61), true, true, true)),
           test::build(test::on_rim(ledge, false, true, true)),
           test::build(test::on_rim(test::everything("", 3, mesh::Tread{20, 0.02, 3, 1, 2}), false,
-                                   true, true))};
+                                   true, true)),
+          implicit(test::everything("", 4, 61), {2}),
+          implicit(test::everything("", 4, 61), {4})};
 }
 
 class Integrators : public testing::TestWithParam<StiffnessOperator> {};

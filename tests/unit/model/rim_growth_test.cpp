@@ -47,7 +47,7 @@ class Wheel {
     const auto product = [&](std::span<const Vec2> u, std::span<Vec2> out) {
       fem::apply(m.stiffness, u, out, 1);
     };
-    return with_rim(built_.critical, fem::assemble_sector(built_.mesh, {&built_.material, 1}),
+    return with_rim(built_.critical, fem::assemble_sector(built_.mesh, built_.materials),
                     m.mass, rim_frequencies(product, m.mass, m.reference, m.free, rim), damping_);
   }
 

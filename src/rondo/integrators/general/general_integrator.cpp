@@ -23,6 +23,7 @@ GeneralIntegrator::GeneralIntegrator(const Model& model, const State& start)
   if (!model.implicit) return;
   NodeSet nodes = implicit_nodes(model);
   const double spin = factored_spin(model);
+  implicit_velocity_ = PlaneField(nodes.size());
   auto implicit = assembled_operator(model, nodes, spin);
   implicit_ =
       std::make_unique<ImplicitElements>(model, std::move(nodes), std::move(implicit), spin);
@@ -72,7 +73,7 @@ void GeneralIntegrator::correct_implicit(const BodyFrames& frames, StepEnergy& e
                                          ContactReport& report) {
   ImplicitElements& implicit = *implicit_;
   const std::vector<int>& nodes = implicit.nodes().node;
-  PlaneField v(nodes.size());
+  PlaneField& v = implicit_velocity_;
   for (std::size_t i = 0; i < nodes.size(); ++i) {
     const auto k = static_cast<std::size_t>(nodes[i]);
     implicit.u().put(i, state_.u[k]);

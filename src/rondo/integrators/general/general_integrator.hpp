@@ -47,6 +47,7 @@ class GeneralIntegrator final : public Integrator, public Resumable {
   const std::unique_ptr<InternalForce> internal_;
   GeneralContact contact_;
   std::unique_ptr<ImplicitElements> implicit_;  ///< null: there are none
+  PlaneField implicit_velocity_;                ///< of their nodes                      [m/s]
   std::vector<Vec2> damping_;  ///< (n) β of the force, in the nodes' frames; empty: β = 0 [N/m]
   std::vector<Vec2> load_;     ///< (n) of pressures; empty: none                        [N/m]
 };

@@ -119,10 +119,12 @@ bool ImplicitContact::find(const ContactStep& step, const PlaneField& u, const P
 /// W_jl = n̄_j R(θ_{n+2}) A⁻¹_jl R(θ_{n+1})ᵀ n̄_lᵀ
 void ImplicitContact::build_problem(const ContactStep& step) {
   const std::size_t n = rows_.size();
-  problem_ = {};
   problem_.free.resize(n);
   problem_.friction.assign(n, step.law.friction);
-  problem_.row_start.push_back(0);
+  problem_.row_start.assign(1, 0);
+  for (auto* numbers : {&problem_.bounce, &problem_.mass}) numbers->clear();
+  problem_.column.clear();
+  problem_.blocks.clear();
   for (std::size_t j = 0; j < n; ++j) {
     problem_.bounce.push_back(active_[j].bounce);
     const Block to = times(rows_of(active_[j].normal), rows_of(step.rotation_next));
