@@ -181,6 +181,43 @@ class Layers(ProgramTest):
                          (out / "regions" / "history.csv").read_bytes())
 
 
+class Cases(ProgramTest):
+    """The shipped cases say what to expect."""
+
+    def runs(self, name, *extra):
+        """(summary, history) of the case, and of the same with explicit elements."""
+        found = []
+        for kind, more in (("implicit", []), ("explicit", ["--set", "solver.implicit=[]"])):
+            out = self.folder / kind
+            done = run("run", ROOT / "cases" / f"{name}.toml", "-o", out, "--quiet", *extra, *more)
+            self.assertEqual(done.returncode, 0, done.stderr)
+            self.assertLess(summary(out)["energy_residual_relative"], 1e-12)
+            found.append((summary(out), history(out)))
+        return found
+
+    def test_belt(self):
+        runs = self.runs("belt", "--set", "time.end=0.06")
+        self.assertGreater(runs[1][0]["steps"], 50 * runs[0][0]["steps"])
+        for column, bound in (("force_y", 0.003), ("force_x", 0.005)):
+            mean = [h[column][h["time_s"] > 0.05].mean() for _, h in runs]
+            self.assertLess(abs(mean[0] - mean[1]), bound * abs(mean[1]), column)
+
+    def test_bar_with_a_fine_tip(self):
+        noise = []
+        for s, h in self.runs("bar-fine-tip"):
+            force = h["force_y"][(h["time_s"] > 0.56) & (h["time_s"] < 1.1)]
+            noise.append(((force - 30.0) ** 2).mean() ** 0.5)
+            self.assertAlmostEqual(h["time_s"][h["force_y"] > 0][0], 0.5, delta=1.001 * s["step"])
+        self.assertAlmostEqual(noise[0], 0.694, delta=0.001)
+        self.assertAlmostEqual(noise[1], 14.03, delta=0.01)
+
+    def test_tyre_section(self):
+        runs = self.runs("tyre-section-implicit", "--set", "time.end=0.04")
+        self.assertGreater(runs[1][0]["steps"], 2.3 * runs[0][0]["steps"])
+        mean = [h["force_y"][h["time_s"] > 0.03].mean() for _, h in runs]
+        self.assertLess(abs(mean[0] - mean[1]), 0.003 * mean[1])
+
+
 class KilledWithImplicitElements(ResumeTest):
     kill_at_random_moments = Killed.kill_at_random_moments
     assert_readable = Killed.assert_readable
