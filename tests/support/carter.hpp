@@ -20,7 +20,8 @@ namespace rondo::test {
 /// the elastic forces. The half plane wants a/(μR) small (curvature) and ν near ½.
 struct CarterDisk {
   int radial = 10, columns = 450;
-  double creep = 0.0;  ///< ω R/V - 1, ω the turning that rolls to +x [-]
+  double creep = 0.0;    ///< ω R/V - 1, ω the turning that rolls to +x [-]
+  double grading = 2.0;  ///< of the layers, 1: equal
 
   static constexpr double radius = 0.3, depth = 1.0e-3, friction = 0.5, speed = 2.0;
   static constexpr double modulus = 5.0e6 / (1.0 - 0.49 * 0.49);
@@ -34,6 +35,7 @@ struct CarterMeans {
   double creep = 0.0;  ///< [-]
   Vec2 load;           ///< Q towards +x, P [N/m]
   // Of the shear that is spared, μp - |q|: half an ellipse over the stick zone, nothing elsewhere.
+  double step = 0.0;     ///< [s]
   double stick = 0.0;    ///< twice its standard deviation along the ground: c [m]
   double ahead = 0.0;    ///< its center ahead of that of the pressure: a - c [m]
   double largest = 0.0;  ///< |q|/(μp) of all nodes of all states looked at [-]
@@ -92,7 +94,7 @@ inline CarterMeans roll(const CarterDisk& of) {
             .inner_radius = 0.2,
             .radial = of.radial,
             .circumferential = of.columns,
-            .grading = 2.0,
+            .grading = of.grading,
             .tread = {}};
   c.material = {5.0e6, 0.49, 1100.0, fem::Plane::strain, fem::Integration::b_bar};
   c.alpha = 100.0;
@@ -107,6 +109,7 @@ inline CarterMeans roll(const CarterDisk& of) {
 
   CarterMeans mean;
   mean.creep = of.creep;
+  mean.step = b.model.dt;
   double steps = 0.0;
   std::vector<CarterSample> samples;
   while (run.report().frame.time < D::end) {
