@@ -129,6 +129,7 @@ class Told(ProgramTest):
         steps = []
         for text in (BELT, BELT + layers(2)):
             said = run("check", self.case(text)).stdout
+            self.assertEqual("implicit elements  40 of 120 (160 dofs)" in said, text is not BELT)
             steps.append(float(re.search(r"^critical step +([0-9.e-]+)", said, re.M)[1]))
         self.assertGreater(steps[1], 5.0 * steps[0])
 

@@ -35,6 +35,7 @@ NOT_RUN = [
     ("docs/reliability.md", "rondo run cases/long-spin.toml"),
     ("docs/reliability.md", "bash scripts/fuzz.sh"),
     ("docs/results.md", "xvfb-run -a pvpython tests/cli/read_fields.py"),
+    ("docs/schemes.md", "/usr/bin/python3 bench/schemes.py"),
     ("docs/studies.md", "python3 bench/sweep.py"),
     ("bench/README.md", "cmake --preset bench"),
     ("bench/README.md", "/usr/bin/python3 bench/instructions.py"),
