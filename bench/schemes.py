@@ -29,7 +29,7 @@ def run(program, case, out, repeat):
         done = subprocess.run([program, "run", case, "-o", out, "--quiet", "--overwrite", "--threads", "1"],
                               capture_output=True, text=True)
         if done.returncode != 0:
-            return None, done.stderr.strip().splitlines()[-1]
+            return None, next(line for line in done.stderr.splitlines() if "error" in line)
         wall = json.loads((out / "run.json").read_text())["loop_wall_s"]
         best = wall if best is None else min(best, wall)
     return best, ""
