@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
-/// What loads on nodes, a rim that moves by itself and sharp corners of the ground cost in the
-/// fused steps, in ns per degree of freedom and step, beside the same disk without them:
-/// `bench_exceptions [ROUNDS [LAYERS]]`. The runs of a line take turns and the least time of a
-/// batch of 64 steps counts, for the machine may have other work.
+/// What loads on nodes, a rim that moves by itself, contact nodes without mass, implicit elements
+/// and sharp corners of the ground cost in the fused steps, in ns per degree of freedom and step,
+/// beside the same disk without them: `bench_exceptions [ROUNDS [LAYERS]]`. The runs of a line take
+/// turns and the least time of a batch of 64 steps counts, for the machine may have other work.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -116,6 +116,10 @@ int main(int argc, char** argv) {
       compare("pressure", size, steps, flat, with(1e5, {}), rounds);
       compare("loaded rim", size, steps, flat, Variant{.rolling = true, .loaded_rim = true},
               rounds);
+      compare("massless contact nodes", size, steps, flat,
+              Variant{.rolling = true, .massless = true}, rounds);
+      compare("one implicit layer", size, steps, flat,
+              Variant{.rolling = true, .implicit_layer = size.radial / 2}, rounds);
       compare("sharp corner beside the patch", size, steps, with(0.0, end_of_ground(0.002)),
               with(0.0, end_of_ground(0.0)), rounds);
       compare("stands on a sharp corner", size, steps, with(0.0, ridge(0.002)),

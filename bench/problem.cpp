@@ -85,6 +85,32 @@ dynamics::RimBody loaded_rim() {
 
 }  // namespace
 
+/// To the nodes below the contact nodes, or back.
+void Problem::move_mass(bool from_contact) {
+  if (!model_.lumped_mass.empty()) model_.mass = std::exchange(model_.lumped_mass, {});
+  if (!from_contact) return;
+  model_.lumped_mass = model_.mass;
+  model_.mass = fem::move_contact_mass(mesh_, model_.mass, mesh_.boundary).mass;
+}
+
+/// Cells of a disk stand layer by layer in each column.
+void Problem::make_implicit(int layer) {
+  model_.implicit.reset();
+  if (layer == 0) return;
+  const auto sectors = static_cast<std::size_t>(mesh_.n_sectors);
+  const std::size_t layers = mesh_.cells.size() / sectors;
+  mesh::Mesh part = mesh_;
+  part.cells.clear();
+  for (std::size_t j = 0; j < sectors; ++j)
+    part.cells.push_back(mesh_.cells[j * layers + static_cast<std::size_t>(layer) - 1]);
+  const fem::Material material = test::DiskCase{}.material;
+  dynamics::ImplicitPart implicit{fem::assemble_stiffness(part, {&material, 1}), {}};
+  for (std::size_t k = 0; k < implicit.stiffness.n_rows(); ++k)
+    if (implicit.stiffness.row_start[k + 1] > implicit.stiffness.row_start[k])
+      implicit.nodes.push_back(static_cast<int>(k));
+  model_.implicit = std::move(implicit);
+}
+
 std::unique_ptr<dynamics::Integrator> Problem::integrator(Steps steps, const Variant& variant) {
   const test::DiskCase defaults;
   model_.threads = variant.threads;
@@ -102,8 +128,10 @@ std::unique_ptr<dynamics::Integrator> Problem::integrator(Steps steps, const Var
     model_.pressures.push_back({mesh_.contact_edges, dynamics::Table(variant.pressure)});
   model_.rim.reset();
   if (variant.loaded_rim) model_.rim = loaded_rim();
+  move_mass(variant.massless);
+  make_implicit(variant.implicit_layer);
   // The cyclic operator is to do without the assembled matrix, as on meshes too large for it.
-  const bool assembled = steps != Steps::cyclic;
+  const bool assembled = steps != Steps::cyclic || variant.massless;
   if (assembled) assemble();
   if (assembled == model_.stiffness.row_start.empty()) std::swap(stiffness_, model_.stiffness);
   dynamics::State start = test::start_at_rest(model_);

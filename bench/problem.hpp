@@ -29,6 +29,8 @@ struct Variant {
   contact::GroundShape ground{};
   double pressure = 0.0;    ///< on the tread                                           [Pa]
   bool loaded_rim = false;  ///< height and spin are free, under a load
+  bool massless = false;    ///< contact nodes have no mass
+  int implicit_layer = 0;   ///< this layer of elements, 1 at the rim, is implicit; 0: none
 };
 
 /// What a step has to do at the least, by the formulas of the scheme and the arrays of its
@@ -60,6 +62,8 @@ class Problem {
 
  private:
   void assemble();
+  void move_mass(bool from_contact);
+  void make_implicit(int layer);
 
   mesh::Mesh mesh_;
   dynamics::Model model_;

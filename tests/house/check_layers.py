@@ -21,11 +21,13 @@ ALLOWED = {
     "model/stability": {"core", "mesh", "fem"},
     "model": SOLIDS,
     "integrators/implicit": SOLIDS | {"model"},
-    "integrators/general": SOLIDS | {"model", "integrators/implicit"},
+    "integrators/massless": SOLIDS | {"model", "integrators/implicit"},
+    "integrators/general": SOLIDS | {"model", "integrators/implicit", "integrators/massless"},
     "integrators/hati": SOLIDS | {"model", "integrators/implicit", "integrators/general"},
-    "integrators/fused": SOLIDS | {"model", "integrators/implicit", "integrators/general"},
-    "integrators": SOLIDS | {"model", "integrators/implicit", "integrators/general",
-                             "integrators/hati", "integrators/fused"},
+    "integrators/fused": SOLIDS | {"model", "integrators/implicit", "integrators/massless",
+                                   "integrators/general"},
+    "integrators": SOLIDS | {"model", "integrators/implicit", "integrators/massless",
+                             "integrators/general", "integrators/hati", "integrators/fused"},
     "statics": SOLIDS,
     "statics/steady": SOLIDS | {"statics"},
     "modal": {"core", "mesh", "fem"},
@@ -35,9 +37,9 @@ ALLOWED = {
     "io/h5": {"core"},
 }
 ALLOWED["io"] = set(ALLOWED) - {"case"}
-STEPS = {"model", "integrators", "integrators/fused"}
+STEPS = {"model", "integrators", "integrators/massless", "integrators/fused"}
 ALLOWED["output"] = SOLIDS | STEPS | {"case", "io"}
-ALLOWED["analysis/elements"] = SOLIDS | {"model", "case"}
+ALLOWED["analysis/elements"] = SOLIDS | {"model", "integrators/massless", "case"}
 ALLOWED["analysis/build"] = SOLIDS | STEPS | {"statics", "statics/steady", "case", "output",
                                               "analysis/elements"}
 ALLOWED["analysis/figures"] = {"core", "io", "output"}

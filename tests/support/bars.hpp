@@ -19,6 +19,8 @@ struct Bar {
   double courant = 0.9;                          ///< c Δt/h
   fem::Plane plane = fem::Plane::stress;         ///< the same at ν = 0
   bool held = false;                             ///< its upper end is clamped
+  bool massless = false;                         ///< its foot has no mass
+  bool in_frame = false;  ///< as then, the turning frame, which stands still, is that of the bar
 
   [[nodiscard]] double wave_speed() const { return std::sqrt(youngs_modulus / density); }
   [[nodiscard]] double element() const { return length / elements; }
@@ -53,6 +55,10 @@ inline dynamics::Model bar_model(const Bar& bar) {
   dynamics::Model model = body_model(mesh, material, 0.0, 0.0, 1.0);
   model.dt = bar.step();
   add_ground(model, mesh, {}, {});
+  if (!bar.massless && !bar.in_frame) return model;
+  model.free_bodies.clear();
+  model.free_body.clear();
+  if (bar.massless) make_contact_massless(mesh, model);
   return model;
 }
 

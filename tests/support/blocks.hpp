@@ -7,6 +7,7 @@
 
 #include "rondo/core/complex.hpp"
 #include "rondo/fem/assembly.hpp"
+#include "rondo/fem/contact_mass.hpp"
 #include "rondo/integrators/integrator.hpp"
 #include "rondo/integrators/start.hpp"
 #include "rondo/model/stability/critical_step.hpp"
@@ -72,6 +73,13 @@ inline void add_ground(dynamics::Model& model, const mesh::Mesh& mesh,
                        const contact::GroundShape& shape, contact::Law law) {
   model.contact.emplace(dynamics::ContactModel{contact::Ground(shape), law, mesh.boundary,
                                                mesh.tributary, mesh.contact_edges});
+}
+
+/// The candidates of the ground lose their mass to the nodes below (docs/theory.md, 3.10).
+/// @pre the ground is there
+inline void make_contact_massless(const mesh::Mesh& mesh, dynamics::Model& model) {
+  model.lumped_mass = model.mass;
+  model.mass = fem::move_contact_mass(mesh, model.mass, model.contact->nodes).mass;
 }
 
 inline void add_surfaces(dynamics::Model& model, const mesh::Mesh& mesh, contact::Law law,

@@ -3,6 +3,7 @@
 #pragma once
 #include <utility>
 
+#include "rondo/fem/contact_mass.hpp"
 #include "rondo/integrators/start.hpp"
 #include "rondo/mesh/disk.hpp"
 #include "rondo/model/stability/critical_step.hpp"
@@ -96,6 +97,13 @@ inline Built build(const DiskCase& c) {
 inline void add_ground(Built& b, const contact::GroundShape& shape, contact::Law law) {
   b.model.contact.emplace(
       dynamics::ContactModel{contact::Ground(shape), law, b.mesh.boundary, b.mesh.tributary});
+}
+
+/// The candidates lose their mass to the nodes below (docs/theory.md, 3.10); the step stays.
+/// @pre the ground is there
+inline void make_contact_massless(Built& b) {
+  b.model.lumped_mass = b.model.mass;
+  b.model.mass = fem::move_contact_mass(b.mesh, b.model.mass, b.model.contact->nodes).mass;
 }
 
 /// @param rim without the bonded nodes, which are added

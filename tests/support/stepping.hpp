@@ -45,7 +45,7 @@ inline dynamics::Model model_with(const Built& b, dynamics::StiffnessOperator of
   model.stiffness_operator = of;
   if (of == dynamics::StiffnessOperator::sparse) return model;
   model.sector = fem::assemble_sector(b.mesh, b.materials, b.prestress);
-  model.stiffness = {};
+  if (!has_massless_contact(model)) model.stiffness = {};
   return model;
 }
 

@@ -164,8 +164,9 @@ test::Built rolling_disk(int ratio, double safety) {
   auto c = test::rolling_disk(12, 60);
   c.motion.height = Table(0.2965);
   auto b = test::build(c);
-  test::divide(b.model, b.mesh, b.material, test::cells_beyond(b.mesh, 0.2249), ratio, 1.0);
-  b.model.dt = ratio * safety * test::fine_critical_step(b.model, b.mesh, b.material);
+  test::divide(b.model, b.mesh, b.materials.front(), test::cells_beyond(b.mesh, 0.2249), ratio,
+               1.0);
+  b.model.dt = ratio * safety * test::fine_critical_step(b.model, b.mesh, b.materials.front());
   return b;
 }
 
@@ -182,7 +183,7 @@ test::Built with_implicit_elements(const test::Built& parts) {
   for (char& cell : is_coarse) cell = !cell;
   auto b = test::build(c, std::move(mesh));
   b.model.implicit.emplace(ImplicitPart{
-      fem::assemble_stiffness(mesh_of_cells(b.mesh, is_coarse), {&b.material, 1}), coarse.free});
+      fem::assemble_stiffness(mesh_of_cells(b.mesh, is_coarse), b.materials), coarse.free});
   b.model.dt = parts.model.dt;
   return b;
 }
@@ -259,8 +260,8 @@ double growth(int ratio, double share) {
   c.disk.grading = 2.0;  // the finest elements are outermost, away from the coarse part
   c.alpha = c.beta = 0.0;
   auto b = test::build(c);
-  test::divide(b.model, b.mesh, b.material, test::cells_beyond(b.mesh, 0.24), ratio, 1.0);
-  b.model.dt = share * ratio * test::fine_critical_step(b.model, b.mesh, b.material);
+  test::divide(b.model, b.mesh, b.materials.front(), test::cells_beyond(b.mesh, 0.24), ratio, 1.0);
+  b.model.dt = share * ratio * test::fine_critical_step(b.model, b.mesh, b.materials.front());
   std::vector<Vec2> u(b.model.n_nodes()), v(u.size());
   for (std::size_t k = 0; k < v.size(); ++k) {
     const auto number = static_cast<double>(k);

@@ -13,6 +13,7 @@
 #include "rondo/analysis/build/build.hpp"
 #include "rondo/analysis/build/memory.hpp"
 #include "rondo/analysis/build/step_limit.hpp"
+#include "rondo/analysis/elements/massless_boundary.hpp"
 #include "rondo/case/case_source.hpp"
 #include "rondo/integrators/start.hpp"
 #include "rondo/output/resume.hpp"
@@ -93,11 +94,12 @@ CheckReport DynamicAnalysis::check(double trial) {
 RecordPlan DynamicAnalysis::record_plan() const {
   RecordPlan plan;
   plan.results = {.mesh = &setup_.mesh,
-                  .mass = setup_.model.mass,
+                  .mass = lumped_mass_of(setup_.model),
                   .n_snapshots = schedule_.steps.size(),
                   .contact = has_candidates(setup_.model),
                   .stress = case_.output.stress,
                   .free_body = setup_.model.free_body};
+  if (has_massless_contact(setup_.model)) plan.results.mass_dynamic = setup_.model.mass;
   plan.columns = History(case_, setup_).columns();
   const double interval = std::max(case_.output.history_interval, setup_.model.dt);
   plan.n_rows = static_cast<std::size_t>(case_.time.end / interval) + 2;
@@ -127,10 +129,10 @@ void DynamicAnalysis::describe(Json& j) const {
   j["operator"] = operator_name(setup_.model.stiffness_operator);
   j["threads"] = setup_.model.threads;
   j["critical_step"] = setup_.critical.step;
-  if (setup_.model.implicit) {
+  j["contact_mass"] = contact_mass_name(case_);
+  if (setup_.model.implicit || has_massless_contact(setup_.model))
     j["critical_step_plain"] = setup_.critical_plain;
-    j["implicit_dofs"] = 2 * setup_.model.implicit->nodes.size();
-  }
+  if (setup_.model.implicit) j["implicit_dofs"] = 2 * setup_.model.implicit->nodes.size();
   j["largest_frequency"] = setup_.critical.omega;
   j["step"] = setup_.model.dt;
   j["steps"] = setup_.n_steps;
@@ -237,7 +239,8 @@ void DynamicAnalysis::judge(const dynamics::StepReport& step) {
   warn_of_impacts(step);
   OutOfBound found = step.contact.unseen > 0.0
                          ? OutOfBound{missed_corner(step.contact.unseen), false}
-                         : find_out_of_bound(step.balance, contact_, bounds_);
+                     : step.contact.two_facets ? OutOfBound{held_by_two_facets(), false}
+                                               : find_out_of_bound(step.balance, contact_, bounds_);
   if (found.what.empty() && setup_.model.rim) found = {look_at_rim(step), false};
   if (found.what.empty() && step.contact_felt_joint) found = {felt_joint(), false};
   if (found.what.empty()) return;
@@ -386,6 +389,8 @@ void DynamicAnalysis::summarise(Json& j, RunReport& r) const {
                   {"clusters_not_converged", contact_.clusters_not_converged},
                   {"cluster_largest", contact_.cluster_largest},
                   {"cluster_iterations_max", contact_.cluster_iterations},
+                  {"extensions", contact_.extensions},
+                  {"extensions_max", contact_.extensions_max},
                   {"between_bodies_max", contact_.between_bodies},
                   {"problems_kept", problems_kept_}};
 }

@@ -127,6 +127,13 @@ std::string missed_corner(double way) {
       way);
 }
 
+std::string held_by_two_facets() {
+  return "a contact node without mass is held by two facets of the ground at a concave corner, "
+         "which "
+         "is not done; solver.contact_mass = \"lumped\", or a ground.profile whose concave corners "
+         "the body does not reach";
+}
+
 std::string felt_joint() {
   return "impulses of contact changed when the force that joins the two parts was corrected: "
          "contact "
@@ -150,6 +157,7 @@ double impact_gain(const dynamics::Balance& b) noexcept {
 }
 
 std::string impact_cure(const dynamics::Model& model) {
+  if (has_massless_contact(model)) return "a smaller step, or solver.contact_mass = \"lumped\"";
   const auto is_moreau = [](const auto& contact) {
     return contact && contact->law.impact == contact::Impact::moreau;
   };

@@ -45,6 +45,9 @@ std::string created_by_impacts(const dynamics::Balance& balance, double bound,
 /// What is said where a node has moved that far [m] between two looks for sharp corners.
 std::string missed_corner(double way);
 
+/// What is said where a node without mass is held by two facets of the ground.
+std::string held_by_two_facets();
+
 /// What is said where contact felt how the parts of the scheme "hati" were joined.
 std::string felt_joint();
 

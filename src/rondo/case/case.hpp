@@ -107,6 +107,9 @@ struct Initial {
   std::vector<InitialRegion> regions;
 };
 
+/// What mass contact nodes on the ground have: theirs, none, or none with center and inertia kept.
+enum class ContactMass { lumped, singular, singular_kept };
+
 using dynamics::Scheme;
 
 /// Some of the elements of a body, by one of three.
@@ -169,8 +172,9 @@ struct Case {
   Time time;
   std::string solver_operator = "auto";  ///< "auto" | "cyclic" | "sparse"
   std::vector<ElementChoice> implicit;   ///< elements that are implicit in the explicit step
-  std::optional<HatiCase> hati;          ///< there where time.scheme is "hati"
-  int contact_iterations = 10000;        ///< most that a coupled contact problem may take
+  ContactMass contact_mass = ContactMass::lumped;
+  std::optional<HatiCase> hati;    ///< there where time.scheme is "hati"
+  int contact_iterations = 10000;  ///< most that a coupled contact problem may take
   int dump_contacts = 0;  ///< contact problems that took more iterations are kept as files; 0: none
   Output output;
   std::vector<std::string> warnings;  ///< said while reading; the caller prints them

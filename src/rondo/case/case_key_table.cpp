@@ -369,6 +369,16 @@ constexpr CaseKey keys[] = {
      "but where it is free, there is a `[contact]` of bodies, or `time.scheme` is not "
      "\"symplectic\": "
      "there \"cyclic\" is refused. The results are the same to round-off (docs/performance.md)"},
+    {"solver.contact_mass", "-", FIELD(contact_mass), choice("lumped", "singular", "singular-kept"),
+     optional.of(in_time),
+     "mass of the nodes that may touch the ground. \"lumped\": theirs. \"singular\": none; it goes "
+     "to "
+     "the nodes below, and the contact nodes are where stiffness and ground leave them "
+     "([theory](theory.md), 3.10): impacts lose and excite next to nothing, gaps are kept, and the "
+     "step may be longer. \"singular-kept\": besides, all masses are multiplied by 1 + a + b·X + "
+     "d|X|² so that center and inertia of the body stay. Needs a `[ground]` without sharp convex "
+     "corners, and is refused with restitution, `[contact]` of bodies, `[rim]`, free bodies and "
+     "another scheme than \"symplectic\""},
     {"solver.contact_iterations", "-", FIELD(contact_iterations), between(1, 1000000000),
      optional.of(in_time).body(never),
      "most iterations of contacts that share nodes and are solved together (sharp corners of the "

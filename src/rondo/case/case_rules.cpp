@@ -198,6 +198,42 @@ void check_operator(CaseValues& in, const Case& c) {
   if (!why.empty()) in.fault("solver.operator", std::string(why), "\"auto\" or \"sparse\"");
 }
 
+/// Sharp convex corners may touch between two nodes.
+bool has_sharp_corners(const GroundCase& ground) {
+  return ground.shape.fillet == 0.0 && !contact::Ground(ground.shape).corners().empty();
+}
+
+/// What contact nodes without mass are not done for (docs/theory.md, 3.10).
+void check_contact_mass(CaseValues& in, const Case& c) {
+  if (c.contact_mass == ContactMass::lumped) return;
+  constexpr std::string_view key = "solver.contact_mass";
+  const std::string lumped = "\"lumped\"";
+  const auto refuse = [&](std::string why, const std::string& instead) {
+    in.fault(key, std::move(why), lumped + instead);
+  };
+  if (!c.ground)
+    refuse("there is no [ground] that contact nodes without mass could touch", ", or a [ground]");
+  if (c.ground && c.ground->restitution > 0.0)
+    refuse(fmt::format("ground.restitution = {}: the law is on gaps, and what has no mass has no "
+                       "velocity to give back",
+                       c.ground->restitution),
+           ", or ground.restitution = 0");
+  if (c.ground && in.good({"ground", "ground.profile", "ground.fillet"}) &&
+      has_sharp_corners(*c.ground))
+    refuse("the ground has sharp convex corners, which touch between two nodes",
+           ", or ground.fillet > 0");
+  if (c.time.scheme != Scheme::symplectic)
+    refuse("time.scheme is another one than \"symplectic\"", ", or time.scheme = \"symplectic\"");
+  if (c.body_contact.between != BodyContact::none)
+    refuse("there is a [contact] of bodies, whose nodes have mass", ", or no [contact]");
+  if (c.rim) refuse("there is a [rim], whose step knows nodes with mass alone", ", or no [rim]");
+  if (!is_held(c))
+    refuse(
+        "nothing holds the body: contact nodes without mass are done in the turning frame of a "
+        "rim alone",
+        c.mesh ? ", or mesh.clamped" : ", or disk.rim = \"bonded\"");
+}
+
 bool is_word(std::string_view name) {
   return std::all_of(name.begin(), name.end(), [](char c) {
     return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_' ||
@@ -270,6 +306,7 @@ void check_case(CaseValues& in, Case& c) {
   check_initial(in, c);
   check_time(in, c);
   check_operator(in, c);
+  check_contact_mass(in, c);
   check_implicit(in, c);
   check_hati(in, c);
   check_output(in, c);

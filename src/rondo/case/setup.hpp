@@ -27,9 +27,9 @@ struct Setup {
   fem::NodalDilatation dilatation;       ///< of triangles by B-bar, for their stress
   std::vector<ProbeSite> probes;         ///< of output.probes
   dynamics::Model model;
-  std::vector<char> implicit_cells;  ///< (e) 1: implicit; empty: none
-  dynamics::CriticalStep critical;   ///< of the explicit elements; an infinite step: none
-  double critical_plain = 0.0;       ///< critical step if all elements were explicit [s]
+  std::vector<char> implicit_cells;   ///< (e) 1: implicit; empty: none
+  dynamics::CriticalStep critical;    ///< of the explicit elements; an infinite step: none
+  double critical_plain = 0.0;        ///< critical step if all were explicit, with its mass [s]
   long long n_steps = 0;              ///< ceil(end / step); the step is never fitted to the end
   std::vector<Vec2> prestress;        ///< (n) displacement whose stress stiffens the body [m]
   std::vector<Vec2> displacement;     ///< (n) u_0                          [m]

@@ -206,6 +206,25 @@ Touches Ground::touches(Vec2 x) const noexcept {
   return out;
 }
 
+Touch Ground::facet_near(Vec2 x) const noexcept {
+  Projection p;
+  static_cast<void>(nearest(x, p));
+  return {p.gap, p.normal};
+}
+
+bool Ground::has_concave_corners() const noexcept {
+  return std::ranges::any_of(facets_, [](const Facet& facet) { return facet.concave_end; });
+}
+
+double Ground::beside_concave_corner(Vec2 x) const noexcept {
+  Projection p;
+  const std::size_t k = nearest(x, p);
+  double gap = infinity;
+  if (facets_[k].concave_end) gap = project(facets_[k + 1], x).gap;
+  if (k > 0 && facets_[k - 1].concave_end) gap = std::min(gap, project(facets_[k - 1], x).gap);
+  return gap;
+}
+
 double Ground::distance(Vec2 x) const noexcept {
   Projection p;
   static_cast<void>(nearest(x, p));

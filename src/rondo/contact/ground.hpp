@@ -57,6 +57,12 @@ class Ground {
   /// Facets with gap <= 0 at x. Looks at those as far as the
   /// surface is; one comparison where x is above the whole ground.
   [[nodiscard]] Touches touches(Vec2 x) const noexcept;
+  /// The facet nearest to x, whether x is inside or not: as if it went on for ever.
+  [[nodiscard]] Touch facet_near(Vec2 x) const noexcept;
+  /// Signed distance to the line of the facet that meets the one nearest to x in a concave corner,
+  /// the nearer of two; infinite: there is no such corner                                  [m]
+  [[nodiscard]] double beside_concave_corner(Vec2 x) const noexcept;
+  [[nodiscard]] bool has_concave_corners() const noexcept;
   /// Signed distance to the surface, > 0 outside                                           [m]
   [[nodiscard]] double distance(Vec2 x) const noexcept;
   /// Length along the surface, from the first point of the profile, of the point nearest to x [m]

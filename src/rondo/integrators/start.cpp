@@ -60,6 +60,7 @@ void start_body(const Model& model, std::span<const Vec2> load, State& state) {
   const double half = 0.5 * model.dt;
   const FrameStep fixed = fixed_frame_step(model, 0);
   for_free_nodes(model, [&](std::size_t k) {
+    if (model.mass[k] == 0.0) return;  // the integrator's ring finds it
     const FrameStep& frame = in_fixed_frame(model, k) ? fixed : state.frame;
     const VelocityUpdate update =
         velocity_update(model.scheme, half, model.mass_damping, frame.spin);

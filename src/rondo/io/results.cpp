@@ -110,6 +110,9 @@ Results::Results(const std::filesystem::path& directory, const ResultsLayout& la
   file_.set_attribute("/", "format", "rondo results 1");
   file_.set_attribute("/", "analysis", words_.analysis);
   write_mesh(file_, *layout.mesh, layout.mass);
+  if (!layout.mass_dynamic.empty())
+    file_.write("/mesh/mass_dynamic", {c_.nodes}, layout.mass_dynamic,
+                {"kg/m", "mass of each node with which it moves: 0 at contact nodes"});
   if (!free_body_.empty())
     file_.write("/mesh/free_body", {c_.nodes}, free_body_,
                 {"1",

@@ -66,6 +66,7 @@ struct ResultsLayout {
   ResultsWords words = {};
   std::vector<Series> series = {};
   ReducedModes modes = {};  ///< with them: neither /snapshots, /fields, stress nor fields.xdmf
+  std::span<const double> mass_dynamic{};  ///< (n) with which it moves; empty: with that [kg/m]
 };
 
 /// One snapshot; spans are only read during the call. Times and rates are in the units of the

@@ -94,6 +94,8 @@ void ContactReport::add(const ContactReport& other) noexcept {
   clusters_not_converged += other.clusters_not_converged;
   cluster_largest = std::max(cluster_largest, other.cluster_largest);
   cluster_iterations = std::max(cluster_iterations, other.cluster_iterations);
+  extensions = std::max(extensions, other.extensions);
+  two_facets = two_facets || other.two_facets;
   between_bodies += other.between_bodies;
   length += other.length;
   penetration = std::max(penetration, other.penetration);

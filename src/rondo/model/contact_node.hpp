@@ -22,6 +22,8 @@ struct ContactReport {
   int clusters_not_converged = 0;
   int cluster_largest = 0;     ///< contacts of the largest
   int cluster_iterations = 0;  ///< most that one took
+  int extensions = 0;          ///< of a massless boundary: times that nodes joined
+  bool two_facets = false;     ///< likewise: a node is held by two facets, which is not done
   int between_bodies = 0;      ///< nodes pressed against a segment of a body
   double length = 0.0;         ///< Σ tributary lengths of nodes with r_n > 0           [m]
   double penetration = 0.0;    ///< largest -gap of an active contact, >= 0             [m]

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "rondo/model/model.hpp"
 
+#include <algorithm>
+
 #include "rondo/core/contract.hpp"
 #include "rondo/fem/stiffness_product.hpp"
 
@@ -45,6 +47,19 @@ bool is_general(const Model& model) noexcept {
   return model.scheme != Scheme::symplectic || !model.free_bodies.empty() ||
          model.surfaces.has_value() || model.internal_force ||
          (model.rim && !model.pressures.empty());
+}
+
+std::vector<int> nodes_with_mass(const Model& model) {
+  std::vector<int> nodes = model.free;
+  std::erase_if(nodes, [&](int node) { return model.mass[static_cast<std::size_t>(node)] == 0.0; });
+  return nodes;
+}
+
+double least_mass_share(const Model& model) noexcept {
+  double least = 1.0;
+  for (std::size_t k = 0; k < model.lumped_mass.size(); ++k)
+    if (model.mass[k] > 0.0) least = std::min(least, model.mass[k] / model.lumped_mass[k]);
+  return least;
 }
 
 bool has_sharp_corners(const Model& model) noexcept {

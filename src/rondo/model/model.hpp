@@ -85,11 +85,14 @@ using InternalForceMaker = std::function<std::unique_ptr<InternalForce>(
     const Model& model, std::span<const Vec2> u0, std::span<const Pose> poses)>;
 
 struct Model {
-  std::vector<Vec2> reference;                 ///< (n) X                        [m]
-  std::vector<double> mass;                    ///< (n) lumped, > 0              [kg/m]
-  std::vector<int> free;                       ///< nodes that move, ascending
-  fem::BlockCsr stiffness;                     ///< K on the free nodes, or empty [N/m²]
-  InternalForceMaker internal_force;           ///< of another material than K's; empty: of K
+  std::vector<Vec2> reference;        ///< (n) X                        [m]
+  std::vector<double> mass;           ///< (n) lumped; 0 at contact nodes where
+                                      ///< lumped_mass is there           [kg/m]
+  std::vector<double> lumped_mass{};  ///< (n) where the candidates of the ground have none:
+                                      ///< what it was; empty: mass is that [kg/m]
+  std::vector<int> free;              ///< nodes that move, ascending
+  fem::BlockCsr stiffness;            ///< K on the free nodes, or empty [N/m²]
+  InternalForceMaker internal_force;  ///< of another material than K's; empty: of K
   std::optional<fem::SectorStiffness> sector;  ///< K of one sector; absent: not cyclic
   std::optional<ImplicitPart> implicit;        ///< absent: all elements are explicit
   StiffnessOperator stiffness_operator = StiffnessOperator::sparse;
@@ -173,6 +176,23 @@ inline double explicit_step(const Model& model) noexcept {
 /// Nodes of the mesh's boundary may touch something.
 inline bool has_candidates(const Model& model) noexcept {
   return model.contact || model.surfaces;
+}
+
+/// The candidates of the ground have no mass (docs/theory.md, 3.10).
+inline bool has_massless_contact(const Model& model) noexcept {
+  return !model.lumped_mass.empty();
+}
+
+/// Free nodes that have mass, ascending.
+[[nodiscard]] std::vector<int> nodes_with_mass(const Model& model);
+
+/// Least mass of a node that has any over its lumped mass, at most 1: by this much less, bounds of
+/// frequencies by elements are too low.
+[[nodiscard]] double least_mass_share(const Model& model) noexcept;
+
+/// (n) As lumped, whatever the contact nodes have: the weight of modes and of results  [kg/m]
+inline const std::vector<double>& lumped_mass_of(const Model& model) noexcept {
+  return has_massless_contact(model) ? model.lumped_mass : model.mass;
 }
 
 /// The model has something that only a general integrator does: a free body, contact between

@@ -57,6 +57,8 @@ void for_contact(Known& c, Visit&& visit) {
   visit("/contact/clusters_not_converged", c.clusters_not_converged, {"1", "of these not"});
   visit("/contact/cluster_largest", c.cluster_largest, {"1", "contacts of the largest"});
   visit("/contact/cluster_iterations", c.cluster_iterations, {"1", "most of a cluster"});
+  visit("/contact/extensions", c.extensions, {"1", "times that nodes joined a massless contact"});
+  visit("/contact/extensions_max", c.extensions_max, {"1", "most in a step"});
   visit("/contact/between_bodies", c.between_bodies, {"1", "most in a step"});
 }
 
@@ -84,7 +86,8 @@ void for_texts(Known& identity, Visit&& visit) {
 template <class Known, class Visit>
 void for_scalars(Known& k, Visit&& visit) {
   const std::string row = "since the last row of history.csv", loop = "of the loop so far, ";
-  auto& [next, since, done, impulse, angular_impulse, penetration, hub, hub_angular] = k.history;
+  auto& [next, since, done, impulse, angular_impulse, penetration, hub, hub_angular, iterations,
+         extensions] = k.history;
   visit("/run/step", k.identity.step, {"s", "length of a step"});
   visit("/run/steps_done", k.state.step, {"1", "steps made"});
   visit("/run/steps", k.n_steps, {"1", "steps of the whole run"});
@@ -105,6 +108,8 @@ void for_scalars(Known& k, Visit&& visit) {
   visit("/history/hub_impulse_x", hub.x, {"N*s/m", row});
   visit("/history/hub_impulse_y", hub.y, {"N*s/m", row});
   visit("/history/hub_angular_impulse", hub_angular, {"N*s", row});
+  visit("/history/iterations", iterations, {"1", "of contact in a step, most " + row});
+  visit("/history/extensions", extensions, {"1", "of contact in a step, most " + row});
   for_contact(k.contact, visit);
   for_deformation(k.deformation, visit);
 }
@@ -130,6 +135,7 @@ void put_state(File& file, const dynamics::SavedState& s) {
   put(file, "/state/contact", keys, {"1", "contacts that share nodes, by number"});
   put(file, "/state/impulse", impulses, {"N*s/m", "their impulses in the last step"});
   put(file, "/state/rim", s.rim, {"1", "what a loaded rim carries"});
+  put(file, "/state/ring", s.ring, {"1", "contacts of a massless boundary"});
   put(file, "/state/interface", s.interface,
       {"1", "where two parts meet: u [m] and v [m/s] of the coarse one, multiplier [N/m]"});
   put(file, "/state/ledger", std::vector<double>(s.ledger.begin(), s.ledger.end()),
@@ -144,6 +150,7 @@ void get_state(const File& file, dynamics::SavedState& s) {
   s.gradient = get<Vec2>(file, "/state/gradient");
   s.energy = get<double>(file, "/state/energy");
   s.rim = get<double>(file, "/state/rim");
+  s.ring = get<double>(file, "/state/ring");
   s.interface = get<Vec2>(file, "/state/interface");
   for (const auto& p : get<std::array<double, 5>>(file, "/state/poses", s.energy.size()))
     s.poses.push_back({{p[0], p[1]}, {p[2], p[3]}, p[4]});

@@ -110,6 +110,15 @@ constexpr std::array rim{
     Column<H>{"dissipation_support", "J/m", "by the dashpots of `[rim.support]`",
               [](const H& r) { return r.balance.works.dissipation_support; }}};
 
+constexpr std::array massless{
+    Column<H>{"contact_iterations", "1",
+              "that the contact law took in a step, most in the interval",
+              [](const H& r) { return static_cast<double>(r.iterations); }},
+    Column<H>{"contact_extensions", "1",
+              "times that further nodes came into contact while the law of a step was solved, "
+              "likewise",
+              [](const H& r) { return static_cast<double>(r.extensions); }}};
+
 constexpr std::array hati{
     Column<H>{"work_interface", "J/m",
               "of what joins the two parts of the body: round-off, no part of the balance",
@@ -139,6 +148,10 @@ std::span<const Column<HistoryRecord>> history_columns() noexcept {
 
 std::span<const Column<HistoryRecord>> rim_columns() noexcept {
   return rim;
+}
+
+std::span<const Column<HistoryRecord>> massless_columns() noexcept {
+  return massless;
 }
 
 std::span<const Column<HistoryRecord>> hati_columns() noexcept {

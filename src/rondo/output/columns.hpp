@@ -22,6 +22,7 @@ struct HistoryRecord {
   double penetration = 0.0;     ///< [m]
   double slip_ratio = 0.0;      ///< [1]
   dynamics::Balance balance;
+  int iterations = 0, extensions = 0;  ///< of contact nodes without mass, most in a step
   dynamics::RimReport rim;  ///< of a loaded rim; what holds it as means over the interval
 };
 
@@ -39,6 +40,8 @@ struct ContactRecord {
 [[nodiscard]] std::span<const Column<HistoryRecord>> history_columns() noexcept;
 /// Those that a run with a loaded rim has besides.
 [[nodiscard]] std::span<const Column<HistoryRecord>> rim_columns() noexcept;
+/// Behind those, where contact nodes have no mass.
+[[nodiscard]] std::span<const Column<HistoryRecord>> massless_columns() noexcept;
 /// Those of the scheme "hati".
 [[nodiscard]] std::span<const Column<HistoryRecord>> hati_columns() noexcept;
 [[nodiscard]] std::span<const Column<ContactRecord>> contact_columns() noexcept;

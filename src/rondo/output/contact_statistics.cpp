@@ -20,6 +20,8 @@ void ContactStatistics::add(const dynamics::ContactReport& r) noexcept {
   clusters_not_converged += r.clusters_not_converged;
   cluster_largest = std::max(cluster_largest, r.cluster_largest);
   cluster_iterations = std::max(cluster_iterations, r.cluster_iterations);
+  extensions += r.extensions;
+  extensions_max = std::max(extensions_max, r.extensions);
   between_bodies = std::max(between_bodies, r.between_bodies);
 }
 

@@ -17,6 +17,8 @@ struct ContactStatistics {
   long long clusters_not_converged = 0;
   int cluster_largest = 0;
   int cluster_iterations = 0;  ///< most of one
+  long long extensions = 0;    ///< of a massless boundary: times that nodes joined
+  int extensions_max = 0;      ///< most in a step
   int between_bodies = 0;      ///< most in a step
 
   bool operator==(const ContactStatistics&) const = default;

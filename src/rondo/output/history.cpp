@@ -38,6 +38,10 @@ std::vector<ColumnLabel> History::columns() const {
     const std::vector<ColumnLabel> rim = labels_of(rim_columns());
     labels.insert(labels.end(), rim.begin(), rim.end());
   }
+  if (has_massless_contact(setup_.model)) {
+    const std::vector<ColumnLabel> massless = labels_of(massless_columns());
+    labels.insert(labels.end(), massless.begin(), massless.end());
+  }
   if (setup_.model.subdomains) {
     const std::vector<ColumnLabel> hati = labels_of(hati_columns());
     labels.insert(labels.end(), hati.begin(), hati.end());
@@ -88,6 +92,8 @@ void History::observe(const dynamics::StepReport& step, const dynamics::State* s
   at_.impulse += report.impulse;
   at_.angular_impulse += report.angular_impulse;
   at_.penetration = std::max(at_.penetration, report.penetration);
+  at_.iterations = std::max(at_.iterations, report.cluster_iterations);
+  at_.extensions = std::max(at_.extensions, report.extensions);
   at_.hub_impulse += dt_ * step.rim.force;
   at_.hub_angular_impulse += dt_ * step.rim.torque;
   if (!is_due(step.frame.time)) return;
@@ -126,6 +132,11 @@ void History::append_row(const dynamics::StepReport& step, const dynamics::State
     r.rim.force = at_.hub_impulse / span;
     r.rim.torque = at_.hub_angular_impulse / span;
     append_values(rim_columns(), r, rows);
+  }
+  if (has_massless_contact(setup_.model)) {
+    r.iterations = at_.iterations;
+    r.extensions = at_.extensions;
+    append_values(massless_columns(), r, rows);
   }
   if (setup_.model.subdomains) append_values(hati_columns(), r, rows);
   append_probes(state, rows);

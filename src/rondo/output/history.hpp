@@ -20,6 +20,7 @@ struct HistoryPlace {
   double angular_impulse = 0.0, penetration = 0.0;
   Vec2 hub_impulse{};  ///< of what holds a loaded rim, likewise                    [N·s/m]
   double hub_angular_impulse = 0.0;
+  int iterations = 0, extensions = 0;  ///< of contact, most in a step since the last row
 };
 
 class History {

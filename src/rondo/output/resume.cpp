@@ -14,6 +14,7 @@
 #include "rondo/case/case_keys.hpp"
 #include "rondo/case/case_source.hpp"
 #include "rondo/core/error.hpp"
+#include "rondo/integrators/massless/ring_contact.hpp"
 #include "rondo/io/directory.hpp"
 #include "rondo/io/files.hpp"
 #include "rondo/model/loaded_rim.hpp"
@@ -102,7 +103,7 @@ bool fits(const dynamics::SavedState& s, const Setup& setup) {
   const std::size_t n = model.n_nodes(), n_free = model.free_bodies.size();
   const bool parts = model.subdomains.has_value();
   const bool general = is_general(model) && !parts;
-  const bool rim = model.rim.has_value();
+  const bool rim = model.rim.has_value(), massless = has_massless_contact(model);
   const bool of_force = general || rim || (model.stiffness_damping > 0.0 && !parts);
   const std::size_t force = of_force ? n : 0;
   const std::size_t joined = parts ? 3 * model.subdomains->interface.size() : 0;
@@ -110,6 +111,8 @@ bool fits(const dynamics::SavedState& s, const Setup& setup) {
   return s.u.size() == n && s.v.size() == n && s.force.size() == force &&
          s.gradient.size() == (general ? n : 0) && s.energy.size() == n_free &&
          s.poses.size() == n_free && s.u_before.size() == (rim ? n : 0) &&
+         (massless ? dynamics::MasslessContact::is_saved(s.ring, model.contact->nodes.size())
+                   : s.ring.empty()) &&
          s.interface.size() == joined && s.rim.size() == rim_numbers &&
          std::ranges::all_of(s.rim, is_finite) && s.step > 0 &&
          std::ranges::is_sorted(s.impulses, {}, first_of);

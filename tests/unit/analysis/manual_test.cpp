@@ -41,6 +41,7 @@ rondo::test::ManualTable table_of(std::string_view what, const Labels& labels) {
 TEST(Manual, HasTheColumns) {
   const Labels probe = history_of({"output.probe=[{name = 'NAME', position = [0.2, 0.0]}]"});
   const Labels rim = history_of({"rim.free=[]"});
+  const Labels massless = history_of({"solver.contact_mass=singular"});
   const Labels hati =
       history_of({"time.scheme=hati", "solver.hati.ratio=1", "solver.hati.fine.layers=[12]"});
   const Labels crush = history_of({"analysis.kind=crush", "analysis.depth=0.01",
@@ -50,8 +51,9 @@ TEST(Manual, HasTheColumns) {
   rondo::test::expect_in_manual(
       test::source_folder() / "docs" / "results.md",
       {table_of("history.csv", labels_of(history_columns())), table_of("probe", further(probe)),
-       table_of("rim", further(rim)), table_of("hati", further(hati)),
-       table_of("crush", further(crush)), table_of("steady-rolling", further(steady)),
+       table_of("rim", further(rim)), table_of("massless", further(massless)),
+       table_of("hati", further(hati)), table_of("crush", further(crush)),
+       table_of("steady-rolling", further(steady)),
        table_of("contact.csv", labels_of(contact_columns())),
        table_of("contact.csv steady-rolling", further_contact_of(rolls))});
 }

@@ -72,6 +72,25 @@ TEST(Ground, ValleyHoldsByTwoFacetsFromEitherSide) {
   }
 }
 
+TEST(Ground, TheNearestFacetIsGivenInsideAndOutside) {
+  const Ground ground{ledge};
+  for (const double y : {0.03, 0.0, -0.001}) {
+    const Touch t = ground.facet_near({0.5, y});
+    EXPECT_NEAR(t.gap, y, 1e-16);
+    EXPECT_EQ(t.normal, (Vec2{0.0, 1.0}));
+  }
+  const Touch arc = ground.facet_near(Vec2{0.02, -0.02} + 0.025 * direction_at(2.0));
+  EXPECT_NEAR(arc.gap, 0.005, 1e-15);
+  EXPECT_NEAR(norm(arc.normal - direction_at(2.0)), 0.0, 1e-14);
+}
+
+TEST(Ground, TellsHowFarTheOtherFacetOfAConcaveCornerIs) {
+  const Ground ground{ledge};
+  EXPECT_NEAR(ground.beside_concave_corner({-0.3, -0.1}), 0.3, 1e-15);      // floor to wall
+  EXPECT_NEAR(ground.beside_concave_corner({-0.001, -0.05}), 0.05, 1e-15);  // wall to floor
+  EXPECT_EQ(ground.beside_concave_corner({0.5, 0.0}), std::numeric_limits<double>::infinity());
+}
+
 TEST(Ground, AFarFacetDoesNotReachPastTheNearestOne) {
   // A valley, then a drop: the valley's first slope, prolonged, would pass above the drop's foot.
   const Ground ground{

@@ -16,9 +16,9 @@ test::Built disk(int fine, int ratio, int threads = 1) {
                    {0.3, 0.0});
   b.model.contact->edges = b.mesh.contact_edges;
   const double layer = (0.3 - 0.15) / 8;
-  test::divide(b.model, b.mesh, b.material, test::cells_beyond(b.mesh, 0.3 - (fine + 0.5) * layer),
-               ratio, 1.0);
-  b.model.dt = ratio * 0.8 * test::fine_critical_step(b.model, b.mesh, b.material);
+  test::divide(b.model, b.mesh, b.materials.front(),
+               test::cells_beyond(b.mesh, 0.3 - (fine + 0.5) * layer), ratio, 1.0);
+  b.model.dt = ratio * 0.8 * test::fine_critical_step(b.model, b.mesh, b.materials.front());
   b.model.threads = threads;
   return b;
 }

@@ -22,6 +22,7 @@ struct RollingCase {
   bool stiffened = false;                  ///< by the stress of the initial spin
   bool pressed = false;                    ///< by pressures on its boundary
   std::optional<dynamics::RimBody> rim{};  ///< without the bonded nodes
+  bool massless = false;                   ///< contact nodes have no mass
 };
 
 /// For the names that the tests print.
@@ -66,6 +67,15 @@ inline RollingCase sharp(RollingCase c) {
   return c;
 }
 
+/// The same with contact nodes that have no mass, where no two facets hold a node at once.
+inline RollingCase massless(RollingCase c) {
+  c.name += "_massless";
+  c.massless = true;
+  c.ground = ledge();
+  c.law.restitution = 0.0;
+  return c;
+}
+
 /// The same on a loaded rim: what is free of it has tables of loads and a support.
 inline RollingCase on_rim(RollingCase c, bool x, bool y, bool spin) {
   using dynamics::Table;
@@ -103,6 +113,16 @@ inline std::vector<RollingCase> wheel_cases() {
                                everything("columns_100", 1, 100)})
     all.push_back(on_rim(c, true, true, true));
   return all;
+}
+
+/// Contact nodes without mass: what the sparse operator and the general step do.
+inline std::vector<RollingCase> massless_cases() {
+  const RollingCase smooth = everything("smooth", 6, 90);
+  RollingCase undamped = everything("undamped", 6, 90), frictionless = everything("slides", 6, 90);
+  undamped.disk.beta = 0.0;
+  frictionless.law = {};
+  return {massless(smooth), massless(undamped), massless(frictionless),
+          massless(everything("treaded", 3, mesh::Tread{20, 0.02, 3, 1, 2}))};
 }
 
 /// Each difference between the operators that a step could depend on, and numbers of sectors that
@@ -181,6 +201,7 @@ inline Built build(const RollingCase& c) {
     add_ground(b, *c.ground, c.law);
     b.model.contact->edges = b.mesh.contact_edges;
   }
+  if (c.massless) make_contact_massless(b);
   if (c.pressed) add_pressures(b);
   if (c.rim) set_rim(b, *c.rim);
   return b;

@@ -14,8 +14,10 @@
 #include "rondo/analysis/build/rim.hpp"
 #include "rondo/analysis/build/stability.hpp"
 #include "rondo/analysis/elements/implicit.hpp"
+#include "rondo/analysis/elements/massless_boundary.hpp"
 #include "rondo/analysis/elements/subdomains.hpp"
 #include "rondo/case/case_keys.hpp"
+#include "rondo/case/case_rules.hpp"
 #include "rondo/integrators/fused/batch_integrator.hpp"
 #include "rondo/statics/stationary_spin.hpp"
 
@@ -86,12 +88,15 @@ void make_model(const Case& c, Setup& s) {
   add_rim(c, s.mesh, model);
   add_contacts(c, s.mesh, model);
   add_pressures(c, s.mesh, model);
+  make_contact_massless(c, s);
   if (s.mesh.n_sectors > 0) model.sector = fem::assemble_sector(s.mesh, s.materials);
-  if (model.sector && c.solver_operator != "sparse" && !is_general(model))
+  if (model.sector && c.solver_operator != "sparse" && why_not_cyclic(c).empty() &&
+      !is_general(model))
     model.stiffness_operator = dynamics::StiffnessOperator::cyclic;
   if (model.stiffness_operator == dynamics::StiffnessOperator::sparse || !by_harmonics(model))
     model.stiffness = fem::assemble_stiffness(s.mesh, s.materials);
   model.stiffness_damping = c.damping.stiffness;
+  demand_held_ring(c, model);
 }
 
 /// What does not change the body: see body_key().
@@ -173,9 +178,18 @@ dynamics::CriticalStep body_step(const Setup& s, dynamics::LaggedDamping damping
   if (by_harmonics(m) || (m.rim && m.sector))
     return dynamics::critical_step(*m.sector, m.mass, damping,
                                    fem::sector_eigenvalue_bound(s.mesh, s.materials, s.prestress));
-  return dynamics::critical_step(m.stiffness, m.mass, m.free, damping,
+  const double bound = fem::element_eigenvalue_bound(s.mesh, s.materials, s.prestress);
+  return dynamics::critical_step(m.stiffness, m.mass, nodes_with_mass(m), damping,
+                                 bound / least_mass_share(m), m.threads);
+}
+
+/// As if contact nodes had their mass.
+double plain_step(const Setup& s, dynamics::LaggedDamping damping) {
+  const dynamics::Model& m = s.model;
+  return dynamics::critical_step(m.stiffness, m.lumped_mass, m.free, damping,
                                  fem::element_eigenvalue_bound(s.mesh, s.materials, s.prestress),
-                                 m.threads);
+                                 m.threads)
+      .step;
 }
 
 /// Of what is explicit.
@@ -183,7 +197,7 @@ dynamics::CriticalStep find_critical_step(const Case& c, Setup& s) {
   const bool lagged = c.time.scheme == Scheme::as_printed || c.rim;
   const dynamics::LaggedDamping damping{c.damping.stiffness, lagged ? c.damping.mass : 0.0};
   const dynamics::CriticalStep held = body_step(s, damping);
-  s.critical_plain = held.step;
+  s.critical_plain = has_massless_contact(s.model) ? plain_step(s, damping) : held.step;
   if (s.model.implicit) return explicit_part_step(s, damping);
   if (s.model.subdomains) return fine_part_step(s, damping);
   return s.model.rim ? step_with_rim(s.model, held, damping) : held;
@@ -216,7 +230,8 @@ int count_bodies(const dynamics::Model& model) {
 }
 
 bool by_harmonics(const dynamics::Model& model) {
-  return model.sector && 2 * model.free.size() > harmonic_setup_dofs;
+  return model.sector && 2 * model.free.size() > harmonic_setup_dofs &&
+         !has_massless_contact(model);  // whose ring is assembled
 }
 
 std::vector<int> held_nodes(const dynamics::Model& model) {

@@ -84,7 +84,7 @@ void check_ground(const Case& c, const std::vector<double>& size, const std::vec
         : c.rim && c.rim->free_y
             ? "start above the ground or touching it (motion.height, motion.start_x)"
             : "start above the ground (motion.height, motion.start_x) and come down by a table");
-  if (depth.deepest > 1e-9 * extent_of(s.mesh))
+  if (depth.deepest > 1e-9 * extent_of(s.mesh) && !has_massless_contact(s.model))
     s.warnings.push_back(
         fmt::format("the body starts {:.4g} m inside the ground: contact keeps it "
                     "from going deeper, but does not push it out",

@@ -12,6 +12,7 @@
 #include "rondo/case/case_rules.hpp"
 #include "rondo/core/bytes.hpp"
 #include "rondo/core/memory_limits.hpp"
+#include "rondo/integrators/massless/ring_matrix.hpp"
 #include "rondo/output/recorder.hpp"
 
 namespace rondo::study {
@@ -48,11 +49,18 @@ std::size_t factor_memory(std::size_t dofs, bool wide_rows) noexcept {
   return static_cast<std::size_t>(bytes_per_entry * n * std::log2(n));
 }
 
+/// Of contact nodes without mass: columns of K_cc⁻¹, of which RingMatrix keeps so many.
+static std::size_t ring_memory(std::size_t candidates) noexcept {
+  return std::min(candidates * candidates * 4 * sizeof(double),
+                  dynamics::RingMatrix::column_memory);
+}
+
 std::size_t motion_memory(const Case& c, const mesh::Mesh& mesh) noexcept {
   const std::size_t nodes = mesh.n_nodes(), of_a_snapshot = 2 * nodes * sizeof(Vec2);
   const auto snapshots = static_cast<std::size_t>(c.output.snapshots);
-  const bool harmonics =
-      mesh.n_sectors > 0 && !c.free_rim && 2 * (nodes - mesh.clamped.size()) > harmonic_setup_dofs;
+  const bool harmonics = mesh.n_sectors > 0 && !c.free_rim &&
+                         c.contact_mass == ContactMass::lumped &&
+                         2 * (nodes - mesh.clamped.size()) > harmonic_setup_dofs;
   const std::size_t of_a_sector =
       harmonics ? 2 * nodes / static_cast<std::size_t>(mesh.n_sectors) : 0;
   const bool sector_alone = harmonics && c.solver_operator != "sparse" && why_not_cyclic(c).empty();
@@ -69,6 +77,7 @@ std::size_t motion_memory(const Case& c, const mesh::Mesh& mesh) noexcept {
   if (c.hati) bytes += stiffness_memory(nodes, wide_rows) + 2 * factor_memory(2 * nodes, wide_rows);
   if (c.initial.state == InitialState::steady_rolling)
     bytes += nodes * rolling_numbers * sizeof(double);
+  if (c.contact_mass != ContactMass::lumped) bytes += ring_memory(mesh.boundary.size());
   return bytes;
 }
 

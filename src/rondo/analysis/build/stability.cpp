@@ -115,7 +115,7 @@ void warn_of_contact_step(Setup& s) {
   const double share = explicit_step(s.model) / s.critical.step;
   const double ratio = 0.5 * s.model.stiffness_damping * s.critical.omega;
   if (!has_candidates(s.model) || share <= contact_step_share || ratio >= contact_damping_ratio ||
-      is_energy_safe(s.model))
+      is_energy_safe(s.model) || has_massless_contact(s.model))
     return;
   s.warnings.push_back(fmt::format(
       "the step is {:.5g} of the critical one: with contact and next to no damping.stiffness, "

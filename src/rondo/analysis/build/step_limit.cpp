@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "rondo/analysis/build/build.hpp"
+#include "rondo/analysis/elements/massless_boundary.hpp"
 #include "rondo/analysis/elements/parts.hpp"
 #include "rondo/mesh/locate.hpp"
 
@@ -88,7 +89,7 @@ std::vector<Told> step_lines(const Case& c, const Setup& s) {
   std::vector<Told> lines{
       {"largest frequency", fmt::format("{:.6g} rad/s (element bound {:.6g})", s.critical.omega,
                                         s.critical.element_bound)},
-      {"critical step", length(s.critical.step)}};
+      {"critical step", told_critical_step(s)}};
   if (!s.implicit_cells.empty()) lines.push_back(implicit_line(s));
   if (std::isfinite(s.critical.step))
     for (Told& told : lines_of(find_step_limit(c, s))) lines.push_back(std::move(told));

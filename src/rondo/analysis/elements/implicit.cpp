@@ -106,8 +106,9 @@ dynamics::CriticalStep explicit_part_step(const Setup& s, dynamics::LaggedDampin
   const mesh::Mesh part = mesh_of_cells(s.mesh, others);
   // The mass of all is at least that of the part: a bound for its elements holds for them.
   return dynamics::critical_step(
-      fem::assemble_stiffness(part, s.materials, s.prestress), m.mass, m.free, damping,
-      fem::element_eigenvalue_bound(part, s.materials, s.prestress), m.threads);
+      fem::assemble_stiffness(part, s.materials, s.prestress), m.mass, nodes_with_mass(m), damping,
+      fem::element_eigenvalue_bound(part, s.materials, s.prestress) / least_mass_share(m),
+      m.threads);
 }
 
 }  // namespace rondo::study

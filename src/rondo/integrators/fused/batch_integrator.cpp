@@ -25,8 +25,8 @@ void sort_by_candidate(std::vector<ActiveContact>& active) noexcept {
         at, at + 1);
 }
 
-bool wants_tail(const Model& model) noexcept {
-  return model.implicit.has_value();
+std::size_t n_tails(const Model& model) noexcept {
+  return (model.implicit ? 1U : 0U) + (has_massless_contact(model) ? 1U : 0U);
 }
 
 constexpr std::size_t steps_at_once = 64;
@@ -39,7 +39,7 @@ constexpr std::size_t steps_between_looks = 16;
 BatchIntegrator::BatchIntegrator(const Model& model, const State& start, std::size_t n_parts,
                                  std::size_t n_pieces)
     : model_(model),
-      n_parts_(n_parts + (has_sharp_corners(model) ? 1 : 0) + (wants_tail(model) ? 1 : 0)),
+      n_parts_(n_parts + (has_sharp_corners(model) ? 1 : 0) + n_tails(model)),
       step_(start.step),
       threads_(std::min(model.threads, static_cast<int>(n_pieces))),
       steps_(has_sharp_corners(model) ? steps_between_looks : steps_at_once),
@@ -58,7 +58,8 @@ void BatchIntegrator::set_step(std::size_t i) noexcept {
   for (std::size_t l = 0; l < model_.pressures.size(); ++l)
     pressures[l] = model_.pressures[l].pressure.at(steps_[i].frame.time);
   steps_[i].pressures = pressures;
-  if (tail_) steps_[i].held = tail_->held();
+  for (const auto& tail : tails_)
+    if (tail->held()) steps_[i].held = tail->held();
 }
 
 void BatchIntegrator::look_for_corners(std::span<StepContext> steps) noexcept {
@@ -109,36 +110,42 @@ bool BatchIntegrator::hold_within(std::span<const int>) noexcept {
   return false;
 }
 
-void BatchIntegrator::set_tail(std::unique_ptr<StepTail> tail) {
-  RONDO_DEMAND(wants_tail(model_) && !model_.rim);
-  tail_ = std::move(tail);
+void BatchIntegrator::add_tail(std::unique_ptr<StepTail> tail) {
+  RONDO_DEMAND(tails_.size() < n_tails(model_) && !model_.rim, tails_.size());
+  tails_.push_back(std::move(tail));
 }
 
-/// Where corners are near, or there is a tail, step by step.
+std::size_t BatchIntegrator::part_of_tail(std::size_t tail) const noexcept {
+  return n_parts_ - (corners_ ? 1 : 0) - tails_.size() + tail;
+}
+
+/// Where corners are near, or there are tails, step by step.
 void BatchIntegrator::make_batch(const Batch& batch, Share share) noexcept {
-  if (!tail_ && (!corners_ || !corners_->any_near() || within_)) return make_steps(batch, share);
+  if (tails_.empty() && (!corners_ || !corners_->any_near() || within_))
+    return make_steps(batch, share);
   for (std::size_t i = 0; i < batch.steps.size(); ++i)
     make_alone({batch.steps.subspan(i, 1), batch.parts + i * n_parts_,
                 batch.first + static_cast<long long>(i)},
                share);
 }
 
-/// A step of its own: what corners hold is found before it and solved after it, as is the tail.
+/// A step of its own: what corners hold is found before it and solved after it, as are the tails.
 void BatchIntegrator::make_alone(const Batch& batch, Share share) noexcept {
   const StepContext& step = batch.steps.front();
   const bool corners = corners_ && corners_->any_near() && !within_;
   if (share.thread == 0) {
     if (corners) corners_->find(step, *this);
-    if (tail_) tail_->before();
+    for (const auto& tail : tails_) tail->before();
   }
   wait_for_others(share);
   make_steps(batch, share);
   if (share.thread == 0) {
     step_ = batch.first + 1;  // the others do not look at it
-    if (tail_) tail_->after(step, part_of_tail(batch.parts));
+    for (std::size_t k = 0; k < tails_.size(); ++k)
+      tails_[k]->after(step, batch.parts[part_of_tail(k)]);
     if (corners) corners_->solve(step, *this, batch.parts[n_parts_ - 1]);
   }
-  if (!tail_) return;
+  if (tails_.empty()) return;
   wait_for_others(share);
   show_changes(share);
 }
@@ -230,7 +237,7 @@ void BatchIntegrator::advance(std::span<StepReport> reports, State* last) noexce
   last->active.clear();
   save_active(last->active);
   if (corners_) corners_->save_active(last->active);
-  if (tail_) tail_->save_active(last->active);
+  for (const auto& tail : tails_) tail->save_active(last->active);
   sort_by_candidate(last->active);
   last->step = step_;
   last->frame = reports.back().frame;
@@ -253,7 +260,7 @@ SavedState BatchIntegrator::save() const {
   }
   save_fields(saved);
   if (corners_) saved.impulses = corners_->impulses();
-  if (tail_) tail_->save(saved);
+  for (const auto& tail : tails_) tail->save(saved);
   saved.ledger = ledger_.save();
   return saved;
 }
@@ -265,12 +272,17 @@ void BatchIntegrator::restore(const SavedState& saved) {
   if (rim_) rim_->restore(saved.step, saved.rim);
   restore_fields(saved);
   if (corners_) corners_->set_impulses(saved.impulses);
-  if (tail_) tail_->restore(saved);
+  for (const auto& tail : tails_) tail->restore(saved);
   ledger_.restore(saved.ledger);
 }
 
 std::vector<contact::ProblemFile> BatchIntegrator::take_difficult() {
-  return corners_ ? corners_->take_difficult() : std::vector<contact::ProblemFile>{};
+  std::vector<contact::ProblemFile> problems;
+  if (corners_) problems = corners_->take_difficult();
+  for (const auto& tail : tails_)
+    for (contact::ProblemFile& problem : tail->take_difficult())
+      problems.push_back(std::move(problem));
+  return problems;
 }
 
 int most_threads(const Model& model) noexcept {

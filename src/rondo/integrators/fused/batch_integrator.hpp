@@ -69,8 +69,8 @@ class BatchIntegrator : public Integrator, public Resumable, protected Candidate
   virtual bool hold_within(std::span<const int> candidates) noexcept;
   [[nodiscard]] CornerContact* corners_within() noexcept { return within_ ? &*corners_ : nullptr; }
 
-  /// In the constructor, where the model has such a tail.
-  void set_tail(std::unique_ptr<StepTail> tail);
+  /// In the constructor, where the model has such tails; in the order in which they are worked.
+  void add_tail(std::unique_ptr<StepTail> tail);
 
   /// In make_steps(): until all threads are here.
   void wait_for_others(Share share) noexcept {
@@ -78,8 +78,8 @@ class BatchIntegrator : public Integrator, public Resumable, protected Candidate
   }
 
   const Model& model_;
-  const std::size_t n_parts_;  ///< the last one is of CornerContact, if there are sharp corners,
-                               ///< the one before it, or the last, of the tail if there is one
+  const std::size_t n_parts_;  ///< the last one is of CornerContact, if there are sharp corners;
+                               ///< those before it are of the tails
   long long step_;             ///< number of the last step made
 
  private:
@@ -90,9 +90,7 @@ class BatchIntegrator : public Integrator, public Resumable, protected Candidate
   void in_all_threads(Work&& work) noexcept;
   void make_batch(const Batch& batch, Share share) noexcept;
   void make_alone(const Batch& batch, Share share) noexcept;
-  [[nodiscard]] PartialStep& part_of_tail(PartialStep* parts) const noexcept {
-    return parts[n_parts_ - (corners_ ? 2 : 1)];
-  }
+  [[nodiscard]] std::size_t part_of_tail(std::size_t tail) const noexcept;
   // On a loaded rim:
   void advance_on_rim(std::span<StepReport> reports) noexcept;
   void expect_steps(std::size_t n) noexcept;
@@ -106,7 +104,7 @@ class BatchIntegrator : public Integrator, public Resumable, protected Candidate
   std::vector<PartialStep> parts_;  ///< (steps of a batch, n_parts_)
   std::optional<CornerContact> corners_;
   std::optional<LoadedRim> rim_;
-  std::unique_ptr<StepTail> tail_;
+  std::vector<std::unique_ptr<StepTail>> tails_;
   kernels::WheelWay way_{};  ///< of the step in hand, on a loaded rim
   bool within_ = false;      ///< corners are near, and make_steps() takes care of them
   Barrier barrier_;

@@ -176,8 +176,10 @@ void CyclicChunk::copy_in(int row, RowField which, const double* x, const double
   double* to = field(row, field_of(which));
   std::copy_n(x + range_.first, range_.columns, to);
   std::copy_n(y + range_.first, range_.columns, to + plan_.stride);
+  if (which == RowField::u && plan_.halo == Halo::ring) wrap(row, field_now());
 }
 
+/// What is right of the chunk's own nodes, where it is read for the next pass.
 void CyclicChunk::show_to_others() noexcept {
   if (plan_.halo != Halo::ring) return give_edges();
   for (int a = 0; a < plan_.n_local; ++a) wrap(a, field_now());
@@ -260,7 +262,7 @@ void CyclicChunk::strip(const Work& work, int i) noexcept {
   InPass fields(*this, work);
   if (work.corners && i == plan_.first_contact_strip) work.corners->find(*work.step, fields);
   touching_.clear();
-  if (work.step->contact)
+  if (work.step->contact && !has_massless_contact(model_))
     for (int a = first; a < first + n; ++a)
       if (plan_.contact_row[static_cast<std::size_t>(a)] >= 0) find_touching(work, a);
   kernels::CyclicStrip s = strip_from(first, work.now, work.next);

@@ -51,8 +51,10 @@ class CyclicChunk {
   enum class RowField { u, v, force };
   void copy_out(int row, RowField which, double* x, double* y) const noexcept;
   void copy_in(int row, RowField which, const double* x, const double* y) noexcept;
-  /// After copy_in(): what is right of the chunk's own nodes, where it is read for the next pass.
-  void show_to_others() noexcept;
+  /// After copy_in(), for the next pass.
+  void show_rows() noexcept {
+    if (plan_.halo != Halo::ring) give_edges();
+  }
 
   /// Contacts of the last step of the last pass, this chunk's own.
   [[nodiscard]] std::span<const ActiveContact> active() const noexcept { return active_; }
@@ -111,6 +113,7 @@ class CyclicChunk {
   template <class Visit>
   void for_own_nodes(Visit&& visit) const noexcept;
   [[nodiscard]] int field_of(RowField which) const noexcept;
+  void show_to_others() noexcept;
   void save_field(int field, std::vector<Vec2>& out) const noexcept;
   void wrap(int a, int field) noexcept;
   void hand_over(std::size_t n_steps, PartialStep* parts, std::size_t stride) const noexcept;

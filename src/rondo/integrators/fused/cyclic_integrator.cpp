@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "rondo/integrators/fused/tail/implicit_tail.hpp"
+#include "rondo/integrators/fused/tail/massless_tail.hpp"
 #include "rondo/integrators/implicit/ring_operator.hpp"
 
 namespace rondo::dynamics {
@@ -20,8 +21,10 @@ class CyclicIntegrator::Rows final : public NodeFields {
     }
   }
 
-  void read(PlaneField& u, PlaneField& v) const noexcept override {
+  void read_displacement(PlaneField& u) const noexcept override {
     copy_out(CyclicChunk::RowField::u, u);
+  }
+  void read_velocity(PlaneField& v) const noexcept override {
     copy_out(CyclicChunk::RowField::v, v);
   }
   void read_force(PlaneField& force) const noexcept override {
@@ -62,11 +65,27 @@ CyclicIntegrator::CyclicIntegrator(const Model& model, const State& start,
     chunks_.emplace_back(model_, plan_, table, range);
     chunks_.back().load(start);
   }
-  if (!model_.implicit) return;
-  NodeSet nodes = ring_nodes(model_);
-  rows_ = std::make_unique<Rows>(*this, nodes);
-  auto implicit = ring_operator(model_, nodes, factored_spin(model_), table.ring_product);
-  set_tail(implicit_tail(model_, std::move(nodes), std::move(implicit), *rows_));
+  add_tails(table);
+}
+
+/// The nodes in rows, and these rows.
+NodesInStep CyclicIntegrator::rows_of(std::span<const int> nodes) {
+  NodeSet set = ring_nodes(model_, nodes);
+  rows_.push_back(std::make_unique<Rows>(*this, set));
+  return {std::move(set), rows_.back().get()};
+}
+
+/// The ring follows what is around it: implicit elements first.
+void CyclicIntegrator::add_tails(const kernels::Table& table) {
+  if (model_.implicit) {
+    NodesInStep rows = rows_of(model_.implicit->nodes);
+    auto implicit = ring_operator(model_, rows.nodes, factored_spin(model_), table.ring_product);
+    add_tail(implicit_tail(model_, std::move(rows.nodes), std::move(implicit), *rows.fields));
+  }
+  if (!has_massless_contact(model_)) return;
+  add_tail(massless_tail(model_, rows_of(massless_nodes(model_)), rows_of(sectors_around(model_)),
+                         table.ring_product));
+  for (CyclicChunk& chunk : chunks_) chunk.show_rows();
 }
 
 /// A thread's chunks are the same in every pass; the others' edges are read only between two
@@ -95,7 +114,7 @@ void CyclicIntegrator::go_on(const kernels::WheelWay& way, long long /*step*/,
 
 void CyclicIntegrator::show_changes(Share share) noexcept {
   const std::size_t n = chunks_.size();
-  for (std::size_t c = share.first(n); c < share.last(n); ++c) chunks_[c].show_to_others();
+  for (std::size_t c = share.first(n); c < share.last(n); ++c) chunks_[c].show_rows();
 }
 
 void CyclicIntegrator::save_displacement(std::vector<Vec2>& u) const noexcept {

@@ -8,6 +8,7 @@
 
 #include "rondo/integrators/fused/batch_integrator.hpp"
 #include "rondo/integrators/fused/cyclic_chunk.hpp"
+#include "rondo/integrators/fused/tail/massless_tail.hpp"
 
 namespace rondo::dynamics {
 
@@ -22,6 +23,8 @@ class CyclicIntegrator : public BatchIntegrator {
   class Rows;
   CyclicIntegrator(const Model& model, const State& start, const kernels::Table& table,
                    CyclicPlan plan);
+  NodesInStep rows_of(std::span<const int> nodes);
+  void add_tails(const kernels::Table& table);
   void make_steps(const Batch& batch, Share share) noexcept override;
   void go_on(const kernels::WheelWay& way, long long step, Share share) noexcept override;
   void show_changes(Share share) noexcept override;
@@ -37,8 +40,8 @@ class CyclicIntegrator : public BatchIntegrator {
 
   CyclicPlan plan_;
   std::vector<CyclicChunk> chunks_;
-  std::unique_ptr<Rows> rows_;  ///< of implicit elements, as the tail sees them
-  std::size_t holder_ = 0;      ///< the chunk that has all candidates near corners
+  std::vector<std::unique_ptr<Rows>> rows_;  ///< as the tails see them
+  std::size_t holder_ = 0;                   ///< the chunk that has all candidates near corners
 };
 
 }  // namespace rondo::dynamics

@@ -71,7 +71,7 @@ void add_rows(const Model& model, const SectorStiffness& k, CyclicPlan& plan) {
                          .n_entries = static_cast<int>(k.row(a).size()),
                          .at = static_cast<std::ptrdiff_t>(a) * plan.row_size(),
                          .mass = mass,
-                         .dt_over_mass = model.dt / mass,
+                         .dt_over_mass = mass > 0.0 ? model.dt / mass : 0.0,
                          .x = reference.x,
                          .y = reference.y});
   }
@@ -228,7 +228,7 @@ CyclicPlan make_cyclic_plan(const Model& model, const CyclicTuning& tuning) {
   plan.n_local = static_cast<int>(k.n_local());
   plan.n_sectors = k.n_sectors;
   plan.wheel = model.rim.has_value();
-  plan.stepwise = plan.wheel || model.implicit.has_value();
+  plan.stepwise = plan.wheel || model.implicit.has_value() || has_massless_contact(model);
   plan.keeps_force = plan.wheel || model.stiffness_damping > 0.0;
   choose_chunks(plan, model.threads, tuning);
   plan.stride = choose_stride(plan);

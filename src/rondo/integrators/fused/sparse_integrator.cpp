@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "rondo/integrators/fused/tail/implicit_tail.hpp"
+#include "rondo/integrators/fused/tail/massless_tail.hpp"
 
 namespace rondo::dynamics {
 namespace {
@@ -39,12 +40,14 @@ class SparseIntegrator::Rows final : public NodeFields {
     for (const int node : nodes.node) rows_.push_back(row[static_cast<std::size_t>(node)]);
   }
 
-  void read(PlaneField& u, PlaneField& v) const noexcept override {
+  void read_displacement(PlaneField& u) const noexcept override {
     const double* now = of_.u_[parity(of_.step_)].data();
-    for (std::size_t i = 0; i < rows_.size(); ++i) {
+    for (std::size_t i = 0; i < rows_.size(); ++i)
       u.put(i, pair_at(now, static_cast<int>(rows_[i])));
+  }
+  void read_velocity(PlaneField& v) const noexcept override {
+    for (std::size_t i = 0; i < rows_.size(); ++i)
       v.put(i, vector_at(of_.motion_.data() + of_.motion_at(rows_[i])));
-    }
   }
   void read_force(PlaneField& force) const noexcept override {
     for (std::size_t i = 0; i < rows_.size(); ++i)
@@ -83,11 +86,26 @@ SparseIntegrator::SparseIntegrator(const Model& model, const State& start,
     contacts.active.reserve(2 * plan_.candidates.size());
   }
   load(start);
-  if (!model_.implicit) return;
-  NodeSet nodes = implicit_nodes(model_);
-  rows_ = std::make_unique<Rows>(*this, nodes);
-  auto implicit = assembled_operator(model_, nodes, factored_spin(model_));
-  set_tail(implicit_tail(model_, std::move(nodes), std::move(implicit), *rows_));
+  add_tails(table);
+}
+
+/// The nodes, and their rows.
+NodesInStep SparseIntegrator::rows_of(std::span<const int> nodes) {
+  NodeSet set = node_set(model_, nodes);
+  rows_.push_back(std::make_unique<Rows>(*this, set));
+  return {std::move(set), rows_.back().get()};
+}
+
+/// The ring follows what is around it: implicit elements first.
+void SparseIntegrator::add_tails(const kernels::Table& table) {
+  if (model_.implicit) {
+    NodesInStep rows = rows_of(model_.implicit->nodes);
+    auto implicit = assembled_operator(model_, rows.nodes, factored_spin(model_));
+    add_tail(implicit_tail(model_, std::move(rows.nodes), std::move(implicit), *rows.fields));
+  }
+  if (!has_massless_contact(model_)) return;
+  add_tail(massless_tail(model_, rows_of(massless_nodes(model_)), rows_of(nodes_around(model_)),
+                         table.ring_product));
 }
 
 std::size_t SparseIntegrator::motion_at(std::size_t row) const noexcept {
@@ -328,9 +346,10 @@ void SparseIntegrator::rest_padding(double* next) noexcept {
 void SparseIntegrator::make_block(const Work& work, std::size_t block) noexcept {
   PartialStep& part = work.parts[block];
   part.contact = {};
-  if (work.step->contact) find_touching(work, block);
+  const bool contacts = work.step->contact && !has_massless_contact(model_);
+  if (contacts) find_touching(work, block);
   update_rows(work, block, part);
-  if (work.step->contact)
+  if (contacts)
     for (const Touching& t : work.contacts->touching) solve_node(work, t, part);
   if (block + 1 == plan_.n_blocks && !plan_.wheel) rest_padding(work.next);
 }

@@ -9,6 +9,7 @@
 #include "rondo/core/large_array.hpp"
 #include "rondo/integrators/fused/batch_integrator.hpp"
 #include "rondo/integrators/fused/sparse_plan.hpp"
+#include "rondo/integrators/fused/tail/massless_tail.hpp"
 
 namespace rondo::dynamics {
 
@@ -44,6 +45,8 @@ class SparseIntegrator : public BatchIntegrator {
 
   SparseIntegrator(const Model& model, const State& start, const kernels::Table& table,
                    SparsePlan plan);
+  NodesInStep rows_of(std::span<const int> nodes);
+  void add_tails(const kernels::Table& table);
   void load(const State& start);
   void load_on_rim(const State& start);
   void make_steps(const Batch& batch, Share share) noexcept override;
@@ -74,10 +77,10 @@ class SparseIntegrator : public BatchIntegrator {
 
   const kernels::Table& table_;
   SparsePlan plan_;
-  std::array<LargeArray, 2> u_;     ///< (rows, 2) of even and of odd steps
-  LargeArray motion_;               ///< as in kernels::SparseRows
-  std::vector<Contacts> contacts_;  ///< of each thread
-  std::unique_ptr<Rows> rows_;      ///< of implicit elements, as the tail sees them
+  std::array<LargeArray, 2> u_;              ///< (rows, 2) of even and of odd steps
+  LargeArray motion_;                        ///< as in kernels::SparseRows
+  std::vector<Contacts> contacts_;           ///< of each thread
+  std::vector<std::unique_ptr<Rows>> rows_;  ///< as the tails see them
 };
 
 }  // namespace rondo::dynamics

@@ -85,7 +85,7 @@ void add_constants(const Model& model, SparsePlan& plan) {
     c[0] = model.reference[node].x;
     c[lanes] = model.reference[node].y;
     c[2 * lanes] = model.mass[node];
-    c[3 * lanes] = model.dt / model.mass[node];
+    c[3 * lanes] = model.mass[node] > 0.0 ? model.dt / model.mass[node] : 0.0;
   }
 }
 

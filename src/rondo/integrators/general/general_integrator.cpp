@@ -20,13 +20,21 @@ GeneralIntegrator::GeneralIntegrator(const Model& model, const State& start)
   RONDO_DEMAND(!model.rim && (model.free_bodies.empty() || model.scheme == Scheme::symplectic));
   state_.v.resize(model.n_nodes());
   take_poses();
-  if (!model.implicit) return;
-  NodeSet nodes = implicit_nodes(model);
-  const double spin = factored_spin(model);
+  if (model.implicit) set_implicit();
+  if (!has_massless_contact(model)) return;
+  RONDO_DEMAND(model.scheme == Scheme::symplectic && model.free_bodies.empty() &&
+               !model.internal_force);
+  ring_.emplace(model);
+  move_ring(BodyFrame(model, state_.frame).contact);
+}
+
+void GeneralIntegrator::set_implicit() {
+  NodeSet nodes = node_set(model_, model_.implicit->nodes);
+  const double spin = factored_spin(model_);
   implicit_velocity_ = PlaneField(nodes.size());
-  auto implicit = assembled_operator(model, nodes, spin);
+  auto implicit = assembled_operator(model_, nodes, spin);
   implicit_ =
-      std::make_unique<ImplicitElements>(model, std::move(nodes), std::move(implicit), spin);
+      std::make_unique<ImplicitElements>(model_, std::move(nodes), std::move(implicit), spin);
   if (implicit_->contact()) contact_.leave_out(implicit_->contact()->is_held());
 }
 
@@ -52,11 +60,47 @@ void GeneralIntegrator::find_forces(double& strain) noexcept {
   if (!load_.empty()) pressure_forces(model_, state_.u, state_.frame.time, load_);
 }
 
+/// In the order of the candidates; the two of a node one after the other.
+void GeneralIntegrator::add_active(std::span<const ActiveContact> more) {
+  state_.active.insert(state_.active.end(), more.begin(), more.end());
+  std::ranges::stable_sort(state_.active, {}, [](const ActiveContact& a) { return a.candidate; });
+}
+
+/// v⁺ of the nodes without mass, by where they are at its end.
+void GeneralIntegrator::move_ring(const ContactStep& step) noexcept {
+  RingMotion& motion = ring_->motion();
+  const std::span<const int> nodes = ring_->nodes(), around = ring_->neighbours();
+  const auto at = [](int node) { return static_cast<std::size_t>(node); };
+  for (std::size_t i = 0; i < nodes.size(); ++i) {
+    motion.place[i] = state_.u[at(nodes[i])];
+    motion.before[i] = state_.v[at(nodes[i])];
+  }
+  for (std::size_t i = 0; i < around.size(); ++i) {
+    motion.rate[i] = state_.v_next[at(around[i])];
+    motion.place[nodes.size() + i] = state_.u[at(around[i])] + model_.dt * motion.rate[i];
+  }
+  ring_->solve(step);
+  for (std::size_t i = 0; i < nodes.size(); ++i) state_.v_next[at(nodes[i])] = ring_->velocity()[i];
+}
+
+ContactReport GeneralIntegrator::solve_contacts(const BodyFrames& frames,
+                                                const StepReport& report) noexcept {
+  if (!ring_) {
+    const ContactReport found = contact_.solve(frames, report.frame.center, state_);
+    if (implicit_ && implicit_->contact()) add_active(implicit_->contact()->active());
+    return found;
+  }
+  const ContactStep step = BodyFrame(model_, state_.frame).contact;
+  move_ring(step);
+  return ring_->report(step, report.frame.center, state_.active);
+}
+
 /// v⁺ = v⁻ + [Δt f/m - drag v⁻]/a, without contact (3.4).
 void GeneralIntegrator::free_velocities(const BodyFrames& frames) noexcept {
   const double dt = model_.dt;
   const std::span<const Vec2> gradient = internal_->gradient();
   for_free_nodes(model_, [&](std::size_t k) {
+    if (model_.mass[k] == 0.0) return;  // of the ring
     const BodyFrame& f = frames.of(model_, k);
     Vec2 force = -gradient[k];
     if (!damping_.empty()) force -= damping_[k];
@@ -87,9 +131,6 @@ void GeneralIntegrator::correct_implicit(const BodyFrames& frames, StepEnergy& e
     state_.v_next[static_cast<std::size_t>(nodes[i])] = v.at(i);
   energy.strain += more.strain;
   energy.works.dissipation_stiffness += more.dissipation_stiffness;
-  if (!implicit.contact()) return;
-  const auto& active = implicit.contact()->active();
-  state_.active.insert(state_.active.end(), active.begin(), active.end());
 }
 
 /// (5.3)
@@ -130,8 +171,10 @@ StepReport GeneralIntegrator::step() noexcept {
   StepReport report;
   report.step = state_.step;
   report_frame(report);
-  report.contact = contact_.solve(frames, report.frame.center, state_);
-  if (implicit_) correct_implicit(frames, energy, report.contact);
+  ContactReport on_implicit;  // before the ring, which follows what is around it
+  if (implicit_) correct_implicit(frames, energy, on_implicit);
+  report.contact = solve_contacts(frames, report);
+  report.contact.add(on_implicit);
   add_works(frames, energy.works);
   energy.works.contact = report.contact.work;
   energy.works.dissipation_friction = report.contact.dissipation_friction;
@@ -167,6 +210,7 @@ SavedState GeneralIntegrator::save() const {
   saved.v = state_.v_next;
   internal_->save(saved);
   saved.impulses = contact_.impulses();
+  if (ring_) saved.ring = ring_->save();
   if (implicit_ && implicit_->contact())
     for (const auto& impulse : implicit_->contact()->impulses()) saved.impulses.push_back(impulse);
   saved.ledger = ledger_.save();
@@ -182,6 +226,7 @@ void GeneralIntegrator::restore(const SavedState& saved) {
   internal_->restore(saved);
   take_poses();
   contact_.set_impulses(saved.impulses);
+  if (ring_) ring_->restore(saved.ring);
   if (implicit_ && implicit_->contact()) implicit_->contact()->set_impulses(saved.impulses);
   ledger_.restore(saved.ledger);
 }

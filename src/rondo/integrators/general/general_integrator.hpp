@@ -7,11 +7,13 @@
 /// CSMA 2017.
 #pragma once
 #include <memory>
+#include <optional>
 #include <vector>
 
 #include "rondo/integrators/general/body_frames.hpp"
 #include "rondo/integrators/general/general_contact.hpp"
 #include "rondo/integrators/implicit/implicit_elements.hpp"
+#include "rondo/integrators/massless/ring_contact.hpp"
 #include "rondo/model/integrator.hpp"
 #include "rondo/model/internal_force.hpp"
 
@@ -28,17 +30,21 @@ class GeneralIntegrator final : public Integrator, public Resumable {
   [[nodiscard]] SavedState save() const override;
   void restore(const SavedState& saved) override;
   [[nodiscard]] std::vector<contact::ProblemFile> take_difficult() override {
-    return contact_.take_difficult();
+    return ring_ ? ring_->take_difficult() : contact_.take_difficult();
   }
 
  private:
   StepReport step() noexcept;
+  void set_implicit();
   void move(double& kinetic) noexcept;
   void take_poses() noexcept;
   void find_forces(double& strain) noexcept;
   void free_velocities(const BodyFrames& frames) noexcept;
   void correct_implicit(const BodyFrames& frames, StepEnergy& energy, ContactReport& report);
   void add_works(const BodyFrames& frames, Works& works) const noexcept;
+  void move_ring(const ContactStep& step) noexcept;
+  ContactReport solve_contacts(const BodyFrames& frames, const StepReport& report) noexcept;
+  void add_active(std::span<const ActiveContact> more);
   void report_frame(StepReport& report) const noexcept;
 
   const Model& model_;
@@ -46,6 +52,7 @@ class GeneralIntegrator final : public Integrator, public Resumable {
   Ledger ledger_;
   const std::unique_ptr<InternalForce> internal_;
   GeneralContact contact_;
+  std::optional<MasslessContact> ring_;  ///< instead of contact_, where contact nodes have no mass
   std::unique_ptr<ImplicitElements> implicit_;  ///< null: there are none
   PlaneField implicit_velocity_;                ///< of their nodes                      [m/s]
   std::vector<Vec2> damping_;  ///< (n) β of the force, in the nodes' frames; empty: β = 0 [N/m]

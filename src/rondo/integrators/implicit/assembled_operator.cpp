@@ -71,9 +71,9 @@ class Assembled final : public ImplicitOperator {
 
 }  // namespace
 
-NodeSet implicit_nodes(const Model& model) {
+NodeSet node_set(const Model& model, std::span<const int> nodes) {
   NodeSet set;
-  set.node = model.implicit->nodes;
+  set.node.assign(nodes.begin(), nodes.end());
   const std::size_t n = set.node.size();
   set.reference = PlaneField(n);
   set.turn.assign(n, {1.0, 0.0});

@@ -17,11 +17,15 @@ constexpr int lanes = 8;  ///< of the loop
 RingRows::RingRows(int rows, int sectors)
     : rows_(rows),
       sectors_(sectors),
-      stride_((2 * sectors + 2 * lanes - 1) / lanes * lanes),
-      values_(static_cast<std::size_t>(rows * stride_)) {}
+      lead_((sectors + lanes - 1) / lanes * lanes),
+      stride_(3 * lead_ + lanes),
+      values_(static_cast<std::size_t>(rows * stride_ + lead_)) {}
 
-void RingRows::repeat() noexcept {
-  for (int i = 0; i < rows_; ++i) std::copy_n(row(i), sectors_, row(i) + sectors_);
+void RingRows::wrap(int by) noexcept {
+  for (int i = 0; i < rows_; ++i) {
+    std::copy_n(row(i) + sectors_ - by, by, row(i) - by);
+    std::copy_n(row(i), by, row(i) + sectors_);
+  }
 }
 
 Circulant::Circulant(int sectors, const RingBlocks& blocks, RingProduct product)
@@ -31,7 +35,7 @@ Circulant::Circulant(int sectors, const RingBlocks& blocks, RingProduct product)
       work_(rows_, sectors) {
   RONDO_DEMAND(sectors >= 3, sectors);
   Eigen::MatrixXd left = blocks.left, here = blocks.here, right = blocks.right;
-  constexpr double round_off = 1e-18;  // of a coupling: what it does is below that of a number
+  constexpr double round_off = 1e-17;  // of a coupling: what it does is below that of a number
   constexpr int most_levels = 60;
   for (int shift = 1; static_cast<int>(levels_.size()) < most_levels; shift = 2 * shift % sectors) {
     const Eigen::MatrixXd inverse = here.inverse();
@@ -48,19 +52,21 @@ Circulant::Circulant(int sectors, const RingBlocks& blocks, RingProduct product)
 void Circulant::solve(RingRows& x) noexcept {
   RingRows *from = &x, *to = &work_;
   for (const Level& level : levels_) {
-    from->repeat();
+    from->wrap(level.shift);
     product_({.rows = rows_,
+              .columns = rows_,
               .sectors = sectors_,
               .n_terms = 2,
               .with_self = true,
               .matrix = {level.left.data(), level.right.data(), nullptr},
-              .offset = {(sectors_ - level.shift) % sectors_, level.shift, 0},
+              .offset = {-level.shift, level.shift, 0},
               .in = from->row(0),
               .out = to->row(0),
               .stride = x.stride()});
     std::swap(from, to);
   }
   product_({.rows = rows_,
+            .columns = rows_,
             .sectors = sectors_,
             .n_terms = 1,
             .with_self = false,

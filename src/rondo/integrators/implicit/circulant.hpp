@@ -11,21 +11,25 @@
 
 namespace rondo::dynamics {
 
-/// Rows of numbers round the ring, as RingTerms has them.
+/// Rows of numbers round the ring, with room for as many sectors before the first and after the
+/// last.
 class RingRows {
  public:
   RingRows() = default;
   RingRows(int rows, int sectors);
 
-  [[nodiscard]] double* row(int i) noexcept { return values_.data() + i * stride_; }
-  [[nodiscard]] const double* row(int i) const noexcept { return values_.data() + i * stride_; }
+  /// Sector 0 of a row.
+  [[nodiscard]] double* row(int i) noexcept { return values_.data() + lead_ + i * stride_; }
+  [[nodiscard]] const double* row(int i) const noexcept {
+    return values_.data() + lead_ + i * stride_;
+  }
   [[nodiscard]] std::ptrdiff_t stride() const noexcept { return stride_; }
-  /// The second round of each row from its first.
-  void repeat() noexcept;
+  /// So many sectors before and after each row, from its own. @pre 0 <= by <= sectors
+  void wrap(int by) noexcept;
 
  private:
   int rows_ = 0, sectors_ = 0;
-  std::ptrdiff_t stride_ = 0;
+  std::ptrdiff_t lead_ = 0, stride_ = 0;
   std::vector<double> values_;
 };
 
@@ -39,16 +43,17 @@ class Circulant {
   /// @pre sectors >= 3; the symmetric part of the matrix is positive definite
   Circulant(int sectors, const RingBlocks& blocks, RingProduct product);
 
-  /// Right side in, solution out, in the first round of `x`. Allocates nothing.
+  /// Right side in, solution out. Allocates nothing.
   void solve(RingRows& x) noexcept;
   /// Levels of the reduction: the coupling is below round-off after them.
   [[nodiscard]] std::size_t n_levels() const noexcept { return levels_.size(); }
 
- private:
   using Matrix = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
+
+ private:
   struct Level {
     Matrix left, right;  ///< minus left here⁻¹, minus right here⁻¹
-    int shift;           ///< sectors that it couples over, modulo their number
+    int shift;           ///< sectors that it couples over, less whole rounds
   };
 
   int rows_, sectors_;

@@ -3,6 +3,7 @@
 /// (Δt²/4 + Δt β/2) K_I at one spin s, and K_I.
 #pragma once
 #include <memory>
+#include <span>
 
 #include "rondo/integrators/implicit/node_fields.hpp"
 
@@ -23,8 +24,8 @@ class ImplicitOperator {
   virtual void product(const PlaneField& v, PlaneField& out) noexcept = 0;
 };
 
-/// The free nodes of the implicit elements, ascending, Cartesian components. @pre model.implicit
-[[nodiscard]] NodeSet implicit_nodes(const Model& model);
+/// Nodes as they are, Cartesian components.
+[[nodiscard]] NodeSet node_set(const Model& model, std::span<const int> nodes);
 /// Spin at which A is factored: that of t = 0                                          [rad/s]
 [[nodiscard]] double factored_spin(const Model& model) noexcept;
 

@@ -40,7 +40,8 @@ struct NodeSet {
 /// What an integrator shows and lets be changed of such nodes, between two steps.
 class NodeFields {
  public:
-  virtual void read(PlaneField& u, PlaneField& v) const noexcept = 0;
+  virtual void read_displacement(PlaneField& u) const noexcept = 0;
+  virtual void read_velocity(PlaneField& v) const noexcept = 0;
   /// K u of the last step made, where there is stiffness damping                       [N/m]
   virtual void read_force(PlaneField& force) const noexcept = 0;
   virtual void write(const PlaneField& u, const PlaneField& v) noexcept = 0;

@@ -87,13 +87,14 @@ class Ring final : public ImplicitOperator {
   }
   void product(const PlaneField& v, PlaneField& out) noexcept override {
     take(v);
-    in_.repeat();
+    in_.wrap(1);
     product_({.rows = 2 * n_rows_,
+              .columns = 2 * n_rows_,
               .sectors = sectors_,
               .n_terms = 3,
               .with_self = false,
               .matrix = {left_.data(), here_.data(), right_.data()},
-              .offset = {sectors_ - 1, 0, 1},
+              .offset = {-1, 0, 1},
               .in = in_.row(0),
               .out = out_.row(0),
               .stride = in_.stride()});
@@ -128,16 +129,16 @@ class Ring final : public ImplicitOperator {
 
 }  // namespace
 
-NodeSet ring_nodes(const Model& model) {
+NodeSet ring_nodes(const Model& model, std::span<const int> nodes) {
   const fem::SectorStiffness& k = *model.sector;
   NodeSet set;
   set.sectors = k.n_sectors;
   const auto n = static_cast<std::size_t>(k.n_sectors);
   set.row_size = (n + lanes - 1) / lanes * lanes;
   std::vector<int> rows;
-  for (const int node : model.implicit->nodes)
+  for (const int node : nodes)
     if (node < k.nodes_per_sector) rows.push_back(node);
-  RONDO_DEMAND(rows.size() * n == model.implicit->nodes.size(), rows.size());
+  RONDO_DEMAND(rows.size() * n == nodes.size(), rows.size(), nodes.size());
   const std::size_t size = rows.size() * set.row_size;
   set.node.assign(size, -1);
   set.mass.assign(size, 0.0);

@@ -8,9 +8,9 @@
 
 namespace rondo::dynamics {
 
-/// The free nodes of the implicit elements, each row one local node over the sectors.
-/// @pre model.implicit and model.sector; the same elements in every sector
-[[nodiscard]] NodeSet ring_nodes(const Model& model);
+/// Rows of one local node each, over the sectors. @param nodes (n) every sector's, ascending
+/// @pre model.sector
+[[nodiscard]] NodeSet ring_nodes(const Model& model, std::span<const int> nodes);
 
 /// Of these nodes, by parallel cyclic reduction (circulant.hpp). @param spin s of A [rad/s]
 [[nodiscard]] std::unique_ptr<ImplicitOperator> ring_operator(const Model& model,

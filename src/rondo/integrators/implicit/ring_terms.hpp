@@ -6,15 +6,16 @@
 
 namespace rondo::dynamics {
 
-/// out_i(j) = [in_i(j)] + Σ_t Σ_m matrix_t(i, m) in_m(j + offset_t), i and m the rows, j the
-/// sector. Rows of `in` hold every sector twice, one round after the other, and 8 more numbers that
-/// are finite: j + offset_t is in them for any offset below the number of sectors.
+/// out_i(j) = [in_i(j)] + Σ_t Σ_m matrix_t(i, m) in_m(j + offset_t), i a row of out, m of in, j the
+/// sector. What is before the first sector of a row and after its last is there as far as the
+/// offsets reach, and seven more numbers.
 struct RingTerms {
-  int rows;                 ///< of in and out
+  int rows;                 ///< of out
+  int columns;              ///< rows of in
   int sectors;              ///< out holds up to seven more, which mean nothing
   int n_terms;              ///< at most 3
-  bool with_self;           ///< in_i(j) is added
-  const double* matrix[3];  ///< (rows, rows) row-major
+  bool with_self;           ///< in_i(j) is added: there are as many rows
+  const double* matrix[3];  ///< (rows, columns) row-major
   std::ptrdiff_t offset[3];
   const double* in;
   double* out;

@@ -23,15 +23,15 @@ inline void ring_pack(const RingTerms& t, std::ptrdiff_t j) noexcept {
   for (int i = 0; i < Rows; ++i) store(t.out + i * t.stride + j, sum[i]);
 }
 
-/// The same of any number of rows, one by one.
+/// The same of any number of rows and columns, one by one.
 template <>
 inline void ring_pack<0>(const RingTerms& t, std::ptrdiff_t j) noexcept {
   for (int i = 0; i < t.rows; ++i) {
     Pack sum = t.with_self ? load(t.in + i * t.stride + j) : all(0.0);
     for (int term = 0; term < t.n_terms; ++term) {
-      const double* matrix = t.matrix[term] + std::ptrdiff_t{i} * t.rows;
+      const double* matrix = t.matrix[term] + std::ptrdiff_t{i} * t.columns;
       const double* in = t.in + t.offset[term] + j;
-      for (int m = 0; m < t.rows; ++m) sum = fma(all(matrix[m]), load(in + m * t.stride), sum);
+      for (int m = 0; m < t.columns; ++m) sum = fma(all(matrix[m]), load(in + m * t.stride), sum);
     }
     store(t.out + i * t.stride + j, sum);
   }
@@ -45,6 +45,7 @@ inline void ring_rows(const RingTerms& t) noexcept {
 
 /// @pre in and out are apart
 void ring_product(const RingTerms& t) noexcept {
+  if (t.rows != t.columns) return ring_rows<0>(t);
   if (t.rows == 2) return ring_rows<2>(t);
   if (t.rows == 4) return ring_rows<4>(t);
   if (t.rows == 6) return ring_rows<6>(t);

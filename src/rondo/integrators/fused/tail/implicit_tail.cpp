@@ -45,13 +45,14 @@ class ImplicitTail final : public StepTail {
         force_before_(damped() ? size() : 0) {}
 
   void before() noexcept override {
-    fields_.read(elements_.u(), elements_.before());
+    fields_.read_displacement(elements_.u());
+    fields_.read_velocity(elements_.before());
     if (damped()) fields_.read_force(force_before_);
   }
 
   void after(const StepContext& step, PartialStep& part) noexcept override {
     part = {};
-    fields_.read(u_, v_);
+    fields_.read_velocity(v_);
     explicit_ = v_;
     const ImplicitEnergy energy =
         elements_.solve(step.frame.spin, step.contact ? &*step.contact : nullptr, v_, part.contact);

@@ -4,6 +4,7 @@
 #pragma once
 #include <vector>
 
+#include "rondo/contact/coupled/problem_file.hpp"
 #include "rondo/integrators/fused/step_context.hpp"
 #include "rondo/model/saved_state.hpp"
 
@@ -28,6 +29,8 @@ class StepTail {
   /// What it carries from step to step: adds to `saved`, takes its own from it.
   virtual void save(SavedState& saved) const = 0;
   virtual void restore(const SavedState& saved) = 0;
+  /// As Integrator::take_difficult().
+  [[nodiscard]] virtual std::vector<contact::ProblemFile> take_difficult() { return {}; }
 };
 
 }  // namespace rondo::dynamics

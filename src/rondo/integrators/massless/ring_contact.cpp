@@ -1,0 +1,247 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "rondo/integrators/massless/ring_contact.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "rondo/contact/residual.hpp"
+#include "rondo/core/contract.hpp"
+
+namespace rondo::dynamics {
+namespace {
+
+using contact::Block;
+using contact::Status;
+
+/// Gaps above this are closed to round-off [m].
+constexpr double closed = -1e-14;
+/// As near as this a node that stands still is held by a second facet [m].
+constexpr double corner_reach = 1e-9;
+
+std::size_t at(int index) noexcept {
+  return static_cast<std::size_t>(index);
+}
+
+/// Q R G Rᵀ Qᵀ of two contacts.
+Block in_frames(Complex rotation, Vec2 normal, const Block& g, Vec2 other) noexcept {
+  Block out{};
+  for (const std::size_t component : {0U, 1U}) {
+    const Vec2 unit = component == 0 ? Vec2{1.0, 0.0} : Vec2{0.0, 1.0};
+    const Vec2 w =
+        to_frame(normal, rotation * contact::apply(g, conj(rotation) * from_frame(other, unit)));
+    out[component] = w.x;
+    out[component + 2] = w.y;
+  }
+  return out;
+}
+
+}  // namespace
+
+bool near_second_facet(const contact::Ground& ground, Vec2 place, double way) noexcept {
+  return ground.beside_concave_corner(place) <= std::max(way, corner_reach);
+}
+
+MasslessContact::MasslessContact(const Model& model)
+    : model_(model),
+      matrix_(model.stiffness, model.contact->nodes),
+      lag_(model.stiffness_damping / model.dt) {
+  RONDO_DEMAND(has_massless_contact(model) && !model.stiffness.row_start.empty());
+  RONDO_DEMAND(matrix_.is_positive_definite());
+  const std::size_t nc = nodes().size(), ni = neighbours().size();
+  motion_ = {std::vector<Vec2>(nc + ni), std::vector<Vec2>(ni), std::vector<Vec2>(nc)};
+  star_.resize(nc + ni);
+  for (auto* field : {&load_, &usual_, &free_, &predicted_, &change_, &velocity_})
+    field->resize(nc);
+  joined_.resize(nc);
+  for (RingContacts* at_time : {&now_, &next_}) at_time->contacts.reserve(nc);
+}
+
+/// - K_cc (u_c + Δu_c + β Δu_c/Δt) - K_ci (u_i + β v_i), Δu the way of the step before: by what the
+/// ring goes another way, with contact.
+void MasslessContact::load_ring() noexcept {
+  const std::size_t nc = nodes().size();
+  star_ = motion_.place;
+  for (std::size_t i = 0; i < nc; ++i) {
+    usual_[i] = step_->dt * motion_.before[i];
+    star_[i] += (1.0 + lag_) * usual_[i];
+  }
+  for (std::size_t i = 0; i < motion_.rate.size(); ++i)
+    star_[nc + i] += model_.stiffness_damping * motion_.rate[i];
+  matrix_.product(star_, load_);
+  for (Vec2& load : load_) load = -load;
+}
+
+/// (1 + b) K_cc (u_{n+2} - u_{n+1} - Δu_c) = load + Rᵀ Qᵀ λ.
+void MasslessContact::move_ring(std::span<const RingContact> by, std::span<Vec2> change) noexcept {
+  std::ranges::copy(load_, change.begin());
+  const Complex back = conj(step_->rotation_next);
+  for (const RingContact& c : by)
+    change[at(c.node)] += back * from_frame(c.normal, c.impulse) / step_->dt;
+  matrix_.solve(change);
+  for (Vec2& d : change) d = d / (1.0 + lag_);
+}
+
+Vec2 MasslessContact::place_after(std::size_t i, Vec2 change) const noexcept {
+  const Vec2 reference = model_.reference[at(nodes()[i])];
+  return center_next_ + step_->rotation_next * (reference + motion_.place[i] + usual_[i] + change);
+}
+
+/// (gap, way along t)/Δt of a contact, `gap` being that at the predicted place.
+Vec2 MasslessContact::law_velocity(const RingContact& c,
+                                   std::span<const Vec2> change) const noexcept {
+  const std::size_t i = at(c.node);
+  const Vec2 arm = model_.reference[at(nodes()[i])] + motion_.place[i];
+  const Vec2 from_predicted = step_->rotation_next * (change[i] - predicted_[i]);
+  const Vec2 way =
+      drive_of(*step_, arm) + step_->rotation_next * (usual_[i] + change[i]) / step_->dt;
+  return {(c.gap + dot(c.normal, from_predicted)) / step_->dt, to_frame(c.normal, way).y};
+}
+
+void MasslessContact::join(int node, const contact::Touch& touch) {
+  joined_[at(node)] = 1;
+  RingContact c;
+  c.node = node;
+  c.normal = touch.normal;
+  c.gap = touch.gap;
+  const auto before = std::ranges::lower_bound(now_.contacts, node, {},
+                                               [](const RingContact& b) { return b.node; });
+  if (before != now_.contacts.end() && before->node == node) c.impulse = before->impulse;
+  next_.contacts.push_back(c);
+}
+
+/// Where the ring would be with the forces of t_{n+1}; who touches there, or was pressed, joins.
+void MasslessContact::predict() {
+  const contact::Ground& ground = model_.contact->ground;
+  move_ring({}, free_);
+  if (now_.contacts.empty())
+    predicted_ = free_;
+  else
+    move_ring(now_.contacts, predicted_);
+  std::fill(joined_.begin(), joined_.end(), char{0});
+  next_.contacts.clear();
+  for (const RingContact& c : now_.contacts) {
+    if (c.impulse.x > 0.0) joined_[at(c.node)] = 1;
+  }
+  for (std::size_t i = 0; i < nodes().size(); ++i) {
+    const Vec2 place = place_after(i, predicted_[i]);
+    if (joined_[i] == 0 && place.y > ground.top()) continue;
+    const contact::Touches touches = ground.touches(place);
+    if (touches.count > 0)
+      join(static_cast<int>(i), touches.at[0]);
+    else if (joined_[i] != 0)
+      join(static_cast<int>(i), ground.facet_near(place));
+  }
+}
+
+void MasslessContact::find_delassus() {
+  const std::vector<RingContact>& c = next_.contacts;
+  const double scale = 1.0 / (step_->dt * step_->dt * (1.0 + lag_));
+  matrix_.release();
+  columns_.clear();
+  for (const RingContact& contact : c) columns_.push_back(matrix_.inverse_column(contact.node));
+  problem_.row_start.assign(1, 0);
+  problem_.column.clear();
+  problem_.blocks.clear();
+  problem_.mass.clear();
+  for (std::size_t j = 0; j < c.size(); ++j) {
+    for (std::size_t l = 0; l < c.size(); ++l) {
+      Block w =
+          in_frames(step_->rotation_next, c[j].normal, columns_[l][at(c[j].node)], c[l].normal);
+      for (double& entry : w) entry *= scale;
+      problem_.column.push_back(static_cast<int>(l));
+      problem_.blocks.push_back(w);
+      if (j == l) problem_.mass.push_back(1.0 / std::max(w[0], w[3]));
+    }
+    problem_.row_start.push_back(static_cast<int>(problem_.column.size()));
+  }
+}
+
+void MasslessContact::make_problem() {
+  find_delassus();
+  problem_.free.clear();
+  impulse_.clear();
+  for (RingContact& c : next_.contacts) {
+    c.free = law_velocity(c, free_);
+    problem_.free.push_back(c.free);
+    impulse_.push_back(c.impulse);
+  }
+  problem_.bounce.assign(impulse_.size(), 0.0);
+  problem_.friction.assign(impulse_.size(), model_.contact->law.friction);
+  status_.assign(impulse_.size(), Status::open);
+  start_ = impulse_;
+}
+
+void MasslessContact::keep_if_difficult(const contact::CoupledResult& result) {
+  constexpr std::size_t most = 16;  // of those nobody has taken
+  const int above = model_.coupled.dump_above;
+  if (above == 0 || result.iterations <= above || difficult_.size() == most) return;
+  difficult_.push_back({problem_, "", impulse_, start_, result});
+}
+
+void MasslessContact::solve_law() {
+  make_problem();
+  const contact::CoupledLimits limits{.most_iterations = model_.coupled.most_iterations};
+  const contact::CoupledResult result =
+      contact::solve_coupled(problem_, limits, impulse_, status_, workspace_);
+  keep_if_difficult(result);
+  next_.iterations += result.iterations;
+  next_.converged = next_.converged && result.converged;
+  for (std::size_t j = 0; j < next_.contacts.size(); ++j) {
+    next_.contacts[j].impulse = impulse_[j];
+    next_.contacts[j].status = status_[j];
+  }
+}
+
+/// Nodes that the solution has pushed into the ground join, once each; false: there are none.
+bool MasslessContact::extend() {
+  const contact::Ground& ground = model_.contact->ground;
+  const std::size_t before = next_.contacts.size();
+  for (std::size_t i = 0; i < nodes().size(); ++i) {
+    if (joined_[i] != 0) continue;
+    const Vec2 place = place_after(i, change_[i]);
+    if (place.y > ground.top()) continue;
+    const contact::Touches touches = ground.touches(place);
+    if (touches.count == 0 || touches.at[0].gap >= closed) continue;
+    join(static_cast<int>(i), ground.facet_near(place_after(i, predicted_[i])));
+  }
+  if (next_.contacts.size() == before) return false;
+  ++next_.extensions;
+  return true;
+}
+
+/// Velocities, gaps and residuals of what was found.
+void MasslessContact::finish() {
+  for (std::size_t i = 0; i < velocity_.size(); ++i)
+    velocity_[i] = motion_.before[i] + change_[i] / step_->dt;
+  for (std::size_t j = 0; j < next_.contacts.size(); ++j) {
+    RingContact& c = next_.contacts[j];
+    const Vec2 w = law_velocity(c, change_);
+    c.residual = contact::law_residual(c.impulse, w, 0.0, problem_.friction[j], problem_.mass[j]) /
+                 problem_.mass[j];
+    c.gap = w.x * step_->dt;
+    if (c.impulse.x > 0.0 && !next_.two_facets)
+      next_.two_facets =
+          near_second_facet(model_.contact->ground, place_after(at(c.node), change_[at(c.node)]),
+                            step_->dt * std::abs(w.y));
+  }
+  std::ranges::sort(next_.contacts, {}, [](const RingContact& c) { return c.node; });
+}
+
+void MasslessContact::solve(const ContactStep& step) {
+  step_ = &step;
+  center_next_ = step.center + step.dt * step.center_rate;
+  std::swap(now_, next_);
+  next_.iterations = next_.extensions = 0;
+  next_.converged = true;
+  next_.two_facets = false;
+  load_ring();
+  predict();
+  do {
+    if (!next_.contacts.empty()) solve_law();
+    move_ring(next_.contacts, change_);
+  } while (extend());
+  finish();
+  step_ = nullptr;
+}
+
+}  // namespace rondo::dynamics
