@@ -139,7 +139,7 @@ class Pulse:
             side = places[:, 1] > 0.0
             x, v = places[side, 0], file["snapshots/velocity"][-1, side, 0]
             time = file["frame/time"][-1]
-        if "fine_step" not in summary(out):  # else at the time of the displacements
+        if "hati" not in summary(out):  # else at the time of the displacements
             time -= 0.5 * summary(out)["step"]
         order = np.argsort(x)
         return x[order], v[order], self.exact(x[order], time)
