@@ -32,9 +32,10 @@ void refuse_combinations(const Case& c, const Setup& s) {
 /// Contacts that would have to know what an impulse on one node does to the others.
 void refuse_contacts(const Case& c, const Setup& s, const std::vector<int>& nodes) {
   if (!has_candidates(s.model)) return;
-  const auto touched = std::ranges::find_if(nodes, [&](int node) {
-    return std::ranges::find(s.mesh.boundary, node) != s.mesh.boundary.end();
-  });
+  std::vector<int> boundary = s.mesh.boundary;
+  std::ranges::sort(boundary);
+  const auto touched = std::ranges::find_if(
+      nodes, [&](int node) { return std::ranges::binary_search(boundary, node); });
   if (touched == nodes.end()) return;
   const Vec2 x = s.mesh.coordinates[static_cast<std::size_t>(*touched)];
   const std::string where = fmt::format(
@@ -45,6 +46,24 @@ void refuse_contacts(const Case& c, const Setup& s, const std::vector<int>& node
   if (has_sharp_corners(s.model))
     throw case_error(c, first_table, where + " sharp corners of the ground",
                      "elements away from the contact boundary, or a ground.fillet");
+}
+
+/// What an impulse on one of these nodes does to all others is kept; round a disk once for all
+/// sectors.
+void refuse_many_contacts(const Case& c, const Setup& s, const std::vector<int>& nodes) {
+  if (!s.model.contact || s.model.stiffness_operator == dynamics::StiffnessOperator::cyclic) return;
+  std::vector<int> boundary = s.mesh.boundary;
+  std::ranges::sort(boundary);
+  const auto n = std::ranges::count_if(
+      nodes, [&](int node) { return std::ranges::binary_search(boundary, node); });
+  constexpr long most = 5000;  // of which pairs take 0.8 GB
+  if (n <= most) return;
+  throw case_error(
+      c, first_table,
+      fmt::format("{} nodes on implicit elements may touch the ground: what each does "
+                  "to all others would take {:.2g} GB",
+                  n, 3.2e-8 * static_cast<double>(n) * static_cast<double>(n)),
+      fmt::format("at most {} of them; or elements away from the contact boundary", most));
 }
 
 /// Mean dilatations at nodes reach beyond an element.
@@ -92,6 +111,7 @@ void add_implicit(const Case& c, Setup& s) {
   if (nodes.empty())
     throw case_error(c, first_table, "chooses elements whose nodes are all held", "other elements");
   refuse_contacts(c, s, nodes);
+  refuse_many_contacts(c, s, nodes);
   const mesh::Mesh part = mesh_of_cells(s.mesh, s.implicit_cells);
   s.model.implicit.emplace(
       dynamics::ImplicitPart{fem::assemble_stiffness(part, s.materials, s.prestress), nodes});
