@@ -58,7 +58,15 @@ void Ledger::compare(const StepEnergy& energy) noexcept {
 }
 
 void Ledger::add(const StepEnergy& step) noexcept {
+  const double before = balance_.relative;
   compare(step);
+  // What the step exchanges is a part of the scale: where nothing was exchanged before, the energy
+  // at its beginning is the round-off of this.
+  double scale = balance_.exchanged;
+  for (const auto [work, sign] : terms)
+    if (sign != 0.0) scale += std::abs(step.works.*work);
+  if (balance_.residual != 0.0)
+    balance_.relative = std::max(before, std::abs(balance_.residual) / scale);
   add_works(step.works);
 }
 
