@@ -200,7 +200,7 @@ struct Variant {
   bool contact;
 };
 
-class Limit : public testing::TestWithParam<std::tuple<Variant, StiffnessOperator>> {};
+class ImplicitLimit : public testing::TestWithParam<std::tuple<Variant, StiffnessOperator>> {};
 
 /// As V13, but that the undamped body with a stiff layer at the ground does not roll: a polygon, at
 /// a fixed height, takes up energy without end. Largest energy over the run, of a start with random
@@ -239,13 +239,13 @@ double largest_energy(const std::tuple<Variant, StiffnessOperator>& of, double s
 
 }  // namespace
 
-TEST_P(Limit, StableBelowDivergentAboveTheStepOfTheOthers) {
+TEST_P(ImplicitLimit, StableBelowDivergentAboveTheStepOfTheOthers) {
   const double reference = largest_energy(GetParam(), 0.5, 10000);
   EXPECT_LT(largest_energy(GetParam(), 0.99, 10000), 10.0 * reference);
   EXPECT_GT(largest_energy(GetParam(), 1.01, 10000), 1e9 * reference);
 }
 
-INSTANTIATE_TEST_SUITE_P(Implicit, Limit,
+INSTANTIATE_TEST_SUITE_P(Implicit, ImplicitLimit,
                          testing::Combine(testing::Values(Variant{"plain", 2, 0.0, 0.0, false},
                                                           Variant{"damped", 2, 1e-5, 0.0, false},
                                                           Variant{"rim", 1, 2e-5, 50.0, true},

@@ -62,6 +62,9 @@ void check_case(const Case& c, const RunOptions& options, const Setup& setup) {
   if (c.contact_mass != ContactMass::lumped)
     throw case_error(c, "solver.contact_mass", "a reduced run knows contact nodes with mass alone",
                      "\"lumped\"");
+  if (!c.implicit.empty())
+    throw case_error(c, "solver.implicit[0]", "a reduced run has no elements, but modes",
+                     "no [[solver.implicit]]");
   if (is_general(model) || !model.pressures.empty() || has_sharp_corners(model))
     throw case_error(
         c, "ground.profile",

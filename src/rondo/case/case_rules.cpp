@@ -218,6 +218,9 @@ void check_contact_mass(CaseValues& in, const Case& c) {
                        "velocity to give back",
                        c.ground->restitution),
            ", or ground.restitution = 0");
+  if (c.ground && c.ground->impact == contact::Impact::energy_safe)
+    refuse("ground.impact = \"energy-safe\" is of velocities, and the law is on gaps",
+           ", or no ground.impact");
   if (c.ground && in.good({"ground", "ground.profile", "ground.fillet"}) &&
       has_sharp_corners(*c.ground))
     refuse("the ground has sharp convex corners, which touch between two nodes",

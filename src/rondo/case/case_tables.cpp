@@ -58,7 +58,7 @@ constexpr CaseTable tables[] = {
     {"time", one, nullptr, in_time},
     {"solver", one, nullptr},
     {"solver.implicit[]", [](const Case& c) { return c.implicit.size(); },
-     [](Case& c, std::size_t n) { c.implicit.resize(n); }, in_time_untold},
+     [](Case& c, std::size_t n) { c.implicit.resize(n); }, in_time},
     {"solver.hati", with_hati, [](Case& c, std::size_t n) { set_there(c.hati, n); }, in_time},
     {"solver.hati.fine", with_hati, nullptr, in_time_untold},
     {"output", one, nullptr},

@@ -121,7 +121,11 @@ inline std::vector<RollingCase> massless_cases() {
   RollingCase undamped = everything("undamped", 6, 90), frictionless = everything("slides", 6, 90);
   undamped.disk.beta = 0.0;
   frictionless.law = {};
-  return {massless(smooth), massless(undamped), massless(frictionless),
+  return {massless(smooth),
+          massless(undamped),
+          massless(frictionless),
+          massless(everything("34_sectors", 6, 34)),
+          massless(everything("36_sectors", 6, 36)),
           massless(everything("treaded", 3, mesh::Tread{20, 0.02, 3, 1, 2}))};
 }
 

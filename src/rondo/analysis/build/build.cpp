@@ -96,7 +96,6 @@ void make_model(const Case& c, Setup& s) {
   if (model.stiffness_operator == dynamics::StiffnessOperator::sparse || !by_harmonics(model))
     model.stiffness = fem::assemble_stiffness(s.mesh, s.materials);
   model.stiffness_damping = c.damping.stiffness;
-  demand_held_ring(c, model);
 }
 
 /// What does not change the body: see body_key().
@@ -263,6 +262,7 @@ void make_body(const Case& c, int threads, Setup& s) {
   make_model(c, s);
   s.dilatation = fem::NodalDilatation(s.mesh, s.materials);
   add_stress_stiffening(c, s);
+  demand_held_ring(c, s.model);
   add_implicit(c, s);
   add_subdomains(c, s);
   choose_threads(s, threads);

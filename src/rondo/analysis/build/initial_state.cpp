@@ -84,11 +84,20 @@ void check_ground(const Case& c, const std::vector<double>& size, const std::vec
         : c.rim && c.rim->free_y
             ? "start above the ground or touching it (motion.height, motion.start_x)"
             : "start above the ground (motion.height, motion.start_x) and come down by a table");
-  if (depth.deepest > 1e-9 * extent_of(s.mesh) && !has_massless_contact(s.model))
-    s.warnings.push_back(
-        fmt::format("the body starts {:.4g} m inside the ground: contact keeps it "
-                    "from going deeper, but does not push it out",
-                    depth.deepest));
+  if (!(depth.deepest > 1e-9 * extent_of(s.mesh))) return;
+  if (has_massless_contact(s.model))
+    throw case_error(
+        c, "motion.height",
+        fmt::format("the body starts {:.4g} m inside the ground, out of which contact "
+                    "nodes without mass would be pushed in one step: that creates "
+                    "energy",
+                    depth.deepest),
+        "start above the ground or touching it, initial.state = \"steady-rolling\", or "
+        "solver.contact_mass = \"lumped\"");
+  s.warnings.push_back(
+      fmt::format("the body starts {:.4g} m inside the ground: contact keeps it "
+                  "from going deeper, but does not push it out",
+                  depth.deepest));
 }
 
 }  // namespace

@@ -158,6 +158,23 @@ void refuse_wide_turns(const Case& c, double dt) {
                    fmt::format("time.step below {:.6g}", most / turn * dt));
 }
 
+/// The spin of t = 0 is in the factors of implicit elements; another one is found by a fixed point.
+void refuse_wide_change_of_spin(const Case& c, const Setup& s) {
+  if (!s.model.implicit) return;
+  const double start = c.motion.angular_velocity.at(0.0);
+  double change = 0.0;
+  for (const auto& point : c.motion.angular_velocity.points())
+    change = std::max(change, std::abs(point[1] - start));
+  constexpr double most = 0.1;
+  if (change * s.model.dt <= most) return;
+  throw case_error(
+      c, c.time.step ? "time.step" : "motion.angular_velocity",
+      fmt::format("the spin changes by {:.4g} rad/s, {:.3g} rad in a step: too far for "
+                  "implicit elements, whose factors are those of t = 0",
+                  change, change * s.model.dt),
+      fmt::format("time.step of at most {:.3g}", most / change));
+}
+
 /// A rim of its own; of one that is free the start tells, and the run looks on.
 void refuse_wide_rim_turns(const Case& c, double dt) {
   if (!c.rim) return;
@@ -228,6 +245,7 @@ void warn_of_fast_contact(const Case& c, Setup& s) {
 void check_stability(const Case& c, Setup& s) {
   refuse_wide_turns(c, explicit_step(s.model));
   refuse_wide_rim_turns(c, s.model.dt);
+  refuse_wide_change_of_spin(c, s);
   refuse_large_turns(c, s);
   warn_of_softening(c, s);
   warn_of_contact_step(s);

@@ -86,15 +86,18 @@ Told implicit_line(const Setup& setup) {
 std::vector<Told> step_lines(const Case& c, const Setup& s) {
   const auto length = [](double seconds) { return fmt::format("{:.6g} s", seconds); };
   const double step = explicit_step(s.model);
+  const bool bounded = std::isfinite(s.critical.step);
   std::vector<Told> lines{
       {"largest frequency", fmt::format("{:.6g} rad/s (element bound {:.6g})", s.critical.omega,
                                         s.critical.element_bound)},
-      {"critical step", told_critical_step(s)}};
+      {"critical step", bounded ? told_critical_step(s) : "none: all elements are implicit"}};
+  if (!bounded) lines.erase(lines.begin());
   if (!s.implicit_cells.empty()) lines.push_back(implicit_line(s));
-  if (std::isfinite(s.critical.step))
+  if (bounded && !has_massless_contact(s.model))  // by elements that have their mass
     for (Told& told : lines_of(find_step_limit(c, s))) lines.push_back(std::move(told));
-  lines.emplace_back("step",
-                     fmt::format("{} ({:.3g} of critical)", length(step), step / s.critical.step));
+  lines.emplace_back(
+      "step", bounded ? fmt::format("{} ({:.3g} of critical)", length(step), step / s.critical.step)
+                      : length(step));
   if (s.model.subdomains)
     lines.emplace_back("coarse step", fmt::format("{}, {} of these", length(s.model.dt),
                                                   s.model.subdomains->ratio));

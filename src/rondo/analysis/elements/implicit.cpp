@@ -29,6 +29,24 @@ void refuse_combinations(const Case& c, const Setup& s) {
          "bodies that mesh.clamped holds, or no [[solver.implicit]]");
 }
 
+/// An element that is implicit feeds energy to nodes without mass that it touches.
+void refuse_massless_nodes(const Case& c, const Setup& s) {
+  if (!has_massless_contact(s.model)) return;
+  std::vector<char> touches(s.mesh.n_nodes(), 0);
+  for (const int node : s.mesh.boundary) touches[static_cast<std::size_t>(node)] = 1;
+  for (std::size_t e = 0; e < s.implicit_cells.size(); ++e)
+    for (int a = 0; s.implicit_cells[e] && a < mesh::n_corners(s.mesh.cells[e]); ++a) {
+      const int node = s.mesh.cells[e][static_cast<std::size_t>(a)];
+      if (touches[static_cast<std::size_t>(node)])
+        throw case_error(
+            c, first_table,
+            fmt::format("element {} has contact node {}, which solver.contact_mass leaves without "
+                        "mass: together they would create energy",
+                        e, node),
+            "elements without contact nodes, or solver.contact_mass = \"lumped\"");
+    }
+}
+
 /// Contacts that would have to know what an impulse on one node does to the others.
 void refuse_contacts(const Case& c, const Setup& s, const std::vector<int>& nodes) {
   if (!has_candidates(s.model)) return;
@@ -106,6 +124,7 @@ void add_implicit(const Case& c, Setup& s) {
   if (c.implicit.empty()) return;
   refuse_combinations(c, s);
   s.implicit_cells = all_chosen(c, s);
+  refuse_massless_nodes(c, s);
   refuse_mean_dilatation(c, s, s.implicit_cells);
   std::vector<int> nodes = free_nodes_of(s.mesh, s.implicit_cells);
   if (nodes.empty())

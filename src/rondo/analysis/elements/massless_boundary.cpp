@@ -42,25 +42,6 @@ void refuse_pressed_nodes(const Case& c, const mesh::Mesh& mesh, const dynamics:
                          "\"lumped\", or a pressure on a curve that has no contact node");
 }
 
-/// An element that is implicit feeds energy to nodes without mass that it touches.
-void refuse_implicit_cells(const Case& c, const Setup& s) {
-  std::vector<char> touches(s.mesh.n_nodes(), 0);
-  for (const int node : s.mesh.boundary) touches[at(node)] = 1;
-  for (std::size_t k = 0; k < c.implicit.size(); ++k) {
-    const std::string table = item_of("solver.implicit", k);
-    const std::vector<char> chosen = chosen_cells(c, s, c.implicit[k], table);
-    for (std::size_t e = 0; e < chosen.size(); ++e)
-      for (int a = 0; chosen[e] != 0 && a < mesh::n_corners(s.mesh.cells[e]); ++a)
-        if (touches[at(s.mesh.cells[e][at(a)])] != 0)
-          throw case_error(
-              c, table,
-              fmt::format("element {} has contact node {}, which solver.contact_mass leaves "
-                          "without mass: together they would create energy",
-                          e, s.mesh.cells[e][at(a)]),
-              "elements without contact nodes, or solver.contact_mass = \"lumped\"");
-  }
-}
-
 InputError no_neighbour(const Case& c, const mesh::Mesh& mesh, int node) {
   const Vec2 x = mesh.coordinates[at(node)];
   return case_error(
@@ -104,6 +85,14 @@ std::vector<std::vector<int>> joined_nodes(const mesh::Mesh& mesh) {
   return beside;
 }
 
+void warn_of_concave_corners(Setup& s) {
+  if (!s.model.contact->ground.has_concave_corners()) return;
+  s.warnings.push_back(fmt::format(
+      "{}: the ground has concave corners: the run ends where one of them holds a contact node by "
+      "two facets at once",
+      key));
+}
+
 void warn_of_thin_layer(Setup& s) {
   constexpr double thin = 0.5 * (1.0 - 1e-9);
   const auto beside = joined_nodes(s.mesh);
@@ -130,7 +119,6 @@ void make_contact_massless(const Case& c, Setup& s) {
   dynamics::Model& m = s.model;
   refuse_free_bodies(c, m);
   refuse_pressed_nodes(c, s.mesh, m);
-  refuse_implicit_cells(c, s);
   fem::MovedMass moved = fem::move_contact_mass(s.mesh, m.mass, m.contact->nodes);
   if (moved.without_neighbour >= 0) throw no_neighbour(c, s.mesh, moved.without_neighbour);
   if (c.contact_mass == ContactMass::singular_kept &&
@@ -141,6 +129,7 @@ void make_contact_massless(const Case& c, Setup& s) {
                      "\"singular\", or a finer mesh");
   m.lumped_mass = std::exchange(m.mass, std::move(moved.mass));
   warn_of_thin_layer(s);
+  warn_of_concave_corners(s);
 }
 
 void demand_held_ring(const Case& c, const dynamics::Model& model) {

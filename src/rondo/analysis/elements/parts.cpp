@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <set>
 
 #include "rondo/case/case_keys.hpp"
 #include "rondo/mesh/physical_group.hpp"
@@ -44,6 +45,20 @@ void choose_layers(const Case& c, const mesh::Mesh& mesh, Vec2 center, const Ele
     chosen[e] = std::ranges::binary_search(choice.layers, layers.of_cell[e] + 1) ? 1 : 0;
 }
 
+/// Elements that differ by round-off alone are chosen together.
+void choose_in_all_sectors(const mesh::Mesh& mesh, std::vector<char>& chosen) {
+  const auto place = [&](std::size_t e) {
+    mesh::Cell nodes = mesh.cells[e];
+    for (int& node : nodes) node = node < 0 ? -1 : mesh.sector_node[at(node)];
+    std::ranges::sort(nodes);
+    return nodes;
+  };
+  std::set<mesh::Cell> places;
+  for (std::size_t e = 0; e < chosen.size(); ++e)
+    if (chosen[e]) places.insert(place(e));
+  for (std::size_t e = 0; e < chosen.size(); ++e) chosen[e] = places.contains(place(e)) ? 1 : 0;
+}
+
 /// An element alone has the critical step of its largest frequency, 3.8 with the damping.
 void choose_slow(const Case& c, const Setup& s, double slower_than, std::vector<char>& chosen) {
   const std::vector<double> values =
@@ -55,6 +70,7 @@ void choose_slow(const Case& c, const Setup& s, double slower_than, std::vector<
             ? 1
             : 0;
   }
+  if (s.mesh.n_sectors > 0) choose_in_all_sectors(s.mesh, chosen);
 }
 
 }  // namespace

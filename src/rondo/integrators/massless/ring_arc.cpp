@@ -226,7 +226,7 @@ bool RingArc::cut_arc() {
     begin = at(candidates_[k]);
   }
   const std::size_t size = n_ - longest + 1 + 2 * margin;
-  if (size + at(reach_) + 2 > n_) return false;
+  if (size + 2 * at(reach_) + 2 > n_) return false;  // both tails are apart
   first_ = (begin + n_ - margin) % n_;
   arc_.assign(size, Node{});
   eliminated_.resize(size);
@@ -360,12 +360,19 @@ bool RingArc::update_statuses(double friction, bool all) noexcept {
   return changed;
 }
 
+/// A slip block that is singular leaves numbers that compare with nothing.
+bool RingArc::is_finite() const noexcept {
+  Vec2 sum;
+  for (const Node& node : arc_) sum += node.change + node.force;
+  return std::isfinite(sum.x) && std::isfinite(sum.y);
+}
+
 bool RingArc::settle(double friction) {
   for (int i = 0; i < most_iterations; ++i) {
     ++iterations_;
     eliminate(friction);
     find_forces();
-    if (!update_statuses(friction, i < iterations_at_once)) return true;
+    if (!update_statuses(friction, i < iterations_at_once)) return is_finite();
   }
   return false;
 }

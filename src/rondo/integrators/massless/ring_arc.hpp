@@ -65,6 +65,7 @@ class RingArc {
   [[nodiscard]] bool find_candidates(const ContactStep& step, const RingContacts& now);
   [[nodiscard]] bool cut_arc();
   void set_nodes(const ContactStep& step, const RingContacts& now);
+  [[nodiscard]] bool is_finite() const noexcept;
   [[nodiscard]] bool settle(double friction);
   void eliminate(double friction);
   void find_free();

@@ -91,6 +91,9 @@ std::vector<double> MasslessContact::save() const {
 bool MasslessContact::is_saved(std::span<const double> numbers, std::size_t n_candidates) noexcept {
   if (numbers.size() < header || (numbers.size() - header) % per_contact != 0) return false;
   if (static_cast<double>((numbers.size() - header) / per_contact) != numbers[4]) return false;
+  constexpr double most = 1e9;
+  if (!(numbers[0] >= 0.0 && numbers[0] <= most && numbers[1] >= 0.0 && numbers[1] <= most))
+    return false;
   if (!std::ranges::all_of(numbers, [](double number) { return std::isfinite(number); }))
     return false;
   double before = -1.0;

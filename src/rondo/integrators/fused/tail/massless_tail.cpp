@@ -107,12 +107,14 @@ class MasslessTail final : public StepTail {
     RONDO_DEMAND(around_row_.size() == arc_->rows_around().size(), around_row_.size());
   }
 
-  /// u_1 and v_{1/2} of the ring, and its contacts at t_1. @pre the fields have u_0 and 0 there
+  /// u_1 and v_{1/2} of the ring, and its contacts at t_1, from u_0: the fields are half a step on.
   void start() {
     const FrameStep frame = frame_step(model_.motion, 0, model_.dt);
     const VelocityUpdate update =
         velocity_update(model_.scheme, model_.dt, model_.mass_damping, frame.spin);
     before();
+    for (std::size_t i = 0; i < ring_.size(); ++i)
+      ring_.u.put(i, ring_.u.at(i) - model_.dt * before_.at(i));
     read_around();
     find_ring(ContactStep(model_, frame, update));
     ring_.fields.write(next_, velocity_);
