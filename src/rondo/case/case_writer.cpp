@@ -30,7 +30,7 @@ struct ValueText {
   std::string operator()(const int* value) const { return fmt::format("{}", *value); }
   std::string operator()(const double* value) const { return toml_number(*value); }
   std::string operator()(const std::optional<double>* value) const {
-    return toml_number(value->value());
+    return *value ? toml_number(**value) : "";  // left out, as is_left_out() has it
   }
   std::string operator()(const bool* value) const { return *value ? "true" : "false"; }
   std::string operator()(const std::string* value) const { return toml_string(*value); }
