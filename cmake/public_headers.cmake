@@ -15,4 +15,4 @@ set(RONDO_INCLUDED_HEADERS
     contact/law.hpp contact/coupled/band.hpp contact/coupled/coupled.hpp
     contact/coupled/problem_file.hpp
     model/contact_node.hpp model/ledger.hpp model/motion.hpp model/rim_body.hpp
-    model/saved_state.hpp model/scheme.hpp)
+    model/saved_state.hpp model/scheme.hpp model/subdomains.hpp)

@@ -47,8 +47,8 @@ class Wheel {
     const auto product = [&](std::span<const Vec2> u, std::span<Vec2> out) {
       fem::apply(m.stiffness, u, out, 1);
     };
-    return with_rim(built_.critical, fem::assemble_sector(built_.mesh, built_.materials),
-                    m.mass, rim_frequencies(product, m.mass, m.reference, m.free, rim), damping_);
+    return with_rim(built_.critical, fem::assemble_sector(built_.mesh, built_.materials), m.mass,
+                    rim_frequencies(product, m.mass, m.reference, m.free, rim), damping_);
   }
 
   /// By powers of what forces do to places, from below: to some 1e-4.
