@@ -85,8 +85,16 @@ std::vector<std::vector<int>> joined_nodes(const mesh::Mesh& mesh) {
   return beside;
 }
 
-void warn_of_concave_corners(Setup& s) {
-  if (!s.model.contact->ground.has_concave_corners()) return;
+/// Where the body comes as low as one of them.
+void warn_of_concave_corners(const Case& c, Setup& s) {
+  double radius = 0.0, lowest = c.motion.height.at(0.0);
+  for (const Vec2 x : s.mesh.coordinates) radius = std::max(radius, norm(x));
+  for (const auto& point : c.motion.height.points()) lowest = std::min(lowest, point[1]);
+  const std::vector<Vec2>& p = c.ground->shape.profile;
+  bool reached = false;
+  for (std::size_t i = 1; i + 1 < p.size(); ++i)
+    reached |= cross(p[i] - p[i - 1], p[i + 1] - p[i]) > 0.0 && p[i].y >= lowest - radius;
+  if (!reached) return;
   s.warnings.push_back(fmt::format(
       "{}: the ground has concave corners: the run ends where one of them holds a contact node by "
       "two facets at once",
@@ -129,7 +137,7 @@ void make_contact_massless(const Case& c, Setup& s) {
                      "\"singular\", or a finer mesh");
   m.lumped_mass = std::exchange(m.mass, std::move(moved.mass));
   warn_of_thin_layer(s);
-  warn_of_concave_corners(s);
+  warn_of_concave_corners(c, s);
 }
 
 void demand_held_ring(const Case& c, const dynamics::Model& model) {

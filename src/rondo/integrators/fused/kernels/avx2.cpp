@@ -4,5 +4,5 @@
 #include "rondo/integrators/fused/kernels/table.hpp"
 
 namespace rondo::dynamics::kernels {
-constinit const Table avx2_table = table("avx2", avx2_wheel);
+constinit const Table avx2_table = table("avx2", avx2_wheel, avx2_ring_product);
 }  // namespace rondo::dynamics::kernels

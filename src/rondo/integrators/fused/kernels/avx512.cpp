@@ -4,5 +4,5 @@
 #include "rondo/integrators/fused/kernels/table.hpp"
 
 namespace rondo::dynamics::kernels {
-constinit const Table avx512_table = table("avx512", avx512_wheel);
+constinit const Table avx512_table = table("avx512", avx512_wheel, avx512_ring_product);
 }  // namespace rondo::dynamics::kernels

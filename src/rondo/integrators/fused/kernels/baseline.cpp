@@ -4,5 +4,5 @@
 #include "rondo/integrators/fused/kernels/table.hpp"
 
 namespace rondo::dynamics::kernels {
-constinit const Table baseline_table = table("baseline", baseline_wheel);
+constinit const Table baseline_table = table("baseline", baseline_wheel, baseline_ring_product);
 }  // namespace rondo::dynamics::kernels

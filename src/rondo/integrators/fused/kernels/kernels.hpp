@@ -207,6 +207,11 @@ struct Table {
   RingProduct ring_product;
 };
 
+/// In files of their own, as the loops of a loaded rim.
+void avx512_ring_product(const RingTerms& terms) noexcept;
+void avx2_ring_product(const RingTerms& terms) noexcept;
+void baseline_ring_product(const RingTerms& terms) noexcept;
+
 extern const WheelTable avx512_wheel, avx2_wheel, baseline_wheel;
 extern const Table avx512_table, avx2_table, baseline_table;
 

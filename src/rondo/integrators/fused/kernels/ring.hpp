@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// @file  Loop of block-circulant matrices over packs of sectors. Included after a pack_*.hpp.
 #pragma once
-#include "rondo/integrators/implicit/ring_terms.hpp"
+#include "rondo/integrators/fused/kernels/kernels.hpp"
 
 namespace {
 

@@ -3,13 +3,13 @@
 #pragma once
 #include "rondo/integrators/fused/kernels/cyclic.hpp"
 #include "rondo/integrators/fused/kernels/low_columns.hpp"
-#include "rondo/integrators/fused/kernels/ring.hpp"
 #include "rondo/integrators/fused/kernels/sparse.hpp"
 
 namespace {
 
-constexpr rondo::dynamics::kernels::Table table(
-    const char* name, const rondo::dynamics::kernels::WheelTable& wheel) noexcept {
+constexpr rondo::dynamics::kernels::Table table(const char* name,
+                                                const rondo::dynamics::kernels::WheelTable& wheel,
+                                                rondo::dynamics::RingProduct ring) noexcept {
   return {name,
           {{{cyclic_strip<false, false, false>, cyclic_strip<false, false, true>},
             {cyclic_strip<false, true, false>, cyclic_strip<false, true, true>}},
@@ -21,7 +21,7 @@ constexpr rondo::dynamics::kernels::Table table(
            {{sparse_rows<true, false, false>, sparse_rows<true, false, true>},
             {sparse_rows<true, true, false>, sparse_rows<true, true, true>}}},
           &wheel,
-          ring_product};
+          ring};
 }
 
 }  // namespace

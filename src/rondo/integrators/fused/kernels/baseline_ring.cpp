@@ -1,0 +1,10 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "rondo/integrators/fused/kernels/pack_baseline.hpp"
+
+#include "rondo/integrators/fused/kernels/ring.hpp"
+
+namespace rondo::dynamics::kernels {
+void baseline_ring_product(const RingTerms& terms) noexcept {
+  ring_product(terms);
+}
+}  // namespace rondo::dynamics::kernels
