@@ -90,7 +90,8 @@ std::vector<double> MasslessContact::save() const {
 
 bool MasslessContact::is_saved(std::span<const double> numbers, std::size_t n_candidates) noexcept {
   if (numbers.size() < header || (numbers.size() - header) % per_contact != 0) return false;
-  if (static_cast<double>((numbers.size() - header) / per_contact) != numbers[4]) return false;
+  const std::size_t n_contacts = (numbers.size() - header) / per_contact;
+  if (static_cast<double>(n_contacts) != numbers[4]) return false;
   constexpr double most = 1e9;
   if (!(numbers[0] >= 0.0 && numbers[0] <= most && numbers[1] >= 0.0 && numbers[1] <= most))
     return false;
