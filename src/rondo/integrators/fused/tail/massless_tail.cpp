@@ -31,7 +31,8 @@ std::vector<std::size_t> places_of(const Model& model, const NodeSet& set,
 
 /// A node set and its fields, as last read.
 struct Part {
-  Part(NodesInStep of) : nodes(std::move(of.nodes)), fields(*of.fields), u(size()), v(size()) {}
+  explicit Part(NodesInStep&& of)
+      : nodes(std::move(of.nodes)), fields(*of.fields), u(size()), v(size()) {}
   [[nodiscard]] std::size_t size() const noexcept { return nodes.size(); }
 
   const NodeSet nodes;
