@@ -33,7 +33,7 @@ constexpr std::array<Term, Ledger::n_works> terms{{{&Works::frame, 1.0},
 
 }  // namespace
 
-void Ledger::compare(const StepEnergy& energy) noexcept {
+void Ledger::compare(const StepEnergy& energy, double to_come) noexcept {
   Balance& b = balance_;
   b.kinetic = energy.kinetic;
   b.strain = energy.strain;
@@ -54,19 +54,15 @@ void Ledger::compare(const StepEnergy& energy) noexcept {
   b.residual = rest.value();
   b.exchanged = std::max(b.exchanged, std::abs(whole) + works + std::abs(b.works.scheme));
   b.otherwise = std::max(b.otherwise, std::abs(start_) + works);
-  if (b.residual != 0.0) b.relative = std::max(b.relative, std::abs(b.residual) / b.exchanged);
+  if (b.residual != 0.0)
+    b.relative = std::max(b.relative, std::abs(b.residual) / (b.exchanged + to_come));
 }
 
 void Ledger::add(const StepEnergy& step) noexcept {
-  const double before = balance_.relative;
-  compare(step);
-  // What the step exchanges is a part of the scale: where nothing was exchanged before, the energy
-  // at its beginning is the round-off of this.
-  double scale = balance_.exchanged;
+  double to_come = 0.0;
   for (const auto [work, sign] : terms)
-    if (sign != 0.0) scale += std::abs(step.works.*work);
-  if (balance_.residual != 0.0)
-    balance_.relative = std::max(before, std::abs(balance_.residual) / scale);
+    if (sign != 0.0) to_come += std::abs(step.works.*work);
+  compare(step, to_come);
   add_works(step.works);
 }
 

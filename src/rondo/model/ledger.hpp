@@ -51,7 +51,7 @@ struct Balance {
   double exchanged = 0.0;  ///< largest so far of |E| + Σ |works|                      [J/m]
   double otherwise = 0.0;  ///< largest so far of |E_{1/2}| + Σ |works| without the scheme's: what
                            ///< the run exchanges by itself, created energy left out      [J/m]
-  double relative = 0.0;   ///< largest so far of |residual| / exchanged
+  double relative = 0.0;   ///< largest so far of |residual| / exchanged, with what the step does
 };
 
 class Ledger {
@@ -60,7 +60,9 @@ class Ledger {
   void add(const StepEnergy& step) noexcept;
   /// The two parts of add(), for a scheme that knows energies at the ends of its steps. compare()
   /// takes no notice of the works.
-  void compare(const StepEnergy& energy) noexcept;
+  /// @param to_come what the step exchanges, a part of the scale: where nothing was exchanged
+  /// before, the energy is the round-off of this                                      [J/m]
+  void compare(const StepEnergy& energy, double to_come = 0.0) noexcept;
   void add_works(const Works& step) noexcept;
 
   /// Of the half step before the step added last.

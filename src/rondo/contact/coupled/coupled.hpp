@@ -4,22 +4,15 @@
 /// Block Gauss–Seidel: Jourdan, Alart, Jean, CMAME 155 (1998) 31. Newton on statuses: Alart,
 /// Curnier, CMAME 92 (1991) 353.
 #pragma once
-#include <array>
 #include <span>
 #include <vector>
 
 #include "rondo/contact/coupled/band.hpp"
+#include "rondo/contact/coupled/block.hpp"
 #include "rondo/contact/law.hpp"
 #include "rondo/core/vec2.hpp"
 
 namespace rondo::contact {
-
-/// A 2×2 matrix by rows: nn, nt, tn, tt.
-using Block = std::array<double, 4>;
-
-constexpr Vec2 apply(const Block& a, Vec2 b) noexcept {
-  return {a[0] * b.x + a[1] * b.y, a[2] * b.x + a[3] * b.y};
-}
 
 /// Relative velocities w = free + W r; each contact obeys (4.3) with its own bounce and friction.
 struct CoupledProblem {

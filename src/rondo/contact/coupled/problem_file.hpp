@@ -5,6 +5,8 @@
 #include <filesystem>
 #include <span>
 #include <string>
+#include <utility>
+#include <vector>
 
 #include "rondo/contact/coupled/coupled.hpp"
 
@@ -16,6 +18,23 @@ struct ProblemFile {
   std::vector<Vec2> impulse;  ///< (nc) found then
   std::vector<Vec2> start;    ///< (nc) warm start
   CoupledResult result;       ///< of then
+};
+
+/// Problems that took long, until somebody takes them: the first few.
+class DifficultProblems {
+ public:
+  /// Keeps it where it took more than so many iterations; 0: never. @param start warm start
+  void look_at(const CoupledProblem& problem, std::span<const Vec2> impulse,
+               std::span<const Vec2> start, const CoupledResult& result, int above) {
+    constexpr std::size_t most = 16;
+    if (above == 0 || result.iterations <= above || kept_.size() == most) return;
+    kept_.push_back(
+        {problem, "", {impulse.begin(), impulse.end()}, {start.begin(), start.end()}, result});
+  }
+  [[nodiscard]] std::vector<ProblemFile> take() { return std::exchange(kept_, {}); }
+
+ private:
+  std::vector<ProblemFile> kept_;
 };
 
 /// @throws FileError where it cannot be written

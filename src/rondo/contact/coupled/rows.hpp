@@ -14,13 +14,9 @@ namespace rondo::contact {
 struct ContactRows {
   int count = 0;
   std::array<int, 3> node{};
-  std::array<Block, 3> block{};  ///< H_k: fixed-frame velocity to (normal, tangential)
+  std::array<Block, 3> block{};  ///< H_k: fixed-frame velocity to (normal, tangential); Hᵀ r is the
+                                 ///< impulse on the node, transposed()
 };
-
-/// Hᵀ r: the impulse on a node, fixed frame.
-constexpr Vec2 transposed(const Block& h, Vec2 r) noexcept {
-  return {h[0] * r.x + h[2] * r.y, h[1] * r.x + h[3] * r.y};
-}
 
 /// Rows of a node on rigid ground (w = n̄ v).
 ContactRows ground_rows(int node, Vec2 normal) noexcept;

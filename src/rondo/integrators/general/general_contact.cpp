@@ -195,7 +195,7 @@ void GeneralContact::solve_together(const BodyFrames& frames, Rows rows, State& 
   const contact::CoupledLimits limits{.most_iterations = model_.coupled.most_iterations};
   const contact::CoupledResult result =
       contact::solve_coupled(problem_, limits, impulse_, status_, workspace_);
-  keep_if_difficult(result);
+  difficult_.look_at(problem_, impulse_, start_, result, model_.coupled.dump_above);
   for (std::size_t j = 0; j < rows.size(); ++j) {
     rows_[at(rows[j])].impulse = impulse_[j];
     rows_[at(rows[j])].status = status_[j];
@@ -207,13 +207,6 @@ void GeneralContact::solve_together(const BodyFrames& frames, Rows rows, State& 
   report.clusters_not_converged += result.converged ? 0 : 1;
   report.cluster_largest = std::max(report.cluster_largest, static_cast<int>(rows.size()));
   report.cluster_iterations = std::max(report.cluster_iterations, result.iterations);
-}
-
-void GeneralContact::keep_if_difficult(const contact::CoupledResult& result) {
-  constexpr std::size_t most = 16;  // of those nobody has taken
-  const int above = model_.coupled.dump_above;
-  if (above == 0 || result.iterations <= above || difficult_.size() == most) return;
-  difficult_.push_back({problem_, "", impulse_, start_, result});
 }
 
 /// v⁺ = v_free + Σ Rᵀ Hᵀ r/(m a). A node that sticks to the ground gets the velocity that w =

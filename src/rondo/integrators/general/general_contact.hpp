@@ -36,9 +36,7 @@ class GeneralContact {
 
   /// Problems that took more than model.coupled.dump_above iterations since the last call, the
   /// first few of them.
-  [[nodiscard]] std::vector<contact::ProblemFile> take_difficult() {
-    return std::exchange(difficult_, {});
-  }
+  [[nodiscard]] std::vector<contact::ProblemFile> take_difficult() { return difficult_.take(); }
 
   /// Of the step before, by contact, ascending: from these the coupled contacts start.
   using KeptImpulses = std::vector<std::pair<std::uint64_t, Vec2>>;
@@ -56,7 +54,6 @@ class GeneralContact {
   void solve_on_ground(const BodyFrames& frames, Rows rows, State& state, ContactReport& report);
   void solve_together(const BodyFrames& frames, Rows rows, State& state, ContactReport& report);
   void make_problem(Rows rows);
-  void keep_if_difficult(const contact::CoupledResult& result);
   void add_impulses(const BodyFrames& frames, Rows rows, bool converged, State& state);
   void finish_row(const BodyFrames& frames, ContactRow& row, double mass, State& state,
                   ContactReport& report);
@@ -81,7 +78,7 @@ class GeneralContact {
   std::vector<Vec2> impulse_, start_;  ///< of a cluster: found, and warm start
   std::vector<contact::Status> status_;
   KeptImpulses kept_;
-  std::vector<contact::ProblemFile> difficult_;
+  contact::DifficultProblems difficult_;
   Vec2 center_;
   std::vector<std::pair<std::size_t, std::size_t>> order_;  ///< candidate, place in `active`
   std::vector<ActiveContact> sorted_;

@@ -203,6 +203,15 @@ void GeneralIntegrator::fields(State& state) const noexcept {
   state.v_next = state_.v_next;
 }
 
+std::vector<contact::ProblemFile> GeneralIntegrator::take_difficult() {
+  std::vector<contact::ProblemFile> problems =
+      ring_ ? ring_->take_difficult() : contact_.take_difficult();
+  if (implicit_ && implicit_->contact())
+    for (contact::ProblemFile& problem : implicit_->contact()->take_difficult())
+      problems.push_back(std::move(problem));
+  return problems;
+}
+
 SavedState GeneralIntegrator::save() const {
   SavedState saved;
   saved.step = state_.step;

@@ -29,9 +29,7 @@ class GeneralIntegrator final : public Integrator, public Resumable {
   [[nodiscard]] Resumable* resumable() noexcept override { return this; }
   [[nodiscard]] SavedState save() const override;
   void restore(const SavedState& saved) override;
-  [[nodiscard]] std::vector<contact::ProblemFile> take_difficult() override {
-    return ring_ ? ring_->take_difficult() : contact_.take_difficult();
-  }
+  [[nodiscard]] std::vector<contact::ProblemFile> take_difficult() override;
 
  private:
   StepReport step() noexcept;

@@ -11,24 +11,6 @@ namespace {
 
 using contact::Block;
 
-/// Rows of the frame of a normal: n, and t = J n.
-constexpr Block rows_of(Vec2 normal) noexcept {
-  return {normal.x, normal.y, -normal.y, normal.x};
-}
-
-constexpr Block rows_of(Complex a) noexcept {
-  return {a.re, -a.im, a.im, a.re};
-}
-
-constexpr Block times(const Block& a, const Block& b) noexcept {
-  return {a[0] * b[0] + a[1] * b[2], a[0] * b[1] + a[1] * b[3], a[2] * b[0] + a[3] * b[2],
-          a[2] * b[1] + a[3] * b[3]};
-}
-
-constexpr Block transposed(const Block& a) noexcept {
-  return {a[0], a[2], a[1], a[3]};
-}
-
 double largest_of(const Block& a) noexcept {
   double largest = 0.0;
   for (const double value : a) largest = std::max(largest, std::abs(value));
@@ -82,7 +64,7 @@ Block ImplicitContact::response(std::size_t to, std::size_t from) const noexcept
   }
   const auto& column = columns_[ring ? j / nodes_.row_size : from];
   const Block local = {column[0].x[at], column[1].x[at], column[0].y[at], column[1].y[at]};
-  return times(rows_of(nodes_.turn[i]), times(local, rows_of(conj(nodes_.turn[j]))));
+  return contact::in_frames(nodes_.turn[i], local, nodes_.turn[j]);
 }
 
 bool ImplicitContact::find(const ContactStep& step, const PlaneField& u, const PlaneField& before,
@@ -127,18 +109,18 @@ void ImplicitContact::build_problem(const ContactStep& step) {
   problem_.blocks.clear();
   for (std::size_t j = 0; j < n; ++j) {
     problem_.bounce.push_back(active_[j].bounce);
-    const Block to = times(rows_of(active_[j].normal), rows_of(step.rotation_next));
+    const Complex to = conj(frame_of(active_[j].normal)) * step.rotation_next;
     for (std::size_t l = 0; l < n; ++l) {
-      const Block from = times(rows_of(active_[l].normal), rows_of(step.rotation));
+      const Complex from = conj(frame_of(active_[l].normal)) * step.rotation;
       problem_.column.push_back(static_cast<int>(l));
-      problem_.blocks.push_back(
-          times(to, times(response(rows_[j].of, rows_[l].of), transposed(from))));
+      problem_.blocks.push_back(contact::in_frames(to, response(rows_[j].of, rows_[l].of), from));
       if (l == j) problem_.mass.push_back(1.0 / largest_of(problem_.blocks.back()));
     }
     problem_.row_start.push_back(static_cast<int>(problem_.column.size()));
   }
   impulse_.clear();
   for (const Row& row : rows_) impulse_.push_back(warm_start(row.key));
+  start_ = impulse_;
   status_.assign(n, contact::Status::open);
 }
 
@@ -158,6 +140,7 @@ void ImplicitContact::solve(const ContactStep& step, const PlaneField& free, Pla
   }
   const contact::CoupledLimits limits{.most_iterations = model_.coupled.most_iterations};
   result_ = contact::solve_coupled(problem_, limits, impulse_, status_, workspace_);
+  difficult_.look_at(problem_, impulse_, start_, result_, model_.coupled.dump_above);
   for (std::size_t j = 0; j < rows_.size(); ++j) {
     const std::size_t place = candidates_[rows_[j].of].place;
     const Vec2 on_node = conj(nodes_.turn[place]) *

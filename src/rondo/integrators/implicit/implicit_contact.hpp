@@ -6,7 +6,7 @@
 #include <utility>
 #include <vector>
 
-#include "rondo/contact/coupled/coupled.hpp"
+#include "rondo/contact/coupled/problem_file.hpp"
 #include "rondo/integrators/implicit/implicit_operator.hpp"
 #include "rondo/model/contact_node.hpp"
 
@@ -32,6 +32,9 @@ class ImplicitContact {
               ContactReport& report);
   /// Of the last step, in the order of the candidates.
   [[nodiscard]] const std::vector<ActiveContact>& active() const noexcept { return active_; }
+
+  /// As GeneralContact::take_difficult().
+  [[nodiscard]] std::vector<contact::ProblemFile> take_difficult() { return difficult_.take(); }
 
   /// From these the next step starts: by contact, ascending; keys with bit 62 set.
   using KeptImpulses = std::vector<std::pair<std::uint64_t, Vec2>>;
@@ -68,7 +71,8 @@ class ImplicitContact {
   contact::CoupledProblem problem_;
   contact::CoupledWorkspace workspace_;
   contact::CoupledResult result_;
-  std::vector<Vec2> impulse_;
+  std::vector<Vec2> impulse_, start_;  ///< found, and warm start
+  contact::DifficultProblems difficult_;
   std::vector<contact::Status> status_;
   KeptImpulses kept_;
 };

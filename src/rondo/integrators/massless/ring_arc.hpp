@@ -21,8 +21,7 @@ class RingArc {
   /// Each sector has one contact node, and these couple with those beside them alone.
   [[nodiscard]] static bool fits(const Model& model);
 
-  /// Rows of the sector's stiffness: the contact nodes, and those with mass around them.
-  [[nodiscard]] int row() const noexcept { return row_; }
+  /// Rows of the sector's stiffness around the contact nodes, with mass.
   [[nodiscard]] const std::vector<int>& rows_around() const noexcept { return around_rows_; }
 
   /// u_{n+2} + β v_{n+3/2} of the rows around, to be filled before solve(): x of each, then y of
@@ -41,6 +40,8 @@ class RingArc {
 
  private:
   using Block = contact::Block;
+  /// Gaps above this are closed to round-off                                       [m]
+  static constexpr double closed = -1e-14;
   /// A sector of the arc; vectors in polar components.
   struct Node {
     Vec2 normal, tangent;

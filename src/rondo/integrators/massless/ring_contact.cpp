@@ -22,19 +22,6 @@ std::size_t at(int index) noexcept {
   return static_cast<std::size_t>(index);
 }
 
-/// Q R G Rᵀ Qᵀ of two contacts.
-Block in_frames(Complex rotation, Vec2 normal, const Block& g, Vec2 other) noexcept {
-  Block out{};
-  for (const std::size_t component : {0U, 1U}) {
-    const Vec2 unit = component == 0 ? Vec2{1.0, 0.0} : Vec2{0.0, 1.0};
-    const Vec2 w =
-        to_frame(normal, rotation * contact::apply(g, conj(rotation) * from_frame(other, unit)));
-    out[component] = w.x;
-    out[component + 2] = w.y;
-  }
-  return out;
-}
-
 }  // namespace
 
 bool near_second_facet(const contact::Ground& ground, Vec2 place, double way) noexcept {
@@ -145,8 +132,11 @@ void MasslessContact::find_delassus() {
   problem_.mass.clear();
   for (std::size_t j = 0; j < c.size(); ++j) {
     for (std::size_t l = 0; l < c.size(); ++l) {
+      const auto to_frame_of = [&](const RingContact& contact) {
+        return conj(frame_of(contact.normal)) * step_->rotation_next;
+      };
       Block w =
-          in_frames(step_->rotation_next, c[j].normal, columns_[l][at(c[j].node)], c[l].normal);
+          contact::in_frames(to_frame_of(c[j]), columns_[l][at(c[j].node)], to_frame_of(c[l]));
       for (double& entry : w) entry *= scale;
       problem_.column.push_back(static_cast<int>(l));
       problem_.blocks.push_back(w);
@@ -171,19 +161,12 @@ void MasslessContact::make_problem() {
   start_ = impulse_;
 }
 
-void MasslessContact::keep_if_difficult(const contact::CoupledResult& result) {
-  constexpr std::size_t most = 16;  // of those nobody has taken
-  const int above = model_.coupled.dump_above;
-  if (above == 0 || result.iterations <= above || difficult_.size() == most) return;
-  difficult_.push_back({problem_, "", impulse_, start_, result});
-}
-
 void MasslessContact::solve_law() {
   make_problem();
   const contact::CoupledLimits limits{.most_iterations = model_.coupled.most_iterations};
   const contact::CoupledResult result =
       contact::solve_coupled(problem_, limits, impulse_, status_, workspace_);
-  keep_if_difficult(result);
+  difficult_.look_at(problem_, impulse_, start_, result, model_.coupled.dump_above);
   next_.iterations += result.iterations;
   next_.converged = next_.converged && result.converged;
   for (std::size_t j = 0; j < next_.contacts.size(); ++j) {

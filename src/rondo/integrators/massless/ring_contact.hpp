@@ -86,9 +86,7 @@ class MasslessContact {
   static bool is_saved(std::span<const double> numbers, std::size_t n_candidates) noexcept;
 
   /// As GeneralContact::take_difficult().
-  [[nodiscard]] std::vector<contact::ProblemFile> take_difficult() {
-    return std::exchange(difficult_, {});
-  }
+  [[nodiscard]] std::vector<contact::ProblemFile> take_difficult() { return difficult_.take(); }
 
  private:
   void load_ring() noexcept;
@@ -100,7 +98,6 @@ class MasslessContact {
   void move_ring(std::span<const RingContact> by, std::span<Vec2> change) noexcept;
   bool extend();
   void finish();
-  void keep_if_difficult(const contact::CoupledResult& result);
   [[nodiscard]] Vec2 place_after(std::size_t i, Vec2 change) const noexcept;
   [[nodiscard]] Vec2 law_velocity(const RingContact& contact,
                                   std::span<const Vec2> change) const noexcept;
@@ -126,7 +123,7 @@ class MasslessContact {
   std::vector<std::span<const contact::Block>> columns_;  ///< of K_cc⁻¹, of the contacts
   std::vector<Vec2> impulse_, start_;
   std::vector<contact::Status> status_;
-  std::vector<contact::ProblemFile> difficult_;
+  contact::DifficultProblems difficult_;
 };
 
 }  // namespace rondo::dynamics

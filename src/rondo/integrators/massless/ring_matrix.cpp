@@ -24,28 +24,30 @@ Vec2 times(const fem::BlockCsr::Block& block, Vec2 v) noexcept {
 
 }  // namespace
 
+std::vector<int> nodes_beside(const fem::BlockCsr& k, std::span<const int> nodes) {
+  std::vector<char> seen(k.n_rows(), 0);
+  std::vector<int> beside;
+  for (const int node : nodes) seen[at(node)] = 1;
+  for (const int node : nodes)
+    for (auto b = k.row_start[at(node)]; b < k.row_start[at(node) + 1]; ++b) {
+      const int other = k.column[static_cast<std::size_t>(b)];
+      if (std::exchange(seen[at(other)], char{1}) == 0) beside.push_back(other);
+    }
+  std::sort(beside.begin(), beside.end());
+  return beside;
+}
+
 RingMatrix::RingMatrix(const fem::BlockCsr& k, std::span<const int> nodes)
     : nodes_(nodes.begin(), nodes.end()),
+      neighbours_(nodes_beside(k, nodes)),
       work_(2 * nodes.size()),
       unit_(nodes.size()),
       slot_(nodes.size(), -1) {
-  find_neighbours(k);
   take_rows(k);
   factorise(k);
   const std::size_t column = std::max<std::size_t>(nodes.size(), 1) * sizeof(contact::Block);
   most_columns_ = std::min(nodes.size(), std::max<std::size_t>(column_memory / column, 64));
   columns_.reserve(nodes.size());
-}
-
-void RingMatrix::find_neighbours(const fem::BlockCsr& k) {
-  std::vector<char> seen(k.n_rows(), 0);
-  for (const int node : nodes_) seen[at(node)] = 1;
-  for (const int node : nodes_)
-    for (auto b = k.row_start[at(node)]; b < k.row_start[at(node) + 1]; ++b) {
-      const int other = k.column[static_cast<std::size_t>(b)];
-      if (std::exchange(seen[at(other)], char{1}) == 0) neighbours_.push_back(other);
-    }
-  std::sort(neighbours_.begin(), neighbours_.end());
 }
 
 void RingMatrix::take_rows(const fem::BlockCsr& k) {

@@ -11,6 +11,9 @@
 
 namespace rondo::dynamics {
 
+/// Nodes that K joins to these, ascending, without these.
+[[nodiscard]] std::vector<int> nodes_beside(const fem::BlockCsr& k, std::span<const int> nodes);
+
 class RingMatrix {
  public:
   /// Of columns of the inverse that are kept, at the most, but for those that touch [bytes].
@@ -45,7 +48,6 @@ class RingMatrix {
     std::vector<contact::Block> blocks;
   };
 
-  void find_neighbours(const fem::BlockCsr& k);
   void take_rows(const fem::BlockCsr& k);
   [[nodiscard]] fem::BlockCsr::Block sum_of_row(std::size_t row) const noexcept;
   void factorise(const fem::BlockCsr& k);

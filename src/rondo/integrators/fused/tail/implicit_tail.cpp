@@ -77,6 +77,10 @@ class ImplicitTail final : public StepTail {
     const std::vector<ActiveContact>& own = elements_.contact()->active();
     active.insert(active.end(), own.begin(), own.end());
   }
+  [[nodiscard]] std::vector<contact::ProblemFile> take_difficult() override {
+    return elements_.contact() ? elements_.contact()->take_difficult()
+                               : std::vector<contact::ProblemFile>{};
+  }
   void save(SavedState& saved) const override {
     if (!elements_.contact()) return;
     const auto& own = elements_.contact()->impulses();

@@ -231,8 +231,7 @@ std::vector<int> massless_nodes(const Model& model) {
 }
 
 std::vector<int> nodes_around(const Model& model) {
-  const RingMatrix matrix(model.stiffness, model.contact->nodes);
-  return {matrix.neighbours().begin(), matrix.neighbours().end()};
+  return nodes_beside(model.stiffness, model.contact->nodes);
 }
 
 std::vector<int> sectors_around(const Model& model) {
