@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "rondo/integrators/fused/kernels/pack_avx512.hpp"
+#include "rondo/core/simd/pack_avx512.hpp"
 
 #include "rondo/integrators/fused/kernels/table.hpp"
 

@@ -30,6 +30,9 @@ inline Pack operator-(Pack x, Pack y) noexcept {
 inline Pack operator*(Pack x, Pack y) noexcept {
   return {_mm256_mul_pd(x.a, y.a), _mm256_mul_pd(x.b, y.b)};
 }
+inline Pack operator/(Pack x, Pack y) noexcept {
+  return {_mm256_div_pd(x.a, y.a), _mm256_div_pd(x.b, y.b)};
+}
 /// x y + z
 inline Pack fma(Pack x, Pack y, Pack z) noexcept {
   return {_mm256_fmadd_pd(x.a, y.a, z.a), _mm256_fmadd_pd(x.b, y.b, z.b)};
@@ -37,6 +40,32 @@ inline Pack fma(Pack x, Pack y, Pack z) noexcept {
 /// z - x y
 inline Pack fnma(Pack x, Pack y, Pack z) noexcept {
   return {_mm256_fnmadd_pd(x.a, y.a, z.a), _mm256_fnmadd_pd(x.b, y.b, z.b)};
+}
+inline Pack smaller(Pack x, Pack y) noexcept {
+  return {_mm256_min_pd(x.a, y.a), _mm256_min_pd(x.b, y.b)};
+}
+inline Pack larger(Pack x, Pack y) noexcept {
+  return {_mm256_max_pd(x.a, y.a), _mm256_max_pd(x.b, y.b)};
+}
+inline __m256d guess_of_four(__m256d a) noexcept {
+  const __m128i bits = _mm_castps_si128(_mm256_cvtpd_ps(a));
+  const __m128 third = _mm_mul_ps(_mm_cvtepi32_ps(bits), _mm_set1_ps(1.0F / 3.0F));
+  const __m128i guess = _mm_sub_epi32(_mm_set1_epi32(0x54a23400), _mm_cvtps_epi32(third));
+  return _mm256_cvtps_pd(_mm_castsi128_ps(guess));
+}
+/// Guess of a^(-1/3): a third of the exponent, by the bits of a float.
+inline Pack cube_root_guess(Pack x) noexcept {
+  return {guess_of_four(x.a), guess_of_four(x.b)};
+}
+/// y ≈ a^(-1/3) to round-off, from a guess within 4 %: with r = 1 - a y³ the error goes as r⁴.
+inline Pack inverse_cube_root(Pack a) noexcept {
+  Pack y = cube_root_guess(a);
+  for (int i = 0; i < 2; ++i) {
+    const Pack r = fnma(a * y, y * y, all(1.0));
+    const Pack series = fma(fma(r, all(14.0 / 81.0), all(2.0 / 9.0)), r, all(1.0 / 3.0));
+    y = fma(y * r, series, y);
+  }
+  return y;
 }
 inline __m256d first_of_four(int n, __m256d x, __m256d y) noexcept {
   const __m256i lane = _mm256_set_epi64x(3, 2, 1, 0);
@@ -84,6 +113,21 @@ inline void load_pairs(const double* p, Pack& x, Pack& y) noexcept {
 inline void store_pairs(double* p, Pack x, Pack y) noexcept {
   store_four_pairs(p, x.a, y.a);
   store_four_pairs(p + 8, x.b, y.b);
+}
+
+inline void gather_four_pairs(const double* p, const std::int32_t* at, __m256d& x,
+                              __m256d& y) noexcept {
+  const __m256d even = _mm256_insertf128_pd(_mm256_castpd128_pd256(_mm_loadu_pd(p + at[0])),
+                                            _mm_loadu_pd(p + at[2]), 1);
+  const __m256d odd = _mm256_insertf128_pd(_mm256_castpd128_pd256(_mm_loadu_pd(p + at[1])),
+                                           _mm_loadu_pd(p + at[3]), 1);
+  x = _mm256_unpacklo_pd(even, odd);
+  y = _mm256_unpackhi_pd(even, odd);
+}
+/// Eight vectors from where `at` says: numbers of doubles from p on.
+inline void gather_pairs(const double* p, const std::int32_t* at, Pack& x, Pack& y) noexcept {
+  gather_four_pairs(p, at, x.a, y.a);
+  gather_four_pairs(p, at + 4, x.b, y.b);
 }
 
 inline void sums_of_four_rows(const __m256d* rows, __m256d& x, __m256d& y) noexcept {

@@ -38,6 +38,10 @@ struct Pack {
   for (int i = 0; i < 4; ++i) a.v[i] *= b.v[i];
   return a;
 }
+[[gnu::always_inline]] inline Pack operator/(Pack a, Pack b) noexcept {
+  for (int i = 0; i < 4; ++i) a.v[i] /= b.v[i];
+  return a;
+}
 /// a b + c
 [[gnu::always_inline]] inline Pack fma(Pack a, Pack b, Pack c) noexcept {
   return a * b + c;
@@ -45,6 +49,38 @@ struct Pack {
 /// c - a b
 [[gnu::always_inline]] inline Pack fnma(Pack a, Pack b, Pack c) noexcept {
   return c - a * b;
+}
+[[gnu::always_inline]] inline Pack smaller(Pack a, Pack b) noexcept {
+  for (int i = 0; i < 4; ++i) a.v[i] = a.v[i] < b.v[i] ? a.v[i] : b.v[i];
+  return a;
+}
+[[gnu::always_inline]] inline Pack larger(Pack a, Pack b) noexcept {
+  for (int i = 0; i < 4; ++i) a.v[i] = a.v[i] > b.v[i] ? a.v[i] : b.v[i];
+  return a;
+}
+/// Guess of a^(-1/3): a third of the exponent, by the bits of a float.
+[[gnu::always_inline]] inline Pack cube_root_guess(Pack a) noexcept {
+  double x[8];
+  store(x, a);
+  for (double& value : x) {
+    auto f = static_cast<float>(value);
+    std::int32_t bits = 0;
+    std::memcpy(&bits, &f, sizeof bits);
+    bits = 0x54a23400 - bits / 3;
+    std::memcpy(&f, &bits, sizeof f);
+    value = static_cast<double>(f);
+  }
+  return load(x);
+}
+/// y ≈ a^(-1/3) to round-off, from a guess within 4 %: with r = 1 - a y³ the error goes as r⁴.
+[[gnu::always_inline]] inline Pack inverse_cube_root(Pack a) noexcept {
+  Pack y = cube_root_guess(a);
+  for (int i = 0; i < 2; ++i) {
+    const Pack r = fnma(a * y, y * y, all(1.0));
+    const Pack series = fma(fma(r, all(14.0 / 81.0), all(2.0 / 9.0)), r, all(1.0 / 3.0));
+    y = fma(y * r, series, y);
+  }
+  return y;
 }
 /// The first n lanes of a, the others of b.
 [[gnu::always_inline]] inline Pack first_lanes(int n, Pack a, Pack b) noexcept {
@@ -93,6 +129,18 @@ template <int N>
     p[2 * i] = a[i];
     p[2 * i + 1] = b[i];
   }
+}
+
+/// Eight vectors from where `at` says: numbers of doubles from p on.
+[[gnu::always_inline]] inline void gather_pairs(const double* p, const std::int32_t* at, Pack& x,
+                                                Pack& y) noexcept {
+  double a[8], b[8];
+  for (int i = 0; i < 8; ++i) {
+    a[i] = p[at[i]];
+    b[i] = p[at[i] + 1];
+  }
+  x = load(a);
+  y = load(b);
 }
 
 /// K u of eight rows of `n` 2×2 blocks: k (n, rows, 4), column (n, rows) where its pair is in u.

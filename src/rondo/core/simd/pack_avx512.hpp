@@ -29,6 +29,9 @@ inline Pack operator-(Pack a, Pack b) noexcept {
 inline Pack operator*(Pack a, Pack b) noexcept {
   return {_mm512_mul_pd(a.v, b.v)};
 }
+inline Pack operator/(Pack a, Pack b) noexcept {
+  return {_mm512_div_pd(a.v, b.v)};
+}
 /// a b + c
 inline Pack fma(Pack a, Pack b, Pack c) noexcept {
   return {_mm512_fmadd_pd(a.v, b.v, c.v)};
@@ -36,6 +39,29 @@ inline Pack fma(Pack a, Pack b, Pack c) noexcept {
 /// c - a b
 inline Pack fnma(Pack a, Pack b, Pack c) noexcept {
   return {_mm512_fnmadd_pd(a.v, b.v, c.v)};
+}
+inline Pack smaller(Pack a, Pack b) noexcept {
+  return {_mm512_min_pd(a.v, b.v)};
+}
+inline Pack larger(Pack a, Pack b) noexcept {
+  return {_mm512_max_pd(a.v, b.v)};
+}
+/// Guess of a^(-1/3): a third of the exponent, by the bits of a float.
+inline Pack cube_root_guess(Pack a) noexcept {
+  const __m256i bits = _mm256_castps_si256(_mm512_cvtpd_ps(a.v));
+  const __m256 third = _mm256_mul_ps(_mm256_cvtepi32_ps(bits), _mm256_set1_ps(1.0F / 3.0F));
+  const __m256i guess = _mm256_sub_epi32(_mm256_set1_epi32(0x54a23400), _mm256_cvtps_epi32(third));
+  return {_mm512_cvtps_pd(_mm256_castsi256_ps(guess))};
+}
+/// y ≈ a^(-1/3) to round-off, from a guess within 4 %: with r = 1 - a y³ the error goes as r⁴.
+inline Pack inverse_cube_root(Pack a) noexcept {
+  Pack y = cube_root_guess(a);
+  for (int i = 0; i < 2; ++i) {
+    const Pack r = fnma(a * y, y * y, all(1.0));
+    const Pack series = fma(fma(r, all(14.0 / 81.0), all(2.0 / 9.0)), r, all(1.0 / 3.0));
+    y = fma(y * r, series, y);
+  }
+  return y;
 }
 /// The first n lanes of a, the others of b.
 inline Pack first_lanes(int n, Pack a, Pack b) noexcept {
@@ -82,6 +108,21 @@ inline void store_pairs(double* p, Pack x, Pack y) noexcept {
   const __m512i high = _mm512_setr_epi64(4, 12, 5, 13, 6, 14, 7, 15);
   _mm512_storeu_pd(p, _mm512_permutex2var_pd(x.v, low, y.v));
   _mm512_storeu_pd(p + 8, _mm512_permutex2var_pd(x.v, high, y.v));
+}
+
+/// Eight vectors from where `at` says: numbers of doubles from p on.
+inline void gather_pairs(const double* p, const std::int32_t* at, Pack& x, Pack& y) noexcept {
+  __m512d four[2];
+#pragma GCC unroll 2
+  for (int i = 0; i < 2; ++i) {
+    const std::int32_t* a = at + 4 * i;
+    const __m512d even = _mm512_broadcast_f64x2(_mm_loadu_pd(p + a[0]));
+    const __m512d two = _mm512_mask_broadcast_f64x2(even, 0x0C, _mm_loadu_pd(p + a[1]));
+    const __m512d three = _mm512_mask_broadcast_f64x2(two, 0x30, _mm_loadu_pd(p + a[2]));
+    four[i] = _mm512_mask_broadcast_f64x2(three, 0xC0, _mm_loadu_pd(p + a[3]));
+  }
+  x.v = _mm512_permutex2var_pd(four[0], _mm512_setr_epi64(0, 2, 4, 6, 8, 10, 12, 14), four[1]);
+  y.v = _mm512_permutex2var_pd(four[0], _mm512_setr_epi64(1, 3, 5, 7, 9, 11, 13, 15), four[1]);
 }
 
 /// K u of eight rows of `n` 2×2 blocks: k (n, rows, 4), column (n, rows) where its pair is in u.
