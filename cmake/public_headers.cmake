@@ -11,8 +11,10 @@ set(RONDO_PUBLIC_HEADERS
 set(RONDO_INCLUDED_HEADERS
     core/complex.hpp core/field.hpp core/sum.hpp core/vec2.hpp
     analysis/error_estimate.hpp case/analysis_kinds.hpp analysis/build/bodies.hpp io/h5/h5.hpp
-    fem/element.hpp fem/nodal_dilatation.hpp modal/critical_speeds.hpp modal/modes.hpp
+    fem/element.hpp fem/nodal_dilatation.hpp fem/rubber.hpp
+    fem/hyperelastic/numbers.hpp fem/hyperelastic/laws.hpp fem/hyperelastic/branch.hpp
+    fem/hyperelastic/element.hpp fem/hyperelastic/stress.hpp modal/critical_speeds.hpp modal/modes.hpp
     contact/law.hpp contact/coupled/band.hpp contact/coupled/block.hpp contact/coupled/coupled.hpp
     contact/coupled/problem_file.hpp
-    model/contact_node.hpp model/ledger.hpp model/motion.hpp model/rim_body.hpp
+    model/contact_node.hpp model/ledger.hpp model/material_report.hpp model/motion.hpp model/rim_body.hpp
     model/saved_state.hpp model/scheme.hpp model/subdomains.hpp)

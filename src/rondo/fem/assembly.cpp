@@ -23,74 +23,6 @@ Corners corners_of(const mesh::Mesh& mesh, const mesh::Cell& cell) {
   return c;
 }
 
-/// Columns of each row: the free nodes that share a cell or a mean dilatation with it.
-BlockCsr pattern(const mesh::Mesh& mesh, const NodalDilatation& dilatation) {
-  const std::vector<char> clamped = clamped_flags(mesh);
-  const auto free = [&](int node) { return !clamped[static_cast<std::size_t>(node)]; };
-  std::vector<std::vector<std::int32_t>> rows(mesh.n_nodes());
-  const auto couple = [&](int row, int column) {
-    if (free(row) && free(column)) rows[static_cast<std::size_t>(row)].push_back(column);
-  };
-  for (const mesh::Cell& cell : mesh.cells)
-    for (int a = 0; a < mesh::n_corners(cell); ++a)
-      for (int b = 0; b < mesh::n_corners(cell); ++b)
-        couple(cell[static_cast<std::size_t>(a)], cell[static_cast<std::size_t>(b)]);
-  for (std::size_t p = 0; p < dilatation.size(); ++p)
-    for (const auto& a : dilatation.terms(p))
-      for (const auto& b : dilatation.terms(p)) couple(a.node, b.node);
-  BlockCsr k;
-  k.row_start.push_back(0);
-  for (auto& row : rows) {
-    std::sort(row.begin(), row.end());
-    row.erase(std::unique(row.begin(), row.end()), row.end());
-    k.column.insert(k.column.end(), row.begin(), row.end());
-    k.row_start.push_back(static_cast<std::int64_t>(k.column.size()));
-    row = {};
-  }
-  k.values.assign(k.column.size(), BlockCsr::Block{});
-  return k;
-}
-
-BlockCsr::Block* find_block(BlockCsr& k, int row, int column) {
-  const auto begin = k.column.begin() + k.row_start[static_cast<std::size_t>(row)];
-  const auto end = k.column.begin() + k.row_start[static_cast<std::size_t>(row) + 1];
-  const auto it = std::lower_bound(begin, end, column);
-  return it != end && *it == column ? &k.values[static_cast<std::size_t>(it - k.column.begin())]
-                                    : nullptr;
-}
-
-void add_element(BlockCsr& k, const mesh::Cell& cell, const ElementMatrix& e) {
-  const int n = mesh::n_corners(cell);
-  for (int a = 0; a < n; ++a)
-    for (int b = 0; b < n; ++b) {
-      BlockCsr::Block* block =
-          find_block(k, cell[static_cast<std::size_t>(a)], cell[static_cast<std::size_t>(b)]);
-      if (!block) continue;
-      // Both triangles take the same entry of e, so that K is symmetric to the last bit.
-      const auto entry = [&](int i, int j) { return e(std::min(i, j), std::max(i, j)); };
-      (*block)[0] += entry(2 * a, 2 * b);
-      (*block)[1] += entry(2 * a + 1, 2 * b);
-      (*block)[2] += entry(2 * a, 2 * b + 1);
-      (*block)[3] += entry(2 * a + 1, 2 * b + 1);
-    }
-}
-
-/// κ V b bᵀ of each patch, b its gradient. (x y) is (y x): K stays symmetric to the last bit.
-void add_patches(BlockCsr& k, const NodalDilatation& dilatation) {
-  for (std::size_t p = 0; p < dilatation.size(); ++p) {
-    const double stiffness = dilatation.stiffness(p);
-    for (const auto& [row, a] : dilatation.terms(p))
-      for (const auto& [column, b] : dilatation.terms(p)) {
-        BlockCsr::Block* block = find_block(k, row, column);
-        if (!block) continue;
-        (*block)[0] += stiffness * (a.x * b.x);
-        (*block)[1] += stiffness * (a.y * b.x);
-        (*block)[2] += stiffness * (a.x * b.y);
-        (*block)[3] += stiffness * (a.y * b.y);
-      }
-  }
-}
-
 /// @pre the cell is not inverted
 ElementMatrix elastic_stiffness(const mesh::Mesh& mesh, std::size_t cell, const ElementLaw& law) {
   const mesh::Cell& nodes = mesh.cells[cell];
@@ -150,6 +82,70 @@ std::vector<double> sum_at_nodes(const mesh::Mesh& mesh, Density&& density) {
 
 }  // namespace
 
+BlockCsr stiffness_pattern(const mesh::Mesh& mesh, const NodalDilatation& dilatation) {
+  const std::vector<char> clamped = clamped_flags(mesh);
+  const auto free = [&](int node) { return !clamped[static_cast<std::size_t>(node)]; };
+  std::vector<std::vector<std::int32_t>> rows(mesh.n_nodes());
+  const auto couple = [&](int row, int column) {
+    if (free(row) && free(column)) rows[static_cast<std::size_t>(row)].push_back(column);
+  };
+  for (const mesh::Cell& cell : mesh.cells)
+    for (int a = 0; a < mesh::n_corners(cell); ++a)
+      for (int b = 0; b < mesh::n_corners(cell); ++b)
+        couple(cell[static_cast<std::size_t>(a)], cell[static_cast<std::size_t>(b)]);
+  for (std::size_t p = 0; p < dilatation.size(); ++p)
+    for (const auto& a : dilatation.terms(p))
+      for (const auto& b : dilatation.terms(p)) couple(a.node, b.node);
+  BlockCsr k;
+  k.row_start.push_back(0);
+  for (auto& row : rows) {
+    std::sort(row.begin(), row.end());
+    row.erase(std::unique(row.begin(), row.end()), row.end());
+    k.column.insert(k.column.end(), row.begin(), row.end());
+    k.row_start.push_back(static_cast<std::int64_t>(k.column.size()));
+    row = {};
+  }
+  k.values.assign(k.column.size(), BlockCsr::Block{});
+  return k;
+}
+
+BlockCsr::Block* find_block(BlockCsr& k, int row, int column) {
+  const auto begin = k.column.begin() + k.row_start[static_cast<std::size_t>(row)];
+  const auto end = k.column.begin() + k.row_start[static_cast<std::size_t>(row) + 1];
+  const auto it = std::lower_bound(begin, end, column);
+  return it != end && *it == column ? &k.values[static_cast<std::size_t>(it - k.column.begin())]
+                                    : nullptr;
+}
+
+void add_cell(BlockCsr& k, const mesh::Cell& cell, const ElementMatrix& e) {
+  const int n = mesh::n_corners(cell);
+  for (int a = 0; a < n; ++a)
+    for (int b = 0; b < n; ++b) {
+      BlockCsr::Block* block =
+          find_block(k, cell[static_cast<std::size_t>(a)], cell[static_cast<std::size_t>(b)]);
+      if (!block) continue;
+      // Both triangles take the same entry of e, so that K is symmetric to the last bit.
+      const auto entry = [&](int i, int j) { return e(std::min(i, j), std::max(i, j)); };
+      (*block)[0] += entry(2 * a, 2 * b);
+      (*block)[1] += entry(2 * a + 1, 2 * b);
+      (*block)[2] += entry(2 * a, 2 * b + 1);
+      (*block)[3] += entry(2 * a + 1, 2 * b + 1);
+    }
+}
+
+/// (x y) is (y x): K stays symmetric to the last bit.
+void add_product(BlockCsr& k, double factor, std::span<const NodalDilatation::Term> terms) {
+  for (const auto& [row, a] : terms)
+    for (const auto& [column, b] : terms) {
+      BlockCsr::Block* block = find_block(k, row, column);
+      if (!block) continue;
+      (*block)[0] += factor * (a.x * b.x);
+      (*block)[1] += factor * (a.y * b.x);
+      (*block)[2] += factor * (a.x * b.y);
+      (*block)[3] += factor * (a.y * b.y);
+    }
+}
+
 ElementMatrix cell_stiffness(const mesh::Mesh& mesh, std::span<const Material> materials,
                              std::span<const Vec2> prestress, std::size_t cell,
                              const NodalDilatation& dilatation) {
@@ -163,10 +159,11 @@ ElementMatrix cell_stiffness(const mesh::Mesh& mesh, std::span<const Material> m
 BlockCsr assemble_stiffness(const mesh::Mesh& mesh, std::span<const Material> materials,
                             std::span<const Vec2> prestress) {
   const NodalDilatation dilatation(mesh, materials);
-  BlockCsr k = pattern(mesh, dilatation);
+  BlockCsr k = stiffness_pattern(mesh, dilatation);
   for (std::size_t e = 0; e < mesh.cells.size(); ++e)
-    add_element(k, mesh.cells[e], cell_stiffness(mesh, materials, prestress, e, dilatation));
-  add_patches(k, dilatation);
+    add_cell(k, mesh.cells[e], cell_stiffness(mesh, materials, prestress, e, dilatation));
+  for (std::size_t p = 0; p < dilatation.size(); ++p)
+    add_product(k, dilatation.stiffness(p), dilatation.terms(p));  // κ V b bᵀ, b the gradient
   return k;
 }
 

@@ -36,6 +36,18 @@ struct BlockCsr {
   [[nodiscard]] std::size_t n_rows() const noexcept { return row_start.size() - 1; }
 };
 
+/// Columns of each row: the free nodes that share a cell or a mean dilatation with it; values 0.
+BlockCsr stiffness_pattern(const mesh::Mesh& mesh, const NodalDilatation& dilatation);
+
+/// Null: the row or the column is of a clamped node, or the pattern has no such block.
+BlockCsr::Block* find_block(BlockCsr& k, int row, int column);
+
+/// Adds a cell's matrix, of which the upper triangle is taken for both.
+void add_cell(BlockCsr& k, const mesh::Cell& cell, const ElementMatrix& e);
+
+/// Adds factor · b bᵀ, b the gradients of the terms.
+void add_product(BlockCsr& k, double factor, std::span<const NodalDilatation::Term> terms);
+
 /// Stiffness of the free nodes, geometric stiffness included. Symmetric to the last bit. @pre no
 /// inverted element.
 BlockCsr assemble_stiffness(const mesh::Mesh& mesh, std::span<const Material> materials,

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "rondo/fem/elasticity.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 #include "rondo/core/contract.hpp"
@@ -12,6 +13,30 @@ const Material& material_of(const mesh::Mesh& mesh, std::span<const Material> ma
   const std::size_t place = mesh.region.empty() ? 0 : static_cast<std::size_t>(mesh.region[cell]);
   RONDO_DEMAND(place < materials.size(), place, materials.size());
   return materials[place];
+}
+
+bool has_rubber(std::span<const Material> materials) noexcept {
+  return std::ranges::any_of(materials, [](const Material& m) { return m.rubber.has_value(); });
+}
+
+bool has_branches(std::span<const Material> materials) noexcept {
+  return std::ranges::any_of(
+      materials, [](const Material& m) { return m.rubber && !m.rubber->branches.empty(); });
+}
+
+std::vector<Material> instantaneous(std::span<const Material> materials) {
+  std::vector<Material> at_once(materials.begin(), materials.end());
+  for (Material& m : at_once) {
+    if (!m.rubber) continue;
+    const double kappa = m.rubber->bulk_modulus;
+    const double mu = m.rubber->shear_modulus() * m.rubber->instantaneous();
+    if (!m.rubber->branches.empty()) {  // else to the same bits
+      m.poissons_ratio = (3.0 * kappa - 2.0 * mu) / (2.0 * (3.0 * kappa + mu));
+      m.youngs_modulus = 2.0 * mu * (1.0 + m.poissons_ratio);
+    }
+    m.rubber.reset();
+  }
+  return at_once;
 }
 
 Hooke hooke(const Material& m) noexcept {

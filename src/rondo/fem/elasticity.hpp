@@ -2,8 +2,11 @@
 /// @file  Isotropic linear elasticity in the plane (docs/theory.md, section 2.2).
 #pragma once
 #include <cstddef>
+#include <optional>
 #include <span>
+#include <vector>
 
+#include "rondo/fem/rubber.hpp"
 #include "rondo/mesh/mesh.hpp"
 
 namespace rondo::fem {
@@ -21,12 +24,22 @@ struct Material {
   double density = 0.0;         ///< ρ > 0                                            [kg/m3]
   Plane plane = Plane::strain;
   Integration integration = Integration::full;
+  /// At finite strain; E and ν are then those of its small strains, without viscous branches.
+  std::optional<Rubber> rubber{};
 };
 
 /// Of cell `cell`. @param materials one for each of mesh.region_names, or, where mesh.region is
 /// empty, one for all.
 const Material& material_of(const mesh::Mesh& mesh, std::span<const Material> materials,
                             std::size_t cell);
+
+/// Some of them are rubber at finite strain.
+[[nodiscard]] bool has_rubber(std::span<const Material> materials) noexcept;
+/// Some rubber has viscous branches.
+[[nodiscard]] bool has_branches(std::span<const Material> materials) noexcept;
+/// Linear ones that are as stiff as these at once: rubber with the shear modulus of its law and all
+/// branches, and its bulk modulus. For critical steps.
+[[nodiscard]] std::vector<Material> instantaneous(std::span<const Material> materials);
 
 /// σ = D ε with ε = (ε_xx, ε_yy, γ_xy), D = [[d11, d12, 0], [d12, d11, 0], [0, 0, d33]].
 struct Hooke {

@@ -216,12 +216,14 @@ std::array<double, 4> element_masses(std::span<const Vec2> corners, double densi
 
 std::array<Stress, 4> element_stress(std::span<const Vec2> corners, std::span<const Vec2> u,
                                      const ElementLaw& law) {
+  if (corners.size() == 4) return extrapolated(gauss_stress(corners, u, law));
+  std::array<Stress, 4> out;
+  out.fill(stress_of(triangle_gradients(corners), u, law));
+  return out;
+}
+
+std::array<Stress, 4> extrapolated(const std::array<Stress, 4>& at_gauss) noexcept {
   std::array<Stress, 4> out{};
-  if (corners.size() == 3) {
-    out.fill(stress_of(triangle_gradients(corners), u, law));
-    return out;
-  }
-  const std::array<Stress, 4> at_gauss = gauss_stress(corners, u, law);
   for (std::size_t a = 0; a < 4; ++a)
     for (std::size_t q = 0; q < 4; ++q)
       for (std::size_t k = 0; k < 4; ++k)

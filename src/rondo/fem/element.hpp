@@ -35,6 +35,10 @@ std::array<double, 4> element_masses(std::span<const Vec2> corners, double densi
 std::array<Stress, 4> element_stress(std::span<const Vec2> corners, std::span<const Vec2> u,
                                      const ElementLaw& law);
 
+/// At the corners of a quadrilateral from that at its 2×2 points, (-, -), (+, -), (+, +), (-, +):
+/// the bilinear field through them (2.6).
+std::array<Stress, 4> extrapolated(const std::array<Stress, 4>& at_gauss) noexcept;
+
 /// Smallest det(∂x/∂ξ) over the corners [m²]: positive for an element that is not inverted
 /// (quadrilateral: a quarter of a parallelogram's area; triangle: twice its area).
 double smallest_jacobian(std::span<const Vec2> corners) noexcept;

@@ -13,7 +13,7 @@ constexpr NodalDilatation::Corners none{-1, -1, -1};
 
 bool same_elasticity(const Material& a, const Material& b) noexcept {
   return a.youngs_modulus == b.youngs_modulus && a.poissons_ratio == b.poissons_ratio &&
-         a.plane == b.plane && a.integration == b.integration;
+         a.plane == b.plane && a.integration == b.integration && a.rubber == b.rubber;
 }
 
 /// (materials) the first one that is the same: regions of one rubber are one.
@@ -31,6 +31,7 @@ std::vector<int> kinds_of(std::span<const Material> materials) {
 struct Draft {
   double bulk = 0.0, area = 0.0;
   std::map<int, Vec2> volume;  ///< of a node: ∂(V θ)/∂u [m]
+  std::vector<int> cells;
 };
 
 }  // namespace
@@ -50,10 +51,11 @@ NodalDilatation::NodalDilatation(const mesh::Mesh& mesh, std::span<const Materia
     const double area = 0.5 * cross(x[1] - x[0], x[2] - x[0]);
     for (std::size_t a = 0; a < 3; ++a) {
       const auto [at, added] = place.try_emplace({cell[a], kind}, static_cast<int>(drafts.size()));
-      if (added) drafts.push_back({bulk, 0.0, {}});
+      if (added) drafts.push_back({bulk, 0.0, {}, {}});
       corners_[e][a] = at->second;
       Draft& draft = drafts[static_cast<std::size_t>(at->second)];
       draft.area += area / 3.0;
+      draft.cells.push_back(static_cast<int>(e));
       for (std::size_t b = 0; b < 3; ++b)  // A/3 ∇N_b, ∇N_b = turn90(opposite edge) / 2A
         draft.volume[cell[b]] += turn90(x[(b + 2) % 3] - x[(b + 1) % 3]) / 6.0;
     }
@@ -61,10 +63,12 @@ NodalDilatation::NodalDilatation(const mesh::Mesh& mesh, std::span<const Materia
   if (drafts.empty()) corners_.clear();
   for (const Draft& draft : drafts) {
     RONDO_DEMAND(draft.area > 0.0, draft.area);
-    Patch patch{draft.bulk, draft.area, terms_.size(), 0};
+    Patch patch{draft.bulk, draft.area, terms_.size(), 0, cells_.size(), 0};
     for (const auto& [node, gradient] : draft.volume)
       terms_.push_back({node, gradient / draft.area});
+    cells_.insert(cells_.end(), draft.cells.begin(), draft.cells.end());
     patch.last = terms_.size();
+    patch.last_cell = cells_.size();
     patches_.push_back(patch);
   }
 }

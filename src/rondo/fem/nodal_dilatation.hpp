@@ -46,6 +46,13 @@ class NodalDilatation {
     return std::span(terms_).subspan(patches_[patch].first,
                                      patches_[patch].last - patches_[patch].first);
   }
+  /// Its triangles, by place in the mesh, ascending.
+  [[nodiscard]] std::span<const int> cells(std::size_t patch) const noexcept {
+    return std::span(cells_).subspan(patches_[patch].first_cell,
+                                     patches_[patch].last_cell - patches_[patch].first_cell);
+  }
+  /// V: a third of its triangles [m²].
+  [[nodiscard]] double area(std::size_t patch) const noexcept { return patches_[patch].area; }
   /// κ V: the energy of a patch is ½ κ V θ² [N].
   [[nodiscard]] double stiffness(std::size_t patch) const noexcept {
     return patches_[patch].bulk * patches_[patch].area;
@@ -67,13 +74,15 @@ class NodalDilatation {
 
  private:
   struct Patch {
-    double bulk = 0.0;                ///< κ [Pa]
-    double area = 0.0;                ///< V: a third of its triangles [m²]
-    std::size_t first = 0, last = 0;  ///< in terms_
+    double bulk = 0.0;                          ///< κ [Pa]
+    double area = 0.0;                          ///< V: a third of its triangles [m²]
+    std::size_t first = 0, last = 0;            ///< in terms_
+    std::size_t first_cell = 0, last_cell = 0;  ///< in cells_
   };
 
   std::vector<Patch> patches_;
   std::vector<Term> terms_;
+  std::vector<int> cells_;
   std::vector<Corners> corners_;  ///< (e) -1: a cell with a volumetric strain of its own
 };
 

@@ -7,6 +7,16 @@
 namespace rondo::fem {
 namespace {
 
+void keep_larger(double strain, std::size_t cell, bool is_linear, Deformation& d) noexcept {
+  if (strain > d.strain) {
+    d.strain = strain;
+    d.strain_cell = cell;
+  }
+  if (!is_linear || !(strain > d.linear_strain)) return;
+  d.linear_strain = strain;
+  d.linear_cell = cell;
+}
+
 void keep_smaller(double jacobian, std::size_t cell, Deformation& d) noexcept {
   if (!(jacobian < d.jacobian)) return;
   d.jacobian = jacobian;
@@ -24,7 +34,8 @@ std::array<double, 4> corner_areas(Vec2 a, Vec2 b, Vec2 edge) noexcept {
 
 /// The gradient at the center of a bilinear cell maps its diagonals, that of a triangle two edges:
 /// [a b] and what they change by give ∂u/∂X = [δa δb] [a b]⁻¹.
-Deformation deformation(const mesh::Mesh& mesh, std::span<const Vec2> u) noexcept {
+Deformation deformation(const mesh::Mesh& mesh, std::span<const Vec2> u,
+                        std::span<const char> rubber) noexcept {
   Deformation d;
   for (std::size_t e = 0; e < mesh.cells.size(); ++e) {
     const mesh::Cell& cell = mesh.cells[e];
@@ -39,11 +50,7 @@ Deformation deformation(const mesh::Mesh& mesh, std::span<const Vec2> u) noexcep
     const double xx = scale * (da.x * b.y - db.x * a.y), xy = scale * (db.x * a.x - da.x * b.x);
     const double yx = scale * (da.y * b.y - db.y * a.y), yy = scale * (db.y * a.x - da.y * b.x);
     const double deviation = std::sqrt((xx - yy) * (xx - yy) + (xy + yx) * (xy + yx));
-    const double strain = 0.5 * (std::abs(xx + yy) + deviation);
-    if (strain > d.strain) {
-      d.strain = strain;
-      d.strain_cell = e;
-    }
+    keep_larger(0.5 * (std::abs(xx + yy) + deviation), e, rubber.empty() || !rubber[e], d);
     if (triangle) {
       keep_smaller((1.0 + xx) * (1.0 + yy) - xy * yx, e, d);
       continue;
@@ -62,6 +69,11 @@ void LargestDeformation::add(const Deformation& now, double time) noexcept {
     found.strain = now.strain;
     found.strain_cell = now.strain_cell;
     strain_time = time;
+  }
+  if (now.linear_strain > found.linear_strain) {
+    found.linear_strain = now.linear_strain;
+    found.linear_cell = now.linear_cell;
+    linear_time = time;
   }
   if (now.jacobian < found.jacobian) {
     found.jacobian = now.jacobian;

@@ -9,8 +9,11 @@
 namespace rondo::fem {
 
 StressRecovery::StressRecovery(const mesh::Mesh& mesh, std::span<const Material> materials)
-    : mesh_(mesh), dilatation_(mesh, materials), nodal_(mesh.n_nodes()) {
-  for (const Material& material : materials) law_.push_back(element_law(material));
+    : mesh_(mesh),
+      dilatation_(mesh, materials),
+      materials_(materials.begin(), materials.end()),
+      nodal_(mesh.n_nodes()) {
+  for (const Material& material : materials_) law_.push_back(stress_law(material));
   const std::vector<double> total = nodal_areas(mesh);
   for (std::size_t e = 0; e < mesh.cells.size(); ++e) {
     static_cast<void>(material_of(mesh, materials, e));  // there is one
@@ -30,7 +33,7 @@ std::span<const Stress> StressRecovery::operator()(std::span<const Vec2> u) {
   for (std::size_t e = 0; e < mesh_.cells.size(); ++e) {
     const mesh::Cell& cell = mesh_.cells[e];
     const auto n = static_cast<std::size_t>(mesh::n_corners(cell));
-    const ElementLaw& law =
+    const StressLaw& law =
         law_[mesh_.region.empty() ? 0 : static_cast<std::size_t>(mesh_.region[e])];
     const auto stress = cell_stress(mesh_, e, law, dilatation_, displacement);
     for (std::size_t a = 0; a < n; ++a)

@@ -7,16 +7,31 @@
 
 #include "rondo/core/complex.hpp"
 #include "rondo/fem/element.hpp"
+#include "rondo/fem/hyperelastic/stress.hpp"
 #include "rondo/fem/nodal_dilatation.hpp"
 #include "rondo/mesh/mesh.hpp"
 
 namespace rondo::fem {
 
-/// Stress at the corners of a cell, as its stiffness has it: element_stress(), and on a triangle
-/// with its volume in `dilatation` the mean stress of each corner. @param u displacement of a node
+/// What the stress of a cell is by.
+struct StressLaw {
+  ElementLaw linear;
+  const Rubber* rubber = nullptr;  ///< at finite strain; null: linear
+};
+
+/// @param material must outlive what is returned
+inline StressLaw stress_law(const Material& material) noexcept {
+  return {element_law(material), material.rubber ? &*material.rubber : nullptr};
+}
+
+/// Stress at the corners of a cell, as its forces have it: element_stress(), and on a triangle
+/// with its volume in `dilatation` the mean stress of each corner; of rubber Cauchy stress, without
+/// viscous branches. @param u displacement of a node
 template <class Displacement>
-std::array<Stress, 4> cell_stress(const mesh::Mesh& mesh, std::size_t cell, ElementLaw law,
+std::array<Stress, 4> cell_stress(const mesh::Mesh& mesh, std::size_t cell, const StressLaw& of,
                                   const NodalDilatation& dilatation, Displacement&& u) {
+  if (of.rubber) return hyperelastic::cell_stress(mesh, cell, *of.rubber, dilatation, u);
+  ElementLaw law = of.linear;
   const mesh::Cell& nodes = mesh.cells[cell];
   const auto n = static_cast<std::size_t>(mesh::n_corners(nodes));
   std::array<Vec2, 4> x, of_corner;
@@ -39,6 +54,8 @@ class StressRecovery {
  public:
   /// @param materials one for each region of the mesh (material_of).
   StressRecovery(const mesh::Mesh& mesh, std::span<const Material> materials);
+  StressRecovery(const StressRecovery&) = delete;  // the laws know where the materials are
+  StressRecovery& operator=(const StressRecovery&) = delete;
 
   /// (n) Cauchy stress xx, yy, zz, xy at the nodes in the frame of u [Pa]; `u` is (n) [m].
   /// Allocates nothing. The mesh must outlive the object.
@@ -47,7 +64,8 @@ class StressRecovery {
  private:
   const mesh::Mesh& mesh_;
   NodalDilatation dilatation_;
-  std::vector<ElementLaw> law_;                ///< of each material
+  std::vector<Material> materials_;
+  std::vector<StressLaw> law_;                 ///< of each material
   std::vector<std::array<double, 4>> weight_;  ///< (e) share of a corner in its node's mean
   std::vector<Stress> nodal_;
 };

@@ -179,7 +179,7 @@ TEST(NodalDilatation, TheStressIsThatOfTheStiffness) {
   for (std::size_t e = 0; e < m.cells.size(); ++e) {
     if (m.cells[e][3] >= 0) continue;
     triangles.cells.push_back(m.cells[e]);
-    const auto corners = cell_stress(m, e, element_law(rubber), dilatation, displacement);
+    const auto corners = cell_stress(m, e, stress_law(rubber), dilatation, displacement);
     Stress mean{};
     for (std::size_t k = 0; k < 4; ++k)
       mean[k] = (corners[0][k] + corners[1][k] + corners[2][k]) / 3.0;

@@ -43,6 +43,26 @@ TEST(Strain, NamesTheCell) {
   EXPECT_LT(deformation(m, u).jacobian, 0.0);
 }
 
+TEST(Strain, OfLinearCellsStandsApart) {
+  const mesh::Mesh m = two_cells();
+  std::vector<Vec2> u(m.n_nodes());
+  u[4] = {-0.5, 0.0};  // of the triangle alone
+  const std::vector<char> first_is_rubber{1, 0}, second_is_rubber{0, 1}, all{1, 1};
+  for (const Deformation& d : {deformation(m, u), deformation(m, u, first_is_rubber)}) {
+    EXPECT_GT(d.strain, 0.1);
+    EXPECT_EQ(d.linear_strain, d.strain);
+    EXPECT_EQ(d.linear_cell, 1U);
+  }
+  EXPECT_EQ(deformation(m, u, second_is_rubber).linear_strain, 0.0);
+  u[3] = {0.01, 0.0};
+  const Deformation d = deformation(m, u, second_is_rubber);
+  EXPECT_EQ(d.strain_cell, 1U);
+  EXPECT_EQ(d.linear_cell, 0U);
+  EXPECT_GT(d.linear_strain, 0.0);
+  EXPECT_LT(d.linear_strain, d.strain);
+  EXPECT_EQ(deformation(m, u, all).linear_strain, 0.0);
+}
+
 /// Where the map is not linear: the areas at the corners are not that of the center.
 TEST(Strain, JacobianIsTheLeastOfTheCorners) {
   mesh::Mesh m;
@@ -69,13 +89,15 @@ TEST(Strain, EveryCornerIsLookedAt) {
 
 TEST(Strain, TheLargestStays) {
   LargestDeformation all;
-  all.add({0.2, 3, 0.9, 4}, 1.0);
-  all.add({0.1, 5, 0.8, 6}, 2.0);
-  all.add({0.2, 7, 0.8, 8}, 3.0);
+  all.add({0.2, 3, 0.9, 4, 0.02, 9}, 1.0);
+  all.add({0.1, 5, 0.8, 6, 0.03, 10}, 2.0);
+  all.add({0.2, 7, 0.8, 8, 0.03, 11}, 3.0);
   EXPECT_EQ(all.found.strain_cell, 3U);
   EXPECT_EQ(all.strain_time, 1.0);
   EXPECT_EQ(all.found.jacobian_cell, 6U);
   EXPECT_EQ(all.jacobian_time, 2.0);
+  EXPECT_EQ(all.found.linear_cell, 10U);
+  EXPECT_EQ(all.linear_time, 2.0);
 }
 
 }  // namespace

@@ -1,0 +1,96 @@
+// SPDX-License-Identifier: BSD-3-Clause
+/// @file  All cells of a mesh that has rubber: those of rubber at finite strain, the others with
+/// their stiffness of small strain (docs/rubber.md, 1.3). Energies and forces are of displacements
+/// in the frame in which the undeformed body rests; rotations are no strain where all is rubber.
+#pragma once
+#include <cstddef>
+#include <limits>
+#include <span>
+#include <vector>
+
+#include "rondo/fem/assembly.hpp"
+#include "rondo/fem/hyperelastic/element.hpp"
+
+namespace rondo::fem {
+
+/// The smallest det F of a look, and where.
+struct LeastVolume {
+  double ratio = std::numeric_limits<double>::infinity();  ///< <= 0: the cell is inverted
+  std::size_t cell = 0;
+};
+
+class Hyperelasticity {
+ public:
+  using History = hyperelastic::Symmetric<double>;  ///< C_i of a branch in a cell
+  using Histories = std::span<const History>;       ///< (n_histories), or none: without branches
+
+  /// Room for a pass over the cells: any number of them may go on at once.
+  struct Pass {
+    std::vector<hyperelastic::CornerForces> forces;  ///< (cells of rubber)
+    std::vector<double> of_cell;                     ///< smallest det F, or what a half step loses
+  };
+
+  /// @param materials one for each region of the mesh (material_of). @pre no cell is inverted
+  Hyperelasticity(const mesh::Mesh& mesh, std::span<const Material> materials);
+  Hyperelasticity(const Hyperelasticity&) = delete;  // the parts know where the laws are
+  Hyperelasticity& operator=(const Hyperelasticity&) = delete;
+
+  [[nodiscard]] std::size_t n_nodes() const noexcept { return reference_.size(); }
+  /// (n) 1: the node has cells of rubber and no others.
+  [[nodiscard]] std::vector<char> nodes_of_rubber_alone() const;
+
+  /// Of all branches of all cells, by cell, in the order of Rubber::branches.
+  [[nodiscard]] std::size_t n_histories() const noexcept { return first_history_.back(); }
+  /// Relaxed in the state u: the branches have no stress.
+  [[nodiscard]] std::vector<History> relaxed(std::span<const Vec2> u) const;
+  /// All branches over half a step with u held. Their energy goes down by what is returned [J/m].
+  /// @param half_step [s]
+  double relax(std::span<const Vec2> u, double half_step, std::span<History> histories, Pass& pass,
+               int threads = 1) const;
+
+  /// Stored energy [J/m]; infinite where a cell is inverted.
+  [[nodiscard]] double energy(std::span<const Vec2> u, Histories histories = {}) const;
+  /// Derivative of the energy by u, (n); of clamped nodes that of rubber alone [N/m]. A cell that
+  /// is inverted has none: what is returned tells. Same bits for any number of threads.
+  LeastVolume gradient(std::span<const Vec2> u, Histories histories, std::span<Vec2> out,
+                       Pass& pass, int threads = 1) const;
+  /// Derivative of the gradient, histories held, on the free nodes [N/m²]. Symmetric to round-off.
+  [[nodiscard]] BlockCsr tangent(std::span<const Vec2> u, Histories histories = {}) const;
+
+ private:
+  struct Part {
+    std::size_t cell = 0;  ///< in the mesh
+    const Rubber* rubber = nullptr;
+    int n_corners = 4;
+    NodalDilatation::Corners patches{};  ///< of a triangle
+  };
+  struct Corner {
+    std::int32_t part, corner;
+  };
+  struct Pressures {
+    std::vector<double> value, slope;  ///< (patches) U' [Pa], U'' over the area [Pa/m²]
+  };
+
+  void find_corners();
+  [[nodiscard]] hyperelastic::DeformedCell deformed(const Part& part,
+                                                    std::span<const Vec2> u) const noexcept;
+  [[nodiscard]] Histories histories_of(std::size_t part, Histories all) const noexcept;
+  [[nodiscard]] std::vector<double> patch_changes(std::span<const Vec2> u) const;
+  [[nodiscard]] Pressures patch_pressures(std::span<const Vec2> u) const;
+  [[nodiscard]] static double mean_pressure(const Part& part, const Pressures& pressures) noexcept;
+  void add_patches(std::span<const Vec2> u, const Pressures& pressures, BlockCsr& k) const;
+
+  std::vector<Vec2> reference_;             ///< (n) X [m]
+  std::vector<mesh::Cell> cells_;           ///< (e)
+  std::vector<Rubber> rubbers_;             ///< (regions) that have one
+  std::vector<Part> parts_;                 ///< the cells of rubber
+  std::vector<std::size_t> first_history_;  ///< (parts + 1)
+  NodalDilatation dilatation_;
+  std::vector<double> patch_area_, patch_bulk_;  ///< (patches) 0: not of rubber [m²], [Pa]
+  BlockCsr stiffness_;  ///< of the other cells, in the pattern of all; no rows: there are none
+  BlockCsr pattern_;    ///< of all cells, values 0
+  std::vector<std::size_t> first_corner_;  ///< (n + 1)
+  std::vector<Corner> corners_;            ///< of a node in parts_, ascending
+};
+
+}  // namespace rondo::fem

@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: BSD-3-Clause
+/// @file  Cauchy stress of cells of rubber (docs/rubber.md, 1.6), of the law without viscous
+/// branches: J⁻¹ P Fᵀ of the isochoric energy at the points of the element, and the mean pressure
+/// of its volume, a triangle's at its nodes.
+#pragma once
+#include <array>
+
+#include "rondo/fem/hyperelastic/element.hpp"
+#include "rondo/fem/nodal_dilatation.hpp"
+#include "rondo/mesh/mesh.hpp"
+
+namespace rondo::fem::hyperelastic {
+
+/// Stress at the corners along the axes of u: that of 2×2 points extrapolated bilinearly; of one
+/// point, and of a triangle but for its pressures, constant. Not a number where the cell is
+/// inverted. @param pressure U' of a triangle's nodes; of a quadrilateral not looked at [Pa]
+[[nodiscard]] std::array<Stress, 4> corner_stress(const Rubber& rubber, const DeformedCell& cell,
+                                                  const std::array<double, 4>& pressure) noexcept;
+
+/// Change of a triangle's area [m²].
+[[nodiscard]] double area_change(const DeformedCell& triangle) noexcept;
+
+/// U' of a volume [Pa]; not a number where there is none left. @param j_less_1 J - 1
+[[nodiscard]] double pressure_of(const Rubber& rubber, double j_less_1) noexcept;
+
+/// @param u displacement of a node [m]
+template <class Displacement>
+DeformedCell deformed_cell(const mesh::Mesh& mesh, std::size_t cell, Displacement&& u) {
+  DeformedCell deformed;
+  const mesh::Cell& nodes = mesh.cells[cell];
+  deformed.n_corners = mesh::n_corners(nodes);
+  for (std::size_t a = 0; a < static_cast<std::size_t>(deformed.n_corners); ++a) {
+    deformed.x[a] = mesh.coordinates[static_cast<std::size_t>(nodes[a])];
+    deformed.u[a] = u(nodes[a]);
+  }
+  return deformed;
+}
+
+/// Of a cell in its mesh: the volume of a triangle is that of the triangles around its nodes.
+template <class Displacement>
+std::array<Stress, 4> cell_stress(const mesh::Mesh& mesh, std::size_t cell, const Rubber& rubber,
+                                  const NodalDilatation& dilatation, Displacement&& u) {
+  std::array<double, 4> pressure{};
+  for (std::size_t a = 0; dilatation.holds(cell) && a < 3; ++a) {
+    const auto patch = static_cast<std::size_t>(dilatation.patches_of(cell)[a]);
+    double change = 0.0;
+    for (const int e : dilatation.cells(patch))
+      change += area_change(deformed_cell(mesh, static_cast<std::size_t>(e), u)) / 3.0;
+    pressure[a] = pressure_of(rubber, change / dilatation.area(patch));
+  }
+  return corner_stress(rubber, deformed_cell(mesh, cell, u), pressure);
+}
+
+}  // namespace rondo::fem::hyperelastic
