@@ -8,6 +8,7 @@
 #include "rondo/contact/coupled/problem_file.hpp"
 #include "rondo/model/contact_node.hpp"
 #include "rondo/model/ledger.hpp"
+#include "rondo/model/material_report.hpp"
 #include "rondo/model/model.hpp"
 #include "rondo/model/saved_state.hpp"
 
@@ -24,11 +25,12 @@ struct RimReport {
 
 /// What a step leaves for those who look on.
 struct StepReport {
-  long long step = 0;     ///< n + 1
-  FrameStep frame;        ///< of t_{n+1}
-  ContactReport contact;  ///< of t_{n+1}
-  Balance balance;        ///< of t_{n+1/2}
-  RimReport rim;          ///< of t_{n+1}, of a loaded rim
+  long long step = 0;       ///< n + 1
+  FrameStep frame;          ///< of t_{n+1}
+  ContactReport contact;    ///< of t_{n+1}
+  Balance balance;          ///< of t_{n+1/2}
+  RimReport rim;            ///< of t_{n+1}, of a loaded rim
+  MaterialReport material;  ///< of rubber
   /// Of the scheme "hati": contact impulses are not those that the parts were joined with.
   bool contact_felt_joint = false;
 };

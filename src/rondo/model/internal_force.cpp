@@ -142,6 +142,7 @@ class Corotated final : public InternalForce {
 std::unique_ptr<InternalForce> make_internal_force(const Model& model, std::span<const Vec2> u0,
                                                    std::span<const Pose> poses) {
   if (model.internal_force) return model.internal_force(model, u0, poses);
+  RONDO_DEMAND(!model.rubber);  // which has one of its own
   RONDO_DEMAND(model.stiffness.row_start.size() == model.n_nodes() + 1, model.n_nodes());
   if (model.free_bodies.empty()) return std::make_unique<AssembledStiffness>(model, u0);
   return std::make_unique<Corotated>(model, u0, poses);

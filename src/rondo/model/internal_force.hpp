@@ -6,6 +6,7 @@
 #include <memory>
 #include <span>
 
+#include "rondo/model/material_report.hpp"
 #include "rondo/model/saved_state.hpp"
 
 namespace rondo::dynamics {
@@ -31,7 +32,11 @@ class InternalForce {
   /// (free_bodies) at the last u.
   [[nodiscard]] virtual std::span<const Pose> poses() const noexcept { return {}; }
 
-  /// What it carries to the next step: force, gradient, energy, poses.
+  /// Of rubber, at the last u.
+  [[nodiscard]] virtual MaterialReport material() const noexcept { return {}; }
+
+  /// What it carries to the next step: force, gradient, energy, poses, and of rubber its branches
+  /// and works.
   virtual void save(SavedState& saved) const = 0;
   virtual void restore(const SavedState& saved) = 0;
 };

@@ -45,8 +45,15 @@ void find_free_bodies(const mesh::Mesh& mesh, Model& model) {
 
 bool is_general(const Model& model) noexcept {
   return model.scheme != Scheme::symplectic || !model.free_bodies.empty() ||
-         model.surfaces.has_value() || model.internal_force ||
-         (model.rim && !model.pressures.empty());
+         model.surfaces.has_value() || (model.internal_force && !model.rubber) ||
+         (model.rim && !model.pressures.empty()) ||
+         (model.rubber && !model.pressures.empty() && has_sharp_corners(model));
+}
+
+bool is_of_bodies(const Model& model) noexcept {
+  return is_general(model) && model.scheme == Scheme::symplectic && !model.rim && !model.implicit &&
+         !model.subdomains && !model.internal_force && !model.rubber &&
+         !has_massless_contact(model);
 }
 
 std::vector<int> nodes_with_mass(const Model& model) {

@@ -76,6 +76,14 @@ struct ImplicitPart {
   std::vector<int> nodes;   ///< their free nodes, ascending
 };
 
+/// Quadrilaterals of rubber at finite strain (docs/rubber.md).
+struct RubberPart {
+  std::vector<mesh::Cell> cells;
+  std::vector<int> material;  ///< (cells) place in `materials`
+  std::vector<fem::Rubber> materials;
+  fem::BlockCsr linear;  ///< K of all other elements, on the free nodes: as many rows [N/m²]
+};
+
 class InternalForce;
 struct Model;
 struct Pose;
@@ -95,6 +103,9 @@ struct Model {
   InternalForceMaker internal_force;  ///< of another material than K's; empty: of K
   std::optional<fem::SectorStiffness> sector;  ///< K of one sector; absent: not cyclic
   std::optional<ImplicitPart> implicit;        ///< absent: all elements are explicit
+  /// Of rubber, what the fused step makes of it; its internal_force is there as well, and
+  /// `stiffness` is that of small strains.
+  std::optional<RubberPart> rubber;
   StiffnessOperator stiffness_operator = StiffnessOperator::sparse;
   double mass_damping = 0.0;       ///< α                            [1/s]
   double stiffness_damping = 0.0;  ///< β                            [s]
@@ -199,6 +210,11 @@ inline const std::vector<double>& lumped_mass_of(const Model& model) noexcept {
 /// bodies, another scheme than the symplectic one, a material of its own, pressures on a loaded rim
 /// (which act on the edges as they lie).
 [[nodiscard]] bool is_general(const Model& model) noexcept;
+
+/// Of what is_general() tells, what is made in few passes over memory (BodiesIntegrator): free
+/// bodies and contact between bodies, of the stiffness and the symplectic scheme, without implicit
+/// elements, contact nodes without mass and loaded rims.
+[[nodiscard]] bool is_of_bodies(const Model& model) noexcept;
 
 /// The ground has corners that may touch the body between two candidates.
 [[nodiscard]] bool has_sharp_corners(const Model& model) noexcept;

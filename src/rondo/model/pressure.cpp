@@ -13,7 +13,7 @@ void add_forces(const Model& model, std::span<const Vec2> u, std::span<const mes
   for (const mesh::Edge& edge : edges) {
     const auto a = static_cast<std::size_t>(edge[0]), b = static_cast<std::size_t>(edge[1]);
     Vec2 along = model.reference[b] - model.reference[a];
-    if (in_fixed_frame(model, a) || model.rim) along += u[b] - u[a];
+    if (in_fixed_frame(model, a) || model.rim || model.internal_force) along += u[b] - u[a];
     // The body is on the left of a → b: J along points into it, L times the inward normal.
     const Vec2 share = half * turn90(along);
     force[a] += share;
@@ -33,9 +33,10 @@ void pressure_forces(const Model& model, std::span<const Vec2> u, double time,
 std::vector<NodalLoad> nodal_loads(const Model& model) {
   std::vector<NodalLoad> loads;
   std::vector<Vec2> force(model.n_nodes());
+  const std::vector<Vec2> undeformed(model.n_nodes());
   for (std::size_t l = 0; l < model.pressures.size(); ++l) {
     std::fill(force.begin(), force.end(), Vec2{});
-    add_forces(model, {}, model.pressures[l].edges, 1.0, force);
+    add_forces(model, undeformed, model.pressures[l].edges, 1.0, force);
     for (std::size_t k = 0; k < force.size(); ++k)
       if (force[k] != Vec2{}) loads.push_back({static_cast<int>(k), static_cast<int>(l), force[k]});
   }

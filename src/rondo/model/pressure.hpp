@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// @file  Pressure on boundary curves (docs/theory.md, 9.8): on the edges as they lie for a free
-/// body and on a loaded rim, so that a closed curve feels neither force nor moment; on the
-/// reference edges, in the turning frame, where the rim follows its tables, as small strain has it.
+/// body, on a loaded rim and with rubber, so that a closed curve feels neither force nor moment; on
+/// the reference edges, in the turning frame, where the rim follows its tables, as small strain has
+/// it.
 #pragma once
 #include <span>
 #include <vector>
@@ -22,7 +23,8 @@ struct NodalLoad {
   Vec2 force{};  ///< per pressure                                                   [m]
 };
 
-/// All of them, by load, then by node: a node's force at time t is Σ pressure(t) · force.
+/// All of them, by load, then by node: a node's force at time t is Σ pressure(t) · force. With
+/// rubber on the undeformed edges, from which they depart.
 /// @pre no body is free
 [[nodiscard]] std::vector<NodalLoad> nodal_loads(const Model& model);
 

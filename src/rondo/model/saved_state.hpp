@@ -24,8 +24,10 @@ struct SavedState {
   std::vector<Pose> poses;     ///< (free_bodies)
   /// By contact, ascending: coupled contacts start from the impulses of the step before [N·s/m].
   std::vector<std::pair<std::uint64_t, Vec2>> impulses;
-  std::vector<double> rim;   ///< what a loaded rim carries (loaded_rim.hpp)
-  std::vector<double> ring;  ///< contacts of a massless boundary (MasslessContact::save)
+  std::vector<double> branches;       ///< of rubber: C_i of element and branch, xx, yy, xy
+  std::vector<double> internal_work;  ///< of rubber (rubber_work.hpp, hyperelastic.hpp)
+  std::vector<double> rim;            ///< what a loaded rim carries (loaded_rim.hpp)
+  std::vector<double> ring;           ///< contacts of a massless boundary (MasslessContact::save)
   /// Of each node where the parts of the scheme "hati" meet: u and v of the coarse part [m], [m/s],
   /// and the multiplier [N/m]; (3 interface).
   std::vector<Vec2> interface;

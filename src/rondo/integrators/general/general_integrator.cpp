@@ -182,6 +182,7 @@ StepReport GeneralIntegrator::step() noexcept {
   energy.works.rim = report.contact.work_rim;
   ledger_.add(energy);
   report.balance = ledger_.last();
+  report.material = internal_->material();
   return report;
 }
 

@@ -136,6 +136,7 @@ StepReport WheelIntegrator::step() noexcept {
   ledger_.add(energy);
   report.frame = state_.frame;
   report.balance = ledger_.last();
+  report.material = internal_->material();
   report.rim = rim_.report();
   return report;
 }
