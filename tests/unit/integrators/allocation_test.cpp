@@ -12,6 +12,7 @@
 #include "integrator_cases.hpp"
 #include "rondo/integrators/general/general_integrator.hpp"
 #include "support/implicit.hpp"
+#include "support/rubber.hpp"
 #include "support/stepping.hpp"
 
 namespace {
@@ -112,6 +113,29 @@ TEST_P(Allocations, NoneInTheStepsOfImplicitElements) {
     }
     EXPECT_EQ(allocations - before, 0) << at_the_ground;
     EXPECT_GT(in_contact, 0);
+  }
+}
+
+TEST(Allocation, NoneInTheFusedStepsOfRubber) {
+  test::DiskCase c = test::rolling_disk(4, 60);
+  fem::Rubber rubber = test::neo_hooke(2.0e6, 8.0e7);
+  rubber.branches = {{0.3, 1.0e-3}};
+  c.material = test::rubber_material(rubber);
+  c.safety = 0.6;
+  for (const int threads : {1, 2}) {
+    test::Built b = test::build(c);
+    test::add_ground(b, {.profile = {{-1, 0}, {1, 0}}}, {0.3, 0.0});
+    b.model.pressures.push_back({b.mesh.contact_edges, dynamics::Table(1.0e4)});
+    test::set_rubber(b);
+    b.model.threads = threads;
+    dynamics::State state = test::start_at_rest(b.model);
+    const auto integrator = dynamics::make_integrator(b.model, state);
+    std::vector<dynamics::StepReport> reports(64);
+    integrator->advance(reports);
+    const long before = allocations;
+    integrator->advance(reports, &state);
+    EXPECT_EQ(allocations - before, 0);
+    EXPECT_GT(reports.back().contact.nodes, 0);
   }
 }
 

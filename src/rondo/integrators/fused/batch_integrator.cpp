@@ -51,6 +51,12 @@ BatchIntegrator::BatchIntegrator(const Model& model, const State& start, std::si
   rim_->restore(start.step, start.rim);
 }
 
+void BatchIntegrator::set_rubber(RubberForces& forces, const State& start) {
+  rubber_energy_.resize(steps_.size());
+  rubber_work_.emplace(model_, start);
+  rubber_forces_ = &forces;
+}
+
 void BatchIntegrator::set_step(std::size_t i) noexcept {
   const long long n = step_ + static_cast<long long>(i) + 1;
   steps_[i] = step_context(model_, frame_step(model_.motion, n, model_.dt));
@@ -90,17 +96,18 @@ void BatchIntegrator::advance_batch(std::span<StepReport> reports) noexcept {
   look_for_corners(steps);
   if (corners_)
     for (std::size_t i = 0; i < steps.size(); ++i) parts_[(i + 1) * n_parts_ - 1] = {};
-  const Batch batch{steps, parts_.data(), step_};
+  const Batch batch{steps, parts_.data(), step_, rubber_energy_.data()};
   in_all_threads([&](Share share) { make_batch(batch, share); });
   for (std::size_t i = 0; i < reports.size(); ++i) {
     const std::span parts = std::span<const PartialStep>(parts_).subspan(i * n_parts_, n_parts_);
-    const WholeStep whole = whole_step(model_, parts);
+    WholeStep whole = whole_step(model_, parts);
+    StepReport& report = reports[i] = {};
+    if (rubber_work_) report.material = rubber_work_->add(rubber_energy_[i], whole);
     ledger_.add(whole.energy);
-    reports[i] = {batch.first + static_cast<long long>(i) + 1,
-                  steps_[i].frame,
-                  whole.contact,
-                  ledger_.last(),
-                  {}};
+    report.step = batch.first + static_cast<long long>(i) + 1;
+    report.frame = steps_[i].frame;
+    report.contact = whole.contact;
+    report.balance = ledger_.last();
   }
   step_ = batch.first + static_cast<long long>(reports.size());
   if (corners_) reports.back().contact.unseen = corners_->unseen(*this, 0.0);
@@ -125,7 +132,7 @@ void BatchIntegrator::make_batch(const Batch& batch, Share share) noexcept {
     return make_steps(batch, share);
   for (std::size_t i = 0; i < batch.steps.size(); ++i)
     make_alone({batch.steps.subspan(i, 1), batch.parts + i * n_parts_,
-                batch.first + static_cast<long long>(i)},
+                batch.first + static_cast<long long>(i), batch.rubber + i},
                share);
 }
 
@@ -183,7 +190,7 @@ void BatchIntegrator::make_steps_on_rim(std::span<StepReport> reports, long long
     const long long before = first + static_cast<long long>(i);
     if (share.thread == 0) begin_step(before);
     wait_for_others(share);
-    make_steps({std::span(steps_).first(1), parts_.data(), before}, share);
+    make_steps({std::span(steps_).first(1), parts_.data(), before, rubber_energy_.data()}, share);
     if (share.thread == 0) end_step(reports[i]);
     wait_for_others(share);
     go_on(way_, before, share);
@@ -212,7 +219,9 @@ void BatchIntegrator::end_step(StepReport& report) noexcept {
   const StepSums sums = wheel_sums(parts);
   rim_->take(rim_force(step, sums));
   way_ = wheel_way(model_, *rim_);
-  ledger_.add(wheel_energy(model_, step, sums, report.contact, *rim_));
+  StepEnergy energy = wheel_energy(model_, step, sums, report.contact, *rim_);
+  if (rubber_work_) report.material = rubber_work_->add(rubber_energy_.front(), sums, energy);
+  ledger_.add(energy);
   report.step = step_ + 1;
   report.frame = rim_->frame();
   report.balance = ledger_.last();
@@ -261,6 +270,10 @@ SavedState BatchIntegrator::save() const {
   save_fields(saved);
   if (corners_) saved.impulses = corners_->impulses();
   for (const auto& tail : tails_) tail->save(saved);
+  if (rubber_work_) {
+    saved.internal_work = rubber_work_->save();
+    rubber_forces_->save(saved.branches);
+  }
   saved.ledger = ledger_.save();
   return saved;
 }
@@ -273,6 +286,10 @@ void BatchIntegrator::restore(const SavedState& saved) {
   restore_fields(saved);
   if (corners_) corners_->set_impulses(saved.impulses);
   for (const auto& tail : tails_) tail->restore(saved);
+  if (rubber_work_) {
+    rubber_work_->restore(saved.internal_work);
+    rubber_forces_->restore(saved.branches);
+  }
   ledger_.restore(saved.ledger);
 }
 

@@ -9,6 +9,7 @@
 
 #include "rondo/core/barrier.hpp"
 #include "rondo/integrators/fused/corner_contact.hpp"
+#include "rondo/integrators/fused/rubber/rubber_work.hpp"
 #include "rondo/integrators/fused/step_context.hpp"
 #include "rondo/integrators/fused/tail/step_tail.hpp"
 #include "rondo/integrators/fused/wheel_sums.hpp"
@@ -37,8 +38,9 @@ class BatchIntegrator : public Integrator, public Resumable, protected Candidate
   };
   struct Batch {
     std::span<const StepContext> steps;
-    PartialStep* parts;  ///< (steps, n_parts_): to be filled, but for those of CornerContact
-    long long first;     ///< number of the last step made before
+    PartialStep* parts;    ///< (steps, n_parts_): to be filled, but for those of CornerContact
+    long long first;       ///< number of the last step made before
+    RubberEnergy* rubber;  ///< (steps) to be filled, where there is rubber
   };
 
   /// @param n_parts of the body, of which each step has sums
@@ -72,6 +74,9 @@ class BatchIntegrator : public Integrator, public Resumable, protected Candidate
   /// In the constructor, where the model has such tails; in the order in which they are worked.
   void add_tail(std::unique_ptr<StepTail> tail);
 
+  /// In the constructor, where the model has rubber. @param start as of the constructor
+  void set_rubber(RubberForces& forces, const State& start);
+
   /// In make_steps(): until all threads are here.
   void wait_for_others(Share share) noexcept {
     if (share.n_threads > 1) barrier_.wait(static_cast<unsigned>(share.n_threads));
@@ -102,6 +107,9 @@ class BatchIntegrator : public Integrator, public Resumable, protected Candidate
   std::vector<StepContext> steps_;  ///< of a batch
   std::vector<double> pressures_;   ///< (steps of a batch, pressures of the model)        [Pa]
   std::vector<PartialStep> parts_;  ///< (steps of a batch, n_parts_)
+  std::vector<RubberEnergy> rubber_energy_;  ///< (steps of a batch); empty: no rubber
+  std::optional<RubberWork> rubber_work_;
+  RubberForces* rubber_forces_ = nullptr;
   std::optional<CornerContact> corners_;
   std::optional<LoadedRim> rim_;
   std::vector<std::unique_ptr<StepTail>> tails_;

@@ -227,6 +227,7 @@ void CornerContact::solve(const StepContext& step, CandidateFields& fields,
     state_.v_next[h.candidate] = h.free = motion.v;
     h.forces.change = motion.force - h.forces.change;
     h.forces.elastic = motion.force;
+    h.forces.internal = motion.internal;
   }
   const VelocityUpdate update =
       velocity_update(boundary_.scheme, boundary_.dt, boundary_.mass_damping, step.frame.spin);

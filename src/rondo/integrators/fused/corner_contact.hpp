@@ -20,6 +20,8 @@ struct CandidateMotion {
   Vec2 v;        ///< v_{n+1/2}; with a loaded rim V in the axes of R_n                   [m/s]
   Vec2 force{};  ///< K u_n, with β or a loaded rim                                    [N/m]
   Vec2 moved{};  ///< u_{n+1} - u_n, with a loaded rim                                  [m]
+  /// f at u_n, which the last step was made with; with rubber and no loaded rim        [N/m]
+  Vec2 internal{};
 };
 
 /// What a fused integrator lets be seen and changed of single candidates, between two steps.

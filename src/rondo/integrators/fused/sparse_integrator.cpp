@@ -28,6 +28,13 @@ double sum_of(const double* x) noexcept {
   return ((x[0] + x[4]) + (x[2] + x[6])) + ((x[1] + x[5]) + (x[3] + x[7]));
 }
 
+std::size_t n_sums_of(bool wheel, bool rubber) noexcept {
+  if (wheel && rubber) return kernels::n_rubber_wheel_sums;
+  if (wheel) return kernels::n_wheel_sums;
+  if (rubber) return kernels::n_rubber_sums;
+  return kernels::n_sums;
+}
+
 }  // namespace
 
 /// Some nodes, wherever their rows are.
@@ -87,6 +94,11 @@ SparseIntegrator::SparseIntegrator(const Model& model, const State& start,
   }
   load(start);
   add_tails(table);
+  if (!model.rubber) return;
+  rubber_.emplace(model, plan_.row_of_node, static_cast<int>(plan_.node.size()), plan_.n_packs,
+                  start.u, *table.rubber);
+  set_rubber(*rubber_, start);
+  if (!plan_.first_load.empty()) following_.emplace(model, plan_);
 }
 
 /// The nodes, and their rows.
@@ -200,9 +212,11 @@ void SparseIntegrator::save_active(std::vector<ActiveContact>& active) const noe
 CandidateMotion SparseIntegrator::motion_of(std::size_t candidate) const noexcept {
   const int row = plan_.row[candidate];
   const double* motion = motion_.data() + motion_at(static_cast<std::size_t>(row));
-  const Vec2 u = pair_at(u_[parity(step_)].data(), row);
+  const double *now = u_[parity(step_)].data(), *before = u_[parity(step_ + 1)].data();
+  const Vec2 u = pair_at(now, row);
   return {u, vector_at(motion), plan_.keeps_force ? vector_at(motion + force_at) : Vec2{},
-          plan_.wheel ? u - pair_at(u_[parity(step_ + 1)].data(), row) : Vec2{}};
+          plan_.wheel ? u - pair_at(before, row) : Vec2{},
+          rubber_ && !plan_.wheel ? force_on(before, row) : Vec2{}};
 }
 
 void SparseIntegrator::move(std::size_t candidate, Vec2 v, Vec2 u) noexcept {
@@ -257,6 +271,7 @@ void SparseIntegrator::solve_node(const Work& work, const Touching& t, PartialSt
   const Vec2 after = solve_contacts(*work.step->contact, node, t.touches, active, part.contact);
   put(motion, after);
   NodeForces forces{.load = load_on(work, c.row)};
+  if (rubber_) forces.internal = force_on(work.now, c.row);
   if (plan_.keeps_force) forces.change = vector_at(motion + force_at) - t.force;
   if (plan_.wheel) {
     forces.elastic = vector_at(motion + force_at);
@@ -272,7 +287,19 @@ void SparseIntegrator::solve_node(const Work& work, const Touching& t, PartialSt
   if (work.last) all.insert(all.end(), active.begin(), active.end());
 }
 
-/// Force on a row.
+/// What elements and K do on a row.
+Vec2 SparseIntegrator::force_on(const double* now, int row) const noexcept {
+  const auto r = static_cast<std::size_t>(row);
+  Vec2 force = rubber_->force_on(row);
+  for (std::int64_t place = plan_.start[r / lanes]; place < plan_.start[r / lanes + 1]; ++place) {
+    const std::size_t at = static_cast<std::size_t>(place) * lanes + r % lanes;
+    const double *k = plan_.blocks.data() + 4 * at, *u = now + plan_.column.data()[at];
+    force += Vec2{k[0] * u[0] + k[1] * u[1], k[2] * u[0] + k[3] * u[1]};
+  }
+  return force;
+}
+
+/// Load on a row.
 Vec2 SparseIntegrator::load_on(const Work& work, int row) const noexcept {
   Vec2 load;
   if (plan_.first_load.empty()) return load;
@@ -299,11 +326,12 @@ void SparseIntegrator::update_rows(const Work& work, std::size_t block,
   rows.pressures = work.step->pressures;
   const kernels::Terms& terms = work.step->terms;
   if (plan_.wheel)
-    table_.wheel->rows[work.step->heavy](rows);
+    (rubber_ ? table_.rubber->wheel_rows : table_.wheel->rows)[work.step->heavy](rows);
+  else if (rubber_)
+    table_.rubber->rows[loaded][terms.stiffness_damping][terms.unsteady](rows);
   else
     table_.sparse_rows[loaded][terms.stiffness_damping][terms.unsteady](rows);
-  const std::size_t n_sums =
-      plan_.wheel ? std::size_t{kernels::n_wheel_sums} : std::size_t{kernels::n_sums};
+  const std::size_t n_sums = n_sums_of(plan_.wheel, rubber_.has_value());
   for (std::size_t k = 0; k < n_sums; ++k) part.sums[k] = sum_of(sums.data() + k * lanes);
 }
 
@@ -315,6 +343,7 @@ kernels::SparseRows SparseIntegrator::rows_from(const double* now, double* next,
   rows.blocks = plan_.blocks.data();
   rows.column = plan_.column.data();
   rows.constants = plan_.constants.data();
+  rows.rubber = rubber_ ? &rubber_->rows() : nullptr;
   rows.now = now;
   rows.next = next;
   rows.motion = motion_.data();
@@ -354,6 +383,15 @@ void SparseIntegrator::make_block(const Work& work, std::size_t block) noexcept 
   if (block + 1 == plan_.n_blocks && !plan_.wheel) rest_padding(work.next);
 }
 
+/// The rows read forces of all elements around them, and loads.
+void SparseIntegrator::evaluate_rubber(const Work& work, Share share) noexcept {
+  const std::size_t n = rubber_->n_blocks();
+  for (std::size_t block = share.first(n); block < share.last(n); ++block)
+    rubber_->evaluate(work.now, block);
+  if (following_ && share.thread == 0) following_->update(work.now, plan_);
+  wait_for_others(share);
+}
+
 /// A thread's blocks are the same in every step. A product reads u of other threads' blocks: all of
 /// it must be there.
 void SparseIntegrator::make_steps(const Batch& batch, Share share) noexcept {
@@ -368,9 +406,12 @@ void SparseIntegrator::make_steps(const Batch& batch, Share share) noexcept {
                     u_[parity(step + 1)].data(),
                     batch.parts + i * n_parts_,
                     &contacts_[share.thread],
-                    i + 1 == batch.steps.size()};
+                    i + 1 == batch.steps.size(),
+                    batch.rubber + i};
+    if (rubber_) evaluate_rubber(work, share);
     for (std::size_t block = share.first(n); block < share.last(n); ++block)
       make_block(work, block);
+    if (rubber_ && share.thread == 0) *work.rubber = rubber_->energy();
     wait_for_others(share);
   }
 }

@@ -4,10 +4,13 @@
 #pragma once
 #include <array>
 #include <memory>
+#include <optional>
 #include <vector>
 
 #include "rondo/core/large_array.hpp"
 #include "rondo/integrators/fused/batch_integrator.hpp"
+#include "rondo/integrators/fused/rubber/following_loads.hpp"
+#include "rondo/integrators/fused/rubber/rubber_forces.hpp"
 #include "rondo/integrators/fused/sparse_plan.hpp"
 #include "rondo/integrators/fused/tail/massless_tail.hpp"
 
@@ -40,7 +43,8 @@ class SparseIntegrator : public BatchIntegrator {
     double* next;        ///< u_{n+2}
     PartialStep* parts;  ///< (blocks)
     Contacts* contacts;
-    bool last;  ///< of the batch
+    bool last;             ///< of the batch
+    RubberEnergy* rubber;  ///< to be filled, where there is rubber
   };
 
   SparseIntegrator(const Model& model, const State& start, const kernels::Table& table,
@@ -66,6 +70,8 @@ class SparseIntegrator : public BatchIntegrator {
   }
 
   void make_block(const Work& work, std::size_t block) noexcept;
+  void evaluate_rubber(const Work& work, Share share) noexcept;
+  [[nodiscard]] Vec2 force_on(const double* now, int row) const noexcept;
   [[nodiscard]] kernels::SparseRows rows_from(const double* now, double* next,
                                               std::size_t block) noexcept;
   void update_rows(const Work& work, std::size_t block, PartialStep& part) noexcept;
@@ -79,6 +85,8 @@ class SparseIntegrator : public BatchIntegrator {
   SparsePlan plan_;
   std::array<LargeArray, 2> u_;              ///< (rows, 2) of even and of odd steps
   LargeArray motion_;                        ///< as in kernels::SparseRows
+  std::optional<RubberForces> rubber_;       ///< absent: K is all
+  std::optional<FollowingLoads> following_;  ///< absent: no loads, or they stay as they are
   std::vector<Contacts> contacts_;           ///< of each thread
   std::vector<std::unique_ptr<Rows>> rows_;  ///< as the tails see them
 };

@@ -48,9 +48,10 @@ std::vector<int> row_of(const Model& model, const SparsePlan& plan) {
 /// A pack is as long as its first row: sort_by_length has put the longest there.
 void add_starts(const fem::BlockCsr& k, SparsePlan& plan) {
   plan.start.assign(1, 0);
-  for (std::size_t i = 0; i < plan.node.size(); i += lanes)
-    plan.start.push_back(plan.start.back() +
-                         static_cast<std::int64_t>(row_length(k, plan.node[i])));
+  for (std::size_t i = 0; i < plan.n_packs * lanes; i += lanes)
+    plan.start.push_back(
+        plan.start.back() +
+        static_cast<std::int64_t>(i < plan.node.size() ? row_length(k, plan.node[i]) : 0));
 }
 
 /// Zero blocks on their own nodes, which the rows' blocks then take the places of.
@@ -148,22 +149,23 @@ std::size_t n_sparse_blocks(std::size_t n_rows) noexcept {
 }
 
 SparsePlan make_sparse_plan(const Model& model) {
-  const fem::BlockCsr& k = model.stiffness;
+  const fem::BlockCsr& k = model.rubber ? model.rubber->linear : model.stiffness;
   RONDO_DEMAND(k.row_start.size() == model.n_nodes() + 1, k.row_start.size(), model.n_nodes());
   constexpr std::size_t most_nodes = 1U << 30U;  // twice the node is a column
   RONDO_DEMAND(model.free.size() < most_nodes, model.free.size());
   SparsePlan plan;
   plan.wheel = model.rim.has_value();
   plan.keeps_force = plan.wheel || model.stiffness_damping > 0.0;
-  plan.node = row_order(k, model.free);
+  plan.node = row_order(model.stiffness, model.free);
   sort_by_length(k, plan.node);
-  plan.n_packs = packs_of(plan.node.size());
+  plan.n_packs = packs_of(plan.node.size() + (model.rubber ? 1 : 0));  // a row of zeros is there
   plan.n_blocks = n_sparse_blocks(plan.node.size());
   const std::vector<int> row = row_of(model, plan);
   add_matrix(k, row, plan);
   add_constants(model, plan);
   add_contact(model, row, plan);
   add_loads(model, row, plan);
+  if (model.rubber) plan.row_of_node = row;
   return plan;
 }
 

@@ -36,6 +36,7 @@ struct SparsePlan {
   LargeArray loads;
   std::vector<SparseCandidate> candidates;   ///< ascending rows
   std::vector<int> row;                      ///< (nb) of each candidate of the model
+  std::vector<int> row_of_node;              ///< (n) -1: clamped; with elements of rubber alone
   std::vector<std::size_t> first_candidate;  ///< (n_blocks + 1) of each block; empty: no contact
 
   /// The first pack of a block; of the one past the last, n_packs.

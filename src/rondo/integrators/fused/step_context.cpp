@@ -35,6 +35,7 @@ void correct_sums(const StepContext& step, const ContactNode& node, Vec2 after,
   sums[kernels::sum_mass] += node.mass * dot(change, other);  // a² - b² = (a - b)(a + b)
   sums[kernels::sum_stiffness] += dot(change, forces.change);
   sums[kernels::sum_load] += dot(change, forces.load);
+  sums[kernels::sum_mean_force] += dot(change, forces.internal);
 }
 
 StepContext wheel_context(const Model& model, const FrameStep& f, Complex back) noexcept {
@@ -68,7 +69,7 @@ void correct_wheel_sums(const ContactNode& node, Vec2 after, const NodeForces& f
 namespace {
 
 StepSums add_up(std::span<const PartialStep> parts) noexcept {
-  std::array<CompensatedSum, kernels::n_sums> sums;
+  std::array<CompensatedSum, kernels::n_rubber_sums> sums;  // what is not set is 0
   for (const PartialStep& part : parts)
     for (std::size_t k = 0; k < sums.size(); ++k) sums[k].add(part.sums[k]);
   StepSums total{};
@@ -99,7 +100,8 @@ WholeStep whole_step(const Model& model, std::span<const PartialStep> parts) noe
   WholeStep whole;
   if (model.contact)
     for (const PartialStep& part : parts) whole.contact.add(part.contact);
-  whole.energy = energy_of(model, add_up(parts), whole.contact);
+  whole.sums = add_up(parts);
+  whole.energy = energy_of(model, whole.sums, whole.contact);
   return whole;
 }
 

@@ -41,8 +41,9 @@ struct PartialStep {
 struct NodeForces {
   Vec2 change{};  ///< K u_{n+1} - K u_n, with β only
   Vec2 load{};
-  Vec2 elastic{};  ///< K u_{n+1}, with a loaded rim only
-  Vec2 moved{};    ///< u_{n+1} - u_n [m], with a loaded rim only
+  Vec2 elastic{};   ///< K u_{n+1}, with a loaded rim only
+  Vec2 internal{};  ///< f at u_{n+1}, with rubber and no loaded rim only
+  Vec2 moved{};     ///< u_{n+1} - u_n [m], with a loaded rim only
 };
 
 /// Adds to the sums, which were made with the velocity free of contact, what the impulse changed.
@@ -57,6 +58,7 @@ void correct_wheel_sums(const ContactNode& node, Vec2 after, const NodeForces& f
 struct WholeStep {
   StepEnergy energy;
   ContactReport contact;
+  StepSums sums;
 };
 WholeStep whole_step(const Model& model, std::span<const PartialStep> parts) noexcept;
 

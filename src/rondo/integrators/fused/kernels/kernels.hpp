@@ -27,13 +27,20 @@ enum Sum {
   sum_load,       ///< v̂·f of the loads
   n_sums
 };
+/// With elements of rubber one more, and another sum_strain.
+enum RubberSum {
+  sum_mean_force = sum_strain,  ///< v̂·f, f what the elements and K do at u_{n+1}
+  sum_force_before = n_sums,    ///< v⁻·f
+  sum_linear,                   ///< u·K u of the linear elements
+  n_rubber_sums
+};
 
 /// Sums over the nodes of a step on a loaded rim, co-rotating frame, before the factors of (10.5):
 /// a of V in the axes of R_{n+1} before (a⁻) and after (a⁺), p = K u_{n+1}, d = u_{n+1} - u_n, e =
 /// p - K u_n, y = X + u_{n+1}; a × b = a_x b_y - a_y b_x.
 enum WheelSum {
   wheel_kinetic,        ///< m |a⁻|²
-  wheel_strain,         ///< u_n·p
+  wheel_strain,         ///< u_n·p; with elements of rubber d·p_n
   wheel_force_arm,      ///< y·p
   wheel_force_moment,   ///< y × p
   wheel_force_after,    ///< p·a⁺
@@ -54,7 +61,12 @@ enum WheelSum {
   wheel_momentum_y,
   n_wheel_sums
 };
-inline constexpr int most_sums = n_wheel_sums;
+/// The same with elements of rubber.
+enum RubberWheelSum {
+  wheel_linear = n_wheel_sums,  ///< u·K u of the linear elements
+  n_rubber_wheel_sums
+};
+inline constexpr int most_sums = n_rubber_wheel_sums;
 
 /// What all nodes of a step on a loaded rim share: forces and velocities.
 struct WheelFactors {
@@ -159,6 +171,8 @@ struct CyclicHeight {
   int first, last;                ///< columns looked at
 };
 
+struct RubberRows;
+
 /// Packs of eight rows of K on any mesh, one a node, and the nodes' fields: product, velocity
 /// update and sums in one pass. Rows of a pack have as many blocks as the longest: zero blocks on
 /// their own node fill the others up. `column` is twice the node: where its pair is in u.
@@ -177,11 +191,14 @@ struct SparseRows {
   const WheelWay* way;
   double* sums;  ///< (n_sums or n_wheel_sums, lanes) of these packs: set
   // Loads on nodes, unused by kernels without: f = Σ pressure · force.
-  const int* first_load;    ///< (packs + 1) of a pack
-  const double* loads;      ///< (loads, 2, lanes) force per pressure                     [m]
-  const int* load_of;       ///< (loads) whose pressure it is of
-  const double* pressures;  ///< [Pa]
+  const int* first_load;     ///< (packs + 1) of a pack
+  const double* loads;       ///< (loads, 2, lanes) force per pressure                     [m]
+  const int* load_of;        ///< (loads) whose pressure it is of
+  const double* pressures;   ///< [Pa]
+  const RubberRows* rubber;  ///< unused by kernels without
 };
+
+struct RubberTable;
 
 /// The loops of one instruction set on a loaded rim; K u_n is always kept there, and pressures are
 /// those of the general step. In a file of their
@@ -205,6 +222,7 @@ struct Table {
   void (*sparse_rows[2][2][2])(const SparseRows&) noexcept;
   const WheelTable* wheel;
   RingProduct ring_product;
+  const RubberTable* rubber;
 };
 
 /// In files of their own, as the loops of a loaded rim.

@@ -28,15 +28,16 @@ inline Vectors load_on(const SparseRows& s, std::ptrdiff_t pack) noexcept {
   return load;
 }
 
+/// @param force what the body does on them
 template <bool Loaded, bool Beta, bool Unsteady>
 inline Nodes sparse_nodes(const SparseRows& s, const Factors& f, std::ptrdiff_t pack,
-                          const double* motion) noexcept {
+                          const double* motion, Vectors force) noexcept {
   const double* constants = s.constants + pack * 4 * lanes;
   const Vectors reference = load_vectors(constants, lanes);
   Nodes n;
   load_pairs(s.now + pack * 2 * lanes, n.u.x, n.u.y);
   n.v = load_vectors(motion, lanes);
-  n.force = sparse_product(s, pack);
+  n.force = force;
   n.before = Beta ? load_vectors(motion + 2 * lanes, lanes) : n.force;
   n.frame = {f.rate.x * reference.x, f.rate.x * reference.y};
   if constexpr (Unsteady) {
@@ -74,7 +75,8 @@ void sparse_rows(const SparseRows& s) noexcept {
   Sums sums = no_sums();
   for (std::ptrdiff_t pack = s.first_pack; pack < s.last_pack; ++pack) {
     double* motion = s.motion + pack * (Beta ? 4 : 2) * lanes;
-    const Nodes n = sparse_nodes<Loaded, Beta, Unsteady>(s, f, pack, motion);
+    const Nodes n =
+        sparse_nodes<Loaded, Beta, Unsteady>(s, f, pack, motion, sparse_product(s, pack));
     Sums own = no_sums();
     const Vectors after = update<Loaded, Beta, Unsteady>(f, n, own);
     add_sums(load(s.constants + (pack * 4 + 2) * lanes), own, sums);

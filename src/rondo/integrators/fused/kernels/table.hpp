@@ -7,9 +7,10 @@
 
 namespace {
 
-constexpr rondo::dynamics::kernels::Table table(const char* name,
-                                                const rondo::dynamics::kernels::WheelTable& wheel,
-                                                rondo::dynamics::RingProduct ring) noexcept {
+constexpr rondo::dynamics::kernels::Table table(
+    const char* name, const rondo::dynamics::kernels::WheelTable& wheel,
+    rondo::dynamics::RingProduct ring,
+    const rondo::dynamics::kernels::RubberTable& rubber) noexcept {
   return {name,
           {{{cyclic_strip<false, false, false>, cyclic_strip<false, false, true>},
             {cyclic_strip<false, true, false>, cyclic_strip<false, true, true>}},
@@ -21,7 +22,8 @@ constexpr rondo::dynamics::kernels::Table table(const char* name,
            {{sparse_rows<true, false, false>, sparse_rows<true, false, true>},
             {sparse_rows<true, true, false>, sparse_rows<true, true, true>}}},
           &wheel,
-          ring};
+          ring,
+          &rubber};
 }
 
 }  // namespace

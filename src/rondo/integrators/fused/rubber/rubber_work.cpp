@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "rondo/integrators/fused/rubber/rubber_work.hpp"
+
+#include "rondo/core/contract.hpp"
+#include "rondo/model/internal_force.hpp"
+
+namespace rondo::dynamics {
+
+/// U(u_0), and without a loaded rim ½Δt f_0·v_{1/2} more: where the first half step ends.
+RubberWork::RubberWork(const Model& model, const State& start) : model_(model) {
+  work_.add(make_internal_force(model, start.u, start.poses)->material().stored_energy);
+  if (model.rim) return;
+  for_free_nodes(model, [&](std::size_t k) {
+    work_.add(0.5 * model.dt * dot(start.force[k], start.v_next[k]));
+  });
+}
+
+/// @param linear u·K u of the linear elements [J/m]
+MaterialReport RubberWork::report(const RubberEnergy& energy, double linear, double work) noexcept {
+  dissipation_.add(energy.dissipation_before);
+  const MaterialReport found{work, energy.stored + 0.5 * linear, dissipation_.value(),
+                             energy.least};
+  dissipation_.add(energy.dissipation_after);
+  return found;
+}
+
+MaterialReport RubberWork::add(const RubberEnergy& energy, WholeStep& step) noexcept {
+  const double half = 0.5 * model_.dt;
+  step.energy.strain = work_.value();
+  const double work = work_.value() + half * step.sums[kernels::sum_force_before];
+  work_.add(half * step.sums[kernels::sum_mean_force]);
+  return report(energy, step.sums[kernels::sum_linear], work);
+}
+
+MaterialReport RubberWork::add(const RubberEnergy& energy, const StepSums& sums,
+                               StepEnergy& step) noexcept {
+  step.strain = work_.value() + 0.5 * sums[kernels::wheel_strain];
+  work_.add(0.5 * (sums[kernels::wheel_strain] + sums[kernels::wheel_force_moved]));
+  return report(energy, sums[kernels::wheel_linear], work_.value());
+}
+
+std::vector<double> RubberWork::save() const {
+  return {work_.sum(), work_.correction(), dissipation_.sum(), dissipation_.correction()};
+}
+
+void RubberWork::restore(std::span<const double> numbers) {
+  RONDO_DEMAND(numbers.size() == 4, numbers.size());
+  work_ = CompensatedSum(numbers[0], numbers[1]);
+  dissipation_ = CompensatedSum(numbers[2], numbers[3]);
+}
+
+}  // namespace rondo::dynamics
