@@ -8,6 +8,7 @@
 #include "rondo/core/contract.hpp"
 #include "rondo/integrators/general/general_integrator.hpp"
 #include "rondo/integrators/start.hpp"
+#include "rondo/model/hyperelastic.hpp"
 #include "rondo/model/stability/critical_step.hpp"
 #include "support/models.hpp"
 
@@ -111,6 +112,21 @@ void Problem::make_implicit(int layer) {
   model_.implicit = std::move(implicit);
 }
 
+/// All cells, or none.
+void Problem::make_rubber(const std::optional<fem::Rubber>& rubber) {
+  model_.rubber.reset();
+  model_.internal_force = nullptr;
+  if (!rubber) return;
+  fem::Material material;
+  material.rubber = rubber;
+  model_.internal_force = dynamics::hyperelastic_maker(
+      std::make_shared<const fem::Hyperelasticity>(mesh_, std::span(&material, 1)));
+  fem::BlockCsr none;
+  none.row_start.assign(model_.n_nodes() + 1, 0);
+  model_.rubber = dynamics::RubberPart{
+      mesh_.cells, std::vector<int>(mesh_.cells.size(), 0), {*rubber}, std::move(none)};
+}
+
 std::unique_ptr<dynamics::Integrator> Problem::integrator(Steps steps, const Variant& variant) {
   const test::DiskCase defaults;
   model_.threads = variant.threads;
@@ -130,6 +146,7 @@ std::unique_ptr<dynamics::Integrator> Problem::integrator(Steps steps, const Var
   if (variant.loaded_rim) model_.rim = loaded_rim();
   move_mass(variant.massless);
   make_implicit(variant.implicit_layer);
+  make_rubber(variant.rubber);
   // The cyclic operator is to do without the assembled matrix, as on meshes too large for it.
   const bool assembled = steps != Steps::cyclic || variant.massless;
   if (assembled) assemble();

@@ -2,6 +2,7 @@
 /// @file  Disks to make steps with, and what a step of them has to do.
 #pragma once
 #include <memory>
+#include <optional>
 #include <string_view>
 
 #include "baseline.hpp"
@@ -31,6 +32,8 @@ struct Variant {
   bool loaded_rim = false;  ///< height and spin are free, under a load
   bool massless = false;    ///< contact nodes have no mass
   int implicit_layer = 0;   ///< this layer of elements, 1 at the rim, is implicit; 0: none
+  /// All of it, by the sparse operator; none: linear. The step stays that of the linear disk.
+  std::optional<fem::Rubber> rubber{};
 };
 
 /// What a step has to do at the least, by the formulas of the scheme and the arrays of its
@@ -64,6 +67,7 @@ class Problem {
   void assemble();
   void move_mass(bool from_contact);
   void make_implicit(int layer);
+  void make_rubber(const std::optional<fem::Rubber>& rubber);
 
   mesh::Mesh mesh_;
   dynamics::Model model_;

@@ -44,9 +44,11 @@ TEST(Incline, ASlidingBlockAcceleratesAsCoulombHasIt) {
     const double acceleration = dot(gained, incline.down()) / time;
     RecordProperty(fmt::format("scale_{}", scale), fmt::format("{:.9f}", acceleration));
     // 20 periods after the ramp a tenth of critical damping has left e^{-12} of what was up and
-    // down, some g Δt, and it is a mean over 20 periods.
+    // down, some g Δt, and it is a mean over 20 periods. Across it may be more: gaps are round-off,
+    // and where that opens a node for a step its mass, a 45th and less, falls by g Δt.
+    const double of_a_node = incline.gravity * model.dt / 45.0;
     EXPECT_NEAR(acceleration, 2.356287, 1e-6) << scale;
-    EXPECT_LT(std::abs(cross(incline.down(), gained) / time), 1e-6) << scale;
+    EXPECT_LT(std::abs(cross(incline.down(), gained)), of_a_node) << scale;
     EXPECT_EQ(run.report().contact.nodes, 9);
     EXPECT_EQ(run.report().contact.sticking, 0);
   }

@@ -38,33 +38,133 @@ std::vector<double> depth_limits(const Model& model, const contact::Boundary& bo
   return limits;
 }
 
+contact::Boundary ground_side_of(const Model& model) {
+  if (!has_sharp_corners(model)) return {};
+  return contact::make_boundary(model.contact->edges, model.body);
+}
+
+contact::Boundary surface_of(const Model& model) {
+  if (!model.surfaces) return {};
+  return contact::make_boundary(model.surfaces->edges, model.body);
+}
+
+double largest(const std::vector<double>& limits) noexcept {
+  double most = 0.0;
+  for (const double limit : limits) most = std::max(most, limit);
+  return most;
+}
+
+std::vector<int> boundary_of(const Model& model) {
+  std::vector<int> nodes;
+  const auto add = [&](const std::vector<int>& candidates, const std::vector<mesh::Edge>& edges) {
+    nodes.insert(nodes.end(), candidates.begin(), candidates.end());
+    for (const mesh::Edge& edge : edges) nodes.insert(nodes.end(), edge.begin(), edge.end());
+  };
+  if (model.contact) add(model.contact->nodes, model.contact->edges);
+  if (model.surfaces) add(model.surfaces->nodes, model.surfaces->edges);
+  std::ranges::sort(nodes);
+  nodes.erase(std::unique(nodes.begin(), nodes.end()), nodes.end());
+  return nodes;
+}
+
 }  // namespace
 
 ContactFinder::ContactFinder(const Model& model)
-    : model_(model), positions_(model.n_nodes()), outward_(model.surfaces ? model.n_nodes() : 0) {
-  if (model.contact && !model.contact->ground.corners().empty())
-    ground_side_ = contact::make_boundary(model.contact->edges, model.body);
-  all_edges_.resize(ground_side_.edges.size());
+    : model_(model),
+      ground_side_(ground_side_of(model)),
+      surface_(surface_of(model)),
+      ground_side_limit_(depth_limits(model, ground_side_)),
+      surface_limit_(depth_limits(model, surface_)),
+      deepest_(std::max(largest(ground_side_limit_), largest(surface_limit_))),
+      boundary_(boundary_of(model)),
+      positions_(model.n_nodes()),
+      near_edges_(model, surface_, deepest_),
+      is_near_(model.n_nodes()),
+      all_edges_(ground_side_.edges.size()) {
   std::iota(all_edges_.begin(), all_edges_.end(), 0);
-  if (model.surfaces) surface_ = contact::make_boundary(model.surfaces->edges, model.body);
-  ground_side_limit_ = depth_limits(model, ground_side_);
-  surface_limit_ = depth_limits(model, surface_);
-  for (const double limit : ground_side_limit_) deepest_ = std::max(deepest_, limit);
-  for (const double limit : surface_limit_) deepest_ = std::max(deepest_, limit);
+  if (model.contact && !model.contact->tributary.empty())
+    ground_margin_ = std::ranges::min(model.contact->tributary);
+  if (!model.surfaces) return;
+  first_edge_.assign(model.n_nodes() + 2, 0);  // shifted by one: filling moves each to its place
+  for (const mesh::Edge& e : surface_.edges)
+    for (const int node : e) ++first_edge_[at(node) + 2];
+  std::partial_sum(first_edge_.begin(), first_edge_.end(), first_edge_.begin());
+  edges_at_.resize(2 * surface_.edges.size());
+  for (std::size_t i = 0; i < surface_.edges.size(); ++i)
+    for (const int node : surface_.edges[i])
+      edges_at_[at(first_edge_[at(node) + 1]++)] = static_cast<int>(i);
+}
+
+std::span<const int> ContactFinder::boundary_after(double travelled) noexcept {
+  slack_ -= travelled;
+  near_alone_ = slack_ > 0.0;
+  return near_alone_ ? near_nodes_ : boundary_;
+}
+
+/// False: some place is none.
+bool ContactFinder::set_positions(const State& state) {
+  Vec2 sum;
+  for (const int node : near_alone_ ? near_nodes_ : boundary_)
+    sum += positions_[at(node)] = position(model_, state, at(node));
+  return std::isfinite(sum.x) && std::isfinite(sum.y);
 }
 
 void ContactFinder::find(const State& state, std::vector<ContactRow>& rows) {
   rows.clear();
-  Vec2 sum;
-  for (std::size_t k = 0; k < positions_.size(); ++k) {
-    positions_[k] = position(model_, state, k);
-    sum += positions_[k];
-  }
-  if (!std::isfinite(sum.x) || !std::isfinite(sum.y)) return;  // the ledger will tell
-  if (model_.contact)
-    for (std::size_t i = 0; i < model_.contact->nodes.size(); ++i) find_on_ground(i, rows);
+  const bool finite = set_positions(state);
+  if (!finite) slack_ = 0.0;
+  if (finite && !near_alone_) find_near();
+  near_alone_ = false;
+  if (!finite) return;  // the ledger will tell
+  for (const int i : near_ground_) find_on_ground(at(i), rows);
   if (!ground_side_.edges.empty()) find_corners(rows);
   if (model_.surfaces) find_segments(rows);
+}
+
+/// What may touch while no node comes farther than the slack.
+void ContactFinder::find_near() {
+  // Corners of the ground look at all edges.
+  slack_ = ground_side_.edges.empty() ? std::numeric_limits<double>::infinity() : 0.0;
+  for (const int node : near_nodes_) is_near_[at(node)] = 0;
+  if (model_.contact) find_near_ground();
+  if (model_.surfaces) find_near_edges();
+  near_nodes_.clear();
+  for (const int node : boundary_)
+    if (is_near_[at(node)]) near_nodes_.push_back(node);
+}
+
+void ContactFinder::find_near_ground() {
+  slack_ = std::min(slack_, ground_margin_);
+  near_ground_.clear();
+  const contact::Ground& ground = model_.contact->ground;
+  const std::vector<int>& nodes = model_.contact->nodes;
+  const double far = 2.0 * ground_margin_;  // it may come by the margin in x and in y
+  for (std::size_t i = 0; i < nodes.size(); ++i) {
+    const Vec2 x = positions_[at(nodes[i])];
+    if (x.y > ground.top() + far || ground.distance(x) > far) continue;
+    near_ground_.push_back(static_cast<int>(i));
+    is_near_[at(nodes[i])] = 1;
+  }
+}
+
+/// With their neighbours, which say where a segment ends, and the edges of the candidates.
+void ContactFinder::find_near_edges() {
+  near_edges_.update(positions_);
+  slack_ = std::min(slack_, near_edges_.slack());
+  const auto mark = [&](int edge) {
+    for (const int node : surface_.edges[at(edge)]) is_near_[at(node)] = 1;
+  };
+  const std::span<const int> candidates = near_edges_.candidates();
+  for (std::size_t i = 0; i < candidates.size(); ++i) {
+    const int node = model_.surfaces->nodes[at(candidates[i])];
+    is_near_[at(node)] = 1;
+    for (int k = first_edge_[at(node)]; k < first_edge_[at(node) + 1]; ++k) mark(edges_at_[at(k)]);
+    for (const int edge : near_edges_.edges_near(i)) {
+      mark(edge);
+      for (const int beside : surface_.beside[at(edge)])
+        if (beside >= 0) mark(beside);
+    }
+  }
 }
 
 void ContactFinder::find_on_ground(std::size_t i, std::vector<ContactRow>& rows) const {
@@ -148,64 +248,54 @@ void ContactFinder::find_corner(std::size_t c, std::span<const int> edges,
   }
 }
 
-void ContactFinder::find_normals() {
-  for (const mesh::Edge& e : surface_.edges) outward_[at(e[0])] = outward_[at(e[1])] = Vec2{};
-  for (const mesh::Edge& e : surface_.edges) {
+/// Sum of the normals of a node's edges, out of the body.
+Vec2 ContactFinder::outward_of(int node) const {
+  Vec2 sum;
+  for (int i = first_edge_[at(node)]; i < first_edge_[at(node) + 1]; ++i) {
+    const mesh::Edge& e = surface_.edges[at(edges_at_[at(i)])];
     const Vec2 along = positions_[at(e[1])] - positions_[at(e[0])];
-    const Vec2 normal = -turn90(along) / norm(along);
-    outward_[at(e[0])] += normal;
-    outward_[at(e[1])] += normal;
+    sum += -turn90(along) / norm(along);
   }
-}
-
-/// An edge of another body, or of the same if that is wanted, that faces the node.
-bool ContactFinder::may_touch(std::size_t candidate, int edge) const {
-  const SurfaceContact& s = *model_.surfaces;
-  const auto node = at(s.nodes[candidate]);
-  const mesh::Edge& e = surface_.edges[at(edge)];
-  const bool same = body_of(node) == body_of(at(e[0]));
-  if (same && (!s.self || across_a_wall(node, e))) return false;
-  const Vec2 along = positions_[at(e[1])] - positions_[at(e[0])];
-  return dot(outward_[node], -turn90(along)) < 0.0;
-}
-
-/// The edge is the other side of a wall at the node: undeformed, the node is behind it, and near.
-bool ContactFinder::across_a_wall(std::size_t node, const mesh::Edge& edge) const {
-  const Vec2 a = model_.reference[at(edge[0])];
-  const Vec2 along = model_.reference[at(edge[1])] - a, to = model_.reference[node] - a;
-  if (cross(along, to) < 0.0) return false;  // in front: the outward normal is on the right
-  const double on = std::clamp(dot(along, to) / dot(along, along), 0.0, 1.0);
-  return norm(to - on * along) < norm(along);
+  return sum;
 }
 
 void ContactFinder::find_segments(std::vector<ContactRow>& rows) {
+  const std::span<const int> candidates = near_edges_.candidates();
+  for (std::size_t i = 0; i < candidates.size(); ++i)
+    find_touches(at(candidates[i]), near_edges_.edges_near(i), rows);
+}
+
+/// Of a candidate on the edges near it that face it.
+void ContactFinder::find_touches(std::size_t i, std::span<const int> near,
+                                 std::vector<ContactRow>& rows) {
   const SurfaceContact& s = *model_.surfaces;
-  find_normals();
-  grid_.update(positions_, surface_.edges, deepest_, 2.0 * deepest_);
-  for (std::size_t i = 0; i < s.nodes.size(); ++i) {
-    const int node = s.nodes[i];
-    grid_.near(positions_[at(node)], near_);
-    std::erase_if(near_, [&](int edge) { return !may_touch(i, edge); });
-    if (near_.empty()) continue;
-    const contact::EdgeTouches touches =
-        contact::touch_boundary({positions_[at(node)], node, body_of(at(node)), s.self},
-                                {surface_, positions_, near_, deepest_});
-    for (int t = 0; t < touches.count; ++t) {
-      const EdgeTouch& found = touches.at[at(t)];
-      const mesh::Edge& e = surface_.edges[at(found.edge)];
-      const double length = norm(positions_[at(e[1])] - positions_[at(e[0])]);
-      if (-found.touch.gap > surface_limit_[at(found.edge)]) continue;
-      ContactRow row;
-      row.kind = ContactKind::segment;
-      row.rows = contact::node_rows(found.touch, length, node, e[0], e[1]);
-      row.point = positions_[at(node)];
-      row.key = key_of(row.kind, i, at(found.edge));
-      row.normal = found.touch.normal;
-      row.gap = found.touch.gap;
-      row.tributary = 0.5 * s.tributary[i];  // the other side counts its own half
-      row.law = s.law;
-      rows.push_back(row);
-    }
+  const int node = s.nodes[i];
+  const Vec2 outward = outward_of(node);
+  facing_.clear();
+  for (const int edge : near) {
+    const mesh::Edge& e = surface_.edges[at(edge)];
+    const Vec2 along = positions_[at(e[1])] - positions_[at(e[0])];
+    if (dot(outward, -turn90(along)) < 0.0) facing_.push_back(edge);
+  }
+  if (facing_.empty()) return;
+  const contact::EdgeTouches touches =
+      contact::touch_boundary({positions_[at(node)], node, body_of(node), s.self},
+                              {surface_, positions_, facing_, deepest_});
+  for (int t = 0; t < touches.count; ++t) {
+    const EdgeTouch& found = touches.at[at(t)];
+    const mesh::Edge& e = surface_.edges[at(found.edge)];
+    const double length = norm(positions_[at(e[1])] - positions_[at(e[0])]);
+    if (-found.touch.gap > surface_limit_[at(found.edge)]) continue;
+    ContactRow row;
+    row.kind = ContactKind::segment;
+    row.rows = contact::node_rows(found.touch, length, node, e[0], e[1]);
+    row.point = positions_[at(node)];
+    row.key = key_of(row.kind, i, at(found.edge));
+    row.normal = found.touch.normal;
+    row.gap = found.touch.gap;
+    row.tributary = 0.5 * s.tributary[i];  // the other side counts its own half
+    row.law = s.law;
+    rows.push_back(row);
   }
 }
 

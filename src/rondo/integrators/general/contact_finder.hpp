@@ -5,17 +5,12 @@
 #include <cstddef>
 #include <vector>
 
-#include "rondo/contact/search.hpp"
 #include "rondo/contact/segment.hpp"
 #include "rondo/integrators/general/contact_row.hpp"
+#include "rondo/integrators/general/near_edges.hpp"
 #include "rondo/model/model.hpp"
 
 namespace rondo::dynamics {
-
-/// Lower left and upper right corner [m].
-struct Box {
-  Vec2 low, high;
-};
 
 /// A sharp corner of the ground and the edges that it may touch.
 struct NearCorner {
@@ -30,10 +25,23 @@ class ContactFinder {
   /// Rows with kind, nodes, key, normal, gap, tributary and law, in an order that only depends on
   /// the model and the places. @param rows replaced; its memory is kept
   void find(const State& state, std::vector<ContactRow>& rows);
+  /// Nodes whose places the next find() looks at, for callers that know how far any node has come
+  /// since the last one at most: fewer than boundary() as long as nothing else can touch.
+  /// @param travelled in x or y, at most                                                [m]
+  [[nodiscard]] std::span<const int> boundary_after(double travelled) noexcept;
+  /// The next find() looks at everything anew; what it finds is the same to the bit.
+  void forget() noexcept {
+    near_edges_.forget();
+    slack_ = 0.0;
+  }
+  /// Times that it looked at all edges between bodies.
+  [[nodiscard]] long long builds() const noexcept { return near_edges_.builds(); }
   /// Of these corners alone, and the ground at the nodes that they touch.
   /// @param nodes of the edges, and of the two edges on either side of each
   void find_at_corners(const State& state, std::span<const NearCorner> near,
                        std::span<const int> nodes, std::vector<ContactRow>& rows);
+  /// Nodes whose places find() looks at: of candidates and edges, ascending.
+  [[nodiscard]] std::span<const int> boundary() const noexcept { return boundary_; }
   /// (n) of the nodes that were looked at, fixed frame [m]
   [[nodiscard]] std::span<const Vec2> positions() const noexcept { return positions_; }
   /// Edges that a corner of the ground may touch: those of ContactModel, in their order.
@@ -47,12 +55,16 @@ class ContactFinder {
   void find_corner(std::size_t corner, std::span<const int> edges,
                    std::vector<ContactRow>& rows) const;
   void find_segments(std::vector<ContactRow>& rows);
-  void find_normals();
-  [[nodiscard]] int body_of(std::size_t node) const {
-    return model_.body.empty() ? 0 : model_.body[node];
+  [[nodiscard]] bool set_positions(const State& state);
+  void find_near();
+  void find_near_ground();
+  void find_near_edges();
+  void find_touches(std::size_t candidate, std::span<const int> near,
+                    std::vector<ContactRow>& rows);
+  [[nodiscard]] Vec2 outward_of(int node) const;
+  [[nodiscard]] int body_of(int node) const {
+    return model_.body.empty() ? 0 : model_.body[static_cast<std::size_t>(node)];
   }
-  [[nodiscard]] bool may_touch(std::size_t candidate, int edge) const;
-  [[nodiscard]] bool across_a_wall(std::size_t node, const mesh::Edge& edge) const;
   [[nodiscard]] Box box_of_candidates() const;
 
   const Model& model_;
@@ -60,11 +72,19 @@ class ContactFinder {
   contact::Boundary surface_;      ///< edges that a node may touch
   std::vector<double> ground_side_limit_, surface_limit_;  ///< (edges) depth of a touch  [m]
   double deepest_ = 0.0;                                   ///< the largest of them       [m]
+  std::vector<int> boundary_;
   std::vector<Vec2> positions_;  ///< (n) fixed frame                                [m]
-  std::vector<Vec2> outward_;    ///< (n) sum of the normals of a node's edges
-  contact::SegmentGrid grid_;
-  std::vector<int> near_;
-  std::vector<int> all_edges_;  ///< of the ground's side: few corners, each looks at them all
+  std::vector<int> first_edge_,
+      edges_at_;  ///< (n + 1), edges of the surface at each node, ascending
+  NearEdges near_edges_;
+  double ground_margin_ = 0.0;    ///< how far from the ground a candidate is near it      [m]
+  double slack_ = 0.0;            ///< how far nodes may come before all are looked at     [m]
+  bool near_alone_ = false;       ///< the next find() looks at what is near alone
+  std::vector<int> near_ground_;  ///< candidates, ascending
+  std::vector<int> near_nodes_;   ///< of what is near, ascending
+  std::vector<char> is_near_;     ///< (n)
+  std::vector<int> facing_;       ///< edges near a node that face it
+  std::vector<int> all_edges_;    ///< of the ground's side: few corners, each looks at them all
   std::vector<ContactRow> corner_rows_;
   std::vector<int> touched_;  ///< nodes of corner_rows_, ascending
 };

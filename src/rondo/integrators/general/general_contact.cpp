@@ -48,13 +48,18 @@ GeneralContact::GeneralContact(const Model& model)
   for (std::size_t i = 0; i < nodes->size(); ++i) candidate_[at((*nodes)[i])] = static_cast<int>(i);
 }
 
-ContactReport GeneralContact::solve(const BodyFrames& frames, Vec2 center, State& state) {
+std::span<const ContactRow> GeneralContact::find(const State& state) {
   if (model_.contact || model_.surfaces) finder_.find(state, rows_);
   if (!held_.empty())
     std::erase_if(rows_, [&](const ContactRow& row) {
       const int candidate = candidate_[at(row.rows.node[0])];
       return candidate >= 0 && held_[at(candidate)];
     });
+  return rows_;
+}
+
+ContactReport GeneralContact::solve(const BodyFrames& frames, Vec2 center, State& state) {
+  find(state);
   return solve_found(frames, center, state);
 }
 

@@ -25,14 +25,16 @@ class GeneralContact {
   /// Candidates whose contacts are solved elsewhere. @param held (nb)
   void leave_out(std::vector<char> held) { held_ = std::move(held); }
 
-  // The same of some sharp corners of the ground alone, in two parts: found at u, solved once the
-  // velocities without impulses are there.
+  // The same in two parts: found at u, solved once the velocities without impulses are there.
+  /// As ContactFinder::find.
+  std::span<const ContactRow> find(const State& state);
   /// As ContactFinder::find_at_corners. @return the contacts; each node of theirs has all of its
   /// own
   std::span<const ContactRow> find_at_corners(const State& state, std::span<const NearCorner> near,
                                               std::span<const int> nodes);
   ContactReport solve_found(const BodyFrames& frames, Vec2 center, State& state);
   [[nodiscard]] const ContactFinder& finder() const noexcept { return finder_; }
+  [[nodiscard]] ContactFinder& finder() noexcept { return finder_; }
 
   /// Problems that took more than model.coupled.dump_above iterations since the last call, the
   /// first few of them.

@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: BSD-3-Clause
+/// @file  Contacts of a step whose fields are not in the order of the nodes: the places of the
+/// boundary and the velocities of what touches come and go by node.
+#pragma once
+#include <span>
+#include <utility>
+#include <vector>
+
+#include "rondo/integrators/general/general_contact.hpp"
+
+namespace rondo::dynamics {
+
+/// A node in contact, vectors in its frame.
+struct TouchingNode {
+  int node = 0;
+  Vec2 before;  ///< v_{n+1/2}                                                            [m/s]
+  Vec2 free;    ///< v_{n+3/2} without impulses                                           [m/s]
+  Vec2 after;   ///< v_{n+3/2}                                                            [m/s]
+};
+
+class BodiesContact {
+ public:
+  explicit BodiesContact(const Model& model);
+
+  /// Nodes whose places the search looks at now, as ContactFinder::boundary_after().
+  [[nodiscard]] std::span<const int> boundary_after(double travelled) noexcept {
+    return contact_.finder().boundary_after(travelled);
+  }
+  /// Of these u_{n+1} is to be set before find()                                           [m]
+  [[nodiscard]] std::vector<Vec2>& displacement() noexcept { return state_.u; }
+  /// The nodes of what touches, ascending: `before` and `free` are to be set before solve().
+  std::span<TouchingNode> find(const FrameStep& frame);
+  /// Sets `after`. @param center about which the ground's angular impulse is taken         [m]
+  ContactReport solve(const BodyFrames& frames, Vec2 center);
+
+  /// Of the last step.
+  [[nodiscard]] const std::vector<ActiveContact>& active() const noexcept { return state_.active; }
+  [[nodiscard]] const GeneralContact::KeptImpulses& impulses() const noexcept {
+    return contact_.impulses();
+  }
+  /// Goes on from these, wherever the boundary is.
+  void restore(GeneralContact::KeptImpulses impulses) noexcept {
+    contact_.set_impulses(std::move(impulses));
+    contact_.finder().forget();
+  }
+  [[nodiscard]] std::vector<contact::ProblemFile> take_difficult() {
+    return contact_.take_difficult();
+  }
+
+ private:
+  GeneralContact contact_;
+  State state_;  ///< u of the boundary, v and v_next of what touches
+  std::vector<TouchingNode> touching_;
+};
+
+}  // namespace rondo::dynamics

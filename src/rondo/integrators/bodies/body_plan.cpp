@@ -1,0 +1,158 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "rondo/integrators/bodies/body_plan.hpp"
+
+#include <algorithm>
+#include <span>
+
+#include "rondo/core/contract.hpp"
+#include "rondo/core/sum.hpp"
+#include "rondo/integrators/fused/numbering.hpp"
+
+namespace rondo::dynamics {
+namespace {
+
+constexpr std::size_t lanes = kernels::lanes;
+/// Packs of a block at least, and blocks of a group at most.
+constexpr std::size_t fewest_packs = 16, most_blocks = 128;
+/// Rows of a length are brought together within so many rows: whole packs.
+constexpr std::size_t window = 8 * lanes;
+
+std::size_t row_length(const fem::BlockCsr& k, int node) noexcept {
+  const auto row = static_cast<std::size_t>(node);
+  return static_cast<std::size_t>(k.row_start[row + 1] - k.row_start[row]);
+}
+
+/// Neighbours near each other; within a short distance long rows first.
+std::vector<int> order_of(const fem::BlockCsr& k, std::span<const int> nodes) {
+  std::vector<int> order = row_order(k, nodes);
+  for (std::size_t i = 0; i < order.size(); i += window) {
+    const std::span rows = std::span(order).subspan(i, std::min(window, order.size() - i));
+    std::stable_sort(rows.begin(), rows.end(),
+                     [&](int a, int b) { return row_length(k, a) > row_length(k, b); });
+  }
+  return order;
+}
+
+void add_group(const Model& model, int body, std::span<const int> nodes, BodyPlan& plan) {
+  if (nodes.empty()) return;
+  const std::vector<int> order = order_of(model.stiffness, nodes);
+  BodyGroup group;
+  group.body = body;
+  group.first_pack = plan.n_packs;
+  plan.node.insert(plan.node.end(), order.begin(), order.end());
+  plan.n_packs += (order.size() + lanes - 1) / lanes;
+  plan.node.resize(plan.n_packs * lanes, -1);
+  group.last_pack = plan.n_packs;
+  const std::size_t packs = group.last_pack - group.first_pack;
+  const std::size_t blocks = std::clamp(packs / fewest_packs, std::size_t{1}, most_blocks);
+  group.first_block = plan.blocks.size();
+  for (std::size_t i = 0; i < blocks; ++i)
+    plan.blocks.push_back({plan.groups.size(), group.first_pack + packs * i / blocks,
+                           group.first_pack + packs * (i + 1) / blocks});
+  group.last_block = plan.blocks.size();
+  plan.groups.push_back(group);
+}
+
+void add_groups(const Model& model, BodyPlan& plan) {
+  std::vector<int> held;
+  std::size_t n_free = 0;
+  for (const int node : model.free)
+    if (!in_fixed_frame(model, static_cast<std::size_t>(node))) held.push_back(node);
+  add_group(model, -1, held, plan);
+  for (std::size_t b = 0; b < model.free_bodies.size(); ++b) {
+    add_group(model, static_cast<int>(b), model.free_bodies[b].nodes, plan);
+    n_free += model.free_bodies[b].nodes.size();
+  }
+  RONDO_DEMAND(held.size() + n_free == model.free.size(), held.size(), n_free, model.free.size());
+  plan.row.assign(model.n_nodes(), -1);
+  for (std::size_t i = 0; i < plan.node.size(); ++i)
+    if (plan.node[i] >= 0) plan.row[static_cast<std::size_t>(plan.node[i])] = static_cast<int>(i);
+}
+
+/// A pack is as long as its first row: order_of() has put the longest there.
+void add_starts(const fem::BlockCsr& k, BodyPlan& plan) {
+  plan.start.assign(1, 0);
+  for (std::size_t i = 0; i < plan.node.size(); i += lanes)
+    plan.start.push_back(plan.start.back() +
+                         static_cast<std::int64_t>(row_length(k, plan.node[i])));
+}
+
+/// Zero blocks on their own rows, which the rows' blocks then take the places of.
+void add_matrix(const fem::BlockCsr& k, BodyPlan& plan) {
+  add_starts(k, plan);
+  const std::size_t n = static_cast<std::size_t>(plan.start.back()) * lanes;
+  plan.stiffness = LargeArray(4 * n);
+  plan.column = LargeArrayOf<std::int32_t>(n);
+  for (std::size_t i = 0; i < plan.node.size(); ++i) {
+    const auto first = static_cast<std::size_t>(plan.start[i / lanes]);
+    const auto last = static_cast<std::size_t>(plan.start[i / lanes + 1]);
+    for (std::size_t at = first; at < last; ++at)
+      plan.column.data()[at * lanes + i % lanes] = static_cast<std::int32_t>(2 * i);
+    if (plan.node[i] < 0) continue;
+    const auto node = static_cast<std::size_t>(plan.node[i]);
+    std::size_t place = first * lanes + i % lanes;
+    for (auto at = k.row_start[node]; at < k.row_start[node + 1]; ++at, place += lanes) {
+      const auto b = static_cast<std::size_t>(at);
+      const auto [xx, yx, xy, yy] = k.values[b];
+      plan.column.data()[place] = 2 * plan.row[static_cast<std::size_t>(k.column[b])];
+      std::ranges::copy(std::array{xx, xy, yx, yy}, plan.stiffness.data() + 4 * place);
+    }
+  }
+}
+
+/// Of a row of a group.
+void add_constant(const Model& model, const BodyGroup& group, int row, BodyPlan& plan) {
+  const auto node = static_cast<std::size_t>(plan.node[static_cast<std::size_t>(row)]);
+  const Vec2 arm = model.reference[node] - group.center;
+  double* c = plan.constants.data() + BodyPlan::at(row);
+  c[0] = arm.x;
+  c[lanes] = arm.y;
+  c[2 * lanes] = model.mass[node];
+  c[3 * lanes] = model.dt / model.mass[node];
+}
+
+void add_constants(const Model& model, BodyPlan& plan) {
+  plan.constants = LargeArray(plan.n_packs * 4 * lanes);
+  for (BodyGroup& group : plan.groups) {
+    if (!group.held()) {
+      const FreeBody& body = model.free_bodies[static_cast<std::size_t>(group.body)];
+      group.mass = body.mass;
+      group.center = body.center;
+    }
+    CompensatedSum x, y, inertia;
+    for (std::size_t i = group.first_pack * lanes; i < group.last_pack * lanes; ++i) {
+      if (plan.node[i] < 0) continue;
+      add_constant(model, group, static_cast<int>(i), plan);
+      const double* c = plan.constants.data() + BodyPlan::at(static_cast<int>(i));
+      const Vec2 arm{c[0], c[lanes]};
+      const double mass = c[2 * lanes];
+      x.add(mass * arm.x);
+      y.add(mass * arm.y);
+      inertia.add(mass * dot(arm, arm));
+    }
+    group.offset = {x.value(), y.value()};
+    group.inertia = inertia.value();
+  }
+}
+
+}  // namespace
+
+std::size_t BodyPlan::group_of(int at_row) const noexcept {
+  const std::size_t pack = static_cast<std::size_t>(at_row) / lanes;
+  const auto group = std::ranges::upper_bound(groups, pack, {}, &BodyGroup::last_pack);
+  return static_cast<std::size_t>(group - groups.begin());
+}
+
+BodyPlan make_body_plan(const Model& model) {
+  const fem::BlockCsr& k = model.stiffness;
+  RONDO_DEMAND(k.row_start.size() == model.n_nodes() + 1, k.row_start.size(), model.n_nodes());
+  constexpr std::size_t most_nodes = 1U << 29U;  // twice the row, padding included, is a column
+  RONDO_DEMAND(model.free.size() < most_nodes, model.free.size());
+  BodyPlan plan;
+  add_groups(model, plan);
+  add_matrix(k, plan);
+  add_constants(model, plan);
+  return plan;
+}
+
+}  // namespace rondo::dynamics
