@@ -33,6 +33,16 @@ struct Condensation::Impl {
     return f;
   }
 
+  /// (n) 0 on the others.
+  [[nodiscard]] std::vector<Vec2> of_nodes(const Eigen::VectorXd& u) const {
+    std::vector<Vec2> field(n_nodes);
+    for (std::size_t i = 0; i < free.size(); ++i) {
+      const auto row = static_cast<Index>(2 * i);
+      field[static_cast<std::size_t>(free[i])] = {u[row], u[row + 1]};
+    }
+    return field;
+  }
+
   /// Columns of G for the candidates [begin, end) of the set, all rows.
   [[nodiscard]] Eigen::MatrixXd columns(std::size_t begin, std::size_t end) const {
     const auto width = static_cast<Index>(2 * (end - begin));
@@ -115,14 +125,23 @@ CondensedField Condensation::field(const Eigen::VectorXd& r) const {
   u += m.factor.solve(load - m.k * u);  // one refinement: round-off of the solve, not of the factor
   const Eigen::VectorXd force = m.k * u;
   CondensedField out;
-  out.u.assign(m.n_nodes, Vec2{});
-  for (std::size_t i = 0; i < m.free.size(); ++i) {
-    const auto row = static_cast<Index>(2 * i);
-    out.u[static_cast<std::size_t>(m.free[i])] = {u[row], u[row + 1]};
-  }
+  out.u = m.of_nodes(u);
   out.strain = 0.5 * u.dot(force);
   out.residual = load.norm() > 0.0 ? (force - load).norm() / load.norm() : 0.0;
   return out;
+}
+
+std::vector<Vec2> Condensation::displacement(std::span<const Vec2> force) const {
+  const Impl& m = *impl_;
+  Eigen::VectorXd f(m.k.rows());
+  for (std::size_t i = 0; i < m.free.size(); ++i) {
+    const Vec2 of_node = force[static_cast<std::size_t>(m.free[i])];
+    f.segment<2>(static_cast<Index>(2 * i)) << of_node.x, of_node.y;
+  }
+  const OneBlasThread one_thread;
+  Eigen::VectorXd u = m.factor.solve(f);
+  u += m.factor.solve(f - m.k * u);
+  return m.of_nodes(u);
 }
 
 }  // namespace rondo::statics

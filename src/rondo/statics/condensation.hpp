@@ -41,6 +41,8 @@ class Condensation {
   [[nodiscard]] const Eigen::MatrixXd& compliance() const noexcept;
   /// u = K⁻¹ Hᵀ r with one step of refinement. @param r (2m) [N/m]
   [[nodiscard]] CondensedField field(const Eigen::VectorXd& r) const;
+  /// K⁻¹ f likewise (n). @param force (n) [N/m]
+  [[nodiscard]] std::vector<Vec2> displacement(std::span<const Vec2> force) const;
 
  private:
   struct Impl;

@@ -86,7 +86,27 @@ double field_residual(const CondensedProblem& problem, const Condensation& body,
   return condensed_residual(problem, trial.solution.force, w);
 }
 
-/// Works of the increment by mean forces, exact for a linear body (6.4e).
+CrushState accept(const CrushModel& model, const Condensation& body, const CrushState& state,
+                  Trial& trial) {
+  CrushState next = state;
+  next.depth = trial.depth;
+  next.slide = trial.slide;
+  next.u = std::move(trial.field.u);
+  next.slip = std::move(trial.slip);
+  std::fill(next.force.begin(), next.force.end(), Vec2{});
+  std::fill(next.status.begin(), next.status.end(), Status::open);
+  for (std::size_t j = 0; j < body.set().size(); ++j) {
+    const auto row = static_cast<Index>(2 * j);
+    next.force[body.set()[j]] = {trial.solution.force[row], trial.solution.force[row + 1]};
+    next.status[body.set()[j]] = trial.solution.status[j];
+  }
+  next.works.strain = next.works.internal = trial.field.strain;
+  add_works(model, state, next);
+  return next;
+}
+
+}  // namespace
+
 void add_works(const CrushModel& model, const CrushState& before, CrushState& after) {
   CompensatedSum contact;
   const Vec2 travel = {after.depth - before.depth, after.slide - before.slide};
@@ -104,32 +124,11 @@ void add_works(const CrushModel& model, const CrushState& before, CrushState& af
   w.rim = after.sums[0].value();
   w.friction = after.sums[1].value();
   w.impact = after.sums[2].value();
-  w.residual = w.strain - w.contact;
+  w.residual = w.internal - w.contact;
   w.exchanged = std::max(w.exchanged, w.strain + std::abs(w.contact));
   const double relative = w.residual != 0.0 ? std::abs(w.residual) / w.exchanged : 0.0;
   w.relative = keep_larger(w.relative, relative);
 }
-
-CrushState accept(const CrushModel& model, const Condensation& body, const CrushState& state,
-                  Trial& trial) {
-  CrushState next = state;
-  next.depth = trial.depth;
-  next.slide = trial.slide;
-  next.u = std::move(trial.field.u);
-  next.slip = std::move(trial.slip);
-  std::fill(next.force.begin(), next.force.end(), Vec2{});
-  std::fill(next.status.begin(), next.status.end(), Status::open);
-  for (std::size_t j = 0; j < body.set().size(); ++j) {
-    const auto row = static_cast<Index>(2 * j);
-    next.force[body.set()[j]] = {trial.solution.force[row], trial.solution.force[row + 1]};
-    next.status[body.set()[j]] = trial.solution.status[j];
-  }
-  next.works.strain = trial.field.strain;
-  add_works(model, state, next);
-  return next;
-}
-
-}  // namespace
 
 CrushModel make_crush_model(std::span<const Vec2> reference, std::span<const int> nodes,
                             double friction) {

@@ -30,12 +30,13 @@ CrushModel make_crush_model(std::span<const Vec2> reference, std::span<const int
 
 /// Works since first touch, (6.4e).                                                      [J/m]
 struct CrushWorks {
-  double strain = 0.0;     ///< ½ uᵀ K u, computed apart from the works
+  double strain = 0.0;     ///< stored: ½ uᵀ K u, computed apart from the works
+  double internal = 0.0;   ///< done against the forces of the body: of a linear one `strain`
   double contact = 0.0;    ///< of the ground on the body, in u
   double rim = 0.0;        ///< of the rim by coming down and by sliding
   double friction = 0.0;   ///< dissipated
   double impact = 0.0;     ///< the rest: gaps that close or open within an increment
-  double residual = 0.0;   ///< strain - contact
+  double residual = 0.0;   ///< internal - contact
   double exchanged = 0.0;  ///< largest strain + |contact| so far
   double relative = 0.0;   ///< largest |residual| / exchanged so far [-]
 };
@@ -51,6 +52,10 @@ struct CrushState {
   CrushWorks works;
   std::array<CompensatedSum, 3> sums;  ///< of rim, friction, impact: for the next increment
 };
+
+/// Adds the works of the increment between two states by mean forces (6.4e). @pre the energies of
+/// the later one, and `internal`, are there
+void add_works(const CrushModel& model, const CrushState& before, CrushState& after);
 
 /// At first touch: all zero.
 CrushState start_crush(const CrushModel& model, std::size_t n_nodes);

@@ -2,6 +2,10 @@
 #include "rondo/statics/stationary_spin.hpp"
 
 #include <Eigen/CholmodSupport>
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <utility>
 
 #include "rondo/core/blas_threads.hpp"
 
@@ -62,7 +66,88 @@ StationarySpin solve(const fem::BlockCsr& k, std::span<const double> mass,
   return out;
 }
 
+/// A body of rubber that turns.
+struct TurningRubber {
+  const fem::Hyperelasticity& body;
+  std::span<const double> mass;
+  std::span<const Vec2> reference;
+  std::span<const int> free;
+};
+
+/// s² M (X + u) - f(u) on the free nodes, and how large its first part is.
+struct Unbalanced {
+  Eigen::VectorXd force;
+  double relative = 0.0;
+  bool inverted = false;
+};
+
+Unbalanced unbalanced(const TurningRubber& r, double square, std::span<const Vec2> u) {
+  fem::Hyperelasticity::Pass pass;
+  std::vector<Vec2> gradient(u.size());
+  Unbalanced out{Eigen::VectorXd(static_cast<Eigen::Index>(2 * r.free.size()))};
+  out.inverted = !(r.body.gradient(u, {}, gradient, pass).ratio > 0.0);
+  double pull = 0.0;
+  for (std::size_t i = 0; i < r.free.size(); ++i) {
+    const auto k = static_cast<std::size_t>(r.free[i]);
+    const Vec2 load = square * r.mass[k] * (r.reference[k] + u[k]), rest = load - gradient[k];
+    out.force.segment<2>(static_cast<Eigen::Index>(2 * i)) << rest.x, rest.y;
+    pull += dot(load, load);
+  }
+  out.relative = pull > 0.0 ? out.force.norm() / std::sqrt(pull) : 0.0;
+  return out;
+}
+
+/// Newton's method from u on; false where it does not get there.
+bool balance(const TurningRubber& r, double square, StationarySpin& out) {
+  constexpr int most_iterations = 40;
+  constexpr double enough = 1e-13;
+  constexpr double round_off = 1e-12;  // of a step, over the size of the body
+  const Eigen::VectorXd mass = mass_vector(r.mass, r.free);
+  double size = 0.0;
+  for (const Vec2 x : r.reference) size = std::max(size, norm(x));
+  double best = std::numeric_limits<double>::infinity();
+  for (int iteration = 0; iteration < most_iterations; ++iteration) {
+    const Unbalanced rest = unbalanced(r, square, out.u);
+    if (rest.inverted || !rest.force.allFinite()) return false;
+    out.residual = rest.relative;
+    Cholesky solver;
+    if (!factorise(solver, shifted(r.body.tangent(out.u), mass, r.free, square))) return false;
+    const Eigen::VectorXd step = solver.solve(rest.force);
+    if (rest.relative <= enough ||
+        (rest.relative >= 0.5 * best && step.lpNorm<Eigen::Infinity>() <= round_off * size))
+      return true;  // and stable
+    best = std::min(best, rest.relative);
+    for (std::size_t i = 0; i < r.free.size(); ++i)
+      out.u[static_cast<std::size_t>(r.free[i])] +=
+          Vec2{step[static_cast<Eigen::Index>(2 * i)], step[static_cast<Eigen::Index>(2 * i + 1)]};
+  }
+  return false;
+}
+
 }  // namespace
+
+StationarySpin stationary_spin(const fem::Hyperelasticity& body, std::span<const double> mass,
+                               std::span<const Vec2> reference, std::span<const int> free,
+                               double spin) {
+  constexpr double smallest_part = 1.0 / 256.0;  // of s²
+  const TurningRubber rubber{body, mass, reference, free};
+  const OneBlasThread one_thread;
+  StationarySpin found;
+  found.u.assign(reference.size(), Vec2{});
+  double done = 0.0, part = 1.0;
+  while (done < 1.0) {
+    const double next = std::min(1.0, done + part);
+    StationarySpin trial = found;
+    if (balance(rubber, next * spin * spin, trial)) {
+      found = std::move(trial);
+      done = next;
+    } else if ((part *= 0.5) < smallest_part) {
+      return {SpinStatus::unstable, std::vector<Vec2>(reference.size()), trial.residual};
+    }
+  }
+  found.status = SpinStatus::solved;
+  return found;
+}
 
 StationarySpin stationary_spin(const fem::BlockCsr& k, std::span<const double> mass,
                                std::span<const Vec2> reference, std::span<const int> free,

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "rondo/fem/assembly.hpp"
+#include "rondo/fem/hyperelastic/hyperelasticity.hpp"
 #include "rondo/fem/sector_stiffness.hpp"
 
 namespace rondo::statics {
@@ -23,6 +24,13 @@ struct StationarySpin {
 
 /// Sparse Cholesky (CHOLMOD). @param spin s [rad/s]; others (n).
 [[nodiscard]] StationarySpin stationary_spin(const fem::BlockCsr& k, std::span<const double> mass,
+                                             std::span<const Vec2> reference,
+                                             std::span<const int> free, double spin);
+
+/// Of a body of rubber at finite strain: f(u) = s² M (X + u) by Newton's method, with less of the
+/// spin first where that is needed. "unstable" too where no way was found to the whole of it.
+[[nodiscard]] StationarySpin stationary_spin(const fem::Hyperelasticity& body,
+                                             std::span<const double> mass,
                                              std::span<const Vec2> reference,
                                              std::span<const int> free, double spin);
 
