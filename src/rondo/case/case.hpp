@@ -33,11 +33,32 @@ struct MeshCase {
   std::string contact;         ///< physical curve of candidates; empty: none
 };
 
+/// Of a viscous branch, over the shear modulus of slow strains.
+inline constexpr double most_relative_modulus = 1e6;
+
+enum class MaterialModel { linear, neo_hooke, mooney_rivlin, yeoh, ogden };
+enum class Quadrature { full, b_bar, one_point };
+
+/// What a case says of a material beside E, ν and ρ. Of rubber fem::Material::rubber, E and ν come
+/// from it (fill_material). What is not of its model means nothing.
+struct MaterialLaw {
+  MaterialModel model = MaterialModel::linear;
+  double shear_modulus = 0.0;                         ///< of "neo-hooke"                 [Pa]
+  double c10 = 0.0, c01 = 0.0, c20 = 0.0, c30 = 0.0;  ///< of those that have them        [Pa]
+  std::vector<std::array<double, 2>> terms;           ///< of "ogden": μ_i [Pa], α_i
+  std::optional<double> bulk_modulus;                 ///< of rubber; absent: ν is given  [Pa]
+  Quadrature integration = Quadrature::full;
+  std::vector<std::array<double, 2>> viscosity;  ///< of rubber: relative modulus, time [s]
+
+  [[nodiscard]] bool is_rubber() const noexcept { return model != MaterialModel::linear; }
+};
+
 /// Material of a part of the body, where it differs from [material].
 struct MaterialRegion {
   std::string surface;      ///< of a mesh: physical surface
   std::vector<int> layers;  ///< of a disk: layers of elements, 1 at the rim
   fem::Material material;
+  MaterialLaw law;
 };
 
 enum class StressStiffening { none, centrifugal };
@@ -119,6 +140,9 @@ struct ElementChoice {
   std::string region;                 ///< physical surface of a mesh
 };
 
+/// Default of time.safety where some part is rubber.
+inline constexpr double rubber_safety = 0.85;
+
 /// Of the scheme "hati": which elements are explicit, in fine steps.
 struct HatiCase {
   ElementChoice fine;  ///< by layers or region
@@ -127,7 +151,7 @@ struct HatiCase {
 
 struct Time {
   double end = 0.0;            ///< > 0 [s]
-  double safety = 0.8;         ///< step / critical step, 0 < safety <= 1
+  double safety = 0.8;         ///< step / critical step, 0 < safety <= 1; rubber: rubber_safety
   std::optional<double> step;  ///< given step, of "hati" the fine one [s]; excludes safety
   Scheme scheme = Scheme::symplectic;
 };
@@ -159,6 +183,7 @@ struct Case {
   bool free_rim = false;         ///< of a disk: nothing holds its inner boundary
   std::optional<MeshCase> mesh;  ///< instead of the disk
   fem::Material material;
+  MaterialLaw law;  ///< of the material
   std::vector<MaterialRegion> regions;
   StressStiffening stress_stiffening = StressStiffening::none;
   std::vector<PressureCase> pressures;
@@ -189,6 +214,9 @@ inline bool is_held(const Case& c) {
 inline bool may_be_free(const Case& c) {
   return c.mesh.has_value() || c.free_rim;
 }
+
+/// Some part of the body is rubber at finite strain.
+bool has_rubber(const Case& c) noexcept;
 
 /// Reads and validates. `settings` are the "a.b=value" of --set, applied before validation; a value
 /// that is not TOML is taken as a string. @throws InputError with every fault, in the file's order.

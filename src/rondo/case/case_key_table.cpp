@@ -21,9 +21,11 @@ constexpr Allowed between(double low, double high) {
   return {{low, high, false, false}};
 }
 constexpr Allowed choice(std::string_view a, std::string_view b, std::string_view c = {},
-                         std::string_view d = {}) {
-  return {{}, {a, b, c, d}};
+                         std::string_view d = {}, std::string_view e = {}) {
+  return {{}, {a, b, c, d, e}};
 }
+constexpr Allowed model = choice("linear", "neo-hooke", "mooney-rivlin", "yeoh", "ogden");
+constexpr Allowed quadrature = choice("full", "b-bar", "one-point");
 constexpr Allowed kind_of_analysis() {
   Allowed allowed;
   for (std::size_t k = 0; k < std::size(analysis_kinds); ++k)
@@ -33,6 +35,31 @@ constexpr Allowed kind_of_analysis() {
 constexpr Allowed with(Allowed allowed, std::string_view also) {
   allowed.also = also;
   return allowed;
+}
+
+template <MaterialModel... models>
+bool is_of(const Case& c) {
+  return ((c.law.model == models) || ...);
+}
+template <MaterialModel... models>
+bool region_is_of(const Case& c, std::size_t k) {
+  return ((c.regions[k].law.model == models) || ...);
+}
+bool is_linear_or_by_ratio(const Case& c) {
+  return !c.law.is_rubber() || !c.law.bulk_modulus;
+}
+bool is_by_bulk(const Case& c) {
+  return c.law.is_rubber() && c.law.bulk_modulus;
+}
+bool region_is_by_ratio(const Case& c, std::size_t k) {
+  return !c.regions[k].law.is_rubber() || !c.regions[k].law.bulk_modulus;
+}
+bool region_is_rubber(const Case& c, std::size_t k) {
+  return c.regions[k].law.is_rubber();
+}
+/// In a body of linear materials alone the quadrature of all is that of [material].
+bool region_has_integration(const Case& c, std::size_t k) {
+  return has_rubber(c) || c.regions[k].law.integration != c.law.integration;
 }
 
 bool has_mesh(const Case& c) {
@@ -91,6 +118,9 @@ bool is_by_safety(const Case& c) {
 
 constexpr Use optional{};
 constexpr Use required{true};
+constexpr Use of_region = optional.said("that of [material]");
+
+using enum MaterialModel;
 
 #define FIELD(member) [](Case& c, [[maybe_unused]] std::size_t k) { return field_of(c.member); }
 #define CHOICE(member) [](Case& c, std::size_t /*k*/) -> Field { return choice_of(c.member); }
@@ -143,35 +173,95 @@ constexpr CaseKey keys[] = {
     {"mesh.contact", "-", FIELD(mesh->contact), any, optional,
      "physical curve whose nodes may touch the ground or other bodies; \"\": none"},
 
-    {"material.youngs_modulus", "Pa", FIELD(material.youngs_modulus), positive, required,
-     "Young's modulus E"},
-    {"material.poissons_ratio", "-", FIELD(material.poissons_ratio), poisson, required,
-     "Poisson's ratio ν. In plane strain above 0.49, with triangles above 0.45, there is a warning "
-     "where integration is full: elements are then far too stiff"},
+    {"material.model", "-", FIELD(law.model), model, optional.if_(has_rubber, "\"linear\""),
+     "\"linear\": isotropic elasticity of small strains, as published. The others are "
+     "[rubber](#rubber) at finite strain"},
+    {"material.youngs_modulus", "Pa", FIELD(material.youngs_modulus), positive,
+     required.if_(is_of<linear>, "required of \"linear\""), "Young's modulus E"},
+    {"material.shear_modulus", "Pa", FIELD(law.shear_modulus), positive,
+     required.if_(is_of<neo_hooke>, "required of \"neo-hooke\""),
+     "shear modulus μ: W = μ/2 (I₁ - 3)"},
+    {"material.c10", "Pa", FIELD(law.c10), any,
+     required.if_(is_of<mooney_rivlin, yeoh>, "required of \"mooney-rivlin\", \"yeoh\""),
+     "of W = c10 (I₁ - 3) + c01 (I₂ - 3), with μ = 2 (c10 + c01), or of W = c10 (I₁ - 3) + c20 (I₁ "
+     "- 3)² + c30 (I₁ - 3)³, with μ = 2 c10"},
+    {"material.c01", "Pa", FIELD(law.c01), any,
+     required.if_(is_of<mooney_rivlin>, "required of \"mooney-rivlin\""), "likewise"},
+    {"material.c20", "Pa", FIELD(law.c20), any, required.if_(is_of<yeoh>, "required of \"yeoh\""),
+     "likewise"},
+    {"material.c30", "Pa", FIELD(law.c30), any, required.if_(is_of<yeoh>, "required of \"yeoh\""),
+     "likewise"},
+    {"material.terms", "Pa, -", FIELD(law.terms), any,
+     required.if_(is_of<ogden>, "required of \"ogden\""),
+     "[[μ_1, α_1], ...] of W = Σ μ_i/α_i (λ₁^α_i + λ₂^α_i + λ₃^α_i - 3), with μ = ½ Σ μ_i α_i"},
+    {"material.bulk_modulus", "Pa", FIELD(law.bulk_modulus), positive,
+     optional.if_(is_by_bulk, "by material.poissons_ratio"),
+     "of rubber: bulk modulus κ, 2/3 to 1e7 times μ; or poissons_ratio"},
+    {"material.poissons_ratio", "-", FIELD(material.poissons_ratio), poisson,
+     required.if_(is_linear_or_by_ratio, "required without bulk_modulus"),
+     "Poisson's ratio ν; of rubber that of small strain, not below 0: κ = 2μ(1 + ν)/(3(1 - 2ν)). "
+     "In plane strain above 0.49, with triangles above 0.45, there is a warning where integration "
+     "is full: elements are then far too stiff"},
     {"material.density", "kg/m3", FIELD(material.density), positive, required, "density ρ"},
     {"material.plane", "-", FIELD(material.plane), choice("strain", "stress"), optional,
      "plane strain (a wide wheel) or plane stress (a thin sheet)"},
-    {"material.integration", "-", FIELD(material.integration), choice("full", "b-bar"), optional,
+    {"material.integration", "-", FIELD(law.integration), quadrature,
+     optional.said("\"full\"; of rubber \"b-bar\""),
      "quadrature of the stiffness: \"full\" 2×2 points, of a triangle one; \"b-bar\" takes the "
      "change of volume as a mean, of the quadrilateral or of the triangles around a node, which "
-     "does not lock near ν = 0.5"},
+     "does not lock near ν = 0.5. Rubber is by \"b-bar\" or, quadrilaterals, by \"one-point\" "
+     "and a stiffness against hourglasses, which takes half the time and is less exact"},
     {"material.stress_stiffening", "-", FIELD(stress_stiffening), choice("none", "centrifugal"),
      optional.of(in_motion_but_written),
      "\"centrifugal\": the stress of the stationary spin at the initial angular velocity stiffens "
      "the body, so that it does not soften as it spins. \"none\": small strain alone, as "
      "published"},
 
+    {"material.viscosity[].relative_modulus",
+     "-",
+     FIELD(law.viscosity[k][0]),
+     {{0.0, most_relative_modulus, true, false}},
+     required,
+     "g: shear modulus of the branch over μ, which is that of slow strains; at once there is "
+     "μ (1 + Σ g)"},
+    {"material.viscosity[].time", "s", FIELD(law.viscosity[k][1]), positive, required,
+     "τ, in which the stress of the branch falls to 1/e. Refused below the step"},
+
     {"material.region[].surface", "-", FIELD(regions[k].surface), any,
      required.if_(has_mesh, "required with a [mesh]"), "physical surface of the mesh"},
     {"material.region[].layers", "-", FIELD(regions[k].layers), between(1, 200000),
      optional.if_(has_no_mesh, "required with a [disk]"),
      "layers of elements of the disk, 1 at the rim; those of a tread count on"},
+    {"material.region[].model", "-", FIELD(regions[k].law.model), model,
+     of_region.if_(has_rubber, of_region.standard),
+     "its model. Where it is not that of [material], it takes nothing from there but the density"},
     {"material.region[].youngs_modulus", "Pa", FIELD(regions[k].material.youngs_modulus), positive,
-     optional.said("that of [material]"), "its Young's modulus"},
+     of_region.if_item(region_is_of<linear>, of_region.standard), "its Young's modulus"},
+    {"material.region[].shear_modulus", "Pa", FIELD(regions[k].law.shear_modulus), positive,
+     of_region.if_item(region_is_of<neo_hooke>, of_region.standard), "of its rubber"},
+    {"material.region[].c10", "Pa", FIELD(regions[k].law.c10), any,
+     of_region.if_item(region_is_of<mooney_rivlin, yeoh>, of_region.standard), "likewise"},
+    {"material.region[].c01", "Pa", FIELD(regions[k].law.c01), any,
+     of_region.if_item(region_is_of<mooney_rivlin>, of_region.standard), "likewise"},
+    {"material.region[].c20", "Pa", FIELD(regions[k].law.c20), any,
+     of_region.if_item(region_is_of<yeoh>, of_region.standard), "likewise"},
+    {"material.region[].c30", "Pa", FIELD(regions[k].law.c30), any,
+     of_region.if_item(region_is_of<yeoh>, of_region.standard), "likewise"},
+    {"material.region[].terms", "Pa, -", FIELD(regions[k].law.terms), any,
+     of_region.if_item(region_is_of<ogden>, of_region.standard), "likewise"},
+    {"material.region[].bulk_modulus", "Pa", FIELD(regions[k].law.bulk_modulus), positive,
+     of_region.if_item(region_is_rubber, of_region.standard), "likewise"},
     {"material.region[].poissons_ratio", "-", FIELD(regions[k].material.poissons_ratio), poisson,
-     optional.said("that of [material]"), "its Poisson's ratio"},
-    {"material.region[].density", "kg/m3", FIELD(regions[k].material.density), positive,
-     optional.said("that of [material]"), "its density"},
+     of_region.if_item(region_is_by_ratio, of_region.standard), "its Poisson's ratio"},
+    {"material.region[].density", "kg/m3", FIELD(regions[k].material.density), positive, of_region,
+     "its density"},
+    {"material.region[].integration", "-", FIELD(regions[k].law.integration), quadrature,
+     of_region.if_item(region_has_integration, "that of [material]; of another model, as there"),
+     "its quadrature"},
+    {"material.region[].viscosity", "-, s", FIELD(regions[k].law.viscosity), any,
+     of_region.if_item(region_is_rubber, of_region.standard),
+     "[[relative_modulus, time], ...]: branches of its rubber as those of [[material.viscosity]]; "
+     "[]: none"},
 
     {"damping.mass", "1/s", FIELD(damping.mass), not_negative, optional.body(is_lagged),
      "α. Damps a mode of angular frequency w at the ratio α/(2w): slow motions most; of a free "
@@ -199,9 +289,8 @@ constexpr CaseKey keys[] = {
      "towards +x where > 0, downhill"},
 
     {"rim.free", "-",
-     [](Case& c, std::size_t /*k*/) -> Field {
-       return ChoiceList{{&c.rim->free_x, &c.rim->free_y, &c.rim->free_spin}};
-     },
+     [](Case& c, std::size_t /*k*/)
+         -> Field { return ChoiceList{{&c.rim->free_x, &c.rim->free_y, &c.rim->free_spin}}; },
      choice("speed", "height", "angular_velocity"), required,
      "what forces move: of these, `[motion]` gives the value at t = 0. The others are held, as "
      "`[motion]` says. []: all of them, for their reactions"},
@@ -350,7 +439,7 @@ constexpr CaseKey keys[] = {
     {"time.safety", "-", FIELD(time.safety), with(share, "not together with time.step"),
      optional.if_(is_by_safety).body(never),
      "time-step factor: step over the critical step; of the scheme \"hati\" those of its fine "
-     "part"},
+     "part. With rubber 0.85 where it is left out"},
     {"time.step", "s", FIELD(time.step), with(positive, "not together with time.safety"),
      optional.if_(is_by_step, "none").body(never),
      "a given time step instead, of the scheme \"hati\" the fine one; at most 1e12 steps to the "
@@ -366,9 +455,10 @@ constexpr CaseKey keys[] = {
      optional.of(in_time),
      "how K u is formed: \"cyclic\" from the blocks of one sector, \"sparse\" from an assembled "
      "matrix; \"auto\" takes \"cyclic\" on every mesh of equal sectors, that is on every `[disk]`, "
-     "but where it is free, there is a `[contact]` of bodies, or `time.scheme` is not "
-     "\"symplectic\": "
-     "there \"cyclic\" is refused. The results are the same to round-off (docs/performance.md)"},
+     "but where it is free, there is a `[contact]` of bodies, some part is rubber, or "
+     "`time.scheme` "
+     "is not \"symplectic\": there \"cyclic\" is refused. The results are the same to round-off "
+     "(docs/performance.md)"},
     {"solver.contact_mass", "-", FIELD(contact_mass), choice("lumped", "singular", "singular-kept"),
      optional.of(in_time),
      "mass of the nodes that may touch the ground. \"lumped\": theirs. \"singular\": none; it goes "

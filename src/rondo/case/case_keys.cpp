@@ -35,6 +35,7 @@ constexpr Words words[] = {
     {"array of 2 floats", "[x, y], finite numbers"},
     {"array of 2 arrays of 2 floats", "[[a, b], [c, d]], finite numbers"},
     {"array of integers", ""},
+    {"array of pairs", "[[a, b], ...], finite numbers"},
 };
 
 const Words& words_of(KeyType type) {
@@ -116,6 +117,7 @@ struct TypeOf {
   KeyType operator()(const dynamics::Table* /*value*/) const { return history; }
   KeyType operator()(const std::vector<Vec2>* /*value*/) const { return profile; }
   KeyType operator()(const std::vector<int>* /*value*/) const { return integers; }
+  KeyType operator()(const std::vector<std::array<double, 2>>* /*value*/) const { return pairs; }
 };
 
 }  // namespace

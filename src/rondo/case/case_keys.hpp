@@ -30,7 +30,8 @@ enum class KeyType {
   profile,
   vector,
   matrix,
-  integers
+  integers,
+  pairs
 };
 
 /// An enum or a bool, by the index of its value among the choices of its key.
@@ -55,9 +56,10 @@ struct ChoiceList {
 using Matrix = std::array<std::array<double, 2>, 2>;
 
 /// Where in a case the value of a key is.
-using Field = std::variant<int*, double*, std::optional<double>*, bool*, std::string*,
-                           std::filesystem::path*, Choice, ChoiceList, Vec2*, Matrix*,
-                           dynamics::Table*, std::vector<Vec2>*, std::vector<int>*>;
+using Field =
+    std::variant<int*, double*, std::optional<double>*, bool*, std::string*, std::filesystem::path*,
+                 Choice, ChoiceList, Vec2*, Matrix*, dynamics::Table*, std::vector<Vec2>*,
+                 std::vector<int>*, std::vector<std::array<double, 2>>*>;
 
 template <class T>
 Field field_of(T& target) {
@@ -115,6 +117,9 @@ inline constexpr Analyses of_steady_rolling{bit_of(AnalysisKind::steady_rolling)
 constexpr bool always(const Case& /*c*/) {
   return true;
 }
+constexpr bool always(const Case& /*c*/, std::size_t /*k*/) {
+  return true;
+}
 constexpr bool never(const Case& /*c*/) {
   return false;
 }
@@ -122,11 +127,13 @@ constexpr bool never(const Case& /*c*/) {
 /// When a key counts, and what for.
 struct Use {
   using Test = bool (*)(const Case& c);
+  using TestOfItem = bool (*)(const Case& c, std::size_t k);
 
   bool required = false;
   Analyses required_in{~0U};    ///< of those below, the analyses that require it
   std::string_view standard{};  ///< for the manual, where the default is not that of the struct
   Test when = always;           ///< it is written, and required if it is
+  TestOfItem of_item = always;  ///< likewise of the k-th table of its list alone
   Analyses analyses{~0U};
   Test changes_body = always;  ///< runs that differ in it alone share no body: see body_key()
   bool may_change_on_resume = false;
@@ -135,6 +142,11 @@ struct Use {
   [[nodiscard]] constexpr Use if_(Test test, std::string_view text = {}) const {
     Use use = said(text);
     use.when = test;
+    return use;
+  }
+  [[nodiscard]] constexpr Use if_item(TestOfItem test, std::string_view text = {}) const {
+    Use use = said(text);
+    use.of_item = test;
     return use;
   }
   [[nodiscard]] constexpr Use said(std::string_view text) const {
@@ -196,6 +208,11 @@ std::span<const CaseTable> case_tables() noexcept;
 std::span<const CaseKey> keys_of(const CaseTable& table);
 /// The table that a key stands in.
 const CaseTable& table_with(const CaseKey& key);
+
+/// The k-th table of its list says something by this key: it is written, and required if it is.
+inline bool counts(const CaseKey& key, const Case& c, std::size_t k) {
+  return key.use.when(c) && key.use.of_item(c, k);
+}
 
 /// The key and its table mean something to this kind of analysis.
 bool means_to(const CaseKey& key, AnalysisKind kind);

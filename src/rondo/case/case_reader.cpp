@@ -41,7 +41,8 @@ void read_keys(CaseValues& in, Case& c) {
   if (c.mesh) c.mesh->file = c.file.parent_path() / c.mesh->file;
 }
 
-/// Where the kind of analysis is at fault, nothing is said of what only some kinds require.
+/// Where the kind of analysis is at fault, nothing is said of what only some kinds require; where
+/// what says which parameters a material has is, nothing of these.
 void require_keys(CaseValues& in, const Case& c) {
   for (const CaseTable& table : case_tables())
     for (std::size_t k = 0; k < table.count(c); ++k)
@@ -51,7 +52,9 @@ void require_keys(CaseValues& in, const Case& c) {
                                       means_to(key, c.analysis.kind));
         const std::string path = path_of(key, k);
         const bool required = key.use.required && key.use.required_in.contain(c.analysis.kind);
-        if (required && key.use.when(c) && asked && !in.has(path)) in.missing(path);
+        const bool known =
+            table.path != "material" || in.good({"material.model", "material.bulk_modulus"});
+        if (required && known && counts(key, c, k) && asked && !in.has(path)) in.missing(path);
       }
 }
 

@@ -98,9 +98,11 @@ void check_material(CaseValues& in, Case& c) {
       in.missing(table + ".layers");
   }
   if (c.mesh) check_names(in, "material.region[].surface", c);
+  check_materials(in, c);
   warn_of_locking("material.poissons_ratio", c.material, c);
   for (std::size_t k = 0; k < c.regions.size(); ++k)
-    if (c.regions[k].material.poissons_ratio != c.material.poissons_ratio)
+    if (c.regions[k].material.poissons_ratio != c.material.poissons_ratio ||
+        c.regions[k].material.integration != c.material.integration)
       warn_of_locking(item_of("material.region", k) + ".poissons_ratio", c.regions[k].material, c);
 }
 
@@ -272,6 +274,7 @@ void check_part(CaseValues& in, const Case& c, const std::string& table) {
 }
 
 std::string_view why_not_cyclic(const Case& c) {
+  if (has_rubber(c)) return "rubber at finite strain is no product with a sector's blocks";
   if (c.mesh) return "a mesh from a file is not known to be of equal sectors";
   if (c.free_rim) return "a free disk does not stay in the co-rotating frame of its sectors";
   if (c.rim && !c.pressures.empty())
@@ -312,6 +315,7 @@ void check_case(CaseValues& in, Case& c) {
   check_contact_mass(in, c);
   check_implicit(in, c);
   check_hati(in, c);
+  check_rubber(in, c);
   check_output(in, c);
 }
 

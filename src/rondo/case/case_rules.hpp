@@ -16,6 +16,12 @@ void check_analysis(CaseValues& in, Case& c);
 /// All other rules, and the warnings. @pre what means nothing to the analysis is left out
 void check_case(CaseValues& in, Case& c);
 
+/// Parameters of materials: those of their models, stable; fills Case::material and regions.
+void check_materials(CaseValues& in, Case& c);
+
+/// What rubber does not go with, and its default of time.safety.
+void check_rubber(CaseValues& in, Case& c);
+
 /// Rules of [rim], and where its supports are at rest if the case does not say.
 void check_rim(CaseValues& in, Case& c);
 

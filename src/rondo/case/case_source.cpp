@@ -199,6 +199,18 @@ void remove_rivals(CaseSource& from, std::string_view path) {
       });
 }
 
+/// Of a material likewise: one of them gives its change of volume.
+void remove_rival_of_volume(CaseSource& from, std::string_view path) {
+  const std::string_view table = table_of(path), leaf = leaf_of(path);
+  if (without_indices(table) != "material" && without_indices(table) != "material.region[]") return;
+  for (const auto& [one, other] :
+       {std::pair("bulk_modulus", "poissons_ratio"), std::pair("poissons_ratio", "bulk_modulus")})
+    if (leaf == one) {
+      const auto rival = from.values.find(fmt::format("{}.{}", table, other));
+      if (rival != from.values.end() && rival->second.place.source == 0) from.values.erase(rival);
+    }
+}
+
 /// "v = TEXT" as a table with the one key v; the text as a string where it is not TOML.
 toml::table parsed_setting(const std::string& text) {
   if (!nested_too_deeply(text)) {
@@ -270,6 +282,7 @@ void apply_setting(CaseSource& into, const std::string& setting) {
   const toml::table parsed = parsed_setting(text);
   remove(into, path);
   remove_rivals(into, path);
+  remove_rival_of_volume(into, path);
   Place place;
   place.source = source;
   for (auto dot = path.find('.'); dot != std::string::npos; dot = path.find('.', dot + 1))

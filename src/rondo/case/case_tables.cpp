@@ -34,9 +34,11 @@ constexpr CaseTable tables[] = {
     {"mesh", [](const Case& c) -> std::size_t { return c.mesh ? 1 : 0; },
      [](Case& c, std::size_t n) { set_there(c.mesh, n); }},
     {"material", one, nullptr},
+    {"material.viscosity[]", [](const Case& c) { return c.law.viscosity.size(); },
+     [](Case& c, std::size_t n) { c.law.viscosity.resize(n); }},
     {"material.region[]", [](const Case& c) { return c.regions.size(); },
      [](Case& c, std::size_t n) {
-       c.regions.resize(n, {{}, {}, c.material});
+       c.regions.resize(n, {{}, {}, c.material, c.law});
      }},
     {"damping", one, nullptr, in_motion},
     {"motion", one, nullptr, in_motion},

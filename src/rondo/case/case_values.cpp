@@ -316,6 +316,14 @@ void CaseValues::take(const Reading& in, std::vector<int>& target) {
   std::sort(target.begin(), target.end());
 }
 
+void CaseValues::take(const Reading& in, std::vector<std::array<double, 2>>& target) {
+  if (in.value.type != ValueType::array) return wrong_type(in, in.value, "an array of pairs");
+  if (in.value.items.empty() && in.key.use.required)
+    return bad(in, in.value, "must have at least one pair");
+  const auto found = pairs(in);
+  if (found.size() == in.value.items.size()) target = found;
+}
+
 /// Relative to the case file, as the mesh; also where --set names it.
 void CaseValues::take_profile_file(const Reading& in, std::vector<Vec2>& target) {
   const auto folder = std::filesystem::path(source_.sources[0].name).parent_path();

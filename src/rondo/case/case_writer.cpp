@@ -60,6 +60,10 @@ struct ValueText {
   std::string operator()(const std::vector<int>* value) const {
     return fmt::format("[{}]", fmt::join(*value, ", "));
   }
+  std::string operator()(const std::vector<std::array<double, 2>>* value) const {
+    if (value->empty()) return "[]";
+    return pairs_text(*value, [](const auto& p) { return pair_text(p[0], p[1]); });
+  }
   std::string operator()(const std::vector<Vec2>* value) const {
     if (*value == contact::GroundShape{}.profile) return "\"flat\"";
     return pairs_text(*value, [](Vec2 p) { return pair_text(p.x, p.y); });
@@ -78,7 +82,7 @@ bool is_left_out(const Field& field) {
 std::string lines_of(const CaseTable& table, std::size_t k, Case& c) {
   std::string lines;
   for (const CaseKey& key : keys_of(table))
-    if ((means_to(key, c.analysis.kind) || key.use.analyses.written) && key.use.when(c) &&
+    if ((means_to(key, c.analysis.kind) || key.use.analyses.written) && counts(key, c, k) &&
         !(table.is_list() && is_left_out(key.field(c, k))))
       lines += fmt::format("{} = {}\n", leaf_of(key.path), value_text(key, key.field(c, k)));
   return lines;

@@ -2,6 +2,7 @@
 /// @file  What a case is built into: all that its steps need and its results are made of.
 #pragma once
 #include <array>
+#include <memory>
 #include <string>
 #include <utility>
 #include <vector>
@@ -9,6 +10,10 @@
 #include "rondo/case/case.hpp"
 #include "rondo/model/model.hpp"
 #include "rondo/model/stability/critical_step.hpp"
+
+namespace rondo::fem {
+class Hyperelasticity;
+}
 
 namespace rondo::study {
 
@@ -22,10 +27,11 @@ struct ProbeSite {
 using Told = std::pair<std::string, std::string>;
 
 struct Setup {
-  mesh::Mesh mesh;                       ///< free bodies where they are at t = 0
-  std::vector<fem::Material> materials;  ///< one for each region of the mesh
-  fem::NodalDilatation dilatation;       ///< of triangles by B-bar, for their stress
-  std::vector<ProbeSite> probes;         ///< of output.probes
+  mesh::Mesh mesh;                                     ///< free bodies where they are at t = 0
+  std::vector<fem::Material> materials;                ///< one for each region of the mesh
+  std::shared_ptr<const fem::Hyperelasticity> rubber;  ///< all cells at finite strain; null: linear
+  fem::NodalDilatation dilatation;                     ///< of triangles by B-bar, for their stress
+  std::vector<ProbeSite> probes;                       ///< of output.probes
   dynamics::Model model;
   std::vector<char> implicit_cells;   ///< (e) 1: implicit; empty: none
   dynamics::CriticalStep critical;    ///< of the explicit elements; an infinite step: none

@@ -111,6 +111,13 @@ inline std::string with_line(int line, const std::string& replacement,
   return text.substr(0, begin) + replacement + text.substr(end);
 }
 
+/// The base with the lines of a rubber in the place of E and ν.
+inline std::string rubber(const std::string& law, const std::string& volume =
+                                                      "poissons_ratio = "
+                                                      "0.49") {
+  return with_line(11, law, with_line(12, volume));
+}
+
 /// The base with a tread in the place of its columns.
 inline std::string treaded() {
   return with_line(8, "") +

@@ -139,7 +139,7 @@ const std::vector<Wrong> wrongs{
      "integration = \"reduced\"",
      "material.integration",
      14,
-     {"\"reduced\"", "\"full\" or \"b-bar\""}},
+     {"\"reduced\"", "\"full\", \"b-bar\" or \"one-point\""}},
     {"StiffeningUnknown",
      14,
      "stress_stiffening = \"yes\"",

@@ -68,18 +68,34 @@ fine = {region = "skin"}
                "analysis.torque=100"},
         pulled{"analysis.kind=steady-rolling", "ground.profile=flat", "analysis.traction=100"};
     const std::string without_speed = with_line(20, "");
-    return std::vector<Case>{read_text(base, probe),
-                             read_text(treaded(), pressure),
-                             read_text(with_line(34, "step = 1e-6")),
-                             read_text(bodies),
-                             read_text(base, layers),
-                             read_text(base, parts),
-                             read_text(part),
-                             read_text(base, rim),
-                             read_text(base, steady),
-                             read_text(with_line(21, "", without_speed), loaded),
-                             read_text(without_speed, pulled),
-                             read_text(base, crush)};
+    const std::vector<std::string> viscous{
+        "material.viscosity=[{relative_modulus = 0.5, time = 0.001}]",
+        "material.region=[{layers = [2], model = 'linear', youngs_modulus = 1e9, "
+        "poissons_ratio = 0.3, integration = 'full'}, {layers = [3], viscosity = [[0.2, 0.01]]}]"},
+        of_rubber{"material.region=[{layers = [1], viscosity = [[0.2, 0.01], [0.1, 0.1]]}]"},
+        by_bulk{"material.region=[{layers = [1], bulk_modulus = 3e7, c10 = 1e5}]"};
+    return std::vector<Case>{
+        read_text(base, probe),
+        read_text(treaded(), pressure),
+        read_text(with_line(34, "step = 1e-6")),
+        read_text(bodies),
+        read_text(base, layers),
+        read_text(base, parts),
+        read_text(part),
+        read_text(base, rim),
+        read_text(base, steady),
+        read_text(with_line(21, "", without_speed), loaded),
+        read_text(without_speed, pulled),
+        read_text(rubber("model = 'neo-hooke'\nshear_modulus = 1e6"), viscous),
+        read_text(rubber("model = 'neo-hooke'\nshear_modulus = 1e6"), of_rubber),
+        read_text(rubber("model = 'mooney-rivlin'\nc10 = 4e5\nc01 = 1e5"),
+                  {"material.region=[{layers = [1], c01 = 2e5}]"}),
+        read_text(rubber("model = 'yeoh'\nc10 = 5e5\nc20 = -2e4\nc30 = 1e4", "bulk_modulus = 1e8"),
+                  by_bulk),
+        read_text(rubber("model = 'ogden'\nterms = [[6.3e5, 1.3], [1.2e3, "
+                         "5], [-1e4, -2]]"),
+                  {"material.region=[{layers = [1]}]"}),
+        read_text(base, crush)};
   }();
   return cases;
 }
@@ -97,7 +113,7 @@ inline bool is_given(const CaseKey& key, const Case& c) {
 
 inline bool is_written(const CaseKey& key, const Case& c) {
   const CaseTable& table = table_with(key);
-  return means_to(key, c.analysis.kind) && key.use.when(c) && table.count(c) > 0 &&
+  return means_to(key, c.analysis.kind) && table.count(c) > 0 && counts(key, c, 0) &&
          (!table.is_list() || is_given(key, c));
 }
 
@@ -135,6 +151,7 @@ struct Change {
     *value = dynamics::Table({{-1.0, value->at(0.0) + 0.5}, {0.5, 3.0}});
   }
   void operator()(std::vector<int>* value) const { *value = {3, 7}; }
+  void operator()(std::vector<std::array<double, 2>>* value) const { *value = {{0.7, 1.3}}; }
   void operator()(std::vector<Vec2>* value) const { *value = {{-1.5, 0.25}, {2.0, 0.25}}; }
 };
 

@@ -48,10 +48,16 @@ TEST(KeyTable, EveryKeyHasAFieldOfItsOwn) {
       EXPECT_TRUE(seen.insert(std::visit(address, key.field(c, k))).second) << key.path;
 }
 
+/// Other keys hang on it.
+bool is_model(const CaseKey& key) {
+  return leaf_of(key.path) == "model";
+}
+
 /// A value unlike the one before is written, and read back.
 TEST(KeyTable, EveryKeyRoundTrips) {
   for (const CaseKey& key : case_keys()) {
-    if (key.path == "schema" || key.path == "analysis.kind") continue;  // one value; other keys
+    if (key.path == "schema" || key.path == "analysis.kind" || is_model(key))
+      continue;  // one value; other keys hang on it
     SCOPED_TRACE(key.path);
     const Case before = case_with(key);
     Case c = with_another_value(key, before);
