@@ -40,6 +40,22 @@ class Modes(ProgramTest):
         self.assertEqual(done.stdout, "")
         return done.stderr
 
+    def test_rubber_has_those_of_its_small_strains(self):
+        """mu = 1e6, kappa = 1e8 Pa: nu = (3 kappa - 2 mu)/(6 kappa + 2 mu), E = 2 mu (1 + nu)."""
+        ratio = 298 / 602
+        linear = f"youngs_modulus = {2e6 * (1 + ratio)!r}, poissons_ratio = {ratio!r}, integration = 'b-bar'"
+        rubber = "model = 'neo-hooke', shear_modulus = 1e6, bulk_modulus = 1e8"
+        found = []
+        for k, law in enumerate([linear, rubber]):
+            out = self.folder / str(k)
+            done = run("modes", ANNULUS, "-o", out, *COARSE,
+                       "--set", "initial.state=rest",
+                       "--set", "material={density = 1100, " + law + "}")
+            self.assertEqual(done.returncode, 0, done.stderr)
+            self.assertEqual("small strain about the undeformed body" in done.stderr, k == 1)
+            found.append([float(r["frequency_rad_s"]) for r in table(out / "modes.csv")])
+        np.testing.assert_allclose(found[1], found[0], rtol=1e-9)
+
     def test_files(self):
         out, done = self.modes("--count", 7)
         self.assertEqual(sorted(p.name for p in out.iterdir()), FILES)

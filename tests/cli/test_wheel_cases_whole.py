@@ -104,6 +104,9 @@ EXPECTED = {
         *extremes("force_y", 107e3, 193e3, 1e3, FLAT),
         *extremes("on_the_body", -14.2e3, 15.1e3, 100.0, FLAT),
         Figure("center_y_m", np.max, 0.30028, 1e-5, FLAT)],
+    "rubber-tyre": [
+        Figure("force_y", np.mean, 20.1e3, 100.0, 0.06),
+        *extremes("center_y_m", 0.28903, 0.28949, 1e-5, 0.06)],
 }
 EACH_STEP = {"wheel-drop"}  # for the impulses and the times of contact
 

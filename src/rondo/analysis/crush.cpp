@@ -14,8 +14,10 @@
 #include "rondo/analysis/build/crush_setup.hpp"
 #include "rondo/analysis/build/physical.hpp"
 #include "rondo/analysis/out_of_range.hpp"
+#include "rondo/analysis/rubber_watch.hpp"
 #include "rondo/core/keep_larger.hpp"
 #include "rondo/output/columns.hpp"
+#include "rondo/statics/rubber_crush.hpp"
 
 namespace rondo::study {
 namespace {
@@ -134,12 +136,6 @@ std::string target(const AnalysisCase& a, int k) {
   return k <= a.increments ? depth : fmt::format("{}, slide {:.6g} m", depth, slide_of(a, k));
 }
 
-statics::CrushReport solve_increment(const AnalysisCase& a, int k, const CrushSetup& setup,
-                                     statics::Condensation& body, statics::CrushState& state) {
-  return k <= a.increments ? statics::press(setup.model, depth_of(a, k), body, state)
-                           : statics::draw(setup.model, slide_of(a, k), body, state);
-}
-
 struct KeptCrush {
   std::string key;
   std::shared_ptr<statics::Condensation> body;
@@ -167,7 +163,7 @@ class CrushAnalysis final : public Analysis {
         options_(options),
         setup_(build_crush(c)),
         ground_(c.ground->shape),
-        strain_(setup_.mesh) {
+        strain_(setup_.mesh, setup_.materials) {
     tell_physical_figures(c, setup_);
     if (options.resume)
       throw case_error(c, "analysis.kind", "a crush has no checkpoints to resume from",
@@ -197,6 +193,7 @@ class CrushAnalysis final : public Analysis {
   [[nodiscard]] double parameter_of(int k) const noexcept {
     return static_cast<double>(k) / case_.analysis.increments;
   }
+  statics::CrushReport solve_increment(int k);
   void count(const statics::CrushReport& report);
   void record_row(const statics::CrushReport& report, const Sums& sums, Recorder& recorder) const;
   void fill(const std::vector<Vec2>& before, const Sums& sums, Snapshot& snapshot) const;
@@ -206,7 +203,8 @@ class CrushAnalysis final : public Analysis {
   CrushSetup setup_;
   contact::Ground ground_;
   StrainWatch strain_;
-  std::shared_ptr<statics::Condensation> body_;
+  std::shared_ptr<statics::Condensation> body_;  ///< null: of rubber
+  std::optional<statics::RubberCrush> rubber_;
   double factor_s_ = 0.0;
   statics::CrushState state_;
   int increments_ = 0;        ///< done, whose results are kept
@@ -265,6 +263,11 @@ RecordPlan CrushAnalysis::record_plan() const {
 
 void CrushAnalysis::prepare() {
   const auto begin = Clock::now();
+  if (fem::has_rubber(setup_.materials)) {
+    auto body = std::make_shared<const fem::Hyperelasticity>(setup_.mesh, setup_.materials);
+    rubber_.emplace(setup_.model, std::move(body), setup_.free, setup_.reach);
+    return;
+  }
   body_ = factorised(case_, setup_, options_.shared);
   condense(case_, setup_, *body_);
   factor_s_ = std::chrono::duration<double>(Clock::now() - begin).count();
@@ -288,12 +291,21 @@ Progress CrushAnalysis::begin(Recorder& recorder) {
   return {0, n_increments()};
 }
 
+statics::CrushReport CrushAnalysis::solve_increment(int k) {
+  const AnalysisCase& a = case_.analysis;
+  if (rubber_) return rubber_->bring_to(depth_of(a, k), slide_of(a, k), state_);
+  return k <= a.increments ? statics::press(setup_.model, depth_of(a, k), *body_, state_)
+                           : statics::draw(setup_.model, slide_of(a, k), *body_, state_);
+}
+
 Progress CrushAnalysis::advance(Recorder& recorder) {
   const int k = increments_ + 1, n = n_increments();
   const std::vector<Vec2> before = state_.u;
-  const statics::CrushReport report = solve_increment(case_.analysis, k, setup_, *body_, state_);
+  const statics::CrushReport report = solve_increment(k);
   count(report);
-  std::string wrong = crush_trouble(report, state_.works, setup_.model.bound);
+  std::string wrong = rubber_ && !report.converged
+                          ? rubber_not_solved(report)
+                          : crush_trouble(report, state_.works, setup_.model.bound);
   if (wrong.empty()) wrong = beyond_files(setup_, state_);
   if (wrong.empty()) wrong = strain_.look(state_.u, {}, parameter_of(k));
   if (!wrong.empty()) {
@@ -349,7 +361,13 @@ void CrushAnalysis::summarise(Json& j, RunReport& r) const {
   strain_.summarise({"", " of the depth"}, j, r);
   j["increments_done"] = increments_;
   j["steps_done"] = increments_;
-  j["candidates_condensed"] = body_->set().size();
+  j["candidates_condensed"] = rubber_ ? rubber_->condensed() : body_->set().size();
+  if (rubber_) {
+    dynamics::MaterialReport material;
+    material.internal_work = state_.works.internal;
+    material.stored_energy = state_.works.strain;
+    summarise_rubber(material, state_.works.exchanged, j, r);
+  }
   j["contact_residual_max"] = residual_;
   j["equilibrium_residual_max"] = equilibrium_;
   j["energy_residual_relative"] = state_.works.relative;

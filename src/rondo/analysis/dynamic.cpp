@@ -14,6 +14,8 @@
 #include "rondo/analysis/build/memory.hpp"
 #include "rondo/analysis/build/step_limit.hpp"
 #include "rondo/analysis/elements/massless_boundary.hpp"
+#include "rondo/analysis/rubber_step.hpp"
+#include "rondo/analysis/rubber_watch.hpp"
 #include "rondo/case/case_source.hpp"
 #include "rondo/integrators/start.hpp"
 #include "rondo/output/resume.hpp"
@@ -175,14 +177,16 @@ long long DynamicAnalysis::next_snapshot() const noexcept {
 /// Takes the initial fields of the setup, which are not needed twice.
 Progress DynamicAnalysis::begin(Recorder& recorder) {
   history_.emplace(case_, setup_, from_ ? from_->history : HistoryPlace{});
-  bounds_ = {setup_.model.free_bodies.empty() ? residual_bound : free_residual_bound,
-             largest_strain_energy(setup_), impact_cure(setup_.model), guards_impacts()};
+  // Of free bodies of rubber it closes, as of those that are held.
+  const bool closes = setup_.model.free_bodies.empty() || fem::has_rubber(setup_.materials);
+  bounds_ = {closes ? residual_bound : free_residual_bound, largest_strain_energy(setup_),
+             impact_cure(setup_.model), guards_impacts()};
   watch_.emplace(case_, setup_);
   hub_.emplace(setup_);
   reports_.resize(steps_at_once(setup_));
   state_ = start(setup_.model, std::move(setup_.displacement), std::move(setup_.velocity),
                  std::move(setup_.half_velocity));
-  strain_.emplace(setup_.mesh, &setup_.model);
+  strain_.emplace(setup_.mesh, setup_.materials, &setup_.model);
   if (!from_) record_state(recorder);
   start_integrator();
   return {steps_, setup_.n_steps};
@@ -228,6 +232,7 @@ void DynamicAnalysis::take(const dynamics::StepReport& step, const dynamics::Sta
   ++steps_;
   contact_.add(step.contact);
   balance_ = step.balance;
+  material_ = step.material;
   judge(step);
   history_->observe(step, state, recorder.rows());
   recorder.rows_added();
@@ -242,6 +247,11 @@ void DynamicAnalysis::judge(const dynamics::StepReport& step) {
                      : step.contact.two_facets ? OutOfBound{held_by_two_facets(), false}
                                                : find_out_of_bound(step.balance, contact_, bounds_);
   if (found.what.empty() && setup_.model.rim) found = {look_at_rim(step), false};
+  if (step.material.least_volume <= 0.0) {
+    dynamics::State now(setup_.model);  // after the steps of this call
+    integrator_->fields(now);
+    found = {inverted_rubber(setup_.mesh, now.u, step.material.least_volume), false};
+  }
   if (found.what.empty() && step.contact_felt_joint) found = {felt_joint(), false};
   if (found.what.empty()) return;
   if (found.not_finite) {
@@ -289,7 +299,10 @@ void DynamicAnalysis::look() {
   if (trouble_) return;
   std::string passing = watch_->look(state_);
   if (!passing.empty()) warn(std::move(passing));
-  const std::string wrong = strain_->look(state_.u, state_.poses, state_.frame.time);
+  std::string wrong = strain_->look(state_.u, state_.poses, state_.frame.time);
+  if (wrong.empty() && setup_.rubber && integrator_ &&
+      rubber_step_.is_due(state_.step, strain_->largest().found.strain))
+    wrong = RubberStepWatch::look(setup_, integrator_->resumable()->save());
   if (!wrong.empty())
     trouble_ = fmt::format("step {} of {}, t = {:.9g} s: {}", state_.step, setup_.n_steps,
                            state_.frame.time, wrong);
@@ -373,6 +386,7 @@ void DynamicAnalysis::summarise(Json& j, RunReport& r) const {
   r.penetration_max_m = contact_.penetration;
   for (const std::string& warning : warnings_) j["warnings"].push_back(warning);
   strain_->summarise({}, j, r);
+  if (fem::has_rubber(setup_.materials)) summarise_rubber(material_, balance_.exchanged, j, r);
   j["steps_done"] = steps_;
   j["end_time"] = time;
   j["ns_per_dof_step"] = r.ns_per_dof_step;

@@ -11,6 +11,7 @@
 #include "rondo/analysis/boundary_watch.hpp"
 #include "rondo/analysis/build/rim.hpp"
 #include "rondo/analysis/out_of_range.hpp"
+#include "rondo/analysis/rubber_step.hpp"
 #include "rondo/case/setup.hpp"
 #include "rondo/integrators/integrator.hpp"
 #include "rondo/output/contact_statistics.hpp"
@@ -85,7 +86,9 @@ class DynamicAnalysis : public Analysis, public Resumable {
   long long steps_ = 0;
   ContactStatistics contact_;
   std::optional<StrainWatch> strain_;
+  RubberStepWatch rubber_step_;
   dynamics::Balance balance_;
+  dynamics::MaterialReport material_;
   std::optional<std::string> trouble_;
   std::vector<std::string> warnings_;  ///< given while it ran
   Bounds bounds_;

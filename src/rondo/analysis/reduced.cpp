@@ -59,6 +59,9 @@ void check_case(const Case& c, const RunOptions& options, const Setup& setup) {
     throw case_error(c, "time.scheme", "a reduced run has a scheme of its own",
                      "\"symplectic\", which it stands for");
   const dynamics::Model& model = setup.model;
+  if (has_rubber(c))
+    throw case_error(c, "material.model", "a reduced run is of small strain, and rubber is not",
+                     "\"linear\"; or the full run");
   if (c.contact_mass != ContactMass::lumped)
     throw case_error(c, "solver.contact_mass", "a reduced run knows contact nodes with mass alone",
                      "\"lumped\"");

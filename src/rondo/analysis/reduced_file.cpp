@@ -239,6 +239,7 @@ std::string body_text(const Case& c) {
   body.free_rim = c.free_rim;
   body.mesh = c.mesh;
   body.material = c.material;
+  body.law = c.law;
   body.regions = c.regions;
   body.stress_stiffening = c.stress_stiffening;
   if (c.stress_stiffening != StressStiffening::none)

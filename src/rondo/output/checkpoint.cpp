@@ -67,6 +67,9 @@ void for_deformation(Known& d, Visit&& visit) {
   visit("/deformation/strain", d.found.strain, {"1", "largest |principal strain|"});
   visit("/deformation/strain_cell", d.found.strain_cell, {"1", "its cell"});
   visit("/deformation/strain_time", d.strain_time, {"s", "its time"});
+  visit("/deformation/linear_strain", d.found.linear_strain, {"1", "likewise, without rubber"});
+  visit("/deformation/linear_cell", d.found.linear_cell, {"1", "its cell"});
+  visit("/deformation/linear_time", d.linear_time, {"s", "its time"});
   visit("/deformation/jacobian", d.found.jacobian, {"1", "smallest J of a corner"});
   visit("/deformation/jacobian_cell", d.found.jacobian_cell, {"1", "its cell"});
   visit("/deformation/jacobian_time", d.jacobian_time, {"s", "its time"});
@@ -134,6 +137,10 @@ void put_state(File& file, const dynamics::SavedState& s) {
   }
   put(file, "/state/contact", keys, {"1", "contacts that share nodes, by number"});
   put(file, "/state/impulse", impulses, {"N*s/m", "their impulses in the last step"});
+  put(file, "/state/branches", s.branches,
+      {"1", "viscous strains of rubber: xx, yy, xy of each branch of each element"});
+  put(file, "/state/internal_work", s.internal_work,
+      {"J/m", "of rubber: work and dissipation, and what their rounding left"});
   put(file, "/state/rim", s.rim, {"1", "what a loaded rim carries"});
   put(file, "/state/ring", s.ring, {"1", "contacts of a massless boundary"});
   put(file, "/state/interface", s.interface,
@@ -149,6 +156,8 @@ void get_state(const File& file, dynamics::SavedState& s) {
   s.u_before = get<Vec2>(file, "/state/u_before");
   s.gradient = get<Vec2>(file, "/state/gradient");
   s.energy = get<double>(file, "/state/energy");
+  s.branches = get<double>(file, "/state/branches");
+  s.internal_work = get<double>(file, "/state/internal_work");
   s.rim = get<double>(file, "/state/rim");
   s.ring = get<double>(file, "/state/ring");
   s.interface = get<Vec2>(file, "/state/interface");

@@ -23,7 +23,8 @@ struct HistoryRecord {
   double slip_ratio = 0.0;      ///< [1]
   dynamics::Balance balance;
   int iterations = 0, extensions = 0;  ///< of contact nodes without mass, most in a step
-  dynamics::RimReport rim;  ///< of a loaded rim; what holds it as means over the interval
+  dynamics::RimReport rim;            ///< of a loaded rim; what holds it as means over the interval
+  dynamics::MaterialReport material;  ///< of rubber
 };
 
 /// A row of contact.csv: a node in contact in a snapshot.
@@ -42,6 +43,8 @@ struct ContactRecord {
 [[nodiscard]] std::span<const Column<HistoryRecord>> rim_columns() noexcept;
 /// Behind those, where contact nodes have no mass.
 [[nodiscard]] std::span<const Column<HistoryRecord>> massless_columns() noexcept;
+/// Where some part is rubber.
+[[nodiscard]] std::span<const Column<HistoryRecord>> rubber_columns() noexcept;
 /// Those of the scheme "hati".
 [[nodiscard]] std::span<const Column<HistoryRecord>> hati_columns() noexcept;
 [[nodiscard]] std::span<const Column<ContactRecord>> contact_columns() noexcept;

@@ -42,6 +42,10 @@ std::vector<ColumnLabel> History::columns() const {
     const std::vector<ColumnLabel> massless = labels_of(massless_columns());
     labels.insert(labels.end(), massless.begin(), massless.end());
   }
+  if (fem::has_rubber(setup_.materials)) {
+    const std::vector<ColumnLabel> rubber = labels_of(rubber_columns());
+    labels.insert(labels.end(), rubber.begin(), rubber.end());
+  }
   if (setup_.model.subdomains) {
     const std::vector<ColumnLabel> hati = labels_of(hati_columns());
     labels.insert(labels.end(), hati.begin(), hati.end());
@@ -137,6 +141,10 @@ void History::append_row(const dynamics::StepReport& step, const dynamics::State
     r.iterations = at_.iterations;
     r.extensions = at_.extensions;
     append_values(massless_columns(), r, rows);
+  }
+  if (fem::has_rubber(setup_.materials)) {
+    r.material = step.material;
+    append_values(rubber_columns(), r, rows);
   }
   if (setup_.model.subdomains) append_values(hati_columns(), r, rows);
   append_probes(state, rows);

@@ -27,7 +27,7 @@ ProbeValues look_at(const ProbedBody& body, const ProbeSite& site, const dynamic
     return dynamics::elastic_displacement(body.model, state.poses, k, state.u[k]);
   };
   const auto corners =
-      fem::cell_stress(body.mesh, site.cell, fem::element_law(material), body.dilatation, elastic);
+      fem::cell_stress(body.mesh, site.cell, fem::stress_law(material), body.dilatation, elastic);
   for (std::size_t a = 0; a < n; ++a)
     for (std::size_t k = 0; k < values.stress.size(); ++k)
       values.stress[k] += site.weight[a] * corners[a][k];

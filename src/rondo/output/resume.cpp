@@ -97,18 +97,30 @@ void clear_without_checkpoint(const Case& c, const std::filesystem::path& direct
   io::clear_results_directory(directory);
 }
 
+/// Of all branches of all elements.
+std::size_t branch_numbers(const Setup& setup) {
+  std::size_t n = 0;
+  for (std::size_t e = 0; e < setup.mesh.cells.size(); ++e) {
+    const fem::Material& m = fem::material_of(setup.mesh, setup.materials, e);
+    if (m.rubber) n += 3 * m.rubber->branches.size();
+  }
+  return n;
+}
+
 /// All that the integrator of this model carries, and nothing else.
 bool fits(const dynamics::SavedState& s, const Setup& setup) {
   const dynamics::Model& model = setup.model;
   const std::size_t n = model.n_nodes(), n_free = model.free_bodies.size();
   const bool parts = model.subdomains.has_value();
-  const bool general = is_general(model) && !parts;
+  const bool general = is_general(model) && !is_of_bodies(model) && !parts;
   const bool rim = model.rim.has_value(), massless = has_massless_contact(model);
   const bool of_force = general || rim || (model.stiffness_damping > 0.0 && !parts);
   const std::size_t force = of_force ? n : 0;
   const std::size_t joined = parts ? 3 * model.subdomains->interface.size() : 0;
   const std::size_t rim_numbers = rim ? dynamics::LoadedRim::n_numbers : 0;
-  return s.u.size() == n && s.v.size() == n && s.force.size() == force &&
+  const std::size_t works = fem::has_rubber(setup.materials) ? 4 : 0;
+  return s.branches.size() == branch_numbers(setup) && s.internal_work.size() == works &&
+         s.u.size() == n && s.v.size() == n && s.force.size() == force &&
          s.gradient.size() == (general ? n : 0) && s.energy.size() == n_free &&
          s.poses.size() == n_free && s.u_before.size() == (rim ? n : 0) &&
          (massless ? dynamics::MasslessContact::is_saved(s.ring, model.contact->nodes.size())

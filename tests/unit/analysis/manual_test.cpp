@@ -14,8 +14,8 @@ namespace {
 
 using Labels = std::vector<ColumnLabel>;
 
-Labels history_of(const std::vector<std::string>& settings) {
-  const Case c = test::read_text(test::base, settings);
+Labels history_of(const std::vector<std::string>& settings, const std::string& text = test::base) {
+  const Case c = test::read_text(text, settings);
   return make_analysis(c, {})->record_plan().columns;
 }
 
@@ -44,6 +44,7 @@ TEST(Manual, HasTheColumns) {
   const Labels massless = history_of({"solver.contact_mass=singular"});
   const Labels hati =
       history_of({"time.scheme=hati", "solver.hati.ratio=1", "solver.hati.fine.layers=[12]"});
+  const Labels rubber = history_of({}, test::rubber("model = \"neo-hooke\"\nshear_modulus = 1e6"));
   const Labels crush = history_of({"analysis.kind=crush", "analysis.depth=0.01",
                                    "analysis.increments=1", "ground.profile=flat"});
   const std::vector<std::string> rolls{"analysis.kind=steady-rolling", "ground.profile=flat"};
@@ -52,8 +53,8 @@ TEST(Manual, HasTheColumns) {
       test::source_folder() / "docs" / "results.md",
       {table_of("history.csv", labels_of(history_columns())), table_of("probe", further(probe)),
        table_of("rim", further(rim)), table_of("massless", further(massless)),
-       table_of("hati", further(hati)), table_of("crush", further(crush)),
-       table_of("steady-rolling", further(steady)),
+       table_of("hati", further(hati)), table_of("rubber", further(rubber)),
+       table_of("crush", further(crush)), table_of("steady-rolling", further(steady)),
        table_of("contact.csv", labels_of(contact_columns())),
        table_of("contact.csv steady-rolling", further_contact_of(rolls))});
 }

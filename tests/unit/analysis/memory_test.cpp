@@ -38,6 +38,28 @@ TEST(Estimate, CountsNodes) {
   EXPECT_LE(motion_memory(c, disk) - program, still + 64'000'000U);
 }
 
+/// Cells, nodes, branches and the pattern of tangents; of layers the stiffness of the others,
+/// twice.
+TEST(Estimate, RubberAddsItsCells) {
+  constexpr std::size_t nodes = 13U * 180U, cells = 12U * 180U, stiffness = nodes * 9 * 36;
+  const auto of = [](const std::string& text, const std::vector<std::string>& settings = {}) {
+    const Case c = read_text(text, settings);
+    return rubber_memory(c, build_mesh(c));
+  };
+  const std::string neo = rubber("model = 'neo-hooke'\nshear_modulus = 1e6");
+  EXPECT_EQ(of(base), 0U);
+  EXPECT_EQ(of(neo), cells * 248 + nodes * 72 + stiffness);
+  EXPECT_EQ(of(neo, {"material.viscosity=[{relative_modulus = 0.3, time = 1}]"}),
+            cells * (248 + 48) + nodes * 72 + stiffness);
+  EXPECT_EQ(of(base, {"material.region=[{layers = [1, 2, 3], model = 'neo-hooke', shear_modulus = "
+                      "1e6, poissons_ratio = 0.49}]"}),
+            cells / 4 * 248 + nodes * 72 + stiffness + stiffness * 3 / 2);
+  const std::vector<std::string> still{"motion.angular_velocity=0.0"};  // no check of softening
+  const Case c = read_text(neo, still), linear = read_text(base, still);
+  const mesh::Mesh disk = build_mesh(c);
+  EXPECT_EQ(motion_memory(c, disk), motion_memory(linear, disk) + rubber_memory(c, disk));
+}
+
 TEST(Estimate, ACrushAddsTheFactorsAndWhatIsWithinReach) {
   Case c = read_text(base, {"motion.angular_velocity=0.0", "output.snapshots=0"});
   const std::size_t still = motion_memory(c, mesh::make_disk(c.disk));

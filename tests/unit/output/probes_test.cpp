@@ -89,6 +89,30 @@ TEST(Probes, OfAFreeBodyAreInTheFixedFrame) {
   EXPECT_NEAR(row[7], 0.0, bound);
 }
 
+/// Cauchy stress of a block of rubber stretched by half, along its own axis; likewise turned.
+TEST(Probes, OfFreeRubberHaveCauchyStress) {
+  const MeshCaseFile file(
+      "schema = 1\nmesh = {file = 'squares.msh', contact = 'skin'}\n"
+      "material = {model = 'neo-hooke', shear_modulus = 1e6, bulk_modulus = 1e8, density = 1000}\n"
+      "time = {end = 1e-3}\noutput = {probe = [{name = 'p', position = [0.2, 0.9]}]}\n");
+  const auto s = build(file.read(), 1);
+  dynamics::State state(s.model);
+  const Vec2 center = s.model.free_bodies[0].center, moved{7.0, 8.0};
+  state.poses[0] = {moved, {0.0, 1.0}, 0.0};
+  for (const int node : s.model.free_bodies[0].nodes) {
+    const auto k = static_cast<std::size_t>(node);
+    const Vec2 arm = s.model.reference[k] - center;
+    state.u[k] = moved + turn90(Vec2{1.5 * arm.x, arm.y / 1.5}) - s.model.reference[k];
+  }
+  std::vector<double> row;
+  append_probes({s.mesh, s.materials, s.model, s.dilatation}, s.probes, state, row);
+  const double xx = 2.25, yy = 1.0 / 2.25, mean = (xx + yy + 1.0) / 3.0;  // of B, J = 1
+  EXPECT_NEAR(row[4], 1e6 * (yy - mean), 1e-3);
+  EXPECT_NEAR(row[5], 1e6 * (xx - mean), 1e-3);
+  EXPECT_NEAR(row[6], 1e6 * (1.0 - mean), 1e-3);
+  EXPECT_NEAR(row[7], 0.0, 1e-3);
+}
+
 TEST(Probes, ColumnsAreNamed) {
   const std::vector<ColumnLabel> columns = probe_columns({{"a-1", {}}});
   EXPECT_EQ(names_of(columns),

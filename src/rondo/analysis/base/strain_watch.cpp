@@ -16,9 +16,13 @@ bool is_look(long long step, bool snapshot, long long before) noexcept {
   return snapshot && (before < 0 || step / every != before / every);
 }
 
-StrainWatch::StrainWatch(const mesh::Mesh& mesh, const dynamics::Model* model)
+StrainWatch::StrainWatch(const mesh::Mesh& mesh, std::span<const fem::Material> materials,
+                         const dynamics::Model* model)
     : mesh_(mesh), model_(model && !model->free_bodies.empty() ? model : nullptr) {
   if (model_) elastic_.resize(mesh.n_nodes());
+  if (!fem::has_rubber(materials)) return;
+  for (std::size_t e = 0; e < mesh.cells.size(); ++e)
+    rubber_.push_back(fem::material_of(mesh, materials, e).rubber ? 1 : 0);
 }
 
 std::string StrainWatch::cell_text(std::size_t cell) const {
@@ -32,13 +36,23 @@ std::string StrainWatch::look(std::span<const Vec2> u, std::span<const dynamics:
     dynamics::elastic_displacements(*model_, u, poses, elastic_);
     u = elastic_;
   }
-  const fem::Deformation now = fem::deformation(mesh_, u);
+  const fem::Deformation now = fem::deformation(mesh_, u, rubber_);
   largest_.add(now, time);
   if (now.jacobian > 0.0) return {};
   return fmt::format(
       "{} of the undeformed mesh is inverted: J = {:.3g}, least of its corners. The body "
-      "has left what its mesh and small strains mean; a smaller load, or a stiffer material",
-      cell_text(now.jacobian_cell), now.jacobian);
+      "has left what its mesh{}; a smaller load, or a stiffer material",
+      cell_text(now.jacobian_cell), now.jacobian,
+      rubber_.empty() || !rubber_[now.jacobian_cell] ? " and small strains mean" : " means");
+}
+
+std::string StrainWatch::small_strain_warning(const TimeWords& words) const {
+  return fmt::format(
+      "the largest strain{} is {:.3g} ({}, {}{:.4g}{}): the law of the material is for small "
+      "strains: above {:.0f} % results are rough",
+      rubber_.empty() ? "" : " of linear elements", largest_.found.linear_strain,
+      cell_text(largest_.found.linear_cell), words.before, largest_.linear_time, words.after,
+      100.0 * small_strain);
 }
 
 void StrainWatch::summarise(const TimeWords& words, Json& j, RunReport& r) const {
@@ -47,9 +61,6 @@ void StrainWatch::summarise(const TimeWords& words, Json& j, RunReport& r) const
   const auto place = [&](std::size_t cell) {
     const Vec2 at = mesh::middle_of(mesh_.coordinates, mesh_.cells[cell]);
     return Json::array({at.x, at.y});
-  };
-  const auto where = [&](std::size_t cell, double time) {
-    return fmt::format("{}, {}{:.4g}{}", cell_text(cell), words.before, time, words.after);
   };
   j["strain_max"] = found.strain;
   j["strain_max_cell"] = found.strain_cell;
@@ -61,11 +72,8 @@ void StrainWatch::summarise(const TimeWords& words, Json& j, RunReport& r) const
   j["jacobian_min_time"] = largest_.jacobian_time;
   r.strain_max = found.strain;
   r.jacobian_min = found.jacobian;
-  if (found.strain <= small_strain) return;
-  const std::string warning = fmt::format(
-      "the largest strain is {:.3g} ({}): the law of the material is for small strains: above "
-      "{:.0f} % results are rough",
-      found.strain, where(found.strain_cell, largest_.strain_time), 100.0 * small_strain);
+  if (found.linear_strain <= small_strain) return;
+  const std::string warning = small_strain_warning(words);
   j["warnings"].push_back(warning);
   r.warnings.push_back(warning);
 }

@@ -31,9 +31,10 @@ struct TimeWords {
 
 class StrainWatch {
  public:
-  /// @param model of the free bodies, whose rotation is no strain; null: there are none. Both must
-  /// outlive the object.
-  explicit StrainWatch(const mesh::Mesh& mesh, const dynamics::Model* model = nullptr);
+  /// @param materials one for each region of the mesh. @param model of the free bodies, whose
+  /// rotation is no strain; null: there are none. All must outlive the object.
+  StrainWatch(const mesh::Mesh& mesh, std::span<const fem::Material> materials,
+              const dynamics::Model* model = nullptr);
 
   /// @param u (n) finite [m] @param poses (free_bodies)
   /// @return the trouble: the inverted cell, with its place; empty: there is none
@@ -43,14 +44,17 @@ class StrainWatch {
   /// Goes on from what was seen before.
   void restore(const fem::LargestDeformation& before) noexcept { largest_ = before; }
 
-  /// Adds to run.json and to the report, which gets a warning above small_strain.
+  /// Adds to run.json and to the report, which gets a warning where a cell that is not rubber is
+  /// strained above small_strain.
   void summarise(const TimeWords& words, Json& json, RunReport& report) const;
 
  private:
   [[nodiscard]] std::string cell_text(std::size_t cell) const;
+  [[nodiscard]] std::string small_strain_warning(const TimeWords& words) const;
 
   const mesh::Mesh& mesh_;
   const dynamics::Model* model_;
+  std::vector<char> rubber_;   ///< (cells) 1: of rubber, whose strains may be large; empty: none is
   std::vector<Vec2> elastic_;  ///< (n) where bodies are free
   fem::LargestDeformation largest_;
 };

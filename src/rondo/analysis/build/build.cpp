@@ -12,6 +12,7 @@
 #include "rondo/analysis/build/memory.hpp"
 #include "rondo/analysis/build/physical.hpp"
 #include "rondo/analysis/build/rim.hpp"
+#include "rondo/analysis/build/rubber.hpp"
 #include "rondo/analysis/build/stability.hpp"
 #include "rondo/analysis/elements/implicit.hpp"
 #include "rondo/analysis/elements/massless_boundary.hpp"
@@ -96,6 +97,7 @@ void make_model(const Case& c, Setup& s) {
   if (model.stiffness_operator == dynamics::StiffnessOperator::sparse || !by_harmonics(model))
     model.stiffness = fem::assemble_stiffness(s.mesh, s.materials);
   model.stiffness_damping = c.damping.stiffness;
+  add_rubber(c, s);
 }
 
 /// What does not change the body: see body_key().
@@ -202,6 +204,24 @@ dynamics::CriticalStep find_critical_step(const Case& c, Setup& s) {
   return s.model.rim ? step_with_rim(s.model, held, damping) : held;
 }
 
+/// As stiff as the body is at once: with its viscous branches.
+dynamics::CriticalStep find_step_at_once(const Case& c, Setup& s) {
+  if (!fem::has_branches(s.materials)) return find_critical_step(c, s);
+  std::vector<fem::Material> materials = fem::instantaneous(s.materials);
+  fem::BlockCsr stiffness = fem::assemble_stiffness(s.mesh, materials);
+  std::optional<fem::SectorStiffness> sector;
+  if (s.model.sector) sector = fem::assemble_sector(s.mesh, materials);
+  const auto exchange = [&] {
+    std::swap(s.materials, materials);
+    std::swap(s.model.stiffness, stiffness);
+    std::swap(s.model.sector, sector);
+  };
+  exchange();
+  const dynamics::CriticalStep found = find_critical_step(c, s);
+  exchange();
+  return found;
+}
+
 }  // namespace
 
 void add_pressures(const Case& c, const mesh::Mesh& mesh, dynamics::Model& model) {
@@ -266,7 +286,7 @@ void make_body(const Case& c, int threads, Setup& s) {
   add_implicit(c, s);
   add_subdomains(c, s);
   choose_threads(s, threads);
-  s.critical = find_critical_step(c, s);
+  s.critical = find_step_at_once(c, s);
 }
 
 void demand_shared_body(const Case& c, int threads, SharedBody& shared) {
@@ -285,6 +305,7 @@ void set_up_run(const Case& c, Setup& s, SharedBody* shared) {
   const int ratio = s.model.subdomains ? s.model.subdomains->ratio : 1;
   s.model.dt = ratio * choose_step(c, s.critical);
   s.n_steps = count_steps(c, s.model.dt);
+  check_branches(c, s);
   set_initial_fields(c, s, shared);
   check_start(c, s);
   check_stability(c, s);

@@ -54,7 +54,7 @@ std::size_t crush_memory(const Case& c, const CrushSetup& s) {
   const bool pivots = c.ground->friction > 1.0;                // only then seen to be needed
   const double matrices = (pivots ? 7.5 : 3.0) * rows * rows;  // compliance and direct solves
   const bool wide_rows = has_wide_rows(c, s.mesh);
-  return mesh_memory(nodes) + stiffness_memory(nodes, wide_rows) +
+  return mesh_memory(nodes) + rubber_memory(c, s.mesh) + stiffness_memory(nodes, wide_rows) +
          factor_memory(2 * nodes, wide_rows) +
          (fields + static_cast<std::size_t>(matrices)) * sizeof(double);
 }
@@ -101,6 +101,15 @@ std::string crush_trouble(const statics::CrushReport& report, const statics::Cru
     return fmt::format("the energy does not balance: relative residual {:.3g}, bound {:.0e}",
                        works.relative, residual_bound);
   return {};
+}
+
+std::string rubber_not_solved(const statics::CrushReport& report) {
+  return fmt::format(
+      "no equilibrium of the rubber was found, in parts of the increment either: residual of the "
+      "equilibrium {:.3g}, of the contact law {:.3g}. The body may fold there, or its elements be "
+      "strained beyond what they can: a smaller analysis.depth or slide, a finer mesh, a smaller "
+      "ground.friction; or a dynamic run",
+      report.equilibrium, report.residual);
 }
 
 }  // namespace rondo::study

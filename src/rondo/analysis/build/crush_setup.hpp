@@ -42,4 +42,7 @@ void condense(const Case& c, const CrushSetup& setup, statics::Condensation& bod
 [[nodiscard]] std::string crush_trouble(const statics::CrushReport& report,
                                         const statics::CrushWorks& works, double bound);
 
+/// What is wrong where an increment of rubber was not solved.
+[[nodiscard]] std::string rubber_not_solved(const statics::CrushReport& report);
+
 }  // namespace rondo::study

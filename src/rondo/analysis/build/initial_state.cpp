@@ -17,17 +17,24 @@ std::size_t at(int index) noexcept {
   return static_cast<std::size_t>(index);
 }
 
+/// Of rubber at finite strain, else by K.
+statics::StationarySpin find_stationary(const Setup& s, double spin) {
+  const dynamics::Model& m = s.model;
+  if (fem::has_rubber(s.materials))
+    return statics::stationary_spin(fem::Hyperelasticity(s.mesh, s.materials), m.mass, m.reference,
+                                    held_nodes(m), spin);
+  if (by_harmonics(m)) return statics::stationary_spin(*m.sector, m.mass, m.reference, spin);
+  return statics::stationary_spin(m.stiffness, m.mass, m.reference, held_nodes(m), spin);
+}
+
 /// Of what is held; free bodies stay as they are.
 void set_stationary(const Case& c, Setup& s, SharedBody* shared) {
-  const dynamics::Model& m = s.model;
   const double spin = -c.motion.angular_velocity.at(0.0);
   if (shared && !shared->stationary.empty() && shared->spin == spin) {
     s.displacement = shared->stationary;
     return;
   }
-  auto stationary = by_harmonics(m) ? statics::stationary_spin(*m.sector, m.mass, m.reference, spin)
-                                    : statics::stationary_spin(m.stiffness, m.mass, m.reference,
-                                                               held_nodes(m), spin);
+  statics::StationarySpin stationary = find_stationary(s, spin);
   if (stationary.status != statics::SpinStatus::solved)
     throw case_error(c, "motion.angular_velocity",
                      "no stationary state: at this rotation speed the centrifugal softening "

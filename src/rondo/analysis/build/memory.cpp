@@ -7,6 +7,7 @@
 #include <cmath>
 #include <string>
 
+#include "rondo/analysis/build/bodies.hpp"
 #include "rondo/analysis/build/build.hpp"
 #include "rondo/analysis/build/stability.hpp"
 #include "rondo/case/case_rules.hpp"
@@ -55,7 +56,28 @@ static std::size_t ring_memory(std::size_t candidates) noexcept {
                   dynamics::RingMatrix::column_memory);
 }
 
-std::size_t motion_memory(const Case& c, const mesh::Mesh& mesh) noexcept {
+std::size_t rubber_memory(const Case& c, const mesh::Mesh& mesh) {
+  if (!has_rubber(c)) return 0;
+  const std::vector<fem::Material> materials = materials_of(c, mesh);
+  std::size_t n_rubber = 0, n_branches = 0;
+  for (std::size_t e = 0; e < mesh.cells.size(); ++e) {
+    const auto& rubber = fem::material_of(mesh, materials, e).rubber;
+    if (!rubber) continue;
+    ++n_rubber;
+    n_branches += rubber->branches.size();
+  }
+  // A cell as it is read and as it is laid out for the steps: corners, geometry, forces.
+  constexpr std::size_t of_cell = 248, of_branch = 6 * sizeof(double), of_node = 72;
+  const std::size_t one_stiffness = stiffness_memory(mesh.n_nodes(), has_wide_rows(c, mesh)) / 2;
+  const double linear_share =
+      1.0 - static_cast<double>(n_rubber) / static_cast<double>(mesh.cells.size());
+  std::size_t bytes = n_rubber * of_cell + n_branches * of_branch + mesh.n_nodes() * of_node;
+  bytes += one_stiffness;  // the pattern of tangents
+  bytes += static_cast<std::size_t>(2.0 * linear_share * static_cast<double>(one_stiffness));
+  return bytes;
+}
+
+std::size_t motion_memory(const Case& c, const mesh::Mesh& mesh) {
   const std::size_t nodes = mesh.n_nodes(), of_a_snapshot = 2 * nodes * sizeof(Vec2);
   const auto snapshots = static_cast<std::size_t>(c.output.snapshots);
   const bool harmonics = mesh.n_sectors > 0 && !c.free_rim &&
@@ -65,11 +87,11 @@ std::size_t motion_memory(const Case& c, const mesh::Mesh& mesh) noexcept {
       harmonics ? 2 * nodes / static_cast<std::size_t>(mesh.n_sectors) : 0;
   const bool sector_alone = harmonics && c.solver_operator != "sparse" && why_not_cyclic(c).empty();
   const bool wide_rows = has_wide_rows(c, mesh);
-  const bool factorised =
-      c.initial.state == InitialState::stationary ||
-      (c.motion.angular_velocity.largest() != 0.0 && softening_is_checked(2 * nodes, of_a_sector));
+  const bool factorised = c.initial.state == InitialState::stationary ||
+                          (c.motion.angular_velocity.largest() != 0.0 && !has_rubber(c) &&
+                           softening_is_checked(2 * nodes, of_a_sector));
   // Snapshots may wait to be written, where steps are faster than files.
-  std::size_t bytes = mesh_memory(nodes) +
+  std::size_t bytes = mesh_memory(nodes) + rubber_memory(c, mesh) +
                       std::min(snapshots, queue_length(snapshots, of_a_snapshot)) * of_a_snapshot;
   if (!sector_alone) bytes += stiffness_memory(nodes, wide_rows);
   if (factorised) bytes += factor_memory(harmonics ? of_a_sector : 2 * nodes, wide_rows);

@@ -17,8 +17,11 @@ std::size_t stiffness_memory(std::size_t nodes, bool wide_rows) noexcept;
 /// Of a Cholesky factor of a plane mesh, which fills in about n log2 n [B].
 std::size_t factor_memory(std::size_t dofs, bool wide_rows) noexcept;
 
+/// Of cells of rubber, their branches, and the matrices that come with them; 0: there are none [B].
+std::size_t rubber_memory(const Case& c, const mesh::Mesh& mesh);
+
 /// Of motion in time; large disks go without an assembled stiffness [B].
-std::size_t motion_memory(const Case& c, const mesh::Mesh& mesh) noexcept;
+std::size_t motion_memory(const Case& c, const mesh::Mesh& mesh);
 
 /// @param needed [B] @throws InputError at the key that makes the mesh so large: this process may
 /// not take that much memory

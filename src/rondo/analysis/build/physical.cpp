@@ -10,6 +10,7 @@
 
 #include "rondo/analysis/build/bodies.hpp"
 #include "rondo/analysis/build/rim.hpp"
+#include "rondo/analysis/build/rubber.hpp"
 
 namespace rondo::study {
 namespace {
@@ -66,7 +67,7 @@ void tell_deflection(double deflection, const Wall& wall, const fem::Material& m
   to.figures.emplace_back(
       "contact pressure",
       fmt::format("about {:.2g} Pa, {:.2g} of E", of_modulus * m.youngs_modulus, of_modulus));
-  if (share > deep_share)
+  if (share > deep_share && !m.rubber)
     to.warnings.push_back(
         fmt::format("the rim comes down by {:.4g} m, {:.3g} % of the {:.4g} m between it and the "
                     "ground at first touch, with a pressure of about {:.2g} of E: the law of the "
@@ -110,16 +111,19 @@ double fastest(const Case& c, const Setup& s, double radius) {
 }
 
 void tell_speed(double speed, const std::vector<fem::Material>& materials, const Tell& to) {
-  double shear = std::numeric_limits<double>::infinity();
-  for (const fem::Material& m : materials) shear = std::min(shear, fem::wave_speeds(m).shear);
-  const double share = speed / shear;
+  double shear = std::numeric_limits<double>::infinity(), of_linear = shear;  // the slowest
+  for (const fem::Material& m : materials) {
+    shear = std::min(shear, fem::wave_speeds(m).shear);
+    if (!m.rubber) of_linear = std::min(of_linear, fem::wave_speeds(m).shear);
+  }
   to.figures.emplace_back("speed", fmt::format("{:.4g} m/s, {:.2g} of the shear wave ({:.4g} m/s)",
-                                               speed, share, shear));
+                                               speed, speed / shear, shear));
+  const double share = speed / of_linear;
   if (share > fast_share)
     to.warnings.push_back(
         fmt::format("{:.4g} m/s is {:.3g} times the speed of shear waves ({:.4g} m/s): strains are "
                     "of about that size, and the law of the material is for small ones; {}",
-                    speed, share, shear, si));
+                    speed, share, of_linear, si));
 }
 
 void tell_stiffness(const std::vector<fem::Material>& materials, const Tell& to) {
@@ -204,6 +208,7 @@ std::optional<Wall> wall_of(const mesh::Mesh& mesh) {
 void tell_physical_figures(const Case& c, Setup& s) {
   const Tell to{s.figures, s.warnings};
   tell_stiffness(s.materials, to);
+  for (Told& told : rubber_lines(c, explicit_step(s.model))) s.figures.push_back(std::move(told));
   const std::optional<Wall> wall = is_held(c) ? wall_of(s.mesh) : std::nullopt;
   if (has_candidates(s.model))  // alone in space only spin strains: see the check of softening
     tell_speed(fastest(c, s, wall ? wall->radius : extent_of(s.mesh)), s.materials, to);
@@ -219,6 +224,7 @@ void tell_physical_figures(const Case& c, CrushSetup& s) {
   const Tell to{s.figures, s.warnings};
   warn_of_units(c, s.mesh, s.materials, s.warnings);
   tell_stiffness(s.materials, to);
+  for (Told& told : rubber_lines(c, 0.0)) s.figures.push_back(std::move(told));
   if (const std::optional<Wall> wall = wall_of(s.mesh))
     tell_deflection(c.analysis.depth, *wall, touching_material(s.mesh, s.materials), to);
 }

@@ -77,6 +77,7 @@ void warn_of_softening(const Case& c, Setup& s) {
   const dynamics::Model& m = s.model;
   const double spin = largest_until(c.motion.angular_velocity, c.time.end);
   if (spin == 0.0 || c.stress_stiffening != StressStiffening::none || !is_held(c)) return;
+  if (has_rubber(c)) return;  // stress stiffens it
   if (!softening_is_checked(2 * m.free.size(), by_harmonics(m) ? 2 * m.sector->n_local() : 0)) {
     s.warnings.push_back(
         fmt::format("the check of spin softening is left out above {} degrees of freedom, unless "
@@ -235,9 +236,9 @@ void warn_of_fast_contact(const Case& c, Setup& s) {
   s.warnings.push_back(fmt::format(
       "at {:.4g} m/s what may touch moves by {:.3g} m in a step, more than half its shortest edge "
       "({:.3g} m): contacts may be missed or met too late. Such speeds are near or above that of "
-      "waves ({:.4g} m/s), where small strains mean little; a smaller time.step helps the contact "
-      "only",
-      way / dt, way, shortest, fem::wave_speeds(c.material).pressure));
+      "waves ({:.4g} m/s){}; a smaller time.step helps the contact only",
+      way / dt, way, shortest, fem::wave_speeds(c.material).pressure,
+      has_rubber(c) ? "" : ", where small strains mean little"));
 }
 
 }  // namespace

@@ -28,8 +28,8 @@ StepLimit find_step_limit(const Case& c, const Setup& s) {
                                             {c.damping.stiffness, lagged ? c.damping.mass : 0.0})
                : 0.0;
   };
-  std::vector<double> values =
-      fem::element_eigenvalues(s.mesh, s.materials, s.prestress, s.mesh.n_sectors > 0);
+  std::vector<double> values = fem::element_eigenvalues(s.mesh, fem::instantaneous(s.materials),
+                                                        s.prestress, s.mesh.n_sectors > 0);
   for (std::size_t e = 0; e < s.implicit_cells.size(); ++e)
     if (s.implicit_cells[e]) values[e] = 0.0;
   const Parts parts = parts_of(c, s);

@@ -50,6 +50,10 @@ Body make_body(const Case& c) {
   refuse_overlaps(c, {b.mesh, b.mesh.coordinates, c.body_contact.between != BodyContact::none},
                   b.warnings);
   b.materials = materials_of(c, b.mesh);
+  if (has_rubber(c))
+    b.warnings.emplace_back(
+        "the modes of rubber are those of small strain about the undeformed body, by its moduli "
+        "for slow strains");
   warn_of_units(c, b.mesh, b.materials, b.warnings);
   b.mass = fem::lumped_mass(b.mesh, b.materials);
   b.wide_rows = has_wide_rows(c, b.mesh);

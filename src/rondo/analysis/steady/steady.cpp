@@ -56,7 +56,7 @@ class SteadyRolling final : public Analysis {
         threads_(options.threads),
         body_(shared_steady_body(c, options.shared)),
         ground_(c.ground->shape),
-        strain_(body_->mesh) {
+        strain_(body_->mesh, body_->materials) {
     tell_physical_figures(c, body_->mesh, body_->materials, told_);
     if (options.resume)
       throw case_error(c, "analysis.kind", "steady rolling has no checkpoints to resume from",

@@ -73,6 +73,10 @@ void check_run(const io::RunReader& run, const Case& c) {
     throw request_error("RUN", name,
                         fmt::format("the run is not finished (status {})", run.status()),
                         "finish it (rondo run RUN --resume), or leave it out");
+  if (has_rubber(c))
+    throw request_error("RUN", name,
+                        "the body is rubber at finite strain, and a reduced run is of small strain",
+                        "runs with material.model = \"linear\"");
   if (!c.pressures.empty())
     throw request_error("RUN", name, "a reduced run knows no pressures on the body",
                         "runs without [[load.pressure]]");

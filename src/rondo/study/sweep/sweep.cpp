@@ -201,7 +201,7 @@ class Sweep {
     if (found == columns.end()) return;
     const auto place = static_cast<std::size_t>(found - columns.begin());
     for (std::size_t m = 0; m < rows_.size(); ++m) {
-      if (rows_[m].figures.empty()) continue;
+      if (rows_[m].figures.empty() || !plan_.members[m].is_linear) continue;
       const double strain = rows_[m].figures[place];  // NaN is above nothing
       r.strained += strain > small_strain ? 1 : 0;
       if (!(strain > r.strain_max)) continue;

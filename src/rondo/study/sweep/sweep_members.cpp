@@ -92,6 +92,7 @@ void read_members(const SweepStudy& study, PlannedSweep& plan, MemberFaults& fau
       plan.direct = plan.type->direct && !study.snapshots;
       member.hash = hash_of(write_case(c) + meshes.of(c));
       member.body = hash_of(body_key(c) + meshes.of(c));
+      member.is_linear = !has_rubber(c);
       member.memory_bytes = guessed_memory(c);
     } catch (const InputError& error) {
       faults.add(m, error);

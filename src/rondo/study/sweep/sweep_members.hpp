@@ -28,6 +28,7 @@ struct PlannedMember : MemberCost {
   std::vector<std::string> settings;  ///< all of them
   std::string hash;                   ///< of the case as run and its mesh
   std::string body;                   ///< likewise of what members share: see body_key()
+  bool is_linear = true;              ///< no part is rubber
 };
 
 struct MembersRequest {

@@ -1,0 +1,149 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "rondo/analysis/build/rubber.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <memory>
+
+#include "rondo/case/case_keys.hpp"
+#include "rondo/model/hyperelastic.hpp"
+
+namespace rondo::study {
+namespace {
+
+/// A step resolves a branch that relaxes in so many of them.
+constexpr double resolved_steps = 4.0;
+
+/// A table that describes a rubber.
+struct Described {
+  std::string table;  ///< "material", "material.region[1]"
+  std::string name;   ///< of the part; empty: [material]
+  const MaterialLaw& law;
+  const fem::Material& material;
+};
+
+std::vector<Described> rubbers_of(const Case& c) {
+  std::vector<Described> found;
+  if (c.law.is_rubber()) found.push_back({"material", "", c.law, c.material});
+  for (std::size_t k = 0; k < c.regions.size(); ++k) {
+    const MaterialRegion& region = c.regions[k];
+    if (!region.law.is_rubber()) continue;
+    const std::string name =
+        c.mesh ? region.surface : fmt::format("layers {}", fmt::join(region.layers, ", "));
+    found.push_back({item_of("material.region", k), name, region.law, region.material});
+  }
+  return found;
+}
+
+/// The rotation of a body that nothing holds would be damped as if it were strain.
+void refuse_damped_free_bodies(const Case& c, const Setup& s) {
+  if (c.damping.stiffness == 0.0 || s.model.free_bodies.empty()) return;
+  for (std::size_t e = 0; e < s.mesh.cells.size(); ++e) {
+    const auto node = static_cast<std::size_t>(s.mesh.cells[e][0]);
+    if (!in_fixed_frame(s.model, node) || !fem::material_of(s.mesh, s.materials, e).rubber)
+      continue;
+    throw case_error(c, "damping.stiffness",
+                     "acts on the rate of the forces of rubber, and those of a body that nothing "
+                     "holds turn with it: its rotation would be damped",
+                     "0, and [[material.viscosity]], which sees strain alone");
+  }
+}
+
+/// Small strains are taken in a frame that turns with a body; rubber has none.
+void refuse_linear_free_bodies(const Case& c, const Setup& s) {
+  if (s.model.free_bodies.empty()) return;
+  for (std::size_t e = 0; e < s.mesh.cells.size(); ++e) {
+    const auto node = static_cast<std::size_t>(s.mesh.cells[e][0]);
+    if (!in_fixed_frame(s.model, node) || fem::material_of(s.mesh, s.materials, e).rubber) continue;
+    throw case_error(c, "material.model",
+                     "a body that nothing holds has linear elements, and another part is rubber: "
+                     "the rotation of such a body is not strain for rubber alone",
+                     "rubber for the whole of the body (a stiff one is \"neo-hooke\" with a large "
+                     "shear_modulus), or a body that is held");
+  }
+}
+
+/// Their volume is that of nodes, which the general step alone knows.
+bool has_triangles_of_rubber(const Setup& s) {
+  for (std::size_t e = 0; e < s.mesh.cells.size(); ++e)
+    if (mesh::n_corners(s.mesh.cells[e]) == 3 && fem::material_of(s.mesh, s.materials, e).rubber)
+      return true;
+  return false;
+}
+
+/// Its branches are those of [material], which come first.
+bool inherits_branches(const Case& c, const Described& d) {
+  return !d.name.empty() && d.law.model == c.law.model && d.law.viscosity == c.law.viscosity;
+}
+
+/// Where its branch stands in the case.
+std::string time_key(const Described& d, std::size_t branch) {
+  const bool listed = d.name.empty();
+  return listed ? item_of("material.viscosity", branch) + ".time" : d.table + ".viscosity";
+}
+
+std::string_view model_name(const MaterialLaw& law) {
+  return find_case_key("material.model")->allowed.choices[static_cast<std::size_t>(law.model)];
+}
+
+Told law_line(const Described& d) {
+  const fem::Rubber& r = *d.material.rubber;
+  const double mu = r.shear_modulus(), kappa = r.bulk_modulus;
+  return {d.name.empty() ? "rubber" : "rubber of " + d.name,
+          fmt::format("{}{}, shear modulus {:.4g} Pa, bulk modulus {:.4g} Pa ({:.4g} times), "
+                      "Poisson's ratio {:.6g} at small strain",
+                      model_name(d.law), r.one_point ? " by one point" : "", mu, kappa, kappa / mu,
+                      d.material.poissons_ratio)};
+}
+
+Told branch_line(const Described& d, const fem::ViscousBranch& branch, double step) {
+  std::string text = fmt::format("{:.4g} of the shear modulus, relaxing in {:.4g} s",
+                                 branch.relative_modulus, branch.time);
+  if (step > 0.0) text += fmt::format(", {:.4g} steps", branch.time / step);
+  return {d.name.empty() ? "viscosity" : "viscosity of " + d.name, text};
+}
+
+}  // namespace
+
+void add_rubber(const Case& c, Setup& s) {
+  if (!has_rubber(c)) return;
+  refuse_damped_free_bodies(c, s);
+  refuse_linear_free_bodies(c, s);
+  s.rubber = std::make_shared<const fem::Hyperelasticity>(s.mesh, s.materials);
+  s.model.internal_force = dynamics::hyperelastic_maker(s.rubber);
+  if (!has_triangles_of_rubber(s)) s.model.rubber = dynamics::rubber_part(s.mesh, s.materials);
+}
+
+void check_branches(const Case& c, Setup& s) {
+  const double step = explicit_step(s.model);
+  for (const Described& d : rubbers_of(c)) {
+    if (inherits_branches(c, d)) continue;
+    for (std::size_t b = 0; b < d.material.rubber->branches.size(); ++b) {
+      const double time = d.material.rubber->branches[b].time;
+      if (time >= resolved_steps * step) continue;
+      const std::string found =
+          fmt::format("a branch that relaxes in {:.4g} s, {:.3g} of the step of {:.4g} s", time,
+                      time / step, step);
+      if (time < step)
+        throw case_error(c, time_key(d, b), found + ": the step passes over it",
+                         fmt::format(">= {0:.4g}, above {1:.4g} to resolve it; or no such branch: "
+                                     "so fast, it is as good as relaxed always",
+                                     step, resolved_steps * step));
+      s.warnings.push_back(fmt::format("{}: {}: its losses are rough below {} steps",
+                                       time_key(d, b), found, resolved_steps));
+    }
+  }
+}
+
+std::vector<Told> rubber_lines(const Case& c, double step) {
+  std::vector<Told> lines;
+  for (const Described& d : rubbers_of(c)) {
+    lines.push_back(law_line(d));
+    for (const fem::ViscousBranch& branch : d.material.rubber->branches)
+      lines.push_back(branch_line(d, branch, step));
+  }
+  return lines;
+}
+
+}  // namespace rondo::study

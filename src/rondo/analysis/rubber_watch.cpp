@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "rondo/analysis/rubber_watch.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+
+#include "rondo/fem/strain.hpp"
+#include "rondo/mesh/locate.hpp"
+
+namespace rondo::study {
+
+std::string inverted_rubber(const mesh::Mesh& mesh, std::span<const Vec2> u, double least) {
+  const std::size_t cell = fem::deformation(mesh, u).jacobian_cell;
+  const Vec2 at = mesh::middle_of(mesh.coordinates, mesh.cells[cell]);
+  return fmt::format(
+      "cell {} of /mesh/cells near ({:.4g}, {:.4g}) m of the undeformed mesh is inverted: smallest "
+      "det F {:.3g}, which no rubber comes to. Less load or a slower one, a finer mesh where it is "
+      "strained most, or a smaller time.safety",
+      cell, at.x, at.y, least);
+}
+
+void summarise_rubber(const dynamics::MaterialReport& last, double exchanged, Json& j,
+                      RunReport& r) {
+  const double relative = exchanged > 0.0 ? std::abs(last.integration()) / exchanged : 0.0;
+  j["integration_relative"] = relative;
+  r.notes.push_back(
+      fmt::format("integration: work of the forces of rubber less energy stored and lost, {:.1e} "
+                  "of the energy exchanged",
+                  relative));
+  if (relative <= integration_bound) return;
+  const std::string warning = fmt::format(
+      "work of the forces of rubber less energy stored and lost is {:.2g} of the energy exchanged, "
+      "above {:.2g}: the steps are rough; half of them leave a quarter of it",
+      relative, integration_bound);
+  j["warnings"].push_back(warning);
+  r.warnings.push_back(warning);
+}
+
+}  // namespace rondo::study
