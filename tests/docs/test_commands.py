@@ -30,6 +30,8 @@ NOT_RUN = [
     ("docs/performance.md", "rondo run cases/ledge-smooth.toml --set disk.mesh.radial=577"),
     ("docs/performance.md", "/usr/bin/python3 bench/steady.py"),
     ("docs/performance.md", "cmake --build build/release --target bench_exceptions"),
+    ("docs/performance.md", "cmake --build build/release --target bench_bodies"),
+    ("docs/performance.md", "cmake --build build/release --target bench_rubber"),
     ("docs/python.md", "cmake --install build/release"),
     ("docs/reliability.md", "build/release/tests/verification/verification_long"),
     ("docs/reliability.md", "rondo run cases/long-spin.toml"),
