@@ -50,7 +50,8 @@ inline rubber::Bilinear<Pack> load_bilinear(const double* x) noexcept {
 inline rubber::Bilinear<Pack> gather_corners(const RubberElements& e,
                                              std::ptrdiff_t pack) noexcept {
   rubber::Corners<Pack> u;
-  for (int c = 0; c < 4; ++c) gather_pairs(e.now, e.node + (pack * 4 + c) * 8, u[c].x, u[c].y);
+  const std::int32_t* node = e.node + pack * 4 * 8;
+  for (std::size_t c = 0; c < 4; ++c) gather_pairs(e.now, node + c * 8, u[c].x, u[c].y);
   return rubber::bilinear(u);
 }
 
@@ -118,7 +119,8 @@ void rubber_elements(const RubberElements& e) noexcept {
     sums.energy = sums.energy + first_lanes(lanes_of(e, pack), result.energy, zero);
     if (e.n_branches > 0) add_branches(e, pack, x, u, result.by, sums);
     const rubber::Corners<Pack> force = rubber::at_corners(result.by);
-    for (int c = 0; c < 4; ++c) store_pairs(e.force + (pack * 4 + c) * 16, force[c].x, force[c].y);
+    double* to = e.force + pack * 4 * 16;
+    for (std::size_t c = 0; c < 4; ++c) store_pairs(to + c * 16, force[c].x, force[c].y);
   }
   *e.sums = {lanes_sum(sums.before), lanes_sum(sums.after), lanes_sum(sums.energy),
              least_lane(least)};
