@@ -131,10 +131,7 @@ class CsrSteps final : public dynamics::Integrator {
     report.step = step_;
     report.frame = frame_;
     if (model_.contact) report.contact = solve_contact(c, update, energy.works);
-    energy.works.contact = report.contact.work;
-    energy.works.dissipation_friction = report.contact.dissipation_friction;
-    energy.works.loss_impact = report.contact.loss_impact;
-    energy.works.rim = report.contact.work_rim;
+    set_contact_works(report.contact, energy.works);
     ledger_.add(energy);
     report.balance = ledger_.last();
     return report;

@@ -13,6 +13,16 @@ inline std::size_t n_blocks(std::size_t n) noexcept {
   return (n + block_size - 1) / block_size;
 }
 
+/// The thread in hand and how many there are: of n pieces of work it does [first(n), last(n)).
+struct Share {
+  std::size_t thread = 0, n_threads = 1;
+
+  [[nodiscard]] std::size_t first(std::size_t n) const noexcept { return n * thread / n_threads; }
+  [[nodiscard]] std::size_t last(std::size_t n) const noexcept {
+    return n * (thread + 1) / n_threads;
+  }
+};
+
 /// body(begin, end, block) for each block of [0, n), on `threads` threads.
 template <class Body>
 void for_blocks(std::size_t n, int threads, Body&& body) {

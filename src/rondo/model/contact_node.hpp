@@ -42,6 +42,14 @@ struct ContactReport {
   void add(const ContactReport& other) noexcept;
 };
 
+/// Works of the impulses of a step.
+inline void set_contact_works(const ContactReport& report, Works& works) noexcept {
+  works.contact = report.work;
+  works.dissipation_friction = report.dissipation_friction;
+  works.loss_impact = report.loss_impact;
+  works.rim = report.work_rim;
+}
+
 /// With a loaded rim nothing else than friction and impacts is between the ground's impulses and
 /// what they do (10.5): no work of the rim remains, not even of round-off.
 inline void add_contact_works(const ContactReport& report, Works& works) noexcept {

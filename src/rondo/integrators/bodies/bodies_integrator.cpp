@@ -47,9 +47,9 @@ BodiesIntegrator::BodiesIntegrator(const Model& model, const State& start,
       energy_(model.free_bodies.size()) {
   RONDO_DEMAND(is_of_bodies(model) && poses_.size() == energy_.size(), poses_.size(),
                energy_.size());
-  fields_ = {.start = plan_.start.data(),
-             .blocks = plan_.stiffness.data(),
-             .column = plan_.column.data(),
+  fields_ = {.start = plan_.matrix.start.data(),
+             .blocks = plan_.matrix.blocks.data(),
+             .column = plan_.matrix.column.data(),
              .constants = plan_.constants.data(),
              .motion = motion_.data(),
              .elastic = elastic_.data(),

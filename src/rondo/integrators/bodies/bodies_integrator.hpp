@@ -11,6 +11,7 @@
 
 #include "rondo/core/barrier.hpp"
 #include "rondo/core/large_array.hpp"
+#include "rondo/core/threads.hpp"
 #include "rondo/integrators/bodies/bodies_contact.hpp"
 #include "rondo/integrators/bodies/body_loads.hpp"
 #include "rondo/integrators/bodies/body_plan.hpp"
@@ -52,15 +53,6 @@ class BodiesIntegrator final : public Integrator, public Resumable {
     int row = 0;
     Vec2 before, after;            ///< v⁻, v⁺                                         [m/s]
     Vec2 gradient, damping, load;  ///< forces on it                                   [N/m]
-  };
-  /// Of n pieces of work a thread does [first(n), last(n)).
-  struct Share {
-    std::size_t thread = 0, n_threads = 1;
-
-    [[nodiscard]] std::size_t first(std::size_t n) const noexcept { return n * thread / n_threads; }
-    [[nodiscard]] std::size_t last(std::size_t n) const noexcept {
-      return n * (thread + 1) / n_threads;
-    }
   };
 
   // Passes of a step, and what one thread does between them.

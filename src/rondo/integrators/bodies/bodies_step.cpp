@@ -16,11 +16,10 @@ namespace {
 
 constexpr std::size_t lanes = kernels::lanes;
 
-/// Of all lanes, in pairs, so that few sums wait for others.
 template <std::size_t n>
 void add_lanes(const double* x, std::array<double, n>& sums) noexcept {
   for (double& sum : sums) {
-    sum = ((x[0] + x[4]) + (x[2] + x[6])) + ((x[1] + x[5]) + (x[3] + x[7]));
+    sum = sum_of_lanes(x);
     x += lanes;
   }
 }
@@ -367,10 +366,7 @@ void BodiesIntegrator::end_step(StepReport& report) noexcept {
   e.works.dissipation_mass = 0.25 * dt * model_.mass_damping * sums[kernels::velocity_mass].value();
   e.works.dissipation_stiffness = 0.5 * dt * sums[kernels::velocity_stiffness].value();
   e.works.load = 0.5 * dt * sums[kernels::velocity_load].value();
-  e.works.contact = report.contact.work;
-  e.works.dissipation_friction = report.contact.dissipation_friction;
-  e.works.loss_impact = report.contact.loss_impact;
-  e.works.rim = report.contact.work_rim;
+  set_contact_works(report.contact, e.works);
   ledger_.add(e);
   report.balance = ledger_.last();
 }

@@ -6,7 +6,6 @@
 
 #include "rondo/core/contract.hpp"
 #include "rondo/core/sum.hpp"
-#include "rondo/integrators/fused/numbering.hpp"
 
 namespace rondo::dynamics {
 namespace {
@@ -14,28 +13,10 @@ namespace {
 constexpr std::size_t lanes = kernels::lanes;
 /// Packs of a block at least, and blocks of a group at most.
 constexpr std::size_t fewest_packs = 16, most_blocks = 128;
-/// Rows of a length are brought together within so many rows: whole packs.
-constexpr std::size_t window = 8 * lanes;
-
-std::size_t row_length(const fem::BlockCsr& k, int node) noexcept {
-  const auto row = static_cast<std::size_t>(node);
-  return static_cast<std::size_t>(k.row_start[row + 1] - k.row_start[row]);
-}
-
-/// Neighbours near each other; within a short distance long rows first.
-std::vector<int> order_of(const fem::BlockCsr& k, std::span<const int> nodes) {
-  std::vector<int> order = row_order(k, nodes);
-  for (std::size_t i = 0; i < order.size(); i += window) {
-    const std::span rows = std::span(order).subspan(i, std::min(window, order.size() - i));
-    std::stable_sort(rows.begin(), rows.end(),
-                     [&](int a, int b) { return row_length(k, a) > row_length(k, b); });
-  }
-  return order;
-}
-
 void add_group(const Model& model, int body, std::span<const int> nodes, BodyPlan& plan) {
   if (nodes.empty()) return;
-  const std::vector<int> order = order_of(model.stiffness, nodes);
+  std::vector<int> order = row_order(model.stiffness, nodes);
+  sort_by_length(model.stiffness, order);
   BodyGroup group;
   group.body = body;
   group.first_pack = plan.n_packs;
@@ -67,37 +48,6 @@ void add_groups(const Model& model, BodyPlan& plan) {
   plan.row.assign(model.n_nodes(), -1);
   for (std::size_t i = 0; i < plan.node.size(); ++i)
     if (plan.node[i] >= 0) plan.row[static_cast<std::size_t>(plan.node[i])] = static_cast<int>(i);
-}
-
-/// A pack is as long as its first row: order_of() has put the longest there.
-void add_starts(const fem::BlockCsr& k, BodyPlan& plan) {
-  plan.start.assign(1, 0);
-  for (std::size_t i = 0; i < plan.node.size(); i += lanes)
-    plan.start.push_back(plan.start.back() +
-                         static_cast<std::int64_t>(row_length(k, plan.node[i])));
-}
-
-/// Zero blocks on their own rows, which the rows' blocks then take the places of.
-void add_matrix(const fem::BlockCsr& k, BodyPlan& plan) {
-  add_starts(k, plan);
-  const std::size_t n = static_cast<std::size_t>(plan.start.back()) * lanes;
-  plan.stiffness = LargeArray(4 * n);
-  plan.column = LargeArrayOf<std::int32_t>(n);
-  for (std::size_t i = 0; i < plan.node.size(); ++i) {
-    const auto first = static_cast<std::size_t>(plan.start[i / lanes]);
-    const auto last = static_cast<std::size_t>(plan.start[i / lanes + 1]);
-    for (std::size_t at = first; at < last; ++at)
-      plan.column.data()[at * lanes + i % lanes] = static_cast<std::int32_t>(2 * i);
-    if (plan.node[i] < 0) continue;
-    const auto node = static_cast<std::size_t>(plan.node[i]);
-    std::size_t place = first * lanes + i % lanes;
-    for (auto at = k.row_start[node]; at < k.row_start[node + 1]; ++at, place += lanes) {
-      const auto b = static_cast<std::size_t>(at);
-      const auto [xx, yx, xy, yy] = k.values[b];
-      plan.column.data()[place] = 2 * plan.row[static_cast<std::size_t>(k.column[b])];
-      std::ranges::copy(std::array{xx, xy, yx, yy}, plan.stiffness.data() + 4 * place);
-    }
-  }
 }
 
 /// Of a row of a group.
@@ -150,7 +100,7 @@ BodyPlan make_body_plan(const Model& model) {
   RONDO_DEMAND(model.free.size() < most_nodes, model.free.size());
   BodyPlan plan;
   add_groups(model, plan);
-  add_matrix(k, plan);
+  plan.matrix = make_row_packs(k, plan.node, plan.n_packs, plan.row);
   add_constants(model, plan);
   return plan;
 }

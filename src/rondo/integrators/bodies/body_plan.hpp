@@ -5,11 +5,11 @@
 #pragma once
 #include <array>
 #include <cstddef>
-#include <cstdint>
 #include <vector>
 
 #include "rondo/core/large_array.hpp"
 #include "rondo/integrators/bodies/kernels/kernels.hpp"
+#include "rondo/integrators/fused/numbering.hpp"
 #include "rondo/model/model.hpp"
 
 namespace rondo::dynamics {
@@ -39,11 +39,8 @@ struct BodyPlan {
   std::vector<int> node;          ///< (packs·lanes) node of the model of each row; -1: padding
   std::vector<int> row;           ///< (n) of each node; -1: clamped
   std::size_t n_packs = 0;
-  // As in kernels::BodyFields.
-  std::vector<std::int64_t> start;
-  LargeArray stiffness;
-  LargeArrayOf<std::int32_t> column;
-  LargeArray constants;
+  RowPacks matrix;
+  LargeArray constants;  ///< as in kernels::BodyFields
 
   /// Where in `motion` or `constants` the first number of a row is: four a row, lanes apart.
   [[nodiscard]] static std::size_t at(int at_row) noexcept {

@@ -44,7 +44,8 @@ BatchIntegrator::BatchIntegrator(const Model& model, const State& start, std::si
       threads_(std::min(model.threads, static_cast<int>(n_pieces))),
       steps_(has_sharp_corners(model) ? steps_between_looks : steps_at_once),
       pressures_(steps_.size() * model.pressures.size()),
-      parts_(steps_.size() * n_parts_) {
+      parts_(steps_.size() * n_parts_),
+      rubber_energy_(steps_.size()) {
   if (has_sharp_corners(model)) corners_.emplace(model);
   if (!model.rim) return;
   rim_.emplace(model);
@@ -52,7 +53,6 @@ BatchIntegrator::BatchIntegrator(const Model& model, const State& start, std::si
 }
 
 void BatchIntegrator::set_rubber(RubberForces& forces, const State& start) {
-  rubber_energy_.resize(steps_.size());
   rubber_work_.emplace(model_, start);
   rubber_forces_ = &forces;
 }

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "rondo/core/barrier.hpp"
+#include "rondo/core/threads.hpp"
 #include "rondo/integrators/fused/corner_contact.hpp"
 #include "rondo/integrators/fused/rubber/rubber_work.hpp"
 #include "rondo/integrators/fused/step_context.hpp"
@@ -27,15 +28,6 @@ class BatchIntegrator : public Integrator, public Resumable, protected Candidate
   [[nodiscard]] std::vector<contact::ProblemFile> take_difficult() final;
 
  protected:
-  /// The thread in hand and how many there are: of n pieces of work it does [first(n), last(n)).
-  struct Share {
-    std::size_t thread = 0, n_threads = 1;
-
-    [[nodiscard]] std::size_t first(std::size_t n) const noexcept { return n * thread / n_threads; }
-    [[nodiscard]] std::size_t last(std::size_t n) const noexcept {
-      return n * (thread + 1) / n_threads;
-    }
-  };
   struct Batch {
     std::span<const StepContext> steps;
     PartialStep* parts;    ///< (steps, n_parts_): to be filled, but for those of CornerContact
@@ -107,7 +99,7 @@ class BatchIntegrator : public Integrator, public Resumable, protected Candidate
   std::vector<StepContext> steps_;  ///< of a batch
   std::vector<double> pressures_;   ///< (steps of a batch, pressures of the model)        [Pa]
   std::vector<PartialStep> parts_;  ///< (steps of a batch, n_parts_)
-  std::vector<RubberEnergy> rubber_energy_;  ///< (steps of a batch); empty: no rubber
+  std::vector<RubberEnergy> rubber_energy_;  ///< (steps of a batch) of rubber alone
   std::optional<RubberWork> rubber_work_;
   RubberForces* rubber_forces_ = nullptr;
   std::optional<CornerContact> corners_;

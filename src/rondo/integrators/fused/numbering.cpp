@@ -2,12 +2,33 @@
 #include "rondo/integrators/fused/numbering.hpp"
 
 #include <algorithm>
-#include <cstdint>
+#include <array>
 #include <cstdlib>
 #include <utility>
 
+#include "rondo/integrators/fused/kernels/kernels.hpp"
+
 namespace rondo::dynamics {
 namespace {
+
+constexpr std::size_t lanes = kernels::lanes;
+
+std::size_t row_length(const fem::BlockCsr& k, int node) noexcept {
+  const auto row = static_cast<std::size_t>(node);
+  return static_cast<std::size_t>(k.row_start[row + 1] - k.row_start[row]);
+}
+
+/// The blocks of a node's row, from a place on.
+void put_row(const fem::BlockCsr& k, int node, std::span<const int> row, std::size_t place,
+             RowPacks& packs) {
+  const auto of = static_cast<std::size_t>(node);
+  for (auto at = k.row_start[of]; at < k.row_start[of + 1]; ++at, place += lanes) {
+    const auto b = static_cast<std::size_t>(at);
+    const auto [xx, yx, xy, yy] = k.values[b];
+    packs.column.data()[place] = 2 * row[static_cast<std::size_t>(k.column[b])];
+    std::ranges::copy(std::array{xx, xy, yx, yy}, packs.blocks.data() + 4 * place);
+  }
+}
 
 std::span<const std::int32_t> neighbours(const fem::BlockCsr& k, int node) noexcept {
   const auto row = static_cast<std::size_t>(node);
@@ -125,6 +146,37 @@ std::vector<int> row_order(const fem::BlockCsr& k, std::span<const int> nodes) {
   std::vector<int> other = reverse_cuthill_mckee(k, nodes);
   if (bandwidth(k, other).mean < bandwidth(k, nodes).mean) return other;
   return {nodes.begin(), nodes.end()};
+}
+
+void sort_by_length(const fem::BlockCsr& k, std::vector<int>& order) {
+  constexpr std::size_t window = 8 * lanes;  // whole packs
+  for (std::size_t i = 0; i < order.size(); i += window) {
+    const std::span rows = std::span(order).subspan(i, std::min(window, order.size() - i));
+    std::stable_sort(rows.begin(), rows.end(),
+                     [&](int a, int b) { return row_length(k, a) > row_length(k, b); });
+  }
+}
+
+RowPacks make_row_packs(const fem::BlockCsr& k, std::span<const int> node, std::size_t n_packs,
+                        std::span<const int> row) {
+  const auto is_padding = [&](std::size_t i) { return i >= node.size() || node[i] < 0; };
+  RowPacks packs;
+  packs.start.assign(1, 0);
+  for (std::size_t i = 0; i < n_packs * lanes; i += lanes) {
+    const std::size_t length = is_padding(i) ? 0 : row_length(k, node[i]);
+    packs.start.push_back(packs.start.back() + static_cast<std::int64_t>(length));
+  }
+  const std::size_t n = static_cast<std::size_t>(packs.start.back()) * lanes;
+  packs.blocks = LargeArray(4 * n);
+  packs.column = LargeArrayOf<std::int32_t>(n);
+  for (std::size_t i = 0; i < n_packs * lanes; ++i) {
+    const auto first = static_cast<std::size_t>(packs.start[i / lanes]);
+    const auto last = static_cast<std::size_t>(packs.start[i / lanes + 1]);
+    for (std::size_t at = first; at < last; ++at)
+      packs.column.data()[at * lanes + i % lanes] = static_cast<std::int32_t>(2 * i);
+    if (!is_padding(i)) put_row(k, node[i], row, first * lanes + i % lanes, packs);
+  }
+  return packs;
 }
 
 }  // namespace rondo::dynamics

@@ -2,9 +2,11 @@
 /// @file  In which order the rows of the sparse operator stand: neighbours in the mesh near to each
 /// other, so that what the product reads of u is in the cache already (docs/performance.md).
 #pragma once
+#include <cstdint>
 #include <span>
 #include <vector>
 
+#include "rondo/core/large_array.hpp"
 #include "rondo/fem/assembly.hpp"
 
 namespace rondo::dynamics {
@@ -27,5 +29,22 @@ std::vector<int> reverse_cuthill_mckee(const fem::BlockCsr& k, std::span<const i
 /// The nodes as given, or in reverse Cuthill-McKee order where that has the lower mean bandwidth.
 /// Not the maximum: on a ring numbered sector by sector that is the one seam, which costs nothing.
 std::vector<int> row_order(const fem::BlockCsr& k, std::span<const int> nodes);
+
+/// The same, rows of a length brought together over a distance that the cache does not feel, long
+/// ones first. @param k whose rows are packed, on the nodes of `order`
+void sort_by_length(const fem::BlockCsr& k, std::vector<int>& order);
+
+/// K in packs of eight rows, each as long as its longest: zero blocks on their own row fill the
+/// others up. As in kernels::SparseRows.
+struct RowPacks {
+  std::vector<std::int64_t> start;
+  LargeArray blocks;
+  LargeArrayOf<std::int32_t> column;
+};
+
+/// @param node of each row, the longest of a pack first; -1, or past its end: padding, without
+/// blocks. @param row (n) of each node
+[[nodiscard]] RowPacks make_row_packs(const fem::BlockCsr& k, std::span<const int> node,
+                                      std::size_t n_packs, std::span<const int> row);
 
 }  // namespace rondo::dynamics

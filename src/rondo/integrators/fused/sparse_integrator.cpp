@@ -23,10 +23,6 @@ void put(double* x, Vec2 value) noexcept {
   x[0] = value.x;
   x[lanes] = value.y;
 }
-/// Of all lanes, in pairs, so that few sums wait for others.
-double sum_of(const double* x) noexcept {
-  return ((x[0] + x[4]) + (x[2] + x[6])) + ((x[1] + x[5]) + (x[3] + x[7]));
-}
 
 std::size_t n_sums_of(bool wheel, bool rubber) noexcept {
   if (wheel && rubber) return kernels::n_rubber_wheel_sums;
@@ -291,9 +287,11 @@ void SparseIntegrator::solve_node(const Work& work, const Touching& t, PartialSt
 Vec2 SparseIntegrator::force_on(const double* now, int row) const noexcept {
   const auto r = static_cast<std::size_t>(row);
   Vec2 force = rubber_->force_on(row);
-  for (std::int64_t place = plan_.start[r / lanes]; place < plan_.start[r / lanes + 1]; ++place) {
+  for (std::int64_t place = plan_.matrix.start[r / lanes];
+       place < plan_.matrix.start[r / lanes + 1]; ++place) {
     const std::size_t at = static_cast<std::size_t>(place) * lanes + r % lanes;
-    const double *k = plan_.blocks.data() + 4 * at, *u = now + plan_.column.data()[at];
+    const double *k = plan_.matrix.blocks.data() + 4 * at,
+                 *u = now + plan_.matrix.column.data()[at];
     force += Vec2{k[0] * u[0] + k[1] * u[1], k[2] * u[0] + k[3] * u[1]};
   }
   return force;
@@ -332,16 +330,16 @@ void SparseIntegrator::update_rows(const Work& work, std::size_t block,
   else
     table_.sparse_rows[loaded][terms.stiffness_damping][terms.unsteady](rows);
   const std::size_t n_sums = n_sums_of(plan_.wheel, rubber_.has_value());
-  for (std::size_t k = 0; k < n_sums; ++k) part.sums[k] = sum_of(sums.data() + k * lanes);
+  for (std::size_t k = 0; k < n_sums; ++k) part.sums[k] = sum_of_lanes(sums.data() + k * lanes);
 }
 
 /// K, fields and constants of a block's packs.
 kernels::SparseRows SparseIntegrator::rows_from(const double* now, double* next,
                                                 std::size_t block) noexcept {
   kernels::SparseRows rows{};
-  rows.start = plan_.start.data();
-  rows.blocks = plan_.blocks.data();
-  rows.column = plan_.column.data();
+  rows.start = plan_.matrix.start.data();
+  rows.blocks = plan_.matrix.blocks.data();
+  rows.column = plan_.matrix.column.data();
   rows.constants = plan_.constants.data();
   rows.rubber = rubber_ ? &rubber_->rows() : nullptr;
   rows.now = now;

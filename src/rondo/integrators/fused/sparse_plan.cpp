@@ -19,23 +19,6 @@ constexpr std::size_t lanes = kernels::lanes;
 /// Packs of a block: few enough that threads share a small body evenly, and on large bodies so many
 /// that the sums of blocks are few.
 constexpr std::size_t fewest_packs = 16, most_blocks = 512;
-/// Rows of a length are brought together within so many rows: whole packs.
-constexpr std::size_t window = 8 * lanes;
-
-std::size_t row_length(const fem::BlockCsr& k, int node) noexcept {
-  const auto row = static_cast<std::size_t>(node);
-  return static_cast<std::size_t>(k.row_start[row + 1] - k.row_start[row]);
-}
-
-/// Rows of a length are brought together, over a distance that the cache does not feel; long ones
-/// first.
-void sort_by_length(const fem::BlockCsr& k, std::vector<int>& order) {
-  for (std::size_t i = 0; i < order.size(); i += window) {
-    const std::span rows = std::span(order).subspan(i, std::min(window, order.size() - i));
-    std::stable_sort(rows.begin(), rows.end(),
-                     [&](int a, int b) { return row_length(k, a) > row_length(k, b); });
-  }
-}
 
 /// (n) row of each node; -1: clamped.
 std::vector<int> row_of(const Model& model, const SparsePlan& plan) {
@@ -43,39 +26,6 @@ std::vector<int> row_of(const Model& model, const SparsePlan& plan) {
   for (std::size_t i = 0; i < plan.node.size(); ++i)
     row[static_cast<std::size_t>(plan.node[i])] = static_cast<int>(i);
   return row;
-}
-
-/// A pack is as long as its first row: sort_by_length has put the longest there.
-void add_starts(const fem::BlockCsr& k, SparsePlan& plan) {
-  plan.start.assign(1, 0);
-  for (std::size_t i = 0; i < plan.n_packs * lanes; i += lanes)
-    plan.start.push_back(
-        plan.start.back() +
-        static_cast<std::int64_t>(i < plan.node.size() ? row_length(k, plan.node[i]) : 0));
-}
-
-/// Zero blocks on their own nodes, which the rows' blocks then take the places of.
-void add_matrix(const fem::BlockCsr& k, const std::vector<int>& row, SparsePlan& plan) {
-  add_starts(k, plan);
-  const std::size_t n = static_cast<std::size_t>(plan.start.back()) * lanes;
-  plan.blocks = LargeArray(4 * n);
-  plan.column = LargeArrayOf<std::int32_t>(n);
-  for (std::size_t i = 0; i < plan.n_packs * lanes; ++i) {
-    const auto first = static_cast<std::size_t>(plan.start[i / lanes]);
-    const auto last = static_cast<std::size_t>(plan.start[i / lanes + 1]);
-    for (std::size_t at = first; at < last; ++at)
-      plan.column.data()[at * lanes + i % lanes] = static_cast<std::int32_t>(2 * i);
-  }
-  for (std::size_t i = 0; i < plan.node.size(); ++i) {
-    const auto node = static_cast<std::size_t>(plan.node[i]);
-    std::size_t place = static_cast<std::size_t>(plan.start[i / lanes]) * lanes + i % lanes;
-    for (auto at = k.row_start[node]; at < k.row_start[node + 1]; ++at, place += lanes) {
-      const auto b = static_cast<std::size_t>(at);
-      const auto [xx, yx, xy, yy] = k.values[b];
-      plan.column.data()[place] = 2 * row[static_cast<std::size_t>(k.column[b])];
-      std::ranges::copy(std::array{xx, xy, yx, yy}, plan.blocks.data() + 4 * place);
-    }
-  }
 }
 
 void add_constants(const Model& model, SparsePlan& plan) {
@@ -161,7 +111,7 @@ SparsePlan make_sparse_plan(const Model& model) {
   plan.n_packs = packs_of(plan.node.size() + (model.rubber ? 1 : 0));  // a row of zeros is there
   plan.n_blocks = n_sparse_blocks(plan.node.size());
   const std::vector<int> row = row_of(model, plan);
-  add_matrix(k, row, plan);
+  plan.matrix = make_row_packs(k, plan.node, plan.n_packs, row);
   add_constants(model, plan);
   add_contact(model, row, plan);
   add_loads(model, row, plan);

@@ -9,6 +9,7 @@
 
 #include "rondo/core/large_array.hpp"
 #include "rondo/integrators/fused/kernels/kernels.hpp"
+#include "rondo/integrators/fused/numbering.hpp"
 #include "rondo/model/model.hpp"
 
 namespace rondo::dynamics {
@@ -26,11 +27,8 @@ struct SparsePlan {
   std::vector<int> node;     ///< (rows) node of the model; what fills up the last pack has none
   std::size_t n_packs = 0;
   std::size_t n_blocks = 1;
-  // As in kernels::SparseRows.
-  std::vector<std::int64_t> start;
-  LargeArray blocks;
-  LargeArrayOf<std::int32_t> column;
-  LargeArray constants;
+  RowPacks matrix;
+  LargeArray constants;  ///< as in kernels::SparseRows
   // Of loads on nodes; empty: there are none.
   std::vector<int> first_load, load_of;
   LargeArray loads;

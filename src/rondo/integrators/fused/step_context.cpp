@@ -87,10 +87,7 @@ StepEnergy energy_of(const Model& model, const StepSums& total,
   e.works.dissipation_mass = 0.25 * dt * alpha * total[kernels::sum_mass];
   e.works.dissipation_stiffness = 0.5 * beta * total[kernels::sum_stiffness];
   e.works.load = 0.5 * dt * total[kernels::sum_load];
-  e.works.contact = contact.work;
-  e.works.dissipation_friction = contact.dissipation_friction;
-  e.works.loss_impact = contact.loss_impact;
-  e.works.rim = contact.work_rim;
+  set_contact_works(contact, e.works);
   return e;
 }
 

@@ -31,6 +31,11 @@ StepContext wheel_context(const Model& model, const FrameStep& frame, Complex ba
 /// Raw sums: kernels::Sum, or kernels::WheelSum.
 using StepSums = std::array<double, kernels::most_sums>;
 
+/// Of all lanes of a kernel's sum, in pairs, so that few sums wait for others.
+inline double sum_of_lanes(const double* x) noexcept {
+  return ((x[0] + x[4]) + (x[2] + x[6])) + ((x[1] + x[5]) + (x[3] + x[7]));
+}
+
 /// What a part of the body gives in one step: raw sums, and its contacts.
 struct PartialStep {
   StepSums sums{};

@@ -176,10 +176,7 @@ StepReport GeneralIntegrator::step() noexcept {
   report.contact = solve_contacts(frames, report);
   report.contact.add(on_implicit);
   add_works(frames, energy.works);
-  energy.works.contact = report.contact.work;
-  energy.works.dissipation_friction = report.contact.dissipation_friction;
-  energy.works.loss_impact = report.contact.loss_impact;
-  energy.works.rim = report.contact.work_rim;
+  set_contact_works(report.contact, energy.works);
   ledger_.add(energy);
   report.balance = ledger_.last();
   report.material = internal_->material();

@@ -10,21 +10,9 @@ using rondo::dynamics::kernels::BodyBlock;
 using rondo::dynamics::kernels::BodyFields;
 using rondo::dynamics::kernels::lanes;
 
-/// (x, y) as a complex number times v, added to c.
-inline Vectors add_product(Pack x, Pack y, Vectors v, Vectors c) noexcept {
-  return {fma(x, v.x, fnma(y, v.y, c.x)), fma(x, v.y, fma(y, v.x, c.y))};
-}
-inline Vectors minus(Vectors a, Vectors b) noexcept {
-  return {a.x - b.x, a.y - b.y};
-}
 inline Vectors turned_by(Pack x, Pack y, Vectors v) noexcept {
   return {fnma(y, v.y, x * v.x), fma(x, v.y, y * v.x)};
 }
-/// a × b + c, lane by lane.
-inline Pack add_cross(Vectors a, Vectors b, Pack c) noexcept {
-  return fma(a.x, b.y, fnma(a.y, b.x, c));
-}
-
 /// e = Rᵀ(u - shift) + (Rᵀ - 1) arm.
 void elastic_pass(const BodyBlock& b) noexcept {
   const BodyFields& f = *b.fields;
@@ -35,7 +23,7 @@ void elastic_pass(const BodyBlock& b) noexcept {
     const Vectors u = load_vectors(f.motion + pack * 4 * lanes, lanes);
     const Vectors arm = load_vectors(f.constants + pack * 4 * lanes, lanes);
     const Vectors e =
-        add_product(back_x, back_y, arm, turned_by(turn_x, against_y, minus(u, shift)));
+        add_turned({back_x, back_y}, arm, turned_by(turn_x, against_y, minus(u, shift)));
     store_pairs(f.elastic + pack * 2 * lanes, e.x, e.y);
   }
 }
@@ -52,7 +40,7 @@ void force_pass(const BodyBlock& b) noexcept {
                  f.elastic, p.x, p.y);
     load_pairs(f.elastic + pack * 2 * lanes, e.x, e.y);
     const Vectors arm = load_vectors(f.constants + pack * 4 * lanes, lanes);
-    const Vectors place = {arm.x + e.x, arm.y + e.y};
+    const Vectors place = plus(arm, e);
     double* force = f.force + pack * (Beta ? 4 : 2) * lanes;
     if constexpr (Beta) {
       const Vectors change = minus(p, load_vectors(force, lanes));
@@ -114,7 +102,7 @@ inline BodyNodes nodes_of(const BodyFields& f, std::ptrdiff_t pack) noexcept {
 template <bool Held>
 inline Vectors frame_of(const BodyPacks& c, const BodyNodes& n) noexcept {
   if constexpr (!Held) return c.pull;
-  return add_product(c.step.rate.x, c.step.rate.y, {n.arm.x + n.u.x, n.arm.y + n.u.y}, c.pull);
+  return add_turned(c.step.rate, plus(n.arm, n.u), c.pull);
 }
 
 /// What the deformation of the body does to a pack of nodes, in their frame.
@@ -153,15 +141,15 @@ template <bool Held, bool Beta>
 inline Vectors velocity_of(const BodyPacks& c, const BodyNodes& n, const InternalForces& forces,
                            const double* load, VelocitySums& s) noexcept {
   Vectors whole = forces.gradient;
-  if constexpr (Beta) whole = {whole.x + forces.damping.x, whole.y + forces.damping.y};
+  if constexpr (Beta) whole = plus(whole, forces.damping);
   if (load) whole = minus(whole, load_vectors(load, lanes));
   const Vectors frame = frame_of<Held>(c, n);
   // -[Δt f/m - drag v⁻]
   Vectors t = {fma(n.dt_over_mass, whole.x, frame.x), fma(n.dt_over_mass, whole.y, frame.y)};
-  t = add_product(c.step.drag.x, c.step.drag.y, n.v, t);
+  t = add_turned(c.step.drag, n.v, t);
   const Vectors after = minus(n.v, turned_by(c.step.inverse.x, c.step.inverse.y, t));
 
-  const Vectors twice_mean = {n.v.x + after.x, n.v.y + after.y};
+  const Vectors twice_mean = plus(n.v, after);
   s.frame = fma(n.mass, add_dot(twice_mean, frame, all(0.0)), s.frame);
   s.mass = fma(n.mass, add_dot(twice_mean, twice_mean, all(0.0)), s.mass);
   if constexpr (Beta) s.stiffness = add_dot(twice_mean, forces.damping, s.stiffness);
@@ -197,7 +185,7 @@ struct MoveSums {
     const Pack squared = add_dot(v, v, all(0.0));
     kinetic = fma(n.mass, squared, kinetic);
     fastest = larger(squared, fastest);
-    moved = {moved.x + weighted.x, moved.y + weighted.y};
+    moved = plus(moved, weighted);
     along = add_dot(n.arm, weighted, along);
     across = add_cross(n.arm, weighted, across);
     return u;

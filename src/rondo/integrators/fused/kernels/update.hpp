@@ -25,6 +25,21 @@ inline Pack add_dot(Vectors a, Vectors b, Pack c) noexcept {
   return fma(a.x, b.x, fma(a.y, b.y, c));
 }
 
+/// a × b + c, lane by lane.
+inline Pack add_cross(Vectors a, Vectors b, Pack c) noexcept {
+  return fma(a.x, b.y, fnma(a.y, b.x, c));
+}
+inline Vectors plus(Vectors a, Vectors b) noexcept {
+  return {a.x + b.x, a.y + b.y};
+}
+inline Vectors minus(Vectors a, Vectors b) noexcept {
+  return {a.x - b.x, a.y - b.y};
+}
+/// z a + b, a complex z.
+inline Vectors add_turned(Vectors z, Vectors a, Vectors b) noexcept {
+  return {fma(z.x, a.x, fnma(z.y, a.y, b.x)), fma(z.x, a.y, fma(z.y, a.x, b.y))};
+}
+
 /// Sums of the row in hand; those with the mass are multiplied by it when the row is done.
 struct Sums {
   Pack kinetic, strain, frame, mass, stiffness, load;

@@ -9,25 +9,10 @@ namespace {
 using rondo::dynamics::kernels::WheelFactors;
 using rondo::dynamics::kernels::WheelWay;
 
-/// a × b + c, lane by lane.
-inline Pack add_cross(Vectors a, Vectors b, Pack c) noexcept {
-  return fma(a.x, b.y, fnma(a.y, b.x, c));
-}
-inline Vectors plus(Vectors a, Vectors b) noexcept {
-  return {a.x + b.x, a.y + b.y};
-}
-inline Vectors minus(Vectors a, Vectors b) noexcept {
-  return {a.x - b.x, a.y - b.y};
-}
 /// s a + b
 inline Vectors add_times(Pack s, Vectors a, Vectors b) noexcept {
   return {fma(s, a.x, b.x), fma(s, a.y, b.y)};
 }
-/// z a + b, a complex z.
-inline Vectors add_turned(Vectors z, Vectors a, Vectors b) noexcept {
-  return {fma(z.x, a.x, fnma(z.y, a.y, b.x)), fma(z.x, a.y, fma(z.y, a.x, b.y))};
-}
-
 /// Of the packs in hand.
 struct WheelSums {
   Pack kinetic, strain, force_arm, force_moment, force_after, force_across, force_moved,
