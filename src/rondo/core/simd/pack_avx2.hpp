@@ -57,16 +57,6 @@ inline __m256d guess_of_four(__m256d a) noexcept {
 inline Pack cube_root_guess(Pack x) noexcept {
   return {guess_of_four(x.a), guess_of_four(x.b)};
 }
-/// y ≈ a^(-1/3) to round-off, from a guess within 4 %: with r = 1 - a y³ the error goes as r⁴.
-inline Pack inverse_cube_root(Pack a) noexcept {
-  Pack y = cube_root_guess(a);
-  for (int i = 0; i < 2; ++i) {
-    const Pack r = fnma(a * y, y * y, all(1.0));
-    const Pack series = fma(fma(r, all(14.0 / 81.0), all(2.0 / 9.0)), r, all(1.0 / 3.0));
-    y = fma(y * r, series, y);
-  }
-  return y;
-}
 inline __m256d first_of_four(int n, __m256d x, __m256d y) noexcept {
   const __m256i lane = _mm256_set_epi64x(3, 2, 1, 0);
   const __m256i taken = _mm256_cmpgt_epi64(_mm256_set1_epi64x(n), lane);

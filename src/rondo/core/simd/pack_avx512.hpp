@@ -53,16 +53,6 @@ inline Pack cube_root_guess(Pack a) noexcept {
   const __m256i guess = _mm256_sub_epi32(_mm256_set1_epi32(0x54a23400), _mm256_cvtps_epi32(third));
   return {_mm512_cvtps_pd(_mm256_castsi256_ps(guess))};
 }
-/// y ≈ a^(-1/3) to round-off, from a guess within 4 %: with r = 1 - a y³ the error goes as r⁴.
-inline Pack inverse_cube_root(Pack a) noexcept {
-  Pack y = cube_root_guess(a);
-  for (int i = 0; i < 2; ++i) {
-    const Pack r = fnma(a * y, y * y, all(1.0));
-    const Pack series = fma(fma(r, all(14.0 / 81.0), all(2.0 / 9.0)), r, all(1.0 / 3.0));
-    y = fma(y * r, series, y);
-  }
-  return y;
-}
 /// The first n lanes of a, the others of b.
 inline Pack first_lanes(int n, Pack a, Pack b) noexcept {
   return {_mm512_mask_blend_pd(static_cast<__mmask8>((1U << n) - 1U), b.v, a.v)};

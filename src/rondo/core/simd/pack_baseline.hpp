@@ -72,16 +72,6 @@ struct Pack {
   }
   return load(x);
 }
-/// y ≈ a^(-1/3) to round-off, from a guess within 4 %: with r = 1 - a y³ the error goes as r⁴.
-[[gnu::always_inline]] inline Pack inverse_cube_root(Pack a) noexcept {
-  Pack y = cube_root_guess(a);
-  for (int i = 0; i < 2; ++i) {
-    const Pack r = fnma(a * y, y * y, all(1.0));
-    const Pack series = fma(fma(r, all(14.0 / 81.0), all(2.0 / 9.0)), r, all(1.0 / 3.0));
-    y = fma(y * r, series, y);
-  }
-  return y;
-}
 /// The first n lanes of a, the others of b.
 [[gnu::always_inline]] inline Pack first_lanes(int n, Pack a, Pack b) noexcept {
   double x[8], y[8];

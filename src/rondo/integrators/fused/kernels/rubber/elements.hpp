@@ -2,6 +2,7 @@
 /// @file  The loop over elements of rubber, eight a register (docs/rubber.md, section 4). Included
 /// after a pack_*.hpp.
 #pragma once
+#include "rondo/core/simd/cube_root.hpp"
 #include "rondo/fem/hyperelastic/one_point.hpp"
 #include "rondo/integrators/fused/kernels/rubber/layout.hpp"
 
