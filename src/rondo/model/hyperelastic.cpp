@@ -36,8 +36,7 @@ class Hyperelastic final : public InternalForce {
     RONDO_DEMAND(body_->n_nodes() == model.n_nodes(), body_->n_nodes(), model.n_nodes());
     RONDO_DEMAND(poses_.size() == model.free_bodies.size(), poses_.size());
     demand_rubber_alone(model, *body_);
-    body_->gradient(u0, histories_, force_, pass_, model.threads);
-    work_.add(body_->energy(u0, histories_));
+    work_.add(body_->gradient(u0, histories_, force_, pass_, model.threads).energy);
     report_.internal_work = report_.stored_energy = work_.value();
   }
 
@@ -45,9 +44,9 @@ class Hyperelastic final : public InternalForce {
   void evaluate(std::span<const Vec2> u) noexcept override {
     std::swap(force_, before_);
     relax(u);
-    const fem::LeastVolume least = body_->gradient(u, histories_, force_, pass_, model_.threads);
+    const fem::Look look = body_->gradient(u, histories_, force_, pass_, model_.threads);
     add_work(u);
-    report_ = {work_.value(), body_->energy(u, histories_), loss_.value(), least.ratio};
+    report_ = {work_.value(), look.energy, loss_.value(), look.least.ratio};
     relax(u);
     u_.assign(u.begin(), u.end());
     update_poses(model_, u_, poses_);

@@ -32,7 +32,7 @@ struct RubberCrush::Trial {
   double depth = 0.0, slide = 0.0;  ///< [m]
   std::vector<Vec2> u, gradient;    ///< (n) [m], [N/m]
   fem::Hyperelasticity::Pass pass;
-  fem::LeastVolume least;
+  fem::Look look;              ///< at u
   CondensedSolution solution;  ///< of the set
   std::vector<Vec2> slip;      ///< (nb) gap, increment of slip [m]
   double rest = 0.0;           ///< ‖f(u) - Hᵀ r‖ / ‖Hᵀ r‖
@@ -47,7 +47,7 @@ RubberCrush::RubberCrush(const CrushModel& model, std::shared_ptr<const fem::Hyp
 
 /// f(u) at the trial's u, and what it leaves with the contact forces.
 void RubberCrush::find_forces(Trial& trial) const {
-  trial.least = body_->gradient(trial.u, {}, trial.gradient, trial.pass);
+  trial.look = body_->gradient(trial.u, {}, trial.gradient, trial.pass);
   std::vector<Vec2> rest = trial.gradient;
   double force = 0.0, sum = 0.0;
   for (std::size_t j = 0; j < set_.size(); ++j) {
@@ -107,16 +107,9 @@ void RubberCrush::hold_down(const Trial& trial, fem::BlockCsr& k, std::vector<Ve
   }
 }
 
-/// One Newton step; candidates that came to be inside the ground join the set.
-bool RubberCrush::improve(Trial& trial, const CrushState& state, CrushReport& report) {
-  fem::BlockCsr stiffness = body_->tangent(trial.u);
-  std::vector<Vec2> rest = trial.gradient;
-  hold_down(trial, stiffness, rest);
-  Condensation tangent(stiffness, free_, model_.nodes);
-  if (!tangent.factorised()) return false;
-  tangent.append(set_);
-  rest = tangent.displacement(rest);
-  for (Vec2& u : rest) u = -u;
+/// The contact law with the candidates of the set, until no other candidate is inside the ground.
+bool RubberCrush::close_gaps(Trial& trial, Condensation& tangent, const std::vector<Vec2>& rest,
+                             const CrushState& state, CrushReport& report) {
   const std::vector<Vec2> before = trial.u;
   for (;;) {
     trial.u = before;
@@ -127,23 +120,37 @@ bool RubberCrush::improve(Trial& trial, const CrushState& state, CrushReport& re
     std::vector<std::size_t> more;
     for (std::size_t k = 0; k < trial.slip.size(); ++k)
       if (!inside[k] && trial.slip[k].x < 0.0) more.push_back(k);
-    if (more.empty()) break;
+    if (more.empty()) return true;
     tangent.append(more);
     set_.insert(set_.end(), more.begin(), more.end());
     report.appended += more.size();
     trial.solution.force.conservativeResizeLike(
         Eigen::VectorXd::Zero(static_cast<Index>(2 * set_.size())));
   }
+}
+
+/// One Newton step, halved until no cell is inverted.
+bool RubberCrush::improve(Trial& trial, const CrushState& state, CrushReport& report) {
+  fem::BlockCsr stiffness = body_->tangent(trial.u);
+  std::vector<Vec2> rest = trial.gradient;
+  hold_down(trial, stiffness, rest);
+  Condensation tangent(stiffness, free_, model_.nodes);
+  if (!tangent.factorised()) return false;
+  tangent.append(set_);
+  rest = tangent.displacement(rest);
+  for (Vec2& u : rest) u = -u;
+  const std::vector<Vec2> before = trial.u;
+  if (!close_gaps(trial, tangent, rest, state, report)) return false;
   const std::vector<Vec2> whole = trial.u;
   double part = 1.0;
   for (int halving = 0; halving < most_halvings; ++halving, part *= 0.5) {
     for (std::size_t k = 0; k < whole.size(); ++k)
       trial.u[k] = before[k] + part * (whole[k] - before[k]);
     find_forces(trial);
-    if (trial.least.ratio > 0.0 && std::isfinite(trial.rest)) break;
+    if (trial.look.least.ratio > 0.0 && std::isfinite(trial.rest)) break;
   }
   if (part < 1.0) trial.rest = std::numeric_limits<double>::infinity();  // gaps are not closed yet
-  return trial.least.ratio > 0.0;
+  return trial.look.least.ratio > 0.0;
 }
 
 /// From the state to the trial's depth and slide.
@@ -187,7 +194,7 @@ void RubberCrush::accept(Trial& trial, CrushState& state) const {
   for (const int node : free_)
     internal.add(0.5 * dot(gradient[at(node)] + trial.gradient[at(node)],
                            state.u[at(node)] - before.u[at(node)]));
-  state.works.strain = body_->energy(state.u);
+  state.works.strain = trial.look.energy;
   state.works.internal = internal.value();
   add_works(model_, before, state);
 }

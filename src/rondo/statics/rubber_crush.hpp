@@ -29,6 +29,8 @@ class RubberCrush {
   struct Trial;
   [[nodiscard]] bool solve(Trial& trial, const CrushState& state, CrushReport& report);
   [[nodiscard]] bool improve(Trial& trial, const CrushState& state, CrushReport& report);
+  [[nodiscard]] bool close_gaps(Trial& trial, Condensation& tangent, const std::vector<Vec2>& rest,
+                                const CrushState& state, CrushReport& report);
   void hold_down(const Trial& trial, fem::BlockCsr& k, std::vector<Vec2>& rest) const;
   void solve_contact(Trial& trial, const Condensation& tangent, const std::vector<Vec2>& rest,
                      const CrushState& state, CrushReport& report);

@@ -85,7 +85,7 @@ Unbalanced unbalanced(const TurningRubber& r, double square, std::span<const Vec
   fem::Hyperelasticity::Pass pass;
   std::vector<Vec2> gradient(u.size());
   Unbalanced out{Eigen::VectorXd(static_cast<Eigen::Index>(2 * r.free.size()))};
-  out.inverted = !(r.body.gradient(u, {}, gradient, pass).ratio > 0.0);
+  out.inverted = !(r.body.gradient(u, {}, gradient, pass).least.ratio > 0.0);
   double pull = 0.0;
   for (std::size_t i = 0; i < r.free.size(); ++i) {
     const auto k = static_cast<std::size_t>(r.free[i]);

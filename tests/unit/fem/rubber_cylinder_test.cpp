@@ -125,7 +125,7 @@ class Crushed {
         u_[i] = before[i] + part * Vec2{step[static_cast<Eigen::Index>(2 * i)],
                                         step[static_cast<Eigen::Index>(2 * i + 1)]};
       part *= 0.5;
-    } while (!std::isfinite(body_.energy(u_)) && part > 1e-3);
+    } while (!std::isfinite(energy_of(body_, u_)) && part > 1e-3);
   }
 
   int n_;

@@ -96,6 +96,13 @@ inline std::vector<Vec2> gradient_of(const Hyperelasticity& body, const std::vec
   return f;
 }
 
+inline double energy_of(const Hyperelasticity& body, const std::vector<Vec2>& u,
+                        Hyperelasticity::Histories histories = {}) {
+  std::vector<Vec2> f(u.size());
+  Hyperelasticity::Pass pass;
+  return body.gradient(u, histories, f, pass).energy;
+}
+
 inline double largest_of(const std::vector<Vec2>& f) {
   double largest = 0.0;
   for (const Vec2 v : f) largest = std::max(largest, norm(v));

@@ -20,9 +20,8 @@ std::size_t at(int index) noexcept {
 /// Of rubber at finite strain, else by K.
 statics::StationarySpin find_stationary(const Setup& s, double spin) {
   const dynamics::Model& m = s.model;
-  if (fem::has_rubber(s.materials))
-    return statics::stationary_spin(fem::Hyperelasticity(s.mesh, s.materials), m.mass, m.reference,
-                                    held_nodes(m), spin);
+  if (s.rubber)
+    return statics::stationary_spin(*s.rubber, m.mass, m.reference, held_nodes(m), spin);
   if (by_harmonics(m)) return statics::stationary_spin(*m.sector, m.mass, m.reference, spin);
   return statics::stationary_spin(m.stiffness, m.mass, m.reference, held_nodes(m), spin);
 }

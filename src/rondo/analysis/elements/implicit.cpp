@@ -99,8 +99,7 @@ void refuse_mean_dilatation(const Case& c, const Setup& s, const std::vector<cha
 std::vector<char> all_chosen(const Case& c, const Setup& s) {
   std::vector<char> chosen(s.mesh.cells.size(), 0);
   for (std::size_t k = 0; k < c.implicit.size(); ++k) {
-    const std::string table = item_of("solver.implicit", k);
-    const auto more = chosen_cells(c, s, c.implicit[k], table);
+    const auto more = chosen_cells(c, s, c.implicit[k], item_of("solver.implicit", k));
     for (std::size_t e = 0; e < chosen.size(); ++e) chosen[e] |= more[e];
   }
   return chosen;

@@ -62,7 +62,7 @@ void choose_in_all_sectors(const mesh::Mesh& mesh, std::vector<char>& chosen) {
 /// An element alone has the critical step of its largest frequency, 3.8 with the damping.
 void choose_slow(const Case& c, const Setup& s, double slower_than, std::vector<char>& chosen) {
   const std::vector<double> values =
-      fem::element_eigenvalues(s.mesh, fem::instantaneous(s.materials), s.prestress, false);
+      fem::element_eigenvalues(s.mesh, s.materials, s.prestress, false);
   for (std::size_t e = 0; e < chosen.size(); ++e) {
     const double omega = std::sqrt(std::max(values[e], 0.0));
     chosen[e] =

@@ -29,7 +29,6 @@ Hyperelasticity::Hyperelasticity(const mesh::Mesh& mesh, std::span<const Materia
   for (const Material& m : materials) rubbers_.push_back(m.rubber.value_or(Rubber{}));
   std::vector<char> others(cells_.size(), 0);
   first_history_.push_back(0);
-  patch_area_.assign(dilatation_.size(), 0.0);
   patch_bulk_.assign(dilatation_.size(), 0.0);
   for (std::size_t e = 0; e < cells_.size(); ++e) {
     const Material& material = material_of(mesh, materials, e);
@@ -41,11 +40,7 @@ Hyperelasticity::Hyperelasticity(const mesh::Mesh& mesh, std::span<const Materia
     if (part.n_corners == 3) {
       RONDO_DEMAND(dilatation_.holds(e), e);
       part.patches = dilatation_.patches_of(e);
-      const double area = center_of(deformed(part, {})).area;
-      for (const int patch : part.patches) {
-        patch_area_[at(patch)] += area / 3.0;
-        patch_bulk_[at(patch)] = rubber.bulk_modulus;
-      }
+      for (const int patch : part.patches) patch_bulk_[at(patch)] = rubber.bulk_modulus;
     }
     parts_.push_back(part);
   }
@@ -131,12 +126,12 @@ double Hyperelasticity::relax(std::span<const Vec2> u, double half_step,
 
 /// J - 1 of the patches, the mean of their triangles by area.
 std::vector<double> Hyperelasticity::patch_changes(std::span<const Vec2> u) const {
-  std::vector<double> change(patch_area_.size(), 0.0);
+  std::vector<double> change(dilatation_.size(), 0.0);
   for (const Part& part : parts_) {
     if (part.n_corners == 4) continue;
     const Center center = center_of(deformed(part, u));
     for (const int patch : part.patches)
-      change[at(patch)] += center.area / 3.0 * center.j_less_1 / patch_area_[at(patch)];
+      change[at(patch)] += center.area / 3.0 * center.j_less_1 / dilatation_.area(at(patch));
   }
   return change;
 }
@@ -146,10 +141,12 @@ Hyperelasticity::Pressures Hyperelasticity::patch_pressures(std::span<const Vec2
   const std::vector<double> change = patch_changes(u);
   Pressures p{std::vector<double>(change.size()), std::vector<double>(change.size())};
   for (std::size_t i = 0; i < change.size(); ++i) {
-    if (patch_area_[i] == 0.0 || change[i] <= -1.0) continue;
-    const double j = 1.0 + change[i];
-    p.value[i] = hyperelastic::volumetric(patch_bulk_[i], change[i]).pressure;
-    p.slope[i] = 0.5 * patch_bulk_[i] * (1.0 + 1.0 / (j * j)) / patch_area_[i];
+    if (patch_bulk_[i] == 0.0 || change[i] <= -1.0) continue;  // its cells tell
+    const double j = 1.0 + change[i], area = dilatation_.area(i);
+    const auto volumetric = hyperelastic::volumetric(patch_bulk_[i], change[i]);
+    p.value[i] = volumetric.pressure;
+    p.energy += area * volumetric.energy;
+    p.slope[i] = 0.5 * patch_bulk_[i] * (1.0 + 1.0 / (j * j)) / area;
   }
   return p;
 }
@@ -161,65 +158,58 @@ double Hyperelasticity::mean_pressure(const Part& part, const Pressures& pressur
   return sum / 3.0;
 }
 
-double Hyperelasticity::energy(std::span<const Vec2> u, Histories histories) const {
-  double sum = 0.0;
-  for (std::size_t i = 0; i < parts_.size(); ++i) {
-    const Part& part = parts_[i];
-    const DeformedCell cell = deformed(part, u);
-    if (!(least_volume_ratio(*part.rubber, cell) > 0.0)) return infinity;
-    sum += result_of(*part.rubber, cell, 0.0).energy +
-           branch_energy(*part.rubber, center_of(cell), histories_of(i, histories));
-  }
-  const std::vector<double> change = patch_changes(u);
-  for (std::size_t i = 0; i < change.size(); ++i)
-    if (patch_area_[i] > 0.0)
-      sum += patch_area_[i] * hyperelastic::volumetric(patch_bulk_[i], change[i]).energy;
-  if (stiffness_.row_start.empty()) return sum;
-  std::vector<Vec2> product(n_nodes());
-  apply(stiffness_, u, product, 1);
-  for (std::size_t k = 0; k < n_nodes(); ++k) sum += 0.5 * dot(u[k], product[k]);
-  return sum;
+/// Forces, energy and smallest det F of a cell.
+void Hyperelasticity::look_at(std::size_t i, std::span<const Vec2> u, Histories histories,
+                              const Pressures& pressures, Pass& pass) const {
+  const Part& part = parts_[i];
+  const DeformedCell cell = deformed(part, u);
+  pass.forces[i] = {};
+  pass.energy[i] = infinity;
+  pass.of_cell[i] = least_volume_ratio(*part.rubber, cell);
+  if (!(pass.of_cell[i] > 0.0)) return;
+  const Histories own = histories_of(i, histories);
+  const auto found = result_of(*part.rubber, cell, mean_pressure(part, pressures));
+  pass.forces[i] = found.forces;
+  add_branch_forces(*part.rubber, cell, own, pass.forces[i]);
+  pass.energy[i] = found.energy;
+  if (!own.empty()) pass.energy[i] += branch_energy(*part.rubber, center_of(cell), own);
 }
 
-LeastVolume Hyperelasticity::gradient(std::span<const Vec2> u, Histories histories,
-                                      std::span<Vec2> out, Pass& pass, int threads) const {
+Look Hyperelasticity::gradient(std::span<const Vec2> u, Histories histories, std::span<Vec2> out,
+                               Pass& pass, int threads) const {
   RONDO_DEMAND(u.size() == n_nodes() && out.size() == n_nodes() &&
                    (histories.empty() || histories.size() == n_histories()),
                u.size(), out.size(), histories.size());
   pass.forces.resize(parts_.size());
   pass.of_cell.resize(parts_.size());
+  pass.energy.resize(parts_.size());
   const Pressures pressures = patch_pressures(u);
   for_blocks(parts_.size(), threads, [&](std::size_t begin, std::size_t end, std::size_t) {
-    for (std::size_t i = begin; i < end; ++i) {
-      const Part& part = parts_[i];
-      const DeformedCell cell = deformed(part, u);
-      pass.forces[i] = {};
-      pass.of_cell[i] = least_volume_ratio(*part.rubber, cell);
-      if (!(pass.of_cell[i] > 0.0)) continue;
-      pass.forces[i] = result_of(*part.rubber, cell, mean_pressure(part, pressures)).forces;
-      add_branch_forces(*part.rubber, cell, histories_of(i, histories), pass.forces[i]);
-    }
+    for (std::size_t i = begin; i < end; ++i) look_at(i, u, histories, pressures, pass);
   });
+  Look look{{}, pressures.energy};
   if (stiffness_.row_start.empty())
     std::fill(out.begin(), out.end(), Vec2{});
   else
     apply(stiffness_, u, out, threads);
+  for (std::size_t k = 0; k < n_nodes(); ++k) look.energy += 0.5 * dot(u[k], out[k]);
   for_blocks(n_nodes(), threads, [&](std::size_t begin, std::size_t end, std::size_t) {
     for (std::size_t k = begin; k < end; ++k)
       for (std::size_t c = first_corner_[k]; c < first_corner_[k + 1]; ++c)
         out[k] += pass.forces[at(corners_[c].part)][at(corners_[c].corner)];
   });
-  LeastVolume least;
-  for (std::size_t i = 0; i < parts_.size(); ++i)
-    if (!(pass.of_cell[i] >= least.ratio)) least = {pass.of_cell[i], parts_[i].cell};
-  return least;
+  for (std::size_t i = 0; i < parts_.size(); ++i) {
+    look.energy += pass.energy[i];
+    if (!(pass.of_cell[i] >= look.least.ratio)) look.least = {pass.of_cell[i], parts_[i].cell};
+  }
+  return look;
 }
 
 /// U''/V ∂v ∂vᵀ of each patch: the rest, U' ∂²v, is that of its triangles.
 void Hyperelasticity::add_patches(std::span<const Vec2> u, const Pressures& pressures,
                                   BlockCsr& k) const {
   if (dilatation_.empty()) return;
-  std::vector<std::vector<NodalDilatation::Term>> volume(patch_area_.size());
+  std::vector<std::vector<NodalDilatation::Term>> volume(dilatation_.size());
   for (std::size_t p = 0; p < volume.size(); ++p)
     for (const auto& term : dilatation_.terms(p)) volume[p].push_back({term.node, {}});
   for (const Part& part : parts_) {
@@ -231,7 +221,7 @@ void Hyperelasticity::add_patches(std::span<const Vec2> u, const Pressures& pres
           if (cells_[part.cell][a] == node) gradient += area[a] / 3.0;
   }
   for (std::size_t p = 0; p < volume.size(); ++p)
-    if (patch_area_[p] > 0.0) add_product(k, pressures.slope[p], volume[p]);
+    if (patch_bulk_[p] > 0.0) add_product(k, pressures.slope[p], volume[p]);
 }
 
 BlockCsr Hyperelasticity::tangent(std::span<const Vec2> u, Histories histories) const {
@@ -244,10 +234,10 @@ BlockCsr Hyperelasticity::tangent(std::span<const Vec2> u, Histories histories) 
       for (std::size_t c = 0; c < 4; ++c) to[c] += stiffness_.values[from][c];
     }
   const Pressures pressures = patch_pressures(u);
-  for (const Part& part : parts_)
-    add_cell(k, cells_[part.cell],
-             tangent_of(*part.rubber, deformed(part, u), mean_pressure(part, pressures),
-                        histories_of(static_cast<std::size_t>(&part - parts_.data()), histories)));
+  for (std::size_t i = 0; i < parts_.size(); ++i)
+    add_cell(k, cells_[parts_[i].cell],
+             tangent_of(*parts_[i].rubber, deformed(parts_[i], u),
+                        mean_pressure(parts_[i], pressures), histories_of(i, histories)));
   add_patches(u, pressures, k);
   return k;
 }

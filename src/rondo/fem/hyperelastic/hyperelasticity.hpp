@@ -19,6 +19,12 @@ struct LeastVolume {
   std::size_t cell = 0;
 };
 
+/// What is found with the forces of a body.
+struct Look {
+  LeastVolume least;
+  double energy = 0.0;  ///< stored; infinite where a cell is inverted                  [J/m]
+};
+
 class Hyperelasticity {
  public:
   using History = hyperelastic::Symmetric<double>;  ///< C_i of a branch in a cell
@@ -28,6 +34,7 @@ class Hyperelasticity {
   struct Pass {
     std::vector<hyperelastic::CornerForces> forces;  ///< (cells of rubber)
     std::vector<double> of_cell;                     ///< smallest det F, or what a half step loses
+    std::vector<double> energy;                      ///< (cells of rubber) that they store [J/m]
   };
 
   /// @param materials one for each region of the mesh (material_of). @pre no cell is inverted
@@ -48,12 +55,10 @@ class Hyperelasticity {
   double relax(std::span<const Vec2> u, double half_step, std::span<History> histories, Pass& pass,
                int threads = 1) const;
 
-  /// Stored energy [J/m]; infinite where a cell is inverted.
-  [[nodiscard]] double energy(std::span<const Vec2> u, Histories histories = {}) const;
   /// Derivative of the energy by u, (n); of clamped nodes that of rubber alone [N/m]. A cell that
   /// is inverted has none: what is returned tells. Same bits for any number of threads.
-  LeastVolume gradient(std::span<const Vec2> u, Histories histories, std::span<Vec2> out,
-                       Pass& pass, int threads = 1) const;
+  Look gradient(std::span<const Vec2> u, Histories histories, std::span<Vec2> out, Pass& pass,
+                int threads = 1) const;
   /// Derivative of the gradient, histories held, on the free nodes [N/m²]. Symmetric to round-off.
   [[nodiscard]] BlockCsr tangent(std::span<const Vec2> u, Histories histories = {}) const;
 
@@ -69,9 +74,12 @@ class Hyperelasticity {
   };
   struct Pressures {
     std::vector<double> value, slope;  ///< (patches) U' [Pa], U'' over the area [Pa/m²]
+    double energy = 0.0;               ///< of all of them                              [J/m]
   };
 
   void find_corners();
+  void look_at(std::size_t part, std::span<const Vec2> u, Histories histories,
+               const Pressures& pressures, Pass& pass) const;
   [[nodiscard]] hyperelastic::DeformedCell deformed(const Part& part,
                                                     std::span<const Vec2> u) const noexcept;
   [[nodiscard]] Histories histories_of(std::size_t part, Histories all) const noexcept;
@@ -86,7 +94,7 @@ class Hyperelasticity {
   std::vector<Part> parts_;                 ///< the cells of rubber
   std::vector<std::size_t> first_history_;  ///< (parts + 1)
   NodalDilatation dilatation_;
-  std::vector<double> patch_area_, patch_bulk_;  ///< (patches) 0: not of rubber [m²], [Pa]
+  std::vector<double> patch_bulk_;  ///< (patches) κ; 0: not of rubber [Pa]
   BlockCsr stiffness_;  ///< of the other cells, in the pattern of all; no rows: there are none
   BlockCsr pattern_;    ///< of all cells, values 0
   std::vector<std::size_t> first_corner_;  ///< (n + 1)

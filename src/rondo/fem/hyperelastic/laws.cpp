@@ -90,8 +90,4 @@ PlaneStress<double> isochoric_stress(const Rubber& rubber, double s, double j) n
   return Polynomial<double>(rubber)(s, j);
 }
 
-double isochoric_energy(const Rubber& rubber, double s, double j) noexcept {
-  return isochoric_stress(rubber, s, j).w;
-}
-
 }  // namespace rondo::fem::hyperelastic

@@ -87,9 +87,6 @@ void ogden_stress(const Rubber& rubber, const double* s, const double* j, double
 [[nodiscard]] PlaneStress<double> isochoric_stress(const Rubber& rubber, double s,
                                                    double j) noexcept;
 
-/// W of the law [Pa]. @param s F:F; j det F > 0
-[[nodiscard]] double isochoric_energy(const Rubber& rubber, double s, double j) noexcept;
-
 /// U = κ/4 (J² - 1 - 2 ln J) and U' = κ/2 (J - 1/J) from J - 1, whose digits count.
 template <class T>
 struct Volumetric {

@@ -60,12 +60,6 @@ std::array<Stress, 4> of_four_points(const Rubber& rubber, const DeformedCell& c
 
 }  // namespace
 
-double area_change(const DeformedCell& triangle) noexcept {
-  const Vec2 x = triangle.x[1] - triangle.x[0], y = triangle.x[2] - triangle.x[0];
-  const Vec2 u = triangle.u[1] - triangle.u[0], v = triangle.u[2] - triangle.u[0];
-  return 0.5 * (rondo::cross(x, v) + rondo::cross(u, y) + rondo::cross(u, v));
-}
-
 double pressure_of(const Rubber& rubber, double j_less_1) noexcept {
   return j_less_1 > -1.0 ? volumetric(rubber.bulk_modulus, j_less_1).pressure : none;
 }

@@ -17,9 +17,6 @@ namespace rondo::fem::hyperelastic {
 [[nodiscard]] std::array<Stress, 4> corner_stress(const Rubber& rubber, const DeformedCell& cell,
                                                   const std::array<double, 4>& pressure) noexcept;
 
-/// Change of a triangle's area [m²].
-[[nodiscard]] double area_change(const DeformedCell& triangle) noexcept;
-
 /// U' of a volume [Pa]; not a number where there is none left. @param j_less_1 J - 1
 [[nodiscard]] double pressure_of(const Rubber& rubber, double j_less_1) noexcept;
 
@@ -44,8 +41,10 @@ std::array<Stress, 4> cell_stress(const mesh::Mesh& mesh, std::size_t cell, cons
   for (std::size_t a = 0; dilatation.holds(cell) && a < 3; ++a) {
     const auto patch = static_cast<std::size_t>(dilatation.patches_of(cell)[a]);
     double change = 0.0;
-    for (const int e : dilatation.cells(patch))
-      change += area_change(deformed_cell(mesh, static_cast<std::size_t>(e), u)) / 3.0;
+    for (const int e : dilatation.cells(patch)) {
+      const Center center = center_of(deformed_cell(mesh, static_cast<std::size_t>(e), u));
+      change += center.area * center.j_less_1 / 3.0;
+    }
     pressure[a] = pressure_of(rubber, change / dilatation.area(patch));
   }
   return corner_stress(rubber, deformed_cell(mesh, cell, u), pressure);
