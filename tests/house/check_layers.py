@@ -24,15 +24,17 @@ ALLOWED = {
     "integrators/massless": SOLIDS | {"model", "integrators/implicit"},
     "integrators/general": SOLIDS | {"model", "integrators/implicit", "integrators/massless"},
     "integrators/hati": SOLIDS | {"model", "integrators/implicit", "integrators/general"},
+    "integrators/solid": SOLIDS | {"model", "integrators/implicit", "integrators/general"},
     "integrators/fused": SOLIDS | {"model", "integrators/implicit", "integrators/massless",
                                    "integrators/general"},
     "integrators/bodies": SOLIDS | {"model", "integrators/implicit", "integrators/massless",
                                     "integrators/general", "integrators/fused"},
     "integrators": SOLIDS | {"model", "integrators/implicit", "integrators/massless",
                              "integrators/general", "integrators/hati", "integrators/fused",
-                             "integrators/bodies"},
+                             "integrators/bodies", "integrators/solid"},
     "statics": SOLIDS,
     "statics/steady": SOLIDS | {"statics"},
+    "statics/steady_solid": SOLIDS | {"statics", "statics/steady"},
     "modal": {"core", "mesh", "fem"},
     "pod": {"core", "mesh"},
     "rom": SOLIDS | {"model", "integrators", "integrators/fused", "pod"},
@@ -48,8 +50,8 @@ ALLOWED["analysis/build"] = SOLIDS | STEPS | {"statics", "statics/steady", "case
 ALLOWED["analysis/figures"] = {"core", "io", "output"}
 ALLOWED["analysis/base"] = SOLIDS | {"model", "case", "io", "output"}
 ALLOWED["analysis/steady"] = (ALLOWED["analysis/build"] | ALLOWED["analysis/base"] |
-                              {"statics/steady", "modal", "analysis/base", "analysis/build",
-                               "analysis/figures"})
+                              {"statics/steady", "statics/steady_solid", "modal",
+                               "analysis/base", "analysis/build", "analysis/figures"})
 ALLOWED["analysis"] = set(ALLOWED)
 ALLOWED["analysis/modes"] = ALLOWED["analysis"] | {"analysis"}
 ALLOWED["study/sweep"] = ALLOWED["analysis"] | {"analysis"}
@@ -62,7 +64,8 @@ ALLOWED["mesh_reader"] = {"mesh"}  # a program of its own; it shares the layout 
 # Libraries that only these modules may see.
 ONLY_IN = {"hdf5.h": {"io/h5"}, "toml++/": {"case"}, "CLI/": {"apps"}, "cholmod": {"statics"},
            "CholmodSupport": {"modal", "statics"}, "Spectra/": {"model/stability"},
-           "lapacke": {"pod", "statics/steady"}, "xxhash": {"io/h5"}, "fftw3": {"pod", "statics/steady"},
+           "lapacke": {"pod", "statics/steady", "statics/steady_solid"}, "xxhash": {"io/h5"},
+           "fftw3": {"pod", "statics/steady", "statics/steady_solid"},
            "gmsh.h": {"mesh_reader"}, "mpi.h": {"apps"}}
 
 MOST_FILES = 25  # in a folder

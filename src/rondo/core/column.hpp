@@ -1,10 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
-/// @file  Tables of results: what a column is called, its unit, what it means and where its numbers
-/// come from stand in one row; header, values, units for readers and the manual follow from it.
+/// @file  Tables of results and their units: what a column is called, its unit, what it means and
+/// where its numbers come from stand in one row; header, values, units for readers and the manual
+/// follow from it.
 #pragma once
+#include <array>
 #include <span>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 namespace rondo {
@@ -40,6 +43,28 @@ inline std::vector<std::string> names_of(std::span<const ColumnLabel> labels) {
   std::vector<std::string> names;
   for (const ColumnLabel& label : labels) names.push_back(label.name);
   return names;
+}
+
+/// Masses, forces and energies of a plane body are per metre of its width: what a quantity that is
+/// in `plane` there is in, of a body in three dimensions. A unit without a width stays.
+constexpr std::string_view unit_of(std::string_view plane, bool is_solid) {
+  constexpr std::array<std::pair<std::string_view, std::string_view>, 11> units{{
+      {"kg/m", "kg"},
+      {"kg m", "kg m2"},
+      {"N/m", "N"},
+      {"N·m/m", "N·m"},
+      {"N*s/m", "N*s"},
+      {"N/m2", "N/m"},
+      {"N s/m2", "N s/m"},
+      {"J/m", "J"},
+      {"W/m", "W"},
+      {"N", "N m"},      // a torque
+      {"N*s", "N*m*s"},  // of its impulse
+  }};
+  if (is_solid)
+    for (const auto& [of_plane, of_solid] : units)
+      if (of_plane == plane) return of_solid;
+  return plane;
 }
 
 }  // namespace rondo

@@ -21,12 +21,13 @@ struct Term {
 };
 
 /// Of the lower triangle, column after column.
-std::vector<Term> lower_terms(const SectorStiffness& k, const Eigen::VectorXd& root_mass) {
+template <int C>
+std::vector<Term> lower_terms(const SectorBlocks<C>& k, const Eigen::VectorXd& root_mass) {
   std::vector<Term> terms;
   for (std::size_t a = 0; a < k.n_local(); ++a)
-    for (const SectorStiffness::Entry& e : k.row(a))
-      for (int c = 0; c < 4; ++c) {
-        const int row = 2 * static_cast<int>(a) + c % 2, column = 2 * e.column + c / 2;
+    for (const auto& e : k.row(a))
+      for (int c = 0; c < C * C; ++c) {
+        const int row = C * static_cast<int>(a) + c % C, column = C * e.column + c / C;
         if (row < column) continue;
         const double value = e.block[static_cast<std::size_t>(c)];
         terms.push_back({row, column, e.shift, value / (root_mass[row] * root_mass[column])});
@@ -39,10 +40,11 @@ std::vector<Term> lower_terms(const SectorStiffness& k, const Eigen::VectorXd& r
 
 }  // namespace
 
-Harmonics::Harmonics(const SectorStiffness& k, std::span<const double> mass)
-    : n_sectors_(k.n_sectors), root_mass_(static_cast<Index>(2 * k.n_local())) {
+template <int C>
+Harmonics::Harmonics(const SectorBlocks<C>& k, std::span<const double> mass)
+    : n_sectors_(k.n_sectors), components_(C), root_mass_(static_cast<Index>(C * k.n_local())) {
   for (std::size_t a = 0; a < k.n_local(); ++a)
-    root_mass_.segment<2>(static_cast<Index>(2 * a)).setConstant(std::sqrt(mass[k.node(a, 0)]));
+    root_mass_.segment<C>(static_cast<Index>(C * a)).setConstant(std::sqrt(mass[k.node(a, 0)]));
   const std::vector<Term> terms = lower_terms(k, root_mass_);
   std::vector<Eigen::Triplet<std::complex<double>>> places;
   for (std::size_t i = 0; i < terms.size(); ++i) {
@@ -59,7 +61,11 @@ Harmonics::Harmonics(const SectorStiffness& k, std::span<const double> mass)
   matrix_.setFromTriplets(places.begin(), places.end());
 }
 
-const Harmonics::Matrix& Harmonics::lower(int harmonic, double factor, double shift) {
+template Harmonics::Harmonics(const SectorBlocks<2>&, std::span<const double>);
+template Harmonics::Harmonics(const SectorBlocks<3>&, std::span<const double>);
+
+const Harmonics::Matrix& Harmonics::lower(int harmonic, double factor, double shift,
+                                          double axial_shift) {
   RONDO_DEMAND(harmonic >= 0 && harmonic < count(), harmonic, n_sectors_);
   const double kappa = 2.0 * std::numbers::pi * harmonic / n_sectors_;
   const double even = factor * std::cos(kappa), odd = factor * std::sin(kappa);
@@ -68,7 +74,8 @@ const Harmonics::Matrix& Harmonics::lower(int harmonic, double factor, double sh
     const Entry& e = entries_[i];
     value[i] = {factor * e.constant + even * e.even, odd * e.odd};
   }
-  for (Index j = 0; j < matrix_.cols(); ++j) value[matrix_.outerIndexPtr()[j]] += shift;
+  for (Index j = 0; j < matrix_.cols(); ++j)
+    value[matrix_.outerIndexPtr()[j]] += j % components_ == 2 ? axial_shift : shift;
   return matrix_;
 }
 

@@ -14,28 +14,34 @@ namespace rondo::fem {
 
 /// A(k) = M^-½ K(k) M^-½ with K(k) = K_0 + e^{iκ} K_1 + e^{-iκ} K_{-1} (2.7), Hermitian, for
 /// k = 0 … N/2; N - k has the conjugate matrix, with the same eigenvalues. Component c of the
-/// sector's row a is number 2a + c. With masses of 1 kg/m it is K(k).
+/// sector's row a is number C a + c. With masses of 1 kg/m it is K(k).
 class Harmonics {
  public:
   using Matrix = Eigen::SparseMatrix<std::complex<double>>;
 
   /// @param mass (n) of every node of the mesh; those of sector 0 are taken, > 0 [kg/m].
-  Harmonics(const SectorStiffness& k, std::span<const double> mass);
+  template <int C>
+  Harmonics(const SectorBlocks<C>& k, std::span<const double> mass);
 
   /// N/2 + 1, rounded down.
   [[nodiscard]] int count() const noexcept { return n_sectors_ / 2 + 1; }
-  /// 2 n_local.
+  /// C n_local.
   [[nodiscard]] Eigen::Index size() const noexcept { return matrix_.rows(); }
-  /// (2 n_local) M^½ of the sector [√(kg/m)].
+  /// (C n_local) M^½ of the sector [√(kg/m)].
   [[nodiscard]] const Eigen::VectorXd& root_mass() const noexcept { return root_mass_; }
 
   /// Lower triangle of factor · A(k) + shift · I, all of the same pattern, columns in order, each
   /// from its diagonal on [1/s²]. The reference is to the one matrix there is: it holds until the
   /// next call. @pre 0 <= harmonic < count().
-  const Matrix& lower(int harmonic, double factor, double shift);
+  const Matrix& lower(int harmonic, double factor, double shift) {
+    return lower(harmonic, factor, shift, shift);
+  }
+  /// The same with another shift for the axial components: a spin softens the plane ones alone.
+  const Matrix& lower(int harmonic, double factor, double shift, double axial_shift);
 
  private:
   int n_sectors_;
+  int components_;  ///< C
   Eigen::VectorXd root_mass_;
   Matrix matrix_;
   /// Entry of A(k) = constant + even cos κ + i odd sin κ.

@@ -2,66 +2,23 @@
 #include "rondo/fem/sector_stiffness.hpp"
 
 #include <algorithm>
-#include <map>
 #include <numbers>
-#include <utility>
 
 #include "rondo/core/contract.hpp"
 #include "rondo/fem/assembly.hpp"
+#include "rondo/fem/sector_rows.hpp"
 
 namespace rondo::fem {
+namespace detail {
 namespace {
 
-using Block = std::array<double, 4>;  // column-major
-
-Block transposed(const Block& b) noexcept {
-  return {b[0], b[2], b[1], b[3]};
-}
-
-/// block · R: its columns act on vectors turned by `turn`.
-Block turned(const Block& b, Complex turn) noexcept {
-  return {b[0] * turn.re + b[2] * turn.im, b[1] * turn.re + b[3] * turn.im,
-          b[2] * turn.re - b[0] * turn.im, b[3] * turn.re - b[1] * turn.im};
-}
-
-/// Corners of a cell as (number within the sector, shift from sector 0).
-struct LocalCell {
-  std::array<int, 4> node, shift;
-  std::size_t n;
-  std::size_t cell;         ///< of the mesh
-  ElementMatrix stiffness;  ///< of that cell
-};
-
-int shift_of(int sector, int n_sectors) noexcept {
-  return sector == n_sectors - 1 ? -1 : sector;
-}
-
-/// Cells with a corner in sector 0.
-std::vector<LocalCell> cells_of_sector(const mesh::Mesh& mesh) {
-  std::vector<LocalCell> cells;
-  for (std::size_t e = 0; e < mesh.cells.size(); ++e) {
-    const mesh::Cell& cell = mesh.cells[e];
-    LocalCell c{{}, {}, static_cast<std::size_t>(mesh::n_corners(cell)), e, {}};
-    bool touches = false;
-    for (std::size_t i = 0; i < c.n; ++i) {
-      const auto node = static_cast<std::size_t>(cell[i]);
-      c.node[i] = mesh.sector_node[node];
-      c.shift[i] = shift_of(mesh.sector[node], mesh.n_sectors);
-      touches = touches || c.shift[i] == 0;
-    }
-    if (touches) cells.push_back(c);
-  }
-  return cells;
-}
-
-/// Rows by layers: breadth-first over cells from the clamped nodes; -1 for these.
-std::vector<int> order_by_layers(const std::vector<LocalCell>& cells,
-                                 const std::vector<char>& clamped, SectorStiffness& k) {
-  const std::size_t n = clamped.size();
-  std::vector<int> layer(n, -1), place(n, -1);
-  for (std::size_t i = 0; i < n; ++i)
+/// (nodes_per_sector) Layer of each node: 0 where clamped; -1: none leads there.
+std::vector<int> layers_of(const std::vector<SectorElement>& elements,
+                           const std::vector<char>& clamped) {
+  std::vector<int> layer(clamped.size(), -1);
+  for (std::size_t i = 0; i < clamped.size(); ++i)
     if (clamped[i]) layer[i] = 0;
-  const auto lowest = [&](const LocalCell& c) {
+  const auto lowest = [&](const SectorElement& c) {
     int found = -1;
     for (std::size_t i = 0; i < c.n; ++i) {
       const int l = layer[static_cast<std::size_t>(c.node[i])];
@@ -71,7 +28,7 @@ std::vector<int> order_by_layers(const std::vector<LocalCell>& cells,
   };
   for (int current = 0;; ++current) {
     bool grew = false;
-    for (const LocalCell& c : cells) {
+    for (const SectorElement& c : elements) {
       if (lowest(c) != current) continue;
       for (std::size_t i = 0; i < c.n; ++i) {
         int& l = layer[static_cast<std::size_t>(c.node[i])];
@@ -80,85 +37,52 @@ std::vector<int> order_by_layers(const std::vector<LocalCell>& cells,
     }
     if (!grew) break;
   }
-  for (std::size_t i = 0; i < n; ++i)
-    if (!clamped[i]) k.nodes.push_back(static_cast<int>(i));
-  std::stable_sort(k.nodes.begin(), k.nodes.end(), [&](int a, int b) {
-    return layer[static_cast<std::size_t>(a)] < layer[static_cast<std::size_t>(b)];
-  });
-  for (std::size_t a = 0; a < k.nodes.size(); ++a)
-    place[static_cast<std::size_t>(k.nodes[a])] = static_cast<int>(a);
-  return place;
-}
-
-struct Key {
-  int row, column, shift;
-  auto operator<=>(const Key&) const = default;
-};
-
-/// Blocks of the rows of sector 0 on the columns of sectors 0 and 1. What couples it with the
-/// sector before is the transpose of what couples that one with it.
-std::map<Key, Block> forward_blocks(const std::vector<LocalCell>& cells,
-                                    const std::vector<int>& place, Complex turn) {
-  std::map<Key, Block> blocks;
-  for (const LocalCell& c : cells) {
-    const ElementMatrix& e = c.stiffness;
-    for (std::size_t i = 0; i < c.n; ++i)
-      for (std::size_t j = 0; j < c.n; ++j) {
-        const int row = place[static_cast<std::size_t>(c.node[i])],
-                  column = place[static_cast<std::size_t>(c.node[j])];
-        if (row < 0 || column < 0 || c.shift[i] != 0 || c.shift[j] < 0) continue;
-        const auto entry = [&](std::size_t p, std::size_t q) {
-          return e(static_cast<int>(std::min(p, q)), static_cast<int>(std::max(p, q)));
-        };
-        const Block b{entry(2 * i, 2 * j), entry(2 * i + 1, 2 * j), entry(2 * i, 2 * j + 1),
-                      entry(2 * i + 1, 2 * j + 1)};
-        Block& sum = blocks[{row, column, c.shift[j]}];
-        const Block t = c.shift[j] == 1 ? turned(b, turn) : b;
-        for (std::size_t q = 0; q < 4; ++q) sum[q] += t[q];
-      }
-  }
-  return blocks;
-}
-
-void add_rows(const std::map<Key, Block>& forward, SectorStiffness& k) {
-  std::map<Key, Block> all = forward;
-  for (const auto& [key, block] : forward) {
-    if (key.shift == 1) all[{key.column, key.row, -1}] = transposed(block);
-    if (key.shift == 0 && key.row < key.column) all[{key.column, key.row, 0}] = transposed(block);
-  }
-  k.row_start.assign(k.n_local() + 1, 0);
-  for (const auto& [key, block] : all) {
-    k.entries.push_back({key.column, key.shift, block});
-    ++k.row_start[static_cast<std::size_t>(key.row) + 1];
-  }
-  for (std::size_t a = 0; a < k.n_local(); ++a) k.row_start[a + 1] += k.row_start[a];
+  return layer;
 }
 
 }  // namespace
 
-SectorStiffness assemble_sector(const mesh::Mesh& mesh, std::span<const Material> materials,
-                                std::span<const Vec2> prestress) {
+SectorRows sector_rows(const mesh::Mesh& mesh, const std::vector<SectorElement>& elements) {
+  SectorRows rows;
   RONDO_DEMAND(mesh.n_sectors >= 3, mesh.n_sectors);
-  SectorStiffness k;
-  k.n_sectors = mesh.n_sectors;
-  k.nodes_per_sector = static_cast<int>(mesh.n_nodes()) / mesh.n_sectors;
+  rows.nodes_per_sector = static_cast<int>(mesh.n_nodes()) / mesh.n_sectors;
   RONDO_DEMAND(
-      static_cast<std::size_t>(k.nodes_per_sector) * static_cast<std::size_t>(k.n_sectors) ==
+      static_cast<std::size_t>(rows.nodes_per_sector) * static_cast<std::size_t>(mesh.n_sectors) ==
           mesh.n_nodes(),
-      k.nodes_per_sector, k.n_sectors);
-  for (int j = 0; j < k.n_sectors; ++j)
-    k.turn.push_back(rotation(2.0 * std::numbers::pi * j / k.n_sectors));
-  std::vector<char> clamped(static_cast<std::size_t>(k.nodes_per_sector), 0);
+      rows.nodes_per_sector, mesh.n_sectors);
+  for (int j = 0; j < mesh.n_sectors; ++j)
+    rows.turn.push_back(rotation(2.0 * std::numbers::pi * j / mesh.n_sectors));
+  const auto n = static_cast<std::size_t>(rows.nodes_per_sector);
+  std::vector<char> clamped(n, 0);
   for (const int node : mesh.clamped)
     clamped[static_cast<std::size_t>(mesh.sector_node[static_cast<std::size_t>(node)])] = 1;
-  std::vector<LocalCell> cells = cells_of_sector(mesh);
-  const std::vector<int> place = order_by_layers(cells, clamped, k);
+  const std::vector<int> layer = layers_of(elements, clamped);
+  for (std::size_t i = 0; i < n; ++i)
+    if (!clamped[i]) rows.nodes.push_back(static_cast<int>(i));
+  std::stable_sort(rows.nodes.begin(), rows.nodes.end(), [&](int a, int b) {
+    return layer[static_cast<std::size_t>(a)] < layer[static_cast<std::size_t>(b)];
+  });
+  rows.place.assign(n, -1);
+  for (std::size_t a = 0; a < rows.nodes.size(); ++a)
+    rows.place[static_cast<std::size_t>(rows.nodes[a])] = static_cast<int>(a);
+  return rows;
+}
+
+}  // namespace detail
+
+SectorStiffness assemble_sector(const mesh::Mesh& mesh, std::span<const Material> materials,
+                                std::span<const Vec2> prestress) {
+  const auto elements =
+      detail::sector_elements(mesh, mesh.cells.size(), [&](std::size_t e) -> std::span<const int> {
+        return {mesh.cells[e].data(), static_cast<std::size_t>(mesh::n_corners(mesh.cells[e]))};
+      });
+  const detail::SectorRows rows = detail::sector_rows(mesh, elements);
   const NodalDilatation dilatation(mesh, materials);
   RONDO_DEMAND(dilatation.empty());  // reaches beyond the sector beside
-  for (LocalCell& c : cells)
-    c.stiffness = cell_stiffness(mesh, materials, prestress, c.cell, dilatation);
-  add_rows(forward_blocks(cells, place, k.turn[1]), k);
-  return k;
+  const auto stiffness = [&](std::size_t cell) {
+    return cell_stiffness(mesh, materials, prestress, cell, dilatation);
+  };
+  return detail::sector_blocks<2>(detail::forward_blocks<2>(elements, rows, stiffness), rows);
 }
 
 void apply(const SectorStiffness& k, std::span<const Vec2> u, std::span<Vec2> out) {

@@ -15,14 +15,17 @@
 namespace rondo::fem {
 
 /// Rows are the free nodes of sector 0, layer after layer from the clamped nodes outwards, so that
-/// a row couples with near rows only. Symmetric to the last bit.
-struct SectorStiffness {
-  /// 2×2 block that acts on local node `column` of the sector `shift` further on (-1, 0, 1), in
-  /// polar components, column-major as in BlockCsr [N/m²].
+/// a row couples with near rows only. Symmetric to the last bit. C components a node: two in the
+/// frame of its sector, which for sector 0 is that of X, and, in three dimensions, the axial one.
+template <int C>
+struct SectorBlocks {
+  static constexpr int components = C;
+  /// C×C block that acts on local node `column` of the sector `shift` further on (-1, 0, 1), in
+  /// polar components, column-major as in BlockCsr [N/m²], in three dimensions [N/m].
   struct Entry {
     int column;
     int shift;
-    std::array<double, 4> block;
+    std::array<double, static_cast<std::size_t>(C* C)> block;
   };
 
   int n_sectors = 0;
@@ -41,6 +44,9 @@ struct SectorStiffness {
     return std::span(entries).subspan(row_start[a], row_start[a + 1] - row_start[a]);
   }
 };
+
+using SectorStiffness = SectorBlocks<2>;
+using SolidSector = SectorBlocks<3>;
 
 /// @param materials one for each region of the mesh (material_of).
 /// @param prestress (n) displacement, the same in each sector, whose stress stiffens the body,

@@ -32,20 +32,6 @@ int top_layer(const Layout& l, int line_in_pitch) {
   return line_in_pitch <= l.land ? l.base + l.layers : l.base;
 }
 
-std::vector<double> layer_radii(const Disk& d, const Layout& l) {
-  const double base_radius = d.outer_radius - (d.tread ? d.tread->depth : 0.0);
-  std::vector<double> r;
-  for (int k = 0; k <= l.base; ++k) {
-    const double fraction = 1.0 - std::pow(1.0 - static_cast<double>(k) / l.base, d.grading);
-    r.push_back(k == l.base ? base_radius
-                            : d.inner_radius + (base_radius - d.inner_radius) * fraction);
-  }
-  for (int k = 1; k <= l.layers; ++k)
-    r.push_back(k == l.layers ? d.outer_radius
-                              : base_radius + (d.outer_radius - base_radius) * k / l.layers);
-  return r;
-}
-
 std::vector<Line> add_nodes(Mesh& mesh, const Layout& l, const std::vector<double>& radii) {
   std::vector<Line> lines;
   const int n_lines = l.pitches * l.columns;
@@ -111,6 +97,21 @@ void add_curves(Mesh& mesh, const std::vector<Line>& lines) {
 
 }  // namespace
 
+std::vector<double> layer_radii(const Disk& d) {
+  const Layout l = layout_of(d);
+  const double base_radius = d.outer_radius - (d.tread ? d.tread->depth : 0.0);
+  std::vector<double> r;
+  for (int k = 0; k <= l.base; ++k) {
+    const double fraction = 1.0 - std::pow(1.0 - static_cast<double>(k) / l.base, d.grading);
+    r.push_back(k == l.base ? base_radius
+                            : d.inner_radius + (base_radius - d.inner_radius) * fraction);
+  }
+  for (int k = 1; k <= l.layers; ++k)
+    r.push_back(k == l.layers ? d.outer_radius
+                              : base_radius + (d.outer_radius - base_radius) * k / l.layers);
+  return r;
+}
+
 std::size_t n_disk_nodes(const Disk& disk) noexcept {
   const Layout l = layout_of(disk);
   const auto per_line = [](int layers) { return static_cast<std::size_t>(layers) + 1; };
@@ -134,7 +135,7 @@ Mesh make_disk(const Disk& disk) {
   mesh.sector.reserve(n);
   mesh.sector_node.reserve(n);
   mesh.cells.reserve(n);  // no more cells than nodes
-  const std::vector<Line> lines = add_nodes(mesh, l, layer_radii(disk, l));
+  const std::vector<Line> lines = add_nodes(mesh, l, layer_radii(disk));
   add_cells(mesh, l, lines);
   add_boundary(mesh, l, lines);
   add_curves(mesh, lines);

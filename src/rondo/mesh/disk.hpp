@@ -4,6 +4,7 @@
 #pragma once
 #include <cstddef>
 #include <optional>
+#include <vector>
 
 #include "rondo/mesh/mesh.hpp"
 
@@ -31,6 +32,9 @@ struct Disk {
 /// Column 0 (the first land) starts at -90°, straight down; columns counter-clockwise. Nodes are
 /// numbered sector after sector, from the rim outwards. @pre the bounds above.
 Mesh make_disk(const Disk& disk);
+
+/// Radii of the layers of nodes, from the rim to the top of the tread [m].
+std::vector<double> layer_radii(const Disk& disk);
 
 /// Number of nodes that make_disk would make, without making them (no overflow: 64 bits).
 std::size_t n_disk_nodes(const Disk& disk) noexcept;

@@ -22,6 +22,19 @@ inline int n_corners(const Cell& cell) noexcept {
 /// on the right.
 using Edge = std::array<int, 2>;
 
+/// Corner nodes of a hexahedron: a face, counter-clockwise as seen from inside, then the one
+/// opposite, corner by corner (the order of VTK).
+using Hexahedron = std::array<int, 8>;
+
+/// Four nodes, counter-clockwise as seen from outside.
+using Face = std::array<int, 4>;
+
+/// A named part of the surface of a wheel ("rim", "tread", physical curves of its section).
+struct Surface {
+  std::string name;
+  std::vector<Face> faces;
+};
+
 /// A named part of the boundary (a physical curve of a file; "rim" and "tread" of a disk).
 struct Curve {
   std::string name;
@@ -43,8 +56,15 @@ struct Mesh {
   std::vector<int>
       sector;  ///< (n) sector of a node, counter-clockwise from -90°; empty: not cyclic
   std::vector<int> sector_node;  ///< (n) number of a node within its sector; empty: not cyclic
+  // Of a wheel in three dimensions, which has neither cells, contact_edges nor curves; its
+  // tributaries are areas [m²].
+  std::vector<double> axial;          ///< (n) z of X, along the axle; empty: the body is plane [m]
+  std::vector<Hexahedron> hexahedra;  ///< (e) corner nodes
+  std::vector<Surface> surfaces;
 
   [[nodiscard]] std::size_t n_nodes() const noexcept { return coordinates.size(); }
+  [[nodiscard]] bool is_solid() const noexcept { return !axial.empty(); }
+  [[nodiscard]] std::size_t n_elements() const noexcept { return cells.size() + hexahedra.size(); }
 };
 
 /// (n) 1 where a node is clamped.

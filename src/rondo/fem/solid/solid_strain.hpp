@@ -1,0 +1,17 @@
+// SPDX-License-Identifier: BSD-3-Clause
+/// @file  How far a wheel in three dimensions is deformed, hexahedron by hexahedron.
+#pragma once
+#include <span>
+
+#include "rondo/fem/strain.hpp"
+#include "rondo/mesh/mesh.hpp"
+
+namespace rondo::fem {
+
+/// As deformation() in the plane: principal strains at the centers, J at the corners; `strain_cell`
+/// and `jacobian_cell` are numbers of hexahedra.
+/// @param u, axial_u (n) finite, turning frame [m]. @pre there is a hexahedron
+[[nodiscard]] Deformation solid_deformation(const mesh::Mesh& mesh, std::span<const Vec2> u,
+                                            std::span<const double> axial_u) noexcept;
+
+}  // namespace rondo::fem

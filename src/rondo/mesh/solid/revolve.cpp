@@ -1,0 +1,172 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <utility>
+
+#include "rondo/core/contract.hpp"
+#include "rondo/mesh/edges.hpp"
+#include "rondo/mesh/solid/face.hpp"
+#include "rondo/mesh/solid/wheel.hpp"
+
+namespace rondo::mesh {
+namespace {
+
+/// The lines of a sector: the section's nodes at one angle.
+struct Lines {
+  int nodes_per_sector = 0;
+  std::vector<std::vector<int>> number;  ///< [line][node of the section] in the sector; -1: none
+};
+
+class Sweep {
+ public:
+  Sweep(const Mesh& section, const Columns& columns)
+      : section_(section), columns_(columns), edges_(section) {
+    number_lines();
+  }
+
+  Mesh mesh() const {
+    Mesh mesh;
+    mesh.n_sectors = columns_.n_sectors;
+    mesh.region_names = section_.region_names;
+    add_nodes(mesh);
+    add_hexahedra(mesh);
+    add_surfaces(mesh);
+    add_candidates(mesh);
+    return mesh;
+  }
+
+ private:
+  /// Of `column` of a sector.
+  [[nodiscard]] bool kept(int column, std::size_t cell) const {
+    const auto place = static_cast<std::size_t>(column) * section_.cells.size() + cell;
+    return columns_.kept.empty() || columns_.kept[place] != 0;
+  }
+
+  /// A line has the nodes of the cells on either side of it.
+  void number_lines() {
+    const auto n = static_cast<std::size_t>(columns_.columns);
+    std::vector<std::vector<char>> used(n, std::vector<char>(section_.n_nodes(), 0));
+    for (int c = 0; c < columns_.columns; ++c)
+      for (std::size_t e = 0; e < section_.cells.size(); ++e)
+        if (kept(c, e))
+          for (const int node : section_.cells[e])
+            for (const std::size_t line :
+                 {static_cast<std::size_t>(c), (static_cast<std::size_t>(c) + 1) % n})
+              used[line][static_cast<std::size_t>(node)] = 1;
+    for (const std::vector<char>& line : used) {
+      lines_.number.emplace_back(section_.n_nodes(), -1);
+      for (std::size_t i = 0; i < line.size(); ++i)
+        if (line[i]) lines_.number.back()[i] = lines_.nodes_per_sector++;
+    }
+  }
+
+  /// Node of the mesh on the line that begins column `column` of a sector; `column` may be one past
+  /// the last.
+  [[nodiscard]] int node(int sector, int column, int of_section) const {
+    const int line = column % columns_.columns;
+    const int there = (sector + column / columns_.columns) % columns_.n_sectors;
+    const int number =
+        lines_.number[static_cast<std::size_t>(line)][static_cast<std::size_t>(of_section)];
+    return there * lines_.nodes_per_sector + number;
+  }
+
+  void add_nodes(Mesh& mesh) const {
+    const std::vector<char> clamped = clamped_flags(section_);
+    const int n_lines = columns_.n_sectors * columns_.columns;
+    for (int line = 0; line < n_lines; ++line) {
+      const double angle = 2.0 * std::numbers::pi * line / n_lines - 0.5 * std::numbers::pi;
+      const Vec2 direction = direction_at(angle);
+      const auto& number = lines_.number[static_cast<std::size_t>(line % columns_.columns)];
+      for (std::size_t i = 0; i < number.size(); ++i) {
+        if (number[i] < 0) continue;
+        if (clamped[i]) mesh.clamped.push_back(static_cast<int>(mesh.n_nodes()));
+        mesh.coordinates.push_back(section_.coordinates[i].x * direction);
+        mesh.axial.push_back(section_.coordinates[i].y);
+        mesh.sector.push_back(line / columns_.columns);
+        mesh.sector_node.push_back(number[i]);
+      }
+    }
+  }
+
+  /// visit(sector, column), counter-clockwise from -90°.
+  template <class Visit>
+  void each_column(const Visit& visit) const {
+    for (int s = 0; s < columns_.n_sectors; ++s)
+      for (int c = 0; c < columns_.columns; ++c) visit(s, c);
+  }
+
+  void add_hexahedra(Mesh& mesh) const {
+    each_column([&](int s, int c) {
+      for (std::size_t e = 0; e < section_.cells.size(); ++e) {
+        if (!kept(c, e)) continue;
+        const Cell& cell = section_.cells[e];  // counter-clockwise in (r, z): clockwise seen along
+        Hexahedron h{};                        // the way around
+        for (std::size_t i = 0; i < 4; ++i) {
+          const int corner = cell[(4 - i) % 4];
+          h[i] = node(s, c, corner);
+          h[i + 4] = node(s, c + 1, corner);
+        }
+        mesh.hexahedra.push_back(h);
+        if (!section_.region.empty()) mesh.region.push_back(section_.region[e]);
+      }
+    });
+  }
+
+  /// What the edges of the boundary sweep where their cells are.
+  [[nodiscard]] std::vector<Face> swept(std::span<const Edge> edges) const {
+    std::vector<Face> faces;
+    each_column([&](int s, int c) {
+      for (const auto& [p, q] : edges) {
+        const auto cells = edges_.find({p, q});
+        if (cells.size() != 1 || !kept(c, static_cast<std::size_t>(cells[0].cell))) continue;
+        faces.push_back({node(s, c, p), node(s, c + 1, p), node(s, c + 1, q), node(s, c, q)});
+      }
+    });
+    return faces;
+  }
+
+  void add_surfaces(Mesh& mesh) const {
+    for (const Curve& curve : section_.curves) {
+      std::vector<Face> faces = swept(curve.edges);
+      if (!faces.empty()) mesh.surfaces.push_back({curve.name, std::move(faces)});
+    }
+  }
+
+  /// Nodes of the contact surface, each with its share of the faces around it.
+  void add_candidates(Mesh& mesh) const {
+    std::vector<double> area(mesh.n_nodes(), 0.0);
+    for (const Face& face : swept(section_.contact_edges)) {
+      const std::array<Vec3, 4> share = face_shares(face_corners(mesh, face));
+      for (std::size_t i = 0; i < 4; ++i) area[static_cast<std::size_t>(face[i])] += norm(share[i]);
+    }
+    for (std::size_t i = 0; i < area.size(); ++i)
+      if (area[i] > 0.0) {
+        mesh.boundary.push_back(static_cast<int>(i));
+        mesh.tributary.push_back(area[i]);
+      }
+  }
+
+  const Mesh& section_;
+  const Columns& columns_;
+  EdgeTable edges_;
+  Lines lines_;
+};
+
+}  // namespace
+
+Mesh revolve(const Mesh& section, const Columns& columns) {
+  RONDO_DEMAND(columns.n_sectors >= 3 && columns.columns >= 1, columns.n_sectors, columns.columns);
+  const auto n = static_cast<std::size_t>(columns.columns) * section.cells.size();
+  RONDO_DEMAND(columns.kept.empty() || columns.kept.size() == n, columns.kept.size(), n);
+  for (const Cell& cell : section.cells) {
+    RONDO_DEMAND(n_corners(cell) == 4, cell[0], cell[1], cell[2]);
+    for (const int node : cell) {
+      const double r = section.coordinates[static_cast<std::size_t>(node)].x;
+      RONDO_DEMAND(r > 0.0, node, r);
+    }
+  }
+  return Sweep(section, columns).mesh();
+}
+
+}  // namespace rondo::mesh
