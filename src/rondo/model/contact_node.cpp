@@ -86,6 +86,9 @@ void report_node(const ContactStep& s, const ContactNode& node,
 void ContactReport::add(const ContactReport& other) noexcept {
   impulse += other.impulse;
   angular_impulse += other.angular_impulse;
+  lateral += other.lateral;
+  moment_aligning += other.moment_aligning;
+  moment_overturning += other.moment_overturning;
   nodes += other.nodes;
   sticking += other.sticking;
   pairs += other.pairs;

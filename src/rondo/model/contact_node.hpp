@@ -14,18 +14,22 @@ namespace rondo::dynamics {
 struct ContactReport {
   Vec2 impulse;                  ///< of the ground on the body, fixed frame             [N·s/m]
   double angular_impulse = 0.0;  ///< about the center                                [N·s]
-  int nodes = 0;                 ///< candidates with r_n > 0
-  int sticking = 0;              ///< of these, those that stick
-  int pairs = 0;                 ///< nodes held by two facets
-  int pairs_not_converged = 0;   ///< of these, no case met the law to 1e-12
-  int clusters = 0;              ///< groups of two contacts and more that share nodes
+  // In three dimensions `impulse` is along t1 and n, in N·s; `angular_impulse` about the axle.
+  double lateral = 0.0;             ///< of the impulse along t2                         [N·s]
+  double moment_aligning = 0.0;     ///< about n                                       [N·m·s]
+  double moment_overturning = 0.0;  ///< about t1, in the ground under the center      [N·m·s]
+  int nodes = 0;                    ///< candidates with r_n > 0
+  int sticking = 0;                 ///< of these, those that stick
+  int pairs = 0;                    ///< nodes held by two facets
+  int pairs_not_converged = 0;      ///< of these, no case met the law to 1e-12
+  int clusters = 0;                 ///< groups of two contacts and more that share nodes
   int clusters_not_converged = 0;
   int cluster_largest = 0;     ///< contacts of the largest
   int cluster_iterations = 0;  ///< most that one took
   int extensions = 0;          ///< of a massless boundary: times that nodes joined
   bool two_facets = false;     ///< likewise: a node is held by two facets, which is not done
   int between_bodies = 0;      ///< nodes pressed against a segment of a body
-  double length = 0.0;         ///< Σ tributary lengths of nodes with r_n > 0           [m]
+  double length = 0.0;         ///< Σ tributary lengths of nodes with r_n > 0 [m]; areas [m²]
   double penetration = 0.0;    ///< largest -gap of an active contact, >= 0             [m]
   double free_velocity = 0.0;  ///< largest |w_free|                                    [m/s]
   double residual = 0.0;       ///< largest law residual over the node's mass           [m/s]

@@ -49,7 +49,7 @@ LoadedRim::LoadedRim(const Model& model) noexcept : model_(model), rim_(*model.r
   const Vec2 center = model.motion.center(0.0);
   x_.add(center.x);
   y_.add(center.y);
-  velocity_.x = model.motion.speed.at(0.0);
+  velocity_.x = model.motion.speed.at(0.0) * std::cos(model.motion.slip_angle.at(0.0));
   if (!rim_.free_y) velocity_.y = model.motion.height.slope(0.0);
   spin_ = -model.motion.angular_velocity.at(0.0);
   frame_.center = center;

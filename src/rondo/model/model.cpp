@@ -11,6 +11,9 @@ namespace rondo::dynamics {
 State::State(const Model& model) : u(model.n_nodes()), v(model.n_nodes()), v_next(model.n_nodes()) {
   if (model.contact) active.reserve(2 * model.contact->nodes.size());
   for (const FreeBody& body : model.free_bodies) poses.push_back({body.center});
+  if (!model.solid) return;
+  for (std::vector<double>* field : {&axial_u, &axial_v, &axial_v_next})
+    field->resize(model.n_nodes());
 }
 
 void find_free_bodies(const mesh::Mesh& mesh, Model& model) {
@@ -70,7 +73,7 @@ double least_mass_share(const Model& model) noexcept {
 }
 
 bool has_sharp_corners(const Model& model) noexcept {
-  return model.contact && !model.contact->ground.corners().empty();
+  return model.contact && !model.solid && !model.contact->ground.corners().empty();
 }
 
 void apply_stiffness(const Model& model, std::span<const Vec2> u, std::span<Vec2> out) {

@@ -84,6 +84,23 @@ struct RubberPart {
   fem::BlockCsr linear;  ///< K of all other elements, on the free nodes: as many rows [N/m²]
 };
 
+/// Pressure on a part of the surface of a wheel.
+struct SolidPressure {
+  std::vector<Vec3> force;  ///< (n_local) per pressure, of each row of a sector: radial,
+                            ///< tangential, axial; as it lies in X                        [m²]
+  Table pressure;           ///< [Pa]
+};
+
+/// What a wheel in three dimensions has besides (docs/wheel3d.md). Its vectors of nodes are the
+/// plane ones of the model and the state, with their axial components beside; masses are in kg,
+/// forces in N, energies in J, tributaries in m². It is cyclic, held at its rim, and touches the
+/// ground: what a profile says of x and y is the same along t2.
+struct SolidBody {
+  std::vector<double> axial;  ///< (n) z of X                                 [m]
+  fem::SolidSector sector;    ///< K of one sector                            [N/m]
+  std::vector<SolidPressure> pressures;
+};
+
 class InternalForce;
 struct Model;
 struct Pose;
@@ -106,6 +123,7 @@ struct Model {
   /// Of rubber, what the fused step makes of it; its internal_force is there as well, and
   /// `stiffness` is that of small strains.
   std::optional<RubberPart> rubber;
+  std::optional<SolidBody> solid;  ///< absent: the body is plane
   StiffnessOperator stiffness_operator = StiffnessOperator::sparse;
   double mass_damping = 0.0;       ///< α                            [1/s]
   double stiffness_damping = 0.0;  ///< β                            [s]
@@ -139,7 +157,14 @@ void for_free_nodes(const Model& model, Work&& work) {
   for (const int node : model.free) work(static_cast<std::size_t>(node));
 }
 
-/// A contact of the step just done, in its frame (normal, tangential).
+/// What a contact of a wheel in three dimensions has along t2 (motion.hpp).
+struct LateralContact {
+  double before = 0.0, free = 0.0, after = 0.0;  ///< of w⁻, w without impulse, w⁺    [m/s]
+  double impulse = 0.0;                          ///< [N·s]
+};
+
+/// A contact of the step just done, in its frame (normal, tangential). In three dimensions the
+/// plane is that of t1 and n, and the third direction, t2, is at right angles to both.
 struct ActiveContact {
   std::size_t candidate = 0;  ///< place in ContactModel::nodes
   Vec2 normal;                ///< out of the ground, fixed frame
@@ -151,6 +176,7 @@ struct ActiveContact {
   double bounce = 0.0;        ///< ε of the law (4.3)                           [m/s]
   contact::Status status = contact::Status::open;
   bool on_ground = true;  ///< false: against a segment of a body
+  LateralContact lateral;
 };
 
 /// After step n: displacement and forces at t_{n+1}, velocities half a step before and after.
@@ -168,6 +194,18 @@ struct State {
   std::vector<Pose> poses;            ///< (free_bodies) at t_{n+1}
   std::vector<double> rim;            ///< at step 0: what a loaded rim carries (loaded_rim.hpp)
   std::vector<ActiveContact> active;  ///< capacity for every candidate twice
+  // Axial components in three dimensions, else empty.
+  std::vector<double> axial_u;             ///< (n) of u                             [m]
+  std::vector<double> axial_v;             ///< (n) of v                             [m/s]
+  std::vector<double> axial_v_next;        ///< (n) of v_next                        [m/s]
+  std::vector<double> axial_force;         ///< (n) of force                         [N]
+  std::vector<double> axial_force_before;  ///< (n) of force_before                  [N]
+};
+
+/// Axial components of the fields that a run in three dimensions starts with, (n) each.
+struct AxialStart {
+  std::vector<double> u, v;  ///< u_0 [m], v_0 [m/s]; empty: 0
+  std::vector<double> half;  ///< v_{1/2} where it is known; empty: as start() finds it [m/s]
 };
 
 /// The node belongs to a body that nothing holds: its u and v are those of the fixed frame.

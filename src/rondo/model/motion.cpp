@@ -95,9 +95,67 @@ double Motion::turn(double from, double length) const noexcept {
                     : -angular_velocity.integral(from, length);
 }
 
+namespace {
+
+bool is_zero(const Table& table) noexcept {
+  return table.largest() == 0.0;
+}
+
+/// ∫ (a + b t) e^{i (c + d t)} dt over [0, length], without cancellation where d is small.
+Complex wave_integral(double a, double b, double c, double d, double length) noexcept {
+  const double turn = d * length;
+  Complex mean, moment;  // ∫ e^{i turn x} dx and ∫ x e^{i turn x} dx over [0, 1]
+  if (std::abs(turn) < 0.5) {
+    Complex term{1.0, 0.0};  // (i turn)^k / k!
+    for (int k = 0; k < 16; ++k) {
+      mean += term / (k + 1.0);
+      moment += term / (k + 2.0);
+      term = Complex{0.0, turn / (k + 1.0)} * term;
+    }
+  } else {
+    const Complex end = rotation(turn);
+    mean = rotation_minus_one(turn) / Complex{0.0, turn};
+    moment = (end - mean) / Complex{0.0, turn};
+  }
+  return length * (rotation(c) * (a * mean + b * length * moment));
+}
+
+/// ∫ V e^{iα} over [from, from + length]: real part along t1, imaginary part along t2. Exact: on
+/// each piece speed and slip angle are linear.
+Complex travel(const Table& speed, const Table& angle, double from, double length) noexcept {
+  Complex sum;
+  for_pieces(speed.points(), from, length, [&](double begin, double part) {
+    const double sense = part < 0.0 ? -1.0 : 1.0;
+    for_pieces(angle.points(), begin, std::abs(part), [&](double b, double p) {
+      sum += sense * wave_integral(speed.at(b), speed.slope(b), angle.at(b), angle.slope(b), p);
+    });
+  });
+  return sum;
+}
+
+/// The same before t = 0, from `from` < 0: speed and slip angle are prolonged.
+Complex prolonged_travel(const Table& speed, const Table& angle, double from,
+                         double length) noexcept {
+  const double v = speed.slope(0.0), a = angle.slope(0.0);
+  return wave_integral(speed.at(0.0) + v * from, v, angle.at(0.0) + a * from, a, length);
+}
+
+Complex travel_of(const Motion& m, double from, double length) noexcept {
+  return from < 0.0 ? prolonged_travel(m.speed, m.slip_angle, from, length)
+                    : travel(m.speed, m.slip_angle, from, length);
+}
+
+}  // namespace
+
 Vec2 Motion::advance(double from, double length) const noexcept {
-  if (from < 0.0) return {prolonged_integral(speed, from, length), length * height.slope(0.0)};
-  return {speed.integral(from, length), height.change(from, length)};
+  const double climb = from < 0.0 ? length * height.slope(0.0) : height.change(from, length);
+  if (!is_zero(slip_angle)) return {travel_of(*this, from, length).re, climb};
+  return {from < 0.0 ? prolonged_integral(speed, from, length) : speed.integral(from, length),
+          climb};
+}
+
+double Motion::lateral_advance(double from, double length) const noexcept {
+  return is_zero(slip_angle) ? 0.0 : travel_of(*this, from, length).im;
 }
 
 namespace {
@@ -115,8 +173,16 @@ FrameStep frame_at(const Motion& motion, double before, double t, double dt) noe
   f.center = motion.center(t);
   f.advance = motion.advance(t, dt);
   f.advance_before = motion.advance(before, dt);
+  f.slip_angle = motion.slip_angle.at(t);
+  f.lateral = motion.lateral(t);
+  f.lateral_advance = motion.lateral_advance(t, dt);
+  f.lateral_before = motion.lateral_advance(before, dt);
   const Vec2 acceleration = (f.advance - f.advance_before) / (dt * dt);
-  f.pull = conj(f.rotation) * (acceleration - motion.gravity_at(t));
+  const Vec3 pull = GroundAxes(motion.camber)
+                        .to_wheel(acceleration - motion.gravity_at(t),
+                                  (f.lateral_advance - f.lateral_before) / (dt * dt));
+  f.pull = conj(f.rotation) * pull.plane();
+  f.axial_pull = pull.z;
   return f;
 }
 

@@ -2,9 +2,10 @@
 /// @file  Motion of the rim: angle and center, integrated exactly (docs/theory.md, section 1).
 #pragma once
 #include <array>
+#include <cmath>
 #include <vector>
 
-#include "rondo/core/complex.hpp"
+#include "rondo/core/vec3.hpp"
 
 namespace rondo::dynamics {
 
@@ -40,6 +41,10 @@ struct Motion {
   Table gravity;           ///< downwards, tilted by the slope                          [m/s2]
   double start_x = 0.0;    ///< x of the center at t = 0                               [m]
   double slope = 0.0;      ///< of the ground, by which gravity is tilted: > 0 descends to +x [rad]
+  // Of a wheel in three dimensions (docs/wheel3d.md): the axes of the ground are t1 = e_x, its
+  // normal n = (0, cos γ, sin γ) and t2 = t1 × n; x and y above are along t1 and n.
+  Table slip_angle;     ///< α: the center goes along cos α t1 + sin α t2       [rad]
+  double camber = 0.0;  ///< γ, > 0 leans the top of the wheel to -t2          [rad]
 
   /// g, fixed frame [m/s2]
   [[nodiscard]] Vec2 gravity_at(double t) const noexcept;
@@ -47,11 +52,37 @@ struct Motion {
   /// θ(from + length) - θ(from); before t = 0 as for the center                        [rad]
   [[nodiscard]] double turn(double from, double length) const noexcept;
   [[nodiscard]] Vec2 center(double t) const noexcept {
-    return {start_x + speed.integral(0, t), height.at(t)};
+    return {start_x + advance(0.0, t).x, height.at(t)};
+  }
+  /// Speed of the center along t1: the whole of it without a slip angle [m/s]
+  [[nodiscard]] double ahead(double t) const noexcept {
+    return speed.at(t) * std::cos(slip_angle.at(t));
   }
   /// c(from + length) - c(from), without cancellation of the position. Before t = 0 the center is
   /// taken to have moved with its initial velocity and acceleration: the start is no kink.
   [[nodiscard]] Vec2 advance(double from, double length) const noexcept;
+  /// The same along t2 [m]
+  [[nodiscard]] double lateral(double t) const noexcept { return lateral_advance(0.0, t); }
+  [[nodiscard]] double lateral_advance(double from, double length) const noexcept;
+};
+
+/// The ground under a wheel that leans: its components are along t1, n and t2.
+class GroundAxes {
+ public:
+  explicit GroundAxes(double camber) noexcept : cos_(std::cos(camber)), sin_(std::sin(camber)) {}
+
+  /// (along t1, along n) and along t2 as a vector in the axes of the wheel.
+  [[nodiscard]] constexpr Vec3 to_wheel(Vec2 plane, double lateral) const noexcept {
+    return {plane.x, cos_ * plane.y - sin_ * lateral, sin_ * plane.y + cos_ * lateral};
+  }
+  /// (along t1, along n) of a vector in the axes of the wheel.
+  [[nodiscard]] constexpr Vec2 plane(Vec3 a) const noexcept {
+    return {a.x, cos_ * a.y + sin_ * a.z};
+  }
+  [[nodiscard]] constexpr double lateral(Vec3 a) const noexcept { return cos_ * a.z - sin_ * a.y; }
+
+ private:
+  double cos_, sin_;
 };
 
 /// (ω R - V) / max(|V|, |ω R|), of the speeds of rim and center; 0 where both vanish.
@@ -70,6 +101,12 @@ struct FrameStep {
   Vec2 advance;              ///< c_{n+2} - c_{n+1}                                     [m]
   Vec2 advance_before;       ///< c_{n+1} - c_n                                         [m]
   Vec2 pull;                 ///< Rᵀ (c̈ - g) in the turning frame                       [m/s2]
+  // In three dimensions; `center` and its advances are along t1 and n, as the ground is.
+  double slip_angle = 0.0;       ///< α(t_{n+1})                                       [rad]
+  double lateral = 0.0;          ///< c_{n+1} along t2                                 [m]
+  double lateral_advance = 0.0;  ///< of c_{n+2} - c_{n+1}                             [m]
+  double lateral_before = 0.0;   ///< of c_{n+1} - c_n                                 [m]
+  double axial_pull = 0.0;       ///< of c̈ - g along the axle                          [m/s2]
 };
 
 /// (ṡJ - s²)(X + u) + Rᵀ(c̈ - g): acceleration of the frame at a place (3.1). @param arm X + u [m]

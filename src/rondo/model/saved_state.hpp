@@ -24,6 +24,8 @@ struct SavedState {
   std::vector<Pose> poses;     ///< (free_bodies)
   /// By contact, ascending: coupled contacts start from the impulses of the step before [N·s/m].
   std::vector<std::pair<std::uint64_t, Vec2>> impulses;
+  // Axial components in three dimensions.
+  std::vector<double> axial_u, axial_v, axial_force, axial_u_before;  ///< (n)
   std::vector<double> branches;       ///< of rubber: C_i of element and branch, xx, yy, xy
   std::vector<double> internal_work;  ///< of rubber (rubber_work.hpp, hyperelastic.hpp)
   std::vector<double> rim;            ///< what a loaded rim carries (loaded_rim.hpp)

@@ -36,12 +36,14 @@ CriticalStep critical_step(const fem::BlockCsr& k, std::span<const double> mass,
 /// eigenvalue is enclosed by Cholesky factorisations, and proven, to 1e-6; by Lanczos as above
 /// where the sectors are so large that this would take more than some seconds.
 /// @param mass (n) of every node of the mesh.
-CriticalStep critical_step(const fem::SectorStiffness& k, std::span<const double> mass,
+template <int C>
+CriticalStep critical_step(const fem::SectorBlocks<C>& k, std::span<const double> mass,
                            LaggedDamping damping, double element_eigenvalue_bound);
 
 /// Upper bound of the eigenvalues of one harmonic of such a body, found likewise [1/s²].
 /// @pre 0 <= harmonic <= N/2
-double harmonic_eigenvalue_bound(const fem::SectorStiffness& k, std::span<const double> mass,
+template <int C>
+double harmonic_eigenvalue_bound(const fem::SectorBlocks<C>& k, std::span<const double> mass,
                                  int harmonic, double element_eigenvalue_bound);
 
 /// How far, of its largest diagonal entry, a matrix that was factorised may be from the one whose

@@ -147,7 +147,8 @@ double cholesky_rounding(std::ptrdiff_t m) noexcept {
   return std::max(1e-8, std::sqrt(2.0) * epsilon * std::pow(static_cast<double>(m), 2.5));
 }
 
-CriticalStep critical_step(const fem::SectorStiffness& k, std::span<const double> mass,
+template <int C>
+CriticalStep critical_step(const fem::SectorBlocks<C>& k, std::span<const double> mass,
                            LaggedDamping damping, double element_eigenvalue_bound) {
   CriticalStep out;
   out.element_bound = std::sqrt(element_eigenvalue_bound);
@@ -170,7 +171,8 @@ CriticalStep critical_step(const fem::SectorStiffness& k, std::span<const double
   return out;
 }
 
-double harmonic_eigenvalue_bound(const fem::SectorStiffness& k, std::span<const double> mass,
+template <int C>
+double harmonic_eigenvalue_bound(const fem::SectorBlocks<C>& k, std::span<const double> mass,
                                  int harmonic, double element_eigenvalue_bound) {
   fem::Harmonics harmonics(k, mass);
   if (!in_range(harmonics, element_eigenvalue_bound)) return element_eigenvalue_bound;
@@ -183,5 +185,14 @@ double harmonic_eigenvalue_bound(const fem::SectorStiffness& k, std::span<const 
   return pair ? std::min(element_eigenvalue_bound, pair->value + pair->residual)
               : element_eigenvalue_bound;
 }
+
+template CriticalStep critical_step(const fem::SectorBlocks<2>&, std::span<const double>,
+                                    LaggedDamping, double);
+template CriticalStep critical_step(const fem::SectorBlocks<3>&, std::span<const double>,
+                                    LaggedDamping, double);
+template double harmonic_eigenvalue_bound(const fem::SectorBlocks<2>&, std::span<const double>, int,
+                                          double);
+template double harmonic_eigenvalue_bound(const fem::SectorBlocks<3>&, std::span<const double>, int,
+                                          double);
 
 }  // namespace rondo::dynamics

@@ -1,0 +1,227 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "rondo/model/solid/solid_contact.hpp"
+
+#include <algorithm>
+#include <array>
+
+#include "rondo/contact/cone_pair.hpp"
+#include "rondo/core/keep_larger.hpp"
+
+namespace rondo::dynamics {
+namespace {
+
+using contact::Status;
+
+/// Passes over the two facets of a node, at the most.
+constexpr int most_passes = 1000;
+
+/// The frame of a contact: rows n, J n and t2, in the axes of the wheel.
+struct Frame {
+  Vec3 normal, tangent, lateral;
+
+  Frame(const GroundAxes& ground, Vec2 n) noexcept
+      : normal(ground.to_wheel(n, 0.0)),
+        tangent(ground.to_wheel(turn90(n), 0.0)),
+        lateral(ground.to_wheel({}, 1.0)) {}
+
+  [[nodiscard]] Vec3 to(Vec3 a) const noexcept {
+    return {dot(normal, a), dot(tangent, a), dot(lateral, a)};
+  }
+  [[nodiscard]] Vec3 from(Vec3 a) const noexcept {
+    return a.x * normal + a.y * tangent + a.z * lateral;
+  }
+};
+
+void put(Vec3 value, Vec2& plane, double& lateral) noexcept {
+  plane = {value.x, value.y};
+  lateral = value.z;
+}
+Vec3 impulse_of(const ActiveContact& c) noexcept {
+  return {c.impulse, c.lateral.impulse};
+}
+
+/// What a node's impulses do to its velocity of the step to come, axes of the wheel.
+struct Mobility {
+  Complex plane;  ///< [1/kg]
+  double axial;
+
+  [[nodiscard]] Vec3 operator*(Vec3 r) const noexcept { return {plane * r.plane(), axial * r.z}; }
+};
+
+/// Rows of Q_a W Q_bᵀ.
+std::array<Vec3, 3> delassus(const Mobility& w, const Frame& a, const Frame& b) noexcept {
+  const Vec3 columns[3] = {a.to(w * b.normal), a.to(w * b.tangent), a.to(w * b.lateral)};
+  return {Vec3{columns[0].x, columns[1].x, columns[2].x},
+          Vec3{columns[0].y, columns[1].y, columns[2].y},
+          Vec3{columns[0].z, columns[1].z, columns[2].z}};
+}
+
+/// @return the law's solution converged
+bool solve_one(const Mobility& w, const Frame& frame, Vec3 free, double friction,
+               ActiveContact& c) noexcept {
+  const auto solution =
+      contact::solve_spatial({free, delassus(w, frame, frame), c.bounce}, friction);
+  put(solution.impulse, c.impulse, c.lateral.impulse);
+  c.status = solution.status;
+  return solution.converged;
+}
+
+/// One facet after the other, until neither changes. @return they came to rest
+bool solve_in_turn(const Mobility& w, std::span<const Frame> frames, double friction,
+                   std::span<ActiveContact> contacts) noexcept {
+  bool still = false;
+  for (int pass = 0; pass < most_passes && !still; ++pass) {
+    still = true;
+    for (std::size_t i = 0; i < 2; ++i) {
+      ActiveContact& c = contacts[i];
+      const Vec3 before = impulse_of(c);
+      const Vec3 push = w * frames[1 - i].from(impulse_of(contacts[1 - i]));
+      const Vec3 free = Vec3(c.free, c.lateral.free) + frames[i].to(push);
+      still = solve_one(w, frames[i], free, friction, c) && still;
+      still = norm(impulse_of(c) - before) <= 1e-15 * norm(before) && still;
+    }
+  }
+  return still;
+}
+
+/// By cases; in turn where none of them is accepted.
+void solve_two(const Mobility& w, std::span<const Frame> frames, double friction,
+               std::span<ActiveContact> contacts, ContactReport& report) noexcept {
+  const ActiveContact &a = contacts[0], &b = contacts[1];
+  const auto pair = contact::solve_spatial_pair({Vec3(a.free, a.lateral.free),
+                                                 delassus(w, frames[0], frames[0]),
+                                                 {a.bounce, b.bounce},
+                                                 rotation_between(a.normal, b.normal)},
+                                                friction);
+  for (std::size_t i = 0; i < 2 && pair.converged; ++i) {
+    put(pair.contact[i].impulse, contacts[i].impulse, contacts[i].lateral.impulse);
+    contacts[i].status = pair.contact[i].status;
+  }
+  ++report.pairs;
+  if (pair.converged || solve_in_turn(w, frames, friction, contacts)) return;
+  ++report.pairs_not_converged;
+}
+
+/// b of (4.2), axes of the wheel.
+Vec3 drive_of(const SolidContactStep& s, Vec3 arm) noexcept {
+  const Vec2 turning = s.plane.rotation * (s.plane.turn_minus_one * arm.plane()) / s.plane.dt;
+  return Vec3(turning, 0.0) + s.center_rate;
+}
+
+/// (x_{n+1} - x_n)/Δt, axes of the wheel.
+Vec3 velocity_before(const SolidContactStep& s, Vec3 arm, Vec3 before) noexcept {
+  const Vec2 v = before.plane();
+  const Vec2 turning =
+      s.plane.rotation * (v + s.plane.turn_back * v - s.plane.turn_back * arm.plane() / s.plane.dt);
+  return Vec3(turning, before.z) + s.center_rate_before;
+}
+
+/// v⁺, turning frame; sticking is exact.
+Vec3 corrected_velocity(const SolidContactStep& s, const SolidContactNode& node, Vec3 drive,
+                        std::span<const Frame> frames,
+                        std::span<const ActiveContact> contacts) noexcept {
+  Vec3 impulse;
+  for (std::size_t i = 0; i < contacts.size(); ++i) {
+    if (contacts[i].status == Status::stick) {
+      const Vec3 rest = frames[i].from({-contacts[i].bounce, 0.0, 0.0}) - drive;
+      return {conj(s.plane.rotation_next) * rest.plane(), rest.z};
+    }
+    impulse += frames[i].from(impulse_of(contacts[i]));
+  }
+  if (impulse == Vec3{}) return node.free;
+  const Vec2 plane = conj(s.plane.rotation) * impulse.plane() / (node.mass * s.plane.a);
+  return node.free + Vec3(plane, impulse.z / (node.mass * s.axial_a));
+}
+
+void add_works(const SolidContactStep& s, const SolidContactNode& node, Vec3 after, Vec3 push,
+               const ActiveContact& c, ContactReport& report) noexcept {
+  const Vec3 impulse{conj(s.plane.rotation) * push.plane(), push.z};  // turning frame
+  const double work = dot(impulse, 0.5 * (node.before + after));
+  const Vec3 mean = 0.5 * (Vec3(c.before, c.lateral.before) + Vec3(c.after, c.lateral.after));
+  const Vec3 r = impulse_of(c);
+  report.work += work;
+  report.dissipation_friction -= r.y * mean.y + r.z * mean.z;
+  report.loss_impact -= r.x * mean.x;
+  report.work_rim += work - dot(r, mean);
+}
+
+void add_impulse(const SolidContactStep& s, Vec3 arm, Vec3 push, ContactReport& report) noexcept {
+  const Vec3 normal = s.ground.to_wheel({0.0, 1.0}, 0.0);
+  const Vec3 moment = cross(arm, push);
+  report.impulse += s.ground.plane(push);
+  report.lateral += s.ground.lateral(push);
+  report.angular_impulse += moment.z;
+  report.moment_aligning += dot(normal, moment);
+  report.moment_overturning += moment.x + s.plane.center.y * cross(normal, push).x;
+}
+
+void report_contacts(const SolidContactStep& s, const SolidContactNode& node, Vec3 after,
+                     std::span<const Frame> frames, std::span<ActiveContact> contacts,
+                     ContactReport& report) noexcept {
+  const Vec3 arm = s.plane.rotation * node.arm;
+  const Vec3 w = drive_of(s, node.arm) + s.plane.rotation_next * after;
+  bool pressed = false, sticks = true;
+  for (std::size_t i = 0; i < contacts.size(); ++i) {
+    ActiveContact& c = contacts[i];
+    put(frames[i].to(w), c.after, c.lateral.after);
+    const Vec3 push = frames[i].from(impulse_of(c));
+    add_works(s, node, after, push, c, report);
+    add_impulse(s, arm, push, report);
+    const double residual = contact::law_residual(impulse_of(c), Vec3(c.after, c.lateral.after),
+                                                  c.bounce, s.plane.law.friction, node.mass);
+    report.residual = keep_larger(report.residual, residual / node.mass);
+    report.penetration = std::max(report.penetration, -c.gap);
+    report.free_velocity = std::max(report.free_velocity, norm(Vec3(c.free, c.lateral.free)));
+    if (c.impulse.x <= 0.0) continue;
+    pressed = true;
+    sticks = sticks && c.status == Status::stick;
+  }
+  if (!pressed) return;
+  ++report.nodes;
+  report.sticking += sticks ? 1 : 0;
+  report.length += node.tributary;
+}
+
+}  // namespace
+
+SolidContactStep::SolidContactStep(const Model& model, const FrameStep& f,
+                                   const VelocityUpdate& update, double axial) noexcept
+    : plane(model, f, update),
+      ground(model.motion.camber),
+      axial_a(axial),
+      center_rate(ground.to_wheel(f.advance, f.lateral_advance) / model.dt),
+      center_rate_before(ground.to_wheel(f.advance_before, f.lateral_before) / model.dt) {}
+
+SolidContactStep::SolidContactStep(const Model& model, const FrameStep& f) noexcept
+    : plane(model, f), ground(model.motion.camber), axial_a(1.0) {}
+
+Vec3 solve_contacts(const SolidContactStep& s, const SolidContactNode& node,
+                    const contact::Touches& touches, std::span<ActiveContact> contacts,
+                    ContactReport& report) noexcept {
+  const Vec3 drive = drive_of(s, node.arm);
+  const Vec3 before = velocity_before(s, node.arm, node.before);
+  const Vec3 free = drive + s.plane.rotation_next * node.free;
+  const std::array frames{Frame(s.ground, touches.at[0].normal),
+                          Frame(s.ground, touches.at[1].normal)};
+  for (std::size_t i = 0; i < contacts.size(); ++i) {
+    ActiveContact& c = contacts[i] = {};
+    c.candidate = node.candidate;
+    c.normal = touches.at[i].normal;
+    c.gap = touches.at[i].gap;
+    put(frames[i].to(before), c.before, c.lateral.before);
+    put(frames[i].to(free), c.free, c.lateral.free);
+    c.bounce = contact::restitution_shift(s.plane.law, c.before.x, c.before.x);
+  }
+  const Mobility w{s.plane.turn / (node.mass * s.plane.a), 1.0 / (node.mass * s.axial_a)};
+  const double friction = s.plane.law.friction;
+  if (contacts.size() == 2)
+    solve_two(w, frames, friction, contacts, report);
+  else
+    (void)solve_one(w, frames[0], {contacts[0].free, contacts[0].lateral.free}, friction,
+                    contacts[0]);
+  const Vec3 after = corrected_velocity(s, node, drive, frames, contacts);
+  report_contacts(s, node, after, frames, contacts, report);
+  return after;
+}
+
+}  // namespace rondo::dynamics
