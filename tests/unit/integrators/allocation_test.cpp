@@ -13,6 +13,7 @@
 #include "rondo/integrators/general/general_integrator.hpp"
 #include "support/implicit.hpp"
 #include "support/rubber.hpp"
+#include "support/solid_wheel.hpp"
 #include "support/stepping.hpp"
 
 namespace {
@@ -136,6 +137,29 @@ TEST(Allocation, NoneInTheFusedStepsOfRubber) {
     integrator->advance(reports, &state);
     EXPECT_EQ(allocations - before, 0);
     EXPECT_GT(reports.back().contact.nodes, 0);
+  }
+}
+
+TEST(Allocation, NoneInTheStepsOfAWheelInThreeDimensions) {
+  const mesh::Mesh mesh = mesh::make_wheel(test::box_wheel(3, 4, 100));
+  for (const int threads : {1, 2}) {
+    test::Cornering cornering;
+    cornering.slip_angle = 0.05;
+    dynamics::Model model = test::cornering_model(mesh, cornering);
+    model.threads = threads;
+    const std::vector<Vec2> zero(model.n_nodes());
+    dynamics::State state = dynamics::start(model, zero, zero, {}, {});
+    const auto integrator = dynamics::make_integrator(model, state);
+    std::vector<dynamics::StepReport> reports(64);
+    long in_contact = 0;
+    const long before = allocations;
+    for (int call = 0; call < 4; ++call) {
+      integrator->advance(reports, call % 2 == 0 ? nullptr : &state);
+      for (const dynamics::StepReport& report : reports) in_contact += report.contact.nodes;
+    }
+    integrator->fields(state);
+    EXPECT_EQ(allocations - before, 0) << threads;
+    EXPECT_GT(in_contact, 0);
   }
 }
 

@@ -9,6 +9,7 @@
 
 #include "rondo/core/contract.hpp"
 #include "rondo/integrators/fused/cyclic_plan.hpp"
+#include "rondo/integrators/fused/solid/solid_plan.hpp"
 #include "rondo/integrators/fused/sparse_plan.hpp"
 #include "rondo/integrators/general/step_traps.hpp"
 
@@ -42,8 +43,9 @@ BatchIntegrator::BatchIntegrator(const Model& model, const State& start, std::si
       n_parts_(n_parts + (has_sharp_corners(model) ? 1 : 0) + n_tails(model)),
       step_(start.step),
       threads_(std::min(model.threads, static_cast<int>(n_pieces))),
+      n_pressures_(model.solid ? model.solid->pressures.size() : model.pressures.size()),
       steps_(has_sharp_corners(model) ? steps_between_looks : steps_at_once),
-      pressures_(steps_.size() * model.pressures.size()),
+      pressures_(steps_.size() * n_pressures_),
       parts_(steps_.size() * n_parts_),
       rubber_energy_(steps_.size()) {
   if (has_sharp_corners(model)) corners_.emplace(model);
@@ -60,9 +62,12 @@ void BatchIntegrator::set_rubber(RubberForces& forces, const State& start) {
 void BatchIntegrator::set_step(std::size_t i) noexcept {
   const long long n = step_ + static_cast<long long>(i) + 1;
   steps_[i] = step_context(model_, frame_step(model_.motion, n, model_.dt));
-  double* const pressures = pressures_.data() + i * model_.pressures.size();
-  for (std::size_t l = 0; l < model_.pressures.size(); ++l)
-    pressures[l] = model_.pressures[l].pressure.at(steps_[i].frame.time);
+  double* const pressures = pressures_.data() + i * n_pressures_;
+  for (std::size_t l = 0; l < n_pressures_; ++l) {
+    const Table& pressure =
+        model_.solid ? model_.solid->pressures[l].pressure : model_.pressures[l].pressure;
+    pressures[l] = pressure.at(steps_[i].frame.time);
+  }
   steps_[i].pressures = pressures;
   for (const auto& tail : tails_)
     if (tail->held()) steps_[i].held = tail->held();
@@ -241,8 +246,11 @@ void BatchIntegrator::advance(std::span<StepReport> reports, State* last) noexce
   if (!last) return;
   save_displacement(last->u);
   save_velocity(last->v);
+  save_axial_displacement(last->axial_u);
+  save_axial_velocity(last->axial_v);
   advance_batch(reports.last(1));
   if (!last->v_next.empty()) save_velocity(last->v_next);
+  if (!last->axial_v_next.empty()) save_axial_velocity(last->axial_v_next);
   last->active.clear();
   save_active(last->active);
   if (corners_) corners_->save_active(last->active);
@@ -255,6 +263,8 @@ void BatchIntegrator::advance(std::span<StepReport> reports, State* last) noexce
 void BatchIntegrator::fields(State& state) const noexcept {
   save_displacement(state.u);
   save_velocity(state.v_next);
+  save_axial_displacement(state.axial_u);
+  save_axial_velocity(state.axial_v_next);
 }
 
 SavedState BatchIntegrator::save() const {
@@ -263,6 +273,11 @@ SavedState BatchIntegrator::save() const {
   saved.u.resize(model_.n_nodes());
   saved.v.resize(model_.n_nodes());
   if (model_.stiffness_damping > 0.0 || rim_) saved.force.resize(model_.n_nodes());
+  if (model_.solid) {
+    saved.axial_u.resize(model_.n_nodes());
+    saved.axial_v.resize(model_.n_nodes());
+    saved.axial_force.resize(saved.force.size());
+  }
   if (rim_) {
     saved.rim = rim_->save();
     saved.u_before.resize(model_.n_nodes());
@@ -303,6 +318,7 @@ std::vector<contact::ProblemFile> BatchIntegrator::take_difficult() {
 }
 
 int most_threads(const Model& model) noexcept {
+  if (model.solid) return static_cast<int>(n_solid_groups(model.solid->sector.n_sectors));
   return static_cast<int>(model.stiffness_operator == StiffnessOperator::cyclic
                               ? n_cyclic_groups(model.sector->n_sectors)
                               : n_sparse_blocks(model.free.size()));

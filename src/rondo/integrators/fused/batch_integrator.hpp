@@ -50,6 +50,9 @@ class BatchIntegrator : public Integrator, public Resumable, protected Candidate
   /// u_{n+1} and v_{n+1/2}, n the last step made, of the free nodes.
   virtual void save_displacement(std::vector<Vec2>& u) const noexcept = 0;
   virtual void save_velocity(std::vector<Vec2>& v) const noexcept = 0;
+  /// Their axial components in three dimensions.
+  virtual void save_axial_displacement(std::vector<double>& /*u*/) const noexcept {}
+  virtual void save_axial_velocity(std::vector<double>& /*v*/) const noexcept {}
   /// u, v and force of the free nodes, as they are held; the force where `saved` has room for it;
   /// u_before with a loaded rim.
   virtual void save_fields(SavedState& saved) const noexcept = 0;
@@ -96,8 +99,9 @@ class BatchIntegrator : public Integrator, public Resumable, protected Candidate
   void end_step(StepReport& report) noexcept;
 
   const int threads_;
+  const std::size_t n_pressures_;
   std::vector<StepContext> steps_;  ///< of a batch
-  std::vector<double> pressures_;   ///< (steps of a batch, pressures of the model)        [Pa]
+  std::vector<double> pressures_;   ///< (steps of a batch, n_pressures_)                  [Pa]
   std::vector<PartialStep> parts_;  ///< (steps of a batch, n_parts_)
   std::vector<RubberEnergy> rubber_energy_;  ///< (steps of a batch) of rubber alone
   std::optional<RubberWork> rubber_work_;

@@ -17,45 +17,29 @@ using fem::SectorStiffness;
 
 constexpr int group_columns = kernels::group_packs * kernels::lanes;
 
-void cut(CyclicPlan& plan, int n_chunks) {
-  const int groups = static_cast<int>(plan.n_groups);
+std::vector<CyclicChunkRange> cut(int n_sectors, int columns_of_group, int groups, int n_chunks) {
+  std::vector<CyclicChunkRange> chunks;
   for (int c = 0; c < n_chunks; ++c) {
     const int from = groups * c / n_chunks, to = groups * (c + 1) / n_chunks;
     CyclicChunkRange range;
-    range.first = from * group_columns;
-    range.columns = std::min(to * group_columns, plan.n_sectors) - range.first;
+    range.first = from * columns_of_group;
+    range.columns = std::min(to * columns_of_group, n_sectors) - range.first;
     range.first_group = static_cast<std::size_t>(from);
     range.n_groups = static_cast<std::size_t>(to - from);
-    plan.chunks.push_back(range);
+    chunks.push_back(range);
   }
+  return chunks;
 }
 
-/// Chunks for the threads and for the cache; many steps in a pass where the fields are larger than
-/// it.
 void choose_chunks(CyclicPlan& plan, int threads, const CyclicTuning& tuning) {
-  plan.n_groups = n_cyclic_groups(plan.n_sectors);
-  const int groups = static_cast<int>(plan.n_groups);
   const std::size_t bytes = static_cast<std::size_t>(plan.n_local) *
                             static_cast<std::size_t>(plan.n_sectors * plan.n_fields()) *
                             sizeof(double);
-  const bool in_cache =
-      plan.stepwise || bytes < tuning.cache_bytes * static_cast<std::size_t>(threads);
-  const int for_threads = std::min(threads, groups);
-  const int for_cache = in_cache ? 1 : std::max(1, plan.n_sectors / tuning.chunk_columns);
-  const int n_chunks =
-      (std::max(for_threads, for_cache) + for_threads - 1) / for_threads * for_threads;
-  cut(plan, std::min(n_chunks, groups));
-  const auto narrowest =
-      std::min_element(plan.chunks.begin(), plan.chunks.end(),
-                       [](const auto& a, const auto& b) { return a.columns < b.columns; });
-  if (plan.chunks.size() == 1)
-    plan.halo = Halo::ring;
-  else if (plan.stepwise)
-    plan.halo = Halo::narrow;
-  else
-    plan.halo = narrowest->columns >= tuning.wide_halo_columns ? Halo::wide : Halo::narrow;
-  const bool one_by_one = plan.halo == Halo::ring ? in_cache : plan.halo == Halo::narrow;
-  plan.depth = one_by_one ? 1 : most_steps_in_a_pass;
+  RingCut ring = cut_ring(plan.n_sectors, group_columns, bytes, plan.stepwise, threads, tuning);
+  plan.n_groups = ring.n_groups;
+  plan.halo = ring.halo;
+  plan.depth = ring.depth;
+  plan.chunks = std::move(ring.chunks);
 }
 
 void add_rows(const Model& model, const SectorStiffness& k, CyclicPlan& plan) {
@@ -196,22 +180,47 @@ void add_contact(const Model& model, const SectorStiffness& k, CyclicPlan& plan)
     RONDO_DEMAND(std::find(ring.begin(), ring.end(), -1) == ring.end(), ring.size());
 }
 
+}  // namespace
+
+std::size_t n_cyclic_groups(int n_sectors) noexcept {
+  return static_cast<std::size_t>((n_sectors + group_columns - 1) / group_columns);
+}
+
+RingCut cut_ring(int n_sectors, int columns_of_group, std::size_t bytes, bool stepwise, int threads,
+                 const CyclicTuning& tuning) {
+  RingCut ring;
+  const int groups = (n_sectors + columns_of_group - 1) / columns_of_group;
+  ring.n_groups = static_cast<std::size_t>(groups);
+  const bool in_cache = stepwise || bytes < tuning.cache_bytes * static_cast<std::size_t>(threads);
+  const int for_threads = std::min(threads, groups);
+  const int for_cache = in_cache ? 1 : std::max(1, n_sectors / tuning.chunk_columns);
+  const int n_chunks =
+      (std::max(for_threads, for_cache) + for_threads - 1) / for_threads * for_threads;
+  ring.chunks = cut(n_sectors, columns_of_group, groups, std::min(n_chunks, groups));
+  const auto narrowest =
+      std::min_element(ring.chunks.begin(), ring.chunks.end(),
+                       [](const auto& a, const auto& b) { return a.columns < b.columns; });
+  if (ring.chunks.size() == 1)
+    ring.halo = Halo::ring;
+  else if (stepwise)
+    ring.halo = Halo::narrow;
+  else
+    ring.halo = narrowest->columns >= tuning.wide_halo_columns ? Halo::wide : Halo::narrow;
+  const bool one_by_one = ring.halo == Halo::ring ? in_cache : ring.halo == Halo::narrow;
+  ring.depth = one_by_one ? 1 : most_steps_in_a_pass;
+  return ring;
+}
+
 /// Room for the columns of the widest chunk, whole packs, and the halo on both sides. Fields whose
 /// distance is near a multiple of 4096 B would hinder each other in the first cache.
-std::ptrdiff_t choose_stride(const CyclicPlan& plan) {
+std::ptrdiff_t cyclic_stride(const std::vector<CyclicChunkRange>& chunks) noexcept {
   int widest = 0;
-  for (const CyclicChunkRange& chunk : plan.chunks) widest = std::max(widest, chunk.columns);
+  for (const CyclicChunkRange& chunk : chunks) widest = std::max(widest, chunk.columns);
   std::ptrdiff_t stride =
       (widest + 2 * kernels::lanes - 1) / kernels::lanes * kernels::lanes + 2 * halo_columns;
   constexpr std::ptrdiff_t page = 4096 / sizeof(double), apart = page / 8;
   while (stride % page < apart || stride % page > page - apart) stride += kernels::lanes;
   return stride;
-}
-
-}  // namespace
-
-std::size_t n_cyclic_groups(int n_sectors) noexcept {
-  return static_cast<std::size_t>((n_sectors + group_columns - 1) / group_columns);
 }
 
 std::size_t CyclicPlan::first_load(int strip) const noexcept {
@@ -231,7 +240,7 @@ CyclicPlan make_cyclic_plan(const Model& model, const CyclicTuning& tuning) {
   plan.stepwise = plan.wheel || model.implicit.has_value() || has_massless_contact(model);
   plan.keeps_force = plan.wheel || model.stiffness_damping > 0.0;
   choose_chunks(plan, model.threads, tuning);
-  plan.stride = choose_stride(plan);
+  plan.stride = cyclic_stride(plan.chunks);
   add_rows(model, k, plan);
   add_mirror(k, plan);
   add_order(k, plan);

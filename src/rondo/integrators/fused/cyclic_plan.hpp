@@ -31,6 +31,14 @@ struct CyclicChunkRange {
   std::size_t n_groups = 0;
 };
 
+/// How a ring of sectors is cut.
+struct RingCut {
+  Halo halo = Halo::ring;
+  int depth = 1;  ///< steps in a pass
+  std::vector<CyclicChunkRange> chunks;
+  std::size_t n_groups = 0;
+};
+
 /// What a load does on a row.
 struct CyclicLoad {
   int row = 0;
@@ -95,6 +103,15 @@ struct CyclicTuning {
 
 /// Groups of kernels::group_packs packs round a ring: what it can be cut into.
 std::size_t n_cyclic_groups(int n_sectors) noexcept;
+
+/// Chunks for the threads and for the cache; many steps in a pass where the fields, of `bytes`, are
+/// larger than it. @param columns_of_group of the groups, which chunks are made of
+/// @param stepwise one step a pass, whatever their size
+RingCut cut_ring(int n_sectors, int columns_of_group, std::size_t bytes, bool stepwise, int threads,
+                 const CyclicTuning& tuning);
+
+/// Doubles between the fields of a row of the widest chunk.
+std::ptrdiff_t cyclic_stride(const std::vector<CyclicChunkRange>& chunks) noexcept;
 
 /// @pre model.sector is there.
 CyclicPlan make_cyclic_plan(const Model& model, const CyclicTuning& tuning = {});

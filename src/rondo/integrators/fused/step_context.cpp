@@ -2,6 +2,18 @@
 #include "rondo/integrators/fused/step_context.hpp"
 
 namespace rondo::dynamics {
+namespace {
+
+/// What is different in three dimensions.
+void add_axial(const Model& model, const FrameStep& f, const VelocityUpdate& update,
+               StepContext& s) noexcept {
+  const double dt = model.dt, axial_a = 1.0 + 0.5 * dt * model.mass_damping;
+  s.axial = {.pull = dt * f.axial_pull, .inverse = 1.0 / axial_a, .drag = dt * model.mass_damping};
+  s.terms.unsteady = s.terms.unsteady || f.axial_pull != 0.0;
+  if (model.contact) s.solid_contact.emplace(model, f, update, axial_a);
+}
+
+}  // namespace
 
 StepContext step_context(const Model& model, const FrameStep& f) noexcept {
   StepContext s;
@@ -21,7 +33,10 @@ StepContext step_context(const Model& model, const FrameStep& f) noexcept {
                .beta_over_dt = model.stiffness_damping / dt};
   s.terms = {.stiffness_damping = model.stiffness_damping > 0.0,
              .unsteady = f.spin_rate != 0.0 || f.pull != Vec2{}};
-  if (model.contact) s.contact.emplace(model, f, update);
+  if (model.solid)
+    add_axial(model, f, update, s);
+  else if (model.contact)
+    s.contact.emplace(model, f, update);
   return s;
 }
 

@@ -7,8 +7,16 @@
 
 #include "rondo/integrators/fused/kernels/kernels.hpp"
 #include "rondo/model/contact_node.hpp"
+#include "rondo/model/solid/solid_contact.hpp"
 
 namespace rondo::dynamics {
+
+/// What the axial components of a step have for themselves.
+struct AxialFactors {
+  double pull = 0.0;     ///< Δt (c̈ - g) along the axle                              [m/s]
+  double inverse = 0.0;  ///< 1/A, A = 1 + Δt α/2
+  double drag = 0.0;     ///< Δt α
+};
 
 /// Frame, factors and contact of a step.
 struct StepContext {
@@ -18,7 +26,9 @@ struct StepContext {
   kernels::WheelFactors wheel{};  ///< instead of `factors`, with a loaded rim
   bool heavy = false;             ///< there is gravity, with a loaded rim
   std::optional<ContactStep> contact;
-  const double* pressures = nullptr;  ///< of Model::pressures at t_n                     [Pa]
+  AxialFactors axial;                             ///< in three dimensions
+  std::optional<SolidContactStep> solid_contact;  ///< instead of `contact`, in three dimensions
+  const double* pressures = nullptr;  ///< of Model::pressures, or SolidBody::pressures, at t_n [Pa]
   /// (nb) candidates whose contacts are solved by CornerContact; null: none.
   const char* held = nullptr;
 };

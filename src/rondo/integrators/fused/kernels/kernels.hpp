@@ -199,6 +199,7 @@ struct SparseRows {
 };
 
 struct RubberTable;
+struct SolidTable;
 
 /// The loops of one instruction set on a loaded rim; K u_n is always kept there, and pressures are
 /// those of the general step. In a file of their
@@ -223,6 +224,7 @@ struct Table {
   const WheelTable* wheel;
   RingProduct ring_product;
   const RubberTable* rubber;
+  const SolidTable* solid;
 };
 
 /// In files of their own, as the loops of a loaded rim.

@@ -9,8 +9,8 @@ namespace {
 
 constexpr rondo::dynamics::kernels::Table table(
     const char* name, const rondo::dynamics::kernels::WheelTable& wheel,
-    rondo::dynamics::RingProduct ring,
-    const rondo::dynamics::kernels::RubberTable& rubber) noexcept {
+    rondo::dynamics::RingProduct ring, const rondo::dynamics::kernels::RubberTable& rubber,
+    const rondo::dynamics::kernels::SolidTable& solid) noexcept {
   return {name,
           {{{cyclic_strip<false, false, false>, cyclic_strip<false, false, true>},
             {cyclic_strip<false, true, false>, cyclic_strip<false, true, true>}},
@@ -23,7 +23,8 @@ constexpr rondo::dynamics::kernels::Table table(
             {sparse_rows<true, true, false>, sparse_rows<true, true, true>}}},
           &wheel,
           ring,
-          &rubber};
+          &rubber,
+          &solid};
 }
 
 }  // namespace

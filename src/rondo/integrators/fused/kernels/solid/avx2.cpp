@@ -1,0 +1,8 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "rondo/core/simd/pack_avx2.hpp"
+
+#include "rondo/integrators/fused/kernels/solid/table.hpp"
+
+namespace rondo::dynamics::kernels {
+constinit const SolidTable avx2_solid = solid_table();
+}  // namespace rondo::dynamics::kernels

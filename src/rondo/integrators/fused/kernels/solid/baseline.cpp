@@ -1,0 +1,8 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "rondo/core/simd/pack_baseline.hpp"
+
+#include "rondo/integrators/fused/kernels/solid/table.hpp"
+
+namespace rondo::dynamics::kernels {
+constinit const SolidTable baseline_solid = solid_table();
+}  // namespace rondo::dynamics::kernels

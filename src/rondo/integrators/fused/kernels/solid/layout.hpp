@@ -1,0 +1,119 @@
+// SPDX-License-Identifier: BSD-3-Clause
+/// @file  What the loops over a wheel in three dimensions read and write (docs/performance.md).
+/// Plain pointers and numbers, as in kernels.hpp. Vectors are (radial, tangential, axial), each in
+/// the frame of its own node: the first axis points from the axle to X.
+#pragma once
+#include <cstddef>
+
+#include "rondo/integrators/fused/kernels/kernels.hpp"
+
+namespace rondo::dynamics::kernels {
+
+/// Rows that are worked on together: their sums stay in registers.
+inline constexpr int solid_rows = 2;
+/// Packs whose sums are added up together: twice three, as many of two rows as the registers of
+/// AVX-512 hold.
+inline constexpr int solid_packs = 6;
+
+/// How the blocks of a strip are written down.
+enum class SolidKind {
+  general,   ///< 9 numbers for each node that a row couples with, column-major
+  mirrored,  ///< 14 numbers for each three nodes beside each other (SolidMirror)
+};
+
+/// What the rows of a strip couple with: one node over all sectors, or three of the same radius and
+/// z, the middle one on the meridian of the row's node. Where they are: number of doubles from the
+/// field u of the chunk's first row, sector 0.
+struct SolidEntry {
+  std::ptrdiff_t here;
+  std::ptrdiff_t last, next;  ///< of mirrored strips
+  int rows;                   ///< bits: 1 the first row couples with it, 2 the second
+};
+
+/// The 14 numbers of a row and three nodes, u the vector of the middle one, S and D sum and
+/// difference of those of the next and the last: f_r = rr u_r + zr u_z + rr1 S_r + rt1 D_t + rz1
+/// S_z, and so on. In the order in which they are read: by r, t and z of the vectors.
+enum SolidMirror {
+  mirror_rr,
+  mirror_zr,
+  mirror_rr1,
+  mirror_zr1,
+  mirror_tr1,
+  mirror_tt,
+  mirror_tt1,
+  mirror_rt1,
+  mirror_zt1,
+  mirror_rz,
+  mirror_zz,
+  mirror_rz1,
+  mirror_zz1,
+  mirror_tz1,
+  n_mirror
+};
+
+/// A node of a sector, over the sectors of a chunk.
+struct SolidRow {
+  std::ptrdiff_t at;      ///< from the chunk's first field to this row's, sector 0
+  double mass;            ///< m                                                          [kg]
+  double dt_over_mass;    ///< Δt/m
+  double x, y, z;         ///< X in its frame                                              [m]
+  double turn_x, turn_y;  ///< its frame in that of its sector
+};
+
+/// What all nodes of a step share.
+struct SolidFactors {
+  StepFactors plane;
+  double axial_pull;     ///< Δt (c̈ - g) along the axle                                 [m/s]
+  double axial_inverse;  ///< 1/A
+  double axial_drag;     ///< Δt α
+};
+
+/// Some rows over the sectors of a chunk: product, velocity update and sums in one pass. Fields are
+/// `stride` apart in a row, three components each: u of even and of odd steps, v, and with β K u_n.
+struct SolidStrip {
+  const SolidRow* rows;
+  int n_rows;  ///< at most solid_rows
+  SolidKind kind;
+  const SolidEntry* entries;
+  int n_entries;
+  const double* blocks;  ///< of the entries, one after the other, each with those of its rows
+  double* now;           ///< u_{n+1} of the chunk's first row, sector 0
+  double* next;          ///< u_{n+2}
+  double* velocity;      ///< v⁻, becomes v⁺
+  double* force;         ///< K u_n, becomes K u_{n+1}
+  std::ptrdiff_t stride;
+  const double* turn_x;  ///< cos φ of the chunk's sectors (padded like a field)
+  const double* turn_y;  ///< sin φ
+  int first_pack;        ///< 0, or -1 where the halo is advanced too
+  int last_pack;         ///< one past the last pack
+  int columns;           ///< sectors of the chunk's own: the sums are over these
+  bool keep_tail;        ///< lanes past `columns` in the last own pack stay as they are
+  const SolidFactors* step;
+  double* sums;                ///< (groups of solid_packs, n_sums, lanes): added to
+  double load[solid_rows][3];  ///< force on each node of a row, unused by kernels without [N]
+};
+
+/// Sectors of a row that may touch: place of the node along n <= limit.
+struct SolidHeight {
+  const double* u;  ///< u_r of sector 0 of the chunk; u_t and u_z are `stride` and 2 `stride` on
+  std::ptrdiff_t stride;
+  double x, y, z;        ///< X in the node's frame                                        [m]
+  const double* turn_x;  ///< cos φ, sin φ of the sectors
+  const double* turn_y;
+  double rotation_x, rotation_y;  ///< R(θ_{n+1}) of the node's frame in its sector's
+  double normal_y, normal_z;      ///< n
+  double limit;                   ///< top of the ground - height of the center             [m]
+  int first, last;                ///< columns looked at
+};
+
+/// The loops of one instruction set for a wheel in three dimensions.
+struct SolidTable {
+  /// [loaded][stiffness_damping][unsteady]
+  void (*strip[2][2][2])(const SolidStrip&) noexcept;
+  /// Columns that are low enough, ascending; returns how many.
+  int (*low_columns)(const SolidHeight&, int* columns) noexcept;
+};
+
+extern const SolidTable avx512_solid, avx2_solid, baseline_solid;
+
+}  // namespace rondo::dynamics::kernels

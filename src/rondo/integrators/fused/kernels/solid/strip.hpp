@@ -1,0 +1,233 @@
+// SPDX-License-Identifier: BSD-3-Clause
+/// @file  Velocity update and ledger terms in three dimensions: the plane's (update.hpp) with the
+/// axial component beside. Included after a pack_*.hpp.
+#pragma once
+#include "rondo/integrators/fused/kernels/solid/product.hpp"
+
+namespace {
+
+using rondo::dynamics::kernels::n_sums;
+using rondo::dynamics::kernels::SolidFactors;
+using rondo::dynamics::kernels::SolidRow;
+
+/// Vectors of eight nodes: radial, tangential, axial.
+struct Space {
+  Pack r, t, z;
+};
+
+[[gnu::always_inline]] inline Space load_space(const double* x, std::ptrdiff_t stride) noexcept {
+  return {load(x), load(x + stride), load(x + 2 * stride)};
+}
+[[gnu::always_inline]] inline void store_space(double* x, std::ptrdiff_t stride, Space a) noexcept {
+  store(x, a.r);
+  store(x + stride, a.t);
+  store(x + 2 * stride, a.z);
+}
+/// a·b + c, lane by lane.
+[[gnu::always_inline]] inline Pack add_dot(Space a, Space b, Pack c) noexcept {
+  return fma(a.r, b.r, fma(a.t, b.t, fma(a.z, b.z, c)));
+}
+[[gnu::always_inline]] inline Space first_of(int n, Space a, Space b) noexcept {
+  return {first_lanes(n, a.r, b.r), first_lanes(n, a.t, b.t), first_lanes(n, a.z, b.z)};
+}
+
+/// Sums of the row in hand; those with the mass are multiplied by it when the row is done.
+struct SpaceSums {
+  Pack kinetic, strain, frame, mass, stiffness, load;
+};
+
+[[gnu::always_inline]] inline SpaceSums no_space_sums() noexcept {
+  const Pack zero = all(0.0);
+  return {zero, zero, zero, zero, zero, zero};
+}
+
+/// Adds the first n lanes.
+[[gnu::always_inline]] inline void add_first(int n, const SpaceSums& part,
+                                             SpaceSums& sums) noexcept {
+  const Pack zero = all(0.0);
+  sums.kinetic = sums.kinetic + first_lanes(n, part.kinetic, zero);
+  sums.strain = sums.strain + first_lanes(n, part.strain, zero);
+  sums.frame = sums.frame + first_lanes(n, part.frame, zero);
+  sums.mass = sums.mass + first_lanes(n, part.mass, zero);
+  sums.stiffness = sums.stiffness + first_lanes(n, part.stiffness, zero);
+  sums.load = sums.load + first_lanes(n, part.load, zero);
+}
+
+/// What the update of a pack reads. `before` is K u_n, with β only.
+struct SpaceNodes {
+  Space u, v, force, before;
+};
+
+/// A row in hand: what its nodes share. The acceleration of the frame without u and pull is
+/// Δt(ṡJ - s²)X; the pull is that of the row's frame in sector 0.
+struct SolidRowInHand {
+  double dt_over_mass;
+  double frame_r, frame_t;
+  double pull_x, pull_y;
+  const double* load;  ///< on each of its nodes
+};
+
+[[gnu::always_inline]] inline SolidRowInHand row_in_hand(const SolidStrip& s, int r) noexcept {
+  const SolidRow& row = s.rows[r];
+  const rondo::dynamics::kernels::StepFactors& f = s.step->plane;
+  return {row.dt_over_mass,
+          f.rate_x * row.x - f.rate_y * row.y,
+          f.rate_x * row.y + f.rate_y * row.x,
+          f.pull_x * row.turn_x + f.pull_y * row.turn_y,
+          f.pull_y * row.turn_x - f.pull_x * row.turn_y,
+          s.load[r]};
+}
+
+/// Δt times the acceleration of the frame.
+template <bool Unsteady>
+[[gnu::always_inline]] inline Space frame_of(const SolidStrip& s, const SolidRowInHand& row,
+                                             std::ptrdiff_t column, const Space& u) noexcept {
+  const rondo::dynamics::kernels::StepFactors& f = s.step->plane;
+  Pack r = fma(all(f.rate_x), u.r, all(row.frame_r));
+  Pack t = fma(all(f.rate_x), u.t, all(row.frame_t));
+  if constexpr (!Unsteady) return {r, t, all(0.0)};
+  r = fnma(all(f.rate_y), u.t, r);
+  t = fma(all(f.rate_y), u.r, t);
+  const Pack cosine = load(s.turn_x + column), sine = load(s.turn_y + column);
+  const Pack px = all(row.pull_x), py = all(row.pull_y);
+  r = r + fma(py, sine, px * cosine);
+  t = t + fnma(px, sine, py * cosine);
+  return {r, t, all(s.step->axial_pull)};
+}
+
+/// v⁺ and its part of the sums.
+template <bool Loaded, bool Beta, bool Unsteady>
+[[gnu::always_inline]] inline Space space_update(const SolidStrip& s, const SolidRowInHand& row,
+                                                 const SpaceNodes& n, const Space& frame,
+                                                 SpaceSums& sums) noexcept {
+  const rondo::dynamics::kernels::StepFactors& f = s.step->plane;
+  Space elastic = n.force;
+  const Space change = {n.force.r - n.before.r, n.force.t - n.before.t, n.force.z - n.before.z};
+  if constexpr (Beta) {
+    const Pack beta = all(f.beta_over_dt);
+    elastic = {fma(beta, change.r, elastic.r), fma(beta, change.t, elastic.t),
+               fma(beta, change.z, elastic.z)};
+  }
+  const Space pressed = {all(row.load[0]), all(row.load[1]), all(row.load[2])};
+  if constexpr (Loaded)
+    elastic = {elastic.r - pressed.r, elastic.t - pressed.t, elastic.z - pressed.z};
+  // -[Δt f/m - drag v⁻]
+  const Pack by_mass = all(row.dt_over_mass);
+  Pack r = fma(by_mass, elastic.r, frame.r);
+  Pack t = fma(by_mass, elastic.t, frame.t);
+  Pack z = Unsteady ? fma(by_mass, elastic.z, frame.z) : by_mass * elastic.z;
+  r = fma(all(f.drag_x), n.v.r, r);
+  t = fma(all(f.drag_x), n.v.t, t);
+  z = fma(all(s.step->axial_drag), n.v.z, z);
+  r = fnma(all(f.drag_y), n.v.t, r);
+  t = fma(all(f.drag_y), n.v.r, t);
+  Space after = {fnma(all(f.inverse_x), r, n.v.r), fnma(all(f.inverse_x), t, n.v.t),
+                 fnma(all(s.step->axial_inverse), z, n.v.z)};
+  after.r = fma(all(f.inverse_y), t, after.r);
+  after.t = fnma(all(f.inverse_y), r, after.t);
+
+  const Space twice_mean = {n.v.r + after.r, n.v.t + after.t, n.v.z + after.z};
+  sums.kinetic = add_dot(n.v, n.v, sums.kinetic);
+  sums.frame = fma(twice_mean.r, frame.r, fma(twice_mean.t, frame.t, sums.frame));
+  if constexpr (Unsteady) sums.frame = fma(twice_mean.z, frame.z, sums.frame);
+  sums.mass = add_dot(twice_mean, twice_mean, sums.mass);
+  if constexpr (Beta) {
+    sums.strain = add_dot(n.u, n.before, sums.strain);
+    sums.stiffness = add_dot(twice_mean, change, sums.stiffness);
+  } else {  // u_nᵀ K u_{n+1} is the same, for K is symmetric
+    const Pack dt = all(f.dt);
+    const Space u_before = {fnma(dt, n.v.r, n.u.r), fnma(dt, n.v.t, n.u.t), fnma(dt, n.v.z, n.u.z)};
+    sums.strain = add_dot(u_before, n.force, sums.strain);
+  }
+  if constexpr (Loaded) sums.load = add_dot(twice_mean, pressed, sums.load);
+  return after;
+}
+
+/// Update and sums of one pack of a row. Tail: the last own pack, of which only `columns` count.
+template <bool Tail, bool Loaded, bool Beta, bool Unsteady>
+[[gnu::always_inline]] inline void space_pack(const SolidStrip& s, const SolidRowInHand& row,
+                                              std::ptrdiff_t row_at, std::ptrdiff_t column,
+                                              const double* force, SpaceSums& sums) noexcept {
+  const std::ptrdiff_t at = row_at + column;
+  double* const v = s.velocity + at;
+  double* const p = s.force + at;
+  SpaceNodes n;
+  n.u = load_space(s.now + at, s.stride);
+  n.v = load_space(v, s.stride);
+  n.force = load_space(force, most_packs * lanes);
+  n.before = Beta ? load_space(p, s.stride) : n.force;
+  const Space frame = frame_of<Unsteady>(s, row, column, n.u);
+  Space after;
+  if constexpr (!Tail) {
+    after = space_update<Loaded, Beta, Unsteady>(s, row, n, frame, sums);
+  } else {
+    const int own = s.columns - static_cast<int>(column);
+    SpaceSums part = no_space_sums();
+    after = space_update<Loaded, Beta, Unsteady>(s, row, n, frame, part);
+    add_first(own, part, sums);
+    if (s.keep_tail) {
+      after = first_of(own, after, n.v);
+      n.force = first_of(own, n.force, n.before);
+    }
+  }
+  const Pack dt = all(s.step->plane.dt);
+  store_space(v, s.stride, after);
+  store_space(s.next + at, s.stride,
+              {fma(dt, after.r, n.u.r), fma(dt, after.t, n.u.t), fma(dt, after.z, n.u.z)});
+  if constexpr (Beta) store_space(p, s.stride, n.force);
+}
+
+template <bool Loaded>
+inline void add_space_sums(double* to, double mass, const SpaceSums& s) noexcept {
+  using namespace rondo::dynamics::kernels;
+  const Pack m = all(mass);
+  const auto add = [&](int k, Pack value) { store(to + k * lanes, load(to + k * lanes) + value); };
+  const auto add_mass = [&](int k, Pack value) {
+    store(to + k * lanes, fma(m, value, load(to + k * lanes)));
+  };
+  add_mass(sum_kinetic, s.kinetic);
+  add(sum_strain, s.strain);
+  add_mass(sum_frame, s.frame);
+  add_mass(sum_mass, s.mass);
+  add(sum_stiffness, s.stiffness);
+  if constexpr (Loaded) add(sum_load, s.load);
+}
+
+/// All rows of the strip on the own packs [first, last), at most a group, and on those of the halo
+/// that are beside them: `left` and `right`, 0 or 1.
+template <bool Loaded, bool Beta, bool Unsteady>
+inline void solid_group(const SolidStrip& s, int first, int last, int left, int right,
+                        double* sums) noexcept {
+  SolidForces force;
+  strip_product(s, first - left, last - first + left + right, force);
+  const auto place = [&](int pack) { return static_cast<std::ptrdiff_t>(pack) * lanes; };
+  for (int r = 0; r < s.n_rows; ++r) {
+    const SolidRowInHand row = row_in_hand(s, r);
+    const std::ptrdiff_t at = s.rows[r].at;
+    const auto f = [&](int pack) { return force.f[r][0] + place(pack - first + left); };
+    SpaceSums own = no_space_sums(), others = no_space_sums();
+    for (int pack = first; pack < last; ++pack)
+      if ((pack + 1) * lanes > s.columns)
+        space_pack<true, Loaded, Beta, Unsteady>(s, row, at, place(pack), f(pack), own);
+      else
+        space_pack<false, Loaded, Beta, Unsteady>(s, row, at, place(pack), f(pack), own);
+    add_space_sums<Loaded>(sums, s.rows[r].mass, own);
+    for (int pack = first - left; pack < last + right; pack += last - first + left)
+      if (pack < first || pack >= last)
+        space_pack<false, Loaded, Beta, Unsteady>(s, row, at, place(pack), f(pack), others);
+  }
+}
+
+template <bool Loaded, bool Beta, bool Unsteady>
+void solid_strip(const SolidStrip& s) noexcept {
+  const int own = (s.columns + lanes - 1) / lanes;
+  double* sums = s.sums;
+  for (int pack = 0; pack < own; pack += solid_packs, sums += n_sums * lanes) {
+    const bool last = pack + solid_packs >= own;
+    solid_group<Loaded, Beta, Unsteady>(s, pack, last ? own : pack + solid_packs,
+                                        pack == 0 ? -s.first_pack : 0, last ? s.last_pack - own : 0,
+                                        sums);
+  }
+}
+
+}  // namespace

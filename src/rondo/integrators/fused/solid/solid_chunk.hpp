@@ -1,0 +1,120 @@
+// SPDX-License-Identifier: BSD-3-Clause
+/// @file  Fields of some sectors of a wheel in three dimensions, each vector in the frame of its
+/// own node, and their steps: as cyclic_chunk.hpp, with three components.
+#pragma once
+#include <array>
+#include <span>
+#include <vector>
+
+#include "rondo/core/large_array.hpp"
+#include "rondo/integrators/fused/solid/solid_plan.hpp"
+#include "rondo/integrators/fused/step_context.hpp"
+#include "rondo/model/saved_state.hpp"
+
+namespace rondo::dynamics {
+
+class SolidChunk {
+ public:
+  SolidChunk(const Model& model, const SolidPlan& plan, const kernels::SolidTable& table,
+             const CyclicChunkRange& range);
+
+  /// From u_n and v_{n+1/2} (state.v_next): u_{n+1} and, with β, K u_n.
+  void load(const State& state);
+  /// This chunk's own nodes, in the frames of their nodes.
+  void save(SavedState& saved) const noexcept;
+  void restore(const SavedState& saved) noexcept;
+  /// u_{n+1} or v_{n+1/2} of this chunk's own nodes, in the turning frame; (n).
+  void save_displacement(std::vector<Vec2>& u) const noexcept;
+  void save_velocity(std::vector<Vec2>& v) const noexcept;
+  void save_axial_displacement(std::vector<double>& u) const noexcept;
+  void save_axial_velocity(std::vector<double>& v) const noexcept;
+
+  /// What neighbours need of this chunk for the pass to come.
+  void give_edges() noexcept;
+  /// @pre the neighbours have made as many passes, or one more, and given their edges after each.
+  void take_halo(const SolidChunk& left, const SolidChunk& right) noexcept;
+
+  /// Makes the steps; parts[i * stride + g] gets what group g of the ring gives in step i.
+  /// @pre at most plan.cut.depth steps, the halo taken.
+  void pass(std::span<const StepContext> steps, PartialStep* parts, std::size_t stride) noexcept;
+
+  /// Contacts of the last step of the last pass, this chunk's own.
+  [[nodiscard]] std::span<const ActiveContact> active() const noexcept { return active_; }
+
+ private:
+  /// Of a row, components each; u of even and of odd steps.
+  enum Field { field_u_even = 0, field_u_odd = 3, field_v = 6, field_force = 9 };
+  /// Columns of the chunk that a step of a pass works on.
+  struct Extent {
+    int first_pack, last_pack;
+    int first_column, last_column;  ///< whose values are right: contact is looked for there
+  };
+  /// A column that touches, and what its row held before the update.
+  struct Touching {
+    int row, column;
+    contact::Touches touches;
+    Vec3 v;
+    Vec3 force;
+  };
+  /// The step in hand of a pass.
+  struct Work {
+    const StepContext* step;
+    kernels::SolidFactors factors;
+    Extent extent;
+    std::size_t place;  ///< of the step in the pass
+    int now, next;      ///< fields of u before and after the step
+    bool last;          ///< of the pass
+  };
+
+  [[nodiscard]] Extent extent(std::size_t step, std::size_t n_steps) const noexcept;
+  [[nodiscard]] Work work_of(std::span<const StepContext> steps, std::size_t i) const noexcept;
+  [[nodiscard]] double* field(int row, int field) noexcept;
+  [[nodiscard]] Vec3 at(int row, int field, int column) const noexcept;
+  void put(int row, int field, int column, Vec3 value) noexcept;
+  /// Frame of a node in the turning frame.
+  [[nodiscard]] Complex frame(int row, int column) const noexcept {
+    const kernels::SolidRow& r = plan_.rows[static_cast<std::size_t>(row)];
+    const auto c = static_cast<std::size_t>(std::ptrdiff_t{column} + halo_columns);
+    return Complex{turn_x_[c], turn_y_[c]} * Complex{r.turn_x, r.turn_y};
+  }
+  [[nodiscard]] Vec3 arm(int row, const Vec3& u) const noexcept {
+    const kernels::SolidRow& r = plan_.rows[static_cast<std::size_t>(row)];
+    return Vec3{r.x, r.y, r.z} + u;
+  }
+  [[nodiscard]] Vec3 load_on(const Work& work, int row) const noexcept;
+  [[nodiscard]] Vec3 initial_force(const State& state, int row, int column) const noexcept;
+  [[nodiscard]] kernels::SolidStrip strip_of(const Work& work, const SolidPlanStrip& p) noexcept;
+  void strip(const Work& work, int i) noexcept;
+  [[nodiscard]] std::size_t candidate_at(int row, int column) const noexcept;
+  void find_touching(const Work& work, int row) noexcept;
+  void solve_node(const Work& work, const Touching& t) noexcept;
+  void correct_sums(const Work& work, const Touching& t, Vec3 free, Vec3 after,
+                    StepSums& sums) const noexcept;
+  /// visit(row, column, node) of this chunk's own nodes.
+  template <class Visit>
+  void for_own_nodes(Visit&& visit) const noexcept;
+  void show_to_others() noexcept;
+  void wrap(int row, int field) noexcept;
+  void hand_over(std::size_t n_steps, PartialStep* parts, std::size_t stride) const noexcept;
+  [[nodiscard]] int field_now() const noexcept;
+  [[nodiscard]] std::array<int, 3> edge_fields() const noexcept;
+  [[nodiscard]] std::size_t n_edge_fields() const noexcept;
+  [[nodiscard]] int edge_width() const noexcept;
+
+  const Model& model_;
+  const SolidPlan& plan_;
+  const kernels::SolidTable& table_;
+  CyclicChunkRange range_;
+  LargeArray fields_;
+  std::vector<double> turn_x_, turn_y_;  ///< of the columns, from the halo on the left
+  LargeArray sums_;                      ///< (depth, groups, n_sums, lanes)
+  std::vector<PartialStep> contact_;     ///< (depth, groups): of these the contacts' part
+  std::array<std::array<LargeArray, 2>, 2> edges_;  ///< [parity of the pass][left, right]
+  std::vector<int> low_;
+  std::vector<Touching> touching_;
+  std::vector<ActiveContact> active_;
+  long long steps_ = 0;  ///< made so far: tells which field u is in
+  std::size_t passes_ = 0;
+};
+
+}  // namespace rondo::dynamics

@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: BSD-3-Clause
+/// @file  Fast step of a wheel in three dimensions whose rim follows its tables: what
+/// cyclic_integrator.hpp is in the plane, with three components.
+#pragma once
+#include <vector>
+
+#include "rondo/integrators/fused/batch_integrator.hpp"
+#include "rondo/integrators/fused/solid/solid_chunk.hpp"
+
+namespace rondo::dynamics {
+
+class SolidCyclicIntegrator final : public BatchIntegrator {
+ public:
+  /// @pre model.solid, no loaded rim, the scheme "symplectic"
+  SolidCyclicIntegrator(const Model& model, const State& start, const kernels::Table& table,
+                        const SolidTuning& tuning = {});
+
+ private:
+  SolidCyclicIntegrator(const Model& model, const State& start, const kernels::Table& table,
+                        SolidPlan plan);
+  void make_steps(const Batch& batch, Share share) noexcept override;
+  void save_displacement(std::vector<Vec2>& u) const noexcept override;
+  void save_velocity(std::vector<Vec2>& v) const noexcept override;
+  void save_axial_displacement(std::vector<double>& u) const noexcept override;
+  void save_axial_velocity(std::vector<double>& v) const noexcept override;
+  void save_fields(SavedState& saved) const noexcept override;
+  void restore_fields(const SavedState& saved) noexcept override;
+  void save_active(std::vector<ActiveContact>& active) const noexcept override;
+  // Of what there is none in three dimensions: loaded rims, and corners between two nodes.
+  void go_on(const kernels::WheelWay& way, long long step, Share share) noexcept override;
+  [[nodiscard]] CandidateMotion motion_of(std::size_t candidate) const noexcept override;
+  void move(std::size_t candidate, Vec2 v, Vec2 u) noexcept override;
+
+  const SolidPlan plan_;
+  std::vector<SolidChunk> chunks_;
+};
+
+}  // namespace rondo::dynamics

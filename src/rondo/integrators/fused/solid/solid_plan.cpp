@@ -1,0 +1,202 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "rondo/integrators/fused/solid/solid_plan.hpp"
+
+#include <algorithm>
+#include <utility>
+
+#include "rondo/core/contract.hpp"
+
+namespace rondo::dynamics {
+namespace {
+
+using fem::SolidSector;
+using Couplings = std::vector<SolidCoupling>;
+
+/// Nodes that two rows couple with in the same way.
+std::size_t shared(const Couplings& a, const Couplings& b) {
+  std::size_t n = 0;
+  for (const SolidCoupling& x : a)
+    n += static_cast<std::size_t>(
+        std::count_if(b.begin(), b.end(), [&](const auto& y) { return x.same_nodes(y); }));
+  return n;
+}
+
+/// One coupling of a strip: of its first row, its second, or both.
+struct Joined {
+  const SolidCoupling* of[2];
+
+  [[nodiscard]] const SolidCoupling& any() const noexcept { return of[0] ? *of[0] : *of[1]; }
+  [[nodiscard]] bool before(const Joined& b) const noexcept {
+    const auto key = [](const SolidCoupling& c) { return std::pair{c.here.row, c.here.shift}; };
+    return key(any()) < key(b.any());
+  }
+};
+
+std::vector<Joined> join(const Couplings& a, const Couplings* b) {
+  std::vector<Joined> all;
+  for (const SolidCoupling& x : a) all.push_back({{&x, nullptr}});
+  if (b)
+    for (const SolidCoupling& y : *b) {
+      const auto found = std::find_if(all.begin(), all.end(), [&](const Joined& j) {
+        return j.of[0] && j.of[0]->same_nodes(y);
+      });
+      if (found != all.end())
+        found->of[1] = &y;
+      else
+        all.push_back({{nullptr, &y}});
+    }
+  std::stable_sort(all.begin(), all.end(),
+                   [](const Joined& x, const Joined& y) { return x.before(y); });
+  return all;
+}
+
+/// Two rows that follow each other are one strip where most of what they couple with is the same.
+bool go_together(const SolidStiffness& k, std::size_t a) {
+  if (a + 1 >= k.kind.size() || k.kind[a] != k.kind[a + 1]) return false;
+  const std::size_t most = std::max(k.couplings[a].size(), k.couplings[a + 1].size());
+  return 2 * shared(k.couplings[a], k.couplings[a + 1]) >= most;
+}
+
+void find_strips(SolidPlan& plan) {
+  const std::size_t n = plan.stiffness.kind.size();
+  for (std::size_t a = 0; a < n;) {
+    SolidPlanStrip strip;
+    strip.first = static_cast<int>(a);
+    strip.n_rows = go_together(plan.stiffness, a) ? 2 : 1;
+    strip.kind = plan.stiffness.kind[a];
+    plan.strips.push_back(strip);
+    a += static_cast<std::size_t>(strip.n_rows);
+  }
+}
+
+void write_strips(SolidPlan& plan) {
+  const auto at = [&](SolidCoupling::Place p) { return p.row * plan.row_size() + p.shift; };
+  for (SolidPlanStrip& strip : plan.strips) {
+    strip.first_entry = plan.entries.size();
+    strip.first_block = plan.numbers.size();
+    const auto first = static_cast<std::size_t>(strip.first);
+    const auto& couplings = plan.stiffness.couplings;
+    for (const Joined& j :
+         join(couplings[first], strip.n_rows == 2 ? &couplings[first + 1] : nullptr)) {
+      const SolidCoupling& c = j.any();
+      plan.entries.push_back(
+          {at(c.here), at(c.last), at(c.next), (j.of[0] ? 1 : 0) + (j.of[1] ? 2 : 0)});
+      for (const SolidCoupling* of : j.of)
+        if (of) plan.numbers.insert(plan.numbers.end(), of->k.begin(), of->k.end());
+    }
+    strip.n_entries = plan.entries.size() - strip.first_entry;
+  }
+}
+
+/// A strip reads u of the rows that couple with its own, and overwrites what these read in the step
+/// before: that step must have done them.
+void add_order(SolidPlan& plan) {
+  std::vector<int> strip_of(static_cast<std::size_t>(plan.n_local));
+  for (std::size_t i = 0; i < plan.strips.size(); ++i)
+    for (int r = 0; r < plan.strips[i].n_rows; ++r)
+      strip_of[static_cast<std::size_t>(plan.strips[i].first + r)] = static_cast<int>(i);
+  for (SolidPlanStrip& strip : plan.strips)
+    for (int r = 0; r < strip.n_rows; ++r)
+      for (const SolidBlock& b : plan.stiffness.blocks[static_cast<std::size_t>(strip.first + r)])
+        strip.needs = std::max(strip.needs, strip_of[static_cast<std::size_t>(b.row)]);
+}
+
+/// Rows that the steps of a pass are apart.
+int rows_between_steps(const SolidPlan& plan) {
+  int most = 0;
+  for (const SolidPlanStrip& strip : plan.strips) {
+    const SolidPlanStrip& needed = plan.strips[static_cast<std::size_t>(strip.needs)];
+    most = std::max(most, needed.first + needed.n_rows - strip.first);
+  }
+  return most;
+}
+
+void cut(const Model& model, const SolidTuning& tuning, SolidPlan& plan) {
+  const std::size_t row_bytes = static_cast<std::size_t>(plan.n_fields()) * sizeof(double);
+  const std::size_t bytes =
+      static_cast<std::size_t>(plan.n_local) * static_cast<std::size_t>(plan.n_sectors) * row_bytes;
+  const std::size_t in_hand =
+      solid_steps_in_a_pass * static_cast<std::size_t>(rows_between_steps(plan) + 1) * row_bytes;
+  const int columns =
+      std::max(tuning.fewest_columns, static_cast<int>(tuning.pass_bytes / in_hand));
+  plan.cut = cut_ring(plan.n_sectors, solid_group_columns, bytes, false, model.threads,
+                      {tuning.cache_bytes, columns, tuning.wide_halo_columns});
+  if (plan.cut.depth > 1) plan.cut.depth = solid_steps_in_a_pass;
+}
+
+void add_rows(const Model& model, SolidPlan& plan) {
+  const SolidSector& k = plan.ordered.sector;
+  for (std::size_t a = 0; a < k.n_local(); ++a) {
+    const double mass = model.mass[k.node(a, 0)];
+    const Vec3 arm = plan.stiffness.arm[a];
+    const Complex frame = plan.stiffness.frame[a];
+    plan.rows.push_back({.at = static_cast<std::ptrdiff_t>(a) * plan.row_size(),
+                         .mass = mass,
+                         .dt_over_mass = model.dt / mass,
+                         .x = arm.x,
+                         .y = arm.y,
+                         .z = arm.z,
+                         .turn_x = frame.re,
+                         .turn_y = frame.im});
+  }
+}
+
+void add_contact(const Model& model, SolidPlan& plan) {
+  const SolidSector& k = plan.ordered.sector;
+  plan.contact_row.assign(k.n_local(), -1);
+  if (!model.contact) return;
+  std::vector<int> row_of(static_cast<std::size_t>(k.nodes_per_sector), -1);
+  for (std::size_t a = 0; a < k.n_local(); ++a)
+    row_of[static_cast<std::size_t>(k.nodes[a])] = static_cast<int>(a);
+  for (std::size_t i = 0; i < model.contact->nodes.size(); ++i) {
+    const int node = model.contact->nodes[i];
+    const int a = row_of[static_cast<std::size_t>(node % k.nodes_per_sector)];
+    RONDO_DEMAND(a >= 0, node);
+    int& row = plan.contact_row[static_cast<std::size_t>(a)];
+    if (row < 0) {
+      row = static_cast<int>(plan.candidate.size());
+      plan.candidate.emplace_back(static_cast<std::size_t>(k.n_sectors), -1);
+    }
+    plan.candidate[static_cast<std::size_t>(row)]
+                  [static_cast<std::size_t>(node / k.nodes_per_sector)] = static_cast<int>(i);
+  }
+  for (const std::vector<int>& ring : plan.candidate)  // the same nodes in every sector
+    RONDO_DEMAND(std::find(ring.begin(), ring.end(), -1) == ring.end(), ring.size());
+}
+
+void add_loads(const Model& model, SolidPlan& plan) {
+  for (const SolidPressure& pressure : model.solid->pressures) {
+    RONDO_DEMAND(pressure.force.size() == plan.rows.size(), pressure.force.size());
+    std::vector<Vec3>& load = plan.loads.emplace_back();
+    for (std::size_t a = 0; a < plan.rows.size(); ++a)
+      load.push_back(conj(plan.stiffness.frame[a]) *
+                     pressure.force[static_cast<std::size_t>(plan.ordered.was[a])]);
+  }
+}
+
+}  // namespace
+
+std::size_t n_solid_groups(int n_sectors) noexcept {
+  return static_cast<std::size_t>((n_sectors + solid_group_columns - 1) / solid_group_columns);
+}
+
+SolidPlan make_solid_plan(const Model& model, const SolidTuning& tuning) {
+  RONDO_DEMAND(model.solid.has_value() && !model.rim);
+  SolidPlan plan;
+  plan.n_local = static_cast<int>(model.solid->sector.n_local());
+  plan.n_sectors = model.solid->sector.n_sectors;
+  plan.keeps_force = model.stiffness_damping > 0.0;
+  plan.ordered = order_sector(model);
+  plan.stiffness = solid_stiffness(model, plan.ordered.sector);
+  find_strips(plan);
+  add_order(plan);
+  cut(model, tuning, plan);
+  plan.stride = cyclic_stride(plan.cut.chunks);
+  add_rows(model, plan);
+  write_strips(plan);
+  add_contact(model, plan);
+  add_loads(model, plan);
+  return plan;
+}
+
+}  // namespace rondo::dynamics

@@ -1,0 +1,132 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "rondo/integrators/solid/solid_integrator.hpp"
+
+#include <utility>
+
+#include "rondo/core/contract.hpp"
+#include "rondo/integrators/general/step_traps.hpp"
+#include "rondo/integrators/solid/solid_contacts.hpp"
+
+namespace rondo::dynamics {
+SolidIntegrator::SolidIntegrator(const Model& model, const State& start)
+    : model_(model),
+      step_(start.step),
+      frame_(start.frame),
+      u_(field_of(start.u, start.axial_u)),
+      v_(model.n_nodes()),
+      v_next_(field_of(start.v_next, start.axial_v_next)),
+      forces_(model, u_) {
+  RONDO_DEMAND(!model.rim && model.scheme == Scheme::symplectic);
+  if (model.contact) active_.reserve(2 * model.contact->nodes.size());
+}
+
+/// u_{n+1}, and the energy of the half step before it.
+void SolidIntegrator::move(StepEnergy& energy) noexcept {
+  for_free_nodes(model_, [&](std::size_t k) {
+    u_.put(k, u_.at(k) + model_.dt * v_.at(k));
+    energy.kinetic += 0.5 * model_.mass[k] * dot(v_.at(k), v_.at(k));
+  });
+  frame_ = frame_step(model_.motion, step_, model_.dt);
+  forces_.evaluate(u_, frame_.time);
+  for_free_nodes(model_, [&](std::size_t k) {
+    energy.strain += 0.5 * dot(u_.at(k), forces_.gradient_before(k));
+  });
+}
+
+/// v⁺ = v⁻ + [Δt f/m - drag v⁻]/a in the plane, A along the axle, without contact.
+void SolidIntegrator::free_velocities(const VelocityUpdate& update, double axial_a) noexcept {
+  const double dt = model_.dt;
+  for_free_nodes(model_, [&](std::size_t k) {
+    const Vec3 force = forces_.load(k) - forces_.gradient(k) - forces_.damping(k);
+    const Vec3 push = dt * (force / model_.mass[k] - acceleration_of_frame(k));
+    const Vec3 v = v_.at(k);
+    const Vec2 plane = v.plane() + (push.plane() - update.drag * v.plane()) / update.a;
+    v_next_.put(k, {plane, v.z + (push.z - dt * model_.mass_damping * v.z) / axial_a});
+  });
+}
+
+void SolidIntegrator::add_works(Works& w) const noexcept {
+  const double dt = model_.dt;
+  for_free_nodes(model_, [&](std::size_t k) {
+    const double m = model_.mass[k];
+    const Vec3 mean = 0.5 * (v_.at(k) + v_next_.at(k));
+    w.frame -= dt * m * dot(mean, acceleration_of_frame(k));
+    w.dissipation_mass += dt * model_.mass_damping * m * dot(mean, mean);
+    w.dissipation_stiffness += dt * dot(mean, forces_.damping(k));
+    w.load += dt * dot(mean, forces_.load(k));
+  });
+}
+
+StepReport SolidIntegrator::step() noexcept {
+  const StepTraps traps;
+  std::swap(v_, v_next_);
+  ++step_;
+  StepEnergy energy;
+  move(energy);
+  const VelocityUpdate update =
+      velocity_update(model_.scheme, model_.dt, model_.mass_damping, frame_.spin);
+  const double axial_a = 1.0 + 0.5 * model_.dt * model_.mass_damping;
+  free_velocities(update, axial_a);
+  StepReport report;
+  report.step = step_;
+  report.frame = frame_;
+  report.contact = solve_solid_contacts(model_, SolidContactStep(model_, frame_, update, axial_a),
+                                        u_, v_, v_next_, active_);
+  add_works(energy.works);
+  set_contact_works(report.contact, energy.works);
+  ledger_.add(energy);
+  report.balance = ledger_.last();
+  return report;
+}
+
+void SolidIntegrator::advance(std::span<StepReport> reports, State* last) noexcept {
+  for (StepReport& report : reports) report = step();
+  if (!last) return;
+  last->step = step_;
+  last->frame = frame_;
+  last->u = u_.plane;
+  last->axial_u = u_.axial;
+  last->v = v_.plane;
+  last->axial_v = v_.axial;
+  last->active = active_;
+  if (last->v_next.empty()) return;
+  last->v_next = v_next_.plane;
+  last->axial_v_next = v_next_.axial;
+}
+
+void SolidIntegrator::fields(State& state) const noexcept {
+  state.u = u_.plane;
+  state.axial_u = u_.axial;
+  for_free_nodes(model_, [&](std::size_t k) {
+    state.u[k] += model_.dt * v_next_.plane[k];
+    state.axial_u[k] += model_.dt * v_next_.axial[k];
+  });
+  state.v_next = v_next_.plane;
+  state.axial_v_next = v_next_.axial;
+}
+
+SavedState SolidIntegrator::save() const {
+  SavedState saved;
+  saved.step = step_;
+  saved.u = u_.plane;
+  saved.axial_u = u_.axial;
+  saved.v = v_next_.plane;
+  saved.axial_v = v_next_.axial;
+  saved.force = forces_.saved().plane;
+  saved.axial_force = forces_.saved().axial;
+  saved.ledger = ledger_.save();
+  return saved;
+}
+
+void SolidIntegrator::restore(const SavedState& saved) {
+  RONDO_DEMAND(saved.u.size() == model_.n_nodes() && saved.axial_u.size() == model_.n_nodes() &&
+                   saved.force.size() == model_.n_nodes(),
+               saved.u.size(), saved.axial_u.size(), saved.force.size());
+  step_ = saved.step;
+  u_ = field_of(saved.u, saved.axial_u);
+  v_next_ = field_of(saved.v, saved.axial_v);
+  forces_.restore(field_of(saved.force, saved.axial_force));
+  ledger_.restore(saved.ledger);
+}
+
+}  // namespace rondo::dynamics

@@ -1,0 +1,85 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "rondo/integrators/solid/solid_rim.hpp"
+
+#include <cmath>
+
+namespace rondo::dynamics {
+
+SolidRim::SolidRim(const Model& model) noexcept
+    : model_(model),
+      ground_(model.motion.camber),
+      rim_(model),
+      frame_(rim_.frame()),
+      lateral_(model.motion.speed.at(0.0) * std::sin(model.motion.slip_angle.at(0.0))) {
+  lateral_before_ = lateral_;
+}
+
+double SolidRim::lateral_rate(double t) const noexcept {
+  return model_.motion.lateral_advance(t, model_.dt) / model_.dt;
+}
+
+/// What the rim feels in the directions in which it may move.
+RimForce SolidRim::in_plane(Vec3 force, double moment) const noexcept {
+  return {conj(rim_.frame().rotation) * ground_.plane(force), moment};
+}
+
+void SolidRim::start(Vec3 force, double moment) noexcept {
+  rim_.start(in_plane(force, moment));
+  lateral_ = lateral_rate(0.0);
+}
+
+void SolidRim::move() noexcept {
+  lateral_before_ = lateral_;
+  rim_.move();
+  frame_ = rim_.frame();
+  frame_.slip_angle = model_.motion.slip_angle.at(frame_.time);
+  frame_.lateral = model_.motion.lateral(frame_.time);
+  frame_.lateral_before = model_.dt * lateral_before_;
+}
+
+void SolidRim::take(Vec3 force, double moment) noexcept {
+  rim_.take(in_plane(force, moment));
+  lateral_force_ = ground_.lateral(force);
+  lateral_ = lateral_rate(frame_.time);
+  FrameStep frame = rim_.frame();
+  frame.slip_angle = frame_.slip_angle;
+  frame.lateral = frame_.lateral;
+  frame.lateral_before = frame_.lateral_before;
+  frame.lateral_advance = model_.dt * lateral_;
+  frame_ = frame;
+}
+
+Vec3 SolidRim::velocity_before() const noexcept {
+  return ground_.to_wheel(rim_.velocity_before(), lateral_before_);
+}
+
+Vec3 SolidRim::velocity() const noexcept {
+  return ground_.to_wheel(rim_.velocity(), lateral_);
+}
+
+StepEnergy SolidRim::energy() const noexcept {
+  StepEnergy energy = rim_.energy();
+  energy.works.held -= 0.5 * model_.dt * lateral_force_ * (lateral_before_ + lateral_);
+  return energy;
+}
+
+Vec3 SolidRim::travel(Vec3 arm, Vec3 velocity) const noexcept {
+  const Vec3 center = SolidRim::velocity();
+  const Vec2 way = model_.dt * (velocity.plane() - conj(rim_.frame().rotation) * center.plane());
+  return {way + conj(rim_.turn()) * (arm.plane() + way), model_.dt * (velocity.z - center.z)};
+}
+
+Vec3 SolidRim::velocity_of(Vec3 arm, Vec3 travel) const noexcept {
+  const Vec3 center = velocity();
+  const Vec2 way = travel.plane() + rim_.turn() * (arm.plane() + travel.plane());
+  return {way / model_.dt + conj(rim_.frame().rotation) * center.plane(),
+          travel.z / model_.dt + center.z};
+}
+
+void SolidRim::restore(long long step, std::span<const double> saved) {
+  rim_.restore(step, saved);
+  frame_ = rim_.frame();
+  lateral_ = lateral_rate(frame_.time);
+}
+
+}  // namespace rondo::dynamics

@@ -1,0 +1,13 @@
+// SPDX-License-Identifier: BSD-3-Clause
+/// @file  The state with which the steps of a wheel in three dimensions begin: start() (start.hpp)
+/// leaves it to this.
+#pragma once
+#include "rondo/model/model.hpp"
+
+namespace rondo::dynamics {
+
+/// Of a state with u_0, v_0 and the frame of t = 0: K u_0, its rate, and v_{1/2} by half a step
+/// without contact. Clamped nodes rest. @param axial empty fields are 0
+void start_solid(const Model& model, AxialStart axial, State& state);
+
+}  // namespace rondo::dynamics

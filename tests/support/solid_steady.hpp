@@ -1,0 +1,144 @@
+// SPDX-License-Identifier: BSD-3-Clause
+/// @file  Wheels that roll steadily in three dimensions, which several tests share.
+#pragma once
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <memory>
+#include <vector>
+
+#include "rondo/fem/solid/solid_sector.hpp"
+#include "rondo/mesh/solid/wheel.hpp"
+#include "rondo/statics/steady_solid/solid_power.hpp"
+#include "support/solid_wheel.hpp"
+
+namespace rondo::test {
+
+struct SteadyWheelCase {
+  mesh::Wheel wheel;
+  double grading = 1.0;  ///< of the section across, finer in the middle: z/z_max to this power
+  fem::Material material;
+  double spin = 0.0;  ///< s = -ω [rad/s]
+  double mass_damping = 0.0, stiffness_damping = 0.0;
+  double reach = 1.0;  ///< candidates lie within so many m of the middle
+  int samples = 1;
+  bool massless = false;
+  int threads = 1;
+};
+
+/// The section of a crowned wheel, its lines across graded.
+inline mesh::Mesh graded_section(const SteadyWheelCase& c) {
+  mesh::Mesh section = mesh::make_section(c.wheel);
+  if (c.grading == 1.0) return section;
+  const double half = 0.5 * c.wheel.width, crown = *c.wheel.crown_radius;
+  const std::vector<double> radii = mesh::layer_radii(c.wheel.disk);
+  const auto across = static_cast<std::size_t>(c.wheel.axial) + 1;
+  for (std::size_t i = 0; i < section.n_nodes(); ++i) {
+    const double part = section.coordinates[i].y / half, r = radii[i / across];
+    const double z = half * std::copysign(std::pow(std::abs(part), c.grading), part);
+    const double drop = z * z / (crown + std::sqrt(crown * crown - z * z));
+    section.coordinates[i] = {r - drop * (r - radii.front()) / (radii.back() - radii.front()), z};
+  }
+  return section;
+}
+
+/// Its harmonics, which hang on what is beside them.
+class SteadyWheel {
+ public:
+  explicit SteadyWheel(const SteadyWheelCase& c)
+      : mesh(made(c)),
+        mass(fem::solid_mass(mesh, std::vector{c.material})),
+        sector(fem::assemble_solid_sector(mesh, std::vector{c.material})),
+        harmonics({.stiffness = sector,
+                   .mass = mass,
+                   .reference = mesh.coordinates,
+                   .axial = mesh.axial,
+                   .candidates = candidates(c.reach),
+                   .spin = c.spin,
+                   .mass_damping = c.mass_damping,
+                   .stiffness_damping = c.stiffness_damping,
+                   .samples = c.samples,
+                   .massless = c.massless,
+                   .threads = c.threads}) {}
+  SteadyWheel(const SteadyWheel&) = delete;
+  SteadyWheel& operator=(const SteadyWheel&) = delete;
+
+  mesh::Mesh mesh;
+  std::vector<double> mass;
+  fem::SolidSector sector;
+  statics::SolidHarmonics harmonics;
+
+  /// Of each of the harmonics' candidates [m²].
+  [[nodiscard]] std::vector<double> areas() const {
+    std::vector<double> of_node(mesh.n_nodes()), areas;
+    for (std::size_t k = 0; k < mesh.boundary.size(); ++k)
+      of_node[static_cast<std::size_t>(mesh.boundary[k])] = mesh.tributary[k];
+    for (const int row : harmonics.body().candidates)
+      areas.push_back(of_node[sector.node(static_cast<std::size_t>(row), 0)]);
+    return areas;
+  }
+
+ private:
+  static mesh::Mesh made(const SteadyWheelCase& c) {
+    const mesh::Mesh section = graded_section(c);
+    return mesh::revolve(section, mesh::columns_of(c.wheel, section));
+  }
+  [[nodiscard]] std::vector<int> candidates(double reach) const {
+    std::vector<char> touches(mesh.n_nodes());
+    for (const int node : mesh.boundary) touches[static_cast<std::size_t>(node)] = 1;
+    std::vector<int> rows;
+    for (std::size_t a = 0; a < sector.n_local(); ++a) {
+      const std::size_t node = sector.node(a, 0);
+      if (touches[node] && std::abs(mesh.axial[node]) < reach) rows.push_back(static_cast<int>(a));
+    }
+    return rows;
+  }
+};
+
+/// The wheel of docs/wheel3d.md at 33.76455 rad/s.
+inline SteadyWheelCase box_wheel_case(int samples = 4) {
+  SteadyWheelCase c;
+  c.wheel = box_wheel();
+  c.material = box_rubber();
+  c.spin = -33.76455;
+  c.mass_damping = 200.0;
+  c.stiffness_damping = 2e-5;
+  c.samples = samples;
+  c.massless = samples > 1;
+  return c;
+}
+
+/// Radius .3 m, rolled slowly, for contacts that are small beside it.
+inline SteadyWheelCase crowned_case(double crown, int radial, int axial, int around,
+                                    double grading) {
+  SteadyWheelCase c;
+  c.wheel.disk = {.outer_radius = 0.3,
+                  .inner_radius = 0.1,
+                  .radial = radial,
+                  .circumferential = around,
+                  .grading = 2.0,
+                  .tread = {}};
+  c.wheel.width = 0.18;
+  c.wheel.axial = axial;
+  c.wheel.crown_radius = crown;
+  c.grading = grading;
+  c.material.youngs_modulus = 5e6;
+  c.material.poissons_ratio = 0.45;
+  c.material.density = 1000.0;
+  c.material.integration = fem::Integration::b_bar;
+  c.spin = -1e-3;
+  c.reach = 0.06;
+  return c;
+}
+
+/// Solved, with a power that balances.
+inline statics::SolidRollingSolution solved(statics::SolidWindow& window,
+                                            const statics::SolidRollingDrive& drive) {
+  const statics::SolidRollingSolution s = statics::solve_rolling(window, drive);
+  EXPECT_EQ(s.end, statics::RollingEnd::solved) << s.residual;
+  EXPECT_LE(s.residual, 1e-10);
+  EXPECT_LE(rolling_power(window, s, spectrum_of(window, s)).residual, 1e-10);
+  return s;
+}
+
+}  // namespace rondo::test

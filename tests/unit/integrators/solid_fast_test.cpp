@@ -1,0 +1,395 @@
+// SPDX-License-Identifier: BSD-3-Clause
+/// The fast step of a wheel in three dimensions against the readable one, and against itself:
+/// however it is cut, on however many threads, with each instruction set.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+#include <vector>
+
+#include "rondo/integrators/fused/dispatch.hpp"
+#include "rondo/integrators/fused/solid/solid_cyclic_integrator.hpp"
+#include "rondo/integrators/integrator.hpp"
+#include "rondo/integrators/solid/solid_integrator.hpp"
+#include "rondo/integrators/start.hpp"
+#include "support/solid_wheel.hpp"
+
+using namespace rondo;
+using namespace rondo::dynamics;
+
+namespace {
+
+struct Case {
+  std::string name;
+  mesh::Wheel wheel = test::box_wheel();
+  double beta = 2e-5;
+  double friction = 0.3;
+  double restitution = 0.0;
+  double slip_angle = 0.05;
+  double camber = 0.03;
+  double pressure = 0.0;  ///< on the tread                                              [Pa]
+  bool unsteady = true;   ///< spin, slip angle, height and pressure change; gravity
+  bool obstacle = false;  ///< a ramp with rounded edges, and a concave corner
+};
+
+/// A displacement and a velocity that are the same for no two nodes.
+std::vector<double> some(std::size_t n, double size, double phase) {
+  std::vector<double> x(n);
+  for (std::size_t i = 0; i < n; ++i)
+    x[i] = size * std::sin(phase + 1.7 * static_cast<double>(i * i % 1009));
+  return x;
+}
+
+std::vector<Vec2> some_vectors(std::size_t n, double size, double phase) {
+  const std::vector<double> x = some(n, size, phase), y = some(n, size, phase + 1.0);
+  std::vector<Vec2> v(n);
+  for (std::size_t i = 0; i < n; ++i) v[i] = {x[i], y[i]};
+  return v;
+}
+
+struct Built {
+  Model model;
+  State start;
+};
+
+std::vector<mesh::Face> faces_of_tread(const mesh::Mesh& mesh) {
+  for (const mesh::Surface& surface : mesh.surfaces)
+    if (surface.name == "tread") return surface.faces;
+  return {};
+}
+
+Model model_of(const Case& c) {
+  const mesh::Mesh mesh = mesh::make_wheel(c.wheel);
+  test::Cornering rolling;
+  rolling.slip_angle = c.slip_angle;
+  rolling.camber = c.camber;
+  Model m = test::cornering_model(mesh, rolling);
+  m.dt = 0.6 * 2.0 / std::sqrt(fem::solid_eigenvalue_bound(mesh, {{test::box_rubber()}}));
+  m.stiffness_damping = c.beta;
+  contact::GroundShape ground;
+  if (c.obstacle) {
+    ground.profile = {{-1, 0}, {0.02, 0}, {0.05, 0.006}, {0.1, 0.006}, {0.13, 0}, {9, 0}};
+    ground.fillet = 0.002;
+  }
+  m.contact.emplace(ContactModel{contact::Ground(ground),
+                                 {.friction = c.friction, .restitution = c.restitution},
+                                 mesh.boundary,
+                                 mesh.tributary});
+  const double end = 106.0 * m.dt;
+  if (c.unsteady) {
+    m.motion.angular_velocity = Table({{0.0, 32.0}, {end, 36.0}});
+    m.motion.slip_angle = Table({{0.0, 0.0}, {end, c.slip_angle}});
+    m.motion.height = Table({{0.0, 0.2995}, {end, 0.288}});
+    m.motion.gravity = Table(9.81);
+    m.motion.slope = 0.02;
+  }
+  if (c.pressure != 0.0) {
+    const auto force = fem::sector_pressure(mesh, m.solid->sector, faces_of_tread(mesh));
+    m.solid->pressures.push_back({force, Table({{0.0, 0.0}, {end, c.pressure}})});
+    m.solid->pressures.push_back({force, Table(0.1 * c.pressure)});
+  }
+  return m;
+}
+
+State start_of(const Model& m) {
+  const std::size_t n = m.n_nodes();
+  return start(m, some_vectors(n, 1e-5, 0.3), some_vectors(n, 0.01, 0.7), {},
+               {some(n, 1e-5, 2.0), some(n, 0.01, 2.5), {}});
+}
+
+constexpr int steps = 107;  // a last pass that is not full
+
+struct Outcome {
+  State state;
+  std::vector<StepReport> reports;
+};
+
+Outcome after(const Model& model, Integrator& integrator) {
+  Outcome out{State(model), std::vector<StepReport>(steps)};
+  const std::span reports(out.reports);
+  integrator.advance(reports.first(7), nullptr);
+  integrator.advance(reports.subspan(7, 64), nullptr);
+  integrator.advance(reports.subspan(71), &out.state);
+  return out;
+}
+
+Outcome fast(const Model& model, const SolidTuning& tuning = {},
+             const kernels::Table& table = kernel_table()) {
+  SolidCyclicIntegrator integrator(model, start_of(model), table, tuning);
+  return after(model, integrator);
+}
+
+/// The largest difference of two things of a kind, and their largest size.
+struct Difference {
+  double error = 0.0, size = 0.0;
+  void see(double a, double b) {
+    size = std::max(size, std::abs(a));
+    if (!(std::abs(a - b) <= error)) error = std::abs(a - b);  // NaN comes through
+  }
+  void see(Vec2 a, Vec2 b) {
+    see(a.x, b.x);
+    see(a.y, b.y);
+  }
+  template <class T>
+  void see(const std::vector<T>& a, const std::vector<T>& b) {
+    ASSERT_EQ(a.size(), b.size());
+    for (std::size_t i = 0; i < a.size(); ++i) see(a[i], b[i]);
+  }
+  void expect_within(double bound, const char* kind) const {
+    EXPECT_GT(size, 0.0) << kind;
+    EXPECT_LE(error, bound * size) << kind;
+  }
+};
+
+void expect_near(const Outcome& a, const Outcome& b, double bound) {
+  Difference u, v, energy, impulse, moment, residual;
+  u.see(a.state.u, b.state.u);
+  u.see(a.state.axial_u, b.state.axial_u);
+  v.see(a.state.v, b.state.v);
+  v.see(a.state.axial_v, b.state.axial_v);
+  v.see(a.state.v_next, b.state.v_next);
+  v.see(a.state.axial_v_next, b.state.axial_v_next);
+  ASSERT_EQ(a.state.active.size(), b.state.active.size());
+  for (std::size_t i = 0; i < a.state.active.size(); ++i) {
+    const ActiveContact &c = a.state.active[i], &d = b.state.active[i];
+    ASSERT_EQ(c.candidate, d.candidate);
+    // Where a node sticks to two facets at once, round-off says which one of them holds it.
+    if (a.reports.back().contact.pairs == 0) {
+      ASSERT_EQ(c.status, d.status);
+    }
+    impulse.see(c.impulse, d.impulse);
+    impulse.see(c.lateral.impulse, d.lateral.impulse);
+    v.see(c.before, d.before);
+    v.see(c.lateral.after, d.lateral.after);
+  }
+  for (std::size_t i = 0; i < a.reports.size(); ++i) {
+    const ContactReport &c = a.reports[i].contact, &d = b.reports[i].contact;
+    ASSERT_EQ(a.reports[i].step, b.reports[i].step);
+    ASSERT_EQ(c.nodes, d.nodes) << i;
+    if (c.pairs == 0) {
+      ASSERT_EQ(c.sticking, d.sticking) << i;
+    }
+    ASSERT_EQ(c.pairs, d.pairs) << i;
+    impulse.see(c.impulse, d.impulse);
+    impulse.see(c.lateral, d.lateral);
+    moment.see(c.moment_aligning, d.moment_aligning);
+    moment.see(c.moment_overturning, d.moment_overturning);
+    moment.see(c.angular_impulse, d.angular_impulse);
+    const Balance &e = a.reports[i].balance, &f = b.reports[i].balance;
+    const Works &w = e.works, &x = f.works;
+    for (const auto& [of_a, of_b] : {std::pair{e.kinetic, f.kinetic},
+                                     {e.strain, f.strain},
+                                     {w.frame, x.frame},
+                                     {w.contact, x.contact},
+                                     {w.dissipation_friction, x.dissipation_friction},
+                                     {w.loss_impact, x.loss_impact},
+                                     {w.load, x.load},
+                                     {w.rim, x.rim},
+                                     {w.dissipation_mass, x.dissipation_mass},
+                                     {w.dissipation_stiffness, x.dissipation_stiffness},
+                                     {e.exchanged, f.exchanged}})
+      energy.see(of_a, of_b);
+    residual.see(e.residual, f.residual);
+  }
+  residual.size = energy.size;
+  u.expect_within(bound, "displacement");
+  v.expect_within(bound, "velocity");
+  impulse.expect_within(bound, "impulse");
+  moment.expect_within(bound, "moment");
+  energy.expect_within(bound, "energy");
+  residual.expect_within(bound, "residual");
+  EXPECT_LT(a.reports.back().balance.relative, 1e-13);
+}
+
+void expect_same(const Outcome& a, const Outcome& b) {
+  EXPECT_EQ(a.state.u, b.state.u);
+  EXPECT_EQ(a.state.v, b.state.v);
+  EXPECT_EQ(a.state.v_next, b.state.v_next);
+  EXPECT_EQ(a.state.axial_u, b.state.axial_u);
+  EXPECT_EQ(a.state.axial_v, b.state.axial_v);
+  EXPECT_EQ(a.state.axial_v_next, b.state.axial_v_next);
+  ASSERT_EQ(a.state.active.size(), b.state.active.size());
+  for (std::size_t i = 0; i < a.state.active.size(); ++i) {
+    EXPECT_EQ(a.state.active[i].candidate, b.state.active[i].candidate);
+    EXPECT_EQ(a.state.active[i].impulse, b.state.active[i].impulse);
+    EXPECT_EQ(a.state.active[i].lateral.impulse, b.state.active[i].lateral.impulse);
+  }
+  for (std::size_t i = 0; i < a.reports.size(); ++i) {
+    const ContactReport &c = a.reports[i].contact, &d = b.reports[i].contact;
+    ASSERT_EQ(c.impulse, d.impulse) << i;
+    ASSERT_EQ(c.lateral, d.lateral) << i;
+    ASSERT_EQ(c.moment_aligning, d.moment_aligning) << i;
+    ASSERT_EQ(c.nodes, d.nodes) << i;
+    const Balance &e = a.reports[i].balance, &f = b.reports[i].balance;
+    ASSERT_EQ(e.kinetic, f.kinetic) << i;
+    ASSERT_EQ(e.strain, f.strain) << i;
+    ASSERT_EQ(e.works.frame, f.works.frame) << i;
+    ASSERT_EQ(e.works.load, f.works.load) << i;
+    ASSERT_EQ(e.works.dissipation_stiffness, f.works.dissipation_stiffness) << i;
+    ASSERT_EQ(e.works.dissipation_friction, f.works.dissipation_friction) << i;
+  }
+}
+
+mesh::Wheel treaded(int radial, int axial, mesh::Tread tread) {
+  mesh::Wheel w = test::box_wheel(radial, axial);
+  w.disk.tread = tread;
+  return w;
+}
+
+std::vector<Case> cases() {
+  std::vector<Case> all;
+  all.push_back({.name = "smooth"});
+  all.push_back({.name = "smooth_without_beta", .beta = 0.0});
+  all.push_back({.name = "steady", .unsteady = false});
+  all.push_back({.name = "steady_without_beta", .beta = 0.0, .unsteady = false});
+  // Even and odd numbers of nodes a layer, packs that are not full, one layer.
+  all.push_back({.name = "four_nodes_a_layer", .wheel = test::box_wheel(4, 3, 77)});
+  all.push_back({.name = "two_nodes_a_layer", .wheel = test::box_wheel(5, 1, 64)});
+  all.push_back({.name = "one_layer", .wheel = test::box_wheel(1, 5, 70)});
+  all.push_back({.name = "pressure", .pressure = 2e4});
+  all.push_back({.name = "pressure_without_beta", .beta = 0.0, .pressure = 2e4});
+  all.push_back({.name = "restitution", .restitution = 0.5});
+  all.push_back({.name = "obstacle", .friction = 0.8, .obstacle = true});
+  all.push_back({.name = "no_friction", .friction = 0.0});
+  all.push_back({.name = "pitches", .wheel = treaded(4, 4, {19, 0.02, 3, 1, 2})});
+  all.push_back(
+      {.name = "pitches_pressure", .wheel = treaded(4, 3, {41, 0.02, 1, 1, 1}), .pressure = 2e4});
+  all.push_back(
+      {.name = "pitches_without_beta", .wheel = treaded(4, 4, {13, 0.02, 5, 3, 2}), .beta = 0.0});
+  Case grooves{.name = "grooves"};
+  grooves.wheel = treaded(4, 8, {29, 0.02, 2, 1, 2});
+  grooves.wheel.grooves = {{0.0, 0.02}};
+  all.push_back(grooves);
+  // So large that its rows are walked over from side to side.
+  all.push_back({.name = "wide", .wheel = test::box_wheel(3, 12, 330), .pressure = 2e4});
+  all.push_back({.name = "wide_pitches", .wheel = treaded(3, 12, {60, 0.02, 3, 1, 2})});
+  Case crown{.name = "crown"};
+  crown.wheel.crown_radius = 0.3;
+  all.push_back(crown);
+  return all;
+}
+
+class SolidFast : public testing::TestWithParam<Case> {};
+
+long contacts_of(const Outcome& o) {
+  long contacts = 0;
+  for (const StepReport& report : o.reports) contacts += report.contact.nodes;
+  return contacts;
+}
+
+}  // namespace
+
+TEST_P(SolidFast, AgreesWithTheReadableStep) {
+  const Model model = model_of(GetParam());
+  SolidIntegrator readable(model, start_of(model));
+  const Outcome expected = after(model, readable);
+  EXPECT_GT(contacts_of(expected), 0);
+  expect_near(expected, fast(model), 1e-11);
+}
+
+TEST_P(SolidFast, GivesTheSameBitsHoweverItIsCut) {
+  Model model = model_of(GetParam());
+  SolidTuning in_cache;
+  in_cache.cache_bytes = std::size_t{1} << 40U;
+  const Outcome whole = fast(model, in_cache);
+  const SolidTuning ring{0, 0, 1 << 20, 8}, wide{0, 0, 48, 8}, wider{0, 0, 96, 8},
+      narrow{0, 0, 48, 1 << 20};
+  for (const SolidTuning& tuning : {ring, wide, wider, narrow})
+    for (const int threads : {1, 2, 3}) {
+      model.threads = threads;
+      const SolidPlan plan = make_solid_plan(model, tuning);
+      SCOPED_TRACE(std::to_string(plan.cut.chunks.size()) + " chunks, " +
+                   std::to_string(plan.cut.depth) + " steps in a pass, " + std::to_string(threads) +
+                   " threads");
+      expect_same(whole, fast(model, tuning));
+    }
+}
+
+TEST_P(SolidFast, IsTheSameWithEachInstructionSet) {
+  const Model model = model_of(GetParam());
+  const Outcome best = fast(model, {}, *kernel_tables().front());
+  for (const kernels::Table* table : kernel_tables()) {
+    SCOPED_TRACE(table->name);
+    const Outcome other = fast(model, {}, *table);
+    if (std::string(table->name) == "baseline")
+      expect_near(best, other, 1e-11);
+    else
+      expect_same(best, other);
+  }
+}
+
+TEST_P(SolidFast, GoesOnFromWhatItSaved) {
+  const Model model = model_of(GetParam());
+  const State begin = start_of(model);
+  SolidCyclicIntegrator one(model, begin, kernel_table()), two(model, begin, kernel_table());
+  std::vector<StepReport> reports(37);
+  one.advance(reports, nullptr);
+  two.restore(one.save());
+  expect_same(after(model, one), after(model, two));
+  State now(model), saved(model);
+  one.fields(now);
+  two.fields(saved);
+  EXPECT_EQ(now.u, saved.u);
+  EXPECT_EQ(now.axial_u, saved.axial_u);
+  EXPECT_EQ(now.axial_v_next, saved.axial_v_next);
+}
+
+INSTANTIATE_TEST_SUITE_P(All, SolidFast, testing::ValuesIn(cases()),
+                         [](const auto& p) { return p.param.name; });
+
+TEST(SolidPlan, SmoothWheelsAreMirrorsAndTreadsAreNot) {
+  const SolidPlan smooth = make_solid_plan(model_of({.name = "smooth"}));
+  for (const SolidPlanStrip& strip : smooth.strips)
+    EXPECT_EQ(strip.kind, kernels::SolidKind::mirrored) << strip.first;
+  EXPECT_EQ(smooth.strips.size(), 9U);  // of 3 layers of 5 nodes: two, two and one
+  const SolidPlan tread =
+      make_solid_plan(model_of({.name = "pitches", .wheel = treaded(4, 4, {19, 0.02, 3, 1, 2})}));
+  long general = 0, mirrored = 0;
+  for (const kernels::SolidKind kind : tread.stiffness.kind) {
+    general += kind == kernels::SolidKind::general ? 1 : 0;
+    mirrored += kind == kernels::SolidKind::mirrored ? 1 : 0;
+  }
+  EXPECT_GT(general, 0);
+  EXPECT_GT(mirrored, 0);
+}
+
+TEST(SolidPlan, LargeWheelsAreWalkedOverTheShorterWay) {
+  const Model wide = model_of({.name = "wide", .wheel = test::box_wheel(3, 12, 330)});
+  const OrderedSector ordered = order_sector(wide);
+  EXPECT_EQ(ordered.was[0], 0);
+  EXPECT_EQ(ordered.was[1], 13);  // the next layer, not the next node of the first
+  const SolidPlan plan = make_solid_plan(wide);
+  EXPECT_EQ(plan.strips.front().needs, 3);  // of the next slice: each is a strip of two and one
+  const Model high = model_of({.name = "high", .wheel = test::box_wheel(12, 3, 330)});
+  EXPECT_EQ(order_sector(high).was[1], 1);
+}
+
+/// The cuts of the tests above are those that large wheels take.
+TEST(SolidPlan, LargeWheelsTakeSeveralStepsInAPassOverWideChunks) {
+  Model model = model_of({.name = "wide", .wheel = test::box_wheel(2, 2, 300)});
+  EXPECT_EQ(make_solid_plan(model).cut.halo, Halo::ring);
+  EXPECT_EQ(make_solid_plan(model).cut.depth, 1);
+  const SolidPlan wide = make_solid_plan(model, {0, 0, 48, 8});
+  EXPECT_EQ(wide.cut.halo, Halo::wide);
+  EXPECT_EQ(wide.cut.depth, solid_steps_in_a_pass);
+  EXPECT_GT(wide.cut.chunks.size(), 4U);
+  model.threads = 2;
+  EXPECT_EQ(make_solid_plan(model).cut.chunks.size(), 2U);
+}
+
+TEST(SolidPlan, BlocksAreSymmetricToTheLastBit) {
+  const SolidPlan plan =
+      make_solid_plan(model_of({.name = "pitches", .wheel = treaded(4, 4, {19, 0.02, 3, 1, 2})}));
+  const auto& blocks = plan.stiffness.blocks;
+  for (std::size_t a = 0; a < blocks.size(); ++a)
+    for (const SolidBlock& b : blocks[a]) {
+      const auto& row = blocks[static_cast<std::size_t>(b.row)];
+      const auto back = std::find_if(row.begin(), row.end(), [&](const SolidBlock& other) {
+        return other.row == static_cast<int>(a) && other.shift == -b.shift;
+      });
+      ASSERT_NE(back, row.end());
+      for (std::size_t c = 0; c < 3; ++c)
+        for (std::size_t r = 0; r < 3; ++r) ASSERT_EQ(b.k[3 * c + r], back->k[3 * r + c]);
+    }
+}

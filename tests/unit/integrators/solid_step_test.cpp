@@ -1,0 +1,196 @@
+// SPDX-License-Identifier: BSD-3-Clause
+/// The readable steps of a wheel in three dimensions: energy, momenta, restart, a loaded rim.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <memory>
+
+#include "rondo/integrators/solid/solid_integrator.hpp"
+#include "rondo/integrators/solid/solid_wheel_integrator.hpp"
+#include "rondo/integrators/start.hpp"
+#include "support/solid_wheel.hpp"
+
+namespace rondo::dynamics {
+namespace {
+
+using test::Cornering;
+
+mesh::Mesh small_mesh() {
+  return make_wheel(test::box_wheel(2, 3, 30));
+}
+
+State at_rest(const Model& model) {
+  const std::vector<Vec2> rest(model.n_nodes());
+  return start(model, rest, rest);
+}
+
+/// Slip angle, speed, height, spin and gravity change; camber, restitution, pressure.
+Model with_everything(const mesh::Mesh& mesh) {
+  Model m = test::cornering_model(mesh, {.camber = 0.05});
+  m.motion.slip_angle = Table({{0.0, 0.02}, {0.01, 0.1}, {0.05, -0.05}});
+  m.motion.speed = Table({{0.0, 10.0}, {0.02, 9.0}});
+  m.motion.angular_velocity = Table({{0.0, 33.0}, {0.03, 36.0}});
+  m.motion.height = Table({{0.0, 0.301}, {0.02, 0.292}});
+  m.motion.gravity = Table(9.81);
+  m.motion.slope = 0.1;
+  m.contact->law.restitution = 0.5;
+  const auto& tread = mesh.surfaces;
+  for (const mesh::Surface& s : tread)
+    if (s.name == "left")
+      m.solid->pressures.push_back(
+          {fem::sector_pressure(mesh, m.solid->sector, s.faces), Table({{0.0, 0.0}, {0.05, 2e5}})});
+  return m;
+}
+
+RimBody loaded_rim() {
+  RimBody rim;
+  rim.free_y = rim.free_spin = true;
+  rim.mass = 12.0;
+  rim.inertia = 0.2;
+  rim.force_y = Table(-8000.0);
+  rim.support_y.damping = 2000.0;
+  return rim;
+}
+
+std::unique_ptr<Integrator> integrator_of(const Model& m, const State& s) {
+  if (m.rim) return std::make_unique<SolidWheelIntegrator>(m, s);
+  return std::make_unique<SolidIntegrator>(m, s);
+}
+
+struct Seen {
+  double ledger = 0.0, law = 0.0;
+  int most_contacts = 0;
+};
+
+Seen run(Integrator& integrator, int steps, StepReport& last) {
+  Seen seen;
+  std::array<StepReport, 1> report;
+  for (int n = 0; n < steps; ++n) {
+    integrator.advance(report);
+    seen.ledger = std::max(seen.ledger, report[0].balance.relative);
+    seen.law = std::max(seen.law, report[0].contact.residual);
+    seen.most_contacts = std::max(seen.most_contacts, report[0].contact.nodes);
+  }
+  last = report[0];
+  return seen;
+}
+
+TEST(SolidStep, TheLedgerClosesWithEverythingOn) {
+  const mesh::Mesh mesh = small_mesh();
+  const Model m = with_everything(mesh);
+  ASSERT_EQ(m.solid->pressures.size(), 1U);
+  const State s = at_rest(m);
+  StepReport last;
+  SolidIntegrator integrator(m, s);
+  const Seen seen = run(integrator, 1500, last);
+  EXPECT_LT(seen.ledger, 1e-13);
+  EXPECT_LT(seen.law, 1e-12);
+  EXPECT_GT(seen.most_contacts, 5);
+  const Works& w = last.balance.works;
+  EXPECT_GT(w.dissipation_friction, 0.0);
+  EXPECT_GT(w.loss_impact, 0.0);
+  EXPECT_GT(w.dissipation_mass, 0.0);
+  EXPECT_GT(w.dissipation_stiffness, 0.0);
+  EXPECT_NE(w.load, 0.0);
+}
+
+TEST(SolidStep, TheLedgerClosesOnALoadedRim) {
+  const mesh::Mesh mesh = small_mesh();
+  Model m = with_everything(mesh);
+  m.rim = loaded_rim();
+  const State s = at_rest(m);
+  StepReport last;
+  SolidWheelIntegrator integrator(m, s);
+  const Seen seen = run(integrator, 1500, last);
+  EXPECT_LT(seen.ledger, 1e-12);
+  EXPECT_LT(seen.law, 1e-12);
+  EXPECT_GT(seen.most_contacts, 3);
+}
+
+/// The works by the forces on the ground alone: momenta along n and t2 of wheel and rim.
+TEST(SolidStep, TheImpulsesOfTheGroundChangeTheMomentum) {
+  const mesh::Mesh mesh = small_mesh();
+  Model m = test::cornering_model(mesh, {.slip_angle = 0.05, .camber = 0.1});
+  m.motion.height = Table(0.301);
+  m.rim = loaded_rim();
+  m.rim->free_x = true;
+  m.rim->support_y.damping = 0.0;
+  m.mass_damping = 0.0;
+  const State s = at_rest(m);
+  SolidWheelIntegrator integrator(m, s);
+  const GroundAxes ground(m.motion.camber);
+  const auto momentum = [&] {
+    const SavedState saved = integrator.save();
+    Vec3 sum;
+    for_free_nodes(m,
+                   [&](std::size_t k) { sum += m.mass[k] * Vec3(saved.v[k], saved.axial_v[k]); });
+    return ground.plane(sum) + m.rim->mass * Vec2{saved.rim[6], saved.rim[7]};
+  };
+  const Vec2 before = momentum();
+  Vec2 impulse;
+  std::array<StepReport, 1> report;
+  for (int n = 0; n < 600; ++n) {
+    integrator.advance(report);
+    impulse += report[0].contact.impulse + m.dt * Vec2{0.0, -8000.0};
+  }
+  const Vec2 change = momentum() - before;
+  EXPECT_GT(norm(impulse), 5.0);
+  EXPECT_NEAR(change.x, impulse.x, 1e-10 * norm(before));
+  EXPECT_NEAR(change.y, impulse.y, 1e-10 * norm(before));
+}
+
+TEST(SolidStep, GoesOnToTheSameBits) {
+  const mesh::Mesh mesh = small_mesh();
+  for (const bool rim : {false, true}) {
+    Model m = with_everything(mesh);
+    if (rim) m.rim = loaded_rim();
+    const State s = at_rest(m);
+    StepReport whole, part;
+    const auto one = integrator_of(m, s), two = integrator_of(m, s);
+    run(*one, 900, whole);
+    run(*two, 400, part);
+    const auto third = integrator_of(m, s);
+    third->resumable()->restore(two->resumable()->save());
+    run(*third, 500, part);
+    const SavedState a = one->resumable()->save(), b = third->resumable()->save();
+    EXPECT_EQ(a.u, b.u);
+    EXPECT_EQ(a.axial_u, b.axial_u);
+    EXPECT_EQ(a.v, b.v);
+    EXPECT_EQ(a.axial_v, b.axial_v);
+    EXPECT_EQ(a.rim, b.rim);
+    EXPECT_EQ(a.ledger, b.ledger);
+    EXPECT_EQ(whole.contact.lateral, part.contact.lateral);
+  }
+}
+
+/// With all of it held, a loaded rim goes as the tables say, and the body with it.
+TEST(SolidStep, AHeldRimIsTheRimThatFollowsItsTables) {
+  const mesh::Mesh mesh = small_mesh();
+  Model m = test::cornering_model(mesh, {.slip_angle = 0.05, .camber = 0.05});
+  m.motion.height = Table({{0.0, 0.301}, {0.02, 0.295}});
+  m.stiffness_damping = m.mass_damping = 0.0;
+  const State s = at_rest(m);
+  SolidIntegrator follows(m, s);
+  Model held = m;
+  held.rim = RimBody{};
+  held.rim->mass = 10.0;
+  held.rim->inertia = 0.1;
+  const State t = at_rest(held);
+  SolidWheelIntegrator loaded(held, t);
+  double lateral[2] = {}, normal[2] = {};
+  std::array<StepReport, 1> report;
+  for (int n = 0; n < 800; ++n) {
+    follows.advance(report);
+    lateral[0] += report[0].contact.lateral, normal[0] += report[0].contact.impulse.y;
+    loaded.advance(report);
+    lateral[1] += report[0].contact.lateral, normal[1] += report[0].contact.impulse.y;
+  }
+  EXPECT_GT(normal[0], 50.0);
+  EXPECT_NEAR(normal[1], normal[0], 2e-3 * normal[0]);
+  EXPECT_NEAR(lateral[1], lateral[0], 2e-3 * normal[0]);
+}
+
+}  // namespace
+}  // namespace rondo::dynamics
