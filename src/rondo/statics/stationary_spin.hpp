@@ -18,8 +18,9 @@ enum class SpinStatus {
 
 struct StationarySpin {
   SpinStatus status = SpinStatus::unstable;
-  std::vector<Vec2> u;    ///< (n) turning frame, 0 on clamped nodes                [m]
-  double residual = 0.0;  ///< of the equation solved, relative to ‖s² M X‖         [-]
+  std::vector<Vec2> u;            ///< (n) turning frame, 0 on clamped nodes                [m]
+  double residual = 0.0;          ///< of the equation solved, relative to ‖s² M X‖         [-]
+  std::vector<double> axial_u{};  ///< (n) of a wheel in three dimensions; empty: plane [m]
 };
 
 /// Sparse Cholesky (CHOLMOD). @param spin s [rad/s]; others (n).
@@ -52,6 +53,11 @@ struct StationarySpin {
                                              std::span<const double> mass,
                                              std::span<const Vec2> reference, double spin);
 
+/// The same in three dimensions: (K - s²MP) u = s² M P X with P = diag(1, 1, 0).
+[[nodiscard]] StationarySpin stationary_spin(const fem::SolidSector& k,
+                                             std::span<const double> mass,
+                                             std::span<const Vec2> reference, double spin);
+
 /// The same for a body of N equal sectors, from harmonic 0 alone.
 [[nodiscard]] StationarySpin centrifugal_prestress(const fem::SectorStiffness& k,
                                                    std::span<const double> mass,
@@ -59,6 +65,11 @@ struct StationarySpin {
 
 /// The same for a body of N equal sectors: a factorisation of each harmonic.
 [[nodiscard]] bool eigenvalues_above(const fem::SectorStiffness& k, std::span<const double> mass,
+                                     double shift);
+
+/// The same in three dimensions of K - shift M P with P = diag(1, 1, 0): whether a wheel bears a
+/// spin of which `shift` is the square.
+[[nodiscard]] bool eigenvalues_above(const fem::SolidSector& k, std::span<const double> mass,
                                      double shift);
 
 }  // namespace rondo::statics

@@ -11,7 +11,7 @@ namespace {
 
 using Eigen::Index;
 
-/// Cholesky of A(k) - shift I, one harmonic after another.
+/// Cholesky of A(k) - shift P, P = 1 but for 0 on axial components, one harmonic after another.
 class HarmonicFactor {
  public:
   HarmonicFactor(fem::Harmonics& harmonics, double shift) : harmonics_(harmonics), shift_(shift) {
@@ -22,7 +22,7 @@ class HarmonicFactor {
   }
 
   const fem::Harmonics::Matrix& matrix(int harmonic) {
-    return harmonics_.lower(harmonic, 1.0, -shift_);
+    return harmonics_.lower(harmonic, 1.0, -shift_, 0.0);
   }
   /// False where the matrix is not positive definite.
   bool compute(int harmonic) {
@@ -47,34 +47,46 @@ class HarmonicFactor {
   Eigen::CholmodDecomposition<fem::Harmonics::Matrix, Eigen::Lower> solver_;
 };
 
-/// s² M^½ X of sector 0, whose polar frame is that of X.
-Eigen::VectorXd scaled_load(const fem::SectorStiffness& k, const Eigen::VectorXd& root_mass,
+/// s² M^½ P X of sector 0, whose polar frame is that of X.
+template <int C>
+Eigen::VectorXd scaled_load(const fem::SectorBlocks<C>& k, const Eigen::VectorXd& root_mass,
                             std::span<const Vec2> reference, double spin) {
-  Eigen::VectorXd load(root_mass.size());
+  Eigen::VectorXd load = Eigen::VectorXd::Zero(root_mass.size());
   for (std::size_t a = 0; a < k.n_local(); ++a) {
     const Vec2 x = reference[k.node(a, 0)];
-    load.segment<2>(static_cast<Index>(2 * a)) = Eigen::Vector2d(x.x, x.y);
+    load.segment<2>(static_cast<Index>(C * a)) = Eigen::Vector2d(x.x, x.y);
   }
   return spin * spin * load.cwiseProduct(root_mass);
 }
 
+/// No displacement of n nodes.
+template <int C>
+StationarySpin nothing(std::size_t n) {
+  StationarySpin none;
+  none.u.assign(n, Vec2{});
+  if constexpr (C == 3) none.axial_u.assign(n, 0.0);
+  return none;
+}
+
 /// The same polar components in every sector.
-void spread(const fem::SectorStiffness& k, const Eigen::VectorXd& polar, std::span<Vec2> u) {
+template <int C>
+void spread(const fem::SectorBlocks<C>& k, const Eigen::VectorXd& polar, StationarySpin& out) {
   for (std::size_t j = 0; j < k.turn.size(); ++j)
     for (std::size_t a = 0; a < k.n_local(); ++a) {
-      const auto at = static_cast<Index>(2 * a);
-      u[k.node(a, j)] = k.turn[j] * Vec2{polar[at], polar[at + 1]};
+      const auto at = static_cast<Index>(C * a);
+      out.u[k.node(a, j)] = k.turn[j] * Vec2{polar[at], polar[at + 1]};
+      if constexpr (C == 3) out.axial_u[k.node(a, j)] = polar[at + 2];
     }
 }
 
-/// (K - softening M) u = s² M X by harmonic 0; `unstable` where that is not positive definite.
-StationarySpin solve(const fem::SectorStiffness& k, HarmonicFactor& factor,
+/// (K - softening M P) u = s² M P X by harmonic 0; `unstable` where that is not positive definite.
+template <int C>
+StationarySpin solve(const fem::SectorBlocks<C>& k, HarmonicFactor& factor,
                      const Eigen::VectorXd& root_mass, std::span<const Vec2> reference,
                      double spin) {
-  StationarySpin out;
-  out.u.assign(reference.size(), Vec2{});
+  StationarySpin out = nothing<C>(reference.size());
   if (!factor.compute(0)) return out;
-  // (A(0) - softening I) w = s² M^½ X with w = M^½ u
+  // (A(0) - softening P) w = s² M^½ P X with w = M^½ u
   const Eigen::VectorXd load = scaled_load(k, root_mass, reference, spin);
   const Eigen::SparseMatrix<double> a = factor.matrix(0).real();
   const auto remainder = [&](const Eigen::VectorXd& w) -> Eigen::VectorXd {
@@ -85,22 +97,38 @@ StationarySpin solve(const fem::SectorStiffness& k, HarmonicFactor& factor,
   out.status = SpinStatus::solved;
   const double scale = load.cwiseProduct(root_mass).norm();
   out.residual = scale > 0.0 ? remainder(w).cwiseProduct(root_mass).norm() / scale : 0.0;
-  spread(k, w.cwiseQuotient(root_mass), out.u);
+  spread(k, w.cwiseQuotient(root_mass), out);
   return out;
+}
+
+template <int C>
+StationarySpin find(const fem::SectorBlocks<C>& k, std::span<const double> mass,
+                    std::span<const Vec2> reference, double spin) {
+  fem::Harmonics harmonics(k, mass);
+  const OneBlasThread one_thread;
+  HarmonicFactor factor(harmonics, spin * spin);
+  StationarySpin out = solve(k, factor, harmonics.root_mass(), reference, spin);
+  if (out.status != SpinStatus::solved || factor.positive_from(1)) return out;
+  return nothing<C>(reference.size());
+}
+
+template <int C>
+bool all_above(const fem::SectorBlocks<C>& k, std::span<const double> mass, double shift) {
+  fem::Harmonics harmonics(k, mass);
+  const OneBlasThread one_thread;
+  return HarmonicFactor(harmonics, shift).positive_from(0);
 }
 
 }  // namespace
 
 StationarySpin stationary_spin(const fem::SectorStiffness& k, std::span<const double> mass,
                                std::span<const Vec2> reference, double spin) {
-  fem::Harmonics harmonics(k, mass);
-  const OneBlasThread one_thread;
-  HarmonicFactor factor(harmonics, spin * spin);
-  StationarySpin out = solve(k, factor, harmonics.root_mass(), reference, spin);
-  if (out.status != SpinStatus::solved || factor.positive_from(1)) return out;
-  StationarySpin none;
-  none.u.assign(reference.size(), Vec2{});
-  return none;
+  return find(k, mass, reference, spin);
+}
+
+StationarySpin stationary_spin(const fem::SolidSector& k, std::span<const double> mass,
+                               std::span<const Vec2> reference, double spin) {
+  return find(k, mass, reference, spin);
 }
 
 StationarySpin centrifugal_prestress(const fem::SectorStiffness& k, std::span<const double> mass,
@@ -112,9 +140,11 @@ StationarySpin centrifugal_prestress(const fem::SectorStiffness& k, std::span<co
 }
 
 bool eigenvalues_above(const fem::SectorStiffness& k, std::span<const double> mass, double shift) {
-  fem::Harmonics harmonics(k, mass);
-  const OneBlasThread one_thread;
-  return HarmonicFactor(harmonics, shift).positive_from(0);
+  return all_above(k, mass, shift);
+}
+
+bool eigenvalues_above(const fem::SolidSector& k, std::span<const double> mass, double shift) {
+  return all_above(k, mass, shift);
 }
 
 }  // namespace rondo::statics
