@@ -12,6 +12,7 @@
 #include "rondo/analysis/base/disk.hpp"
 #include "rondo/analysis/build/build.hpp"
 #include "rondo/analysis/build/memory.hpp"
+#include "rondo/analysis/build/solid/solid_body.hpp"
 #include "rondo/analysis/build/step_limit.hpp"
 #include "rondo/analysis/elements/massless_boundary.hpp"
 #include "rondo/analysis/rubber_step.hpp"
@@ -35,7 +36,7 @@ std::size_t steps_at_once(const Setup& setup) {
   const double fewest = cyclic ? 8.0 : 1.0;     // two passes of the cyclic operator
   // The parts of a coarse step are made twice, the fine one in many steps.
   const int made = setup.model.subdomains ? 2 * setup.model.subdomains->ratio : 1;
-  const double dofs = 2.0 * made * static_cast<double>(setup.model.free.size());
+  const double dofs = made * static_cast<double>(count_dofs(setup.model));
   return static_cast<std::size_t>(std::clamp(dof_steps / dofs, fewest, 64.0));
 }
 
@@ -52,13 +53,14 @@ void DynamicAnalysis::plan_snapshots() {
 
 std::unique_ptr<dynamics::Integrator> DynamicAnalysis::make_integrator(dynamics::State& start) {
   if (!setup_.model.subdomains) std::vector<Vec2>().swap(start.v);  // whose steps begin with v_0
+  std::vector<double>().swap(start.axial_v);
   return dynamics::make_integrator(setup_.model, start);
 }
 
 double DynamicAnalysis::seconds_per_step(double trial) {
   if (trial <= 0.0) return 0.0;
   dynamics::State state =
-      start(setup_.model, setup_.displacement, setup_.velocity, setup_.half_velocity);
+      start(setup_.model, setup_.displacement, setup_.velocity, setup_.half_velocity, setup_.axial);
   const auto integrator = make_integrator(state);
   std::array<dynamics::StepReport, 8> reports;  // only their time is of interest
   const auto begin = Clock::now();
@@ -75,8 +77,8 @@ double DynamicAnalysis::seconds_per_step(double trial) {
 CheckReport DynamicAnalysis::check(double trial) {
   CheckReport r;
   r.nodes = setup_.mesh.n_nodes();
-  r.elements = setup_.mesh.cells.size();
-  r.dofs = 2 * setup_.model.free.size();
+  r.elements = setup_.mesh.n_elements();
+  r.dofs = count_dofs(setup_.model);
   r.bodies = count_bodies(setup_.model);
   r.free_bodies = static_cast<int>(setup_.model.free_bodies.size());
   r.candidates = setup_.mesh.boundary.size();
@@ -100,7 +102,9 @@ RecordPlan DynamicAnalysis::record_plan() const {
                   .n_snapshots = schedule_.steps.size(),
                   .contact = has_candidates(setup_.model),
                   .stress = case_.output.stress,
-                  .free_body = setup_.model.free_body};
+                  .free_body = setup_.model.free_body,
+                  .components = setup_.model.solid ? std::size_t{3} : std::size_t{2},
+                  .camber = setup_.model.motion.camber};
   if (has_massless_contact(setup_.model)) plan.results.mass_dynamic = setup_.model.mass;
   plan.columns = History(case_, setup_).columns();
   const double interval = std::max(case_.output.history_interval, setup_.model.dt);
@@ -124,8 +128,9 @@ std::vector<std::string> DynamicAnalysis::warnings() const {
 
 void DynamicAnalysis::describe(Json& j) const {
   j["nodes"] = setup_.model.n_nodes();
-  j["dofs"] = 2 * setup_.model.free.size();
-  if (case_.mesh) j["mesh_file"] = as_utf8(case_.mesh->file.string());
+  j["dofs"] = count_dofs(setup_.model);
+  if (const MeshCase* mesh = mesh_file_of(case_)) j["mesh_file"] = as_utf8(mesh->file.string());
+  if (setup_.model.solid) describe_solid(setup_, j);
   j["bodies"] = count_bodies(setup_.model);
   j["free_bodies"] = setup_.model.free_bodies.size();
   j["operator"] = operator_name(setup_.model.stiffness_operator);
@@ -180,12 +185,13 @@ Progress DynamicAnalysis::begin(Recorder& recorder) {
   // Of free bodies of rubber it closes, as of those that are held.
   const bool closes = setup_.model.free_bodies.empty() || fem::has_rubber(setup_.materials);
   bounds_ = {closes ? residual_bound : free_residual_bound, largest_strain_energy(setup_),
-             impact_cure(setup_.model), guards_impacts()};
+             impact_cure(setup_.model), guards_impacts(),
+             unit_of("J/m", setup_.model.solid.has_value())};
   watch_.emplace(case_, setup_);
   hub_.emplace(setup_);
   reports_.resize(steps_at_once(setup_));
   state_ = start(setup_.model, std::move(setup_.displacement), std::move(setup_.velocity),
-                 std::move(setup_.half_velocity));
+                 std::move(setup_.half_velocity), std::move(setup_.axial));
   strain_.emplace(setup_.mesh, setup_.materials, &setup_.model);
   if (!from_) record_state(recorder);
   start_integrator();
@@ -197,7 +203,11 @@ void DynamicAnalysis::start_integrator() {
   std::vector<Vec2>().swap(state_.force_before);
   integrator_ = make_integrator(state_);
   for (std::vector<Vec2>* field : {&state_.force, &state_.v_next}) std::vector<Vec2>().swap(*field);
+  for (std::vector<double>* field :
+       {&state_.axial_force, &state_.axial_force_before, &state_.axial_v_next})
+    std::vector<double>().swap(*field);
   state_.v.resize(state_.u.size());
+  state_.axial_v.resize(state_.axial_u.size());
   if (!from_) return;
   dynamics::SavedState& saved = from_->state;
   integrator_->resumable()->restore(saved);
@@ -282,7 +292,7 @@ void DynamicAnalysis::warn_of_impacts(const dynamics::StepReport& step) {
     return;
   impacts_told_ = true;
   warn(fmt::format("t = {:.9g} s: {}", step.frame.time - 0.5 * setup_.model.dt,
-                   created_by_impacts(step.balance, impact_gain_bound, bounds_.impact_cure)));
+                   created_by_impacts(step.balance, impact_gain_bound, bounds_)));
 }
 
 void DynamicAnalysis::warn(std::string warning) {
@@ -299,7 +309,7 @@ void DynamicAnalysis::look() {
   if (trouble_) return;
   std::string passing = watch_->look(state_);
   if (!passing.empty()) warn(std::move(passing));
-  std::string wrong = strain_->look(state_.u, state_.poses, state_.frame.time);
+  std::string wrong = strain_->look(state_.u, state_.poses, state_.frame.time, state_.axial_u);
   if (wrong.empty() && setup_.rubber && integrator_ &&
       rubber_step_.is_due(state_.step, strain_->largest().found.strain))
     wrong = RubberStepWatch::look(setup_, integrator_->resumable()->save());
@@ -373,7 +383,7 @@ void DynamicAnalysis::close() {
 }
 
 void DynamicAnalysis::summarise(Json& j, RunReport& r) const {
-  const double dofs = 2.0 * static_cast<double>(setup_.model.free.size());
+  const auto dofs = static_cast<double>(count_dofs(setup_.model));
   const double time = static_cast<double>(steps_) * setup_.model.dt;
   r.steps = steps_;
   r.end_time = time;

@@ -50,6 +50,12 @@ Largest largest_of(std::span<const Vec2> field) {
   return largest;
 }
 
+Largest largest_of(std::span<const double> field) {
+  Largest largest;
+  for (std::size_t k = 0; k < field.size(); ++k) largest.add(std::abs(field[k]), k);
+  return largest;
+}
+
 std::string too_large(const char* name, const Largest& largest, const char* unit) {
   if (largest.value <= largest_written) return {};
   return fmt::format("the {} of node {}, {:.3g} {}, is out of the range of the result files", name,
@@ -88,16 +94,20 @@ double largest_strain_energy(const Setup& setup) {
 std::string beyond_files(const Setup& setup, const dynamics::State& state) {
   const Largest displacement = largest_of(state.u);
   std::string found = too_large("displacement", displacement, "m");
+  if (found.empty())
+    found = too_large("displacement along the axle", largest_of(state.axial_u), "m");
   if (found.empty()) found = too_large("velocity", largest_of(state.v), "m/s");
+  if (found.empty()) found = too_large("velocity along the axle", largest_of(state.axial_v), "m/s");
   if (found.empty() && !(norm(state.frame.center) <= largest_written))
     found = fmt::format("the center, {:.3g} m away, is out of the range of the result files",
                         norm(state.frame.center));
   if (found.empty()) found = stress_too_large(setup.mesh, setup.materials, displacement);
   Largest force;
   for (const dynamics::ActiveContact& a : state.active)
-    force.add(norm(a.impulse) / setup.model.dt,
+    force.add(std::hypot(a.impulse.x, a.impulse.y, a.lateral.impulse) / setup.model.dt,
               static_cast<std::size_t>(setup.mesh.boundary[a.candidate]));
-  return found.empty() ? too_large("contact force", force, "N/m") : found;
+  const char* const unit = setup.model.solid ? "N" : "N/m";
+  return found.empty() ? too_large("contact force", force, unit) : found;
 }
 
 std::string beyond_files(const CrushSetup& setup, const statics::CrushState& state) {
@@ -117,8 +127,16 @@ std::string not_finite(const dynamics::State& state, const std::string& otherwis
         return fmt::format("the {} of node {} is not finite", name, i);
     return {};
   };
-  const std::string velocity = first(state.v_next, "velocity");
-  const std::string found = velocity.empty() ? first(state.u, "displacement") : velocity;
+  const auto first_axial = [](const std::vector<double>& field, const char* name) -> std::string {
+    for (std::size_t i = 0; i < field.size(); ++i)
+      if (!std::isfinite(field[i]))
+        return fmt::format("the {} of node {} along the axle is not finite", name, i);
+    return {};
+  };
+  std::string found = first(state.v_next, "velocity");
+  if (found.empty()) found = first_axial(state.axial_v_next, "velocity");
+  if (found.empty()) found = first(state.u, "displacement");
+  if (found.empty()) found = first_axial(state.axial_u, "displacement");
   return found.empty() ? otherwise : found;
 }
 
@@ -170,11 +188,12 @@ std::string impact_cure(const dynamics::Model& model) {
   return keys.empty() ? "a smaller step" : keys + ", or a smaller time.safety";
 }
 
-std::string created_by_impacts(const dynamics::Balance& b, double bound, const std::string& cure) {
+std::string created_by_impacts(const dynamics::Balance& b, double bound, const Bounds& of) {
   return fmt::format(
-      "impacts have created energy: loss_impact = {:.6g} J/m, {:.3g} % of the energy exchanged "
-      "({:.6g} J/m), bound {:.2g} %; {}",
-      b.works.loss_impact, -100.0 * impact_gain(b), b.exchanged, -100.0 * bound, cure);
+      "impacts have created energy: loss_impact = {:.6g} {}, {:.3g} % of the energy exchanged "
+      "({:.6g} {}), bound {:.2g} %; {}",
+      b.works.loss_impact, of.energy_unit, -100.0 * impact_gain(b), b.exchanged, of.energy_unit,
+      -100.0 * bound, of.impact_cure);
 }
 
 OutOfBound find_out_of_bound(const dynamics::Balance& b, const ContactStatistics& contact,
@@ -189,16 +208,16 @@ OutOfBound find_out_of_bound(const dynamics::Balance& b, const ContactStatistics
                         b.works.scheme, b.otherwise),
             true};
   if (std::abs(b.strain) > bounds.strain_energy)
-    return {fmt::format("the strain energy, {:.3g} J/m, is that of strains above 1: the body has "
+    return {fmt::format("the strain energy, {:.3g} {}, is that of strains above 1: the body has "
                         "left what small strains mean",
-                        b.strain),
+                        b.strain, bounds.energy_unit),
             true};
   if (b.relative > bounds.ledger)
     return {fmt::format("the energy balance does not close: relative residual {:.3g}, bound {:.0e}",
                         b.relative, bounds.ledger),
             true};
   if (bounds.guards_impacts && impact_gain(b) > impact_gain_bound)
-    return {created_by_impacts(b, impact_gain_bound, bounds.impact_cure), true};
+    return {created_by_impacts(b, impact_gain_bound, bounds), true};
   if (!(contact.residual <= residual_bound))
     return {fmt::format("contact residual {:.3g}, bound {:.0e}", contact.residual, residual_bound),
             false};

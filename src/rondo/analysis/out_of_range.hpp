@@ -3,6 +3,7 @@
 /// outcome of the numerics, for the loops of a run and of a crush.
 #pragma once
 #include <string>
+#include <string_view>
 
 #include "rondo/analysis/build/crush_setup.hpp"
 #include "rondo/case/setup.hpp"
@@ -28,6 +29,7 @@ struct Bounds {
   double strain_energy = 0.0;  ///< [J/m]
   std::string impact_cure;     ///< of impact_cure()
   bool guards_impacts = true;  ///< the run ends above impact_gain_bound
+  std::string_view energy_unit = "J/m";
 };
 
 /// Energy that impacts have created, over the energy exchanged: above the first it is spoken of,
@@ -39,8 +41,7 @@ double impact_gain(const dynamics::Balance& balance) noexcept;
 std::string impact_cure(const dynamics::Model& model);
 
 /// What is said of the energy that impacts created, with its bound.
-std::string created_by_impacts(const dynamics::Balance& balance, double bound,
-                               const std::string& cure);
+std::string created_by_impacts(const dynamics::Balance& balance, double bound, const Bounds& of);
 
 /// What is said where a node has moved that far [m] between two looks for sharp corners.
 std::string missed_corner(double way);

@@ -55,6 +55,10 @@ void check_case(const Case& c, const RunOptions& options, const Setup& setup) {
   if (!is_known(snapshot_names, options.reduced_snapshots))
     throw request_error("--snapshots", options.reduced_snapshots, "no such snapshots",
                         "fields or modes");
+  if (is_solid(c))
+    throw case_error(c, c.section ? "section" : "disk.width",
+                     "reduced models are plane, and this is a wheel in three dimensions",
+                     "the full run, without --reduced; or a [disk] without disk.width");
   if (c.time.scheme != Scheme::symplectic)
     throw case_error(c, "time.scheme", "a reduced run has a scheme of its own",
                      "\"symplectic\", which it stands for");

@@ -24,6 +24,7 @@ struct AnalysisType {
 
 /// In the order of AnalysisKind.
 [[nodiscard]] std::span<const AnalysisType> analysis_types() noexcept;
+/// That of the case: of a wheel in three dimensions with figures of its own.
 [[nodiscard]] const AnalysisType& type_of(const Case& c) noexcept;
 
 /// The analysis of the case, or that of its reduced model where the options name one. Case and

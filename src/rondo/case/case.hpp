@@ -33,6 +33,20 @@ struct MeshCase {
   std::string contact;         ///< physical curve of candidates; empty: none
 };
 
+/// What makes a generated disk a wheel in three dimensions (docs/wheel3d.md).
+struct WheelCase {
+  std::optional<double> width;         ///< along the axle; absent: the body is plane     [m]
+  int axial = 4;                       ///< elements over the width
+  std::optional<double> crown_radius;  ///< of the tread across; absent: flat             [m]
+  std::vector<std::array<double, 2>> grooves;  ///< around the wheel: z of the middle, width [m]
+};
+
+/// The section of a wheel in three dimensions, in r and z, instead of a generated disk.
+struct SectionCase {
+  MeshCase mesh;  ///< its x is r, its y is z
+  int sectors = 180;
+};
+
 /// Of a viscous branch, over the shear modulus of slow strains.
 inline constexpr double most_relative_modulus = 1e6;
 
@@ -179,9 +193,11 @@ struct Case {
   std::map<std::string, KeyPlace> places;  ///< of the keys given, by dotted key
   int schema = 1;                          ///< of the format
   std::string title;
-  mesh::Disk disk;               ///< unused where there is a mesh
-  bool free_rim = false;         ///< of a disk: nothing holds its inner boundary
-  std::optional<MeshCase> mesh;  ///< instead of the disk
+  mesh::Disk disk;                     ///< unused where there is a mesh
+  bool free_rim = false;               ///< of a disk: nothing holds its inner boundary
+  WheelCase wheel;                     ///< of the disk
+  std::optional<MeshCase> mesh;        ///< instead of the disk
+  std::optional<SectionCase> section;  ///< instead of the disk
   fem::Material material;
   MaterialLaw law;  ///< of the material
   std::vector<MaterialRegion> regions;
@@ -208,6 +224,24 @@ struct Case {
 /// Something is held in the turning frame, so that there is a motion of the rim.
 inline bool is_held(const Case& c) {
   return c.mesh ? !c.mesh->clamped.empty() : !c.free_rim;
+}
+
+/// The body is a wheel in three dimensions.
+inline bool is_solid(const Case& c) {
+  return c.wheel.width.has_value() || c.section.has_value();
+}
+
+/// The body is a [disk], in the plane or with a width.
+inline bool is_generated(const Case& c) {
+  return !c.mesh && !c.section;
+}
+
+/// The Gmsh file that the body comes from; null: it is generated.
+inline const MeshCase* mesh_file_of(const Case& c) {
+  return c.mesh ? &*c.mesh : c.section ? &c.section->mesh : nullptr;
+}
+inline MeshCase* mesh_file_of(Case& c) {
+  return c.mesh ? &*c.mesh : c.section ? &c.section->mesh : nullptr;
 }
 
 /// There may be a body that nothing holds: of a mesh, only its cells tell.

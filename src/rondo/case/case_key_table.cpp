@@ -16,6 +16,7 @@ constexpr Allowed poisson{{-1.0, 0.5, true, true}};
 constexpr Allowed share{{0.0, 1.0, true, false}};
 constexpr double right_angle = 0.5 * std::numbers::pi;
 constexpr Allowed less_than_upright{{-right_angle, right_angle, true, true}};
+constexpr Allowed slanted{{-0.78, 0.78, false, false}};  ///< up to about 45°
 
 constexpr Allowed between(double low, double high) {
   return {{low, high, false, false}};
@@ -62,11 +63,17 @@ bool region_has_integration(const Case& c, std::size_t k) {
   return has_rubber(c) || c.regions[k].law.integration != c.law.integration;
 }
 
-bool has_mesh(const Case& c) {
-  return c.mesh.has_value();
+bool has_surfaces(const Case& c) {
+  return !is_generated(c);
 }
-bool has_no_mesh(const Case& c) {
-  return !c.mesh;
+bool has_width(const Case& c) {
+  return c.wheel.width.has_value();
+}
+bool has_crown(const Case& c) {
+  return c.wheel.crown_radius.has_value();
+}
+bool has_grooves(const Case& c) {
+  return !c.wheel.grooves.empty();
 }
 bool is_smooth(const Case& c) {
   return !c.disk.tread;
@@ -139,6 +146,14 @@ constexpr CaseKey keys[] = {
      "\"bonded\": the inner boundary turns and moves with the rim, as `[motion]` says. \"free\": "
      "there is no rim and the disk is unconstrained; see [free bodies](#free-bodies)"},
 
+    {"disk.width", "m", FIELD(wheel.width), positive, optional.if_(has_width, "none"),
+     "width of the wheel along its axle. Given, the body is a wheel in three dimensions, "
+     "[below](#wheels-in-three-dimensions); left out, it is plane"},
+    {"disk.crown_radius", "m", FIELD(wheel.crown_radius), with(positive, ">= disk.width / 2"),
+     optional.if_(has_crown, "none"),
+     "of a wheel with a width: radius across of its tread, which outer_radius is the middle of. "
+     "Left out, the tread is flat"},
+
     {"disk.mesh.radial", "-", FIELD(disk.radial), between(1, 100000), required,
      "layers of quadrilaterals between the radii; with a tread, between the rim and the bottom of "
      "the grooves"},
@@ -149,6 +164,8 @@ constexpr CaseKey keys[] = {
     {"disk.mesh.grading", "-", FIELD(disk.grading), between(1, 10), optional,
      "p of the layers' radii r_k = R_i + (R_b - R_i)(1 - (1 - k/n)^p), R_b the top of the n "
      "layers. 1: even; above 1: finer near the tread"},
+    {"disk.mesh.axial", "-", FIELD(wheel.axial), between(1, 100000), optional.if_(has_width),
+     "of a wheel with a width: hexahedra over it"},
 
     {"disk.tread.pitches", "-", FIELD(disk.tread->pitches), between(3, 10000000), required,
      "number of pitches round the disk"},
@@ -157,10 +174,17 @@ constexpr CaseKey keys[] = {
      "height of the lands above the bottom of the grooves"},
     {"disk.tread.land_columns", "-", FIELD(disk.tread->land_columns), between(1, 100000), required,
      "columns of quadrilaterals in a land"},
-    {"disk.tread.groove_columns", "-", FIELD(disk.tread->groove_columns), between(1, 100000),
-     required, "columns of quadrilaterals in a groove"},
+    {"disk.tread.groove_columns", "-", FIELD(disk.tread->groove_columns), between(0, 100000),
+     required,
+     "columns of quadrilaterals in a groove. 0, no grooves across: only with "
+     "circumferential_grooves"},
     {"disk.tread.layers", "-", FIELD(disk.tread->layers), between(1, 100000), required,
      "layers of quadrilaterals over the depth"},
+    {"disk.tread.circumferential_grooves", "m", FIELD(wheel.grooves), any,
+     optional.if_(has_grooves, "none"),
+     "[[z, width], ...] of a wheel with a width: grooves around it, as deep as the tread, by the z "
+     "of their middle; z = 0 is the middle of the wheel. Elements whose middle is in one are left "
+     "out"},
 
     {"mesh.file", "-", FIELD(mesh->file), any, required.free_on_resume(),
      "the file, relative to the case file's directory. The results directory keeps a copy of it, "
@@ -172,6 +196,19 @@ constexpr CaseKey keys[] = {
      "free"},
     {"mesh.contact", "-", FIELD(mesh->contact), any, optional,
      "physical curve whose nodes may touch the ground or other bodies; \"\": none"},
+
+    {"section.file", "-", FIELD(section->mesh.file), any, required.free_on_resume(),
+     "the file, as `mesh.file`: the section of a wheel in three dimensions, "
+     "[below](#wheels-in-three-dimensions). Its x is the distance r > 0 from the axle, its y is z "
+     "along it; quadrilaterals alone"},
+    {"section.scale", "m", FIELD(section->mesh.scale), positive, optional,
+     "metres of one unit of length of the file"},
+    {"section.clamped", "-", FIELD(section->mesh.clamped), any, required,
+     "physical curve that is bonded to the rigid rim"},
+    {"section.contact", "-", FIELD(section->mesh.contact), any, optional,
+     "physical curve whose nodes may touch the ground; \"\": none"},
+    {"section.sectors", "-", FIELD(section->sectors), between(3, 10000000), optional,
+     "columns of hexahedra round the wheel, all of the same angle"},
 
     {"material.model", "-", FIELD(law.model), model, optional.if_(has_rubber, "\"linear\""),
      "\"linear\": isotropic elasticity of small strains, as published. The others are "
@@ -228,9 +265,9 @@ constexpr CaseKey keys[] = {
      "τ, in which the stress of the branch falls to 1/e. Refused below the step"},
 
     {"material.region[].surface", "-", FIELD(regions[k].surface), any,
-     required.if_(has_mesh, "required with a [mesh]"), "physical surface of the mesh"},
+     required.if_(has_surfaces, "required with a [mesh]"), "physical surface of the mesh"},
     {"material.region[].layers", "-", FIELD(regions[k].layers), between(1, 200000),
-     optional.if_(has_no_mesh, "required with a [disk]"),
+     optional.if_(is_generated, "required with a [disk]"),
      "layers of elements of the disk, 1 at the rim; those of a tread count on"},
     {"material.region[].model", "-", FIELD(regions[k].law.model), model,
      of_region.if_(has_rubber, of_region.standard),
@@ -287,6 +324,13 @@ constexpr CaseKey keys[] = {
      optional.of(in_time_untold).body(never),
      "slope of the ground, whose axes stay those of the case: gravity is tilted by it instead, "
      "towards +x where > 0, downhill"},
+    {"motion.slip_angle", "rad", FIELD(motion.slip_angle), with(slanted, "in rad: 1° is 0.01745"),
+     optional.if_(is_solid).body(never),
+     "of a wheel in three dimensions: angle from its heading to the velocity of the center; > 0 "
+     "travels to the right as well, towards +z"},
+    {"motion.camber", "rad", FIELD(motion.camber), with(slanted, "in rad: 1° is 0.01745"),
+     optional.if_(is_solid).body(never),
+     "likewise: angle by which the wheel leans; > 0 leans its top to the left, towards -z"},
 
     {"rim.free", "-",
      [](Case& c, std::size_t /*k*/)
@@ -352,8 +396,9 @@ constexpr CaseKey keys[] = {
      "law of the impacts, as `ground.impact`"},
 
     {"load.pressure[].curve", "-", FIELD(pressures[k].curve), any, required,
-     "physical curve of the mesh, not all of it held; of a disk \"tread\", the tops of the lands, "
-     "or, where disk.rim is \"free\", \"rim\", its inner boundary"},
+     "physical curve of the mesh or section, not all of it held; of a disk \"tread\", the tops of "
+     "the lands, or, where disk.rim is \"free\", \"rim\", its inner boundary; of one with a width "
+     "also \"left\" and \"right\", its sides"},
     {"load.pressure[].value", "Pa", FIELD(pressures[k].pressure), any, required,
      "pressure against the outward normal, > 0 presses on the body"},
 
@@ -411,8 +456,9 @@ constexpr CaseKey keys[] = {
 
     {"analysis.samples_per_sector", "-", FIELD(analysis.samples_per_sector), between(1, 1000),
      optional.of(of_steady_rolling).body(never),
-     "places of a sector, over its own length, at which steady rolling is solved; with a "
-     "`[disk.tread]` 16 where it is left out"},
+     "places of a sector, over its own length, at which steady rolling is solved; where it is "
+     "left out 16 with a `[disk.tread]`; 4 of a wheel in three dimensions, 8 with a "
+     "`[disk.tread]`, 2 of a `[section]`"},
     {"analysis.slip", "-", FIELD(analysis.slip), choice("bdf2", "upwind"),
      optional.of(of_steady_rolling).body(never),
      "how the slip of a node is taken in steady rolling: from its places one and two samples "

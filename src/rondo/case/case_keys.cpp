@@ -238,7 +238,8 @@ std::string allowed_text(const CaseKey& key) {
   if (type == choices) return fmt::format("[], or any of {}", choices_text(key.allowed, ", "));
   const std::string range = range_text(key.allowed.range, type == integer);
   if (type == history && key.allowed.range.is_bounded())
-    return fmt::format("{}; values {}", words_of(type).allowed, range);
+    return fmt::format("{}; values {}{}{}", words_of(type).allowed, range, also.empty() ? "" : ", ",
+                       also);
   if (type == integers)
     return fmt::format("[i, ...], each {}", range_text(key.allowed.range, true));
   if (type != integer && type != number) return std::string(words_of(type).allowed);

@@ -24,9 +24,13 @@ void read_schema(CaseSource& source) {
             fmt::format("{}", schema_read)});
 }
 
-/// A part of the case that the file has; of a body that it gives twice the disk is read.
+/// A part of the case that the file has; of a body that it gives twice the disk is read, else the
+/// mesh.
 bool is_given(const CaseValues& in, const CaseTable& table) {
-  return in.has_table(table.path) && !(table.path == "mesh" && in.has_table("disk"));
+  if (!in.has_table(table.path)) return false;
+  const bool has_disk = in.has_table("disk");
+  if (table.path == "mesh") return !has_disk;
+  return table.path != "section" || !(has_disk || in.has_table("mesh"));
 }
 
 /// Lists are made when their turn comes: what is left out in them is that of a table before.
@@ -38,7 +42,7 @@ void read_keys(CaseValues& in, Case& c) {
     for (std::size_t k = 0; k < table.count(c); ++k)
       for (const CaseKey& key : keys_of(table)) in.read(key, path_of(key, k), key.field(c, k));
   }
-  if (c.mesh) c.mesh->file = c.file.parent_path() / c.mesh->file;
+  if (MeshCase* mesh = mesh_file_of(c)) mesh->file = c.file.parent_path() / mesh->file;
 }
 
 /// Where the kind of analysis is at fault, nothing is said of what only some kinds require; where

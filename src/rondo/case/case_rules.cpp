@@ -37,7 +37,7 @@ void check_size(CaseValues& in, const Case& c) {
 }
 
 void check_disk(CaseValues& in, const Case& c) {
-  if (c.mesh) return;
+  if (!is_generated(c)) return;
   if (in.has_table("mesh"))
     in.fault("mesh", "stands beside a [disk]: the body is one or the other", "[disk] or [mesh]");
   if (in.good({"disk.outer_radius", "disk.inner_radius"}) &&
@@ -68,9 +68,9 @@ void warn_of_locking(const std::string& key, const fem::Material& material, Case
       material.integration == fem::Integration::b_bar)
     return;
   c.warnings.push_back(
-      fmt::format("{} = {}: in plane strain, full integration is far too stiff this near to 0.5: "
+      fmt::format("{} = {}: {}full integration is far too stiff this near to 0.5: "
                   "material.integration = \"b-bar\" is made for it",
-                  key, material.poissons_ratio));
+                  key, material.poissons_ratio, is_solid(c) ? "" : "in plane strain, "));
 }
 
 /// Each table chooses by one key.
@@ -94,10 +94,10 @@ void check_material(CaseValues& in, Case& c) {
   for (std::size_t k = 0; k < c.regions.size(); ++k) {
     const std::string table = item_of("material.region", k);
     check_part(in, c, table);
-    if (!c.mesh && !in.has(table + ".layers") && !in.has(table + ".surface"))
+    if (is_generated(c) && !in.has(table + ".layers") && !in.has(table + ".surface"))
       in.missing(table + ".layers");
   }
-  if (c.mesh) check_names(in, "material.region[].surface", c);
+  if (!is_generated(c)) check_names(in, "material.region[].surface", c);
   check_materials(in, c);
   warn_of_locking("material.poissons_ratio", c.material, c);
   for (std::size_t k = 0; k < c.regions.size(); ++k)
@@ -120,10 +120,11 @@ void check_motion(CaseValues& in, Case& c) {
 
 void check_ground(CaseValues& in, const Case& c) {
   if (!c.ground) return;
-  if (c.mesh && c.mesh->contact.empty())
+  const MeshCase* const file = mesh_file_of(c);
+  if (file && file->contact.empty())
     in.fault("ground.profile", "no part of the mesh may touch the ground",
-             "mesh.contact = \"tread\" beside it, a physical curve; " +
-                 mesh::physical_group_line("Curve", "tread"));
+             fmt::format("{}.contact = \"tread\" beside it, a physical curve; {}",
+                         c.mesh ? "mesh" : "section", mesh::physical_group_line("Curve", "tread")));
   if (!in.good({"ground", "ground.profile", "ground.fillet"})) return;
   for (const contact::ShapeFault& fault : contact::shape_faults(c.ground->shape)) {
     if (fault.about_fillet && in.has("ground.fillet"))
@@ -135,7 +136,7 @@ void check_ground(CaseValues& in, const Case& c) {
 
 void check_body_contact(CaseValues& in, Case& c) {
   if (c.body_contact.between == BodyContact::none) return;
-  if (!c.mesh)
+  if (is_generated(c))
     c.warnings.emplace_back(
         "contact.between: a generated disk is one body, and the walls of its grooves are no "
         "contact nodes: it touches nothing but the ground; for grooves that close take a [mesh]");
@@ -264,12 +265,12 @@ void check_output(CaseValues& in, Case& c) {
 
 void check_part(CaseValues& in, const Case& c, const std::string& table) {
   for (const char* key : {"surface", "region"})
-    if (!c.mesh && in.has(fmt::format("{}.{}", table, key)))
+    if (is_generated(c) && in.has(fmt::format("{}.{}", table, key)))
       in.fault(fmt::format("{}.{}", table, key), "a [disk] has no physical surfaces",
                fmt::format("{}.layers, or a [mesh]", table));
   const std::string layers = table + ".layers";
-  if (c.mesh && in.has(layers))
-    in.fault(layers, "a [mesh] has no layers",
+  if (!is_generated(c) && in.has(layers))
+    in.fault(layers, c.mesh ? "a [mesh] has no layers" : "a [section] has no layers",
              "its surface by name; " + mesh::physical_group_line("Surface", "tread"));
 }
 
@@ -277,7 +278,7 @@ std::string_view why_not_cyclic(const Case& c) {
   if (has_rubber(c)) return "rubber at finite strain is no product with a sector's blocks";
   if (c.mesh) return "a mesh from a file is not known to be of equal sectors";
   if (c.free_rim) return "a free disk does not stay in the co-rotating frame of its sectors";
-  if (c.rim && !c.pressures.empty())
+  if (c.rim && !c.pressures.empty() && !is_solid(c))
     return "with a [rim] pressures act on the edges as they lie, by the general step";
   if (c.body_contact.between != BodyContact::none) return "there is a [contact] of bodies";
   if (c.time.scheme != Scheme::symplectic)
@@ -317,6 +318,7 @@ void check_case(CaseValues& in, Case& c) {
   check_hati(in, c);
   check_rubber(in, c);
   check_output(in, c);
+  check_solid(in, c);
 }
 
 std::string_view largest_count(const mesh::Disk& disk) noexcept {

@@ -22,6 +22,10 @@ void check_materials(CaseValues& in, Case& c);
 /// What rubber does not go with, and its default of time.safety.
 void check_rubber(CaseValues& in, Case& c);
 
+/// What a wheel in three dimensions has besides, and what it does not go with; of a plane body,
+/// that it has nothing of it.
+void check_solid(CaseValues& in, Case& c);
+
 /// Rules of [rim], and where its supports are at rest if the case does not say.
 void check_rim(CaseValues& in, Case& c);
 

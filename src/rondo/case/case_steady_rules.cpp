@@ -16,7 +16,7 @@ void check_body(CaseValues& in, const Case& c) {
              "a [disk], smooth or treaded; of a mesh, a dynamic analysis");
   if (!c.mesh && c.free_rim)
     in.fault("disk.rim", "steady rolling turns a disk by its rim", "\"bonded\"");
-  const bool is_thin = !c.mesh && !c.disk.tread && c.disk.radial < 2;
+  const bool is_thin = is_generated(c) && !c.disk.tread && c.disk.radial < 2;
   if (is_thin && c.analysis.massless_contact && in.good({"disk.mesh.radial"}))
     in.fault("disk.mesh.radial", "the nodes below the contact nodes are held by the rim",
              "at least 2");
@@ -33,6 +33,7 @@ void check_motion(CaseValues& in, const Case& c) {
   check_constant(in, "motion.speed", c.motion.speed);
   check_constant(in, "motion.height", c.motion.height);
   check_constant(in, "motion.gravity", c.motion.gravity);
+  check_constant(in, "motion.slip_angle", c.motion.slip_angle);
   if (in.has(spin) && in.good({spin}) && c.motion.angular_velocity.at(0.0) == 0.0)
     in.fault(spin, "a body that does not turn does not roll",
              "not 0; analysis.kind = \"crush\" presses one that is at rest");
@@ -82,7 +83,9 @@ void check_traction(CaseValues& in, const Case& c) {
 void check_samples(CaseValues& in, Case& c) {
   constexpr std::string_view samples = "analysis.samples_per_sector";
   AnalysisCase& a = c.analysis;
-  if (!in.has(samples) && c.disk.tread) a.samples_per_sector = 16;
+  const bool treaded = is_generated(c) && c.disk.tread.has_value();
+  if (!in.has(samples) && is_solid(c)) a.samples_per_sector = c.section ? 2 : treaded ? 8 : 4;
+  if (!in.has(samples) && !is_solid(c) && treaded) a.samples_per_sector = 16;
   if (!a.massless_contact && a.samples_per_sector > 1)
     in.fault("analysis.massless_contact",
              fmt::format("with {} samples a sector, contact nodes with mass chatter",

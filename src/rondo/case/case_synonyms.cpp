@@ -8,6 +8,10 @@ constexpr std::string_view load =
     "a load on the rim is rim.force_y, where [rim] has free = [\"height\"]; for a crush there is "
     "analysis.depth, and [[load.pressure]] presses on a curve";
 
+constexpr std::string_view yaw =
+    "a yaw rate is not known: its terms are small in a tyre's contact; motion.slip_angle may be a "
+    "table";
+
 // A key of the same name in the table that was written comes before the one that stands here.
 constexpr Synonym synonyms[] = {
     {"mu", "ground.friction"},
@@ -44,6 +48,14 @@ constexpr Synonym synonyms[] = {
     {"duration", "time.end"},
     {"t_end", "time.end"},
     {"radius", "disk.outer_radius"},
+    {"yaw", "", yaw},
+    {"yaw_rate", "", yaw},
+    {"steer", "motion.slip_angle"},
+    {"steering_angle", "motion.slip_angle"},
+    {"sideslip", "motion.slip_angle"},
+    {"inclination", "motion.camber"},
+    {"camber_angle", "motion.camber"},
+    {"grooves", "disk.tread.circumferential_grooves"},
     {"load", "", load},
     {"normal_load", "", load},
     {"vertical_load", "", load},

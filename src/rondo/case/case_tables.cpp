@@ -7,8 +7,8 @@ namespace {
 std::size_t one(const Case& /*c*/) {
   return 1;
 }
-std::size_t without_mesh(const Case& c) {
-  return c.mesh ? 0 : 1;
+std::size_t with_disk(const Case& c) {
+  return is_generated(c) ? 1 : 0;
 }
 
 std::size_t with_rim(const Case& c) {
@@ -27,12 +27,15 @@ void set_there(std::optional<T>& part, std::size_t n) {
 
 constexpr CaseTable tables[] = {
     {"", one, nullptr},
-    {"disk", without_mesh, nullptr},
-    {"disk.mesh", without_mesh, nullptr},
-    {"disk.tread", [](const Case& c) -> std::size_t { return !c.mesh && c.disk.tread ? 1 : 0; },
+    {"disk", with_disk, nullptr},
+    {"disk.mesh", with_disk, nullptr},
+    {"disk.tread",
+     [](const Case& c) -> std::size_t { return is_generated(c) && c.disk.tread ? 1 : 0; },
      [](Case& c, std::size_t n) { set_there(c.disk.tread, n); }},
     {"mesh", [](const Case& c) -> std::size_t { return c.mesh ? 1 : 0; },
      [](Case& c, std::size_t n) { set_there(c.mesh, n); }},
+    {"section", [](const Case& c) -> std::size_t { return c.section ? 1 : 0; },
+     [](Case& c, std::size_t n) { set_there(c.section, n); }},
     {"material", one, nullptr},
     {"material.viscosity[]", [](const Case& c) { return c.law.viscosity.size(); },
      [](Case& c, std::size_t n) { c.law.viscosity.resize(n); }},

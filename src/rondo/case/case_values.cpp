@@ -147,7 +147,7 @@ void CaseValues::add_missing_tables() {
     std::string list;
     for (const std::string& key : keys) list += (list.empty() ? "" : ", ") + key;
     add(place_of_table(table_of(table)), table, "", "the table is missing; it must give " + list,
-        table == "disk" ? "[disk], or [mesh] with a file in its place" : "");
+        table == "disk" ? "[disk], or [mesh] or [section] with a file in its place" : "");
   }
   missing_.clear();
 }

@@ -41,6 +41,7 @@ struct Setup {
   std::vector<Vec2> displacement;     ///< (n) u_0                          [m]
   std::vector<Vec2> velocity;         ///< (n) v_0                          [m/s]
   std::vector<Vec2> half_velocity;    ///< (n) v_{1/2}; empty: as (3.7) has it [m/s]
+  dynamics::AxialStart axial;         ///< of a wheel in three dimensions
   double frequencies_above = 0.0;     ///< every ω² of the body is known to be above it [1/s²]
   std::vector<Told> figures;          ///< of a physical kind, for `rondo check`
   std::vector<std::string> warnings;  ///< for the user: the caller prints them

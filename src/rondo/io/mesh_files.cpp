@@ -48,7 +48,15 @@ std::vector<int> mixed_list(const mesh::Mesh& m) {
   return list;
 }
 
+void write_hexahedra(h5::File& file, const mesh::Mesh& m) {
+  file.write("/mesh/hexahedra", {m.hexahedra.size(), 8}, m.hexahedra,
+             {"1",
+              "corner nodes of each hexahedron, from 0: a face, counter-clockwise as seen from "
+              "inside, then the one opposite, corner by corner"});
+}
+
 void write_cells(h5::File& file, const mesh::Mesh& m) {
+  if (m.is_solid()) return write_hexahedra(file, m);
   const CellCounts c = counts_of(m);
   file.write("/mesh/cells", {c.cells, c.corners}, cell_table(m, c.corners),
              {"1", "corner nodes of each cell, counter-clockwise, from 0; -1: no such corner"});
@@ -57,21 +65,39 @@ void write_cells(h5::File& file, const mesh::Mesh& m) {
                {"1", "the cells as a list for XDMF: 4 (triangle) or 5 (quadrilateral), its nodes"});
 }
 
+void write_coordinates(h5::File& file, const mesh::Mesh& m) {
+  if (!m.is_solid())
+    return file.write(
+        "/mesh/coordinates", {m.n_nodes(), 2}, m.coordinates,
+        {"m",
+         "reference position X of each node: co-rotating frame, from the center; of free bodies "
+         "fixed frame"});
+  std::vector<std::array<double, 3>> places;
+  for (std::size_t i = 0; i < m.n_nodes(); ++i)
+    places.push_back({m.coordinates[i].x, m.coordinates[i].y, m.axial[i]});
+  file.write("/mesh/coordinates", {m.n_nodes(), 3}, std::span<const std::array<double, 3>>(places),
+             {"m",
+              "reference position X of each node: co-rotating frame, from the center; z along the "
+              "axle, to the right of the heading"});
+}
+
 }  // namespace
 
 void write_mesh(h5::File& file, const mesh::Mesh& m, std::span<const double> mass) {
   const std::size_t n = m.n_nodes(), nb = m.boundary.size();
-  file.write(
-      "/mesh/coordinates", {n, 2}, m.coordinates,
-      {"m",
-       "reference position X of each node: co-rotating frame, from the center; of free bodies "
-       "fixed frame"});
+  const bool solid = m.is_solid();
+  write_coordinates(file, m);
   write_cells(file, m);
   file.write("/mesh/boundary", {nb}, m.boundary,
-             {"1", "nodes that may touch something, in order along the boundary"});
+             {"1", solid ? "nodes that may touch something, ascending"
+                         : "nodes that may touch something, in order along the boundary"});
   file.write("/mesh/tributary", {nb}, m.tributary,
-             {"m", "length of boundary that each node of /mesh/boundary stands for"});
-  file.write("/mesh/mass", {n}, mass, {"kg/m", "lumped mass of each node, per unit thickness"});
+             {solid ? "m2" : "m", solid ? "area that each node of /mesh/boundary stands for"
+                                        : "length of boundary that each node of /mesh/boundary "
+                                          "stands for"});
+  file.write("/mesh/mass", {n}, mass,
+             {solid ? "kg" : "kg/m",
+              solid ? "lumped mass of each node" : "lumped mass of each node, per unit thickness"});
   if (!m.region.empty()) {
     file.write("/mesh/region", {m.region.size()}, m.region,
                {"1", "physical surface of each cell: its attributes name_0, name_1, ..."});
@@ -128,6 +154,11 @@ void check_nodes(const h5::File& file, const mesh::Mesh& m) {
     for (int k = 0; k < mesh::n_corners(m.cells[c]); ++k)
       if (!is_node(m.cells[c][static_cast<std::size_t>(k)]))
         damaged(file, fmt::format("has cell {} with a node that is none of the {}", c, n));
+  for (std::size_t e = 0; e < m.hexahedra.size(); ++e)
+    if (!std::ranges::all_of(m.hexahedra[e], is_node))
+      damaged(file, fmt::format("has hexahedron {} with a node that is none of the {}", e, n));
+  for (const double z : m.axial)
+    if (!std::isfinite(z)) damaged(file, "has a node at a place that is not finite");
   for (const int node : m.boundary)
     if (!is_node(node)) damaged(file, fmt::format("has contact node {} among {} nodes", node, n));
   for (std::size_t i = 0; i < m.n_nodes(); ++i)
@@ -135,21 +166,35 @@ void check_nodes(const h5::File& file, const mesh::Mesh& m) {
       damaged(file, fmt::format("has node {} at a place that is not finite", i));
 }
 
+void read_solid(const h5::File& file, mesh::Mesh& m) {
+  for (const auto& [x, y, z] :
+       file.dataset("/mesh/coordinates", {h5::any, 3}).read<std::array<double, 3>>()) {
+    m.coordinates.push_back({x, y});
+    m.axial.push_back(z);
+  }
+  m.hexahedra = file.dataset("/mesh/hexahedra", {h5::any, 8}).read<mesh::Hexahedron>();
+}
+
 }  // namespace
 
 MeshWithMass read_mesh(const h5::File& file) {
   MeshWithMass out;
   mesh::Mesh& m = out.mesh;
-  m.coordinates = file.dataset("/mesh/coordinates", {h5::any, 2}).read<Vec2>();
+  const bool solid = file.contains("/mesh/hexahedra");
+  if (solid)
+    read_solid(file, m);
+  else
+    m.coordinates = file.dataset("/mesh/coordinates", {h5::any, 2}).read<Vec2>();
   const std::size_t n = m.n_nodes();
   if (n == 0) damaged(file, "has no nodes");
-  m.cells = read_cells(file);
+  if (!solid) m.cells = read_cells(file);
   m.boundary = file.dataset("/mesh/boundary", {h5::any}).read<int>();
   m.tributary = file.dataset("/mesh/tributary", {m.boundary.size()}).read<double>();
   out.mass = file.dataset("/mesh/mass", {n}).read<double>();
   for (std::size_t i = 0; i < n; ++i)
     if (!(out.mass[i] >= lightest && out.mass[i] <= heaviest))
-      damaged(file, fmt::format("has node {} with the mass {} kg/m", i, out.mass[i]));
+      damaged(file, fmt::format("has node {} with the mass {} {}", i, out.mass[i],
+                                solid ? "kg" : "kg/m"));
   check_nodes(file, m);
   if (!file.contains("/mesh/sector")) return out;
   m.sector = file.dataset("/mesh/sector", {n}).read<int>();
@@ -162,6 +207,9 @@ std::size_t mesh_bytes(const mesh::Mesh& m) noexcept {
   constexpr std::size_t real = 8, whole = 4;
   const CellCounts c = counts_of(m);
   const std::size_t cells = c.cells * c.corners + (c.mixed() ? c.n_mixed() : 0);
+  if (m.is_solid())
+    return m.n_nodes() * (4 * real + 2 * whole) + m.hexahedra.size() * 8 * whole +
+           m.boundary.size() * (whole + real) + m.region.size() * whole;
   return m.n_nodes() * (3 * real + (m.n_sectors > 0 ? 2 * whole : 0)) + cells * whole +
          m.boundary.size() * (whole + real) + m.region.size() * whole;
 }
@@ -180,10 +228,17 @@ std::string mesh_hash(const mesh::Mesh& m) {
   add(m.tributary);
   add(m.contact_edges);
   for (const mesh::Curve& curve : m.curves) add(curve.edges);
+  if (m.is_solid()) {
+    add(m.axial);
+    add(m.hexahedra);
+    for (const mesh::Surface& surface : m.surfaces) add(surface.faces);
+  }
   return hash.text();
 }
 
 XdmfTopology topology_of(const mesh::Mesh& m) {
+  if (m.is_solid())
+    return {"Hexahedron", m.hexahedra.size(), "/mesh/hexahedra", {m.hexahedra.size(), 8}};
   const CellCounts c = counts_of(m);
   if (c.mixed()) return {"Mixed", c.cells, "/mesh/cells_mixed", {c.n_mixed()}};
   return {

@@ -11,12 +11,13 @@
 
 namespace rondo::io {
 
-/// @param mass (n) lumped mass per unit thickness [kg/m]. @throws FileError
+/// @param mass (n) lumped mass per unit thickness [kg/m], in three dimensions mass [kg].
+/// @throws FileError
 void write_mesh(h5::File& file, const mesh::Mesh& mesh, std::span<const double> mass);
 
 struct MeshWithMass {
   mesh::Mesh mesh;           ///< without `clamped`, which is not stored
-  std::vector<double> mass;  ///< (n) lumped mass per unit thickness [kg/m]
+  std::vector<double> mass;  ///< (n) lumped mass per unit thickness [kg/m]; solid: mass [kg]
 };
 
 /// @throws FileError: no mesh, or one that cannot be right

@@ -64,6 +64,9 @@ struct Units {
 };
 
 Units units_of(const PodContent& c) {
+  if (c.mesh->is_solid() && c.weight == "mass") return {"kg", "kg^(-1/2)", c.unit + " kg^(1/2)"};
+  if (c.mesh->is_solid() && c.weight == "delassus")
+    return {"1/kg", "kg^(1/2)", c.unit + " kg^(-1/2)"};
   if (c.weight == "mass") return {"kg/m", "(kg/m)^(-1/2)", c.unit + " (kg/m)^(1/2)"};
   if (c.weight == "delassus") return {"m/kg", "(kg/m)^(1/2)", c.unit + " (kg/m)^(-1/2)"};
   RONDO_DEMAND(c.weight == "none", c.weight);
@@ -137,7 +140,8 @@ PodWriter::PodWriter(const fs::path& directory, const PodContent& c, std::size_t
       folder_(directory / fmt::format(".pod.{}.tmp", ::getpid())),
       n_(counts_of(c, n_reconstructed)),
       field_(n_.nodes, Vector{}),
-      difference_(n_.points * c.components) {
+      difference_(n_.points * c.components),
+      components_(c.components) {
   check(c, n_);
   if (c.contact) boundary_ = c.mesh->boundary;
   demand_room(directory_ / "pod.h5", bytes(c, n_reconstructed));
@@ -184,7 +188,10 @@ void PodWriter::write_modes(const PodContent& c) {
   Xdmf modes(folder_ / "modes.xdmf", series(c, n_.modes));
   if (n_.modes == 0) return modes.close();
   const Units units = units_of(c);
-  const std::string place = c.contact ? "node of /mesh/boundary: normal, tangential" : "node: x, y";
+  const bool solid = c.components == 3;
+  const std::string place = c.contact ? std::string("node of /mesh/boundary: normal, tangential") +
+                                            (solid ? ", lateral" : "")
+                                      : std::string("node: x, y") + (solid ? ", z" : "");
   file_.write("/modes/spatial", {n_.modes, n_.points, c.components},
               std::span<const double>(c.modes->data(), size(c.modes->size())),
               {units.modes, "spatial modes Φ at each " + place});
@@ -229,6 +236,7 @@ XdmfSeries PodWriter::series(const PodContent& c, std::size_t times) const {
   s.data_file = "pod.h5";
   s.topology = topology_of(*c.mesh);
   s.reference = "/mesh/coordinates";
+  s.dimensions = c.mesh->is_solid() ? 3 : 2;
   s.n_nodes = n_.nodes;
   s.n_times = times;
   add_fields(s, c.contact ? "" : "mode", "/fields/modes");
@@ -245,6 +253,7 @@ void PodWriter::add_fields(XdmfSeries& s, const std::string& name,
   const std::string front = name.empty() ? name : name + "_";
   s.fields.push_back({front + "normal", "Scalar", dataset, 3, 0, 1});
   s.fields.push_back({front + "tangential", "Scalar", dataset, 3, 1, 1});
+  if (components_ == 3) s.fields.push_back({front + "lateral", "Scalar", dataset, 3, 2, 1});
 }
 
 void PodWriter::put(h5::Dataset& dataset, std::size_t row, FieldView values) {

@@ -25,14 +25,15 @@ namespace rondo::io {
 /// nodes, or the contact candidates; r modes, k singular values, t snapshots.
 struct PodContent {
   const mesh::Mesh* mesh = nullptr;
-  std::span<const double> mass;  ///< (n) lumped mass of the nodes [kg/m]
-  bool contact = false;          ///< points are candidates, components normal and tangential
-  std::string quantity;          ///< "displacement"
-  std::string unit;              ///< of the quantity: "m"
-  std::string time_unit = "s";   ///< "1": shares of the load of a crush
-  std::string frame, shift;      ///< of the analysis
-  std::string weight;            ///< "mass" [kg/m], "delassus" [m/kg], "none" [1]
-  std::span<const double> point_weight;               ///< (n_points)
+  std::span<const double> mass;  ///< (n) lumped mass of the nodes [kg/m]; in 3-D [kg]
+  bool contact = false;  ///< points are candidates, components normal, tangential (and lateral)
+  std::string quantity;  ///< "displacement"
+  std::string unit;      ///< of the quantity: "m"
+  std::string time_unit = "s";           ///< "1": shares of the load of a crush
+  std::string frame, shift;              ///< of the analysis
+  std::string weight;                    ///< "mass" [kg/m], "delassus" [m/kg], "none" [1];
+                                         ///< in three dimensions [kg] and [1/kg]
+  std::span<const double> point_weight;  ///< (n_points)
   const pod::Decomposition* decomposition = nullptr;  ///< its `modes` are not read
   const pod::Spectrum* spectrum = nullptr;
   std::size_t components = 2;  ///< of a point
@@ -87,6 +88,7 @@ class PodWriter {
   std::vector<int> boundary_;       ///< nodes of the points; empty: points are the nodes
   std::vector<Vector> field_;       ///< (n) reused
   std::vector<double> difference_;  ///< (n_points, components) reused
+  std::size_t components_ = 2;      ///< of a point
   std::size_t added_ = 0;
   double last_ = 0.0;  ///< time added [s]
   h5::File file_;

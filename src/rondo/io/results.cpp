@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "rondo/core/contract.hpp"
+#include "rondo/fem/solid/solid_stress.hpp"
 #include "rondo/fem/stress.hpp"
 #include "rondo/io/mesh_files.hpp"
 
@@ -20,6 +21,7 @@ XdmfSeries series_of(const mesh::Mesh& mesh, const Counts& c) {
   s.data_file = "results.h5";
   s.topology = topology_of(mesh);
   s.reference = "/mesh/coordinates";
+  s.dimensions = c.solid ? 3 : 2;
   s.position = "/fields/position";
   s.n_nodes = c.nodes;
   s.n_times = c.times;
@@ -35,6 +37,9 @@ XdmfSeries series_of(const mesh::Mesh& mesh, const Counts& c) {
   s.fields.push_back({"stress_xy", "Scalar", stress, 6, 1, 1});
   s.fields.push_back({"stress_yy", "Scalar", stress, 6, 3, 1});
   s.fields.push_back({"stress_zz", "Scalar", stress, 6, 5, 1});
+  if (!c.solid) return s;
+  s.fields.push_back({"stress_xz", "Scalar", stress, 6, 2, 1});
+  s.fields.push_back({"stress_yz", "Scalar", stress, 6, 4, 1});
   return s;
 }
 
@@ -43,6 +48,13 @@ std::array<float, 6> turned_tensor(const NodalStress& stress, Complex r) noexcep
   const NodalStress s = fem::turned(stress, r);
   return {static_cast<float>(s[0]), static_cast<float>(s[3]), 0.0F, static_cast<float>(s[1]), 0.0F,
           static_cast<float>(s[2])};
+}
+
+/// Likewise of all six components.
+std::array<float, 6> turned_tensor(const SolidNodalStress& stress, Complex r) noexcept {
+  const SolidNodalStress s = fem::turned(stress, r);
+  return {static_cast<float>(s[0]), static_cast<float>(s[3]), static_cast<float>(s[5]),
+          static_cast<float>(s[1]), static_cast<float>(s[4]), static_cast<float>(s[2])};
 }
 
 using Space = std::array<double, 3>;
@@ -61,6 +73,12 @@ Space sum(const Space& a, const Space& b) noexcept {
   return {a[0] + b[0], a[1] + b[1], a[2] + b[2]};
 }
 
+/// Along t1, n and t2 of a ground that leans by the camber, in the axes of the wheel.
+Space leaning(Vec2 plane, double lateral, double camber) noexcept {
+  const double c = std::cos(camber), s = std::sin(camber);
+  return {plane.x, c * plane.y - s * lateral, s * plane.y + c * lateral};
+}
+
 std::array<float, 3> rounded(const Space& a) noexcept {
   return {static_cast<float>(a[0]), static_cast<float>(a[1]), static_cast<float>(a[2])};
 }
@@ -75,12 +93,13 @@ Results::Counts Results::counts_of(const ResultsLayout& layout) noexcept {
   const mesh::Mesh& m = *layout.mesh;
   const bool contact = layout.contact && !m.boundary.empty();
   return {m.n_nodes(), m.boundary.size(), layout.n_snapshots, layout.components,
-          contact,     layout.stress,     layout.modes.count};
+          contact,     layout.stress,     layout.modes.count, m.is_solid()};
 }
 
 /// Of results.h5: what describes the datasets, and an entry for each row.
 std::size_t Results::index_bytes(const Counts& c) noexcept {
-  constexpr std::size_t datasets = 21, description = 4096;
+  constexpr std::size_t description = 4096;
+  const std::size_t datasets = c.solid ? 22 : 21;
   return datasets * (description + c.times * h5::File::bytes_of_entry);
 }
 
@@ -90,6 +109,8 @@ Results::Results(const std::filesystem::path& directory, const ResultsLayout& la
       directory_(directory),
       unfinished_{directory / new_name},
       coordinates_(layout.mesh->coordinates),
+      axial_(layout.mesh->axial),
+      camber_(layout.camber),
       boundary_(layout.mesh->boundary),
       tributary_(layout.mesh->tributary),
       free_body_(layout.free_body.begin(), layout.free_body.end()),
@@ -167,7 +188,8 @@ void Results::check(const Snapshot& s) const {
   const std::size_t nb = c_.contact ? c_.candidates : 0;
   RONDO_DEMAND(!c_.contact || (s.contact_force.size() == nb && s.contact_force_fixed.size() == nb),
                s.contact_force.size(), s.contact_force_fixed.size(), nb);
-  RONDO_DEMAND(!c_.stress || s.stress.size() == c_.nodes, s.stress.size(), c_.nodes);
+  const std::size_t stresses = c_.solid ? s.solid_stress.size() : s.stress.size();
+  RONDO_DEMAND(!c_.stress || stresses == c_.nodes, stresses, c_.nodes);
   const int last =
       free_body_.empty() ? -1 : *std::max_element(free_body_.begin(), free_body_.end());
   RONDO_DEMAND(!c_.stress || static_cast<int>(s.body_rotation.size()) > last,
@@ -181,9 +203,11 @@ void Results::write_fields(const Snapshot& s) {
   const auto to_fixed = [&](std::size_t i, const Space& a) {
     return is_free(i) ? a : turned(turn, a);
   };
+  const Space middle =
+      c_.solid ? leaning(s.center, s.lateral, camber_) : Space{s.center.x, s.center.y, 0.0};
   for (std::size_t i = 0; i < c_.nodes; ++i) {
-    const Space reference{coordinates_[i].x, coordinates_[i].y, 0.0};
-    const Space center = is_free(i) ? Space{} : Space{s.center.x, s.center.y, 0.0};
+    const Space reference{coordinates_[i].x, coordinates_[i].y, c_.solid ? axial_[i] : 0.0};
+    const Space center = is_free(i) ? Space{} : middle;
     vectors_[i] = rounded(sum(center, to_fixed(i, sum(reference, in_space(s.displacement[i])))));
   }
   row(d_.position, vectors_);
@@ -193,7 +217,10 @@ void Results::write_fields(const Snapshot& s) {
   for (std::size_t i = 0; i < c_.nodes; ++i)
     vectors_[i] = rounded(to_fixed(i, in_space(s.velocity[i])));
   row(d_.field_velocity, vectors_);
-  if (c_.stress) write_stress(s);
+  if (c_.stress && c_.solid)
+    write_solid_stress(s);
+  else if (c_.stress)
+    write_stress(s);
 }
 
 void Results::write_stress(const Snapshot& s) {
@@ -202,6 +229,16 @@ void Results::write_stress(const Snapshot& s) {
     scalars_[i] = static_cast<float>(fem::von_mises(s.stress[i]));
     tensors_[i] = turned_tensor(
         s.stress[i], is_free(i) ? s.body_rotation[static_cast<std::size_t>(free_body_[i])] : turn);
+  }
+  row(d_.von_mises, scalars_);
+  row(d_.stress, tensors_);
+}
+
+void Results::write_solid_stress(const Snapshot& s) {
+  const Complex turn = rotation(s.angle);
+  for (std::size_t i = 0; i < c_.nodes; ++i) {
+    scalars_[i] = static_cast<float>(fem::von_mises(s.solid_stress[i]));
+    tensors_[i] = turned_tensor(s.solid_stress[i], turn);
   }
   row(d_.von_mises, scalars_);
   row(d_.stress, tensors_);
@@ -234,6 +271,7 @@ void Results::write(const Snapshot& s) {
   if (c_.contact) write_contact(s);
   write_series(s.series);
   d_.center.write_row(written_, std::span<const Vec2>(&s.center, 1));
+  if (c_.solid) row(d_.lateral, s.lateral);
   row(d_.angle, s.angle);
   row(d_.angle_velocity, s.angle_velocity);
   row(d_.time_velocity, s.time_velocity);
@@ -271,7 +309,7 @@ std::size_t Results::bytes(const ResultsLayout& layout) noexcept {
       2 * c.components * real + (9U + (c.contact ? 3U : 0U) + (c.stress ? 7U : 0U)) * single;
   const std::size_t node = c.modes == 0 ? fields : 0;
   const std::size_t candidate = c.contact ? 2 * c.components * real : 0;
-  std::size_t frame = 6 * real;
+  std::size_t frame = (c.solid ? 7 : 6) * real;
   for (const Series& s : layout.series) frame += s.components * real;
   return index_bytes(c) + mesh_bytes(*layout.mesh) + layout.free_body.size() * sizeof(int) +
          layout.modes.basis.size() * real +

@@ -26,6 +26,8 @@ namespace rondo::io {
 
 /// σ at a node in the turning frame: xx, yy, zz, xy [Pa].
 using NodalStress = std::array<double, 4>;
+/// In three dimensions: xx, yy, zz, xy, yz, zx [Pa].
+using SolidNodalStress = std::array<double, 6>;
 
 /// A dataset with one value for each snapshot, beside those that every analysis has.
 struct Series {
@@ -55,14 +57,15 @@ struct ReducedModes {
 
 struct ResultsLayout {
   const mesh::Mesh* mesh = nullptr;
-  std::span<const double> mass;  ///< (n) lumped mass per unit thickness [kg/m]
+  std::span<const double> mass;  ///< (n) lumped mass per unit thickness [kg/m]; solid: mass [kg]
   std::size_t n_snapshots = 0;   ///< planned
   bool contact = false;          ///< something may be touched: /contact is written
   bool stress = false;           ///< stress goes into the fields
   /// (n) number of the free body that a node belongs to, which moves in the fixed frame; -1: it
   /// moves in the turning frame. Empty: no free body.
   std::span<const int> free_body = {};
-  std::size_t components = 2;  ///< of the vectors of a snapshot
+  std::size_t components = 2;  ///< of the vectors of a snapshot; 3 where the mesh is solid
+  double camber = 0.0;         ///< of a solid mesh, by which the ground leans      [rad]
   ResultsWords words = {};
   std::vector<Series> series = {};
   ReducedModes modes = {};  ///< with them: neither /snapshots, /fields, stress nor fields.xdmf
@@ -76,14 +79,16 @@ struct Snapshot {
   double time_velocity = 0.0;     ///< of velocity: half a step before `time`             [s]
   double angle = 0.0;             ///< θ at `time`, counter-clockwise                     [rad]
   double angle_velocity = 0.0;    ///< θ at `time_velocity`                      [rad]
-  Vec2 center;                    ///< fixed frame                                        [m]
+  Vec2 center;                    ///< fixed frame; in three dimensions along t1 and n [m]
   FieldView displacement;         ///< (n) turning frame; of free bodies fixed frame   [m]
   FieldView velocity;             ///< (n) the same                                  [m/s]
-  FieldView contact_force;        ///< (nb) normal, tangential; empty: no contact    [N/m]
-  FieldView contact_force_fixed;  ///< (nb) x, y in the fixed frame           [N/m]
+  FieldView contact_force;        ///< (nb) normal, tangential, along t2; empty: no contact [N/m]
+  FieldView contact_force_fixed;  ///< (nb) x, y, z in the fixed frame        [N/m]
   std::span<const NodalStress> stress;  ///< (n) frame of the body; empty: not asked for [Pa]
   std::span<const Complex> body_rotation = {};  ///< e^{iθ} of each free body
   std::span<const double> series = {};  ///< values of the layout's series, one after another
+  std::span<const SolidNodalStress> solid_stress = {};  ///< likewise of a solid mesh     [Pa]
+  double lateral = 0.0;  ///< of a solid mesh: of the center, along t2        [m]
 };
 
 class Results {
@@ -116,6 +121,7 @@ class Results {
     std::size_t nodes, candidates, times, components;
     bool contact, stress;
     std::size_t modes;  ///< 0: fields of all nodes
+    bool solid;
   };
   [[nodiscard]] static Counts counts_of(const ResultsLayout& layout) noexcept;
   [[nodiscard]] static std::size_t index_bytes(const Counts& counts) noexcept;
@@ -133,6 +139,7 @@ class Results {
   void check(const Snapshot& s) const;
   void write_fields(const Snapshot& s);
   void write_stress(const Snapshot& s);
+  void write_solid_stress(const Snapshot& s);
   void write_contact(const Snapshot& s);
   void write_series(std::span<const double> values);
   /// Of displacements and velocities, for descriptions.
@@ -155,6 +162,8 @@ class Results {
   std::filesystem::path directory_;
   UnfinishedFile unfinished_;  ///< results.h5 until it is whole
   std::vector<Vec2> coordinates_;
+  std::vector<double> axial_;  ///< (n) of a solid mesh
+  double camber_;
   std::vector<int> boundary_;
   std::vector<double> tributary_;
   std::vector<int> free_body_;
@@ -165,8 +174,9 @@ class Results {
   std::vector<double> traction_;
   h5::File file_;
   struct {
-    h5::Dataset time, time_velocity, angle, angle_velocity, center, displacement, velocity, force,
-        traction, position, field_displacement, field_velocity, field_force, von_mises, stress;
+    h5::Dataset time, time_velocity, angle, angle_velocity, center, lateral, displacement, velocity,
+        force, traction, position, field_displacement, field_velocity, field_force, von_mises,
+        stress;
   } d_;
   ResultsWords words_;
   std::vector<Series> series_;

@@ -25,7 +25,11 @@ void Results::create_frame() {
   add_rows(d_.angle_velocity, "/frame/angle_velocity", Type::float64, times,
            {"rad", "angle of the co-rotating frame at /frame/time_velocity"});
   add_rows(d_.center, "/frame/center", Type::float64, {c_.times, 2},
-           {"m", "center of the co-rotating frame, x, y in the fixed frame"});
+           {"m", c_.solid ? "center of the co-rotating frame, along t1 and the normal of the ground"
+                          : "center of the co-rotating frame, x, y in the fixed frame"});
+  if (c_.solid)
+    add_rows(d_.lateral, "/frame/lateral", Type::float64, times,
+             {"m", "center of the co-rotating frame, along t2, to the right of its heading"});
 }
 
 void Results::create_snapshots() {
@@ -42,11 +46,14 @@ void Results::create_snapshots() {
 void Results::create_contact() {
   if (!c_.contact) return;
   const h5::Shape shape = {c_.times, c_.candidates, c_.components};
-  add_rows(
-      d_.force, "/contact/force", Type::float64, shape,
-      {"N/m", "contact force on each node of /mesh/boundary: normal, tangential; " + words_.force});
+  const std::string components =
+      c_.solid ? "normal, tangential, along t2; " : "normal, tangential; ";
+  add_rows(d_.force, "/contact/force", Type::float64, shape,
+           {c_.solid ? "N" : "N/m",
+            "contact force on each node of /mesh/boundary: " + components + words_.force});
   add_rows(d_.traction, "/contact/traction", Type::float64, shape,
-           {"Pa", "/contact/force over /mesh/tributary: pressure, shear"});
+           {"Pa", c_.solid ? "/contact/force over /mesh/tributary: pressure, two shears"
+                           : "/contact/force over /mesh/tributary: pressure, shear"});
 }
 
 void Results::create_fields() {
@@ -63,7 +70,7 @@ void Results::create_fields() {
   add_rows(d_.field_velocity, "/fields/velocity", Type::float32, vector, velocity);
   if (c_.contact)
     add_rows(d_.field_force, "/fields/contact_force", Type::float32, vector,
-             {"N/m", "contact force on each node along the fixed axes"});
+             {c_.solid ? "N" : "N/m", "contact force on each node along the fixed axes"});
   if (!c_.stress) return;
   add_rows(d_.von_mises, "/fields/von_mises", Type::float32, {c_.times, c_.nodes},
            {"Pa", "von Mises stress at each node, with zz"});

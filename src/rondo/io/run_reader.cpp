@@ -128,8 +128,9 @@ void RunReader::open_snapshots() {
     refuse(directory_,
            "holds snapshots of modes (rondo run --snapshots modes), which are read in Python only",
            "the same run with --snapshots fields");
+  const std::size_t n_components = mesh_.is_solid() ? 3 : 2;
   const auto open = [&](const char* name, std::size_t points, h5::Dataset& dataset) {
-    if (file_.contains(name)) dataset = file_.dataset(name, {n_planned_, points, 2});
+    if (file_.contains(name)) dataset = file_.dataset(name, {n_planned_, points, n_components});
   };
   open("/snapshots/displacement", mesh_.n_nodes(), displacement_);
   open("/snapshots/velocity", mesh_.n_nodes(), velocity_);
@@ -149,6 +150,10 @@ bool RunReader::has(Quantity quantity) const noexcept {
 
 std::size_t RunReader::n_points(Quantity quantity) const noexcept {
   return quantity == Quantity::contact ? mesh_.boundary.size() : mesh_.n_nodes();
+}
+
+std::size_t RunReader::n_components(Quantity quantity) const noexcept {
+  return has(quantity) ? dataset(quantity).shape().back() : 0;
 }
 
 void RunReader::read(Quantity quantity, std::size_t snapshot, std::size_t first,
@@ -173,11 +178,14 @@ std::size_t first_difference(const std::vector<T>& a, const std::vector<T>& b) {
 }
 
 std::string sizes_differ(const mesh::Mesh& a, const mesh::Mesh& b) {
-  for (const std::string& text : {counts_differ(a.n_nodes(), b.n_nodes(), "nodes"),
-                                  counts_differ(a.cells.size(), b.cells.size(), "cells"),
-                                  counts_differ(a.boundary.size(), b.boundary.size(), "candidates"),
-                                  counts_differ(static_cast<std::size_t>(a.n_sectors),
-                                                static_cast<std::size_t>(b.n_sectors), "sectors")})
+  for (const std::string& text :
+       {counts_differ(a.n_nodes(), b.n_nodes(), "nodes"),
+        counts_differ(a.cells.size(), b.cells.size(), "cells"),
+        counts_differ(a.hexahedra.size(), b.hexahedra.size(), "hexahedra"),
+        counts_differ(a.axial.size(), b.axial.size(), "axial places"),
+        counts_differ(a.boundary.size(), b.boundary.size(), "candidates"),
+        counts_differ(static_cast<std::size_t>(a.n_sectors), static_cast<std::size_t>(b.n_sectors),
+                      "sectors")})
     if (!text.empty()) return text;
   return {};
 }
@@ -193,18 +201,24 @@ std::string mesh_difference(const RunReader& run_a, const RunReader& run_b) {
                        norm(a.coordinates[i] - b.coordinates[i]));
   if (const auto c = first_difference(a.cells, b.cells); c < a.cells.size())
     return fmt::format("cells differ at cell {}", c);
+  if (const auto c = first_difference(a.hexahedra, b.hexahedra); c < a.hexahedra.size())
+    return fmt::format("hexahedra differ at number {}", c);
+  if (const auto i = first_difference(a.axial, b.axial); i < a.axial.size())
+    return fmt::format("coordinates differ at node {} by {:.3g} m along the axle", i,
+                       std::abs(a.axial[i] - b.axial[i]));
   if (const auto k = first_difference(a.boundary, b.boundary); k < a.boundary.size())
     return fmt::format("contact nodes differ: number {} is node {} against {}", k, a.boundary[k],
                        b.boundary[k]);
   if (const auto k = first_difference(a.tributary, b.tributary); k < a.tributary.size())
-    return fmt::format("tributary lengths differ at contact node {} by {:.3g} m", k,
-                       std::abs(a.tributary[k] - b.tributary[k]));
+    return fmt::format("tributary {} differ at contact node {} by {:.3g} {}",
+                       a.is_solid() ? "areas" : "lengths", k,
+                       std::abs(a.tributary[k] - b.tributary[k]), a.is_solid() ? "m²" : "m");
   if (first_difference(a.sector, b.sector) < a.sector.size() ||
       first_difference(a.sector_node, b.sector_node) < a.sector_node.size())
     return "the numbering of the sectors differs";
   if (const auto i = first_difference(run_a.mass(), run_b.mass()); i < n)
-    return fmt::format("masses differ at node {}: {:.6g} kg/m against {:.6g}", i, run_a.mass()[i],
-                       run_b.mass()[i]);
+    return fmt::format("masses differ at node {}: {:.6g} {} against {:.6g}", i, run_a.mass()[i],
+                       a.is_solid() ? "kg" : "kg/m", run_b.mass()[i]);
   return {};
 }
 

@@ -15,9 +15,10 @@
 namespace rondo::io {
 
 enum class Quantity {
-  displacement,  ///< (n) turning frame, at `time`               [m]
-  velocity,      ///< (n) turning frame, at `time_velocity`      [m/s]
-  contact,       ///< (nb) normal, tangential, at `time`         [N/m]
+  displacement,  ///< (n) turning frame, at `time`; in three dimensions with the axial one [m]
+  velocity,      ///< (n) turning frame, at `time_velocity`; likewise                      [m/s]
+  contact,       ///< (nb) normal, tangential, at `time`                                   [N/m]
+                 ///<      in three dimensions with that along t2 besides                  [N]
 };
 
 /// Of the complete snapshots: the first m of the file.
@@ -46,7 +47,7 @@ class RunReader {
   [[nodiscard]] const std::string& time_unit() const noexcept { return time_unit_; }
   [[nodiscard]] bool is_motion() const noexcept { return time_unit_ == "s"; }
   [[nodiscard]] const mesh::Mesh& mesh() const noexcept { return mesh_; }  ///< `clamped` is empty
-  /// (n) lumped mass per unit thickness [kg/m]
+  /// (n) lumped mass, per unit thickness [kg/m]; in three dimensions [kg]
   [[nodiscard]] const std::vector<double>& mass() const noexcept { return mass_; }
   [[nodiscard]] const RunTimes& times() const noexcept { return times_; }
   [[nodiscard]] std::size_t n_snapshots() const noexcept { return times_.time.size(); }
@@ -55,6 +56,8 @@ class RunReader {
 
   [[nodiscard]] bool has(Quantity quantity) const noexcept;
   [[nodiscard]] std::size_t n_points(Quantity quantity) const noexcept;  ///< nodes or candidates
+  /// Of a point: 3 in three dimensions, else 2.
+  [[nodiscard]] std::size_t n_components(Quantity quantity) const noexcept;
   /// The points [first, first + out.size()) of a snapshot, straight into `out`; one thread at a
   /// time. @pre has(quantity), snapshot < n_snapshots(), as many components as there. @throws
   /// FileError

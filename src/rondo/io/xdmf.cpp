@@ -59,9 +59,10 @@ void Xdmf::append_topology() {
 
 void Xdmf::append_reference_geometry() {
   fmt::format_to(std::back_inserter(text_),
-                 "<Geometry GeometryType=\"XY\"><DataItem Format=\"HDF\" NumberType=\"Float\" "
-                 "Precision=\"8\" Dimensions=\"{} 2\">{}:{}</DataItem></Geometry>\n",
-                 series_.n_nodes, series_.data_file, series_.reference);
+                 "<Geometry GeometryType=\"{}\"><DataItem Format=\"HDF\" NumberType=\"Float\" "
+                 "Precision=\"8\" Dimensions=\"{} {}\">{}:{}</DataItem></Geometry>\n",
+                 series_.dimensions == 3 ? "XYZ" : "XY", series_.n_nodes, series_.dimensions,
+                 series_.data_file, series_.reference);
 }
 
 /// ParaView crashes on a collection of nothing. The first grid, which is longer, replaces this one.

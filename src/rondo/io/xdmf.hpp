@@ -11,7 +11,8 @@ namespace rondo::io {
 
 /// Cells of the mesh, a dataset of int32.
 struct XdmfTopology {
-  std::string type;         ///< "Triangle" (e, 3), "Quadrilateral" (e, 4), "Mixed" (k)
+  std::string
+      type;  ///< "Triangle" (e, 3), "Quadrilateral" (e, 4), "Mixed" (k), "Hexahedron" (e, 8)
   std::size_t n_cells = 0;  ///< e
   std::string dataset;      ///< e.g. "/mesh/cells"
   std::vector<std::size_t> shape;
@@ -30,8 +31,10 @@ struct XdmfField {
 struct XdmfSeries {
   std::string data_file;  ///< name of the HDF5 file, in the same directory
   XdmfTopology topology;
-  std::string reference;  ///< dataset (n, 2) of float64, shown as long as there is no grid  [m]
-  std::string position;   ///< dataset (t, n, 3) of float32; empty: `reference` in all grids [m]
+  std::string reference;  ///< dataset (n, 2) or (n, 3) of float64, shown as long as there is no
+                          ///< grid                                                           [m]
+  std::size_t dimensions = 2;  ///< of `reference`
+  std::string position;  ///< dataset (t, n, 3) of float32; empty: `reference` in all grids [m]
   std::size_t n_nodes = 0;
   std::size_t n_times = 0;  ///< t
   std::vector<XdmfField> fields;

@@ -90,7 +90,7 @@ template <class Known, class Visit>
 void for_scalars(Known& k, Visit&& visit) {
   const std::string row = "since the last row of history.csv", loop = "of the loop so far, ";
   auto& [next, since, done, impulse, angular_impulse, penetration, hub, hub_angular, iterations,
-         extensions] = k.history;
+         extensions, lateral, aligning, overturning] = k.history;
   visit("/run/step", k.identity.step, {"s", "length of a step"});
   visit("/run/steps_done", k.state.step, {"1", "steps made"});
   visit("/run/steps", k.n_steps, {"1", "steps of the whole run"});
@@ -113,6 +113,9 @@ void for_scalars(Known& k, Visit&& visit) {
   visit("/history/hub_angular_impulse", hub_angular, {"N*s", row});
   visit("/history/iterations", iterations, {"1", "of contact in a step, most " + row});
   visit("/history/extensions", extensions, {"1", "of contact in a step, most " + row});
+  visit("/history/lateral", lateral, {"N*s", "of the ground along t2, " + row});
+  visit("/history/aligning", aligning, {"N*m*s", "of the ground about its normal, " + row});
+  visit("/history/overturning", overturning, {"N*m*s", "of the ground about t1, " + row});
   for_contact(k.contact, visit);
   for_deformation(k.deformation, visit);
 }
@@ -122,6 +125,10 @@ void put_state(File& file, const dynamics::SavedState& s) {
   put(file, "/state/v", s.v, {"m/s", "velocity, in the integrator's own components"});
   put(file, "/state/force", s.force, {"N/m", "K u, in the integrator's own components"});
   put(file, "/state/u_before", s.u_before, {"m", "u a step before, likewise"});
+  put(file, "/state/axial_u", s.axial_u, {"m", "u along the axle, in three dimensions"});
+  put(file, "/state/axial_v", s.axial_v, {"m/s", "v likewise"});
+  put(file, "/state/axial_force", s.axial_force, {"N", "K u likewise"});
+  put(file, "/state/axial_u_before", s.axial_u_before, {"m", "u a step before, likewise"});
   put(file, "/state/gradient", s.gradient, {"N/m", "derivative of the energy of free bodies"});
   put(file, "/state/energy", s.energy, {"J/m", "energy of each free body"});
   std::vector<std::array<double, 5>> poses;
@@ -154,6 +161,10 @@ void get_state(const File& file, dynamics::SavedState& s) {
   s.v = get<Vec2>(file, "/state/v", s.u.size());
   s.force = get<Vec2>(file, "/state/force");
   s.u_before = get<Vec2>(file, "/state/u_before");
+  s.axial_u = get<double>(file, "/state/axial_u");
+  s.axial_v = get<double>(file, "/state/axial_v");
+  s.axial_force = get<double>(file, "/state/axial_force");
+  s.axial_u_before = get<double>(file, "/state/axial_u_before");
   s.gradient = get<Vec2>(file, "/state/gradient");
   s.energy = get<double>(file, "/state/energy");
   s.branches = get<double>(file, "/state/branches");

@@ -48,6 +48,8 @@ struct Checkpoint {
 
 /// Of a node, at the most: u, v, K u, gradient.
 inline constexpr std::size_t numbers_of_a_checkpoint = 8;
+/// In three dimensions: u, v, K u, and u a step before.
+inline constexpr std::size_t numbers_of_a_solid_checkpoint = 12;
 
 inline constexpr const char* checkpoint_name = "checkpoint.h5";
 

@@ -39,7 +39,8 @@ constexpr std::array history{
     Column<H>{
         "slip_ratio", "1",
         "(ωRₒ − V) / max(|V|, |ωRₒ|); 0 where both vanish, and where nothing is constrained. Rₒ of "
-        "a mesh: the largest distance of a contact node from the center",
+        "a mesh: the largest distance of a contact node from the center; V of a wheel in three "
+        "dimensions: along t1",
         [](const H& r) { return r.slip_ratio; }},
     Column<H>{"kinetic", "J/m",
               "kinetic part of the energy E, half a step before `time_s`, with the scheme `hati` "
@@ -110,6 +111,21 @@ constexpr std::array rim{
     Column<H>{"dissipation_support", "J/m", "by the dashpots of `[rim.support]`",
               [](const H& r) { return r.balance.works.dissipation_support; }}};
 
+constexpr std::array solid{
+    Column<H>{"force_lateral", "N",
+              "of the ground on the wheel along t2, to the right of its heading, mean over the "
+              "interval",
+              [](const H& r) { return r.force_lateral; }},
+    Column<H>{"moment_aligning", "N·m",
+              "of the ground on the wheel about the ground's normal through the center, likewise",
+              [](const H& r) { return r.moment_aligning; }},
+    Column<H>{"moment_overturning", "N·m",
+              "about t1, along the heading, in the ground below the center, likewise",
+              [](const H& r) { return r.moment_overturning; }},
+    Column<H>{"slip_angle", "rad", "`motion.slip_angle` at `time_s`",
+              [](const H& r) { return r.slip_angle; }},
+    Column<H>{"center_lateral", "m", "center, along t2", [](const H& r) { return r.lateral; }}};
+
 constexpr std::array massless{
     Column<H>{"contact_iterations", "1",
               "that the contact law took in a step, most in the interval",
@@ -158,7 +174,60 @@ constexpr std::array contact{
     Column<P>{"shear_pa", "Pa", "tangential force likewise",
               [](const P& r) { return r.traction.y; }}};
 
+/// Of a wheel in three dimensions. x is along t1, y along the normal n of the ground.
+constexpr std::array solid_contact{
+    Column<P>{"time_s", "s", "of the snapshot", [](const P& r) { return r.time; }},
+    Column<P>{"node", "1", "number of the node",
+              [](const P& r) { return static_cast<double>(r.node); }},
+    Column<P>{"abscissa_m", "m", "length along the profile of the ground, as in the plane",
+              [](const P& r) { return r.abscissa; }},
+    Column<P>{"x_m", "m",
+              "place on the ground along t1, the heading, in the fixed frame: less `center_x_m` "
+              "of history.csv it is the place ahead of the center",
+              [](const P& r) { return r.position.x; }},
+    Column<P>{"y_m", "m", "along the normal, which leans by `motion.camber`",
+              [](const P& r) { return r.position.y; }},
+    Column<P>{"z_m", "m",
+              "along t2, to the right, in the fixed frame: less `center_lateral` it is the place "
+              "beside the center",
+              [](const P& r) { return r.lateral; }},
+    Column<P>{"pressure_pa", "Pa", "normal force over the node's tributary area",
+              [](const P& r) { return r.traction.x; }},
+    Column<P>{"shear_x_pa", "Pa",
+              "shear of the ground on the wheel likewise, along the profile towards +x",
+              [](const P& r) { return 0.0 - r.traction.y; }},
+    Column<P>{"shear_lateral_pa", "Pa", "along t2, to the right",
+              [](const P& r) { return r.shear_lateral; }},
+    Column<P>{"sticks", "1", "1: the node sticks; 0: it slips",
+              [](const P& r) { return r.sticks ? 1.0 : 0.0; }}};
+
+std::vector<ColumnLabel> in_units_of(std::span<const Column<H>> columns, bool is_solid) {
+  std::vector<ColumnLabel> labels = labels_of(columns);
+  for (ColumnLabel& label : labels) label.unit = unit_of(label.unit, is_solid);
+  return labels;
+}
+
 }  // namespace
+
+std::vector<ColumnLabel> history_labels(bool is_solid) {
+  std::vector<ColumnLabel> labels = in_units_of(history, is_solid);
+  for (ColumnLabel& label : labels)
+    if (is_solid && label.name == "contact_length_m")
+      label = {"contact_area_m2", "m2", "tributary areas of the nodes with a normal force, summed"};
+  return labels;
+}
+
+std::vector<ColumnLabel> rim_labels(bool is_solid) {
+  return in_units_of(rim, is_solid);
+}
+
+std::span<const Column<HistoryRecord>> solid_columns() noexcept {
+  return solid;
+}
+
+std::span<const Column<ContactRecord>> solid_contact_columns() noexcept {
+  return solid_contact;
+}
 
 std::span<const Column<HistoryRecord>> history_columns() noexcept {
   return history;

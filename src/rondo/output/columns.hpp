@@ -18,13 +18,19 @@ struct HistoryRecord {
   Vec2 force;           ///< of the ground on the body                                    [N/m]
   double torque = 0.0;  ///< of the ground about the center                               [N]
   int nodes = 0, sticking = 0;
-  double contact_length = 0.0;  ///< [m]
+  double contact_length = 0.0;  ///< [m]; in three dimensions an area [m²]
   double penetration = 0.0;     ///< [m]
   double slip_ratio = 0.0;      ///< [1]
   dynamics::Balance balance;
   int iterations = 0, extensions = 0;  ///< of contact nodes without mass, most in a step
   dynamics::RimReport rim;            ///< of a loaded rim; what holds it as means over the interval
   dynamics::MaterialReport material;  ///< of rubber
+  // In three dimensions, where `center` and `force` are along t1 and n, in N and N·m.
+  double lateral = 0.0;             ///< of the center along t2                           [m]
+  double force_lateral = 0.0;       ///< along t2                                         [N]
+  double moment_aligning = 0.0;     ///< about n                                        [N·m]
+  double moment_overturning = 0.0;  ///< about t1, in the ground under the center        [N·m]
+  double slip_angle = 0.0;          ///< [rad]
 };
 
 /// A row of contact.csv: a node in contact in a snapshot.
@@ -36,9 +42,17 @@ struct ContactRecord {
   Vec2 traction;          ///< pressure, shear                                            [Pa]
   double slip = 0.0;      ///< as in ContactForce                                        [m/s]
   bool sticks = false;    ///< likewise
+  double lateral = 0.0;   ///< in three dimensions: of the place along t2; `position` is along t1
+                          ///< and n                                                       [m]
+  double shear_lateral = 0.0;  ///< in three dimensions: along t2                         [Pa]
 };
 
 [[nodiscard]] std::span<const Column<HistoryRecord>> history_columns() noexcept;
+/// The same of a wheel in three dimensions: with its units, and an area for the length.
+[[nodiscard]] std::vector<ColumnLabel> history_labels(bool is_solid);
+[[nodiscard]] std::vector<ColumnLabel> rim_labels(bool is_solid);
+/// Those that a wheel in three dimensions has besides.
+[[nodiscard]] std::span<const Column<HistoryRecord>> solid_columns() noexcept;
 /// Those that a run with a loaded rim has besides.
 [[nodiscard]] std::span<const Column<HistoryRecord>> rim_columns() noexcept;
 /// Behind those, where contact nodes have no mass.
@@ -48,5 +62,7 @@ struct ContactRecord {
 /// Those of the scheme "hati".
 [[nodiscard]] std::span<const Column<HistoryRecord>> hati_columns() noexcept;
 [[nodiscard]] std::span<const Column<ContactRecord>> contact_columns() noexcept;
+/// Of a wheel in three dimensions, instead.
+[[nodiscard]] std::span<const Column<ContactRecord>> solid_contact_columns() noexcept;
 
 }  // namespace rondo::study

@@ -13,7 +13,7 @@ namespace {
 /// Of a disk; of a mesh the largest of the candidates that are held. 0: all of them are free.
 double rolling_radius(const Case& c, const Setup& setup) {
   if (!is_held(c)) return 0.0;
-  if (!c.mesh) return c.disk.outer_radius;
+  if (is_generated(c)) return c.disk.outer_radius;
   double radius = 0.0;
   for (const int node : setup.mesh.boundary) {
     const auto k = static_cast<std::size_t>(node);
@@ -33,9 +33,14 @@ History::History(const Case& c, const Setup& setup, const HistoryPlace& place)
       at_(place) {}
 
 std::vector<ColumnLabel> History::columns() const {
-  std::vector<ColumnLabel> labels = labels_of(history_columns());
+  const bool is_solid = setup_.model.solid.has_value();
+  std::vector<ColumnLabel> labels = history_labels(is_solid);
+  if (is_solid) {
+    const std::vector<ColumnLabel> solid = labels_of(solid_columns());
+    labels.insert(labels.end(), solid.begin(), solid.end());
+  }
   if (setup_.model.rim) {
-    const std::vector<ColumnLabel> rim = labels_of(rim_columns());
+    const std::vector<ColumnLabel> rim = rim_labels(is_solid);
     labels.insert(labels.end(), rim.begin(), rim.end());
   }
   if (has_massless_contact(setup_.model)) {
@@ -58,8 +63,8 @@ std::vector<ColumnLabel> History::columns() const {
 double History::slip_ratio(const dynamics::StepReport& step) const {
   if (radius_ == 0.0) return 0.0;
   if (setup_.model.rim) return dynamics::slip_ratio(step.rim.spin * radius_, step.rim.velocity.x);
-  return dynamics::slip_ratio(case_.motion.angular_velocity.at(step.frame.time) * radius_,
-                              case_.motion.speed.at(step.frame.time));
+  const double t = step.frame.time;
+  return dynamics::slip_ratio(case_.motion.angular_velocity.at(t) * radius_, case_.motion.ahead(t));
 }
 
 /// The step nearest to a multiple of the interval writes the row.
@@ -95,6 +100,9 @@ void History::observe(const dynamics::StepReport& step, const dynamics::State* s
   ++at_.steps;
   at_.impulse += report.impulse;
   at_.angular_impulse += report.angular_impulse;
+  at_.lateral += report.lateral;
+  at_.aligning += report.moment_aligning;
+  at_.overturning += report.moment_overturning;
   at_.penetration = std::max(at_.penetration, report.penetration);
   at_.iterations = std::max(at_.iterations, report.cluster_iterations);
   at_.extensions = std::max(at_.extensions, report.extensions);
@@ -131,6 +139,14 @@ void History::append_row(const dynamics::StepReport& step, const dynamics::State
   r.slip_ratio = slip_ratio(step);
   r.balance = step.balance;
   append_values(history_columns(), r, rows);
+  if (setup_.model.solid) {
+    r.force_lateral = at_.lateral / span;
+    r.moment_aligning = at_.aligning / span;
+    r.moment_overturning = at_.overturning / span;
+    r.slip_angle = step.frame.slip_angle;
+    r.lateral = step.frame.lateral;
+    append_values(solid_columns(), r, rows);
+  }
   if (setup_.model.rim) {
     r.rim = step.rim;
     r.rim.force = at_.hub_impulse / span;

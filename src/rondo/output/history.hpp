@@ -21,6 +21,9 @@ struct HistoryPlace {
   Vec2 hub_impulse{};  ///< of what holds a loaded rim, likewise                    [N·s/m]
   double hub_angular_impulse = 0.0;
   int iterations = 0, extensions = 0;  ///< of contact, most in a step since the last row
+  // In three dimensions, likewise of the ground's impulses.
+  double lateral = 0.0;                      ///< [N·s]
+  double aligning = 0.0, overturning = 0.0;  ///< [N·m·s]
 };
 
 class History {

@@ -107,6 +107,15 @@ std::size_t branch_numbers(const Setup& setup) {
   return n;
 }
 
+/// Axial components beside those of the plane, or none.
+bool axial_fits(const dynamics::SavedState& s, const dynamics::Model& model) {
+  const auto fits = [&](const std::vector<double>& axial, const std::vector<Vec2>& plane) {
+    return axial.size() == (model.solid ? plane.size() : 0);
+  };
+  return fits(s.axial_u, s.u) && fits(s.axial_v, s.v) && fits(s.axial_force, s.force) &&
+         fits(s.axial_u_before, s.u_before);
+}
+
 /// All that the integrator of this model carries, and nothing else.
 bool fits(const dynamics::SavedState& s, const Setup& setup) {
   const dynamics::Model& model = setup.model;
@@ -115,14 +124,17 @@ bool fits(const dynamics::SavedState& s, const Setup& setup) {
   const bool general = is_general(model) && !is_of_bodies(model) && !parts;
   const bool rim = model.rim.has_value(), massless = has_massless_contact(model);
   const bool of_force = general || rim || (model.stiffness_damping > 0.0 && !parts);
-  const std::size_t force = of_force ? n : 0;
+  // The readable step of a wheel in three dimensions carries it always.
+  const bool carries_force = of_force || (model.solid && !s.force.empty());
+  const std::size_t force = carries_force ? n : 0;
   const std::size_t joined = parts ? 3 * model.subdomains->interface.size() : 0;
   const std::size_t rim_numbers = rim ? dynamics::LoadedRim::n_numbers : 0;
   const std::size_t works = fem::has_rubber(setup.materials) ? 4 : 0;
-  return s.branches.size() == branch_numbers(setup) && s.internal_work.size() == works &&
-         s.u.size() == n && s.v.size() == n && s.force.size() == force &&
-         s.gradient.size() == (general ? n : 0) && s.energy.size() == n_free &&
-         s.poses.size() == n_free && s.u_before.size() == (rim ? n : 0) &&
+  return axial_fits(s, model) && s.branches.size() == branch_numbers(setup) &&
+         s.internal_work.size() == works && s.u.size() == n && s.v.size() == n &&
+         s.force.size() == force && s.gradient.size() == (general ? n : 0) &&
+         s.energy.size() == n_free && s.poses.size() == n_free &&
+         s.u_before.size() == (rim ? n : 0) &&
          (massless ? dynamics::MasslessContact::is_saved(s.ring, model.contact->nodes.size())
                    : s.ring.empty()) &&
          s.interface.size() == joined && s.rim.size() == rim_numbers &&
@@ -168,7 +180,8 @@ void demand_same_run(const Checkpoint& k, const RunIdentity& now, const Case& c,
   std::vector<Fault> faults;
   compare_cases(k, c, setup, faults);
   if (faults.empty() && k.identity.mesh_hash != now.mesh_hash)
-    faults.push_back(differs("mesh.file", c.mesh ? as_utf8(c.mesh->file.string()) : "",
+    faults.push_back(differs(c.section ? "section.file" : "mesh.file",
+                             mesh_file_of(c) ? as_utf8(mesh_file_of(c)->file.string()) : "",
                              "is not the mesh that the run began with", "that mesh"));
   if (faults.empty() && k.identity.step != now.step)
     faults.push_back(differs("time.step", fmt::format("{}", now.step),

@@ -39,7 +39,7 @@ void keep_the_users_files(const Case& c, const std::filesystem::path& directory)
         "choose another -o");
   };
   refuse_replacing(c.file, "case.toml", "case file");
-  if (c.mesh) refuse_replacing(c.mesh->file, mesh_copy, "mesh file");
+  if (const MeshCase* mesh = mesh_file_of(c)) refuse_replacing(mesh->file, mesh_copy, "mesh file");
 }
 
 bool is_copied(const MeshCase& mesh) {
@@ -49,12 +49,13 @@ bool is_copied(const MeshCase& mesh) {
 }
 
 void copy_mesh(const Case& c, const std::filesystem::path& directory) {
-  if (!c.mesh || !is_copied(*c.mesh)) return;
+  const MeshCase* const mesh = mesh_file_of(c);
+  if (!mesh || !is_copied(*mesh)) return;
   std::error_code error;
-  if (std::filesystem::equivalent(c.mesh->file, directory / mesh_copy, error)) return;
-  std::ifstream in(c.mesh->file, std::ios::binary);
+  if (std::filesystem::equivalent(mesh->file, directory / mesh_copy, error)) return;
+  std::ifstream in(mesh->file, std::ios::binary);
   const std::string text(std::istreambuf_iterator<char>(in), {});
-  if (in.bad()) throw FileError(c.mesh->file.string(), "cannot be read again, to be copied");
+  if (in.bad()) throw FileError(mesh->file.string(), "cannot be read again, to be copied");
   io::write_file(directory / mesh_copy, text);
 }
 
@@ -95,10 +96,11 @@ void give_warnings(const std::vector<std::string>& warnings, const RunOptions& o
 
 Case kept_case(const Case& c) {
   Case kept = c;
-  if (!c.mesh) return kept;
+  MeshCase* const mesh = mesh_file_of(kept);
+  if (!mesh) return kept;
   std::error_code error;
-  const std::filesystem::path whole = std::filesystem::absolute(c.mesh->file, error);
-  kept.mesh->file = is_copied(*c.mesh) ? std::filesystem::path(mesh_copy) : whole;
+  const std::filesystem::path whole = std::filesystem::absolute(mesh->file, error);
+  mesh->file = is_copied(*mesh) ? std::filesystem::path(mesh_copy) : whole;
   return kept;
 }
 

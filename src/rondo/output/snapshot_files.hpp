@@ -7,7 +7,9 @@
 #include <span>
 #include <vector>
 
+#include "rondo/fem/solid/solid_stress.hpp"
 #include "rondo/fem/stress.hpp"
+#include "rondo/output/columns.hpp"
 #include "rondo/output/recorder.hpp"
 
 namespace rondo::study {
@@ -32,6 +34,11 @@ class SnapshotFiles {
   [[nodiscard]] std::span<const Vec2> elastic(const Snapshot& snapshot);
   void write_contact_rows(const Snapshot& snapshot);
   [[nodiscard]] Vec2 position(const Snapshot& snapshot, std::size_t node) const;
+  [[nodiscard]] Vec3 place_on_ground(const Snapshot& snapshot, std::size_t node) const;
+  void interleave(const Snapshot& snapshot, io::Snapshot& s);
+  [[nodiscard]] std::span<const Column<ContactRecord>> columns() const {
+    return mesh_.is_solid() ? solid_contact_columns() : contact_columns();
+  }
 
   const mesh::Mesh& mesh_;
   const contact::Ground* ground_;
@@ -47,6 +54,13 @@ class SnapshotFiles {
   std::vector<char> on_ground_;            ///< (nb) 1: the ground presses it
   std::vector<double> slip_;               ///< (nb)
   std::vector<char> sticks_;               ///< (nb)
+  // Of a wheel in three dimensions.
+  std::optional<fem::SolidStressRecovery> solid_stress_;
+  double camber_ = 0.0;
+  std::vector<double> lateral_;      ///< (nb) force along t2                             [N]
+  std::vector<double> fixed_axial_;  ///< (nb) force along the axle                       [N]
+  std::vector<double> u_, v_;        ///< (n, 3)
+  std::vector<double> spatial_, spatial_fixed_;  ///< (nb, 3) forces
   std::vector<double> rows_;
 };
 

@@ -9,6 +9,7 @@
 #include "mutate.hpp"
 #include "rondo/analysis/build/build.hpp"
 #include "rondo/analysis/build/crush_setup.hpp"
+#include "rondo/case/solid/wheel_of.hpp"
 #include "rondo/integrators/integrator.hpp"
 #include "rondo/integrators/start.hpp"
 
@@ -22,11 +23,14 @@ extern "C" std::size_t LLVMFuzzerCustomMutator(std::uint8_t* data, std::size_t s
 namespace {
 
 constexpr std::size_t most_nodes = 200;
+constexpr int most_sectors = 12;
 
 /// A larger one would only take longer.
 bool is_small(const study::Case& c) {
-  return c.mesh ? std::filesystem::is_regular_file(c.mesh->file)
-                : mesh::n_disk_nodes(c.disk) <= most_nodes;
+  const study::MeshCase* const mesh = mesh_file_of(c);
+  return mesh ? std::filesystem::is_regular_file(mesh->file) &&
+                    (!c.section || c.section->sectors <= most_sectors)
+              : study::n_generated_nodes(c) <= most_nodes;
 }
 
 void check_finite(std::span<const Vec2> field, std::string_view what) {
@@ -46,8 +50,8 @@ void build_dynamic(const study::Case& c) {
   check_finite(s.velocity, "an initial velocity is not finite");
   fuzz::check(std::isfinite(s.model.dt) && s.model.dt > 0.0 && s.n_steps > 0, "no step of time");
   // Values that are no numbers are for the run's own checks to tell: the steps must only end.
-  const dynamics::State state =
-      dynamics::start(s.model, std::move(s.displacement), std::move(s.velocity));
+  const dynamics::State state = dynamics::start(s.model, std::move(s.displacement),
+                                                std::move(s.velocity), {}, std::move(s.axial));
   const auto integrator = dynamics::make_integrator(s.model, state);
   std::vector<dynamics::StepReport> reports(3);
   integrator->advance(reports);
@@ -69,8 +73,8 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   if (!fuzz::accepted(
           [&] { c = fuzz::read_case_input(fuzz::view(data, size), fuzz::scratch_folder()); }))
     return 0;
-  if (c.mesh && meshes != nullptr)
-    c.mesh->file = std::filesystem::path(meshes) / c.mesh->file.filename();
+  if (study::MeshCase* mesh = mesh_file_of(c); mesh && meshes != nullptr)
+    mesh->file = std::filesystem::path(meshes) / mesh->file.filename();
   if (!is_small(c)) return 0;
   c.contact_iterations = std::min(c.contact_iterations, 300);  // as long as it was asked for
   fuzz::accepted(

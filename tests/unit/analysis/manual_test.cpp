@@ -47,6 +47,7 @@ TEST(Manual, HasTheColumns) {
   const Labels rubber = history_of({}, test::rubber("model = \"neo-hooke\"\nshear_modulus = 1e6"));
   const Labels crush = history_of({"analysis.kind=crush", "analysis.depth=0.01",
                                    "analysis.increments=1", "ground.profile=flat"});
+  const Labels solid = history_of({"disk.width=0.1", "ground.profile=flat", "motion.height=0.3"});
   const std::vector<std::string> rolls{"analysis.kind=steady-rolling", "ground.profile=flat"};
   const Labels steady = history_of(rolls);
   rondo::test::expect_in_manual(
@@ -55,7 +56,9 @@ TEST(Manual, HasTheColumns) {
        table_of("rim", further(rim)), table_of("massless", further(massless)),
        table_of("hati", further(hati)), table_of("rubber", further(rubber)),
        table_of("crush", further(crush)), table_of("steady-rolling", further(steady)),
+       table_of("wheel in three dimensions", further(solid)),
        table_of("contact.csv", labels_of(contact_columns())),
+       table_of("contact.csv of a wheel in three dimensions", labels_of(solid_contact_columns())),
        table_of("contact.csv steady-rolling", further_contact_of(rolls))});
 }
 

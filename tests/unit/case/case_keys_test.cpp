@@ -61,7 +61,7 @@ TEST(CaseKeys, ExamplesOfTheManualAreCases) {
     EXPECT_NO_THROW(read_text(text));
     ++count;
   }
-  EXPECT_EQ(count, 4);
+  EXPECT_EQ(count, 5);
 }
 
 }  // namespace

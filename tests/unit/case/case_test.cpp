@@ -183,13 +183,20 @@ TEST(ReadCase, DefaultsAreThoseOfTheManual) {
   const auto is_for_free_bodies = [](std::string_view key) {
     return key == "initial.position" || key == "initial.angle" || key == "initial.angular_velocity";
   };
+  const std::string wheel = "\n" + write_case(read_text(least + ground, {"disk.width=0.1"}));
+  const auto is_for_wheels = [](std::string_view key) {
+    return key == "disk.mesh.axial" || key == "motion.slip_angle" || key == "motion.camber";
+  };
   for (const CaseKey& key : case_keys()) {
     const bool written = !key.use.required && key.use.standard.empty() &&
-                         !key.path.starts_with("mesh.") &&
+                         !key.path.starts_with("mesh.") && !key.path.starts_with("section.") &&
                          key.path.find("[]") == std::string_view::npos;
     if (!written) continue;
     const bool is_steady = !means_to(key, AnalysisKind::dynamic);
-    const std::string& text = is_steady ? steady : is_for_free_bodies(key.path) ? free : held;
+    const std::string& text = is_steady                      ? steady
+                              : is_for_free_bodies(key.path) ? free
+                              : is_for_wheels(key.path)      ? wheel
+                                                             : held;
     const auto table = table_of(key.path);
     const auto begin = text.find(fmt::format("\n[{}]\n", table));
     ASSERT_NE(begin, std::string::npos) << key.path;

@@ -25,7 +25,9 @@ constexpr std::size_t checkpoints = 2;         ///< the new one is written besid
 std::size_t contact_csv_bytes(const RecordPlan& plan) {
   if (!plan.results.contact) return 0;
   const std::size_t candidates = plan.results.mesh->boundary.size();
-  const std::size_t columns = contact_columns().size() + plan.contact_columns.size();
+  const std::size_t own =
+      plan.results.mesh->is_solid() ? solid_contact_columns().size() : contact_columns().size();
+  const std::size_t columns = own + plan.contact_columns.size();
   return (candidates / 4 + 1) * plan.results.n_snapshots * columns * bytes_of_a_number;
 }
 
@@ -69,8 +71,9 @@ DiskNeed disk_needed(const RecordPlan& plan, bool keeps_checkpoints) {
     need.all += bytes;
     need.largest_file = std::max(need.largest_file, bytes);
   }
-  const std::size_t checkpoint =
-      layout.mesh->n_nodes() * numbers_of_a_checkpoint * sizeof(double) + 50'000;
+  const std::size_t numbers =
+      layout.mesh->is_solid() ? numbers_of_a_solid_checkpoint : numbers_of_a_checkpoint;
+  const std::size_t checkpoint = layout.mesh->n_nodes() * numbers * sizeof(double) + 50'000;
   need.all += small_files + (keeps_checkpoints ? checkpoints * checkpoint : 0);
   return need;
 }

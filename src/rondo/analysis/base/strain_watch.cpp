@@ -5,6 +5,7 @@
 
 #include <cmath>
 
+#include "rondo/fem/solid/solid_strain.hpp"
 #include "rondo/mesh/locate.hpp"
 #include "rondo/model/corotated.hpp"
 
@@ -25,18 +26,40 @@ StrainWatch::StrainWatch(const mesh::Mesh& mesh, std::span<const fem::Material> 
     rubber_.push_back(fem::material_of(mesh, materials, e).rubber ? 1 : 0);
 }
 
+/// In the plane or in space.
+std::vector<double> StrainWatch::middle_of(std::size_t cell) const {
+  if (!mesh_.is_solid()) {
+    const Vec2 at = mesh::middle_of(mesh_.coordinates, mesh_.cells[cell]);
+    return {at.x, at.y};
+  }
+  std::vector<double> at(3, 0.0);
+  for (const int node : mesh_.hexahedra[cell]) {
+    const auto k = static_cast<std::size_t>(node);
+    at[0] += 0.125 * mesh_.coordinates[k].x;
+    at[1] += 0.125 * mesh_.coordinates[k].y;
+    at[2] += 0.125 * mesh_.axial[k];
+  }
+  return at;
+}
+
 std::string StrainWatch::cell_text(std::size_t cell) const {
+  if (mesh_.is_solid()) {
+    const std::vector<double> at = middle_of(cell);
+    return fmt::format("hexahedron {} of /mesh/hexahedra near ({:.4g}, {:.4g}, {:.4g})", cell,
+                       at[0], at[1], at[2]);
+  }
   const Vec2 at = mesh::middle_of(mesh_.coordinates, mesh_.cells[cell]);
   return fmt::format("cell {} of /mesh/cells near ({:.4g}, {:.4g})", cell, at.x, at.y);
 }
 
 std::string StrainWatch::look(std::span<const Vec2> u, std::span<const dynamics::Pose> poses,
-                              double time) {
+                              double time, std::span<const double> axial_u) {
   if (model_) {
     dynamics::elastic_displacements(*model_, u, poses, elastic_);
     u = elastic_;
   }
-  const fem::Deformation now = fem::deformation(mesh_, u, rubber_);
+  const fem::Deformation now = mesh_.is_solid() ? fem::solid_deformation(mesh_, u, axial_u)
+                                                : fem::deformation(mesh_, u, rubber_);
   largest_.add(now, time);
   if (now.jacobian > 0.0) return {};
   return fmt::format(
@@ -58,10 +81,7 @@ std::string StrainWatch::small_strain_warning(const TimeWords& words) const {
 void StrainWatch::summarise(const TimeWords& words, Json& j, RunReport& r) const {
   const fem::Deformation& found = largest_.found;
   if (!std::isfinite(found.jacobian)) return;  // the run had no look
-  const auto place = [&](std::size_t cell) {
-    const Vec2 at = mesh::middle_of(mesh_.coordinates, mesh_.cells[cell]);
-    return Json::array({at.x, at.y});
-  };
+  const auto place = [&](std::size_t cell) { return Json(middle_of(cell)); };
   j["strain_max"] = found.strain;
   j["strain_max_cell"] = found.strain_cell;
   j["strain_max_place"] = place(found.strain_cell);

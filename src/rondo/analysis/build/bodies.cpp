@@ -9,6 +9,7 @@
 #include <system_error>
 
 #include "rondo/analysis/build/memory.hpp"
+#include "rondo/analysis/build/solid/wheel_mesh.hpp"
 #include "rondo/analysis/elements/parts.hpp"
 #include "rondo/case/case_keys.hpp"
 #include "rondo/core/contract.hpp"
@@ -24,12 +25,20 @@ std::size_t at(int index) noexcept {
   return static_cast<std::size_t>(index);
 }
 
+std::string file_table(const Case& c) {
+  return c.mesh ? "mesh" : "section";
+}
+
+std::string scale_key(const Case& c) {
+  return is_generated(c) ? "disk.outer_radius" : file_table(c) + ".scale";
+}
+
 /// Edges whose areas and stiffnesses would leave the range of the numbers.
 void refuse_sizes_out_of_range(const Case& c, const std::vector<double>& size) {
   constexpr double smallest = 1e-60, largest = 1e60;
   const double shortest = *std::min_element(size.begin(), size.end());
   if (shortest >= smallest && shortest <= largest) return;
-  throw case_error(c, c.mesh ? "mesh.scale" : "disk.outer_radius",
+  throw case_error(c, scale_key(c),
                    fmt::format("the shortest edge of the mesh would be {:.3g} m, out of the range "
                                "of the numbers",
                                shortest),
@@ -40,7 +49,11 @@ void refuse_sizes_out_of_range(const Case& c, const std::vector<double>& size) {
 void refuse_flat_elements(const Case& c, const std::vector<double>& size) {
   const double shortest = *std::min_element(size.begin(), size.end());
   if (shortest > 1e-9 * c.disk.outer_radius) return;
-  throw case_error(c, c.disk.grading > 1.0 ? "disk.mesh.grading" : "disk.inner_radius",
+  const bool is_thin = c.wheel.width && *c.wheel.width / c.wheel.axial <= 2.0 * shortest;
+  throw case_error(c,
+                   is_thin                ? "disk.width"
+                   : c.disk.grading > 1.0 ? "disk.mesh.grading"
+                                          : "disk.inner_radius",
                    fmt::format("the shortest edge of the mesh would be {:.3g} m", shortest),
                    "a milder grading, fewer layers or columns, a thicker disk");
 }
@@ -59,7 +72,7 @@ std::vector<NameKey> curve_keys(const Case& c) {
 
 std::vector<NameKey> surface_keys(const Case& c) {
   std::vector<NameKey> keys;
-  for (std::size_t k = 0; c.mesh && k < c.regions.size(); ++k)
+  for (std::size_t k = 0; !is_generated(c) && k < c.regions.size(); ++k)
     keys.push_back({item_of("material.region", k) + ".surface", c.regions[k].surface});
   for (std::size_t k = 0; k < c.initial.regions.size(); ++k)
     keys.push_back({item_of("initial.region", k) + ".surface", c.initial.regions[k].surface});
@@ -75,7 +88,7 @@ std::vector<std::string> names_of(const std::vector<NameKey>& keys) {
 
 /// Keys of the case that a fault of the reader is about; none: it is about the file.
 std::vector<std::string> keys_about(const Case& c, const Fault& fault) {
-  if (fault.key == "clamped" || fault.key == "contact") return {"mesh." + fault.key};
+  if (fault.key == "clamped" || fault.key == "contact") return {file_table(c) + "." + fault.key};
   std::vector<NameKey> candidates;
   if (fault.key == "curve") candidates = curve_keys(c);
   if (fault.key == "surface") candidates = surface_keys(c);
@@ -100,11 +113,14 @@ std::vector<Fault> at_their_keys(const Case& c, const std::vector<Fault>& faults
   return told;
 }
 
-mesh::Mesh read_mesh(const Case& c, std::vector<std::string>* warnings) {
-  const MeshCase& m = *c.mesh;
+}  // namespace
+
+mesh::Mesh read_mesh_file(const Case& c, std::vector<std::string>* warnings) {
+  const MeshCase& m = *mesh_file_of(c);
   std::error_code error;
   if (!std::filesystem::exists(m.file, error))
-    throw case_error(c, "mesh.file", fmt::format("there is no file {}", m.file.string()),
+    throw case_error(c, file_table(c) + ".file",
+                     fmt::format("there is no file {}", m.file.string()),
                      "a Gmsh file, its path relative to the case file");
   try {
     mesh::ReadMesh read = mesh::read_gmsh({.file = m.file,
@@ -121,6 +137,8 @@ mesh::Mesh read_mesh(const Case& c, std::vector<std::string>* warnings) {
     throw InputError(at_their_keys(c, wrong.faults()));
   }
 }
+
+namespace {
 
 /// Place of a surface among the regions of the mesh. @throws InputError: no cell is in it
 int region_of(const Case& c, const mesh::Mesh& mesh, const NameKey& surface) {
@@ -180,9 +198,16 @@ ProbeSite find_site(const Case& c, const mesh::CellGrid& grid, std::size_t k) {
 }  // namespace
 
 mesh::Mesh build_mesh(const Case& c, std::vector<std::string>* warnings) {
+  if (is_solid(c)) {
+    mesh::Mesh wheel = build_wheel(c, warnings);
+    const std::vector<double> size = element_sizes(wheel);
+    refuse_sizes_out_of_range(c, size);
+    if (is_generated(c)) refuse_flat_elements(c, size);
+    return wheel;
+  }
   if (!c.mesh)
     demand_memory(c, mesh::n_disk_nodes(c.disk), mesh_memory(mesh::n_disk_nodes(c.disk)));
-  mesh::Mesh mesh = c.mesh ? read_mesh(c, warnings) : mesh::make_disk(c.disk);
+  mesh::Mesh mesh = c.mesh ? read_mesh_file(c, warnings) : mesh::make_disk(c.disk);
   const std::vector<double> size = element_sizes(mesh);
   if (!c.mesh) refuse_flat_elements(c, size);
   refuse_sizes_out_of_range(c, size);
@@ -197,7 +222,7 @@ std::vector<fem::Material> materials_of(const Case& c, const mesh::Mesh& mesh) {
                                        c.material);
   const auto keys = surface_keys(c);
   for (std::size_t k = 0; k < c.regions.size(); ++k)
-    materials[c.mesh ? at(region_of(c, mesh, keys[k])) : k + 1] = c.regions[k].material;
+    materials[!is_generated(c) ? at(region_of(c, mesh, keys[k])) : k + 1] = c.regions[k].material;
   return materials;
 }
 
@@ -211,6 +236,26 @@ double extent_of(const mesh::Mesh& mesh) {
   return 0.5 * std::max(high.x - low.x, high.y - low.y);
 }
 
+namespace {
+
+/// Its shortest edge: of the two faces, and between them.
+void add_hexahedron(const mesh::Mesh& mesh, const mesh::Hexahedron& h, std::vector<double>& size) {
+  double shortest = std::numeric_limits<double>::infinity();
+  const auto edge = [&](std::size_t a, std::size_t b) {
+    const std::size_t i = at(h[a]), j = at(h[b]);
+    const Vec3 x{mesh.coordinates[j] - mesh.coordinates[i], mesh.axial[j] - mesh.axial[i]};
+    shortest = std::min(shortest, norm(x));
+  };
+  for (std::size_t a = 0; a < 4; ++a) {
+    edge(a, (a + 1) % 4);
+    edge(a + 4, (a + 1) % 4 + 4);
+    edge(a, a + 4);
+  }
+  for (const int node : h) size[at(node)] = std::min(size[at(node)], shortest);
+}
+
+}  // namespace
+
 std::vector<double> element_sizes(const mesh::Mesh& mesh) {
   std::vector<double> size(mesh.n_nodes(), std::numeric_limits<double>::infinity());
   for (const mesh::Cell& cell : mesh.cells) {
@@ -223,6 +268,7 @@ std::vector<double> element_sizes(const mesh::Mesh& mesh) {
       s = std::min(s, shortest);
     }
   }
+  for (const mesh::Hexahedron& h : mesh.hexahedra) add_hexahedron(mesh, h, size);
   return size;
 }
 

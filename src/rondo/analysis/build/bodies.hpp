@@ -16,13 +16,16 @@ namespace rondo::study {
 /// cannot be read.
 mesh::Mesh build_mesh(const Case& c, std::vector<std::string>* warnings = nullptr);
 
+/// The Gmsh file of a [mesh] or a [section]. @pre the body comes from one. @throws as build_mesh()
+mesh::Mesh read_mesh_file(const Case& c, std::vector<std::string>* warnings);
+
 /// One for each region of the mesh (fem::material_of). @throws InputError: a surface without cells
 std::vector<fem::Material> materials_of(const Case& c, const mesh::Mesh& mesh);
 
 /// Length of the mesh's box, the larger side halved: of a disk about its radius [m].
 double extent_of(const mesh::Mesh& mesh);
 
-/// Shortest edge of the cells around each node [m].
+/// Shortest edge of the cells or hexahedra around each node [m].
 std::vector<double> element_sizes(const mesh::Mesh& mesh);
 
 /// Turns and moves free bodies, in mesh and model, as [initial] says.

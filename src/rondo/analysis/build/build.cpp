@@ -13,6 +13,7 @@
 #include "rondo/analysis/build/physical.hpp"
 #include "rondo/analysis/build/rim.hpp"
 #include "rondo/analysis/build/rubber.hpp"
+#include "rondo/analysis/build/solid/solid_body.hpp"
 #include "rondo/analysis/build/stability.hpp"
 #include "rondo/analysis/elements/implicit.hpp"
 #include "rondo/analysis/elements/massless_boundary.hpp"
@@ -133,6 +134,8 @@ void add_stress_stiffening(const Case& c, Setup& s) {
     m.stiffness = fem::assemble_stiffness(s.mesh, s.materials, s.prestress);
 }
 
+}  // namespace
+
 void choose_threads(Setup& s, int asked) {
   const int most = dynamics::most_threads(s.model);
   if (asked > most)
@@ -141,11 +144,13 @@ void choose_threads(Setup& s, int asked) {
                     "body (docs/performance.md)",
                     most, asked, operator_name(s.model.stiffness_operator)));
   if (asked <= 0) {
-    const bool small = 2 * s.model.free.size() < single_thread_dofs;
+    const bool small = count_dofs(s.model) < single_thread_dofs;
     asked = small ? 1 : static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
   }
   s.model.threads = std::min(asked, most);
 }
+
+namespace {
 
 /// Of what is explicit.
 double choose_step(const Case& c, const dynamics::CriticalStep& critical) {
@@ -244,6 +249,10 @@ long long count_steps(const Case& c, double dt) {
                                                                            : std::ceil(steps));
 }
 
+std::size_t count_dofs(const dynamics::Model& model) {
+  return (model.solid ? 3 : 2) * model.free.size();
+}
+
 int count_bodies(const dynamics::Model& model) {
   return model.body.empty() ? 1 : 1 + *std::max_element(model.body.begin(), model.body.end());
 }
@@ -278,6 +287,7 @@ void make_body(const Case& c, int threads, Setup& s) {
   warn_of_units(c, s.mesh, s.materials, s.warnings);
   demand_memory(c, s.mesh.n_nodes(), motion_memory(c, s.mesh));
   check_places(c, s.mesh);
+  if (s.mesh.is_solid()) return make_solid_body(c, threads, s);
   s.probes = find_probes(c, s.mesh);  // before free bodies are moved to where they start
   make_model(c, s);
   s.dilatation = fem::NodalDilatation(s.mesh, s.materials);
@@ -310,6 +320,7 @@ void set_up_run(const Case& c, Setup& s, SharedBody* shared) {
   check_start(c, s);
   check_stability(c, s);
   tell_physical_figures(c, s);
+  if (s.model.solid) tell_solid_figures(c, s);
 }
 
 /// Units that look wrong are told with what is refused: they may be its cause.

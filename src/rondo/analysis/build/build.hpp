@@ -16,9 +16,10 @@ namespace rondo::study {
 struct SharedBody {
   std::string key;  ///< the case without what may differ; empty: none yet
   Setup setup;
-  double spin = 0.0;             ///< of the stationary state [rad/s]
-  std::vector<Vec2> stationary;  ///< (n) empty: none yet [m]
-  std::any other;                ///< what an analysis keeps instead, of a type of its own
+  double spin = 0.0;                     ///< of the stationary state [rad/s]
+  std::vector<Vec2> stationary;          ///< (n) empty: none yet [m]
+  std::vector<double> stationary_axial;  ///< (n) of a wheel in three dimensions [m]
+  std::any other;                        ///< what an analysis keeps instead, of a type of its own
 };
 
 /// Equal for cases that share a body.
@@ -38,6 +39,12 @@ inline constexpr std::size_t single_thread_dofs = 20000;
 /// stationary start and the check of softening work sector by sector, harmonic by harmonic: memory
 /// and time of one sector. Below it, with the assembled K, as they always did: to the same bits.
 inline constexpr std::size_t harmonic_setup_dofs = 200000;
+
+/// Degrees of freedom that move: of a node two or, of a wheel in three dimensions, three.
+std::size_t count_dofs(const dynamics::Model& model);
+
+/// As many as asked for, or chosen by size for 0, as far as the model's parts allow.
+void choose_threads(Setup& s, int asked);
 
 /// Parts that no cell joins.
 int count_bodies(const dynamics::Model& model);

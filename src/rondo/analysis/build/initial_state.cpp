@@ -7,6 +7,7 @@
 
 #include "rondo/analysis/build/bodies.hpp"
 #include "rondo/analysis/build/overlap.hpp"
+#include "rondo/analysis/build/solid/solid_body.hpp"
 #include "rondo/analysis/build/steady_start.hpp"
 #include "rondo/statics/stationary_spin.hpp"
 
@@ -22,6 +23,7 @@ statics::StationarySpin find_stationary(const Setup& s, double spin) {
   const dynamics::Model& m = s.model;
   if (s.rubber)
     return statics::stationary_spin(*s.rubber, m.mass, m.reference, held_nodes(m), spin);
+  if (m.solid) return statics::stationary_spin(m.solid->sector, m.mass, m.reference, spin);
   if (by_harmonics(m)) return statics::stationary_spin(*m.sector, m.mass, m.reference, spin);
   return statics::stationary_spin(m.stiffness, m.mass, m.reference, held_nodes(m), spin);
 }
@@ -31,6 +33,7 @@ void set_stationary(const Case& c, Setup& s, SharedBody* shared) {
   const double spin = -c.motion.angular_velocity.at(0.0);
   if (shared && !shared->stationary.empty() && shared->spin == spin) {
     s.displacement = shared->stationary;
+    s.axial.u = shared->stationary_axial;
     return;
   }
   statics::StationarySpin stationary = find_stationary(s, spin);
@@ -40,9 +43,11 @@ void set_stationary(const Case& c, Setup& s, SharedBody* shared) {
                      "exceeds the stiffness",
                      "a lower rotation speed, or a stiffer material");
   s.displacement = std::move(stationary.u);
+  s.axial.u = std::move(stationary.axial_u);
   if (!shared) return;
   shared->spin = spin;
   shared->stationary = s.displacement;
+  shared->stationary_axial = s.axial.u;
 }
 
 /// How deep the worst node is, compared with its elements.
@@ -71,15 +76,24 @@ std::vector<Vec2> start_positions(const Setup& s) {
   return x;
 }
 
+Depth deepest_start(const Setup& s, const std::vector<double>& size, const std::vector<Vec2>& x) {
+  const dynamics::ContactModel& contact = *s.model.contact;
+  const std::vector<double> solid = s.model.solid ? solid_depths(s) : std::vector<double>();
+  Depth depth;
+  for (std::size_t k = 0; k < contact.nodes.size(); ++k) {
+    const std::size_t node = at(contact.nodes[k]);
+    depth.add(s.model.solid ? solid[k] : -contact.ground.distance(x[node]), size[node],
+              in_fixed_frame(s.model, node));
+  }
+  return depth;
+}
+
 /// A node deeper than half an element would get an impulse that means nothing: refused. One less
 /// deep is held where it is, for the law acts on velocities: said.
 void check_ground(const Case& c, const std::vector<double>& size, const std::vector<Vec2>& x,
                   Setup& s) {
   if (!s.model.contact) return;
-  Depth depth;
-  for (const int node : s.model.contact->nodes)
-    depth.add(-s.model.contact->ground.distance(x[at(node)]), size[at(node)],
-              in_fixed_frame(s.model, at(node)));
+  const Depth depth = deepest_start(s, size, x);
   if (depth.worst > 0.5)
     throw case_error(
         c, depth.free ? "initial.position" : "motion.height",
@@ -133,6 +147,7 @@ void check_start(const Case& c, Setup& s) {
   const std::vector<double> size = element_sizes(s.mesh);
   const std::vector<Vec2> x = start_positions(s);
   check_ground(c, size, x, s);
+  if (s.mesh.is_solid()) return;  // its elements lie beside each other as they are made
   refuse_overlaps(c, {s.mesh, x, s.model.surfaces.has_value()}, s.warnings);
 }
 

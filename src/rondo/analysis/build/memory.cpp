@@ -77,7 +77,19 @@ std::size_t rubber_memory(const Case& c, const mesh::Mesh& mesh) {
   return bytes;
 }
 
+/// K of one sector, and the factor of a harmonic of it for the critical step.
+static std::size_t solid_motion_memory(const Case& c, const mesh::Mesh& mesh) {
+  constexpr std::size_t numbers_of_a_node = 24;  // that a plane one has not
+  const std::size_t nodes = mesh.n_nodes(), of_a_snapshot = 6 * nodes * sizeof(double);
+  const auto snapshots = static_cast<std::size_t>(c.output.snapshots);
+  const std::size_t of_a_sector = 3 * nodes / static_cast<std::size_t>(mesh.n_sectors);
+  return mesh_memory(nodes) + nodes * numbers_of_a_node * sizeof(double) +
+         factor_memory(of_a_sector, true) +
+         std::min(snapshots, queue_length(snapshots, of_a_snapshot)) * of_a_snapshot;
+}
+
 std::size_t motion_memory(const Case& c, const mesh::Mesh& mesh) {
+  if (mesh.is_solid()) return solid_motion_memory(c, mesh);
   const std::size_t nodes = mesh.n_nodes(), of_a_snapshot = 2 * nodes * sizeof(Vec2);
   const auto snapshots = static_cast<std::size_t>(c.output.snapshots);
   const bool harmonics = mesh.n_sectors > 0 && !c.free_rim &&
@@ -107,7 +119,10 @@ void demand_memory(const Case& c, std::size_t nodes, std::size_t needed) {
   const AllowedMemory allowed = allowed_memory();
   if (needed <= allowed.bytes) return;
   throw case_error(
-      c, c.mesh ? "mesh.file" : std::string(largest_count(c.disk)),
+      c,
+      c.mesh      ? "mesh.file"
+      : c.section ? "section.sectors"
+                  : std::string(largest_count(c.disk)),
       fmt::format("the mesh of {} nodes needs about {} of memory, and {} {}", nodes,
                   readable_bytes(needed), allowed.source, readable_bytes(allowed.bytes)),
       "a coarser mesh, or more memory");

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <limits>
 #include <optional>
+#include <span>
 
 #include "rondo/analysis/build/bodies.hpp"
 #include "rondo/analysis/build/rim.hpp"
@@ -31,7 +32,8 @@ template <class Visit>
 void each_time(const Case& c, Visit&& visit) {
   constexpr int parts = 500;
   for (int k = 0; k <= parts; ++k) visit(c.time.end * k / parts);
-  for (const auto* table : {&c.motion.angular_velocity, &c.motion.speed, &c.motion.height})
+  for (const auto* table :
+       {&c.motion.angular_velocity, &c.motion.speed, &c.motion.height, &c.motion.slip_angle})
     for (const auto& [time, value] : table->points())
       if (time > 0.0 && time < c.time.end) visit(time);
 }
@@ -78,7 +80,7 @@ void tell_deflection(double deflection, const Wall& wall, const fem::Material& m
 void tell_slip(const Case& c, double radius, const Tell& to) {
   Range slip, both_move;
   each_time(c, [&](double t) {
-    const double rim = c.motion.angular_velocity.at(t) * radius, speed = c.motion.speed.at(t);
+    const double rim = c.motion.angular_velocity.at(t) * radius, speed = c.motion.ahead(t);
     const double ratio = dynamics::slip_ratio(rim, speed);
     slip.take(ratio);
     if (rim != 0.0 && speed != 0.0) both_move.take(ratio);
@@ -153,15 +155,19 @@ const fem::Material& touching_material(const mesh::Mesh& mesh,
   for (const int node : mesh.boundary) touches[static_cast<std::size_t>(node)] = 1;
   double least = std::numeric_limits<double>::infinity();
   std::size_t softest = 0;
-  for (std::size_t e = 0; e < mesh.cells.size(); ++e) {
+  const auto add = [&](std::size_t e, std::span<const int> corners) {
     const double modulus = fem::material_of(mesh, materials, e).youngs_modulus;
-    if (modulus >= least) continue;
-    for (int a = 0; a < mesh::n_corners(mesh.cells[e]); ++a) {
-      if (!touches[static_cast<std::size_t>(mesh.cells[e][static_cast<std::size_t>(a)])]) continue;
+    if (modulus >= least) return;
+    for (const int node : corners) {
+      if (!touches[static_cast<std::size_t>(node)]) continue;
       least = modulus;
       softest = e;
     }
-  }
+  };
+  for (std::size_t e = 0; e < mesh.cells.size(); ++e)
+    add(e,
+        std::span(mesh.cells[e]).first(static_cast<std::size_t>(mesh::n_corners(mesh.cells[e]))));
+  for (std::size_t e = 0; e < mesh.hexahedra.size(); ++e) add(e, mesh.hexahedra[e]);
   return fem::material_of(mesh, materials, softest);
 }
 
@@ -189,7 +195,9 @@ void warn_of_units(const Case& c, const mesh::Mesh& mesh,
   const double size = extent_of(mesh);
   if (size > largest_size || size < least_size)
     warnings.push_back(fmt::format("the body is {:.3g} m long: are {} in metres?", 2.0 * size,
-                                   c.mesh ? "the lengths of the mesh (mesh.scale)" : "the radii"));
+                                   c.mesh      ? "the lengths of the mesh (mesh.scale)"
+                                   : c.section ? "the lengths of the section (section.scale)"
+                                               : "the radii"));
 }
 
 std::optional<Wall> wall_of(const mesh::Mesh& mesh) {

@@ -5,8 +5,8 @@
 
 #include <algorithm>
 
+#include "rondo/core/column.hpp"
 #include "rondo/mesh/physical_group.hpp"
-#include "rondo/model/stability/rim_step.hpp"
 
 namespace rondo::study {
 namespace {
@@ -77,23 +77,30 @@ std::string load_text(const Case& c, const dynamics::Model& model) {
   const RimBody& rim = *model.rim;
   const double end = c.time.end;
   std::vector<std::string> loads;
-  if (rim.free_x) loads.push_back(fmt::format("force_x {:.6g} N/m", rim.force_x.at(end)));
-  if (rim.free_y) loads.push_back(fmt::format("force_y {:.6g} N/m", rim.force_y.at(end)));
-  if (rim.free_spin) loads.push_back(fmt::format("torque {:.6g} N", rim.torque.at(end)));
-  if (rim.free_spin) loads.push_back(fmt::format("brake {:.6g} N", rim.brake.at(end)));
+  const auto add = [&](const char* name, double value, std::string_view unit) {
+    loads.push_back(fmt::format("{} {:.6g} {}", name, value, unit));
+  };
+  const bool solid = model.solid.has_value();
+  const std::string_view force = unit_of("N/m", solid), torque = unit_of("N", solid);
+  if (rim.free_x) add("force_x", rim.force_x.at(end), force);
+  if (rim.free_y) add("force_y", rim.force_y.at(end), force);
+  if (rim.free_spin) add("torque", rim.torque.at(end), torque);
+  if (rim.free_spin) add("brake", rim.brake.at(end), torque);
   double mass = rim.mass;
   for (const int node : model.free) mass += model.mass[at(node)];
   const Vec2 weight = mass * model.motion.gravity_at(end);
   if ((rim.free_x || rim.free_y) && norm(weight) > 0.0)
-    loads.push_back(fmt::format("weight ({:.6g}, {:.6g}) N/m", weight.x + 0.0, weight.y));
+    loads.push_back(fmt::format("weight ({:.6g}, {:.6g}) {}", weight.x + 0.0, weight.y, force));
   return fmt::format("{}", fmt::join(loads, ", "));
 }
 
 void tell_support(const char* name, const dynamics::RimSupport& support, Setup& s) {
   if (support.stiffness == 0.0 && support.damping == 0.0) return;
+  const bool solid = s.model.solid.has_value();
   s.figures.emplace_back(
-      name, fmt::format("spring {:.6g} N/m2 at rest at {:.6g} m, dashpot {:.6g} N s/m2",
-                        support.stiffness, support.at, support.damping));
+      name,
+      fmt::format("spring {:.6g} {} at rest at {:.6g} m, dashpot {:.6g} {}", support.stiffness,
+                  unit_of("N/m2", solid), support.at, support.damping, unit_of("N s/m2", solid)));
 }
 
 }  // namespace
@@ -116,20 +123,35 @@ void set_rim_loads(const Case& c, dynamics::Model& model) {
   model.rim->inertia = inertia;
 }
 
-dynamics::CriticalStep step_with_rim(const dynamics::Model& model,
-                                     const dynamics::CriticalStep& held,
-                                     dynamics::LaggedDamping damping) {
+namespace {
+
+dynamics::RimFrequencies frequencies_of(const dynamics::Model& model,
+                                        const dynamics::StiffnessProduct& product) {
   const RimBody& rim = *model.rim;
   dynamics::RimDofs dofs;
   if (rim.free_x) dofs.inertia[0] = rim.mass;
   if (rim.free_y) dofs.inertia[1] = rim.mass;
   if (rim.free_spin) dofs.inertia[2] = rim.inertia;
   dofs.spring = {rim.support_x.stiffness, rim.support_y.stiffness};
+  return dynamics::rim_frequencies(product, model.mass, model.reference, model.free, dofs);
+}
+
+}  // namespace
+
+dynamics::CriticalStep step_with_rim(const dynamics::Model& model,
+                                     const dynamics::StiffnessProduct& product,
+                                     const dynamics::CriticalStep& held,
+                                     dynamics::LaggedDamping damping) {
+  return dynamics::with_rim(held, frequencies_of(model, product), damping);
+}
+
+dynamics::CriticalStep step_with_rim(const dynamics::Model& model,
+                                     const dynamics::CriticalStep& held,
+                                     dynamics::LaggedDamping damping) {
   const auto product = [&](std::span<const Vec2> u, std::span<Vec2> out) {
     apply_stiffness(model, u, out);
   };
-  const auto frequencies =
-      dynamics::rim_frequencies(product, model.mass, model.reference, model.free, dofs);
+  const dynamics::RimFrequencies frequencies = frequencies_of(model, product);
   return model.sector ? dynamics::with_rim(held, *model.sector, model.mass, frequencies, damping)
                       : dynamics::with_rim(held, frequencies, damping);
 }
@@ -168,11 +190,14 @@ Json rim_facts(const RimBody& rim) {
 
 void tell_rim(const Case& c, Setup& s) {
   const RimBody& rim = *s.model.rim;
+  const bool solid = s.model.solid.has_value();
   s.figures.emplace_back("rim", free_text(rim));
-  s.figures.emplace_back("rim mass", fmt::format("{:.6g} kg/m, of which {:.6g} of bonded nodes",
-                                                 rim.mass, rim.mass - c.rim->mass));
-  s.figures.emplace_back("rim inertia", fmt::format("{:.6g} kg m, of which {:.6g} of bonded nodes",
-                                                    rim.inertia, rim.inertia - c.rim->inertia));
+  s.figures.emplace_back("rim mass",
+                         fmt::format("{:.6g} {}, of which {:.6g} of bonded nodes", rim.mass,
+                                     unit_of("kg/m", solid), rim.mass - c.rim->mass));
+  s.figures.emplace_back("rim inertia",
+                         fmt::format("{:.6g} {}, of which {:.6g} of bonded nodes", rim.inertia,
+                                     unit_of("kg m", solid), rim.inertia - c.rim->inertia));
   if (const std::string loads = load_text(c, s.model); !loads.empty())
     s.figures.emplace_back("load at the end", loads);
   if (rim.free_x) tell_support("support along x", rim.support_x, s);

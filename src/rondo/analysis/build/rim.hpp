@@ -4,6 +4,7 @@
 #pragma once
 #include "rondo/analysis/build/physical.hpp"
 #include "rondo/case/setup.hpp"
+#include "rondo/model/stability/rim_step.hpp"
 #include "rondo/output/run_files.hpp"
 
 namespace rondo::study {
@@ -18,6 +19,12 @@ void set_rim_loads(const Case& c, dynamics::Model& model);
 
 /// @param held the critical step with the rim held. @pre a rim; K is there
 dynamics::CriticalStep step_with_rim(const dynamics::Model& model,
+                                     const dynamics::CriticalStep& held,
+                                     dynamics::LaggedDamping damping);
+
+/// The same by another product with K, on any body: the rim meets each frequency of it.
+dynamics::CriticalStep step_with_rim(const dynamics::Model& model,
+                                     const dynamics::StiffnessProduct& product,
                                      const dynamics::CriticalStep& held,
                                      dynamics::LaggedDamping damping);
 

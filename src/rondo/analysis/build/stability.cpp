@@ -28,6 +28,7 @@ double largest_until(const Table& table, double end) {
 
 /// Whether every ω² of the body is above `shift` [1/s²].
 bool frequencies_above(const dynamics::Model& m, double shift) {
+  if (m.solid) return statics::eigenvalues_above(m.solid->sector, m.mass, shift);
   return by_harmonics(m) ? statics::eigenvalues_above(*m.sector, m.mass, shift)
                          : statics::eigenvalues_above(m.stiffness, m.mass, held_nodes(m), shift);
 }
@@ -67,10 +68,18 @@ std::string beyond_softening(const Case& c, double spin, Interval omega) {
       "exceeds the stiffness (K - s²M is not positive definite). There is no equilibrium: "
       "what is deformed in general grows, at up to {:.3g} 1/s, by e^{:.3g} in this run, which ends "
       "with exit code 3 "
-      "once its strains mean nothing. A lower rotation speed, a stiffer material, or "
-      "material.stress_stiffening = \"centrifugal\"",
+      "once its strains mean nothing. {}",
       spin, omega.low, omega.high, std::sqrt(std::max(0.0, spin * spin - omega.low * omega.low)),
-      softening_growth(c, omega.low));
+      softening_growth(c, omega.low),
+      is_solid(c) ? "A lower rotation speed, or a stiffer material"
+                  : "A lower rotation speed, a stiffer material, or "
+                    "material.stress_stiffening = \"centrifugal\"");
+}
+
+/// Of a sector, where the check goes by harmonics; else 0.
+std::size_t harmonic_dofs(const dynamics::Model& m) {
+  if (m.solid) return 3 * m.solid->sector.n_local();
+  return by_harmonics(m) ? 2 * m.sector->n_local() : 0;
 }
 
 void warn_of_softening(const Case& c, Setup& s) {
@@ -78,7 +87,7 @@ void warn_of_softening(const Case& c, Setup& s) {
   const double spin = largest_until(c.motion.angular_velocity, c.time.end);
   if (spin == 0.0 || c.stress_stiffening != StressStiffening::none || !is_held(c)) return;
   if (has_rubber(c)) return;  // stress stiffens it
-  if (!softening_is_checked(2 * m.free.size(), by_harmonics(m) ? 2 * m.sector->n_local() : 0)) {
+  if (!softening_is_checked(count_dofs(m), harmonic_dofs(m))) {
     s.warnings.push_back(
         fmt::format("the check of spin softening is left out above {} degrees of freedom, unless "
                     "one of equal sectors of the disk has at most {}",
@@ -227,6 +236,11 @@ double largest_speed(const Case& c, const Setup& s) {
 void warn_of_fast_contact(const Case& c, Setup& s) {
   if (!has_candidates(s.model)) return;
   double shortest = std::numeric_limits<double>::infinity();
+  if (s.mesh.is_solid()) {
+    const std::vector<double> sizes = element_sizes(s.mesh);
+    for (const int node : s.mesh.boundary)
+      shortest = std::min(shortest, sizes[static_cast<std::size_t>(node)]);
+  }
   for (const mesh::Edge& edge : s.mesh.contact_edges) {
     const auto at = [&](int end) { return s.mesh.coordinates[static_cast<std::size_t>(end)]; };
     shortest = std::min(shortest, norm(at(edge[1]) - at(edge[0])));

@@ -93,7 +93,8 @@ std::vector<Told> step_lines(const Case& c, const Setup& s) {
       {"critical step", bounded ? told_critical_step(s) : "none: all elements are implicit"}};
   if (!bounded) lines.erase(lines.begin());
   if (!s.implicit_cells.empty()) lines.push_back(implicit_line(s));
-  if (bounded && !has_massless_contact(s.model))  // by elements that have their mass
+  // By plane elements that have their mass.
+  if (bounded && !has_massless_contact(s.model) && !s.model.solid)
     for (Told& told : lines_of(find_step_limit(c, s))) lines.push_back(std::move(told));
   lines.emplace_back(
       "step", bounded ? fmt::format("{} ({:.3g} of critical)", length(step), step / s.critical.step)

@@ -109,14 +109,12 @@ Parts parts_of(const Case& c, const Setup& s) {
   return parts;
 }
 
-void set_disk_regions(const Case& c, mesh::Mesh& mesh) {
-  if (c.regions.empty()) return;
-  const Parts layers = layers_of(mesh, {});
-  std::vector<int> of_layer(layers.names.size(), 0);
+std::vector<int> regions_of_layers(const Case& c, int layers, mesh::Mesh& mesh) {
+  std::vector<int> of_layer(at(layers), 0);
   mesh.region_names.assign(1, "");
   for (std::size_t k = 0; k < c.regions.size(); ++k) {
     const std::string table = item_of("material.region", k);
-    demand_layers(c, table, c.regions[k].layers, static_cast<int>(of_layer.size()));
+    demand_layers(c, table, c.regions[k].layers, layers);
     for (const int layer : c.regions[k].layers) {
       int& region = of_layer[at(layer - 1)];
       if (region != 0)
@@ -128,6 +126,14 @@ void set_disk_regions(const Case& c, mesh::Mesh& mesh) {
     }
     mesh.region_names.push_back(fmt::format("layers {}", fmt::join(c.regions[k].layers, ", ")));
   }
+  return of_layer;
+}
+
+void set_disk_regions(const Case& c, mesh::Mesh& mesh) {
+  if (c.regions.empty()) return;
+  const Parts layers = layers_of(mesh, {});
+  const std::vector<int> of_layer =
+      regions_of_layers(c, static_cast<int>(layers.names.size()), mesh);
   for (const int layer : layers.of_cell) mesh.region.push_back(of_layer[at(layer)]);
 }
 

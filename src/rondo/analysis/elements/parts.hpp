@@ -20,6 +20,10 @@ Parts layers_of(const mesh::Mesh& mesh, Vec2 center);
 /// Layers of a disk, surfaces of a mesh; the whole body of a mesh without surfaces.
 Parts parts_of(const Case& c, const Setup& s);
 
+/// Region of each of so many layers of a generated body, as `material.region[].layers` say, 0 the
+/// rest; names the regions. @throws InputError: a layer that there is not, or that two of them have
+std::vector<int> regions_of_layers(const Case& c, int layers, mesh::Mesh& mesh);
+
 /// Regions of a generated disk as `material.region[].layers` say: 0 is the rest.
 /// @throws InputError: a layer that the disk does not have, or that two of them have
 void set_disk_regions(const Case& c, mesh::Mesh& mesh);

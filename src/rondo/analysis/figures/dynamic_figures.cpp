@@ -7,6 +7,8 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
+#include <span>
 #include <string>
 
 #include "rondo/analysis/figures/history_statistics.hpp"
@@ -40,6 +42,45 @@ constexpr std::array dynamic_columns{
     FigureColumn{"strain_max", "1", "largest principal strain, of the whole run"},
     FigureColumn{"jacobian_min", "1", "least area of an element over that undeformed"},
 };
+
+/// Of a wheel in three dimensions.
+constexpr std::array solid_columns{
+    FigureColumn{"force_x_mean", "N", "of the ground on the body along t1, mean over the window"},
+    FigureColumn{"force_x_peak", "N", "the value of largest magnitude in the window"},
+    FigureColumn{"force_x_fluctuation", "N", "root mean square about the mean"},
+    FigureColumn{"force_y_mean", "N", "along the normal n, mean over the window"},
+    FigureColumn{"force_y_peak", "N", "the value of largest magnitude in the window"},
+    FigureColumn{"force_y_fluctuation", "N", "root mean square about the mean"},
+    FigureColumn{"force_lateral_mean", "N", "along t2, to the right of travel, mean"},
+    FigureColumn{"force_lateral_peak", "N", "the value of largest magnitude in the window"},
+    FigureColumn{"force_lateral_fluctuation", "N", "root mean square about the mean"},
+    FigureColumn{"torque_mean", "N·m", "about the axle, mean over the window"},
+    FigureColumn{"torque_peak", "N·m", "the value of largest magnitude in the window"},
+    FigureColumn{"torque_fluctuation", "N·m", "root mean square about the mean"},
+    FigureColumn{"moment_aligning_mean", "N·m", "about n, mean over the window"},
+    FigureColumn{"moment_aligning_peak", "N·m", "the value of largest magnitude in the window"},
+    FigureColumn{"moment_aligning_fluctuation", "N·m", "root mean square about the mean"},
+    FigureColumn{"moment_overturning_mean", "N·m", "about t1 in the ground, mean"},
+    FigureColumn{"trail_m", "m",
+                 "mean aligning moment over the mean lateral force; none where that is round-off"},
+    FigureColumn{"contact_area_mean_m2", "m2", "mean over the window"},
+    FigureColumn{"contact_area_peak_m2", "m2", "largest in the window"},
+    FigureColumn{"slip_angle_mean", "rad", "mean over the window"},
+    FigureColumn{"slip_ratio_mean", "1", "mean over the window"},
+    FigureColumn{"center_y_mean", "m", "height of the center along n, mean over the window"},
+    FigureColumn{"speed_mean", "m/s", "of the center along t1, mean over the window"},
+    FigureColumn{"spin_mean", "rad/s", "> 0 clockwise, mean over the window"},
+    FigureColumn{"friction_power", "W", "dissipated by friction in the window, over its length"},
+    FigureColumn{"impact_power", "W", "lost in impacts in the window, over its length"},
+    FigureColumn{"energy_residual_relative", "1", "of the energy balance, of the whole run"},
+    FigureColumn{"contact_residual_max", "1", "of the contact law, of the whole run"},
+    FigureColumn{"penetration_max_m", "m", "of the whole run"},
+    FigureColumn{"strain_max", "1", "largest principal strain, of the whole run"},
+    FigureColumn{"jacobian_min", "1", "least volume of an element over that undeformed"},
+};
+
+/// Of the force that presses the wheel on the ground: what is left of a lateral one straight on.
+constexpr double round_off = 1e-9;
 
 /// Of a run's rows those in the window.
 class Rows {
@@ -97,19 +138,48 @@ double peak(const Intervals& f) {
   return *std::ranges::max_element(f.value, {}, [](double value) { return std::abs(value); });
 }
 
-std::vector<double> figures_of(const std::filesystem::path& directory, const Window& window) {
-  const Rows rows(directory, window);
-  std::vector<double> figures;
-  for (const char* name : {"force_x", "force_y", "torque"}) {
+/// Mean, peak and fluctuation of each.
+void add_courses(const Rows& rows, std::span<const char* const> names,
+                 std::vector<double>& figures) {
+  for (const char* name : names) {
     const Intervals f = rows.of(name);
     figures.insert(figures.end(), {mean(f), peak(f), deviation(f)});
   }
-  const Intervals length = rows.of("contact_length_m");
-  figures.insert(figures.end(),
-                 {mean(length), peak(length), mean(rows.of("slip_ratio")),
-                  mean(rows.of("center_y_m")), rows.rate("center_x_m"), rows.rate("angle_rad"),
-                  rows.rate("dissipation_friction"), rows.rate("loss_impact")});
+}
+
+/// Slips, place, speeds, powers, and what run.json says.
+void add_motion(const Rows& rows, const std::filesystem::path& directory,
+                std::vector<double>& figures) {
+  figures.insert(figures.end(), {mean(rows.of("slip_ratio")), mean(rows.of("center_y_m")),
+                                 rows.rate("center_x_m"), rows.rate("angle_rad"),
+                                 rows.rate("dissipation_friction"), rows.rate("loss_impact")});
   add_figures_of_all(io::read_json(directory / "run.json"), figures);
+}
+
+std::vector<double> figures_of(const std::filesystem::path& directory, const Window& window) {
+  const Rows rows(directory, window);
+  std::vector<double> figures;
+  add_courses(rows, std::array{"force_x", "force_y", "torque"}, figures);
+  const Intervals length = rows.of("contact_length_m");
+  figures.insert(figures.end(), {mean(length), peak(length)});
+  add_motion(rows, directory, figures);
+  return figures;
+}
+
+std::vector<double> solid_figures_of(const std::filesystem::path& directory, const Window& window) {
+  const Rows rows(directory, window);
+  std::vector<double> figures;
+  add_courses(rows, std::array{"force_x", "force_y", "force_lateral", "torque", "moment_aligning"},
+              figures);
+  const double lateral = mean(rows.of("force_lateral")),
+               aligning = mean(rows.of("moment_aligning"));
+  const bool pulls = std::abs(lateral) > round_off * std::abs(mean(rows.of("force_y")));
+  const Intervals area = rows.of("contact_area_m2");
+  figures.insert(figures.end(),
+                 {mean(rows.of("moment_overturning")),
+                  pulls ? aligning / lateral : std::numeric_limits<double>::quiet_NaN(), mean(area),
+                  peak(area), mean(rows.of("slip_angle"))});
+  add_motion(rows, directory, figures);
   return figures;
 }
 
@@ -117,6 +187,10 @@ std::vector<double> figures_of(const std::filesystem::path& directory, const Win
 
 FigureTable dynamic_figures() noexcept {
   return {dynamic_columns, figures_of, true};
+}
+
+FigureTable solid_dynamic_figures() noexcept {
+  return {solid_columns, solid_figures_of, true};
 }
 
 }  // namespace rondo::study

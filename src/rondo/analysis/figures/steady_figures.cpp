@@ -30,6 +30,42 @@ constexpr std::array steady_columns{
     FigureColumn{"jacobian_min", "1", "least area of an element over that undeformed"},
 };
 
+constexpr std::array solid_columns{
+    FigureColumn{"force_x", "N",
+                 "of the ground on the wheel along its heading, mean over a "
+                 "sector's pass"},
+    FigureColumn{"force_y", "N", "likewise, along the normal of the ground"},
+    FigureColumn{"force_lateral", "N", "likewise, to the right of the heading"},
+    FigureColumn{"moment_aligning", "N·m", "of the ground on the wheel about the normal"},
+    FigureColumn{"moment_overturning", "N·m", "about the heading, in the ground below the center"},
+    FigureColumn{"torque", "N·m", "on the rim, clockwise: > 0 drives"},
+    FigureColumn{"height_m", "m", "of the center above y = 0, along the normal"},
+    FigureColumn{"speed", "m/s", "of the center"},
+    FigureColumn{"slip_ratio", "1", "as in history.csv"},
+    FigureColumn{"rolling_resistance", "N", "power lost over speed"},
+    FigureColumn{"cornering_stiffness", "N/rad", "-∂force_lateral/∂slip_angle there"},
+    FigureColumn{"stick_share", "1", "of the area of contact, what sticks"},
+    FigureColumn{"contact_area_m2", "m2", "mean over a sector's pass"},
+    FigureColumn{"pressure_max_pa", "Pa", "largest"},
+    FigureColumn{"shear_max_pa", "Pa", "largest"},
+    FigureColumn{"friction_power", "W", "taken by friction"},
+    FigureColumn{"energy_residual_relative", "1", "of the balance of powers"},
+    FigureColumn{"contact_residual_max", "1", "of the contact law"},
+    FigureColumn{"penetration_max_m", "m", "largest"},
+    FigureColumn{"strain_max", "1", "largest principal strain"},
+    FigureColumn{"jacobian_min", "1", "least volume of an element over that undeformed"},
+};
+
+double number(const Json& j, const char* key) {
+  return j.contains(key) && j[key].is_number() ? j[key].get<double>()
+                                               : std::numeric_limits<double>::quiet_NaN();
+}
+
+std::vector<double> solid_figures_in(const std::filesystem::path& directory,
+                                     const Window& /*none*/) {
+  return solid_steady_figures_of(io::read_json(directory / "run.json"));
+}
+
 std::vector<double> figures_in(const std::filesystem::path& directory, const Window& /*none*/) {
   return steady_figures_of(io::read_json(directory / "run.json"));
 }
@@ -38,10 +74,6 @@ std::vector<double> figures_in(const std::filesystem::path& directory, const Win
 
 std::vector<double> steady_figures_of(const Json& run) {
   const Json steady = run.value("steady", Json::object());
-  const auto number = [](const Json& j, const char* key) {
-    return j.contains(key) && j[key].is_number() ? j[key].get<double>()
-                                                 : std::numeric_limits<double>::quiet_NaN();
-  };
   const double stick = number(steady, "stick_length"), slip = number(steady, "slip_length");
   std::vector<double> figures;
   for (const char* key :
@@ -58,6 +90,30 @@ std::vector<double> steady_figures_of(const Json& run) {
 
 FigureTable steady_figures() noexcept {
   return {steady_columns, figures_in, false};
+}
+
+std::vector<double> solid_steady_figures_of(const Json& run) {
+  const Json steady = run.value("steady", Json::object());
+  const double stick = number(steady, "stick_area"), slip = number(steady, "slip_area");
+  std::vector<double> figures;
+  for (const char* key :
+       {"force_x", "force_y", "force_lateral", "moment_aligning", "moment_overturning", "torque",
+        "height", "speed", "slip_ratio", "rolling_resistance"})
+    figures.push_back(number(steady, key));
+  const Json by_angle =
+      steady.value("slopes", Json::object()).value("by_slip_angle", Json::object());
+  figures.push_back(-number(by_angle, "force_lateral"));
+  figures.push_back(stick / (stick + slip));
+  figures.push_back(stick + slip);
+  figures.push_back(number(steady, "pressure_max"));
+  figures.push_back(number(steady, "shear_max"));
+  figures.push_back(number(steady.value("power", Json::object()), "friction"));
+  add_figures_of_all(run, figures);
+  return figures;
+}
+
+FigureTable solid_steady_figures() noexcept {
+  return {solid_columns, solid_figures_in, false};
 }
 
 }  // namespace rondo::study

@@ -10,4 +10,8 @@ namespace rondo::study {
 /// Of what run.json says.
 [[nodiscard]] std::vector<double> steady_figures_of(const Json& run);
 
+/// Of a wheel in three dimensions.
+[[nodiscard]] FigureTable solid_steady_figures() noexcept;
+[[nodiscard]] std::vector<double> solid_steady_figures_of(const Json& run);
+
 }  // namespace rondo::study

@@ -41,6 +41,10 @@ struct Body {
 };
 
 Body make_body(const Case& c) {
+  if (is_solid(c))
+    throw case_error(c, c.section ? "section" : "disk.width",
+                     "modes are those of plane bodies, and this is a wheel in three dimensions",
+                     "a [disk] without disk.width; `rondo check` tells the largest frequency");
   Body b;
   b.warnings = c.warnings;
   if (c.rim && (c.rim->free_x || c.rim->free_y || c.rim->free_spin))

@@ -64,6 +64,10 @@ void check_run(const io::RunReader& run, const Case& c) {
   if (!run.is_motion())
     throw request_error("RUN", name, "a crush does not roll: there is no motion to reduce",
                         "runs of analysis.kind = \"dynamic\" or \"steady-rolling\"");
+  if (is_solid(c))
+    throw request_error("RUN", name,
+                        "the body is a wheel in three dimensions, and reduced models are plane",
+                        "runs of a [disk] without disk.width; rondo pod decomposes this one");
   if (c.mesh || c.free_rim || run.mesh().n_sectors == 0)
     throw request_error("RUN", name,
                         "the body has no equal sectors round a rim that holds it: its fields "

@@ -52,8 +52,9 @@ double number_in(const Json& j, const char* key) {
 bool is_case_of(const fs::path& directory, const Case& c) {
   const Case kept = kept_case(c);
   if (io::text_of(directory / "case.toml") != write_case(kept)) return false;
-  const bool is_copy = c.mesh && kept.mesh->file.is_relative();
-  return !is_copy || io::text_of(directory / kept.mesh->file) == io::text_of(c.mesh->file);
+  const MeshCase* const mesh = mesh_file_of(kept);
+  const bool is_copy = mesh && mesh->file.is_relative();
+  return !is_copy || io::text_of(directory / mesh->file) == io::text_of(mesh_file_of(c)->file);
 }
 
 bool run_is_there(const fs::path& directory, const Case& c) {

@@ -14,6 +14,7 @@
 
 #include "rondo/analysis/build/build.hpp"
 #include "rondo/analysis/build/memory.hpp"
+#include "rondo/case/solid/wheel_of.hpp"
 #include "rondo/core/memory_limits.hpp"
 #include "rondo/io/files.hpp"
 #include "rondo/io/h5/hash.hpp"
@@ -61,9 +62,10 @@ class MeshHashes {
  public:
   /// Empty where the case has a disk.
   const std::string& of(const Case& c) {
-    if (!c.mesh) return none_;
-    const auto [found, is_new] = hashes_.try_emplace(c.mesh->file);
-    if (is_new) found->second = hash_of(io::text_of(c.mesh->file));
+    const MeshCase* const mesh = mesh_file_of(c);
+    if (!mesh) return none_;
+    const auto [found, is_new] = hashes_.try_emplace(mesh->file);
+    if (is_new) found->second = hash_of(io::text_of(mesh->file));
     return found->second;
   }
 
@@ -75,10 +77,11 @@ class MeshHashes {
 /// Before a mesh file is read: some bytes of memory for each of its own.
 std::size_t guessed_memory(const Case& c) {
   constexpr std::size_t per_byte = 60;
-  if (!c.mesh) return mesh_memory(mesh::n_disk_nodes(c.disk));
+  if (is_generated(c)) return mesh_memory(n_generated_nodes(c));
   std::error_code error;
-  const auto size = fs::file_size(c.mesh->file, error);
-  return error ? 0 : per_byte * static_cast<std::size_t>(size);
+  const auto size = fs::file_size(mesh_file_of(c)->file, error);
+  const std::size_t bytes = error ? 0 : per_byte * static_cast<std::size_t>(size);
+  return c.section ? bytes * static_cast<std::size_t>(c.section->sectors) : bytes;
 }
 
 void read_members(const SweepStudy& study, PlannedSweep& plan, MemberFaults& faults) {

@@ -1,0 +1,163 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "rondo/analysis/build/solid/solid_body.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "rondo/analysis/build/rim.hpp"
+#include "rondo/case/case_keys.hpp"
+#include "rondo/fem/solid/solid_sector.hpp"
+
+namespace rondo::study {
+namespace {
+
+using dynamics::GroundAxes;
+using dynamics::Model;
+
+std::size_t at(int index) noexcept {
+  return static_cast<std::size_t>(index);
+}
+
+const mesh::Surface& surface_of(const Case& c, const mesh::Mesh& mesh, const std::string& key,
+                                const std::string& name) {
+  std::string names;
+  for (const mesh::Surface& surface : mesh.surfaces) {
+    if (surface.name == name) return surface;
+    names += (names.empty() ? "" : ", ") + fmt::format("\"{}\"", surface.name);
+  }
+  throw case_error(c, key, "there is no curve of this name in the section of the wheel", names);
+}
+
+/// What is held feels no pressure.
+void refuse_held(const Case& c, const std::string& key, const mesh::Mesh& mesh,
+                 const mesh::Surface& surface) {
+  const std::vector<char> held = mesh::clamped_flags(mesh);
+  const bool all_held = std::ranges::all_of(surface.faces, [&](const mesh::Face& face) {
+    return std::ranges::all_of(face, [&](int node) { return held[at(node)] != 0; });
+  });
+  if (!all_held) return;
+  throw case_error(
+      c, key,
+      fmt::format("every node of \"{}\" is held: a pressure there does nothing", surface.name),
+      c.section ? fmt::format("a curve that is not held; section.clamped = \"{}\" "
+                              "holds this one",
+                              c.section->mesh.clamped)
+                : "\"tread\", \"left\" or \"right\"; for a tyre that is inflated a "
+                  "[section] with a cavity");
+}
+
+void add_ground(const Case& c, const mesh::Mesh& mesh, Model& model) {
+  if (!c.ground) return;
+  model.contact.emplace(
+      dynamics::ContactModel{contact::Ground(c.ground->shape),
+                             {c.ground->friction, c.ground->restitution, c.ground->impact},
+                             mesh.boundary,
+                             mesh.tributary,
+                             {}});
+}
+
+void make_solid_model(const Case& c, Setup& s) {
+  Model& model = s.model;
+  model.scheme = c.time.scheme;
+  model.reference = s.mesh.coordinates;
+  model.mass = fem::solid_mass(s.mesh, s.materials);
+  model.free = fem::free_nodes(s.mesh);
+  model.stiffness_operator = dynamics::StiffnessOperator::cyclic;
+  model.stiffness_damping = c.damping.stiffness;
+  add_rim(c, s.mesh, model);
+  add_ground(c, s.mesh, model);
+  dynamics::SolidBody& body = model.solid.emplace();
+  body.axial = s.mesh.axial;
+  body.sector = fem::assemble_solid_sector(s.mesh, s.materials);
+  add_solid_pressures(c, s.mesh, body);
+}
+
+/// The rim moves in its plane: what it feels of K is that of no axial displacement.
+dynamics::CriticalStep step_with_solid_rim(const Model& model, const dynamics::CriticalStep& held,
+                                           dynamics::LaggedDamping damping) {
+  const std::vector<double> none(model.n_nodes(), 0.0);
+  std::vector<double> axial(model.n_nodes());
+  const auto product = [&](std::span<const Vec2> u, std::span<Vec2> out) {
+    fem::apply(model.solid->sector, u, none, out, axial);
+  };
+  return step_with_rim(model, product, held, damping);
+}
+
+void find_solid_step(const Case& c, Setup& s) {
+  const Model& m = s.model;
+  const dynamics::LaggedDamping damping{c.damping.stiffness, c.rim ? c.damping.mass : 0.0};
+  const dynamics::CriticalStep held = dynamics::critical_step(
+      m.solid->sector, m.mass, damping, fem::solid_eigenvalue_bound(s.mesh, s.materials));
+  s.critical_plain = held.step;
+  s.critical = m.rim ? step_with_solid_rim(m, held, damping) : held;
+}
+
+double width_of(const mesh::Mesh& mesh) {
+  const auto [left, right] = std::ranges::minmax(mesh.axial);
+  return right - left;
+}
+
+std::string range_text(const dynamics::Table& table) {
+  double low = table.at(0.0), high = low;
+  for (const auto& point : table.points()) {
+    low = std::min(low, point[1]);
+    high = std::max(high, point[1]);
+  }
+  constexpr double degrees = 57.29577951308232;
+  if (low == high) return fmt::format("{:.4g} rad ({:.4g}°)", low, degrees * low);
+  return fmt::format("{:.4g} to {:.4g} rad ({:.4g} to {:.4g}°)", low, high, degrees * low,
+                     degrees * high);
+}
+
+}  // namespace
+
+void add_solid_pressures(const Case& c, const mesh::Mesh& mesh, dynamics::SolidBody& body) {
+  for (std::size_t k = 0; k < c.pressures.size(); ++k) {
+    const std::string key = item_of("load.pressure", k) + ".curve";
+    const mesh::Surface& surface = surface_of(c, mesh, key, c.pressures[k].curve);
+    refuse_held(c, key, mesh, surface);
+    body.pressures.push_back(
+        {fem::sector_pressure(mesh, body.sector, surface.faces), c.pressures[k].pressure});
+  }
+}
+
+void make_solid_body(const Case& c, int threads, Setup& s) {
+  make_solid_model(c, s);
+  choose_threads(s, threads);
+  find_solid_step(c, s);
+}
+
+std::vector<double> solid_depths(const Setup& s) {
+  const Model& m = s.model;
+  const GroundAxes axes(m.motion.camber);
+  const Vec2 center = m.motion.center(0.0);
+  std::vector<double> depths;
+  for (const int node : m.contact->nodes) {
+    const std::size_t k = at(node);
+    const double axial = m.solid->axial[k] + (s.axial.u.empty() ? 0.0 : s.axial.u[k]);
+    const Vec3 arm{m.reference[k] + s.displacement[k], axial};
+    depths.push_back(-m.contact->ground.distance(center + axes.plane(arm)));
+  }
+  return depths;
+}
+
+void describe_solid(const Setup& s, Json& json) {
+  json["dimensions"] = 3;
+  json["width"] = width_of(s.mesh);
+  json["sectors"] = s.mesh.n_sectors;
+  json["camber"] = s.model.motion.camber;
+}
+
+void tell_solid_figures(const Case& c, Setup& s) {
+  const std::size_t local = s.model.solid->sector.n_local();
+  s.figures.emplace_back("wheel", fmt::format("{} sectors of {} dofs, {:.6g} m wide",
+                                              s.mesh.n_sectors, 3 * local, width_of(s.mesh)));
+  if (c.motion.slip_angle.largest() != 0.0)
+    s.figures.emplace_back("slip angle", range_text(c.motion.slip_angle));
+  if (c.motion.camber != 0.0)
+    s.figures.emplace_back("camber", range_text(dynamics::Table(c.motion.camber)));
+}
+
+}  // namespace rondo::study

@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: BSD-3-Clause
+/// @file  From a case to the model of a wheel in three dimensions (docs/wheel3d.md).
+#pragma once
+#include "rondo/analysis/build/build.hpp"
+#include "rondo/output/run_files.hpp"
+
+namespace rondo::study {
+
+/// Model, critical step and figures of s.mesh, which is solid, as its materials are.
+/// @throws InputError: as add_pressures()
+void make_solid_body(const Case& c, int threads, Setup& s);
+
+/// How deep the nodes that may touch the ground are in it at the start [m], in the order of the
+/// candidates; < 0: above it.
+std::vector<double> solid_depths(const Setup& s);
+
+/// The pressures of the case on its surfaces. @throws InputError: no such curve in the section, or
+/// one that is held
+void add_solid_pressures(const Case& c, const mesh::Mesh& mesh, dynamics::SolidBody& body);
+
+/// What `rondo check` says of it.
+void tell_solid_figures(const Case& c, Setup& s);
+/// What run.json says of it.
+void describe_solid(const Setup& s, Json& json);
+
+}  // namespace rondo::study

@@ -1,0 +1,17 @@
+// SPDX-License-Identifier: BSD-3-Clause
+/// @file  The mesh of a wheel in three dimensions, generated or from a section in a file.
+#pragma once
+#include <string>
+#include <vector>
+
+#include "rondo/case/case.hpp"
+#include "rondo/mesh/mesh.hpp"
+
+namespace rondo::study {
+
+/// @param warnings of the reader, added for the user; may be null. @pre is_solid(c)
+/// @throws InputError: what build_mesh() refuses; a section with triangles, with nodes at the axle
+/// or beyond, or with a part that nothing holds
+mesh::Mesh build_wheel(const Case& c, std::vector<std::string>* warnings);
+
+}  // namespace rondo::study

@@ -1,0 +1,265 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "rondo/analysis/steady/solid_steady_state.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "rondo/fem/solid/solid_sector.hpp"
+
+namespace rondo::study {
+namespace {
+
+using contact::Status;
+using Eigen::Index;
+
+int wrapped(int value, int count) noexcept {
+  return (value % count + count) % count;
+}
+
+double floor_of(const Case& c) {
+  return c.ground->shape.profile.front().y;
+}
+
+statics::SolidRollingDrive drive_of(const Case& c, const SolidSteadyBody& body) {
+  const AnalysisCase& a = c.analysis;
+  statics::SolidRollingDrive d;
+  d.height = c.motion.height.at(0.0) - floor_of(c);
+  d.speed = c.motion.speed.at(0.0);
+  if (a.traction || a.torque) d.speed = c.motion.angular_velocity.at(0.0) * body.radius;
+  d.slip_angle = c.motion.slip_angle.at(0.0);
+  d.friction = c.ground->friction;
+  d.load = a.load;
+  d.traction = a.traction;
+  d.torque = a.torque;
+  return d;
+}
+
+statics::SlipDifference slip_of(const Case& c) {
+  return c.analysis.slip == RollingSlip::bdf2 ? statics::SlipDifference::bdf2
+                                              : statics::SlipDifference::upwind;
+}
+
+}  // namespace
+
+SolidSteadyState::SolidSteadyState(const Case& c, const SolidSteadyBody& body)
+    : case_(c),
+      body_(body),
+      window_(*body.harmonics, slip_of(c), c.motion.camber, c.motion.gravity.at(0.0)),
+      drive_(drive_of(c, body)),
+      candidate_of_(body.mesh.n_nodes()),
+      sums_(static_cast<std::size_t>(c.analysis.samples_per_sector)) {
+  for (std::size_t k = 0; k < body.mesh.boundary.size(); ++k)
+    candidate_of_[static_cast<std::size_t>(body.mesh.boundary[k])] = k;
+  solve();
+  refuse();
+  if (solution_.end == statics::RollingEnd::solved) sum_up();
+}
+
+void SolidSteadyState::solve() {
+  solution_ = statics::solve_rolling(window_, drive_);
+  if (solution_.end != statics::RollingEnd::solved) return;
+  spectrum_ = statics::spectrum_of(window_, solution_);
+  power_ = statics::rolling_power(window_, solution_, spectrum_);
+  u_ = window_.harmonics().fields(spectrum_, false);
+}
+
+void SolidSteadyState::refuse() const {
+  const AnalysisCase& a = case_.analysis;
+  if (solution_.end == statics::RollingEnd::no_contact) {
+    if (a.load)
+      throw case_error(case_, "analysis.load", "no contact was found that bears it",
+                       "a smaller load: one that presses the wheel in by a share of its wall");
+    throw case_error(
+        case_, "motion.height",
+        fmt::format("nothing touches: the center is {:.6g} m above the ground", drive_.height),
+        fmt::format("less than {:.6g} m above the ground, the lowest place of the wheel as the "
+                    "spin deforms it",
+                    window_.lowest()));
+  }
+  if (solution_.end == statics::RollingEnd::sliding)
+    throw case_error(case_, a.torque ? "analysis.torque" : "analysis.traction",
+                     "the whole contact slides, and no speed follows from it: friction bears no "
+                     "more",
+                     drive_.friction == 0.0
+                         ? "motion.speed instead, as no traction tells it without friction; or "
+                           "ground.friction above 0"
+                         : "nearer to 0, or a smaller motion.slip_angle: both share what friction "
+                           "bears; or motion.speed instead");
+  if (solution_.end == statics::RollingEnd::solved && is_generated(case_) &&
+      solution_.height <= case_.disk.inner_radius)
+    throw case_error(case_, a.load ? "analysis.load" : "motion.height",
+                     fmt::format("the ground is within the rim: the center is {:.6g} m above it",
+                                 solution_.height),
+                     fmt::format("what leaves it well above the inner radius, {:.6g} m",
+                                 case_.disk.inner_radius));
+}
+
+std::string SolidSteadyState::trouble() const {
+  if (solution_.end != statics::RollingEnd::solved)
+    return fmt::format(
+        "the contact was not solved: {}, after {} Newton steps and {} sweeps; another "
+        "analysis.samples_per_sector (1 to 8, fewer first){}{}, a smaller ground.friction{}",
+        std::isfinite(solution_.residual)
+            ? fmt::format("residual {:.3g}, bound {:.0e}", solution_.residual,
+                          statics::solid_residual_bound)
+            : "no set of contacts came to rest",
+        solution_.newton_steps, solution_.sweeps,
+        case_.analysis.massless_contact ? "" : ", analysis.massless_contact = true",
+        case_.analysis.slip == RollingSlip::bdf2 ? ", analysis.slip = \"upwind\"" : "",
+        case_.analysis.load ? " or analysis.load" : "");
+  if (!(power_.residual <= residual_bound))
+    return fmt::format("the power does not balance: relative residual {:.3g}, bound {:.0e}",
+                       power_.residual, residual_bound);
+  return {};
+}
+
+double SolidSteadyState::resistance() const noexcept {
+  if (solution_.speed == 0.0) return std::numeric_limits<double>::quiet_NaN();
+  const statics::SolidRollingForces& f = solution_.forces;
+  const double along =
+      f.heading * std::cos(drive_.slip_angle) + f.lateral * std::sin(drive_.slip_angle);
+  return (-spin() * torque() - solution_.speed * along) / std::abs(solution_.speed);
+}
+
+/// Of the speed along the heading.
+double SolidSteadyState::slip_ratio() const noexcept {
+  return dynamics::slip_ratio(-spin() * body_.radius,
+                              solution_.speed * std::cos(drive_.slip_angle));
+}
+
+SolidSteadyState::Where SolidSteadyState::where(std::size_t pair) const {
+  const statics::RollingPair& p = window_.pairs()[pair];
+  const statics::SolidHarmonics& h = window_.harmonics();
+  const int samples = h.body().samples, place = wrapped(sense() * p.sample, samples);
+  const int sector = wrapped(p.sample - sense() * place, h.turn()) / samples;
+  const auto row = static_cast<std::size_t>(h.body().candidates[p.candidate]);
+  return {place, candidate_of_[body_.sector.node(row, static_cast<std::size_t>(sector))]};
+}
+
+Vec3 SolidSteadyState::force(std::size_t pair) const {
+  const auto row = static_cast<Index>(3 * pair);
+  return {solution_.force[row], solution_.force[row + 1], solution_.force[row + 2]};
+}
+
+double SolidSteadyState::slip(std::size_t pair) const {
+  return solution_.gap_and_slip.segment<2>(static_cast<Index>(3 * pair + 1)).norm();
+}
+
+void SolidSteadyState::add(std::size_t pair, double share, SolidSteadySums& s) const {
+  const statics::GroundFrame& ground = window_.problem().ground;
+  const auto row = static_cast<Index>(3 * pair), place = static_cast<Index>(2 * pair);
+  const Vec3 r = force(pair), f = ground.to_wheel(r);
+  const double gap = solution_.gap_and_slip[row];
+  const Vec3 arm = ground.to_wheel({gap, solution_.place[place], solution_.place[place + 1]});
+  const double tributary = body_.mesh.tributary[where(pair).candidate];
+  const bool sticks = solution_.status[pair] == Status::stick;
+  s.force += share * r;
+  s.moment += share * cross(arm, f);
+  s.torque += share * cross(arm - solution_.height * ground.normal, f).z;
+  ++s.nodes;
+  s.sticking += sticks ? 1 : 0;
+  (sticks ? s.stick_area : s.slip_area) += share * tributary;
+  s.pressure = std::max(s.pressure, r.x / tributary);
+  s.shear = std::max(s.shear, std::hypot(r.y, r.z) / tributary);
+  s.friction -= share * force(pair).y * solution_.gap_and_slip[row + 1] +
+                share * force(pair).z * solution_.gap_and_slip[row + 2];
+  s.slip = std::max(s.slip, slip(pair));
+  s.penetration = std::max(s.penetration, -gap);
+}
+
+void SolidSteadyState::sum_up() {
+  const double share = 1.0 / window_.harmonics().body().samples;
+  for (std::size_t j = 0; j < window_.pairs().size(); ++j) {
+    if (!(force(j).x > 0.0)) continue;
+    add(j, 1.0, sums_[static_cast<std::size_t>(where(j).place)]);
+    add(j, share, mean_);
+  }
+}
+
+const SolidSteadySums& SolidSteadyState::sums(int place) const {
+  return sums_[static_cast<std::size_t>(place)];
+}
+
+HistoryRecord SolidSteadyState::record(int place, const Snapshot& now) const {
+  const SolidSteadySums& s = sums(place);
+  HistoryRecord h;
+  h.time = now.time;
+  h.angle = now.angle;
+  h.center = now.center;
+  h.lateral = now.lateral;
+  h.force = {s.force.y, s.force.x};
+  h.force_lateral = s.force.z;
+  h.torque = s.torque;
+  h.moment_aligning = dot(s.moment, window_.problem().ground.normal);
+  h.moment_overturning = dot(s.moment, window_.problem().ground.heading);
+  h.nodes = s.nodes;
+  h.sticking = s.sticking;
+  h.contact_length = s.stick_area + s.slip_area;
+  h.penetration = s.penetration;
+  h.slip_ratio = slip_ratio();
+  h.slip_angle = drive_.slip_angle;
+  std::vector<Vec2> ku(now.u.size());
+  std::vector<double> axial(now.u.size());
+  fem::apply(body_.sector, now.u, now.axial_u, ku, axial);
+  for (std::size_t i = 0; i < now.u.size(); ++i) {
+    h.balance.strain += 0.5 * (dot(now.u[i], ku[i]) + now.axial_u[i] * axial[i]);
+    h.balance.kinetic +=
+        0.5 * body_.mass[i] * (dot(now.v[i], now.v[i]) + now.axial_v[i] * now.axial_v[i]);
+  }
+  return h;
+}
+
+/// Polar components at a place into fixed ones of all nodes, times a number.
+void SolidSteadyState::unroll(const Eigen::MatrixXd& field, int place, double by,
+                              std::vector<Vec2>& plane, std::vector<double>& axial) const {
+  const int samples = window_.harmonics().body().samples;
+  plane.assign(body_.mesh.n_nodes(), {});
+  axial.assign(body_.mesh.n_nodes(), 0.0);
+  for (int j = 0; j < body_.sector.n_sectors; ++j) {
+    const auto sector = static_cast<std::size_t>(j);
+    const Index m = wrapped(j * samples + sense() * place, window_.harmonics().turn());
+    const Complex turn = by * body_.sector.turn[sector];
+    for (std::size_t a = 0; a < body_.sector.n_local(); ++a) {
+      const auto row = static_cast<Index>(3 * a);
+      const std::size_t node = body_.sector.node(a, sector);
+      plane[node] = turn * Vec2{field(row, m), field(row + 1, m)};
+      axial[node] = by * field(row + 2, m);
+    }
+  }
+}
+
+void SolidSteadyState::displace(int place, Snapshot& s) const {
+  unroll(u_, place, 1.0, s.u, s.axial_u);
+}
+
+void SolidSteadyState::fill(int place, Snapshot& s) {
+  if (rate_.size() == 0) rate_ = window_.harmonics().fields(spectrum_, true);
+  s.time = s.time_velocity = place * sample_time();
+  s.angle = s.angle_velocity = spin() * s.time;
+  const double way = solution_.speed * s.time;
+  s.center = {case_.motion.start_x + way * std::cos(drive_.slip_angle),
+              floor_of(case_) + solution_.height};
+  s.lateral = way * std::sin(drive_.slip_angle);
+  displace(place, s);
+  unroll(rate_, place, spin(), s.v, s.axial_v);
+  s.contacts.clear();
+  constexpr Vec2 normal{0.0, 1.0};  // along t1 and n
+  for (std::size_t k = 0; k < window_.pairs().size(); ++k) {
+    const Where w = where(k);
+    const Vec3 r = force(k), fixed = window_.problem().ground.to_wheel(r);
+    if (w.place == place && r.x > 0.0)
+      s.contacts.push_back({.candidate = w.candidate,
+                            .force = to_frame(normal, Vec2{r.y, r.x}),
+                            .force_fixed = fixed.plane(),
+                            .slip = slip(k),
+                            .sticks = solution_.status[k] == Status::stick,
+                            .lateral = r.z,
+                            .fixed_axial = fixed.z});
+  }
+  std::ranges::sort(s.contacts, {}, &ContactForce::candidate);
+}
+
+}  // namespace rondo::study

@@ -1,0 +1,91 @@
+// SPDX-License-Identifier: BSD-3-Clause
+/// @file  Steady rolling of a case in three dimensions, solved: forces, power, and the fields at
+/// each place of a sector's pass (docs/wheel3d.md).
+#pragma once
+#include <string>
+#include <vector>
+
+#include "rondo/analysis/steady/solid_steady_body.hpp"
+#include "rondo/output/columns.hpp"
+#include "rondo/output/run_files.hpp"
+#include "rondo/output/snapshot.hpp"
+#include "rondo/statics/steady_solid/solid_power.hpp"
+
+namespace rondo::study {
+
+/// Of the contact while a sector is at one place, or as means over its pass.
+struct SolidSteadySums {
+  Vec3 force;   ///< of the ground, along n, t1 and t2                                     [N]
+  Vec3 moment;  ///< about the center's projection on the ground, axes of the wheel      [N·m]
+  double torque = 0.0;                       ///< about the axle, counter-clockwise      [N·m]
+  int nodes = 0, sticking = 0;               ///< not of means
+  double stick_area = 0.0, slip_area = 0.0;  ///< tributary areas, summed                 [m²]
+  double pressure = 0.0, shear = 0.0;        ///< largest                                 [Pa]
+  double friction = 0.0;                     ///< power taken by friction                  [W]
+  double slip = 0.0;                         ///< largest                                [m/s]
+  double penetration = 0.0;                  ///< largest                                  [m]
+};
+
+class SolidSteadyState {
+ public:
+  /// Solves. @throws InputError: nothing touches; the speed of what slides as a whole is asked for.
+  /// @pre the body has its harmonics, and outlives the object
+  SolidSteadyState(const Case& c, const SolidSteadyBody& body);
+
+  /// What is wrong; empty: solved.
+  [[nodiscard]] std::string trouble() const;
+  [[nodiscard]] const statics::SolidRollingSolution& solution() const noexcept { return solution_; }
+  [[nodiscard]] const statics::RollingPower& power() const noexcept { return power_; }
+  [[nodiscard]] const SolidSteadySums& mean() const noexcept { return mean_; }
+  /// Of the rim, clockwise: what keeps the spin constant [N·m].
+  [[nodiscard]] double torque() const noexcept { return solution_.forces.torque; }
+  /// Power lost over speed: (ω T - V·F) / |V|; NaN where V is 0 [N].
+  [[nodiscard]] double resistance() const noexcept;
+  [[nodiscard]] double slip_ratio() const noexcept;
+  /// Forces, height, speed and slip, for the user.
+  [[nodiscard]] std::vector<std::string> notes() const;
+  /// Length of a pass over the number of its places [s].
+  [[nodiscard]] double sample_time() const noexcept { return window_.time(); }
+
+  /// While sector 0 is `place` samples beyond the lowest point, in the sense of the spin.
+  [[nodiscard]] const SolidSteadySums& sums(int place) const;
+  /// @param now as filled for it
+  [[nodiscard]] HistoryRecord record(int place, const Snapshot& now) const;
+  void fill(int place, Snapshot& snapshot);
+  /// Displacements alone.
+  void displace(int place, Snapshot& snapshot) const;
+  /// For run.json.
+  [[nodiscard]] Json describe() const;
+
+ private:
+  void solve();
+  void refuse() const;
+  void sum_up();
+  void add(std::size_t pair, double share, SolidSteadySums& sums) const;
+  void unroll(const Eigen::MatrixXd& field, int place, double by, std::vector<Vec2>& plane,
+              std::vector<double>& axial) const;
+  [[nodiscard]] int sense() const noexcept { return spin() > 0.0 ? 1 : -1; }
+  [[nodiscard]] double spin() const noexcept { return body_.harmonics->body().spin; }
+  /// Where a pair is touched: place, and number in mesh.boundary.
+  struct Where {
+    int place = 0;
+    std::size_t candidate = 0;
+  };
+  [[nodiscard]] Where where(std::size_t pair) const;
+  [[nodiscard]] Vec3 force(std::size_t pair) const;
+  [[nodiscard]] double slip(std::size_t pair) const;
+
+  const Case& case_;
+  const SolidSteadyBody& body_;
+  statics::SolidWindow window_;
+  statics::SolidRollingDrive drive_;
+  statics::SolidRollingSolution solution_;
+  statics::SolidHarmonics::Block spectrum_;
+  statics::RollingPower power_;
+  Eigen::MatrixXd u_, rate_;               ///< (3 n_local, L); rates once a place is filled
+  std::vector<std::size_t> candidate_of_;  ///< (n) place in mesh.boundary
+  std::vector<SolidSteadySums> sums_;      ///< (P)
+  SolidSteadySums mean_;
+};
+
+}  // namespace rondo::study

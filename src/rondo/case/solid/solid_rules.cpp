@@ -1,0 +1,244 @@
+// SPDX-License-Identifier: BSD-3-Clause
+/// What a wheel in three dimensions is made of and what it does not go with, by the case alone
+/// (docs/wheel3d.md).
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "rondo/case/case_rules.hpp"
+#include "rondo/case/solid/wheel_of.hpp"
+
+namespace rondo::study {
+namespace {
+
+constexpr std::string_view wheel = "a wheel in three dimensions";
+
+void refuse(CaseValues& in, std::string_view key, std::string why, std::string instead) {
+  if (in.good({key})) in.fault(key, std::move(why), std::move(instead));
+}
+
+/// Keys that a plane body has no use for.
+void check_plane(CaseValues& in) {
+  if (in.has("disk.width") || in.has_table("section")) return;  // at fault
+  for (const std::string_view key :
+       {"disk.crown_radius", "disk.mesh.axial", "disk.tread.circumferential_grooves",
+        "motion.slip_angle", "motion.camber"})
+    if (in.has(key))
+      refuse(in, key, fmt::format("means something to {} alone, and the body is plane", wheel),
+             "disk.width beside it, which gives the disk a width; or a [section]");
+}
+
+/// Else the tread would be none.
+void check_lateral_grooves(CaseValues& in, const Case& c) {
+  constexpr std::string_view key = "disk.tread.groove_columns";
+  if (is_generated(c) && c.disk.tread && c.wheel.grooves.empty() && in.has(key) &&
+      c.disk.tread->groove_columns == 0)
+    refuse(in, key, "leaves the tread without grooves",
+           "1 to 100000; 0 with disk.tread.circumferential_grooves alone, of a wheel with a width");
+}
+
+// The body --------------------------------------------------------------------------------------
+
+void check_other_bodies(CaseValues& in) {
+  if (!in.has_table("section")) return;
+  for (const std::string_view other : {"disk", "mesh"})
+    if (in.has_table(other))
+      in.fault("section", fmt::format("stands beside a [{}]: the body is one or the other", other),
+               fmt::format("[{}] or [section]", other));
+}
+
+void check_crown(CaseValues& in, const Case& c) {
+  constexpr std::string_view key = "disk.crown_radius";
+  if (!c.wheel.crown_radius ||
+      !in.good({key, "disk.width", "disk.outer_radius", "disk.inner_radius"}))
+    return;
+  const double half = 0.5 * *c.wheel.width, radius = *c.wheel.crown_radius;
+  const double wall =
+      c.disk.outer_radius - c.disk.inner_radius - (c.disk.tread ? c.disk.tread->depth : 0.0);
+  if (radius < half)
+    return in.fault(key, "is less than half the width: the tread would bend back under the wheel",
+                    fmt::format(">= disk.width / 2 = {:.6g}", half));
+  const double drop = radius - std::sqrt(radius * radius - half * half);
+  if (!(drop < wall))
+    in.fault(key,
+             fmt::format("the tread would come down by {:.4g} m towards the sides, and the wall is "
+                         "{:.4g} m thick",
+                         drop, wall),
+             fmt::format("> {:.4g}, or a smaller disk.width",
+                         (half * half + wall * wall) / (2.0 * wall)));
+}
+
+bool is_in(const std::vector<std::array<double, 2>>& grooves, double z) {
+  return std::ranges::any_of(grooves, [z](const std::array<double, 2>& groove) {
+    return std::abs(z - groove[0]) < 0.5 * groove[1];
+  });
+}
+
+/// Something of the tread is left. @pre enough elements over the width
+bool leaves_lands(const mesh::Wheel& w) {
+  const std::vector<double> lines = mesh::axial_lines(w);
+  for (std::size_t k = 1; k < lines.size(); ++k)
+    if (!is_in(w.grooves, 0.5 * (lines[k - 1] + lines[k]))) return true;
+  return false;
+}
+
+void check_grooves(CaseValues& in, const Case& c) {
+  constexpr std::string_view key = "disk.tread.circumferential_grooves";
+  if (c.wheel.grooves.empty() || !in.good({key, "disk.width", "disk.mesh.axial"})) return;
+  const double half = 0.5 * *c.wheel.width;
+  for (std::size_t k = 0; k < c.wheel.grooves.size(); ++k) {
+    const auto& [z, width] = c.wheel.grooves[k];
+    if (!(width > 0.0))
+      in.fault_at_item(key, static_cast<int>(k), "the groove has no width: [z, width], width > 0");
+    else if (!(std::abs(z) < half))
+      in.fault_at_item(key, static_cast<int>(k),
+                       fmt::format("the groove lies beside the wheel: its middle z is above "
+                                   "{:.4g} and below {:.4g} m",
+                                   -half, half));
+  }
+  if (!in.good({key})) return;
+  const mesh::Wheel w = wheel_of(c);
+  if (const int least = mesh::least_axial(w); c.wheel.axial < least)
+    in.fault("disk.mesh.axial",
+             "the sides of the grooves around the wheel are faces of elements, which are too few",
+             fmt::format(">= {}", least));
+  else if (!leaves_lands(w))
+    in.fault(key, "the grooves leave nothing of the tread", "lands between them");
+}
+
+/// The mesh must be numbered by int.
+void check_size(CaseValues& in, const Case& c) {
+  if (!in.good({"disk.mesh.radial", "disk.mesh.circumferential", "disk.mesh.axial",
+                "disk.tread.pitches", "disk.tread.land_columns", "disk.tread.groove_columns",
+                "disk.tread.layers"}))
+    return;
+  constexpr std::size_t most_nodes = std::size_t{1} << 31;
+  const std::size_t plane = mesh::n_disk_nodes(c.disk);
+  if (plane < most_nodes && n_generated_nodes(c) >= most_nodes)
+    in.fault(in.has("disk.mesh.axial") ? "disk.mesh.axial" : largest_count(c.disk),
+             fmt::format("the mesh would have {} nodes", n_generated_nodes(c)),
+             fmt::format("fewer than {} nodes", most_nodes));
+}
+
+void check_body(CaseValues& in, const Case& c) {
+  check_other_bodies(in);
+  if (c.section) return;
+  if (c.free_rim)
+    refuse(in, "disk.rim", fmt::format("{} is held by its rim", wheel),
+           "\"bonded\"; or no disk.width: free bodies are plane");
+  check_crown(in, c);
+  check_grooves(in, c);
+  check_size(in, c);
+}
+
+// What it does not go with ----------------------------------------------------------------------
+
+void check_analysis_kind(CaseValues& in, const Case& c) {
+  constexpr std::string_view key = "analysis.kind";
+  if (c.analysis.kind == AnalysisKind::crush)
+    refuse(in, key, fmt::format("a crush is of plane bodies, not of {}", wheel),
+           "\"dynamic\" with motion.angular_velocity = 0 and a table of motion.height that comes "
+           "down slowly; or no disk.width");
+}
+
+void check_material(CaseValues& in, const Case& c) {
+  if (has_rubber(c))
+    refuse(in, "material.model", fmt::format("{} is of linear materials alone", wheel),
+           "\"linear\", with b-bar integration near poissons_ratio = 0.5; or no disk.width: rubber "
+           "at finite strain is plane");
+  if (c.material.plane == fem::Plane::stress)
+    refuse(in, "material.plane", fmt::format("{} is in no plane state", wheel),
+           "no such key: its sides are free, which a narrow one shows as plane stress does");
+  if (c.stress_stiffening != StressStiffening::none)
+    refuse(in, "material.stress_stiffening",
+           fmt::format("stress stiffening is of plane bodies, not of {}", wheel), "\"none\"");
+}
+
+void check_ground(CaseValues& in, const Case& c) {
+  if (!c.ground || !in.good({"ground", "ground.profile", "ground.fillet"})) return;
+  const bool sharp =
+      c.ground->shape.fillet == 0.0 && !contact::Ground(c.ground->shape).corners().empty();
+  if (sharp)
+    in.fault("ground.profile",
+             fmt::format("has sharp convex corners, edges that touch between nodes: {} knows "
+                         "contact at its nodes alone",
+                         wheel),
+             "ground.fillet > 0, which rounds them: about the size of an element");
+}
+
+void check_steps(CaseValues& in, const Case& c) {
+  if (c.time.scheme != Scheme::symplectic)
+    refuse(in, "time.scheme", fmt::format("{} moves by the scheme \"symplectic\" alone", wheel),
+           "\"symplectic\"; or no disk.width");
+  if (c.solver_operator == "sparse")
+    refuse(in, "solver.operator", fmt::format("K of {} is taken sector by sector", wheel),
+           "\"auto\" or \"cyclic\"");
+  if (c.contact_mass != ContactMass::lumped)
+    refuse(in, "solver.contact_mass",
+           fmt::format("contact nodes without mass are plane, {} has none", wheel), "\"lumped\"");
+  if (!c.implicit.empty())
+    refuse(in, "solver.implicit[0]", fmt::format("implicit elements are plane, {} has none", wheel),
+           "no [[solver.implicit]]; a smaller step, or elements of more even size");
+}
+
+void check_contact_of_bodies(CaseValues& in, const Case& c) {
+  if (c.body_contact.between != BodyContact::none)
+    refuse(in, "contact.between", fmt::format("{} touches nothing but the ground", wheel),
+           "\"none\"; or no disk.width");
+}
+
+void check_start(CaseValues& in, const Case& c) {
+  if (c.initial.state == InitialState::steady_rolling)
+    refuse(in, "initial.state",
+           fmt::format("a start in steady rolling is of plane bodies, not of {}", wheel),
+           "\"stationary\", and a run long enough to settle");
+  constexpr std::string_view gradient = "initial.displacement_gradient";
+  for (const auto& row : c.initial.displacement_gradient)
+    if (row[0] != 0.0 || row[1] != 0.0)
+      return refuse(in, gradient, fmt::format("is of plane bodies, not of {}", wheel),
+                    "no such key; initial.velocity sets it in motion");
+}
+
+/// What a rim that loads move does not go with: see integrators/solid/solid_rim.hpp.
+void check_solid_rim(CaseValues& in, const Case& c) {
+  if (!c.rim) return;
+  if (c.rim->free_x && c.motion.slip_angle.largest() != 0.0)
+    refuse(in, "motion.slip_angle",
+           "with rim.free = \"speed\" nothing says how fast the wheel goes sideways",
+           "0; or a speed that is held: rim.free without \"speed\"");
+  if (c.rim->free_y && c.motion.camber != 0.0 && !c.pressures.empty())
+    refuse(
+        in, "motion.camber",
+        "with rim.free = \"height\" and a [[load.pressure]] the pressure's share on the rim, along "
+        "the axle, would lift the wheel or not, and is not known",
+        "0; or no [[load.pressure]]; or a height that is held");
+}
+
+void check_probes(CaseValues& in, const Case& c) {
+  if (!c.output.probes.empty())
+    in.fault("output.probe[0]",
+             fmt::format("a probe has its place in a plane body; {} has none", wheel),
+             "no [[output.probe]]; output.snapshots have every node");
+}
+
+}  // namespace
+
+void check_solid(CaseValues& in, Case& c) {
+  check_lateral_grooves(in, c);
+  if (!is_solid(c)) {
+    check_other_bodies(in);
+    return check_plane(in);
+  }
+  check_body(in, c);
+  check_analysis_kind(in, c);
+  check_material(in, c);
+  check_ground(in, c);
+  check_steps(in, c);
+  check_contact_of_bodies(in, c);
+  check_start(in, c);
+  check_solid_rim(in, c);
+  check_probes(in, c);
+}
+
+}  // namespace rondo::study
