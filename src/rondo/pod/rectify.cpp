@@ -36,6 +36,12 @@ Rings rings_of(const mesh::Mesh& mesh, const std::vector<int>& nodes) {
   return rings;
 }
 
+/// In (-π, π] by way of the direction: a remainder by the rounded 2π is wrong by 1e-16 each turn.
+double within_a_turn(double theta) {
+  const Vec2 direction = direction_at(theta);
+  return std::atan2(direction.y, direction.x);
+}
+
 }  // namespace
 
 Rings node_rings(const mesh::Mesh& mesh) {
@@ -98,6 +104,14 @@ void Rectifier::move_by_harmonics(std::span<Vec2> ring) {
   std::copy(work_.begin(), work_.end(), ring.begin());
 }
 
+void Rectifier::move_by_harmonics(std::span<double> ring) {
+  for (std::size_t k = 0; k < n_; ++k) work_[k] = {ring[k], 0.0};
+  fftw_execute(forward_);
+  for (std::size_t k = 0; k < n_; ++k) work_[k] = phase_[k] * work_[k];
+  fftw_execute(backward_);
+  for (std::size_t k = 0; k < n_; ++k) ring[k] = work_[k].x;
+}
+
 /// Each ring in its polar frames, where they turn with the field.
 template <class Move>
 void Rectifier::move(std::span<Vec2> values, Move&& move_ring) {
@@ -112,18 +126,35 @@ void Rectifier::move(std::span<Vec2> values, Move&& move_ring) {
   }
 }
 
+/// Sectors, 0 to n, by which a whole number of them moves a field round by the angle in (-π, π].
+std::ptrdiff_t Rectifier::whole_sectors(double angle) const noexcept {
+  const long pitches = std::lround(angle / turn * static_cast<double>(n_));
+  return pitches + (pitches < 0 ? static_cast<long>(n_) : 0);
+}
+
 void Rectifier::apply(double theta, std::span<Vec2> values) {
-  // In (-π, π] by way of the direction: a remainder by the rounded 2π is wrong by 1e-16 each turn.
-  const Vec2 direction = direction_at(theta);
-  const double angle = std::atan2(direction.y, direction.x);
+  const double angle = within_a_turn(theta);
   if (shift_ == Shift::fourier) {
     set_phases(angle);
     return move(values, [&](std::span<Vec2> ring) { move_by_harmonics(ring); });
   }
-  const long pitches = std::lround(angle / turn * static_cast<double>(n_));
-  const long sectors = pitches + (pitches < 0 ? static_cast<long>(n_) : 0);
+  const std::ptrdiff_t sectors = whole_sectors(angle);
   move(values,
        [&](std::span<Vec2> ring) { std::rotate(ring.begin(), ring.end() - sectors, ring.end()); });
+}
+
+void Rectifier::apply(double theta, std::span<double> values) {
+  RONDO_DEMAND(values.size() == n_ * n_rings_, values.size(), n_, n_rings_);
+  const double angle = within_a_turn(theta);
+  if (shift_ == Shift::fourier) set_phases(angle);
+  const std::ptrdiff_t sectors = whole_sectors(angle);
+  for (std::size_t r = 0; r < n_rings_; ++r) {
+    const std::span<double> ring = values.subspan(r * n_, n_);
+    if (shift_ == Shift::fourier)
+      move_by_harmonics(ring);
+    else
+      std::rotate(ring.begin(), ring.end() - sectors, ring.end());
+  }
 }
 
 void Rectifier::differentiate(std::span<Vec2> values) {

@@ -52,6 +52,11 @@ class Rectifier {
   /// In place. @param theta counter-clockwise angle of the turning frame [rad]
   /// @param values (n_rings * n_sectors) ring after ring, as Rings::point
   void apply(double theta, std::span<Vec2> values);
+  /// One number a point, as the axial components in three dimensions, which no turn about the axle
+  /// changes: moved only, each ring by itself, so that a block of rings has the bits of all of
+  /// them.
+  /// @param values (n_rings * n_sectors) ring after ring
+  void apply(double theta, std::span<double> values);
 
   /// D, the generator of T: dT/dθ = D T, harmonic k times -ik, Nyquist's times 0. Skew in the M
   /// product; commutes with T, J and K (docs/theory.md, 7.3). @pre Shift::fourier
@@ -62,6 +67,8 @@ class Rectifier {
   void set_phases(double theta);
   void set_rates();
   void move_by_harmonics(std::span<Vec2> ring);
+  void move_by_harmonics(std::span<double> ring);
+  [[nodiscard]] std::ptrdiff_t whole_sectors(double angle) const noexcept;
   template <class Move>
   void move(std::span<Vec2> values, Move&& move_ring);
 

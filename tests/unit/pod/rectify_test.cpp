@@ -185,6 +185,55 @@ TEST(Rectifier, TheInverseIsTheAdjoint) {
   }
 }
 
+namespace {
+
+/// T(θ) of numbers on the rings of a smooth disk.
+std::vector<double> moved_numbers(const Rings& rings, std::vector<double> values, double theta,
+                                  Shift shift) {
+  Rectifier rectifier(rings.n_sectors, rings.n_rings(), Components::cartesian, shift);
+  rectifier.apply(theta, std::span<double>(values));
+  return values;
+}
+
+}  // namespace
+
+TEST(Rectifier, NumbersAreMovedAsEachOfTwoScalars) {
+  for (const mesh::Mesh& m : meshes()) {
+    const Rings rings = node_rings(m);
+    const Field pair = random_field(m.n_nodes());
+    std::vector<double> first;
+    for (const Vec2& v : pair) first.push_back(v.x);
+    for (const Shift shift : {Shift::fourier, Shift::pitch})
+      for (const double theta : angles) {
+        Field both = pair;
+        Rectifier(rings.n_sectors, rings.n_rings(), Components::scalars, shift).apply(theta, both);
+        const std::vector<double> alone = moved_numbers(rings, first, theta, shift);
+        double before = 0.0, after = 0.0;
+        for (std::size_t k = 0; k < alone.size(); ++k) {
+          EXPECT_NEAR(alone[k], both[k].x, 2e-14);
+          before += first[k] * first[k];
+          after += alone[k] * alone[k];
+        }
+        EXPECT_NEAR(after, before, 1e-14 * before);  // on a ring all nodes have the same mass
+      }
+  }
+}
+
+TEST(Rectifier, NumbersOfARingHaveTheBitsOfTheWhole) {
+  const Rings rings = node_rings(treaded(9));
+  std::vector<double> values;
+  for (const Vec2& v : random_field(rings.point.size())) values.push_back(v.y);
+  const std::vector<double> whole = moved_numbers(rings, values, 0.7, Shift::fourier);
+  const auto n = static_cast<std::size_t>(rings.n_sectors);
+  for (std::size_t r = 0; r < rings.n_rings(); ++r) {
+    const auto from = values.begin() + static_cast<std::ptrdiff_t>(r * n);
+    std::vector<double> ring(from, from + static_cast<std::ptrdiff_t>(n));
+    Rectifier rectifier(rings.n_sectors, 1, Components::cartesian, Shift::fourier);
+    rectifier.apply(0.7, std::span<double>(ring));
+    for (std::size_t k = 0; k < n; ++k) EXPECT_EQ(ring[k], whole[r * n + k]);
+  }
+}
+
 TEST(Rectifier, IsAGroup) {
   for (const mesh::Mesh& m : meshes()) {
     const Rings rings = node_rings(m);

@@ -163,3 +163,47 @@ TEST(Travelling, AnglesBetweenTheSectors) {
       decompose_dense(snapshots(rectified(seen, Components::cartesian).fields), Method::direct);
   EXPECT_LT(moved.sigma[1], 1e-13 * moved.sigma[0]);
 }
+
+TEST(Travelling, ThreeComponentsHaveOneModeInTheRectifiedFrame) {
+  // As VectorsHaveOneMode..., with a third circulant: that of the axial component.
+  const auto plane = [](double phi) { return Vec2{bump(phi), -0.5 * bump(1.3 - phi)}; };
+  const auto axial = [](double phi) { return 0.8 * bump(phi - 0.4); };
+  Travelling seen = travelling(plane, Components::cartesian, n_sectors);
+  const std::size_t points = seen.fields[0].size();
+  const auto with_axial = [&](const Travelling& of, bool rectify) {
+    Rectifier rectifier(n_sectors, points / n_sectors, Components::cartesian, Shift::fourier);
+    const auto rows = static_cast<Index>(points);
+    Eigen::MatrixXd all(3 * rows, n_sectors);
+    all.topRows(2 * rows) = snapshots(of.fields);
+    for (int j = 0; j < n_sectors; ++j) {
+      std::vector<double> w;
+      for (std::size_t k = 0; k < points; ++k)
+        w.push_back(axial(sector_angle(static_cast<int>(k % n_sectors)) +
+                          of.angles[static_cast<std::size_t>(j)]) /
+                    (1.0 + static_cast<double>(k / n_sectors)));
+      if (rectify) rectifier.apply(of.angles[static_cast<std::size_t>(j)], std::span<double>(w));
+      all.col(j).tail(rows) = Eigen::Map<const Eigen::VectorXd>(w.data(), rows);
+    }
+    return decompose_dense(all, Method::direct);
+  };
+  const Decomposition turning = with_axial(seen, false);
+  const Decomposition moved = with_axial(rectified(seen, Components::cartesian), true);
+  EXPECT_GT(turning.sigma[10], 1e-3 * turning.sigma[0]);
+  EXPECT_LT(moved.sigma[1], 1e-12 * moved.sigma[0]);
+  EXPECT_EQ(moved.modes.cols(), 1);
+  EXPECT_NEAR(moved.energy, turning.energy, 1e-13 * turning.energy);
+
+  std::vector<double> p, q, w;
+  double weights = 0.0;
+  for (int s = 0; s < n_sectors; ++s) {
+    p.push_back(plane(sector_angle(s)).x);
+    q.push_back(plane(sector_angle(s)).y);
+    w.push_back(axial(sector_angle(s)));
+  }
+  for (std::size_t ring = 0; ring < points / n_sectors; ++ring)
+    weights += 1.0 / ((1.0 + static_cast<double>(ring)) * (1.0 + static_cast<double>(ring)));
+  double energy = 0.0;
+  for (const auto* part : {&p, &q, &w})
+    for (const double value : *part) energy += n_sectors * weights * value * value;
+  EXPECT_NEAR(turning.energy, energy, 1e-12 * energy);
+}

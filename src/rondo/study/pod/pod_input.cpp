@@ -155,7 +155,7 @@ const char* unit_of(io::Quantity quantity, const io::RunReader& run) noexcept {
     case io::Quantity::velocity:
       return run.is_motion() ? "m/s" : "m";  // over the load, a pure number
     case io::Quantity::contact:
-      return "N/m";
+      return run.mesh().is_solid() ? "N" : "N/m";
   }
   return "";
 }

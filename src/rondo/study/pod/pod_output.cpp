@@ -23,8 +23,8 @@ std::vector<std::size_t> spread(std::size_t count, std::size_t columns) {
   return chosen;
 }
 
-FieldView as_points(const Eigen::VectorXd& rows) {
-  return {{rows.data(), static_cast<std::size_t>(rows.size())}, 2};
+FieldView as_points(const Eigen::VectorXd& rows, std::size_t components) {
+  return {{rows.data(), static_cast<std::size_t>(rows.size())}, components};
 }
 
 /// Snapshots of several runs follow one another by number, for their times would go back.
@@ -41,7 +41,8 @@ void reconstruct(io::PodWriter& writer, RunSnapshots& snapshots, const PodResult
     rebuilt.noalias() = found.d.modes * found.d.sigma.head(r).cwiseProduct(
                                             found.d.temporal.row(column).head(r).transpose());
     const double time = several ? static_cast<double>(j) : found.columns[j].time;
-    writer.add(time, as_points(original.col(0)), as_points(rebuilt));
+    writer.add(time, as_points(original.col(0), snapshots.components()),
+               as_points(rebuilt, snapshots.components()));
   }
 }
 
@@ -60,6 +61,7 @@ io::PodContent content_of(const PodRequest& request, const PodReport& report,
   content.point_weight = snapshots.weight();
   content.decomposition = &found.d;
   content.spectrum = &found.spectrum;
+  content.components = snapshots.components();
   content.modes = &found.d.modes;
   for (std::size_t j = 0; j < found.columns.size(); ++j) {
     content.time.push_back(found.columns[j].time);

@@ -67,13 +67,20 @@ RunSnapshots::RunSnapshots(std::span<const io::RunReader> runs, std::vector<Snap
                weight_.size(), n_points);
   for (const int point : order_)
     root_.push_back(std::sqrt(weight_[static_cast<std::size_t>(point)]));
+  components_ = run.n_components(choice.quantity);
+  RONDO_DEMAND(components_ == 2 || components_ == 3, components_);
   row_.resize(n_points);
   field_.resize(n_points);
+  if (components_ == 3) {
+    axial_row_.resize(n_points);
+    axial_.resize(n_points);
+    numbers_.resize(3 * n_points);
+  }
   scratch_.resize(rows());
 }
 
 Index RunSnapshots::rows() const noexcept {
-  return static_cast<Index>(2 * order_.size());
+  return static_cast<Index>(components_ * order_.size());
 }
 
 Index RunSnapshots::columns() const noexcept {
@@ -81,39 +88,68 @@ Index RunSnapshots::columns() const noexcept {
 }
 
 Index RunSnapshots::row_grain() const noexcept {
-  return choice_.rectified ? 2 * rings_.n_sectors : 2;
+  const auto components = static_cast<Index>(components_);
+  return choice_.rectified ? components * rings_.n_sectors : components;
 }
 
-/// The places [first, first + count) of one snapshot, in the frame asked for, into field_.
-void RunSnapshots::read_order(const SnapshotColumn& column, std::size_t first, std::size_t count) {
+/// Points of one snapshot as they are in the file, from `first` on.
+void RunSnapshots::read_points(const SnapshotColumn& column, std::size_t first,
+                               std::span<Vec2> plane, std::span<double> axial) {
   const io::RunReader& run = runs_[column.run];
+  if (components_ == 2) return run.read(choice_.quantity, column.snapshot, first, plane);
+  const std::span<double> numbers = std::span(numbers_).first(3 * plane.size());
+  run.read(choice_.quantity, column.snapshot, first, {numbers, 3});
+  for (std::size_t i = 0; i < plane.size(); ++i) {
+    plane[i] = {numbers[3 * i], numbers[3 * i + 1]};
+    axial[i] = numbers[3 * i + 2];
+  }
+}
+
+/// The places [first, first + count) of one snapshot, in the frame asked for, into field_ and
+/// axial_.
+void RunSnapshots::read_order(const SnapshotColumn& column, std::size_t first, std::size_t count) {
   const std::span<Vec2> field = std::span(field_).first(count);
+  const std::span<double> axial = std::span(axial_).first(components_ == 3 ? count : 0);
   if (!choice_.rectified) {
-    run.read(choice_.quantity, column.snapshot, first, field);
+    read_points(column, first, field, axial);
   } else {
-    run.read(choice_.quantity, column.snapshot, 0, row_);
+    read_points(column, 0, row_, axial_row_);
     for (std::size_t i = 0; i < count; ++i)
       field[i] = row_[static_cast<std::size_t>(order_[first + i])];
-    const std::size_t n_rings = count / static_cast<std::size_t>(rings_.n_sectors);
-    if (!rectifier_ || rectifier_rings_ != n_rings) {
-      using pod::Components;
-      const bool contact = choice_.quantity == io::Quantity::contact;
-      rectifier_.emplace(rings_.n_sectors, n_rings,
-                         contact ? Components::scalars : Components::cartesian, *choice_.rectified);
-      rectifier_rings_ = n_rings;
-    }
-    rectifier_->apply(column.angle, field);
+    for (std::size_t i = 0; i < axial.size(); ++i)
+      axial[i] = axial_row_[static_cast<std::size_t>(order_[first + i])];
+    rectify(column, field, axial);
   }
+  bool in_range = true;
   for (const Vec2& v : field)
-    if (!(std::abs(v.x) < largest && std::abs(v.y) < largest)) out_of_range(run, column.time);
+    in_range = in_range && std::abs(v.x) < largest && std::abs(v.y) < largest;
+  for (const double w : axial) in_range = in_range && std::abs(w) < largest;
+  if (!in_range) out_of_range(runs_[column.run], column.time);
+}
+
+/// Whole rings, in order.
+void RunSnapshots::rectify(const SnapshotColumn& column, std::span<Vec2> plane,
+                           std::span<double> axial) {
+  const std::size_t n_rings = plane.size() / static_cast<std::size_t>(rings_.n_sectors);
+  if (!rectifier_ || rectifier_rings_ != n_rings) {
+    using pod::Components;
+    const bool contact = choice_.quantity == io::Quantity::contact;
+    rectifier_.emplace(rings_.n_sectors, n_rings,
+                       contact ? Components::scalars : Components::cartesian, *choice_.rectified);
+    rectifier_rings_ = n_rings;
+  }
+  rectifier_->apply(column.angle, plane);
+  if (!axial.empty()) rectifier_->apply(column.angle, axial);
 }
 
 void RunSnapshots::store(Eigen::Ref<Eigen::VectorXd> out, const SnapshotColumn& column,
                          std::size_t first, std::size_t count) const {
   for (std::size_t i = 0; i < count; ++i) {
     const double root = column.weight * root_[first + i];
-    out[static_cast<Index>(2 * i)] = root * field_[i].x;
-    out[static_cast<Index>(2 * i + 1)] = root * field_[i].y;
+    const auto at = static_cast<Index>(components_ * i);
+    out[at] = root * field_[i].x;
+    out[at + 1] = root * field_[i].y;
+    if (components_ == 3) out[at + 2] = root * axial_[i];
   }
 }
 
@@ -126,7 +162,7 @@ void RunSnapshots::read_columns(Index first, Eigen::Ref<Eigen::MatrixXd> out) {
 }
 
 void RunSnapshots::read_rows(Index first, Eigen::Ref<Eigen::MatrixXd> out) {
-  const std::size_t place = size(first) / 2, count = size(out.rows()) / 2;
+  const std::size_t place = size(first) / components_, count = size(out.rows()) / components_;
   for (Index j = 0; j < out.cols(); ++j) {
     read_order(columns_[size(j)], place, count);
     store(out.col(j), columns_[size(j)], place, count);
@@ -135,10 +171,10 @@ void RunSnapshots::read_rows(Index first, Eigen::Ref<Eigen::MatrixXd> out) {
 
 void RunSnapshots::unweight(Eigen::Ref<Eigen::VectorXd> rows) {
   scratch_ = rows;
+  const auto components = static_cast<Index>(components_);
   for (std::size_t i = 0; i < order_.size(); ++i) {
-    const Index to = 2 * order_[i], from = static_cast<Index>(2 * i);
-    rows[to] = scratch_[from] / root_[i];
-    rows[to + 1] = scratch_[from + 1] / root_[i];
+    const Index to = components * order_[i], from = components * static_cast<Index>(i);
+    for (Index c = 0; c < components; ++c) rows[to + c] = scratch_[from + c] / root_[i];
   }
 }
 

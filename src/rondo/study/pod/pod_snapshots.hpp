@@ -28,8 +28,8 @@ struct SnapshotChoice {
   std::optional<pod::Shift> rectified;  ///< none: the rotating frame
 };
 
-/// Rows are 2·i + component, i the place of a point in order(): ring after ring in the rectified
-/// frame, so that blocks of rows can be rectified by themselves.
+/// Rows are components·i + component, i the place of a point in order(): ring after ring in the
+/// rectified frame, so that blocks of rows can be rectified by themselves.
 class RunSnapshots final : public pod::SnapshotMatrix {
  public:
   /// @pre all runs have the same mesh and outlive this; rectified only where it has sectors.
@@ -47,22 +47,32 @@ class RunSnapshots final : public pod::SnapshotMatrix {
   [[nodiscard]] const io::RunReader& run() const noexcept { return runs_.front(); }
   /// (n_points) W of each point, in the order of the mesh (or of its boundary).
   [[nodiscard]] const std::vector<double>& weight() const noexcept { return weight_; }
-  /// Rows of a weighted field become numbers (2·point + component) of the field itself, in place.
+  /// Numbers of a point: 2 in the plane, 3 in three dimensions.
+  [[nodiscard]] std::size_t components() const noexcept { return components_; }
+  /// Rows of a weighted field become numbers (components·point + component) of the field itself, in
+  /// place.
   void unweight(Eigen::Ref<Eigen::VectorXd> rows);
 
  private:
+  void read_points(const SnapshotColumn& column, std::size_t first, std::span<Vec2> plane,
+                   std::span<double> axial);
   void read_order(const SnapshotColumn& column, std::size_t first, std::size_t count);
+  void rectify(const SnapshotColumn& column, std::span<Vec2> plane, std::span<double> axial);
   void store(Eigen::Ref<Eigen::VectorXd> out, const SnapshotColumn& column, std::size_t first,
              std::size_t count) const;
 
   std::span<const io::RunReader> runs_;
   std::vector<SnapshotColumn> columns_;
   SnapshotChoice choice_;
-  pod::Rings rings_;               ///< empty: rotating
-  std::vector<int> order_;         ///< (n_points) point at each place
-  std::vector<double> weight_;     ///< (n_points)
-  std::vector<double> root_;       ///< (n_points) √W in order
+  pod::Rings rings_;            ///< empty: rotating
+  std::vector<int> order_;      ///< (n_points) point at each place
+  std::vector<double> weight_;  ///< (n_points)
+  std::vector<double> root_;    ///< (n_points) √W in order
+  std::size_t components_ = 2;
   std::vector<Vec2> row_, field_;  ///< (n_points) as read; in order
+  /// (n_points) the third components of both; (n_points, 3) as they are in the file. Empty in the
+  /// plane.
+  std::vector<double> axial_row_, axial_, numbers_;
   std::optional<pod::Rectifier> rectifier_;
   std::size_t rectifier_rings_ = 0;
   Eigen::VectorXd scratch_;  ///< (rows)
