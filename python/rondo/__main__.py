@@ -67,9 +67,13 @@ def _parser() -> argparse.ArgumentParser:
 
     footprint = commands.add_parser(
         "footprint", help="draw pressure, shear, slip and what sticks in the contact of steady "
-                          "rolling")
+                          "rolling, or of a wheel in three dimensions")
     footprint.add_argument("directory", type=pathlib.Path,
-                           help='of `rondo run` with analysis.kind = "steady-rolling"')
+                           help='of `rondo run` with analysis.kind = "steady-rolling", or of a '
+                                'wheel in three dimensions')
+    footprint.add_argument("--time", type=float, metavar="SECONDS",
+                           help="in three dimensions: of the snapshot nearest to it; default the "
+                                "last with contact")
     footprint.add_argument("-o", "--output", type=pathlib.Path, metavar="FOLDER",
                            help="where footprint.png and .svg go; default DIRECTORY/figures")
 
@@ -81,6 +85,16 @@ def _parser() -> argparse.ArgumentParser:
                           help="of `rondo sweep` over motion.speed (or the angular velocity)")
     traction.add_argument("-o", "--output", type=pathlib.Path, metavar="FOLDER",
                           help="where the .png and .svg files go; default DIRECTORY/figures")
+
+    tyre = commands.add_parser(
+        "tyre", help="draw lateral force and aligning moment of a sweep over the slip angle",
+        epilog="Curves for each other parameter that varies, the rest at its middle value; the "
+               "members of further sweeps, as steady ones, as marks beside them, with a table of "
+               "two; where spin or speed varies, the forces at combined slip.")
+    tyre.add_argument("directory", type=pathlib.Path, nargs="+",
+                      help="of `rondo sweep` over motion.slip_angle")
+    tyre.add_argument("-o", "--output", type=pathlib.Path, metavar="FOLDER",
+                      help="where the .png and .svg files go; default DIRECTORY/figures of the first")
 
     campbell = commands.add_parser("campbell", help="draw the frequencies of a body over its spin")
     campbell.add_argument("directory", type=pathlib.Path, help="of `rondo modes`")
@@ -129,7 +143,7 @@ def _parser() -> argparse.ArgumentParser:
                              help="from this time on")
         command.add_argument("--to", dest="to_time", type=float, metavar="SECONDS",
                              help="up to this time")
-    for command in figures, film, wheel, footprint, traction, sweep, means:
+    for command in figures, film, wheel, footprint, traction, tyre, sweep, means:
         command.add_argument("--unfinished", action="store_true",
                              help="also of what has not ended, was interrupted or has failed")
     return parser
@@ -162,7 +176,8 @@ def _validate(options: argparse.Namespace) -> None:
 
 def _folder(options: argparse.Namespace) -> pathlib.Path:
     """Where figures go."""
-    return options.output or options.directory / "figures"
+    first = options.directory[0] if isinstance(options.directory, list) else options.directory
+    return pathlib.Path(options.output or first / "figures")
 
 
 def _figures(options: argparse.Namespace) -> None:
@@ -190,6 +205,11 @@ def _animate(options: argparse.Namespace) -> None:
 def _mean_forces(run: Run, from_time: float | None, to_time: float | None) -> str:
     force_x, force_y = (run.history.mean(column, from_time, to_time)
                         for column in ("force_x", "force_y"))
+    if run.is_solid:
+        lateral, aligning = (run.history.mean(column, from_time, to_time)
+                             for column in ("force_lateral", "moment_aligning"))
+        return (f"{run.directory}: force_x {force_x:.5g} N, force_y {force_y:.6g} N, force_lateral "
+                f"{lateral:.5g} N, moment_aligning {aligning:.5g} N·m")
     return f"{run.directory}: force_x {force_x:.5g} N/m, force_y {force_y:.6g} N/m"
 
 
@@ -210,7 +230,7 @@ def _wheel(options: argparse.Namespace) -> None:
 def _footprint(options: argparse.Namespace) -> None:
     from rondo import style
 
-    figure = open_run(options.directory, options.unfinished).plot_footprint()
+    figure = open_run(options.directory, options.unfinished).plot_footprint(options.time)
     for path in style.save(figure, _folder(options) / "footprint"):
         print(path)
 
@@ -219,6 +239,14 @@ def _traction(options: argparse.Namespace) -> None:
     from rondo.figures.traction_figures import draw_traction
 
     for path in draw_traction(open_sweep(options.directory, options.unfinished), _folder(options)):
+        print(path)
+
+
+def _tyre(options: argparse.Namespace) -> None:
+    from rondo.figures.tyre_figures import draw_tyre
+
+    first, *more = (open_sweep(path, options.unfinished) for path in options.directory)
+    for path in draw_tyre(first, _folder(options), more):
         print(path)
 
 
@@ -258,7 +286,8 @@ def main(arguments: Sequence[str] | None = None) -> int:
     code: int | None = 0
     commands: dict[str, Callable[[argparse.Namespace], int | None]] = {
         "paper": _paper, "figures": _figures, "animate": _animate, "means": _means,
-        "wheel": _wheel, "footprint": _footprint, "traction": _traction, "campbell": _campbell, "sweep": _sweep, "validate": _validate,
+        "wheel": _wheel, "footprint": _footprint, "traction": _traction, "tyre": _tyre,
+        "campbell": _campbell, "sweep": _sweep, "validate": _validate,
         "validation": _validation}
     try:
         code = commands[options.command](options)
@@ -274,8 +303,8 @@ def main(arguments: Sequence[str] | None = None) -> int:
         return WRONG
     except OSError as reason:
         # What else writes has said so itself.
-        figures = options.command in ("figures", "wheel", "footprint", "traction", "campbell", "sweep",
-                                      "validation")
+        figures = options.command in ("figures", "wheel", "footprint", "traction", "tyre", "campbell",
+                                      "sweep", "validation")
         place = reason.filename or (_folder(options) if figures else "output")
         advice = "; choose another -o" if figures else ""
         print(f"rondo: {place}: {reason.strerror or reason}{advice}", file=sys.stderr)

@@ -8,6 +8,7 @@ import pathlib
 from collections.abc import Sequence
 from typing import TYPE_CHECKING, Any
 
+from .data.errors import Error
 from .data.modes import Modes
 from .data.pod import Pod
 from .data.run import Run
@@ -20,7 +21,11 @@ if TYPE_CHECKING:
 
 
 def _field(run: Run, time: float, quantity: str = "displacement", **options: Any) -> Axes:
-    """The body at the snapshot nearest to `time`; options: see rondo.plots.field.plot_field."""
+    """The body at the snapshot nearest to `time`; options: see rondo.plots.field.plot_field, of a
+    wheel in three dimensions rondo.plots.solid.surface.plot_surface."""
+    if run.is_solid:
+        from .plots.solid.surface import plot_surface
+        return plot_surface(run, time, quantity, **options)
     from .plots.field import plot_field
     return plot_field(run, time, quantity, **options)
 
@@ -46,6 +51,7 @@ def _spectrum(run: Run, column: str = "force_y", from_time: float | None = None,
 
 def _contact(run: Run, time: float, ax: Axes | None = None) -> Axes:
     """Pressure and shear over the contact patch at the snapshot nearest to `time`."""
+    run.need_plane("plot_contact", "plot_footprint(time) draws its contact")
     from .plots.patch import plot_contact
     return plot_contact(run, time, ax)
 
@@ -53,6 +59,7 @@ def _contact(run: Run, time: float, ax: Axes | None = None) -> Axes:
 def _contact_map(run: Run, quantity: str = "pressure", ax: Axes | None = None,
                  moving: bool = True) -> Axes:
     """Pressure or shear over place and time; see rondo.plots.patch.plot_contact_map."""
+    run.need_plane("plot_contact_map", "plot_footprint(time) draws its contact at a time")
     from .plots.patch import plot_contact_map
     return plot_contact_map(run, quantity, ax, moving)
 
@@ -63,8 +70,15 @@ def _wheel(run: Run) -> Figure:
     return plot_wheel(run)
 
 
-def _footprint(run: Run) -> Figure:
-    """Pressure, shear, slip and what sticks over the contact of steady rolling."""
+def _footprint(run: Run, time: float | None = None) -> Figure:
+    """Pressure, shear and what sticks over the contact: of steady rolling in the plane, and of a
+    wheel in three dimensions at the snapshot nearest to `time`, by default the last with contact."""
+    if run.is_solid:
+        from .plots.solid.footprint import plot_footprint as plot_solid
+        return plot_solid(run, time)
+    if time is not None:
+        raise Error(f"{run.directory}: time={time:g}: the footprint of a plane body is that of all "
+                    "places of steady rolling together; leave time out")
     from .plots.footprint import plot_footprint
     return plot_footprint(run)
 
@@ -75,7 +89,11 @@ def _modes_of_run(run: Run, field: str, frame: str = "co-rotating", count: int =
 
 
 def _animate(run: Run, path: str | os.PathLike[str], **options: Any) -> pathlib.Path:
-    """A film (.mp4, .gif) of the body; options: see rondo.plots.animation.animate."""
+    """A film (.mp4, .gif) of the body; options: see rondo.plots.animation.animate, of a wheel in
+    three dimensions rondo.plots.solid.film.animate."""
+    if run.is_solid:
+        from .plots.solid.film import animate as animate_solid
+        return animate_solid(run, path, **options)
     from .plots.animation import animate
     return animate(run, path, **options)
 
@@ -88,6 +106,9 @@ def _decay(pod: Pod, ax: Axes | None = None) -> Axes:
 
 def _modes(pod: Pod, count: int = 6) -> Figure:
     """The first modes with their course in time."""
+    if pod.mesh.is_solid:
+        from .plots.solid.modes import plot_modes as plot_solid
+        return plot_solid(pod, count)
     from .plots.modes import plot_modes
     return plot_modes(pod, count)
 
@@ -137,6 +158,21 @@ def _carpet(sweep: Sweep, by: str = "analysis.load", ax: Axes | None = None) -> 
     return plot_carpet(sweep, by, ax)
 
 
+def _tyre_curves(sweep: Sweep, *more: Sweep, by: str | None = None, names: Sequence[str] = ()
+                 ) -> Figure:
+    """Lateral force and aligning moment over the slip angle; see
+    rondo.plots.solid.tyre.plot_tyre_curves."""
+    from .plots.solid.tyre import plot_tyre_curves
+    return plot_tyre_curves(sweep, *more, by=by, names=names)
+
+
+def _friction_ellipse(sweep: Sweep, ax: Axes | None = None) -> Axes:
+    """Force along over lateral force at combined slip; see
+    rondo.plots.solid.tyre.plot_friction_ellipse."""
+    from .plots.solid.tyre import plot_friction_ellipse
+    return plot_friction_ellipse(sweep, ax)
+
+
 def _validation(validation: Validation, names: Sequence[str] = ()) -> Figure:
     """Profiles and errors; see rondo.plots.validation.plot_validation."""
     from .plots.validation import plot_validation
@@ -154,4 +190,5 @@ def attach() -> None:
     Sweep.plot_main_effects, Sweep.plot_map = _main_effects, _map
     Sweep.plot_curves, Sweep.plot_spread = _curves, _spread
     Sweep.plot_traction, Sweep.plot_carpet = _traction, _carpet
+    Sweep.plot_tyre_curves, Sweep.plot_friction_ellipse = _tyre_curves, _friction_ellipse
     Validation.plot = _validation

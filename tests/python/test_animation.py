@@ -148,8 +148,8 @@ def test_frames_and_colours_by_default(smooth, monkeypatch, tmp_path):
     assert run.times[seen["chosen"][0]] >= 0.01 and len(seen["chosen"]) == 3
     assert seen["limits"] == (-1, 2)
     run.times = np.linspace(0, 1, 1000)  # as many as a long run has
-    assert len(animation._snapshots(run, None, None, None)) == 300
-    assert animation._snapshots(run, None, None, None)[[0, -1]].tolist() == [0, 999]
+    assert len(animation.snapshots_of(run, None, None, None)) == 300
+    assert animation.snapshots_of(run, None, None, None)[[0, -1]].tolist() == [0, 999]
 
 
 def test_wrong_input(smooth, crush, tmp_path, monkeypatch):

@@ -12,7 +12,8 @@ from .errors import Error, unknown
 from .files import read_table
 from .names import ENDINGS, find_name
 
-FORCES = ("force_x", "force_y", "torque")  # of the ground on the body
+FORCES = ("force_x", "force_y", "force_lateral", "torque", "moment_aligning",
+          "moment_overturning")  # of the ground on the body
 
 
 def between(from_time: float | None, to_time: float | None, unit: str = "s") -> str:

@@ -12,11 +12,13 @@ import numpy as np
 class Mesh:
     """n nodes, e cells, nb contact nodes (nodes that may touch something); all numbered from 0."""
 
-    coordinates: np.ndarray  # (n, 2) reference position X [m], co-rotating frame; of free bodies fixed
-    cells: np.ndarray        # (e, 4) or (e, 3) corner nodes, counter-clockwise; -1: none
+    coordinates: np.ndarray  # (n, 2) reference position X [m], co-rotating frame; of free bodies
+    #                          fixed; (n, 3) of a wheel in three dimensions, z along the axle
+    cells: np.ndarray        # (e, 4) or (e, 3) corner nodes, counter-clockwise; -1: none; (e, 8) of
+    #                          a wheel in three dimensions, a face and the one opposite
     boundary: np.ndarray     # (nb,) candidates, in order along the boundary
-    tributary: np.ndarray    # (nb,) length of boundary that each candidate stands for [m]
-    mass: np.ndarray         # (n,) lumped mass [kg/m]
+    tributary: np.ndarray    # (nb,) length of boundary that each candidate stands for [m]; area [m2]
+    mass: np.ndarray         # (n,) lumped mass [kg/m]; [kg]
     sector: np.ndarray | None       # (n,) counter-clockwise from straight down; None: not cyclic
     sector_node: np.ndarray | None  # (n,) number within the sector, the same in all; or None
     free_body: np.ndarray | None = None  # (n,) free body that a node belongs to, which moves in the
@@ -33,6 +35,11 @@ class Mesh:
         return free
 
     @property
+    def is_solid(self) -> bool:
+        """Whether it is of a wheel in three dimensions."""
+        return self.coordinates.shape[1] == 3
+
+    @property
     def n_nodes(self) -> int:
         return len(self.coordinates)
 
@@ -45,8 +52,9 @@ def read_mesh(file: h5py.File) -> Mesh:
     """/mesh of results.h5 or pod.h5."""
     mesh = file["mesh"]
     cyclic = "sector" in mesh
+    cells = mesh["hexahedra" if "hexahedra" in mesh else "cells"][:]
     regions = mesh["region"].attrs if "region" in mesh else {}
-    return Mesh(coordinates=mesh["coordinates"][:], cells=mesh["cells"][:],
+    return Mesh(coordinates=mesh["coordinates"][:], cells=cells,
                 boundary=mesh["boundary"][:], tributary=mesh["tributary"][:], mass=mesh["mass"][:],
                 sector=mesh["sector"][:] if cyclic else None,
                 sector_node=mesh["sector_node"][:] if cyclic else None,

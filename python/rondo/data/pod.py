@@ -85,8 +85,9 @@ class Pod:
 
     @cached_property
     def spatial(self) -> np.ndarray:
-        """(r, p, 2) modes, orthonormal under W; x, y, or normal, tangential [w^(-1/2)]."""
-        return self._read("modes/spatial", 0, len(self.points), 2)
+        """(r, p, 2) modes, orthonormal under W; x, y, or normal, tangential; (r, p, 3) of a wheel in
+        three dimensions [w^(-1/2)]."""
+        return self._read("modes/spatial", 0, len(self.points), self.mesh.coordinates.shape[1])
 
     @cached_property
     def temporal(self) -> np.ndarray:
@@ -134,7 +135,7 @@ class Pod:
         return self._read("snapshots/run")
 
     def reconstruct(self, k: int, modes: int | None = None) -> np.ndarray:
-        """(p, 2) snapshot k from its first modes (None: all kept), frame of the analysis [q]."""
+        """(p, 2 or 3) snapshot k from its first modes (None: all kept), frame of the analysis [q]."""
         count = self.n_modes if modes is None else modes
         if not 0 <= count <= self.n_modes:
             raise Error(f"{self.directory}: {self.n_modes} modes are kept; {count} were asked for: "

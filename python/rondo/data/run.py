@@ -5,21 +5,22 @@ from __future__ import annotations
 import os
 import pathlib
 from collections.abc import Callable
-from dataclasses import dataclass
 from functools import cached_property
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
 from .arrays import LazyArray
+from .contact import Contact, Crush
 from .errors import Error, UnfinishedRunError, unknown
-from .files import check_format, opened, read_case, read_json, read_table, require
+from .files import check_format, opened, read_case, read_json, require
 from .history import History
 from .lifted import Coordinates, LiftedArray
 from .mesh import Mesh, read_mesh
 from .names import frame_named
 from .pod import Pod, Pods
 from .rigid import Rigid, rigid_motion
+from .solid import ground_axes, turned_about_axle
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -46,34 +47,6 @@ def open_run(path: str | os.PathLike[str], unfinished: bool = False) -> Run:
             f'{directory}: status "{run.status}": {meaning}{message}. {run.n_snapshots} snapshots '
             f'are there; rondo.open("{directory}", unfinished=True) reads them')
     return run
-
-
-@dataclass(frozen=True)
-class Contact:
-    """Contact of t snapshots at nb candidates. Normal is positive in compression; tangential is
-    along t = J n, to the left."""
-
-    force: LazyArray       # (t, nb, 2) normal, tangential, mean over the step before [N/m]
-    traction: LazyArray    # (t, nb, 2) pressure, shear [Pa]
-    nodes: np.ndarray      # (nb,) candidates, as mesh.boundary
-    tributary: np.ndarray  # (nb,) length that each stands for [m]
-    path: pathlib.Path     # contact.csv
-
-    @cached_property
-    def rows(self) -> dict[str, np.ndarray]:
-        """contact.csv: a row for each node in contact at each snapshot, by the names of its columns
-        (docs/results.md), as "pressure_pa"."""
-        return read_table(self.path)
-
-
-@dataclass(frozen=True)
-class Crush:
-    """Curves of a quasi-static crush, a row for each of t increments."""
-
-    depth: np.ndarray           # (t,) of the center below first touch [m]
-    force: np.ndarray           # (t, 2) of the ground on the body: normal, tangential [N/m]
-    contact_length: np.ndarray  # (t,) [m]
-    pressure_max: np.ndarray    # (t,) [Pa]
 
 
 class Run:
@@ -111,6 +84,9 @@ class Run:
             self.times: np.ndarray = times[:t]
             frame = {name: file[f"frame/{name}"][:t] if "frame" in file else np.empty(0)
                      for name in ("time_velocity", "angle", "angle_velocity", "center")}
+            # Of a wheel in three dimensions, along t2; else the center stays in the plane.
+            self.lateral: np.ndarray = (file["frame/lateral"][:t] if "frame/lateral" in file
+                                        else np.zeros(t))
             self._has_contact = "contact" in file
             self._datasets = [f"{group}/{name}" for group in ("snapshots", "fields")
                               if group in file for name in file[group]]
@@ -140,6 +116,28 @@ class Run:
     @property
     def is_crush(self) -> bool:
         return self.analysis == "crush"
+
+    @property
+    def is_solid(self) -> bool:
+        """Whether the body is a wheel in three dimensions: vectors have three components, forces
+        are in N, energies in J."""
+        return self.mesh.is_solid
+
+    @property
+    def per_width(self) -> str:
+        """What ends the units of forces and energies: "/m" of a plane body, "" in three dimensions."""
+        return "" if self.is_solid else "/m"
+
+    def need_plane(self, what: str, instead: str) -> None:
+        """An error of a wheel in three dimensions: what is plane only, and what there is instead."""
+        if self.is_solid:
+            raise Error(f"{self.directory}: {what} is of plane bodies, and this is a wheel in three "
+                        f"dimensions: {instead}")
+
+    @property
+    def camber(self) -> float:
+        """Angle by which a wheel in three dimensions leans [rad]; > 0 leans its top to the left."""
+        return float(self.case["motion"].get("camber", 0.0))
 
     @property
     def is_steady(self) -> bool:
@@ -173,7 +171,7 @@ class Run:
     def outer_radius(self) -> float:
         """R_o of a disk [m]; of a mesh from a file its largest distance from the origin."""
         if "disk" not in self.case:
-            return float(np.linalg.norm(self.mesh.coordinates, axis=1).max())
+            return float(np.linalg.norm(self.mesh.coordinates[:, :2], axis=1).max())
         return float(self.case["disk"]["outer_radius"])
 
     @property
@@ -211,6 +209,8 @@ class Run:
     @property
     def columns(self) -> int:
         """Columns of cells round a generated disk; 0 of a mesh from a file."""
+        if "section" in self.case:
+            return int(self.case["section"]["sectors"])
         disk = self.case.get("disk", {})
         if "tread" in disk:
             tread = disk["tread"]
@@ -231,7 +231,7 @@ class Run:
         a file where nothing has moved in the co-rotating frame."""
         mesh = self.mesh
         if "disk" in self.case:
-            radius: np.ndarray = np.linalg.norm(mesh.coordinates, axis=1)
+            radius: np.ndarray = np.linalg.norm(mesh.coordinates[:, :2], axis=1)
             return ~mesh.free & (radius <= self.inner_radius * (1 + 1e-9))
         if mesh.free.all() or not self.n_snapshots:
             return np.zeros(mesh.n_nodes, dtype=bool)
@@ -290,25 +290,42 @@ class Run:
 
     def position(self, k: int) -> np.ndarray:
         """(n, 2) places of the nodes at snapshot k in the fixed frame: c + R(θ)(X + u), of free
-        bodies X + u [m]."""
+        bodies X + u [m]. Of a wheel in three dimensions (n, 3), in its own axes, which do not turn."""
         arms = self.mesh.coordinates + self.displacement[k]
+        if self.is_solid:
+            return self.middle(k) + turned_about_axle(arms, float(self.angle[k]))
         cos, sin = np.cos(self.angle[k]), np.sin(self.angle[k])
         turn = np.array([[cos, -sin], [sin, cos]])
         places = self.center[k] + arms @ turn.T
         return np.where(self.mesh.free[:, None], arms, places)
 
+    def on_ground(self, k: int) -> np.ndarray:
+        """(n, 3) places of the nodes of a wheel in three dimensions at snapshot k along t1, n and
+        t2, from the center's projection on the ground [m]; n is the height above y = 0."""
+        if not self.is_solid:
+            raise Error(f"{self.directory}: a plane body has no axes of the ground beside its own: "
+                        "position()")
+        arms = self.position(k) - self.middle(k)
+        return np.asarray(arms @ ground_axes(self.camber).T + [0.0, float(self.center[k][1]), 0.0])
+
     def rigid(self, k: int) -> Rigid:
         """The motion of free bodies at snapshot k as that of rigid ones, and their deformation."""
+        self.need_plane("rigid()", "no wheel in three dimensions is free; position() has its nodes")
         return rigid_motion(self.mesh, np.asarray(self.displacement[k], dtype=float))
 
     def deformation(self, k: int) -> np.ndarray:
         """(n, 2) displacement at snapshot k without the motion of each free body as a rigid one,
         along the axes that turn with it; of held bodies the displacement [m]."""
+        if self.is_solid:
+            return np.asarray(self.displacement[k])
         return self.rigid(k).deformation
 
     def middle(self, k: int) -> np.ndarray:
         """(2,) m: the center of the co-rotating frame; where nothing is constrained, the center of
-        mass."""
+        mass. Of a wheel in three dimensions (3,), in its own axes."""
+        if self.is_solid:
+            along, up = self.center[k]
+            return np.asarray([along, up, self.lateral[k]] @ ground_axes(self.camber))
         if not self.mesh.free.all():
             return np.asarray(self.center[k])
         return np.average(self.position(k), axis=0, weights=self.mesh.mass)

@@ -78,6 +78,8 @@ class Sweep:
     plot_spread: Callable[..., Axes]
     plot_traction: Callable[..., Axes]
     plot_carpet: Callable[..., Axes]
+    plot_tyre_curves: Callable[..., Figure]
+    plot_friction_ellipse: Callable[..., Axes]
 
     def __init__(self, directory: pathlib.Path, info: dict[str, Any],
                  parameters: dict[str, Parameter], columns: dict[str, np.ndarray],

@@ -5,6 +5,7 @@ from __future__ import annotations
 
 import os
 import pathlib
+from collections.abc import Iterator
 from typing import TYPE_CHECKING
 
 import matplotlib.pyplot as plt
@@ -14,7 +15,7 @@ from matplotlib.figure import Figure
 from .. import style
 from ..plots import curves, field, patch
 from ..plots.footprint import plot_footprint
-from ..plots.modes import plot_modes, plot_pod_spectrum
+from ..plots.modes import plot_pod_spectrum
 from ..plots.wheel import plot_wheel
 
 if TYPE_CHECKING:
@@ -31,7 +32,10 @@ def draw_run(run: Run, folder: str | os.PathLike[str]) -> list[pathlib.Path]:
         written.extend(style.save(figure, pathlib.Path(folder) / name))
         plt.close(figure)
 
-    if run.n_snapshots:
+    if run.is_solid:
+        for name, figure in solid_figures(run):
+            keep(name, figure)
+    elif run.n_snapshots:
         for quantity in ("displacement", "deformation", "von_mises"):
             if quantity in run.field_names or quantity == "deformation" and run.mesh.free.any():
                 keep(f"field-{quantity}", fields(run, quantity))
@@ -42,23 +46,56 @@ def draw_run(run: Run, folder: str | os.PathLike[str]) -> list[pathlib.Path]:
             keep("contact", patch.plot_contact(run, last).figure)
             keep("contact-map", patch.plot_contact_map(run).figure)
     history = run.history
-    if run.is_steady and run.pitches:
+    if run.is_steady and run.pitches and not run.is_solid:
         keep("forces", pass_forces(run))
     if len(history["time_s"]) and not run.is_steady:  # without a course in time
         keep("energy", curves.plot_energy(run).figure)
         if run.has_rim:
             keep("wheel", plot_wheel(run))
         if "ground" in run.case:
-            keep("forces", curves.plot_history(run).figure)
+            if not run.is_solid:
+                keep("forces", curves.plot_history(run).figure)
             half = 0.5 * history["time_s"][-1]  # what came before is the start, not the course
             if not run.is_crush and history.window(from_time=half).sum() >= curves.MIN_ROWS:
                 keep("force-spectrum", curves.plot_force_spectrum(run, from_time=half).figure)
     pods = [pod for pod in run.pods.values() if pod.n_modes]
-    for pod in pods:
-        keep(f"modes-{pod.name}", plot_modes(pod))
+    for pod in (one for one in pods if not (run.is_solid and one.field == "contact")):
+        keep(f"modes-{pod.name}", pod.plot_modes())
     if pods:
         keep("pod-spectrum", plot_pod_spectrum(pods, labels=[pod.name for pod in pods]).figure)
     return written
+
+
+def solid_figures(run: Run) -> Iterator[tuple[str, Figure]]:
+    """Of a wheel in three dimensions: surface, contact, forces with the lateral one, moments."""
+    from ..plots.solid.footprint import last_contact
+    from ..plots.solid.footprint import plot_footprint as plot_solid
+    from ..plots.solid.surface import plot_surface
+
+    touches = run.contact is not None and len(run.contact.rows["time_s"]) > 0
+    if run.n_snapshots:
+        last = float(run.times[-1])
+        for quantity in ("displacement", "von_mises"):
+            if quantity in run.field_names:
+                yield f"field-{quantity}", plot_surface(run, last, quantity).figure
+        if touches:
+            time = float(run.times[last_contact(run)])
+            yield "field-pressure", plot_surface(run, time, "pressure").figure
+            yield "footprint", plot_solid(run)
+    if "ground" in run.case and len(run.history["time_s"]) and not run.is_steady:
+        yield "forces", solid_forces(run)
+
+
+@style.paper()
+def solid_forces(run: Run) -> Figure:
+    """Forces of the ground along its three axes, and the moments about it."""
+    figure = plt.figure(figsize=(style.PAGE, 3.6))
+    above, below = figure.subplots(2, 1, sharex=True)
+    curves.plot_history(run, "force_y", "force_x", "force_lateral", ax=above)
+    curves.plot_history(run, "moment_aligning", "moment_overturning", ax=below)
+    above.set_xlabel("")
+    figure.align_ylabels()
+    return figure
 
 
 @style.paper()

@@ -23,7 +23,8 @@ if TYPE_CHECKING:
 # Of which main effects are drawn unless others are asked for.
 FIGURES = ("force_x_mean", "force_y_mean", "force_y_fluctuation", "contact_length_mean_m",
            "friction_power", "force_x", "force_y", "contact_length_m", "pressure_max_pa",
-           "rolling_resistance")
+           "rolling_resistance", "force_lateral_mean", "moment_aligning_mean", "force_lateral",
+           "moment_aligning")
 
 
 def draw_sweep(sweep: Sweep, folder: str | os.PathLike[str], figures: Sequence[str] = (),

@@ -67,8 +67,8 @@ def animate(run: Run, path: str | os.PathLike[str], quantity: str = "displacemen
     height. width: [px]. deformation: factor on it, as of plot_field."""
     path = pathlib.Path(path)
     ending = path.suffix.lower()
-    _check_place(path, ending)
-    chosen = _snapshots(run, from_time, to_time, frames)
+    check_place(path, ending)
+    chosen = snapshots_of(run, from_time, to_time, frames)
     if fps is None:
         fps = min(FPS, max(1, round(len(chosen) / SECONDS)))
     if fps < 1:
@@ -96,7 +96,7 @@ def _limits(run: Run, chosen: np.ndarray, quantity: str) -> tuple[float, float]:
     return full_range(np.array([low, high]), signed)
 
 
-def _check_place(path: pathlib.Path, ending: str) -> None:
+def check_place(path: pathlib.Path, ending: str) -> None:
     if ending not in SIZES:
         raise Error(f"{path}: a film ends in .mp4 or .gif, not in {ending or 'nothing'!r}")
     if ending == ".mp4" and not has_ffmpeg():
@@ -106,7 +106,7 @@ def _check_place(path: pathlib.Path, ending: str) -> None:
         raise Error(f"{path}: no directory {path.parent}: make it first, or choose another")
 
 
-def _snapshots(run: Run, from_time: float | None, to_time: float | None,
+def snapshots_of(run: Run, from_time: float | None, to_time: float | None,
                frames: int | None) -> np.ndarray:
     """Numbers of the snapshots to show."""
     run.need_snapshots()
@@ -159,7 +159,7 @@ def _views(run: Run, chosen: np.ndarray, follow: bool, deformation: float) -> tu
     return low, high
 
 
-def _even(pixels: float) -> int:
+def even(pixels: float) -> int:
     """The nearest even number."""
     return 2 * round(pixels / 2)
 
@@ -258,8 +258,8 @@ def _layout(aspect: float, width: int | None, largest: tuple[int, int]) -> tuple
         width = largest[0] if height * DPI <= largest[1] else round(tall * DPI)
     if width < SMALLEST:
         raise Error(f"width = {width}: at least {SMALLEST} px")
-    across = _even(width) / DPI
-    up = _even(((across - LEFT - RIGHT) * aspect + BELOW + ABOVE) * DPI) / DPI
+    across = even(width) / DPI
+    up = even(((across - LEFT - RIGHT) * aspect + BELOW + ABOVE) * DPI) / DPI
     figure = Figure(figsize=(across, up), dpi=DPI)
     bottom, height = BELOW / up, 1 - (BELOW + ABOVE) / up
     ax = figure.add_axes((LEFT / across, bottom, 1 - (LEFT + RIGHT) / across, height))

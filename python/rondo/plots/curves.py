@@ -90,11 +90,13 @@ def _together(names: Sequence[str], unit: str) -> str:
     """What the columns in one axes are."""
     if len(names) == 1:
         return column_label(names[0])
-    if set(names) <= {"force_x", "force_y"}:
+    if set(names) <= {"moment_aligning", "moment_overturning"}:
+        return "moment of the ground\non the body"
+    if set(names) <= {"force_x", "force_y", "force_lateral"}:
         return "force of the ground\non the body"
     if set(names) <= {"contact_nodes", "sticking_nodes"}:
         return "nodes"
-    return "energy" if unit.endswith("J/m") else "value"
+    return "energy" if unit.endswith(("J/m", "J")) else "value"
 
 
 @style.paper()
@@ -119,7 +121,7 @@ def plot_energy(run: Run, ax: Axes | None = None) -> Axes:
              if name in run.history
              and np.abs(run.history[name]).max(initial=0.0) > ROUND_OFF * largest}
     size = max(np.abs(curve).max(initial=0.0) for curve in (total, *drawn.values()))
-    factor, unit = readable(size, "J/m")
+    factor, unit = readable(size, f"J{run.per_width}")
     ax.axhline(0.0, color="0.8", linewidth=0.6, zorder=0)
     ax.plot(x, total * factor, color=style.BLACK, linewidth=1.4, zorder=3,
             label=f"energy: kinetic and strain{', with the rim' if run.has_rim else ''}")

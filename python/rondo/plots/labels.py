@@ -10,6 +10,9 @@ from .. import style
 LABELS = {  # of columns, where their name does not say it
     "angle_rad": "angle", "center_x_m": "center, x", "center_y_m": "center, y",
     "force_x": "horizontal force", "force_y": "vertical force",
+    "force_lateral": "lateral force", "moment_aligning": "aligning moment",
+    "moment_overturning": "overturning moment", "slip_angle": "slip angle",
+    "slip_angle_degrees": "slip angle", "contact_area_m2": "contact area",
     "torque": "torque about the center", "contact_nodes": "nodes in contact",
     "sticking_nodes": "nodes that stick", "contact_length_m": "contact length",
     "penetration_max_m": "largest penetration", "kinetic": "kinetic energy",
@@ -21,7 +24,9 @@ LABELS = {  # of columns, where their name does not say it
     "kinetic_rim": "kinetic energy of the rim", "support_energy": "energy of the supports",
 }
 PARAMETERS = {"analysis.load": "load", "rim.force_y": "load", "ground.friction": "friction μ",
-              "motion.speed": "speed", "motion.angular_velocity": "spin"}  # in words
+              "motion.slip_angle": "slip angle", "motion.camber": "camber",
+              "motion.height": "height", "motion.speed": "speed", "motion.angular_velocity": "spin"}  # in words
+SCALED = ("N/m", "J/m", "W/m", "N·m/m", "Pa", "N", "J", "W", "N·m")  # with k and M
 CONSTANT = 1e-6  # span over size of a column that does not change
 LEVEL = 0.01  # least height of the axis on both sides of such a one, in its unit
 
@@ -38,7 +43,7 @@ def parameter_label(key: str) -> str:
 def readable(size: float, unit: str) -> tuple[float, str]:
     """Factor and unit for values up to `size`: 1.9e5 N/m is 190 kN/m."""
     for factor, prefix in ((1e-6, "M"), (1e-3, "k")):
-        if unit in ("N/m", "J/m", "W/m", "N·m/m", "Pa") and size * factor >= 1:
+        if unit in SCALED and size * factor >= 1:
             return factor, prefix + unit
     if unit == "m" and 0 < size < 0.1:
         return 1e3, "mm"

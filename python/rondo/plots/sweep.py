@@ -115,9 +115,9 @@ def is_nothing(sweep: Sweep, name: str) -> bool:
         values = sweep[figure][sweep.done]
         return float(np.abs(values[np.isfinite(values)]).max(initial=0.0))
 
-    if sweep.unit_of(name) not in ("N/m", "N·m/m"):
+    if sweep.unit_of(name) not in ("N/m", "N·m/m", "N·m", "N"):
         return size(name) == 0.0
-    forces = [figure for figure in sweep.figures if sweep.units[figure] == "N/m"]
+    forces = [figure for figure in sweep.figures if sweep.units[figure] in ("N/m", "N")]
     return size(name) <= ROUND_OFF * max(size(figure) for figure in [name, *forces])
 
 

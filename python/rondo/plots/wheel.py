@@ -80,7 +80,7 @@ def _at(value: float | list[list[float]], times: Array) -> Array:
 
 
 def _weight(run: Run) -> Array:
-    """(rows,) N/m: of body and rim, along y."""
+    """(rows,) N/m, in three dimensions N: of body and rim, along y."""
     motion = run.case["motion"]
     gravity = _at(motion.get("gravity", 0.0), run.history["time_s"])
     mass = float(run.mesh.mass.sum()) + float(run.case["rim"].get("mass", 0.0))
@@ -97,10 +97,11 @@ def _panels(run: Run) -> list[Panel]:
         Panel("height of\nthe hub", "m", {"": h["center_y_m"]}),
         Panel("speed", "m/s", {"of the hub, V": h["speed_x"], "of the tread, ωR": tread}),
         Panel("slip ratio", "1", {"": h["slip_ratio"]}),
-        Panel("force of\nthe ground", "N/m", _ground(run)),
-        Panel("force on\nthe hub", "N/m", forces if "ground" in run.case else {}),
-        Panel("torque", "N·m/m", _torques(run)),
-        Panel("energy", "J/m", _seen(energies))]
+        Panel("force of\nthe ground", f"N{run.per_width}", _ground(run)),
+        *([Panel("moment of\nthe ground", "N·m", _moments(run))] if run.is_solid else []),
+        Panel("force on\nthe hub", f"N{run.per_width}", forces if "ground" in run.case else {}),
+        Panel("torque", f"N·m{run.per_width}", _torques(run)),
+        Panel("energy", f"J{run.per_width}", _seen(energies))]
 
 
 def _ground(run: Run) -> dict[str, Array]:
@@ -108,7 +109,16 @@ def _ground(run: Run) -> dict[str, Array]:
     if "ground" not in run.case:
         return {}
     curves = {"upwards": run.history["force_y"], "along x": run.history["force_x"]}
+    if run.is_solid:
+        curves["lateral"] = run.history["force_lateral"]
     return curves | _seen({"load and weight": _weight(run) - given(run, "force_y")})
+
+
+def _moments(run: Run) -> dict[str, Array]:
+    """Of a wheel in three dimensions: about the normal and the heading."""
+    if "ground" not in run.case:
+        return {}
+    return {name: run.history[f"moment_{name}"] for name in ("aligning", "overturning")}
 
 
 def _torques(run: Run) -> dict[str, Array]:
