@@ -33,7 +33,7 @@ SCRIPTS = {"cli": "test_run.py", "disk": "test_full_disk.py", "crush": "test_cru
            "numerical": "test_numerical.py", "resume": "test_resume.py",
            "terminal": "test_terminal.py", "sweep": "test_sweep.py", "team": "test_sweep_team.py",
            "rom": "test_reduced.py", "rom_forms": "test_reduced_forms.py",
-           "rom_steady": "test_reduced_steady.py",
+           "rom_steady": "test_reduced_steady.py", "solid": "test_solid.py",
            "romtable": "test_reduced_table.py"}
 
 # @file in src/rondo, then of each mutation in it: name | old text => new text | tests.
