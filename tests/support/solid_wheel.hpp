@@ -53,7 +53,8 @@ inline dynamics::Model solid_model(const mesh::Mesh& mesh, const fem::Material& 
 }
 
 inline void touch_flat_ground(const mesh::Mesh& mesh, contact::Law law, dynamics::Model& m) {
-  m.contact.emplace(dynamics::ContactModel{contact::Ground({}), law, mesh.boundary, mesh.tributary});
+  m.contact.emplace(
+      dynamics::ContactModel{contact::Ground({}), law, mesh.boundary, mesh.tributary});
 }
 
 inline dynamics::Model cornering_model(const mesh::Mesh& mesh, const Cornering& c) {
