@@ -36,7 +36,8 @@ void check_motion(CaseValues& in, const Case& c) {
   check_constant(in, "motion.slip_angle", c.motion.slip_angle);
   if (in.has(spin) && in.good({spin}) && c.motion.angular_velocity.at(0.0) == 0.0)
     in.fault(spin, "a body that does not turn does not roll",
-             "not 0; analysis.kind = \"crush\" presses one that is at rest");
+             is_solid(c) ? "not 0; analysis.kind = \"dynamic\" sets one down that is at rest"
+                         : "not 0; analysis.kind = \"crush\" presses one that is at rest");
   if (c.motion.slope != 0.0)
     in.fault("motion.slope", "steady rolling knows no slope", "0, or a dynamic analysis");
   for (std::size_t k = 0; k < c.pressures.size(); ++k)

@@ -16,6 +16,7 @@
 #include "rondo/analysis/run.hpp"
 #include "rondo/case/case_keys.hpp"
 #include "rondo/case/case_source.hpp"
+#include "rondo/core/column.hpp"
 #include "rondo/core/error.hpp"
 #include "rondo/io/files.hpp"
 #include "rondo/output/run_files.hpp"
@@ -215,7 +216,7 @@ class Sweep {
     for (const Vary& vary : study_.parameters) {
       const CaseKey* key = find_case_key(vary.key);
       all.push_back({{"key", vary.key},
-                     {"unit", std::string(key ? key->unit : "-")},
+                     {"unit", std::string(key ? unit_of(key->unit, plan_.is_solid) : "-")},
                      {"kind", vary.uniform ? "uniform" : "values"}});
     }
     return all;

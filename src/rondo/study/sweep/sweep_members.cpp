@@ -92,6 +92,7 @@ void read_members(const SweepStudy& study, PlannedSweep& plan, MemberFaults& fau
       const Case c = case_of(study, member);
       check_window(study, c);
       plan.type = &type_of(c);
+      plan.is_solid = is_solid(c);
       plan.direct = plan.type->direct && !study.snapshots;
       member.hash = hash_of(write_case(c) + meshes.of(c));
       member.body = hash_of(body_key(c) + meshes.of(c));

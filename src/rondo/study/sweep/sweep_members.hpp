@@ -43,6 +43,7 @@ struct MembersRequest {
 
 struct PlannedSweep {
   const AnalysisType* type = nullptr;  ///< of all members
+  bool is_solid = false;               ///< wheels in three dimensions: of the units
   std::vector<PlannedMember> members;  ///< in the order of their numbers
   /// Members in the order in which they are done: those that share a body one after the other, the
   /// longest first.

@@ -10,6 +10,7 @@
 #include <map>
 
 #include "rondo/case/case_keys.hpp"
+#include "rondo/core/column.hpp"
 #include "rondo/io/files.hpp"
 #include "rondo/io/h5/h5.hpp"
 #include "rondo/output/run_files.hpp"
@@ -75,9 +76,9 @@ void write_column(io::h5::File& file, const std::string& name, const std::vector
   file.write<double>(name, {values.size()}, values, label);
 }
 
-std::string unit_of(const Vary& vary) {
+std::string unit_of(const Vary& vary, bool is_solid) {
   const CaseKey* key = find_case_key(vary.key);
-  return key && key->unit != "-" ? std::string(key->unit) : "1";
+  return key && key->unit != "-" ? std::string(rondo::unit_of(key->unit, is_solid)) : "1";
 }
 
 /// Numbers as they are; of texts and tables the place in a list, which is the attribute `values`.
@@ -88,7 +89,9 @@ void write_parameter(io::h5::File& file, const SweepTables& t, std::size_t k) {
     values.push_back(number_of(member.member.values[k]));
   const std::string name = "/parameters/" + vary.key;
   const bool numbers = std::ranges::none_of(values, [](double value) { return std::isnan(value); });
-  if (numbers) return write_column(file, name, values, {unit_of(vary), "key of the case file"});
+  if (numbers)
+    return write_column(file, name, values,
+                        {unit_of(vary, t.plan.is_solid), "key of the case file"});
   std::map<std::string, std::size_t> places;
   std::string list;
   for (std::size_t m = 0; m < values.size(); ++m) {

@@ -93,11 +93,11 @@ void write_strips(SolidPlan& plan) {
 void add_order(SolidPlan& plan) {
   std::vector<int> strip_of(static_cast<std::size_t>(plan.n_local));
   for (std::size_t i = 0; i < plan.strips.size(); ++i)
-    for (int r = 0; r < plan.strips[i].n_rows; ++r)
-      strip_of[static_cast<std::size_t>(plan.strips[i].first + r)] = static_cast<int>(i);
+    for (int row = plan.strips[i].first; row < plan.strips[i].first + plan.strips[i].n_rows; ++row)
+      strip_of[static_cast<std::size_t>(row)] = static_cast<int>(i);
   for (SolidPlanStrip& strip : plan.strips)
-    for (int r = 0; r < strip.n_rows; ++r)
-      for (const SolidBlock& b : plan.stiffness.blocks[static_cast<std::size_t>(strip.first + r)])
+    for (int row = strip.first; row < strip.first + strip.n_rows; ++row)
+      for (const SolidBlock& b : plan.stiffness.blocks[static_cast<std::size_t>(row)])
         strip.needs = std::max(strip.needs, strip_of[static_cast<std::size_t>(b.row)]);
 }
 
