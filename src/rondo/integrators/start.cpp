@@ -97,8 +97,8 @@ void start_wheel(const Model& model, std::span<const Vec2> load, State& state) {
 }
 
 /// Forces at u_0 and v_{1/2}.
-void start_velocities(const Model& model, AxialStart axial, State& state) {
-  if (model.solid) return start_solid(model, std::move(axial), state);
+void start_velocities(const Model& model, const AxialStart& axial, State& state) {
+  if (model.solid) return start_solid(model, axial, state);
   find_start_forces(model, state);
   std::vector<Vec2> load(model.n_nodes());
   pressure_forces(model, state.u, 0.0, load);
@@ -111,7 +111,7 @@ void start_velocities(const Model& model, AxialStart axial, State& state) {
 }  // namespace
 
 State start(const Model& model, std::vector<Vec2> u0, std::vector<Vec2> v0, std::vector<Vec2> half,
-            AxialStart axial) {
+            const AxialStart& axial) {
   RONDO_DEMAND(axial.u.empty() || model.solid, axial.u.size());
   RONDO_DEMAND(u0.size() == model.n_nodes() && v0.size() == model.n_nodes(), u0.size(), v0.size());
   RONDO_DEMAND(half.empty() || half.size() == model.n_nodes(), half.size());
@@ -126,7 +126,7 @@ State start(const Model& model, std::vector<Vec2> u0, std::vector<Vec2> v0, std:
   for (const FreeBody& body : model.free_bodies) state.poses.push_back({body.center});
   state.force.resize(model.n_nodes());
   state.force_before.resize(model.n_nodes());
-  start_velocities(model, std::move(axial), state);
+  start_velocities(model, axial, state);
   if (!half.empty()) for_free_nodes(model, [&](std::size_t k) { state.v_next[k] = half[k]; });
   return state;
 }

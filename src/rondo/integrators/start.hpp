@@ -12,6 +12,6 @@ namespace rondo::dynamics {
 /// @param half v_{1/2} where it is known (n), with the forces of contact in it; empty: (3.7)
 /// @param axial of a wheel in three dimensions alone
 State start(const Model& model, std::vector<Vec2> u0, std::vector<Vec2> v0,
-            std::vector<Vec2> half = {}, AxialStart axial = {});
+            std::vector<Vec2> half = {}, const AxialStart& axial = {});
 
 }  // namespace rondo::dynamics

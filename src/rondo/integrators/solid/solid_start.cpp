@@ -75,7 +75,7 @@ void start_wheel(const Model& model, const SolidField& load, State& state) {
 
 }  // namespace
 
-void start_solid(const Model& model, AxialStart axial, State& state) {
+void start_solid(const Model& model, const AxialStart& axial, State& state) {
   const std::size_t n = model.n_nodes();
   const fem::SolidSector& stiffness = model.solid->sector;
   state.axial_u = free_only(model, axial.u);

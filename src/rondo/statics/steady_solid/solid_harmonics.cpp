@@ -88,7 +88,8 @@ bool SolidHarmonics::keeps_transfers() const noexcept {
   double size = 0.0;
   for (std::size_t l = 1; l < layers_.size(); ++l)
     size += static_cast<double>(layers_[l - 1].size() * layers_[l].size());
-  return size * (turn_ / 2 + 1) * sizeof(Complexes) <= most_kept;
+  const int harmonics = turn_ / 2 + 1;
+  return size * harmonics * sizeof(Complexes) <= most_kept;
 }
 
 /// One inverse real transform of the candidates' Z_k⁻¹ over the harmonics.
