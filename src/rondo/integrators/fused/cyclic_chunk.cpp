@@ -35,11 +35,7 @@ CyclicChunk::CyclicChunk(const Model& model, const CyclicPlan& plan, const kerne
     turn_y_.push_back(model.sector->turn[static_cast<std::size_t>(sector)].im);
   }
   fill_loads();
-  if (plan.halo != Halo::ring)
-    for (auto& parity : edges_)
-      for (LargeArray& edge : parity)
-        edge =
-            LargeArray(static_cast<std::size_t>(plan.n_local * edge_width() * 2) * n_edge_fields());
+  if (plan.halo != Halo::ring) edges_ = RingEdges(plan.halo, plan.keeps_force, plan.n_local, 2);
   if (!model.contact) return;
   const auto most = static_cast<std::size_t>(range.columns) + 2 * halo_columns;
   low_.resize(most + kernels::lanes);
@@ -176,13 +172,13 @@ void CyclicChunk::copy_in(int row, RowField which, const double* x, const double
   double* to = field(row, field_of(which));
   std::copy_n(x + range_.first, range_.columns, to);
   std::copy_n(y + range_.first, range_.columns, to + plan_.stride);
-  if (which == RowField::u && plan_.halo == Halo::ring) wrap(row, field_now());
+  if (which == RowField::u && plan_.halo == Halo::ring) wrap(layout(), row, field_now());
 }
 
 /// What is right of the chunk's own nodes, where it is read for the next pass.
 void CyclicChunk::show_to_others() noexcept {
   if (plan_.halo != Halo::ring) return give_edges();
-  for (int a = 0; a < plan_.n_local; ++a) wrap(a, field_now());
+  for (int a = 0; a < plan_.n_local; ++a) wrap(layout(), a, field_now());
 }
 
 void CyclicChunk::save(SavedState& saved) const noexcept {
@@ -289,7 +285,7 @@ void CyclicChunk::strip(const Work& work, int i) noexcept {
     table_.cyclic_strip[loaded][terms.stiffness_damping][terms.unsteady](s);
   for (const Touching& t : touching_) solve_node(work, t);
   if (plan_.halo == Halo::ring && !plan_.wheel)
-    for (int a = first; a < first + n; ++a) wrap(a, work.next);
+    for (int a = first; a < first + n; ++a) wrap(layout(), a, work.next);
   if (work.corners && i == plan_.last_contact_strip)
     work.corners->solve(*work.step, fields, *work.held);
 }

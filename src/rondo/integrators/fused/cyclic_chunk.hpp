@@ -8,6 +8,7 @@
 #include "rondo/core/large_array.hpp"
 #include "rondo/integrators/fused/corner_contact.hpp"
 #include "rondo/integrators/fused/cyclic_plan.hpp"
+#include "rondo/integrators/fused/ring_edges.hpp"
 #include "rondo/integrators/fused/step_context.hpp"
 #include "rondo/model/loaded_rim.hpp"
 #include "rondo/model/saved_state.hpp"
@@ -29,9 +30,11 @@ class CyclicChunk {
   void save_velocity(std::vector<Vec2>& v) const noexcept;
 
   /// What neighbours need of this chunk for the pass to come.
-  void give_edges() noexcept;
+  void give_edges() noexcept { edges_.give(layout(), edge_fields(), passes_); }
   /// @pre the neighbours have made as many passes, or one more, and given their edges after each.
-  void take_halo(const CyclicChunk& left, const CyclicChunk& right) noexcept;
+  void take_halo(const CyclicChunk& left, const CyclicChunk& right) noexcept {
+    edges_.take(layout(), edge_fields(), passes_, left.edges_, right.edges_);
+  }
 
   /// Makes the steps; parts[i * stride + g] gets what group g of the ring gives in step i.
   /// @param corners which hold nodes of this chunk alone; null: none. They fill the last part.
@@ -115,14 +118,14 @@ class CyclicChunk {
   [[nodiscard]] int field_of(RowField which) const noexcept;
   void show_to_others() noexcept;
   void save_field(int field, std::vector<Vec2>& out) const noexcept;
-  void wrap(int a, int field) noexcept;
+  [[nodiscard]] ChunkFields layout() noexcept {
+    return {field(0, 0), plan_.row_size(), plan_.stride, plan_.n_local, 2, range_.columns};
+  }
   void hand_over(std::size_t n_steps, PartialStep* parts, std::size_t stride) const noexcept;
   [[nodiscard]] int field_now() const noexcept;
   [[nodiscard]] int field_next() const noexcept;
   void load_on_rim(const State& state);
   [[nodiscard]] std::array<int, 3> edge_fields() const noexcept;
-  [[nodiscard]] std::size_t n_edge_fields() const noexcept;
-  [[nodiscard]] int edge_width() const noexcept;
 
   const Model& model_;
   const CyclicPlan& plan_;
@@ -133,7 +136,7 @@ class CyclicChunk {
   LargeArray loads_;                     ///< (loads, 2) `stride` apart, as the plan has them  [m]
   LargeArray sums_;                      ///< (depth, groups, n_sums, lanes)
   std::vector<PartialStep> contact_;     ///< (depth, groups): of these the contacts' part
-  std::array<std::array<LargeArray, 2>, 2> edges_;  ///< [parity of the pass][left, right]
+  RingEdges edges_;
   std::vector<int> low_;
   std::vector<Touching> touching_;
   std::vector<ActiveContact> active_;

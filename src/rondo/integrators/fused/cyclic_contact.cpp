@@ -29,7 +29,7 @@ void CyclicChunk::set_motion(CyclicPlace place, int field_u, Vec2 v, Vec2 u) noe
   put(place.row, field_v, c, conj(turn(c)) * v);
   if (plan_.wheel) return;
   put(place.row, field_u, c, conj(turn(c)) * u);
-  if (plan_.halo == Halo::ring) wrap(place.row, field_u);
+  if (plan_.halo == Halo::ring) wrap(layout(), place.row, field_u);
 }
 
 CandidateMotion CyclicChunk::motion_of(CyclicPlace place) const noexcept {

@@ -24,15 +24,18 @@ SolidChunk::SolidChunk(const Model& model, const SolidPlan& plan, const kernels:
     turn_y_.push_back(turn.im);
   }
   if (plan.cut.halo != Halo::ring)
-    for (auto& parity : edges_)
-      for (LargeArray& edge : parity)
-        edge =
-            LargeArray(static_cast<std::size_t>(plan.n_local * edge_width() * 3) * n_edge_fields());
+    edges_ = RingEdges(plan.cut.halo, plan.keeps_force, plan.n_local, 3);
   if (!model.contact) return;
   const auto most = static_cast<std::size_t>(range.columns) + 2 * halo_columns;
   low_.resize(most + kernels::lanes);
   touching_.reserve(most * kernels::solid_rows);
   active_.reserve(2 * most * plan.candidate.size());
+}
+
+/// What is right of the chunk's own nodes, where it is read for the next pass.
+void SolidChunk::show_to_others() noexcept {
+  if (plan_.cut.halo != Halo::ring) return give_edges();
+  for (int a = 0; a < plan_.n_local; ++a) wrap(layout(), a, field_now());
 }
 
 double* SolidChunk::field(int row, int field) noexcept {
@@ -205,7 +208,7 @@ void SolidChunk::strip(const Work& work, int i) noexcept {
   table_.strip[!plan_.loads.empty()][terms.stiffness_damping][terms.unsteady](strip_of(work, p));
   for (const Touching& t : touching_) solve_node(work, t);
   if (plan_.cut.halo == Halo::ring)
-    for (int a = p.first; a < p.first + p.n_rows; ++a) wrap(a, work.next);
+    for (int a = p.first; a < p.first + p.n_rows; ++a) wrap(layout(), a, work.next);
 }
 
 void SolidChunk::pass(std::span<const StepContext> steps, PartialStep* parts,

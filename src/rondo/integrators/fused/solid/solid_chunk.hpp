@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "rondo/core/large_array.hpp"
+#include "rondo/integrators/fused/ring_edges.hpp"
 #include "rondo/integrators/fused/solid/solid_plan.hpp"
 #include "rondo/integrators/fused/step_context.hpp"
 #include "rondo/model/saved_state.hpp"
@@ -30,9 +31,11 @@ class SolidChunk {
   void save_axial_velocity(std::vector<double>& v) const noexcept;
 
   /// What neighbours need of this chunk for the pass to come.
-  void give_edges() noexcept;
+  void give_edges() noexcept { edges_.give(layout(), edge_fields(), passes_); }
   /// @pre the neighbours have made as many passes, or one more, and given their edges after each.
-  void take_halo(const SolidChunk& left, const SolidChunk& right) noexcept;
+  void take_halo(const SolidChunk& left, const SolidChunk& right) noexcept {
+    edges_.take(layout(), edge_fields(), passes_, left.edges_, right.edges_);
+  }
 
   /// Makes the steps; parts[i * stride + g] gets what group g of the ring gives in step i.
   /// @pre at most plan.cut.depth steps, the halo taken.
@@ -94,12 +97,14 @@ class SolidChunk {
   template <class Visit>
   void for_own_nodes(Visit&& visit) const noexcept;
   void show_to_others() noexcept;
-  void wrap(int row, int field) noexcept;
+  [[nodiscard]] ChunkFields layout() noexcept {
+    return {field(0, 0), plan_.row_size(), plan_.stride, plan_.n_local, 3, range_.columns};
+  }
   void hand_over(std::size_t n_steps, PartialStep* parts, std::size_t stride) const noexcept;
   [[nodiscard]] int field_now() const noexcept;
-  [[nodiscard]] std::array<int, 3> edge_fields() const noexcept;
-  [[nodiscard]] std::size_t n_edge_fields() const noexcept;
-  [[nodiscard]] int edge_width() const noexcept;
+  [[nodiscard]] std::array<int, 3> edge_fields() const noexcept {
+    return {field_now(), field_v, field_force};
+  }
 
   const Model& model_;
   const SolidPlan& plan_;
@@ -109,7 +114,7 @@ class SolidChunk {
   std::vector<double> turn_x_, turn_y_;  ///< of the columns, from the halo on the left
   LargeArray sums_;                      ///< (depth, groups, n_sums, lanes)
   std::vector<PartialStep> contact_;     ///< (depth, groups): of these the contacts' part
-  std::array<std::array<LargeArray, 2>, 2> edges_;  ///< [parity of the pass][left, right]
+  RingEdges edges_;
   std::vector<int> low_;
   std::vector<Touching> touching_;
   std::vector<ActiveContact> active_;
