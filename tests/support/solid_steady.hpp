@@ -81,7 +81,7 @@ class SteadyWheel {
  private:
   static mesh::Mesh made(const SteadyWheelCase& c) {
     const mesh::Mesh section = graded_section(c);
-    return mesh::revolve(section, mesh::columns_of(c.wheel, section));
+    return mesh::revolve(section, mesh::columns_of(c.wheel, section), "tread");
   }
   [[nodiscard]] std::vector<int> candidates(double reach) const {
     std::vector<char> touches(mesh.n_nodes());

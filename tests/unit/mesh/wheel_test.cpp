@@ -258,7 +258,7 @@ TEST(Wheel, SectionFromAFile) {
                                   .contact = "tread",
                                   .curves = {"cavity"}};
   const Mesh section = mesh::read_gmsh(request).mesh;
-  const Mesh m = mesh::revolve(section, {20, 1, {}});
+  const Mesh m = mesh::revolve(section, {20, 1, {}}, "tread");
   EXPECT_EQ(m.n_nodes(), 180U);
   EXPECT_EQ(m.clamped.size(), 60U);
   EXPECT_EQ(m.boundary.size(), 60U);
@@ -280,11 +280,35 @@ TEST(Wheel, SectionFromAFile) {
               area(m, surface(m, "tread")), 1e-14);
 }
 
+/// A contact curve that goes down both sides to the rim: what stands beside a held node is half of
+/// the last face's, as in the plane, and the held ones are no candidates.
+TEST(Wheel, ContactCurveThatEndsAtTheRim) {
+  Mesh section = mesh::make_section(box());
+  mesh::Curve all{"all", {}};
+  for (const mesh::Curve& curve : section.curves)
+    if (curve.name != "rim")
+      all.edges.insert(all.edges.end(), curve.edges.begin(), curve.edges.end());
+  section.curves.push_back(all);
+  const Mesh m = mesh::revolve(section, {20, 1, {}}, "all");
+  EXPECT_EQ(m.boundary.size(), 20U * (5 + 2 * 2));  // of the top, and two layers on each side
+  double held = 0.0;
+  const std::vector<char> clamped = mesh::clamped_flags(m);
+  for (const mesh::Face& face : surface(m, "all").faces) {
+    const auto share = mesh::face_shares(mesh::face_corners(m, face));
+    for (std::size_t i = 0; i < 4; ++i)
+      if (clamped[static_cast<std::size_t>(face[i])]) held += norm(share[i]);
+  }
+  EXPECT_GT(held, 0.4 * 2 * ring_area(0.15, 0.20, 20, 20));
+  EXPECT_LT(held, 0.5 * 2 * ring_area(0.15, 0.20, 20, 20));  // the inner half is the smaller
+  EXPECT_NEAR(std::accumulate(m.tributary.begin(), m.tributary.end(), 0.0) + held,
+              area(m, surface(m, "all")), 1e-14);
+}
+
 TEST(Wheel, TrianglesAndTheAxleAreNoSections) {
   Mesh section = mesh::make_section(box());
   section.cells[3][3] = -1;
-  EXPECT_DEATH(mesh::revolve(section, {20, 1, {}}), "n_corners");
+  EXPECT_DEATH(mesh::revolve(section, {20, 1, {}}, "tread"), "n_corners");
   section = mesh::make_section(box());
   section.coordinates[0].x = 0.0;
-  EXPECT_DEATH(mesh::revolve(section, {20, 1, {}}), "r > 0");
+  EXPECT_DEATH(mesh::revolve(section, {20, 1, {}}, "tread"), "r > 0");
 }

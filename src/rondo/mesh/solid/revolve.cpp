@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <string_view>
 #include <utility>
 
 #include "rondo/core/contract.hpp"
@@ -25,14 +26,14 @@ class Sweep {
     number_lines();
   }
 
-  Mesh mesh() const {
+  Mesh mesh(std::string_view contact) const {
     Mesh mesh;
     mesh.n_sectors = columns_.n_sectors;
     mesh.region_names = section_.region_names;
     add_nodes(mesh);
     add_hexahedra(mesh);
     add_surfaces(mesh);
-    add_candidates(mesh);
+    add_candidates(contact, mesh);
     return mesh;
   }
 
@@ -133,13 +134,16 @@ class Sweep {
     }
   }
 
-  /// Nodes of the contact surface, each with its share of the faces around it.
-  void add_candidates(Mesh& mesh) const {
+  /// Nodes of the contact surface that nothing holds, each with its share of the faces around it.
+  void add_candidates(std::string_view contact, Mesh& mesh) const {
+    const auto surface = std::ranges::find(mesh.surfaces, contact, &Surface::name);
+    if (surface == mesh.surfaces.end()) return;
     std::vector<double> area(mesh.n_nodes(), 0.0);
-    for (const Face& face : swept(section_.contact_edges)) {
+    for (const Face& face : surface->faces) {
       const std::array<Vec3, 4> share = face_shares(face_corners(mesh, face));
       for (std::size_t i = 0; i < 4; ++i) area[static_cast<std::size_t>(face[i])] += norm(share[i]);
     }
+    for (const int node : mesh.clamped) area[static_cast<std::size_t>(node)] = 0.0;
     for (std::size_t i = 0; i < area.size(); ++i)
       if (area[i] > 0.0) {
         mesh.boundary.push_back(static_cast<int>(i));
@@ -155,7 +159,7 @@ class Sweep {
 
 }  // namespace
 
-Mesh revolve(const Mesh& section, const Columns& columns) {
+Mesh revolve(const Mesh& section, const Columns& columns, std::string_view contact) {
   RONDO_DEMAND(columns.n_sectors >= 3 && columns.columns >= 1, columns.n_sectors, columns.columns);
   const auto n = static_cast<std::size_t>(columns.columns) * section.cells.size();
   RONDO_DEMAND(columns.kept.empty() || columns.kept.size() == n, columns.kept.size(), n);
@@ -166,7 +170,7 @@ Mesh revolve(const Mesh& section, const Columns& columns) {
       RONDO_DEMAND(r > 0.0, node, r);
     }
   }
-  return Sweep(section, columns).mesh();
+  return Sweep(section, columns).mesh(contact);
 }
 
 }  // namespace rondo::mesh

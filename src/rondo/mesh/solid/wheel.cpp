@@ -116,13 +116,7 @@ Mesh make_section(const Wheel& wheel) {
     rim.edges.push_back({node(0, j + 1), node(0, j)});
     tread.edges.push_back({node(layers, j), node(layers, j + 1)});
   }
-  for (int j = 0; j < across; ++j) {
-    mesh.clamped.push_back(node(0, j));
-    mesh.boundary.push_back(node(layers, j));
-    const auto at = [&](int line) { return z[static_cast<std::size_t>(line)]; };
-    mesh.tributary.push_back(0.5 * (at(std::min(j + 1, across - 1)) - at(std::max(j - 1, 0))));
-  }
-  mesh.contact_edges = tread.edges;
+  for (int j = 0; j < across; ++j) mesh.clamped.push_back(node(0, j));
   mesh.curves = {std::move(rim), std::move(tread), std::move(left), std::move(right)};
   return mesh;
 }

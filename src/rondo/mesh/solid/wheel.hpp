@@ -4,6 +4,7 @@
 #pragma once
 #include <array>
 #include <optional>
+#include <string_view>
 #include <vector>
 
 #include "rondo/mesh/disk.hpp"
@@ -42,25 +43,25 @@ struct Columns {
 };
 
 /// The section as a plane mesh, x being r and y being z, cells counter-clockwise: "rim" is clamped,
-/// the top is its boundary ("tread"); "left" and "right" are the sides, at the least and the
-/// largest z. Nodes are numbered layer after layer outwards.
+/// "tread" is the top; "left" and "right" are the sides, at the least and the largest z. It has no
+/// candidates. Nodes are numbered layer after layer outwards.
 Mesh make_section(const Wheel& wheel);
 
 /// The columns of a generated wheel, its tread and its grooves being what is left out.
 Columns columns_of(const Wheel& wheel, const Mesh& section);
 
 /// Sector 0 begins at -90°, straight down; nodes and hexahedra are numbered sector after sector, in
-/// each alike. Candidates are
-/// the nodes of the faces that the section's contact_edges sweep and that no groove has taken the
-/// cell from, ascending; their tributaries are ∫ N dA of these faces. Nodes of no cell are left
-/// out. Clamped are those of the section's clamped ones. Curves of the section's boundary become
-/// surfaces.
+/// each alike. Nodes of no cell are left out. Clamped are those of the section's clamped ones.
+/// Curves of the section's boundary become surfaces, of the faces that no groove has taken the cell
+/// from. Candidates are the nodes of the surface `contact` that are not clamped, ascending; their
+/// tributaries are ∫ N dA of its faces, those beside a clamped node too.
+/// @param contact name of a curve of the section
 /// @pre r > 0 in the section, which has no triangles.
-Mesh revolve(const Mesh& section, const Columns& columns);
+Mesh revolve(const Mesh& section, const Columns& columns, std::string_view contact);
 
 inline Mesh make_wheel(const Wheel& wheel) {
   const Mesh section = make_section(wheel);
-  return revolve(section, columns_of(wheel, section));
+  return revolve(section, columns_of(wheel, section), "tread");
 }
 
 }  // namespace rondo::mesh

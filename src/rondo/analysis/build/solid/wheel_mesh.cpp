@@ -31,7 +31,7 @@ mesh::Mesh generate(const Case& c) {
   const mesh::Wheel wheel = wheel_of(c);
   mesh::Mesh section = mesh::make_section(wheel);
   set_regions(c, section);
-  return mesh::revolve(section, mesh::columns_of(wheel, section));
+  return mesh::revolve(section, mesh::columns_of(wheel, section), "tread");
 }
 
 InputError section_error(const Case& c, const std::string& message, const std::string& allowed) {
@@ -86,7 +86,7 @@ mesh::Mesh revolve_file(const Case& c, std::vector<std::string>* warnings) {
     throw case_error(c, "section.sectors", fmt::format("the mesh would have {} nodes", nodes),
                      fmt::format("at most {}", (std::size_t{1} << 31) / section.n_nodes()));
   demand_memory(c, nodes, mesh_memory(nodes));
-  return mesh::revolve(section, {c.section->sectors, 1, {}});
+  return mesh::revolve(section, {c.section->sectors, 1, {}}, c.section->mesh.contact);
 }
 
 }  // namespace
