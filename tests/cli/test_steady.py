@@ -9,6 +9,7 @@ import numpy as np
 from program import ROOT, ProgramTest, RunTest, contact, history, replaced, run, said, summary
 
 CASE = (ROOT / "cases" / "steady-rolling.toml").read_text()
+WHEEL = (ROOT / "cases" / "wheel3d-steady.toml").read_text()
 SMALL = replaced(replaced(CASE, "radial", "radial = 4"), "circumferential", "circumferential = 60")
 TREAD = replaced(SMALL, "circumferential", None) + """
 [disk.tread]
@@ -263,6 +264,13 @@ class Refused(ProgramTest):
     def test_what_is_not_solved_is_no_result(self):
         self.refuse("is inverted", "analysis.load=7e6", text=replaced(SMALL, "height", None), code=3)
         self.refuse("the ground is within the rim", "analysis.load=1e7", text=replaced(SMALL, "height", None))
+
+    def test_too_much_work_says_how_much_and_what_makes_less(self):
+        done = run("run", self.case(WHEEL), "-o", self.folder / "out", "--quiet", "--set",
+                   "analysis.samples_per_sector=24", "--set", "motion.height=0.27")
+        self.assertEqual(done.returncode, 3, done.stderr)
+        self.assertRegex(done.stderr, r"samples_per_sector = 24 makes 1\d{3} pairs of .* 2(\.\d)?e\+11 operations")
+        self.assertIn("fewer samples, a coarser disk.mesh, a larger motion.height", done.stderr)
 
     def test_no_checkpoints(self):
         done = run("run", self.case(SMALL), "-o", self.folder / "out", "--resume")

@@ -9,7 +9,6 @@
 #include "rondo/analysis/figures/dynamic_figures.hpp"
 #include "rondo/analysis/figures/steady_figures.hpp"
 #include "rondo/analysis/reduced.hpp"
-#include "rondo/analysis/steady/solid_steady.hpp"
 #include "rondo/analysis/steady/steady.hpp"
 
 namespace rondo::study {
@@ -26,8 +25,8 @@ std::span<const AnalysisType> analysis_types() noexcept {
 }
 
 const AnalysisType& type_of(const Case& c) noexcept {
-  static const AnalysisType solid_steady{analysis_kinds[2].name, "place", make_solid_steady_rolling,
-                                         solid_steady_figures(), solve_solid_steady_rolling};
+  static const AnalysisType solid_steady{analysis_kinds[2].name, "place", make_steady_rolling,
+                                         solid_steady_figures(), solve_steady_rolling};
   if (c.analysis.kind == AnalysisKind::steady_rolling && is_solid(c)) return solid_steady;
   static const AnalysisType solid_dynamic{analysis_kinds[0].name, "step", make_dynamic,
                                           solid_dynamic_figures()};

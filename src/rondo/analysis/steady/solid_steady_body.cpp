@@ -1,14 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "rondo/analysis/steady/solid_steady_body.hpp"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <chrono>
-#include <thread>
 
 #include "rondo/analysis/build/memory.hpp"
-#include "rondo/analysis/build/physical.hpp"
 #include "rondo/analysis/build/solid/solid_body.hpp"
 #include "rondo/fem/solid/solid_sector.hpp"
 
@@ -16,11 +12,6 @@ namespace rondo::study {
 namespace {
 
 using Clock = std::chrono::steady_clock;
-
-/// s, counter-clockwise.
-double spin_of(const Case& c) {
-  return -c.motion.angular_velocity.at(0.0);
-}
 
 std::vector<int> candidates_of(const SolidSteadyBody& b) {
   std::vector<char> touches(b.mesh.n_nodes());
@@ -60,37 +51,9 @@ double radius_of(const Case& c, const mesh::Mesh& mesh) {
   return radius;
 }
 
-/// Equal for cases that share harmonics.
-std::string harmonics_key(const Case& c) {
-  const AnalysisCase& a = c.analysis;
-  return fmt::format("{}\n{:a} {:a} {:a} {} {}", body_key(c), spin_of(c), c.damping.mass,
-                     c.damping.stiffness, a.samples_per_sector, a.massless_contact);
-}
-
-struct KeptSolidSteady {
-  std::string key;
-  std::shared_ptr<SolidSteadyBody> body;
-};
-
-std::shared_ptr<SolidSteadyBody> make_solid_steady_body(const Case& c) {
-  auto body = std::make_shared<SolidSteadyBody>();
-  SolidSteadyBody& b = *body;
-  b.mesh = build_mesh(c, &b.warnings);
-  b.materials = materials_of(c, b.mesh);
-  warn_of_units(c, b.mesh, b.materials, b.warnings);
-  demand_memory(c, b.mesh.n_nodes(), steady_memory(c, b.mesh));
-  b.mass = fem::solid_mass(b.mesh, b.materials);
-  b.dofs = 3 * fem::free_nodes(b.mesh).size();
-  b.sector = fem::assemble_solid_sector(b.mesh, b.materials);
-  b.radius = radius_of(c, b.mesh);
-  static_cast<void>(load_of(c, b));  // refused before anything takes time
-  demand_rows_below(c, b);
-  return body;
-}
-
 }  // namespace
 
-std::size_t steady_memory(const Case& c, const mesh::Mesh& mesh) {
+std::size_t SolidSteadyBody::memory(const Case& c) const {
   const auto samples = static_cast<std::size_t>(c.analysis.samples_per_sector);
   const auto sectors = static_cast<std::size_t>(mesh.n_sectors);
   const std::size_t candidates = mesh.boundary.size() / sectors, turn = samples * sectors;
@@ -107,37 +70,32 @@ std::size_t steady_memory(const Case& c, const mesh::Mesh& mesh) {
          (compliance + fields + 24 * pairs * pairs) * sizeof(double);
 }
 
-void find_harmonics(const Case& c, SolidSteadyBody& b, int threads) {
-  if (b.harmonics) return;
-  const auto samples = static_cast<std::size_t>(c.analysis.samples_per_sector);
-  if (threads == 0)
-    threads = samples * b.dofs < 2 * single_thread_dofs
-                  ? 1
-                  : static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
-  const auto begin = Clock::now();
-  b.harmonics.emplace(statics::SolidRollingBody{.stiffness = b.sector,
-                                                .mass = b.mass,
-                                                .reference = b.mesh.coordinates,
-                                                .axial = b.mesh.axial,
-                                                .candidates = candidates_of(b),
-                                                .spin = spin_of(c),
-                                                .mass_damping = c.damping.mass,
-                                                .stiffness_damping = c.damping.stiffness,
-                                                .samples = c.analysis.samples_per_sector,
-                                                .massless = c.analysis.massless_contact,
-                                                .load = load_of(c, b),
-                                                .threads = threads});
-  b.harmonics_wall_s = std::chrono::duration<double>(Clock::now() - begin).count();
+void SolidSteadyBody::assemble(const Case& c) {
+  mass = fem::solid_mass(mesh, materials);
+  dofs = 3 * fem::free_nodes(mesh).size();
+  sector = fem::assemble_solid_sector(mesh, materials);
+  sector_dofs = 3 * sector.n_local();
+  radius = radius_of(c, mesh);
+  static_cast<void>(load_of(c, *this));  // refused before anything takes time
+  demand_rows_below(c, *this);
 }
 
-std::shared_ptr<SolidSteadyBody> shared_solid_steady_body(const Case& c, SharedBody* shared) {
-  if (!shared) return make_solid_steady_body(c);
-  std::string key = harmonics_key(c);
-  const auto* kept = std::any_cast<KeptSolidSteady>(&shared->other);
-  if (kept && kept->key == key) return kept->body;
-  std::shared_ptr<SolidSteadyBody> body = make_solid_steady_body(c);
-  shared->other = KeptSolidSteady{std::move(key), body};
-  return body;
+void SolidSteadyBody::find_harmonics(const Case& c, int threads) {
+  if (harmonics) return;
+  const auto begin = Clock::now();
+  harmonics.emplace(statics::SolidRollingBody{.stiffness = sector,
+                                              .mass = mass,
+                                              .reference = mesh.coordinates,
+                                              .axial = mesh.axial,
+                                              .candidates = candidates_of(*this),
+                                              .spin = spin_of(c),
+                                              .mass_damping = c.damping.mass,
+                                              .stiffness_damping = c.damping.stiffness,
+                                              .samples = c.analysis.samples_per_sector,
+                                              .massless = c.analysis.massless_contact,
+                                              .load = load_of(c, *this),
+                                              .threads = threads_for(c, *this, threads)});
+  harmonics_wall_s = std::chrono::duration<double>(Clock::now() - begin).count();
 }
 
 }  // namespace rondo::study

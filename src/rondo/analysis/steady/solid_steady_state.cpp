@@ -15,14 +15,6 @@ namespace {
 using contact::Status;
 using Eigen::Index;
 
-int wrapped(int value, int count) noexcept {
-  return (value % count + count) % count;
-}
-
-double floor_of(const Case& c) {
-  return c.ground->shape.profile.front().y;
-}
-
 statics::SolidRollingDrive drive_of(const Case& c, const SolidSteadyBody& body) {
   const AnalysisCase& a = c.analysis;
   statics::SolidRollingDrive d;
@@ -35,11 +27,6 @@ statics::SolidRollingDrive drive_of(const Case& c, const SolidSteadyBody& body) 
   d.traction = a.traction;
   d.torque = a.torque;
   return d;
-}
-
-statics::SlipDifference slip_of(const Case& c) {
-  return c.analysis.slip == RollingSlip::bdf2 ? statics::SlipDifference::bdf2
-                                              : statics::SlipDifference::upwind;
 }
 
 }  // namespace
@@ -97,19 +84,35 @@ void SolidSteadyState::refuse() const {
                                  case_.disk.inner_radius));
 }
 
+/// What was found, and what makes fewer pairs where they are too many for the work on them.
+std::string SolidSteadyState::not_solved() const {
+  const AnalysisCase& a = case_.analysis;
+  const bool too_many = solution_.work >= statics::most_solid_work;
+  std::string found = "no set of contacts came to rest";
+  if (too_many)
+    found = fmt::format(
+        "analysis.samples_per_sector = {} makes {} pairs of a node and a place near the ground, "
+        "and {:.2g} operations (limit {:.0e}) did not solve them",
+        a.samples_per_sector, window_.pairs().size(), solution_.work, statics::most_solid_work);
+  else if (std::isfinite(solution_.residual))
+    found = fmt::format("residual {:.3g}, bound {:.0e}", solution_.residual,
+                        statics::solid_residual_bound);
+  std::string remedy = "another analysis.samples_per_sector (1 to 8, fewer first)";
+  if (too_many)
+    remedy = fmt::format("{}a coarser {}{}", a.samples_per_sector > 1 ? "fewer samples, " : "",
+                         case_.section ? "section.file or fewer section.sectors" : "disk.mesh",
+                         a.load ? "" : ", a larger motion.height");
+  return fmt::format(
+      "the contact was not solved: {}, after {} Newton steps and {} sweeps; {}{}{}, a smaller "
+      "ground.friction{}",
+      found, solution_.newton_steps, solution_.sweeps, remedy,
+      a.massless_contact ? "" : ", analysis.massless_contact = true",
+      a.slip == RollingSlip::bdf2 ? ", analysis.slip = \"upwind\"" : "",
+      a.load ? " or analysis.load" : "");
+}
+
 std::string SolidSteadyState::trouble() const {
-  if (solution_.end != statics::RollingEnd::solved)
-    return fmt::format(
-        "the contact was not solved: {}, after {} Newton steps and {} sweeps; another "
-        "analysis.samples_per_sector (1 to 8, fewer first){}{}, a smaller ground.friction{}",
-        std::isfinite(solution_.residual)
-            ? fmt::format("residual {:.3g}, bound {:.0e}", solution_.residual,
-                          statics::solid_residual_bound)
-            : "no set of contacts came to rest",
-        solution_.newton_steps, solution_.sweeps,
-        case_.analysis.massless_contact ? "" : ", analysis.massless_contact = true",
-        case_.analysis.slip == RollingSlip::bdf2 ? ", analysis.slip = \"upwind\"" : "",
-        case_.analysis.load ? " or analysis.load" : "");
+  if (solution_.end != statics::RollingEnd::solved) return not_solved();
   if (!(power_.residual <= residual_bound))
     return fmt::format("the power does not balance: relative residual {:.3g}, bound {:.0e}",
                        power_.residual, residual_bound);
@@ -179,12 +182,8 @@ void SolidSteadyState::sum_up() {
   }
 }
 
-const SolidSteadySums& SolidSteadyState::sums(int place) const {
-  return sums_[static_cast<std::size_t>(place)];
-}
-
 HistoryRecord SolidSteadyState::record(int place, const Snapshot& now) const {
-  const SolidSteadySums& s = sums(place);
+  const SolidSteadySums& s = sums_[static_cast<std::size_t>(place)];
   HistoryRecord h;
   h.time = now.time;
   h.angle = now.angle;
@@ -240,8 +239,7 @@ void SolidSteadyState::fill(int place, Snapshot& s) {
   s.time = s.time_velocity = place * sample_time();
   s.angle = s.angle_velocity = spin() * s.time;
   const double way = solution_.speed * s.time;
-  s.center = {case_.motion.start_x + way * std::cos(drive_.slip_angle),
-              floor_of(case_) + solution_.height};
+  s.center = {case_.motion.start_x + way * std::cos(drive_.slip_angle), height()};
   s.lateral = way * std::sin(drive_.slip_angle);
   displace(place, s);
   unroll(rate_, place, spin(), s.v, s.axial_v);
@@ -260,6 +258,10 @@ void SolidSteadyState::fill(int place, Snapshot& s) {
                             .fixed_axial = fixed.z});
   }
   std::ranges::sort(s.contacts, {}, &ContactForce::candidate);
+}
+
+std::unique_ptr<RolledState> SolidSteadyBody::solve(const Case& c) const {
+  return std::make_unique<SolidSteadyState>(c, *this);
 }
 
 }  // namespace rondo::study

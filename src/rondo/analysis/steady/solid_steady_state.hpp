@@ -7,8 +7,6 @@
 
 #include "rondo/analysis/steady/solid_steady_body.hpp"
 #include "rondo/output/columns.hpp"
-#include "rondo/output/run_files.hpp"
-#include "rondo/output/snapshot.hpp"
 #include "rondo/statics/steady_solid/solid_power.hpp"
 
 namespace rondo::study {
@@ -26,40 +24,33 @@ struct SolidSteadySums {
   double penetration = 0.0;                  ///< largest                                  [m]
 };
 
-class SolidSteadyState {
+class SolidSteadyState final : public RolledState {
  public:
-  /// Solves. @throws InputError: nothing touches; the speed of what slides as a whole is asked for.
-  /// @pre the body has its harmonics, and outlives the object
+  /// Solves. @throws InputError as SolidSteadyBody::solve()
   SolidSteadyState(const Case& c, const SolidSteadyBody& body);
 
-  /// What is wrong; empty: solved.
-  [[nodiscard]] std::string trouble() const;
-  [[nodiscard]] const statics::SolidRollingSolution& solution() const noexcept { return solution_; }
-  [[nodiscard]] const statics::RollingPower& power() const noexcept { return power_; }
-  [[nodiscard]] const SolidSteadySums& mean() const noexcept { return mean_; }
+  [[nodiscard]] std::string trouble() const override;
+  [[nodiscard]] double sample_time() const noexcept override { return window_.time(); }
+  void fill(int place, Snapshot& snapshot) override;
+  void displace(int place, Snapshot& snapshot) const override;
+  void append_row(int place, const Snapshot& now, std::vector<double>& rows) const override;
+  [[nodiscard]] SteadyResiduals residuals() const override {
+    return {power_.residual, solution_.residual, mean_.penetration};
+  }
+  [[nodiscard]] Json describe() const override;
+  [[nodiscard]] std::vector<std::string> notes() const override;
+
+ private:
   /// Of the rim, clockwise: what keeps the spin constant [N·m].
   [[nodiscard]] double torque() const noexcept { return solution_.forces.torque; }
   /// Power lost over speed: (ω T - V·F) / |V|; NaN where V is 0 [N].
   [[nodiscard]] double resistance() const noexcept;
   [[nodiscard]] double slip_ratio() const noexcept;
-  /// Forces, height, speed and slip, for the user.
-  [[nodiscard]] std::vector<std::string> notes() const;
-  /// Length of a pass over the number of its places [s].
-  [[nodiscard]] double sample_time() const noexcept { return window_.time(); }
-
-  /// While sector 0 is `place` samples beyond the lowest point, in the sense of the spin.
-  [[nodiscard]] const SolidSteadySums& sums(int place) const;
-  /// @param now as filled for it
+  [[nodiscard]] double height() const { return floor_of(case_) + solution_.height; }
   [[nodiscard]] HistoryRecord record(int place, const Snapshot& now) const;
-  void fill(int place, Snapshot& snapshot);
-  /// Displacements alone.
-  void displace(int place, Snapshot& snapshot) const;
-  /// For run.json.
-  [[nodiscard]] Json describe() const;
-
- private:
   void solve();
   void refuse() const;
+  [[nodiscard]] std::string not_solved() const;
   void sum_up();
   void add(std::size_t pair, double share, SolidSteadySums& sums) const;
   void unroll(const Eigen::MatrixXd& field, int place, double by, std::vector<Vec2>& plane,

@@ -1,13 +1,33 @@
 // SPDX-License-Identifier: BSD-3-Clause
-/// What run.json and the user are told of a steady state in three dimensions.
+/// What files, run.json and the user are told of a steady state in three dimensions.
 #include <fmt/format.h>
 
-#include <cmath>
+#include <array>
+#include <span>
 
 #include "rondo/analysis/steady/solid_steady_state.hpp"
 
 namespace rondo::study {
 namespace {
+
+using R = SolidSteadySums;
+constexpr std::array own_columns{
+    Column<R>{"stick_area_m2", "m2", "tributary areas of the nodes that stick, summed",
+              [](const R& r) { return r.stick_area; }},
+    Column<R>{"slip_area_m2", "m2", "of those that slip", [](const R& r) { return r.slip_area; }},
+    Column<R>{"pressure_max_pa", "Pa", "largest of all contact nodes",
+              [](const R& r) { return r.pressure; }},
+    Column<R>{"shear_max_pa", "Pa", "likewise", [](const R& r) { return r.shear; }},
+    Column<R>{"slip_speed_max", "m/s", "likewise, by the slip that the law of friction sees",
+              [](const R& r) { return r.slip; }},
+    Column<R>{"friction_power", "W", "taken by friction", [](const R& r) { return r.friction; }},
+};
+
+using P = ContactRecord;
+constexpr std::array pair_columns{
+    Column<P>{"slip_speed", "m/s", "of the node over the ground, as the law of friction sees it",
+              [](const P& r) { return r.slip; }},
+};
 
 Json json_of(const statics::SolidRollingSlope& slope) {
   const statics::SolidRollingForces& f = slope.forces;
@@ -17,13 +37,23 @@ Json json_of(const statics::SolidRollingSlope& slope) {
           {"height", slope.height},        {"speed", slope.speed}};
 }
 
-Json json_of(const statics::RollingPower& p) {
-  return {{"drive", p.drive},       {"mass", p.mass},     {"stiffness", p.stiffness},
-          {"friction", p.friction}, {"weight", p.weight}, {"scheme", p.scheme},
-          {"residual", p.residual}};
+}  // namespace
+
+void SolidSteadyBody::add_columns(RecordPlan& plan) const {
+  plan.columns = history_labels(true);
+  for (const auto& more :
+       {labels_of(solid_columns()), labels_of(std::span<const Column<R>>(own_columns))})
+    plan.columns.insert(plan.columns.end(), more.begin(), more.end());
+  plan.contact_columns = pair_columns;
 }
 
-}  // namespace
+void SolidSteadyState::append_row(int place, const Snapshot& now, std::vector<double>& rows) const {
+  const HistoryRecord row = record(place, now);
+  append_values(history_columns(), row, rows);
+  append_values(solid_columns(), row, rows);
+  append_values(std::span<const Column<R>>(own_columns), sums_[static_cast<std::size_t>(place)],
+                rows);
+}
 
 std::vector<std::string> SolidSteadyState::notes() const {
   const statics::SolidRollingForces& f = solution_.forces;
@@ -32,8 +62,8 @@ std::vector<std::string> SolidSteadyState::notes() const {
                       f.heading, f.normal, f.lateral, f.aligning, torque(), resistance()),
           fmt::format("center {:.6g} m high at {:.6g} m/s, slip ratio {:.4g} %, slip angle {:.4g} "
                       "rad, camber {:.4g} rad",
-                      case_.ground->shape.profile.front().y + solution_.height, solution_.speed,
-                      100.0 * slip_ratio(), drive_.slip_angle, case_.motion.camber)};
+                      height(), solution_.speed, 100.0 * slip_ratio(), drive_.slip_angle,
+                      case_.motion.camber)};
 }
 
 Json SolidSteadyState::describe() const {
@@ -47,7 +77,7 @@ Json SolidSteadyState::describe() const {
   j["torque"] = torque();
   j["moment_aligning"] = s.forces.aligning;
   j["moment_overturning"] = s.forces.overturning;
-  j["height"] = case_.ground->shape.profile.front().y + s.height;
+  j["height"] = height();
   j["speed"] = s.speed;
   j["slip_ratio"] = slip_ratio();
   j["slip_angle"] = drive_.slip_angle;

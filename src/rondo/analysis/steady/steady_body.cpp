@@ -6,10 +6,8 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
-#include <thread>
 
 #include "rondo/analysis/build/memory.hpp"
-#include "rondo/analysis/build/physical.hpp"
 #include "rondo/analysis/build/steady_start.hpp"
 #include "rondo/modal/critical_speeds.hpp"
 #include "rondo/statics/stationary_spin.hpp"
@@ -18,11 +16,6 @@ namespace rondo::study {
 namespace {
 
 using Clock = std::chrono::steady_clock;
-
-/// s, counter-clockwise.
-double spin_of(const Case& c) {
-  return -c.motion.angular_velocity.at(0.0);
-}
 
 /// K := K + K_σ of the stress of the spin.
 void add_stress_stiffening(const Case& c, SteadyBody& b) {
@@ -58,86 +51,49 @@ std::vector<Vec2> load_of(const Case& c, const SteadyBody& b) {
   return sector_load(model, b.sector);
 }
 
-/// Equal for cases that share harmonics.
-std::string harmonics_key(const Case& c) {
-  const AnalysisCase& a = c.analysis;
-  return fmt::format("{}\n{:a} {:a} {:a} {:a} {} {} {}", body_key(c), spin_of(c), c.damping.mass,
-                     c.damping.stiffness, c.motion.gravity.at(0.0), a.samples_per_sector,
-                     static_cast<int>(a.slip), a.massless_contact);
-}
-
-struct KeptSteady {
-  std::string key;
-  std::shared_ptr<SteadyBody> body;
-};
-
 }  // namespace
 
-std::size_t steady_memory(const Case& c, const SteadyBody& b) {
+std::size_t SteadyBody::memory(const Case& c) const {
   const auto samples = static_cast<std::size_t>(c.analysis.samples_per_sector);
-  const auto sectors = static_cast<std::size_t>(b.mesh.n_sectors);
-  const std::size_t candidates = b.mesh.boundary.size() / sectors;
+  const auto sectors = static_cast<std::size_t>(mesh.n_sectors);
+  const std::size_t candidates = mesh.boundary.size() / sectors;
   const std::size_t turn = samples * sectors;
   constexpr std::size_t copies = 5;  // history, its spectra, the last layer, two kernels
   const std::size_t compliance = copies * 4 * candidates * candidates * turn;
   // Fields, rates, spectrum; how a layer follows the next; half a sector's pass touches at most.
   const std::size_t layer = 2 * candidates;
-  const std::size_t fields = (4 + layer) * 2 * b.mesh.n_nodes() * samples;
+  const std::size_t fields = (4 + layer) * 2 * mesh.n_nodes() * samples;
   const std::size_t pairs = turn * candidates / 8;
-  return mesh_memory(b.mesh.n_nodes()) +
-         (compliance + fields + 10 * pairs * pairs) * sizeof(double);
+  return mesh_memory(mesh.n_nodes()) + (compliance + fields + 10 * pairs * pairs) * sizeof(double);
 }
 
-std::shared_ptr<SteadyBody> make_steady_body(const Case& c) {
-  auto body = std::make_shared<SteadyBody>();
-  SteadyBody& b = *body;
-  b.mesh = build_mesh(c, &b.warnings);
-  b.materials = materials_of(c, b.mesh);
-  warn_of_units(c, b.mesh, b.materials, b.warnings);
-  demand_memory(c, b.mesh.n_nodes(), steady_memory(c, b));
-  b.mass = fem::lumped_mass(b.mesh, b.materials);
-  b.free = fem::free_nodes(b.mesh);
-  b.sector = fem::assemble_sector(b.mesh, b.materials);
-  add_stress_stiffening(c, b);
-  static_cast<void>(load_of(c, b));  // refused before anything takes time
-  warn_of_critical_spin(c, b);
-  return body;
+void SteadyBody::assemble(const Case& c) {
+  mass = fem::lumped_mass(mesh, materials);
+  dofs = 2 * fem::free_nodes(mesh).size();
+  sector = fem::assemble_sector(mesh, materials);
+  sector_dofs = 2 * sector.n_local();
+  add_stress_stiffening(c, *this);
+  static_cast<void>(load_of(c, *this));  // refused before anything takes time
+  warn_of_critical_spin(c, *this);
 }
 
-void find_harmonics(const Case& c, SteadyBody& b, int threads) {
-  if (b.harmonics) return;
-  const auto samples = static_cast<std::size_t>(c.analysis.samples_per_sector);
-  if (threads == 0)
-    threads = samples * b.free.size() < single_thread_dofs
-                  ? 1
-                  : static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
+void SteadyBody::find_harmonics(const Case& c, int threads) {
+  if (harmonics) return;
   const auto begin = Clock::now();
-  b.harmonics.emplace(statics::RollingBody{.stiffness = b.sector,
-                                           .mass = b.mass,
-                                           .reference = b.mesh.coordinates,
-                                           .candidates = candidate_rows(b.mesh, b.sector),
-                                           .spin = spin_of(c),
-                                           .mass_damping = c.damping.mass,
-                                           .stiffness_damping = c.damping.stiffness,
-                                           .samples = c.analysis.samples_per_sector,
-                                           .massless = c.analysis.massless_contact,
-                                           .gravity = c.motion.gravity.at(0.0),
-                                           .load = load_of(c, b),
-                                           .threads = threads});
-  b.window.emplace(*b.harmonics, c.analysis.slip == RollingSlip::bdf2
-                                     ? statics::SlipDifference::bdf2
-                                     : statics::SlipDifference::upwind);
-  b.harmonics_wall_s = std::chrono::duration<double>(Clock::now() - begin).count();
-}
-
-std::shared_ptr<SteadyBody> shared_steady_body(const Case& c, SharedBody* shared) {
-  if (!shared) return make_steady_body(c);
-  std::string key = harmonics_key(c);
-  if (const auto* kept = std::any_cast<KeptSteady>(&shared->other); kept && kept->key == key)
-    return kept->body;
-  std::shared_ptr<SteadyBody> body = make_steady_body(c);
-  shared->other = KeptSteady{std::move(key), body};
-  return body;
+  harmonics.emplace(statics::RollingBody{.stiffness = sector,
+                                         .mass = mass,
+                                         .reference = mesh.coordinates,
+                                         .candidates = candidate_rows(mesh, sector),
+                                         .spin = spin_of(c),
+                                         .mass_damping = c.damping.mass,
+                                         .stiffness_damping = c.damping.stiffness,
+                                         .samples = c.analysis.samples_per_sector,
+                                         .massless = c.analysis.massless_contact,
+                                         .gravity = c.motion.gravity.at(0.0),
+                                         .load = load_of(c, *this),
+                                         .threads = threads_for(c, *this, threads)});
+  window.emplace(*harmonics, slip_of(c));
+  harmonics_wall_s = std::chrono::duration<double>(Clock::now() - begin).count();
 }
 
 }  // namespace rondo::study

@@ -18,15 +18,10 @@ constexpr std::string_view without_friction =
     "motion.speed instead, as no traction tells it without friction; or ground.friction above 0";
 constexpr Vec2 normal{0.0, 1.0};  ///< a contact frame's vector times it is along the fixed axes
 
-int wrapped(int value, int count) noexcept {
-  return (value % count + count) % count;
-}
-
 statics::RollingDrive drive_of(const Case& c) {
   const AnalysisCase& a = c.analysis;
-  const double floor = c.ground->shape.profile.front().y;
   statics::RollingDrive d;
-  d.height = c.motion.height.at(0.0) - floor;
+  d.height = c.motion.height.at(0.0) - floor_of(c);
   d.speed = c.motion.speed.at(0.0);
   if (a.traction || a.torque) d.speed = c.motion.angular_velocity.at(0.0) * c.disk.outer_radius;
   d.friction = c.ground->friction;
@@ -34,14 +29,6 @@ statics::RollingDrive drive_of(const Case& c) {
   d.traction = a.traction;
   d.torque = a.torque;
   return d;
-}
-
-Json json_of(const statics::RollingSlope& slope) {
-  return {{"force_x", slope.forces.x},
-          {"force_y", slope.forces.y},
-          {"torque", slope.forces.torque},
-          {"height", slope.height},
-          {"speed", slope.speed}};
 }
 
 }  // namespace
@@ -57,9 +44,7 @@ SteadyState::SteadyState(const Case& c, const SteadyBody& body)
     candidate_of_[static_cast<std::size_t>(body.mesh.boundary[k])] = k;
   solve();
   refuse();
-  if (solution_.end != statics::RollingEnd::solved) return;
-  find_fields();
-  sum_up();
+  if (solution_.end == statics::RollingEnd::solved) sum_up();
 }
 
 /// Where the speed is asked for and Newton does not find it, from the statuses of free rolling.
@@ -77,6 +62,7 @@ void SteadyState::solve() {
   if (solution_.end != RollingEnd::solved) return;
   spectrum_ = statics::spectrum_of(window_, solution_);
   power_ = statics::rolling_power(window_, solution_, spectrum_);
+  u_ = window_.harmonics().fields(spectrum_, 0.0, false);
 }
 
 void SteadyState::refuse() const {
@@ -131,10 +117,6 @@ std::string SteadyState::trouble() const {
   return {};
 }
 
-double SteadyState::torque() const noexcept {
-  return solution_.forces.torque;
-}
-
 double SteadyState::resistance() const noexcept {
   if (solution_.speed == 0.0) return std::numeric_limits<double>::quiet_NaN();
   return (-spin() * torque() - solution_.speed * solution_.forces.x) / std::abs(solution_.speed);
@@ -145,15 +127,8 @@ SteadyState::Where SteadyState::where(std::size_t pair) const {
   const statics::RollingHarmonics& h = window_.harmonics();
   const int samples = h.body().samples, place = wrapped(sense() * p.sample, samples);
   const int sector = wrapped(p.sample - sense() * place, h.turn()) / samples;
-  Where w{place, static_cast<std::size_t>(sector), 0, 0};
-  w.node = body_.sector.node(static_cast<std::size_t>(h.body().candidates[p.candidate]), w.sector);
-  w.candidate = candidate_of_[w.node];
-  return w;
-}
-
-void SteadyState::find_fields() {
-  const statics::RollingHarmonics& h = window_.harmonics();
-  u_ = h.fields(spectrum_, 0.0, false);
+  const auto row = static_cast<std::size_t>(h.body().candidates[p.candidate]);
+  return {place, candidate_of_[body_.sector.node(row, static_cast<std::size_t>(sector))]};
 }
 
 void SteadyState::sum_up() {
@@ -188,17 +163,8 @@ void SteadyState::sum_up() {
   }
 }
 
-const SteadySums& SteadyState::sums(int place) const {
-  return sums_[static_cast<std::size_t>(place)];
-}
-
-Vec2 SteadyState::center(int place) const {
-  return {case_.motion.start_x + solution_.speed * place * sample_time(),
-          case_.ground->shape.profile.front().y + solution_.height};
-}
-
 HistoryRecord SteadyState::record(int place, const Snapshot& now) const {
-  const SteadySums& s = sums(place);
+  const SteadySums& s = sums_[static_cast<std::size_t>(place)];
   HistoryRecord h;
   h.time = now.time;
   h.angle = now.angle;
@@ -235,16 +201,16 @@ void SteadyState::unroll(const Eigen::MatrixXd& field, int place, double by,
   }
 }
 
-void SteadyState::displace(int place, std::vector<Vec2>& u) const {
-  unroll(u_, place, 1.0, u);
+void SteadyState::displace(int place, Snapshot& s) const {
+  unroll(u_, place, 1.0, s.u);
 }
 
 void SteadyState::fill(int place, Snapshot& s) {
   if (rate_.size() == 0) rate_ = window_.harmonics().fields(spectrum_, 0.0, true);
   s.time = s.time_velocity = place * sample_time();
   s.angle = s.angle_velocity = spin() * s.time;
-  s.center = center(place);
-  displace(place, s.u);
+  s.center = {case_.motion.start_x + solution_.speed * place * sample_time(), height()};
+  displace(place, s);
   unroll(rate_, place, spin(), s.v);
   s.contacts.clear();
   for (std::size_t k = 0; k < window_.pairs().size(); ++k) {
@@ -265,40 +231,8 @@ double SteadyState::slip_ratio() const noexcept {
   return dynamics::slip_ratio(-spin() * case_.disk.outer_radius, solution_.speed);
 }
 
-std::string SteadyState::motion_text() const {
-  return fmt::format("center {:.6g} m high at {:.6g} m/s, slip ratio {:.4g} %", center(0).y,
-                     solution_.speed, 100.0 * slip_ratio());
-}
-
-Json SteadyState::describe() const {
-  const statics::RollingSolution& s = solution_;
-  const AnalysisCase& a = case_.analysis;
-  const char* by_speed = a.torque ? "by_torque" : a.traction ? "by_traction" : "by_speed";
-  Json j;
-  j["force_x"] = s.forces.x;
-  j["force_y"] = s.forces.y;
-  j["torque"] = torque();
-  j["height"] = center(0).y;
-  j["speed"] = s.speed;
-  j["slip_ratio"] = slip_ratio();
-  j["rolling_resistance"] = resistance();
-  j["stick_length"] = mean_.stick_length;
-  j["slip_length"] = mean_.slip_length;
-  j["pressure_max"] = mean_.pressure;
-  j["shear_max"] = mean_.shear;
-  j["slopes"] = {{"by_friction", json_of(s.slopes.by_friction)},
-                 {a.load ? "by_load" : "by_height", json_of(s.slopes.by_height)},
-                 {by_speed, json_of(s.slopes.by_speed)}};
-  j["power"] = {{"drive", power_.drive},         {"mass", power_.mass},
-                {"stiffness", power_.stiffness}, {"friction", power_.friction},
-                {"weight", power_.weight},       {"scheme", power_.scheme},
-                {"residual", power_.residual}};
-  j["residual"] = s.residual;
-  j["newton_steps"] = s.newton_steps;
-  j["pivots"] = s.pivots;
-  j["pairs"] = window_.pairs().size();
-  j["samples_per_sector"] = window_.harmonics().body().samples;
-  return j;
+std::unique_ptr<RolledState> SteadyBody::solve(const Case& c) const {
+  return std::make_unique<SteadyState>(c, *this);
 }
 
 }  // namespace rondo::study

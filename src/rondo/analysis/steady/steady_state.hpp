@@ -7,9 +7,6 @@
 
 #include "rondo/analysis/steady/steady_body.hpp"
 #include "rondo/output/columns.hpp"
-#include "rondo/output/run_files.hpp"
-#include "rondo/output/snapshot.hpp"
-#include "rondo/statics/steady/rolling_power.hpp"
 
 namespace rondo::study {
 
@@ -25,52 +22,42 @@ struct SteadySums {
   double penetration = 0.0;                      ///< largest                            [m]
 };
 
-class SteadyState {
+class SteadyState final : public RolledState {
  public:
-  /// Solves. @throws InputError: nothing touches; the speed of what slides as a whole is asked for.
-  /// @pre the body has its harmonics, and outlives the object
+  /// Solves. @throws InputError as SteadyBody::solve()
   SteadyState(const Case& c, const SteadyBody& body);
 
-  /// What is wrong; empty: solved.
-  [[nodiscard]] std::string trouble() const;
-  [[nodiscard]] const statics::RollingSolution& solution() const noexcept { return solution_; }
-  [[nodiscard]] const statics::RollingPower& power() const noexcept { return power_; }
-  [[nodiscard]] const SteadySums& mean() const noexcept { return mean_; }
+  [[nodiscard]] std::string trouble() const override;
+  [[nodiscard]] double sample_time() const noexcept override { return window_.time(); }
+  void fill(int place, Snapshot& snapshot) override;
+  void displace(int place, Snapshot& snapshot) const override;
+  void append_row(int place, const Snapshot& now, std::vector<double>& rows) const override;
+  [[nodiscard]] SteadyResiduals residuals() const override {
+    return {power_.residual, solution_.residual, mean_.penetration};
+  }
+  [[nodiscard]] Json describe() const override;
+  [[nodiscard]] std::vector<std::string> notes() const override;
+
+ private:
   /// Of the rim, clockwise: what keeps the spin constant [N].
-  [[nodiscard]] double torque() const noexcept;
+  [[nodiscard]] double torque() const noexcept { return solution_.forces.torque; }
   /// Power lost over speed: (ω T - V F_x) / |V|; NaN where V is 0 [N/m].
   [[nodiscard]] double resistance() const noexcept;
   [[nodiscard]] double slip_ratio() const noexcept;
-  /// Height, speed and slip, for the user.
-  [[nodiscard]] std::string motion_text() const;
-  /// Length of a pass over the number of its places [s].
-  [[nodiscard]] double sample_time() const noexcept { return window_.time(); }
-
-  /// While sector 0 is `place` samples beyond the lowest point, in the sense of the spin.
-  [[nodiscard]] const SteadySums& sums(int place) const;
-  /// @param now as filled for it
   [[nodiscard]] HistoryRecord record(int place, const Snapshot& now) const;
-  void fill(int place, Snapshot& snapshot);
-  /// @param u (n) [m]
-  void displace(int place, std::vector<Vec2>& u) const;
-  /// For run.json.
-  [[nodiscard]] Json describe() const;
-
- private:
   void solve();
   void refuse() const;
   void sum_up();
-  void find_fields();
   void unroll(const Eigen::MatrixXd& field, int place, double by, std::vector<Vec2>& out) const;
   [[nodiscard]] int sense() const noexcept { return spin() > 0.0 ? 1 : -1; }
   [[nodiscard]] double spin() const noexcept { return body_.harmonics->body().spin; }
-  /// Where a pair is touched: place and sector.
+  /// Where a pair is touched: place, and number in mesh.boundary.
   struct Where {
     int place = 0;
-    std::size_t sector = 0, node = 0, candidate = 0;
+    std::size_t candidate = 0;
   };
   [[nodiscard]] Where where(std::size_t pair) const;
-  [[nodiscard]] Vec2 center(int place) const;
+  [[nodiscard]] double height() const { return floor_of(case_) + solution_.height; }
 
   const Case& case_;
   const SteadyBody& body_;

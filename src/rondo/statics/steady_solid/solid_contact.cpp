@@ -79,6 +79,7 @@ SolidRollingSolution solve_rolling(SolidWindow& window, const SolidRollingDrive&
     solve_rolling(problem, drive, window.back(), state);
     s.newton_steps += std::exchange(state.newton_steps, 0);
     s.sweeps += std::exchange(state.sweeps, 0);
+    s.work = state.work;
     if (!state.touches) {
       s.end = RollingEnd::no_contact;
       if (!drive.load) break;

@@ -22,6 +22,7 @@ struct SolidRollingSolution {
   std::vector<contact::Status> status;  ///< (pairs)
   SolidRollingForces forces;
   int newton_steps = 0, sweeps = 0;
+  double work = 0.0;      ///< of these, roughly, in floating-point operations
   double residual = 0.0;  ///< of the law, relative                                          [-]
   SolidRollingSlopes slopes;
 };

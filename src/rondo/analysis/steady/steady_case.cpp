@@ -1,0 +1,87 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "rondo/analysis/steady/steady_case.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <thread>
+#include <utility>
+
+#include "rondo/analysis/build/memory.hpp"
+#include "rondo/analysis/build/physical.hpp"
+#include "rondo/analysis/steady/solid_steady_body.hpp"
+#include "rondo/analysis/steady/steady_body.hpp"
+
+namespace rondo::study {
+namespace {
+
+/// Equal for cases that share harmonics.
+std::string harmonics_key(const Case& c) {
+  const AnalysisCase& a = c.analysis;
+  std::string key = fmt::format("{}\n{:a} {:a} {:a} {} {}", body_key(c), spin_of(c), c.damping.mass,
+                                c.damping.stiffness, a.samples_per_sector, a.massless_contact);
+  // In three dimensions both come with the state.
+  if (!is_solid(c))
+    key += fmt::format(" {:a} {}", c.motion.gravity.at(0.0), static_cast<int>(a.slip));
+  return key;
+}
+
+std::shared_ptr<RolledBody> make_body(const Case& c) {
+  std::shared_ptr<RolledBody> body;
+  if (is_solid(c))
+    body = std::make_shared<SolidSteadyBody>();
+  else
+    body = std::make_shared<SteadyBody>();
+  RolledBody& b = *body;
+  b.mesh = build_mesh(c, &b.warnings);
+  b.materials = materials_of(c, b.mesh);
+  warn_of_units(c, b.mesh, b.materials, b.warnings);
+  demand_memory(c, b.mesh.n_nodes(), b.memory(c));
+  b.assemble(c);
+  return body;
+}
+
+struct KeptBody {
+  std::string key;
+  std::shared_ptr<RolledBody> body;
+};
+
+}  // namespace
+
+double spin_of(const Case& c) {
+  return -c.motion.angular_velocity.at(0.0);
+}
+
+statics::SlipDifference slip_of(const Case& c) {
+  return c.analysis.slip == RollingSlip::bdf2 ? statics::SlipDifference::bdf2
+                                              : statics::SlipDifference::upwind;
+}
+
+double floor_of(const Case& c) {
+  return c.ground->shape.profile.front().y;
+}
+
+Json json_of(const statics::RollingPower& p) {
+  return {{"drive", p.drive},       {"mass", p.mass},     {"stiffness", p.stiffness},
+          {"friction", p.friction}, {"weight", p.weight}, {"scheme", p.scheme},
+          {"residual", p.residual}};
+}
+
+int threads_for(const Case& c, const RolledBody& body, int asked) {
+  if (asked != 0) return asked;
+  const auto samples = static_cast<std::size_t>(c.analysis.samples_per_sector);
+  if (samples * body.dofs < 2 * single_thread_dofs) return 1;
+  return static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
+}
+
+std::shared_ptr<RolledBody> rolled_body(const Case& c, SharedBody* shared) {
+  if (!shared) return make_body(c);
+  std::string key = harmonics_key(c);
+  if (const auto* kept = std::any_cast<KeptBody>(&shared->other); kept && kept->key == key)
+    return kept->body;
+  std::shared_ptr<RolledBody> body = make_body(c);
+  shared->other = KeptBody{std::move(key), body};
+  return body;
+}
+
+}  // namespace rondo::study
