@@ -264,8 +264,8 @@ class Results(SolidTest):
         self.assertIn((alone / "history.csv").read_bytes(), [path.read_bytes() for path in runs])
 
     def test_resumes_to_the_same_bits(self):
-        text = replaced(replaced(WHEEL, "end", "end = 0.6"), "snapshots",
-                        "snapshots = 9\nhistory_interval = 1e-3\ncheckpoint_interval = 0.02")
+        text = replaced(replaced(WHEEL, "end", "end = 3.0"), "snapshots",
+                        "snapshots = 9\nhistory_interval = 1e-2\ncheckpoint_interval = 0.02")
         whole, out = self.folder / "whole", self.folder / "out"
         done = run("run", self.case(text), "-o", whole, "--quiet")
         self.assertEqual(done.returncode, 0, done.stderr)
@@ -277,6 +277,9 @@ class Results(SolidTest):
         process.send_signal(signal.SIGKILL)
         process.wait()
         self.assertEqual(summary(out)["status"], "running")
+        with h5py.File(out / "checkpoint.h5") as f:
+            units = {name: f[name].attrs["units"] for name in ("state/ledger", "history/lateral", "history/aligning")}
+        self.assertEqual(units, {"state/ledger": "J", "history/lateral": "N*s", "history/aligning": "N*m*s"})
         done = run("run", self.folder / "case.toml", "-o", out, "--resume", "--quiet")
         self.assertEqual(done.returncode, 0, done.stderr)
         self.assertGreater(summary(out)["resumed_at_steps"][0], 0)

@@ -32,6 +32,7 @@ NOT_RUN = [
     ("docs/performance.md", "cmake --build build/release --target bench_exceptions"),
     ("docs/performance.md", "cmake --build build/release --target bench_bodies"),
     ("docs/performance.md", "cmake --build build/release --target bench_rubber"),
+    ("docs/performance.md", "cmake --build build/release --target bench_solid"),
     ("docs/python.md", "cmake --install build/release"),
     ("docs/reliability.md", "build/release/tests/verification/verification_long"),
     ("docs/reliability.md", "rondo run cases/long-spin.toml"),

@@ -191,7 +191,8 @@ Progress DynamicAnalysis::begin(Recorder& recorder) {
   hub_.emplace(setup_);
   reports_.resize(steps_at_once(setup_));
   state_ = start(setup_.model, std::move(setup_.displacement), std::move(setup_.velocity),
-                 std::move(setup_.half_velocity), std::move(setup_.axial));
+                 std::move(setup_.half_velocity), setup_.axial);
+  setup_.axial = {};
   strain_.emplace(setup_.mesh, setup_.materials, &setup_.model);
   if (!from_) record_state(recorder);
   start_integrator();

@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "rondo/core/build_id.hpp"
+#include "rondo/core/column.hpp"
 #include "rondo/core/version.hpp"
 #include "rondo/io/checkpoint_file.hpp"
 #include "rondo/io/mesh_files.hpp"
@@ -85,7 +86,7 @@ void for_texts(Known& identity, Visit&& visit) {
   visit("/identity/mesh_hash", identity.mesh_hash);
 }
 
-/// visit(name, value, label) of all numbers that stand alone.
+/// visit(name, value, label) of all numbers that stand alone; units are those of a plane body.
 template <class Known, class Visit>
 void for_scalars(Known& k, Visit&& visit) {
   const std::string row = "since the last row of history.csv", loop = "of the loop so far, ";
@@ -113,21 +114,26 @@ void for_scalars(Known& k, Visit&& visit) {
   visit("/history/hub_angular_impulse", hub_angular, {"N*s", row});
   visit("/history/iterations", iterations, {"1", "of contact in a step, most " + row});
   visit("/history/extensions", extensions, {"1", "of contact in a step, most " + row});
-  visit("/history/lateral", lateral, {"N*s", "of the ground along t2, " + row});
-  visit("/history/aligning", aligning, {"N*m*s", "of the ground about its normal, " + row});
-  visit("/history/overturning", overturning, {"N*m*s", "of the ground about t1, " + row});
+  visit("/history/lateral", lateral, {"N*s/m", "of the ground along t2, " + row});
+  visit("/history/aligning", aligning, {"N*s", "of the ground about its normal, " + row});
+  visit("/history/overturning", overturning, {"N*s", "of the ground about t1, " + row});
   for_contact(k.contact, visit);
   for_deformation(k.deformation, visit);
 }
 
+bool is_solid(const dynamics::SavedState& s) noexcept {
+  return !s.axial_u.empty();
+}
+
 void put_state(File& file, const dynamics::SavedState& s) {
+  const auto unit = [&](const char* plane) { return std::string(unit_of(plane, is_solid(s))); };
   put(file, "/state/u", s.u, {"m", "displacement, in the integrator's own components"});
   put(file, "/state/v", s.v, {"m/s", "velocity, in the integrator's own components"});
-  put(file, "/state/force", s.force, {"N/m", "K u, in the integrator's own components"});
+  put(file, "/state/force", s.force, {unit("N/m"), "K u, in the integrator's own components"});
   put(file, "/state/u_before", s.u_before, {"m", "u a step before, likewise"});
   put(file, "/state/axial_u", s.axial_u, {"m", "u along the axle, in three dimensions"});
   put(file, "/state/axial_v", s.axial_v, {"m/s", "v likewise"});
-  put(file, "/state/axial_force", s.axial_force, {"N", "K u likewise"});
+  put(file, "/state/axial_force", s.axial_force, {unit("N/m"), "K u likewise"});
   put(file, "/state/axial_u_before", s.axial_u_before, {"m", "u a step before, likewise"});
   put(file, "/state/gradient", s.gradient, {"N/m", "derivative of the energy of free bodies"});
   put(file, "/state/energy", s.energy, {"J/m", "energy of each free body"});
@@ -153,7 +159,7 @@ void put_state(File& file, const dynamics::SavedState& s) {
   put(file, "/state/interface", s.interface,
       {"1", "where two parts meet: u [m] and v [m/s] of the coarse one, multiplier [N/m]"});
   put(file, "/state/ledger", std::vector<double>(s.ledger.begin(), s.ledger.end()),
-      {"J/m", "sums of the energy ledger and what their rounding left"});
+      {unit("J/m"), "sums of the energy ledger and what their rounding left"});
 }
 
 void get_state(const File& file, dynamics::SavedState& s) {
@@ -195,7 +201,8 @@ void write_checkpoint(const std::filesystem::path& directory, const Checkpoint& 
       put(file, name, std::vector<std::uint8_t>(text.begin(), text.end()), {"1", "UTF-8 text"});
     });
     for_scalars(k, [&](const char* name, const auto& value, const h5::Label& label) {
-      put(file, name, std::vector{stored(value)}, label);
+      const std::string unit(unit_of(label.units, is_solid(k.state)));
+      put(file, name, std::vector{stored(value)}, {unit, label.description});
     });
     put(file, "/run/last_row", k.last_row, {"1", "last row of history.csv, if none was due there"});
     put(file, "/run/snapshot_steps",
