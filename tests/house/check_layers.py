@@ -33,6 +33,7 @@ ALLOWED = {
                              "integrators/general", "integrators/hati", "integrators/fused",
                              "integrators/bodies", "integrators/solid"},
     "statics": SOLIDS,
+    "statics/latin": SOLIDS | {"statics"},
     "statics/steady": SOLIDS | {"statics"},
     "statics/steady_solid": SOLIDS | {"statics", "statics/steady"},
     "modal": {"core", "mesh", "fem"},

@@ -109,6 +109,10 @@ void Condensation::clear() {
   impl_->compliance.resize(0, 0);
 }
 
+std::size_t Condensation::n_nodes() const noexcept {
+  return impl_->n_nodes;
+}
+
 const std::vector<std::size_t>& Condensation::set() const noexcept {
   return impl_->set;
 }

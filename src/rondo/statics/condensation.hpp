@@ -35,6 +35,8 @@ class Condensation {
   void append(std::span<const std::size_t> candidates);
   /// Empties the set; the factor stays.
   void clear();
+  /// Of the mesh.
+  [[nodiscard]] std::size_t n_nodes() const noexcept;
   /// (m) Places in `nodes`, in the order of the compliance's rows.
   [[nodiscard]] const std::vector<std::size_t>& set() const noexcept;
   /// (2m, 2m) G = H K⁻¹ Hᵀ                                                            [m²/N]

@@ -1,0 +1,199 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "rondo/statics/latin/pgd.hpp"
+
+#include <Eigen/Eigenvalues>
+#include <Eigen/SVD>
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "rondo/core/contract.hpp"
+
+namespace rondo::statics {
+namespace {
+
+using Eigen::Index;
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+
+constexpr double share_left = 0.3;  ///< of the load that modes may leave out, over the indicator
+constexpr int most_added = 3;       ///< an iteration
+
+/// Eigenvector of the largest eigenvalue, by its powers. @pre symmetric, positive semidefinite
+VectorXd dominant(const MatrixXd& s) {
+  constexpr int most_powers = 200;
+  constexpr double close = 1e-6;
+  Index largest = 0;
+  s.diagonal().maxCoeff(&largest);
+  VectorXd v = s.col(largest).normalized(), next(v.size());
+  for (int k = 0; k < most_powers; ++k) {
+    next.noalias() = s * v;
+    next.normalize();
+    const double change = (next - v).norm();
+    v.swap(next);
+    if (change <= close) break;
+  }
+  return v;
+}
+
+void append_column(MatrixXd& m, const VectorXd& column) {
+  m.conservativeResize(column.size(), m.cols() + 1);
+  m.rightCols(1) = column;
+}
+
+/// H u of each node of `nodes`.
+VectorXd on_contact(const VectorXd& field, const std::vector<int>& nodes) {
+  VectorXd h(static_cast<Index>(2 * nodes.size()));
+  for (std::size_t j = 0; j < nodes.size(); ++j)
+    h.segment<2>(static_cast<Index>(2 * j)) << field[2 * nodes[j] + 1], -field[2 * nodes[j]];
+  return h;
+}
+
+using ThinSvd = Eigen::BDCSVD<MatrixXd>;
+
+ThinSvd thin_svd(const MatrixXd& m) {
+  return ThinSvd(m, Eigen::ComputeThinU | Eigen::ComputeThinV);
+}
+
+}  // namespace
+
+Fields orthonormal(const Fields& fields) {
+  constexpr double dependent = 1e-12;
+  const MatrixXd work = fields.contact.transpose() * fields.load;
+  const VectorXd scale = work.diagonal().cwiseMax(1e-300).cwiseSqrt().cwiseInverse();
+  const MatrixXd even = scale.asDiagonal() * (0.5 * (work + work.transpose())) * scale.asDiagonal();
+  const Eigen::SelfAdjointEigenSolver<MatrixXd> solver(even);
+  const VectorXd& values = solver.eigenvalues();  // ascending
+  Index kept = 0;
+  for (const double value : values) kept += value > dependent * values[values.size() - 1] ? 1 : 0;
+  const MatrixXd turn = scale.asDiagonal() * solver.eigenvectors().rightCols(kept) *
+                        values.tail(kept).cwiseSqrt().cwiseInverse().asDiagonal();
+  return {fields.field * turn, fields.contact * turn, fields.load * turn};
+}
+
+Pgd::Pgd(const Condensation& stiffened, std::vector<int> nodes, const PgdOptions& options)
+    : body_(stiffened), nodes_(std::move(nodes)), options_(options) {
+  RONDO_DEMAND(options.direction > 0.0 && options.downsizing >= 0.0, options.direction);
+  const auto rows = static_cast<Index>(2 * nodes_.size());
+  contact_.resize(rows, 0);
+  load_.resize(rows, 0);
+  solved_.contact.resize(rows, 0);
+  solved_.load.resize(rows, 0);
+  rotation_.resize(0, 0);
+}
+
+void Pgd::begin_with(Fields fields) {
+  RONDO_DEMAND(rotation_.cols() == 0 && fields.contact.rows() == contact_.rows(), rotation_.cols(),
+               fields.contact.rows());
+  solved_ = orthonormal(fields);
+  contact_ = solved_.contact;
+  load_ = solved_.load;
+  rotation_ = MatrixXd::Identity(contact_.cols(), contact_.cols());
+  keeps_all_ = true;
+  most_modes_ = modes();
+}
+
+void Pgd::append(const VectorXd& field, const VectorXd& load) {
+  append_column(solved_.field, field);
+  append_column(solved_.contact, on_contact(field, nodes_));
+  append_column(solved_.load, load);
+  const MatrixXd before = rotation_;
+  rotation_ = MatrixXd::Zero(before.rows() + 1, before.cols() + 1);
+  rotation_.topLeftCorner(before.rows(), before.cols()) = before;
+}
+
+/// A φ = Hᵀ load, made orthonormal to the modes.
+void Pgd::add_mode(const VectorXd& load) {
+  std::vector<Vec2> force(body_.n_nodes());
+  for (std::size_t j = 0; j < nodes_.size(); ++j)
+    force[static_cast<std::size_t>(nodes_[j])] = {-load[static_cast<Index>(2 * j) + 1],
+                                                  load[static_cast<Index>(2 * j)]};
+  const std::vector<Vec2> found = body_.displacement(force);
+  ++solves_;
+  VectorXd field(static_cast<Index>(2 * found.size()));
+  for (std::size_t i = 0; i < found.size(); ++i)
+    field.segment<2>(static_cast<Index>(2 * i)) << found[i].x, found[i].y;
+  append(field, load);
+  VectorXd contact = solved_.contact.rightCols(1), rest = load;
+  VectorXd turn = VectorXd::Zero(rotation_.rows());
+  turn[rotation_.rows() - 1] = 1.0;
+  const Index modes = contact_.cols();
+  for (int pass = 0; pass < 2; ++pass) {  // once more for what round-off leaves
+    const VectorXd part = load_.transpose() * contact;
+    contact -= contact_ * part;
+    rest -= load_ * part;
+    turn -= rotation_.leftCols(modes) * part;
+  }
+  const double length = std::sqrt(contact.dot(rest));
+  append_column(contact_, contact / length);
+  append_column(load_, rest / length);
+  rotation_.rightCols(1) = turn / length;
+}
+
+void Pgd::enrich(const MatrixXd& load, double indicator) {
+  MatrixXd left = load - load_ * temporal_.transpose();
+  const double allowed =
+      share_left * std::max(indicator, share_left * options_.tolerance) * load.norm();
+  MatrixXd squares;
+  for (int added = 0; added < most_added && left.norm() > allowed; ++added) {
+    if (added == 0) squares = left * left.transpose();
+    add_mode(dominant(squares));
+    const VectorXd f = load_.rightCols(1);
+    const VectorXd psi = load.transpose() * contact_.rightCols(1);
+    const VectorXd along = left * psi;
+    squares +=
+        psi.squaredNorm() * f * f.transpose() - along * f.transpose() - f * along.transpose();
+    left -= f * psi.transpose();
+    append_column(temporal_, psi);
+  }
+}
+
+void Pgd::downsize(double indicator) {
+  const ThinSvd svd = thin_svd(temporal_);
+  const VectorXd& sigma = svd.singularValues();
+  Index kept = 0;
+  while (kept < sigma.size() && sigma[kept] >= 0.3 * options_.downsizing * indicator * sigma[0])
+    ++kept;
+  const MatrixXd turn = svd.matrixV().leftCols(kept);
+  temporal_ = svd.matrixU().leftCols(kept) * sigma.head(kept).asDiagonal();
+  contact_ *= turn;
+  load_ *= turn;
+  rotation_ *= turn;
+}
+
+void Pgd::solve(const MatrixXd& load, double indicator, MatrixXd& displacement) {
+  const int before = solves_;
+  temporal_ = load.transpose() * contact_;
+  enrich(load, indicator);
+  most_modes_ = std::max(most_modes_, modes());
+  if (solves_ > before && options_.downsizing > 0.0 && !keeps_all_) downsize(indicator);
+  displacement.noalias() = contact_ * temporal_.transpose();
+}
+
+MatrixXd Pgd::balanced_force(const MatrixXd& /*load*/, const MatrixXd& displacement) const {
+  return load_ * temporal_.transpose() - options_.direction * displacement;
+}
+
+Separated Pgd::separated(double share) const {
+  const ThinSvd svd = thin_svd(temporal_);
+  const VectorXd& sigma = svd.singularValues();
+  Index kept = sigma.size();
+  double tail = 0.0;
+  while (kept > 1) {
+    tail = std::hypot(tail, sigma[kept - 1]);
+    if (tail > share * sigma.norm()) break;
+    --kept;
+  }
+  const MatrixXd turn = svd.matrixV().leftCols(kept);
+  Separated s;
+  s.modes = {solved_.field * (rotation_ * turn), contact_ * turn, load_ * turn};
+  s.sigma = sigma.head(kept);
+  s.temporal = svd.matrixU().leftCols(kept);
+  return s;
+}
+
+Fields Pgd::basis() const {
+  return orthonormal(solved_);
+}
+
+}  // namespace rondo::statics
