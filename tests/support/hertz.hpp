@@ -93,7 +93,7 @@ class HertzDisk {
   statics::CrushState press(double depth) {
     statics::append_within(model_, 2.0 * depth, *body_);
     statics::CrushState state = statics::start_crush(model_, mesh_.n_nodes());
-    const auto report = statics::press(model_, depth, *body_, state);
+    const auto report = statics::bring_to(model_, depth, 0.0, *body_, state);
     EXPECT_TRUE(report.converged);
     EXPECT_LT(report.residual, 1e-10);
     return state;

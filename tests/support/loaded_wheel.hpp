@@ -32,7 +32,7 @@ inline LoadedWheel load_wheel(const Built& b, double load, double friction,
   const auto force_at = [&](double depth) {
     statics::append_within(model, 2.0 * depth, body);
     state = statics::start_crush(model, b.model.n_nodes());
-    EXPECT_TRUE(statics::press(model, depth, body, state).converged);
+    EXPECT_TRUE(statics::bring_to(model, depth, 0.0, body, state).converged);
     double sum = 0.0;
     for (const Vec2 r : state.force) sum += r.x;
     return sum;

@@ -47,11 +47,12 @@ class Disk {
                                                     fem::free_nodes(mesh_), model_.nodes);
     statics::append_within(model_, 2.0 * depth, *body_);
     state_ = statics::start_crush(model_, mesh_.n_nodes());
-    for (int k = 1; k <= 10; ++k) check(statics::press(model_, depth * k / 10, *body_, state_));
+    for (int k = 1; k <= 10; ++k)
+      check(statics::bring_to(model_, depth * k / 10, 0.0, *body_, state_));
     model_.friction = friction;
   }
 
-  void draw(double slide) { check(statics::draw(model_, slide, *body_, state_)); }
+  void draw(double slide) { check(statics::bring_to(model_, state_.depth, slide, *body_, state_)); }
 
   [[nodiscard]] Tractions tractions() const {
     Tractions t;

@@ -294,8 +294,7 @@ Progress CrushAnalysis::begin(Recorder& recorder) {
 statics::CrushReport CrushAnalysis::solve_increment(int k) {
   const AnalysisCase& a = case_.analysis;
   if (rubber_) return rubber_->bring_to(depth_of(a, k), slide_of(a, k), state_);
-  return k <= a.increments ? statics::press(setup_.model, depth_of(a, k), *body_, state_)
-                           : statics::draw(setup_.model, slide_of(a, k), *body_, state_);
+  return statics::bring_to(setup_.model, depth_of(a, k), slide_of(a, k), *body_, state_);
 }
 
 Progress CrushAnalysis::advance(Recorder& recorder) {

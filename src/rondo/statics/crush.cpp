@@ -162,12 +162,12 @@ std::size_t append_within(const CrushModel& model, double reach, Condensation& b
   return added.size();
 }
 
-namespace {
-
-/// To the trial's depth and slide.
-CrushReport solve_increment(const CrushModel& model, Trial& trial, Condensation& body,
-                            CrushState& state) {
+CrushReport bring_to(const CrushModel& model, double depth, double slide, Condensation& body,
+                     CrushState& state) {
   RONDO_DEMAND(body.factorised() && state.force.size() == model.nodes.size(), state.force.size());
+  Trial trial;
+  trial.depth = depth;
+  trial.slide = slide;
   CrushReport report;
   for (;;) {
     const CondensedProblem problem = make_problem(model, trial, body, state);
@@ -188,22 +188,6 @@ CrushReport solve_increment(const CrushModel& model, Trial& trial, Condensation&
   for (const Vec2 w : trial.slip) report.penetration = std::max(report.penetration, -w.x);
   if (report.converged) state = accept(model, body, state, trial);
   return report;
-}
-
-}  // namespace
-
-CrushReport press(const CrushModel& model, double depth, Condensation& body, CrushState& state) {
-  Trial trial;
-  trial.depth = depth;
-  trial.slide = state.slide;
-  return solve_increment(model, trial, body, state);
-}
-
-CrushReport draw(const CrushModel& model, double slide, Condensation& body, CrushState& state) {
-  Trial trial;
-  trial.depth = state.depth;
-  trial.slide = slide;
-  return solve_increment(model, trial, body, state);
 }
 
 }  // namespace rondo::statics

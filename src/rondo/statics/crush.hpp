@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-/// @file  A body on a rigid rim, pressed without turning onto flat rigid ground, then drawn along
-/// it, quasi-static:
+/// @file  A body on a rigid rim, pressed without turning onto flat rigid ground and drawn along it,
+/// quasi-static:
 /// K u = Hᵀ r under Signorini's law on gaps and Coulomb's on increments of slip (docs/theory.md,
 /// 6.4). Contact frame: n = (0, 1), t = J n = (-1, 0).
 #pragma once
@@ -14,7 +14,7 @@
 
 namespace rondo::statics {
 
-/// Fixed while the body comes down.
+/// Fixed while the body is moved.
 struct CrushModel {
   std::vector<int> nodes;         ///< (nb) candidates
   std::vector<double> clearance;  ///< (nb) gap of the undeformed body at first touch, >= 0  [m]
@@ -33,7 +33,7 @@ struct CrushWorks {
   double strain = 0.0;     ///< stored: ½ uᵀ K u, computed apart from the works
   double internal = 0.0;   ///< done against the forces of the body: of a linear one `strain`
   double contact = 0.0;    ///< of the ground on the body, in u
-  double rim = 0.0;        ///< of the rim by coming down and by sliding
+  double rim = 0.0;        ///< of the rim by both its travels
   double friction = 0.0;   ///< dissipated
   double impact = 0.0;     ///< the rest: gaps that close or open within an increment
   double residual = 0.0;   ///< internal - contact
@@ -75,12 +75,8 @@ struct CrushReport {
 /// Adds the candidates to the set whose clearance is at most `reach` [m]; how many.
 std::size_t append_within(const CrushModel& model, double reach, Condensation& body);
 
-/// Brings the center to `depth` [m] below first touch in one increment.
-[[nodiscard]] CrushReport press(const CrushModel& model, double depth, Condensation& body,
-                                CrushState& state);
-
-/// Brings the center to `slide` [m] along +x in one increment, at the state's depth.
-[[nodiscard]] CrushReport draw(const CrushModel& model, double slide, Condensation& body,
-                               CrushState& state);
+/// Brings the center to `depth` below first touch and `slide` along +x [m] in one increment.
+[[nodiscard]] CrushReport bring_to(const CrushModel& model, double depth, double slide,
+                                   Condensation& body, CrushState& state);
 
 }  // namespace rondo::statics

@@ -45,7 +45,8 @@ Ran run(const Pressed& p, double depth, int increments, double reach) {
   Ran out{{statics::start_crush(p.model, p.mesh.n_nodes())}, {}};
   for (int k = 1; k <= increments; ++k) {
     out.states.push_back(out.states.back());
-    out.reports.push_back(statics::press(p.model, depth * k / increments, body, out.states.back()));
+    out.reports.push_back(
+        statics::bring_to(p.model, depth * k / increments, 0.0, body, out.states.back()));
     EXPECT_TRUE(out.reports.back().converged) << k << ": " << out.reports.back().residual;
   }
   return out;
@@ -149,10 +150,10 @@ TEST(Crush, BalanceSeesAWorkThatIsNotThere) {
   statics::Condensation body(p.k, p.free, p.model.nodes);
   statics::append_within(p.model, 0.04, body);
   auto state = statics::start_crush(p.model, p.mesh.n_nodes());
-  EXPECT_TRUE(statics::press(p.model, 0.01, body, state).converged);
+  EXPECT_TRUE(statics::bring_to(p.model, 0.01, 0.0, body, state).converged);
   EXPECT_LT(state.works.relative, 1e-13);
   state.works.contact *= 1.0 + 1e-6;
-  EXPECT_TRUE(statics::press(p.model, 0.02, body, state).converged);
+  EXPECT_TRUE(statics::bring_to(p.model, 0.02, 0.0, body, state).converged);
   EXPECT_GT(state.works.relative, 1e-8);
 }
 
@@ -164,10 +165,10 @@ TEST(Crush, DrawnFarItCarriesFrictionTimesLoad) {
     statics::append_within(p.model, 0.04, body);
     auto state = statics::start_crush(p.model, p.mesh.n_nodes());
     for (int k = 1; k <= 4; ++k)
-      EXPECT_TRUE(statics::press(p.model, 0.005 * k, body, state).converged);
+      EXPECT_TRUE(statics::bring_to(p.model, 0.005 * k, 0.0, body, state).converged);
     const double pressed = state.works.rim;
     for (int k = 1; k <= 4; ++k)
-      EXPECT_TRUE(statics::draw(p.model, 0.25 * k * way, body, state).converged);
+      EXPECT_TRUE(statics::bring_to(p.model, 0.02, 0.25 * k * way, body, state).converged);
     EXPECT_EQ(state.depth, 0.02);
     EXPECT_EQ(state.slide, way);
     const Vec2 force = total(state);  // +t is towards -x
@@ -178,6 +179,46 @@ TEST(Crush, DrawnFarItCarriesFrictionTimesLoad) {
     EXPECT_GT(w.rim - pressed, 0.08 * force.x * 0.02);  // of μP times the way
     EXPECT_GT(w.friction, 0.08 * force.x * 0.02);
   }
+}
+
+/// Both travels in one increment: the works close, the rim's is that of mean forces by both.
+TEST(Crush, IsPressedAndDrawnAtOnce) {
+  const Pressed p = make(0.3);
+  statics::Condensation body(p.k, p.free, p.model.nodes);
+  statics::append_within(p.model, 0.04, body);
+  auto state = statics::start_crush(p.model, p.mesh.n_nodes());
+  double rim = 0.0;
+  for (int k = 1; k <= 8; ++k) {
+    const Vec2 before = total(state);
+    EXPECT_TRUE(statics::bring_to(p.model, 0.0025 * k, 0.001 * k, body, state).converged);
+    const Vec2 mean = 0.5 * (before + total(state));
+    rim += mean.x * 0.0025 + mean.y * 0.001;
+  }
+  EXPECT_EQ(state.depth, 0.02);
+  EXPECT_EQ(state.slide, 0.008);
+  const statics::CrushWorks& w = state.works;
+  EXPECT_NEAR(w.rim, rim, 1e-12 * rim);
+  EXPECT_LT(w.relative, 1e-13);
+  EXPECT_NEAR(w.rim - w.friction - w.impact, w.contact, 1e-12 * w.rim);
+  EXPECT_GT(total(state).y, 0.1 * total(state).x);  // of 0.3
+}
+
+/// Lifted off again nothing is left, and what friction took is what the rim did.
+TEST(Crush, LiftedToFirstTouchItIsUndeformed) {
+  const Pressed p = make(0.1);
+  statics::Condensation body(p.k, p.free, p.model.nodes);
+  statics::append_within(p.model, 0.04, body);
+  auto state = statics::start_crush(p.model, p.mesh.n_nodes());
+  for (const int k : {1, 2, 3, 4, 3, 2, 1, 0, 0, 1, 0})
+    EXPECT_TRUE(statics::bring_to(p.model, 0.005 * k, 0.0, body, state).converged) << k;
+  for (const Vec2 r : state.force) EXPECT_EQ(r, Vec2{});
+  for (const Vec2 u : state.u) EXPECT_EQ(u, Vec2{});
+  const statics::CrushWorks& w = state.works;
+  EXPECT_EQ(w.strain, 0.0);
+  EXPECT_LT(std::abs(w.contact), 1e-13 * w.exchanged);
+  EXPECT_LT(w.relative, 1e-13);
+  EXPECT_NEAR(w.rim, w.friction + w.impact, 1e-13 * w.exchanged);
+  EXPECT_GT(w.friction, 1e-5 * w.exchanged);
 }
 
 TEST(Crush, AnEvenDiskIsPressedEvenly) {
@@ -210,7 +251,7 @@ TEST(Crush, KeepsTheStateWhereItDoesNotConverge) {
   statics::Condensation body(p.k, p.free, p.model.nodes);
   statics::append_within(p.model, 0.04, body);
   auto state = statics::start_crush(p.model, p.mesh.n_nodes());
-  const auto report = statics::press(p.model, 0.02, body, state);
+  const auto report = statics::bring_to(p.model, 0.02, 0.0, body, state);
   EXPECT_FALSE(report.converged);
   EXPECT_GT(report.residual, p.model.bound);
   EXPECT_EQ(report.sweeps, 1);

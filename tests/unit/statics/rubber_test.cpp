@@ -91,7 +91,7 @@ TEST(RubberCrush, OfLittleDepthIsThatOfALinearBody) {
   statics::Condensation linear(fem::assemble_stiffness(r.mesh, r.materials), r.free, model.nodes);
   statics::append_within(model, 2.0 * depth, linear);
   statics::CrushState small = start_crush(model, r.mesh.n_nodes()), finite = small;
-  ASSERT_TRUE(statics::press(model, depth, linear, small).converged);
+  ASSERT_TRUE(statics::bring_to(model, depth, 0.0, linear, small).converged);
   statics::RubberCrush rubber(model, r.body, r.free, 2.0 * depth);
   ASSERT_TRUE(rubber.bring_to(depth, 0.0, finite).converged);
   EXPECT_NEAR(normal_force(finite), normal_force(small), 1e-4 * normal_force(small));
@@ -126,6 +126,28 @@ TEST(RubberCrush, IsInEquilibriumAndItsEnergyBalances) {
   EXPECT_LT(std::abs(fine.works.internal - fine.works.strain), 2e-2 * fine.works.strain);
   EXPECT_LT(std::abs(fine.works.internal - fine.works.strain),
             0.7 * std::abs(coarse.works.internal - coarse.works.strain));
+}
+
+/// Lifted off there is no force that a residual could be over.
+TEST(RubberCrush, LiftedToFirstTouchItIsUndeformed) {
+  const Ring r = make_ring(roller(4, 72), soft());
+  for (const double friction : {0.0, 0.3}) {
+    const statics::CrushModel model =
+        statics::make_crush_model(r.mesh.coordinates, r.mesh.boundary, friction);
+    statics::RubberCrush crush(model, r.body, r.free, 0.01);
+    statics::CrushState state = start_crush(model, r.mesh.n_nodes());
+    double largest = 0.0;
+    for (const int k : {1, 2, 3, 4, 3, 2, 1, 0, 0, 1, 0}) {
+      const statics::CrushReport report = crush.bring_to(0.001 * k, 0.0, state);
+      ASSERT_TRUE(report.converged) << friction << ", " << k;
+      EXPECT_LT(report.equilibrium, 1e-9);
+      largest = std::max(largest, state.works.strain);
+    }
+    for (const Vec2 force : state.force) EXPECT_EQ(force, Vec2{});
+    EXPECT_LT(fem::largest_of(state.u), 1e-12 * 0.004);
+    EXPECT_LT(std::abs(state.works.strain), 1e-12 * largest);
+    EXPECT_LT(state.works.relative, 1e-9);
+  }
 }
 
 namespace {
