@@ -55,16 +55,22 @@ Eigen::VectorXd last_force(const Condensation& body, const CrushState& state) {
   return r;
 }
 
+/// Gap and increment of slip of every candidate, from the state before to a field.
+std::vector<Vec2> slip_of(const CrushModel& model, const CrushState& before, double depth,
+                          double slide, const std::vector<Vec2>& u) {
+  std::vector<Vec2> slip(model.nodes.size());
+  for (std::size_t k = 0; k < slip.size(); ++k) {
+    const Vec2 now = displaced(model, k, u), then = displaced(model, k, before.u);
+    slip[k] = {model.clearance[k] - depth + now.x, now.y - then.y - (slide - before.slide)};
+  }
+  return slip;
+}
+
 /// The field under the forces found, and what it does at every candidate.
 void find_field(const CrushModel& model, const Condensation& body, const CrushState& state,
                 Trial& trial) {
   trial.field = body.field(trial.solution.force);
-  trial.slip.resize(model.nodes.size());
-  for (std::size_t k = 0; k < model.nodes.size(); ++k) {
-    const Vec2 now = displaced(model, k, trial.field.u), before = displaced(model, k, state.u);
-    trial.slip[k] = {model.clearance[k] - trial.depth + now.x,
-                     now.y - before.y - (trial.slide - state.slide)};
-  }
+  trial.slip = slip_of(model, state, trial.depth, trial.slide, trial.field.u);
 }
 
 std::vector<std::size_t> penetrating_outside(const Condensation& body, const Trial& trial) {
@@ -88,24 +94,34 @@ double field_residual(const CondensedProblem& problem, const Condensation& body,
 
 CrushState accept(const CrushModel& model, const Condensation& body, const CrushState& state,
                   Trial& trial) {
-  CrushState next = state;
-  next.depth = trial.depth;
-  next.slide = trial.slide;
-  next.u = std::move(trial.field.u);
-  next.slip = std::move(trial.slip);
-  std::fill(next.force.begin(), next.force.end(), Vec2{});
-  std::fill(next.status.begin(), next.status.end(), Status::open);
+  CrushEquilibrium found{trial.depth,
+                         trial.slide,
+                         std::move(trial.field.u),
+                         std::vector<Vec2>(model.nodes.size()),
+                         std::vector<Status>(model.nodes.size(), Status::open),
+                         trial.field.strain};
   for (std::size_t j = 0; j < body.set().size(); ++j) {
     const auto row = static_cast<Index>(2 * j);
-    next.force[body.set()[j]] = {trial.solution.force[row], trial.solution.force[row + 1]};
-    next.status[body.set()[j]] = trial.solution.status[j];
+    found.force[body.set()[j]] = {trial.solution.force[row], trial.solution.force[row + 1]};
+    found.status[body.set()[j]] = trial.solution.status[j];
   }
-  next.works.strain = next.works.internal = trial.field.strain;
-  add_works(model, state, next);
-  return next;
+  return next_state(model, state, std::move(found));
 }
 
 }  // namespace
+
+CrushState next_state(const CrushModel& model, const CrushState& before, CrushEquilibrium found) {
+  CrushState next = before;
+  next.depth = found.depth;
+  next.slide = found.slide;
+  next.slip = slip_of(model, before, found.depth, found.slide, found.u);
+  next.u = std::move(found.u);
+  next.force = std::move(found.force);
+  next.status = std::move(found.status);
+  next.works.strain = next.works.internal = found.strain;
+  add_works(model, before, next);
+  return next;
+}
 
 void add_works(const CrushModel& model, const CrushState& before, CrushState& after) {
   CompensatedSum contact;

@@ -53,6 +53,20 @@ struct CrushState {
   std::array<CompensatedSum, 3> sums;  ///< of rim, friction, impact: for the next increment
 };
 
+/// An equilibrium of a linear body: what the next state is made of.
+struct CrushEquilibrium {
+  double depth = 0.0;                   ///< [m]
+  double slide = 0.0;                   ///< [m]
+  std::vector<Vec2> u;                  ///< (n) [m]
+  std::vector<Vec2> force;              ///< (nb) normal, tangential [N/m]
+  std::vector<contact::Status> status;  ///< (nb)
+  double strain = 0.0;                  ///< ½ uᵀ K u [J/m]
+};
+
+/// The state that follows, its works by mean forces of the increment (6.4e).
+[[nodiscard]] CrushState next_state(const CrushModel& model, const CrushState& before,
+                                    CrushEquilibrium found);
+
 /// Adds the works of the increment between two states by mean forces (6.4e). @pre the energies of
 /// the later one, and `internal`, are there
 void add_works(const CrushModel& model, const CrushState& before, CrushState& after);
