@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// @file  LATIN for the quasi-static crush: all increments at once, alternating between the contact
-/// laws, which are local, and elasticity, which is linear (docs/theory.md, 13). Method: Ladevèze
+/// laws, which are local, and elasticity, which is linear (docs/latin.md). Method: Ladevèze
 /// 1999; Giacoma, Dureisseix, Gravouil, Rochette 2014, doi:10.1002/nme.4590.
 ///
 /// Histories are matrices (2m, N): a column an increment, and of its rows a pair for each of the m
@@ -26,10 +26,10 @@ struct LatinPair {
 /// it where the body slides [N/m²]. @pre the compliance is positive definite
 [[nodiscard]] double chosen_direction(const Eigen::MatrixXd& compliance, bool slides);
 
-/// The pair nearest to (force, place) along the direction k that obeys the laws, (13.3).
+/// The pair nearest to (force, place) along the direction k that obeys the laws, (L.3).
 void obey_laws(const LatinPair& elastic, double direction, double friction, LatinPair& lawful);
 
-/// The law's residual over all increments, (13.7): about the relative error of the forces.     [-]
+/// The law's residual over all increments, (L.7): about the relative error of the forces.     [-]
 [[nodiscard]] double history_residual(const LatinProblem& problem, const LatinPair& pair);
 
 /// The same of each increment, the largest of its candidates over the largest force of all

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// @file  The stiffness of a body with springs on its candidates, and fields of other runs seen
-/// from them (docs/theory.md, 13.2).
+/// from them (docs/latin.md, LATIN-PGD).
 #pragma once
 #include <span>
 #include <vector>
