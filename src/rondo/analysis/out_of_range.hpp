@@ -5,7 +5,7 @@
 #include <string>
 #include <string_view>
 
-#include "rondo/analysis/build/crush_setup.hpp"
+#include "rondo/analysis/build/crush/crush_setup.hpp"
 #include "rondo/case/setup.hpp"
 #include "rondo/output/contact_statistics.hpp"
 

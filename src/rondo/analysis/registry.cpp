@@ -3,7 +3,7 @@
 
 #include <array>
 
-#include "rondo/analysis/crush.hpp"
+#include "rondo/analysis/crush/crush.hpp"
 #include "rondo/analysis/dynamic.hpp"
 #include "rondo/analysis/figures/crush_figures.hpp"
 #include "rondo/analysis/figures/dynamic_figures.hpp"

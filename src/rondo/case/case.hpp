@@ -109,10 +109,11 @@ enum class RollingSlip { bdf2, upwind };
 
 struct AnalysisCase {
   AnalysisKind kind = AnalysisKind::dynamic;
-  double depth = 0.0;        ///< of a crush, below first touch: > 0                          [m]
-  int increments = 0;        ///< of a crush, >= 1
-  double slide = 0.0;        ///< of a crush: travel of the center along +x after the pressing  [m]
-  int slide_increments = 0;  ///< >= 1 where there is a slide, else 0
+  // Of a crush: numbers, or tables over the number of the increment (CrushPath).
+  dynamics::Table depth{};   ///< of the center below first touch, >= 0                         [m]
+  int increments = 0;        ///< >= 1
+  dynamics::Table slide{};   ///< of the center along +x: a number after the pressing           [m]
+  int slide_increments = 0;  ///< >= 1 where the slide is a number other than 0, else 0
   // Of steady rolling.
   int samples_per_sector = 8;                  ///< P >= 1
   RollingSlip slip = RollingSlip::bdf2;        ///< how slip is taken

@@ -1,32 +1,80 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <fmt/format.h>
 
+#include <array>
+#include <cmath>
+
 #include "rondo/case/case_rules.hpp"
 #include "rondo/mesh/physical_group.hpp"
 
 namespace rondo::study {
 namespace {
 
-void check_slide(CaseValues& in, AnalysisCase& analysis) {
-  constexpr std::string_view slide = "analysis.slide", increments = "analysis.slide_increments";
-  if (in.has(slide)) require(in, increments);
-  if (in.has(increments)) require(in, slide);
-  if (analysis.slide == 0.0) analysis.slide_increments = 0;
+constexpr std::string_view depth = "analysis.depth", increments = "analysis.increments",
+                           slide = "analysis.slide", slide_increments = "analysis.slide_increments";
+
+/// Both are numbers: first the one, then the other.
+void check_numbers(CaseValues& in, AnalysisCase& a) {
+  if (in.has(slide)) require(in, slide_increments);
+  if (in.has(slide_increments)) require(in, slide);
+  if (a.slide.at(0.0) == 0.0) a.slide_increments = 0;
+}
+
+void check_table(CaseValues& in, std::string_view key, const dynamics::Table& table, int n) {
+  if (!in.has_array(key) || !in.good({key})) return;
+  const auto& points = table.points();
+  if (points.front() != std::array{0.0, 0.0})
+    return in.fault_at_item(
+        key, 0, "the first point must be [0, 0]: a crush begins at first touch, increment 0");
+  for (std::size_t k = 0; k < points.size(); ++k)
+    if (points[k][0] != std::floor(points[k][0]))
+      return in.fault_at_item(key, static_cast<int>(k), "the number of an increment is whole");
+  if (in.good({increments}) && points.back()[0] != n)
+    in.fault_at_item(
+        key, static_cast<int>(points.size()) - 1,
+        fmt::format("the last point must be at increment {0}: analysis.increments = {0}", n));
+}
+
+/// One of them is a table: so must be the other, if it is there.
+void check_tables(CaseValues& in, const AnalysisCase& a) {
+  if (!in.has_array(depth) && in.has(depth) && in.good({depth, increments}))
+    in.fault(depth, "is a number beside a table of analysis.slide",
+             fmt::format("a table as well: [[0, 0], [k, {0}], [{1}, {0}]], with the increment k "
+                         "that it has come down in",
+                         a.depth.at(0.0), a.increments));
+  if (!in.has_array(slide) && in.has(slide) && in.good({slide, increments}))
+    in.fault(slide, "is a number beside a table of analysis.depth",
+             fmt::format("a table as well: [[0, 0], [k, 0], [{}, {}]], with the increment k "
+                         "after which it slides",
+                         a.increments, a.slide.at(0.0)));
+  if (in.has(slide_increments))
+    in.fault(slide_increments,
+             "stands beside a table, which counts its own increments up to analysis.increments",
+             "no analysis.slide_increments");
+  check_table(in, depth, a.depth, a.increments);
+  check_table(in, slide, a.slide, a.increments);
 }
 
 void check_depth(CaseValues& in, const Case& c) {
-  if (c.mesh) return;  // how thick it is, only the file tells
+  if (!in.has(depth) || !in.good({depth})) return;
+  const double largest = c.analysis.depth.largest();
   const double thickness = c.disk.outer_radius - c.disk.inner_radius;
-  if (in.good({"disk.outer_radius", "disk.inner_radius", "analysis.depth"}) &&
-      !(c.analysis.depth < thickness))
-    in.fault("analysis.depth", "the rim would reach the ground",
-             fmt::format("> 0 and < outer_radius - inner_radius = {:.6g}", thickness));
+  const bool known = !c.mesh && in.good({"disk.outer_radius", "disk.inner_radius"});
+  std::string allowed = "> 0";  // of a mesh: how thick it is, only the file tells
+  if (known) allowed += fmt::format(" and < outer_radius - inner_radius = {:.6g}", thickness);
+  if (largest == 0.0)
+    in.fault(depth, "the body would not be pressed at all", allowed);
+  else if (known && !(largest < thickness))
+    in.fault(depth, "the rim would reach the ground", allowed);
 }
 
 }  // namespace
 
 void check_crush(CaseValues& in, Case& c) {
-  check_slide(in, c.analysis);
+  if (in.has_array(depth) || in.has_array(slide))
+    check_tables(in, c.analysis);
+  else
+    check_numbers(in, c.analysis);
   check_depth(in, c);
   if (!c.mesh && c.free_rim)
     in.fault("disk.rim", "a crush presses a disk down by its rim", "\"bonded\"");

@@ -38,6 +38,11 @@ constexpr Allowed with(Allowed allowed, std::string_view also) {
   return allowed;
 }
 
+constexpr Allowed over_increments(Allowed allowed) {
+  allowed.of_increments = true;
+  return allowed;
+}
+
 template <MaterialModel... models>
 bool is_of(const Case& c) {
   return ((c.law.model == models) || ...);
@@ -113,8 +118,11 @@ bool has_fine_layers(const Case& c) {
 bool has_fine_region(const Case& c) {
   return c.hati && !c.hati->fine.region.empty();
 }
-bool has_slide(const Case& c) {
+bool has_slide_increments(const Case& c) {
   return c.analysis.slide_increments != 0;
+}
+bool has_slide(const Case& c) {
+  return has_slide_increments(c) || c.analysis.slide.points().size() > 1;
 }
 bool is_by_step(const Case& c) {
   return c.time.step.has_value();
@@ -439,20 +447,24 @@ constexpr CaseKey keys[] = {
      "at "
      "constant spin settles in, solved directly; see [steady rolling](#steady-rolling)"},
     {"analysis.depth", "m", FIELD(analysis.depth),
-     with(positive, "< disk.outer_radius - disk.inner_radius"),
+     over_increments(with(not_negative, "< disk.outer_radius - disk.inner_radius")),
      required.of(of_crush).said("required if crush").body(never),
-     "how far the center comes down from the place where the undeformed body first touches the "
-     "ground; refused in a dynamic case"},
+     "how far the center is below the place where the undeformed body first touches the ground: a "
+     "number > 0, come to in equal parts, or a table over the number of the increment; refused in "
+     "a dynamic case"},
     {"analysis.increments", "-", FIELD(analysis.increments), between(1, 1000000),
      required.of(of_crush).said("required if crush").body(never),
-     "equal parts of the depth, each an equilibrium; refused in a dynamic case"},
-    {"analysis.slide", "m", FIELD(analysis.slide), any,
+     "equal parts of the depth, each an equilibrium; all increments where it is a table; refused "
+     "in "
+     "a dynamic case"},
+    {"analysis.slide", "m", FIELD(analysis.slide), over_increments(any),
      optional.of(of_crush).if_(has_slide, "none").body(never),
-     "how far the center of a crush then moves along +x, at the full depth and without turning; "
-     "refused in a dynamic case"},
+     "how far the center of a crush moves along +x, without turning: a number, after the pressing "
+     "and at the full depth, or a table beside one of the depth; refused in a dynamic case"},
     {"analysis.slide_increments", "-", FIELD(analysis.slide_increments), between(1, 1000000),
-     optional.of(of_crush).if_(has_slide, "required if slide").body(never),
-     "equal parts of the slide, each an equilibrium; refused in a dynamic case"},
+     optional.of(of_crush).if_(has_slide_increments, "required if slide is a number").body(never),
+     "equal parts of a slide that is a number, each an equilibrium; refused beside tables and in a "
+     "dynamic case"},
 
     {"analysis.samples_per_sector", "-", FIELD(analysis.samples_per_sector), between(1, 1000),
      optional.of(of_steady_rolling).body(never),

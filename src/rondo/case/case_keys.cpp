@@ -29,7 +29,7 @@ constexpr Words words[] = {
     {"string", "any text"},
     {"string", ""},
     {"array of strings", ""},
-    {"float or array of pairs", "a finite number or [[t, value], ...] with t increasing"},
+    {"float or array of pairs", ""},
     {"string or array of pairs",
      "\"flat\", [[x, y], ...] from left to right, or the name of a CSV file with columns x, y"},
     {"array of 2 floats", "[x, y], finite numbers"},
@@ -51,6 +51,17 @@ std::string range_text(const Range& r, bool whole) {
   if (low) said = fmt::format("{} {}", r.low_open ? ">" : ">=", r.low);
   if (high) said += fmt::format("{}{} {}", low ? " and " : "", r.high_open ? "<" : "<=", r.high);
   return said;
+}
+
+/// Of a number or a table.
+std::string table_text(const Allowed& allowed, const std::string& range) {
+  const char* of_points = allowed.of_increments
+                              ? "[[increment, value], ...] with increments increasing"
+                              : "[[t, value], ...] with t increasing";
+  const std::string said = fmt::format("a finite number or {}", of_points);
+  if (!allowed.range.is_bounded()) return said;
+  return fmt::format("{}; values {}{}{}", said, range, allowed.also.empty() ? "" : ", ",
+                     allowed.also);
 }
 
 /// "a" or "b"; "a", "b" or "c".
@@ -237,9 +248,7 @@ std::string allowed_text(const CaseKey& key) {
   if (type == choice) return choices_text(key.allowed);
   if (type == choices) return fmt::format("[], or any of {}", choices_text(key.allowed, ", "));
   const std::string range = range_text(key.allowed.range, type == integer);
-  if (type == history && key.allowed.range.is_bounded())
-    return fmt::format("{}; values {}{}{}", words_of(type).allowed, range, also.empty() ? "" : ", ",
-                       also);
+  if (type == history) return table_text(key.allowed, range);
   if (type == integers)
     return fmt::format("[i, ...], each {}", range_text(key.allowed.range, true));
   if (type != integer && type != number) return std::string(words_of(type).allowed);

@@ -86,6 +86,7 @@ struct Allowed {
   Range range;                                ///< of numbers, and of the values of tables
   std::array<std::string_view, 8> choices{};  ///< in the order of the enum; none: no choice
   std::string_view also{};                    ///< a bound that involves other keys: a rule
+  bool of_increments = false;  ///< the points of a table are at increments, not at times
 
   [[nodiscard]] bool is_choice() const noexcept { return !choices[0].empty(); }
 };

@@ -69,6 +69,11 @@ bool CaseValues::has_table(std::string_view table) const {
   return source_.tables.contains(table) || source_.values.contains(table);
 }
 
+bool CaseValues::has_array(std::string_view key) const {
+  const auto found = source_.values.find(key);
+  return found != source_.values.end() && found->second.type == ValueType::array;
+}
+
 std::size_t CaseValues::n_items(std::string_view list) const {
   const auto found = source_.lists.find(list);
   return found == source_.lists.end() ? 0 : found->second;
@@ -294,7 +299,8 @@ void CaseValues::take_points(const Reading& in, dynamics::Table& target) {
   };
   for (std::size_t i = 0; i < points.size() && n_bad < most_faults_of_a_key; ++i) {
     if (i > 0 && points[i][0] <= points[i - 1][0])
-      fault(i, fmt::format("the times must increase, but {} follows {}", points[i][0],
+      fault(i, fmt::format("the {} must increase, but {} follows {}",
+                           in.key.allowed.of_increments ? "increments" : "times", points[i][0],
                            points[i - 1][0]));
     if (!in.key.allowed.range.contains(points[i][1])) fault(i, "the value is out of bounds");
   }

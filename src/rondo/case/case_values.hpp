@@ -26,6 +26,8 @@ class CaseValues {
 
   [[nodiscard]] bool has(std::string_view key) const { return source_.values.contains(key); }
   [[nodiscard]] bool has_table(std::string_view table) const;
+  /// Something is given for the key, and it is an array.
+  [[nodiscard]] bool has_array(std::string_view key) const;
   /// Tables in a list; they are item_of(list, 0) and so on.
   [[nodiscard]] std::size_t n_items(std::string_view list) const;
   /// None of the keys has a fault so far, nor is it missing.

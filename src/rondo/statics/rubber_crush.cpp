@@ -15,7 +15,6 @@ constexpr int most_iterations = 40, most_halvings = 8;
 constexpr double smallest_part = 1.0 / 256.0;  ///< of an increment
 constexpr double equilibrium_bound = 1e-11;    ///< ends the iteration at once
 constexpr double equilibrium_floor = 1e-9;     ///< ends it where round-off is reached
-constexpr double round_off = 1e-15;            ///< of a force, over the largest so far
 
 std::size_t at(int index) noexcept {
   return static_cast<std::size_t>(index);
@@ -36,7 +35,7 @@ struct RubberCrush::Trial {
   fem::Look look;              ///< at u
   CondensedSolution solution;  ///< of the set
   std::vector<Vec2> slip;      ///< (nb) gap, increment of slip [m]
-  double rest = 0.0;           ///< ‖f(u) - Hᵀ r‖ over the largest ‖Hᵀ r‖ so far
+  double rest = 0.0;           ///< ‖f(u) - Hᵀ r‖ / ‖Hᵀ r‖
 };
 
 RubberCrush::RubberCrush(const CrushModel& model, std::shared_ptr<const fem::Hyperelasticity> body,
@@ -58,7 +57,7 @@ void RubberCrush::find_forces(Trial& trial) const {
     force += dot(r, r);
   }
   for (const int node : free_) sum += dot(rest[at(node)], rest[at(node)]);
-  trial.rest = sum == 0.0 ? 0.0 : std::sqrt(sum / std::max(force, largest_));
+  trial.rest = sum == 0.0 ? 0.0 : std::sqrt(sum / force);
 }
 
 /// The contact law with the tangent's compliance; gaps and slips of the whole field with its forces
@@ -154,6 +153,17 @@ bool RubberCrush::improve(Trial& trial, const CrushState& state, CrushReport& re
   return trial.look.least.ratio > 0.0;
 }
 
+/// At first touch the undeformed body fits over the ground: there is no force that a residual could
+/// be over.
+void RubberCrush::lift_off(Trial& trial, CrushReport& report) const {
+  trial.u.assign(trial.u.size(), {});
+  trial.look = body_->gradient(trial.u, {}, trial.gradient, trial.pass);
+  trial.solution.force.setZero();
+  trial.solution.status.assign(set_.size(), contact::Status::open);
+  for (const double clearance : model_.clearance) trial.slip.push_back({clearance, 0.0});
+  report.residual = report.equilibrium = 0.0;
+}
+
 /// From the state to the trial's depth and slide.
 bool RubberCrush::solve(Trial& trial, const CrushState& state, CrushReport& report) {
   trial.u = state.u;
@@ -162,6 +172,7 @@ bool RubberCrush::solve(Trial& trial, const CrushState& state, CrushReport& repo
   for (std::size_t j = 0; j < set_.size(); ++j)
     trial.solution.force.segment<2>(static_cast<Index>(2 * j)) << state.force[set_[j]].x,
         state.force[set_[j]].y;
+  if (trial.depth == 0.0) return lift_off(trial, report), true;
   find_forces(trial);
   double best = std::numeric_limits<double>::infinity();
   for (int iteration = 0; iteration < most_iterations; ++iteration) {
@@ -185,9 +196,7 @@ void RubberCrush::accept(Trial& trial, CrushState& state) const {
   std::fill(state.status.begin(), state.status.end(), contact::Status::open);
   for (std::size_t j = 0; j < set_.size(); ++j) {
     const auto row = static_cast<Index>(2 * j);
-    const Vec2 r{trial.solution.force[row], trial.solution.force[row + 1]};
-    if (dot(r, r) <= round_off * round_off * largest_) continue;  // lifted off
-    state.force[set_[j]] = r;
+    state.force[set_[j]] = {trial.solution.force[row], trial.solution.force[row + 1]};
     state.status[set_[j]] = trial.solution.status[j];
   }
   fem::Hyperelasticity::Pass pass;
@@ -213,7 +222,6 @@ CrushReport RubberCrush::bring_to(double depth, double slide, CrushState& state)
     trial.slide = next == 1.0 ? slide : first.slide + next * (slide - first.slide);
     report.converged = solve(trial, state, report);
     if (report.converged) {
-      largest_ = std::max(largest_, trial.solution.force.squaredNorm());
       accept(trial, state);
       done = next;
     } else if ((part *= 0.5) < smallest_part) {

@@ -20,7 +20,6 @@ class RubberCrush {
   /// Brings the center to `depth` and `slide` [m], in as many parts as it takes. In the works the
   /// strain energy is what is stored, and the residual what was done against the forces less the
   /// work of the contact, each by mean forces. Where it is not converged the state is as it was.
-  /// The report's equilibrium is over the largest ‖Hᵀ r‖ so far: a body may be lifted off again.
   [[nodiscard]] CrushReport bring_to(double depth, double slide, CrushState& state);
 
   /// Candidates condensed.
@@ -28,6 +27,7 @@ class RubberCrush {
 
  private:
   struct Trial;
+  void lift_off(Trial& trial, CrushReport& report) const;
   [[nodiscard]] bool solve(Trial& trial, const CrushState& state, CrushReport& report);
   [[nodiscard]] bool improve(Trial& trial, const CrushState& state, CrushReport& report);
   [[nodiscard]] bool close_gaps(Trial& trial, Condensation& tangent, const std::vector<Vec2>& rest,
@@ -42,7 +42,6 @@ class RubberCrush {
   const std::shared_ptr<const fem::Hyperelasticity> body_;
   const std::vector<int> free_;
   std::vector<std::size_t> set_;  ///< candidates condensed
-  double largest_ = 0.0;          ///< ‖Hᵀ r‖² of all increments so far [N²/m²]
 };
 
 }  // namespace rondo::statics

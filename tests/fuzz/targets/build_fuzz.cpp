@@ -8,7 +8,7 @@
 #include "case_input.hpp"
 #include "mutate.hpp"
 #include "rondo/analysis/build/build.hpp"
-#include "rondo/analysis/build/crush_setup.hpp"
+#include "rondo/analysis/build/crush/crush_setup.hpp"
 #include "rondo/case/solid/wheel_of.hpp"
 #include "rondo/integrators/integrator.hpp"
 #include "rondo/integrators/start.hpp"

@@ -4,7 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "rondo/analysis/build/bodies.hpp"
-#include "rondo/analysis/build/crush_setup.hpp"
+#include "rondo/analysis/build/crush/crush_setup.hpp"
 #include "rondo/core/bytes.hpp"
 #include "rondo/core/memory_limits.hpp"
 #include "unit/case/case_fixture.hpp"
@@ -63,7 +63,7 @@ TEST(Estimate, RubberAddsItsCells) {
 TEST(Estimate, ACrushAddsTheFactorsAndWhatIsWithinReach) {
   Case c = read_text(base, {"motion.angular_velocity=0.0", "output.snapshots=0"});
   const std::size_t still = motion_memory(c, mesh::make_disk(c.disk));
-  c.analysis = {AnalysisKind::crush, 0.02, 10};
+  c.analysis = {AnalysisKind::crush, dynamics::Table(0.02), 10};
   c.ground->shape = {.profile = {{-1.0, 0.0}, {1.0, 0.0}}};
   CrushSetup s;
   s.mesh = mesh::make_disk(c.disk);

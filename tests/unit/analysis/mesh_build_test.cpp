@@ -5,7 +5,7 @@
 #include <numeric>
 
 #include "rondo/analysis/build/build.hpp"
-#include "rondo/analysis/build/crush_setup.hpp"
+#include "rondo/analysis/build/crush/crush_setup.hpp"
 #include "rondo/analysis/build/overlap.hpp"
 #include "unit/analysis/mesh_fixture.hpp"
 

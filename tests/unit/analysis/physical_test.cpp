@@ -3,7 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "rondo/analysis/build/build.hpp"
-#include "rondo/analysis/build/crush_setup.hpp"
+#include "rondo/analysis/build/crush/crush_setup.hpp"
 #include "rondo/analysis/build/physical.hpp"
 #include "rondo/mesh/locate.hpp"
 #include "unit/case/case_fixture.hpp"

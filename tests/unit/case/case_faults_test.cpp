@@ -84,7 +84,7 @@ TEST(WrongCases, Crush) {
   EXPECT_NE(wrong({depth, increments, slide, "analysis.slide_increments=0"}).find("1 to 1000000"),
             std::string::npos);
   EXPECT_NE(wrong({increments, "analysis.depth=0.15"}).find("the rim"), std::string::npos);
-  EXPECT_NE(wrong({increments, "analysis.depth=-1"}).find("> 0 and <"), std::string::npos);
+  EXPECT_NE(wrong({increments, "analysis.depth=-1"}).find("values >= 0"), std::string::npos);
   EXPECT_NE(wrong({increments, depth, "ground.profile=[[0, 0], [1, 0.1]]"}).find("\"flat\""),
             std::string::npos);
   EXPECT_NE(wrong({increments, depth, "motion.speed='fast'"}).find("a float"), std::string::npos);

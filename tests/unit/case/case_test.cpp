@@ -267,7 +267,7 @@ analysis = {kind = "crush", depth = 0.125, increments = 4}
 TEST(ReadCase, TakesACrushWithoutMotionAndTime) {
   const Case c = read_text(crush);
   EXPECT_EQ(c.analysis.kind, AnalysisKind::crush);
-  EXPECT_EQ(c.analysis.depth, 0.125);
+  EXPECT_EQ(c.analysis.depth.at(0.0), 0.125);
   EXPECT_EQ(c.analysis.increments, 4);
   EXPECT_TRUE(c.warnings.empty());
   expect_round_trip(c);
@@ -275,7 +275,7 @@ TEST(ReadCase, TakesACrushWithoutMotionAndTime) {
 
 TEST(ReadCase, TakesASlideAfterTheCrush) {
   const Case c = read_text(crush, {"analysis.slide=-0.25", "analysis.slide_increments=3"});
-  EXPECT_EQ(c.analysis.slide, -0.25);
+  EXPECT_EQ(c.analysis.slide.at(0.0), -0.25);
   EXPECT_EQ(c.analysis.slide_increments, 3);
   EXPECT_TRUE(c.warnings.empty());
   expect_round_trip(c);

@@ -169,6 +169,10 @@ struct Change {
   void operator()(Vec2* value) const { *value = {value->x + 0.1, -0.3}; }
   void operator()(Matrix* value) const { *value = {{{0.1, -2.0}, {1e-300, 0.7}}}; }
   void operator()(dynamics::Table* value) const {
+    if (key.allowed.of_increments) {
+      *value = dynamics::Table(0.9 * value->at(0.0));
+      return;
+    }
     const double high = key.allowed.range.contains(3.0) ? 3.0 : 0.25;
     *value = dynamics::Table({{-1.0, value->at(0.0) + 0.5}, {0.5, high}});
   }

@@ -234,7 +234,7 @@ void tell_physical_figures(const Case& c, CrushSetup& s) {
   tell_stiffness(s.materials, to);
   for (Told& told : rubber_lines(c, 0.0)) s.figures.push_back(std::move(told));
   if (const std::optional<Wall> wall = wall_of(s.mesh))
-    tell_deflection(c.analysis.depth, *wall, touching_material(s.mesh, s.materials), to);
+    tell_deflection(s.path.largest_depth(), *wall, touching_material(s.mesh, s.materials), to);
 }
 
 void tell_physical_figures(const Case& c, const mesh::Mesh& mesh,

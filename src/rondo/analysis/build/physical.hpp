@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "rondo/analysis/build/crush_setup.hpp"
+#include "rondo/analysis/build/crush/crush_setup.hpp"
 #include "rondo/case/setup.hpp"
 
 namespace rondo::study {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "rondo/analysis/build/crush_setup.hpp"
+#include "rondo/analysis/build/crush/crush_setup.hpp"
 
 #include <fmt/format.h>
 
@@ -63,6 +63,7 @@ CrushSetup build_crush(const Case& c) {
   RONDO_DEMAND(c.analysis.kind == AnalysisKind::crush && c.ground.has_value(),
                c.ground.has_value());
   CrushSetup s;
+  s.path = CrushPath(c.analysis);
   s.mesh = build_mesh(c, &s.warnings);
   s.materials = materials_of(c, s.mesh);
   refuse_free_bodies(c, s.mesh);
@@ -73,7 +74,8 @@ CrushSetup build_crush(const Case& c) {
   s.ground_height = c.ground->shape.profile.front().y;
   const std::size_t first = static_cast<std::size_t>(s.mesh.boundary.front());
   s.touch_height = s.model.clearance.front() - s.mesh.coordinates[first].y;
-  s.reach = 2.0 * c.analysis.depth;  // what the body bulges beside the contact stays below that
+  s.reach =
+      2.0 * s.path.largest_depth();  // what the body bulges beside the contact stays below that
   s.within_reach = static_cast<std::size_t>(
       std::count_if(s.model.clearance.begin(), s.model.clearance.end(),
                     [&](double clearance) { return clearance <= s.reach; }));

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// @file  Quasi-static crush onto flat ground, increment by increment (docs/theory.md, 6.4). In the
-/// place of time stands the load parameter k/increments, above 1 while the body slides.
+/// place of time stands the load parameter k/increments, above 1 while a slide is drawn that is a
+/// number.
 #pragma once
 #include <memory>
 

@@ -3,12 +3,14 @@
 #pragma once
 #include <string>
 
+#include "rondo/analysis/build/crush/crush_path.hpp"
 #include "rondo/case/setup.hpp"
 #include "rondo/statics/crush.hpp"
 
 namespace rondo::study {
 
 struct CrushSetup {
+  CrushPath path;
   mesh::Mesh mesh;
   std::vector<fem::Material> materials;  ///< one for each region of the mesh
   std::vector<double> mass;              ///< (n) [kg/m]

@@ -1,0 +1,212 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "rondo/analysis/crush/crush.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <chrono>
+
+#include "rondo/analysis/base/disk.hpp"
+#include "rondo/analysis/base/strain_watch.hpp"
+#include "rondo/analysis/build/physical.hpp"
+#include "rondo/analysis/crush/crush_record.hpp"
+#include "rondo/analysis/crush/crush_solver.hpp"
+#include "rondo/analysis/out_of_range.hpp"
+#include "rondo/core/keep_larger.hpp"
+
+namespace rondo::study {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+class CrushAnalysis final : public Analysis {
+ public:
+  CrushAnalysis(const Case& c, const RunOptions& options)
+      : case_(c),
+        setup_(build_crush(c)),
+        ground_(c.ground->shape),
+        strain_(setup_.mesh, setup_.materials),
+        solver_(make_crush_solver(c, options, setup_)) {
+    tell_physical_figures(c, setup_);
+    if (options.resume)
+      throw case_error(c, "analysis.kind", "a crush has no checkpoints to resume from",
+                       "\"dynamic\", or --overwrite instead of --resume");
+  }
+
+  [[nodiscard]] CheckReport check(double trial) override;
+  [[nodiscard]] RecordPlan record_plan() const override;
+  void prepare() override;
+  [[nodiscard]] std::vector<std::string> warnings() const override {
+    std::vector<std::string> all = case_.warnings;
+    all.insert(all.end(), setup_.warnings.begin(), setup_.warnings.end());
+    return all;
+  }
+  void describe(Json& json) const override;
+
+  Progress begin(Recorder& recorder) override;
+  Progress advance(Recorder& recorder) override;
+  [[nodiscard]] const std::optional<std::string>& trouble() const override { return trouble_; }
+  void summarise(Json& json, RunReport& report) const override;
+
+ private:
+  [[nodiscard]] int n_increments() const noexcept { return setup_.path.n_increments(); }
+  [[nodiscard]] bool iterate();
+  Progress take_next(Recorder& recorder);
+  void count(const statics::CrushReport& report);
+
+  const Case& case_;
+  CrushSetup setup_;
+  contact::Ground ground_;
+  StrainWatch strain_;
+  std::unique_ptr<CrushSolver> solver_;
+  double prepare_s_ = 0.0;
+  statics::CrushState state_;
+  bool iterated_ = false;     ///< the solver has nothing left to iterate
+  int increments_ = 0;        ///< done, whose results are kept
+  double residual_ = 0.0;     ///< largest of the law
+  double equilibrium_ = 0.0;  ///< largest of K u = Hᵀ r
+  double penetration_ = 0.0;  ///< largest [m]
+  std::optional<std::string> trouble_;
+};
+
+std::string reached(int increments, double depth, double slide) {
+  const std::string text = fmt::format("{} increments to a depth of {:.6g} m", increments, depth);
+  return slide == 0.0 ? text : fmt::format("{} and a slide of {:.6g} m", text, slide);
+}
+
+CheckReport CrushAnalysis::check(double /*trial*/) {
+  const CrushPath& path = setup_.path;
+  const int n = n_increments();
+  CheckReport r;
+  r.nodes = setup_.mesh.n_nodes();
+  r.elements = setup_.mesh.cells.size();
+  r.dofs = setup_.n_dofs();
+  r.bodies = mesh::find_bodies(setup_.mesh).count;
+  r.candidates = setup_.mesh.boundary.size();
+  r.wave_speeds = fem::wave_speeds(case_.material);
+  r.steps = n;
+  r.snapshots = static_cast<std::size_t>(n);
+  r.memory_bytes = crush_memory(case_, setup_);
+  r.disk_bytes = disk_needed(record_plan(), false).all;
+  r.lines = setup_.figures;
+  r.lines.insert(r.lines.end(),
+                 {{"condensed", fmt::format("{} contact nodes", setup_.within_reach)},
+                  {"increments", reached(n, path.depth(n), path.slide(n))}});
+  if (path.is_of_tables())
+    r.lines.emplace_back("largest depth", fmt::format("{:.6g} m", path.largest_depth()));
+  r.warnings = warnings();
+  return r;
+}
+
+RecordPlan CrushAnalysis::record_plan() const {
+  RecordPlan plan;
+  plan.results = {.mesh = &setup_.mesh,
+                  .mass = setup_.mass,
+                  .n_snapshots = static_cast<std::size_t>(n_increments()),
+                  .contact = true,
+                  .stress = case_.output.stress,
+                  .words = crush_words(setup_.path),
+                  .series = crush_series()};
+  plan.columns = crush_columns();
+  plan.n_rows = plan.results.n_snapshots + 1;
+  plan.materials = setup_.materials;
+  plan.ground = &ground_;
+  return plan;
+}
+
+void CrushAnalysis::prepare() {
+  const auto begin = Clock::now();
+  solver_->prepare();
+  prepare_s_ = std::chrono::duration<double>(Clock::now() - begin).count();
+}
+
+void CrushAnalysis::describe(Json& j) const {
+  const CrushPath& path = setup_.path;
+  j["nodes"] = setup_.mesh.n_nodes();
+  j["dofs"] = setup_.n_dofs();
+  j["depth"] = path.depth(n_increments());
+  j["depth_max"] = path.largest_depth();
+  j["increments"] = case_.analysis.increments;
+  j["slide"] = path.slide(n_increments());
+  j["slide_increments"] = case_.analysis.slide_increments;
+  j["factor_wall_s"] = prepare_s_;
+  solver_->describe(j);
+}
+
+/// The first row is that of first touch.
+Progress CrushAnalysis::begin(Recorder& recorder) {
+  state_ = statics::start_crush(setup_.model, setup_.mesh.n_nodes());
+  const statics::CrushReport nothing;
+  const CrushSums sums = sum_up(setup_, state_);
+  append_row(setup_, {0, state_, nothing, sums}, recorder.rows());
+  recorder.rows_added();
+  static_cast<void>(strain_.look(state_.u, {}, 0.0));  // undeformed
+  return {0, n_increments()};
+}
+
+/// The solver is not done with all increments at once.
+bool CrushAnalysis::iterate() {
+  if (iterated_) return false;
+  std::string wrong;
+  iterated_ = !solver_->iterate(wrong);
+  if (!wrong.empty()) trouble_ = wrong;
+  return !iterated_ || trouble_;
+}
+
+Progress CrushAnalysis::advance(Recorder& recorder) {
+  return iterate() ? Progress{0, n_increments()} : take_next(recorder);
+}
+
+Progress CrushAnalysis::take_next(Recorder& recorder) {
+  const int k = increments_ + 1, n = n_increments();
+  const std::vector<Vec2> before = state_.u;
+  std::string wrong;
+  const statics::CrushReport report = solver_->take(k, state_, wrong);
+  count(report);
+  if (wrong.empty()) wrong = beyond_files(setup_, state_);
+  if (wrong.empty()) wrong = strain_.look(state_.u, {}, setup_.path.parameter(k));
+  if (!wrong.empty()) {
+    trouble_ = fmt::format("increment {} of {}, {}: {}", k, n, setup_.path.target(k), wrong);
+    return {increments_, n};
+  }
+  increments_ = k;
+  const CrushSums sums = sum_up(setup_, state_);
+  const CrushRecord record{k, state_, report, sums};
+  append_row(setup_, record, recorder.rows());
+  recorder.rows_added();
+  fill(setup_, record, before, recorder.next_snapshot());
+  recorder.add_snapshot();
+  return {k, n};
+}
+
+void CrushAnalysis::count(const statics::CrushReport& r) {
+  residual_ = keep_larger(residual_, r.residual);
+  equilibrium_ = keep_larger(equilibrium_, r.equilibrium);
+  penetration_ = std::max(penetration_, r.penetration);
+}
+
+void CrushAnalysis::summarise(Json& j, RunReport& r) const {
+  r.steps = increments_;
+  r.reached = reached(increments_, state_.depth, state_.slide);
+  r.energy_residual_relative = state_.works.relative;
+  r.contact_residual_max = residual_;
+  r.penetration_max_m = penetration_;
+  const bool tables = setup_.path.is_of_tables();
+  strain_.summarise({"", tables ? " of the increments" : " of the depth"}, j, r);
+  j["increments_done"] = increments_;
+  j["steps_done"] = increments_;
+  j["contact_residual_max"] = residual_;
+  j["equilibrium_residual_max"] = equilibrium_;
+  j["energy_residual_relative"] = state_.works.relative;
+  j["energy_exchanged"] = state_.works.exchanged;
+  j["penetration_max_m"] = penetration_;
+  solver_->summarise(state_, j, r);
+}
+
+}  // namespace
+
+std::unique_ptr<Analysis> make_crush(const Case& c, const RunOptions& options) {
+  return std::make_unique<CrushAnalysis>(c, options);
+}
+
+}  // namespace rondo::study
