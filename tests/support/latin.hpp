@@ -108,6 +108,7 @@ class LatinDisk {
                                                    free_, nodes_);
   }
   [[nodiscard]] const std::vector<int>& nodes() const { return nodes_; }
+  [[nodiscard]] const mesh::Mesh& mesh() const { return mesh_; }
   [[nodiscard]] const fem::BlockCsr& stiffness() const { return k_; }
   [[nodiscard]] const statics::Condensation& body() const { return *body_; }
 

@@ -245,4 +245,59 @@ XdmfTopology topology_of(const mesh::Mesh& m) {
       c.corners == 3 ? "Triangle" : "Quadrilateral", c.cells, "/mesh/cells", {c.cells, c.corners}};
 }
 
+namespace {
+
+std::string counts_differ(std::size_t a, std::size_t b, const char* what) {
+  return a == b ? std::string() : fmt::format("{} {} against {}", a, what, b);
+}
+
+/// First place where two lists of the same length differ; their length where they do not.
+template <class T>
+std::size_t first_difference(const std::vector<T>& a, const std::vector<T>& b) {
+  std::size_t i = 0;
+  while (i < a.size() && a[i] == b[i]) ++i;
+  return i;
+}
+
+std::string sizes_differ(const mesh::Mesh& a, const mesh::Mesh& b) {
+  for (const std::string& text :
+       {counts_differ(a.n_nodes(), b.n_nodes(), "nodes"),
+        counts_differ(a.cells.size(), b.cells.size(), "cells"),
+        counts_differ(a.hexahedra.size(), b.hexahedra.size(), "hexahedra"),
+        counts_differ(a.axial.size(), b.axial.size(), "axial places"),
+        counts_differ(a.boundary.size(), b.boundary.size(), "candidates"),
+        counts_differ(static_cast<std::size_t>(a.n_sectors), static_cast<std::size_t>(b.n_sectors),
+                      "sectors")})
+    if (!text.empty()) return text;
+  return {};
+}
+
+}  // namespace
+
+std::string mesh_difference(const mesh::Mesh& a, const mesh::Mesh& b) {
+  if (const std::string text = sizes_differ(a, b); !text.empty()) return text;
+  const std::size_t n = a.n_nodes();
+  if (const auto i = first_difference(a.coordinates, b.coordinates); i < n)
+    return fmt::format("coordinates differ at node {} by {:.3g} m", i,
+                       norm(a.coordinates[i] - b.coordinates[i]));
+  if (const auto c = first_difference(a.cells, b.cells); c < a.cells.size())
+    return fmt::format("cells differ at cell {}", c);
+  if (const auto c = first_difference(a.hexahedra, b.hexahedra); c < a.hexahedra.size())
+    return fmt::format("hexahedra differ at number {}", c);
+  if (const auto i = first_difference(a.axial, b.axial); i < a.axial.size())
+    return fmt::format("coordinates differ at node {} by {:.3g} m along the axle", i,
+                       std::abs(a.axial[i] - b.axial[i]));
+  if (const auto k = first_difference(a.boundary, b.boundary); k < a.boundary.size())
+    return fmt::format("contact nodes differ: number {} is node {} against {}", k, a.boundary[k],
+                       b.boundary[k]);
+  if (const auto k = first_difference(a.tributary, b.tributary); k < a.tributary.size())
+    return fmt::format("tributary {} differ at contact node {} by {:.3g} {}",
+                       a.is_solid() ? "areas" : "lengths", k,
+                       std::abs(a.tributary[k] - b.tributary[k]), a.is_solid() ? "m²" : "m");
+  if (first_difference(a.sector, b.sector) < a.sector.size() ||
+      first_difference(a.sector_node, b.sector_node) < a.sector_node.size())
+    return "the numbering of the sectors differs";
+  return {};
+}
+
 }  // namespace rondo::io

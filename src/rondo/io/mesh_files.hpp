@@ -23,6 +23,9 @@ struct MeshWithMass {
 /// @throws FileError: no mesh, or one that cannot be right
 MeshWithMass read_mesh(const h5::File& file);
 
+/// Empty if both are the same, bit by bit, but for what is not stored; else what differs first.
+std::string mesh_difference(const mesh::Mesh& a, const mesh::Mesh& b);
+
 /// Of all that the mesh holds but names, to tell whether two are the same bit by bit.
 std::string mesh_hash(const mesh::Mesh& mesh);
 

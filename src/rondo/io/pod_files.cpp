@@ -11,6 +11,7 @@
 
 #include "rondo/core/contract.hpp"
 #include "rondo/core/error.hpp"
+#include "rondo/io/basis_file.hpp"
 #include "rondo/io/csv.hpp"
 #include "rondo/io/files.hpp"
 #include "rondo/io/h5/h5.hpp"
@@ -43,8 +44,9 @@ Counts counts_of(const PodContent& c, std::size_t n_reconstructed) noexcept {
 }
 
 void check(const PodContent& c, const Counts& n) {
-  RONDO_DEMAND(c.mass.size() == n.nodes && c.point_weight.size() == n.points, c.mass.size(),
-               c.point_weight.size(), n.points);
+  const std::size_t weights = c.weight == "search-direction" ? 0 : n.points;
+  RONDO_DEMAND(c.mass.size() == n.nodes && c.point_weight.size() == weights, c.mass.size(),
+               c.point_weight.size(), weights);
   RONDO_DEMAND(n.modes == 0 || size(c.modes->rows()) == c.components * n.points, c.modes->rows(),
                n.points);
   RONDO_DEMAND(n.modes <= n.temporal && n.temporal <= n.values, n.modes, n.temporal, n.values);
@@ -69,6 +71,7 @@ Units units_of(const PodContent& c) {
     return {"1/kg", "kg^(1/2)", c.unit + " kg^(-1/2)"};
   if (c.weight == "mass") return {"kg/m", "(kg/m)^(-1/2)", c.unit + " (kg/m)^(1/2)"};
   if (c.weight == "delassus") return {"m/kg", "(kg/m)^(1/2)", c.unit + " (kg/m)^(-1/2)"};
+  if (c.weight == "search-direction") return {"", c.unit + " (J/m)^(-1/2)", "(J/m)^(1/2)"};
   RONDO_DEMAND(c.weight == "none", c.weight);
   return {"1", "1", c.unit};
 }
@@ -172,7 +175,7 @@ void PodWriter::write_all(const PodContent& c) {
                                    std::pair("shift", c.shift), std::pair("weight", c.weight)})
     file_.set_attribute("/", name, text);
   write_mesh(file_, *c.mesh, c.mass);
-  write(file_, "/weight", {n_.points}, c.point_weight,
+  write(file_, "/weight", {c.point_weight.size()}, c.point_weight,
         {units_of(c).weight, "weight W of each point in the norm: " + c.weight});
   write_spectrum(file_, c, n_);
   write_snapshots(file_, c, n_);
@@ -180,6 +183,7 @@ void PodWriter::write_all(const PodContent& c) {
   write_modes(c);
   write_csv(c);
   if (n_.reconstructed > 0) create_reconstruction(c);
+  if (c.basis) write_basis(folder_ / "basis.h5", *c.mesh, c.mass, *c.basis);
   file_.flush();
 }
 
@@ -275,10 +279,14 @@ void PodWriter::commit() {
     if (error) throw FileError((directory_ / name).string(), "cannot remove: " + error.message());
   };
   remove("pod.json");
-  if (!xdmf_) remove("reconstruction.xdmf");
-  for (const char* name : {"pod.h5", "spectrum.csv", "modes.xdmf", "reconstruction.xdmf"})
-    if (xdmf_ || std::string_view(name) != "reconstruction.xdmf")
+  for (const char* name :
+       {"pod.h5", "spectrum.csv", "modes.xdmf", "reconstruction.xdmf", "basis.h5"}) {
+    std::error_code none;
+    if (fs::exists(folder_ / name, none))
       replace_file(folder_ / name, directory_ / name);
+    else
+      remove(name);
+  }
 }
 
 void PodWriter::add(double time, FieldView original, FieldView reconstructed) {
@@ -301,7 +309,8 @@ std::size_t PodWriter::bytes(const PodContent& content, std::size_t n_reconstruc
   constexpr std::size_t real = 8, whole = 4, vector = sizeof(Vector), description = 65536;
   const std::size_t modes = n.modes * (content.components * n.points * real + n.nodes * vector);
   const std::size_t times = n.times * ((n.temporal + n.modes + 3) * real + whole);
-  return description + mesh_bytes(*content.mesh) + modes + times + 4 * n.values * real +
+  const std::size_t basis = content.basis ? basis_bytes(*content.mesh, *content.basis) : 0;
+  return description + basis + mesh_bytes(*content.mesh) + modes + times + 4 * n.values * real +
          n.points * real + 3 * n_reconstructed * n.nodes * vector;
 }
 

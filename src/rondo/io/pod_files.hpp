@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-/// @file  Files of a POD: pod.h5, spectrum.csv, modes.xdmf, reconstruction.xdmf (docs/results.md).
+/// @file  Files of a POD: pod.h5, spectrum.csv, modes.xdmf, reconstruction.xdmf, and of LATIN-PGD
+/// basis.h5 (docs/results.md).
 ///
 /// All are written into a folder of their own beside the old ones, which commit() replaces one by
 /// one by complete files: a program killed before leaves the old POD as it was.
@@ -29,21 +30,23 @@ struct PodContent {
   bool contact = false;  ///< points are candidates, components normal, tangential (and lateral)
   std::string quantity;  ///< "displacement"
   std::string unit;      ///< of the quantity: "m"
-  std::string time_unit = "s";           ///< "1": shares of the load of a crush
-  std::string frame, shift;              ///< of the analysis
-  std::string weight;                    ///< "mass" [kg/m], "delassus" [m/kg], "none" [1];
-                                         ///< in three dimensions [kg] and [1/kg]
-  std::span<const double> point_weight;  ///< (n_points)
+  std::string time_unit = "s";  ///< "1": shares of the load of a crush
+  std::string frame, shift;     ///< of the analysis
+  /// "mass" [kg/m], "delassus" [m/kg], "none" [1]; in three dimensions [kg] and [1/kg];
+  /// "search-direction": the norm uᵀ(K + k HᵀH)u [J/m], which has no weight of a point
+  std::string weight;
+  std::span<const double> point_weight;  ///< (n_points); empty: the norm is not of points
   const pod::Decomposition* decomposition = nullptr;  ///< its `modes` are not read
   const pod::Spectrum* spectrum = nullptr;
   std::size_t components = 2;  ///< of a point
   /// (components n_points, r) Φ, unweighted; row components · point + component
   const Eigen::MatrixXd* modes = nullptr;
-  std::vector<double> time;       ///< (t) [s]
-  std::vector<double> angle;      ///< (t) of the turning frame [rad]
-  std::vector<int> run;           ///< (t) place in `runs`
-  std::vector<double> error;      ///< (t) of r modes, relative
-  std::vector<std::string> runs;  ///< directories
+  std::vector<double> time;                ///< (t) [s]
+  std::vector<double> angle;               ///< (t) of the turning frame [rad]
+  std::vector<int> run;                    ///< (t) place in `runs`
+  std::vector<double> error;               ///< (t) of r modes, relative
+  std::vector<std::string> runs;           ///< directories
+  const Eigen::MatrixXd* basis = nullptr;  ///< (2n, b) of basis.h5; none: there is no such file
 };
 
 struct PodCounts {
@@ -65,12 +68,12 @@ class PodWriter {
   /// The next snapshot, in the frame of the analysis. @param original, reconstructed (n_points)
   /// @pre time rises. @throws FileError
   void add(double time, FieldView original, FieldView reconstructed);
-  /// Replaces the files in the directory, removes a reconstruction.xdmf that is not of this POD
-  /// and, first of all, pod.json, which the caller writes last: where it is, the POD is complete.
+  /// Replaces the files in the directory, removes those that are not of this POD and, first of all,
+  /// pod.json, which the caller writes last: where it is, the POD is complete.
   /// @pre all snapshots added. @throws FileError
   void commit();
 
-  /// Bytes that pod.h5 will take.
+  /// Bytes that pod.h5 will take, and basis.h5.
   [[nodiscard]] static std::size_t bytes(const PodContent& content,
                                          std::size_t n_reconstructed) noexcept;
 

@@ -63,4 +63,7 @@ struct Decomposition {
 /// @pre every number read is finite. The sign of a mode makes its largest number positive.
 [[nodiscard]] Decomposition decompose(SnapshotMatrix& snapshots, const DecomposeOptions& options);
 
+/// Makes the largest number of each mode positive, its column of V with it.
+void fix_signs(Decomposition& d);
+
 }  // namespace rondo::pod

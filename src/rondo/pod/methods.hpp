@@ -32,7 +32,5 @@ class Progress {
 
 /// Sets d.rank from sigma. @return the number of modes to keep, at most `most`
 [[nodiscard]] Index rank_and_choose(Decomposition& d, Index asked, Index most);
-/// Makes the largest number of each mode positive, its column of V with it.
-void fix_signs(Decomposition& d);
 
 }  // namespace rondo::pod

@@ -37,14 +37,14 @@ TEST(ResultsDirectory, HoldingARunIsRefused) {
 
 TEST(ResultsDirectory, OverwriteRemovesTheRunAndNothingElse) {
   const Folder folder;
-  const std::vector<std::string> run = {"case.toml",     "run.json",       "history.csv",
-                                        "contact.csv",   "results.h5",     "fields.xdmf",
-                                        "checkpoint.h5", "results.h5.new", "checkpoint.h5.new"};
+  const std::vector<std::string> run = {
+      "case.toml",   "run.json",      "history.csv",    "contact.csv",       "results.h5",
+      "fields.xdmf", "checkpoint.h5", "results.h5.new", "checkpoint.h5.new", "convergence.csv"};
   for (const std::string& name : run) put_text(folder / name, "old");
   put_text(folder / "notes.txt", "mine");
   fs::create_directories(folder / "pod/displacement-rotating");
   fs::create_directories(folder / "pod/velocity-rotating");
-  for (const char* name : {"pod.json", "pod.h5", "spectrum.csv", "modes.xdmf"})
+  for (const char* name : {"pod.json", "pod.h5", "spectrum.csv", "modes.xdmf", "basis.h5"})
     put_text(folder / "pod/displacement-rotating" / name, "old");
   put_text(folder / "pod/velocity-rotating/pod.h5", "old");
   put_text(folder / "pod/velocity-rotating/figure.png", "mine");

@@ -8,6 +8,7 @@
 #include <sstream>
 #include <tuple>
 
+#include "rondo/io/basis_file.hpp"
 #include "rondo/io/files.hpp"
 #include "rondo/io/h5/h5.hpp"
 #include "rondo/io/mesh_files.hpp"
@@ -253,6 +254,36 @@ TEST(PodFiles, XdmfNamesWhatIsThere) {
     EXPECT_NE(text_of(folder / "reconstruction.xdmf").find("<Time Value=\"0.5\"/>"),
               std::string::npos);
   }
+}
+
+TEST(PodFiles, ANormThatIsNotOfPointsHasNoWeights) {
+  const Folder folder;
+  SmallPod pod(2, 3, 4);
+  pod.c.weight = "search-direction";
+  pod.c.point_weight = {};
+  pod.write(folder.path(), 0);
+  const h5::File file = h5::File::open(folder / "pod.h5");
+  EXPECT_FALSE(file.contains("/weight"));
+  EXPECT_EQ(file.dataset("/modes/spatial").label().units, "m (J/m)^(-1/2)");
+  for (const char* name : {"/spectrum/singular_value", "/modes/coefficients"})
+    EXPECT_EQ(file.dataset(name).label().units, "(J/m)^(1/2)");
+  EXPECT_EQ(file.attribute("/", "weight"), "search-direction");
+}
+
+TEST(PodFiles, ABasisComesAndGoesWithItsPod) {
+  const Folder folder;
+  SmallPod pod(2, 3, 4);
+  const Eigen::MatrixXd basis = Eigen::MatrixXd::Random(pod.modes.rows(), 5);
+  pod.c.basis = &basis;
+  pod.write(folder.path(), 0);
+  const Basis read = read_basis(folder / "basis.h5");
+  EXPECT_EQ(read.field, basis);
+  EXPECT_EQ(mesh_difference(read.mesh, pod.run.mesh), "");
+  EXPECT_EQ(h5::File::open(folder / "basis.h5").dataset("/basis/field").label().units,
+            "m (J/m)^(-1/2)");
+  SmallPod(1, 2, 2).write(folder.path(), 0);
+  EXPECT_EQ(names_in(folder.path()),
+            (std::set<std::string>{"pod.h5", "spectrum.csv", "modes.xdmf"}));
 }
 
 TEST(PodFiles, WithoutModes) {

@@ -174,9 +174,7 @@ MatrixXd Pgd::balanced_force(const MatrixXd& /*load*/, const MatrixXd& displacem
   return load_ * temporal_.transpose() - options_.direction * displacement;
 }
 
-Separated Pgd::separated(double share) const {
-  const ThinSvd svd = thin_svd(temporal_);
-  const VectorXd& sigma = svd.singularValues();
+Index values_kept(const VectorXd& sigma, double share) {
   Index kept = sigma.size();
   double tail = 0.0;
   while (kept > 1) {
@@ -184,6 +182,13 @@ Separated Pgd::separated(double share) const {
     if (tail > share * sigma.norm()) break;
     --kept;
   }
+  return kept;
+}
+
+Separated Pgd::separated(double share) const {
+  const ThinSvd svd = thin_svd(temporal_);
+  const VectorXd& sigma = svd.singularValues();
+  const Index kept = values_kept(sigma, share);
   const MatrixXd turn = svd.matrixV().leftCols(kept);
   Separated s;
   s.modes = {solved_.field * (rotation_ * turn), contact_ * turn, load_ * turn};

@@ -70,6 +70,10 @@ class Pgd final : public Elasticity {
   Eigen::MatrixXd temporal_;        ///< (N, r) Ψ
 };
 
+/// Least number of the first values, one at least, whose rest has a norm of at most `share` of all.
+/// @param sigma falling
+[[nodiscard]] Eigen::Index values_kept(const Eigen::VectorXd& sigma, double share);
+
 /// Orthonormal in A, without what depends on the rest.
 [[nodiscard]] Fields orthonormal(const Fields& fields);
 
