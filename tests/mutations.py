@@ -29,6 +29,7 @@ PROGRAMS |= {m: f"unit/unit_{m}" for m in ("core", "mesh", "fem", "contact", "mo
                                            "output", "analysis", "study")}
 
 SCRIPTS = {"cli": "test_run.py", "disk": "test_full_disk.py", "crush": "test_crush.py",
+           "histories": "test_crush_histories.py",
            "pod": "test_pod.py", "ring": "test_ring.py", "modes": "test_modes.py", "limits": "test_limits.py",
            "numerical": "test_numerical.py", "resume": "test_resume.py",
            "terminal": "test_terminal.py", "sweep": "test_sweep.py", "team": "test_sweep_team.py",

@@ -42,6 +42,25 @@ void add_threads(CLI::App& command, int& threads) {
       ->check(CLI::Range(1, 1024));
 }
 
+void add_reduced(CLI::App& run, study::RunOptions& options) {
+  CLI::Option* reduced = run.add_option(
+      "--reduced", options.reduced,
+      "runs on the modes of this model (rondo reduce) instead of the mesh; docs/reduced.md");
+  run.add_option("--step-factor", options.step_factor,
+                 "of a reduced run: its step over that of the full run")
+      ->capture_default_str()
+      ->needs(reduced);
+  run.add_option("--reduced-step", options.reduced_step,
+                 "of a reduced run: midpoint (implicit), or explicit (central differences)")
+      ->capture_default_str()
+      ->needs(reduced);
+  run.add_option("--snapshots", options.reduced_snapshots,
+                 "of a reduced run: fields, or modes (coordinates alone, far cheaper, no stress; "
+                 "lifted when read in Python)")
+      ->capture_default_str()
+      ->needs(reduced);
+}
+
 CLI::App* add_run(CLI::App& program, app::RunArguments& arguments, bool& quiet) {
   study::RunOptions& options = arguments.options;
   CLI::App* run = program.add_subcommand("run", "runs a case into a results directory");
@@ -56,22 +75,11 @@ CLI::App* add_run(CLI::App& program, app::RunArguments& arguments, bool& quiet) 
                 "resumes the run there from its last checkpoint, to the same bits; begins it "
                 "where there is none; with a later time.end a finished run resumes")
       ->excludes(overwrite);
-  CLI::Option* reduced = run->add_option(
-      "--reduced", options.reduced,
-      "runs on the modes of this model (rondo reduce) instead of the mesh; docs/reduced.md");
-  run->add_option("--step-factor", options.step_factor,
-                  "of a reduced run: its step over that of the full run")
-      ->capture_default_str()
-      ->needs(reduced);
-  run->add_option("--reduced-step", options.reduced_step,
-                  "of a reduced run: midpoint (implicit), or explicit (central differences)")
-      ->capture_default_str()
-      ->needs(reduced);
-  run->add_option("--snapshots", options.reduced_snapshots,
-                  "of a reduced run: fields, or modes (coordinates alone, far cheaper, no stress; "
-                  "lifted when read in Python)")
-      ->capture_default_str()
-      ->needs(reduced);
+  run->add_option("--modes-from", options.modes_from,
+                  "of a crush by analysis.solver = latin-pgd: begins with the modes of this run of "
+                  "the same body")
+      ->type_name("RUN");
+  add_reduced(*run, options);
   run->add_flag("--realtime-factor", arguments.realtime_factor,
                 "says how much faster than the motion itself the steps were");
   run->add_flag("--quiet", quiet, "prints warnings and errors only");

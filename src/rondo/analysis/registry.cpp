@@ -34,7 +34,22 @@ const AnalysisType& type_of(const Case& c) noexcept {
   return analysis_types()[static_cast<std::size_t>(c.analysis.kind)];
 }
 
+namespace {
+
+void refuse_modes(const Case& c, const RunOptions& options) {
+  const bool takes_modes = c.analysis.kind == AnalysisKind::crush &&
+                           c.analysis.solver == CrushMethod::latin_pgd && options.reduced.empty();
+  if (options.modes_from.empty() || takes_modes) return;
+  throw case_error(
+      c, "analysis.solver",
+      "--modes-from gives modes to begin with, which a crush by \"latin-pgd\" alone has",
+      "\"latin-pgd\"; or no --modes-from");
+}
+
+}  // namespace
+
 std::unique_ptr<Analysis> make_analysis(const Case& c, const RunOptions& options) {
+  refuse_modes(c, options);
   return options.reduced.empty() ? type_of(c).make(c, options) : make_reduced(c, options);
 }
 

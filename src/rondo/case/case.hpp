@@ -107,6 +107,9 @@ struct GroundCase {
 
 enum class RollingSlip { bdf2, upwind };
 
+/// How the increments of a crush are solved: one after another, or all at once in iterations.
+enum class CrushMethod { direct, latin, latin_pgd };
+
 struct AnalysisCase {
   AnalysisKind kind = AnalysisKind::dynamic;
   // Of a crush: numbers, or tables over the number of the increment (CrushPath).
@@ -114,6 +117,11 @@ struct AnalysisCase {
   int increments = 0;        ///< >= 1
   dynamics::Table slide{};   ///< of the center along +x: a number after the pressing           [m]
   int slide_increments = 0;  ///< >= 1 where the slide is a number other than 0, else 0
+  CrushMethod solver = CrushMethod::direct;
+  double search_direction = 0.0;  ///< of LATIN; 0: chosen                                  [N/m²]
+  double relaxation = 0.8;        ///< of LATIN, in (0, 1]
+  double tolerance = 1e-3;        ///< of LATIN
+  double downsizing = 0.3;        ///< of LATIN-PGD, of the modes that are kept; 0: none
   // Of steady rolling.
   int samples_per_sector = 8;                  ///< P >= 1
   RollingSlip slip = RollingSlip::bdf2;        ///< how slip is taken

@@ -68,6 +68,32 @@ void check_depth(CaseValues& in, const Case& c) {
     in.fault(depth, "the rim would reach the ground", allowed);
 }
 
+bool slides(const AnalysisCase& a) {
+  return a.slide.largest() > 0.0;
+}
+
+/// Keys that only some solvers have, and what these solvers do not do.
+void check_solver(CaseValues& in, Case& c) {
+  constexpr std::string_view solver = "analysis.solver", downsizing = "analysis.downsizing";
+  AnalysisCase& a = c.analysis;
+  if (!in.has(downsizing)) a.downsizing = slides(a) ? 1.0 : 0.3;
+  if (!in.good({solver})) return;
+  const auto refuse = [&](std::string_view key, const char* name, const char* instead) {
+    if (in.has(key) && in.good({key}))
+      in.fault(key, fmt::format("means nothing to analysis.solver = \"{}\"", name),
+               fmt::format("analysis.solver = {} beside it", instead));
+  };
+  if (a.solver == CrushMethod::latin) refuse(downsizing, "latin", "\"latin-pgd\"");
+  if (a.solver != CrushMethod::direct && has_rubber(c))
+    in.fault(solver, "is of linear elasticity only, and some part of the body is rubber",
+             "analysis.solver = \"direct\"");
+  if (a.solver != CrushMethod::direct) return;
+  for (const std::string_view key :
+       {"analysis.search_direction", "analysis.relaxation", "analysis.tolerance"})
+    refuse(key, "direct", "\"latin\" or \"latin-pgd\"");
+  refuse(downsizing, "direct", "\"latin-pgd\"");
+}
+
 }  // namespace
 
 void check_crush(CaseValues& in, Case& c) {
@@ -76,6 +102,7 @@ void check_crush(CaseValues& in, Case& c) {
   else
     check_numbers(in, c.analysis);
   check_depth(in, c);
+  check_solver(in, c);
   if (!c.mesh && c.free_rim)
     in.fault("disk.rim", "a crush presses a disk down by its rim", "\"bonded\"");
   if (c.mesh && !is_held(c) && in.good({"mesh.clamped"}))

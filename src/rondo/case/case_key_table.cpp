@@ -124,6 +124,12 @@ bool has_slide_increments(const Case& c) {
 bool has_slide(const Case& c) {
   return has_slide_increments(c) || c.analysis.slide.points().size() > 1;
 }
+bool is_latin(const Case& c) {
+  return c.analysis.solver != CrushMethod::direct;
+}
+bool is_latin_pgd(const Case& c) {
+  return c.analysis.solver == CrushMethod::latin_pgd;
+}
 bool is_by_step(const Case& c) {
   return c.time.step.has_value();
 }
@@ -465,6 +471,27 @@ constexpr CaseKey keys[] = {
      optional.of(of_crush).if_(has_slide_increments, "required if slide is a number").body(never),
      "equal parts of a slide that is a number, each an equilibrium; refused beside tables and in a "
      "dynamic case"},
+
+    {"analysis.solver", "-", FIELD(analysis.solver), choice("direct", "latin", "latin-pgd"),
+     optional.of(of_crush).body(never),
+     "how the increments of a crush are solved. \"direct\": one after another, exactly. \"latin\": "
+     "all at once, by iterations between the laws of contact and elasticity; \"latin-pgd\": "
+     "likewise, with the field in modes that are found on the way. The same results to "
+     "`tolerance`, of linear materials alone"},
+    {"analysis.search_direction", "N/m2", FIELD(analysis.search_direction), not_negative,
+     optional.of(of_crush).if_(is_latin).body(never),
+     "of \"latin\" and \"latin-pgd\": stiffness that joins forces and gaps on the way. 0: chosen. "
+     "It changes how many iterations there are, not what they come to"},
+    {"analysis.relaxation", "-", FIELD(analysis.relaxation), share,
+     optional.of(of_crush).if_(is_latin).body(never),
+     "of \"latin\" and \"latin-pgd\": part of the way to what an iteration finds"},
+    {"analysis.tolerance", "-", FIELD(analysis.tolerance), between(1e-12, 0.1),
+     optional.of(of_crush).if_(is_latin).body(never),
+     "of \"latin\" and \"latin-pgd\": of the indicator and the residual that end the iterations"},
+    {"analysis.downsizing", "-", FIELD(analysis.downsizing), not_negative,
+     optional.of(of_crush).if_(is_latin_pgd, "0.3; 1.0 with a slide").body(never),
+     "of \"latin-pgd\": modes are dropped whose part is below 0.3 of this times the indicator. 0: "
+     "all are kept"},
 
     {"analysis.samples_per_sector", "-", FIELD(analysis.samples_per_sector), between(1, 1000),
      optional.of(of_steady_rolling).body(never),

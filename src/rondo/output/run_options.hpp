@@ -31,6 +31,7 @@ struct RunOptions {
   double step_factor = 20.0;              ///< with it: step over that of the full run
   std::string reduced_step = "midpoint";  ///< with it: or "explicit"
   std::string reduced_snapshots = "fields";  ///< with it: or "modes", lifted when they are read
+  std::filesystem::path modes_from;  ///< run whose modes a crush by LATIN-PGD begins with; or empty
 };
 
 /// How a run ended. `failed` is an outcome of the numerics: not finite, or a residual out of bound.

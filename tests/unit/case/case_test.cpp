@@ -180,6 +180,12 @@ TEST(ReadCase, DefaultsAreThoseOfTheManual) {
   const std::string steady =
       "\n" + write_case(read_text(least + ground + "[analysis]\nkind = 'steady-rolling'\n",
                                   {"motion.angular_velocity=1"}));
+  const std::string pressed =
+      "\n" + write_case(read_text(least + ground + "[analysis]\nkind = 'crush'\ndepth = 0.1\n",
+                                  {"analysis.increments=4", "analysis.solver=latin"}));
+  const std::string direct =
+      "\n" + write_case(read_text(least + ground + "[analysis]\nkind = 'crush'\ndepth = 0.1\n",
+                                  {"analysis.increments=4"}));
   const auto is_for_free_bodies = [](std::string_view key) {
     return key == "initial.position" || key == "initial.angle" || key == "initial.angular_velocity";
   };
@@ -193,7 +199,10 @@ TEST(ReadCase, DefaultsAreThoseOfTheManual) {
                          key.path.find("[]") == std::string_view::npos;
     if (!written) continue;
     const bool is_steady = !means_to(key, AnalysisKind::dynamic);
-    const std::string& text = is_steady                      ? steady
+    const bool is_crush = means_to(key, AnalysisKind::crush);
+    const std::string& text = is_steady && is_crush
+                                  ? key.path == "analysis.solver" ? direct : pressed
+                              : is_steady                    ? steady
                               : is_for_free_bodies(key.path) ? free
                               : is_for_wheels(key.path)      ? wheel
                                                              : held;

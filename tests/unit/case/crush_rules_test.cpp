@@ -84,5 +84,65 @@ TEST(CrushHistories, AreBothTables) {
               {"analysis.slide_increments = 4", "counts its own increments"});
 }
 
+const std::string pressed = "increments = 8\ndepth = 0.5\n";
+
+TEST(CrushSolvers, HaveKeysOfTheirOwn) {
+  const std::string crush = start + "[analysis]\nkind = \"crush\"\n" + pressed;
+  const Case direct = read_text(crush), latin = read_text(crush, {"analysis.solver=latin"}),
+             pgd = read_text(crush, {"analysis.solver=latin-pgd", "analysis.relaxation=1"});
+  EXPECT_EQ(direct.analysis.solver, CrushMethod::direct);
+  EXPECT_EQ(latin.analysis.solver, CrushMethod::latin);
+  EXPECT_EQ(latin.analysis.search_direction, 0.0);
+  EXPECT_EQ(latin.analysis.relaxation, 0.8);
+  EXPECT_EQ(latin.analysis.tolerance, 1e-3);
+  EXPECT_EQ(pgd.analysis.relaxation, 1.0);
+  for (const char* key : {"search_direction", "relaxation", "tolerance", "downsizing"}) {
+    EXPECT_EQ(write_case(direct).find(key), std::string::npos) << key;
+    EXPECT_NE(write_case(pgd).find(key), std::string::npos) << key;
+  }
+  EXPECT_EQ(write_case(latin).find("downsizing"), std::string::npos);
+  EXPECT_EQ(write_case(read_text(write_case(pgd))), write_case(pgd));
+}
+
+TEST(CrushSolvers, DropMoreModesWhereItSlides) {
+  const std::string crush = start + "[analysis]\nkind = \"crush\"\nsolver = \"latin-pgd\"\n";
+  const std::vector<std::string> slide{"analysis.slide=0.1", "analysis.slide_increments=4"};
+  EXPECT_EQ(read_text(crush + pressed).analysis.downsizing, 0.3);
+  EXPECT_EQ(read_text(crush + pressed, slide).analysis.downsizing, 1.0);
+  EXPECT_EQ(read_text(crush + pressed + "downsizing = 0", slide).analysis.downsizing, 0.0);
+  const std::string tables = "increments = 8\ndepth = [[0, 0], [8, 1]]\nslide = ";
+  EXPECT_EQ(read_text(crush + tables + "[[0, 0], [8, 0]]").analysis.downsizing, 0.3);
+  EXPECT_EQ(read_text(crush + tables + "[[0, 0], [8, -1]]").analysis.downsizing, 1.0);
+}
+
+TEST(CrushSolvers, RefuseWhatTheyDoNotHave) {
+  for (const char* key : {"search_direction", "relaxation", "tolerance"})
+    expect_told(pressed + key + " = 0.1", {key, "analysis.solver = \"direct\"", "\"latin\""});
+  expect_told(pressed + "downsizing = 1", {"solver = \"direct\"", "\"latin-pgd\""});
+  expect_told(pressed + "solver = \"latin\"\ndownsizing = 1",
+              {"analysis.downsizing = 1", "\"latin\"", "\"latin-pgd\" beside it"});
+  expect_told(pressed + "solver = \"latin\"\nsearch_direction = -1.0", {"out of bounds", ">= 0"});
+  expect_told(pressed + "solver = \"latin\"\nrelaxation = 0.0", {"out of bounds", "> 0"});
+  expect_told(pressed + "solver = \"latin\"\ntolerance = 0.2", {"out of bounds", "0.1"});
+  expect_told(pressed + "solver = \"pgd\"", {"\"direct\", \"latin\" or \"latin-pgd\""});
+  const auto faults = faults_of(
+      "schema = 1\n"
+      "disk = {outer_radius = 3, inner_radius = 1, mesh = {radial = 2, circumferential = 8}}\n"
+      "material = {model = 'neo-hooke', shear_modulus = 1, poissons_ratio = 0.4, density = 1}\n"
+      "ground = {profile = 'flat'}\n"
+      "analysis = {kind = 'crush', depth = 0.5, increments = 8, solver = 'latin'}\n");
+  ASSERT_EQ(faults.size(), 1U);
+  EXPECT_NE(faults[0].text().find("linear elasticity only"), std::string::npos);
+  EXPECT_NE(faults[0].text().find("analysis.solver = \"direct\""), std::string::npos);
+}
+
+TEST(CrushSolvers, AreOfACrushAlone) {
+  for (const char* key : {"solver=latin", "search_direction=1e7", "relaxation=0.5"}) {
+    const auto faults = faults_of(base, {std::string("analysis.") + key});
+    ASSERT_EQ(faults.size(), 1U) << key;
+    EXPECT_NE(faults[0].text().find("analysis.kind = \"crush\""), std::string::npos) << key;
+  }
+}
+
 }  // namespace
 }  // namespace rondo::study

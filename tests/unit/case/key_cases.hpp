@@ -18,6 +18,8 @@ inline const std::vector<Case>& cases_with_every_key() {
     const std::vector<std::string> crush{"analysis.kind=crush",   "analysis.depth=0.01",
                                          "analysis.increments=3", "analysis.slide=0.001",
                                          "ground.profile=flat",   "analysis.slide_increments=2"};
+    std::vector<std::string> latin = crush;
+    latin.emplace_back("analysis.solver=latin-pgd");
     const std::vector<std::string> probe{"output.probe=[{name = 'p', position = [0.2, 0.0]}]"},
         pressure{"load.pressure=[{curve = 'rim', value = 3}]",
                  "material.region=[{layers = [2, 3], density = 7800}]",
@@ -116,6 +118,7 @@ end = 0.2
                   {"material.region=[{layers = [1]}]"}),
         read_text(treaded(), wheel),
         read_text(section),
+        read_text(base, latin),
         read_text(base, crush)};
   }();
   return cases;

@@ -10,6 +10,8 @@ namespace rondo::study {
 
 std::unique_ptr<CrushSolver> make_crush_solver(const Case& c, const RunOptions& options,
                                                const CrushSetup& setup) {
+  if (c.analysis.solver != CrushMethod::direct)
+    throw case_error(c, "analysis.solver", "is not there yet", "\"direct\"");
   if (fem::has_rubber(setup.materials)) return make_rubber_solver(setup);
   return make_direct_solver(c, options, setup);
 }
