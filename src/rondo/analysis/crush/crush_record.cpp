@@ -53,12 +53,13 @@ CrushSums sum_up(const CrushSetup& setup, const statics::CrushState& state) {
   CrushSums s;
   for (std::size_t k = 0; k < state.force.size(); ++k) {
     const Vec2 r = state.force[k];
-    if (!(r.x > 0.0)) continue;
+    if (r == Vec2{}) continue;
     const auto node = static_cast<std::size_t>(setup.model.nodes[k]);
     const double tributary = setup.mesh.tributary[k];
     s.contact += r;
     s.force += from_frame(normal, r);
     s.torque += cross(setup.mesh.coordinates[node] + state.u[node], from_frame(normal, r));
+    if (state.status[k] == contact::Status::open) continue;  // what LATIN leaves of a force
     ++s.nodes;
     s.sticking += state.status[k] == contact::Status::stick ? 1 : 0;
     s.length += tributary;

@@ -4,14 +4,14 @@
 #include <algorithm>
 
 #include "rondo/analysis/crush/direct_solver.hpp"
+#include "rondo/analysis/crush/latin_solver.hpp"
 #include "rondo/analysis/crush/rubber_solver.hpp"
 
 namespace rondo::study {
 
 std::unique_ptr<CrushSolver> make_crush_solver(const Case& c, const RunOptions& options,
                                                const CrushSetup& setup) {
-  if (c.analysis.solver != CrushMethod::direct)
-    throw case_error(c, "analysis.solver", "is not there yet", "\"direct\"");
+  if (c.analysis.solver != CrushMethod::direct) return make_latin_solver(c, options, setup);
   if (fem::has_rubber(setup.materials)) return make_rubber_solver(setup);
   return make_direct_solver(c, options, setup);
 }

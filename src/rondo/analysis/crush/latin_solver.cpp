@@ -1,0 +1,255 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "rondo/analysis/crush/latin_solver.hpp"
+
+#include <fmt/format.h>
+
+#include <chrono>
+#include <cmath>
+#include <optional>
+#include <utility>
+
+#include "rondo/analysis/build/build.hpp"
+#include "rondo/analysis/crush/direct_solver.hpp"
+#include "rondo/analysis/crush/latin_outcome.hpp"
+#include "rondo/analysis/crush/pgd_files.hpp"
+#include "rondo/io/csv.hpp"
+#include "rondo/statics/latin/latin.hpp"
+#include "rondo/statics/latin/pgd.hpp"
+#include "rondo/statics/latin/springs.hpp"
+
+namespace rondo::study {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+using Eigen::Index;
+using Eigen::MatrixXd;
+using statics::Condensation;
+
+constexpr int most_iterations = 2000;
+constexpr double last_cut = 0.5;       ///< share of the tolerance that modes left out may have
+constexpr double most_foreign = 1e-6;  ///< of a field's loads
+
+class LatinSolver final : public CrushSolver {
+ public:
+  LatinSolver(const Case& c, const RunOptions& options, const CrushSetup& setup)
+      : case_(c), options_(options), setup_(setup) {}
+
+  void prepare() override;
+  [[nodiscard]] bool iterate(std::string& trouble) override;
+  [[nodiscard]] statics::CrushReport take(int k, statics::CrushState& state,
+                                          std::string& trouble) override;
+  void describe(Json& j) const override;
+  void summarise(const statics::CrushState& state, Json& j, RunReport& report) const override;
+
+ private:
+  [[nodiscard]] bool is_pgd() const { return case_.analysis.solver == CrushMethod::latin_pgd; }
+  [[nodiscard]] MatrixXd read_fields();
+  void condense_where_loaded(const MatrixXd& fields);
+  void set_problem();
+  void make_pgd(MatrixXd fields);
+  void record_iteration();
+  [[nodiscard]] std::string not_converged() const;
+  void write_modes();
+  void finish();
+
+  const Case& case_;
+  const RunOptions& options_;
+  const CrushSetup& setup_;
+  fem::BlockCsr stiffness_;
+  std::shared_ptr<Condensation> body_;
+  std::unique_ptr<Condensation> stiffened_;  ///< of PGD
+  std::vector<int> nodes_;                   ///< (m) of the set
+  double direction_ = 0.0;                   ///< [N/m²]
+  int fields_begun_with_ = 0;
+  statics::LatinProblem problem_;
+  std::unique_ptr<statics::Elasticity> elasticity_;
+  statics::Pgd* pgd_ = nullptr;  ///< the same; null: LATIN
+  std::optional<statics::Latin> latin_;
+  statics::LatinReport report_;
+  std::optional<io::Csv> convergence_;
+  double solve_wall_s_ = 0.0;            ///< iterations and fields, without what prepares them
+  std::optional<LatinOutcome> outcome_;  ///< once converged
+  double residual_of_modes_ = 0.0;
+};
+
+/// Empty: none was asked for.
+MatrixXd LatinSolver::read_fields() {
+  return options_.modes_from.empty() ? MatrixXd()
+                                     : read_pgd_basis(options_.modes_from, setup_.mesh);
+}
+
+/// The histories see every candidate that the fields have loads on.
+void LatinSolver::condense_where_loaded(const MatrixXd& fields) {
+  std::vector<char> inside(setup_.model.nodes.size(), 0);
+  for (const std::size_t k : body_->set()) inside[k] = 1;
+  std::vector<std::size_t> added;
+  for (const std::size_t k : statics::loaded_places(stiffness_, setup_.model.nodes, fields))
+    if (!inside[k]) added.push_back(k);
+  body_->append(added);
+}
+
+void LatinSolver::set_problem() {
+  const auto& set = body_->set();
+  const int n = setup_.path.n_increments();
+  problem_ = {body_->compliance(), MatrixXd(static_cast<Index>(2 * set.size()), n),
+              setup_.model.friction};
+  for (int k = 0; k < n; ++k)
+    for (std::size_t j = 0; j < set.size(); ++j)
+      problem_.free.col(k).segment<2>(static_cast<Index>(2 * j))
+          << setup_.model.clearance[set[j]] - setup_.path.depth(k + 1),
+          -setup_.path.slide(k + 1);
+  for (const std::size_t j : set) nodes_.push_back(setup_.model.nodes[j]);
+}
+
+void LatinSolver::make_pgd(MatrixXd fields) {
+  stiffened_ = std::make_unique<Condensation>(statics::with_springs(stiffness_, nodes_, direction_),
+                                              setup_.free, nodes_);
+  if (!stiffened_->factorised())
+    throw case_error(case_, "analysis.search_direction",
+                     fmt::format("{:g} N/m2 leaves a stiffness that is not positive definite in "
+                                 "numbers",
+                                 direction_),
+                     "0, which chooses one");
+  const AnalysisCase& a = case_.analysis;
+  auto pgd = std::make_unique<statics::Pgd>(
+      *stiffened_, nodes_, statics::PgdOptions{direction_, a.tolerance, a.downsizing});
+  pgd_ = pgd.get();
+  elasticity_ = std::move(pgd);
+  if (fields.cols() == 0) return;
+  statics::Adopted adopted = statics::adopt(stiffness_, nodes_, direction_, std::move(fields));
+  if (!(adopted.foreign <= most_foreign))
+    throw request_error(
+        "--modes-from", options_.modes_from.string(),
+        fmt::format(
+            "its fields have {:.2g} of their loads away from the contact nodes: they are of "
+            "another body",
+            adopted.foreign),
+        "a run of the same mesh, [material] and held nodes");
+  fields_begun_with_ = static_cast<int>(adopted.fields.field.cols());
+  pgd_->begin_with(std::move(adopted.fields));
+}
+
+void LatinSolver::prepare() {
+  stiffness_ = fem::assemble_stiffness(setup_.mesh, setup_.materials);
+  MatrixXd fields = read_fields();
+  body_ = factorised(case_, setup_, options_.shared);
+  condense(case_, setup_, *body_);
+  if (fields.cols() > 0) condense_where_loaded(fields);
+  set_problem();
+  const double given = case_.analysis.search_direction;
+  direction_ =
+      given > 0.0 ? given : statics::chosen_direction(problem_.compliance, setup_.path.has_slide());
+  if (is_pgd())
+    make_pgd(std::move(fields));
+  else
+    elasticity_ = std::make_unique<statics::CondensedElasticity>(problem_.compliance, direction_);
+  latin_.emplace(problem_, *elasticity_, direction_, case_.analysis.relaxation);
+}
+
+void LatinSolver::record_iteration() {
+  if (!convergence_)
+    convergence_.emplace(
+        options_.directory / "convergence.csv",
+        std::vector<std::string>{"iteration", "indicator", "residual", "modes", "solves"});
+  convergence_->row(std::array<double, 5>{
+      static_cast<double>(report_.iterations), report_.indicator, report_.residual,
+      pgd_ ? static_cast<double>(pgd_->modes()) : std::nan(""),
+      pgd_ ? static_cast<double>(pgd_->solves()) : std::nan("")});
+}
+
+std::string LatinSolver::not_converged() const {
+  return fmt::format(
+      "LATIN did not converge: after {} iterations the residual is {:.3g}, analysis.tolerance "
+      "{:g}, with a search direction of {:.4g} N/m2{}; allowed is a larger tolerance; leave "
+      "analysis.search_direction at 0, which chooses one, make analysis.relaxation smaller, or "
+      "take analysis.solver = \"direct\"",
+      report_.iterations, report_.residual, case_.analysis.tolerance, direction_,
+      case_.analysis.search_direction > 0.0 ? " (given)" : " (chosen)");
+}
+
+bool LatinSolver::iterate(std::string& trouble) {
+  const auto begin = Clock::now();
+  report_ = latin_->iterate();
+  const bool converged = report_.iterations > 1 && report_.residual <= case_.analysis.tolerance;
+  if (converged) finish();
+  solve_wall_s_ += std::chrono::duration<double>(Clock::now() - begin).count();
+  record_iteration();
+  if (!std::isfinite(report_.residual) || !std::isfinite(report_.indicator))
+    trouble = "the forces or displacements are out of the range of the numbers";
+  else if (!converged && report_.iterations == most_iterations)
+    trouble = not_converged();
+  return !converged;
+}
+
+void LatinSolver::write_modes() {
+  const statics::Separated all = pgd_->separated(0.0);
+  const MatrixXd basis = pgd_->basis().field;
+  PgdModes modes;
+  modes.mesh = &setup_.mesh;
+  modes.mass = setup_.mass;
+  modes.title = case_.title;
+  for (int k = 1; k <= setup_.path.n_increments(); ++k)
+    modes.parameter.push_back(setup_.path.parameter(k));
+  modes.solution = &all;
+  modes.basis = &basis;
+  modes.share = last_cut * case_.analysis.tolerance;
+  modes.direction = direction_;
+  modes.latin = report_;
+  modes.solves = pgd_->solves();
+  modes.most_modes = pgd_->most_modes();
+  write_pgd(options_.directory, modes);
+}
+
+void LatinSolver::finish() {
+  LatinHistories h;
+  h.lawful = latin_->lawful().force;
+  h.balanced = latin_->balanced();
+  if (pgd_) {
+    const statics::Separated& s =
+        h.separated.emplace(pgd_->separated(last_cut * case_.analysis.tolerance));
+    const MatrixXd time = s.sigma.asDiagonal() * s.temporal.transpose();
+    const MatrixXd displacement = s.modes.contact * time;
+    h.balanced.place = problem_.free + displacement;
+    h.balanced.force = s.modes.load * time - direction_ * displacement;
+    write_modes();
+  }
+  h.residuals = statics::increment_residuals(problem_, h.balanced);
+  residual_of_modes_ = statics::history_residual(problem_, h.balanced);
+  outcome_.emplace(setup_, stiffness_, *body_, std::move(h));
+}
+
+statics::CrushReport LatinSolver::take(int k, statics::CrushState& state, std::string& trouble) {
+  const auto begin = Clock::now();
+  const statics::CrushReport report = outcome_->take(k, case_.analysis.tolerance, state, trouble);
+  solve_wall_s_ += std::chrono::duration<double>(Clock::now() - begin).count();
+  return report;
+}
+
+void LatinSolver::describe(Json& j) const {
+  j["solver"] = is_pgd() ? "latin-pgd" : "latin";
+  j["search_direction"] = direction_;
+  if (!options_.modes_from.empty()) j["modes_from"] = options_.modes_from.string();
+  if (!options_.modes_from.empty()) j["fields_begun_with"] = fields_begun_with_;
+}
+
+void LatinSolver::summarise(const statics::CrushState& /*state*/, Json& j, RunReport& /*r*/) const {
+  j["candidates_condensed"] = body_->set().size();
+  j["iterations"] = report_.iterations;
+  j["indicator"] = report_.indicator;
+  j["residual"] = report_.residual;
+  j["solve_wall_s"] = solve_wall_s_;
+  if (!pgd_) return;
+  j["modes"] = outcome_ ? static_cast<int>(outcome_->modes()) : pgd_->modes();
+  j["modes_max"] = pgd_->most_modes();
+  j["solves"] = pgd_->solves();
+  j["residual_of_modes"] = residual_of_modes_;
+}
+
+}  // namespace
+
+std::unique_ptr<CrushSolver> make_latin_solver(const Case& c, const RunOptions& options,
+                                               const CrushSetup& setup) {
+  return std::make_unique<LatinSolver>(c, options, setup);
+}
+
+}  // namespace rondo::study
