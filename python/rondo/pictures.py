@@ -83,6 +83,12 @@ def _footprint(run: Run, time: float | None = None) -> Figure:
     return plot_footprint(run)
 
 
+def _convergence(run: Run, ax: Axes | None = None) -> Axes:
+    """Indicator, residual and modes of a crush by LATIN over its iterations."""
+    from .plots.convergence import plot_convergence
+    return plot_convergence(run, ax)
+
+
 def _modes_of_run(run: Run, field: str, frame: str = "co-rotating", count: int = 6) -> Figure:
     """The first modes of a POD of this run."""
     return _modes(run.pod(field, frame), count)
@@ -184,7 +190,7 @@ def attach() -> None:
     Run.plot_field, Run.plot_history, Run.plot_energy = _field, _history, _energy
     Run.plot_spectrum, Run.plot_modes, Run.animate = _spectrum, _modes_of_run, _animate
     Run.plot_contact, Run.plot_contact_map = _contact, _contact_map
-    Run.plot_wheel, Run.plot_footprint = _wheel, _footprint
+    Run.plot_wheel, Run.plot_footprint, Run.plot_convergence = _wheel, _footprint, _convergence
     Pod.plot_spectrum, Pod.plot_modes = _decay, _modes
     Modes.plot_campbell = _campbell
     Sweep.plot_main_effects, Sweep.plot_map = _main_effects, _map

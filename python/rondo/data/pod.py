@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""A POD: the directory that `rondo pod` writes (docs/results.md, "The directory of a POD")."""
+"""A POD: the directory that `rondo pod` writes, and a run with analysis.solver = "latin-pgd"
+(docs/results.md, "The directory of a POD")."""
 from __future__ import annotations
 
 import os
@@ -30,8 +31,8 @@ class Pod:
     first asked for.
 
     directory; info: pod.json; mesh; field: "displacement", "velocity" or "contact"; frame:
-    "rotating" or "rectified"; weight: "mass", "delassus" or "none"; unit: [q];
-    time_unit: "s" or "1"."""
+    "rotating" or "rectified"; weight: "mass", "delassus", "none", or of a PGD "search-direction";
+    unit: [q]; time_unit: "s" or "1"."""
 
     # Pictures: what rondo/pictures.py gives this class, as nothing here knows how to draw.
     plot_spectrum: Callable[..., Axes]
@@ -53,7 +54,7 @@ class Pod:
             self.mesh: Mesh = read_mesh(file)
 
     def __repr__(self) -> str:
-        return (f"Pod({self.directory}: {self.field}, {self.frame}, weight {self.weight}, "
+        return (f"Pod({self.directory}: {self.field}, {self.kind}, weight {self.weight}, "
                 f"{len(self.time)} snapshots, {self.n_modes} modes)")
 
     def _read(self, dataset: str, *empty: int) -> np.ndarray:
@@ -64,9 +65,20 @@ class Pod:
             return file[dataset][:]
 
     @property
+    def is_pgd(self) -> bool:
+        """Whether its modes are those of LATIN-PGD, orthonormal in uᵀ(K + k HᵀH)u, and its
+        spectrum that of the solution before the last cut."""
+        return bool(self.info.get("method") == "latin-pgd")
+
+    @property
+    def kind(self) -> str:
+        """The frame; of LATIN-PGD "pgd": what Run.pod takes."""
+        return "pgd" if self.is_pgd else self.frame
+
+    @property
     def name(self) -> str:
-        """ "velocity-rectified"."""
-        return f"{self.field}-{self.frame}"
+        """ "velocity-rectified", "displacement-pgd"."""
+        return f"{self.field}-{self.kind}"
 
     @property
     def n_modes(self) -> int:
@@ -80,7 +92,11 @@ class Pod:
 
     @cached_property
     def weights(self) -> np.ndarray:
-        """(p,) W of each point [w]."""
+        """(p,) W of each point [w]; an error of a PGD, whose norm is not of points."""
+        if self.is_pgd:
+            raise Error(f"{self.directory}: modes of LATIN-PGD have no weights of points: they are "
+                        "orthonormal in the energy uᵀ(K + k HᵀH)u; pod.info[\"orthonormality\"] "
+                        "says how well")
         return self._read("weight")
 
     @cached_property
@@ -138,9 +154,65 @@ class Pod:
         """(p, 2 or 3) snapshot k from its first modes (None: all kept), frame of the analysis [q]."""
         count = self.n_modes if modes is None else modes
         if not 0 <= count <= self.n_modes:
-            raise Error(f"{self.directory}: {self.n_modes} modes are kept; {count} were asked for: "
-                        "rondo pod --modes keeps more")
+            hint = "" if self.is_pgd else ": rondo pod --modes keeps more"
+            raise Error(f"{self.directory}: {self.n_modes} modes are kept; {count} were asked for"
+                        f"{hint}")
         return np.tensordot(self.coefficients[k, :count], self.spatial[:count], axes=1)
+
+    def angles(self, other: Pod, modes: int | None = None) -> np.ndarray:
+        """(a,) principal angles between the spaces of the modes of this POD and of another of the
+        same field and mesh, rising [rad]; `modes`: of the first ones of each, None: of all kept;
+        a: of the one that has fewer. In the norm of the mass, for contact in that of `weights`,
+        whatever norm the modes were found in."""
+        if self.field != other.field or not _same(self.mesh, other.mesh):
+            raise Error(f"{self.directory}: its modes are of {self.field} on {self.mesh.n_nodes} "
+                        f"nodes; those of {other.directory} of {other.field} on "
+                        f"{other.mesh.n_nodes}: the fields and the meshes must be the same")
+        few, many = sorted((pod._orthonormal(modes) for pod in (self, other)),
+                           key=lambda columns: columns.shape[1])
+        along = many.T @ few
+        cosine = np.linalg.svd(along, compute_uv=False)
+        sine = np.linalg.svd(few - many @ along, compute_uv=False)[::-1]
+        # Each where it is exact: the cosine of a small angle is 1 in numbers.
+        angles: np.ndarray = np.where(cosine**2 > 0.5, np.arcsin(np.clip(sine, 0, 1)),
+                                      np.arccos(np.clip(cosine, 0, 1)))
+        return angles
+
+    def projection_error(self, fields: np.ndarray) -> np.ndarray:
+        """(r + 1,) what the first 0, 1, ... r modes leave at best of fields (t, p, 2 or 3), such as
+        run.displacement[:], over their norm [1]: of all t together, in the norm of `angles`."""
+        values = np.asarray(fields, dtype=float)
+        wanted = (len(self.points), self.mesh.coordinates.shape[1])
+        if values.ndim != 3 or values.shape[1:] != wanted:
+            raise Error(f"{self.directory}: fields of shape {values.shape}; (any, {wanted[0]}, "
+                        f"{wanted[1]}) is expected")
+        rest = (values * self._root()).reshape(len(values), -1).T
+        left = [np.linalg.norm(rest)]
+        for column in self._orthonormal(None).T:
+            rest = rest - np.outer(column, column @ rest)
+            left.append(np.linalg.norm(rest))
+        return np.array(left) / (left[0] or 1.0)
+
+    def _root(self) -> np.ndarray:
+        """(p, 1) root of the weights of the points, in which PODs are compared."""
+        weights = self.weights if self.field == "contact" else self.mesh.mass
+        root: np.ndarray = np.sqrt(weights)[:, None]
+        return root
+
+    def _orthonormal(self, modes: int | None) -> np.ndarray:
+        """(2p, r) or (3p, r) columns, of which the first i span what the first i modes do."""
+        count = self.n_modes if modes is None else modes
+        if not 1 <= count <= self.n_modes:
+            raise Error(f"{self.directory}: {self.n_modes} modes are kept; {count} are to be "
+                        "compared")
+        columns: np.ndarray = np.linalg.qr(
+            (self.spatial[:count] * self._root()).reshape(count, -1).T)[0]
+        return columns
+
+
+def _same(a: Mesh, b: Mesh) -> bool:
+    return (a.coordinates.shape == b.coordinates.shape and a.cells.shape == b.cells.shape
+            and np.array_equal(a.coordinates, b.coordinates) and np.array_equal(a.cells, b.cells))
 
 
 class Pods(Mapping[str, Pod]):
@@ -157,6 +229,18 @@ class Pods(Mapping[str, Pod]):
         if name not in self._opened:
             self._opened[name] = open_pod(self.folder / name)
         return self._opened[name]
+
+    def of(self, field: str, kind: str) -> Pod:
+        """That of a field ("displacement", "velocity", "contact") in a frame ("co-rotating",
+        "rectified"), or by LATIN-PGD ("pgd")."""
+        name = f"{field}-{kind.removeprefix('co-')}"
+        if name not in self:
+            run = self.folder.parent
+            make = (f"to make it: rondo pod {run} --field {field} --frame {kind}" if kind != "pgd"
+                    else 'to make it: rondo run --set \'analysis.solver="latin-pgd"\' of a crush, '
+                         "displacement alone")
+            raise unknown(run, "POD", name, [*self, make])
+        return self[name]
 
     def __iter__(self) -> Iterator[str]:
         return iter(self._names)

@@ -12,6 +12,7 @@ import numpy as np
 
 from .arrays import LazyArray
 from .contact import Contact, Crush
+from .convergence import Convergence
 from .errors import Error, UnfinishedRunError, unknown
 from .files import check_format, opened, read_case, read_json, require
 from .history import History
@@ -66,6 +67,7 @@ class Run:
     plot_modes: Callable[..., Figure]
     plot_wheel: Callable[..., Figure]
     plot_footprint: Callable[..., Figure]
+    plot_convergence: Callable[..., Axes]
     animate: Callable[..., pathlib.Path]
 
     def __init__(self, directory: pathlib.Path) -> None:
@@ -381,6 +383,11 @@ class Run:
                               None if increments is None else increments + 1)
         return history
 
+    @cached_property
+    def convergence(self) -> Convergence:
+        """convergence.csv of a crush by LATIN, a row for each iteration; an error of other runs."""
+        return Convergence(self.directory, self.case.get("analysis", {}))
+
     # Its PODs
 
     @cached_property
@@ -388,12 +395,5 @@ class Run:
         return Pods(self.directory / "pod")
 
     def pod(self, field: str, frame: str = "co-rotating") -> Pod:
-        """The POD of a field ("displacement", "velocity", "contact") in a frame ("co-rotating", in
-        the files "rotating", or "rectified")."""
-        frame = frame_named(frame)
-        name = f"{field}-{frame.removeprefix('co-')}"
-        if name not in self.pods:
-            raise unknown(self.directory, "POD", name,
-                          [*self.pods, f"to make it: rondo pod {self.directory} --field {field} "
-                                       f"--frame {frame}"])
-        return self.pods[name]
+        """The POD of a field in a frame ("co-rotating", "rectified"), or "pgd": that of LATIN-PGD."""
+        return self.pods.of(field, frame_named(frame))

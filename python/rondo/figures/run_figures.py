@@ -14,6 +14,7 @@ from matplotlib.figure import Figure
 
 from .. import style
 from ..plots import curves, field, patch
+from ..plots.convergence import plot_convergence
 from ..plots.footprint import plot_footprint
 from ..plots.modes import plot_pod_spectrum
 from ..plots.wheel import plot_wheel
@@ -58,6 +59,8 @@ def draw_run(run: Run, folder: str | os.PathLike[str]) -> list[pathlib.Path]:
             half = 0.5 * history["time_s"][-1]  # what came before is the start, not the course
             if not run.is_crush and history.window(from_time=half).sum() >= curves.MIN_ROWS:
                 keep("force-spectrum", curves.plot_force_spectrum(run, from_time=half).figure)
+    if (run.directory / "convergence.csv").exists():
+        keep("convergence", plot_convergence(run).figure)
     pods = [pod for pod in run.pods.values() if pod.n_modes]
     for pod in (one for one in pods if not (run.is_solid and one.field == "contact")):
         keep(f"modes-{pod.name}", pod.plot_modes())

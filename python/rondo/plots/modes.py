@@ -41,7 +41,7 @@ def plot_pod_spectrum(pods: Sequence[Pod], ax: Axes | None = None,
             ax = plt.figure(figsize=(style.COLUMN, 0.75 * style.COLUMN)).add_subplot()
         for share in SHARES:
             ax.axhline(share, color="0.85", lw=0.6, zorder=0)
-        names = labels or [f"{pod.field}, {pod.frame}" for pod in pods]
+        names = labels or [f"{pod.field}, {pod.kind}" for pod in pods]
         for number, (pod, name) in enumerate(zip(pods, names)):
             draw_decay(ax, pod, name, style.CURVES[number % len(style.CURVES)])
         ax.set(xlabel="modes kept (–)", ylabel="share of the energy left out (–)")
