@@ -151,10 +151,10 @@ void LatinSolver::record_iteration() {
     convergence_.emplace(
         options_.directory / "convergence.csv",
         std::vector<std::string>{"iteration", "indicator", "residual", "modes", "solves"});
-  convergence_->row(std::array<double, 5>{
-      static_cast<double>(report_.iterations), report_.indicator, report_.residual,
-      pgd_ ? static_cast<double>(pgd_->modes()) : std::nan(""),
-      pgd_ ? static_cast<double>(pgd_->solves()) : std::nan("")});
+  convergence_->row(std::array<double, 5>{static_cast<double>(report_.iterations),
+                                          report_.indicator, report_.residual,
+                                          pgd_ ? static_cast<double>(pgd_->modes()) : 0.0,
+                                          pgd_ ? static_cast<double>(pgd_->solves()) : 0.0});
 }
 
 std::string LatinSolver::not_converged() const {

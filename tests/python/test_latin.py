@@ -125,9 +125,8 @@ def test_modes_of_another_run(solvers, tmp_path):
 
 
 def test_overwritten_modes_are_gone(solvers, tmp_path):
-    case = solvers / "latin-pgd" / "case.toml"
-    ok("run", case, "-o", tmp_path / "run")
-    ok("run", case, "-o", tmp_path / "run", "--overwrite", "--set", "analysis.solver=direct")
+    ok("run", solvers / "latin-pgd" / "case.toml", "-o", tmp_path / "run")
+    ok("run", solvers / "direct" / "case.toml", "-o", tmp_path / "run", "--overwrite")
     assert not (tmp_path / "run" / "pod").exists()
     assert not (tmp_path / "run" / "convergence.csv").exists()
 
