@@ -43,7 +43,7 @@ void refuse_modes(const Case& c, const RunOptions& options) {
   throw case_error(
       c, "analysis.solver",
       "--modes-from gives modes to begin with, which a crush by \"latin-pgd\" alone has",
-      "\"latin-pgd\"; or no --modes-from");
+      "analysis.kind = \"crush\" with analysis.solver = \"latin-pgd\"; or no --modes-from");
 }
 
 }  // namespace
