@@ -44,6 +44,20 @@ std::string not_solved(const statics::CrushReport& report, double bound) {
       report.residual, bound, report.sweeps, report.pivots, failed);
 }
 
+/// Of LATIN besides: histories, and of LATIN-PGD a second factor and the fields solved for.
+std::size_t latin_memory(const Case& c, const CrushSetup& s, bool wide_rows) {
+  if (c.analysis.solver == CrushMethod::direct) return 0;
+  constexpr std::size_t histories = 15, solves = 100, copies_of_fields = 3;
+  const std::size_t nodes = s.mesh.n_nodes();
+  const std::size_t rows = 2 * s.within_reach;
+  const std::size_t own =
+      histories * rows * static_cast<std::size_t>(s.path.n_increments()) + 4 * rows * rows;
+  const std::size_t both = stiffness_memory(nodes, wide_rows) + own * sizeof(double);
+  if (c.analysis.solver == CrushMethod::latin) return both;
+  return both + stiffness_memory(nodes, wide_rows) + factor_memory(2 * nodes, wide_rows) +
+         copies_of_fields * solves * 2 * nodes * sizeof(double);
+}
+
 }  // namespace
 
 std::size_t crush_memory(const Case& c, const CrushSetup& s) {
@@ -55,7 +69,7 @@ std::size_t crush_memory(const Case& c, const CrushSetup& s) {
   const double matrices = (pivots ? 7.5 : 3.0) * rows * rows;  // compliance and direct solves
   const bool wide_rows = has_wide_rows(c, s.mesh);
   return mesh_memory(nodes) + rubber_memory(c, s.mesh) + stiffness_memory(nodes, wide_rows) +
-         factor_memory(2 * nodes, wide_rows) +
+         factor_memory(2 * nodes, wide_rows) + latin_memory(c, s, wide_rows) +
          (fields + static_cast<std::size_t>(matrices)) * sizeof(double);
 }
 
