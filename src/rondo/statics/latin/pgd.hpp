@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// @file  LATIN-PGD: elasticity at all increments by few products of a field in space and a
-/// function of the increments, which are found on the way (docs/latin.md, LATIN-PGD). Method: Giacoma,
-/// Dureisseix, Gravouil, Rochette 2014, doi:10.1002/nme.4590.
+/// function of the increments, which are found on the way (docs/latin.md, LATIN-PGD). Method:
+/// Giacoma, Dureisseix, Gravouil, Rochette 2014, doi:10.1002/nme.4590.
 #pragma once
 #include <Eigen/Core>
 #include <vector>
