@@ -120,7 +120,7 @@ TEST(Pgd, FieldsOfAnotherDirectionAreAdopted) {
   EXPECT_EQ(statics::loaded_places(disk.stiffness(), disk.nodes(), adopted.fields.field).size(),
             disk.nodes().size());
   statics::Pgd second(*stiffer, disk.nodes(), {other, 1e-3, 0.3});
-  second.begin_with(std::move(adopted.fields));
+  second.begin_with(adopted.fields);
   statics::Latin again(p, second, other, 0.8);
   for (int k = 0; k < 15; ++k) static_cast<void>(again.iterate());
   EXPECT_LE(second.solves(), 1);

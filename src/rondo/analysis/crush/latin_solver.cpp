@@ -126,7 +126,7 @@ void LatinSolver::make_pgd(MatrixXd fields) {
             adopted.foreign),
         "a run of the same mesh, [material] and held nodes");
   fields_begun_with_ = static_cast<int>(adopted.fields.field.cols());
-  pgd_->begin_with(std::move(adopted.fields));
+  pgd_->begin_with(adopted.fields);
 }
 
 void LatinSolver::prepare() {

@@ -82,7 +82,7 @@ Pgd::Pgd(const Condensation& stiffened, std::vector<int> nodes, const PgdOptions
   rotation_.resize(0, 0);
 }
 
-void Pgd::begin_with(Fields fields) {
+void Pgd::begin_with(const Fields& fields) {
   RONDO_DEMAND(rotation_.cols() == 0 && fields.contact.rows() == contact_.rows(), rotation_.cols(),
                fields.contact.rows());
   solved_ = orthonormal(fields);

@@ -39,7 +39,7 @@ class Pgd final : public Elasticity {
 
   /// Fields to begin with, whose loads are on the candidates alone: nothing is downsized then.
   /// Those that depend on others are left out. @pre no mode yet
-  void begin_with(Fields fields);
+  void begin_with(const Fields& fields);
 
   void solve(const Eigen::MatrixXd& load, double indicator, Eigen::MatrixXd& displacement) override;
   [[nodiscard]] Eigen::MatrixXd balanced_force(const Eigen::MatrixXd& load,

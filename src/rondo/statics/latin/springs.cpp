@@ -74,7 +74,7 @@ Adopted adopt(const fem::BlockCsr& k, const std::vector<int>& nodes, double dire
     for (std::size_t j = 0; j < nodes.size(); ++j) {
       Vec2& f = load[static_cast<std::size_t>(nodes[j])];
       const auto row = static_cast<Index>(2 * j);
-      const auto x = static_cast<Index>(2 * nodes[j]);
+      const Index x = 2 * static_cast<Index>(nodes[j]);
       a.fields.contact.col(c).segment<2>(row) << field(x + 1, c), -field(x, c);
       a.fields.load.col(c).segment<2>(row) << f.y, -f.x;
       f = {};
