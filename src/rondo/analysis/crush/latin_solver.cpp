@@ -116,7 +116,8 @@ void LatinSolver::make_pgd(MatrixXd fields) {
   pgd_ = pgd.get();
   elasticity_ = std::move(pgd);
   if (fields.cols() == 0) return;
-  statics::Adopted adopted = statics::adopt(stiffness_, nodes_, direction_, std::move(fields));
+  const statics::Adopted adopted =
+      statics::adopt(stiffness_, nodes_, direction_, std::move(fields));
   if (!(adopted.foreign <= most_foreign))
     throw request_error(
         "--modes-from", options_.modes_from.string(),
