@@ -1,6 +1,6 @@
 # What most sources include of other libraries is read once: by rondo_precompiled for the library and
 # the programs, with the test framework by rondo_precompiled_tests. Every source still names what it
-# includes: the preset clang, and clang-tidy, compile without (CMAKE_DISABLE_PRECOMPILE_HEADERS).
+# includes: the presets of clang, and clang-tidy, compile without (CMAKE_DISABLE_PRECOMPILE_HEADERS).
 file(CONFIGURE OUTPUT ${PROJECT_BINARY_DIR}/generated/precompiled.cpp CONTENT "// only to have a target\n")
 function(rondo_precompiled_headers target)
   add_library(${target} OBJECT EXCLUDE_FROM_ALL ${PROJECT_BINARY_DIR}/generated/precompiled.cpp)
