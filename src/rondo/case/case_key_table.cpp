@@ -488,7 +488,7 @@ constexpr CaseKey keys[] = {
     {"analysis.tolerance", "-", FIELD(analysis.tolerance), between(1e-12, 0.1),
      optional.of(of_crush).if_(is_latin).body(never),
      "of \"latin\" and \"latin-pgd\": of the indicator and the residual that end the iterations"},
-    {"analysis.downsizing", "-", FIELD(analysis.downsizing), not_negative,
+    {"analysis.downsizing", "-", FIELD(analysis.downsizing), between(0.0, 3.0),
      optional.of(of_crush).if_(is_latin_pgd, "0.3; 1.0 with a slide").body(never),
      "of \"latin-pgd\": modes are dropped whose part is below 0.3 of this times the indicator. 0: "
      "all are kept"},

@@ -49,17 +49,25 @@ HistoryRecord record_of(const CrushSetup& setup, const CrushRecord& r) {
 
 }  // namespace
 
+namespace {
+
+/// What LATIN leaves of a force on an open node is no contact.
+bool touches(const statics::CrushState& state, std::size_t k) {
+  return state.force[k].x > 0.0 && state.status[k] != contact::Status::open;
+}
+
+}  // namespace
+
 CrushSums sum_up(const CrushSetup& setup, const statics::CrushState& state) {
   CrushSums s;
   for (std::size_t k = 0; k < state.force.size(); ++k) {
     const Vec2 r = state.force[k];
-    if (r == Vec2{}) continue;
+    if (!touches(state, k)) continue;
     const auto node = static_cast<std::size_t>(setup.model.nodes[k]);
     const double tributary = setup.mesh.tributary[k];
     s.contact += r;
     s.force += from_frame(normal, r);
     s.torque += cross(setup.mesh.coordinates[node] + state.u[node], from_frame(normal, r));
-    if (state.status[k] == contact::Status::open) continue;  // what LATIN leaves of a force
     ++s.nodes;
     s.sticking += state.status[k] == contact::Status::stick ? 1 : 0;
     s.length += tributary;
@@ -115,7 +123,8 @@ void fill(const CrushSetup& setup, const CrushRecord& r, const std::vector<Vec2>
   for (std::size_t i = 0; i < s.v.size(); ++i) s.v[i] = increments * (state.u[i] - before[i]);
   s.contacts.clear();
   for (std::size_t k = 0; k < state.force.size(); ++k)
-    s.contacts.push_back({k, state.force[k], from_frame(normal, state.force[k]), true});
+    if (touches(state, k))
+      s.contacts.push_back({k, state.force[k], from_frame(normal, state.force[k]), true});
   s.series = {state.depth, r.sums.contact.x, r.sums.contact.y, r.sums.length, r.sums.pressure};
 }
 

@@ -49,7 +49,9 @@ class LatinSolver final : public CrushSolver {
   void make_pgd(MatrixXd fields);
   void record_iteration();
   [[nodiscard]] std::string not_converged() const;
-  void write_modes();
+  void write_modes(const statics::Separated& all, double share);
+  [[nodiscard]] statics::LatinPair pair_of(const statics::Separated& s, Index kept) const;
+  void cut(LatinHistories& h);
   void finish();
 
   const Case& case_;
@@ -159,19 +161,26 @@ void LatinSolver::record_iteration() {
 }
 
 std::string LatinSolver::not_converged() const {
+  const AnalysisCase& a = case_.analysis;
+  std::string otherwise;
+  if (a.search_direction > 0.0)
+    otherwise += "leave analysis.search_direction out, which chooses one; ";
+  if (pgd_ && a.downsizing > 0.0) otherwise += "analysis.downsizing = 0, which drops no mode; ";
+  if (a.relaxation > 0.5) otherwise += "a smaller analysis.relaxation; ";
   return fmt::format(
-      "LATIN did not converge: after {} iterations the residual is {:.3g}, analysis.tolerance "
-      "{:g}, with a search direction of {:.4g} N/m2{}; allowed is a larger tolerance; leave "
-      "analysis.search_direction at 0, which chooses one, make analysis.relaxation smaller, or "
-      "take analysis.solver = \"direct\"",
-      report_.iterations, report_.residual, case_.analysis.tolerance, direction_,
-      case_.analysis.search_direction > 0.0 ? " (given)" : " (chosen)");
+      "LATIN did not converge: after {} iterations the residual is {:.3g} and the indicator "
+      "{:.3g}, "
+      "analysis.tolerance {:g}, with a search direction of {:.4g} N/m2; {}analysis.solver = "
+      "\"direct\" needs no iterations",
+      report_.iterations, report_.residual, report_.indicator, a.tolerance, direction_, otherwise);
 }
 
 bool LatinSolver::iterate(std::string& trouble) {
   const auto begin = Clock::now();
   report_ = latin_->iterate();
-  const bool converged = report_.iterations > 1 && report_.residual <= case_.analysis.tolerance;
+  const double tolerance = case_.analysis.tolerance;
+  const bool converged =
+      report_.iterations > 1 && report_.indicator <= tolerance && report_.residual <= tolerance;
   if (converged) finish();
   solve_wall_s_ += std::chrono::duration<double>(Clock::now() - begin).count();
   record_iteration();
@@ -182,8 +191,8 @@ bool LatinSolver::iterate(std::string& trouble) {
   return !converged;
 }
 
-void LatinSolver::write_modes() {
-  const statics::Separated all = pgd_->separated(0.0);
+/// @param share of the norm that the modes kept leave out
+void LatinSolver::write_modes(const statics::Separated& all, double share) {
   const MatrixXd basis = pgd_->basis().field;
   PgdModes modes;
   modes.mesh = &setup_.mesh;
@@ -193,7 +202,7 @@ void LatinSolver::write_modes() {
     modes.parameter.push_back(setup_.path.parameter(k));
   modes.solution = &all;
   modes.basis = &basis;
-  modes.share = last_cut * case_.analysis.tolerance;
+  modes.share = share;
   modes.direction = direction_;
   modes.latin = report_;
   modes.solves = pgd_->solves();
@@ -201,19 +210,35 @@ void LatinSolver::write_modes() {
   write_pgd(options_.directory, modes);
 }
 
+/// Balanced by the first modes alone.
+statics::LatinPair LatinSolver::pair_of(const statics::Separated& s, Index kept) const {
+  const MatrixXd time = s.sigma.head(kept).asDiagonal() * s.temporal.leftCols(kept).transpose();
+  const MatrixXd displacement = s.modes.contact.leftCols(kept) * time;
+  return {s.modes.load.leftCols(kept) * time - direction_ * displacement,
+          problem_.free + displacement};
+}
+
+/// The last cut: the fewest modes that leave half the tolerance of the norm at most, and with which
+/// the laws hold to the tolerance.
+void LatinSolver::cut(LatinHistories& h) {
+  const double tolerance = case_.analysis.tolerance;
+  statics::Separated all = pgd_->separated(0.0);
+  Index kept = statics::values_kept(all.sigma, last_cut * tolerance);
+  h.balanced = pair_of(all, kept);
+  while (kept < all.sigma.size() && !(statics::history_residual(problem_, h.balanced) <= tolerance))
+    h.balanced = pair_of(all, ++kept);
+  write_modes(all, all.sigma.tail(all.sigma.size() - kept).norm() / all.sigma.norm());
+  h.separated = statics::Separated{
+      {all.modes.field.leftCols(kept), {}, {}}, all.sigma.head(kept), all.temporal.leftCols(kept)};
+}
+
 void LatinSolver::finish() {
   LatinHistories h;
   h.lawful = latin_->lawful().force;
-  h.balanced = latin_->balanced();
-  if (pgd_) {
-    const statics::Separated& s =
-        h.separated.emplace(pgd_->separated(last_cut * case_.analysis.tolerance));
-    const MatrixXd time = s.sigma.asDiagonal() * s.temporal.transpose();
-    const MatrixXd displacement = s.modes.contact * time;
-    h.balanced.place = problem_.free + displacement;
-    h.balanced.force = s.modes.load * time - direction_ * displacement;
-    write_modes();
-  }
+  if (pgd_)
+    cut(h);
+  else
+    h.balanced = latin_->balanced();
   h.residuals = statics::increment_residuals(problem_, h.balanced);
   residual_of_modes_ = statics::history_residual(problem_, h.balanced);
   outcome_.emplace(setup_, stiffness_, *body_, std::move(h));
@@ -239,11 +264,12 @@ void LatinSolver::summarise(const statics::CrushState& /*state*/, Json& j, RunRe
   j["indicator"] = report_.indicator;
   j["residual"] = report_.residual;
   j["solve_wall_s"] = solve_wall_s_;
+  j["condensation_solves"] = 2 * body_->set().size();
   if (!pgd_) return;
   j["modes"] = outcome_ ? static_cast<int>(outcome_->modes()) : pgd_->modes();
   j["modes_max"] = pgd_->most_modes();
   j["solves"] = pgd_->solves();
-  j["residual_of_modes"] = residual_of_modes_;
+  j["residual_of_modes"] = outcome_ ? Json(residual_of_modes_) : Json();
 }
 
 }  // namespace

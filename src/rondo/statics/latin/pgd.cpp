@@ -85,6 +85,11 @@ Pgd::Pgd(const Condensation& stiffened, std::vector<int> nodes, const PgdOptions
 void Pgd::begin_with(const Fields& fields) {
   RONDO_DEMAND(rotation_.cols() == 0 && fields.contact.rows() == contact_.rows(), rotation_.cols(),
                fields.contact.rows());
+  take_all(fields);
+}
+
+/// As modes, of which none goes any more.
+void Pgd::take_all(const Fields& fields) {
   solved_ = orthonormal(fields);
   contact_ = solved_.contact;
   load_ = solved_.load;
@@ -132,10 +137,13 @@ void Pgd::add_mode(const VectorXd& load) {
 
 void Pgd::enrich(const MatrixXd& load, double indicator) {
   MatrixXd left = load - load_ * temporal_.transpose();
-  const double allowed =
-      share_left * std::max(indicator, share_left * options_.tolerance) * load.norm();
+  // Where the pairs have met and the iterations still go on, it is the modes that the laws lack.
+  const bool met = indicator < 0.1 * options_.tolerance;
+  const double least = met ? indicator : share_left * options_.tolerance;
+  const double allowed = share_left * std::max(indicator, least) * load.norm();
   MatrixXd squares;
-  for (int added = 0; added < most_added && left.norm() > allowed; ++added) {
+  for (int added = 0;
+       added < most_added && left.norm() > allowed && contact_.cols() < contact_.rows(); ++added) {
     if (added == 0) squares = left * left.transpose();
     add_mode(dominant(squares));
     const VectorXd f = load_.rightCols(1);
@@ -154,6 +162,7 @@ void Pgd::downsize(double indicator) {
   Index kept = 0;
   while (kept < sigma.size() && sigma[kept] >= 0.3 * options_.downsizing * indicator * sigma[0])
     ++kept;
+  kept = std::max<Index>(kept, 1);
   const MatrixXd turn = svd.matrixV().leftCols(kept);
   temporal_ = svd.matrixU().leftCols(kept) * sigma.head(kept).asDiagonal();
   contact_ *= turn;
@@ -161,7 +170,20 @@ void Pgd::downsize(double indicator) {
   rotation_ *= turn;
 }
 
+/// Where what is dropped has to be found again and again, or twice as much was solved for as there
+/// are rows, all of it is kept from there on.
+void Pgd::watch(double indicator) {
+  constexpr double better = 0.9;
+  constexpr int patience = 8;
+  if (keeps_all_) return;
+  waited_ = indicator <= better * best_ ? 0 : waited_ + 1;
+  best_ = waited_ == 0 ? indicator : best_;
+  if (waited_ >= patience || solved_.contact.cols() >= 2 * contact_.rows())
+    take_all(Fields(solved_));
+}
+
 void Pgd::solve(const MatrixXd& load, double indicator, MatrixXd& displacement) {
+  watch(indicator);
   const int before = solves_;
   temporal_ = load.transpose() * contact_;
   enrich(load, indicator);

@@ -57,12 +57,16 @@ class Pgd final : public Elasticity {
   void enrich(const Eigen::MatrixXd& load, double indicator);
   void add_mode(const Eigen::VectorXd& load);
   void downsize(double indicator);
+  void watch(double indicator);
+  void take_all(const Fields& fields);
   void append(const Eigen::VectorXd& field, const Eigen::VectorXd& load);
 
   const Condensation& body_;
   std::vector<int> nodes_;
   PgdOptions options_;
   bool keeps_all_ = false;  ///< begun with fields
+  double best_ = 2.0;       ///< indicator so far, in steps of a tenth
+  int waited_ = 0;          ///< iterations since
   int solves_ = 0, most_modes_ = 0;
   Fields solved_;                   ///< as they were solved, s of them
   Eigen::MatrixXd rotation_;        ///< (s, r) the modes' fields are solved_.field · rotation_
