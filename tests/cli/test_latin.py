@@ -10,8 +10,8 @@ import unittest
 import h5py
 import numpy as np
 
-from program import (PROGRAM, ProgramTest, RunTest, contact, history, replaced, run, said, summary,
-                     table)
+from program import (PROGRAM, ROOT, ProgramTest, RunTest, contact, history, replaced, run, said,
+                     summary, table)
 
 CRUSH = """schema = 1
 title = "crush"
@@ -59,6 +59,19 @@ class Solved(RunTest):
         done = run("run", self.case(text), "-o", out, "--quiet", *options(settings), *extra)
         self.assertEqual(done.returncode, 0, done.stderr)
         return out
+
+    def test_the_case_of_the_project(self):
+        out = self.solve("case", text=(ROOT / "cases" / "crush-latin.toml").read_text())
+        info, h = summary(out), history(out)
+        self.assertAlmostEqual(info["iterations"], 30, delta=2)  # as the case says
+        self.assertAlmostEqual(info["solves"], 88, delta=6)
+        self.assertAlmostEqual(info["modes"], 17, delta=1)
+        self.assertLess(abs(info["modes_max"] - 29), 3)
+        self.assertAlmostEqual(h["force_y"][100] / 4.743e5, 1.0, places=3)
+        self.assertAlmostEqual(h["force_y"][-1] / 4.787e5, 1.0, places=3)
+        self.assertAlmostEqual(-h["force_x"][-1] / h["force_y"][-1], 0.3, places=3)
+        self.assertAlmostEqual(h["dissipation_friction"][-1] / 927, 1.0, places=2)
+        self.assertLess(np.abs(h["energy_residual"]).max(), 1e-11 * h["strain"][-1])
 
     def test_the_limit_is_the_direct_crush(self):
         treaded = replaced(CRUSH, "circumferential", None).replace("[material]", TREAD + "[material]")
