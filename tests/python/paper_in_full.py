@@ -45,7 +45,7 @@ def rows(tmp_path_factory):
     folder = tmp_path_factory.mktemp("paper")
     done = paper("-o", folder)
     assert done.returncode == 0, done.stdout + done.stderr
-    assert "64 of 64 as expected" in done.stdout
+    assert "68 of 68 as expected" in done.stdout
     return table(folder)
 
 

@@ -280,6 +280,18 @@ def test_rectified_rolling_falls_faster(figures: dict[str, Figure]) -> None:
         assert rectified[0, 1] < 0.5 * turning[0, 1]
 
 
+def test_modes_of_latin_pgd_are_beside_those_of_the_crush(paper: rondo.Paper,
+                                                          figures: dict[str, Figure]) -> None:
+    axes = figures["figure-5-frames"].axes
+    for ax, body in ((axes[0], "smooth"), (axes[3], "treaded")):
+        drawn = curve(ax, "crush, modes of LATIN-PGD")
+        assert len(drawn) == paper.run(f"latin-{body}").pod("displacement", "pgd").n_modes
+        best = curve(ax, "crush")
+        assert np.all(drawn[:8, 1] >= 0.99 * best[:8, 1])
+        assert np.all(drawn[:8, 1] <= 3 * best[:8, 1])
+        assert not any("LATIN" in str(line.get_label()) for line in axes[1].lines)
+
+
 def test_energy_is_kinetic_and_strain(paper: rondo.Paper) -> None:
     run = paper.run("spin-up-fast")
     assert np.array_equal(energy(run), run.history["kinetic"] + run.history["strain"])

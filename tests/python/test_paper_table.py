@@ -19,7 +19,7 @@ from rondo.studies.paper_measures import Measures, _Rows
 from rondo.studies.paper_plan import Plan, read_plan
 from rondo.studies.paper_table import passes
 
-N_RUNS, N_PODS = 17, 18
+N_RUNS, N_PODS = 19, 18
 
 
 @pytest.fixture(scope="module")
@@ -30,7 +30,7 @@ def folder(paper):
 def test_every_row_is_as_expected(folder):
     found = record(folder)
     assert (found["status"], found["quick"]) == ("done", True)
-    assert (found["passed"], found["failed"]) == (32, 0) == (len(found["table"]), 0)
+    assert (found["passed"], found["failed"]) == (36, 0) == (len(found["table"]), 0)
     assert [row["figure"] for row in found["table"]] == sorted(
         row["figure"] for row in found["table"])
     for row in found["table"]:
@@ -111,7 +111,7 @@ def test_the_table_is_what_the_files_say(folder):
 @pytest.mark.parametrize("quick", [False, True])
 def test_the_plan(quick):
     plan = read_plan(ROOT / "studies" / "paper", quick)
-    assert len(plan.rows) == (32 if quick else 64)
+    assert len(plan.rows) == (36 if quick else 68)
     assert len({row["name"] for row in plan.rows}) == len(plan.rows)
     names = {planned.name for planned in plan.runs}
     assert len(names) == N_RUNS and {pod.run for pod in plan.pods} <= names

@@ -28,6 +28,7 @@ OWN = (  # the same colours, with lines of their own for the two bodies
     ("rolling", "turn", [{**ROLLING, "linestyle": line} for line in ("-", "--")]),
     ("crush", "crush", [{**CRUSH, "linestyle": line} for line in (":", "-.")]),
 )
+BY_PGD = {"marker": "o", "ms": 3.5, "mfc": "white", "color": CRUSH["color"], "linestyle": "none"}
 LEAST_OWN, LEAST = 1e-10, 1e-12  # of the shares shown
 
 
@@ -66,6 +67,13 @@ def _own(paper: Paper) -> Figure:
     return figure
 
 
+def _by_pgd(ax: Axes, paper: Paper, body: str) -> None:
+    """What modes that were found without snapshots leave of the crush."""
+    modes = paper.run(f"latin-{body}").pod("displacement", "pgd")
+    left = modes.projection_error(paper.run(f"crush-{body}").displacement[:]) ** 2
+    ax.plot(range(1, len(left)), left[1:], label="crush, modes of LATIN-PGD", **BY_PGD)
+
+
 def _frames(paper: Paper) -> Figure:
     """Rolling in both frames and the crush, of each field and body."""
     with style.paper():
@@ -77,11 +85,13 @@ def _frames(paper: Paper) -> Figure:
                 _axes(ax, LEAST)
                 for label, run, frame, curve in CURVES:
                     draw_decay(ax, paper.pod(f"{run}-{body}", field, frame), label, curve)
+                if field == "displacement":
+                    _by_pgd(ax, paper, body)
                 ax.set_xlabel("modes kept (–)" if row == 1 else "")
                 letter(ax, "abcdef"[3 * row + column], f"{name}, {body}")
             axes[row][0].set_ylabel("share of the\nenergy left out (–)")
         handles, labels = axes[0][0].get_legend_handles_labels()
-        figure.legend(handles, labels, loc="upper center", ncol=3)
+        figure.legend(handles, labels, loc="upper center", ncol=4)
         figure.supxlabel(f"Rolling: of {_snapshots(paper)}; counts near these are set by them.",
                          fontsize=7)
         figure.get_layout_engine().set(rect=(0, 0, 1, 0.94))  # room for the legend

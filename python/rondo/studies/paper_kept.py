@@ -50,6 +50,8 @@ def _is_whole(directory: pathlib.Path, info: dict[str, Any]) -> bool:
     run = open_run(directory, unfinished=True)
     if info["status"] != "done":
         run.history.check_end(info["end_time"])
+    if info.get("solver") == "latin-pgd" and not run.pod("displacement", "pgd").n_modes:
+        return False
     return (len(run.history["time_s"]) > 0 and run.n_snapshots == info["snapshots"]
             and (run.n_snapshots == 0 or (directory / "fields.xdmf").is_file()))
 

@@ -127,6 +127,14 @@ class Measures:
     def modes_ratio(self, share: str, run: str, pod: str, other: str) -> float:
         return self.modes_for(share, run, pod) / self.modes_for(share, run, other)
 
+    def modes_of_pgd(self, share: str, run: str, of: str) -> float:
+        """Of LATIN-PGD that leave this share of the energy of another run's displacements, in the
+        norm of the mass."""
+        left = self._run(run).pod("displacement", "pgd").projection_error(
+            self._run(of).displacement[:]) ** 2
+        enough = np.flatnonzero(left <= float(share))
+        return float(enough[0]) if len(enough) else math.nan
+
     def least_pair(self, run: str, pod: str, modes: int) -> float:
         """A picture that stands still in the fixed frame is, in the co-rotating one, a Fourier
         series over one turn, cosine and sine of each harmonic of the same energy: the least ratio
