@@ -32,7 +32,7 @@ SCRIPTS = {"cli": "test_run.py", "disk": "test_full_disk.py", "crush": "test_cru
            "histories": "test_crush_histories.py",
            "pod": "test_pod.py", "ring": "test_ring.py", "modes": "test_modes.py", "limits": "test_limits.py",
            "numerical": "test_numerical.py", "resume": "test_resume.py",
-           "terminal": "test_terminal.py", "sweep": "test_sweep.py", "team": "test_sweep_team.py",
+           "terminal": "test_terminal.py", "sweep": "test_sweep.py", "sweeplatin": "test_sweep_latin.py", "team": "test_sweep_team.py",
            "rom": "test_reduced.py", "rom_forms": "test_reduced_forms.py",
            "rom_steady": "test_reduced_steady.py", "solid": "test_solid.py",
            "romtable": "test_reduced_table.py"}

@@ -28,17 +28,25 @@ const AnalysisType& type_of(const Case& c) noexcept {
   static const AnalysisType solid_steady{analysis_kinds[2].name, "place", make_steady_rolling,
                                          solid_steady_figures(), solve_steady_rolling};
   if (c.analysis.kind == AnalysisKind::steady_rolling && is_solid(c)) return solid_steady;
+  static const AnalysisType latin{analysis_kinds[1].name, "increment", make_crush, latin_figures()};
+  static const AnalysisType pgd{analysis_kinds[1].name, "increment", make_crush, pgd_figures()};
+  if (finds_modes(c)) return pgd;
+  if (c.analysis.kind == AnalysisKind::crush && c.analysis.solver == CrushMethod::latin)
+    return latin;
   static const AnalysisType solid_dynamic{analysis_kinds[0].name, "step", make_dynamic,
                                           solid_dynamic_figures()};
   if (is_solid(c) && c.analysis.kind == AnalysisKind::dynamic) return solid_dynamic;
   return analysis_types()[static_cast<std::size_t>(c.analysis.kind)];
 }
 
+bool finds_modes(const Case& c) noexcept {
+  return c.analysis.kind == AnalysisKind::crush && c.analysis.solver == CrushMethod::latin_pgd;
+}
+
 namespace {
 
 void refuse_modes(const Case& c, const RunOptions& options) {
-  const bool takes_modes = c.analysis.kind == AnalysisKind::crush &&
-                           c.analysis.solver == CrushMethod::latin_pgd && options.reduced.empty();
+  const bool takes_modes = finds_modes(c) && options.reduced.empty();
   if (options.modes_from.empty() || takes_modes) return;
   throw case_error(
       c, "analysis.solver",

@@ -24,8 +24,11 @@ struct AnalysisType {
 
 /// In the order of AnalysisKind.
 [[nodiscard]] std::span<const AnalysisType> analysis_types() noexcept;
-/// That of the case: of a wheel in three dimensions with figures of its own.
+/// That of the case: of a wheel in three dimensions, and of a crush by LATIN, with figures of its
+/// own.
 [[nodiscard]] const AnalysisType& type_of(const Case& c) noexcept;
+/// Its runs find modes, and may begin with those of another run: a crush by LATIN-PGD.
+[[nodiscard]] bool finds_modes(const Case& c) noexcept;
 
 /// The analysis of the case, or that of its reduced model where the options name one. Case and
 /// options must outlive it. @throws InputError, FileError

@@ -32,6 +32,7 @@ struct RunOptions {
   std::string reduced_step = "midpoint";  ///< with it: or "explicit"
   std::string reduced_snapshots = "fields";  ///< with it: or "modes", lifted when they are read
   std::filesystem::path modes_from;  ///< run whose modes a crush by LATIN-PGD begins with; or empty
+  std::string modes_told;            ///< what run.json calls it; empty: as modes_from
 };
 
 /// How a run ended. `failed` is an outcome of the numerics: not finite, or a residual out of bound.

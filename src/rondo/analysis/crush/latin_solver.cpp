@@ -254,8 +254,10 @@ statics::CrushReport LatinSolver::take(int k, statics::CrushState& state, std::s
 void LatinSolver::describe(Json& j) const {
   j["solver"] = is_pgd() ? "latin-pgd" : "latin";
   j["search_direction"] = direction_;
-  if (!options_.modes_from.empty()) j["modes_from"] = options_.modes_from.string();
-  if (!options_.modes_from.empty()) j["fields_begun_with"] = fields_begun_with_;
+  if (options_.modes_from.empty()) return;
+  const std::string& told = options_.modes_told;
+  j["modes_from"] = told.empty() ? options_.modes_from.string() : told;
+  j["fields_begun_with"] = fields_begun_with_;
 }
 
 void LatinSolver::summarise(const statics::CrushState& /*state*/, Json& j, RunReport& /*r*/) const {

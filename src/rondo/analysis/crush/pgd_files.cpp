@@ -195,8 +195,12 @@ PgdFiles write_pgd(const fs::path& run, const PgdModes& m) {
   return files;
 }
 
+fs::path pgd_basis_file(const fs::path& run) {
+  return directory_of(run) / "basis.h5";
+}
+
 Eigen::MatrixXd read_pgd_basis(const fs::path& run, const mesh::Mesh& mesh) {
-  io::Basis basis = io::read_basis(directory_of(run) / "basis.h5");
+  io::Basis basis = io::read_basis(pgd_basis_file(run));
   if (const std::string text = io::mesh_difference(mesh, basis.mesh); !text.empty())
     refuse(run, fmt::format("its modes are of another mesh: here against there, {}", text));
   if (basis.field.cols() == 0)

@@ -38,6 +38,9 @@ struct PgdFiles {
 /// A directory that opens is complete: pod.json is written last. @throws FileError
 PgdFiles write_pgd(const std::filesystem::path& run_directory, const PgdModes& modes);
 
+/// Of a run that is done, or of its PGD. @throws InputError: as read_pgd_basis()
+[[nodiscard]] std::filesystem::path pgd_basis_file(const std::filesystem::path& run);
+
 /// What another run was solved with: fields (2n, b), b >= 1. @param run its directory, or that of
 /// its PGD. @throws InputError: no such run, one without modes of LATIN-PGD, of another mesh;
 /// FileError: damaged

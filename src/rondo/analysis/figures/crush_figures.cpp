@@ -25,8 +25,15 @@ constexpr std::array crush_columns{
     FigureColumn{"penetration_max_m", "m", "of all increments"},
     FigureColumn{"strain_max", "1", "largest principal strain, of all increments"},
     FigureColumn{"jacobian_min", "1", "least area of an element over that undeformed"},
+    FigureColumn{"iterations", "1", "of LATIN, each on all increments"},
+    FigureColumn{"residual", "1", "of the laws of contact at all increments, which ended them"},
+    FigureColumn{"modes", "1", "of LATIN-PGD, after its last cut"},
+    FigureColumn{"solves", "1", "of LATIN-PGD, one a field that it found"},
 };
+constexpr std::size_t n_of_all = 14, n_of_latin = 16;
 
+/// The first n of the columns.
+template <std::size_t n>
 std::vector<double> figures_of(const std::filesystem::path& directory, const Window& /*none*/) {
   const std::filesystem::path file = directory / "history.csv";
   const Columns history = io::read_columns(file);
@@ -34,14 +41,26 @@ std::vector<double> figures_of(const std::filesystem::path& directory, const Win
   for (const char* name : {"depth_m", "force_x", "force_y", "torque", "contact_length_m",
                            "pressure_max_pa", "shear_max_pa", "strain", "dissipation_friction"})
     figures.push_back(column(history, name, file).back());
-  add_figures_of_all(io::read_json(directory / "run.json"), figures);
+  const Json run = io::read_json(directory / "run.json");
+  add_figures_of_all(run, figures);
+  for (const char* key : {"iterations", "residual", "modes", "solves"})
+    figures.push_back(figure_in(run, key));
+  figures.resize(n);
   return figures;
 }
 
 }  // namespace
 
 FigureTable crush_figures() noexcept {
-  return {crush_columns, figures_of, false};
+  return {std::span(crush_columns).first(n_of_all), figures_of<n_of_all>, false};
+}
+
+FigureTable latin_figures() noexcept {
+  return {std::span(crush_columns).first(n_of_latin), figures_of<n_of_latin>, false};
+}
+
+FigureTable pgd_figures() noexcept {
+  return {crush_columns, figures_of<crush_columns.size()>, false};
 }
 
 }  // namespace rondo::study

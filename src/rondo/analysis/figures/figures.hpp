@@ -35,6 +35,9 @@ struct DirectRun {
   std::vector<double> figures;  ///< as the columns; empty: there is trouble
 };
 
+/// NaN where it has no such number.
+[[nodiscard]] double figure_in(const Json& run, const char* key);
+
 /// Adds the residuals of energy and contact, the penetration, strain_max and jacobian_min; NaN
 /// where run.json has none.
 void add_figures_of_all(const Json& run, std::vector<double>& figures);

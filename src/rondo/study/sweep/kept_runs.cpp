@@ -4,7 +4,9 @@
 #include <cmath>
 #include <system_error>
 
+#include "rondo/analysis/crush/pgd_files.hpp"
 #include "rondo/analysis/figures/history_statistics.hpp"
+#include "rondo/analysis/registry.hpp"
 #include "rondo/core/build_id.hpp"
 #include "rondo/core/error.hpp"
 #include "rondo/io/csv.hpp"
@@ -19,11 +21,13 @@ namespace fs = std::filesystem;
 
 /// The files hold what run.json says, as far as their ends and heads tell. @throws FileError,
 /// InputError: they cannot be read
-bool is_whole(const fs::path& directory, const Json& j) {
+bool is_whole(const fs::path& directory, const Case& c, const Json& j) {
   const auto number = [&](const char* key) { return number_in(j, key); };
   const Columns history = io::read_columns(directory / "history.csv");
   const std::vector<double>& time = column(history, "time_s", directory / "history.csv");
   if (std::abs(time.back() - number("last_time")) > 1e-9 * time.back()) return false;
+  if (finds_modes(c) && text_in(j, "status") == "done")
+    static_cast<void>(io::h5::File::open(pgd_basis_file(directory)));
   if (number("snapshots") == 0.0) {
     static_cast<void>(io::h5::File::open(directory / "results.h5"));  // it opens
     return true;
@@ -57,10 +61,11 @@ bool is_case_of(const fs::path& directory, const Case& c) {
   return !is_copy || io::text_of(directory / mesh->file) == io::text_of(mesh_file_of(c)->file);
 }
 
-bool run_is_there(const fs::path& directory, const Case& c) {
+bool run_is_there(const fs::path& directory, const Case& c, const std::string& modes) {
   try {
     const Json j = io::read_json(directory / "run.json");
-    return ended(j) && is_of_this_program(j) && is_case_of(directory, c) && is_whole(directory, j);
+    return ended(j) && is_of_this_program(j) && is_case_of(directory, c) &&
+           text_in(j, "modes_from") == modes && is_whole(directory, c, j);
   } catch (const std::exception&) {  // what cannot be read is made again
     return false;
   }

@@ -19,7 +19,9 @@ namespace rondo::study {
 
 /// The run in the directory came to its end, or failed there by itself; its files are whole as far
 /// as their ends and heads tell. What cannot be read is not there.
-[[nodiscard]] bool run_is_there(const std::filesystem::path& directory, const Case& c);
+/// @param modes what run.json calls the modes that it begins with; empty: none
+[[nodiscard]] bool run_is_there(const std::filesystem::path& directory, const Case& c,
+                                const std::string& modes);
 
 /// What a program left that was killed while it wrote: files and folders of unfinished writes.
 void remove_unfinished(const std::filesystem::path& directory);

@@ -9,11 +9,9 @@
 #include <map>
 #include <optional>
 #include <stdexcept>
-#include <system_error>
+#include <utility>
 
 #include "rondo/analysis/base/strain_watch.hpp"
-#include "rondo/analysis/build/build.hpp"
-#include "rondo/analysis/run.hpp"
 #include "rondo/case/case_keys.hpp"
 #include "rondo/case/case_source.hpp"
 #include "rondo/core/column.hpp"
@@ -21,6 +19,7 @@
 #include "rondo/io/files.hpp"
 #include "rondo/output/run_files.hpp"
 #include "rondo/study/sweep/kept_runs.hpp"
+#include "rondo/study/sweep/member_run.hpp"
 #include "rondo/study/sweep/sweep_directory.hpp"
 #include "rondo/study/sweep/sweep_results.hpp"
 
@@ -31,94 +30,6 @@ namespace fs = std::filesystem;
 using Clock = std::chrono::steady_clock;
 
 constexpr const char* leader_failed = "failed";
-
-// One run ---------------------------------------------------------------------------------------
-
-/// What run.json and history.csv say of a run that has ended.
-MemberRow row_of(const fs::path& directory, const AnalysisType& type, const Window& window) {
-  const Json j = io::read_json(directory / "run.json");
-  MemberRow row;
-  row.status = text_in(j, "status") == "done" ? MemberStatus::done : MemberStatus::failed;
-  row.message = text_in(j, "message");
-  row.code = row.status == MemberStatus::done ? exit_done : exit_numerical;
-  row.steps = static_cast<long long>(number_in(j, "steps_done"));
-  row.end_time = std::max(0.0, number_in(j, "end_time"));
-  row.wall_s = std::max(0.0, number_in(j, "total_wall_s"));
-  if (row.status == MemberStatus::done) row.figures = type.figures.of(directory, window);
-  return row;
-}
-
-MemberRow interrupted_row(const fs::path& directory, const AnalysisType& type) {
-  MemberRow row = row_of(directory, type, {});
-  row.status = MemberStatus::interrupted;
-  row.code = exit_interrupted;
-  return row;
-}
-
-struct Runner {
-  const SweepStudy& study;
-  const PlannedSweep& plan;
-  const SweepRequest& request;
-  std::function<void()> tick;  ///< called now and then within a run; may be empty
-  SharedBody shared;
-
-  std::string run(std::size_t m, const std::atomic<bool>& stop) {
-    const Case c = case_of(study, plan.members[m]);
-    if (plan.direct) return packed(direct_row(c, stop));
-    const fs::path directory = run_directory(request.directory, m, plan.members.size());
-    const bool kept = run_is_there(directory, c);
-    if (!kept) {
-      const RunStatus status = make(c, directory, stop);
-      if (status == RunStatus::interrupted) return packed(interrupted_row(directory, *plan.type));
-    }
-    MemberRow row = row_of(directory, *plan.type, study.window);
-    row.kept = kept;
-    return packed(row);
-  }
-
-  MemberRow direct_row(const Case& c, const std::atomic<bool>& stop) {
-    const auto begin = Clock::now();
-    RunOptions options;
-    options.threads = 1;
-    options.stop = &stop;
-    options.shared = &shared;
-    DirectRun run = plan.type->direct(c, options);
-    MemberRow row;
-    row.status = run.trouble.empty() ? MemberStatus::done : MemberStatus::failed;
-    row.code = run.trouble.empty() ? exit_done : exit_numerical;
-    row.message = std::move(run.trouble);
-    row.steps = run.steps;
-    row.figures = std::move(run.figures);
-    row.wall_s = std::chrono::duration<double>(Clock::now() - begin).count();
-    return row;
-  }
-
-  RunStatus make(const Case& c, const fs::path& directory, const std::atomic<bool>& stop) {
-    remove_unfinished(directory);
-    RunOptions options;
-    options.directory = directory;
-    options.threads = 1;
-    options.resume = can_go_on(directory, c);
-    options.overwrite = !options.resume;
-    options.stop = &stop;
-    options.shared = &shared;
-    options.keeps_checkpoint = false;
-    if (tick) options.progress = [&](long long, long long) { tick(); };
-    return run_case(c, options).status;
-  }
-
-  /// A run of this case and this program was killed or interrupted there; anything else is made
-  /// anew.
-  static bool can_go_on(const fs::path& directory, const Case& c) {
-    try {
-      const Json j = io::read_json(directory / "run.json");
-      return text_in(j, "status") != "done" && j.value("resumable", false) &&
-             is_of_this_program(j) && is_case_of(directory, c);
-    } catch (const FileError&) {
-      return false;
-    }
-  }
-};
 
 // The whole -------------------------------------------------------------------------------------
 
@@ -131,9 +42,10 @@ class Sweep {
     io::write_json(request_.directory / "sweep.json", describe(status));
   }
 
-  void take(const std::vector<Piece>& pieces) {
+  /// @param members whose pieces they are
+  void take(const std::vector<std::size_t>& members, const std::vector<Piece>& pieces) {
     for (std::size_t k = 0; k < pieces.size(); ++k) {
-      MemberRow& row = rows_[plan_.order[k]];
+      MemberRow& row = rows_[members[k]];
       if (pieces[k].state == Piece::State::done) row = unpacked(pieces[k].text);
       if (pieces[k].state == Piece::State::failed) {
         row.status = MemberStatus::failed;
@@ -145,18 +57,18 @@ class Sweep {
   }
 
   /// Of members that were not reached, as far as they were done before.
-  void take_what_is_there() {
+  void take_what_is_there(const MemberRunner& runner) {
     if (plan_.direct) return;
-    for (std::size_t m = 0; m < rows_.size(); ++m) {
-      if (rows_[m].status != MemberStatus::waiting) continue;
-      const fs::path directory = run_directory(request_.directory, m, rows_.size());
-      std::error_code error;
-      if (!fs::exists(directory / "run.json", error) ||
-          !run_is_there(directory, case_of(study_, plan_.members[m])))
-        continue;
-      rows_[m] = row_of(directory, *plan_.type, study_.window);
-      rows_[m].kept = true;
-    }
+    for (std::size_t m = 0; m < rows_.size(); ++m)
+      if (rows_[m].status == MemberStatus::waiting)
+        if (std::optional<MemberRow> row = kept_row(runner, m)) rows_[m] = *std::move(row);
+  }
+
+  [[nodiscard]] const std::vector<MemberRow>& rows() const noexcept { return rows_; }
+
+  /// Of these members.
+  [[nodiscard]] bool is_unfinished(const std::vector<std::size_t>& members) const {
+    return std::ranges::any_of(members, [&](std::size_t m) { return is_unfinished(rows_[m]); });
   }
 
   void write_tables() const { study::write_tables(request_.directory, {study_, plan_, rows_}); }
@@ -168,8 +80,7 @@ class Sweep {
       const MemberRow& row = rows_[m];
       r.kept += row.kept ? 1 : 0;
       r.done += row.status == MemberStatus::done ? 1 : 0;
-      const bool unfinished =
-          row.status == MemberStatus::interrupted || row.status == MemberStatus::waiting;
+      const bool unfinished = is_unfinished(row);
       r.interrupted += unfinished ? 1 : 0;
       if (unfinished) r.code = exit_interrupted;
       if (row.status != MemberStatus::failed) continue;
@@ -186,6 +97,10 @@ class Sweep {
 
  private:
   static constexpr std::size_t most_told = 5;
+
+  [[nodiscard]] static bool is_unfinished(const MemberRow& row) noexcept {
+    return row.status == MemberStatus::interrupted || row.status == MemberStatus::waiting;
+  }
 
   [[nodiscard]] std::string place_of(std::size_t m) const {
     if (plan_.direct) return {};
@@ -301,6 +216,27 @@ std::optional<io::DirectoryLock> begin(const SweepRequest& request, const Sweep&
   return lock;
 }
 
+/// Part by part, up to one that is not finished. All members of the team call it.
+void run_members(const SweepRequest& request, const PlannedSweep& plan, MemberRunner& runner,
+                 Team& team, Sweep& sweep) {
+  std::size_t before = 0;
+  for (const std::vector<std::size_t>& members : phases_of(plan)) {
+    TeamWork work;
+    work.count = members.size();
+    work.work = [&](std::size_t k, const std::atomic<bool>& stop) {
+      return packed(run_member(runner, members[k], stop));
+    };
+    if (request.progress)
+      work.watch = [&](std::size_t ended) {
+        request.progress(static_cast<long long>(before + ended),
+                         static_cast<long long>(plan.order.size()));
+      };
+    sweep.take(members, team.each(work));
+    if (sweep.is_unfinished(members)) return;
+    before += members.size();
+  }
+}
+
 /// Members of a millisecond would spend a fifth of it on giving memory back and asking for it
 /// again.
 void keep_freed_memory() noexcept {
@@ -331,18 +267,9 @@ SweepReport run_sweep(const SweepRequest& request, Team& team) {
   Sweep sweep(request, study, plan);
   const std::optional<io::DirectoryLock> lock = begin(request, sweep, study, plan, team);
   if (plan.direct) keep_freed_memory();
-  Runner runner{study, plan, request, team.tick(), {}};
-  TeamWork work;
-  work.count = plan.order.size();
-  work.work = [&](std::size_t k, const std::atomic<bool>& stop) {
-    return runner.run(plan.order[k], stop);
-  };
-  if (request.progress)
-    work.watch = [&](std::size_t ended) {
-      request.progress(static_cast<long long>(ended), static_cast<long long>(work.count));
-    };
-  sweep.take(team.each(work));
-  if (team.leads()) sweep.take_what_is_there();
+  MemberRunner runner{study, plan, request.directory, sweep.rows(), team.tick(), {}};
+  run_members(request, plan, runner, team, sweep);
+  if (team.leads()) sweep.take_what_is_there(runner);
   const SweepReport report = sweep.report();
   if (team.leads()) {
     sweep.write_tables();

@@ -91,16 +91,29 @@ void read_members(const SweepStudy& study, PlannedSweep& plan, MemberFaults& fau
     try {
       const Case c = case_of(study, member);
       check_window(study, c);
-      plan.type = &type_of(c);
+      const AnalysisType& type = type_of(c);  // those of one study differ in the last columns alone
+      if (!plan.type || type.figures.columns.size() > plan.type->figures.columns.size())
+        plan.type = &type;
       plan.is_solid = is_solid(c);
       plan.direct = plan.type->direct && !study.snapshots;
       member.hash = hash_of(write_case(c) + meshes.of(c));
       member.body = hash_of(body_key(c) + meshes.of(c));
       member.is_linear = !has_rubber(c);
+      member.finds_modes = finds_modes(c);
       member.memory_bytes = guessed_memory(c);
     } catch (const InputError& error) {
       faults.add(m, error);
     }
+  }
+}
+
+/// The first member of a body hands its modes on to all others.
+void hand_on_modes(std::vector<PlannedMember>& members) {
+  std::map<std::string_view, std::size_t> first;
+  for (std::size_t m = 0; m < members.size(); ++m) {
+    if (!members[m].finds_modes) continue;
+    const auto [of_body, is_first] = first.try_emplace(members[m].body, m);
+    if (!is_first) members[m].modes_of = of_body->second;
   }
 }
 
@@ -241,7 +254,15 @@ PlannedSweep plan_sweep(const MembersRequest& request, Team& team) {
   if (faults.any()) faults.raise(members);
   limit_workers(plan.members, team);
   plan.order = by_cost(plan.members);
+  hand_on_modes(plan.members);
   return plan;
+}
+
+std::vector<std::vector<std::size_t>> phases_of(const PlannedSweep& plan) {
+  std::vector<std::vector<std::size_t>> phases(2);
+  for (const std::size_t m : plan.order) phases[plan.members[m].modes_of ? 1 : 0].push_back(m);
+  if (phases[1].empty()) phases.pop_back();
+  return phases;
 }
 
 }  // namespace rondo::study

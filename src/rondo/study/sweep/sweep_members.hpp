@@ -3,6 +3,7 @@
 #pragma once
 #include <cstddef>
 #include <functional>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -29,6 +30,10 @@ struct PlannedMember : MemberCost {
   std::string hash;                   ///< of the case as run and its mesh
   std::string body;                   ///< likewise of what members share: see body_key()
   bool is_linear = true;              ///< no part is rubber
+  bool finds_modes = false;           ///< a crush by LATIN-PGD
+  /// Member of the same body whose modes it begins with, where that one is done; none: it is the
+  /// first of its body, or has no modes.
+  std::optional<std::size_t> modes_of;
 };
 
 struct MembersRequest {
@@ -56,6 +61,10 @@ struct PlannedSweep {
 /// Reads every member's case, builds every member once. @throws InputError with all
 /// faults of all members, each once, with the members that it concerns; FileError
 [[nodiscard]] PlannedSweep plan_sweep(const MembersRequest& request, Team& team);
+
+/// The order in parts, of which each is done before the next: members begin with modes of those in
+/// parts before.
+[[nodiscard]] std::vector<std::vector<std::size_t>> phases_of(const PlannedSweep& plan);
 
 /// @throws InputError
 [[nodiscard]] Case case_of(const SweepStudy& study, const PlannedMember& member);
