@@ -4,6 +4,7 @@ in a folder:
     python3 scripts/figure_latin.py results/latin docs/figures"""
 from __future__ import annotations
 
+import json
 import pathlib
 import sys
 from typing import Any
@@ -54,6 +55,14 @@ def pod_in_energy(run: rondo.Run) -> np.ndarray:
 def needed(left: np.ndarray, share: float) -> int:
     """Modes after which no more than the share is left."""
     return int(np.argmax(left <= share))
+
+
+def told(directory: pathlib.Path) -> dict[str, Any]:
+    """What run.json says of a run that is done, whose fields may be gone."""
+    info: dict[str, Any] = json.loads((directory / "run.json").read_text())
+    if info["status"] != "done":
+        sys.exit(f'{directory}: status "{info["status"]}": {info.get("message")}')
+    return info
 
 
 def count(run: rondo.Run) -> str:
@@ -109,7 +118,7 @@ def cost(folder: pathlib.Path, path: pathlib.Path) -> None:
     for n in INCREMENTS:
         line = f"{2 * n:5d}:"
         for solver in SOLVERS:
-            runs = [rondo.open(at).info for at in folder.glob(f"cost-{n}-{solver}-?")]
+            runs = [told(at) for at in folder.glob(f"cost-{n}-{solver}-?")]
             times = [min(run[key] for run in runs)
                      for key in ("loop_wall_s", "loop_cpu_s", "total_wall_s")]
             used[solver].append(times[1])
@@ -145,7 +154,7 @@ def reuse(folder: pathlib.Path, ax: Axes) -> None:
 
 def iterations(folder: pathlib.Path, names: list[str]) -> list[float]:
     """NaN where there is no such run."""
-    found = [rondo.open(folder / name).info["iterations"] if (folder / name).exists() else np.nan
+    found = [told(folder / name)["iterations"] if (folder / name).exists() else np.nan
              for name in names]
     print(f"{names[0]} ...: {found}")
     return found
