@@ -65,7 +65,7 @@ class Solved(RunTest):
         info, h = summary(out), history(out)
         self.assertAlmostEqual(info["iterations"], 30, delta=2)  # as the case says
         self.assertAlmostEqual(info["solves"], 88, delta=6)
-        self.assertAlmostEqual(info["modes"], 17, delta=1)
+        self.assertAlmostEqual(info["modes"], 20, delta=1)
         self.assertLess(abs(info["modes_max"] - 29), 3)
         self.assertAlmostEqual(h["force_y"][100] / 4.743e5, 1.0, places=3)
         self.assertAlmostEqual(h["force_y"][-1] / 4.787e5, 1.0, places=3)

@@ -127,7 +127,7 @@ def test_the_study_of_the_paper_is_installed(installed, tmp_path):
             "print(len(plan.rows), all(run.case.is_file() for run in plan.runs))")
     done = subprocess.run([installed, "-c", text], text=True, capture_output=True, cwd=tmp_path,
                           env=clean_environment())
-    assert done.stdout == "64 True\n", done.stderr
+    assert done.stdout == "68 True\n", done.stderr
 
 
 def test_the_build_leaves_the_sources_alone(installed):

@@ -481,7 +481,7 @@ constexpr CaseKey keys[] = {
     {"analysis.search_direction", "N/m2", FIELD(analysis.search_direction), not_negative,
      optional.of(of_crush).if_(is_latin).body(never),
      "of \"latin\" and \"latin-pgd\": stiffness that joins forces and gaps on the way. 0: chosen. "
-     "It changes how many iterations there are, not what they come to"},
+     "It changes how many iterations there are; what they come to, within `tolerance`"},
     {"analysis.relaxation", "-", FIELD(analysis.relaxation), share,
      optional.of(of_crush).if_(is_latin).body(never),
      "of \"latin\" and \"latin-pgd\": part of the way to what an iteration finds"},

@@ -228,7 +228,7 @@ void run_members(const SweepRequest& request, const PlannedSweep& plan, MemberRu
     };
     if (request.progress)
       work.watch = [&](std::size_t ended) {
-        request.progress(static_cast<long long>(before + ended),
+        request.progress(static_cast<long long>(before) + static_cast<long long>(ended),
                          static_cast<long long>(plan.order.size()));
       };
     sweep.take(members, team.each(work));
