@@ -17,6 +17,7 @@ import zipfile
 
 import pytest
 import sweeps
+from conftest import ok
 from program import PROGRAM
 
 import rondo
@@ -150,6 +151,9 @@ def test_the_guide(runs, tmp_path, monkeypatch):
     traction = sweeps.grid(tmp_path / "results" / "traction", (0.1, 0.2, 0.4, 0.6))
     shutil.copytree(runs / "smooth", traction / "runs" / "0001")
     shutil.copytree(ROOT / "cases", tmp_path / "cases")
+    pgd = tmp_path / "results" / "pgd"
+    ok("run", ROOT / "cases" / "crush-smooth.toml", "-o", pgd, "--set", "analysis.solver=latin-pgd")
+    ok("pod", pgd)
     monkeypatch.chdir(tmp_path)
     blocks = re.findall(r"^```python\n(.*?)^```$", GUIDE.read_text(), re.MULTILINE | re.DOTALL)
     assert len(blocks) > 5
