@@ -39,6 +39,12 @@ function(rondo_sanitize target sanitizers)
   target_link_options(${target} PUBLIC -fsanitize=${sanitizers})
 endfunction()
 
+# The same objects make the program and the module of Python (docs/decisions/039). Hidden: a call
+# between them goes as straight as in a program.
+function(rondo_for_module_of_python target)
+  target_compile_options(${target} PRIVATE -fPIC -fvisibility=hidden -fvisibility-inlines-hidden)
+endfunction()
+
 function(rondo_module name)
   cmake_parse_arguments(ARG "" "" "FOLDERS;SOURCES;PUBLIC;PRIVATE" ${ARGN})
   if(NOT ARG_FOLDERS)
@@ -55,6 +61,7 @@ function(rondo_module name)
   target_compile_features(${target} PUBLIC cxx_std_20)
   target_link_libraries(${target} PUBLIC ${ARG_PUBLIC} PRIVATE ${ARG_PRIVATE})
   rondo_compile_options(${target})
+  rondo_for_module_of_python(${target})
   rondo_use_precompiled(${target} rondo_precompiled)
   set_property(GLOBAL APPEND PROPERTY RONDO_MODULES ${target})
 endfunction()

@@ -12,6 +12,7 @@ function(rondo_precompiled_headers target)
   rondo_compile_options(${target})
 endfunction()
 rondo_precompiled_headers(rondo_precompiled)
+rondo_for_module_of_python(rondo_precompiled)
 
 # Files with flags of their own (instruction sets) are compiled without.
 function(rondo_use_precompiled target headers)

@@ -1,6 +1,11 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Build backend (PEP 517) of the package rondo: a wheel or a source archive of pure Python, without
-other packages; the same bits each time. Why not setuptools: docs/decisions/012."""
+"""Build backend (PEP 517) of the package rondo: a wheel with the library and the programs as CMake
+builds them, or a source archive to build it from, without other packages; of the same build the
+same bits each time. Why not setuptools: docs/decisions/012.
+
+    pip install --config-settings build-dir=DIRECTORY ./python    the build directory to take
+    pip install --config-settings module=no ./python              pure Python: reads and draws only
+"""
 from __future__ import annotations
 
 import base64
@@ -9,15 +14,29 @@ import hashlib
 import io
 import pathlib
 import re
+import sys
 import tarfile
 import tomllib
 import zipfile
 from typing import Any
 
+import build_module
+
 ROOT = pathlib.Path(__file__).resolve().parent
 PROJECT: dict[str, Any] = tomllib.loads((ROOT / "pyproject.toml").read_text())["project"]
 NAME = PROJECT["name"]
 DATE = (1980, 1, 1, 0, 0, 0)  # of all files: the earliest that zip knows
+PURE = "py3-none-any"
+# Runs the program of the package; pip puts in its own Python.
+SCRIPT = b"""#!python
+import importlib.util
+import os
+import sys
+
+spec = importlib.util.find_spec("rondo")
+program = os.path.join(os.path.dirname(spec.origin), "bin", "rondo")
+os.execv(program, [program, *sys.argv[1:]])
+"""
 
 
 def version() -> str:
@@ -44,7 +63,7 @@ def shipped_files() -> dict[str, pathlib.Path]:
 def package_files() -> dict[str, pathlib.Path]:
     """Files of the package by their names in it, sorted."""
     kept = {path.relative_to(ROOT).as_posix(): path for path in (ROOT / NAME).rglob("*")
-            if path.suffix in (".py", ".typed")}
+            if path.suffix in (".py", ".pyi", ".typed")}
     return dict(sorted((kept | shipped_files()).items()))
 
 
@@ -56,35 +75,79 @@ def metadata() -> str:
     return "\n".join(lines) + "\n"
 
 
+def _settings(given: dict[str, Any] | None) -> dict[str, Any]:
+    allowed = {"build-dir": "a directory", "module": "yes or no"}
+    for name, value in (given or {}).items():
+        if name not in allowed or (name == "module" and value not in ("yes", "no")):
+            raise build_module.NotBuilt(f"--config-settings {name}={value}: there are "
+                                        + ", ".join(f"{key} ({what})" for key, what in allowed.items()))
+    return given or {}
+
+
+def _contents(settings: dict[str, Any]) -> tuple[dict[str, bytes], str]:
+    """Files of the wheel besides those of its dist-info, and its tag."""
+    contents = {name: path.read_bytes() for name, path in package_files().items()}
+    if settings.get("module") == "no":
+        return contents, PURE
+    contents |= build_module.build(settings.get("build-dir"))
+    contents[f"{NAME}-{version()}.data/scripts/rondo"] = SCRIPT
+    return dict(sorted(contents.items())), build_module.tag()
+
+
+def _write_zip(path: pathlib.Path, contents: dict[str, bytes]) -> None:
+    with zipfile.ZipFile(path, "w", zipfile.ZIP_DEFLATED) as out:
+        for name, data in contents.items():
+            entry = zipfile.ZipInfo(name, DATE)
+            runs = name.startswith(f"{NAME}/bin/") or "/scripts/" in name
+            entry.external_attr = (0o100755 if runs else 0o100644) << 16
+            entry.compress_type = zipfile.ZIP_DEFLATED
+            out.writestr(entry, data)
+
+
 def build_wheel(wheel_directory: str, config_settings: dict[str, Any] | None = None,
                 metadata_directory: str | None = None) -> str:
-    """Writes the wheel into the folder and returns its name."""
+    """Writes the wheel into the folder and returns its name. What is missing is said without a trace
+    of Python, by exit code 1."""
+    try:
+        contents, tag = _contents(_settings(config_settings))
+    except build_module.NotBuilt as reason:
+        sys.exit(f"rondo: {reason}")
     info = f"{NAME}-{version()}.dist-info"
-    contents = {name: path.read_bytes() for name, path in package_files().items()}
     contents[f"{info}/METADATA"] = metadata().encode()
-    contents[f"{info}/WHEEL"] = (b"Wheel-Version: 1.0\nGenerator: rondo\nRoot-Is-Purelib: true\n"
-                                 b"Tag: py3-none-any\n")
+    contents[f"{info}/WHEEL"] = (f"Wheel-Version: 1.0\nGenerator: rondo\nRoot-Is-Purelib: "
+                                 f"{'true' if tag == PURE else 'false'}\nTag: {tag}\n").encode()
     contents[f"{info}/LICENSE"] = (ROOT / "LICENSE").read_bytes()
     record = []
     for name, data in contents.items():
         digest = base64.urlsafe_b64encode(hashlib.sha256(data).digest()).rstrip(b"=").decode()
         record.append(f"{name},sha256={digest},{len(data)}")
     contents[f"{info}/RECORD"] = ("\n".join([*record, f"{info}/RECORD,,"]) + "\n").encode()
-    wheel = f"{NAME}-{version()}-py3-none-any.whl"
-    with zipfile.ZipFile(pathlib.Path(wheel_directory) / wheel, "w", zipfile.ZIP_DEFLATED) as out:
-        for name, data in contents.items():
-            entry = zipfile.ZipInfo(name, DATE)
-            entry.external_attr = 0o100644 << 16
-            entry.compress_type = zipfile.ZIP_DEFLATED
-            out.writestr(entry, data)
+    wheel = f"{NAME}-{version()}-{tag}.whl"
+    _write_zip(pathlib.Path(wheel_directory) / wheel, contents)
     return wheel
 
 
+def prepare_metadata_for_build_wheel(metadata_directory: str,
+                                     config_settings: dict[str, Any] | None = None) -> str:
+    """What pip asks first: name, version and requirements need no build."""
+    info = f"{NAME}-{version()}.dist-info"
+    folder = pathlib.Path(metadata_directory) / info
+    folder.mkdir()
+    (folder / "METADATA").write_text(metadata())
+    return info
+
+
 def build_sdist(sdist_directory: str, config_settings: dict[str, Any] | None = None) -> str:
-    """Writes the source archive into the folder and returns its name."""
+    """Writes the source archive, with the sources of the library, into the folder; its name."""
     top = f"{NAME}-{version()}"
-    own = {name: ROOT / name for name in ("LICENSE", "build_wheel.py", "pyproject.toml")}
-    contents = {name: path.read_bytes() for name, path in (own | package_files()).items()}
+    own = {name: ROOT / name for name in ("LICENSE", "build_module.py", "build_wheel.py",
+                                          "pyproject.toml")}
+    try:
+        library = {f"sources/{name}": path for name, path in
+                   sorted(build_module.source_files().items())}
+    except build_module.NotBuilt as reason:
+        sys.exit(f"rondo: {reason}")
+    contents = {name: path.read_bytes() for name, path in (own | package_files() | library).items()}
     contents["PKG-INFO"] = metadata().encode()
     archive = io.BytesIO()
     with tarfile.open(fileobj=archive, mode="w", format=tarfile.PAX_FORMAT) as out:

@@ -64,7 +64,7 @@ limited() { # COMMAND..., exit code 124 where the time of --changed ran out
 }
 
 format() {
-  those '^(src|apps|tests|bench)/.*\.(cpp|hpp)$' | xargs -r -d '\n' clang-format --dry-run -Werror
+  those '^(src|apps|tests|bench|python)/.*\.(cpp|hpp)$' | xargs -r -d '\n' clang-format --dry-run -Werror
 }
 
 layers() { /usr/bin/python3 tests/house/check_layers.py; }
@@ -88,7 +88,7 @@ cppcheck_() {
 types() {
   [ -n "$(those '^python/.*\.py$')" ] || return 0
   (cd python && limited /usr/bin/python3 -m mypy --ignore-missing-imports --disallow-untyped-defs \
-    --cache-dir "$OLDPWD/$work/mypy" rondo)
+    --cache-dir "$OLDPWD/$work/mypy" rondo build_module.py build_wheel.py)
 }
 
 tidy() {

@@ -1,7 +1,8 @@
 #!/usr/bin/env bash
 # Installs Debian packages (Debian 12 or later), as root or with sudo, and only what is missing.
-#   bash scripts/setup.sh          what building and running rondo needs
-#   bash scripts/setup.sh --dev    tests, lint, sanitizers, fuzzing, coverage and benchmarks too
+#   bash scripts/setup.sh          what building and running rondo needs, and pip install ./python
+#   bash scripts/setup.sh --dev    tests, lint, sanitizers, fuzzing, coverage and benchmarks too; where
+#                                  there is npm, Taplo, which tests the schemas for editors
 set -euo pipefail
 
 packages=(
@@ -12,21 +13,24 @@ packages=(
   libgmsh-dev                                        # meshes from files
   libopenmpi-dev openmpi-bin                         # sweeps on clusters
   libcli11-dev libfmt-dev libspdlog-dev              # command line, text, log
+  pybind11-dev python3-dev                           # the library in Python: rondo._core
   python3 python3-numpy python3-h5py python3-matplotlib python3-pil # pictures
   ffmpeg                                             # films (.mp4)
 )
 for_development=(
-  libgtest-dev python3-pytest python3-pip python3-venv patch # tests
+  libgtest-dev python3-pytest python3-pip python3-venv patch python3-jsonschema # tests
+  python3-pandas python3-xarray                      # what results may be handed to, optional
   gmsh                                               # makes cases/meshes and tests/meshes
-  clang-format clang-tidy cppcheck mypy              # scripts/lint.sh
+  clang-format clang-tidy cppcheck mypy              # scripts/lint.sh; mypy: tests/python too
   clang libclang-rt-14-dev llvm-14 libomp-dev        # the other compiler, sanitizers, scripts/fuzz.sh
   gcovr                                              # scripts/coverage.sh
   libbenchmark-dev valgrind                          # bench/; instructions of a step, a test
 )
+with_taplo=
 case ${1:-} in
   '') ;;
-  --dev) packages+=("${for_development[@]}") ;;
-  *) sed -n '2,4s/^# \{0,1\}//p' "$0" >&2; exit 2 ;;
+  --dev) packages+=("${for_development[@]}"); with_taplo=1 ;;
+  *) sed -n '2,5s/^# \{0,1\}//p' "$0" >&2; exit 2 ;;
 esac
 
 installed=$(dpkg-query -W -f='${Package} ${db:Status-Status}\n' "${packages[@]}" 2>/dev/null || true)
@@ -34,21 +38,36 @@ missing=()
 for package in "${packages[@]}"; do
   grep -qx "$package installed" <<<"$installed" || missing+=("$package")
 done
-if [ ${#missing[@]} -eq 0 ]; then
-  echo "setup: all ${#packages[@]} packages are installed"
-  exit 0
-fi
-
 as_root=()
 if [ "$(id -u)" -ne 0 ]; then
-  command -v sudo >/dev/null || {
+  command -v sudo >/dev/null && as_root=(sudo)
+fi
+
+# Taplo's command line and language server are npm's: without npm their tests say that they are skipped.
+install_taplo() {
+  local wanted=(@taplo/cli@0.7.0 @taplo/lsp@0.8.0)
+  command -v npm >/dev/null || { echo "setup: no npm: tests with Taplo will be skipped"; return; }
+  local there
+  there=$(npm ls -g 2>/dev/null || true)
+  for package in "${wanted[@]}"; do
+    [[ $there == *"$package"* ]] && continue
+    "${as_root[@]}" npm install -g --silent "${wanted[@]}" ||
+      echo "setup: npm has not installed ${wanted[*]}: tests with Taplo will be skipped" >&2
+    return
+  done
+}
+
+if [ ${#missing[@]} -gt 0 ]; then
+  if [ "$(id -u)" -ne 0 ] && [ ${#as_root[@]} -eq 0 ]; then
     echo "setup: these packages are missing and neither root nor sudo is at hand: ${missing[*]}" >&2
     exit 1
-  }
-  as_root=(sudo)
+  fi
+  echo "setup: installing ${missing[*]}"
+  "${as_root[@]}" apt-get update -qq
+  "${as_root[@]}" env DEBIAN_FRONTEND=noninteractive \
+    apt-get install -y -qq --no-install-recommends "${missing[@]}"
+  echo "setup: done"
+else
+  echo "setup: all ${#packages[@]} packages are installed"
 fi
-echo "setup: installing ${missing[*]}"
-"${as_root[@]}" apt-get update -qq
-"${as_root[@]}" env DEBIAN_FRONTEND=noninteractive \
-  apt-get install -y -qq --no-install-recommends "${missing[@]}"
-echo "setup: done"
+if [ -n "$with_taplo" ]; then install_taplo; fi

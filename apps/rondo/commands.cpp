@@ -8,6 +8,7 @@
 #include <functional>
 
 #include "default_directory.hpp"
+#include "documents/documents.hpp"
 #include "progress.hpp"
 #include "rondo/analysis/registry.hpp"
 #include "rondo/analysis/run.hpp"
@@ -18,15 +19,16 @@
 namespace rondo::app {
 namespace {
 
-int finish(const study::RunReport& r, const std::filesystem::path& directory) {
+int finish(const study::RunReport& r, const std::filesystem::path& directory, Telling& tell) {
   for (const std::string& warning : r.warnings) spdlog::warn(warning);
   switch (r.status) {
     case study::RunStatus::failed:
       spdlog::error("{}; the results so far are in {}", r.message, directory.string());
       return exit_numerical;
     case study::RunStatus::interrupted:
-      spdlog::warn("interrupted after {}; the results so far are in {}{}", r.reached,
-                   directory.string(), r.resumable ? "; continue with --resume" : "");
+      warn_of_end(tell,
+                  fmt::format("interrupted after {}; the results so far are in {}{}", r.reached,
+                              directory.string(), r.resumable ? "; continue with --resume" : ""));
       return exit_interrupted;
     case study::RunStatus::done:
       break;
@@ -56,6 +58,21 @@ void print_limits(const study::CheckReport& r) {
   fmt::print("snapshots          {}\n", r.snapshots);
   fmt::print("memory             about {}\n", readable_bytes(r.memory_bytes));
   fmt::print("disk               about {}\n", readable_bytes(r.disk_bytes));
+}
+
+void print_check(const study::Case& c, const study::CheckReport& r) {
+  fmt::print("title              {}\n", c.title);
+  fmt::print("nodes              {} ({} elements, {} free dofs, {} contact nodes)\n", r.nodes,
+             r.elements, r.dofs, r.candidates);
+  if (study::may_be_free(c))
+    fmt::print("bodies             {} ({} free)\n", r.bodies, r.free_bodies);
+  fmt::print("wave speeds        {:.6g} m/s pressure, {:.6g} m/s shear\n", r.wave_speeds.pressure,
+             r.wave_speeds.shear);
+  for (const auto& [what, value] : r.lines) fmt::print("{:<18} {}\n", what, value);
+  print_limits(r);
+  if (r.seconds > 0.0)
+    fmt::print("time               about {:.2g} s of stepping on {} thread{}\n", r.seconds,
+               r.threads, r.threads == 1 ? "" : "s");
 }
 
 /// The case of a results directory is in it: with --resume the directory is all that is asked for.
@@ -93,8 +110,8 @@ void print_realtime_factor(const study::RunReport& r) {
 
 }  // namespace
 
-int run(RunArguments arguments, bool quiet) {
-  if (quiet) spdlog::set_level(spdlog::level::warn);
+int run(RunArguments arguments, Telling& tell) {
+  if (tell.quiet) spdlog::set_level(spdlog::level::warn);
   complete(arguments);
   study::RunOptions& options = arguments.options;
   const study::Case c = study::read_case(arguments.case_file, arguments.settings);
@@ -103,29 +120,24 @@ int run(RunArguments arguments, bool quiet) {
   options.before_loop = catch_stop_signals;
   const study::RunReport report = [&] {
     Progress progress(study::type_of(c).unit);
-    if (!quiet) options.progress = std::ref(progress);
+    if (!tell.quiet) options.progress = std::ref(progress);
     return study::run_case(c, options);
   }();
-  if (arguments.realtime_factor) print_realtime_factor(report);
-  return finish(report, options.directory);
+  if (tell.json)
+    tell.result = run_document(report, options.directory);
+  else if (arguments.realtime_factor)
+    print_realtime_factor(report);
+  return finish(report, options.directory, tell);
 }
 
-int check(const CaseArguments& arguments, int threads) {
+int check(const CaseArguments& arguments, int threads, Telling& tell) {
   const study::Case c = study::read_case(arguments.case_file, arguments.settings);
   const study::CheckReport r = study::check_case(c, {.threads = threads});
   for (const std::string& warning : r.warnings) spdlog::warn(warning);
-  fmt::print("title              {}\n", c.title);
-  fmt::print("nodes              {} ({} elements, {} free dofs, {} contact nodes)\n", r.nodes,
-             r.elements, r.dofs, r.candidates);
-  if (study::may_be_free(c))
-    fmt::print("bodies             {} ({} free)\n", r.bodies, r.free_bodies);
-  fmt::print("wave speeds        {:.6g} m/s pressure, {:.6g} m/s shear\n", r.wave_speeds.pressure,
-             r.wave_speeds.shear);
-  for (const auto& [what, value] : r.lines) fmt::print("{:<18} {}\n", what, value);
-  print_limits(r);
-  if (r.seconds > 0.0)
-    fmt::print("time               about {:.2g} s of stepping on {} thread{}\n", r.seconds,
-               r.threads, r.threads == 1 ? "" : "s");
+  if (tell.json)
+    tell.result = check_document(c, r);
+  else
+    print_check(c, r);
   return exit_done;
 }
 

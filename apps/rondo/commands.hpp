@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "answer.hpp"
 #include "rondo/analysis/modes/modes.hpp"
 #include "rondo/study/pod/pod.hpp"
 #include "rondo/study/reduce/reduce.hpp"
@@ -29,15 +30,18 @@ struct SweepArguments {
   study::SweepRequest request;  ///< no directory: the study's name
   int jobs = 0;                 ///< runs at once; 0: as many as there are cores
   bool dry_run = false;
+  std::string shard;  ///< "i/n": the part that is made; empty: all of it
+  bool collect = false;
 };
 
-// `quiet`: no progress, only warnings and the figures.
-int run(RunArguments arguments, bool quiet);
+int run(RunArguments arguments, Telling& tell);
 /// @param threads 0: chosen by size
-int check(const CaseArguments& arguments, int threads);
-int pod(study::PodRequest request, bool quiet);
-int reduce(study::ReduceRequest request, bool quiet);
-int modes(ModesArguments arguments, bool quiet);
-int sweep(SweepArguments arguments, bool quiet);
+int check(const CaseArguments& arguments, int threads, Telling& tell);
+int pod(study::PodRequest request, Telling& tell);
+int reduce(study::ReduceRequest request, Telling& tell);
+int modes(ModesArguments arguments, Telling& tell);
+int sweep(SweepArguments arguments, Telling& tell);
+/// Prints a JSON Schema. @param of  "case", "study", or a command with --json
+int schema(const std::string& of);
 
 }  // namespace rondo::app

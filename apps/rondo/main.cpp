@@ -1,21 +1,16 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include <fcntl.h>
 #include <fmt/format.h>
 #include <spdlog/sinks/stdout_color_sinks.h>
 #include <spdlog/spdlog.h>
-#include <sys/resource.h>
-#include <unistd.h>
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
-#include <cerrno>
 #include <csignal>
 #include <cstdio>
-#include <cstdlib>
 #include <exception>
-#include <system_error>
 
 #include "commands.hpp"
+#include "process.hpp"
 #include "rondo/core/build_id.hpp"
 #include "rondo/core/edit_distance.hpp"
 #include "rondo/core/error.hpp"
@@ -42,6 +37,16 @@ void add_threads(CLI::App& command, int& threads) {
       ->check(CLI::Range(1, 1024));
 }
 
+void add_json(CLI::App& command, app::Telling& tell) {
+  command.add_flag("--json", tell.json,
+                   "prints one JSON document, also where it fails (docs/machine.md)");
+}
+
+void add_telling(CLI::App& command, app::Telling& tell, const char* quiet) {
+  command.add_flag("--quiet", tell.quiet, quiet);
+  add_json(command, tell);
+}
+
 void add_reduced(CLI::App& run, study::RunOptions& options) {
   CLI::Option* reduced = run.add_option(
       "--reduced", options.reduced,
@@ -61,7 +66,7 @@ void add_reduced(CLI::App& run, study::RunOptions& options) {
       ->needs(reduced);
 }
 
-CLI::App* add_run(CLI::App& program, app::RunArguments& arguments, bool& quiet) {
+CLI::App* add_run(CLI::App& program, app::RunArguments& arguments, app::Telling& tell) {
   study::RunOptions& options = arguments.options;
   CLI::App* run = program.add_subcommand("run", "runs a case into a results directory");
   add_case(*run, arguments,
@@ -82,7 +87,7 @@ CLI::App* add_run(CLI::App& program, app::RunArguments& arguments, bool& quiet) 
   add_reduced(*run, options);
   run->add_flag("--realtime-factor", arguments.realtime_factor,
                 "says how much faster than the motion itself the steps were");
-  run->add_flag("--quiet", quiet, "prints warnings and errors only");
+  add_telling(*run, tell, "prints warnings and errors only");
   run->footer(
       "Example:\n  rondo run cases/ledge-smooth.toml -o results/mu06 --set ground.friction=0.6\n"
       "  rondo run results/mu06 --resume --set time.end=0.5\n"
@@ -90,11 +95,13 @@ CLI::App* add_run(CLI::App& program, app::RunArguments& arguments, bool& quiet) 
   return run;
 }
 
-CLI::App* add_check(CLI::App& program, app::CaseArguments& arguments, int& threads) {
+CLI::App* add_check(CLI::App& program, app::CaseArguments& arguments, int& threads,
+                    app::Telling& tell) {
   CLI::App* check = program.add_subcommand(
       "check", "validates a case and says what it would cost; runs nothing, writes nothing");
   add_case(*check, arguments);
   add_threads(*check, threads);
+  add_json(*check, tell);
   check->footer("Example:\n  rondo check cases/ledge-smooth.toml --set disk.mesh.radial=24");
   return check;
 }
@@ -105,7 +112,7 @@ CLI::App* add_check(CLI::App& program, app::CaseArguments& arguments, int& threa
                          fmt::format("{} (docs/python.md)", now)});
 }
 
-CLI::App* add_reduce(CLI::App& program, study::ReduceRequest& r, bool& quiet) {
+CLI::App* add_reduce(CLI::App& program, study::ReduceRequest& r, app::Telling& tell) {
   CLI::App* reduce = program.add_subcommand(
       "reduce", "a reduced model of a rolling disk from the snapshots of runs");
   reduce
@@ -163,7 +170,7 @@ CLI::App* add_reduce(CLI::App& program, study::ReduceRequest& r, bool& quiet) {
                          "validate REDUCED RUN");
           })
       ->group("");  // not in the help
-  reduce->add_flag("--quiet", quiet, "prints warnings and the results only");
+  add_telling(*reduce, tell, "prints warnings and the results only");
   reduce->footer(
       "Example:\n  rondo reduce results/mu0 results/mu06 -o model.h5\n"
       "  rondo run cases/rolling-flat.toml --reduced model.h5 -o results/reduced\n"
@@ -172,7 +179,7 @@ CLI::App* add_reduce(CLI::App& program, study::ReduceRequest& r, bool& quiet) {
   return reduce;
 }
 
-CLI::App* add_pod(CLI::App& program, study::PodRequest& r, bool& quiet) {
+CLI::App* add_pod(CLI::App& program, study::PodRequest& r, app::Telling& tell) {
   CLI::App* pod =
       program.add_subcommand("pod", "proper orthogonal decomposition of the snapshots of runs");
   pod->add_option("run", r.runs, "results directories; several: one common basis")->required();
@@ -197,14 +204,14 @@ CLI::App* add_pod(CLI::App& program, study::PodRequest& r, bool& quiet) {
       ->capture_default_str();
   pod->add_option("-o,--output", r.directory,
                   "the results go to OUTPUT/<field>-<frame>; RUN/pod if left out");
-  pod->add_flag("--quiet", quiet, "prints warnings and the results only");
+  add_telling(*pod, tell, "prints warnings and the results only");
   pod->footer(
       "Example:\n  rondo pod results/ledge --field velocity --frame rectified --from 0.07\n"
       "Modes, spectrum and figures: docs/results.md.");
   return pod;
 }
 
-CLI::App* add_modes(CLI::App& program, app::ModesArguments& arguments, bool& quiet) {
+CLI::App* add_modes(CLI::App& program, app::ModesArguments& arguments, app::Telling& tell) {
   CLI::App* modes = program.add_subcommand(
       "modes", "frequencies and shapes of a case's body, at rest and spinning; critical speeds");
   study::ModesRequest& r = arguments.request;
@@ -225,12 +232,21 @@ CLI::App* add_modes(CLI::App& program, app::ModesArguments& arguments, bool& qui
       ->check(CLI::Range(0, 1000000))
       ->capture_default_str();
   modes->add_flag("--overwrite", r.run.overwrite, "replaces what another run has left there");
-  modes->add_flag("--quiet", quiet, "prints warnings and the results only");
+  add_telling(*modes, tell, "prints warnings and the results only");
   modes->footer(
       "Example:\n  rondo modes cases/modes-annulus.toml -o results/modes --spins 0:400:41\n"
       "  python3 -m rondo campbell results/modes\n"
       "Exit code 3: a spin beyond the softening limit. More: docs/modes.md.");
   return modes;
+}
+
+CLI::App* add_schema(CLI::App& program, std::string& of) {
+  CLI::App* schema = program.add_subcommand(
+      "schema", "prints a JSON Schema of case or study files, or of what --json prints");
+  schema->add_option("of", of, "case | study | check | run | sweep | pod | reduce | modes")
+      ->required();
+  schema->footer("Example:\n  rondo schema case > case.json\nFor editors: docs/machine.md.");
+  return schema;
 }
 
 void add_paper(CLI::App& program) {
@@ -239,7 +255,7 @@ void add_paper(CLI::App& program) {
       ->callback([] { refuse_moved("rondo paper", "python3 -m rondo paper -o DIRECTORY"); });
 }
 
-CLI::App* add_sweep(CLI::App& program, app::SweepArguments& arguments, bool& quiet) {
+CLI::App* add_sweep(CLI::App& program, app::SweepArguments& arguments, app::Telling& tell) {
   study::SweepRequest& r = arguments.request;
   CLI::App* sweep = program.add_subcommand(
       "sweep", "a parametric study: many runs of one case, on all cores or under mpirun");
@@ -258,22 +274,31 @@ CLI::App* add_sweep(CLI::App& program, app::SweepArguments& arguments, bool& qui
                   "checks all runs and lists them with what they would cost; writes nothing");
   CLI::Option* overwrite =
       sweep->add_flag("--overwrite", r.overwrite, "replaces another sweep there");
-  sweep->add_flag("--resume", r.resume, "resumes a sweep that was interrupted")
+  sweep->add_flag("--resume", r.resume, "resumes a sweep, or a shard, that was interrupted")
       ->excludes(overwrite);
-  sweep->add_flag("--quiet", quiet, "prints warnings and errors only");
+  sweep->add_option("--shard", arguments.shard,
+                    "i/n: makes part i of n, for jobs that share DIR and nothing else");
+  sweep->add_flag("--collect", arguments.collect,
+                  "writes the tables of all shards in DIR, the same as without --shard");
+  add_telling(*sweep, tell, "prints warnings and errors only");
   sweep->footer(
       "Example:\n  rondo sweep cases/studies/traction.toml -o results/traction\n"
       "  mpirun -n 64 rondo sweep cases/studies/traction.toml -o results/traction\n"
+      "  rondo sweep cases/studies/traction.toml -o results/traction --shard 3/16\n"
+      "  rondo sweep cases/studies/traction.toml -o results/traction --collect\n"
       "A run that fails is recorded, and the others go on; the exit code is then that of the "
       "worst\n"
       "failure. The study file: docs/studies.md; clusters: docs/clusters.md.");
   return sweep;
 }
 
-int report_input_error(const InputError& error) {
-  for (const Fault& fault : error.faults()) spdlog::error("{}", fault.text());
-  if (error.faults().size() > 1) spdlog::error("{} errors; nothing was run", error.faults().size());
-  return exit_input;
+/// Of --help, too, which asks for no document.
+int parse_failure(const CLI::App& program, const CLI::ParseError& error, app::Telling& tell) {
+  if (error.get_exit_code() == 0 || !tell.json) {
+    tell.json = false;
+    return program.exit(error) == 0 ? exit_done : exit_input;
+  }
+  throw InputError(Fault{"", 0, 0, "", "", error.what(), "see --help of the command"});
 }
 
 /// Before the arguments are read: an option as --help would hide that there is no such command.
@@ -292,48 +317,50 @@ void demand_command(CLI::App& program, const std::string& name) {
       Fault{"", 0, 0, "rondo " + name, "", "there is no such command" + nearest, names});
 }
 
-int dispatch_command(CLI::App& program, int argc, char** argv) {
-  bool quiet = false;  // of the one command that is given
+int dispatch_command(CLI::App& program, int argc, char** argv, app::Telling& tell) {
   int check_threads = 0;
+  std::string schema_of;
   app::RunArguments run_arguments;
   app::CaseArguments check_arguments;
   study::PodRequest pod_request;
   study::ReduceRequest reduce_request;
   app::ModesArguments modes_arguments;
   app::SweepArguments sweep_arguments;
-  const CLI::App* run = add_run(program, run_arguments, quiet);
-  const CLI::App* check = add_check(program, check_arguments, check_threads);
-  const CLI::App* pod = add_pod(program, pod_request, quiet);
-  const CLI::App* reduce = add_reduce(program, reduce_request, quiet);
-  const CLI::App* modes = add_modes(program, modes_arguments, quiet);
+  const CLI::App* run = add_run(program, run_arguments, tell);
+  const CLI::App* check = add_check(program, check_arguments, check_threads, tell);
+  const CLI::App* pod = add_pod(program, pod_request, tell);
+  const CLI::App* reduce = add_reduce(program, reduce_request, tell);
+  const CLI::App* modes = add_modes(program, modes_arguments, tell);
   add_paper(program);
-  const CLI::App* sweep = add_sweep(program, sweep_arguments, quiet);
+  const CLI::App* sweep = add_sweep(program, sweep_arguments, tell);
+  const CLI::App* schema = add_schema(program, schema_of);
   if (argc > 1 && argv[1][0] != '-') demand_command(program, argv[1]);
   try {
     program.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
-    return program.exit(error) == 0 ? exit_done : exit_input;
+    return parse_failure(program, error, tell);
   }
-  if (run->parsed()) return app::run(run_arguments, quiet);
-  if (check->parsed()) return app::check(check_arguments, check_threads);
-  if (pod->parsed()) return app::pod(pod_request, quiet);
-  if (reduce->parsed()) return app::reduce(reduce_request, quiet);
-  if (modes->parsed()) return app::modes(modes_arguments, quiet);
-  if (sweep->parsed()) return app::sweep(sweep_arguments, quiet);
+  if (run->parsed()) return app::run(run_arguments, tell);
+  if (check->parsed()) return app::check(check_arguments, check_threads, tell);
+  if (pod->parsed()) return app::pod(pod_request, tell);
+  if (reduce->parsed()) return app::reduce(reduce_request, tell);
+  if (modes->parsed()) return app::modes(modes_arguments, tell);
+  if (sweep->parsed()) return app::sweep(sweep_arguments, tell);
+  if (schema->parsed()) return app::schema(schema_of);
   return exit_input;
 }
 
-/// A standard stream that was closed from the start gets one that takes or gives nothing: its
-/// descriptor must not become that of a file of results, into which messages would then go. What
-/// is asked for on a closed stdout is still an error, as that one is for reading only.
-void open_standard_streams() {
-  for (const int descriptor : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO})
-    if (fcntl(descriptor, F_GETFD) < 0 && errno == EBADF)
-      static_cast<void>(open("/dev/null", descriptor == STDERR_FILENO ? O_WRONLY : O_RDONLY));
+/// Nothing that was thrown goes further.
+int run_command(CLI::App& program, int argc, char** argv, app::Telling& tell) {
+  try {
+    return dispatch_command(program, argc, argv, tell);
+  } catch (const std::exception& error) {
+    return app::tell_failure(error);
+  }
 }
 
 int run_program(int argc, char** argv) {
-  open_standard_streams();
+  app::open_standard_streams();
   spdlog::set_default_logger(spdlog::stderr_color_st("rondo"));
   spdlog::set_pattern("rondo: %^%l%$: %v");
   CLI::App program{"rondo: explicit non-smooth dynamics of rolling bodies", "rondo"};
@@ -348,36 +375,22 @@ int run_program(int argc, char** argv) {
   std::signal(SIGPIPE, SIG_IGN);  // a reader of our output that goes away ends nothing
   std::signal(SIGXFSZ, SIG_IGN);  // a file that grows too long is an error of writing
   app::end_at_stop_signals();
+  app::Telling tell;
+  tell.json = app::is_json_asked_for(argc, argv);
+  if (tell.json) app::begin_answer(argv[1]);
+  const int code = run_command(program, argc, argv, tell);
   try {
-    const int code = dispatch_command(program, argc, argv);
+    if (tell.json) app::print_answer(tell, code);
     if (std::fflush(stdout) == 0) return code;
     throw FileError("standard output", "cannot be written");
-  } catch (const InputError& error) {
-    return report_input_error(error);
-  } catch (const std::system_error& error) {  // of printing: files have their FileError
-    spdlog::error("standard output: {}", error.what());
-    return exit_files;
   } catch (const std::exception& error) {
-    const study::WorkerOutcome failed = study::failed_by(error);
-    spdlog::error("{}", failed.text);
-    return failed.code;
+    return app::tell_failure(error);
   }
-}
-
-/// Under a limit of memory OpenBLAS's threads may wait for their buffers for ever, and so would
-/// exit(), which joins them (OpenBLAS 0.3.21). All files are closed by then.
-[[noreturn]] void leave(int code) {
-  for (const auto resource : {RLIMIT_AS, RLIMIT_DATA}) {
-    rlimit limit{};
-    if (getrlimit(resource, &limit) != 0 || limit.rlim_cur == RLIM_INFINITY) continue;
-    std::fflush(nullptr);
-    std::_Exit(code);
-  }
-  std::exit(code);
 }
 
 }  // namespace
 
 int main(int argc, char** argv) {
-  leave(run_program(argc, argv));
+  rondo::set_build_id(rondo::modules_id);
+  rondo::app::leave(run_program(argc, argv));
 }

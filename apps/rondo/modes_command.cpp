@@ -9,6 +9,7 @@
 #include <numbers>
 
 #include "default_directory.hpp"
+#include "documents/documents.hpp"
 #include "progress.hpp"
 #include "signals.hpp"
 
@@ -33,10 +34,16 @@ void print_critical(const study::ModesReport& r) {
     fmt::print("{:>18}: {:.6g}, {:.6g}\n", c.diameters, c.spin, c.spin * r.outer_radius);
 }
 
+void print_report(const study::ModesReport& r) {
+  print_modes(r);
+  print_critical(r);
+  fmt::print("files              {}\n", r.directory.string());
+}
+
 }  // namespace
 
-int modes(ModesArguments arguments, bool quiet) {
-  if (quiet) spdlog::set_level(spdlog::level::warn);
+int modes(ModesArguments arguments, Telling& tell) {
+  if (tell.quiet) spdlog::set_level(spdlog::level::warn);
   const study::Case c = study::read_case(arguments.case_file, arguments.settings);
   study::ModesRequest& request = arguments.request;
   if (request.run.directory.empty())
@@ -45,18 +52,19 @@ int modes(ModesArguments arguments, bool quiet) {
   request.run.stop = &stop_requested();
   request.run.before_loop = catch_stop_signals;
   Progress progress("spin");
-  if (!quiet) request.run.progress = std::ref(progress);
+  if (!tell.quiet) request.run.progress = std::ref(progress);
   const study::ModesReport r = study::run_modes(c, request);
-  print_modes(r);
-  print_critical(r);
-  fmt::print("files              {}\n", r.directory.string());
+  if (tell.json)
+    tell.result = modes_document(r);
+  else
+    print_report(r);
   switch (r.run.status) {
     case study::RunStatus::failed:
       spdlog::error("{}; what there is is in {}", r.run.message, r.directory.string());
       return exit_numerical;
     case study::RunStatus::interrupted:
-      spdlog::warn("interrupted after {}; their modes are in {}", r.run.reached,
-                   r.directory.string());
+      warn_of_end(tell, fmt::format("interrupted after {}; their modes are in {}", r.run.reached,
+                                    r.directory.string()));
       return exit_interrupted;
     case study::RunStatus::done:
       break;

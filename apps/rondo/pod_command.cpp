@@ -7,6 +7,7 @@
 #include <functional>
 #include <string>
 
+#include "documents/documents.hpp"
 #include "progress.hpp"
 #include "rondo/core/bytes.hpp"
 
@@ -66,16 +67,19 @@ void print_report(const study::PodRequest& q, const study::PodReport& r) {
 
 }  // namespace
 
-int pod(study::PodRequest request, bool quiet) {
-  if (quiet) spdlog::set_level(spdlog::level::warn);
+int pod(study::PodRequest request, Telling& tell) {
+  if (tell.quiet) spdlog::set_level(spdlog::level::warn);
   request.warn = [](const std::string& text) { spdlog::warn(text); };
-  if (!quiet) request.say = [](const std::string& text) { spdlog::info(text); };
+  if (!tell.quiet) request.say = [](const std::string& text) { spdlog::info(text); };
   const study::PodReport report = [&] {
     Progress progress("value");
-    if (!quiet) request.progress = std::ref(progress);
+    if (!tell.quiet) request.progress = std::ref(progress);
     return study::run_pod(request);
   }();
-  print_report(request, report);
+  if (tell.json)
+    tell.result = pod_document(request, report);
+  else
+    print_report(request, report);
   if (report.trouble.empty()) return exit_done;
   spdlog::error("{}; the results are in {}", report.trouble, report.directory.string());
   return exit_numerical;

@@ -7,6 +7,7 @@
 #include <functional>
 #include <string>
 
+#include "documents/documents.hpp"
 #include "progress.hpp"
 #include "rondo/core/bytes.hpp"
 
@@ -33,15 +34,18 @@ void print_report(const study::ReduceRequest& request, const study::ReduceReport
 
 }  // namespace
 
-int reduce(study::ReduceRequest request, bool quiet) {
-  if (quiet) spdlog::set_level(spdlog::level::warn);
+int reduce(study::ReduceRequest request, Telling& tell) {
+  if (tell.quiet) spdlog::set_level(spdlog::level::warn);
   request.warn = [](const std::string& text) { spdlog::warn(text); };
   const study::ReduceReport report = [&] {
     Progress progress("value");
-    if (!quiet) request.progress = std::ref(progress);
+    if (!tell.quiet) request.progress = std::ref(progress);
     return study::run_reduce(request);
   }();
-  print_report(request, report);
+  if (tell.json)
+    tell.result = reduce_document(request, report);
+  else
+    print_report(request, report);
   return exit_done;
 }
 

@@ -4,6 +4,8 @@
 #include <unistd.h>
 
 #include <csignal>
+#include <string>
+#include <utility>
 
 #include "rondo/core/error.hpp"
 
@@ -11,6 +13,7 @@ namespace rondo::app {
 namespace {
 
 std::atomic<bool> requested{false};
+std::atomic<const std::string*> last_words{nullptr};
 static_assert(std::atomic<bool>::is_always_lock_free, "set from a signal handler");
 
 extern "C" void request_stop(int) {
@@ -21,6 +24,8 @@ extern "C" void request_stop(int) {
 extern "C" void end_at_once(int) {
   constexpr char text[] = "rondo: warning: interrupted\n";
   static_cast<void>(!write(STDERR_FILENO, text, sizeof text - 1));
+  if (const std::string* words = last_words.load())
+    static_cast<void>(!write(STDOUT_FILENO, words->data(), words->size()));
   _exit(exit_interrupted);
 }
 
@@ -33,6 +38,13 @@ void handle_stop_signals(void (*handler)(int)) {
 
 void end_at_stop_signals() {
   handle_stop_signals(end_at_once);
+}
+
+void say_at_stop_signals(std::string text) {
+  static std::string words;
+  last_words.store(nullptr);
+  words = std::move(text);
+  if (!words.empty()) last_words.store(&words);
 }
 
 const std::atomic<bool>& stop_requested() noexcept {

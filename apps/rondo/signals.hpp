@@ -3,12 +3,16 @@
 /// (nohup, the shell's background jobs) stays ignored.
 #pragma once
 #include <atomic>
+#include <string>
 
 namespace rondo::app {
 
 /// From now on they end the program at once, with exit code 130 and a word on stderr: while nothing
 /// is written that would have to be closed.
 void end_at_stop_signals();
+
+/// What they print on stdout then; empty: nothing. Not to be called from several threads.
+void say_at_stop_signals(std::string text);
 
 /// Set once one of them has come, from catch_stop_signals() on.
 const std::atomic<bool>& stop_requested() noexcept;

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 #include <spdlog/spdlog.h>
 
+#include <algorithm>
 #include <cstdlib>
 #include <exception>
 #include <filesystem>
@@ -13,13 +14,14 @@
 #include <string_view>
 
 #include "default_directory.hpp"
+#include "documents/documents.hpp"
 #include "mpi_team.hpp"
 #include "progress.hpp"
-#include "rondo/analysis/base/strain_watch.hpp"
 #include "rondo/analysis/build/memory.hpp"
 #include "rondo/core/bytes.hpp"
 #include "rondo/core/error.hpp"
 #include "signals.hpp"
+#include "sweep_shards.hpp"
 
 namespace rondo::app {
 namespace {
@@ -39,13 +41,17 @@ void refuse_tasks_without_mpi() {
 /// Each run with what it would cost.
 void print_plan(const study::DrySweep& dry, int workers) {
   double seconds = 0.0, longest = 0.0;
-  std::size_t disk = 0;
+  std::size_t disk = 0, runs = 0;
   for (std::size_t m = 0; m < dry.plan.members.size(); ++m) {
     const study::PlannedMember& member = dry.plan.members[m];
+    if (member.part == study::Part::other) continue;
+    ++runs;
+    const bool lent = member.part == study::Part::lent;
     const std::string time =
         member.seconds > 0.0 ? fmt::format(", about {:.2g} s", member.seconds) : "";
-    fmt::print("{}: {} nodes, {} {}{}{}\n", study::name_of(dry.study, member.member, m + 1),
-               member.nodes, member.steps, dry.plan.type->unit, member.steps == 1 ? "" : "s", time);
+    fmt::print("{}: {} nodes, {} {}{}{}{}\n", study::name_of(dry.study, member.member, m + 1),
+               member.nodes, member.steps, dry.plan.type->unit, member.steps == 1 ? "" : "s", time,
+               lent ? ", of another shard, made here for its fields" : "");
     seconds += member.seconds;
     longest = std::max(longest, member.seconds);
     disk += member.disk_bytes;
@@ -53,21 +59,35 @@ void print_plan(const study::DrySweep& dry, int workers) {
   const std::string time = seconds > 0.0
                                ? fmt::format("about {:.3g} s", std::max(longest, seconds / workers))
                                : std::string("the time is not estimated");
-  fmt::print("{} runs, {} at once: {}, {} on the disk\n", dry.plan.members.size(), workers, time,
+  fmt::print("{} runs, {} at once: {}, {} on the disk\n", runs, workers, time,
              readable_bytes(disk));
 }
 
+void tell_beginning(const study::PlannedSweep& plan, const std::optional<study::Shard>& shard,
+                    int workers) {
+  const auto count = [&](study::Part part) {
+    return std::ranges::count(plan.members, part, &study::PlannedMember::part);
+  };
+  if (!shard) return spdlog::info("{} runs, {} at once", plan.members.size(), workers);
+  const auto lent = count(study::Part::lent);
+  spdlog::info("shard {}: {} of {} runs, {} at once{}", study::text_of(*shard),
+               count(study::Part::own), plan.members.size(), workers,
+               lent == 0 ? ""
+                         : fmt::format("; {} of other shards made here as well, for {} fields",
+                                       lent, lent == 1 ? "its" : "their"));
+}
+
+/// For the document.
+void keep(Telling& tell, const study::SweepReport& report, const std::filesystem::path& directory) {
+  tell.result = sweep_document(report, directory);
+  if (report.interrupted > 0)
+    tell.end = fmt::format("interrupted with {} of {} runs done", report.done, report.members);
+  else if (report.failed > 0)
+    tell.end = fmt::format("{} of {} runs failed", report.failed, report.members);
+}
+
 int finish(const study::SweepReport& report, const std::filesystem::path& directory) {
-  for (const std::string& failure : report.failures) spdlog::warn("{}", failure);
-  if (report.failed > report.failures.size())
-    spdlog::warn("and {} more: {}", report.failed - report.failures.size(),
-                 (directory / "sweep.json").string());
-  if (report.strained > 0)
-    spdlog::warn(
-        "{} of {} runs done {} a largest strain above {:.0f} %, the largest {:.3g} in run {}: the "
-        "law of the material is for small strains (strain_max in results.csv)",
-        report.strained, report.done, report.strained == 1 ? "has" : "have",
-        100.0 * study::small_strain, report.strain_max, report.strain_run);
+  warn_of_runs(report, (directory / "sweep.json").string());
   if (report.interrupted > 0) {
     spdlog::warn("interrupted with {} of {} runs done; continue with --resume", report.done,
                  report.members);
@@ -80,15 +100,29 @@ int finish(const study::SweepReport& report, const std::filesystem::path& direct
   return report.code;
 }
 
-int run(SweepArguments& arguments, study::Team& team, bool quiet) {
+int finish_dry(const study::DrySweep& dry, const study::Team& team, Telling& tell) {
+  if (dry.plan.stopped) {
+    tell.end = "interrupted";
+    return exit_interrupted;
+  }
+  if (tell.json)
+    tell.result = plan_document(dry, team.workers());
+  else if (team.leads())
+    print_plan(dry, team.workers());
+  return exit_done;
+}
+
+int run(SweepArguments& arguments, study::Team& team, Telling& tell) {
   study::SweepRequest& request = arguments.request;
+  const std::optional<study::Shard> shard = asked_shard(arguments);
   if (request.directory.empty())
-    request.directory = request.resume ? resumed_directory(request.study, "sweep.json")
-                                       : default_directory(request.study);
+    request.directory = request.resume && arguments.shard.empty()
+                            ? resumed_directory(request.study, "sweep.json")
+                            : default_directory(request.study);
   request.stop = &stop_requested();
   request.warn = [](const std::string& text) { spdlog::warn("{}", text); };
   std::optional<Progress> progress;
-  if (!team.leads()) quiet = true;
+  const bool quiet = tell.quiet || !team.leads();
   request.checking = [&](const char* what, long long done, long long all) {
     if (quiet || all < spoken_of) return;
     if (done == 0 || !progress) progress.emplace(what);
@@ -96,30 +130,38 @@ int run(SweepArguments& arguments, study::Team& team, bool quiet) {
     if (done == all) progress.reset();
   };
   if (arguments.dry_run) {
-    const study::DrySweep dry = study::check_sweep(request, team);
+    const study::DrySweep dry =
+        shard ? study::check_shard(request, *shard, team) : study::check_sweep(request, team);
     progress.reset();
-    if (dry.plan.stopped) return exit_interrupted;
-    if (team.leads()) print_plan(dry, team.workers());
-    return exit_done;
+    return finish_dry(dry, team, tell);
+  }
+  if (arguments.collect) {
+    const study::CollectReport report = study::collect_shards(request, team);
+    progress.reset();
+    if (tell.json) keep_collected(tell, report, request.directory);
+    return finish_collected(report, request);
   }
   request.begin = [&](const study::PlannedSweep& plan, int workers) {
     progress.reset();
-    spdlog::info("{} runs, {} at once", plan.members.size(), workers);
+    tell_beginning(plan, shard, workers);
     if (!quiet) progress.emplace("run");
   };
   request.progress = [&](long long ended, long long all) {
     if (progress) (*progress)(ended, all);
   };
-  const study::SweepReport report = study::run_sweep(request, team);
+  const study::SweepReport report =
+      shard ? study::run_shard(request, *shard, team) : study::run_sweep(request, team);
   progress.reset();
-  return team.leads() ? finish(report, request.directory) : exit_done;  // mpirun takes the leader's
+  if (tell.json) keep(tell, report, request.directory);
+  if (!team.leads()) return exit_done;  // mpirun takes the leader's
+  return shard ? finish_shard(report, *shard, request) : finish(report, request.directory);
 }
 
 /// What fails on all ranks alike, the leader alone tells, as of any command. What fails on some
 /// ends the others, who wait for them.
-int run_ranks(SweepArguments& arguments, study::Team& team, bool quiet) {
+int run_ranks(SweepArguments& arguments, study::Team& team, Telling& tell) {
   try {
-    return run(arguments, team, quiet);
+    return run(arguments, team, tell);
   } catch (const std::exception& error) {
     if (team.have_all_failed()) {
       if (!team.leads()) return exit_done;
@@ -135,21 +177,27 @@ int run_ranks(SweepArguments& arguments, study::Team& team, bool quiet) {
 
 }  // namespace
 
-int sweep(SweepArguments arguments, bool quiet) {
-  if (quiet) spdlog::set_level(spdlog::level::warn);
+int sweep(SweepArguments arguments, Telling& tell) {
+  if (tell.quiet) spdlog::set_level(spdlog::level::warn);
   catch_stop_signals();
   if (!is_started_by_mpi()) {
     refuse_tasks_without_mpi();
     const int workers = arguments.jobs > 0 ? arguments.jobs : study::available_cores();
     study::LocalTeam team(workers, &stop_requested());
-    return run(arguments, team, quiet);
+    return run(arguments, team, tell);
   }
+  if (arguments.collect)
+    throw InputError(Fault{"--collect", 0, 0, "", "", "is done by one process",
+                           "rondo sweep STUDY --collect, without mpirun or srun"});
   if (arguments.jobs > 0)
     throw InputError(Fault{"--jobs", 0, 0, "", "", "mpirun decides how many runs go on at once",
                            "leave --jobs out"});
   const std::unique_ptr<study::Team> team = make_mpi_team(stop_requested());
-  if (!team->leads()) spdlog::set_level(spdlog::level::off);  // all say the same
-  return run_ranks(arguments, *team, quiet);
+  if (!team->leads()) {  // all say the same
+    spdlog::set_level(spdlog::level::off);
+    tell.json = false;
+  }
+  return run_ranks(arguments, *team, tell);
 }
 
 }  // namespace rondo::app

@@ -1,8 +1,18 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Runs cases, reads and draws what the program rondo writes:
-rondo.run("case.toml").plot_field(0.1), rondo.open("results")."""
-from .calls import run
-from .data.errors import Error, NewerSchemaError, NotARunError, UnfinishedRunError, UnknownNameError
+"""Runs cases in this process, reads and draws what the program rondo writes:
+rondo.run("case.toml").plot_field(0.1), rondo.Simulation("case.toml"), rondo.open("results")."""
+from .about import about
+from .calls import modes, pod, reduce, run, sweep
+from .data.errors import (
+    Error,
+    FileError,
+    InputError,
+    NewerSchemaError,
+    NotARunError,
+    NumericalError,
+    UnfinishedRunError,
+    UnknownNameError,
+)
 from .data.history import History
 from .data.mesh import Mesh
 from .data.modes import Modes, open_modes
@@ -13,12 +23,16 @@ from .data.run import open_run as open
 from .data.sweep import Sweep, open_sweep
 from .data.validation import Validation, open_validation
 from .pictures import attach
+from .simulation import Simulation
+from .solution import Solution, crush, solve, steady_rolling
 
 __version__ = "0.1.0"
 
 attach()
 del attach
 
-__all__ = ["Error", "History", "Mesh", "Modes", "NewerSchemaError", "NotARunError", "Paper", "Pod",
-           "Run", "Sweep", "UnfinishedRunError", "UnknownNameError", "Validation", "open",
-           "open_modes", "open_paper", "open_pod", "open_sweep", "open_validation", "run"]
+__all__ = ["Error", "FileError", "History", "InputError", "Mesh", "Modes", "NewerSchemaError",
+           "NotARunError", "NumericalError", "Paper", "Pod", "Run", "Simulation", "Solution",
+           "Sweep", "UnfinishedRunError", "UnknownNameError", "Validation", "about", "crush", "modes",
+           "open", "open_modes", "open_paper", "open_pod", "open_sweep", "open_validation", "pod",
+           "reduce", "run", "solve", "steady_rolling", "sweep"]

@@ -7,8 +7,9 @@ import os
 import pathlib
 import sys
 from collections.abc import Callable, Sequence
+from typing import NoReturn
 
-from rondo import __version__, open_modes, open_paper, open_sweep, open_validation
+from rondo import open_modes, open_paper, open_sweep, open_validation
 from rondo import open as open_run
 from rondo.data.errors import Error, UnfinishedRunError
 from rondo.data.names import FRAME, OLDER_FRAMES
@@ -19,9 +20,17 @@ NO_PICTURES = ("paper", "validate", "means")  # commands that need not load what
 BROKEN_PIPE = 141  # as a shell has it of a program that is killed by SIGPIPE
 
 
+class _Version(argparse.Action):
+    def __call__(self, parser: argparse.ArgumentParser, *_: object) -> NoReturn:
+        from rondo.about import about
+        print(about())
+        parser.exit()
+
+
 def _parser() -> argparse.ArgumentParser:
     parser = argparse.ArgumentParser(prog="python3 -m rondo", description=__doc__)
-    parser.add_argument("--version", action="version", version=f"rondo {__version__}")
+    parser.add_argument("--version", action=_Version, nargs=0,
+                        help="versions and places of the package, the library and the program")
     commands = parser.add_subparsers(dest="command", required=True)
 
     paper = commands.add_parser(

@@ -1,43 +1,33 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""The program's commands as functions: rondo.run("case.toml")."""
+"""The program's commands as functions: rondo.run("case.toml"). They work in this process; `run`
+with further arguments, and sweeps of several runs at once, start the program."""
 from __future__ import annotations
 
-import json
 import os
 import pathlib
 import signal
 import subprocess
 import warnings
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from typing import Any
 
-import numpy as np
-
-from .data.errors import Error
+from .data.errors import Error, NumericalError
+from .data.modes import Modes, open_modes
+from .data.pod import Pod, open_pod
 from .data.run import Run, open_run
+from .data.sweep import Sweep, open_sweep
+from .native import core, options_of, place_of, settings_of, whole_number
 from .studies.program import find_program
+
+Place = str | os.PathLike[str]
 
 _SAID = "rondo: "
 
 
-def _toml(value: Any) -> str:
-    """A value of a case as --set takes it."""
-    if isinstance(value, (np.ndarray, np.generic)):
-        value = value.tolist()
-    if isinstance(value, bool):
-        return "true" if value else "false"
-    if isinstance(value, (list, tuple)):
-        return f"[{', '.join(_toml(item) for item in value)}]"
-    if isinstance(value, (str, os.PathLike)):
-        return json.dumps(os.fspath(value), ensure_ascii=False)
-    if isinstance(value, (int, float)):
-        return repr(value)
-    raise Error(f"a setting is a number, a text, a boolean or a list of them, not {value!r}")
-
-
-def _default_directory(case: pathlib.Path) -> pathlib.Path:
+def _default_directory(case: pathlib.Path, ending: str = "") -> pathlib.Path:
     """As the program's: the case's name in the working folder."""
-    return pathlib.Path(case.stem if case.suffix else f"{case.name}.results")
+    name = f"{case.stem}{ending}"
+    return pathlib.Path(name if case.suffix or ending else f"{case.name}.results")
 
 
 def _finished(command: list[str]) -> tuple[int, list[str]]:
@@ -54,28 +44,131 @@ def _finished(command: list[str]) -> tuple[int, list[str]]:
     return process.returncode, said.splitlines()
 
 
-def run(case: str | os.PathLike[str], output: str | os.PathLike[str] | None = None,
-        settings: Mapping[str, Any] | None = None, *, overwrite: bool = False,
-        resume: bool = False, threads: int | None = None,
-        arguments: Sequence[str | os.PathLike[str]] = ()) -> Run:
-    """Runs a case (`rondo run`) and opens its results. `output`: results directory; by default the
-    case's name in the working folder. `settings`: keys of the case, as {"ground.friction": 0.6}.
-    `arguments`: further ones of the command. What the program warns of is warned of here; a case
-    that is refused or a run that fails raises an Error with what it says."""
-    case = pathlib.Path(case)
-    directory = pathlib.Path(output) if output is not None else _default_directory(case)
-    command = [find_program().path, "run", os.fspath(case), "-o", os.fspath(directory), "--quiet"]
-    for key, value in (settings or {}).items():
-        command += ["--set", f"{key}={_toml(value)}"]
-    command += ["--overwrite"] * overwrite + ["--resume"] * resume
-    if threads is not None:
-        command += ["--threads", str(threads)]
-    code, said = _finished(command + [os.fspath(argument) for argument in arguments])
+def _command(arguments: list[str], directory: pathlib.Path, allowed: Sequence[int] = (0,)) -> None:
+    """By the program: what it warns of is warned of here, what it refuses is an Error."""
+    code, said = _finished([find_program().path, *arguments])
     for line in said:
         if line.startswith(f"{_SAID}warning: "):
-            warnings.warn(line.removeprefix(f"{_SAID}warning: "), stacklevel=2)
-    if code != 0:
+            warnings.warn(line.removeprefix(f"{_SAID}warning: "), stacklevel=3)
+    if code not in allowed or any(line.startswith(f"{_SAID}error: ") for line in said):
         errors = [line.removeprefix(f"{_SAID}error: ") for line in said
                   if not line.startswith(f"{_SAID}warning: ")]
         raise Error("\n".join(errors) or f"{directory}: the program ended with {code}")
+
+
+def _words(settings: Mapping[str, Any] | None, options: Mapping[str, Any]) -> list[str]:
+    """Settings and options as the program takes them: step_factor=2.0 as --step-factor 2.0."""
+    words = [word for setting in settings_of(settings) for word in ("--set", setting)]
+    for name, value in options.items():
+        words += [f"--{name.replace('_', '-')}"] + [str(value)] * (value is not True)
+    return words
+
+
+def _directories(runs: Run | Place | Iterable[Run | Place]) -> list[pathlib.Path]:
+    """Of one run or of several, opened or not."""
+    several = [runs] if isinstance(runs, (Run, str, os.PathLike)) else list(runs)
+    return [place_of(one.directory if isinstance(one, Run) else one) for one in several]
+
+
+def _window(from_time: float | None, to_time: float | None) -> dict[str, float]:
+    """from and to, which are words of Python, as options."""
+    try:
+        return {name: float(time) for name, time in (("from", from_time), ("to", to_time))
+                if time is not None}
+    except (TypeError, ValueError, OverflowError):
+        raise Error(f"from_time = {from_time!r}, to_time = {to_time!r}: are no times [s]") from None
+
+
+def _check(outcome: tuple[str, str], directory: pathlib.Path) -> None:
+    status, message = outcome
+    if status == "failed":
+        raise NumericalError(f"{message}; the results so far are in {directory}")
+
+
+def run(case: Place, output: Place | None = None, settings: Mapping[str, Any] | None = None, *,
+        overwrite: bool = False, resume: bool = False, threads: int | None = None,
+        reduced: Place | None = None, step_factor: float | None = None,
+        reduced_step: str | None = None, snapshots: str | None = None,
+        modes_from: Place | None = None, arguments: Sequence[Place] = ()) -> Run:
+    """Runs a case in this process (`rondo run`) and opens its results. `output`: results directory;
+    by default the case's name in the working folder. `settings`: keys of the case, as
+    {"ground.friction": 0.6}. The others are the command's options; with `arguments`, further ones
+    in its words, the program is started instead. A case that is refused is an InputError, a run
+    that fails a NumericalError, with what the program would say. Ctrl-C writes a checkpoint first:
+    resume=True goes on from it."""
+    case = place_of(case)
+    directory = place_of(output) if output is not None else _default_directory(case)
+    options = options_of(overwrite=overwrite, resume=resume, threads=threads, reduced=reduced,
+                         step_factor=step_factor, reduced_step=reduced_step, snapshots=snapshots,
+                         modes_from=modes_from)
+    if arguments:
+        _command(["run", os.fspath(case), "-o", os.fspath(directory), "--quiet",
+                  *_words(settings, options), *(os.fspath(word) for word in arguments)], directory)
+        return open_run(directory)
+    _check(core().run(case, settings_of(settings), directory, options), directory)
     return open_run(directory)
+
+
+def modes(case: Place, output: Place | None = None, settings: Mapping[str, Any] | None = None, *,
+          count: int | None = None, spins: Sequence[float] | None = None,
+          sweep: str | None = None, diameters: int | None = None,
+          overwrite: bool = False) -> Modes:
+    """Frequencies, shapes and critical speeds of a case's body (`rondo modes`), made in this
+    process and opened. count: modes at each spin; spins [rad/s]; sweep: "FROM:TO:NUMBER"."""
+    case = place_of(case)
+    directory = (place_of(output) if output is not None
+                 else _default_directory(case, "-modes"))
+    options = options_of(count=count, sweep=sweep, diameters=diameters, overwrite=overwrite,
+                         spins=None if spins is None else [float(spin) for spin in spins])
+    _check(core().modes(case, settings_of(settings), directory, options), directory)
+    return open_modes(directory)
+
+
+def pod(runs: Run | Place | Sequence[Run | Place], output: Place | None = None, *,
+        field: str = "displacement", frame: str | None = None, modes: int | None = None,
+        weight: str | None = None, shift: str | None = None, method: str | None = None,
+        from_time: float | None = None, to_time: float | None = None,
+        memory: str | None = None, reconstruct: int | None = None) -> Pod:
+    """POD of the snapshots of one or several runs (`rondo pod`), made in this process and opened.
+    output: by default pod/ of the run."""
+    options = options_of(field=field, frame=frame, modes=modes, weight=weight, shift=shift,
+                         method=method, memory=memory, reconstruct=reconstruct,
+                         output=None if output is None else place_of(output))
+    return open_pod(core().pod(_directories(runs), options | _window(from_time, to_time)))
+
+
+def reduce(runs: Run | Place | Sequence[Run | Place], output: Place, *,
+           displacement_modes: int | None = None, velocity_modes: int | None = None,
+           tolerance: float | None = None, velocity_tolerance: float | None = None,
+           contact_weight: float | None = None, contact_stride: int | None = None,
+           contact_phases: int | None = None, contact: str | None = None,
+           frame: str | None = None, from_time: float | None = None,
+           to_time: float | None = None, error_estimate: bool = True,
+           memory: str | None = None) -> pathlib.Path:
+    """A reduced model of a disk from the snapshots of runs (`rondo reduce`), made in this process
+    into the file `output`, which run, solve and Simulation take as reduced=."""
+    options = options_of(displacement_modes=displacement_modes, velocity_modes=velocity_modes,
+                         tolerance=tolerance, velocity_tolerance=velocity_tolerance,
+                         contact_weight=contact_weight, contact_stride=contact_stride,
+                         contact_phases=contact_phases, contact=contact, frame=frame,
+                         memory=memory) | _window(from_time, to_time)
+    options["error_estimate"] = error_estimate
+    file = place_of(output)
+    core().reduce(_directories(runs), file, options)
+    return file
+
+
+def sweep(study: Place, output: Place | None = None, settings: Mapping[str, Any] | None = None, *,
+          overwrite: bool = False, resume: bool = False, jobs: int = 1) -> Sweep:
+    """A parametric study (`rondo sweep`), opened. jobs = 1 makes one run after the other in this
+    process; more start the program, whose runs are processes: a process with threads, as
+    notebooks are, cannot be divided. Failed runs are rows without figures: see its failures."""
+    study = place_of(study)
+    directory = place_of(output) if output is not None else _default_directory(study)
+    options = options_of(overwrite=overwrite, resume=resume)
+    if whole_number("sweep: jobs", jobs, 1) == 1:
+        core().sweep(study, settings_of(settings), directory, options)
+    else:
+        _command(["sweep", os.fspath(study), "-o", os.fspath(directory), "--quiet",
+                  *_words(settings, options | {"jobs": int(jobs)})], directory, (0, 3, 4))
+    return open_sweep(directory)

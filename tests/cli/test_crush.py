@@ -45,7 +45,7 @@ class Crush(RunTest):
         self.assertIn("increment 8 of 8", done.stderr)
         self.assertIn("8 increments to a depth of 0.02 m", done.stderr)
         self.assertEqual(sorted(p.name for p in self.out.iterdir()),
-                         ["case.toml", "contact.csv", "fields.xdmf", "history.csv", "results.h5",
+                         ["case.toml", "contact.csv", "fields.vtkhdf", "fields.xdmf", "history.csv", "results.h5",
                           "run.json"])
         s = summary(self.out)
         self.assertEqual(

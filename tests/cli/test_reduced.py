@@ -12,7 +12,8 @@ import numpy as np
 from program import PROGRAM, ProgramTest, SMALL, history, replaced, run, summary
 
 PARTS = ["--displacement-modes", 20, "--velocity-modes", 20]
-FILES = ["case.toml", "contact.csv", "fields.xdmf", "history.csv", "results.h5", "run.json"]
+FILES = ["case.toml", "contact.csv", "fields.vtkhdf", "fields.xdmf", "history.csv", "results.h5",
+         "run.json"]
 
 
 class Reduced(ProgramTest):

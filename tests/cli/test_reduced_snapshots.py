@@ -80,6 +80,7 @@ class Snapshots(ProgramTest):
         out, _ = self.reduced("out")
         self.reduced("out", "--snapshots", "modes", "--overwrite")
         self.assertFalse((out / "fields.xdmf").exists())
+        self.assertFalse((out / "fields.vtkhdf").exists())
 
     def test_wrong_input(self):
         out, done = self.reduced("out", "--snapshots", "mode", code=2)

@@ -13,8 +13,10 @@ import h5py
 import numpy as np
 
 from program import PROGRAM, ROOT, ProgramTest, SMALL, replaced, run, summary
+from vtkhdf_layout import Layout
 
-RESULTS = ("history.csv", "contact.csv", "results.h5", "fields.xdmf", "case.toml")
+RESULTS = ("history.csv", "contact.csv", "results.h5", "fields.xdmf", "fields.vtkhdf",
+           "case.toml")
 # Some seconds of steps, a checkpoint every few hundred of them.
 LONG = replaced(replaced(SMALL, "end", "end = 12.0"), "snapshots",
                 "snapshots = 101\nhistory_interval = 1e-3\ncheckpoint_interval = 0.02\n"
@@ -133,6 +135,8 @@ class Killed(ResumeTest):
                     float(line.split(",")[0])
         if (self.out / "fields.xdmf").exists():
             self.assertTrue((self.out / "fields.xdmf").read_text().rstrip().endswith("</Xdmf>"))
+        if (self.out / "fields.vtkhdf").exists():
+            Layout(self.out / "fields.vtkhdf")
 
     def test_at_20_random_moments_it_goes_on_to_the_same_bits(self):
         self.leave_alone(LONG)

@@ -15,7 +15,7 @@ class Run(RunTest):
     def test_results_directory(self):
         self.run_ok()
         self.assertEqual(sorted(p.name for p in self.out.iterdir()),
-                         ["case.toml", "checkpoint.h5", "contact.csv", "fields.xdmf", "history.csv",
+                         ["case.toml", "checkpoint.h5", "contact.csv", "fields.vtkhdf", "fields.xdmf", "history.csv",
                           "results.h5", "run.json"])
         s = summary(self.out)
         for key in ("status title version build host process nodes dofs operator threads critical_step step "

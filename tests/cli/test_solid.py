@@ -283,7 +283,8 @@ class Results(SolidTest):
         done = run("run", self.folder / "case.toml", "-o", out, "--resume", "--quiet")
         self.assertEqual(done.returncode, 0, done.stderr)
         self.assertGreater(summary(out)["resumed_at_steps"][0], 0)
-        for name in ("history.csv", "contact.csv", "results.h5", "fields.xdmf", "case.toml"):
+        for name in ("history.csv", "contact.csv", "results.h5", "fields.xdmf", "fields.vtkhdf",
+                     "case.toml"):
             self.assertEqual((out / name).read_bytes(), (whole / name).read_bytes(), name)
 
     def test_kept_case_is_the_case(self):

@@ -55,11 +55,14 @@ ALLOWED["analysis/steady"] = (ALLOWED["analysis/build"] | ALLOWED["analysis/base
                                "analysis/base", "analysis/build", "analysis/figures"})
 ALLOWED["analysis"] = set(ALLOWED)
 ALLOWED["analysis/modes"] = ALLOWED["analysis"] | {"analysis"}
+ALLOWED["analysis/simulation"] = ALLOWED["analysis"] | {"analysis"}
 ALLOWED["study/sweep"] = ALLOWED["analysis"] | {"analysis"}
+ALLOWED["study/shards"] = ALLOWED["study/sweep"] | {"study/sweep"}
 ALLOWED["study/pod"] = ALLOWED["study/sweep"] | {"study/sweep"}
 ALLOWED["study/reduce"] = ALLOWED["study/pod"] | {"study/pod"}
 ALLOWED["apps"] = {"core", "case", "output", "analysis/base", "analysis/build", "analysis",
-                   "analysis/modes", "study/pod", "study/sweep", "study/reduce"}
+                   "analysis/modes", "study/pod", "study/sweep", "study/shards",
+                   "study/reduce"}
 ALLOWED["mesh_reader"] = {"mesh"}  # a program of its own; it shares the layout of its output
 
 # Libraries that only these modules may see.

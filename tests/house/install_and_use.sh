@@ -1,6 +1,7 @@
 #!/usr/bin/env bash
-# Installs the build into a folder of its own, builds another program against it and runs both; imports
-# the Python package from there. The headers are those of the list, and each stands by itself.
+# Installs the build into a folder of its own, builds another program against it and runs both. The
+# headers are those of the list, and each stands by itself. Then the folder is moved, and the Python
+# package works from there, with the library as its module and the programs.
 set -euo pipefail
 build=$1 source=$2 build_type=$3
 work=$(mktemp -d)
@@ -9,6 +10,10 @@ cmake --install "$build" --prefix "$work/prefix" >/dev/null
 "$work/prefix/bin/rondo" --version
 test -x "$work/prefix/bin/rondo-mesh-reader"
 test -f "$work/prefix/share/rondo/cases/ledge-smooth.toml"
+for file in "$work"/prefix/share/rondo/cases/*.toml "$work"/prefix/share/rondo/cases/studies/*.toml; do
+  named=$(head -n 1 "$file")
+  test -f "$(dirname "$file")/${named#"#:schema "}" # its schema, relative to itself
+done
 cmake -S "$source/tests/house/consumer" -B "$work/build" -G Ninja -DCMAKE_BUILD_TYPE="$build_type" \
   -DCMAKE_PREFIX_PATH="$work/prefix" -DRONDO_INCLUDE="$work/prefix/include" >/dev/null
 cmake --build "$work/build"
@@ -24,17 +29,18 @@ done
 
 package=$(cd "$work/prefix" && echo lib/python3*/dist-packages)
 test -z "$(find "$work/prefix" -name __pycache__)"
+test -f "$work/prefix/$package/rondo/py.typed"
+test -f "$work/prefix/$package/rondo/_core.pyi"
+for file in "$work"/prefix/bin/* "$work/prefix/$package"/rondo/_core*.so; do
+  if readelf -d "$file" | grep -E 'R(UN)?PATH' | grep -F -e "$build" -e "$source"; then
+    echo "$file looks for libraries in the build"
+    exit 1
+  fi
+done
+
+module=$(sed -n 's/^RONDO_PYTHON_MODULE:INTERNAL=//p' "$build/CMakeCache.txt")
+reason=$(sed -n 's/^RONDO_PYTHON_MODULE_MISSING:INTERNAL=//p' "$build/CMakeCache.txt")
+mv "$work/prefix" "$work/moved"
 cd "$work" # not the sources: nothing else is to be found
-PYTHONPATH="$work/prefix/$package" PYTHONDONTWRITEBYTECODE=1 /usr/bin/python3 - "$work/prefix" <<'EOT'
-import subprocess
-import sys
-
-import rondo
-import rondo.figures.run_figures  # the folders below are there too
-
-prefix = sys.argv[1]
-assert rondo.__file__.startswith(prefix), rondo.__file__
-said = subprocess.run([f"{prefix}/bin/rondo", "--version"], capture_output=True, text=True).stdout
-assert said.split()[:2] == ["rondo", rondo.__version__], said
-print("rondo", rondo.__version__, "for Python")
-EOT
+env -i PATH=/usr/bin HOME="$work" PYTHONPATH="$work/moved/$package" PYTHONDONTWRITEBYTECODE=1 \
+  MPLBACKEND=Agg /usr/bin/python3 "$source/tests/house/use_package.py" "$work/moved" "$module" "$reason"

@@ -159,3 +159,13 @@ def plane(tmp_path):
         row["force_y_mean"] = 1e6 * row[sweeps.FRICTION] + 1e4 * row[sweeps.SPIN]
     parameters = [(sweeps.FRICTION, "-", "uniform"), (sweeps.SPIN, "rad/s", "uniform")]
     return rondo.open_sweep(sweeps.write(tmp_path / "plane", parameters, rows))
+
+
+@pytest.fixture
+def case(tmp_path, monkeypatch):
+    """A small case in a folder that is the working one."""
+    monkeypatch.setenv("RONDO", PROGRAM)
+    monkeypatch.chdir(tmp_path)
+    path = tmp_path / "small.toml"
+    path.write_text(SMALL)
+    return path

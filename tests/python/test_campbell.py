@@ -85,6 +85,33 @@ def test_command(modes: pathlib.Path, tmp_path: pathlib.Path) -> None:
     assert done.returncode == 2 and "--spins" in done.stderr
 
 
+def test_a_single_spin(modes: pathlib.Path, tmp_path: pathlib.Path) -> None:
+    case = modes.parent / "case.toml"
+    found = rondo.modes(case, tmp_path / "own", spins=[30.0], count=4)
+    assert np.array_equal(found.spins, [30.0]) and not found.has_branches
+    table = found.table
+    assert np.array_equal(table["mode"], [1, 2, 3, 4]) and set(table["wave"]) > {"forward"}
+    assert np.allclose(table["frequency_rad_s"], 2 * np.pi * table["frequency_hz"])
+    over = rondo.open_modes(modes)
+    for n, wave, own in zip(table["nodal_diameters"], table["wave"], table["frequency_rad_s"]):
+        b, = (b for b in over.branches if (b.diameters, b.wave, b.order) == (n, wave, 1))
+        assert np.isclose(own, b.frequency[3], rtol=1e-9)  # at 30 rad/s, too
+    assert "30" in found._repr_html_() and "forward" in found._repr_html_()
+    for what in (lambda: found.branches, found.plot_campbell):
+        with pytest.raises(rondo.Error, match="single spins only.*--spins"):
+            what()
+    assert over.has_branches and len(over.table["mode"]) > 0
+    (tmp_path / "own" / "modes.csv").write_text("mode\nx\n")
+    with pytest.raises(rondo.Error, match="modes.csv: cannot be read"):
+        rondo.open_modes(tmp_path / "own").table
+
+
+def test_a_single_spin_in_pandas(modes: pathlib.Path, tmp_path: pathlib.Path) -> None:
+    pytest.importorskip("pandas")
+    frame = rondo.modes(modes.parent / "case.toml", tmp_path / "own", spins=[0.0], count=4).to_pandas()
+    assert list(frame["mode"]) == [1, 2, 3, 4, 5] and frame.attrs["units"]["frequency_hz"] == "Hz"
+
+
 def test_damaged(tmp_path: pathlib.Path) -> None:
     (tmp_path / "modes.json").write_text("{}")
     header = "spin_rad_s,nodal_diameters,wave,order,frequency_rad_s,frequency_fixed_rad_s\n"

@@ -78,7 +78,10 @@ def test_means(smooth, treaded):
 
 
 def test_version():
-    assert rondo_module("--version").stdout == f"rondo {rondo.__version__}\n"
+    lines = rondo_module("--version").stdout.splitlines()
+    assert lines[0] == f"rondo {rondo.__version__}"
+    assert [line.split()[0] for line in lines[1:]] == ["package", "module", "program", "meshes", "python"]
+    assert os.environ["RONDO"] in lines[3]
 
 
 def test_unfinished(killed, tmp_path):

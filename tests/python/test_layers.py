@@ -11,8 +11,11 @@ DRAWS = ("plots", "figures", "pictures", "style")
 ALLOWED = {  # by the first folder, or the module itself: what it may import besides its own
     "data": set(), "style": set(), "plots": {"data", "style"}, "studies": {"data"},
     "figures": {"data", "plots", "style"}, "pictures": {"data", "plots"},
-    "calls": {"data", "studies"}, "__init__": {"calls", "data", "pictures"},
-    "__main__": {"__init__", "data", "studies", "figures", "style"},
+    "native": {"data", "studies"}, "about": {"data", "native", "studies"},
+    "_core": set(), "simulation": {"_core", "data", "native"}, "solution": {"data", "native", "simulation"},
+    "calls": {"data", "native", "studies"},
+    "__init__": {"about", "calls", "data", "pictures", "simulation", "solution"},
+    "__main__": {"__init__", "about", "data", "studies", "figures", "style"},
 }
 
 
@@ -20,7 +23,7 @@ def imports(root):
     """{module: modules of the package that it imports}, as "data.run"; the package itself is
     "__init__"."""
     files = {".".join(path.relative_to(root).with_suffix("").parts): path
-             for path in root.rglob("*.py")}
+             for path in [*root.rglob("*.py"), *root.rglob("*.pyi")]}
     known = {name.removesuffix(".__init__"): name for name in files}
     found = {}
     for name, path in files.items():

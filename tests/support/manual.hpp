@@ -53,4 +53,13 @@ inline void expect_in_manual(const std::filesystem::path& file,
                                   "it with RONDO_WRITE_MANUAL=1 in the environment";
 }
 
+/// That the file is this text, or, asked to, writes it.
+inline void expect_file(const std::filesystem::path& file, const std::string& text) {
+  if (std::getenv("RONDO_WRITE_MANUAL") != nullptr) std::ofstream(file, std::ios::binary) << text;
+  std::ifstream stream(file, std::ios::binary);
+  const std::string found{std::istreambuf_iterator<char>(stream), {}};
+  EXPECT_TRUE(found == text) << file << " is not what the program's tables say; this test writes "
+                             << "it with RONDO_WRITE_MANUAL=1 in the environment";
+}
+
 }  // namespace rondo::test

@@ -5,11 +5,19 @@ from __future__ import annotations
 import pathlib
 from dataclasses import dataclass
 from functools import cached_property
+from typing import TYPE_CHECKING
 
 import numpy as np
 
 from .arrays import LazyArray
 from .files import read_table
+from .names import ENDINGS
+from .tables import frame_of
+
+if TYPE_CHECKING:
+    import pandas
+
+UNITS = {"node": "1", "sticks": "1", "slip_speed": "m/s"}  # of columns that do not end in theirs
 
 
 @dataclass(frozen=True)
@@ -29,6 +37,12 @@ class Contact:
         """contact.csv: a row for each node in contact at each snapshot, by the names of its columns
         (docs/results.md), as "pressure_pa"."""
         return read_table(self.path)
+
+    def to_pandas(self) -> pandas.DataFrame:
+        """`rows` as a pandas.DataFrame; attrs["units"] of the columns."""
+        units = UNITS | {name: unit for name in self.rows for ending, unit in ENDINGS.items()
+                         if name.endswith(ending)}
+        return frame_of(self.rows, units, "contact.to_pandas()")
 
 
 @dataclass(frozen=True)

@@ -87,6 +87,17 @@ def read_table(path: pathlib.Path) -> dict[str, np.ndarray]:
     return dict(zip(names, values.T.copy()))
 
 
+def _readable(path: pathlib.Path) -> h5py.File:
+    """The file, open for reading. A simulation of this process that writes it has no lock on it (that
+    of the directory keeps others out), and HDF5 refuses to have one file open both ways."""
+    try:
+        return h5py.File(path, "r")
+    except OSError as reason:
+        if "locking flag" not in str(reason):
+            raise
+    return h5py.File(path, "r", locking=False)
+
+
 _kept: dict[pathlib.Path, h5py.File] = {}  # files that stay open
 
 
@@ -98,7 +109,7 @@ def kept(path: pathlib.Path) -> Iterator[None]:
         return
     with opened(path):  # an error where it cannot be read
         pass
-    with h5py.File(path, "r") as file:
+    with _readable(path) as file:
         _kept[path] = file
         try:
             yield
@@ -113,7 +124,7 @@ def opened(path: pathlib.Path) -> Iterator[h5py.File]:
         if path in _kept:
             yield _kept[path]
         else:
-            with h5py.File(path, "r") as file:
+            with _readable(path) as file:
                 yield file
     except FileNotFoundError:
         raise Error(f"{path}: no such file") from None

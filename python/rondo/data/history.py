@@ -4,13 +4,18 @@ from __future__ import annotations
 
 import pathlib
 from collections.abc import Iterable, Iterator, Mapping, Sequence
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
 from .errors import Error, unknown
 from .files import read_table
+from .html import history_html
 from .names import ENDINGS, find_name
+from .tables import frame_of
+
+if TYPE_CHECKING:
+    import pandas
 
 FORCES = ("force_x", "force_y", "force_lateral", "torque", "moment_aligning",
           "moment_overturning")  # of the ground on the body
@@ -66,6 +71,14 @@ class History(Mapping[str, np.ndarray]):
 
     def __repr__(self) -> str:
         return f"History({self.path}, {len(self['time_s'])} rows: {', '.join(self._columns)})"
+
+    def _repr_html_(self) -> str:
+        return history_html(self)
+
+    def to_pandas(self) -> pandas.DataFrame:
+        """A pandas.DataFrame: a row for each interval, index "time_s"; attrs["units"] of the
+        columns."""
+        return frame_of(self._columns, self.units, "history.to_pandas()", "time_s")
 
     @property
     def names(self) -> list[str]:

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""What `rondo modes` wrote: frequencies over the spin."""
+"""What `rondo modes` wrote: frequencies at the spins asked for, and over the spin."""
 from __future__ import annotations
 
 import csv
@@ -7,15 +7,19 @@ import os
 import pathlib
 from collections.abc import Callable
 from dataclasses import dataclass
-from typing import TYPE_CHECKING
+from functools import cached_property
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from numpy.typing import NDArray
 
 from . import files
 from .errors import Error
+from .html import modes_html
+from .tables import frame_of
 
 if TYPE_CHECKING:
+    import pandas
     from matplotlib.figure import Figure
 
 Array = NDArray[np.float64]
@@ -34,7 +38,11 @@ class Branch:
 
 
 class Modes:
-    """A directory of `rondo modes`."""
+    """A directory of `rondo modes`.
+
+    table: columns of modes.csv, a row for each mode at each spin of its own: "mode" (from 1),
+    "frequency_rad_s", "frequency_hz", "nodal_diameters" (-1: not known), "wave", "spin_rad_s",
+    "residual". branches: over the spins of --spins."""
 
     # Pictures: what rondo/pictures.py gives this class, as nothing here knows how to draw.
     plot_campbell: Callable[..., Figure]
@@ -42,16 +50,62 @@ class Modes:
     def __init__(self, directory: pathlib.Path) -> None:
         self.directory = directory
         self.summary = files.read_json(directory / "modes.json")
-        path = directory / "campbell.csv"
-        if not path.is_file():
-            raise Error(f"{directory}: has no campbell.csv: the modes of one spin only; "
-                        "rondo modes --spins FROM:TO:NUMBER writes it")
-        self.branches = _branches(path)
+        self.has_branches = (directory / "campbell.csv").is_file()
+        if self.has_branches or not (directory / "modes.csv").is_file():
+            _ = self.branches  # an error where they cannot be read
+
+    @cached_property
+    def branches(self) -> list[Branch]:
+        """Waves over the spin; an error where only single spins were asked for."""
+        if not self.has_branches:
+            raise Error(f"{self.directory}: has no campbell.csv: the modes of single spins only, "
+                        "which `table` has; rondo modes --spins FROM:TO:NUMBER "
+                        "(rondo.modes(sweep=...)) writes it")
+        return _branches(self.directory / "campbell.csv")
+
+    @cached_property
+    def table(self) -> dict[str, NDArray[Any]]:
+        return _table(self.directory / "modes.csv")
+
+    def _repr_html_(self) -> str:
+        return modes_html(self)
+
+    def to_pandas(self) -> pandas.DataFrame:
+        """A pandas.DataFrame: a row for each wave at each spin, without --spins the rows of `table`;
+        attrs["units"] of the columns."""
+        if not self.has_branches:
+            return frame_of(self.table, dict(_UNITS), "modes.to_pandas()")
+        lengths = [len(b.spin) for b in self.branches]
+        columns = {name: np.repeat(np.array([getattr(b, name) for b in self.branches]), lengths)
+                   for name in ("diameters", "wave", "order")}
+        for name in ("spin", "frequency", "frequency_fixed"):
+            columns[name] = np.concatenate([getattr(b, name) for b in self.branches])
+        units = dict.fromkeys(("spin", "frequency", "frequency_fixed"), "rad/s")
+        return frame_of(columns, units | {"diameters": "1", "order": "1"}, "modes.to_pandas()")
 
     @property
     def spins(self) -> Array:
         """(k,) rad/s, ascending: all for which there is a frequency."""
+        if not self.has_branches:
+            return np.unique(self.table["spin_rad_s"])
         return np.unique(np.concatenate([b.spin for b in self.branches]))
+
+
+_TYPES: dict[str, Callable[[str], Any]] = {
+    "mode": int, "frequency_rad_s": float, "frequency_hz": float,
+    "nodal_diameters": lambda text: int(text or -1), "wave": str, "spin_rad_s": float,
+    "residual": float}
+_UNITS = {"mode": "1", "frequency_rad_s": "rad/s", "frequency_hz": "Hz", "nodal_diameters": "1",
+          "spin_rad_s": "rad/s", "residual": "1"}
+
+
+def _table(path: pathlib.Path) -> dict[str, NDArray[Any]]:
+    try:
+        with open(path, newline="") as file:
+            rows = list(csv.DictReader(file))
+        return {name: np.array([kind(row[name]) for row in rows]) for name, kind in _TYPES.items()}
+    except (OSError, ValueError, KeyError, TypeError) as reason:
+        raise Error(f"{path}: cannot be read: {reason}") from None
 
 
 def _branches(path: pathlib.Path) -> list[Branch]:
@@ -75,5 +129,5 @@ def _branches(path: pathlib.Path) -> list[Branch]:
 
 
 def open_modes(path: str | os.PathLike[str]) -> Modes:
-    """Opens a directory of `rondo modes` that holds several spins."""
+    """Opens a directory of `rondo modes`."""
     return Modes(files.require(path, "modes.json"))

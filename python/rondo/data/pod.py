@@ -13,6 +13,8 @@ import numpy as np
 
 from .errors import Error, unknown
 from .files import check_format, opened, read_json, require
+from .html import pod_html
+from .labelled import pod_dataset
 from .mesh import Mesh, read_mesh
 
 if TYPE_CHECKING:
@@ -56,6 +58,14 @@ class Pod:
     def __repr__(self) -> str:
         return (f"Pod({self.directory}: {self.field}, {self.kind}, weight {self.weight}, "
                 f"{len(self.time)} snapshots, {self.n_modes} modes)")
+
+    def _repr_html_(self) -> str:
+        return pod_html(self)
+
+    def to_xarray(self) -> Any:
+        """An xarray.Dataset of the modes: spatial (mode, node, component), coefficients
+        (snapshot, mode), singular_value and energy (rank)."""
+        return pod_dataset(self)
 
     def _read(self, dataset: str, *empty: int) -> np.ndarray:
         """A dataset; of shape `empty` where it would hold no number and is therefore not there."""

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import os
 import pathlib
-from collections.abc import Callable
+from collections.abc import Callable, Iterable
 from functools import cached_property
 from typing import TYPE_CHECKING, Any
 
@@ -13,9 +13,11 @@ import numpy as np
 from .arrays import LazyArray
 from .contact import Contact, Crush
 from .convergence import Convergence
-from .errors import Error, UnfinishedRunError, unknown
+from .errors import STATUS, Error, UnfinishedRunError, unknown
 from .files import check_format, opened, read_case, read_json, require
 from .history import History
+from .html import run_html
+from .labelled import STRESS, run_dataset
 from .lifted import Coordinates, LiftedArray
 from .mesh import Mesh, read_mesh
 from .names import frame_named
@@ -26,14 +28,6 @@ from .solid import ground_axes, turned_about_axle
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
     from matplotlib.figure import Figure
-
-STRESS = ("xx", "xy", "xz", "yy", "yz", "zz")  # order of /fields/cauchy_stress
-
-STATUS = {  # what it means that a run is not done
-    "running": "it is still running, or was killed",
-    "interrupted": "it was stopped before its end",
-    "failed": "it ended with an error",
-}
 
 
 def open_run(path: str | os.PathLike[str], unfinished: bool = False) -> Run:
@@ -103,6 +97,9 @@ class Run:
     def __repr__(self) -> str:
         return (f"Run({self.directory}: {self.title}; {self.analysis}, {self.status}, "
                 f"{self.mesh.n_nodes} nodes, {self.n_snapshots} snapshots)")
+
+    def _repr_html_(self) -> str:
+        return run_html(self)
 
     # What it is
 
@@ -254,12 +251,11 @@ class Run:
 
     def field(self, name: str) -> LazyArray:
         """A field of all snapshots: "displacement", "velocity" (t, n, 2) in the co-rotating frame,
-        of free bodies in the fixed frame;
-        "von_mises", "stress_xx", "stress_xy", ... (t, n) and "cauchy_stress" (t, n, 6) with stress;
-        "position", "contact_force" (t, n, 3) for pictures. Stress, position and contact force are
-        along the fixed axes. Stress is the mean of the cells around a node: that of a probe in the
-        history is of its cell alone, and on coarse meshes they differ (docs/results.md).
-        "fields/displacement", "fields/velocity": these along the fixed axes. Of a reduced run with
+        of free bodies in the fixed one; "von_mises", "stress_xx", "stress_xy", ... (t, n) and
+        "cauchy_stress" (t, n, 6) with stress; "position", "contact_force" (t, n, 3) for pictures:
+        these along the fixed axes. Stress is the mean of the cells around a node; that of a probe
+        is of its cell alone, and on coarse meshes they differ (docs/results.md).
+        "fields/displacement", "fields/velocity": along the fixed axes. Of a reduced run with
         --snapshots modes displacement and velocity alone, lifted as they are read."""
         if name in self._fields:
             return self._fields[name]
@@ -347,10 +343,10 @@ class Run:
         """An error where there are none, which says why."""
         if self.n_snapshots:
             return
+        why = " yet"
         if self.case.get("output", {}).get("snapshots") == 0:
-            raise Error(f"{self.directory}: the run has no snapshots: output.snapshots was 0; run "
-                        "it again with more")
-        raise Error(f"{self.directory}: the run has no snapshots yet")
+            why = ": output.snapshots was 0; run it again with more"
+        raise Error(f"{self.directory}: the run has no snapshots{why}")
 
     @cached_property
     def contact(self) -> Contact | None:
@@ -387,6 +383,11 @@ class Run:
     def convergence(self) -> Convergence:
         """convergence.csv of a crush by LATIN, a row for each iteration; an error of other runs."""
         return Convergence(self.directory, self.case.get("analysis", {}))
+
+    def to_xarray(self, names: Iterable[str] | None = None) -> Any:
+        """An xarray.Dataset of fields, read when asked for; names: those of field(), and "force",
+        "traction" of `contact`; None: displacement, velocity, force."""
+        return run_dataset(self, names)
 
     # Its PODs
 

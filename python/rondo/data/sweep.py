@@ -11,14 +11,17 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from .errors import Error, UnfinishedRunError, unknown
+from .errors import STATUS, Error, UnfinishedRunError, unknown
 from .files import check_format, read_json, read_table, require, some
 from .history import units_of
+from .html import sweep_html
 from .names import find_figure
-from .run import STATUS, Run, open_run
+from .run import Run, open_run
 from .sweep_table import read_members
+from .tables import frame_of
 
 if TYPE_CHECKING:
+    import pandas
     from matplotlib.axes import Axes
     from matplotlib.figure import Figure
 
@@ -41,6 +44,7 @@ class Parameter:
 def open_sweep(path: str | os.PathLike[str], unfinished: bool = False) -> Sweep:
     """Opens the directory of a sweep. `unfinished`: also one that has not come to its end; what is
     done of it is read. A sweep of which some members failed has come to its end."""
+    _demand_collected(pathlib.Path(path))
     sweep = _read(require(path, "sweep.json", beside="results.csv"))
     if sweep.status not in ("done", "failed") and not unfinished:
         meaning = STATUS.get(sweep.status, "not known to this package")
@@ -49,6 +53,15 @@ def open_sweep(path: str | os.PathLike[str], unfinished: bool = False) -> Sweep:
             f"{counts(sweep)}. {goes_on(sweep)}; "
             f'rondo.open_sweep("{sweep.directory}", unfinished=True) reads what is there')
     return sweep
+
+
+def _demand_collected(directory: pathlib.Path) -> None:
+    """Of a sweep that was made in shards, its tables."""
+    shards = sorted(found.parent.name for found in directory.glob("shards/*/rows.json"))
+    if shards and not (directory / "sweep.json").is_file():
+        raise UnfinishedRunError(f"{directory}: shards of a sweep, which have no table yet "
+                                 f"({some(shards)}): \"rondo sweep STUDY.toml -o {directory} --collect\" "
+                                 "writes it")
 
 
 def goes_on(sweep: Sweep) -> str:
@@ -99,6 +112,13 @@ class Sweep:
         lines = [f"  {key:{wide}}  {_extent(self[key], parameter)}"
                  for key, parameter in self.parameters.items()]
         return "\n".join([repr(self), *lines])
+
+    def _repr_html_(self) -> str:
+        return sweep_html(self)
+
+    def to_pandas(self) -> pandas.DataFrame:
+        """A pandas.DataFrame: a row for each member, index "run"; attrs["units"] of the columns."""
+        return frame_of(self._columns, self.units, "sweep.to_pandas()", "run")
 
     # What it is
 

@@ -16,6 +16,7 @@ from typing import IO
 from ..data.errors import Error
 
 CHECKOUT = pathlib.Path(__file__).resolve().parents[3]  # of the sources; elsewhere if installed
+INSTALLED = pathlib.Path(__file__).resolve().parents[1] / "bin" / "rondo"  # or a link to it
 _LIBC = ctypes.CDLL(None)
 _DIE_WITH_PARENT = 1  # PR_SET_PDEATHSIG of prctl(2)
 
@@ -29,12 +30,14 @@ class Program:
 
 
 def find_program() -> Program:
-    """$RONDO, else the one on PATH, else build/release/rondo of the checkout."""
+    """$RONDO, else the one installed with this package, else the one on PATH, else
+    build/release/rondo of the checkout."""
     built = CHECKOUT / "build" / "release" / "rondo"
-    path = os.environ.get("RONDO") or shutil.which("rondo") or (built.is_file() and str(built))
+    path = (os.environ.get("RONDO") or (os.access(INSTALLED, os.X_OK) and str(INSTALLED))
+            or shutil.which("rondo") or (built.is_file() and str(built)))
     if not path:
-        raise Error(f"rondo: there is no such program, neither on PATH nor as {built}: build it, "
-                    "or give its path as RONDO=...")
+        raise Error(f"rondo: there is no such program, neither as {INSTALLED} nor on PATH nor as "
+                    f"{built}: build it, or give its path as RONDO=...")
     try:
         done = subprocess.run([path, "--version"], capture_output=True, text=True, check=True)
     except (OSError, subprocess.CalledProcessError) as reason:

@@ -45,6 +45,7 @@ std::size_t steps_at_once(const Setup& setup) {
 DynamicAnalysis::DynamicAnalysis(const Case& c, const RunOptions& options)
     : case_(c), options_(options), setup_(build(c, options.threads, options.shared)) {
   plan_snapshots();
+  fastest_ = c.motion.angular_velocity.largest();
 }
 
 void DynamicAnalysis::plan_snapshots() {
@@ -195,7 +196,11 @@ Progress DynamicAnalysis::begin(Recorder& recorder) {
   setup_.axial = {};
   strain_.emplace(setup_.mesh, setup_.materials, &setup_.model);
   if (!from_) record_state(recorder);
+  const std::vector<Vec2> v = since_pause_ ? state_.v : std::vector<Vec2>();
+  const std::vector<double> axial_v = since_pause_ ? state_.axial_v : std::vector<double>();
   start_integrator();
+  std::ranges::copy(v, state_.v.begin());
+  std::ranges::copy(axial_v, state_.axial_v.begin());
   return {steps_, setup_.n_steps};
 }
 
@@ -222,7 +227,7 @@ void DynamicAnalysis::start_integrator() {
 /// Steps up to the next one whose state is wanted, at most as many as there are reports.
 Progress DynamicAnalysis::advance(Recorder& recorder) {
   const long long next_look = (steps_ / steps_between_looks + 1) * steps_between_looks;
-  const long long wanted = std::min({next_snapshot(), history_->next_probed(), next_look});
+  const long long wanted = std::min({next_snapshot(), history_->next_probed(), next_look, pause_});
   const long long left = std::min(setup_.n_steps, wanted) - steps_;
   const auto n = static_cast<std::size_t>(std::min(static_cast<long long>(reports_.size()), left));
   const std::span reports = std::span(reports_).first(n);
@@ -246,6 +251,7 @@ void DynamicAnalysis::take(const dynamics::StepReport& step, const dynamics::Sta
   material_ = step.material;
   judge(step);
   history_->observe(step, state, recorder.rows());
+  if (since_pause_) since_pause_->observe(step, state, recorder.rows());
   recorder.rows_added();
 }
 
@@ -343,7 +349,7 @@ void DynamicAnalysis::record_snapshot(Recorder& recorder) {
 }
 
 void DynamicAnalysis::keep_difficult_contacts() {
-  if (setup_.model.coupled.dump_above == 0) return;
+  if (setup_.model.coupled.dump_above == 0 || options_.directory.empty()) return;
   for (contact::ProblemFile& problem : integrator_->take_difficult()) {
     if (problems_kept_ == most_problems_kept) return;
     problem.about = fmt::format("{}, after step {}", case_.title, steps_);

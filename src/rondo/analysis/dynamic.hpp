@@ -1,12 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// @file  Motion in time: explicit steps from the start, or from a checkpoint, to time.end.
 #pragma once
+#include <limits>
 #include <memory>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "rondo/analysis/base/analysis.hpp"
+#include "rondo/analysis/base/stepwise.hpp"
 #include "rondo/analysis/base/strain_watch.hpp"
 #include "rondo/analysis/boundary_watch.hpp"
 #include "rondo/analysis/build/rim.hpp"
@@ -20,7 +22,7 @@
 
 namespace rondo::study {
 
-class DynamicAnalysis : public Analysis, public Resumable {
+class DynamicAnalysis : public Analysis, public Resumable, public Stepwise {
  public:
   /// @throws InputError as build()
   DynamicAnalysis(const Case& c, const RunOptions& options);
@@ -31,6 +33,7 @@ class DynamicAnalysis : public Analysis, public Resumable {
   void describe(Json& json) const override;
   [[nodiscard]] Case kept_case(const Case& c) const override;
   [[nodiscard]] Resumable* resumable() noexcept override { return this; }
+  [[nodiscard]] Stepwise* stepwise() noexcept override { return this; }
 
   Progress begin(Recorder& recorder) override;
   Progress advance(Recorder& recorder) override;
@@ -42,12 +45,19 @@ class DynamicAnalysis : public Analysis, public Resumable {
   [[nodiscard]] const Checkpoint* find(const std::filesystem::path& directory) override;
   [[nodiscard]] Checkpoint save() const override;
 
+  void pause_at(long long step) override;
+  [[nodiscard]] long long steps_made() const noexcept override { return steps_; }
+  [[nodiscard]] const Setup& setup() const noexcept override { return setup_; }
+  [[nodiscard]] const dynamics::State* state() override;
+  [[nodiscard]] std::vector<double> row() const override;
+  [[nodiscard]] std::vector<ColumnLabel> row_columns() const override;
+  void take_tables() override;
+
  protected:
   /// The model must outlive it. @param start at t = 0; what is not needed of it may be freed
   [[nodiscard]] virtual std::unique_ptr<dynamics::Integrator> make_integrator(
       dynamics::State& start);
-  [[nodiscard]] Setup& setup() noexcept { return setup_; }
-  [[nodiscard]] const Setup& setup() const noexcept { return setup_; }
+  [[nodiscard]] Setup& own_setup() noexcept { return setup_; }
   /// The law sees velocities alone. Gaps in it push bodies out of the ground, which does work.
   [[nodiscard]] virtual bool guards_impacts() const noexcept { return true; }
   /// Fills the fields of the state after the last step, where the integrator left some out.
@@ -71,6 +81,7 @@ class DynamicAnalysis : public Analysis, public Resumable {
   void record_state(Recorder& recorder);
   void record_snapshot(Recorder& recorder);
   void keep_difficult_contacts();
+  void warn_of_faster_spin();
   [[nodiscard]] double seconds_per_step(double trial);
 
   const Case& case_;
@@ -80,6 +91,9 @@ class DynamicAnalysis : public Analysis, public Resumable {
   std::size_t next_ = 0;            ///< snapshot of the schedule
   std::optional<Checkpoint> from_;  ///< gone on with; its fields are freed once taken
   std::optional<History> history_;
+  long long pause_ = std::numeric_limits<long long>::max();
+  std::optional<History> since_pause_;  ///< none: nobody pauses
+  double fastest_ = 0.0;                ///< spin that was looked at for softening      [rad/s]
   std::vector<dynamics::StepReport> reports_;
   dynamics::State state_;
   std::unique_ptr<dynamics::Integrator> integrator_;

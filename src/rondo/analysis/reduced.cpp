@@ -33,6 +33,7 @@ struct ReducedRun {
   double step_factor = 1.0;           ///< taken
   double full_step = 0.0;             ///< of the full run [s]
   std::vector<std::string> warnings;  ///< for the user
+  bool constant_spin = true;          ///< by its case
   rom::StepFigures figures;           ///< filled while it runs
 };
 
@@ -193,6 +194,37 @@ double step_of(const Case& c, const Setup& setup, const ReducedRun& run) {
                      : sector * std::floor(dt / sector * (1.0 + 1e-9));
 }
 
+/// Of values that the motion is led over to; what was said before is not said again.
+void warn_of_values(const Case& c, const Setup& setup, ReducedRun& run) {
+  const ModelRanges& built = run.file.ranges;
+  const dynamics::RimBody rim = c.rim.value_or(dynamics::RimBody{});
+  const auto last = [](const dynamics::Table& table) { return table.points().back()[1]; };
+  std::vector<std::string> said;
+  const auto check = [&](bool held, const char* what, const ModelRange& range, double value) {
+    ModelRange wanted;
+    wanted.take(value);
+    if (held) add_said(outside(what, range, wanted, 0.0), said);
+  };
+  check(!rim.free_spin, "motion.angular_velocity", built.angular_velocity,
+        last(c.motion.angular_velocity));
+  check(!rim.free_x, "motion.speed", built.speed, last(c.motion.speed));
+  check(!rim.free_y, "motion.height", built.height, last(c.motion.height));
+  add_said(passed_points(c, setup, c.motion.angular_velocity.largest(), run), said);
+  for (std::string& warning : said)
+    if (std::ranges::find(run.warnings, warning) == run.warnings.end())
+      run.warnings.push_back(std::move(warning));
+}
+
+/// Of a spin that stays the step makes a whole number of phases of a sector, see step_of().
+void refuse_other_phases(const Case& c, const ReducedRun& run) {
+  const bool phases =
+      c.ground && !(c.rim && c.rim->free_spin) && run.file.model.form == rom::ContactForm::nodes;
+  if (!phases || !run.constant_spin || c.motion.angular_velocity.points().size() == 1) return;
+  throw case_error(c, "motion.angular_velocity",
+                   "the step of this reduced run is made for a spin that stays as it is",
+                   "motion.angular_velocity as a table from the start, [[0, w], [1, w]]");
+}
+
 /// Central differences have a limit.
 void check_step(const Case& c, const ReducedRun& run, double dt) {
   if (run.scheme != rom::StepScheme::central) return;
@@ -238,6 +270,7 @@ ReducedRun prepare_reduced(const Case& c, const RunOptions& options, Setup& setu
   take_rim(c, options, setup, run);
   run.step_factor = options.step_factor;
   run.full_step = setup.model.dt;
+  run.constant_spin = c.motion.angular_velocity.points().size() == 1;
   setup.model.dt = step_of(c, setup, run);
   run.step_factor = setup.model.dt / run.full_step;
   check_step(c, run, setup.model.dt);
@@ -311,7 +344,7 @@ class ReducedAnalysis final : public DynamicAnalysis {
       : DynamicAnalysis(c, options),
         case_(c),
         options_(options),
-        run_(prepare_reduced(c, options, setup())) {
+        run_(prepare_reduced(c, options, own_setup())) {
     plan_snapshots();
   }
 
@@ -329,6 +362,13 @@ class ReducedAnalysis final : public DynamicAnalysis {
     std::vector<std::string> all = DynamicAnalysis::warnings();
     all.insert(all.end(), run_.warnings.begin(), run_.warnings.end());
     return all;
+  }
+  void take_tables() override {
+    refuse_other_phases(case_, run_);
+    DynamicAnalysis::take_tables();
+    const std::size_t told = run_.warnings.size();
+    warn_of_values(case_, own_setup(), run_);
+    for (std::size_t k = told; k < run_.warnings.size(); ++k) warn(run_.warnings[k]);
   }
   void describe(Json& json) const override {
     DynamicAnalysis::describe(json);

@@ -476,8 +476,8 @@ constexpr CaseKey keys[] = {
      optional.of(of_crush).body(never),
      "how the increments of a crush are solved. \"direct\": one after another, exactly. \"latin\": "
      "all at once, by iterations between the laws of contact and elasticity; \"latin-pgd\": "
-     "likewise, with the field in modes that are found on the way. The same results to "
-     "`tolerance`, of linear materials alone"},
+     "likewise, with the field in modes that are found on the way. Of linear "
+     "materials alone; the same results to about `tolerance`"},
     {"analysis.search_direction", "N/m2", FIELD(analysis.search_direction), not_negative,
      optional.of(of_crush).if_(is_latin).body(never),
      "of \"latin\" and \"latin-pgd\": stiffness that joins forces and gaps on the way. 0: chosen. "

@@ -201,6 +201,9 @@ struct CaseTable {
   }
 };
 
+/// The tables that give the body: one of them is in a case. Of several the first is read.
+inline constexpr std::array<std::string_view, 3> body_tables{"disk", "mesh", "section"};
+
 /// All keys, in the order in which a case is written: those of a table side by side.
 std::span<const CaseKey> case_keys() noexcept;
 /// All tables with keys, in the same order.

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "rondo/case/case.hpp"
 #include "rondo/case/case_rules.hpp"
 
@@ -24,13 +26,15 @@ void read_schema(CaseSource& source) {
             fmt::format("{}", schema_read)});
 }
 
-/// A part of the case that the file has; of a body that it gives twice the disk is read, else the
-/// mesh.
+/// A part of the case that the file has; of bodies the first alone.
 bool is_given(const CaseValues& in, const CaseTable& table) {
   if (!in.has_table(table.path)) return false;
-  const bool has_disk = in.has_table("disk");
-  if (table.path == "mesh") return !has_disk;
-  return table.path != "section" || !(has_disk || in.has_table("mesh"));
+  for (const std::string_view body : body_tables) {
+    if (table.path == body) return true;
+    if (in.has_table(body) && std::ranges::find(body_tables, table.path) != body_tables.end())
+      return false;
+  }
+  return true;
 }
 
 /// Lists are made when their turn comes: what is left out in them is that of a table before.

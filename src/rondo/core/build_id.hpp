@@ -5,8 +5,15 @@
 
 namespace rondo {
 
-/// The linker's hash of the running program (its GNU build id), in hexadecimal; empty where it was
-/// linked without.
+/// Hash of the modules of the library that the program, and the module of Python, are linked from;
+/// written by the build (cmake/modules_id.cmake).
+extern const char* const modules_id;
+
+/// What build_id() is from now on: modules_id, of those that have it. To be called first of all.
+void set_build_id(std::string id);
+
+/// What was set; else the linker's hash of the running program (its GNU build id), in hexadecimal;
+/// empty where it was linked without.
 [[nodiscard]] std::string build_id();
 
 }  // namespace rondo

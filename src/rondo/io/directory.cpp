@@ -27,10 +27,12 @@ constexpr std::array run_marks = {"run.json", "results.h5", "history.csv", "mode
                                   "modes.h5"};
 /// What a run or modes write, in the order in which it is removed: where it stops on the way, the
 /// rest is still known as a run, and none goes on from a checkpoint without its files.
-constexpr std::array output_files = {
-    "checkpoint.h5",   "checkpoint.h5.new", "results.h5.new",      "history.csv", "contact.csv",
-    "convergence.csv", "fields.xdmf",       "results.h5",          "modes.h5",    "modes.xdmf",
-    "modes.csv",       "campbell.csv",      "critical-speeds.csv", "modes.json"};
+constexpr std::array output_files = {"checkpoint.h5", "checkpoint.h5.new", "results.h5.new",
+                                     "history.csv",   "contact.csv",       "convergence.csv",
+                                     "fields.xdmf",   "fields.vtkhdf",     "fields.vtkhdf.new",
+                                     "results.h5",    "modes.h5",          "modes.xdmf",
+                                     "modes.csv",     "campbell.csv",      "critical-speeds.csv",
+                                     "modes.json"};
 constexpr std::array input_files = {"mesh.msh", "case.toml"};
 constexpr std::array pod_files = {
     "pod.json", "pod.h5", "spectrum.csv", "modes.xdmf", "reconstruction.xdmf", "basis.h5"};

@@ -20,8 +20,8 @@ namespace {
 /// Descriptor of a file being written beside `target`.
 class Beside {
  public:
-  explicit Beside(const fs::path& target)
-      : target_(target), file_(target.string() + fmt::format(".{}.tmp", ::getpid())) {
+  Beside(const fs::path& target, const std::string& suffix)
+      : target_(target), file_(target.string() + suffix) {
     descriptor_ = ::open(file_.path.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666);
     if (descriptor_ < 0) fail_on(target_, "create");
   }
@@ -39,8 +39,10 @@ class Beside {
       done += static_cast<std::size_t>(n);
     }
   }
-  void keep() {
+  void sync() const {
     if (::fsync(descriptor_) != 0) fail_on(target_, "write");
+  }
+  void keep() {
     if (::close(std::exchange(descriptor_, -1)) != 0) fail_on(target_, "write");
     if (::rename(file_.path.c_str(), target_.c_str()) != 0) fail_on(target_, "replace");
   }
@@ -65,7 +67,14 @@ std::string text_of(const fs::path& file) {
 }
 
 void write_file(const fs::path& file, const std::string& text) {
-  Beside beside(file);
+  Beside beside(file, fmt::format(".{}.tmp", ::getpid()));
+  beside.write(text);
+  beside.sync();
+  beside.keep();
+}
+
+void write_beside(const fs::path& file, const std::string& text) {
+  Beside beside(file, ".new");
   beside.write(text);
   beside.keep();
 }

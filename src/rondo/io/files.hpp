@@ -18,6 +18,8 @@ std::string text_of(const std::filesystem::path& file);
 
 /// Written beside, then renamed: readers never see half a file. @throws FileError
 void write_file(const std::filesystem::path& file, const std::string& text);
+/// The same but for what a power cut does to it, as file.new: for files that are written often.
+void write_beside(const std::filesystem::path& file, const std::string& text);
 void write_json(const std::filesystem::path& file, const nlohmann::ordered_json& json);
 /// @throws FileError: cannot be read, is not JSON
 nlohmann::ordered_json read_json(const std::filesystem::path& file);

@@ -238,11 +238,19 @@ std::string mesh_hash(const mesh::Mesh& m) {
 
 XdmfTopology topology_of(const mesh::Mesh& m) {
   if (m.is_solid())
-    return {"Hexahedron", m.hexahedra.size(), "/mesh/hexahedra", {m.hexahedra.size(), 8}};
+    return {"Hexahedron",
+            m.hexahedra.size(),
+            "/mesh/hexahedra",
+            {m.hexahedra.size(), 8},
+            8 * m.hexahedra.size()};
   const CellCounts c = counts_of(m);
-  if (c.mixed()) return {"Mixed", c.cells, "/mesh/cells_mixed", {c.n_mixed()}};
-  return {
-      c.corners == 3 ? "Triangle" : "Quadrilateral", c.cells, "/mesh/cells", {c.cells, c.corners}};
+  const std::size_t corners = 4 * c.cells - c.triangles;
+  if (c.mixed()) return {"Mixed", c.cells, "/mesh/cells_mixed", {c.n_mixed()}, corners};
+  return {c.corners == 3 ? "Triangle" : "Quadrilateral",
+          c.cells,
+          "/mesh/cells",
+          {c.cells, c.corners},
+          corners};
 }
 
 namespace {

@@ -15,6 +15,12 @@
 namespace rondo::io {
 namespace {
 
+/// Fields of all nodes, at some snapshot.
+template <class Counts>
+bool has_fields(const Counts& c) noexcept {
+  return c.modes == 0 && c.times > 0;
+}
+
 template <class Counts>
 XdmfSeries series_of(const mesh::Mesh& mesh, const Counts& c) {
   XdmfSeries s;
@@ -99,7 +105,7 @@ Results::Counts Results::counts_of(const ResultsLayout& layout) noexcept {
 /// Of results.h5: what describes the datasets, and an entry for each row.
 std::size_t Results::index_bytes(const Counts& c) noexcept {
   constexpr std::size_t description = 4096;
-  const std::size_t datasets = c.solid ? 22 : 21;
+  const std::size_t datasets = c.solid ? 25 : 24;
   return datasets * (description + c.times * h5::File::bytes_of_entry);
 }
 
@@ -131,6 +137,7 @@ Results::Results(const std::filesystem::path& directory, const ResultsLayout& la
   file_.set_attribute("/", "format", "rondo results 1");
   file_.set_attribute("/", "analysis", words_.analysis);
   write_mesh(file_, *layout.mesh, layout.mass);
+  if (has_fields(c_)) write_vtk_cells(file_, *layout.mesh);
   if (!layout.mass_dynamic.empty())
     file_.write("/mesh/mass_dynamic", {c_.nodes}, layout.mass_dynamic,
                 {"kg/m", "mass of each node with which it moves: 0 at contact nodes"});
@@ -156,13 +163,15 @@ Results::Results(const std::filesystem::path& directory, const ResultsLayout& la
   // From here on the file is there, and at any moment whole.
   file_.flush();
   replace_file(unfinished_.path, directory_ / results_name);
-  if (c_.modes == 0) begin_xdmf(*layout.mesh);
+  if (c_.modes == 0) begin_shown(*layout.mesh);
 }
 
 /// With the grids of the snapshots that are there.
-void Results::begin_xdmf(const mesh::Mesh& mesh) {
+void Results::begin_shown(const mesh::Mesh& mesh) {
   std::vector<double> times = d_.time ? d_.time.read<double>() : std::vector<double>();
   times.resize(written_);
+  if (has_fields(c_))
+    vtkhdf_ = std::make_unique<Vtkhdf>(directory_ / "fields.vtkhdf", series_of(mesh, c_), times);
   xdmf_ = std::make_unique<Xdmf>(directory_ / "fields.xdmf", series_of(mesh, c_), std::move(times));
 }
 
@@ -278,6 +287,7 @@ void Results::write(const Snapshot& s) {
   row(d_.time, s.time);
   ++written_;
   if (xdmf_) xdmf_->add(s.time);
+  if (vtkhdf_) vtkhdf_->add(s.time);
 }
 
 void Results::close() {
@@ -288,6 +298,7 @@ void Results::close() {
   series_rows_.clear();
   file_.close();
   if (xdmf_) xdmf_->close();
+  if (vtkhdf_) vtkhdf_->close();
 }
 
 Results::~Results() {
@@ -300,6 +311,7 @@ Results::~Results() {
 void Results::sync() const {
   sync_file(directory_ / results_name);
   if (xdmf_) sync_file(directory_ / "fields.xdmf");
+  if (vtkhdf_) vtkhdf_->sync();
 }
 
 std::size_t Results::bytes(const ResultsLayout& layout) noexcept {
@@ -311,7 +323,8 @@ std::size_t Results::bytes(const ResultsLayout& layout) noexcept {
   const std::size_t candidate = c.contact ? 2 * c.components * real : 0;
   std::size_t frame = (c.solid ? 7 : 6) * real;
   for (const Series& s : layout.series) frame += s.components * real;
-  return index_bytes(c) + mesh_bytes(*layout.mesh) + layout.free_body.size() * sizeof(int) +
+  const std::size_t shown = has_fields(c) ? vtk_cells_bytes(*layout.mesh) : 0;
+  return index_bytes(c) + mesh_bytes(*layout.mesh) + shown + layout.free_body.size() * sizeof(int) +
          layout.modes.basis.size() * real +
          c.times * (frame + c.nodes * node + c.candidates * candidate);
 }

@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
-/// @file  results.h5 and fields.xdmf of a run, readable at any moment of it (docs/results.md).
+/// @file  results.h5, fields.xdmf and fields.vtkhdf of a run, readable at any moment of it
+/// (docs/results.md).
 ///
 /// Every dataset is created at full size with its storage reserved, then the file's metadata is
 /// flushed once and never changes while the run goes on: a run killed at any moment leaves a file
 /// that opens. /frame/time is NaN where a snapshot was not reached. close() cuts the datasets to
-/// the snapshots written. fields.xdmf lists only snapshots written.
+/// the snapshots written. fields.xdmf and fields.vtkhdf list only snapshots written.
 #pragma once
 #include <array>
 #include <cstddef>
@@ -19,6 +20,7 @@
 #include "rondo/core/field.hpp"
 #include "rondo/io/files.hpp"
 #include "rondo/io/h5/h5.hpp"
+#include "rondo/io/vtkhdf.hpp"
 #include "rondo/io/xdmf.hpp"
 #include "rondo/mesh/mesh.hpp"
 
@@ -68,7 +70,8 @@ struct ResultsLayout {
   double camber = 0.0;         ///< of a solid mesh, by which the ground leans      [rad]
   ResultsWords words = {};
   std::vector<Series> series = {};
-  ReducedModes modes = {};  ///< with them: neither /snapshots, /fields, stress nor fields.xdmf
+  ReducedModes modes =
+      {};  ///< with them: neither /snapshots, /fields, stress, fields.xdmf nor fields.vtkhdf
   std::span<const double> mass_dynamic{};  ///< (n) with which it moves; empty: with that [kg/m]
 };
 
@@ -93,10 +96,10 @@ struct Snapshot {
 
 class Results {
  public:
-  /// Creates directory/results.h5 and, of fields, directory/fields.xdmf. @param kept goes on with
-  /// files that are there, after so many of their snapshots: these are copied into a new
-  /// results.h5, which takes the old one's place once it is whole. @pre the same mesh, at most as
-  /// many as planned.
+  /// Creates directory/results.h5 and, of fields, fields.xdmf and fields.vtkhdf beside it. @param
+  /// kept goes on with files that are there, after so many of their snapshots: these are copied
+  /// into a new results.h5, which takes the old one's place once it is whole. @pre the same mesh,
+  /// at most as many as planned.
   /// @throws FileError: damaged, or fewer snapshots there
   Results(const std::filesystem::path& directory, const ResultsLayout& layout,
           std::optional<std::size_t> kept = {});
@@ -125,7 +128,7 @@ class Results {
   };
   [[nodiscard]] static Counts counts_of(const ResultsLayout& layout) noexcept;
   [[nodiscard]] static std::size_t index_bytes(const Counts& counts) noexcept;
-  void begin_xdmf(const mesh::Mesh& mesh);
+  void begin_shown(const mesh::Mesh& mesh);
   void add_rows(h5::Dataset& to, const std::string& name, h5::Type type, const h5::Shape& shape,
                 const h5::Label& label);
   void create_frame();
@@ -183,6 +186,7 @@ class Results {
   std::vector<h5::Dataset> series_rows_;  ///< one for each of them
   std::vector<h5::Dataset*> all_rows_;    ///< those that there are, of d_ and series_rows_
   std::unique_ptr<Xdmf> xdmf_;            ///< none: no fields
+  std::unique_ptr<Vtkhdf> vtkhdf_;        ///< likewise
 };
 
 }  // namespace rondo::io

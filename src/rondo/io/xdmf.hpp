@@ -16,6 +16,7 @@ struct XdmfTopology {
   std::size_t n_cells = 0;  ///< e
   std::string dataset;      ///< e.g. "/mesh/cells"
   std::vector<std::size_t> shape;
+  std::size_t n_corners = 0;  ///< of all cells together
 };
 
 /// A nodal field in time, or some components of it: a dataset (t, n) or (t, n, width) of float32.

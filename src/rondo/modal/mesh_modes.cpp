@@ -5,8 +5,8 @@
 #include <cmath>
 #include <optional>
 
-#include "rondo/core/blas_threads.hpp"
 #include "rondo/core/contract.hpp"
+#include "rondo/core/process_wide.hpp"
 #include "rondo/modal/inertia.hpp"
 #include "rondo/modal/krylov.hpp"
 #include "rondo/modal/shapes.hpp"

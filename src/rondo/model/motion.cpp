@@ -9,12 +9,6 @@
 
 namespace rondo::dynamics {
 
-Table::Table(std::vector<std::array<double, 2>> points) : points_(std::move(points)) {
-  RONDO_DEMAND(!points_.empty());
-  for (std::size_t i = 1; i < points_.size(); ++i)
-    RONDO_DEMAND(points_[i - 1][0] < points_[i][0], points_[i - 1][0], points_[i][0]);
-}
-
 namespace {
 
 using Points = std::vector<std::array<double, 2>>;
@@ -43,6 +37,19 @@ void for_pieces(const Points& points, double from, double length, Piece&& piece)
 
 }  // namespace
 
+Table::Table(std::vector<std::array<double, 2>> points) : points_(std::move(points)) {
+  RONDO_DEMAND(!points_.empty());
+  for (std::size_t i = 1; i < points_.size(); ++i)
+    RONDO_DEMAND(points_[i - 1][0] < points_[i][0], points_[i - 1][0], points_[i][0]);
+  from_start_.assign(points_.size(), 0.0);
+  double sum = 0.0, done = 0.0;
+  for (std::size_t k = points_until(points_, 0.0); k < points_.size(); ++k) {
+    sum += piece(done, points_[k][0] - done);
+    from_start_[k] = sum;
+    done = points_[k][0];
+  }
+}
+
 double Table::at(double t) const noexcept {
   const std::size_t k = points_until(points_, t);
   if (k == 0) return points_.front()[1];
@@ -56,11 +63,24 @@ double Table::slope(double t) const noexcept {
   return (points_[k][1] - points_[k - 1][1]) / (points_[k][0] - points_[k - 1][0]);
 }
 
+/// ∫ over [begin, begin + length] or back from there, without a knot inside.
+double Table::piece(double begin, double length) const noexcept {
+  return length * (at(begin) + 0.5 * slope(begin) * std::abs(length));
+}
+
+/// The sum of integral(), piece by piece, but for those that are summed already: the same bits.
+double Table::integral_from_start(double end) const noexcept {
+  const auto knot = std::lower_bound(points_.begin(), points_.end(), end,
+                                     [](const auto& p, double x) { return p[0] < x; });
+  const auto k = static_cast<std::size_t>(knot - points_.begin());
+  if (k == 0 || points_[k - 1][0] <= 0.0) return piece(0.0, end);
+  return from_start_[k - 1] + piece(points_[k - 1][0], end - points_[k - 1][0]);
+}
+
 double Table::integral(double from, double length) const noexcept {
+  if (from == 0.0 && length > 0.0) return integral_from_start(length);
   double sum = 0.0;
-  for_pieces(points_, from, length, [&](double begin, double part) {
-    sum += part * (at(begin) + 0.5 * slope(begin) * std::abs(part));
-  });
+  for_pieces(points_, from, length, [&](double begin, double part) { sum += piece(begin, part); });
   return sum;
 }
 

@@ -13,14 +13,15 @@ namespace rondo::dynamics {
 class Table {
  public:
   Table() = default;
-  explicit Table(double constant) : points_{{{0.0, constant}}} {}
+  explicit Table(double constant) : points_{{{0.0, constant}}}, from_start_{0.0} {}
   /// @pre at least one point, times strictly increasing, all finite.
   explicit Table(std::vector<std::array<double, 2>> points);
 
   [[nodiscard]] double at(double t) const noexcept;
   /// Slope just after t: piecewise constant.
   [[nodiscard]] double slope(double t) const noexcept;
-  /// ∫ over [from, from + length], exact: the same at every step where the table is constant.
+  /// ∫ over [from, from + length], exact: the same at every step where the table is constant. From
+  /// t = 0 in a time that does not grow with the number of points.
   [[nodiscard]] double integral(double from, double length) const noexcept;
   /// Change over [from, from + length], without cancellation of the value.
   [[nodiscard]] double change(double from, double length) const noexcept;
@@ -31,7 +32,11 @@ class Table {
   }
 
  private:
+  [[nodiscard]] double piece(double begin, double length) const noexcept;
+  [[nodiscard]] double integral_from_start(double end) const noexcept;
+
   std::vector<std::array<double, 2>> points_{{{0.0, 0.0}}};
+  std::vector<double> from_start_{0.0};  ///< (points) ∫ from 0 to each that lies behind 0
 };
 
 struct Motion {

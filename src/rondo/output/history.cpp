@@ -69,7 +69,8 @@ double History::slip_ratio(const dynamics::StepReport& step) const {
 
 /// The step nearest to a multiple of the interval writes the row.
 bool History::is_due(double time) const noexcept {
-  return time + 0.5 * dt_ > static_cast<double>(at_.next) * interval_;
+  return at_.next != HistoryPlace::never &&
+         time + 0.5 * dt_ > static_cast<double>(at_.next) * interval_;
 }
 
 long long History::next_probed() const noexcept {

@@ -2,6 +2,7 @@
 /// @file  Rows of history.csv of motion in time: forces as means over the interval since the last
 /// row, the ledger at half a step before, probes as they are at the row's time.
 #pragma once
+#include <limits>
 #include <string>
 #include <vector>
 
@@ -13,6 +14,9 @@ namespace rondo::study {
 
 /// Where the rows of history.csv stand between two steps.
 struct HistoryPlace {
+  /// In place of `next`: no row is due, but finish() gives that of all steps.
+  static constexpr long long never = std::numeric_limits<long long>::max();
+
   long long next = 1;   ///< number of the next row's interval
   long long steps = 0;  ///< since the last row
   long long done = 0;   ///< the last step seen

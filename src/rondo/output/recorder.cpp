@@ -56,21 +56,23 @@ std::size_t queue_length(std::size_t n_snapshots, std::size_t bytes) noexcept {
   return std::clamp<std::size_t>(output_queue_bytes / std::max<std::size_t>(bytes, 1), 2, wanted);
 }
 
-Recorder::Recorder(std::filesystem::path directory, const RecordPlan& plan, const Checkpoint* from)
+FileRecorder::FileRecorder(std::filesystem::path directory, const RecordPlan& plan,
+                           const Checkpoint* from)
     : directory_(std::move(directory)),
       time_unit_(plan.results.words.time_unit),
       n_columns_(plan.columns.size()),
       numbers_at_once_(rows_at_once * n_columns_),
-      rows_(no_rows(numbers_at_once_)),
       kept_until_(time_kept(directory_, from)),
       saved_step_(from ? from->state.step : 0),
       snapshots_(plan.results.mesh ? std::make_unique<SnapshotFiles>(directory_, plan, from)
                                    : nullptr),
       history_csv_(history_file(directory_, plan.columns, from)),
       slots_(make_slots(plan)),
-      writer_(slots_.size(), [this](std::size_t slot) { write(slots_[slot]); }) {}
+      writer_(slots_.size(), [this](std::size_t slot) { write(slots_[slot]); }) {
+  rows_.reserve(numbers_at_once_);
+}
 
-Recorder::~Recorder() {
+FileRecorder::~FileRecorder() {
   try {
     close();
   } catch (...) {  // reported where close() is called
@@ -79,7 +81,7 @@ Recorder::~Recorder() {
 
 /// Their memory is reserved, and becomes the process's own as it is first written to: a run whose
 /// output keeps up takes but a few of them.
-std::vector<Recorder::Slot> Recorder::make_slots(const RecordPlan& plan) const {
+std::vector<FileRecorder::Slot> FileRecorder::make_slots(const RecordPlan& plan) const {
   const io::ResultsLayout& layout = plan.results;
   const std::size_t nodes = layout.n_snapshots == 0 ? 0 : layout.mesh->n_nodes();
   const std::size_t contacts =
@@ -99,7 +101,7 @@ std::vector<Recorder::Slot> Recorder::make_slots(const RecordPlan& plan) const {
   return slots;
 }
 
-void Recorder::rows_added() {
+void FileRecorder::rows_added() {
   if (rows_.size() < numbers_at_once_) return;
   take_slot();
   hand_over();
@@ -111,23 +113,23 @@ void Recorder::add_row(std::span<const double> row) {
   rows_added();
 }
 
-Snapshot& Recorder::next_snapshot() {
+Snapshot& FileRecorder::next_snapshot() {
   Slot& slot = take_slot();
   slot.has_snapshot = true;
   return slot.snapshot;
 }
 
-void Recorder::add_snapshot() {
+void FileRecorder::add_snapshot() {
   hand_over();
 }
 
-void Recorder::save(Checkpoint checkpoint) {
+void FileRecorder::save(Checkpoint checkpoint) {
   saving_ = true;
   take_slot().checkpoint = std::move(checkpoint);
   hand_over();
 }
 
-void Recorder::keep_up() {
+void FileRecorder::keep_up() {
   writer_.check();
   if (rows_.empty() || Clock::now() - handed_over_ <= longest_wait) return;
   take_slot();
@@ -135,7 +137,7 @@ void Recorder::keep_up() {
 }
 
 /// With the rows so far.
-Recorder::Slot& Recorder::take_slot() {
+FileRecorder::Slot& FileRecorder::take_slot() {
   taken_ = Clock::now();
   slot_ = writer_.take();
   Slot& slot = slots_[slot_];
@@ -146,13 +148,13 @@ Recorder::Slot& Recorder::take_slot() {
   return slot;
 }
 
-void Recorder::hand_over() {
+void FileRecorder::hand_over() {
   writer_.hand_over(slot_);
   handed_over_ = Clock::now();
   wait_s_ += std::chrono::duration<double>(handed_over_ - taken_).count();
 }
 
-void Recorder::write(Slot& slot) {
+void FileRecorder::write(Slot& slot) {
   if (!slot.rows.empty()) {
     history_csv_->rows(slot.rows);
     kept_until_ = slot.rows[slot.rows.size() - n_columns_];
@@ -166,7 +168,7 @@ void Recorder::write(Slot& slot) {
 
 /// What it says of the other files must be true whatever happens to the machine: they are synced
 /// first.
-void Recorder::write(Checkpoint& checkpoint) {
+void FileRecorder::write(Checkpoint& checkpoint) {
   io::sync_file(history_csv_->path());
   snapshots_->sync();
   checkpoint.files = {history_csv_->bytes(), snapshots_->contact_bytes(), snapshots_->written()};
@@ -174,7 +176,7 @@ void Recorder::write(Checkpoint& checkpoint) {
   saved_step_ = checkpoint.state.step;
 }
 
-void Recorder::close() {
+void FileRecorder::close() {
   if (closed_) return;
   closed_ = true;
   if (!rows_.empty()) {
@@ -188,7 +190,7 @@ void Recorder::close() {
   drain_s_ = seconds_since(begin);
 }
 
-std::string Recorder::kept() {
+std::string FileRecorder::kept() {
   try {
     close();
   } catch (...) {  // what is asked about
@@ -199,11 +201,11 @@ std::string Recorder::kept() {
   return fmt::format("kept are history.csv to {} and {} snapshots", until, snapshots_->written());
 }
 
-OutputCost Recorder::cost() const {
+OutputCost FileRecorder::cost() const {
   return {wait_s_, drain_s_, writer_.busy_s(), writer_.times_full()};
 }
 
-std::size_t Recorder::written() const {
+std::size_t FileRecorder::written() const {
   return snapshots_ ? snapshots_->written() : 0;
 }
 

@@ -55,37 +55,55 @@ struct RecordPlan {
 
 class SnapshotFiles;
 
-/// history.csv, results.h5, fields.xdmf, contact.csv and checkpoint.h5. Every call throws what the
-/// thread met (FileError, std::bad_alloc) since the last one.
+/// Takes what an analysis hands over while it goes on.
 class Recorder {
  public:
-  /// Creates the files or, from a checkpoint, goes on with those that are there. @throws FileError
-  Recorder(std::filesystem::path directory, const RecordPlan& plan,
-           const Checkpoint* from = nullptr);
-  /// Writes what is there, as far as that is possible; errors are reported where close() is called.
-  ~Recorder();
+  Recorder() = default;
+  virtual ~Recorder() = default;
   Recorder(const Recorder&) = delete;
   Recorder& operator=(const Recorder&) = delete;
 
-  /// A row of history.csv, or none, is appended by the caller; then rows_added().
+  /// A row of the history, or none, is appended by the caller; then rows_added().
   [[nodiscard]] std::vector<double>& rows() noexcept { return rows_; }
-  /// Hands rows over where there are many of them.
-  void rows_added();
+  [[nodiscard]] const std::vector<double>& rows() const noexcept { return rows_; }
+  virtual void rows_added() = 0;
   void add_row(std::span<const double> row);
   /// A snapshot to be filled, whose memory is reserved; then add_snapshot(). Nothing else is called
   /// in between.
-  [[nodiscard]] Snapshot& next_snapshot();
-  void add_snapshot();
-  /// Writes checkpoint.h5 once all before it is written; its `files` are filled in. A run that goes
-  /// on from it drops what is added after.
-  void save(Checkpoint checkpoint);
-  /// One is not yet written: a second would take as much memory again.
-  [[nodiscard]] bool is_saving() const noexcept { return saving_.load(); }
+  [[nodiscard]] virtual Snapshot& next_snapshot() = 0;
+  virtual void add_snapshot() = 0;
+  /// A run that goes on from it drops what is added after.
+  virtual void save(Checkpoint checkpoint) = 0;
+  /// A checkpoint is not yet written: a second would take as much memory again.
+  [[nodiscard]] virtual bool is_saving() const noexcept = 0;
+  /// To be called now and then.
+  virtual void keep_up() = 0;
+
+ protected:
+  std::vector<double> rows_;  ///< not yet handed over
+};
+
+/// history.csv, results.h5, fields.xdmf, contact.csv and checkpoint.h5. Every call throws what the
+/// thread met (FileError, std::bad_alloc) since the last one.
+class FileRecorder : public Recorder {
+ public:
+  /// Creates the files or, from a checkpoint, goes on with those that are there. @throws FileError
+  FileRecorder(std::filesystem::path directory, const RecordPlan& plan,
+               const Checkpoint* from = nullptr);
+  /// Writes what is there, as far as that is possible; errors are reported where close() is called.
+  ~FileRecorder() override;
+
+  /// Hands rows over where there are many of them.
+  void rows_added() override;
+  [[nodiscard]] Snapshot& next_snapshot() override;
+  void add_snapshot() override;
+  /// Writes checkpoint.h5 once all before it is written; its `files` are filled in.
+  void save(Checkpoint checkpoint) override;
+  [[nodiscard]] bool is_saving() const noexcept override { return saving_.load(); }
+  /// Hands over rows that would else wait for a snapshot, or for more rows.
+  void keep_up() override;
   /// Step of the last checkpoint written; 0: none.
   [[nodiscard]] long long saved_step() const noexcept { return saved_step_.load(); }
-  /// To be called now and then: hands over rows that would else wait for a snapshot, or for more
-  /// rows.
-  void keep_up();
   /// Writes everything and closes the files.
   void close();
 
@@ -119,7 +137,6 @@ class Recorder {
   const std::string time_unit_;
   const std::size_t n_columns_;        ///< of history.csv
   const std::size_t numbers_at_once_;  ///< of some rows
-  std::vector<double> rows_;           ///< not yet handed over
   std::size_t slot_ = 0;               ///< in hand
   Clock::time_point taken_{}, handed_over_ = Clock::now();
   double wait_s_ = 0.0, drain_s_ = 0.0;

@@ -12,8 +12,8 @@ namespace rondo::study {
 void demand_same_program(const RunIdentity& then, const RunIdentity& now);
 
 /// Refuses to go on with another run: the case may only differ in time.end, which must lie
-/// beyond the steps made unless it is the end of before, in output.checkpoint_interval and, with
-/// the same mesh, in mesh.file.
+/// beyond the steps made unless it is the end of before, in what tables in time say of later times,
+/// in output.checkpoint_interval and, with the same mesh, in mesh.file.
 /// @throws InputError with all that differs
 void demand_same_run(const Checkpoint& checkpoint, const RunIdentity& now, const Case& c,
                      const Setup& setup);

@@ -59,12 +59,6 @@ void copy_mesh(const Case& c, const std::filesystem::path& directory) {
   io::write_file(directory / mesh_copy, text);
 }
 
-/// The case as run, with its mesh.
-void write_kept_case(const Case& c, const std::filesystem::path& directory) {
-  copy_mesh(c, directory);
-  io::write_file(directory / "case.toml", write_case(kept_case(c)));
-}
-
 }  // namespace
 
 void describe_program(Json& json) {
@@ -140,8 +134,13 @@ std::string warning_of_another_host(const std::filesystem::path& directory) {
 }
 
 void begin_files(const Case& c, const RunOptions& options, const Json& json) {
-  write_kept_case(c, options.directory);
+  copy_mesh(c, options.directory);
+  write_case_file(c, options);
   io::write_json(options.directory / "run.json", json);
+}
+
+void write_case_file(const Case& c, const RunOptions& options) {
+  io::write_file(options.directory / "case.toml", write_case(kept_case(c)));
 }
 
 void note_failure(const RunOptions& options, Json json, const std::exception& error) noexcept {

@@ -45,6 +45,9 @@ std::string warning_of_another_host(const std::filesystem::path& directory);
 /// case.toml and run.json. @throws FileError
 void begin_files(const Case& c, const RunOptions& options, const Json& json);
 
+/// case.toml alone, whose case has changed. @throws FileError
+void write_case_file(const Case& c, const RunOptions& options);
+
 /// After an error of files, or where memory ran out: run.json says so, where it can still be
 /// written itself.
 void note_failure(const RunOptions& options, Json json, const std::exception& error) noexcept;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-/// @file  results.h5, fields.xdmf and contact.csv: a snapshot after the other.
+/// @file  results.h5, fields.xdmf, fields.vtkhdf and contact.csv: a snapshot after the other.
 #pragma once
 #include <cstddef>
 #include <filesystem>

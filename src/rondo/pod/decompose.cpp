@@ -4,8 +4,8 @@
 #include <algorithm>
 #include <limits>
 
-#include "rondo/core/blas_threads.hpp"
 #include "rondo/core/contract.hpp"
+#include "rondo/core/process_wide.hpp"
 #include "rondo/pod/methods.hpp"
 #include "rondo/pod/spectrum.hpp"
 #include "rondo/pod/svd.hpp"

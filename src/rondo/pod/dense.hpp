@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// @file  Small dense matrices by the BLAS and LAPACK, which know the processor. They use as many
-/// threads as the caller lets them (core/blas_threads.hpp). Products of matrices: svd.hpp.
+/// threads as the caller lets them (core/process_wide.hpp). Products of matrices: svd.hpp.
 #pragma once
 #include <Eigen/Core>
 

@@ -5,9 +5,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <mutex>
 #include <numbers>
 
 #include "rondo/core/contract.hpp"
+#include "rondo/core/process_wide.hpp"
 
 namespace rondo::pod {
 namespace {
@@ -70,12 +72,14 @@ Rectifier::Rectifier(int n_sectors, std::size_t n_rings, Components components, 
   auto* ring = reinterpret_cast<fftw_complex*>(work_.data());
   // Plans chosen by rule, not by timing: the same bits in every run.
   const unsigned flags = FFTW_ESTIMATE | FFTW_UNALIGNED;
+  const std::lock_guard lock(fftw_planner());
   forward_ = fftw_plan_dft_1d(n_sectors, ring, ring, FFTW_FORWARD, flags);
   backward_ = fftw_plan_dft_1d(n_sectors, ring, ring, FFTW_BACKWARD, flags);
   RONDO_DEMAND(forward_ != nullptr && backward_ != nullptr, n_sectors);
 }
 
 Rectifier::~Rectifier() {
+  const std::lock_guard lock(fftw_planner());
   fftw_destroy_plan(forward_);
   fftw_destroy_plan(backward_);
 }

@@ -4,8 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "rondo/core/blas_threads.hpp"
 #include "rondo/core/contract.hpp"
+#include "rondo/core/process_wide.hpp"
 #include "rondo/core/sum.hpp"
 #include "rondo/pod/svd.hpp"
 

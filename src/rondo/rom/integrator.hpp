@@ -10,7 +10,7 @@
 #include <span>
 #include <vector>
 
-#include "rondo/core/blas_threads.hpp"
+#include "rondo/core/process_wide.hpp"
 #include "rondo/model/integrator.hpp"
 #include "rondo/rom/contact_problem.hpp"
 #include "rondo/rom/moving_rim.hpp"

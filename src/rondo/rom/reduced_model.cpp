@@ -5,8 +5,8 @@
 #include <cmath>
 #include <utility>
 
-#include "rondo/core/blas_threads.hpp"
 #include "rondo/core/contract.hpp"
+#include "rondo/core/process_wide.hpp"
 #include "rondo/pod/dense.hpp"
 
 namespace rondo::rom {

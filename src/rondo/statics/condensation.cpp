@@ -4,8 +4,8 @@
 #include <Eigen/CholmodSupport>
 #include <algorithm>
 
-#include "rondo/core/blas_threads.hpp"
 #include "rondo/core/contract.hpp"
+#include "rondo/core/process_wide.hpp"
 
 namespace rondo::statics {
 
@@ -115,6 +115,15 @@ std::size_t Condensation::n_nodes() const noexcept {
 
 const std::vector<std::size_t>& Condensation::set() const noexcept {
   return impl_->set;
+}
+
+std::vector<std::size_t> Condensation::outside() const {
+  std::vector<char> inside(impl_->place.size(), 0);
+  for (const std::size_t k : impl_->set) inside[k] = 1;
+  std::vector<std::size_t> rest;
+  for (std::size_t k = 0; k < inside.size(); ++k)
+    if (!inside[k]) rest.push_back(k);
+  return rest;
 }
 
 const Eigen::MatrixXd& Condensation::compliance() const noexcept {

@@ -39,6 +39,8 @@ class Condensation {
   [[nodiscard]] std::size_t n_nodes() const noexcept;
   /// (m) Places in `nodes`, in the order of the compliance's rows.
   [[nodiscard]] const std::vector<std::size_t>& set() const noexcept;
+  /// Places in `nodes` that are not in the set, ascending.
+  [[nodiscard]] std::vector<std::size_t> outside() const;
   /// (2m, 2m) G = H K⁻¹ Hᵀ                                                            [m²/N]
   [[nodiscard]] const Eigen::MatrixXd& compliance() const noexcept;
   /// u = K⁻¹ Hᵀ r with one step of refinement. @param r (2m) [N/m]

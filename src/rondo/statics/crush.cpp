@@ -74,11 +74,8 @@ void find_field(const CrushModel& model, const Condensation& body, const CrushSt
 }
 
 std::vector<std::size_t> penetrating_outside(const Condensation& body, const Trial& trial) {
-  std::vector<char> inside(trial.slip.size(), 0);
-  for (const std::size_t k : body.set()) inside[k] = 1;
-  std::vector<std::size_t> found;
-  for (std::size_t k = 0; k < trial.slip.size(); ++k)
-    if (!inside[k] && trial.slip[k].x < 0.0) found.push_back(k);
+  std::vector<std::size_t> found = body.outside();
+  std::erase_if(found, [&](std::size_t k) { return !(trial.slip[k].x < 0.0); });
   return found;
 }
 
@@ -169,11 +166,8 @@ CrushState start_crush(const CrushModel& model, std::size_t n_nodes) {
 }
 
 std::size_t append_within(const CrushModel& model, double reach, Condensation& body) {
-  std::vector<char> inside(model.nodes.size(), 0);
-  for (const std::size_t k : body.set()) inside[k] = 1;
-  std::vector<std::size_t> added;
-  for (std::size_t k = 0; k < model.nodes.size(); ++k)
-    if (!inside[k] && model.clearance[k] <= reach) added.push_back(k);
+  std::vector<std::size_t> added = body.outside();
+  std::erase_if(added, [&](std::size_t k) { return !(model.clearance[k] <= reach); });
   body.append(added);
   return added.size();
 }

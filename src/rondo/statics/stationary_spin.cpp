@@ -7,7 +7,7 @@
 #include <limits>
 #include <utility>
 
-#include "rondo/core/blas_threads.hpp"
+#include "rondo/core/process_wide.hpp"
 
 namespace rondo::statics {
 namespace {

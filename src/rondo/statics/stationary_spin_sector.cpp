@@ -2,7 +2,7 @@
 /// Stationary spin of a body of equal sectors, harmonic by harmonic (docs/theory.md, 6.1).
 #include <Eigen/CholmodSupport>
 
-#include "rondo/core/blas_threads.hpp"
+#include "rondo/core/process_wide.hpp"
 #include "rondo/fem/harmonics.hpp"
 #include "rondo/statics/stationary_spin.hpp"
 

@@ -229,7 +229,7 @@ TEST(ReadCase, TakesTheCasesOfTheRepository) {
     const Case c = read_case(entry.path());
     EXPECT_TRUE(c.warnings.empty());
     expect_round_trip(c);
-    EXPECT_TRUE(file_text(entry.path()).starts_with("# "));
+    EXPECT_TRUE(file_text(entry.path()).starts_with("#:schema schema/case.json\n# "));
     ++count;
   }
   EXPECT_GE(count, 5);

@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
-/// docs/cases.md has the tables of keys that the table of keys gives.
+/// docs/cases.md has the tables of keys that the table of keys gives, cases/schema the schema.
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include "rondo/case/case_keys.hpp"
+#include "rondo/case/schema/case_schema.hpp"
 #include "support/manual.hpp"
 #include "unit/case/case_fixture.hpp"
 
@@ -26,6 +27,11 @@ TEST(Manual, HasTheKeys) {
     tables.push_back(
         {fmt::format("keys: {}", table.path.empty() ? "at the top" : table.path), rows_of(table)});
   rondo::test::expect_in_manual(test::source_folder() / "docs" / "cases.md", tables);
+}
+
+TEST(Manual, HasTheSchemaOfCases) {
+  rondo::test::expect_file(test::source_folder() / "cases" / "schema" / "case.json",
+                           case_schema().dump(2) + "\n");
 }
 
 }  // namespace

@@ -37,6 +37,11 @@ void expect_half(const Folder& folder, SmallRun& run) {
     EXPECT_EQ(position[5][0], static_cast<float>(x.x));
     EXPECT_EQ(position[5][1], static_cast<float>(x.y));
   }
+  const h5::File vtk = h5::File::open(folder / "fields.vtkhdf");
+  const auto steps = vtk.read<double>("/VTKHDF/Steps/Values");  // those of its last 0.1 s may lack
+  ASSERT_TRUE(!steps.empty() && steps.size() <= written) << steps.size();
+  for (std::size_t k = 0; k < steps.size(); ++k) EXPECT_EQ(steps[k], time[k]) << k;
+  EXPECT_EQ(vtk.dataset("/VTKHDF/Points").shape()[1], 3U);
   const std::string text = text_of(folder / "fields.xdmf");
   EXPECT_EQ(count(text, "<Time "), written);
   EXPECT_EQ(count(text, "<Grid "), count(text, "</Grid>"));

@@ -68,7 +68,7 @@ TEST(Results, GoOnAfterTheSnapshotsThatAreKept) {
     EXPECT_EQ(again.written(), 2U);
     for (std::size_t k = 2; k < 5; ++k) again.write(run.snapshot(k));
     again.close();
-    for (const char* name : {"results.h5", "fields.xdmf"})
+    for (const char* name : {"results.h5", "fields.xdmf", "fields.vtkhdf"})
       EXPECT_EQ(text_of(folder / name), text_of(whole / name)) << name << closed;
   }
 }
@@ -309,6 +309,7 @@ TEST(Results, SameValuesGiveTheSameBytes) {
   write_all(b, run, 4, 3);
   EXPECT_EQ(text_of(a / "results.h5"), text_of(b / "results.h5"));
   EXPECT_EQ(text_of(a / "fields.xdmf"), text_of(b / "fields.xdmf"));
+  EXPECT_EQ(text_of(a / "fields.vtkhdf"), text_of(b / "fields.vtkhdf"));
 }
 
 }  // namespace

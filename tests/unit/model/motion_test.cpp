@@ -84,3 +84,20 @@ TEST(Motion, GravityFollowsItsTable) {
   EXPECT_NEAR(frame_step(m, 25, 0.01).pull.y, 5.0, 1e-14);  // at t = 0.25: half way
   EXPECT_EQ(frame_step(m, 80, 0.01).pull, (Vec2{0.0, 10.0}));
 }
+
+TEST(Table, TheIntegralFromTheStartHasTheBitsOfItsPieces) {
+  const Table table({{-1.0, 2.0}, {0.0, 1.7}, {0.3, -0.9}, {0.31, 4.1}, {2.0, 4.1}, {2.7, 0.3}});
+  for (const double end : {1e-3, 0.3, 0.305, 0.31, 1.0, 2.0, 2.5, 2.7, 9.0}) {
+    double sum = 0.0, done = 0.0;
+    for (const auto& point : table.points()) {
+      if (point[0] <= 0.0 || point[0] >= end) continue;
+      const double part = point[0] - done;
+      sum += part * (table.at(done) + 0.5 * table.slope(done) * part);
+      done = point[0];
+    }
+    sum += (end - done) * (table.at(done) + 0.5 * table.slope(done) * (end - done));
+    EXPECT_EQ(table.integral(0.0, end), sum) << end;
+    EXPECT_NEAR(table.integral(0.0, end),
+                table.integral(-0.5, end + 0.5) - table.integral(-0.5, 0.5), 1e-14);
+  }
+}

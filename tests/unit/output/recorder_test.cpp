@@ -80,7 +80,7 @@ TEST_F(RecorderTest, AsManySnapshotsWaitAsMemoryAllowsAndAreOfUse) {
 
 /// Nobody calls for the row: it is there because time goes by.
 TEST_F(RecorderTest, ARowAppearsWithoutASnapshotOrFurtherRows) {
-  Recorder recorder(folder_, plan());
+  FileRecorder recorder(folder_, plan());
   add(recorder, 0.5);
   EXPECT_TRUE(holds_soon([&] {
     recorder.keep_up();
@@ -89,7 +89,7 @@ TEST_F(RecorderTest, ARowAppearsWithoutASnapshotOrFurtherRows) {
 }
 
 TEST_F(RecorderTest, ASnapshotBringsTheRowsBeforeIt) {
-  Recorder recorder(folder_, plan());
+  FileRecorder recorder(folder_, plan());
   add_snapshot(recorder, 0.0);
   for (int k = 1; k <= 5; ++k) add(recorder, k);
   add_snapshot(recorder, 5.0);
@@ -103,7 +103,7 @@ TEST_F(RecorderTest, ASnapshotBringsTheRowsBeforeIt) {
 
 TEST_F(RecorderTest, RowsNotYetHandedOverAreWrittenWhereTheRunBreaksOff) {
   {
-    Recorder recorder(folder_, plan());
+    FileRecorder recorder(folder_, plan());
     for (int k = 1; k <= 5; ++k) add(recorder, k);
   }
   EXPECT_EQ(lines("history.csv"), 6);
@@ -114,7 +114,7 @@ TEST_F(RecorderTest, WhatTheFilesHoldIsSaidInTheUnitOfTheirTime) {
   RecordPlan share = plan();
   share.results.words.time_unit = "1";
   for (const RecordPlan& p : {plan(), share}) {
-    Recorder recorder(folder_, p);
+    FileRecorder recorder(folder_, p);
     add(recorder, 0.25);
     add_snapshot(recorder, 0.25);
     const bool is_time = p.results.words.time_unit == "s";
@@ -129,13 +129,13 @@ TEST_F(RecorderTest, GoesOnWithTheTimeOfTheRowsThatAreKept) {
   rows_only.results.n_snapshots = 0;
   Checkpoint k;
   {
-    Recorder recorder(folder_, rows_only);
+    FileRecorder recorder(folder_, rows_only);
     add(recorder, 1.5);
     add(recorder, 2.5);
   }
   k.files.history_bytes = fs::file_size(folder_ / "history.csv");
   k.files.contact_bytes = fs::file_size(folder_ / "contact.csv");
-  Recorder again(folder_, rows_only, &k);
+  FileRecorder again(folder_, rows_only, &k);
   again.close();
   EXPECT_EQ(again.last_time(), 2.5);
 }
@@ -145,7 +145,7 @@ TEST_F(RecorderTest, AFullDiskIsThrownAtTheLoopAndTheRestIsClosed) {
   RecordPlan rows_only = plan();
   rows_only.results.n_snapshots = 0;
   EXPECT_EQ(in_process([&] {
-              Recorder recorder(folder_, rows_only);
+              FileRecorder recorder(folder_, rows_only);
               std::signal(SIGXFSZ, SIG_IGN);
               const rlimit limit{20000, 20000};
               if (setrlimit(RLIMIT_FSIZE, &limit) != 0) return 1;

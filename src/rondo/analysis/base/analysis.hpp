@@ -48,6 +48,8 @@ class Resumable {
   [[nodiscard]] virtual Checkpoint save() const = 0;
 };
 
+class Stepwise;
+
 class Analysis {
  public:
   Analysis() = default;
@@ -68,6 +70,8 @@ class Analysis {
   [[nodiscard]] virtual Case kept_case(const Case& c) const { return c; }
   /// Null: it keeps no checkpoints.
   [[nodiscard]] virtual Resumable* resumable() noexcept { return nullptr; }
+  /// Null: it is no motion in time.
+  [[nodiscard]] virtual Stepwise* stepwise() noexcept { return nullptr; }
 
   // The loop ------------------------------------------------------------------------------------
   /// Records the start, unless it goes on from a checkpoint.

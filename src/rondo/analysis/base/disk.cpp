@@ -50,7 +50,8 @@ fs::path existing(const fs::path& directory) {
 /// its results.h5 twice while the kept snapshots are copied.
 std::size_t bytes_there(const RunOptions& options) {
   std::size_t bytes = 0;
-  for (const std::string name : {"results.h5", "history.csv", "contact.csv", "fields.xdmf"}) {
+  for (const std::string name :
+       {"results.h5", "history.csv", "contact.csv", "fields.xdmf", "fields.vtkhdf"}) {
     const bool counts = options.overwrite || (options.resume && name != "results.h5");
     std::error_code error;
     const auto size = fs::file_size(options.directory / name, error);

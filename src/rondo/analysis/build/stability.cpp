@@ -82,6 +82,8 @@ std::size_t harmonic_dofs(const dynamics::Model& m) {
   return by_harmonics(m) ? 2 * m.sector->n_local() : 0;
 }
 
+}  // namespace
+
 void warn_of_softening(const Case& c, Setup& s) {
   const dynamics::Model& m = s.model;
   const double spin = largest_until(c.motion.angular_velocity, c.time.end);
@@ -111,6 +113,8 @@ void warn_of_softening(const Case& c, Setup& s) {
         "stiffening is soft there",
         spin, omega.low, omega.high));
 }
+
+namespace {
 
 // Steps and speeds ------------------------------------------------------------------------------
 
@@ -257,10 +261,14 @@ void warn_of_fast_contact(const Case& c, Setup& s) {
 
 }  // namespace
 
-void check_stability(const Case& c, Setup& s) {
+void check_motion(const Case& c, const Setup& s) {
   refuse_wide_turns(c, explicit_step(s.model));
   refuse_wide_rim_turns(c, s.model.dt);
   refuse_wide_change_of_spin(c, s);
+}
+
+void check_stability(const Case& c, Setup& s) {
+  check_motion(c, s);
   refuse_large_turns(c, s);
   warn_of_softening(c, s);
   warn_of_contact_step(s);

@@ -30,6 +30,11 @@ bool softening_is_checked(std::size_t dofs, std::size_t harmonic_dofs) noexcept;
 /// @pre all else of the setup is there
 void check_stability(const Case& c, Setup& s);
 
+/// The motion of the rim alone, and what of a step hangs on it. @throws InputError
+void check_motion(const Case& c, const Setup& s);
+/// Adds a warning where the largest spin is beyond the softening limit, or near it.
+void warn_of_softening(const Case& c, Setup& s);
+
 /// @throws InputError: motion, or the flight of free bodies, brings the body so far from the origin
 /// that its elements are lost in the rounding of coordinates. @param mesh as generated or read
 void check_places(const Case& c, const mesh::Mesh& mesh);

@@ -47,10 +47,6 @@ HistoryRecord record_of(const CrushSetup& setup, const CrushRecord& r) {
   return h;
 }
 
-}  // namespace
-
-namespace {
-
 /// What LATIN leaves of a force on an open node is no contact.
 bool touches(const statics::CrushState& state, std::size_t k) {
   return state.force[k].x > 0.0 && state.status[k] != contact::Status::open;

@@ -17,7 +17,11 @@ using Eigen::Index;
 
 LatinOutcome::LatinOutcome(const CrushSetup& setup, const fem::BlockCsr& stiffness,
                            const statics::Condensation& body, LatinHistories histories)
-    : setup_(setup), stiffness_(stiffness), body_(body), histories_(std::move(histories)) {}
+    : setup_(setup),
+      stiffness_(stiffness),
+      body_(body),
+      outside_(body.outside()),
+      histories_(std::move(histories)) {}
 
 Index LatinOutcome::modes() const noexcept {
   return histories_.separated ? histories_.separated->sigma.size() : 0;
@@ -74,11 +78,9 @@ statics::CrushEquilibrium LatinOutcome::equilibrium(int k) const {
 
 /// A candidate that is in the ground without being one of the condensed.
 std::string LatinOutcome::missed(const statics::CrushState& state, double tolerance) const {
-  std::vector<char> inside(state.slip.size(), 0);
-  for (const std::size_t j : body_.set()) inside[j] = 1;
   const double allowed = tolerance * setup_.path.largest_depth();
-  for (std::size_t j = 0; j < state.slip.size(); ++j) {
-    if (inside[j] || state.slip[j].x >= -allowed) continue;
+  for (const std::size_t j : outside_) {
+    if (state.slip[j].x >= -allowed) continue;
     const Vec2 at = setup_.mesh.coordinates[static_cast<std::size_t>(setup_.model.nodes[j])];
     return fmt::format(
         "the contact node at ({:.4g}, {:.4g}) m comes {:.3g} m into the ground and was not "

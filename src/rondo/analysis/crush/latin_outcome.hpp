@@ -41,6 +41,7 @@ class LatinOutcome {
   const CrushSetup& setup_;
   const fem::BlockCsr& stiffness_;
   const statics::Condensation& body_;
+  const std::vector<std::size_t> outside_;  ///< candidates that are not of the histories
   LatinHistories histories_;
   double largest_force_ = 0.0;  ///< so far, ‖Hᵀ r‖ [N/m]
 };

@@ -3,8 +3,11 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <array>
 #include <chrono>
 #include <cmath>
+#include <iterator>
 #include <optional>
 #include <utility>
 
@@ -82,11 +85,11 @@ MatrixXd LatinSolver::read_fields() {
 
 /// The histories see every candidate that the fields have loads on.
 void LatinSolver::condense_where_loaded(const MatrixXd& fields) {
-  std::vector<char> inside(setup_.model.nodes.size(), 0);
-  for (const std::size_t k : body_->set()) inside[k] = 1;
+  const std::vector<std::size_t> outside = body_->outside(),
+                                 loaded =
+                                     statics::loaded_places(stiffness_, setup_.model.nodes, fields);
   std::vector<std::size_t> added;
-  for (const std::size_t k : statics::loaded_places(stiffness_, setup_.model.nodes, fields))
-    if (!inside[k]) added.push_back(k);
+  std::ranges::set_intersection(outside, loaded, std::back_inserter(added));
   body_->append(added);
 }
 
@@ -150,6 +153,7 @@ void LatinSolver::prepare() {
 }
 
 void LatinSolver::record_iteration() {
+  if (options_.directory.empty()) return;  // into memory
   if (!convergence_)
     convergence_.emplace(
         options_.directory / "convergence.csv",
@@ -169,8 +173,8 @@ std::string LatinSolver::not_converged() const {
   if (a.relaxation > 0.5) otherwise += "a smaller analysis.relaxation; ";
   return fmt::format(
       "LATIN did not converge: after {} iterations the residual is {:.3g} and the indicator "
-      "{:.3g}, "
-      "analysis.tolerance {:g}, with a search direction of {:.4g} N/m2; {}analysis.solver = "
+      "{:.3g}, analysis.tolerance {:g}, with a search direction of {:.4g} N/m2; {}analysis.solver "
+      "= "
       "\"direct\" needs no iterations",
       report_.iterations, report_.residual, report_.indicator, a.tolerance, direction_, otherwise);
 }
@@ -207,7 +211,7 @@ void LatinSolver::write_modes(const statics::Separated& all, double share) {
   modes.latin = report_;
   modes.solves = pgd_->solves();
   modes.most_modes = pgd_->most_modes();
-  write_pgd(options_.directory, modes);
+  if (!options_.directory.empty()) write_pgd(options_.directory, modes);
 }
 
 /// Balanced by the first modes alone.

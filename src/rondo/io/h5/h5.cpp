@@ -1,78 +1,19 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "rondo/io/h5/h5.hpp"
 
-#include <hdf5.h>
-
 #include <algorithm>
-#include <type_traits>
 
 #include "rondo/core/contract.hpp"
 #include "rondo/core/error.hpp"
+#include "rondo/io/h5/library.hpp"
 
 namespace rondo::io::h5 {
 namespace {
-
-static_assert(std::is_same_v<hid_t, std::int64_t>);
-
-/// Innermost message of HDF5's error stack; of a system call only what the system said.
-std::string reason() {
-  std::string text;
-  const auto visit = [](unsigned, const H5E_error2_t* error, void* out) -> herr_t {
-    if (error->desc != nullptr) *static_cast<std::string*>(out) = error->desc;
-    return 0;
-  };
-  H5Ewalk2(H5E_DEFAULT, H5E_WALK_DOWNWARD, visit, &text);
-  H5Eclear2(H5E_DEFAULT);
-  const std::string mark = "error message = '";
-  if (const auto begin = text.find(mark); begin != std::string::npos) {
-    const auto from = begin + mark.size();
-    return text.substr(from, text.find('\'', from) - from);
-  }
-  return text.empty() ? "HDF5 gives no reason" : text;
-}
-
-[[noreturn]] void fail_in(const std::string& path, const std::string& doing) {
-  throw FileError(path, doing + ": " + reason());
-}
-
-/// Errors are thrown, never printed. HDF5 may keep that setting for each thread. What could not be
-/// written is not tried again when the program ends: HDF5 would crash on a file that cannot grow.
-void be_quiet() {
-  static const herr_t no_work_at_exit = H5dont_atexit();
-  static_cast<void>(no_work_at_exit);
-  thread_local const herr_t done = H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);
-  static_cast<void>(done);
-}
-
-hid_t native(Type type) {
-  switch (type) {
-    case Type::float64:
-      return H5T_NATIVE_DOUBLE;
-    case Type::float32:
-      return H5T_NATIVE_FLOAT;
-    case Type::int32:
-      return H5T_NATIVE_INT32;
-    case Type::int64:
-      return H5T_NATIVE_INT64;
-    case Type::uint8:
-      return H5T_NATIVE_UINT8;
-  }
-  return H5I_INVALID_HID;
-}
-
-std::vector<hsize_t> extents(const Shape& shape) {
-  return {shape.begin(), shape.end()};
-}
 
 std::size_t product(const Shape& shape, std::size_t from) {
   std::size_t n = 1;
   for (std::size_t i = from; i < shape.size(); ++i) n *= shape[i];
   return n;
-}
-
-Handle make_space(const Shape& shape, const Shape& most) {
-  const auto dims = extents(shape), max = extents(most);
-  return Handle(H5Screate_simple(static_cast<int>(dims.size()), dims.data(), max.data()));
 }
 
 /// Layout of a dataset written row by row (results.hpp: readable after a kill at any moment).
@@ -110,14 +51,6 @@ bool read_text(hid_t object, const std::string& name, std::string& text) {
   if (value != nullptr) text = value;
   H5free_memory(value);
   return true;
-}
-
-/// Oldest file layout (no consistency flags that a kill would leave set), no file locks.
-Handle file_access() {
-  Handle access(H5Pcreate(H5P_FILE_ACCESS));
-  H5Pset_libver_bounds(access.get(), H5F_LIBVER_EARLIEST, H5F_LIBVER_LATEST);
-  H5Pset_file_locking(access.get(), false, true);
-  return access;
 }
 
 }  // namespace

@@ -6,7 +6,7 @@
 #include <optional>
 #include <utility>
 
-#include "rondo/core/blas_threads.hpp"
+#include "rondo/core/process_wide.hpp"
 #include "rondo/statics/steady/rolling_newton.hpp"
 
 namespace rondo::statics {

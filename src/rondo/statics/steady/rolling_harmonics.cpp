@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "rondo/core/contract.hpp"
+#include "rondo/statics/steady/fourier.hpp"
 
 namespace rondo::statics {
 namespace {
@@ -119,11 +120,11 @@ void RollingHarmonics::find_compliance() {
   }
   history_.resize(n * n * length);
   const int size = turn_;
-  fftw_plan plan = fftw_plan_many_dft_c2r(
-      1, &size, static_cast<int>(n * n), reinterpret_cast<fftw_complex*>(spectra.data()), nullptr,
-      1, static_cast<int>(half), history_.data(), nullptr, 1, size, FFTW_ESTIMATE);
-  fftw_execute(plan);
-  fftw_destroy_plan(plan);
+  transform_once([&] {
+    return fftw_plan_many_dft_c2r(
+        1, &size, static_cast<int>(n * n), reinterpret_cast<fftw_complex*>(spectra.data()), nullptr,
+        1, static_cast<int>(half), history_.data(), nullptr, 1, size, FFTW_ESTIMATE);
+  });
 }
 
 Eigen::Matrix2d RollingHarmonics::compliance(std::size_t a, std::size_t b,
@@ -179,11 +180,11 @@ RollingHarmonics::Block RollingHarmonics::spectrum(const Eigen::MatrixXd& force)
   Eigen::MatrixXd in = force.transpose();  // a column a component
   Block forces(static_cast<Eigen::Index>(half), static_cast<Eigen::Index>(n));
   const int size = turn_;
-  fftw_plan plan = fftw_plan_many_dft_r2c(1, &size, static_cast<int>(n), in.data(), nullptr, 1,
-                                          size, reinterpret_cast<fftw_complex*>(forces.data()),
-                                          nullptr, 1, static_cast<int>(half), FFTW_ESTIMATE);
-  fftw_execute(plan);
-  fftw_destroy_plan(plan);
+  transform_once([&] {
+    return fftw_plan_many_dft_r2c(1, &size, static_cast<int>(n), in.data(), nullptr, 1, size,
+                                  reinterpret_cast<fftw_complex*>(forces.data()), nullptr, 1,
+                                  static_cast<int>(half), FFTW_ESTIMATE);
+  });
   Block u = Block::Zero(n_rows(), static_cast<Eigen::Index>(half));
   const RollingLayer& last = layers_.back();
   const std::size_t n_transfers = transfer_size(layers_);
@@ -209,11 +210,11 @@ Eigen::MatrixXd RollingHarmonics::fields(Eigen::Ref<const Block> spectrum, doubl
   }
   Eigen::MatrixXd out(turn_, turned.cols());
   const int size = turn_;
-  fftw_plan plan = fftw_plan_many_dft_c2r(
-      1, &size, static_cast<int>(turned.cols()), reinterpret_cast<fftw_complex*>(turned.data()),
-      nullptr, 1, static_cast<int>(turned.rows()), out.data(), nullptr, 1, size, FFTW_ESTIMATE);
-  fftw_execute(plan);
-  fftw_destroy_plan(plan);
+  transform_once([&] {
+    return fftw_plan_many_dft_c2r(
+        1, &size, static_cast<int>(turned.cols()), reinterpret_cast<fftw_complex*>(turned.data()),
+        nullptr, 1, static_cast<int>(turned.rows()), out.data(), nullptr, 1, size, FFTW_ESTIMATE);
+  });
   return out.transpose();
 }
 

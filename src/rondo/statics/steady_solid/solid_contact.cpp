@@ -6,7 +6,7 @@
 #include <optional>
 #include <utility>
 
-#include "rondo/core/blas_threads.hpp"
+#include "rondo/core/process_wide.hpp"
 
 namespace rondo::statics {
 namespace {

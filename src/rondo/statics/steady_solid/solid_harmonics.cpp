@@ -9,8 +9,9 @@
 #include <numbers>
 #include <utility>
 
-#include "rondo/core/blas_threads.hpp"
 #include "rondo/core/contract.hpp"
+#include "rondo/core/process_wide.hpp"
+#include "rondo/statics/steady/fourier.hpp"
 
 namespace rondo::statics {
 namespace {
@@ -28,11 +29,6 @@ std::size_t at(Index index) noexcept {
 
 fftw_complex* raw(Complexes* values) noexcept {
   return reinterpret_cast<fftw_complex*>(values);
-}
-
-void run(fftw_plan plan) {
-  fftw_execute(plan);
-  fftw_destroy_plan(plan);
 }
 
 }  // namespace
@@ -109,8 +105,10 @@ void SolidHarmonics::find_compliance() {
   }
   history_.resize(n * n * length);
   const int size = turn_, many = static_cast<int>(n * n);
-  run(fftw_plan_many_dft_c2r(1, &size, many, raw(spectra.data()), nullptr, many, 1, history_.data(),
-                             nullptr, many, 1, FFTW_ESTIMATE));
+  transform_once([&] {
+    return fftw_plan_many_dft_c2r(1, &size, many, raw(spectra.data()), nullptr, many, 1,
+                                  history_.data(), nullptr, many, 1, FFTW_ESTIMATE);
+  });
 }
 
 Eigen::Matrix3d SolidHarmonics::compliance(std::size_t a, std::size_t b, int ahead) const noexcept {
@@ -195,9 +193,11 @@ SolidHarmonics::Block SolidHarmonics::spectrum(const Eigen::MatrixXd& force, Sol
   Eigen::MatrixXd in = force.transpose();  // a column a component
   Block forces(static_cast<Index>(half), static_cast<Index>(n));
   const int size = turn_;
-  run(fftw_plan_many_dft_r2c(1, &size, static_cast<int>(n), in.data(), nullptr, 1, size,
-                             raw(forces.data()), nullptr, 1, static_cast<int>(half),
-                             FFTW_ESTIMATE));
+  transform_once([&] {
+    return fftw_plan_many_dft_r2c(1, &size, static_cast<int>(n), in.data(), nullptr, 1, size,
+                                  raw(forces.data()), nullptr, 1, static_cast<int>(half),
+                                  FFTW_ESTIMATE);
+  });
   Block u = Block::Zero(n_rows(), static_cast<Index>(half));
 #pragma omp parallel for num_threads(body_.threads) schedule(static)
   for (Index k = 0; k < u.cols(); ++k) {
@@ -223,9 +223,11 @@ Eigen::MatrixXd SolidHarmonics::fields(Eigen::Ref<const Block> spectrum, bool ra
     turned.row(k) *= 2 * k == turn_ ? Complexes{} : i * static_cast<double>(k);
   Eigen::MatrixXd out(turn_, turned.cols());
   const int size = turn_;
-  run(fftw_plan_many_dft_c2r(1, &size, static_cast<int>(turned.cols()), raw(turned.data()), nullptr,
-                             1, static_cast<int>(turned.rows()), out.data(), nullptr, 1, size,
-                             FFTW_ESTIMATE));
+  transform_once([&] {
+    return fftw_plan_many_dft_c2r(1, &size, static_cast<int>(turned.cols()), raw(turned.data()),
+                                  nullptr, 1, static_cast<int>(turned.rows()), out.data(), nullptr,
+                                  1, size, FFTW_ESTIMATE);
+  });
   return out.transpose();
 }
 

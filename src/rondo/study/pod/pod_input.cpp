@@ -16,6 +16,7 @@
 
 #include "rondo/core/bytes.hpp"
 #include "rondo/study/sweep/sweep.hpp"
+#include "rondo/study/sweep/sweep_directory.hpp"
 
 namespace rondo::study {
 namespace {
@@ -253,6 +254,9 @@ PodRequest with_members(const PodRequest& asked) {
   for (const std::filesystem::path& directory : asked.runs) {
     std::error_code error;
     if (!std::filesystem::exists(directory / "sweep.json", error)) {
+      if (std::filesystem::exists(directory / shards_folder, error))
+        throw request_error("RUN", directory.string(), "holds shards that are not collected",
+                            "rondo sweep STUDY --collect before");
       request.runs.push_back(directory);
       continue;
     }

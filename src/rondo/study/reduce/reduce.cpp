@@ -13,8 +13,8 @@
 
 #include "rondo/analysis/build/build.hpp"
 #include "rondo/analysis/reduced_file.hpp"
-#include "rondo/core/blas_threads.hpp"
 #include "rondo/core/error.hpp"
+#include "rondo/core/process_wide.hpp"
 #include "rondo/io/csv.hpp"
 #include "rondo/rom/step_matrices.hpp"
 #include "rondo/study/pod/pod_input.hpp"

@@ -70,7 +70,9 @@ bool can_go_on(const fs::path& directory, const Case& c) {
 }
 
 fs::path directory_of(const MemberRunner& runner, std::size_t member) {
-  return run_directory(runner.directory, member, runner.plan.members.size());
+  const bool lent = runner.plan.members[member].part == Part::lent;
+  return run_directory(lent ? runner.lent_directory : runner.directory, member,
+                       runner.plan.members.size());
 }
 
 /// Where the modes are that a member begins with, and what they are called, wherever the sweep is.

@@ -20,6 +20,7 @@ struct MemberRunner {
   const SweepStudy& study;
   const PlannedSweep& plan;
   const std::filesystem::path& directory;  ///< of the sweep
+  std::filesystem::path lent_directory;    ///< with runs/ of members that are lent
   const std::vector<MemberRow>& rows;      ///< (members) of phases before: see phases_of()
   std::function<void()> tick;              ///< called now and then within a run; may be empty
   SharedBody shared;

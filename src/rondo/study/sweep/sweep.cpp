@@ -1,279 +1,55 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "rondo/study/sweep/sweep.hpp"
 
-#include <fmt/format.h>
-#include <malloc.h>
-
-#include <algorithm>
-#include <chrono>
-#include <map>
 #include <optional>
-#include <stdexcept>
-#include <utility>
 
-#include "rondo/analysis/base/strain_watch.hpp"
-#include "rondo/case/case_keys.hpp"
-#include "rondo/case/case_source.hpp"
-#include "rondo/core/column.hpp"
 #include "rondo/core/error.hpp"
-#include "rondo/io/files.hpp"
-#include "rondo/output/run_files.hpp"
-#include "rondo/study/sweep/kept_runs.hpp"
+#include "rondo/io/directory.hpp"
 #include "rondo/study/sweep/member_run.hpp"
 #include "rondo/study/sweep/sweep_directory.hpp"
-#include "rondo/study/sweep/sweep_results.hpp"
+#include "rondo/study/sweep/sweep_rows.hpp"
 
 namespace rondo::study {
 namespace {
 
-namespace fs = std::filesystem;
-using Clock = std::chrono::steady_clock;
-
-constexpr const char* leader_failed = "failed";
-
-// The whole -------------------------------------------------------------------------------------
-
-class Sweep {
- public:
-  Sweep(const SweepRequest& request, const SweepStudy& study, const PlannedSweep& plan)
-      : request_(request), study_(study), plan_(plan), rows_(plan.members.size()) {}
-
-  void write(const char* status) const {
-    io::write_json(request_.directory / "sweep.json", describe(status));
-  }
-
-  /// @param members whose pieces they are
-  void take(const std::vector<std::size_t>& members, const std::vector<Piece>& pieces) {
-    for (std::size_t k = 0; k < pieces.size(); ++k) {
-      MemberRow& row = rows_[members[k]];
-      if (pieces[k].state == Piece::State::done) row = unpacked(pieces[k].text);
-      if (pieces[k].state == Piece::State::failed) {
-        row.status = MemberStatus::failed;
-        row.code = pieces[k].code;
-        row.message = pieces[k].text;
-      }
-      row.worker = pieces[k].worker;
-    }
-  }
-
-  /// Of members that were not reached, as far as they were done before.
-  void take_what_is_there(const MemberRunner& runner) {
-    if (plan_.direct) return;
-    for (std::size_t m = 0; m < rows_.size(); ++m)
-      if (rows_[m].status == MemberStatus::waiting)
-        if (std::optional<MemberRow> row = kept_row(runner, m)) rows_[m] = *std::move(row);
-  }
-
-  [[nodiscard]] const std::vector<MemberRow>& rows() const noexcept { return rows_; }
-
-  /// Of these members.
-  [[nodiscard]] bool is_unfinished(const std::vector<std::size_t>& members) const {
-    return std::ranges::any_of(members, [&](std::size_t m) { return is_unfinished(rows_[m]); });
-  }
-
-  void write_tables() const { study::write_tables(request_.directory, {study_, plan_, rows_}); }
-
-  [[nodiscard]] SweepReport report() const {
-    SweepReport r;
-    r.members = rows_.size();
-    for (std::size_t m = 0; m < rows_.size(); ++m) {
-      const MemberRow& row = rows_[m];
-      r.kept += row.kept ? 1 : 0;
-      r.done += row.status == MemberStatus::done ? 1 : 0;
-      const bool unfinished = is_unfinished(row);
-      r.interrupted += unfinished ? 1 : 0;
-      if (unfinished) r.code = exit_interrupted;
-      if (row.status != MemberStatus::failed) continue;
-      ++r.failed;
-      if (r.code != exit_interrupted) r.code = std::max(r.code, row.code);
-      if (r.failures.size() < most_told)
-        r.failures.push_back(name_of(study_, plan_.members[m].member, m + 1) + place_of(m) + ": " +
-                             row.message);
-    }
-    add_strains(r);
-    r.wall_s = wall();
-    return r;
-  }
-
- private:
-  static constexpr std::size_t most_told = 5;
-
-  [[nodiscard]] static bool is_unfinished(const MemberRow& row) noexcept {
-    return row.status == MemberStatus::interrupted || row.status == MemberStatus::waiting;
-  }
-
-  [[nodiscard]] std::string place_of(std::size_t m) const {
-    if (plan_.direct) return {};
-    return " in " + run_directory(request_.directory, m, rows_.size()).string();
-  }
-
-  [[nodiscard]] double wall() const {
-    return std::chrono::duration<double>(Clock::now() - begin_).count();
-  }
-
-  void add_strains(SweepReport& r) const {
-    const std::span<const FigureColumn> columns = plan_.type->figures.columns;
-    const auto found = std::ranges::find(columns, "strain_max", &FigureColumn::name);
-    if (found == columns.end()) return;
-    const auto place = static_cast<std::size_t>(found - columns.begin());
-    for (std::size_t m = 0; m < rows_.size(); ++m) {
-      if (rows_[m].figures.empty() || !plan_.members[m].is_linear) continue;
-      const double strain = rows_[m].figures[place];  // NaN is above nothing
-      r.strained += strain > small_strain ? 1 : 0;
-      if (!(strain > r.strain_max)) continue;
-      r.strain_max = strain;
-      r.strain_run = m + 1;
-    }
-  }
-
-  [[nodiscard]] Json describe_parameters() const {
-    Json all = Json::array();
-    for (const Vary& vary : study_.parameters) {
-      const CaseKey* key = find_case_key(vary.key);
-      all.push_back({{"key", vary.key},
-                     {"unit", std::string(key ? unit_of(key->unit, plan_.is_solid) : "-")},
-                     {"kind", vary.uniform ? "uniform" : "values"}});
-    }
-    return all;
-  }
-
-  [[nodiscard]] Json describe(const char* status) const {
-    const auto time = [](const std::optional<double>& t) { return t ? Json(*t) : Json(); };
-    Json j;
-    j["format"] = sweep_format;
-    j["status"] = status;
-    j["title"] = study_.title;
-    describe_program(j);
-    j["analysis"] = plan_.type->name;
-    j["study"] = as_utf8(study_.file.filename().string());
-    j["base"] = as_utf8(study_.base.filename().string());
-    j["parameters"] = describe_parameters();
-    j["columns"] = Json::array();
-    for (const FigureColumn& column : plan_.type->figures.columns)
-      j["columns"].push_back({{"name", column.name}, {"unit", column.unit}});
-    j["window"] = {{"from", time(study_.window.from)}, {"to", time(study_.window.to)}};
-    j["members"] = rows_.size();
-    j["members_hash"] = hash_of(study_, plan_);
-    const SweepReport r = report();
-    j["done"] = r.done;
-    j["failed"] = r.failed;
-    j["failures"] = Json::array();
-    for (std::size_t m = 0; m < rows_.size(); ++m)
-      if (rows_[m].status == MemberStatus::failed)
-        j["failures"].push_back({{"run", m + 1}, {"message", as_utf8(rows_[m].message)}});
-    j["wall_s"] = r.wall_s;
-    return j;
-  }
-
-  const SweepRequest& request_;
-  const SweepStudy& study_;
-  const PlannedSweep& plan_;
-  std::vector<MemberRow> rows_;
-  Clock::time_point begin_ = Clock::now();
-};
-
-SweepStudy study_of(const SweepRequest& request) {
-  SweepStudy study = read_study(request.study);
-  study.settings.insert(study.settings.end(), request.settings.begin(), request.settings.end());
-  check_settings(study);
-  return study;
-}
-
-/// Each text once, with the number of members that it is said of.
-void warn_of_members(const SweepRequest& request, const PlannedSweep& plan) {
-  if (!request.warn) return;
-  std::map<std::string, std::pair<std::size_t, std::size_t>> said;  // first member, how many
-  for (std::size_t m = 0; m < plan.members.size(); ++m)
-    for (const std::string& warning : plan.members[m].warnings)
-      ++said.try_emplace(warning, m + 1, 0).first->second.second;
-  for (const auto& [text, of] : said)
-    request.warn(of.second == 1 ? fmt::format("run {}: {}", of.first, text)
-                                : fmt::format("run {} and {} other{}: {}", of.first, of.second - 1,
-                                              of.second == 2 ? "" : "s", text));
-}
-
-/// The leader's part before the runs; where it fails, all do.
-std::optional<io::DirectoryLock> begin(const SweepRequest& request, const Sweep& sweep,
+/// The directory is taken as long as the lock is held: by the leader.
+std::optional<io::DirectoryLock> begin(const SweepRequest& request, const SweepRows& rows,
                                        const SweepStudy& study, const PlannedSweep& plan,
                                        Team& team) {
   std::optional<io::DirectoryLock> lock;
-  if (team.leads()) {
-    try {
-      prepare_sweep(request, hash_of(study, plan));
-      lock.emplace(request.directory);
-      demand_room(request, plan);  // before anything is removed
-      clear_sweep(request);
-      sweep.write("running");
-      warn_of_members(request, plan);
-      if (request.begin) request.begin(plan, team.workers());
-    } catch (const std::exception&) {
-      static_cast<void>(team.from_leader(leader_failed));
-      throw;
-    }
-  }
-  if (team.from_leader("") == leader_failed)
-    throw std::runtime_error("the leader of the team has failed");
+  lead(team, [&] {
+    prepare_sweep(request, hash_of(study, plan));
+    lock.emplace(request.directory);
+    demand_room(request, plan);  // before anything is removed
+    clear_sweep(request);
+    rows.write("running");
+    warn_of_members(request, plan);
+    if (request.begin) request.begin(plan, team.workers());
+  });
   return lock;
-}
-
-/// Part by part, up to one that is not finished. All members of the team call it.
-void run_members(const SweepRequest& request, const PlannedSweep& plan, MemberRunner& runner,
-                 Team& team, Sweep& sweep) {
-  std::size_t before = 0;
-  for (const std::vector<std::size_t>& members : phases_of(plan)) {
-    TeamWork work;
-    work.count = members.size();
-    work.work = [&](std::size_t k, const std::atomic<bool>& stop) {
-      return packed(run_member(runner, members[k], stop));
-    };
-    if (request.progress)
-      work.watch = [&](std::size_t ended) {
-        request.progress(static_cast<long long>(before) + static_cast<long long>(ended),
-                         static_cast<long long>(plan.order.size()));
-      };
-    sweep.take(members, team.each(work));
-    if (sweep.is_unfinished(members)) return;
-    before += members.size();
-  }
-}
-
-/// Members of a millisecond would spend a fifth of it on giving memory back and asking for it
-/// again.
-void keep_freed_memory() noexcept {
-  constexpr int bytes = 32 << 20;  // the most that it takes
-  mallopt(M_MMAP_THRESHOLD, bytes);
-  mallopt(M_TRIM_THRESHOLD, 4 * bytes);
-}
-
-SweepReport interrupted_report(std::size_t members) {
-  SweepReport report;
-  report.members = report.interrupted = members;
-  report.code = exit_interrupted;
-  return report;
 }
 
 }  // namespace
 
 DrySweep check_sweep(const SweepRequest& request, Team& team) {
   DrySweep dry{study_of(request), {}};
-  dry.plan = plan_sweep({dry.study, true, request.checking}, team);
+  dry.plan = plan_sweep({dry.study, true, request.checking, {}}, team);
   return dry;
 }
 
 SweepReport run_sweep(const SweepRequest& request, Team& team) {
   const SweepStudy study = study_of(request);
-  const PlannedSweep plan = plan_sweep({study, false, request.checking}, team);
-  if (plan.stopped) return interrupted_report(plan.members.size());
-  Sweep sweep(request, study, plan);
-  const std::optional<io::DirectoryLock> lock = begin(request, sweep, study, plan, team);
-  if (plan.direct) keep_freed_memory();
-  MemberRunner runner{study, plan, request.directory, sweep.rows(), team.tick(), {}};
-  run_members(request, plan, runner, team, sweep);
-  if (team.leads()) sweep.take_what_is_there(runner);
-  const SweepReport report = sweep.report();
+  const PlannedSweep plan = plan_sweep({study, false, request.checking, {}}, team);
+  if (plan.stopped) return interrupted_report(plan);
+  SweepRows rows(request, study, plan);
+  const std::optional<io::DirectoryLock> lock = begin(request, rows, study, plan, team);
+  MemberRunner runner{study, plan, request.directory, {}, rows.rows(), team.tick(), {}};
+  run_members(request, runner, team, rows);
+  if (team.leads()) rows.take_what_is_there(runner);
+  const SweepReport report = rows.report();
   if (team.leads()) {
-    sweep.write_tables();
-    sweep.write(report.interrupted > 0 ? "interrupted" : report.failed > 0 ? "failed" : "done");
+    rows.write_tables();
+    rows.write(status_of(report));
   }
   return report;
 }

@@ -7,6 +7,7 @@
 #include <array>
 #include <optional>
 #include <span>
+#include <string_view>
 #include <system_error>
 
 #include "rondo/core/error.hpp"
@@ -22,9 +23,8 @@ namespace fs = std::filesystem;
 
 constexpr std::array files_written{"results.csv", "sweep.h5", "timings.csv"};
 
-/// What sweep.json says that is there. @throws InputError, FileError
-void accept(const SweepRequest& request, const std::string& hash) {
-  const fs::path& directory = request.directory;
+/// sweep.json, of a format that this program knows. @throws InputError, FileError
+Json read_sweep(const fs::path& directory) {
   Json found;
   try {
     found = io::read_json(directory / "sweep.json");
@@ -36,22 +36,25 @@ void accept(const SweepRequest& request, const std::string& hash) {
                          fmt::format("holds a sweep of format \"{}\", not \"{}\"",
                                      text_in(found, "format"), sweep_format),
                          "choose another -o");
+  return found;
+}
+
+/// A sweep.json is there. @throws InputError, FileError
+void accept(const SweepRequest& request, const std::string& hash) {
+  static_cast<void>(read_sweep(request.directory));
   if (request.overwrite) return;
   if (!request.resume)
-    io::refuse_directory(directory, "holds a sweep",
+    io::refuse_directory(request.directory, "holds a sweep",
                          "give --resume to continue it or --overwrite to begin anew, or choose "
                          "another -o");
-  if (text_in(found, "members_hash") != hash)
-    io::refuse_directory(directory,
-                         "holds another sweep: study, base case, mesh or --set have changed since",
-                         "choose another -o, or give --overwrite to begin anew");
-  if (!is_of_this_program(found))
-    io::refuse_directory(directory,
-                         fmt::format("holds a sweep of another build of rondo ({}, build id {}), "
-                                     "whose runs this one would all make again",
-                                     text_in(found, "version"), text_in(found, "build_id")),
-                         "go on with that program, choose another -o, or give --overwrite to begin "
-                         "anew");
+  demand_same_sweep(request.directory, hash, ", or give --overwrite to begin anew");
+}
+
+/// Shards that are at work there are not to lose their runs. @throws FileError
+void demand_no_shard_at_work(const fs::path& directory) {
+  std::error_code error;
+  for (const auto& entry : fs::directory_iterator(directory / shards_folder, error))
+    if (entry.is_directory(error)) static_cast<void>(io::DirectoryLock(entry.path()));
 }
 
 }  // namespace
@@ -72,27 +75,57 @@ std::string hash_of(const SweepStudy& study, const PlannedSweep& plan) {
   return hash.text();
 }
 
-void prepare_sweep(const SweepRequest& request, const std::string& hash) {
-  const fs::path& directory = request.directory;
+void demand_same_sweep(const fs::path& directory, const std::string& hash,
+                       const std::string& otherwise) {
+  const Json found = read_sweep(directory);
+  if (text_in(found, "members_hash") != hash)
+    io::refuse_directory(directory,
+                         "holds another sweep: study, base case, mesh or --set have changed since",
+                         "choose another -o" + otherwise);
+  if (!is_of_this_program(found))
+    io::refuse_directory(directory,
+                         fmt::format("holds a sweep of another build of rondo ({}, build id {}), "
+                                     "whose runs this one would all make again",
+                                     text_in(found, "version"), text_in(found, "build_id")),
+                         "go on with that program, choose another -o" + otherwise);
+}
+
+void refuse_foreign_files(const fs::path& directory, bool runs) {
   std::error_code error;
-  if (fs::exists(directory, error) && !fs::is_directory(directory, error))
-    io::refuse_directory(directory, "is there and is not a directory", "choose another -o");
-  if (fs::exists(directory / "sweep.json", error)) return accept(request, hash);
   for (const char* name :
        {"run.json", "runs", files_written[0], files_written[1], files_written[2]})
-    if (fs::exists(directory / name, error))
+    if ((runs || std::string_view(name) != "runs") && fs::exists(directory / name, error))
       io::refuse_directory(directory, fmt::format("holds {}, and no sweep", name),
                            "choose another -o");
+}
+
+void make_directory(const fs::path& directory) {
+  std::error_code error;
   fs::create_directories(directory, error);
   if (error)
     throw FileError(directory.string(),
                     "cannot create directory: " + error.message() + "; choose another -o");
 }
 
+void prepare_sweep(const SweepRequest& request, const std::string& hash) {
+  const fs::path& directory = request.directory;
+  std::error_code error;
+  if (fs::exists(directory, error) && !fs::is_directory(directory, error))
+    io::refuse_directory(directory, "is there and is not a directory", "choose another -o");
+  demand_no_shard_at_work(directory);
+  if (fs::exists(directory / "sweep.json", error)) return accept(request, hash);
+  if (fs::exists(directory / shards_folder, error))
+    io::refuse_directory(directory, "holds shards of a sweep that are not collected",
+                         "rondo sweep STUDY --collect, or choose another -o");
+  refuse_foreign_files(directory, true);
+  make_directory(directory);
+}
+
 void clear_sweep(const SweepRequest& request) {
   if (!request.overwrite) return;
   std::error_code error;
-  for (const char* name : {"runs", "pod", files_written[0], files_written[1], files_written[2]})
+  for (const char* name :
+       {"runs", "pod", shards_folder, files_written[0], files_written[1], files_written[2]})
     fs::remove_all(request.directory / name, error);
 }
 

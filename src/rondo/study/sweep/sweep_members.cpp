@@ -96,7 +96,7 @@ void read_members(const SweepStudy& study, PlannedSweep& plan, MemberFaults& fau
         plan.type = &type;
       plan.is_solid = is_solid(c);
       plan.direct = plan.type->direct && !study.snapshots;
-      member.hash = hash_of(write_case(c) + meshes.of(c));
+      member.hash = hash_of(write_case(kept_case(c)) + meshes.of(c));  // wherever it is read from
       member.body = hash_of(body_key(c) + meshes.of(c));
       member.is_linear = !has_rubber(c);
       member.finds_modes = finds_modes(c);
@@ -194,7 +194,8 @@ void take_check(const nlohmann::json& j, std::size_t m, PlannedMember& member,
 bool build_members(const MembersRequest& request, Team& team, PlannedSweep& plan,
                    MemberFaults& faults) {
   std::vector<std::size_t> order = by_body(plan.members);
-  std::erase_if(order, [&](std::size_t m) { return faults.has(m); });
+  std::erase_if(
+      order, [&](std::size_t m) { return faults.has(m) || plan.members[m].part == Part::other; });
   Checker checker;
   TeamWork work;
   work.count = order.size();
@@ -215,7 +216,8 @@ bool build_members(const MembersRequest& request, Team& team, PlannedSweep& plan
 /// As many workers as there is memory for.
 void limit_workers(const std::vector<PlannedMember>& members, Team& team) {
   std::size_t most = 1;
-  for (const PlannedMember& member : members) most = std::max(most, member.memory_bytes);
+  for (const PlannedMember& member : members)
+    if (member.part != Part::other) most = std::max(most, member.memory_bytes);
   const std::size_t at_once = allowed_memory().bytes / most;
   team.limit_workers(static_cast<int>(std::clamp<std::size_t>(at_once, 1, 100'000)));
 }
@@ -246,6 +248,8 @@ PlannedSweep plan_sweep(const MembersRequest& request, Team& team) {
   }
   MemberFaults faults(study, members.size());
   read_members(study, plan, faults);
+  hand_on_modes(plan.members);
+  if (request.choose && !faults.any()) request.choose(plan.members);
   limit_workers(plan.members, team);
   if (!build_members(request, team, plan, faults)) {
     plan.stopped = true;
@@ -254,13 +258,13 @@ PlannedSweep plan_sweep(const MembersRequest& request, Team& team) {
   if (faults.any()) faults.raise(members);
   limit_workers(plan.members, team);
   plan.order = by_cost(plan.members);
-  hand_on_modes(plan.members);
   return plan;
 }
 
 std::vector<std::vector<std::size_t>> phases_of(const PlannedSweep& plan) {
   std::vector<std::vector<std::size_t>> phases(2);
-  for (const std::size_t m : plan.order) phases[plan.members[m].modes_of ? 1 : 0].push_back(m);
+  for (const std::size_t m : plan.order)
+    if (plan.members[m].part != Part::other) phases[plan.members[m].modes_of ? 1 : 0].push_back(m);
   if (phases[1].empty()) phases.pop_back();
   return phases;
 }

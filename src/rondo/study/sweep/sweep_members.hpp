@@ -24,8 +24,16 @@ struct MemberCost {
   std::vector<std::string> warnings;
 };
 
+/// Who makes a member.
+enum class Part {
+  own,    ///< this sweep, or this shard of it
+  lent,   ///< another shard; made here as well, for its modes alone
+  other,  ///< another shard: it is read here and not built
+};
+
 struct PlannedMember : MemberCost {
   Member member;
+  Part part = Part::own;
   std::vector<std::string> settings;  ///< all of them
   std::string hash;                   ///< of the case as run and its mesh
   std::string body;                   ///< likewise of what members share: see body_key()
@@ -41,6 +49,8 @@ struct MembersRequest {
   bool seconds = false;  ///< estimate them
   /// Takes what is counted, how many of them are done, how many there are; may be empty.
   std::function<void(const char* what, long long done, long long all)> progress;
+  /// Sets the parts of the members when they are read, before any is built; empty: all are own.
+  std::function<void(std::vector<PlannedMember>& members)> choose;
 
   /// For TeamWork::watch.
   [[nodiscard]] std::function<void(std::size_t)> watch(const char* what, std::size_t all) const;
@@ -58,12 +68,12 @@ struct PlannedSweep {
   bool direct = false;
 };
 
-/// Reads every member's case, builds every member once. @throws InputError with all
-/// faults of all members, each once, with the members that it concerns; FileError
+/// Reads every member's case, builds every member once that is made here. @throws InputError with
+/// all faults of all members, each once, with the members that it concerns; FileError
 [[nodiscard]] PlannedSweep plan_sweep(const MembersRequest& request, Team& team);
 
-/// The order in parts, of which each is done before the next: members begin with modes of those in
-/// parts before.
+/// The order in parts, without the members that are made elsewhere, of which each is done before
+/// the next: members begin with modes of those in parts before.
 [[nodiscard]] std::vector<std::vector<std::size_t>> phases_of(const PlannedSweep& plan);
 
 /// @throws InputError

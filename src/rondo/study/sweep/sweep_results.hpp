@@ -26,6 +26,11 @@ struct MemberRow {
   double wall_s = 0.0;  ///< of the run when it was made
 };
 
+/// It has not come to an end, good or bad.
+[[nodiscard]] inline bool is_unfinished(const MemberRow& row) noexcept {
+  return row.status == MemberStatus::interrupted || row.status == MemberStatus::waiting;
+}
+
 [[nodiscard]] std::string packed(const MemberRow& row);
 /// @pre made by packed()
 [[nodiscard]] MemberRow unpacked(const std::string& text);

@@ -13,49 +13,31 @@
 #include "rondo/case/case_keys.hpp"
 #include "rondo/case/case_source.hpp"
 #include "rondo/case/toml_text.hpp"
+#include "rondo/core/contract.hpp"
+#include "rondo/study/sweep/keys/study_keys.hpp"
 
 namespace rondo::study {
 namespace {
 
-constexpr std::array top_keys{"schema", "title", "base", "set", "snapshots"};
-constexpr std::array vary_keys{"key", "values", "linspace", "uniform"};
-constexpr std::array sample_keys{"kind", "count", "seed"};
-constexpr std::array window_keys{"from", "to"};
-
-bool is_study_table(std::string_view path) {
-  const std::string any = without_indices(path);
-  return any == "sample" || any == "window";
-}
-
-bool is_study_list(std::string_view path) {
-  return path == "vary";
-}
-
 constexpr TomlShape study_shape{"a study file", is_study_table, is_study_list};
-
-template <std::size_t N>
-std::string list_of(const std::array<const char*, N>& words) {
-  std::string text;
-  for (const char* word : words) text += (text.empty() ? "" : ", ") + std::string(word);
-  return text;
-}
 
 /// The keys allowed beside one, in words.
 std::string allowed_beside(std::string_view path) {
   const std::string table = without_indices(table_of(path));
-  if (table == "vary[]") return "in [[vary]]: " + list_of(vary_keys);
-  if (table == "sample") return "in [sample]: " + list_of(sample_keys);
-  if (table == "window") return "in [window]: " + list_of(window_keys);
-  return "at the top: " + list_of(top_keys) + ", [[vary]], [sample], [window]";
+  const bool known = is_study_table(table);
+  return fmt::format("{}: {}", known ? "in " + heading_of(table) : "at the top",
+                     study_keys_text(known ? table : ""));
 }
 
 bool is_known(std::string_view path) {
-  const std::string any = without_indices(path);
-  const auto in = [&](const auto& words, const std::string& table) {
-    return std::ranges::any_of(words, [&](const char* word) { return any == table + word; });
-  };
-  return in(top_keys, "") || in(vary_keys, "vary[].") || in(sample_keys, "sample.") ||
-         in(window_keys, "window.") || any == "vary[].target";  // told by refuse_target()
+  return find_study_key(path) != nullptr ||
+         without_indices(path) == "vary[].target";  // told by refuse_target()
+}
+
+std::string allowed_at(std::string_view path) {
+  const StudyKey* key = find_study_key(path);
+  RONDO_DEMAND(key != nullptr, path);
+  return std::string(key->allowed);
 }
 
 /// Reads the values of a study, and gathers all faults.
@@ -82,6 +64,9 @@ class Reader {
     return found == source_.tables.end() ? 0 : found->second.line;
   }
 
+  void fault(const std::string& path, std::string message) {
+    fault(path, std::move(message), allowed_at(path));
+  }
   void fault(const std::string& path, std::string message, std::string allowed) {
     const CaseValue* value = find(path);
     Place place = value ? value->place : Place{};
@@ -93,52 +78,48 @@ class Reader {
   }
 
   /// Null, and a fault, where it is of another type.
-  const CaseValue* typed(const std::string& path, ValueType type, std::string_view allowed) {
+  const CaseValue* typed(const std::string& path, ValueType type) {
     const CaseValue* value = find(path);
     if (!value || value->type == type) return value;
-    fault(path, fmt::format("must be {}, not {}", type_word(type), type_word(value->type)),
-          std::string(allowed));
+    fault(path, fmt::format("must be {}, not {}", type_word(type), type_word(value->type)));
     return nullptr;
   }
 
-  std::string text(const std::string& path, std::string_view allowed) {
-    const CaseValue* value = typed(path, ValueType::text, allowed);
-    if (value && value->text.empty()) fault(path, "is empty", std::string(allowed));
+  std::string text(const std::string& path) {
+    const CaseValue* value = typed(path, ValueType::text);
+    if (value && value->text.empty()) fault(path, "is empty");
     return value ? value->text : std::string();
   }
 
-  std::optional<double> number(const std::string& path, std::string_view allowed) {
+  std::optional<double> number(const std::string& path) {
     const CaseValue* value = find(path);
     if (!value) return std::nullopt;
     const bool right = value->type == ValueType::number || value->type == ValueType::integer;
     if (right && std::isfinite(value->number)) return value->number;
-    fault(path, "must be a finite number", std::string(allowed));
+    fault(path, "must be a finite number");
     return std::nullopt;
   }
 
-  std::optional<std::int64_t> integer(const std::string& path, std::int64_t least,
-                                      std::int64_t most) {
-    const std::string allowed = fmt::format("an integer from {} to {}", least, most);
-    const CaseValue* value = typed(path, ValueType::integer, allowed);
+  std::optional<std::int64_t> integer(const std::string& path, const Range& range) {
+    const CaseValue* value = typed(path, ValueType::integer);
     if (!value) return std::nullopt;
-    if (value->integer >= least && value->integer <= most) return value->integer;
-    fault(path, "is out of bounds", allowed);
+    if (range.contains(value->number)) return value->integer;
+    fault(path, "is out of bounds");
     return std::nullopt;
   }
 
   /// `n` finite numbers; null, and a fault, where it is something else.
-  const CaseValue* numbers(const std::string& path, std::size_t n, std::string_view allowed) {
+  const CaseValue* numbers(const std::string& path, std::size_t n) {
     const CaseValue* value = find(path);
     if (!value) return nullptr;
-    constexpr double most = 1e300;  // what lies between is a number too
     const auto right = [](const CaseValue& v) {
       return (v.type == ValueType::number || v.type == ValueType::integer) &&
-             std::abs(v.number) <= most;
+             ends.contains(v.number);
     };
     if (value->type == ValueType::array && value->items.size() == n &&
         std::ranges::all_of(value->items, right))
       return value;
-    fault(path, fmt::format("must be {} finite numbers", n), std::string(allowed));
+    fault(path, fmt::format("must be {} finite numbers", n));
     return nullptr;
   }
 
@@ -154,25 +135,24 @@ class Reader {
 };
 
 void read_top(Reader& in, SweepStudy& study) {
-  constexpr std::string_view schema_allowed = "1";
-  const CaseValue* schema = in.typed("schema", ValueType::integer, schema_allowed);
+  const CaseValue* schema = in.typed("schema", ValueType::integer);
   if (!in.find("schema")) in.fault("schema", "is missing", "schema = 1");
   if (schema && schema->integer != 1)
-    in.fault("schema", "is from another version of rondo; this one reads 1", "1");
+    in.fault("schema", "is from another version of rondo; this one reads 1");
   if (!in.find("base"))
     in.fault("base", "is missing", "base = \"case.toml\", relative to the study");
-  const std::string base = in.text("base", "a case file, relative to the study");
+  const std::string base = in.text("base");
   if (!base.empty()) study.base = study.file.parent_path() / base;
-  study.title = in.find("title") ? in.text("title", "any text") : study.file.stem().string();
-  if (const CaseValue* snapshots = in.typed("snapshots", ValueType::boolean, "true or false"))
+  study.title = in.find("title") ? in.text("title") : study.file.stem().string();
+  if (const CaseValue* snapshots = in.typed("snapshots", ValueType::boolean))
     study.snapshots = snapshots->boolean;
-  const CaseValue* set = in.typed("set", ValueType::array, "[\"a.b=value\", ...]");
+  const CaseValue* set = in.typed("set", ValueType::array);
   if (!set) return;
   for (const CaseValue& item : set->items) {
     if (item.type == ValueType::text && item.text.find('=') != std::string::npos)
       study.settings.push_back(item.text);
     else
-      in.fault("set", "an item is not a setting", "[\"a.b=value\", ...]");
+      in.fault("set", "an item is not a setting");
   }
 }
 
@@ -196,23 +176,21 @@ std::vector<std::string> linspace(const CaseValue& of, std::int64_t n) {
 }
 
 void read_linspace(Reader& in, const std::string& path, Vary& vary) {
-  constexpr std::string_view allowed = "[from, to, n], n an integer of at least 2";
-  const CaseValue* value = in.numbers(path, 3, allowed);
+  const CaseValue* value = in.numbers(path, 3);
   if (!value) return;
   const CaseValue& n = value->items[2];
-  if (n.type != ValueType::integer || n.integer < 2 ||
-      n.integer > static_cast<std::int64_t>(most_members))
-    return in.fault(path, "is an empty range", std::string(allowed));
+  if (n.type != ValueType::integer || !linspace_counts.contains(n.number))
+    return in.fault(path, "is an empty range");
   if (value->items[0].number == value->items[1].number)
     return in.fault(path, "both ends are the same", "two different ends, or values = [...]");
   vary.values = linspace(*value, n.integer);
 }
 
 void read_uniform(Reader& in, const std::string& path, Vary& vary) {
-  const CaseValue* value = in.numbers(path, 2, "[from, to], from < to");
+  const CaseValue* value = in.numbers(path, 2);
   if (!value) return;
   if (!(value->items[0].number < value->items[1].number))
-    return in.fault(path, "is an empty range", "[from, to], from < to");
+    return in.fault(path, "is an empty range");
   const CaseKey* key = find_case_key(vary.key);
   if (key && type_of(*key) == KeyType::integer &&
       (value->items[0].type != ValueType::integer || value->items[1].type != ValueType::integer))
@@ -227,7 +205,7 @@ bool is_value_of_a_key(const CaseValue& value) {
 }
 
 void read_values(Reader& in, const std::string& path, Vary& vary) {
-  const CaseValue* value = in.typed(path, ValueType::array, "[value, ...]");
+  const CaseValue* value = in.typed(path, ValueType::array);
   if (!value) return;
   if (value->items.empty()) return in.fault(path, "is empty", "at least one value");
   std::set<std::string> seen;
@@ -257,11 +235,11 @@ void refuse_target(Reader& in, const std::string& table, const Vary& vary) {
 void check_key(Reader& in, const std::string& path, const Vary& vary) {
   if (vary.key.empty()) return;
   const std::string meant = meant_text(vary.key);
-  if (vary.key == "schema" || vary.key == "title" || vary.key == "analysis.kind")
-    in.fault(path, "is the same in all members", "another key of the case file");
-  else if (vary.key.starts_with("output.probe"))
+  if (vary.key.starts_with("output.probe"))
     in.fault(path, "gives the columns of history.csv, which are the same in all members",
              "another key of the case file");
+  else if (!may_be_varied(vary.key))
+    in.fault(path, "is the same in all members", "another key of the case file");
   else if (find_case_key(vary.key) == nullptr)
     in.fault(path, "is no key of a case file",
              meant.empty() ? "a key, e.g. ground.friction" : meant);
@@ -272,7 +250,7 @@ Vary read_vary(Reader& in, const std::string& table) {
   vary.line = in.line_of(table);
   const std::string key = table + ".key";
   if (!in.find(key)) in.fault(table, "has no key", "key = \"ground.friction\"");
-  vary.key = in.text(key, "a key of a case file, e.g. ground.friction");
+  vary.key = in.text(key);
   check_key(in, key, vary);
   int kinds = 0;
   for (const char* kind : {"values", "linspace", "uniform"})
@@ -319,19 +297,19 @@ void read_sample(Reader& in, SweepStudy& study) {
   }
   if (!uniform)
     in.fault("sample", "samples nothing", "uniform = [from, to] in a [[vary]], or no [sample]");
-  const std::string kind = in.text("sample.kind", "\"latin-hypercube\"");
-  if (in.find("sample.kind") && kind != "latin-hypercube")
-    in.fault("sample.kind", "is no kind of sample", "\"latin-hypercube\"");
+  const std::string kind = in.text("sample.kind");
+  if (in.find("sample.kind") && kind != sample_kind)
+    in.fault("sample.kind", "is no kind of sample");
   if (!in.find("sample.count")) in.fault("sample.count", "is missing", "count = 200");
-  const auto count = in.integer("sample.count", 1, static_cast<std::int64_t>(most_members));
-  const auto seed = in.integer("sample.seed", 0, std::numeric_limits<std::int64_t>::max());
+  const auto count = in.integer("sample.count", sample_counts);
+  const auto seed = in.integer("sample.seed", sample_seeds);
   if (count)
     study.sample = Sample{static_cast<int>(*count), static_cast<std::uint64_t>(seed.value_or(1))};
 }
 
 void read_window(Reader& in, SweepStudy& study) {
-  study.window.from = in.number("window.from", "a time, s");
-  study.window.to = in.number("window.to", "a time, s");
+  study.window.from = in.number("window.from");
+  study.window.to = in.number("window.to");
   if (study.window.from && study.window.to && !(*study.window.from < *study.window.to))
     in.fault("window.to", "is not after window.from", "from < to");
 }

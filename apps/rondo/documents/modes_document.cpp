@@ -1,0 +1,93 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <numbers>
+
+#include "documents/documents.hpp"
+#include "documents/members.hpp"
+
+namespace rondo::app {
+namespace {
+
+using study::ModeLine;
+using study::ModesReport;
+using study::SpinSummary;
+
+constexpr Member<ModeLine> mode_members[] = {
+    {"spin", "number", "rad/s", "angular velocity of the body",
+     [](const ModeLine& m) -> Json { return m.angular_velocity; }},
+    {"omega", "number", "rad/s", "of the mode, in the turning frame",
+     [](const ModeLine& m) -> Json { return m.omega; }},
+    {"frequency", "number", "Hz", "likewise",
+     [](const ModeLine& m) -> Json { return m.omega / (2.0 * std::numbers::pi); }},
+    {"diameters", "integer", "", "nodal diameters; null: unknown",
+     [](const ModeLine& m) -> Json { return m.diameters < 0 ? Json() : Json(m.diameters); },
+     [] { return schema_of_maybe("integer"); }},
+    {"wave", "string", "", "\"standing\", \"forward\", \"backward\"...; \"\": unknown",
+     [](const ModeLine& m) -> Json { return study::name_of(m.wave); }},
+    {"residual", "number", "", "of the mode", [](const ModeLine& m) -> Json { return m.residual; }},
+};
+
+constexpr Member<SpinSummary> spin_members[] = {
+    {"spin", "number", "rad/s", "angular velocity of the body",
+     [](const SpinSummary& s) -> Json { return s.angular_velocity; }},
+    {"modes", "integer", "", "found", [](const SpinSummary& s) -> Json { return s.modes; }},
+    {"rigid", "integer", "", "rigid-body motions",
+     [](const SpinSummary& s) -> Json { return s.rigid; }},
+    {"unstable", "integer", "", "that grow",
+     [](const SpinSummary& s) -> Json { return s.unstable; }},
+    {"growth", "number", "1/s", "of the rotation of a free disk",
+     [](const SpinSummary& s) -> Json { return s.growth; }},
+};
+
+struct Critical {
+  int diameters;
+  double spin, rim_speed;
+};
+
+constexpr Member<Critical> critical_members[] = {
+    {"diameters", "integer", "", "of the wave that stands still",
+     [](const Critical& s) -> Json { return s.diameters; }},
+    {"spin", "number", "rad/s", "at which it does",
+     [](const Critical& s) -> Json { return s.spin; }},
+    {"rim_speed", "number", "m/s", "of the outer radius then",
+     [](const Critical& s) -> Json { return s.rim_speed; }},
+};
+
+Json critical_of(const ModesReport& r) {
+  std::vector<Critical> list;
+  for (const auto& c : r.critical) list.push_back({c.diameters, c.spin, c.spin * r.outer_radius});
+  return objects_of(critical_members, list);
+}
+
+constexpr Member<ModesReport> members[] = {
+    {"directory", "string", "", "where the files are",
+     [](const ModesReport& r) -> Json { return r.directory.string(); }},
+    {"nodes", "integer", "", "of the mesh", [](const ModesReport& r) -> Json { return r.nodes; }},
+    {"dofs", "integer", "", "degrees of freedom",
+     [](const ModesReport& r) -> Json { return r.dofs; }},
+    {"modes", "array", "", "a line of modes.csv each",
+     [](const ModesReport& r) -> Json { return objects_of(mode_members, r.modes); },
+     [] { return schema_of_list(mode_members); }},
+    {"spins", "array", "", "what was found at each spin",
+     [](const ModesReport& r) -> Json { return objects_of(spin_members, r.spins); },
+     [] { return schema_of_list(spin_members); }},
+    {"sweep", "array", "", "likewise of --spins",
+     [](const ModesReport& r) -> Json { return objects_of(spin_members, r.sweep); },
+     [] { return schema_of_list(spin_members); }},
+    {"critical_speeds", "array", "", "at which a wave stands still in space", critical_of,
+     [] { return schema_of_list(critical_members); }},
+    {"residual_max", "number", "", "of all modes",
+     [](const ModesReport& r) -> Json { return r.residual_max; }},
+    {"wall_s", "number", "s", "all of it", [](const ModesReport& r) -> Json { return r.wall_s; }},
+};
+
+}  // namespace
+
+Json modes_document(const ModesReport& report) {
+  return object_of<ModesReport>(members, report);
+}
+
+Json modes_schema() {
+  return schema_of<ModesReport>(members);
+}
+
+}  // namespace rondo::app

@@ -1,0 +1,79 @@
+// SPDX-License-Identifier: BSD-3-Clause
+/// @file  A motion in time as its caller stops, sees and drives it.
+#include "rondo/analysis/build/rim.hpp"
+#include "rondo/analysis/build/stability.hpp"
+#include "rondo/analysis/dynamic.hpp"
+
+namespace rondo::study {
+namespace {
+
+HistoryPlace never_due() {
+  HistoryPlace place;
+  place.next = HistoryPlace::never;
+  return place;
+}
+
+/// What keeps a copy of the tables, or numbers made of them.
+void refuse_fixed_motion(const Case& c, const dynamics::Model& model) {
+  if (model.subdomains)
+    throw case_error(c, "time.scheme",
+                     "parts with steps of their own have the motion of the rim from the start",
+                     "\"symplectic\"; or the tables in the case");
+  if (model.contact && dynamics::has_sharp_corners(model))
+    throw case_error(c, "ground.fillet",
+                     "contact at sharp convex corners has the motion of the rim from the start",
+                     "a fillet above 0; or the tables in the case");
+}
+
+void copy_pressures(const Case& c, dynamics::Model& model) {
+  for (std::size_t k = 0; k < c.pressures.size(); ++k) {
+    if (k < model.pressures.size()) model.pressures[k].pressure = c.pressures[k].pressure;
+    if (model.solid && k < model.solid->pressures.size())
+      model.solid->pressures[k].pressure = c.pressures[k].pressure;
+  }
+}
+
+}  // namespace
+
+void DynamicAnalysis::pause_at(long long step) {
+  pause_ = step;
+  since_pause_.emplace(case_, setup_, never_due());
+}
+
+const dynamics::State* DynamicAnalysis::state() {
+  if (state_.step != steps_ || !integrator_ || (from_ && !last_)) return nullptr;
+  if (last_) complete(state_);
+  return &state_;
+}
+
+std::vector<double> DynamicAnalysis::row() const {
+  std::vector<double> row;
+  if (last_ && since_pause_) History(*since_pause_).finish(*last_, last_state_, row);
+  return row;
+}
+
+std::vector<ColumnLabel> DynamicAnalysis::row_columns() const {
+  return History(case_, setup_).columns();
+}
+
+void DynamicAnalysis::take_tables() {
+  refuse_fixed_motion(case_, setup_.model);
+  check_motion(case_, setup_);
+  setup_.model.motion = case_.motion;
+  set_rim_loads(case_, setup_.model);
+  copy_pressures(case_, setup_.model);
+  warn_of_faster_spin();
+}
+
+/// Of the tables as they were, build() has spoken.
+void DynamicAnalysis::warn_of_faster_spin() {
+  const double spin = case_.motion.angular_velocity.largest();
+  if (spin <= fastest_) return;
+  fastest_ = spin;
+  const std::size_t told = setup_.warnings.size();
+  warn_of_softening(case_, setup_);
+  for (std::size_t k = told; k < setup_.warnings.size(); ++k) warn(setup_.warnings[k]);
+  setup_.warnings.resize(told);
+}
+
+}  // namespace rondo::study

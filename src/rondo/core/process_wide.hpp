@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: BSD-3-Clause
+/// @file  What libraries have once for the whole process, for calls from several threads.
+#pragma once
+#include <mutex>
+
+namespace rondo {
+
+/// OpenBLAS on one thread while it lives, so that its sums have one order: the same bits on any
+/// machine with the same kernels, whatever its number of cores. Sparse factorisations (CHOLMOD)
+/// call it too. The last of several that live at once, in any threads, gives the number back what
+/// it was.
+class OneBlasThread {
+ public:
+  OneBlasThread();
+  ~OneBlasThread();
+  OneBlasThread(const OneBlasThread&) = delete;
+  OneBlasThread& operator=(const OneBlasThread&) = delete;
+};
+
+/// FFTW makes and destroys plans for one thread at a time: to be held meanwhile. Their transforms
+/// are free.
+std::mutex& fftw_planner() noexcept;
+
+}  // namespace rondo

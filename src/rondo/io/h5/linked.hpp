@@ -1,0 +1,65 @@
+// SPDX-License-Identifier: BSD-3-Clause
+/// @file  A small HDF5 file made of what stands in another one, put together in memory: external
+/// links to datasets of the other file, virtual datasets that show parts of them in another shape.
+/// Readers need HDF5 1.10. The other file is found in the directory of this one.
+#pragma once
+#include <cstdint>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "rondo/io/h5/h5.hpp"
+
+namespace rondo::io::h5 {
+
+/// A dataset (t, n) or (t, n, width) of float32 in another file, of which rows are shown.
+struct Shown {
+  std::string file, dataset;
+  std::size_t rows = 0;   ///< the first of them, at most t
+  std::size_t nodes = 0;  ///< n
+  std::size_t width = 1;
+  /// Numbers of a node, in the order in which they are shown; empty: all.
+  std::vector<std::size_t> columns = {};
+};
+
+/// Names are paths; groups are made where they are wanted. The same calls give the same bytes.
+class LinkedFile {
+ public:
+  LinkedFile();  ///< @throws FileError
+
+  /// A dataset of int64 with one value throughout, which takes no room.
+  void fill(const std::string& name, const Shape& shape, std::int64_t value);
+  /// A dataset of float64 or int64 without rows so far, for at most shape[0] of them; a row that is
+  /// not set has the value and takes no room.
+  void create_rows(const std::string& name, Type type, const Shape& shape, std::int64_t value);
+  void set_rows(const std::string& name, std::size_t rows);
+  /// Of a dataset (rows). @pre row < rows
+  void set_row(const std::string& name, std::size_t row, double value);
+  void set_row(const std::string& name, std::size_t row, std::int64_t value);
+  /// Another name of a dataset of this file.
+  void call(const std::string& name, const std::string& existing);
+  /// Not there for a reader that does not find the other file.
+  void link(const std::string& name, const std::string& file, const std::string& dataset);
+  /// A dataset (rows * n) or (rows * n, columns) of float32: NaN where the other file is missing.
+  void show(const std::string& name, const Shown& what);
+  /// It may be there already.
+  void set_attribute(const std::string& group, const std::string& name, std::int64_t value);
+  void set_attribute(const std::string& group, const std::string& name,
+                     std::span<const std::int64_t> values);
+  /// Of the text's own length, ASCII.
+  void set_attribute(const std::string& group, const std::string& name, const std::string& text);
+
+  /// The file as it is now. @throws FileError
+  [[nodiscard]] std::string bytes();
+
+ private:
+  void put(const std::string& name, Type type, const Shape& shape, const Shape& most,
+           std::int64_t properties);
+  void put_row(const std::string& name, Type type, std::size_t row, const void* value);
+  void put_attribute(const std::string& group, const std::string& name, std::int64_t type,
+                     std::int64_t space, const void* value);
+
+  Handle id_, groups_;  ///< the file; how links are made
+};
+
+}  // namespace rondo::io::h5

@@ -1,0 +1,78 @@
+// SPDX-License-Identifier: BSD-3-Clause
+/// @file  What came of the members of a sweep, or of those of one shard: counted, told, written.
+#pragma once
+#include <chrono>
+#include <cstddef>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "rondo/output/run_files.hpp"
+#include "rondo/study/sweep/member_run.hpp"
+#include "rondo/study/sweep/sweep.hpp"
+
+namespace rondo::study {
+
+class SweepRows {
+ public:
+  /// All of them are kept by reference.
+  SweepRows(const SweepRequest& request, const SweepStudy& study, const PlannedSweep& plan)
+      : request_(request), study_(study), plan_(plan), rows_(plan.members.size()) {}
+
+  /// sweep.json. @throws FileError
+  void write(const char* status) const;
+  /// @throws FileError
+  void write_tables() const { study::write_tables(request_.directory, {study_, plan_, rows_}); }
+
+  /// @param members whose pieces they are
+  void take(const std::vector<std::size_t>& members, const std::vector<Piece>& pieces);
+  void take(std::size_t member, MemberRow row) { rows_[member] = std::move(row); }
+  /// Of members that were not reached, as far as they were done before. @throws InputError,
+  /// FileError
+  void take_what_is_there(const MemberRunner& runner);
+  /// Of a sweep that was made by others; else the time since this object began.
+  void set_wall(double seconds) { wall_s_ = seconds; }
+
+  [[nodiscard]] const std::vector<MemberRow>& rows() const noexcept { return rows_; }
+  /// Of these members.
+  [[nodiscard]] bool is_unfinished(const std::vector<std::size_t>& members) const;
+  /// Of the members that are its own.
+  [[nodiscard]] SweepReport report() const;
+
+ private:
+  [[nodiscard]] bool is_own(std::size_t m) const { return plan_.members[m].part == Part::own; }
+  [[nodiscard]] std::string place_of(std::size_t m) const;
+  void add_failure(std::size_t m, SweepReport& r) const;
+  void add_strains(SweepReport& r) const;
+  [[nodiscard]] Json describe_parameters() const;
+  [[nodiscard]] Json describe(const char* status) const;
+
+  using Clock = std::chrono::steady_clock;
+  const SweepRequest& request_;
+  const SweepStudy& study_;
+  const PlannedSweep& plan_;
+  std::vector<MemberRow> rows_;
+  Clock::time_point begin_ = Clock::now();
+  std::optional<double> wall_s_;
+};
+
+/// "done", "failed" (some members did) or "interrupted".
+[[nodiscard]] const char* status_of(const SweepReport& report) noexcept;
+
+/// The study file with the settings of the request. @throws InputError, FileError
+[[nodiscard]] SweepStudy study_of(const SweepRequest& request);
+
+/// Each text once, with the number of members that it is said of.
+void warn_of_members(const SweepRequest& request, const PlannedSweep& plan);
+
+/// The leader's part before the runs; where it fails, all do. All members of the team call it.
+/// @throws what `part` throws; std::runtime_error: the leader has failed
+void lead(Team& team, const std::function<void()>& part);
+
+/// Part by part, up to one that is not finished. All members of the team call it.
+void run_members(const SweepRequest& request, MemberRunner& runner, Team& team, SweepRows& rows);
+
+/// Before all was checked a stop was asked for.
+[[nodiscard]] SweepReport interrupted_report(const PlannedSweep& plan);
+
+}  // namespace rondo::study
