@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// @file  Those who do a sweep's pieces of work as they come: processes of this machine, or ranks
-/// of an MPI job (apps/rondo/mpi_team.hpp).
+/// of an MPI job (apps/rondo/sweep/mpi_team.hpp).
 #pragma once
 #include <algorithm>
 #include <atomic>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "sweep_shards.hpp"
+#include "sweep/sweep_shards.hpp"
 
 #include <fmt/format.h>
 #include <spdlog/spdlog.h>

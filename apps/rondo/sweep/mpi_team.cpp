@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "mpi_team.hpp"
+#include "sweep/mpi_team.hpp"
 
 #define OMPI_SKIP_MPICXX 1
 #include <mpi.h>

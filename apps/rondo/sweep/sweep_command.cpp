@@ -15,13 +15,13 @@
 
 #include "default_directory.hpp"
 #include "documents/documents.hpp"
-#include "mpi_team.hpp"
 #include "progress.hpp"
 #include "rondo/analysis/build/memory.hpp"
 #include "rondo/core/bytes.hpp"
 #include "rondo/core/error.hpp"
 #include "signals.hpp"
-#include "sweep_shards.hpp"
+#include "sweep/mpi_team.hpp"
+#include "sweep/sweep_shards.hpp"
 
 namespace rondo::app {
 namespace {

@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: BSD-3-Clause
+/// @file  The options of each command, and its help.
+#pragma once
+#include <string>
+
+#include "commands.hpp"
+
+namespace CLI {
+class App;
+}
+
+namespace rondo::app {
+
+// Each adds its command to the program; the arguments are filled when that is parsed, and must
+// outlive it.
+CLI::App* add_run(CLI::App& program, RunArguments& arguments, Telling& tell);
+CLI::App* add_check(CLI::App& program, CaseArguments& arguments, int& threads, Telling& tell);
+CLI::App* add_reduce(CLI::App& program, study::ReduceRequest& r, Telling& tell);
+CLI::App* add_pod(CLI::App& program, study::PodRequest& r, Telling& tell);
+CLI::App* add_modes(CLI::App& program, ModesArguments& arguments, Telling& tell);
+CLI::App* add_schema(CLI::App& program, std::string& of);
+CLI::App* add_sweep(CLI::App& program, SweepArguments& arguments, Telling& tell);
+/// No command any more: it says what to call.
+void add_paper(CLI::App& program);
+
+}  // namespace rondo::app
