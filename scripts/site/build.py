@@ -12,7 +12,7 @@ import subprocess
 import sys
 import tempfile
 
-import yaml
+import yaml  # type: ignore[import]
 
 import github
 import listings
@@ -137,7 +137,11 @@ def configuration(stage: Stage, site: pathlib.Path) -> dict[str, object]:
 def search_from_files(site: pathlib.Path) -> None:
     """What the search fetches, as scripts: a page opened as a file may load those, and fetch nothing."""
     worker, = THEME.glob("search.*.min.js")
-    index = json.loads((site / "search" / "search_index.json").read_text())
+    fetched = site / "search" / "search_index.json"
+    index = json.loads(fetched.read_text())
+    for entry in index["docs"]:
+        entry["text"] = re.sub(r"\\[()\[\]]", "", entry["text"])  # marks of equations
+    fetched.write_text(json.dumps(index, ensure_ascii=False))
     source = re.sub(r"\n//# sourceMappingURL=.*", "", worker.read_text())
     (site / "search" / "search_index.js").write_text(
         f"window.rondo_search = {json.dumps({'index': index, 'worker': source}, ensure_ascii=False)};\n")

@@ -97,6 +97,15 @@ class Site(unittest.TestCase):
         self.assertEqual(json.loads(script.removeprefix("window.rondo_search = ").rstrip(";\n"))["index"], index)
 
 
+class Conversion(unittest.TestCase):
+    def test_blank_lines_anchors_comments_and_links(self):
+        text = "# A b\ntext:\n- x [y](z.md)\n<!-- long: no -->\n## A b\nwith (1):\n$$a\n=b$$\nend `[y](z.md)` [g](gone)\n"
+        goal = {"z.md": "../z.md", "gone": None}.get
+        self.assertEqual(github.converted(text, goal).split("\n"), [
+            "# A b {: #a-b }", "text:", "", "- x [y](../z.md)", "", "## A b {: #a-b-1 }", "with (1):", "", "$$a",
+            "=b$$", "", "end `[y](z.md)` g", ""])
+
+
 class WhatIsRefused(unittest.TestCase):
     def setUp(self):
         folder = tempfile.TemporaryDirectory()
