@@ -3,6 +3,7 @@
 #   bash scripts/setup.sh          what building and running rondo needs, and pip install ./python
 #   bash scripts/setup.sh --dev    tests, lint, sanitizers, fuzzing, coverage and benchmarks too; where
 #                                  there is npm, Taplo, which tests the schemas for editors
+#   bash scripts/setup.sh --docs   what scripts/docs.sh needs, and nothing else
 set -euo pipefail
 
 packages=(
@@ -17,6 +18,10 @@ packages=(
   python3 python3-numpy python3-h5py python3-matplotlib python3-pil # pictures
   ffmpeg                                             # films (.mp4)
 )
+for_site=(
+  python3 mkdocs mkdocs-material python3-pymdownx python3-yaml # pages
+  libjs-katex fonts-katex                            # equations
+)
 for_development=(
   libgtest-dev python3-pytest python3-pip python3-venv patch python3-jsonschema # tests
   python3-pandas python3-xarray                      # what results may be handed to, optional
@@ -25,12 +30,15 @@ for_development=(
   clang libclang-rt-14-dev llvm-14 libomp-dev        # the other compiler, sanitizers, scripts/fuzz.sh
   gcovr                                              # scripts/coverage.sh
   libbenchmark-dev valgrind                          # bench/; instructions of a step, a test
+  "${for_site[@]}" python3-markdown-it               # scripts/docs.sh; its pages against a second reader
+  chromium chromium-driver python3-selenium          # the site and reports in a browser
 )
 with_taplo=
 case ${1:-} in
   '') ;;
   --dev) packages+=("${for_development[@]}"); with_taplo=1 ;;
-  *) sed -n '2,5s/^# \{0,1\}//p' "$0" >&2; exit 2 ;;
+  --docs) packages=("${for_site[@]}") ;;
+  *) sed -n '2,6s/^# \{0,1\}//p' "$0" >&2; exit 2 ;;
 esac
 
 installed=$(dpkg-query -W -f='${Package} ${db:Status-Status}\n' "${packages[@]}" 2>/dev/null || true)

@@ -47,8 +47,9 @@ class Block:
 
 
 def pages_with_commands() -> list[pathlib.Path]:
-    return [ROOT / "README.md", ROOT / "CONTRIBUTING.md", *sorted((ROOT / "docs").glob("*.md")),
-            ROOT / "bench" / "README.md", ROOT / "studies" / "paper" / "README.md"]
+    """All of them, so that no block is left out; the first page and those of docs/ before the others."""
+    first = [ROOT / "README.md", ROOT / "CONTRIBUTING.md", *sorted((ROOT / "docs").glob("*.md"))]
+    return first + sorted(set(all_pages()) - set(first))
 
 
 def all_pages() -> list[pathlib.Path]:

@@ -3,20 +3,18 @@
 import functools
 import pathlib
 import re
+import sys
 import unittest
 
-from pages import PageError, all_pages, blocks_of, page_name
+from pages import ROOT, PageError, all_pages, blocks_of, page_name
+
+sys.path.insert(0, str(ROOT / "scripts" / "site"))
+from github import anchor  # noqa: E402
 
 
 def outside_of_code(text: str) -> str:
     text = re.sub(r"^( *)```.*?^\1```$", "", text, flags=re.MULTILINE | re.DOTALL)
     return re.sub(r"`[^`\n]*`", lambda code: code[0] if "](" not in code[0] else "", text)
-
-
-def anchor(heading: str) -> str:
-    """As the usual renderers make it: lower case, words joined by dashes, no other signs."""
-    heading = re.sub(r"\[([^\]]*)\]\([^)]*\)", r"\1", heading).strip().lower()
-    return re.sub(r"[^\w\- ]", "", heading).replace(" ", "-")
 
 
 @functools.cache

@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
-# Installs the build into a folder of its own, builds another program against it and runs both. The
-# headers are those of the list, and each stands by itself. Then the folder is moved, and the Python
-# package works from there, with the library as its module and the programs.
+# Installs the build into a folder of its own, builds another program and the one that docs/library.md
+# shows against it, and runs both. The headers are those of the list, and each stands by itself. Then the
+# folder is moved, and the Python package works from there, with the library as its module and the programs.
 set -euo pipefail
 build=$1 source=$2 build_type=$3
 work=$(mktemp -d)
@@ -14,12 +14,21 @@ for file in "$work"/prefix/share/rondo/cases/*.toml "$work"/prefix/share/rondo/c
   named=$(head -n 1 "$file")
   test -f "$(dirname "$file")/${named#"#:schema "}" # its schema, relative to itself
 done
+{ # the block of C++ of docs/library.md, as a program
+  printf '#include <rondo/%s.hpp>\n' analysis/build/build case/case integrators/integrator integrators/start
+  printf '#include <vector>\nint main() {\n'
+  sed -n '/^```cpp$/,/^```$/{/^```/!p}' "$source/docs/library.md"
+  printf 'return reports.back().balance.relative < 1e-12 ? 0 : 1;\n}\n'
+} >"$work/page.cpp"
 cmake -S "$source/tests/house/consumer" -B "$work/build" -G Ninja -DCMAKE_BUILD_TYPE="$build_type" \
-  -DCMAKE_PREFIX_PATH="$work/prefix" -DRONDO_INCLUDE="$work/prefix/include" >/dev/null
+  -DCMAKE_PREFIX_PATH="$work/prefix" -DRONDO_INCLUDE="$work/prefix/include" \
+  -DRONDO_PAGE="$work/page.cpp" >/dev/null
 cmake --build "$work/build"
 cases=$work/prefix/share/rondo/cases
 RONDO_MESH_READER="$work/prefix/bin/rondo-mesh-reader" \
   "$work/build/consumer" "$cases/meshes/block.msh" "$cases/rolling-flat.toml" "$work/results"
+cp "$cases/rolling-flat.toml" "$work/case.toml"
+(cd "$work" && build/page)
 for header in $(sed -n '/PUBLIC_HEADERS/,/)/p' "$source/cmake/public_headers.cmake" | grep -o '[a-z/_]*\.hpp'); do
   grep -qF "rondo/$header" "$source/docs/library.md" || {
     echo "docs/library.md does not name rondo/$header"
