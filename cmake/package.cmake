@@ -18,7 +18,7 @@ set(CPACK_INSTALL_DEFAULT_DIRECTORY_PERMISSIONS OWNER_READ OWNER_WRITE OWNER_EXE
                                                 GROUP_EXECUTE WORLD_READ WORLD_EXECUTE)
 set(CPACK_COMPONENTS_ALL runtime development)
 set(CPACK_COMPONENTS_GROUPING IGNORE)
-set(CPACK_PRE_BUILD_SCRIPTS ${PROJECT_SOURCE_DIR}/cmake/debian/layout.cmake)
+set(CPACK_PRE_BUILD_SCRIPTS ${PROJECT_SOURCE_DIR}/cmake/debian_layout.cmake)
 set(CPACK_RONDO_SOURCES ${PROJECT_SOURCE_DIR})
 set(CPACK_RONDO_PYTHON_DIR "${RONDO_PYTHON_DIR}")
 
@@ -44,8 +44,8 @@ else()
 endif()
 set(CPACK_DEBIAN_RUNTIME_PACKAGE_RECOMMENDS "ffmpeg, openmpi-bin")
 set(CPACK_DEBIAN_RUNTIME_PACKAGE_SUGGESTS "rondo-dev, paraview, python3-pandas, python3-xarray")
-set(CPACK_DEBIAN_RUNTIME_PACKAGE_CONTROL_EXTRA ${PROJECT_SOURCE_DIR}/cmake/debian/postinst
-                                               ${PROJECT_SOURCE_DIR}/cmake/debian/prerm)
+set(CPACK_DEBIAN_RUNTIME_PACKAGE_CONTROL_EXTRA ${PROJECT_SOURCE_DIR}/scripts/debian/postinst
+                                               ${PROJECT_SOURCE_DIR}/scripts/debian/prerm)
 
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_NAME rondo-dev)
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_SECTION libdevel)

@@ -20,7 +20,7 @@ endfunction()
 
 function(write_documents root package)
   set(folder ${root}/usr/share/doc/${package})
-  configure_file(${CPACK_RONDO_SOURCES}/cmake/debian/copyright ${folder}/copyright COPYONLY)
+  configure_file(${CPACK_RONDO_SOURCES}/scripts/debian/copyright ${folder}/copyright COPYONLY)
   write_changelog(${folder}/changelog ${package})
   if(package STREQUAL rondo)
     configure_file(${CPACK_RONDO_SOURCES}/CHANGELOG.md ${folder}/NEWS COPYONLY)
