@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-3-Clause
 # Everything comes from Debian packages (scripts/setup.sh). Used by the build and by the installed
 # package's configuration, so that both name the same targets.
 set(THREADS_PREFER_PTHREAD_FLAG ON)

@@ -1,7 +1,9 @@
+# SPDX-License-Identifier: BSD-3-Clause
 include(GNUInstallDirs)
 include(CMakePackageConfigHelpers)
 get_property(modules GLOBAL PROPERTY RONDO_MODULES)
-install(TARGETS ${modules} EXPORT rondo-targets ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR})
+install(TARGETS ${modules} EXPORT rondo-targets
+        ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR} COMPONENT development)
 install(TARGETS rondo rondo-mesh-reader RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
 include(cmake/public_headers.cmake)
 foreach(header ${RONDO_PUBLIC_HEADERS} ${RONDO_INCLUDED_HEADERS})
@@ -10,9 +12,11 @@ foreach(header ${RONDO_PUBLIC_HEADERS} ${RONDO_INCLUDED_HEADERS})
   if(header STREQUAL "core/version.hpp")
     set(file ${PROJECT_BINARY_DIR}/generated/rondo/${header})
   endif()
-  install(FILES ${file} DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/rondo/${folder})
+  install(FILES ${file} DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/rondo/${folder}
+          COMPONENT development)
 endforeach()
-install(EXPORT rondo-targets NAMESPACE rondo:: DESTINATION ${CMAKE_INSTALL_LIBDIR}/cmake/rondo)
+install(EXPORT rondo-targets NAMESPACE rondo:: DESTINATION ${CMAKE_INSTALL_LIBDIR}/cmake/rondo
+        COMPONENT development)
 configure_package_config_file(cmake/rondo-config.cmake.in
                               ${PROJECT_BINARY_DIR}/rondo-config.cmake
                               INSTALL_DESTINATION ${CMAKE_INSTALL_LIBDIR}/cmake/rondo)
@@ -20,6 +24,8 @@ write_basic_package_version_file(${PROJECT_BINARY_DIR}/rondo-config-version.cmak
                                  COMPATIBILITY SameMinorVersion)
 install(FILES ${PROJECT_BINARY_DIR}/rondo-config.cmake
               ${PROJECT_BINARY_DIR}/rondo-config-version.cmake cmake/dependencies.cmake
-        DESTINATION ${CMAKE_INSTALL_LIBDIR}/cmake/rondo)
-install(DIRECTORY cases DESTINATION ${CMAKE_INSTALL_DATADIR}/rondo)
+        DESTINATION ${CMAKE_INSTALL_LIBDIR}/cmake/rondo COMPONENT development)
+install(DIRECTORY cases DESTINATION ${CMAKE_INSTALL_DATADIR}/rondo PATTERN "*.sh" EXCLUDE)
+install(DIRECTORY docs DESTINATION ${CMAKE_INSTALL_DOCDIR})
 include(cmake/install_python.cmake)
+include(cmake/install_pages.cmake)

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-3-Clause
 # The Python package with the library as its module, where Debian's python3 looks when the prefix is
 # /usr/local; of another Python (-DPython_EXECUTABLE), where that one looks.
 if(Python_EXECUTABLE)

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-3-Clause
 # rondo_module(NAME [FOLDERS a ...] [SOURCES b.cpp ...] [PUBLIC libs] [PRIVATE libs])
 # One static library for a room of src/rondo: all sources of the folders (its own where none is
 # named), and those that are named. rondo::NAME is its alias, inside and after install.
@@ -40,9 +41,11 @@ function(rondo_sanitize target sanitizers)
 endfunction()
 
 # The same objects make the program and the module of Python (docs/decisions/039). Hidden: a call
-# between them goes as straight as in a program.
+# between them goes as straight as in a program. What is shipped names no folder of the build, but where
+# a condition broke by the file's name in the project.
 function(rondo_for_module_of_python target)
-  target_compile_options(${target} PRIVATE -fPIC -fvisibility=hidden -fvisibility-inlines-hidden)
+  target_compile_options(${target} PRIVATE -fPIC -fvisibility=hidden -fvisibility-inlines-hidden
+                         $<$<CONFIG:Release>:-fmacro-prefix-map=${PROJECT_SOURCE_DIR}/=>)
 endfunction()
 
 function(rondo_module name)

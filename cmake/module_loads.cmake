@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-3-Clause
 # A module of Python may be linked though a function of its own libraries is missing, for those of the
 # interpreter are, too: nothing is said before it is loaded. So it is loaded once, by its own Python.
 function(rondo_module_must_load target)

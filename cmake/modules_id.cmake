@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-3-Clause
 # rondo_modules_id: what the program and the module of Python call their build (core/build_id.hpp),
 # a hash of the modules that both are linked from: a run that one began the other goes on with.
 # Run by the build with -DOUTPUT=... -DARCHIVES=..., it writes the source.

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-3-Clause
 # What most sources include of other libraries is read once: by rondo_precompiled for the library and
 # the programs, with the test framework by rondo_precompiled_tests. Every source still names what it
 # includes: the presets of clang, and clang-tidy, compile without (CMAKE_DISABLE_PRECOMPILE_HEADERS).

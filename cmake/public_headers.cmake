@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-3-Clause
 # What is installed of src/rondo: docs/library.md names the first list, whose headers include those
 # of the second. house_install compiles each of them by itself against what is installed.
 set(RONDO_PUBLIC_HEADERS

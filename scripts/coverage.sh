@@ -1,4 +1,5 @@
 #!/usr/bin/env bash
+# SPDX-License-Identifier: BSD-3-Clause
 # Lines and branches of src/ and apps/ that the fast suite reaches, by module, and each file's
 # missing lines in build/coverage/report.txt. Arguments go to ctest in place of `-L fast`.
 set -euo pipefail

@@ -1,4 +1,5 @@
 #!/usr/bin/env bash
+# SPDX-License-Identifier: BSD-3-Clause
 # From nothing to a disk rolling over a ledge: installs, builds, runs, says where the results are.
 set -euo pipefail
 cd "$(dirname "$0")/.."

@@ -1,4 +1,5 @@
 #!/usr/bin/env bash
+# SPDX-License-Identifier: BSD-3-Clause
 # The documentation as a site that can be searched: build/site/index.html. Nothing is written beside the
 # sources, and the site asks nothing of any network: open the file, or serve the folder.
 #   bash scripts/docs.sh            installs what it needs (setup.sh --docs), builds

@@ -1,6 +1,8 @@
+# SPDX-License-Identifier: BSD-3-Clause
 # Puts the program built in build/release, and the Python package, on the paths of this shell:
 #   source scripts/env.sh         bash or zsh, from any folder
 # PATH gets build/release, PYTHONPATH gets python, both absolute; sourced again it changes nothing.
+# A bash that is typed in completes rondo's commands, options and keys.
 # To be sourced, not run: what a script sets ends with it.
 if [ -n "${BASH_VERSION:-}" ]; then
   _rondo_root=${BASH_SOURCE[0]}
@@ -33,4 +35,16 @@ if [ -n "$_rondo_missing" ]; then
   echo "env: $(command -v python3 || echo 'no python3') lacks: $_rondo_missing. The packages of" \
     "scripts/setup.sh are those of the system's Python: alias python3=/usr/bin/python3" >&2
 fi
+case ${BASH_VERSION:+$-} in
+  *i*)
+    if [ -x "$_rondo_root/build/release/rondo" ]; then
+      # Written anew by each new program.
+      if [ "$_rondo_root/build/release/completions/rondo" -ot "$_rondo_root/build/release/rondo" ]; then
+        /usr/bin/python3 -B "$_rondo_root/scripts/pages/write.py" "$_rondo_root/build/release/rondo" \
+          --bash "$_rondo_root/build/release/completions/rondo" >/dev/null 2>&1 || true
+      fi
+      . "$_rondo_root/build/release/completions/rondo" 2>/dev/null || true
+    fi
+    ;;
+esac
 unset _rondo_root _rondo_missing

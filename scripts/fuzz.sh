@@ -1,4 +1,5 @@
 #!/usr/bin/env bash
+# SPDX-License-Identifier: BSD-3-Clause
 # Fuzzes what reads files (docs/reliability.md, Fuzzing): builds the libFuzzer targets of the preset
 # asan and runs each on its corpus and on all that was found before, two at a time.
 #   bash scripts/fuzz.sh [SECONDS] [TARGET...]      30 s and all targets by default

@@ -1,5 +1,6 @@
 #!/usr/bin/env bash
-# What is to be said of the sources without running them: format, layers, clocks, clang-tidy,
+# SPDX-License-Identifier: BSD-3-Clause
+# What is to be said of the sources without running them: format, layers, clocks, licences, clang-tidy,
 # cppcheck, types of the Python package.
 #   bash scripts/lint.sh                   the whole tree
 #   bash scripts/lint.sh --changed [REV]   only what differs from REV, or is new; REV: where the branch
@@ -14,7 +15,7 @@ changed=no
 case ${1:-} in
   '') ;;
   --changed) changed=yes ;;
-  *) sed -n '2,10s/^# \{0,1\}//p' "$0" >&2; exit 2 ;;
+  *) sed -n '3,11s/^# \{0,1\}//p' "$0" >&2; exit 2 ;;
 esac
 if [ "$changed" = yes ]; then
   rev=${2:-$(git merge-base HEAD origin/main 2>/dev/null || true)}
@@ -69,6 +70,8 @@ format() {
 
 layers() { /usr/bin/python3 tests/house/check_layers.py; }
 clocks() { /usr/bin/python3 tests/house/check_clocks.py; }
+# Every file has a licence and its holder, by a line of its own or .reuse/dep5.
+licences() { /usr/bin/python3 tests/packages/test_licences.py && reuse lint --quiet; }
 
 # What is left out, and why:
 #   constStatement  takes `a[i] += b[i];` for a statement without effect (2.10); gcc warns of those
@@ -86,9 +89,10 @@ cppcheck_() {
 }
 
 types() {
-  [ -n "$(those '^python/.*\.py$')" ] || return 0
+  [ -n "$(those '^(python|scripts/pages)/.*\.py$')" ] || return 0
   (cd python && limited /usr/bin/python3 -m mypy --ignore-missing-imports --disallow-untyped-defs \
-    --cache-dir "$OLDPWD/$work/mypy" rondo build_module.py build_wheel.py)
+    --cache-dir "$OLDPWD/$work/mypy" rondo build_module.py build_wheel.py) &&
+    limited /usr/bin/python3 -m mypy --disallow-untyped-defs --cache-dir "$work/mypy" scripts/pages/*.py
 }
 
 tidy() {
@@ -106,6 +110,7 @@ tidy() {
 part format format
 part layers layers
 part clocks clocks
+part licences licences
 part clang-tidy tidy
 part cppcheck cppcheck_
 part types types

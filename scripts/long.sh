@@ -1,4 +1,5 @@
 #!/usr/bin/env bash
+# SPDX-License-Identifier: BSD-3-Clause
 # The long figures of docs/validation.md and docs/reliability.md: runs of 10^6 and 10^7 steps, the
 # finest meshes, whole studies. Ends with ctest's summary; arguments go to ctest, for example
 #   bash scripts/long.sh -R Ledger     only these

@@ -1,4 +1,5 @@
 #!/usr/bin/env bash
+# SPDX-License-Identifier: BSD-3-Clause
 # Builds with sanitizers and runs the tests that they are for:
 #   bash scripts/sanitize.sh asan [--short]
 #                                     addresses, leaks, undefined behaviour: all tests but the long
@@ -65,7 +66,7 @@ tsan() {
 }
 
 usage() {
-  sed -n '2,9s/^# \{0,1\}//p' "$0" >&2
+  sed -n '3,10s/^# \{0,1\}//p' "$0" >&2
   exit 2
 }
 

@@ -1,4 +1,5 @@
 #!/usr/bin/env bash
+# SPDX-License-Identifier: BSD-3-Clause
 # Installs Debian packages (Debian 12 or later), as root or with sudo, and only what is missing.
 #   bash scripts/setup.sh          what building and running rondo needs, and pip install ./python
 #   bash scripts/setup.sh --dev    tests, lint, sanitizers, fuzzing, coverage and benchmarks too; where
@@ -17,6 +18,7 @@ packages=(
   pybind11-dev python3-dev                           # the library in Python: rondo._core
   python3 python3-numpy python3-h5py python3-matplotlib python3-pil # pictures
   ffmpeg                                             # films (.mp4)
+  file                                               # packages for Debian
 )
 for_site=(
   python3 mkdocs mkdocs-material python3-pymdownx python3-yaml # pages
@@ -24,9 +26,10 @@ for_site=(
 )
 for_development=(
   libgtest-dev python3-pytest python3-pip python3-venv patch python3-jsonschema # tests
+  python3-yaml man-db mandoc                         # tests: the citation, pages of man
   python3-pandas python3-xarray                      # what results may be handed to, optional
   gmsh                                               # makes cases/meshes and tests/meshes
-  clang-format clang-tidy cppcheck mypy              # scripts/lint.sh; mypy: tests/python too
+  clang-format clang-tidy cppcheck mypy reuse        # scripts/lint.sh; mypy: tests/python too
   clang libclang-rt-14-dev llvm-14 libomp-dev        # the other compiler, sanitizers, scripts/fuzz.sh
   gcovr                                              # scripts/coverage.sh
   libbenchmark-dev valgrind                          # bench/; instructions of a step, a test
@@ -38,7 +41,7 @@ case ${1:-} in
   '') ;;
   --dev) packages+=("${for_development[@]}"); with_taplo=1 ;;
   --docs) packages=("${for_site[@]}") ;;
-  *) sed -n '2,6s/^# \{0,1\}//p' "$0" >&2; exit 2 ;;
+  *) sed -n '3,7s/^# \{0,1\}//p' "$0" >&2; exit 2 ;;
 esac
 
 installed=$(dpkg-query -W -f='${Package} ${db:Status-Status}\n' "${packages[@]}" 2>/dev/null || true)

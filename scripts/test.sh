@@ -1,4 +1,5 @@
 #!/usr/bin/env bash
+# SPDX-License-Identifier: BSD-3-Clause
 # Installs, builds and runs the tests; ends with ctest's summary. Arguments go to ctest, for example
 #   bash scripts/test.sh -R cli_       the program, driven from outside
 # Long runs: scripts/long.sh. Format and static analysis: scripts/lint.sh.

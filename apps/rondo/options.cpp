@@ -44,12 +44,13 @@ void add_reduced(CLI::App& run, study::RunOptions& options) {
       ->capture_default_str()
       ->needs(reduced);
   run.add_option("--reduced-step", options.reduced_step,
-                 "of a reduced run: midpoint (implicit), or explicit (central differences)")
+                 "midpoint | explicit: of a reduced run; implicit, or central differences")
       ->capture_default_str()
       ->needs(reduced);
-  run.add_option("--snapshots", options.reduced_snapshots,
-                 "of a reduced run: fields, or modes (coordinates alone, far cheaper, no stress; "
-                 "lifted when read in Python)")
+  run.add_option(
+         "--snapshots", options.reduced_snapshots,
+         "fields | modes: of a reduced run; modes: coordinates alone, far cheaper, no stress; "
+         "lifted when read in Python")
       ->capture_default_str()
       ->needs(reduced);
 }
@@ -139,11 +140,12 @@ CLI::App* add_reduce(CLI::App& program, study::ReduceRequest& r, Telling& tell) 
       ->check(CLI::Range(1, 16));
   reduce->add_option(
       "--contact", r.contact,
-      "points of contact: places that stand still in space, or the nodes that come by; places on "
-      "a smooth disk if left out, nodes otherwise");
+      "places | nodes: points of contact that stand still in space, or the nodes that come by; "
+      "places on a smooth disk if left out, nodes otherwise");
   reduce
       ->add_option("--frame", r.frame,
-                   "frame of the modes: rectified, or co-rotating (with the disk), to compare with")
+                   "rectified | co-rotating: frame of the modes; co-rotating (with the disk) to "
+                   "compare with")
       ->capture_default_str();
   reduce->add_option("--memory", r.memory, "memory allowed to the decompositions")
       ->capture_default_str();

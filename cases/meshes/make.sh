@@ -1,4 +1,5 @@
 #!/usr/bin/env bash
+# SPDX-License-Identifier: BSD-3-Clause
 # Makes the meshes of this folder again; arguments go to gmsh, for example: bash make.sh -setnumber N 40
 set -euo pipefail
 cd "$(dirname "$0")"

@@ -26,7 +26,7 @@ from .pictures import attach
 from .simulation import Simulation
 from .solution import Solution, crush, solve, steady_rolling
 
-__version__ = "0.1.0"
+__version__ = "0.2.0"
 
 attach()
 del attach

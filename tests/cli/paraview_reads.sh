@@ -1,4 +1,5 @@
 #!/usr/bin/env bash
+# SPDX-License-Identifier: BSD-3-Clause
 # A short run, read by each of ParaView's XDMF readers. Exits 77 where there is no ParaView.
 set -euo pipefail
 rondo=$1

@@ -1,4 +1,5 @@
 #!/usr/bin/env bash
+# SPDX-License-Identifier: BSD-3-Clause
 # Installs the build into a folder of its own, builds another program and the one that docs/library.md
 # shows against it, and runs both. The headers are those of the list, and each stands by itself. Then the
 # folder is moved, and the Python package works from there, with the library as its module and the programs.

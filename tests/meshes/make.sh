@@ -1,4 +1,5 @@
 #!/usr/bin/env bash
+# SPDX-License-Identifier: BSD-3-Clause
 # Makes the meshes of this folder again, with Gmsh 4.8.4.
 set -euo pipefail
 cd "$(dirname "$0")"
