@@ -37,6 +37,7 @@ void demand_command(CLI::App& program, const std::string& name) {
   std::size_t least = std::max<std::size_t>(1, name.size() / 3) + 1;
   for (const CLI::App* command : program.get_subcommands({})) {
     if (command->get_name() == name) return;
+    if (command->get_group().empty()) continue;  // gone
     names += (names.empty() ? "" : ", ") + command->get_name();
     const std::size_t distance = edit_distance(name, command->get_name());
     if (distance >= least) continue;

@@ -242,6 +242,7 @@ CLI::App* add_schema(CLI::App& program, std::string& of) {
 
 void add_paper(CLI::App& program) {
   program.add_subcommand("paper", "the study of the paper: python3 -m rondo paper -o DIRECTORY")
+      ->group("")  // not in the help
       ->allow_extras()
       ->callback([] { refuse_moved("rondo paper", "python3 -m rondo paper -o DIRECTORY"); });
 }
