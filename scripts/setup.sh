@@ -1,8 +1,8 @@
 #!/usr/bin/env bash
 # Installs Debian packages (Debian 12 or later), as root or with sudo, and only what is missing.
 #   bash scripts/setup.sh          what building and running rondo needs, and pip install ./python
-#   bash scripts/setup.sh --dev    tests, lint, sanitizers, fuzzing, coverage and benchmarks too; where
-#                                  there is npm, Taplo, which tests the schemas for editors
+#   bash scripts/setup.sh --dev    tests, lint, sanitizers, fuzzing, coverage and benchmarks too; Chromium,
+#                                  which tests reports, and Taplo, which tests the schemas for editors
 set -euo pipefail
 
 packages=(
@@ -16,6 +16,7 @@ packages=(
   pybind11-dev python3-dev                           # the library in Python: rondo._core
   python3 python3-numpy python3-h5py python3-matplotlib python3-pil # pictures
   ffmpeg                                             # films (.mp4)
+  npm                                                # plotly.js, for rondo report
 )
 for_development=(
   libgtest-dev python3-pytest python3-pip python3-venv patch python3-jsonschema # tests
@@ -25,6 +26,7 @@ for_development=(
   clang libclang-rt-14-dev llvm-14 libomp-dev        # the other compiler, sanitizers, scripts/fuzz.sh
   gcovr                                              # scripts/coverage.sh
   libbenchmark-dev valgrind                          # bench/; instructions of a step, a test
+  chromium chromium-driver python3-selenium          # reports in a browser
 )
 with_taplo=
 case ${1:-} in
@@ -70,4 +72,13 @@ if [ ${#missing[@]} -gt 0 ]; then
 else
   echo "setup: all ${#packages[@]} packages are installed"
 fi
+# What draws the curves of rondo report; it goes into the page, which then asks no network for it.
+install_plotly() {
+  local wanted=plotly.js-basic-dist-min@4.1.1 there
+  there=$(npm ls -g 2>/dev/null || true)
+  [[ $there == *"$wanted"* ]] && return
+  "${as_root[@]}" npm install -g --silent "$wanted" ||
+    echo "setup: npm has not installed $wanted: rondo report will refuse, all else works" >&2
+}
+install_plotly
 if [ -n "$with_taplo" ]; then install_taplo; fi

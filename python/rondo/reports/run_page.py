@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from functools import partial
 
 from matplotlib.figure import Figure
 
@@ -132,7 +133,7 @@ def _wanted(run: Run) -> list[Wanted]:
         for which in [quantity, *(["von_mises"] if "von_mises" in run.field_names else [])]:
             found.append((which, f"{field.NAMES.get(which, which).capitalize()} in colours"
                           + ("" if run.is_steady else ", at three moments"),
-                          lambda which=which: run_figures.fields(run, which)))
+                          partial(run_figures.fields, run, which)))
         if run.is_steady:
             found.append(("footprint", "The contact patch: pressure, shear, slip, and what sticks",
                           lambda: plot_footprint(run)))
@@ -153,26 +154,28 @@ def _wanted(run: Run) -> list[Wanted]:
 
 
 def _of_solid(run: Run) -> list[Wanted]:
-    from ..plots.solid.surface import plot_surface
-
     found: list[Wanted] = []
     if not run.n_snapshots:
         return found
-    last = float(run.times[-1])
     for which in ("displacement", "von_mises"):
         if which in run.field_names:
             found.append((which, f"{field.NAMES.get(which, which).capitalize()} at the end",
-                          lambda which=which: plot_surface(run, last, which).figure))
+                          partial(_surface, run, which)))
     if run.contact is not None and len(run.contact.rows["time_s"]):
         found.append(("footprint", "The contact patch: pressure, shear, and what sticks",
                       lambda: run.plot_footprint()))
     return found + _of_pods(run)
 
 
+def _surface(run: Run, quantity: str) -> Figure:
+    from ..plots.solid.surface import plot_surface
+    return plot_surface(run, float(run.times[-1]), quantity).figure
+
+
 def _of_pods(run: Run) -> list[Wanted]:
     pods = [pod for pod in run.pods.values() if pod.n_modes and not (run.is_solid and pod.field == "contact")]
     found: list[Wanted] = [(pod.name, f"Modes of the {pod.field} ({pod.kind}), and their course in time",
-                            lambda pod=pod: pod.plot_modes()) for pod in pods]
+                            pod.plot_modes) for pod in pods]
     if pods:
         names = [pod.name for pod in pods]
         found.append(("spectrum", "Energy left out over the number of modes kept",

@@ -36,12 +36,12 @@ rondo.Scene3d = class {
   draw(context, width, height, k) {
     const v = this.viewer, axes = this.#axes(), first = v.origin(0), now = v.origin(k);
     const center = v.following ? now : [first[0] + (v.origin(v.count - 1)[0] - first[0]) / 2, first[1], first[2]];
-    const across = 2.3 * this.radius + (v.following ? 0 : this.path);
-    this.scale = this.zoom * Math.min(width / across, height / (2.3 * this.radius));
+    const across = 2.6 * this.radius + (v.following ? 0 : this.path);
+    this.scale = this.zoom * Math.min(width / across, height / (2.6 * this.radius));
     const project = (x, y, z) => {
       const [a, b, c] = [x - center[0], y - center[1], z - center[2]];
       const seen = axes.map((axis) => axis[0] * a + axis[1] * b + axis[2] * c);
-      return [width / 2 + this.scale * seen[0], height / 2 - this.scale * seen[1], seen[2]];
+      return [width / 2 + this.scale * seen[0], 0.46 * height - this.scale * seen[1], seen[2]];
     };
     const below = this.elevation < 0;
     if (!below) this.#ground(context, project, center, false);
@@ -129,16 +129,36 @@ rondo.Scene3d = class {
         if (corner) context.lineTo(seen[n], seen[n + 1]); else context.moveTo(seen[n], seen[n + 1]);
       }
       context.closePath();
-      context.fillStyle = v.scaleColours[shades[f]];
+      const colour = this.#lit(v.scaleColours[shades[f]], this.#light(places, cells, f));
+      context.fillStyle = colour;
       context.fill();
       context.lineWidth = v.showMesh ? 0.5 : 0.7;
-      context.strokeStyle = v.showMesh ? "rgba(60, 60, 60, 0.6)" : v.scaleColours[shades[f]];
+      context.strokeStyle = v.showMesh ? "rgba(60, 60, 60, 0.6)" : colour;
       context.stroke();
     }
   }
 
+  // How much of the light a face gets, in sixteenths; the light comes from the right, above, the side.
+  #light(places, cells, f) {
+    const at = (corner) => 3 * cells[4 * f + corner], side = (a, b) => [0, 1, 2].map((c) => places[b + c] - places[a + c]);
+    const [p, q] = [side(at(0), at(2)), side(at(1), at(3))];
+    const n = [p[1] * q[2] - p[2] * q[1], p[2] * q[0] - p[0] * q[2], p[0] * q[1] - p[1] * q[0]];
+    const toward = (0.35 * n[0] + 0.85 * n[1] + 0.4 * n[2]) / (Math.hypot(...n) || 1);
+    return Math.round(16 * (0.84 + 0.16 * Math.max(0, toward)));
+  }
+
+  #lit(colour, light) {
+    const key = colour + light;
+    if (!this.kept) this.kept = new Map();
+    if (!this.kept.has(key)) {
+      const parts = [1, 3, 5].map((from) => Math.round(parseInt(colour.slice(from, from + 2), 16) * light / 16));
+      this.kept.set(key, `rgb(${parts.join(",")})`);
+    }
+    return this.kept.get(key);
+  }
+
   #forces(context, project, axes, k) {
-    const v = this.viewer, places = v.places(k), factor = 0.5 * this.radius / v.data.forces.largest;
+    const v = this.viewer, places = v.places(k), factor = 0.35 * this.radius / v.data.forces.largest;
     v.eachForce(k, (n, f) => {
       const p = [places[3 * n], places[3 * n + 1], places[3 * n + 2]];
       const end = project(...p), start = project(...p.map((x, c) => x - factor * f[c]));

@@ -10,17 +10,19 @@ rondo.layout = (x, y, options = {}) => {
   const grid = rondo.colour("grid"), text = rondo.colour("text");
   const axis = (title, log) => ({title: {text: title, standoff: 8}, type: log ? "log" : "linear", gridcolor: grid,
                                  zerolinecolor: grid, linecolor: grid, automargin: true,
-                                 exponentformat: "power", nticks: 8});
+                                 exponentformat: "SI", nticks: 8});
   return {xaxis: axis(x, options.xLog), yaxis: axis(y, options.yLog), paper_bgcolor: "rgba(0,0,0,0)",
           plot_bgcolor: "rgba(0,0,0,0)", font: {color: text, family: "system-ui, sans-serif", size: 13},
-          margin: {l: 60, r: 12, t: 12, b: 48}, hovermode: "closest", showlegend: options.legend !== false,
+          modebar: {bgcolor: "rgba(0,0,0,0)", color: rondo.colour("soft"), activecolor: rondo.colour("link")},
+          margin: {l: 60, r: 12, t: 32, b: 48}, hovermode: "closest", showlegend: options.legend !== false,
           legend: {orientation: "h", y: -0.22, yanchor: "top"}, colorway: [text],
           // A finger scrolls the page; the buttons above the curves zoom.
           dragmode: window.matchMedia("(pointer: coarse)").matches ? false : "zoom"};
 };
 
-rondo.settings = {responsive: true, displaylogo: false, scrollZoom: false,
-                  modeBarButtonsToRemove: ["select2d", "lasso2d", "autoScale2d"]};
+// The buttons by name: of its own plotly.js adds one that sends the chart to its makers.
+rondo.settings = {responsive: true, displaylogo: false, scrollZoom: false, plotlyServerURL: "", showSendToCloud: false,
+                  modeBarButtons: [["toImage", "zoom2d", "pan2d", "zoomIn2d", "zoomOut2d", "resetScale2d"]]};
 
 rondo.Chart = class {
   static async make(place) {

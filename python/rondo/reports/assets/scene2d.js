@@ -31,8 +31,11 @@ rondo.Scene2d = class {
 
   shape() {  // height over width
     const b = this.viewer.following ? this.box.follow : this.box.stay;
-    return (b[3] - b[1]) / Math.max(b[2] - b[0], 1e-9) * 1.05 + 0.06;
+    return (b[3] - b[1]) * this.#room() / Math.max(1.08 * (b[2] - b[0]), 1e-9);
   }
+
+  // Of the height: with forces from below or ground more of it beneath.
+  #room() { return this.viewer.data.ground ? 1.3 : 1.12; }
 
   drag(dx, dy) {
     this.shift[0] -= dx / this.scale;
@@ -47,9 +50,9 @@ rondo.Scene2d = class {
   draw(context, width, height, k) {
     const v = this.viewer, b = v.following ? this.box.follow : this.box.stay;
     const size = [b[2] - b[0], b[3] - b[1]];
-    this.scale = this.zoom * Math.min(width / (1.08 * size[0]), height / (1.14 * size[1]));
+    this.scale = this.zoom * Math.min(width / (1.08 * size[0]), height / (this.#room() * size[1]));
     const middle = [(b[0] + b[2]) / 2 + (v.following ? v.origin(k)[0] : 0) + this.shift[0],
-                    (b[1] + b[3]) / 2 + this.shift[1] - 0.02 * size[1]];
+                    (b[1] + b[3]) / 2 + this.shift[1] - 0.5 * (this.#room() - 1.08) * size[1]];
     this.x = (x) => width / 2 + (x - middle[0]) * this.scale;
     this.y = (y) => height / 2 - (y - middle[1]) * this.scale;
     const places = v.places(k);

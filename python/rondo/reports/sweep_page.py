@@ -4,6 +4,7 @@ rolling over slip, traction curves and carpets."""
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator
+from functools import partial
 from typing import Any
 
 import numpy as np
@@ -14,7 +15,7 @@ from ..data.names import find_figure
 from ..data.sweep import Sweep, counts, goes_on
 from ..figures.sweep_figures import usual
 from ..figures.traction_figures import LOADS
-from ..plots.labels import column_label, parameter_label
+from ..plots.labels import column_label, parameter_label, readable
 from ..plots.traction import others_of
 from .document import Document, note, paragraph, tiles
 from .encoding import escaped, number, packed
@@ -89,7 +90,7 @@ def _chooser(document: Document, sweep: Sweep, rolls: bool) -> str:
     if not sweep.done.any():
         return note("No member is done yet: there is nothing to draw.")
     done = sweep.where(sweep.done)
-    columns = {}
+    columns: dict[str, Any] = {}
     for name in done.names:
         if name in ("status", "run"):
             continue
@@ -97,9 +98,11 @@ def _chooser(document: Document, sweep: Sweep, rolls: bool) -> str:
         if values.dtype.kind not in "fiu":
             columns[name] = {"kind": kind, "texts": [str(value) for value in values], **_named(sweep, name)}
         elif np.isfinite(values).any():
-            columns[name] = {"kind": kind, "values": packed(values, "float32"), **_named(sweep, name)}
+            named = _named(sweep, name)
+            factor, named["unit"] = readable(float(np.nanmax(np.abs(values))), named["unit"] or "1")
+            columns[name] = {"kind": kind, "values": packed(values * factor, "float32"), **named}
     data: dict[str, Any] = {"runs": done["run"].astype(int).tolist(), "columns": columns,
-                            "varied": done.varied, **_first(done, rolls)}
+                            "varied": done.varied, "middle": rolls, **_first(done, rolls)}
     document.data("sweep", data)
     return ('<p class="hint">Choose what goes along the axes. Drag over the picture to zoom, double-click to see '
             'all again.</p><div class="sweep" data-source="sweep" role="group" aria-label="Curves and maps of '
@@ -148,7 +151,7 @@ def _wanted(sweep: Sweep, rolls: bool) -> Iterator[tuple[str, Callable[[], Figur
         return
     for name in names:
         yield (f"Effect of each parameter on the {column_label(name)} ({name}): mean over all others, with "
-               "bars from the least to the greatest", lambda name=name: sweep.plot_main_effects(name))
+               "bars from the least to the greatest", partial(sweep.plot_main_effects, name))
 
 
 def _traction(sweep: Sweep) -> Iterator[tuple[str, Callable[[], Figure]]]:
@@ -157,13 +160,21 @@ def _traction(sweep: Sweep) -> Iterator[tuple[str, Callable[[], Figure]]]:
     for key in others:
         rest = {name: value for name, value in middle.items() if name != key}
         yield (f"Longitudinal force over slip, a curve for each {parameter_label(key)}{_said(rest)}",
-               lambda key=key, rest=rest: (sweep.select(rest) if rest else sweep).plot_traction(key).figure)
+               partial(_curves_of, sweep, rest, key))
     if not others:
         yield "Longitudinal force over slip", lambda: sweep.plot_traction().figure
     for load in (key for key in LOADS if key in others):
         rest = {name: value for name, value in middle.items() if name != load}
         yield (f"Carpet: longitudinal force over slip and load{_said(rest)}",
-               lambda load=load, rest=rest: (sweep.select(rest) if rest else sweep).plot_carpet(load).figure)
+               partial(_carpet_of, sweep, rest, load))
+
+
+def _curves_of(sweep: Sweep, rest: dict[str, Any], key: str) -> Figure:
+    return (sweep.select(rest) if rest else sweep).plot_traction(key).figure
+
+
+def _carpet_of(sweep: Sweep, rest: dict[str, Any], load: str) -> Figure:
+    return (sweep.select(rest) if rest else sweep).plot_carpet(load).figure
 
 
 def _said(rest: dict[str, Any]) -> str:

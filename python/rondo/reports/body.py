@@ -3,11 +3,13 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from functools import partial
 from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
+from ..data.arrays import LazyArray
 from ..data.files import kept
 from ..data.ground import Ground
 from ..data.run import Run
@@ -19,7 +21,7 @@ from .encoding import packed, quantised, shades, size_of
 
 Array = NDArray[np.float64]
 Whole = NDArray[np.int64]
-BUDGET = 2_200_000  # characters of a page
+BUDGET = 3_000_000  # characters of a page
 TRIAL = 6  # snapshots from which the size of the others is told
 MOST = 400  # snapshots
 
@@ -163,8 +165,12 @@ def _fields(run: Run, chosen: Whole, nodes: Whole) -> list[dict[str, Any]]:
         if name in there:
             source = run.field(name)
             words = "von Mises stress" if name == "von_mises" else f"stress {name[7:]}, fixed axes"
-            add(words, source.units, lambda k, source=source: np.asarray(source[k])[nodes])
+            add(words, source.units, partial(_nodal, source, nodes))
     return found
+
+
+def _nodal(source: LazyArray, nodes: Whole, k: int) -> Array:
+    return np.asarray(source[k], dtype=float)[nodes]
 
 
 def _pressure(run: Run, k: int) -> Array:
@@ -202,7 +208,7 @@ def _ground(run: Run, frames: _Frames) -> dict[str, Any] | None:
         return None
     found: dict[str, Any] = {"line": ground.points(frames.reach()).round(6).tolist()}
     if run.is_solid:
-        beside = 1.6 * float(np.abs(run.mesh.coordinates[:, 2]).max())
+        beside = 2.5 * float(np.abs(run.mesh.coordinates[:, 2]).max())
         # Along t2 the center may drift: the strip is as wide as to be under it all along.
         drift = [float(run.lateral.min(initial=0.0)), float(run.lateral.max(initial=0.0))]
         found |= {"axes": ground_axes(run.camber).tolist(), "from": drift[0] - beside,
@@ -217,7 +223,7 @@ def modes_of(pod: Any, most: int) -> dict[str, Any]:
     largest = np.linalg.norm(shapes, axis=2).max(axis=1)
     shapes = shapes / np.where(largest > 0, largest, 1.0)[:, None, None]
     radius = float(np.linalg.norm(pod.mesh.coordinates[:, :2], axis=1).max())
-    labels = [f"mode {k + 1}: {100 * share:.3g} % of the energy"
+    labels = [f"mode {k + 1}: {100 * share:.4g} % of the energy"
               for k, share in enumerate(pod.energy[:len(shapes)])]
     return {"dimensions": 3 if pod.mesh.is_solid else 2, "modes": True, "mesh": mesh | {"rim": 0.0},
             "frame": packed(np.zeros(len(nodes)), "uint8"), "middle": [[0.0, 0.0, 0.0]],

@@ -67,6 +67,11 @@ rondo.number = (value, digits = 3) => {
   return String(Number(value.toPrecision(digits))).replace("-", "−");
 };
 
+rondo.scaled = (value, unit) => {
+  const [factor, prefix] = value >= 1e6 ? [1e-6, "M"] : value >= 1e3 ? [1e-3, "k"] : [1, ""];
+  return `${rondo.number(value * factor)} ${prefix}${unit}`;
+};
+
 rondo.refuse = (place, reason) => {
   place.append(rondo.element("p", {class: "note"}, "This cannot be shown: " + reason +
     ". A browser of 2023 or later is needed (Firefox 113, Chrome or Edge 80, Safari 16.4)."));

@@ -67,9 +67,11 @@ def number(value: Any, digits: int = 4) -> str:
         return f"{int(value):,}".replace(",", "\u202f")
     size = abs(float(value))
     if size and (size < 1e-3 or size >= 1e6):
-        mantissa, exponent = f"{value:.{digits - 2}e}".split("e")
+        mantissa, exponent = f"{value:.{max(digits - 2, 1)}e}".split("e")
+        mantissa = f"{float(mantissa):g}"
         return f"{mantissa}·10{_raised(int(exponent))}".replace("-", "−")
-    return f"{value:.{digits}g}".replace("-", "−")
+    whole = max(digits, len(f"{size:.0f}"))  # 3795, not 3.8e+03
+    return f"{value:.{whole}g}".replace("-", "−")
 
 
 def _raised(exponent: int) -> str:

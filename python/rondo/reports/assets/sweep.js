@@ -18,7 +18,10 @@ rondo.Sweep = class {
     this.kind = "curves";
     ({x: this.x, y: this.y, by: this.by} = data);
     this.rest = {};
-    for (const name of data.varied) this.rest[name] = "";
+    for (const name of data.varied) {
+      const levels = this.#levels(name);  // of curves over slip, as the pictures have it: the rest at its middle
+      this.rest[name] = data.middle && name !== this.by && !this.#leads(name) ? levels[levels.length >> 1] : "";
+    }
   }
 
   #levels(name) {
@@ -33,7 +36,7 @@ rondo.Sweep = class {
 
   #title(name) {
     const {label, unit} = this.columns[name];
-    return rondo.plain(unit ? `${label} (${unit})` : label);
+    return rondo.plain(unit && unit !== "–" ? `${label} (${unit})` : label);
   }
 
   build(place) {

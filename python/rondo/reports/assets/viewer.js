@@ -211,7 +211,7 @@ rondo.Viewer = class {
                  pass: "One sector's pass, over and over: the next sector then takes the place of this one.",
                  motion: slower >= 1 ? `Played ${rondo.number(slower, 2)} times slower than it happens.`
                                      : `Played ${rondo.number(1 / (slower || 1), 2)} times faster than it happens.`};
-    const arrows = this.forceNodes ? ` The longest arrow is ${rondo.number(this.data.forces.largest)} ${this.data.forces.unit} at a node.` : "";
+    const arrows = this.forceNodes ? ` The longest arrow is ${rondo.scaled(this.data.forces.largest, this.data.forces.unit)} at a node.` : "";
     this.words.textContent = how[kind] + arrows + turn;
   }
 

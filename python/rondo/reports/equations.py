@@ -10,11 +10,11 @@ def _i(text: str) -> str:
 
 
 def _t(text: str) -> str:
-    return f"<mtext>{text}</mtext>"
+    return f"<mtext>{text.replace(' ', chr(160))}</mtext>"
 
 
 def _o(text: str) -> str:
-    return f"<mo>{text}</mo>"
+    return f'<mo stretchy="false">{text}</mo>' if text in "()|‖" else f"<mo>{text}</mo>"
 
 
 def _n(text: str) -> str:
