@@ -28,6 +28,8 @@ def report(results: str | os.PathLike[str], file: str | os.PathLike[str] | None 
         raise Error(f"{target}: a report is HTML: give a name that ends in .html")
     if target.is_dir():
         raise FileError(f"{target}: is a folder: give the name of a file that ends in .html")
+    if file is not None and not target.parent.is_dir():
+        raise FileError(f"{target}: cannot be written: there is no folder {target.parent}; choose another -o")
     text = page(directory).text().encode("utf-8", "replace")
     fresh = target.with_name(f".{target.name}.{os.getpid()}.tmp")  # the file is whole or is not there
     try:

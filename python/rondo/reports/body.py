@@ -10,6 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..data.arrays import LazyArray
+from ..data.errors import Error
 from ..data.files import kept
 from ..data.ground import Ground
 from ..data.run import Run
@@ -24,6 +25,7 @@ Whole = NDArray[np.int64]
 BUDGET = 3_000_000  # characters of a page
 TRIAL = 6  # snapshots from which the size of the others is told
 MOST = 400  # snapshots
+MOST_MESH = 2.0  # of the budget
 
 
 def body_of(run: Run, budget: int = BUDGET) -> tuple[dict[str, Any], str]:
@@ -32,8 +34,11 @@ def body_of(run: Run, budget: int = BUDGET) -> tuple[dict[str, Any], str]:
     with kept(run.path):
         trial = _body(run, _spread(run.n_snapshots, TRIAL))
         mesh = size_of(trial["mesh"])
+        if mesh > MOST_MESH * budget:
+            raise Error(f"the mesh alone, {run.mesh.n_nodes} nodes, would make the page too large; "
+                        "ParaView shows such bodies (fields.vtkhdf, fields.xdmf)")
         each = max(1.0, (size_of(trial) - mesh) / len(trial["labels"]))
-        chosen = _spread(run.n_snapshots, min(MOST, max(2, int((budget - mesh) / each))))
+        chosen = _spread(run.n_snapshots, min(MOST, max(TRIAL, int((budget - mesh) / each))))
         found = _body(run, chosen) if len(chosen) != len(trial["labels"]) else trial
     if len(chosen) == run.n_snapshots:
         return found, ""

@@ -3,8 +3,6 @@
 from __future__ import annotations
 
 import base64
-import pathlib
-import tempfile
 
 import matplotlib.pyplot as plt
 from matplotlib.figure import Figure
@@ -12,12 +10,12 @@ from matplotlib.figure import Figure
 from .. import style
 from .encoding import escaped
 
+DPI = 160
+
 
 def picture(figure: Figure, words: str, is_wide: bool = True) -> str:
     """A figure with what it shows in words, which it is closed by."""
-    with tempfile.TemporaryDirectory() as folder:
-        png, _ = style.save(figure, pathlib.Path(folder) / "picture")
-        data = base64.b64encode(png.read_bytes()).decode()
+    data = base64.b64encode(style.png_of(figure, DPI)).decode()
     width, height = figure.get_size_inches()
     plt.close(figure)
     size = f'width="{round(100 * width)}" height="{round(100 * height)}"'

@@ -25,6 +25,7 @@ from .pictures import picture
 
 MOST_CELLS = 30_000  # of the table of members
 MOST_EFFECTS = 4  # pictures
+ENDINGS = ("mean", "peak", "fluctuation")  # of figures, behind the column that they are of
 ABOUT = ("One case was computed many times, with other values of some keys each time (the parameters). "
          "A row of the table is one of these runs (a member), with figures that sum it up.")
 
@@ -111,9 +112,17 @@ def _chooser(document: Document, sweep: Sweep, rolls: bool) -> str:
 
 def _named(sweep: Sweep, name: str) -> dict[str, str]:
     unit = sweep.unit_of(name)
-    words = parameter_label(name) if name in sweep.parameters else column_label(name)
+    words = parameter_label(name) if name in sweep.parameters else _figure_words(name)
     return {"label": words if words != name or "." in name else name.replace("_", " "),
             "unit": "" if unit in ("1", "unknown") else unit}
+
+
+def _figure_words(name: str) -> str:
+    """Figures are of columns, as force_x_mean of force_x."""
+    for ending in ENDINGS:
+        if name.endswith(f"_{ending}"):
+            return f"{column_label(name.removesuffix(f'_{ending}'))}, {ending}"
+    return column_label(name)
 
 
 def _first(sweep: Sweep, rolls: bool) -> dict[str, str]:
