@@ -12,7 +12,7 @@ import numpy as np
 import pytest
 import solids
 import sweeps
-from pages import Page, unpacked
+from html_pages import Page, unpacked
 from program import PROGRAM, ROOT, SMALL, replaced, run
 
 import rondo

@@ -100,7 +100,7 @@ def _bodies(document: Document, paper: Paper) -> str:
         except Error as reason:
             html += note(f"{name}: {reason}")
             continue
-        html += f"<h3>{escaped(run.title)}</h3>" + body_html(document, run, f"body-{name}", BUDGET)
+        html += f"<h3>{escaped(run.title)} <small>({escaped(name)})</small></h3>" + body_html(document, run, f"body-{name}", BUDGET)
     return html or note("No run of a moving body is there yet.")
 
 
