@@ -15,7 +15,7 @@ try:
     from selenium.webdriver.chrome.service import Service
 except ImportError:
     WHY_NOT = "python3-selenium is not installed"
-CHROMIUM, DRIVER = shutil.which("chromium"), shutil.which("chromedriver")
+CHROMIUM, DRIVER = shutil.which("chromium") or "", shutil.which("chromedriver") or ""
 if not WHY_NOT and not (CHROMIUM and DRIVER):
     WHY_NOT = "chromium and chromium-driver are not installed (scripts/setup.sh --dev)"
 PATIENCE = 20.0  # s: for what a script does; a loaded machine is slow
