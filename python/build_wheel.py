@@ -27,6 +27,8 @@ PROJECT: dict[str, Any] = tomllib.loads((ROOT / "pyproject.toml").read_text())["
 NAME = PROJECT["name"]
 DATE = (1980, 1, 1, 0, 0, 0)  # of all files: the earliest that zip knows
 PURE = "py3-none-any"
+PLOTLY = [pathlib.Path(prefix) / "lib/node_modules/plotly.js-basic-dist-min"  # npm install -g
+          for prefix in ("/usr/local", "/usr")]
 # Runs the program of the package; pip puts in its own Python.
 SCRIPT = b"""#!python
 import importlib.util
@@ -60,10 +62,23 @@ def shipped_files() -> dict[str, pathlib.Path]:
     return {f"{NAME}/shipped/{path.relative_to(ROOT.parent).as_posix()}": path for path in found}
 
 
+def plotly_files() -> dict[str, pathlib.Path]:
+    """plotly.js, which draws the curves of reports, with its licence, where it is installed."""
+    folder = f"{NAME}/reports/assets"
+    for place in PLOTLY:
+        if (place / "plotly-basic.min.js").is_file():
+            found = {f"{folder}/plotly-basic.min.js": place / "plotly-basic.min.js"}
+            if (place / "LICENSE").is_file():
+                found[f"{folder}/plotly-LICENSE"] = place / "LICENSE"
+            return found
+    return {}
+
+
 def package_files() -> dict[str, pathlib.Path]:
     """Files of the package by their names in it, sorted."""
     kept = {path.relative_to(ROOT).as_posix(): path for path in (ROOT / NAME).rglob("*")
-            if path.suffix in (".py", ".pyi", ".typed")}
+            if path.suffix in (".py", ".pyi", ".typed") or path.parent.name == "assets"}
+    kept |= plotly_files()
     return dict(sorted((kept | shipped_files()).items()))
 
 

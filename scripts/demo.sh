@@ -11,10 +11,12 @@ out=results/ledge-smooth
 build/release/rondo run cases/ledge-smooth.toml -o "$out" --overwrite
 build/release/rondo pod "$out" --frame rectified --from 0.07 --quiet
 PYTHONPATH=python /usr/bin/python3 -m rondo figures "$out"
+build/release/rondo report "$out"
 
 cat <<EOT
 
 The results are in $out:
+  report.html   all of it in one file: open it in a browser and press play; it can be mailed
   figures/      pictures of the run, PNG and SVG: the disk, the forces, the energy, the modes
   history.csv   contact forces and the energy balance over time (any spreadsheet, pandas)
   fields.xdmf   the rolling disk: open it in ParaView and press play

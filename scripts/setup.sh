@@ -2,8 +2,8 @@
 # SPDX-License-Identifier: BSD-3-Clause
 # Installs Debian packages (Debian 12 or later), as root or with sudo, and only what is missing.
 #   bash scripts/setup.sh          what building and running rondo needs, and pip install ./python
-#   bash scripts/setup.sh --dev    tests, lint, sanitizers, fuzzing, coverage and benchmarks too; where
-#                                  there is npm, Taplo, which tests the schemas for editors
+#   bash scripts/setup.sh --dev    tests, lint, sanitizers, fuzzing, coverage and benchmarks too; Chromium,
+#                                  which tests pages, and Taplo, which tests the schemas for editors
 #   bash scripts/setup.sh --docs   what scripts/docs.sh needs, and nothing else
 set -euo pipefail
 
@@ -36,13 +36,16 @@ for_development=(
   "${for_site[@]}" python3-markdown-it               # scripts/docs.sh; its pages against a second reader
   chromium chromium-driver python3-selenium          # the site and reports in a browser
 )
+with_plotly=1
 with_taplo=
 case ${1:-} in
   '') ;;
   --dev) packages+=("${for_development[@]}"); with_taplo=1 ;;
-  --docs) packages=("${for_site[@]}") ;;
+  --docs) packages=("${for_site[@]}"); with_plotly= ;;
   *) sed -n '3,7s/^# \{0,1\}//p' "$0" >&2; exit 2 ;;
 esac
+# It comes with Node.js, too, which need not be Debian's.
+if [ -n "$with_plotly" ] && ! command -v npm >/dev/null; then packages+=(npm); fi
 
 installed=$(dpkg-query -W -f='${Package} ${db:Status-Status}\n' "${packages[@]}" 2>/dev/null || true)
 missing=()
@@ -68,6 +71,15 @@ install_taplo() {
   done
 }
 
+# What draws the curves of rondo report; it goes into the page, which then asks no network for it.
+install_plotly() {
+  local wanted=plotly.js-basic-dist-min@4.1.1 there
+  there=$(npm ls -g 2>/dev/null || true)
+  [[ $there == *"$wanted"* ]] && return
+  "${as_root[@]}" npm install -g --silent "$wanted" ||
+    echo "setup: npm has not installed $wanted: rondo report will refuse, all else works" >&2
+}
+
 if [ ${#missing[@]} -gt 0 ]; then
   if [ "$(id -u)" -ne 0 ] && [ ${#as_root[@]} -eq 0 ]; then
     echo "setup: these packages are missing and neither root nor sudo is at hand: ${missing[*]}" >&2
@@ -81,4 +93,5 @@ if [ ${#missing[@]} -gt 0 ]; then
 else
   echo "setup: all ${#packages[@]} packages are installed"
 fi
+if [ -n "$with_plotly" ]; then install_plotly; fi
 if [ -n "$with_taplo" ]; then install_taplo; fi

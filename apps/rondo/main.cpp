@@ -11,6 +11,7 @@
 
 #include "options.hpp"
 #include "process.hpp"
+#include "report/report_command.hpp"
 #include "rondo/core/build_id.hpp"
 #include "rondo/core/edit_distance.hpp"
 #include "rondo/core/error.hpp"
@@ -57,6 +58,7 @@ int dispatch_command(CLI::App& program, int argc, char** argv, app::Telling& tel
   study::ReduceRequest reduce_request;
   app::ModesArguments modes_arguments;
   app::SweepArguments sweep_arguments;
+  app::ReportArguments report_arguments;
   const CLI::App* run = app::add_run(program, run_arguments, tell);
   const CLI::App* check = app::add_check(program, check_arguments, check_threads, tell);
   const CLI::App* pod = app::add_pod(program, pod_request, tell);
@@ -64,6 +66,7 @@ int dispatch_command(CLI::App& program, int argc, char** argv, app::Telling& tel
   const CLI::App* modes = app::add_modes(program, modes_arguments, tell);
   app::add_paper(program);
   const CLI::App* sweep = app::add_sweep(program, sweep_arguments, tell);
+  const CLI::App* report = app::add_report(program, report_arguments);
   const CLI::App* schema = app::add_schema(program, schema_of);
   if (argc > 1 && argv[1][0] != '-') demand_command(program, argv[1]);
   try {
@@ -77,6 +80,7 @@ int dispatch_command(CLI::App& program, int argc, char** argv, app::Telling& tel
   if (reduce->parsed()) return app::reduce(reduce_request, tell);
   if (modes->parsed()) return app::modes(modes_arguments, tell);
   if (sweep->parsed()) return app::sweep(sweep_arguments, tell);
+  if (report->parsed()) app::report(report_arguments);
   if (schema->parsed()) return app::schema(schema_of);
   return exit_input;
 }

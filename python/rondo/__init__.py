@@ -22,7 +22,7 @@ from .data.run import Run
 from .data.run import open_run as open
 from .data.sweep import Sweep, open_sweep
 from .data.validation import Validation, open_validation
-from .pictures import attach
+from .pictures import attach, report
 from .simulation import Simulation
 from .solution import Solution, crush, solve, steady_rolling
 
@@ -35,4 +35,4 @@ __all__ = ["Error", "FileError", "History", "InputError", "Mesh", "Modes", "Newe
            "NotARunError", "NumericalError", "Paper", "Pod", "Run", "Simulation", "Solution",
            "Sweep", "UnfinishedRunError", "UnknownNameError", "Validation", "about", "crush", "modes",
            "open", "open_modes", "open_paper", "open_pod", "open_sweep", "open_validation", "pod",
-           "reduce", "run", "solve", "steady_rolling", "sweep"]
+           "reduce", "report", "run", "solve", "steady_rolling", "sweep"]

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""python3 -m rondo: figures, films and means of what the program rondo wrote."""
+"""python3 -m rondo: reports, figures, films and means of what the program rondo wrote."""
 from __future__ import annotations
 
 import argparse
@@ -11,11 +11,11 @@ from typing import NoReturn
 
 from rondo import open_modes, open_paper, open_sweep, open_validation
 from rondo import open as open_run
-from rondo.data.errors import Error, UnfinishedRunError
+from rondo.data.errors import Error, FileError, UnfinishedRunError
 from rondo.data.names import FRAME, OLDER_FRAMES
 from rondo.data.run import Run
 
-WRONG = 2  # exit code of wrong input, as the program's
+WRONG, FILES = 2, 4  # exit codes of wrong input and of files, as the program's
 NO_PICTURES = ("paper", "validate", "means")  # commands that need not load what draws
 BROKEN_PIPE = 141  # as a shell has it of a program that is killed by SIGPIPE
 
@@ -53,6 +53,14 @@ def _parser() -> argparse.ArgumentParser:
                          help="of `rondo run`, `rondo sweep` or `python3 -m rondo paper`")
     figures.add_argument("-o", "--output", type=pathlib.Path, metavar="FOLDER",
                          help="where the .png and .svg files go; default DIRECTORY/figures")
+
+    report = commands.add_parser(
+        "report", help="one HTML file of results, for a browser without network",
+        epilog="The same as rondo report. Of what has not ended it shows what is there. docs/report.md.")
+    report.add_argument("directory", type=pathlib.Path,
+                        help="of `rondo run`, `rondo sweep`, `rondo pod` or `python3 -m rondo paper`")
+    report.add_argument("-o", "--output", type=pathlib.Path, metavar="FILE",
+                        help="ends in .html; default DIRECTORY/report.html")
 
     film = commands.add_parser("animate", help="make a film of a run")
     film.add_argument("directory", type=pathlib.Path, help="of `rondo run`")
@@ -204,6 +212,13 @@ def _figures(options: argparse.Namespace) -> None:
         print(path)
 
 
+def _report(options: argparse.Namespace) -> None:
+    from rondo.reports import report
+
+    path = report(options.directory, options.output)
+    print(f"{path}: {path.stat().st_size / 1e6:.1f} MB")
+
+
 def _animate(options: argparse.Namespace) -> None:
     run = open_run(options.directory, options.unfinished)
     print(run.animate(options.file, quantity=options.quantity, from_time=options.from_time,
@@ -294,7 +309,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
         matplotlib.use("Agg")
     code: int | None = 0
     commands: dict[str, Callable[[argparse.Namespace], int | None]] = {
-        "paper": _paper, "figures": _figures, "animate": _animate, "means": _means,
+        "paper": _paper, "figures": _figures, "animate": _animate, "report": _report, "means": _means,
         "wheel": _wheel, "footprint": _footprint, "traction": _traction, "tyre": _tyre,
         "campbell": _campbell, "sweep": _sweep, "validate": _validate,
         "validation": _validation}
@@ -307,6 +322,9 @@ def main(arguments: Sequence[str] | None = None) -> int:
     except UnfinishedRunError as reason:
         print(f"rondo: {reason} (here: --unfinished)", file=sys.stderr)
         return WRONG
+    except FileError as reason:
+        print(f"rondo: {reason}", file=sys.stderr)
+        return FILES
     except Error as reason:
         print(f"rondo: {reason}", file=sys.stderr)
         return WRONG

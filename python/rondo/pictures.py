@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING, Any
 
 from .data.errors import Error
 from .data.modes import Modes
+from .data.paper import Paper
 from .data.pod import Pod
 from .data.run import Run
 from .data.sweep import Sweep
@@ -185,6 +186,18 @@ def _validation(validation: Validation, names: Sequence[str] = ()) -> Figure:
     return plot_validation(validation, names)
 
 
+def report(results: str | os.PathLike[str], file: str | os.PathLike[str] | None = None) -> pathlib.Path:
+    """One HTML file of a run, a sweep, a POD or the paper's study, in `file`, by default report.html
+    in their directory; see rondo.reports.report."""
+    from .reports import report as write
+    return write(results, file)
+
+
+def _report(results: Run | Sweep | Pod | Paper, file: str | os.PathLike[str] | None = None) -> pathlib.Path:
+    """One HTML file of these results, as they are in their directory."""
+    return report(results.directory, file)
+
+
 def attach() -> None:
     """Gives the classes of rondo/data their pictures."""
     Run.plot_field, Run.plot_history, Run.plot_energy = _field, _history, _energy
@@ -198,3 +211,4 @@ def attach() -> None:
     Sweep.plot_traction, Sweep.plot_carpet = _traction, _carpet
     Sweep.plot_tyre_curves, Sweep.plot_friction_ellipse = _tyre_curves, _friction_ellipse
     Validation.plot = _validation
+    Run.report = Sweep.report = Pod.report = Paper.report = _report

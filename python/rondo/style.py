@@ -91,6 +91,20 @@ def paper() -> Iterator[None]:
         yield
 
 
+def png_of(figure: Figure, dpi: int = DPI) -> bytes:
+    """A PNG with a palette of 256 colours, see save()."""
+    drawn, written = io.BytesIO(), io.BytesIO()
+    with paper():
+        figure.savefig(drawn, format="png", dpi=dpi)
+    with Image.open(drawn) as image:
+        # Of Pillow's palettes this one follows rare colours too; the others lose colour bars.
+        # Without k-means greys take a hue and gradients show steps.
+        few = image.convert("RGB").quantize(256, Image.Quantize.MAXCOVERAGE, kmeans=1,
+                                            dither=Image.Dither.NONE)
+        few.save(written, "PNG", optimize=True, dpi=(dpi, dpi))
+    return written.getvalue()
+
+
 def save(figure: Figure, path: str | pathlib.Path) -> list[pathlib.Path]:
     """Writes `path`.png and `path`.svg and returns both; the same figure gives the same bits.
 
@@ -101,15 +115,8 @@ def save(figure: Figure, path: str | pathlib.Path) -> list[pathlib.Path]:
     path = pathlib.Path(path)
     path.parent.mkdir(parents=True, exist_ok=True)
     png, svg = (path.with_name(path.name + ending) for ending in (".png", ".svg"))
+    png.write_bytes(png_of(figure))
     with paper():
-        drawn = io.BytesIO()
-        figure.savefig(drawn, format="png", dpi=DPI)
-        with Image.open(drawn) as image:
-            # Of Pillow's palettes this one follows rare colours too; the others lose colour bars.
-            # Without k-means greys take a hue and gradients show steps.
-            few = image.convert("RGB").quantize(256, Image.Quantize.MAXCOVERAGE, kmeans=1,
-                                                dither=Image.Dither.NONE)
-            few.save(png, optimize=True, dpi=(DPI, DPI))
         layout = figure.get_layout_engine()
         figure.set_layout_engine("none")  # done for the PNG; it takes the larger part of the time
         figure.savefig(svg, dpi=DPI, metadata={"Date": None, "Creator": None})

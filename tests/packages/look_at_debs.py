@@ -13,7 +13,8 @@ PLACES = {"rondo": ("bin/", "lib/python3/dist-packages/rondo/", "lib/rondo/", "s
                     "share/man/", "share/bash-completion/completions/rondo"),
           "rondo-dev": ("include/rondo/", "lib/librondo_", "lib/cmake/rondo/", "share/doc/rondo-dev/")}
 WANTED = {"rondo": ("bin/rondo", "bin/rondo-mesh-reader", "lib/python3/dist-packages/rondo/__init__.py",
-                    "lib/python3/dist-packages/rondo/bin/rondo", "share/rondo/cases/ledge-smooth.toml",
+                    "lib/python3/dist-packages/rondo/bin/rondo", "lib/python3/dist-packages/rondo/reports/assets/plotly-basic.min.js",
+                    "share/rondo/cases/ledge-smooth.toml",
                     "share/man/man1/rondo.1.gz", "share/man/man1/rondo-run.1.gz", "share/man/man5/rondo-case.5.gz",
                     "share/bash-completion/completions/rondo", "share/doc/rondo/copyright",
                     "share/doc/rondo/changelog.gz", "share/doc/rondo/NEWS.gz", "share/doc/rondo/docs/cases.md"),

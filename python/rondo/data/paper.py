@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import os
 import pathlib
+from collections.abc import Callable
 from typing import Any
 
 from .errors import Error, UnfinishedRunError, unknown
@@ -30,6 +31,8 @@ def open_paper(path: str | os.PathLike[str], unfinished: bool = False) -> Paper:
 
 class Paper:
     """directory; info: paper.json; table: list of rows, our figures against those expected."""
+
+    report: Callable[..., pathlib.Path]  # rondo/pictures.py gives it
 
     def __init__(self, directory: pathlib.Path) -> None:
         self.directory = directory

@@ -39,6 +39,7 @@ class Pod:
     # Pictures: what rondo/pictures.py gives this class, as nothing here knows how to draw.
     plot_spectrum: Callable[..., Axes]
     plot_modes: Callable[..., Figure]
+    report: Callable[..., pathlib.Path]
 
     def __init__(self, directory: pathlib.Path) -> None:
         self.directory = directory

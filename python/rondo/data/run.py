@@ -63,6 +63,7 @@ class Run:
     plot_footprint: Callable[..., Figure]
     plot_convergence: Callable[..., Axes]
     animate: Callable[..., pathlib.Path]
+    report: Callable[..., pathlib.Path]
 
     def __init__(self, directory: pathlib.Path) -> None:
         self.directory = directory
@@ -388,8 +389,6 @@ class Run:
         """An xarray.Dataset of fields, read when asked for; names: those of field(), and "force",
         "traction" of `contact`; None: displacement, velocity, force."""
         return run_dataset(self, names)
-
-    # Its PODs
 
     @cached_property
     def pods(self) -> Pods:

@@ -93,6 +93,7 @@ class Sweep:
     plot_carpet: Callable[..., Axes]
     plot_tyre_curves: Callable[..., Figure]
     plot_friction_ellipse: Callable[..., Axes]
+    report: Callable[..., pathlib.Path]
 
     def __init__(self, directory: pathlib.Path, info: dict[str, Any],
                  parameters: dict[str, Parameter], columns: dict[str, np.ndarray],

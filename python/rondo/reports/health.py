@@ -1,0 +1,154 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""What a run says of itself: did it end, does its energy balance close, what was it warned of."""
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+
+from ..data.errors import STATUS
+from ..data.run import Run
+from ..plots.curves import TERMS
+from ..plots.labels import column_label, readable
+from .document import note, table, tiles
+from .encoding import escaped, number
+
+BOUND = 1e-9  # at which a run stops, of energy balance and contact law (docs/theory.md, 5 and 4.5)
+BOUND_FREE = 1e-2  # of free bodies, whose ledger closes to second order in the step
+Tile = tuple[str, str, str, str]
+ENERGIES = ("kinetic", "strain", "kinetic_rim", "support_energy")
+POWERS = {"drive": "given by speed and torque", "mass": "taken by mass damping",
+          "stiffness": "taken by stiffness damping", "friction": "taken by friction",
+          "weight": "given by the weight along the deformation",
+          "scheme": "by which the slip of the law differs from that of the motion"}
+
+
+def status_tile(status: str, message: object = None) -> Tile:
+    if status == "done":
+        return ("status", "done", "good", "it came to its end, and no check failed")
+    meaning = STATUS.get(status, "not known to this version")
+    return ("status", status, "bad" if status == "failed" else "warn", f"{meaning}"
+            f"{f': {message}' if message else ''}")
+
+
+def health_tiles(run: Run) -> str:
+    info = run.info
+    bound = BOUND_FREE if run.mesh.free.any() else BOUND
+    found = [status_tile(run.status, info.get("message"))]
+    found += _judged(info, "energy_residual_relative", "energy balance closes to", bound,
+                     "largest imbalance of the ledger over the energy exchanged; a run stops above "
+                     f"{number(bound)}")
+    found += _judged(info, "contact_residual_max", "law of contact met to", BOUND,
+                     f"checked apart from the solver; a run stops above {number(BOUND)}")
+    if info.get("penetration_max_m") is not None:
+        found.append(("largest penetration", f"{number(1e3 * info['penetration_max_m'])} mm", "",
+                      "into the ground, at any node"))
+    if info.get("strain_max") is not None:
+        small = info["strain_max"] <= 0.1 or "hyperelastic" in run.case.get("material", {})
+        found.append(("largest strain", f"{100 * info['strain_max']:.3g} %", "good" if small else "warn",
+                      "the law of the material is for small strains: rough above 10 %" if not small else
+                      "at the centers of the elements"))
+    found += _steps(info) + _contact(run) + _speed(info)
+    return tiles(found) + _warnings(info)
+
+
+def _judged(info: dict[str, Any], key: str, words: str, bound: float, meaning: str) -> list[Tile]:
+    value = info.get(key)
+    if value is None:
+        return [(words, "not known", "warn", "run.json has no such figure yet: the run has not ended")]
+    return [(words, number(value), "good" if value <= bound else "bad", meaning)]
+
+
+def _steps(info: dict[str, Any]) -> list[Tile]:
+    step, critical = info.get("step"), info.get("critical_step")
+    if not step:
+        done = info.get("increments_done")
+        return [("increments", number(done), "", "each one solved for balance and contact")] if done else []
+    done = f"{number(info.get('steps_done'))} of {number(info.get('steps'))} steps"
+    if not critical:
+        return [("time step", f"{number(1e6 * step)} µs", "", done)]
+    return [("time step", f"{number(1e6 * step)} µs", "good" if step <= critical else "bad",
+             f"{100 * step / critical:.3g} % of the critical step, {number(1e6 * critical)} µs; {done}")]
+
+
+def _contact(run: Run) -> list[Tile]:
+    contact = run.info.get("contact") or {}
+    found: list[Tile] = []
+    if contact.get("nodes_max") is not None:
+        clusters = contact.get("cluster_iterations_max") or 0
+        words = f"; at most {number(clusters)} iterations for contacts that share nodes" if clusters else \
+            "; each solved in closed form, without iterations"
+        found.append(("nodes in contact", f"at most {number(contact['nodes_max'])}", "",
+                      f"in {number(contact.get('steps_in_contact'))} steps{words}"))
+    if "contact_iterations" in run.history and len(run.history["contact_iterations"]):
+        found.append(("contact iterations", number(int(run.history["contact_iterations"].max())), "",
+                      "most in a step"))
+    for key, words in (("newton_steps", "Newton steps"), ("sweeps_max", "sweeps of the contact solver")):
+        value = run.info.get("steady", {}).get(key) if key == "newton_steps" else run.info.get(key)
+        if value:
+            found.append((words, number(value), "", "most it took"))
+    return found
+
+
+def _speed(info: dict[str, Any]) -> list[Tile]:
+    found: list[Tile] = []
+    wall = info.get("loop_wall_s")
+    if wall is not None:
+        each = info.get("ns_per_dof_step")
+        words = f"{each:.3g} ns for each unknown and step" if each else "steps and what they wait for output"
+        if info.get("end_time"):
+            words += f"; {number(wall / info['end_time'], 3)} times the time of the motion"
+        found.append(("computed in", f"{number(wall, 3)} s", "", words))
+    threads = info.get("threads")
+    built = f"rondo {info.get('version', '?')}, {info.get('build', '?')}"
+    on = f"{threads} thread{'s' if threads != 1 else ''}, {info.get('dispatch', '')}" if threads else ""
+    found.append(("machine", str(info.get("host", "not said")), "", f"{on + '; ' if on else ''}{built}"))
+    found.append(("size", f"{number(info.get('dofs'))} unknowns", "", f"{number(info.get('nodes'))} nodes"))
+    return found
+
+
+def _warnings(info: dict[str, Any]) -> str:
+    told = info.get("warnings") or []
+    if not told:
+        return "<p>The run warned of nothing.</p>"
+    items = "".join(f"<li>{escaped(text)}</li>" for text in told)
+    return f'<div class="note"><b>The run warned:</b><ul>{items}</ul></div>'
+
+
+def ledger(run: Run) -> str:
+    """The energy balance at the last row, term by term."""
+    if run.is_steady:
+        return _powers(run)
+    history = run.history
+    if not len(history["time_s"]):
+        return note("The ledger is in history.csv, which has no rows yet.")
+    last = {name: float(history[name][-1]) for name in history}
+    terms = [(name, sign, words) for name, (sign, words, _) in TERMS.items() if name in last]
+    if "internal_work" in last or run.is_crush and "work_rim" not in last:
+        terms = [term for term in terms if term[0] != "strain"]
+    energies = [name for name in ENERGIES if name in last]
+    whole = sum(last[name] for name in energies)
+    done = sum(sign * last[name] for name, sign, _ in terms)
+    residual = last.get("energy_residual", np.nan)
+    factor, unit = readable(max([abs(whole), *(abs(last[name]) for name, _, _ in terms)]),
+                            f"J{run.per_width}")
+    rows = [(column_label(name), name, number(factor * last[name])) for name in energies]
+    rows.append(("energy at the start", "", number(factor * (whole - done - residual))))
+    rows += [(f"{'+' if sign > 0 else '−'} {words}", name, number(factor * sign * last[name]))
+             for name, sign, words in terms if last[name] != 0.0]
+    rows.append(("what is left open", "energy_residual", number(factor * residual)))
+    when = "last increment" if run.is_crush else f"t = {1e3 * last['time_s']:.4g} ms"
+    return table(("term", "column of history.csv", unit), rows, f"The ledger at the end ({when})",
+                 ("", "code", "number"))
+
+
+def _powers(run: Run) -> str:
+    if "steady" not in run.info:
+        return note("run.json has no powers: the run has not come to its end.")
+    power = run.steady["power"]
+    largest = max(abs(power[key]) for key in POWERS if key in power)
+    factor, unit = readable(largest, f"W{run.per_width}")
+    rows = [(words, key, number(factor * power[key])) for key, words in POWERS.items() if key in power]
+    rows.append(("what is left open, over the largest", "residual", number(power["residual"])))
+    return table(("power", "key in run.json", unit), rows, "The balance of powers in steady rolling",
+                 ("", "code", "number"))

@@ -1,0 +1,117 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""The columns of history.csv as curves that zoom, those of one kind and unit together."""
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import Any
+
+import numpy as np
+
+from ..data.run import Run
+from ..plots.labels import column_label, readable
+from .document import Document, note
+from .encoding import packed
+
+MOST_ROWS = 6000  # of a curve; of more the least and the largest of several rows
+GROUPS: tuple[tuple[str, str, tuple[str, ...]], ...] = (
+    ("forces", "Forces of the ground on the body", ("force_y", "force_x", "force_lateral")),
+    ("moments", "Moments of the ground on the body", ("torque", "moment_aligning", "moment_overturning")),
+    ("hub", "Forces at the hub", ("hub_force_x", "hub_force_y")),
+    ("hub-torque", "Torque at the hub", ("hub_torque",)),
+    ("contact", "Nodes in contact", ("contact_nodes", "sticking_nodes")),
+    ("extent", "Length of the contact", ("contact_length_m", "stick_length_m", "slip_length_m")),
+    ("area", "Area of the contact", ("contact_area_m2",)),
+    ("pressure", "Largest pressure and shear", ("pressure_max_pa", "shear_max_pa")),
+    ("slip", "Slip ratio", ("slip_ratio",)),
+    ("height", "Height of the center", ("center_y_m",)),
+    ("speed", "Speed of the center", ("speed_x", "speed_y")),
+    ("spin", "Spin", ("spin_rad_s",)),
+    ("energy", "Energies", ("kinetic", "strain", "kinetic_rim", "support_energy", "stored_energy")),
+    ("works", "Work done and energy taken, from the start on",
+     ("work_frame", "work_contact", "work_rim", "work_load", "work_gravity", "work_rim_load", "work_torque",
+      "work_held", "dissipation_friction", "loss_impact", "dissipation_mass", "dissipation_stiffness",
+      "dissipation_brake", "dissipation_support", "dissipation_viscous", "work_scheme")),
+    ("residual", "What the energy balance leaves (round-off)", ("energy_residual",)),
+    ("iterations", "Iterations of the contact law in a step", ("contact_iterations", "contact_extensions")),
+)
+FLAT = 1e-12  # size of a column over that of the largest of its group, below which it is not drawn
+
+
+def histories(document: Document, run: Run) -> str:
+    """All charts; a sentence where there are none."""
+    if not len(run.history["time_s"]):
+        return note(f"history.csv has no rows: the run ({run.status}) has not come to its first one.")
+    charts = "".join(_chart(document, run, name, words, columns) for name, words, columns in
+                     (*GROUPS, *_probes(run)))
+    rows = len(run.history["time_s"])
+    if rows > 2 * MOST_ROWS:
+        charts = note(f"Of {rows} rows the curves have the least and the largest of each "
+                      f"{_stride(rows)}; history.csv has all.") + charts
+    return ('<p class="hint">Drag over a curve to zoom, double-click to see all again; a click on a name '
+            f"hides its curve.</p>{charts}")
+
+
+def _probes(run: Run) -> list[tuple[str, str, tuple[str, ...]]]:
+    """Of each [[output.probe]]: displacement, stress."""
+    found: list[tuple[str, str, tuple[str, ...]]] = []
+    for k, probe in enumerate(run.case.get("output", {}).get("probe", [])):
+        name = str(probe.get("name", ""))
+        for kind, endings in (("displacement", ("ux", "uy")),
+                              ("stress", ("sxx", "syy", "szz", "sxy"))):
+            found.append((f"probe-{k}-{kind}", f"Probe {name}: {kind}",
+                          tuple(f"{name}_{ending}" for ending in endings)))
+    return found
+
+
+def _chart(document: Document, run: Run, name: str, words: str, columns: Sequence[str]) -> str:
+    history = run.history
+    there = [column for column in columns if column in history]
+    if columns[0] in ("force_y", "torque", "contact_nodes", "contact_length_m", "slip_ratio") \
+            and not history.ground:
+        return ""
+    sizes = [float(np.nanmax(np.abs(history[column]), initial=0.0)) for column in there]
+    top = max(sizes, default=0.0)
+    there = [column for column, size in zip(there, sizes) if size > FLAT * top]
+    if not there or not np.isfinite(top):
+        return ""
+    factor, unit = readable(top, history.unit_of(there[0]))
+    x, label = abscissa(run)
+    traces = [{"name": column_label(column), **_curve(x, history[column] * factor)} for column in there]
+    return document.chart(f"history-{name}", {"x": label, "y": unit, "traces": traces}, words)
+
+
+def abscissa(run: Run) -> tuple[np.ndarray, str]:
+    """What histories go over, and its name."""
+    if run.is_crush and "depth_m" in run.history:
+        depth = run.history["depth_m"]
+        if len(depth) < 2 or (np.diff(depth) >= 0).all() and np.ptp(depth) > 0:
+            return depth * 1e3, "depth (mm)"
+        return run.history["time_s"], "share of the load (–)"
+    if run.is_steady:
+        return run.history["time_s"] * 1e3, "time in the pass of a sector (ms)"
+    return run.history["time_s"] * 1e3, "time (ms)"
+
+
+def _stride(rows: int) -> int:
+    return -(-rows // MOST_ROWS)
+
+
+def _curve(x: np.ndarray, y: np.ndarray) -> dict[str, Any]:
+    stride = _stride(len(x))
+    if stride > 2:
+        whole = len(x) // stride * stride
+        blocks = y[:whole].reshape(-1, stride)
+        filled = np.where(np.isnan(blocks), 0.0, blocks)
+        ends = np.sort(np.stack([filled.argmin(axis=1), filled.argmax(axis=1)], axis=1), axis=1)
+        rows = (ends + stride * np.arange(len(blocks))[:, None]).ravel()
+        rows = np.unique(np.append(rows, len(x) - 1))
+        x, y = x[rows], y[rows]
+    return {"x": packed(x, "float32"), "y": packed(y, "float32")}
+
+
+def chart_of(x_label: str, y_label: str, curves: Sequence[tuple[str, Any, Any]], **options: Any
+             ) -> dict[str, Any]:
+    """For Document.chart: curves (name, x, y); options: x_log, y_log, marks."""
+    return {"x": x_label, "y": y_label, **options,
+            "traces": [{"name": name, "x": packed(x, "float32"), "y": packed(y, "float32")}
+                       for name, x, y in curves]}

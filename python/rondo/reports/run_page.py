@@ -1,0 +1,185 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""The page of a run: motion, crush, steady rolling, in the plane or in three dimensions."""
+from __future__ import annotations
+
+from collections.abc import Callable
+from functools import partial
+
+from matplotlib.figure import Figure
+
+from ..data.errors import Error
+from ..data.run import Run
+from ..figures import run_figures
+from ..plots import field, patch
+from ..plots.convergence import plot_convergence
+from ..plots.footprint import plot_footprint
+from ..plots.modes import plot_pod_spectrum
+from .body import body_of
+from .case_text import case_html
+from .document import Document, note, paragraph, table
+from .encoding import escaped, number
+from .equations import equations, glossary
+from .health import health_tiles, ledger
+from .histories import histories
+from .pictures import picture
+
+KINDS = {"dynamic": "a motion in time", "crush": "a crush without inertia",
+         "steady-rolling": "a state of steady rolling"}
+ABOUT = {
+    "dynamic": "A deformable body moves in time, in contact with rigid ground or with other bodies. Each "
+               "small step of time is computed from the one before, contact and friction exactly, and all "
+               "energy is accounted for.",
+    "crush": "A deformable body is pressed onto rigid ground, so slowly that inertia does not matter: at "
+             "each increment of the depth it is in balance with the forces of contact.",
+    "steady-rolling": "A wheel rolls on and on at one speed. What its contact, its shape and its forces then "
+                      "are is found directly, without steps in time; what is shown is the pass of one sector "
+                      "of the wheel, after which all repeats.",
+}
+EQUATIONS = {"dynamic": ("motion", "signorini", "coulomb", "energy", "balance", "split"),
+             "crush": ("static", "coulomb"), "steady-rolling": ("motion", "signorini", "coulomb")}
+
+
+def run_page(run: Run) -> Document:
+    document = Document(run.title, f"{KINDS.get(run.analysis, run.analysis)}"
+                                   f"{', in three dimensions' if run.is_solid else ''}")
+    document.section("summary", "Summary", _summary(run))
+    document.section("body", "The body", body_html(document, run))
+    document.section("histories", "Histories" if not run.is_crush else "Curves", histories(document, run))
+    document.section("pictures", "Pictures", _pictures(run))
+    document.section("ledger", "Energy balance", ledger(run))
+    document.section("case", "The case", case_html(run.directory / "case.toml"))
+    document.section("equations", "Equations and words",
+                     equations(*EQUATIONS.get(run.analysis, EQUATIONS["dynamic"])) + glossary())
+    return document
+
+
+def _summary(run: Run) -> str:
+    unfinished = "" if run.status == "done" else note(
+        f'This run is of status "{run.status}": the page shows what is there. '
+        + ("It can go on: rondo run " + run.directory.name + " --resume, then make the report again."
+           if run.info.get("resumable") else "Run the case again for the whole of it."))
+    return (unfinished + paragraph(escaped(ABOUT.get(run.analysis, ABOUT["dynamic"]))) + health_tiles(run)
+            + _steady_figures(run))
+
+
+def _steady_figures(run: Run) -> str:
+    if not run.is_steady or "steady" not in run.info:
+        return ""
+    units = {"force_x": "N", "force_y": "N", "torque": "N·m", "height": "m", "speed": "m/s", "slip_ratio": "–",
+             "rolling_resistance": "N", "stick_length": "m", "slip_length": "m", "pressure_max": "Pa",
+             "shear_max": "Pa", "force_lateral": "N", "moment_aligning": "N·m"}
+    wide = {"N", "N·m"} if not run.is_solid else set()
+    rows = [(key.replace("_", " "), number(run.steady[key], 6), unit + ("/m" if unit in wide else ""))
+            for key, unit in units.items() if isinstance(run.steady.get(key), (int, float))]
+    return table(("quantity", "value", "unit"), rows, "Means over the pass of a sector",
+                 ("", "number", ""))
+
+
+def body_html(document: Document, run: Run, name: str = "body", budget: int | None = None) -> str:
+    """The moving body; where there are no snapshots what to do for some."""
+    if not run.n_snapshots:
+        return note("There is no moving picture: " + _why_none(run))
+    try:
+        found, left_out = body_of(run, *([] if budget is None else [budget]))
+    except Error as reason:
+        return note(f"There is no moving picture: {reason}")
+    html = document.viewer(name, found, f"{run.title}: the deformed body in time")
+    if left_out:
+        html += note(left_out)
+    missing = _missing(run)
+    return html + (note(missing) if missing else "")
+
+
+def _why_none(run: Run) -> str:
+    if run.case.get("output", {}).get("snapshots") == 0:
+        return ("output.snapshots was 0. Run the case again with snapshots: "
+                "rondo run case.toml --set output.snapshots=200 -o DIRECTORY")
+    return f"the run ({run.status}) has written no snapshot yet; make the report again later."
+
+
+def _missing(run: Run) -> str:
+    lacks = []
+    if "von_mises" not in run.field_names:
+        lacks.append("stress (the case with output.stress = true"
+                     + (", run with --snapshots fields)" if run.info.get("reduced_model") else ")"))
+    if run.contact is not None and "contact_force" not in run.field_names:
+        lacks.append("arrows of the contact forces (rondo run --snapshots fields)")
+    return f"Not in these results: {'; '.join(lacks)}." if lacks else ""
+
+
+def _pictures(run: Run) -> str:
+    shown = "".join(_safe(name, words, draw) for name, words, draw in _wanted(run))
+    return shown or note("There are no pictures: they need snapshots, and contact.")
+
+
+def _safe(name: str, words: str, draw: Callable[[], Figure]) -> str:
+    """A figure that cannot be drawn of what is there says why."""
+    try:
+        return picture(draw(), words)
+    except Error as reason:
+        return note(f"{name}: {reason}")
+
+
+Wanted = tuple[str, str, Callable[[], Figure]]
+
+
+def _wanted(run: Run) -> list[Wanted]:
+    """Figures that the run has data for: a name, what is seen, how to draw it."""
+    found: list[Wanted] = []
+    if run.is_solid:
+        return _of_solid(run)
+    if run.n_snapshots:
+        quantity = "deformation" if run.mesh.free.any() else "displacement"
+        for which in [quantity, *(["von_mises"] if "von_mises" in run.field_names else [])]:
+            found.append((which, f"{field.NAMES.get(which, which).capitalize()} in colours"
+                          + ("" if run.is_steady else ", at three moments"),
+                          partial(run_figures.fields, run, which)))
+        if run.is_steady:
+            found.append(("footprint", "The contact patch: pressure, shear, slip, and what sticks",
+                          lambda: plot_footprint(run)))
+        elif run.contact is not None and len(run.contact.rows["time_s"]):
+            last = float(run.contact.rows["time_s"][-1])
+            found.append(("contact", "Pressure and shear over the contact patch, at the last contact; "
+                          "full dots stick, open ones slip",
+                          lambda: patch.plot_contact(run, last).figure))
+            found.append(("contact map", "Pressure over place and time",
+                          lambda: patch.plot_contact_map(run).figure))
+    if (run.directory / "convergence.csv").exists():
+        found.append(("convergence", "Convergence of the solver (LATIN)",
+                      lambda: plot_convergence(run).figure))
+    if run.has_rim and len(run.history["time_s"]):
+        found.append(("wheel", "The wheel: height, speeds, slip, forces, torques, energies",
+                      lambda: run.plot_wheel()))
+    return found + _of_pods(run)
+
+
+def _of_solid(run: Run) -> list[Wanted]:
+    found: list[Wanted] = []
+    if not run.n_snapshots:
+        return found
+    for which in ("displacement", "von_mises"):
+        if which in run.field_names:
+            found.append((which, f"{field.NAMES.get(which, which).capitalize()} at the end",
+                          partial(_surface, run, which)))
+    if run.contact is not None and len(run.contact.rows["time_s"]):
+        found.append(("footprint", "The contact patch: pressure, shear, and what sticks",
+                      lambda: run.plot_footprint()))
+    return found + _of_pods(run)
+
+
+def _surface(run: Run, quantity: str) -> Figure:
+    from ..plots.solid.surface import plot_surface
+    return plot_surface(run, float(run.times[-1]), quantity).figure
+
+
+def _of_pods(run: Run) -> list[Wanted]:
+    pods = [pod for pod in run.pods.values() if pod.n_modes and not (run.is_solid and pod.field == "contact")]
+    found: list[Wanted] = [(pod.name, f"Modes of the {pod.field} ({pod.kind}), and their course in time",
+                            pod.plot_modes) for pod in pods]
+    if pods:
+        names = [pod.name for pod in pods]
+        found.append(("spectrum", "Energy left out over the number of modes kept",
+                      lambda: plot_pod_spectrum(pods, labels=names).figure))
+    return found
+
+
