@@ -16,7 +16,6 @@ packages=(
   pybind11-dev python3-dev                           # the library in Python: rondo._core
   python3 python3-numpy python3-h5py python3-matplotlib python3-pil # pictures
   ffmpeg                                             # films (.mp4)
-  npm                                                # plotly.js, for rondo report
 )
 for_development=(
   libgtest-dev python3-pytest python3-pip python3-venv patch python3-jsonschema # tests
@@ -28,6 +27,7 @@ for_development=(
   libbenchmark-dev valgrind                          # bench/; instructions of a step, a test
   chromium chromium-driver python3-selenium          # reports in a browser
 )
+command -v npm >/dev/null || packages+=(npm) # plotly.js, for rondo report; one that is there will do
 with_taplo=
 case ${1:-} in
   '') ;;
