@@ -9,7 +9,7 @@ packages=(
   build-essential cmake ninja-build ccache git       # build
   libeigen3-dev libsuitesparse-dev libspectra-dev    # linear algebra, sparse Cholesky, eigenvalues
   libopenblas-dev liblapacke-dev libfftw3-dev        # singular values, QR; Fourier transforms
-  libhdf5-dev nlohmann-json3-dev libtomlplusplus-dev libxxhash-dev # files
+  libhdf5-dev nlohmann-json3-dev libtomlplusplus-dev libxxhash-dev libminizip-dev # files
   libgmsh-dev                                        # meshes from files
   libopenmpi-dev openmpi-bin                         # sweeps on clusters
   libcli11-dev libfmt-dev libspdlog-dev              # command line, text, log
@@ -18,7 +18,7 @@ packages=(
   ffmpeg                                             # films (.mp4)
 )
 for_development=(
-  libgtest-dev python3-pytest python3-pip python3-venv patch python3-jsonschema # tests
+  libgtest-dev python3-pytest python3-pip python3-venv patch python3-jsonschema libxml2-utils # tests
   python3-pandas python3-xarray                      # what results may be handed to, optional
   gmsh                                               # makes cases/meshes and tests/meshes
   clang-format clang-tidy cppcheck mypy              # scripts/lint.sh; mypy: tests/python too
