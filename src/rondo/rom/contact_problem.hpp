@@ -65,7 +65,8 @@ class ContactSolver {
 
   [[nodiscard]] SavedContact save() const;
   [[nodiscard]] bool fits(const SavedContact& saved) const noexcept;
-  /// @param matrices those of the last step; null: no step was made. @pre fits()
+  /// @param matrices those of the last step, which the blocks at hand are of; null: no step was
+  /// made. @pre fits()
   void restore(const SavedContact& saved, const StepMatrices* matrices);
 
   /// Of the last step, by point.

@@ -41,6 +41,7 @@ void ContactSolver::restore(const SavedContact& s, const StepMatrices* matrices)
     if (nodes_) static_cast<void>(table_of(phase.share));
     Phase& own = phases_[static_cast<std::size_t>(&phase - s.phases.data())];
     own.used = phase.used;
+    if (own.table->portions() == phase.portions) continue;
     own.table->forget();
     if (!matrices) continue;
     for (const std::vector<int>& portion : phase.portions) own.table->prepare(portion, *matrices);

@@ -54,7 +54,7 @@ void ReducedIntegrator::restore(const SavedReducedState& s) {
   take(s.velocity, p_);
   take(s.velocity_middle, p_mid_);
   take(s.velocity_carried, carried_);
-  matrices_.reset();
+  if (!s.matrices) matrices_.reset();
   if (s.matrices) {
     Motion m{};
     m.dt = input_.model.dt;
