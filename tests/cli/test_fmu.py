@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""rondo fmu: the FMU is unpacked elsewhere, loaded and led by the master of examples/quarter_car.py."""
+"""rondo fmu: the FMU is unpacked elsewhere, loaded and led by the master of examples/fmu/quarter_car.py."""
 import ctypes
 import json
 import os
@@ -17,7 +17,7 @@ import numpy as np
 import fmi2_rules
 from program import ROOT, SANITIZED, ProgramTest, history, run
 
-sys.path.insert(0, str(ROOT / "examples"))
+sys.path.insert(0, str(ROOT / "examples" / "fmu"))
 from quarter_car import (DOUBLE, ERROR, ExplicitQuarterCar, Fmu, QuarterCar,  # noqa: E402
                          unpack)
 
@@ -346,7 +346,7 @@ class Files(FmuTest):
             self.assertEqual(function(), value)
 
     def test_runs_where_there_is_no_rondo(self):
-        done = subprocess.run([sys.executable, ROOT / "examples" / "quarter_car.py", self.fmu],
+        done = subprocess.run([sys.executable, ROOT / "examples" / "fmu" / "quarter_car.py", self.fmu],
                               env={"PATH": "/usr/bin:/bin"}, cwd="/", capture_output=True, text=True)
         self.assertEqual(done.returncode, 0, done.stderr)
         self.assertIn("hub up to 0.31", done.stdout)

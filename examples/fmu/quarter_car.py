@@ -2,7 +2,7 @@
 """A quarter car on the wheel of an FMU (docs/fmu.md): the FMU is unpacked, loaded, and led over a bump.
 
     rondo fmu MODEL.h5 --case cases/quarter-car-bump.toml -o wheel.fmu
-    python3 examples/quarter_car.py wheel.fmu [history.csv]
+    python3 examples/fmu/quarter_car.py wheel.fmu [history.csv]
 
 It needs numpy alone: no rondo. The car is that of cases/quarter-car-bump.toml, 1 m wide.
 """
