@@ -38,6 +38,12 @@ if(NOT TARGET rondo_cholmod)
   target_link_libraries(rondo_fftw INTERFACE ${FFTW_LIBRARY})
   target_include_directories(rondo_fftw SYSTEM INTERFACE ${FFTW_INCLUDE_DIR})
 
+  find_library(MINIZIP_LIBRARY minizip REQUIRED)
+  find_path(MINIZIP_INCLUDE_DIR minizip/zip.h REQUIRED)
+  add_library(rondo_minizip INTERFACE IMPORTED)
+  target_link_libraries(rondo_minizip INTERFACE ${MINIZIP_LIBRARY})
+  target_include_directories(rondo_minizip SYSTEM INTERFACE ${MINIZIP_INCLUDE_DIR})
+
   find_library(XXHASH_LIBRARY xxhash REQUIRED)
   find_path(XXHASH_INCLUDE_DIR xxhash.h REQUIRED)
   add_library(rondo_xxhash INTERFACE IMPORTED)

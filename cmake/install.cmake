@@ -5,6 +5,7 @@ get_property(modules GLOBAL PROPERTY RONDO_MODULES)
 install(TARGETS ${modules} EXPORT rondo-targets
         ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR} COMPONENT development)
 install(TARGETS rondo rondo-mesh-reader RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
+install(TARGETS rondo_fmu_binary LIBRARY DESTINATION lib/rondo) # for FMUs, found by the program
 include(cmake/public_headers.cmake)
 foreach(header ${RONDO_PUBLIC_HEADERS} ${RONDO_INCLUDED_HEADERS})
   get_filename_component(folder ${header} DIRECTORY)

@@ -49,6 +49,7 @@ endif()
 
 # What python/build_wheel.py takes: cmake --install BUILD --component wheel --prefix FOLDER
 install(TARGETS rondo rondo-mesh-reader RUNTIME DESTINATION rondo/bin COMPONENT wheel EXCLUDE_FROM_ALL)
+install(TARGETS rondo_fmu_binary LIBRARY DESTINATION rondo/bin COMPONENT wheel EXCLUDE_FROM_ALL)
 if(TARGET rondo_python)
   install(TARGETS rondo_python LIBRARY DESTINATION rondo COMPONENT wheel EXCLUDE_FROM_ALL)
 endif()

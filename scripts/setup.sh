@@ -11,7 +11,7 @@ packages=(
   build-essential cmake ninja-build ccache git       # build
   libeigen3-dev libsuitesparse-dev libspectra-dev    # linear algebra, sparse Cholesky, eigenvalues
   libopenblas-dev liblapacke-dev libfftw3-dev        # singular values, QR; Fourier transforms
-  libhdf5-dev nlohmann-json3-dev libtomlplusplus-dev libxxhash-dev # files
+  libhdf5-dev nlohmann-json3-dev libtomlplusplus-dev libxxhash-dev libminizip-dev # files
   libgmsh-dev                                        # meshes from files
   libopenmpi-dev openmpi-bin                         # sweeps on clusters
   libcli11-dev libfmt-dev libspdlog-dev              # command line, text, log
@@ -26,7 +26,7 @@ for_site=(
 )
 for_development=(
   libgtest-dev python3-pytest python3-pip python3-venv patch python3-jsonschema # tests
-  python3-yaml man-db mandoc                         # tests: the citation, pages of man
+  python3-yaml man-db mandoc libxml2-utils           # tests: the citation, pages of man, XML of FMUs
   python3-pandas python3-xarray                      # what results may be handed to, optional
   gmsh                                               # makes cases/meshes and tests/meshes
   clang-format clang-tidy cppcheck mypy reuse        # scripts/lint.sh; mypy: tests/python too

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// @file  The program's commands: call the library, print, return an exit code.
 #pragma once
+#include <cstdint>
+#include <filesystem>
 #include <string>
 #include <vector>
 
@@ -26,6 +28,22 @@ struct ModesArguments : CaseArguments {
   study::ModesRequest request;  ///< no directory: the case's name and "-modes"
 };
 
+struct FmuArguments {
+  std::filesystem::path model, output;
+  std::string case_file;  ///< empty: of the first run behind the model
+  std::vector<std::string> settings;
+  double step_factor = 20.0;
+};
+
+/// What was written.
+struct FmuReport {
+  std::filesystem::path file;
+  std::string identifier, guid;
+  double step = 0.0;                           ///< [s]
+  double tyre_mass = 0.0, tyre_inertia = 0.0;  ///< [kg], [kg m2]
+  std::uintmax_t bytes = 0;
+};
+
 struct SweepArguments {
   study::SweepRequest request;  ///< no directory: the study's name
   int jobs = 0;                 ///< runs at once; 0: as many as there are cores
@@ -39,6 +57,7 @@ int run(RunArguments arguments, Telling& tell);
 int check(const CaseArguments& arguments, int threads, Telling& tell);
 int pod(study::PodRequest request, Telling& tell);
 int reduce(study::ReduceRequest request, Telling& tell);
+int fmu(const FmuArguments& arguments, Telling& tell);
 int modes(ModesArguments arguments, Telling& tell);
 int sweep(SweepArguments arguments, Telling& tell);
 /// Prints a JSON Schema. @param of  "case", "study", or a command with --json

@@ -234,7 +234,7 @@ CLI::App* add_modes(CLI::App& program, ModesArguments& arguments, Telling& tell)
 CLI::App* add_schema(CLI::App& program, std::string& of) {
   CLI::App* schema = program.add_subcommand(
       "schema", "prints a JSON Schema of case or study files, or of what --json prints");
-  schema->add_option("of", of, "case | study | check | run | sweep | pod | reduce | modes")
+  schema->add_option("of", of, "case | study | check | run | sweep | pod | reduce | fmu | modes")
       ->required();
   schema->footer("Example:\n  rondo schema case > case.json\nFor editors: docs/machine.md.");
   return schema;

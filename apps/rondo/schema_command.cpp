@@ -27,6 +27,7 @@ constexpr Schema schemas[] = {
     {"sweep", [] { return answer_schema("sweep", sweep_schema()); }},
     {"pod", [] { return answer_schema("pod", pod_schema()); }},
     {"reduce", [] { return answer_schema("reduce", reduce_schema()); }},
+    {"fmu", [] { return answer_schema("fmu", fmu_schema()); }},
     {"modes", [] { return answer_schema("modes", modes_schema()); }},
 };
 

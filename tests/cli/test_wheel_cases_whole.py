@@ -111,6 +111,9 @@ EXPECTED = {
         *extremes("force_y", 107e3, 193e3, 1e3, FLAT),
         *extremes("on_the_body", -14.2e3, 15.1e3, 100.0, FLAT),
         Figure("center_y_m", np.max, 0.30028, 1e-5, FLAT)],
+    "quarter-car-bump": [
+        *extremes("force_y", 145.9e3, 169.3e3, 100.0, FLAT),
+        Figure("center_y_m", np.max, 0.31026, 1e-5, FLAT)],
     "rubber-tyre": [
         Figure("force_y", np.mean, 20.1e3, 100.0, 0.06),
         *extremes("center_y_m", 0.28903, 0.28949, 1e-5, 0.06)],

@@ -56,12 +56,13 @@ ALLOWED["analysis/steady"] = (ALLOWED["analysis/build"] | ALLOWED["analysis/base
 ALLOWED["analysis"] = set(ALLOWED)
 ALLOWED["analysis/modes"] = ALLOWED["analysis"] | {"analysis"}
 ALLOWED["analysis/simulation"] = ALLOWED["analysis"] | {"analysis"}
+ALLOWED["fmu"] = ALLOWED["analysis"] | {"analysis"}
 ALLOWED["study/sweep"] = ALLOWED["analysis"] | {"analysis"}
 ALLOWED["study/shards"] = ALLOWED["study/sweep"] | {"study/sweep"}
 ALLOWED["study/pod"] = ALLOWED["study/sweep"] | {"study/sweep"}
 ALLOWED["study/reduce"] = ALLOWED["study/pod"] | {"study/pod"}
 ALLOWED["apps"] = {"core", "case", "output", "analysis/base", "analysis/build", "analysis",
-                   "analysis/modes", "study/pod", "study/sweep", "study/shards",
+                   "analysis/modes", "fmu", "io", "study/pod", "study/sweep", "study/shards",
                    "study/reduce"}
 ALLOWED["mesh_reader"] = {"mesh"}  # a program of its own; it shares the layout of its output
 

@@ -17,6 +17,8 @@ namespace rondo::app {
 
 using study::Json;
 
+struct FmuReport;
+
 Json check_document(const study::Case& c, const study::CheckReport& report);
 Json check_schema();
 
@@ -29,6 +31,9 @@ Json pod_schema();
 
 Json reduce_document(const study::ReduceRequest& request, const study::ReduceReport& report);
 Json reduce_schema();
+
+Json fmu_document(const FmuReport& report);
+Json fmu_schema();
 
 Json modes_document(const study::ModesReport& report);
 Json modes_schema();

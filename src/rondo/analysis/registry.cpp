@@ -8,7 +8,7 @@
 #include "rondo/analysis/figures/crush_figures.hpp"
 #include "rondo/analysis/figures/dynamic_figures.hpp"
 #include "rondo/analysis/figures/steady_figures.hpp"
-#include "rondo/analysis/reduced.hpp"
+#include "rondo/analysis/reduced/reduced.hpp"
 #include "rondo/analysis/steady/steady.hpp"
 
 namespace rondo::study {

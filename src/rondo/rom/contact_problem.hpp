@@ -9,6 +9,7 @@
 #include "rondo/contact/ground.hpp"
 #include "rondo/rom/contact_table.hpp"
 #include "rondo/rom/rim_response.hpp"
+#include "rondo/rom/saved_reduced.hpp"
 
 namespace rondo::rom {
 
@@ -61,6 +62,12 @@ class ContactSolver {
                                      const StepMatrices& matrices);
   /// The matrices of the steps to come are others.
   void forget_matrices() noexcept;
+
+  [[nodiscard]] SavedContact save() const;
+  [[nodiscard]] bool fits(const SavedContact& saved) const noexcept;
+  /// @param matrices those of the last step, which the blocks at hand are of; null: no step was
+  /// made. @pre fits()
+  void restore(const SavedContact& saved, const StepMatrices* matrices);
 
   /// Of the last step, by point.
   [[nodiscard]] const std::vector<PointContact>& contacts() const noexcept { return contacts_; }

@@ -68,6 +68,7 @@ void ContactTable::prepare(std::span<const int> points, const StepMatrices& matr
   }
   const auto now = static_cast<Index>(known_.size());
   if (now == before) return;
+  portion_ends_.push_back(known_.size());
   grow(now);
   for (Index s = before; s < now; ++s) {
     const Index row = 2 * static_cast<Index>(known_[static_cast<std::size_t>(s)]);
@@ -107,6 +108,18 @@ DelassusPair ContactTable::pair(int at, int from) const noexcept {
 void ContactTable::forget() noexcept {
   for (const int point : known_) slot_[static_cast<std::size_t>(point)] = -1;
   known_.clear();
+  portion_ends_.clear();
+}
+
+std::vector<std::vector<int>> ContactTable::portions() const {
+  std::vector<std::vector<int>> portions;
+  auto from = known_.begin();
+  for (const std::size_t end : portion_ends_) {
+    const auto to = known_.begin() + static_cast<std::ptrdiff_t>(end);
+    portions.emplace_back(from, to);
+    from = to;
+  }
+  return portions;
 }
 
 double ContactTable::bytes(std::size_t m, Index modes, std::size_t points) noexcept {

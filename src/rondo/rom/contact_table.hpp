@@ -44,20 +44,23 @@ class ContactTable {
   [[nodiscard]] DelassusPair pair(int at, int from) const noexcept;
   /// Forgets all blocks: they were of other matrices.
   void forget() noexcept;
+  /// The points of each prepare() since then that made blocks.
+  [[nodiscard]] std::vector<std::vector<int>> portions() const;
   /// [bytes] with blocks between `points` points.
   [[nodiscard]] static double bytes(std::size_t m, Index modes, std::size_t points) noexcept;
 
  private:
   void grow(Index slots);
 
-  RowMatrix rows_, carried_;            ///< (2m, r)
-  std::vector<Vec2> points_;            ///< (m)
-  std::vector<double> share_;           ///< (m)
-  std::vector<double> reach_;           ///< (m)
-  std::vector<int> slot_;               ///< (m) -1: not there
-  std::vector<int> known_;              ///< points in the order of the slots
-  RowMatrix slot_rows_, slot_carried_;  ///< (2 slots, r)
-  MatrixXd dq_, dp_;                    ///< (r, 2 slots) at the end of the step
+  RowMatrix rows_, carried_;               ///< (2m, r)
+  std::vector<Vec2> points_;               ///< (m)
+  std::vector<double> share_;              ///< (m)
+  std::vector<double> reach_;              ///< (m)
+  std::vector<int> slot_;                  ///< (m) -1: not there
+  std::vector<int> known_;                 ///< points in the order of the slots
+  std::vector<std::size_t> portion_ends_;  ///< in known_, of each prepare() that added some
+  RowMatrix slot_rows_, slot_carried_;     ///< (2 slots, r)
+  MatrixXd dq_, dp_;                       ///< (r, 2 slots) at the end of the step
   MatrixXd normal_, tangential_;  ///< (2 slots, 2 slots); tangential_ empty: the same as normal_
 };
 

@@ -14,6 +14,7 @@
 #include "rondo/model/integrator.hpp"
 #include "rondo/rom/contact_problem.hpp"
 #include "rondo/rom/moving_rim.hpp"
+#include "rondo/rom/saved_reduced.hpp"
 
 namespace rondo::rom {
 
@@ -88,6 +89,16 @@ class ReducedIntegrator final : public dynamics::Integrator {
   [[nodiscard]] double state_velocity_angle() const noexcept;
   /// u and v of the state after the last step, on all nodes.
   void lift(dynamics::State& state) const noexcept;
+
+  /// Between two steps. @throws std::bad_alloc
+  [[nodiscard]] SavedReducedState save() const;
+  /// It is one of an integrator like this, as far as sizes tell.
+  [[nodiscard]] bool fits(const SavedReducedState& saved) const noexcept;
+  /// Goes on to the same bits as the integrator that saved it, of the same input. The contacts of
+  /// the last step are not among what it knows. @pre fits()
+  void restore(const SavedReducedState& saved);
+  /// MovingRim::lead(), before each step. @pre input.model.rim
+  void lead(const RimVector& end);
 
  private:
   /// The frame over one step. The midpoint rule sees its means over the step, central differences

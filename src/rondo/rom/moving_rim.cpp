@@ -63,13 +63,13 @@ void MovingRim::begin(long long n, const VectorXd& q) {
   step_ = n;
   load_ = {mean(rim_.force_x, t, dt), mean(rim_.force_y, t, dt), -mean(rim_.torque, t, dt)};
   gravity_ = model_.motion.gravity_at(t + 0.5 * dt);
-  const RimVector held = given(model_.motion, t + dt);
+  const RimVector held = led_ ? *led_ : given(model_.motion, t + dt);
   for (Index k = 0; k < 3; ++k) end_[k] = is_free(k) ? now_[k] : held[k];
-  const double ahead = 1.5 * now_[2] - 0.5 * spin_before_;
-  if (!rim_.free_spin)
-    spin_ = 0.5 * (now_[2] + held[2]);
-  else if (!(std::abs(ahead - spin_) <= same_spin * std::abs(ahead)))
-    spin_ = ahead;
+  const double ahead =
+      rim_.free_spin ? 1.5 * now_[2] - 0.5 * spin_before_ : 0.5 * (now_[2] + held[2]);
+  const bool serves =
+      (rim_.free_spin || led_) && std::abs(ahead - spin_) <= same_spin * std::abs(ahead);
+  if (!serves) spin_ = ahead;
   if (q_before_.size() == 0) q_before_ = q;
   q_arm_ = 1.5 * q - 0.5 * q_before_;
   braking_ = rim_.free_spin ? mean(rim_.brake, t, dt) : 0.0;
@@ -224,8 +224,8 @@ Vec2 MovingRim::center_end() const noexcept {
   const double dt = model_.dt;
   const Vec2 held = model_.motion.center(static_cast<double>(step_ + 1) * dt);
   const RimVector v = velocity_mean();
-  return {rim_.free_x ? center_.x + dt * v[0] : held.x,
-          rim_.free_y ? center_.y + dt * v[1] : held.y};
+  return {rim_.free_x || led_ ? center_.x + dt * v[0] : held.x,
+          rim_.free_y || led_ ? center_.y + dt * v[1] : held.y};
 }
 
 dynamics::StepEnergy MovingRim::energy(const VectorXd& q, const VectorXd& p) const {
@@ -304,17 +304,62 @@ void MovingRim::move(const RimVector& v) {
   const Vec2 held = model_.motion.center(t + dt), before = center_;
   x_.add(dt * v[0]);
   y_.add(dt * v[1]);
-  const double turn = rim_.free_spin ? dt * v[2] : model_.motion.turn(t, dt);
+  const double turn = rim_.free_spin || led_ ? dt * v[2] : model_.motion.turn(t, dt);
   angle_.add(turn);
-  center_ = {rim_.free_x ? x_.value() : held.x, rim_.free_y ? y_.value() : held.y};
+  center_ = {rim_.free_x || led_ ? x_.value() : held.x, rim_.free_y || led_ ? y_.value() : held.y};
+  set_frame(turn, center_ - before);
+}
+
+void MovingRim::set_frame(double turn, Vec2 way) {
   frame_ = {};
-  frame_.time = t + dt;
+  frame_.time = static_cast<double>(step_) * model_.dt + model_.dt;
   frame_.spin = end_[2];
   frame_.angle = angle_.value();
   frame_.turn_before = turn;
   frame_.rotation = rotation(frame_.angle);
   frame_.center = center_;
-  frame_.advance_before = center_ - before;
+  frame_.advance_before = way;
+}
+
+SavedRim MovingRim::save() const {
+  SavedRim s;
+  s.numbers = {x_.sum(),
+               x_.correction(),
+               y_.sum(),
+               y_.correction(),
+               angle_.sum(),
+               angle_.correction(),
+               center_.x,
+               center_.y,
+               now_[0],
+               now_[1],
+               now_[2],
+               spin_before_,
+               spin_,
+               frame_.turn_before,
+               frame_.advance_before.x,
+               frame_.advance_before.y};
+  s.displacement_before.assign(q_before_.begin(), q_before_.end());
+  s.late.assign(late_.begin(), late_.end());
+  return s;
+}
+
+void MovingRim::restore(long long n, const SavedRim& s) {
+  const auto& a = s.numbers;
+  step_ = n - 1;
+  x_ = {a[0], a[1]};
+  y_ = {a[2], a[3]};
+  angle_ = {a[4], a[5]};
+  center_ = {a[6], a[7]};
+  now_ = end_ = RimVector(a[8], a[9], a[10]);
+  spin_before_ = a[11];
+  spin_ = a[12];
+  const auto vector = [](const std::vector<double>& v) {
+    return Eigen::Map<const VectorXd>(v.data(), static_cast<Index>(v.size()));
+  };
+  q_before_ = vector(s.displacement_before);
+  late_ = vector(s.late);
+  set_frame(a[13], {a[14], a[15]});
 }
 
 }  // namespace rondo::rom

@@ -4,10 +4,12 @@
 #pragma once
 #include <Eigen/Core>
 #include <array>
+#include <optional>
 
 #include "rondo/model/integrator.hpp"
 #include "rondo/rom/rim_modes.hpp"
 #include "rondo/rom/rim_response.hpp"
+#include "rondo/rom/saved_reduced.hpp"
 #include "rondo/rom/step_matrices.hpp"
 
 namespace rondo::rom {
@@ -25,6 +27,10 @@ class MovingRim {
   /// At t = 0. Both must outlive it. @pre model.rim, reduced.rim, midpoint steps
   MovingRim(const dynamics::Model& model, const ReducedModel& reduced);
 
+  /// Before begin(): what is held has these velocities at the end of the step and goes to them
+  /// linearly, whatever the tables say, here and in all steps to come; its places are the integral.
+  /// Matrices then serve the spins within `same_spin`.
+  void lead(const RimVector& end) noexcept { led_ = end; }
   /// Loads of the step n + 1 and what it takes for the mean spin and displacement.
   void begin(long long n, const VectorXd& q);
   /// s_A: the spin that the matrices of the step are of                              [rad/s]
@@ -63,6 +69,15 @@ class MovingRim {
   [[nodiscard]] const VectorXd& arm_modes() const noexcept { return q_arm_; }
   [[nodiscard]] const RimResponse& response() const noexcept { return response_; }
 
+  /// Between two steps; what lead() said is not in it.
+  [[nodiscard]] SavedRim save() const;
+  /// @param n steps made
+  void restore(long long n, const SavedRim& saved);
+
+  /// Of rim and body, undeformed                                            [kg/m], [kg·m]
+  [[nodiscard]] double whole_mass() const noexcept { return rim_.mass + body_.mass; }
+  [[nodiscard]] double whole_inertia() const noexcept { return rim_.inertia + body_.inertia; }
+
   /// After finish(); what comes after the step is not known: `turn` and `advance` are 0.
   [[nodiscard]] const dynamics::FrameStep& frame() const noexcept { return frame_; }
   [[nodiscard]] const dynamics::RimReport& report() const noexcept { return report_; }
@@ -76,6 +91,7 @@ class MovingRim {
   [[nodiscard]] bool is_free(Index k) const noexcept;
   [[nodiscard]] RimVector reaction(const VectorXd& p_mid) const;
   void move(const RimVector& mean);
+  void set_frame(double turn, Vec2 way);
   void add_works(const RimVector& mean, const RimVector& held, const VectorXd& p_mid,
                  dynamics::Works& works) const;
   [[nodiscard]] double scheme_work(const VectorXd& q, const VectorXd& p, const VectorXd& q_end,
@@ -89,9 +105,10 @@ class MovingRim {
   CompensatedSum x_, y_, angle_;
   Vec2 center_;
   RimVector now_, end_;
-  double spin_before_ = 0.0;  ///< s at the beginning of the step before
-  VectorXd q_before_;         ///< (r) likewise
-  VectorXd late_;             ///< (r) z of the step before: what it left of its increments (R.9)
+  std::optional<RimVector> led_;  ///< of lead()
+  double spin_before_ = 0.0;      ///< s at the beginning of the step before
+  VectorXd q_before_;             ///< (r) likewise
+  VectorXd late_;  ///< (r) z of the step before: what it left of its increments (R.9)
 
   // Of the step: means that are known before it.
   double spin_ = 0.0;       ///< s_A

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// Models that this version does not run.
-#include "rondo/analysis/reduced_file.hpp"
+#include "rondo/analysis/reduced/reduced_file.hpp"
 
 #include <gtest/gtest.h>
 #include <unistd.h>

@@ -12,7 +12,7 @@
 #include <utility>
 
 #include "rondo/analysis/build/build.hpp"
-#include "rondo/analysis/reduced_file.hpp"
+#include "rondo/analysis/reduced/reduced_file.hpp"
 #include "rondo/core/error.hpp"
 #include "rondo/core/process_wide.hpp"
 #include "rondo/io/csv.hpp"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "rondo/analysis/reduced_file.hpp"
+#include "rondo/analysis/reduced/reduced_file.hpp"
 
 #include <fmt/format.h>
 

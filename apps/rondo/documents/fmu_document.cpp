@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "commands.hpp"
+#include "documents/documents.hpp"
+#include "documents/members.hpp"
+
+namespace rondo::app {
+namespace {
+
+constexpr Member<FmuReport> members[] = {
+    {"fmu", "string", "", "file of the FMU",
+     [](const FmuReport& r) -> Json { return r.file.string(); }},
+    {"fmu_bytes", "integer", "B", "its size", [](const FmuReport& r) -> Json { return r.bytes; }},
+    {"identifier", "string", "", "modelIdentifier: name of the binary within",
+     [](const FmuReport& r) -> Json { return r.identifier; }},
+    {"guid", "string", "", "of case and model", [](const FmuReport& r) -> Json { return r.guid; }},
+    {"step", "number", "s", "internal step at the most",
+     [](const FmuReport& r) -> Json { return r.step; }},
+    {"tyre_mass", "number", "kg", "for a width of 1 m, to be added to the hub's",
+     [](const FmuReport& r) -> Json { return r.tyre_mass; }},
+    {"tyre_inertia", "number", "kg m2", "likewise",
+     [](const FmuReport& r) -> Json { return r.tyre_inertia; }},
+};
+
+}  // namespace
+
+Json fmu_document(const FmuReport& report) {
+  return object_of<FmuReport>(members, report);
+}
+
+Json fmu_schema() {
+  return schema_of<FmuReport>(members);
+}
+
+}  // namespace rondo::app

@@ -1,0 +1,144 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <fmt/format.h>
+#include <spdlog/spdlog.h>
+
+#include <CLI/CLI.hpp>
+#include <array>
+#include <cstdint>
+
+#include "commands.hpp"
+#include "documents/documents.hpp"
+#include "fmu/zip.hpp"
+#include "options.hpp"
+#include "rondo/analysis/reduced/reduced_file.hpp"
+#include "rondo/case/case_source.hpp"
+#include "rondo/core/bytes.hpp"
+#include "rondo/core/error.hpp"
+#include "rondo/fmu/description.hpp"
+#include "rondo/fmu/wheel.hpp"
+#include "rondo/io/files.hpp"
+
+namespace rondo::app {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr const char* binary_name = "rondo_fmu.so";
+
+constexpr const char* license =
+    "BSD 3-Clause License. Copyright (c) 2026, the rondo authors.\n"
+    "The text of the license is the file LICENSE of rondo. What else the binary needs is told in\n"
+    "docs/fmu.md; it is not part of this FMU.\n";
+
+/// Beside the program, or where it is installed to.
+std::string binary_text() {
+  std::error_code error;
+  const fs::path folder = fs::read_symlink("/proc/self/exe", error).parent_path();
+  for (const fs::path& file : {folder / binary_name, folder / ".." / "lib" / "rondo" / binary_name})
+    if (fs::exists(file, error)) return io::text_of(file);
+  throw FileError((folder / binary_name).string(),
+                  "is not there: the binary of FMUs belongs beside the program, or into "
+                  "../lib/rondo; build or install rondo whole");
+}
+
+/// Of the case that is named, or of the first run behind the model where it is one in time.
+fs::path case_file(const FmuArguments& a) {
+  if (!a.case_file.empty()) return a.case_file;
+  const std::vector<std::string> runs = study::read_reduced_file(a.model).runs;
+  const fs::path file = runs.empty() ? fs::path() : fs::path(runs.front()) / "case.toml";
+  std::error_code error;
+  if (!runs.empty() && fs::exists(file, error) &&
+      study::read_case(file).analysis.kind == study::AnalysisKind::dynamic)
+    return file;
+  throw request_error("--case", "",
+                      fmt::format("is needed: the first run behind {} is no motion in time, or no "
+                                  "longer there",
+                                  a.model.string()),
+                      "--case CASE.toml: ground, dampings, gravity and start of the wheel");
+}
+
+/// FNV-1a of both, twice.
+std::string guid_of(const std::string& a, const std::string& b) {
+  std::array<std::uint64_t, 2> hash{0xcbf29ce484222325ULL, 0x9ae16a3b2f90404fULL};
+  for (const std::string* text : {&a, &b})
+    for (const char c : *text)
+      for (std::uint64_t& h : hash) h = (h ^ static_cast<unsigned char>(c)) * 0x100000001b3ULL;
+  return fmt::format("{{{:08x}-{:04x}-{:04x}-{:04x}-{:012x}}}", hash[0] >> 32U,
+                     (hash[0] >> 16U) & 0xffffU, hash[0] & 0xffffU, hash[1] >> 48U,
+                     hash[1] & 0xffffffffffffULL);
+}
+
+study::Case read_checked(const FmuArguments& a) {
+  study::Case c = study::read_case(case_file(a), a.settings);
+  if (c.analysis.kind != study::AnalysisKind::dynamic)
+    throw study::case_error(c, "analysis.kind", "a wheel of an FMU moves in time", "\"dynamic\"");
+  return c;
+}
+
+}  // namespace
+
+CLI::App* add_fmu(CLI::App& program, FmuArguments& a, Telling& tell) {
+  CLI::App* fmu = program.add_subcommand(
+      "fmu", "a reduced wheel as an FMU (FMI 2.0, co-simulation): hub motion in, forces out");
+  fmu->add_option("model", a.model, "file of rondo reduce")->required();
+  fmu->add_option("-o,--output", a.output, "file of the FMU, e.g. wheel.fmu")->required();
+  fmu->add_option("--case", a.case_file,
+                  "case file: ground, dampings, gravity, start; that of the first run behind the "
+                  "model if left out");
+  fmu->add_option("--set", a.settings, "KEY=VALUE: overrides a key of the case; repeatable")
+      ->take_all()
+      ->expected(1);
+  fmu->add_option("--step-factor", a.step_factor, "largest internal step over that of the full run")
+      ->capture_default_str();
+  fmu->add_flag("--quiet", tell.quiet, "prints warnings and errors only");
+  fmu->add_flag("--json", tell.json,
+                "prints one JSON document, also where it fails (docs/machine.md)");
+  fmu->footer(
+      "Example:\n  rondo fmu model.h5 --case cases/quarter-car-bump.toml -o wheel.fmu\n"
+      "What goes in and out, and how to couple it: docs/fmu.md.");
+  return fmu;
+}
+
+int fmu(const FmuArguments& a, Telling& tell) {
+  if (a.output.empty() || a.output.filename().empty())
+    throw request_error("-o", a.output.string(), "the FMU needs a file", "-o wheel.fmu");
+  const study::Case c = read_checked(a);
+  const std::string binary = binary_text();
+  fmu::Wheel wheel(c, a.model, a.step_factor);
+  fmu::Values values = fmu::start_values(c, 0.0);
+  wheel.begin(values);
+  for (const std::string& text : wheel.take_warnings()) spdlog::warn(text);
+  const std::string case_text = study::write_case(c), model = io::text_of(a.model);
+  fmu::Description d;
+  d.identifier = fmu::identifier_of(a.output.stem().string());
+  d.title = study::as_utf8(c.title);
+  d.guid = guid_of(case_text + fmt::format("{}", a.step_factor), model);
+  d.start = fmu::start_values(c, wheel.step());
+  const Json settings = {{"guid", d.guid}, {"step", wheel.step()}, {"step_factor", a.step_factor}};
+  write_zip(a.output, {{"modelDescription.xml", fmu::model_description(d)},
+                       {"binaries/linux64/" + d.identifier + ".so", binary},
+                       {"resources/case.toml", case_text},
+                       {"resources/model.h5", model},
+                       {"resources/wheel.json", settings.dump(2) + "\n"},
+                       {"documentation/index.html", fmu::index_page(d)},
+                       {"documentation/LICENSE", license}});
+  std::error_code error;
+  const FmuReport report{a.output,
+                         d.identifier,
+                         d.guid,
+                         wheel.step(),
+                         values.tyre_mass,
+                         values.tyre_inertia,
+                         fs::file_size(a.output, error)};
+  if (tell.json) {
+    tell.result = fmu_document(report);
+    return exit_done;
+  }
+  fmt::print("internal step      {:.6g} s at the most\n", report.step);
+  fmt::print("tyre               {:.6g} kg, {:.6g} kg m2 for a width of 1 m: the hub's to have\n",
+             report.tyre_mass, report.tyre_inertia);
+  fmt::print("FMU                {} ({})\n", report.file.string(), readable_bytes(report.bytes));
+  return exit_done;
+}
+
+}  // namespace rondo::app

@@ -1,0 +1,218 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "rondo/analysis/reduced/reduced.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <utility>
+
+#include "rondo/analysis/build/build.hpp"
+#include "rondo/analysis/dynamic.hpp"
+#include "rondo/analysis/reduced/prepare.hpp"
+#include "rondo/case/case_source.hpp"
+
+namespace rondo::study {
+namespace {
+
+/// Of values that the motion is led over to; what was said before is not said again.
+void warn_of_values(const Case& c, const Setup& setup, ReducedRun& run) {
+  const ModelRanges& built = run.file.ranges;
+  const dynamics::RimBody rim = c.rim.value_or(dynamics::RimBody{});
+  const auto last = [](const dynamics::Table& table) { return table.points().back()[1]; };
+  std::vector<std::string> said;
+  const auto check = [&](bool held, const char* what, const ModelRange& range, double value) {
+    ModelRange wanted;
+    wanted.take(value);
+    if (held) add_said(outside(what, range, wanted, 0.0), said);
+  };
+  check(!rim.free_spin, "motion.angular_velocity", built.angular_velocity,
+        last(c.motion.angular_velocity));
+  check(!rim.free_x, "motion.speed", built.speed, last(c.motion.speed));
+  check(!rim.free_y, "motion.height", built.height, last(c.motion.height));
+  add_said(passed_points(c, setup, c.motion.angular_velocity.largest(), run), said);
+  for (std::string& warning : said)
+    if (std::ranges::find(run.warnings, warning) == run.warnings.end())
+      run.warnings.push_back(std::move(warning));
+}
+
+/// Of a spin that stays the step makes a whole number of phases of a sector, see step_of().
+void refuse_other_phases(const Case& c, const ReducedRun& run) {
+  const bool phases =
+      c.ground && !(c.rim && c.rim->free_spin) && run.file.model.form == rom::ContactForm::nodes;
+  if (!phases || !run.constant_spin || c.motion.angular_velocity.points().size() == 1) return;
+  throw case_error(c, "motion.angular_velocity",
+                   "the step of this reduced run is made for a spin that stays as it is",
+                   "motion.angular_velocity as a table from the start, [[0, w], [1, w]]");
+}
+
+void describe_reduced(const ReducedRun& run, const RunOptions& options, Json& json) {
+  json["reduced_model"] = as_utf8(options.reduced.string());
+  json["reduced_modes"] = run.file.model.size();
+  json["displacement_modes"] = run.file.displacement_modes;
+  json["velocity_modes"] = run.file.velocity_modes;
+  json["reduced_frame"] = name_in(frame_names, run.file.model.frame);
+  json["reduced_contact"] = name_in(contact_names, run.file.model.form);
+  json["reduced_step"] = options.reduced_step;
+  if (run.file.model.form != rom::ContactForm::nodes)
+    json["contact_points"] = run.file.model.contact.points.size();
+  json["step_factor"] = run.step_factor;
+  json["full_step"] = run.full_step;
+  json["lifted"] = run.lifts;
+  const ErrorEstimate& estimate = run.file.estimate;
+  json["reduced_error_estimate"] = nullptr;
+  if (estimate.errors.empty()) {
+    json["reduced_error_estimate_missing"] = as_utf8(estimate.none);
+    return;
+  }
+  const ForceErrors most = estimate.estimate();
+  json["reduced_error_estimate"] = {{"force_x", most.x}, {"force_y", most.y}};
+}
+
+void add_figures(const ReducedRun& run, double time, Json& json) {
+  const rom::StepFigures& f = run.figures;
+  const double steps = static_cast<double>(std::max(1LL, f.contact_steps));
+  json["reduced"] = {{"matrices_factored", f.factored},
+                     {"factor_wall_s", f.factor_wall_s},
+                     {"step_wall_s", f.wall_s},
+                     {"contact_wall_s", f.contact_wall_s},
+                     {"slowest_step_s", f.slowest_step_s},
+                     {"realtime_factor", f.wall_s > 0.0 ? time / f.wall_s : 0.0},
+                     {"contact_tables", f.tables},
+                     {"contact_steps", f.contact_steps},
+                     {"contact_iterations_mean", static_cast<double>(f.iterations) / steps},
+                     {"contact_iterations_max", f.iterations_max},
+                     {"contacts_max", f.contacts_max},
+                     {"steps_with_more_rows_than_modes", f.more_rows_than_modes},
+                     {"steps_not_converged", f.not_converged}};
+}
+
+/// Snapshots of modes: no field of all nodes, and no stress.
+void plan_modes(const ReducedRun& run, io::ResultsLayout& results) {
+  const rom::ReducedModel& m = run.file.model;
+  const auto r = static_cast<std::size_t>(m.size());
+  results.stress = false;
+  results.modes = {
+      {m.basis.data(), static_cast<std::size_t>(m.basis.size())}, r, name_in(frame_names, m.frame)};
+  results.series = {{"/reduced/displacement", "kg^(1/2) m", "coefficients q of /reduced/modes", r},
+                    {"/reduced/velocity", "kg^(1/2) m/s",
+                     "coefficients p of /reduced/modes, at /frame/time_velocity", r},
+                    {"/reduced/angle", "rad",
+                     "angles that lift displacement and velocity from the rectified frame", 2}};
+}
+
+/// The loop, the files and the figures are those of motion in time; the steps are those of the
+/// modes.
+class ReducedAnalysis final : public DynamicAnalysis {
+ public:
+  ReducedAnalysis(const Case& c, const RunOptions& options)
+      : DynamicAnalysis(c, options),
+        case_(c),
+        options_(options),
+        run_(prepare_reduced(c, options, own_setup())) {
+    plan_snapshots();
+  }
+
+  [[nodiscard]] Resumable* resumable() noexcept override { return nullptr; }
+  void close() override {
+    DynamicAnalysis::close();
+    if (case_.rim) warn_of_rim();
+  }
+  [[nodiscard]] RecordPlan record_plan() const override {
+    RecordPlan plan = DynamicAnalysis::record_plan();
+    if (!run_.lifts) plan_modes(run_, plan.results);
+    return plan;
+  }
+  [[nodiscard]] std::vector<std::string> warnings() const override {
+    std::vector<std::string> all = DynamicAnalysis::warnings();
+    all.insert(all.end(), run_.warnings.begin(), run_.warnings.end());
+    return all;
+  }
+  void take_tables() override {
+    refuse_other_phases(case_, run_);
+    DynamicAnalysis::take_tables();
+    const std::size_t told = run_.warnings.size();
+    warn_of_values(case_, own_setup(), run_);
+    for (std::size_t k = told; k < run_.warnings.size(); ++k) warn(run_.warnings[k]);
+  }
+  void describe(Json& json) const override {
+    DynamicAnalysis::describe(json);
+    describe_reduced(run_, options_, json);
+  }
+  void summarise(Json& json, RunReport& report) const override {
+    DynamicAnalysis::summarise(json, report);
+    add_figures(run_, report.end_time, json);
+    report.notes.push_back("error estimate of the model: " + in_words(run_.file.estimate));
+    report.step_wall_s = run_.figures.wall_s;
+    report.slowest_step = run_.figures.slowest_step_s / setup().model.dt;
+  }
+
+ protected:
+  [[nodiscard]] bool guards_impacts() const noexcept override {
+    return sees_velocities_alone(run_);
+  }
+  [[nodiscard]] std::unique_ptr<dynamics::Integrator> make_integrator(
+      dynamics::State& start) override {
+    auto made = std::make_unique<rom::ReducedIntegrator>(
+        rom::IntegratorInput{setup().mesh, setup().model, run_.file.model, run_.figures,
+                             run_.scheme, lifts_states()},
+        start);
+    integrator_ = made.get();
+    return made;
+  }
+  void complete(dynamics::State& state) override {
+    if (integrator_ && !lifts_states()) integrator_->lift(state);
+  }
+  void add_series(const dynamics::State& state, Snapshot& snapshot) override {
+    if (run_.lifts) return;
+    if (integrator_)
+      return fill_series(integrator_->displacement(), integrator_->state_velocity(),
+                         {snapshot.angle, integrator_->state_velocity_angle()}, snapshot);
+    rom::Lift lift(setup().mesh, run_.file.model);
+    const std::vector<double>& mass = setup().model.mass;
+    fill_series(lift.restrict_to_modes(0.0, state.u, mass),
+                lift.restrict_to_modes(0.0, state.v, mass), {0.0, 0.0}, snapshot);
+  }
+
+ private:
+  /// Where a rim that moved by itself came.
+  void warn_of_rim() {
+    std::vector<std::string> warnings;
+    const ModelRanges& built = run_.file.ranges;
+    const rom::RimExtents& rim = run_.figures.rim;
+    const double told = case_.motion.angular_velocity.largest();  // before the run
+    // What comes out swings: 2 % of spin and speed are no news.
+    const auto check = [&](bool free, const char* what, const ModelRange& from, rom::Extent to,
+                           double share) {
+      if (free) add_said(outside(what, from, {to.low, to.high}, share * to.largest()), warnings);
+    };
+    check(case_.rim->free_spin, "the spin of the rim", built.angular_velocity, rim.spin, 20.0);
+    check(case_.rim->free_x, "the speed of the rim", built.speed, rim.speed, 20.0);
+    check(case_.rim->free_y, "the height of the rim", built.height, rim.height, 1.0);
+    if (passed_points(case_, setup(), told, run_).empty())
+      add_said(passed_points(case_, setup(), rim.spin.largest(), run_), warnings);
+    for (const std::string& warning : warnings) warn(warning);
+  }
+  /// Probes want their cells at every row.
+  [[nodiscard]] bool lifts_states() const noexcept { return run_.lifts || !setup().probes.empty(); }
+  static void fill_series(const Eigen::VectorXd& q, const Eigen::VectorXd& p,
+                          const std::array<double, 2>& angles, Snapshot& snapshot) {
+    std::vector<double>& values = snapshot.series;
+    values.assign(q.begin(), q.end());
+    values.insert(values.end(), p.begin(), p.end());
+    values.insert(values.end(), angles.begin(), angles.end());
+  }
+
+  const Case& case_;
+  const RunOptions& options_;
+  ReducedRun run_;
+  rom::ReducedIntegrator* integrator_ = nullptr;  ///< none before the first step
+};
+
+}  // namespace
+
+std::unique_ptr<Analysis> make_reduced(const Case& c, const RunOptions& options) {
+  return std::make_unique<ReducedAnalysis>(c, options);
+}
+
+}  // namespace rondo::study

@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: BSD-3-Clause
+/// @file  modelDescription.xml of a wheel (FMI 2.0.4, 2.2 and 4.3), and what the FMU keeps beside
+/// it.
+#pragma once
+#include <string>
+
+#include "rondo/fmu/values.hpp"
+
+namespace rondo::fmu {
+
+struct Description {
+  std::string identifier;  ///< of C: the binary is called so
+  std::string title;       ///< of the case
+  std::string guid;        ///< of case and model
+  Values start;
+};
+
+/// Letters, digits, underscores, none of them a digit first.
+[[nodiscard]] std::string identifier_of(const std::string& name);
+
+[[nodiscard]] std::string model_description(const Description& d);
+
+/// documentation/index.html
+[[nodiscard]] std::string index_page(const Description& d);
+
+}  // namespace rondo::fmu

@@ -1,0 +1,284 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "rondo/fmu/wheel.hpp"
+
+#include <fmt/format.h>
+
+#include <array>
+#include <cmath>
+#include <mutex>
+#include <utility>
+
+#include "rondo/analysis/build/build.hpp"
+#include "rondo/analysis/out_of_range.hpp"
+#include "rondo/analysis/reduced/prepare.hpp"
+#include "rondo/core/error.hpp"
+#include "rondo/integrators/start.hpp"
+#include "rondo/output/contact_statistics.hpp"
+
+namespace rondo::fmu {
+namespace {
+
+/// Reading model files and building are one thread's at a time: the library of the files is.
+std::mutex& building() {
+  static std::mutex mutex;
+  return mutex;
+}
+
+rom::RimVector velocities(const Values& v) {
+  return {v.hub_velocity_x, v.hub_velocity_y, -v.hub_angular_velocity};
+}
+
+dynamics::Table height_table(double height, double velocity) {
+  if (velocity == 0.0) return dynamics::Table(height);
+  return dynamics::Table({{0.0, height}, {1.0, height + velocity}});
+}
+
+/// The hub is the importer's: held, and nothing pushes it but what it is told.
+study::Case case_of(const study::Case& given, const Values& v) {
+  study::Case c = given;
+  c.rim = dynamics::RimBody{};
+  c.ground->friction = v.friction;
+  c.motion.start_x = v.hub_x_start;
+  c.motion.speed = dynamics::Table(v.hub_velocity_x);
+  c.motion.angular_velocity = dynamics::Table(v.hub_angular_velocity);
+  c.motion.height = height_table(v.hub_height_start - v.ground_height, v.hub_velocity_y);
+  return c;
+}
+
+bool same_parameters(const Values& a, const Values& b) {
+  for (const Variable& variable : variables())
+    if (variable.kind == Kind::parameter && a.*variable.value != b.*variable.value) return false;
+  return true;
+}
+
+}  // namespace
+
+/// Means are of the steps since the last communication point.
+struct Wheel::Sums {
+  Vec2 held, contact;  ///< forces [N/m]
+  double torque = 0.0;
+  long long n = 0;
+};
+
+struct Wheel::Body {
+  study::Case c;
+  study::RunOptions options;
+  study::Setup setup;
+  study::ReducedRun run;
+  dynamics::State start;
+  study::Bounds bounds;
+  double largest_step = 0.0;
+  double mass = 0.0, inertia = 0.0;  ///< [kg/m], [kg·m]
+  std::unique_ptr<rom::ReducedIntegrator> integrator;
+  study::ContactStatistics contact;
+  Values parameters;   ///< that it was made of
+  rom::RimVector hub;  ///< at the last communication point
+  Sums sums;
+  dynamics::StepReport last;
+  double dt = 0.0;  ///< 0: no step was made
+};
+
+Wheel::Wheel(study::Case c, std::filesystem::path model, double step_factor)
+    : case_(std::move(c)), model_(std::move(model)), step_factor_(step_factor) {}
+
+Wheel::~Wheel() = default;
+
+void Wheel::check() {
+  if (!case_.ground)
+    throw study::case_error(case_, "ground", "the wheel of an FMU has ground to roll on",
+                            "a [ground], flat or with a profile");
+  if (case_.motion.gravity.points().size() > 1)
+    throw study::case_error(case_, "motion.gravity", "gravity of an FMU stays as it is",
+                            "a number");
+}
+
+double Wheel::step() const noexcept {
+  return body_ ? body_->largest_step : 0.0;
+}
+
+void Wheel::begin(Values& values) {
+  check();
+  const std::lock_guard<std::mutex> lock(building());
+  auto body = std::make_unique<Body>();
+  Body& b = *body;
+  b.c = case_of(case_, values);
+  b.options.reduced = model_;
+  b.options.step_factor = step_factor_;
+  b.options.threads = 1;
+  b.setup = study::build(b.c, 1);
+  b.run = study::prepare_reduced(b.c, b.options, b.setup);
+  b.largest_step = values.step > 0.0 ? values.step : b.setup.model.dt;
+  b.start = dynamics::start(b.setup.model, b.setup.displacement, b.setup.velocity,
+                            b.setup.half_velocity, b.setup.axial);
+  b.bounds = {study::residual_bound, study::largest_strain_energy(b.setup), "", false, "J/m"};
+  b.mass = b.setup.model.rim->mass + b.run.file.model.rim->mass;
+  b.inertia = b.setup.model.rim->inertia + b.run.file.model.rim->inertia;
+  body_ = std::move(body);
+  for (const std::string& text : b.setup.warnings) warn(text);
+  for (const std::string& text : b.run.warnings) warn(text);
+  values.tyre_mass = values.width * b.mass;
+  values.tyre_inertia = values.width * b.inertia;
+  b.hub = velocities(values);
+  b.parameters = values;
+  make_integrator(b.largest_step);
+  const std::string wrong = make_steps(values, 1);
+  Values first = values;
+  fill(values, b.largest_step, first);
+  first.hub_x = values.hub_x_start;
+  first.hub_height = values.hub_height_start;
+  first.hub_angle = 0.0;
+  first.loaded_radius = b.setup.model.contact->ground.distance(b.setup.model.motion.center(0.0));
+  values = first;
+  b.integrator.reset();
+  b.dt = 0.0;
+  b.contact = {};
+  if (!wrong.empty()) warn("a first step of the hub as it starts fails: " + wrong);
+}
+
+void Wheel::make_integrator(double dt) {
+  Body& b = *body_;
+  b.setup.model.dt = b.dt = dt;
+  b.integrator = std::make_unique<rom::ReducedIntegrator>(
+      rom::IntegratorInput{b.setup.mesh, b.setup.model, b.run.file.model, b.run.figures,
+                           rom::StepScheme::midpoint, false},
+      b.start);
+}
+
+std::string Wheel::refuse_length(double length) const {
+  const Body& b = *body_;
+  if (!(length > 0.0) || !std::isfinite(length))
+    return fmt::format("a communication step of {} s: must be above 0", length);
+  constexpr double most = 1e9, close = 1e-9;
+  const double steps = length / (b.dt > 0.0 ? b.dt : b.largest_step);
+  if (steps > most) return fmt::format("a communication step of {} s is too long", length);
+  if (b.dt == 0.0 || std::abs(steps - std::round(steps)) <= close * steps) return {};
+  return fmt::format(
+      "a communication step of {:.9g} s is no whole number of internal steps, which are {:.9g} s "
+      "since the first communication step: {:.9g} s or {:.9g} s",
+      length, b.dt, b.dt * std::max(1.0, std::floor(steps)), b.dt * std::ceil(steps));
+}
+
+std::string Wheel::go_on(Values& values, double length) {
+  Body& b = *body_;
+  if (std::string wrong = refuse_length(length); !wrong.empty()) return wrong;
+  if (b.dt == 0.0) make_integrator(length / std::ceil(length / b.largest_step * (1.0 - 1e-9)));
+  const auto n = static_cast<long long>(std::llround(length / b.dt));
+  warn_of_ranges(values);
+  std::string wrong = make_steps(values, n);
+  if (!wrong.empty()) return wrong;
+  Values to = values;
+  fill(values, static_cast<double>(n) * b.dt, to);
+  values = to;
+  b.hub = velocities(values);
+  return {};
+}
+
+/// From the hub's velocities at the last communication point linearly to those of the values.
+std::string Wheel::make_steps(const Values& values, long long n) {
+  Body& b = *body_;
+  const rom::RimVector from = b.hub, to = velocities(values);
+  b.sums = {};
+  std::array<dynamics::StepReport, 1> report;
+  for (long long k = 1; k <= n; ++k) {
+    const double share = static_cast<double>(k) / static_cast<double>(n);
+    b.integrator->lead(k == n ? to : rom::RimVector(from + share * (to - from)));
+    b.integrator->advance(report);
+    b.last = report[0];
+    b.contact.add(b.last.contact);
+    b.sums.held += b.last.rim.force;
+    b.sums.torque += b.last.rim.torque;
+    b.sums.contact += b.last.contact.impulse / b.dt;
+    ++b.sums.n;
+    if (std::string wrong = trouble(); !wrong.empty()) return wrong;
+  }
+  return {};
+}
+
+std::string Wheel::trouble() const {
+  const Body& b = *body_;
+  const study::OutOfBound found = study::find_out_of_bound(b.last.balance, b.contact, b.bounds);
+  const double time = b.last.frame.time;
+  if (!found.what.empty()) return fmt::format("t = {:.9g} s of the wheel: {}", time, found.what);
+  const double above = b.setup.model.contact->ground.distance(b.last.frame.center);
+  if (above > b.c.disk.inner_radius) return {};
+  return fmt::format(
+      "t = {:.9g} s of the wheel: its hub is {:.4g} m above the ground, and the rim, of {:.4g} m, "
+      "is in it",
+      time, above, b.c.disk.inner_radius);
+}
+
+/// (F.1), (F.2): what the hub is held by, the rigid body's inertia and weight taken out.
+void Wheel::fill(const Values& from, double length, Values& to) const {
+  const Body& b = *body_;
+  const double n = static_cast<double>(b.sums.n), w = from.width;
+  const rom::RimVector rate = (velocities(from) - b.hub) / length;
+  const Vec2 gravity = b.setup.model.motion.gravity_at(0.0);
+  to.force_x = w * (b.mass * (rate[0] - gravity.x) - b.sums.held.x / n);
+  to.force_y = w * (b.mass * (rate[1] - gravity.y) - b.sums.held.y / n);
+  to.torque = w * (-b.inertia * rate[2] - b.sums.torque / n);
+  to.contact_force_x = w * b.sums.contact.x / n;
+  to.contact_force_y = w * b.sums.contact.y / n;
+  const Vec2 center = b.last.frame.center;
+  to.hub_x = center.x;
+  to.hub_height = center.y + from.ground_height;
+  to.hub_angle = -b.last.frame.angle;
+  to.loaded_radius = b.setup.model.contact->ground.distance(center);
+  to.contact_length = b.last.contact.length;
+}
+
+void Wheel::warn(std::string text) {
+  if (said_.insert(text).second) warnings_.push_back(std::move(text));
+}
+
+/// Once for each: the text of a value that goes on leaving its range would be another each time.
+void Wheel::warn_of_ranges(const Values& v) {
+  const study::ModelRanges& built = body_->run.file.ranges;
+  const auto check = [&](const char* what, const study::ModelRange& range, double value,
+                         double scale) {
+    study::ModelRange wanted;
+    wanted.take(value);
+    std::string text = study::outside(what, range, wanted, scale * std::abs(value));
+    if (!text.empty() && said_.insert(std::string("range of ") + what).second)
+      warnings_.push_back(std::move(text));
+  };
+  check("hub_angular_velocity", built.angular_velocity, v.hub_angular_velocity, 20.0);
+  check("hub_velocity_x", built.speed, v.hub_velocity_x, 20.0);
+  check("hub_height above ground_height", built.height, v.hub_height - v.ground_height, 1.0);
+}
+
+std::vector<std::string> Wheel::take_warnings() {
+  return std::exchange(warnings_, {});
+}
+
+SavedWheel Wheel::save(const Values& values) const {
+  const Body& b = *body_;
+  SavedWheel s;
+  s.values = values;
+  s.dt = b.dt;
+  s.velocity_x = b.hub[0];
+  s.velocity_y = b.hub[1];
+  s.angular_velocity = b.hub[2];
+  if (b.dt > 0.0) s.state = b.integrator->save();
+  return s;
+}
+
+/// Of a state before the first step the start is made anew; else only what has other parameters.
+void Wheel::restore(const SavedWheel& s, Values& values) {
+  Values start = s.values;
+  start.hub_velocity_x = s.velocity_x;
+  start.hub_velocity_y = s.velocity_y;
+  start.hub_angular_velocity = -s.angular_velocity;
+  if (!s.state || !body_ || !same_parameters(body_->parameters, start)) begin(start);
+  Body& b = *body_;
+  if (s.state) {
+    if (b.dt != s.dt) make_integrator(s.dt);
+    if (!b.integrator->fits(*s.state))
+      throw request_error("state", "", "is of another wheel", "one of this FMU");
+    b.integrator->restore(*s.state);
+  }
+  b.contact = {};
+  b.hub = {s.velocity_x, s.velocity_y, s.angular_velocity};
+  values = s.values;
+}
+
+}  // namespace rondo::fmu

@@ -1,0 +1,356 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""rondo fmu: the FMU is unpacked elsewhere, loaded and led by the master of examples/fmu/quarter_car.py."""
+import ctypes
+import json
+import os
+import pathlib
+import subprocess
+import sys
+import tempfile
+import threading
+import unittest
+import xml.etree.ElementTree as ElementTree
+import zipfile
+
+import numpy as np
+
+import fmi2_rules
+from program import ROOT, SANITIZED, ProgramTest, history, run
+
+sys.path.insert(0, str(ROOT / "examples" / "fmu"))
+from quarter_car import (DOUBLE, ERROR, ExplicitQuarterCar, Fmu, QuarterCar,  # noqa: E402
+                         unpack)
+
+CASE = ROOT / "cases" / "quarter-car-bump.toml"
+STATIC = 1.5e5  # load [N], by which forces are judged
+CRUSH = 0.3 - 0.29167  # of the tyre under it [m], by which heights are
+EXPORTED = """GetTypesPlatform GetVersion SetDebugLogging Instantiate FreeInstance SetupExperiment
+    EnterInitializationMode ExitInitializationMode Terminate Reset GetReal GetInteger GetBoolean
+    GetString SetReal SetInteger SetBoolean SetString GetFMUstate SetFMUstate FreeFMUstate
+    SerializedFMUstateSize SerializeFMUstate DeSerializeFMUstate GetDirectionalDerivative
+    SetRealInputDerivatives GetRealOutputDerivatives DoStep CancelStep GetStatus GetRealStatus
+    GetIntegerStatus GetBooleanStatus GetStringStatus""".split()
+
+
+def schema_folder():
+    """The standard's own schema, which is not ours to ship; None: it is not at hand."""
+    if "RONDO_FMI2_SCHEMA" in os.environ:
+        return pathlib.Path(os.environ["RONDO_FMI2_SCHEMA"])
+    try:
+        import fmpy
+    except ImportError:
+        return None
+    return pathlib.Path(fmpy.__file__).parent / "schema" / "fmi2"
+
+
+def made(*arguments):
+    done = run(*arguments)
+    assert done.returncode == 0, done.stderr
+    return done
+
+
+SHARED = {}  # made once: folder, model, FMU and where it is unpacked
+
+
+def setUpModule():
+    if SANITIZED:
+        raise unittest.SkipTest("sanitizers want to be loaded before the program that loads the FMU")
+    folder = tempfile.TemporaryDirectory()
+    unittest.addModuleCleanup(folder.cleanup)
+    shared = pathlib.Path(folder.name)
+    for load in ("1.2e5", "1.8e5"):
+        made("run", CASE, "-o", shared / load, "--set", "output.snapshots=200", "--set",
+             f"rim.force_y=[[0, 0], [0.01, -{load}]]")
+    made("reduce", shared / "1.2e5", shared / "1.8e5", "-o", shared / "model.h5")
+    made("fmu", shared / "model.h5", "--case", CASE, "-o", shared / "wheel.fmu")
+    unpack(shared / "wheel.fmu", shared / "else where")
+    SHARED.update(model=shared / "model.h5", fmu=shared / "wheel.fmu",
+                  unpacked=shared / "else where")
+
+
+class FmuTest(ProgramTest):
+    def setUp(self):
+        super().setUp()
+        self.model, self.fmu, self.unpacked = SHARED["model"], SHARED["fmu"], SHARED["unpacked"]
+
+    def instance(self, begins=True, **start):
+        fmu = Fmu(self.unpacked)
+        self.addCleanup(fmu.free)
+        if begins:
+            fmu.begin(**start)
+        return fmu
+
+    def refused(self, fmu, function, *arguments):
+        """What an error says; the instance is as it was."""
+        del fmu.messages[:]
+        status = getattr(fmu.library, "fmi2" + function)(ctypes.c_void_p(fmu.component), *arguments)
+        self.assertEqual(status, ERROR)
+        self.assertEqual(len(fmu.messages), 1)
+        return fmu.messages[0]
+
+    def refused_to_set(self, fmu, name, value):
+        return self.refused(fmu, "SetReal", (ctypes.c_uint * 1)(fmu.references.get(name, 999)),
+                            ctypes.c_size_t(1), (DOUBLE * 1)(value))
+
+
+class Coupling(FmuTest):
+    def test_is_our_own_quarter_car(self):
+        """The reduced run with the same step: pointwise, all of the run. The full run: its extremes,
+        for one by one its nodes shake the force."""
+        made("run", CASE, "--reduced", self.model, "-o", self.folder / "reduced")
+        made("run", CASE, "-o", self.folder / "full")
+        reduced, full = history(self.folder / "reduced"), history(self.folder / "full")
+        fmu = self.instance()
+        step = json.loads((self.folder / "reduced" / "run.json").read_text())["step"]
+        car = QuarterCar(fmu, step)
+        rows = car.drive(0.4)
+        n = min(len(rows), len(reduced["time_s"]))
+        np.testing.assert_allclose(rows[:n, 0], reduced["time_s"][:n], rtol=1e-12)
+        force = abs(rows[:n, 2] - reduced["force_y"][:n]).max() / STATIC
+        height = abs(rows[:n, 3] - reduced["center_y_m"][:n]).max()
+        self.assertLess(force, 0.01)
+        self.assertLess(height, 0.01 * CRUSH)
+        self.assertLess(car.tries / len(rows), 4.0)
+        over, there = rows[rows[:, 0] > 0.1], full["time_s"] > 0.1
+        for extreme in (np.max, np.min):
+            self.assertLess(abs(extreme(over[:, 2]) - extreme(full["force_y"][there])) / STATIC, 0.01)
+            self.assertLess(abs(extreme(over[:, 3]) - extreme(full["center_y_m"][there])), 0.05 * CRUSH)
+        self.assertGreater(over[:, 2].max() - over[:, 2].min(), 0.1 * STATIC)  # there is a bump
+
+    def test_width_is_a_factor(self):
+        one, two = self.instance(), self.instance(width=0.25)
+        for fmu in (one, two):
+            for k in range(20):
+                fmu.set(hub_velocity_y=-0.2)
+                fmu.step(k * 4e-4, 4e-4)
+        names = ("force_x", "force_y", "torque", "contact_force_y", "tyre_mass", "tyre_inertia")
+        np.testing.assert_allclose(np.array(two.get(*names)), 0.25 * np.array(one.get(*names)))
+        self.assertEqual(one.get("hub_height"), two.get("hub_height"))
+
+    def test_ground_height_lifts_all(self):
+        one, two = self.instance(), self.instance(ground_height=1.5, hub_height_start=1.8)
+        for fmu in (one, two):
+            for k in range(20):
+                fmu.set(hub_velocity_y=-0.2)
+                fmu.step(k * 4e-4, 4e-4)
+        self.assertAlmostEqual(one.get("force_y")[0] / two.get("force_y")[0], 1.0, 6)
+        self.assertAlmostEqual(two.get("hub_height")[0] - one.get("hub_height")[0], 1.5, 12)
+
+    def test_momentum_is_that_of_hub_and_tyre(self):
+        """Without ground what the tyre does to a hub that goes on evenly comes to an end, and what
+        it did was to take along the deformation alone: nothing stays of it."""
+        fmu = self.instance(hub_height_start=0.5)
+        impulse = 0.0
+        for k in range(1500):
+            fmu.set(hub_velocity_y=min(1.0, (k + 1) / 20))
+            fmu.step(k * 4e-4, 4e-4)
+            impulse += 4e-4 * fmu.get("force_y")[0]
+        self.assertLess(abs(impulse), 1e-3 * fmu.get("tyre_mass")[0])
+        self.assertEqual(fmu.get("contact_force_y"), [0.0])
+
+    def test_explicit_master_with_small_steps(self):
+        """And with large ones not: docs/fmu.md, 2."""
+        explicit = ExplicitQuarterCar(self.instance(), 5e-5).drive(0.05)
+        implicit = QuarterCar(self.instance(), 5e-5).drive(0.05)
+        self.assertLess(abs(explicit[:, 3] - implicit[:, 3]).max(), 5e-4)
+
+
+class State(FmuTest):
+    def test_goes_on_to_the_same_bits(self):
+        fmu = self.instance()
+        car = QuarterCar(fmu, 4e-4)
+        car.drive(0.2)  # on the bump
+        saved = fmu.save()
+        names = list(fmu.references)
+
+        def lead(wheel):
+            out = []
+            for k in range(60):
+                wheel.set(hub_velocity_y=0.1 * np.cos(0.1 * k), hub_angular_velocity=16.8 + 0.01 * k)
+                wheel.step(0.2 + k * 4e-4, 4e-4)
+                out.append(wheel.get(*names))
+            return out
+
+        expected = lead(fmu)
+        fmu.restore(saved)
+        self.assertEqual(lead(fmu), expected)
+        size = ctypes.c_size_t()
+        fmu.call("SerializedFMUstateSize", saved, ctypes.byref(size))
+        data = ctypes.create_string_buffer(size.value)
+        fmu.call("SerializeFMUstate", saved, data, size)
+        fmu.free_state(saved)
+        other, state = self.instance(), ctypes.c_void_p()
+        other.call("DeSerializeFMUstate", data, size, ctypes.byref(state))
+        other.restore(state)
+        self.assertEqual(lead(other), expected)
+        other.free_state(state)
+        self.assertIn("no state of this FMU",
+                      self.refused(other, "DeSerializeFMUstate", data, ctypes.c_size_t(size.value - 8),
+                                   ctypes.byref(state)))
+
+    def test_reset_begins_anew(self):
+        fmu = self.instance(friction=0.3)
+        first = QuarterCar(fmu, 4e-4).drive(0.02)
+        fmu.call("Reset")
+        self.assertEqual(fmu.get("friction"), [0.6])
+        fmu.begin(friction=0.3)
+        np.testing.assert_array_equal(QuarterCar(fmu, 4e-4).drive(0.02), first)
+
+    def test_instances_in_threads(self):
+        alone = QuarterCar(self.instance(), 4e-4).drive(0.03)
+        cars = [QuarterCar(self.instance(), 4e-4) for _ in range(3)]
+        rows = [None] * 3
+
+        def drive(k):
+            rows[k] = cars[k].drive(0.03)
+
+        threads = [threading.Thread(target=drive, args=(k,)) for k in range(3)]
+        for thread in threads:
+            thread.start()
+        for thread in threads:
+            thread.join()
+        for one in rows:
+            np.testing.assert_array_equal(one, alone)
+
+
+class Wrong(FmuTest):
+    def test_values(self):
+        fmu = self.instance()
+        self.assertIn("stays after initialisation", self.refused_to_set(fmu, "friction", 0.5))
+        self.assertIn("is computed", self.refused_to_set(fmu, "force_y", 0.0))
+        self.assertIn("no value reference 999", self.refused_to_set(fmu, "none", 0.0))
+        self.assertIn("not a number", self.refused_to_set(fmu, "hub_velocity_y", float("nan")))
+        early = self.instance(begins=False)
+        self.assertIn("at least 0", self.refused_to_set(early, "friction", -0.1))
+        self.assertIn("above 0", self.refused_to_set(early, "width", 0.0))
+
+    def test_steps(self):
+        early = self.instance(begins=False)
+        self.assertIn("comes before", self.refused(early, "DoStep", DOUBLE(0), DOUBLE(1e-4), 1))
+        fmu = self.instance()
+        for length in (0.0, -1e-4, float("nan"), float("inf")):
+            self.refused(fmu, "DoStep", DOUBLE(0), DOUBLE(length), 1)
+        fmu.step(0.0, 4e-4)
+        self.assertIn("internal steps, which are 0.0002 s",
+                      self.refused(fmu, "DoStep", DOUBLE(4e-4), DOUBLE(5e-4), 1))
+        self.assertIn("the wheel is at", self.refused(fmu, "DoStep", DOUBLE(0.1), DOUBLE(4e-4), 1))
+        fmu.step(4e-4, 8e-4)
+
+    def test_a_hub_in_the_ground(self):
+        fmu = self.instance()
+        before = fmu.save()
+        with self.assertRaisesRegex(RuntimeError, "status 3"):
+            for k in range(1000):
+                fmu.set(hub_velocity_y=-20.0)
+                fmu.step(k * 4e-4, 4e-4)
+        self.assertIn("it has failed", self.refused(fmu, "DoStep", DOUBLE(0), DOUBLE(4e-4), 1))
+        fmu.restore(before)
+        fmu.set(hub_velocity_y=0.0)
+        fmu.step(0.0, 4e-4)
+        fmu.free_state(before)
+
+    def test_instances(self):
+        with self.assertRaisesRegex(RuntimeError, "is not that of this FMU"):
+            Fmu(self.unpacked, guid="{other}")
+        moved = self.folder / "moved"
+        unpack(self.fmu, moved)
+        (moved / "resources" / "wheel.json").unlink()
+        with self.assertRaisesRegex(RuntimeError, "fmuResourceLocation"):
+            Fmu(moved)
+
+    def test_ranges_are_warned_of_once(self):
+        fmu = self.instance()
+        for k in range(3):
+            fmu.set(hub_velocity_x=9.0)
+            fmu.step(k * 4e-4, 4e-4)
+        self.assertEqual(len([m for m in fmu.messages if m.startswith("hub_velocity_x")]), 1)
+
+    def test_command(self):
+        def fails(*arguments, code=2):
+            done = run("fmu", *arguments, "-o", self.folder / "none.fmu")
+            self.assertEqual(done.returncode, code, done.stderr)
+            self.assertFalse((self.folder / "none.fmu").exists())
+            return done.stderr
+
+        self.assertIn("another mesh", fails(self.model, "--case", CASE, "--set", "disk.mesh.radial=6"))
+        self.assertIn("no such file", fails(self.folder / "none.h5", "--case", CASE))
+        self.assertIn("ground", fails(self.model, "--case", ROOT / "cases" / "spin-up-damped.toml"))
+        damaged = self.folder / "damaged.h5"
+        damaged.write_bytes(self.model.read_bytes()[:-100])
+        fails(damaged, "--case", CASE, code=4)
+        # The case of the first run behind the model, while that is there.
+        done = run("fmu", self.model, "-o", self.folder / "own.fmu", "--json")
+        self.assertEqual(done.returncode, 0, done.stderr)
+        self.assertEqual(json.loads(done.stdout)["result"]["identifier"], "own")
+
+
+class Files(FmuTest):
+    def root(self):
+        return ElementTree.parse(self.unpacked / "modelDescription.xml").getroot()
+
+    def test_obeys_the_rules(self):
+        self.assertEqual(fmi2_rules.faults(self.root()), [])
+
+    def test_rules_refuse_what_is_wrong(self):
+        def wrong(change):
+            root = self.root()
+            change(root)
+            self.assertNotEqual(fmi2_rules.faults(root), [], change)
+
+        variables = "ModelVariables/ScalarVariable"
+        wrong(lambda r: r.set("fmiVersion", "3.0"))
+        wrong(lambda r: r.attrib.pop("guid"))
+        wrong(lambda r: r.set("else", "1"))
+        wrong(lambda r: r.remove(r.find("ModelStructure")))
+        wrong(lambda r: r.insert(0, r.find("ModelVariables")))
+        wrong(lambda r: r.find("CoSimulation").set("modelIdentifier", "a b"))
+        wrong(lambda r: r.find("CoSimulation").set("canGetAndSetFMUstate", "yes"))
+        wrong(lambda r: r.find(variables).set("valueReference", "1"))
+        wrong(lambda r: r.find(variables).set("name", "width"))
+        wrong(lambda r: r.find(variables).set("variability", "continuous"))
+        wrong(lambda r: r.find(variables).set("initial", "calculated"))
+        wrong(lambda r: r.find(variables + "/Real").attrib.pop("start"))
+        wrong(lambda r: r.find(variables + "/Real").set("start", "-1"))
+        wrong(lambda r: r.find(variables + "/Real").set("unit", "furlong"))
+        wrong(lambda r: r.findall(variables)[-1].find("Real").set("start", "0"))
+        for tag in ("Outputs", "InitialUnknowns"):
+            wrong(lambda r: r.find(f"ModelStructure/{tag}/Unknown").set("index", "1"))
+            wrong(lambda r: r.find(f"ModelStructure/{tag}").remove(
+                r.find(f"ModelStructure/{tag}/Unknown")))
+
+    def test_obeys_the_schema_of_the_standard(self):
+        folder = schema_folder()
+        if folder is None:
+            self.skipTest("neither RONDO_FMI2_SCHEMA nor Python's fmpy: the schema is not at hand")
+        done = subprocess.run(["xmllint", "--noout", "--schema", folder / "fmi2ModelDescription.xsd",
+                               self.unpacked / "modelDescription.xml"], capture_output=True, text=True)
+        self.assertEqual(done.returncode, 0, done.stderr)
+
+    def test_holds_what_an_fmu_has(self):
+        with zipfile.ZipFile(self.fmu) as archive:
+            self.assertIsNone(archive.testzip())
+            self.assertEqual(archive.namelist(), [
+                "modelDescription.xml", "binaries/linux64/wheel.so", "resources/case.toml",
+                "resources/model.h5", "resources/wheel.json", "documentation/index.html",
+                "documentation/LICENSE"])
+
+    def test_exports_the_functions_and_nothing_else(self):
+        said = subprocess.run(["nm", "-D", "--defined-only", self.unpacked / "binaries/linux64/wheel.so"],
+                              capture_output=True, text=True, check=True).stdout
+        names = [line.split()[-1] for line in said.splitlines()]
+        self.assertEqual(sorted(names), sorted("fmi2" + name for name in EXPORTED))
+        fmu = self.instance()
+        for name, value in (("GetTypesPlatform", b"default"), ("GetVersion", b"2.0")):
+            function = getattr(fmu.library, "fmi2" + name)
+            function.restype = ctypes.c_char_p
+            self.assertEqual(function(), value)
+
+    def test_runs_where_there_is_no_rondo(self):
+        done = subprocess.run([sys.executable, ROOT / "examples" / "fmu" / "quarter_car.py", self.fmu],
+                              env={"PATH": "/usr/bin:/bin"}, cwd="/", capture_output=True, text=True)
+        self.assertEqual(done.returncode, 0, done.stderr)
+        self.assertIn("hub up to 0.31", done.stdout)
+
+
+if __name__ == "__main__":
+    unittest.main()
