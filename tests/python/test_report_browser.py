@@ -180,9 +180,10 @@ def test_the_browser_is_blamed_only_where_it_lacks_something(page):
 def test_numbers_of_the_ledger_are_seen_on_a_phone(page):
     browser = page("run", 390, 844)
     browser.js("document.getElementById('ledger').scrollIntoView()")
-    right = browser.js("return Math.max(...[...document.querySelectorAll('#ledger td.number')].map((cell) => "
-                       "cell.getBoundingClientRect().right))")
-    assert 0 < right <= 390
+    right, edge = browser.js("""const right = (one) => one.getBoundingClientRect().right;
+        return [Math.max(...[...document.querySelectorAll('#ledger td.number')].map(right)),
+                right(document.querySelector('#ledger .wide'))]""")
+    assert 0 < right <= edge <= 390
 
 
 def test_curves_zoom_by_dragging_and_come_back(page):
