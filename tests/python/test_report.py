@@ -7,7 +7,9 @@ import re
 import shutil
 import subprocess
 import sys
+import warnings
 
+import h5py
 import numpy as np
 import pytest
 import solids
@@ -17,15 +19,30 @@ from program import PROGRAM, ROOT, SMALL, replaced, run
 
 import rondo
 from rondo.data.errors import Error
-from rondo.reports import body, paper_page, run_page
-from rondo.reports.plotly import find_plotly
+from rondo.reports import body, encoding, health, histories, paper_page, run_page, sweep_page
+from rondo.reports.document import told
+from rondo.reports.plotly import find_plotly, plotly
 
 try:
     find_plotly()
+    WITHOUT = ""
 except Error as missing:
-    pytest.skip(str(missing), allow_module_level=True)
+    WITHOUT = str(missing)
+    warnings.warn(f"pages are tested with a stand-in for plotly.js: {WITHOUT}", stacklevel=1)
 
 EVIL = '</script><b>&"\'</b><!--'
+
+
+@pytest.fixture(scope="module", autouse=True)
+def stand_in(tmp_path_factory):
+    """Nothing here draws curves: where plotly.js is missing a text of its kind stands in the pages."""
+    with pytest.MonkeyPatch.context() as given:
+        if WITHOUT:
+            file = tmp_path_factory.mktemp("plotly") / "plotly-basic.min.js"
+            file.write_text("/* plotly.js (basic) is not installed */")
+            given.setenv("RONDO_PLOTLY", str(file))
+        yield
+    plotly.cache_clear()
 
 
 @pytest.fixture
@@ -44,7 +61,7 @@ def page_of(results, folder, name="page.html"):
 
 
 @pytest.fixture(scope="module")
-def smooth_page(smooth, tmp_path_factory):
+def smooth_page(smooth, stand_in, tmp_path_factory):
     return page_of(smooth, tmp_path_factory.mktemp("smooth"))
 
 
@@ -96,15 +113,95 @@ def test_histories_are_the_columns(smooth_page, smooth):
     assert np.allclose(unpacked(traces[0]["x"]), history["time"] * 1e3, rtol=1e-6)
 
 
-def test_the_ledger_adds_up(smooth_page):
-    table = smooth_page.source.split("<caption>The ledger at the end")[1].split("</table>")[0]
-    rows = re.findall(r"<tr><td>(.*?)</td><td class=\"code\">(.*?)</td><td class=\"number\">(.*?)</td>", table)
-    raised = str.maketrans("⁻⁰¹²³⁴⁵⁶⁷⁸⁹−", "-0123456789-")
-    numbers = [float(value.translate(raised).replace("·10", "e")) for _, _, value in rows]
-    energies = [value for (_, name, _), value in zip(rows, numbers) if name in ("kinetic", "strain")]
-    changes = [value for (words, _, _), value in zip(rows, numbers) if words[0] in "+−" or "start" in words]
-    assert len(energies) == 2 and len(changes) >= 5 and rows[-1][1] == "energy_residual"
-    assert sum(energies) == pytest.approx(sum(changes), rel=2e-3)
+RAISED = str.maketrans("⁻⁰¹²³⁴⁵⁶⁷⁸⁹−", "-0123456789-")
+
+
+def ledger_rows(html):
+    """(words, number, column) of the table."""
+    rows = re.findall(r'<tr><td>(.*?)</td><td class="number">(.*?)</td><td class="code">(.*?)</td>', html)
+    return [(words, float(value.translate(RAISED).replace("·10", "e")), name) for words, value, name in rows]
+
+
+def test_the_ledger_adds_up(smooth_page, smooth):
+    """The energy at the start is that of the first row, and with the changes, by their signs, it makes
+    that of the last one."""
+    history = rondo.open(smooth).history
+    rows = ledger_rows(smooth_page.source.partition("<caption>The ledger at the end")[2].partition("</table>")[0])
+    start = [number for words, number, _ in rows if "start" in words]
+    assert start == [pytest.approx((history["kinetic"] + history["strain"])[0], rel=1e-3)]
+    energies = [number for _, number, name in rows if name in ("kinetic", "strain")]
+    changes = [number for _, number, name in rows[3:-1]]
+    assert len(energies) == 2 and len(changes) >= 4 and rows[-1][2] == "energy_residual"
+    assert sum(energies) == pytest.approx(start[0] + sum(changes), rel=2e-3)
+    friction = next(number for words, number, _ in rows if words == "friction")
+    assert friction == pytest.approx(-history["dissipation_friction"][-1], rel=1e-3)
+
+
+def test_a_term_that_the_ledger_lacks_is_told(smooth, monkeypatch):
+    assert "not among them" not in health.ledger(rondo.open(smooth))
+    monkeypatch.delitem(health.TERMS, "dissipation_friction")
+    assert "something is not among them" in health.ledger(rondo.open(smooth))
+
+
+def test_each_column_has_a_curve_or_is_named(smooth_page, smooth):
+    shown = {trace["column"] for name, chart in smooth_page.data.items() if name.startswith("history-")
+             for trace in chart["traces"]}
+    assert {"center_x_m", "angle_rad", "penetration_max_m"} <= shown
+    history = rondo.open(smooth).history
+    named = set(re.search("Not drawn, as .*?<code>(.*?)</code>", smooth_page.source)[1].split(", "))
+    assert shown | named == set(history) - {"time_s"} and not shown & named
+    assert not any(np.any(history[name]) for name in named)
+
+
+def changed_history(folder, column, change):
+    """`change` of the numbers of a column."""
+    lines = [line.split(",") for line in (folder / "history.csv").read_text().splitlines()]
+    at = lines[0].index(column)
+    for row, value in enumerate(change(np.array([float(line[at]) for line in lines[1:]])), 1):
+        lines[row][at] = repr(float(value))
+    (folder / "history.csv").write_text("".join(",".join(line) + "\n" for line in lines))
+
+
+def test_an_infinite_force_is_a_gap_and_is_told(copy, plain, tmp_path):
+    def spoil(values):
+        values[3] = np.inf
+        return values
+    changed_history(copy, "force_y", spoil)
+    page = page_of(copy, tmp_path)
+    force = unpacked(page.data["history-forces"]["traces"][0]["y"])
+    assert np.flatnonzero(~np.isfinite(force)).tolist() == [3] and np.isnan(force[3])
+    assert "vertical force in 1 rows" in page.text
+
+
+def test_curves_of_many_rows_keep_gaps_ends_and_extremes():
+    count = 5 * histories.MOST_ROWS + 3
+    y = np.sin(np.arange(count)) + 5.0
+    y[100], y[200], y[-2] = np.nan, 9.0, -7.0
+    curve = histories._curve(np.arange(count, dtype=float), y)
+    shown = unpacked(curve["y"])
+    assert len(shown) < 0.7 * count and np.isnan(shown).sum() == 1
+    assert np.nanmax(shown) == 9.0 and np.nanmin(shown) == -7.0
+    assert (shown == 0.0).sum() == 0 and unpacked(curve["x"])[-1] == count - 1
+
+
+def test_snapshots_that_are_not_finite_are_left_out_and_told(copy, plain, tmp_path):
+    with h5py.File(copy / "results.h5", "r+") as file:
+        names = []
+        file.visititems(lambda name, thing: names.append(name) if name.endswith("/displacement")
+                        and isinstance(thing, h5py.Dataset) else None)
+        count = len(file[names[0]])
+        for name in names:
+            file[name][-2:] = np.nan
+    page = page_of(copy, tmp_path)
+    assert len(page.data["body"]["labels"]) == count - 2
+    assert f"2 of {count} snapshots are not shown" in page.text
+
+
+def test_zero_is_zero_in_colours():
+    values = np.array([[0.0, 0.0], [-3.1, 10.7]])
+    shown = unpacked(encoding.shades(values))
+    assert (shown[0] == 0).all() and np.abs(shown - values).max() <= 0.51 * 13.8 / 254
+    assert not unpacked(encoding.shades(np.zeros((2, 3)))).any()
 
 
 def test_texts_of_the_user_do_nothing(copy, plain, tmp_path):
@@ -194,6 +291,7 @@ def test_many_snapshots_are_thinned_and_that_is_said(smooth):
     assert len(found["labels"]) < 11 and f"{len(found['labels'])}, evenly spread" in words
 
 
+@pytest.mark.skipif(bool(WITHOUT), reason=WITHOUT)
 def test_the_ledge_is_below_5_mb(tmp_path):
     done = run("run", ROOT / "cases" / "ledge-treaded.toml", "-o", tmp_path / "ledge", "--quiet")
     assert done.returncode == 0
@@ -215,6 +313,33 @@ def test_a_sweep_without_any_member_done(tmp_path):
     sweeps.write(tmp_path / "none", [("ground.friction", "1", "values")],
                  [{"ground.friction": 0.1 * k, "status": "failed"} for k in (1, 2)])
     assert "No member is done yet" in page_of(tmp_path / "none", tmp_path).text
+
+
+def test_axes_of_a_sweep_are_columns_that_have_numbers(tmp_path, monkeypatch):
+    """Slip and forces of no member are known: others are shown at first."""
+    monkeypatch.setattr(sweep_page, "_pictures", lambda *_: "<p>pictures</p>")
+    rows = [{"ground.friction": 0.1 * k, "motion.speed": 1.0 * k, "steps": 10.0, "strain_max": 0.01 * k}
+            for k in range(1, 5)]
+    sweeps.write(tmp_path / "none", [("ground.friction", "1", "values"), ("motion.speed", "m/s", "values")], rows)
+    with warnings.catch_warnings():
+        warnings.simplefilter("error")
+        data = page_of(tmp_path / "none", tmp_path).data["sweep"]
+    assert "slip_ratio_mean" not in data["columns"]
+    assert {data["x"], data["y"]} <= set(data["columns"]) and {data["by"], *data["varied"]} - {""} <= set(data["columns"])
+    monkeypatch.setattr(sweep_page, "MOST_POINTS", 60)
+    page = page_of(tmp_path / "none", tmp_path)
+    assert len(page.data["sweep"]["runs"]) == 2 and "Of 4 members 2, evenly spread" in page.text
+
+
+def test_a_page_is_the_same_from_anywhere(tmp_path, monkeypatch):
+    """Without the path of the results, also where it is of a sweep that goes on, and by a relative path."""
+    monkeypatch.setattr(sweep_page, "_pictures", lambda *_: "<p>pictures</p>")
+    rows = [{"ground.friction": 0.1 * k, **sweeps.forces(0.1 * k, 30.0)} for k in (1, 2)]
+    folder = sweeps.write(tmp_path / "part", [("ground.friction", "1", "values")], rows, status="interrupted")
+    monkeypatch.chdir(tmp_path)
+    far, near = page_of(folder, tmp_path), page_of(pathlib.Path("part"), tmp_path)
+    assert far.source == near.source and str(tmp_path) not in far.source and "-o part --resume" in far.text
+    assert told(Error(f"{folder}/results.h5: damaged"), folder) == "part/results.h5: damaged"
 
 
 @pytest.mark.parametrize("name", ["velocity-rectified", "contact-rotating"])

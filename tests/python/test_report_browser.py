@@ -4,10 +4,13 @@ console, nothing asked of the network, nothing wider than a phone."""
 import numpy as np
 import pytest
 import solids
+import sweeps
 from browser import WHY_NOT, Browser
+from program import ROOT, run
 
 import rondo
 from rondo.data.errors import Error
+from rondo.plots.cells import cell_means
 from rondo.reports import run_page, sweep_page
 from rondo.reports.plotly import find_plotly
 
@@ -38,7 +41,12 @@ def pages(tmp_path_factory, smooth, studies):
     folder = tmp_path_factory.mktemp("pages")
     wheel = solids.write_run(folder / "solid")
     results = {"run": smooth, "pod": smooth / "pod" / "velocity-rectified", "sweep": studies / "grid",
-               "solid": wheel}
+               "solid": wheel, "disks": folder / "disks", "unknown": folder / "unknown"}
+    done = run("run", ROOT / "cases" / "two-disks.toml", "-o", results["disks"], "--quiet", "--set",
+               "output.snapshots=6", "--set", "output.stress=true")
+    assert done.returncode == 0, done.stderr
+    sweeps.write(results["unknown"], [("ground.friction", "1", "values")],
+                 [{"ground.friction": 0.1 * k, "steps": 10.0 * k} for k in (1, 2, 3)])
     with pytest.MonkeyPatch.context() as without:  # figures take seconds, and are looked at elsewhere
         for module in (run_page, sweep_page):
             without.setattr(module, "_pictures", lambda *_: "<p>pictures</p>")
@@ -52,7 +60,7 @@ def page(browser, pages):
         browser.look(width, height, dark)
         browser.complaints(), browser.asked()
         browser.open(pages[name])
-        if name != "sweep":
+        if name not in ("sweep", "unknown"):
             browser.until(COUNT)
         return browser
     yield open_page
@@ -132,6 +140,50 @@ def test_the_nodes_are_drawn_where_the_run_has_them(page, smooth):
     values = browser.js("const v = rondo.viewers[0]; v.field = 0; return v.range(0)[1]")
     speed = np.linalg.norm(opened.velocity[:], axis=2)[:, opened.mesh.cells].mean(axis=2)
     assert values == pytest.approx(speed.max(), rel=0.01)
+
+
+def test_triangles_have_the_colour_of_their_mean(page, pages):
+    browser, opened = page("disks"), rondo.open(pages["disks"].with_suffix(""))
+    assert (opened.mesh.cells < 0).any() or opened.mesh.cells.shape[1] == 3
+    names = browser.js("return rondo.viewers[0].data.fields.map((field) => field.name)")
+    tops = browser.js(f"const v = rondo.viewers[0]; v.field = {names.index('von Mises stress')}; return v.range(0)[1]")
+    stress = opened.field("von_mises")
+    wanted = max(cell_means(stress[k], opened.mesh.cells).max() for k in range(opened.n_snapshots)) * 1e-6
+    assert tops == pytest.approx(wanted, abs=1.01 / 254 * np.max(stress[:]) * 1e-6)
+    corners = browser.js("""const v = rondo.viewers[0]; v.show(0); v.field = 0; v.data.fields[0].low = 0;
+        v.data.fields[0].scale = 1; v.fields[0].fill(0); v.fields[0][v.cells[2]] = 3; v.wholeRange = false;
+        return v.range(0)[1]""")
+    assert corners == pytest.approx(1.0)  # a third of it, in each triangle round the node
+
+
+def test_a_field_of_nothing_is_zero_in_the_colour_of_zero(page):
+    browser = page("run")
+    found = browser.js("""const v = rondo.viewers[0]; v.field = v.data.fields.findIndex((one) => one.signed);
+        v.data.fields[v.field].low = 0; v.fields[v.field].fill(0); v.show(0);
+        return [v.field, v.range(0)[1], [...new Set(v.shades(0))], v.bar.textContent]""")
+    assert found[0] >= 0 and found[1] == 0 and found[2] == [32] and "00 MPa" in found[3]
+
+
+def test_a_sweep_without_slip_and_forces_is_drawn(page):
+    browser = page("unknown")
+    browser.js("document.getElementById('curves').scrollIntoView()")
+    browser.until("return document.querySelector('.plot-sweep')?.data?.length > 0")
+
+
+def test_the_browser_is_blamed_only_where_it_lacks_something(page):
+    browser = page("run")
+    words = "const p = document.createElement('p'); rondo.refuse(p, 'because'); return p.textContent"
+    assert "because" in browser.js(words) and "2023" not in browser.js(words)
+    assert "2023" in browser.js("delete window.DecompressionStream; " + words)
+
+
+def test_numbers_of_the_ledger_are_seen_on_a_phone(page):
+    browser = page("run", 390, 844)
+    browser.js("document.getElementById('ledger').scrollIntoView()")
+    right, edge = browser.js("""const right = (one) => one.getBoundingClientRect().right;
+        return [Math.max(...[...document.querySelectorAll('#ledger td.number')].map(right)),
+                right(document.querySelector('#ledger .wide'))]""")
+    assert 0 < right <= edge <= 390
 
 
 def test_curves_zoom_by_dragging_and_come_back(page):

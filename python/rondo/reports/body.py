@@ -25,6 +25,7 @@ Whole = NDArray[np.int64]
 BUDGET = 3_000_000  # characters of a page
 TRIAL = 6  # snapshots from which the size of the others is told
 MOST = 400  # snapshots
+SHOWN = ("velocity", "von_mises", "cauchy_stress", "contact_force")  # besides the displacement
 MOST_MESH = 2.0  # of the budget
 
 
@@ -32,18 +33,37 @@ def body_of(run: Run, budget: int = BUDGET) -> tuple[dict[str, Any], str]:
     """What assets/viewer.js draws, in at most about `budget` characters, and a sentence on the
     snapshots that had to be left out; "" where all are there. The run has snapshots."""
     with kept(run.path):
-        trial = _body(run, _spread(run.n_snapshots, TRIAL))
+        whole = _finite(run)
+        trial = _body(run, whole[_spread(len(whole), TRIAL)])
         mesh = size_of(trial["mesh"])
         if mesh > MOST_MESH * budget:
             raise Error(f"the mesh alone, {run.mesh.n_nodes} nodes, would make the page too large; "
                         "ParaView shows such bodies (fields.vtkhdf, fields.xdmf)")
         each = max(1.0, (size_of(trial) - mesh) / len(trial["labels"]))
-        chosen = _spread(run.n_snapshots, min(MOST, max(TRIAL, int((budget - mesh) / each))))
+        chosen = whole[_spread(len(whole), min(MOST, max(TRIAL, int((budget - mesh) / each))))]
         found = _body(run, chosen) if len(chosen) != len(trial["labels"]) else trial
-    if len(chosen) == run.n_snapshots:
-        return found, ""
-    return found, (f"Of {run.n_snapshots} snapshots {len(chosen)}, evenly spread, are in this page, so "
+    lost = "" if len(whole) == run.n_snapshots else (
+        f"{run.n_snapshots - len(whole)} of {run.n_snapshots} snapshots are not shown: their numbers are not "
+        f"finite, from {snapshot_title(run, _first_lost(run, whole))} on. ")
+    if len(chosen) == len(whole):
+        return found, lost
+    return found, lost + (f"Of {run.n_snapshots} snapshots {len(chosen)}, evenly spread, are in this page, so "
                    "that it stays small; all of them are in the directory of the run.")
+
+
+def _finite(run: Run) -> Whole:
+    """Numbers of the snapshots of finite numbers alone."""
+    moved = np.isfinite(run.angle) & np.isfinite(run.center).all(axis=1)
+    fields = [run.field(name) for name in SHOWN if name in run.field_names]
+    found = [k for k in range(run.n_snapshots) if moved[k] and np.isfinite(run.displacement[k]).all()
+             and all(np.isfinite(field[k]).all() for field in fields)]
+    if not found:
+        raise Error("the numbers of no snapshot are finite (NaN or infinite): the run has blown up")
+    return np.array(found)
+
+
+def _first_lost(run: Run, whole: Whole) -> int:
+    return int(np.setdiff1d(np.arange(run.n_snapshots), whole)[0])
 
 
 def _spread(count: int, most: int) -> Whole:

@@ -6,7 +6,7 @@ import base64
 import pathlib
 import re
 
-from .document import note
+from .document import note, told
 from .encoding import escaped
 
 _PARTS = re.compile(r"""(?P<comment>\#[^\n]*)|(?P<string>\"\"\".*?\"\"\"|"(?:\\.|[^"\\\n])*"|'[^'\n]*')
@@ -32,7 +32,7 @@ def case_html(path: pathlib.Path) -> str:
         data = path.read_bytes()
         text = data.decode()
     except (OSError, ValueError) as reason:
-        return note(f"{path.name} cannot be read: {reason}")
+        return note(f"{path.name} cannot be read: {told(reason, path.parent)}")
     link = (f'<a class="button" download="{escaped(path.name)}" href="data:application/toml;base64,'
             f'{base64.b64encode(data).decode()}">Save as a file</a>')
     return (f"<p>All that the program was told, defaults written out. <code>rondo run "

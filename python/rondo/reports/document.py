@@ -34,6 +34,12 @@ class Document:
         """For a script, which finds it by this name."""
         self._data[name] = values
 
+    @property
+    def charts(self) -> dict[str, Any]:
+        """What chart() was given, by name."""
+        return {name: values for name, values in self._data.items()
+                if isinstance(values, dict) and "traces" in values}
+
     def viewer(self, name: str, values: Any, label: str) -> str:
         """A body on a canvas; label: what is seen, in words."""
         self.data(name, values)
@@ -108,6 +114,15 @@ def paragraph(text: str, kind: str = "") -> str:
 def note(text: object) -> str:
     """What the reader has to know about what is shown, or is missing."""
     return f'<p class="note">{escaped(text)}</p>'
+
+
+def told(reason: object, directory: pathlib.Path) -> str:
+    """The words of an error without where the results lie: a page is the same from anywhere."""
+    text = str(reason)
+    for path in sorted({str(directory), str(directory.absolute())}, key=len, reverse=True):
+        if directory.name:
+            text = text.replace(path, directory.name)
+    return text
 
 
 def tiles(found: Iterable[tuple[str, str, str, str]]) -> str:

@@ -11,6 +11,8 @@ from typing import Any
 
 import numpy as np
 
+from ..data.errors import Error
+
 Packed = dict[str, Any]
 TYPES = {"int16": "<i2", "uint8": "|u1", "uint16": "<u2", "uint32": "<u4", "float32": "<f4"}
 
@@ -29,6 +31,11 @@ def packed(values: Any, kind: str, differences: bool = False) -> Packed:
             "data": base64.b64encode(zlib.compress(data.T.tobytes(), 9)).decode()}
 
 
+def gaps(values: np.ndarray) -> np.ndarray:
+    """With NaN, which curves leave out, for all that is not finite."""
+    return np.where(np.isfinite(values), values, np.nan)
+
+
 def quantised(values: np.ndarray) -> Packed:
     """Signed numbers to 1/32767 of the largest one, "scale" for each step."""
     top = float(np.abs(values).max(initial=0.0)) or 1.0
@@ -37,10 +44,12 @@ def quantised(values: np.ndarray) -> Packed:
 
 
 def shades(values: np.ndarray) -> Packed:
-    """Numbers for colours, to 1/255 of what they span: "low" + number × "scale"."""
+    """Numbers for colours, to 1/254 of what they and zero span: "low" + number × "scale", which is zero
+    where they are."""
     low, high = float(values.min(initial=0.0)), float(values.max(initial=0.0))
-    scale = (high - low) / 255 or 1.0
-    return {**packed(np.round((values - low) / scale), "uint8"), "low": low, "scale": scale}
+    scale = (high - low) / 254 or 1.0
+    below = int(np.ceil(-low / scale))  # steps: zero is one of them
+    return {**packed(np.round(values / scale) + below, "uint8"), "low": -below * scale, "scale": scale}
 
 
 def size_of(data: Any) -> int:
@@ -50,7 +59,10 @@ def size_of(data: Any) -> int:
 
 def json_text(data: Any) -> str:
     """JSON that may stand in a <script>: nothing in it ends that or begins a comment."""
-    text = json.dumps(data, ensure_ascii=False, separators=(",", ":"), allow_nan=False)
+    try:
+        text = json.dumps(data, ensure_ascii=False, separators=(",", ":"), allow_nan=False)
+    except ValueError:
+        raise Error("its numbers are not finite (NaN or infinite)") from None
     return text.replace("<", "\\u003c").replace("\u2028", "\\u2028").replace("\u2029", "\\u2029")
 
 

@@ -14,6 +14,7 @@ from .document import note, table, tiles
 from .encoding import escaped, number
 
 BOUND = 1e-9  # at which a run stops, of energy balance and contact law (docs/theory.md, 5 and 4.5)
+ADDS_UP = 1e-6  # over the largest term, to which the terms of the ledger are what it says
 BOUND_FREE = 1e-2  # of free bodies, whose ledger closes to second order in the step
 Tile = tuple[str, str, str, str]
 ENERGIES = ("kinetic", "strain", "kinetic_rim", "support_energy")
@@ -64,7 +65,9 @@ def _steps(info: dict[str, Any]) -> list[Tile]:
     if not step:
         done = info.get("increments_done")
         return [("increments", number(done), "", "each one solved for balance and contact")] if done else []
-    done = f"{number(info.get('steps_done'))} of {number(info.get('steps'))} steps"
+    made = info.get("steps_done")
+    done = f"{number(made)} of {number(info.get('steps'))} steps" if made is not None else \
+        f"{number(info.get('steps'))} steps, of which it has not told how many are done"
     if not critical:
         return [("time step", f"{number(1e6 * step)} µs", "", done)]
     return [("time step", f"{number(1e6 * step)} µs", "good" if step <= critical else "bad",
@@ -122,24 +125,34 @@ def ledger(run: Run) -> str:
     history = run.history
     if not len(history["time_s"]):
         return note("The ledger is in history.csv, which has no rows yet.")
-    last = {name: float(history[name][-1]) for name in history}
+    first, last = ({name: float(history[name][row]) for name in history} for row in (0, -1))
     terms = [(name, sign, words) for name, (sign, words, _) in TERMS.items() if name in last]
     if "internal_work" in last or run.is_crush and "work_rim" not in last:
         terms = [term for term in terms if term[0] != "strain"]
     energies = [name for name in ENERGIES if name in last]
-    whole = sum(last[name] for name in energies)
-    done = sum(sign * last[name] for name, sign, _ in terms)
+    # From the first row: what is said to be left open is then checked by the table, not made by it.
+    start = sum(first[name] for name in energies) - sum(sign * first[name] for name, sign, _ in terms)
+    whole, done = sum(last[name] for name in energies), sum(sign * last[name] for name, sign, _ in terms)
     residual = last.get("energy_residual", np.nan)
     factor, unit = readable(max([abs(whole), *(abs(last[name]) for name, _, _ in terms)]),
                             f"J{run.per_width}")
-    rows = [(column_label(name), name, number(factor * last[name])) for name in energies]
-    rows.append(("energy at the start", "", number(factor * (whole - done - residual))))
-    rows += [(f"{'+' if sign > 0 else '−'} {words}", name, number(factor * sign * last[name]))
-             for name, sign, words in terms if last[name] != 0.0]
-    rows.append(("what is left open", "energy_residual", number(factor * residual)))
+    rows = [(column_label(name), number(factor * last[name]), name) for name in energies]
+    rows.append(("energy at the start", number(factor * start), "first row"))
+    rows += [(words, _signed(factor * sign * last[name]), name) for name, sign, words in terms if last[name] != 0.0]
+    rows.append(("what is left open", number(factor * residual), "energy_residual"))
     when = "last increment" if run.is_crush else f"t = {1e3 * last['time_s']:.4g} ms"
-    return table(("term", "column of history.csv", unit), rows, f"The ledger at the end ({when})",
-                 ("", "code", "number"))
+    shown = table(("term", unit, "column of history.csv"), rows, f"The ledger at the end ({when})",
+                  ("", "number", "code"))
+    left = whole - start - done
+    if not abs(left - residual) > ADDS_UP * max(abs(whole), *(abs(last[name]) for name, _, _ in terms)):
+        return shown
+    return shown + note(f"These terms leave {number(factor * left)} {unit}, not what energy_residual says: "
+                        "something is not among them.")
+
+
+def _signed(value: float) -> str:
+    """Of what is added to an energy: with its sign."""
+    return f"{'+' if value > 0 else ''}{number(value)}"
 
 
 def _powers(run: Run) -> str:
@@ -148,7 +161,7 @@ def _powers(run: Run) -> str:
     power = run.steady["power"]
     largest = max(abs(power[key]) for key in POWERS if key in power)
     factor, unit = readable(largest, f"W{run.per_width}")
-    rows = [(words, key, number(factor * power[key])) for key, words in POWERS.items() if key in power]
-    rows.append(("what is left open, over the largest", "residual", number(power["residual"])))
-    return table(("power", "key in run.json", unit), rows, "The balance of powers in steady rolling",
-                 ("", "code", "number"))
+    rows = [(words, number(factor * power[key]), key) for key, words in POWERS.items() if key in power]
+    rows.append(("what is left open, over the largest", number(power["residual"]), "residual"))
+    return table(("power", unit, "key in run.json"), rows, "The balance of powers in steady rolling",
+                 ("", "number", "code"))

@@ -10,7 +10,7 @@ import numpy as np
 from ..data.run import Run
 from ..plots.labels import column_label, readable
 from .document import Document, note
-from .encoding import packed
+from .encoding import escaped, gaps, packed
 
 MOST_ROWS = 6000  # of a curve; of more the least and the largest of several rows
 GROUPS: tuple[tuple[str, str, tuple[str, ...]], ...] = (
@@ -41,14 +41,34 @@ def histories(document: Document, run: Run) -> str:
     """All charts; a sentence where there are none."""
     if not len(run.history["time_s"]):
         return note(f"history.csv has no rows: the run ({run.status}) has not come to its first one.")
-    charts = "".join(_chart(document, run, name, words, columns) for name, words, columns in
-                     (*GROUPS, *_probes(run)))
+    groups = [*GROUPS, *_probes(run)]
+    groups += _others(run, {column for _, _, columns in groups for column in columns})
+    charts = "".join(_chart(document, run, *group) for group in groups)
+    charts += _not_drawn(document, run)
     rows = len(run.history["time_s"])
     if rows > 2 * MOST_ROWS:
         charts = note(f"Of {rows} rows the curves have the least and the largest of each "
                       f"{_stride(rows)}; history.csv has all.") + charts
     return ('<p class="hint">Drag over a curve to zoom, double-click to see all again; a click on a name '
             f"hides its curve.</p>{charts}")
+
+
+def _others(run: Run, grouped: set[str]) -> list[tuple[str, str, tuple[str, ...]]]:
+    """Columns of no group, each by itself."""
+    abscissas = {"time_s"} | ({"depth_m"} if run.is_crush else set())
+    return [(f"other-{name}", column_label(name).capitalize(), (name,)) for name in run.history
+            if name not in grouped | abscissas]
+
+
+def _not_drawn(document: Document, run: Run) -> str:
+    """What has no curve, by name: a reader is not to look for it."""
+    drawn = {trace["column"] for name, chart in document.charts.items() if name.startswith("history-")
+             for trace in chart["traces"]}
+    left = [name for name in run.history if name not in drawn | {"time_s", "depth_m"}]
+    if not left:
+        return ""
+    return (f'<p class="hint">Not drawn, as they are zero, not finite or without meaning here throughout: '
+            f"<code>{escaped(', '.join(left))}</code>.</p>")
 
 
 def _probes(run: Run) -> list[tuple[str, str, tuple[str, ...]]]:
@@ -69,15 +89,25 @@ def _chart(document: Document, run: Run, name: str, words: str, columns: Sequenc
     if columns[0] in ("force_y", "torque", "contact_nodes", "contact_length_m", "slip_ratio") \
             and not history.ground:
         return ""
-    sizes = [float(np.nanmax(np.abs(history[column]), initial=0.0)) for column in there]
-    top = max(sizes, default=0.0)
-    there = [column for column, size in zip(there, sizes) if size > FLAT * top]
-    if not there or not np.isfinite(top):
+    there = [column for column, size in _sizes(run, there).items() if size > 0]
+    if not there:
         return ""
-    factor, unit = readable(top, history.unit_of(there[0]))
+    factor, unit = readable(max(_sizes(run, there).values()), history.unit_of(there[0]))
     x, label = abscissa(run)
-    traces = [{"name": column_label(column), **_curve(x, history[column] * factor)} for column in there]
-    return document.chart(f"history-{name}", {"x": label, "y": unit, "traces": traces}, words)
+    traces = [{"name": column_label(column), "column": column, **_curve(x, history[column] * factor)}
+              for column in there]
+    chart = document.chart(f"history-{name}", {"x": label, "y": unit, "traces": traces}, words)
+    lost = {column_label(column): int(np.isinf(history[column]).sum()) for column in there}
+    told = ", ".join(f"{words} in {count} rows" for words, count in lost.items() if count)
+    return chart + (note(f"Infinite, and a gap in the curves: {told}.") if told else "")
+
+
+def _sizes(run: Run, columns: Sequence[str]) -> dict[str, float]:
+    """Largest finite number of each column; 0 where it is nothing beside the others."""
+    sizes = {column: float(np.abs(gaps(run.history[column])[np.isfinite(run.history[column])]).max(initial=0.0))
+             for column in columns}
+    top = max(sizes.values(), default=0.0)
+    return {column: size if size > FLAT * top else 0.0 for column, size in sizes.items()}
 
 
 def abscissa(run: Run) -> tuple[np.ndarray, str]:
@@ -97,14 +127,16 @@ def _stride(rows: int) -> int:
 
 
 def _curve(x: np.ndarray, y: np.ndarray) -> dict[str, Any]:
-    stride = _stride(len(x))
+    stride, y = _stride(len(x)), gaps(y)
     if stride > 2:
         whole = len(x) // stride * stride
         blocks = y[:whole].reshape(-1, stride)
-        filled = np.where(np.isnan(blocks), 0.0, blocks)
-        ends = np.sort(np.stack([filled.argmin(axis=1), filled.argmax(axis=1)], axis=1), axis=1)
+        lacks = np.isnan(blocks)
+        ends = np.stack([np.where(lacks, np.inf, blocks).argmin(axis=1),
+                         np.where(lacks, -np.inf, blocks).argmax(axis=1),
+                         lacks.argmax(axis=1)], axis=1)  # a gap stays one; without any the first row
         rows = (ends + stride * np.arange(len(blocks))[:, None]).ravel()
-        rows = np.unique(np.append(rows, len(x) - 1))
+        rows = np.unique(np.concatenate([rows, np.arange(whole, len(x)), [len(x) - 1]]))
         x, y = x[rows], y[rows]
     return {"x": packed(x, "float32"), "y": packed(y, "float32")}
 

@@ -7,7 +7,7 @@ from typing import Any
 
 from ..data.errors import Error
 from ..data.paper import Paper
-from .document import Document, note, paragraph, table, tiles
+from .document import Document, note, paragraph, table, tiles, told
 from .encoding import escaped, number
 from .equations import equations, glossary
 from .health import status_tile
@@ -83,7 +83,7 @@ def _figures(paper: Paper) -> str:
         try:
             drawn = import_module(f"..figures.{module}", __package__).draw(paper)
         except Error as reason:
-            shown.append(note(f"{module.replace('_', ' ')}: {reason}"))
+            shown.append(note(f"{module.replace('_', ' ')}: {told(reason, paper.directory)}"))
             continue
         for name, figure in drawn.items():
             shown.append(picture(figure, f"{name.replace('-', ' ').capitalize()}. {words}"))
@@ -98,7 +98,7 @@ def _bodies(document: Document, paper: Paper) -> str:
         try:
             run = paper.run(name)
         except Error as reason:
-            html += note(f"{name}: {reason}")
+            html += note(f"{name}: {told(reason, paper.directory)}")
             continue
         html += f"<h3>{escaped(run.title)} <small>({escaped(name)})</small></h3>" + body_html(document, run, f"body-{name}", BUDGET)
     return html or note("No run of a moving body is there yet.")

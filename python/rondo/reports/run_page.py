@@ -16,7 +16,7 @@ from ..plots.footprint import plot_footprint
 from ..plots.modes import plot_pod_spectrum
 from .body import body_of
 from .case_text import case_html
-from .document import Document, note, paragraph, table
+from .document import Document, note, paragraph, table, told
 from .encoding import escaped, number
 from .equations import equations, glossary
 from .health import health_tiles, ledger
@@ -82,7 +82,7 @@ def body_html(document: Document, run: Run, name: str = "body", budget: int | No
     try:
         found, left_out = body_of(run, *([] if budget is None else [budget]))
     except Error as reason:
-        return note(f"There is no moving picture: {reason}")
+        return note(f"There is no moving picture: {told(reason, run.directory)}")
     html = document.viewer(name, found, f"{run.title}: the deformed body in time")
     if left_out:
         html += note(left_out)
@@ -108,16 +108,16 @@ def _missing(run: Run) -> str:
 
 
 def _pictures(run: Run) -> str:
-    shown = "".join(_safe(name, words, draw) for name, words, draw in _wanted(run))
+    shown = "".join(_safe(run, name, words, draw) for name, words, draw in _wanted(run))
     return shown or note("There are no pictures: they need snapshots, and contact.")
 
 
-def _safe(name: str, words: str, draw: Callable[[], Figure]) -> str:
+def _safe(run: Run, name: str, words: str, draw: Callable[[], Figure]) -> str:
     """A figure that cannot be drawn of what is there says why."""
     try:
         return picture(draw(), words)
-    except Error as reason:
-        return note(f"{name}: {reason}")
+    except (Error, ValueError, ArithmeticError) as reason:  # matplotlib, of numbers that are not finite
+        return note(f"{name}: {told(reason, run.directory)}")
 
 
 Wanted = tuple[str, str, Callable[[], Figure]]

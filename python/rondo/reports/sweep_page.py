@@ -3,7 +3,7 @@
 rolling over slip, traction curves and carpets."""
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Sequence
 from functools import partial
 from typing import Any
 
@@ -17,13 +17,14 @@ from ..figures.sweep_figures import usual
 from ..figures.traction_figures import LOADS
 from ..plots.labels import column_label, parameter_label, readable
 from ..plots.traction import others_of
-from .document import Document, note, paragraph, tiles
-from .encoding import escaped, number, packed
+from .document import Document, note, paragraph, tiles, told
+from .encoding import escaped, gaps, number, packed
 from .equations import equations, glossary
 from .health import BOUND, Tile, status_tile
 from .pictures import picture
 
 MOST_CELLS = 30_000  # of the table of members
+MOST_POINTS = 600_000  # members times columns, of the curves: about 2 MB
 MOST_EFFECTS = 4  # pictures
 ENDINGS = ("mean", "peak", "fluctuation")  # of figures, behind the column that they are of
 ABOUT = ("One case was computed many times, with other values of some keys each time (the parameters). "
@@ -70,19 +71,23 @@ def _summary(sweep: Sweep) -> str:
     for name, words in (("energy_residual_relative", "energy balance closes to"),
                         ("contact_residual_max", "law of contact met to")):
         if name in sweep and sweep.done.any():
-            worst = float(np.nanmax(sweep[name][sweep.done]))
+            values = sweep[name][sweep.done]
+            if not np.isfinite(values).any():
+                found.append((words, "not known", "warn", "no member has this figure"))
+                continue
+            worst = float(np.nanmax(values))  # infinite as well: that is what is to be seen
             found.append((words, number(worst), "good" if worst <= BOUND else "warn", "worst of all members"))
     unfinished = "" if sweep.status in ("done", "failed") else note(
-        f'This sweep is of status "{sweep.status}": the page shows what is there. {goes_on(sweep)}, then make '
+        f'This sweep is of status "{sweep.status}": the page shows what is there. {told(goes_on(sweep), sweep.directory)}, then make '
         "the report again.")
     return unfinished + paragraph(ABOUT) + tiles(found)
 
 
 def _failures(sweep: Sweep) -> str:
-    told = sweep.failures
-    items = "".join(f"<li>run {int(run)}: {escaped(told.get(int(run), 'no message was kept'))}</li>"
-                    for run in sweep["run"] if int(run) in told or
-                    sweep["status"][sweep["run"] == run][0] == "failed")
+    messages = sweep.failures
+    items = "".join(f"<li>run {int(run)}: {escaped(told(messages.get(int(run), 'no message was kept'), sweep.directory))}</li>"
+                    for run, status in zip(sweep["run"], sweep["status"])
+                    if int(run) in messages or status == "failed")
     return (f'<div class="note"><ul>{items}</ul></div><p>They have no figures and are in no curve; the others '
             "are as they are.</p>")
 
@@ -91,23 +96,40 @@ def _chooser(document: Document, sweep: Sweep, rolls: bool) -> str:
     if not sweep.done.any():
         return note("No member is done yet: there is nothing to draw.")
     done = sweep.where(sweep.done)
+    left = ""
+    if len(done) * len(done.names) > MOST_POINTS:
+        chosen = np.linspace(0, len(done) - 1, max(2, MOST_POINTS // len(done.names))).round().astype(int)
+        left = note(f"Of {len(done)} members {len(np.unique(chosen))}, evenly spread, are in these curves, so that "
+                    "the page stays small; results.csv has all.")
+        done = done.where(np.isin(np.arange(len(done)), chosen))
+    columns = _columns(done)
+    first = _first(done, rolls, columns)
+    if not first:
+        return note("No member has a figure that is a number: there is nothing to draw.")
+    assert all(name in columns for name in first.values() if name), first
+    data: dict[str, Any] = {"runs": done["run"].astype(int).tolist(), "columns": columns, "middle": rolls,
+                            "varied": [name for name in done.varied if name in columns], **first}
+    document.data("sweep", data)
+    return (left + '<p class="hint">Choose what goes along the axes. Drag over the picture to zoom, double-click to see '
+            'all again.</p><div class="sweep" data-source="sweep" role="group" aria-label="Curves and maps of '
+            'the sweep"><noscript><p>Curves need JavaScript, which is switched off here.</p></noscript></div>')
+
+
+def _columns(done: Sweep) -> dict[str, Any]:
+    """What axes may be of, by name: parameters and figures that some member has; what is not finite is
+    a gap."""
     columns: dict[str, Any] = {}
     for name in done.names:
         if name in ("status", "run"):
             continue
-        values, kind = done[name], "parameter" if name in sweep.parameters else "figure"
+        values, kind = done[name], "parameter" if name in done.parameters else "figure"
         if values.dtype.kind not in "fiu":
-            columns[name] = {"kind": kind, "texts": [str(value) for value in values], **_named(sweep, name)}
-        elif np.isfinite(values).any():
-            named = _named(sweep, name)
-            factor, named["unit"] = readable(float(np.nanmax(np.abs(values))), named["unit"] or "1")
-            columns[name] = {"kind": kind, "values": packed(values * factor, "float32"), **named}
-    data: dict[str, Any] = {"runs": done["run"].astype(int).tolist(), "columns": columns,
-                            "varied": done.varied, "middle": rolls, **_first(done, rolls)}
-    document.data("sweep", data)
-    return ('<p class="hint">Choose what goes along the axes. Drag over the picture to zoom, double-click to see '
-            'all again.</p><div class="sweep" data-source="sweep" role="group" aria-label="Curves and maps of '
-            'the sweep"><noscript><p>Curves need JavaScript, which is switched off here.</p></noscript></div>')
+            columns[name] = {"kind": kind, "texts": [str(value) for value in values], **_named(done, name)}
+        elif (there := np.isfinite(values)).any():
+            named = _named(done, name)
+            factor, named["unit"] = readable(float(np.abs(values[there]).max()), named["unit"] or "1")
+            columns[name] = {"kind": kind, "values": packed(gaps(values) * factor, "float32"), **named}
+    return columns
 
 
 def _named(sweep: Sweep, name: str) -> dict[str, str]:
@@ -125,18 +147,27 @@ def _figure_words(name: str) -> str:
     return column_label(name)
 
 
-def _first(sweep: Sweep, rolls: bool) -> dict[str, str]:
-    """The axes that are shown at first."""
-    if rolls:
-        others = others_of(sweep)
+def _first(sweep: Sweep, rolls: bool, columns: dict[str, Any]) -> dict[str, str]:
+    """The axes that are shown at first, among the columns; empty where no figure is there."""
+    figures = [name for name in sweep.figures if "values" in columns.get(name, {})]
+    if not figures:
+        return {}
+    slip, force = find_figure("slip_ratio", sweep), find_figure("force_x", sweep)
+    if rolls and slip in figures and force in figures:
+        others = [key for key in others_of(sweep) if key in columns]
         by = next((key for key in LOADS if key in others), others[0] if others else "")
-        return {"x": find_figure("slip_ratio", sweep) or "", "y": find_figure("force_x", sweep) or "", "by": by}
+        return {"x": str(slip), "y": str(force), "by": by}
+    return _usual(sweep, figures, columns)
+
+
+def _usual(sweep: Sweep, figures: Sequence[str], columns: dict[str, Any]) -> dict[str, str]:
+    """A figure over the parameter of most values, a curve for each value of the next one."""
     try:
-        first = usual(sweep)[0]
+        first = next((name for name in usual(sweep) if name in figures), figures[0])
     except Error:
-        first = sweep.figures[0] if sweep.figures else ""
-    varied = sorted(sweep.varied, key=lambda key: -len(np.unique(sweep[key])))
-    return {"x": varied[0] if varied else "", "y": first, "by": varied[1] if len(varied) > 1 else ""}
+        first = figures[0]
+    varied = sorted((key for key in sweep.varied if key in columns), key=lambda key: -len(np.unique(sweep[key])))
+    return {"x": varied[0] if varied else figures[0], "y": first, "by": varied[1] if len(varied) > 1 else ""}
 
 
 def _pictures(sweep: Sweep, rolls: bool) -> str:
@@ -144,8 +175,8 @@ def _pictures(sweep: Sweep, rolls: bool) -> str:
     for words, draw in _wanted(sweep, rolls):
         try:
             shown.append(picture(draw(), words))
-        except Error as reason:
-            shown.append(note(f"{words}: {reason}"))
+        except (Error, ValueError, ArithmeticError) as reason:  # matplotlib, of numbers that are not finite
+            shown.append(note(f"{words}: {told(reason, sweep.directory)}"))
     return "".join(shown) or note("There are no pictures: no two members differ in a parameter and are done.")
 
 

@@ -72,7 +72,9 @@ rondo.scaled = (value, unit) => {
   return `${rondo.number(value * factor)} ${prefix}${unit}`;
 };
 
+// The browser is to blame only where it lacks what numbers are unpacked with.
 rondo.refuse = (place, reason) => {
-  place.append(rondo.element("p", {class: "note"}, "This cannot be shown: " + reason +
-    ". A browser of 2023 or later is needed (Firefox 113, Chrome or Edge 80, Safari 16.4)."));
+  const why = "DecompressionStream" in window ? "This cannot be shown: " + reason + ". Please report it: this is a fault of rondo."
+    : "This cannot be shown: a browser of 2023 or later is needed (Firefox 113, Chrome or Edge 80, Safari 16.4).";
+  place.append(rondo.element("p", {class: "note"}, why));
 };

@@ -101,9 +101,10 @@ rondo.Viewer = class {
 
   #means(k) {
     const values = this.#nodal(k), means = new Float32Array(this.cells.length / 4);
-    for (let c = 0; c < means.length; ++c)
-      means[c] = 0.25 * (values[this.cells[4 * c]] + values[this.cells[4 * c + 1]] +
-                         values[this.cells[4 * c + 2]] + values[this.cells[4 * c + 3]]);
+    for (let c = 0; c < means.length; ++c) {
+      const [p, q, r, s] = this.cells.subarray(4 * c, 4 * c + 4), three = values[p] + values[q] + values[r];
+      means[c] = r === s ? three / 3 : 0.25 * (three + values[s]);  // a triangle has its last corner twice
+    }
     return means;
   }
 
@@ -118,16 +119,16 @@ rondo.Viewer = class {
       if (this.wholeRange) this.ranges.set(key, top);
     }
     const signed = this.field >= 0 && this.data.fields[this.field].signed;
-    return [signed ? -top : 0, top || 1, signed];
+    return [signed ? -top : 0, top, signed];
   }
 
   // (cells) numbers of colours.
   shades(k) {
     const [low, high, signed] = this.range(k), means = this.#means(k);
     this.scaleColours = rondo.colours[signed ? "diverging" : "sequential"];
-    const last = this.scaleColours.length - 1, shades = new Uint8Array(means.length);
+    const last = this.scaleColours.length - 1, span = high - low || 1, from = high ? low : signed ? -0.5 : 0, shades = new Uint8Array(means.length);
     for (let c = 0; c < means.length; ++c)
-      shades[c] = Math.min(last, Math.max(0, Math.round(last * (means[c] - low) / (high - low))));
+      shades[c] = Math.min(last, Math.max(0, Math.round(last * (means[c] - from) / span)));
     return shades;
   }
 
