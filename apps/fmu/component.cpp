@@ -7,11 +7,14 @@
 #include <cstring>
 #include <filesystem>
 #include <fstream>
+#include <limits>
 #include <nlohmann/json.hpp>
+#include <span>
 #include <utility>
 
 #include "rondo/core/error.hpp"
 #include "rondo/fmu/saved_bytes.hpp"
+#include "rondo/io/h5/hash.hpp"
 
 namespace rondo::fmu {
 namespace {
@@ -128,6 +131,7 @@ fmi2Status Component::terminate() {
 
 fmi2Status Component::reset() {
   values_ = start_;
+  wheel_->forget_warnings();
   phase_ = Phase::instantiated;
   stale_ = true;
   time_ = 0.0;
@@ -139,6 +143,13 @@ fmi2Status Component::get(const fmi2ValueReference* references, std::size_t n, d
     if (references[k] >= variables().size())
       return error(fmt::format("fmi2GetReal: there is no value reference {}; 0 to {}",
                                references[k], variables().size() - 1));
+  if (phase_ == Phase::instantiated)
+    for (std::size_t k = 0; k < n; ++k) {
+      const Variable& v = variables()[references[k]];
+      if (v.kind == Kind::output || v.kind == Kind::calculated)
+        return error(
+            fmt::format("fmi2GetReal: {} is computed: fmi2EnterInitializationMode before", v.name));
+    }
   const bool computed = phase_ == Phase::initializing;
   if (computed) refresh();
   for (std::size_t k = 0; k < n; ++k) values[k] = values_.*variables()[references[k]].value;
@@ -180,10 +191,14 @@ fmi2Status Component::step(double at, double length) {
         fmt::format("fmi2DoStep: the communication point is {:.9g} s, and the wheel is at "
                     "{:.9g} s",
                     at, time_));
-  if (const std::string wrong = wheel_->refuse_length(length); !wrong.empty())
+  // Importers take lengths as differences of times.
+  const double slack = 8.0 * std::numeric_limits<double>::epsilon() * (std::abs(at) + length);
+  if (const std::string wrong = wheel_->refuse(values_, length, slack); !wrong.empty())
     return error("fmi2DoStep: " + wrong);
+  phase_ = Phase::failed;  // what throws half way stays so
   const std::string wrong = wheel_->go_on(values_, length);
   if (!wrong.empty()) return fail("fmi2DoStep: " + wrong);
+  phase_ = Phase::stepping;
   time_ = at + length;
   return tell_warnings();
 }
@@ -204,6 +219,7 @@ fmi2Status Component::save(fmi2FMUstate* state) {
 
 fmi2Status Component::restore(fmi2FMUstate state) {
   const State& saved = *static_cast<const State*>(state);
+  phase_ = Phase::failed;  // what throws half way stays so
   if (saved.stale)
     values_ = saved.wheel.values;
   else
@@ -228,32 +244,47 @@ struct Head {
   int phase, stale;
 };
 
+constexpr std::size_t hash_size = 32;  // at the end: of all before
+
+std::string hash_of(const char* bytes, std::size_t n) {
+  io::Hash hash;
+  hash.add(std::as_bytes(std::span(bytes, n)));
+  return hash.text();
+}
+
 }  // namespace
 
 fmi2Status Component::serialized_size(fmi2FMUstate state, std::size_t* n) {
-  *n = sizeof(Head) + bytes_of(static_cast<const State*>(state)->wheel, guid_).size();
+  *n = sizeof(Head) + bytes_of(static_cast<const State*>(state)->wheel, guid_).size() + hash_size;
   return fmi2OK;
 }
 
 fmi2Status Component::serialize(fmi2FMUstate state, char* bytes, std::size_t n) {
   const State& saved = *static_cast<const State*>(state);
   const std::vector<char> wheel = bytes_of(saved.wheel, guid_);
-  if (n < sizeof(Head) + wheel.size())
+  const std::size_t hashed = sizeof(Head) + wheel.size();
+  if (n < hashed + hash_size)
     return error("fmi2SerializeFMUstate: fewer bytes than fmi2SerializedFMUstateSize has told");
   const Head head{saved.time, static_cast<int>(saved.phase), saved.stale ? 1 : 0};
   std::memcpy(bytes, &head, sizeof head);
   std::memcpy(bytes + sizeof head, wheel.data(), wheel.size());
+  std::memcpy(bytes + hashed, hash_of(bytes, hashed).data(), hash_size);
   return fmi2OK;
 }
 
 fmi2Status Component::deserialize(const char* bytes, std::size_t n, fmi2FMUstate* state) {
   Head head{};
-  if (n < sizeof head) return error("fmi2DeSerializeFMUstate: these bytes are no state");
+  const char* const refused =
+      "fmi2DeSerializeFMUstate: these bytes are no state of this FMU, or damaged";
+  if (n < sizeof head + hash_size) return error(refused);
+  const std::size_t hashed = n - hash_size;
+  if (hash_of(bytes, hashed) != std::string(bytes + hashed, hash_size)) return error(refused);
   std::memcpy(&head, bytes, sizeof head);
-  if (head.phase < 0 || head.phase > static_cast<int>(Phase::failed))
-    return error("fmi2DeSerializeFMUstate: these bytes are no state");
+  const bool known = head.phase >= 0 && head.phase <= static_cast<int>(Phase::failed);
+  if (!known || (head.stale != 0 && head.phase > static_cast<int>(Phase::initializing)))
+    return error(refused);
   auto saved = std::make_unique<State>();
-  saved->wheel = saved_of({bytes + sizeof head, n - sizeof head}, guid_);
+  saved->wheel = saved_of({bytes + sizeof head, hashed - sizeof head}, guid_);
   saved->time = head.time;
   saved->phase = static_cast<Phase>(head.phase);
   saved->stale = head.stale != 0;

@@ -188,6 +188,36 @@ class State(FmuTest):
                       self.refused(other, "DeSerializeFMUstate", data, ctypes.c_size_t(size.value - 8),
                                    ctypes.byref(state)))
 
+    def test_damaged_bytes_are_refused(self):
+        fmu = self.instance()
+        fmu.step(0.0, 4e-4)
+        saved, state, size = fmu.save(), ctypes.c_void_p(), ctypes.c_size_t()
+        fmu.call("SerializedFMUstateSize", saved, ctypes.byref(size))
+        data = ctypes.create_string_buffer(size.value)
+        fmu.call("SerializeFMUstate", saved, data, size)
+        fmu.free_state(saved)
+        for at in (0, 12, 100, size.value // 2, size.value - 1):
+            wrong = ctypes.create_string_buffer(data.raw, size.value)
+            wrong[at] = bytes([data.raw[at] ^ 1])
+            self.assertIn("or damaged", self.refused(fmu, "DeSerializeFMUstate", wrong, size,
+                                                     ctypes.byref(state)))
+
+    def test_threads_of_blas_are_the_importers(self):
+        """Also those that it sets between two calls."""
+        fmu = self.instance()
+        maps = pathlib.Path("/proc/self/maps").read_text().splitlines()
+        names = [line.split()[-1] for line in maps if "libopenblas" in line and "numpy" not in line]
+        blas = ctypes.CDLL(names[0])
+        self.addCleanup(blas.openblas_set_num_threads, blas.openblas_get_num_threads())
+        for k, threads in enumerate((2, 1, 2)):
+            blas.openblas_set_num_threads(threads)
+            fmu.step(k * 4e-4, 4e-4)
+            self.assertEqual(blas.openblas_get_num_threads(), threads)
+        other = Fmu(self.unpacked)
+        other.begin()
+        other.free()
+        self.assertEqual(blas.openblas_get_num_threads(), 2)
+
     def test_reset_begins_anew(self):
         fmu = self.instance(friction=0.3)
         first = QuarterCar(fmu, 4e-4).drive(0.02)
@@ -236,6 +266,33 @@ class Wrong(FmuTest):
         self.assertIn("the wheel is at", self.refused(fmu, "DoStep", DOUBLE(0.1), DOUBLE(4e-4), 1))
         fmu.step(4e-4, 8e-4)
 
+    def test_differences_of_late_times_are_lengths(self):
+        fmu = self.instance(begins=False)
+        fmu.call("SetupExperiment", 0, DOUBLE(0.0), DOUBLE(5000.0), 0, DOUBLE(0.0))
+        fmu.call("EnterInitializationMode")
+        fmu.call("ExitInitializationMode")
+        times = [5000.0 + k * 1e-4 for k in range(20)]
+        for at, to in zip(times, times[1:]):
+            fmu.step(at, to - at)
+
+    def test_points_passed_in_a_step(self):
+        """180 points: 1 is passed in 2.07 ms."""
+        fmu = self.instance(step=2e-2)
+        self.assertTrue([m for m in fmu.messages if "contact points" in m])
+        self.assertIn("9.67 contact points", self.refused(fmu, "DoStep", DOUBLE(0), DOUBLE(2e-2), 1))
+        fmu.step(0.0, 4e-4)
+        fmu.set(hub_velocity_x=60.0, hub_angular_velocity=200.0)
+        self.assertIn("contact points", self.refused(fmu, "DoStep", DOUBLE(4e-4), DOUBLE(4e-4), 1))
+        fmu.set(hub_velocity_x=5.04, hub_angular_velocity=16.8)
+        fmu.step(4e-4, 4e-4)
+
+    def test_outputs_are_of_the_initialised(self):
+        early = self.instance(begins=False)
+        for name in ("force_y", "tyre_mass", "hub_height"):
+            self.assertIn("is computed", self.refused(
+                early, "GetReal", early._references([name]), ctypes.c_size_t(1), (DOUBLE * 1)()))
+        early.get("friction", "hub_velocity_y")
+
     def test_a_hub_in_the_ground(self):
         fmu = self.instance()
         before = fmu.save()
@@ -264,6 +321,19 @@ class Wrong(FmuTest):
             fmu.set(hub_velocity_x=9.0)
             fmu.step(k * 4e-4, 4e-4)
         self.assertEqual(len([m for m in fmu.messages if m.startswith("hub_velocity_x")]), 1)
+        del fmu.messages[:]
+        fmu.call("Reset")
+        fmu.begin(hub_velocity_x=9.0)
+        self.assertEqual(len([m for m in fmu.messages if m.startswith("hub_velocity_x")]), 1)
+
+    def test_warnings_are_of_variables(self):
+        """Not of the keys of a case, nor of where the hub would be much later."""
+        falls = self.instance(hub_velocity_y=-0.01)
+        high = self.instance(hub_height_start=0.5)
+        said = falls.messages + high.messages
+        self.assertEqual([m for m in said if "motion." in m], [])
+        self.assertEqual([m for m in falls.messages if "height" in m], [])
+        self.assertEqual(len([m for m in high.messages if "hub_height" in m]), 1)
 
     def test_command(self):
         def fails(*arguments, code=2):
@@ -333,6 +403,11 @@ class Files(FmuTest):
                 "modelDescription.xml", "binaries/linux64/wheel.so", "resources/case.toml",
                 "resources/model.h5", "resources/wheel.json", "documentation/index.html",
                 "documentation/LICENSE"])
+            self.assertEqual(archive.read("documentation/LICENSE"), (ROOT / "LICENSE").read_bytes())
+
+    def test_tells_what_it_cannot(self):
+        self.assertEqual(self.root().find("CoSimulation").get(
+            "canHandleVariableCommunicationStepSize"), "false")
 
     def test_exports_the_functions_and_nothing_else(self):
         said = subprocess.run(["nm", "-D", "--defined-only", self.unpacked / "binaries/linux64/wheel.so"],

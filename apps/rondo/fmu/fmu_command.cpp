@@ -9,6 +9,7 @@
 #include "commands.hpp"
 #include "documents/documents.hpp"
 #include "fmu/zip.hpp"
+#include "license_text.hpp"
 #include "options.hpp"
 #include "rondo/analysis/reduced/reduced_file.hpp"
 #include "rondo/case/case_source.hpp"
@@ -24,11 +25,6 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr const char* binary_name = "rondo_fmu.so";
-
-constexpr const char* license =
-    "BSD 3-Clause License. Copyright (c) 2026, the rondo authors.\n"
-    "The text of the license is the file LICENSE of rondo. What else the binary needs is told in\n"
-    "docs/fmu.md; it is not part of this FMU.\n";
 
 /// Beside the program, or where it is installed to.
 std::string binary_text() {
@@ -102,6 +98,10 @@ CLI::App* add_fmu(CLI::App& program, FmuArguments& a, Telling& tell) {
 int fmu(const FmuArguments& a, Telling& tell) {
   if (a.output.empty() || a.output.filename().empty())
     throw request_error("-o", a.output.string(), "the FMU needs a file", "-o wheel.fmu");
+#if !defined(__linux__) || !defined(__x86_64__)
+  throw request_error("fmu", "", "this program is not of the platform that FMI calls linux64",
+                      "a build on Linux for x86-64");
+#endif
   const study::Case c = read_checked(a);
   const std::string binary = binary_text();
   fmu::Wheel wheel(c, a.model, a.step_factor);
@@ -121,7 +121,7 @@ int fmu(const FmuArguments& a, Telling& tell) {
                        {"resources/model.h5", model},
                        {"resources/wheel.json", settings.dump(2) + "\n"},
                        {"documentation/index.html", fmu::index_page(d)},
-                       {"documentation/LICENSE", license}});
+                       {"documentation/LICENSE", license_text}});
   std::error_code error;
   const FmuReport report{a.output,
                          d.identifier,

@@ -17,6 +17,11 @@ Living& living() {
   return all;
 }
 
+Living& borrowed() {
+  static Living all;
+  return all;
+}
+
 }  // namespace
 
 OneBlasThread::OneBlasThread() {
@@ -29,6 +34,20 @@ OneBlasThread::OneBlasThread() {
 
 OneBlasThread::~OneBlasThread() {
   Living& all = living();
+  const std::lock_guard lock(all.mutex);
+  if (--all.count == 0) openblas_set_num_threads(all.before);
+}
+
+BorrowedBlas::BorrowedBlas() {
+  Living& all = borrowed();
+  const std::lock_guard lock(all.mutex);
+  if (all.count++ > 0) return;
+  all.before = openblas_get_num_threads();
+  openblas_set_num_threads(1);
+}
+
+BorrowedBlas::~BorrowedBlas() {
+  Living& all = borrowed();
   const std::lock_guard lock(all.mutex);
   if (--all.count == 0) openblas_set_num_threads(all.before);
 }

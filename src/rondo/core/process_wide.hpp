@@ -17,6 +17,17 @@ class OneBlasThread {
   OneBlasThread& operator=(const OneBlasThread&) = delete;
 };
 
+/// OpenBLAS on one thread during a call into a library that others have loaded: the last of several
+/// at once gives back the number that was before the first, also while a OneBlasThread lives on,
+/// which must be made and end within one.
+class BorrowedBlas {
+ public:
+  BorrowedBlas();
+  ~BorrowedBlas();
+  BorrowedBlas(const BorrowedBlas&) = delete;
+  BorrowedBlas& operator=(const BorrowedBlas&) = delete;
+};
+
 /// FFTW makes and destroys plans for one thread at a time: to be held meanwhile. Their transforms
 /// are free.
 std::mutex& fftw_planner() noexcept;

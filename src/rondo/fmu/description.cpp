@@ -119,7 +119,7 @@ std::string model_description(const Description& d) {
       "<fmiModelDescription fmiVersion=\"2.0\" modelName=\"{0}\" guid=\"{1}\"\n"
       "    description=\"{2}\" version=\"{3}\" license=\"BSD-3-Clause\"\n"
       "    generationTool=\"rondo {3}\" variableNamingConvention=\"flat\">\n"
-      "  <CoSimulation modelIdentifier=\"{0}\" canHandleVariableCommunicationStepSize=\"true\"\n"
+      "  <CoSimulation modelIdentifier=\"{0}\" canHandleVariableCommunicationStepSize=\"false\"\n"
       "      canGetAndSetFMUstate=\"true\" canSerializeFMUstate=\"true\"\n"
       "      canNotUseMemoryManagementFunctions=\"true\"/>\n"
       "  <UnitDefinitions>\n{4}  </UnitDefinitions>\n"

@@ -12,6 +12,7 @@
 #include "rondo/analysis/out_of_range.hpp"
 #include "rondo/analysis/reduced/prepare.hpp"
 #include "rondo/core/error.hpp"
+#include "rondo/core/process_wide.hpp"
 #include "rondo/integrators/start.hpp"
 #include "rondo/output/contact_statistics.hpp"
 
@@ -81,7 +82,10 @@ struct Wheel::Body {
 Wheel::Wheel(study::Case c, std::filesystem::path model, double step_factor)
     : case_(std::move(c)), model_(std::move(model)), step_factor_(step_factor) {}
 
-Wheel::~Wheel() = default;
+Wheel::~Wheel() {
+  const BorrowedBlas blas;
+  body_.reset();
+}
 
 void Wheel::check() {
   if (!case_.ground)
@@ -98,6 +102,7 @@ double Wheel::step() const noexcept {
 
 void Wheel::begin(Values& values) {
   check();
+  const BorrowedBlas blas;
   const std::lock_guard<std::mutex> lock(building());
   auto body = std::make_unique<Body>();
   Body& b = *body;
@@ -115,11 +120,14 @@ void Wheel::begin(Values& values) {
   b.inertia = b.setup.model.rim->inertia + b.run.file.model.rim->inertia;
   body_ = std::move(body);
   for (const std::string& text : b.setup.warnings) warn(text);
-  for (const std::string& text : b.run.warnings) warn(text);
+  // What is said of [motion] and the step of a run is said of the inputs instead.
+  for (const std::string& text : b.run.warnings)
+    if (!text.starts_with("motion.") && !text.starts_with("--step-factor")) warn(text);
   values.tyre_mass = values.width * b.mass;
   values.tyre_inertia = values.width * b.inertia;
   b.hub = velocities(values);
   b.parameters = values;
+  warn_of_points(values, b.largest_step);
   make_integrator(b.largest_step);
   const std::string wrong = make_steps(values, 1);
   Values first = values;
@@ -132,26 +140,57 @@ void Wheel::begin(Values& values) {
   b.integrator.reset();
   b.dt = 0.0;
   b.contact = {};
+  warn_of_ranges(values);
   if (!wrong.empty()) warn("a first step of the hub as it starts fails: " + wrong);
 }
 
 void Wheel::make_integrator(double dt) {
   Body& b = *body_;
-  b.setup.model.dt = b.dt = dt;
+  b.setup.model.dt = dt;
   b.integrator = std::make_unique<rom::ReducedIntegrator>(
       rom::IntegratorInput{b.setup.mesh, b.setup.model, b.run.file.model, b.run.figures,
                            rom::StepScheme::midpoint, false},
       b.start);
+  b.dt = dt;
 }
 
-std::string Wheel::refuse_length(double length) const {
+double Wheel::first_step(double length) const {
+  return length / std::ceil(length / body_->largest_step * (1.0 - 1e-9));
+}
+
+double Wheel::points_passed(const Values& values, double dt) const {
+  const Body& b = *body_;
+  const double spin = std::max(std::abs(b.hub[2]), std::abs(values.hub_angular_velocity));
+  return study::points_passed(b.setup, spin * dt, b.run);
+}
+
+std::string Wheel::points_text(double points, double dt) {
+  return fmt::format(
+      "the wheel turns by {:.3g} contact points in an internal step; contact wants 1 at the most: "
+      "a step of {:.3g} s; more than {} are refused",
+      points, dt / points, most_points);
+}
+
+void Wheel::warn_of_points(const Values& values, double dt) {
+  const double points = points_passed(values, dt);
+  if (points > 1.0 && said_.insert("points").second) warnings_.push_back(points_text(points, dt));
+}
+
+std::string Wheel::refuse(const Values& values, double length, double slack) const {
+  if (std::string wrong = refuse_length(length, slack); !wrong.empty()) return wrong;
+  const double dt = body_->dt > 0.0 ? body_->dt : first_step(length);
+  const double points = points_passed(values, dt);
+  return points > most_points ? points_text(points, dt) : std::string();
+}
+
+std::string Wheel::refuse_length(double length, double slack) const {
   const Body& b = *body_;
   if (!(length > 0.0) || !std::isfinite(length))
     return fmt::format("a communication step of {} s: must be above 0", length);
   constexpr double most = 1e9, close = 1e-9;
   const double steps = length / (b.dt > 0.0 ? b.dt : b.largest_step);
   if (steps > most) return fmt::format("a communication step of {} s is too long", length);
-  if (b.dt == 0.0 || std::abs(steps - std::round(steps)) <= close * steps) return {};
+  if (b.dt == 0.0 || std::abs(steps - std::round(steps)) <= close * steps + slack / b.dt) return {};
   return fmt::format(
       "a communication step of {:.9g} s is no whole number of internal steps, which are {:.9g} s "
       "since the first communication step: {:.9g} s or {:.9g} s",
@@ -160,10 +199,11 @@ std::string Wheel::refuse_length(double length) const {
 
 std::string Wheel::go_on(Values& values, double length) {
   Body& b = *body_;
-  if (std::string wrong = refuse_length(length); !wrong.empty()) return wrong;
-  if (b.dt == 0.0) make_integrator(length / std::ceil(length / b.largest_step * (1.0 - 1e-9)));
+  const BorrowedBlas blas;
+  if (b.dt == 0.0) make_integrator(first_step(length));
   const auto n = static_cast<long long>(std::llround(length / b.dt));
   warn_of_ranges(values);
+  warn_of_points(values, b.dt);
   std::string wrong = make_steps(values, n);
   if (!wrong.empty()) return wrong;
   Values to = values;
@@ -246,6 +286,11 @@ void Wheel::warn_of_ranges(const Values& v) {
   check("hub_height above ground_height", built.height, v.hub_height - v.ground_height, 1.0);
 }
 
+void Wheel::forget_warnings() {
+  said_.clear();
+  warnings_.clear();
+}
+
 std::vector<std::string> Wheel::take_warnings() {
   return std::exchange(warnings_, {});
 }
@@ -264,6 +309,7 @@ SavedWheel Wheel::save(const Values& values) const {
 
 /// Of a state before the first step the start is made anew; else only what has other parameters.
 void Wheel::restore(const SavedWheel& s, Values& values) {
+  const BorrowedBlas blas;
   Values start = s.values;
   start.hub_velocity_x = s.velocity_x;
   start.hub_velocity_y = s.velocity_y;

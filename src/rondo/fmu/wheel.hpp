@@ -41,13 +41,19 @@ class Wheel {
   /// @throws InputError, FileError
   void begin(Values& values);
   /// A communication step: to the inputs in `values` at its end. @return what is wrong with it;
-  /// empty: nothing. Forces and places are in `values` then.
+  /// empty: nothing. Forces and places are in `values` then. @pre refuse() does not
   [[nodiscard]] std::string go_on(Values& values, double length);
-  /// The length is none that the internal step fits into; empty: it is one.          [s]
-  [[nodiscard]] std::string refuse_length(double length) const;
+  /// The length is none that the internal step fits into, or the wheel turns by more than
+  /// most_points in that; empty: neither. @param slack that the length may be off by        [s]
+  [[nodiscard]] std::string refuse(const Values& values, double length, double slack) const;
+  /// Contact points in an internal step that are refused; above 1 is warned of.
+  static constexpr double most_points = 2.0;
 
   /// What was said since the last call: each only once.
   [[nodiscard]] std::vector<std::string> take_warnings();
+
+  /// What was said is to be said again.
+  void forget_warnings();
 
   /// @pre begin()
   [[nodiscard]] SavedWheel save(const Values& values) const;
@@ -59,6 +65,11 @@ class Wheel {
   struct Body;
   struct Sums;
   void make_integrator(double dt);
+  [[nodiscard]] std::string refuse_length(double length, double slack) const;
+  [[nodiscard]] double first_step(double length) const;
+  [[nodiscard]] double points_passed(const Values& values, double dt) const;
+  [[nodiscard]] static std::string points_text(double points, double dt);
+  void warn_of_points(const Values& values, double dt);
   [[nodiscard]] std::string make_steps(const Values& values, long long n);
   void fill(const Values& from, double length, Values& to) const;
   void warn(std::string text);

@@ -13,7 +13,6 @@ namespace {
 constexpr double table_room = 256e6;
 
 /// Phases nearer than this are the same: sums of turns differ by round-off.
-constexpr double same_phase = 1e-8;
 
 /// a · B b
 double form(Vec2 a, const Eigen::Matrix2d& matrix, Vec2 b) noexcept {

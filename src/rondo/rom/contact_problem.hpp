@@ -84,6 +84,7 @@ class ContactSolver {
     ContactTable* table = nullptr;
     int sectors = 0;
   };
+  static constexpr double same_phase = 1e-8;  ///< in sectors: closer ones are one
   struct Phase {
     double share = 0.0;  ///< in sectors
     long long used = 0;  ///< step of the last use

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// What contact of reduced steps goes on with (saved_reduced.hpp).
 #include <algorithm>
+#include <cmath>
 #include <numbers>
 
 #include "rondo/core/contract.hpp"
@@ -25,7 +26,15 @@ bool ContactSolver::fits(const SavedContact& s) const noexcept {
       return std::ranges::all_of(portion, is_point);
     });
   };
-  return (nodes_ || s.phases.size() == 1) && std::ranges::all_of(s.phases, are_points) &&
+  const auto is_apart = [&](const SavedPhase& phase) {
+    return std::isfinite(phase.share) &&
+           std::ranges::count_if(s.phases, [&](const SavedPhase& other) {
+             return std::abs(other.share - phase.share) < same_phase;
+           }) == 1;
+  };
+  const bool phases = nodes_ ? s.phases.size() <= most_phases_ : s.phases.size() == 1;
+  return phases && std::ranges::all_of(s.phases, is_apart) &&
+         std::ranges::all_of(s.phases, are_points) &&
          std::ranges::all_of(s.impulses, [&](const auto& one) { return is_point(one.first); });
 }
 

@@ -154,6 +154,22 @@ TEST(SavedReducedState, OfAnotherModelDoesNotFit) {
   EXPECT_FALSE(a.fits(saved));
 }
 
+/// Tables are found by their phases: two of one, or more than there is room for, have no place.
+TEST(SavedReducedState, PhasesThatAreOneDoNotFit) {
+  Reduced r = pressed({ContactForm::nodes}, 2);
+  ReducedIntegrator of = r.start(start_of(r));
+  make_steps(of, 0, 5, r.full.model.dt, {});
+  const SavedReducedState saved = of.save();
+  ASSERT_TRUE(of.fits(saved));
+  SavedReducedState twice = saved, many = saved, none = saved;
+  twice.contact->phases.push_back(saved.contact->phases.front());
+  EXPECT_FALSE(of.fits(twice));
+  for (int k = 0; k < 1100; ++k) many.contact->phases.push_back({2.0 + 1e-3 * k, 0, {}});
+  EXPECT_FALSE(of.fits(many));
+  none.contact->phases.front().share = std::nan("");
+  EXPECT_FALSE(of.fits(none));
+}
+
 /// A rim that is led goes where the mean of its velocities takes it, and what holds it is what the
 /// momentum of the whole says.
 TEST(LedRim, GoesWithItsVelocities) {

@@ -22,19 +22,22 @@ void add_said(std::string warning, std::vector<std::string>& warnings) {
   if (!warning.empty()) warnings.push_back(std::move(warning));
 }
 
-std::string passed_points(const Case& c, const Setup& setup, double spin, const ReducedRun& run) {
+double points_passed(const Setup& setup, double turned, const ReducedRun& run) {
   const rom::ReducedModel& m = run.file.model;
   const bool standing = m.form != rom::ContactForm::nodes;
   // Nodes of a tread are not evenly spaced; in the mean they are.
   const double points =
       static_cast<double>(standing ? m.contact.points.size() : setup.mesh.boundary.size());
-  const double turned = spin * setup.model.dt;
-  const double spacing = 2.0 * std::numbers::pi / points;
-  if (!c.ground || turned <= spacing) return {};
+  return turned * points / (2.0 * std::numbers::pi);
+}
+
+std::string passed_points(const Case& c, const Setup& setup, double spin, const ReducedRun& run) {
+  const double passed = points_passed(setup, spin * setup.model.dt, run);
+  if (!c.ground || passed <= 1.0) return {};
   return fmt::format(
       "--step-factor: the disk turns by {:.3g} contact points in a step; contact "
       "wants 1 at the most, a factor of {:.3g}",
-      turned / spacing, run.step_factor * spacing / turned);
+      passed, run.step_factor / passed);
 }
 
 namespace {

@@ -30,6 +30,9 @@ ReducedRun prepare_reduced(const Case& c, const RunOptions& options, Setup& setu
 /// work.
 bool sees_velocities_alone(const ReducedRun& run);
 
+/// Contact points, of the mean spacing, that a turn of the disk [rad] passes.
+double points_passed(const Setup& setup, double turned, const ReducedRun& run);
+
 /// A contact point must not be passed in one step, in words. @param spin [rad/s]. Empty: it is not.
 std::string passed_points(const Case& c, const Setup& setup, double spin, const ReducedRun& run);
 
