@@ -17,8 +17,8 @@ from collections.abc import Iterator
 
 ROOT = pathlib.Path(__file__).resolve().parent
 SYSTEM_PYTHON = "/usr/bin/python3"  # for which build/release has the module, as CMakeLists.txt says
-TARGETS = ("rondo", "rondo-mesh-reader", "rondo_python")
-SOURCES = ("CMakeLists.txt", "apps", "cmake", "python/bindings", "scripts/setup.sh", "src")
+TARGETS = ("rondo", "rondo-mesh-reader", "rondo_fmu_binary", "rondo_python")
+SOURCES = ("CMakeLists.txt", "LICENSE", "apps", "cmake", "python/bindings", "scripts/setup.sh", "src")
 WITHOUT = ("Without the library, to read and draw results only: pip install "
            "--config-settings module=no ...")
 
@@ -42,7 +42,7 @@ def source_files() -> dict[str, pathlib.Path]:
     found = [path for name in SOURCES for path in ((top / name).rglob("*") if (top / name).is_dir()
                                                    else [top / name])]
     return {path.relative_to(top).as_posix(): path for path in found
-            if path.suffix in (".cpp", ".hpp", ".cmake", ".in", ".txt", ".sh")}
+            if path.suffix in (".cpp", ".hpp", ".cmake", ".in", ".map", ".txt", ".sh") or path.name == "LICENSE"}
 
 
 def module_name() -> str:
@@ -166,7 +166,8 @@ def build(given: str | None = None) -> dict[str, bytes]:
             raise NotBuilt(f"{directory}: CMake cannot install what it has built")
         found = {path.relative_to(folder).as_posix(): path.read_bytes()
                  for path in pathlib.Path(folder).rglob("*") if path.is_file()}
-    wanted = {f"rondo/{module_name()}", "rondo/bin/rondo", "rondo/bin/rondo-mesh-reader"}
+    wanted = {f"rondo/{module_name()}", "rondo/bin/rondo", "rondo/bin/rondo-mesh-reader",
+              "rondo/bin/rondo_fmu.so"}
     if set(found) != wanted:
         raise NotBuilt(f"{directory}: made {sorted(found)}, not {sorted(wanted)}")
     return found

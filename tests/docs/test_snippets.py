@@ -78,7 +78,7 @@ class Questions(unittest.TestCase):
                                text=True, env=os.environ | {"PYTHONPATH": str(ROOT / "python")}).stdout
         commands = re.search(r"\{(.*?)\}", usage, re.DOTALL)[1].split(",")
         for command in commands:
-            self.assertRegex(self.table, rf"`(python3 -m rondo )?{command}\b")
+            self.assertRegex(self.table, rf"`(python3 -m rondo |rondo )?{command}\b")
         for named in re.findall(r"`python3 -m rondo (\w+)", self.table):
             self.assertIn(named, commands)
 
