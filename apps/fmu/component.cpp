@@ -14,7 +14,6 @@
 
 #include "rondo/core/error.hpp"
 #include "rondo/fmu/saved_bytes.hpp"
-#include "rondo/io/h5/hash.hpp"
 
 namespace rondo::fmu {
 namespace {
@@ -244,18 +243,11 @@ struct Head {
   int phase, stale;
 };
 
-constexpr std::size_t hash_size = 32;  // at the end: of all before
-
-std::string hash_of(const char* bytes, std::size_t n) {
-  io::Hash hash;
-  hash.add(std::as_bytes(std::span(bytes, n)));
-  return hash.text();
-}
-
 }  // namespace
 
 fmi2Status Component::serialized_size(fmi2FMUstate state, std::size_t* n) {
-  *n = sizeof(Head) + bytes_of(static_cast<const State*>(state)->wheel, guid_).size() + hash_size;
+  *n = sizeof(Head) + bytes_of(static_cast<const State*>(state)->wheel, guid_).size() +
+       fmu::hash_size;
   return fmi2OK;
 }
 
@@ -263,12 +255,12 @@ fmi2Status Component::serialize(fmi2FMUstate state, char* bytes, std::size_t n) 
   const State& saved = *static_cast<const State*>(state);
   const std::vector<char> wheel = bytes_of(saved.wheel, guid_);
   const std::size_t hashed = sizeof(Head) + wheel.size();
-  if (n < hashed + hash_size)
+  if (n < hashed + fmu::hash_size)
     return error("fmi2SerializeFMUstate: fewer bytes than fmi2SerializedFMUstateSize has told");
   const Head head{saved.time, static_cast<int>(saved.phase), saved.stale ? 1 : 0};
   std::memcpy(bytes, &head, sizeof head);
   std::memcpy(bytes + sizeof head, wheel.data(), wheel.size());
-  std::memcpy(bytes + hashed, hash_of(bytes, hashed).data(), hash_size);
+  std::memcpy(bytes + hashed, fmu::hash_of({bytes, hashed}).data(), fmu::hash_size);
   return fmi2OK;
 }
 
@@ -276,9 +268,10 @@ fmi2Status Component::deserialize(const char* bytes, std::size_t n, fmi2FMUstate
   Head head{};
   const char* const refused =
       "fmi2DeSerializeFMUstate: these bytes are no state of this FMU, or damaged";
-  if (n < sizeof head + hash_size) return error(refused);
-  const std::size_t hashed = n - hash_size;
-  if (hash_of(bytes, hashed) != std::string(bytes + hashed, hash_size)) return error(refused);
+  if (n < sizeof head + fmu::hash_size) return error(refused);
+  const std::size_t hashed = n - fmu::hash_size;
+  if (fmu::hash_of({bytes, hashed}) != std::string(bytes + hashed, fmu::hash_size))
+    return error(refused);
   std::memcpy(&head, bytes, sizeof head);
   const bool known = head.phase >= 0 && head.phase <= static_cast<int>(Phase::failed);
   if (!known || (head.stale != 0 && head.phase > static_cast<int>(Phase::initializing)))

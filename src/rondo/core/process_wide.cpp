@@ -22,34 +22,34 @@ Living& borrowed() {
   return all;
 }
 
+void take_one(Living& all) {
+  const std::lock_guard lock(all.mutex);
+  if (all.count++ > 0) return;
+  all.before = openblas_get_num_threads();
+  openblas_set_num_threads(1);
+}
+
+void give_back(Living& all) {
+  const std::lock_guard lock(all.mutex);
+  if (--all.count == 0) openblas_set_num_threads(all.before);
+}
+
 }  // namespace
 
 OneBlasThread::OneBlasThread() {
-  Living& all = living();
-  const std::lock_guard lock(all.mutex);
-  if (all.count++ > 0) return;
-  all.before = openblas_get_num_threads();
-  openblas_set_num_threads(1);
+  take_one(living());
 }
 
 OneBlasThread::~OneBlasThread() {
-  Living& all = living();
-  const std::lock_guard lock(all.mutex);
-  if (--all.count == 0) openblas_set_num_threads(all.before);
+  give_back(living());
 }
 
 BorrowedBlas::BorrowedBlas() {
-  Living& all = borrowed();
-  const std::lock_guard lock(all.mutex);
-  if (all.count++ > 0) return;
-  all.before = openblas_get_num_threads();
-  openblas_set_num_threads(1);
+  take_one(borrowed());
 }
 
 BorrowedBlas::~BorrowedBlas() {
-  Living& all = borrowed();
-  const std::lock_guard lock(all.mutex);
-  if (--all.count == 0) openblas_set_num_threads(all.before);
+  give_back(borrowed());
 }
 
 std::mutex& fftw_planner() noexcept {

@@ -7,6 +7,7 @@
 
 #include "rondo/core/error.hpp"
 #include "rondo/core/version.hpp"
+#include "rondo/io/h5/hash.hpp"
 
 namespace rondo::fmu {
 namespace {
@@ -111,6 +112,12 @@ SavedWheel saved_of(std::span<const char> bytes, const std::string& owner) {
   archive(saved);
   if (!archive.is_at_end()) Archive::fail();
   return saved;
+}
+
+std::string hash_of(std::span<const char> bytes) {
+  io::Hash hash;
+  hash.add(std::as_bytes(bytes));
+  return hash.text();
 }
 
 }  // namespace rondo::fmu

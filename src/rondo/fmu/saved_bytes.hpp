@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// @file  A saved wheel as bytes, of this machine's numbers, for another instance of the same FMU.
 #pragma once
+#include <cstddef>
 #include <span>
 #include <string>
 #include <vector>
@@ -14,5 +15,9 @@ namespace rondo::fmu {
 
 /// @throws InputError: they are of another FMU or version, or damaged
 [[nodiscard]] SavedWheel saved_of(std::span<const char> bytes, const std::string& owner);
+
+/// Of bytes, against damage: so many characters.
+inline constexpr std::size_t hash_size = 32;
+[[nodiscard]] std::string hash_of(std::span<const char> bytes);
 
 }  // namespace rondo::fmu
