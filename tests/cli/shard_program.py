@@ -8,27 +8,6 @@ from sweep_program import STUDY, SweepTest
 
 sys.path.insert(0, str(ROOT / "python"))
 TABLES = ("results.csv", "sweep.h5")
-CRUSH = """schema = 1
-[disk]
-outer_radius = 0.30
-inner_radius = 0.15
-[disk.mesh]
-radial = 4
-circumferential = 90
-[material]
-youngs_modulus = 2.0e7
-poissons_ratio = 0.3
-density = 1100.0
-[ground]
-profile = "flat"
-[analysis]
-kind = "crush"
-increments = 16
-depth = [[0, 0], [8, 0.02], [16, 0.02]]
-slide = [[0, 0], [8, 0], [16, 0.01]]
-[output]
-stress = false
-"""
 LATIN = """schema = 1
 base = "case.toml"
 set = ["analysis.solver=latin-pgd"]

@@ -22,6 +22,29 @@ values = [0.0, 0.2, 0.4]
 key = "motion.speed"
 linspace = [9, 11, 3]
 """
+# A crush whose members LATIN-PGD hands its fields on in.
+CRUSH = """schema = 1
+title = "crush"
+[disk]
+outer_radius = 0.30
+inner_radius = 0.15
+[disk.mesh]
+radial = 4
+circumferential = 90
+[material]
+youngs_modulus = 2.0e7
+poissons_ratio = 0.3
+density = 1100.0
+[ground]
+profile = "flat"
+[analysis]
+kind = "crush"
+increments = 16
+depth = [[0, 0], [8, 0.02], [16, 0.02]]
+slide = [[0, 0], [8, 0], [16, 0.01]]
+[output]
+stress = false
+"""
 LONG = replaced(SMALL, "end", "end = 1.0")
 
 

@@ -10,30 +10,8 @@ import h5py
 import numpy as np
 
 from program import PROGRAM, ROOT, run, summary
-from sweep_program import SweepTest, column, mpirun, table
+from sweep_program import CRUSH, SweepTest, column, mpirun, table
 
-CRUSH = """schema = 1
-title = "crush"
-[disk]
-outer_radius = 0.30
-inner_radius = 0.15
-[disk.mesh]
-radial = 4
-circumferential = 90
-[material]
-youngs_modulus = 2.0e7
-poissons_ratio = 0.3
-density = 1100.0
-[ground]
-profile = "flat"
-[analysis]
-kind = "crush"
-increments = 16
-depth = [[0, 0], [8, 0.02], [16, 0.02]]
-slide = [[0, 0], [8, 0], [16, 0.01]]
-[output]
-stress = false
-"""
 BASE = "schema = 1\nbase = \"case.toml\"\nset = [\"analysis.solver=latin-pgd\"]\n"
 FRICTION = "[[vary]]\nkey = \"ground.friction\"\nvalues = [0.3, 0.1, 0.5, 0.7]\n"
 BODIES = "[[vary]]\nkey = \"disk.mesh.radial\"\nvalues = [4, 3]\n"

@@ -9,8 +9,8 @@ import time
 import unittest
 
 from program import ROOT, replaced, run
-from shard_program import CRUSH, LATIN, ShardTest
-from sweep_program import LONG, STUDY, mpirun, table
+from shard_program import LATIN, ShardTest
+from sweep_program import CRUSH, LONG, STUDY, mpirun, table
 
 import rondo
 
