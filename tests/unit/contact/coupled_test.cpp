@@ -65,6 +65,22 @@ TEST(SolveBlock, ObeysTheLawOnGeneralBlocks) {
   for (const int n : counted) EXPECT_GT(n, 1000);
 }
 
+/// With much friction there can be several solutions; one is always found.
+TEST(SolveBlock, ObeysTheLawWithMuchFriction) {
+  std::mt19937 random(3);
+  std::uniform_real_distribution<double> u(-1.0, 1.0);
+  int several = 0;
+  for (int i = 0; i < 100000; ++i) {
+    const double mu = 5.0 + 5.0 * u(random), nt = 0.8 * u(random);
+    const Block w{1.0, nt, nt, 1.0 + 0.3 * u(random)};  // det W >= 0.06
+    const Vec2 free{u(random), u(random)};
+    const LocalSolution s = solve_block(w, free, 0.0, mu);
+    several += mu * std::abs(nt) > 1.0 ? 1 : 0;
+    ASSERT_LT(law_residual(s.impulse, free + apply(w, s.impulse), 0.0, mu, 1.0), 1e-12) << i;
+  }
+  EXPECT_GT(several, 10000);
+}
+
 TEST(CoupledResidual, SeesAnyChangeOfASolution) {
   const CoupledProblem p = problem_of(chain({.upper = 12, .lower = 9, .seed = 3}));
   const Solved s = solved(p);
@@ -290,6 +306,25 @@ TEST(Coupled, AProblemWithoutASolutionIsReported) {
   EXPECT_FALSE(result.converged);
   EXPECT_EQ(result.iterations, 500);
   EXPECT_EQ(result.residual, coupled_residual(p, r));
+}
+
+/// Modes that let a point move along the ground only, or not at all.
+TEST(Coupled, APointThatCannotBePushedIsReported) {
+  for (const Block& w : {Block{0.0, 0.0, 0.0, 1.0}, Block{}, Block{0.01, 0.1, 0.1, 1.0}}) {
+    const CoupledProblem p{.free = {{-1.0, 0.5}},
+                           .bounce = {0.0},
+                           .friction = {0.4},
+                           .row_start = {0, 1},
+                           .column = {0},
+                           .blocks = {w},
+                           .mass = {1.0 / std::max({w[0], w[3]})}};
+    std::vector<Vec2> r(1);
+    std::vector<Status> status(1);
+    CoupledWorkspace work;
+    const CoupledResult result = solve_coupled(p, {.most_iterations = 50}, r, status, work);
+    EXPECT_FALSE(result.converged);
+    EXPECT_TRUE(std::isfinite(r[0].x) && std::isfinite(r[0].y));
+  }
 }
 
 TEST(Coupled, NothingToDoTakesNoIteration) {

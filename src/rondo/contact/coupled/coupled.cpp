@@ -172,15 +172,16 @@ void set_statuses(const CoupledProblem& p, std::span<const Vec2> impulse, std::s
 }  // namespace
 
 LocalSolution solve_block(const Block& w, Vec2 free, double bounce, double friction) noexcept {
-  RONDO_ASSERT(w[0] > friction * std::abs(w[1]), w[0], w[1], friction);
   const Vec2 v = {free.x + bounce, free.y};
-  if (v.x >= 0.0) return {};
   const double det = w[0] * w[3] - w[1] * w[2];
+  if (v.x >= 0.0 || !(det > 0.0)) return {};
   const Vec2 stick = {(w[1] * v.y - w[3] * v.x) / det, (w[2] * v.x - w[0] * v.y) / det};
   if (std::abs(stick.y) <= friction * stick.x) return {stick, Status::stick};
   // Slip: r = r_n (1, side μ), the side being the one in which sticking would have pulled.
   const double side = stick.y > 0.0 ? 1.0 : -1.0;
-  const double rn = -v.x / (w[0] + side * friction * w[1]);
+  const double wn = w[0] + side * friction * w[1];
+  if (!(wn > 0.0)) return {};
+  const double rn = -v.x / wn;
   return {{rn, side * friction * rn}, Status::slip};
 }
 

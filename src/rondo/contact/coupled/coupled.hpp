@@ -21,7 +21,7 @@ struct CoupledProblem {
   std::vector<double> friction;  ///< (nc) μ                                            [-]
   std::vector<int> row_start;    ///< (nc + 1) W in compressed rows of blocks
   std::vector<int> column;       ///< columns ascend; every row has its diagonal block
-  std::vector<Block> blocks;     ///< nearly symmetric; W_nn > μ|W_nt| on the diagonal [m/kg]
+  std::vector<Block> blocks;     ///< nearly symmetric; on the diagonal see solve_block  [m/kg]
   std::vector<double> mass;      ///< (nc) scale of the residual, 1/|W_jj|              [kg/m]
 
   [[nodiscard]] std::size_t size() const noexcept { return free.size(); }
@@ -62,7 +62,9 @@ struct CoupledWorkspace {
                                           std::span<Status> status, CoupledWorkspace& work);
 
 /// The law at one contact with a general block: w = free + W r (4.7a).
-/// @pre W_nn > μ|W_nt| and det W > 0: one solution.
+/// The only solution where W_nn > μ|W_nt|, one of several on other symmetric W with det W > 0.
+/// Where W is singular, as with modes that let a point move one way only, the contact is left open
+/// and the residual tells.
 [[nodiscard]] LocalSolution solve_block(const Block& delassus, Vec2 free, double bounce,
                                         double friction) noexcept;
 
