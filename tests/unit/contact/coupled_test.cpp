@@ -318,6 +318,7 @@ TEST(Coupled, APointThatCannotBePushedIsReported) {
                            .column = {0},
                            .blocks = {w},
                            .mass = {1.0 / std::max({w[0], w[3]})}};
+    EXPECT_EQ(solve_block(w, p.free[0], 0.0, 0.4).status, Status::open);
     std::vector<Vec2> r(1);
     std::vector<Status> status(1);
     CoupledWorkspace work;
