@@ -2,7 +2,7 @@
 """Runs cases in this process, reads and draws what the program rondo writes:
 rondo.run("case.toml").plot_field(0.1), rondo.Simulation("case.toml"), rondo.open("results")."""
 from .about import about
-from .calls import modes, pod, reduce, run, sweep
+from .calls import fmu, modes, pod, reduce, run, sweep
 from .data.errors import (
     Error,
     FileError,
@@ -33,6 +33,6 @@ del attach
 
 __all__ = ["Error", "FileError", "History", "InputError", "Mesh", "Modes", "NewerSchemaError",
            "NotARunError", "NumericalError", "Paper", "Pod", "Run", "Simulation", "Solution",
-           "Sweep", "UnfinishedRunError", "UnknownNameError", "Validation", "about", "crush", "modes",
-           "open", "open_modes", "open_paper", "open_pod", "open_sweep", "open_validation", "pod",
-           "reduce", "report", "run", "solve", "steady_rolling", "sweep"]
+           "Sweep", "UnfinishedRunError", "UnknownNameError", "Validation", "about", "crush", "fmu",
+           "modes", "open", "open_modes", "open_paper", "open_pod", "open_sweep", "open_validation",
+           "pod", "reduce", "report", "run", "solve", "steady_rolling", "sweep"]

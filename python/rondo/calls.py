@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""The program's commands as functions: rondo.run("case.toml"). They work in this process; `run`
-with further arguments, and sweeps of several runs at once, start the program."""
+"""The program's commands as functions: rondo.run("case.toml"). They work in this process; `fmu`,
+`run` with further arguments, and sweeps of several runs at once start the program."""
 from __future__ import annotations
 
 import os
@@ -155,6 +155,18 @@ def reduce(runs: Run | Place | Sequence[Run | Place], output: Place, *,
     options["error_estimate"] = error_estimate
     file = place_of(output)
     core().reduce(_directories(runs), file, options)
+    return file
+
+
+def fmu(model: Place, output: Place, settings: Mapping[str, Any] | None = None, *,
+        case: Place | None = None, step_factor: float | None = None) -> pathlib.Path:
+    """The wheel of a reduced model as an FMU (`rondo fmu`), made by the program into the file
+    `output`. case: ground, dampings, gravity and start of the wheel; by default the case of the
+    first run behind the model."""
+    model, file = place_of(model), place_of(output)
+    options = options_of(case=None if case is None else place_of(case), step_factor=step_factor)
+    _command(["fmu", os.fspath(model), "-o", os.fspath(file), "--quiet",
+              *_words(settings, options)], file)
     return file
 
 

@@ -107,6 +107,20 @@ def test_reduced_models(case):
         rondo.solve(case, reduced=model, step_factor=-1.0)
 
 
+def test_a_wheel_as_an_fmu(case):
+    rondo.run(case, "full", {"output.snapshots": 100})
+    model = rondo.reduce("full", "model.h5", displacement_modes=8, velocity_modes=8)
+    by_program("fmu", model, "-o", "wheel.fmu", "--set", "ground.friction=0.3", "--step-factor", 10)
+    mine = pathlib.Path("mine")
+    mine.mkdir()
+    assert rondo.fmu(model, mine / "wheel.fmu", {"ground.friction": 0.3}, step_factor=10) == mine / "wheel.fmu"
+    assert (mine / "wheel.fmu").read_bytes() == pathlib.Path("wheel.fmu").read_bytes()
+    rondo.fmu(model, mine / "wheel.fmu", {"ground.friction": 0.3}, case=case)
+    assert (mine / "wheel.fmu").read_bytes() != pathlib.Path("wheel.fmu").read_bytes()
+    with pytest.raises(rondo.Error, match="none.toml"):
+        rondo.fmu(model, "wheel.fmu", case="none.toml")
+
+
 def test_modes_pod_and_sweep(case):
     by_program("modes", case, "-o", "modes", "--count", 5)
     assert rondo.modes(case, "mine", count=5, sweep="0:50:3").directory == pathlib.Path("mine")
