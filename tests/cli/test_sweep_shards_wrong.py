@@ -6,8 +6,8 @@ import time
 import unittest
 
 from program import replaced, run
-from shard_program import CRUSH, LATIN, ShardTest
-from sweep_program import LONG, STUDY
+from shard_program import LATIN, ShardTest
+from sweep_program import CRUSH, LONG, STUDY
 
 import rondo
 
