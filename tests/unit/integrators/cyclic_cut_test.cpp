@@ -84,7 +84,7 @@ class CyclicCuts : public testing::TestWithParam<test::RollingCase> {};
 
 }  // namespace
 
-TEST_P(CyclicCuts, GiveTheSameBits) {
+TEST_P(CyclicCuts, GiveTheSameBitsOnAnyNumberOfThreads) {
   const test::Built b = test::build(GetParam());
   Model model = test::model_with(b, StiffnessOperator::cyclic);
   CyclicTuning in_cache;

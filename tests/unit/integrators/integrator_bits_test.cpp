@@ -197,7 +197,7 @@ TEST_P(Integrators, SameBitsHoweverTheStepsAreCutIntoCalls) {
   }
 }
 
-TEST_P(Integrators, SameBitsFromASavedState) {
+TEST_P(Integrators, SameBitsFromASavedStateAndOtherThreads) {
   std::vector<test::Built> all = disks();
   test::RollingCase undamped = test::everything("", 4, 61);
   undamped.disk.beta = 0.0;

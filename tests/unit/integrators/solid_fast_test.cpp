@@ -288,7 +288,7 @@ TEST_P(SolidFast, AgreesWithTheReadableStep) {
   expect_near(expected, fast(model), 1e-11);
 }
 
-TEST_P(SolidFast, GivesTheSameBitsHoweverItIsCut) {
+TEST_P(SolidFast, GivesTheSameBitsHoweverItIsCutAndThreaded) {
   Model model = model_of(GetParam());
   SolidTuning in_cache;
   in_cache.cache_bytes = std::size_t{1} << 40U;

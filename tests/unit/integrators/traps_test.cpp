@@ -64,7 +64,7 @@ TEST_P(Traps, AreInEveryThreadOfAStepWithoutBeingAskedFor) {
   }
 }
 
-TEST_P(Traps, AreLeftAsTheyWere) {
+TEST_P(Traps, AreLeftAsTheyWereInEachThread) {
   make_two_steps(GetParam(), 1, 1.0);
   EXPECT_EQ(fegetexcept(), 0);
   const test::NoStepTraps no_traps;
