@@ -17,7 +17,7 @@ using Complex = std::complex<double>;
 using Matrix = fem::Harmonics::Matrix;
 using Vector = Eigen::VectorXcd;
 
-/// A(n) w = s² Q w, Q = n² + 1 - n G - A_σ(n) (8.6).
+/// A(n) w = s² Q w, Q = n² + 1 - 2inJ - A_σ(n) (8.6).
 class CriticalProblem {
  public:
   CriticalProblem(const CyclicBody& body, const fem::SectorStiffness* stiffening)

@@ -120,7 +120,7 @@ Operator<HarmonicProblem::Complex> HarmonicProblem::at_rest(double shift) {
   return op;
 }
 
-/// T = P⁻¹ Q with P = diag(A', 1), Q = [-sG, 1; 1, 0], of (w, ω w), with μ = 1/ω (8.3).
+/// T = P⁻¹ Q with P = diag(A', 1), Q = [-2isJ, 1; 1, 0], of (w, ω w), with μ = 1/ω (8.3).
 Operator<HarmonicProblem::Complex> HarmonicProblem::in_spin() {
   factorise(0.0);
   const Index n = size();

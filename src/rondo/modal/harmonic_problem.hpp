@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// @file  One harmonic of a body of equal sectors in constant spin (docs/theory.md, 8.2): with
-/// w = M^½ φ of one sector, A' = A(n) - s² and the Hermitian G = 2iJ,
-///   (A' - ω² + ω s G) w = 0,                                                              (8.2)
+/// w = M^½ φ of one sector, A' = A(n) - s² and the Hermitian 2iJ,
+///   (A' - ω² + 2iωsJ) w = 0,                                                              (8.2)
 /// where ω may be of both signs: w e^{i(nϑ + ωt)} travels clockwise where ω > 0.
 #pragma once
 #include <Eigen/SparseCholesky>
@@ -25,7 +25,7 @@ struct RootCounts {
   int positive = 0, negative = 0;
 };
 
-/// G w = 2iJ w: of each node, (x, y) becomes 2i (-y, x).
+/// 2iJ w: (x, y) of each node becomes 2i (-y, x).
 Eigen::VectorXcd gyroscopic(const Eigen::VectorXcd& w);
 
 class HarmonicProblem {

@@ -66,7 +66,7 @@ ContactStep step_at(const Model& model, long long n) {
   return BodyFrame(model, frame_step(model.motion, n, model.dt)).contact;
 }
 
-/// What the ring's equation (3.20) leaves, with the impulses found; all dense.
+/// What the ring's equation (3.10) leaves, with the impulses found; all dense.
 VectorXd ring_residual(const Model& model, const RingMatrix& matrix, MasslessContact& ring,
                        const ContactStep& step) {
   const Eigen::SparseMatrix<double> k = fem::free_matrix(model.stiffness, all_nodes(matrix));

@@ -121,7 +121,7 @@ void CoarsePart::accept() {
   }
 }
 
-/// (12.5) without that of the multiplier.
+/// The works (5.3) of a coarse step as in 12.4, without the work of the multiplier.
 void CoarsePart::find_works(Vec2 pull) {
   const double dt = whole_.dt, alpha = whole_.mass_damping, beta = whole_.stiffness_damping;
   works_ = {};
@@ -138,7 +138,7 @@ void CoarsePart::find_works(Vec2 pull) {
   }
 }
 
-/// (12.6): ½ vᵀM v + ½ uᵀK u
+/// (12.4): ½ vᵀM v + ½ uᵀK u
 void CoarsePart::add_energy(double& kinetic, double& strain) {
   apply(part_.stiffness, fields_.u, force_, whole_.threads);
   for (const int node : part_.free) {

@@ -149,7 +149,7 @@ void FinePart::add_works(const FrameStep& frame) noexcept {
   });
 }
 
-/// (12.6): ½ vᵀ(M - δ²/4 K)v + ½ uᵀK u
+/// (12.4): ½ vᵀ(M - δ²/4 K)v + ½ uᵀK u
 void FinePart::add_energy(double& kinetic, double& strain) {
   const double quarter = 0.25 * model_.dt * model_.dt;
   apply(model_.stiffness, fields_.v, force_, model_.threads);

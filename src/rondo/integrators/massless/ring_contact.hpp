@@ -59,7 +59,7 @@ class MasslessContact {
   /// To be filled before solve().
   [[nodiscard]] RingMotion& motion() noexcept { return motion_; }
 
-  /// The ring at t_{n+2} (3.20), from motion(); what was next() is now().
+  /// The ring at t_{n+2} (3.10), from motion(); what was next() is now().
   /// @param step of t_{n+1}. Allocates as nodes first come into contact, or more than ever before.
   void solve(const ContactStep& step);
   /// (nc) v_{n+3/2} = (u_{n+2} - u_{n+1})/Δt of the ring, turning frame                  [m/s]

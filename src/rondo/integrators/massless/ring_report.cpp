@@ -13,7 +13,7 @@ using contact::Status;
 
 constexpr std::size_t header = 5, per_contact = 10;
 
-/// (5.3), (3.21)
+/// (5.3), (3.10a)
 void add_works(const ContactStep& s, const ActiveContact& c, Vec2 mean_velocity,
                ContactReport& report) noexcept {
   const Vec2 impulse = conj(s.rotation) * from_frame(c.normal, c.impulse);  // turning frame
