@@ -189,6 +189,7 @@ Progress DynamicAnalysis::begin(Recorder& recorder) {
              impact_cure(setup_.model), guards_impacts(),
              unit_of("J/m", setup_.model.solid.has_value())};
   watch_.emplace(case_, setup_);
+  between_nodes_.emplace(setup_.model);
   hub_.emplace(setup_);
   reports_.resize(steps_at_once(setup_));
   state_ = start(setup_.model, std::move(setup_.displacement), std::move(setup_.velocity),
@@ -227,7 +228,10 @@ void DynamicAnalysis::start_integrator() {
 /// Steps up to the next one whose state is wanted, at most as many as there are reports.
 Progress DynamicAnalysis::advance(Recorder& recorder) {
   const long long next_look = (steps_ / steps_between_looks + 1) * steps_between_looks;
-  const long long wanted = std::min({next_snapshot(), history_->next_probed(), next_look, pause_});
+  const bool may_be_deep =
+      between_nodes_->may_be_deep(last_ ? &last_->frame : nullptr, steps_between_looks);
+  const long long next_row = may_be_deep ? history_->next_row() : history_->next_probed();
+  const long long wanted = std::min({next_snapshot(), next_row, next_look, pause_});
   const long long left = std::min(setup_.n_steps, wanted) - steps_;
   const auto n = static_cast<std::size_t>(std::min(static_cast<long long>(reports_.size()), left));
   const std::span reports = std::span(reports_).first(n);
@@ -235,10 +239,16 @@ Progress DynamicAnalysis::advance(Recorder& recorder) {
   const bool seen = reports.size() == static_cast<std::size_t>(left) || !setup_.probes.empty();
   integrator_->advance(reports, seen ? &state_ : nullptr);
   keep_difficult_contacts();
+  if (seen && may_be_deep && state_.step == next_row) add_depth_between_nodes(reports.back());
   for (std::size_t i = 0; i < n && !trouble_; ++i)
     take(reports[i], seen && i + 1 == n ? &state_ : nullptr, recorder);
   if (seen && state_.step == steps_) record_state(recorder);
   return {steps_, setup_.n_steps};
+}
+
+void DynamicAnalysis::add_depth_between_nodes(dynamics::StepReport& step) {
+  complete(state_);
+  step.contact.penetration = std::max(step.contact.penetration, between_nodes_->depth(state_));
 }
 
 void DynamicAnalysis::take(const dynamics::StepReport& step, const dynamics::State* state,

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "rondo/analysis/base/analysis.hpp"
+#include "rondo/analysis/base/between_nodes.hpp"
 #include "rondo/analysis/base/stepwise.hpp"
 #include "rondo/analysis/base/strain_watch.hpp"
 #include "rondo/analysis/boundary_watch.hpp"
@@ -72,6 +73,7 @@ class DynamicAnalysis : public Analysis, public Resumable, public Stepwise {
  private:
   [[nodiscard]] long long next_snapshot() const noexcept;
   void start_integrator();
+  void add_depth_between_nodes(dynamics::StepReport& step);
   void take(const dynamics::StepReport& step, const dynamics::State* state, Recorder& recorder);
   void judge(const dynamics::StepReport& step);
   [[nodiscard]] bool is_looked_at() const noexcept;
@@ -107,6 +109,7 @@ class DynamicAnalysis : public Analysis, public Resumable, public Stepwise {
   std::vector<std::string> warnings_;  ///< given while it ran
   Bounds bounds_;
   std::optional<BoundaryWatch> watch_;
+  std::optional<BetweenNodes> between_nodes_;
   std::optional<HubWatch> hub_;
   bool impacts_told_ = false;
   int problems_kept_ = 0;                       ///< contact problems kept as files

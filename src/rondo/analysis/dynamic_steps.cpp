@@ -3,6 +3,7 @@
 #include "rondo/analysis/build/rim.hpp"
 #include "rondo/analysis/build/stability.hpp"
 #include "rondo/analysis/dynamic.hpp"
+#include "rondo/analysis/elements/corner_words.hpp"
 
 namespace rondo::study {
 namespace {
@@ -19,10 +20,11 @@ void refuse_fixed_motion(const Case& c, const dynamics::Model& model) {
     throw case_error(c, "time.scheme",
                      "parts with steps of their own have the motion of the rim from the start",
                      "\"symplectic\"; or the tables in the case");
-  if (model.contact && dynamics::has_sharp_corners(model))
-    throw case_error(c, "ground.fillet",
-                     "contact at sharp convex corners has the motion of the rim from the start",
-                     "a fillet above 0; or the tables in the case");
+  if (!dynamics::has_sharp_corners(model)) return;
+  const CornerWords words = corner_words(c, model);
+  throw case_error(c, "ground.fillet",
+                   "contact at " + words.corners + " has the motion of the rim from the start",
+                   words.instead + "; or the tables in the case");
 }
 
 void copy_pressures(const Case& c, dynamics::Model& model) {

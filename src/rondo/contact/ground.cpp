@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <deque>
 
 #include "rondo/core/complex.hpp"
 #include "rondo/core/contract.hpp"
@@ -135,25 +136,27 @@ void Ground::add_bend(const GroundShape& shape, std::size_t i) {
 }
 
 /// Nodes meet an arc that is as wide as they are apart, and what turns no more than a blunt corner
-/// within that length.
-void Ground::choose_corners(const std::vector<Turn>& turns, double spacing) {
-  std::size_t bend = 0, counted = 0;  // turns before `counted` belong to an earlier corner
-  for (std::size_t i = 0; i < turns.size(); ++i) {
-    if (!(turns[i].angle > straight)) continue;
+/// within that length: `least` has the turns before the points of the last spacing that a later
+/// point may have turned most from, since the last corner.
+void Ground::choose_corners(const std::vector<Turn>& turns) {
+  std::deque<Turn> least;
+  std::size_t bend = 0;
+  double turned = 0.0;
+  for (const auto& [angle, length] : turns) {
+    while (!least.empty() && length - least.front().length > spacing_) least.pop_front();
+    while (!least.empty() && least.back().angle >= turned) least.pop_back();
+    least.push_back({turned, length});
+    turned += angle;
+    if (!(angle > straight)) continue;
     const Corner& here = bends_[bend++];
-    if (here.radius > 0.0 && here.radius >= spacing) continue;
-    double turned = 0.0;
-    for (std::size_t k = i + 1; k-- > counted && turned < blunt_turn;) {
-      if (turns[i].length - turns[k].length > spacing) break;
-      turned += turns[k].angle;
-    }
-    if (turned < blunt_turn) continue;
+    if (here.radius > 0.0 && here.radius >= spacing_) continue;
+    if (turned - least.front().angle < blunt_turn) continue;
     corners_.push_back(here);
-    counted = i + 1;
+    least.clear();
   }
 }
 
-Ground::Ground(const GroundShape& shape, double spacing) {
+Ground::Ground(const GroundShape& shape, double spacing) : spacing_(spacing) {
   RONDO_DEMAND(shape_faults(shape).empty(), shape.profile.size(), shape.fillet);
   RONDO_DEMAND(spacing >= 0.0, spacing);
   const auto& p = shape.profile;
@@ -166,10 +169,24 @@ Ground::Ground(const GroundShape& shape, double spacing) {
     turns.push_back({angle, 0.5 * (before + length_so_far())});
     add_segment(shape, i);
   }
-  choose_corners(turns, spacing);
+  choose_corners(turns);
   for (const Facet& facet : facets_) begins_.push_back(facet.begin.x);
   if (direction(p, 0).y >= 0.0 && direction(p, n - 1).y <= 0.0)
     top_ = std::max_element(p.begin(), p.end(), [](Vec2 a, Vec2 b) { return a.y < b.y; })->y;
+}
+
+std::vector<Vec2> Ground::outline(double step, double beyond) const {
+  RONDO_DEMAND(step > 0.0, step);
+  std::vector<Vec2> line{facets_.front().begin - beyond * facets_.front().tangent};
+  for (const Facet& f : facets_) {
+    if (f.begin != line.back()) line.push_back(f.begin);
+    constexpr double most = 4096.0;  // for an arc of any size
+    const double pieces = f.radius > 0.0 ? std::min(most, std::ceil(f.to / step)) : 1.0;
+    for (double i = 1.0; i < pieces; ++i)
+      line.push_back(f.center + f.radius * (rotation(-i / pieces * f.to / f.radius) * f.normal));
+  }
+  line.push_back(facets_.back().begin + beyond * facets_.back().tangent);
+  return line;
 }
 
 Ground::Projection Ground::project(const Facet& f, Vec2 x) noexcept {

@@ -32,7 +32,7 @@ struct ShapeFault {
 std::vector<ShapeFault> shape_faults(const GroundShape& shape);
 
 /// A turn below this angle is no corner, convex or concave (docs/theory.md, 4.1)          [rad]
-constexpr double blunt_turn = 0.01;
+inline constexpr double blunt_turn = 0.01;
 
 /// A convex bend of the surface, sharp or rounded: it may stand inside a body between two nodes
 /// (docs/theory.md, 4.1).
@@ -87,6 +87,12 @@ class Ground {
   [[nodiscard]] std::span<const Corner> bends() const noexcept { return bends_; }
   /// How far from its `position` a point of a bend may be: 0 where all are sharp           [m]
   [[nodiscard]] double bend_reach() const noexcept { return bend_reach_; }
+  /// Spacing of the contact nodes that it was made for                                     [m]
+  [[nodiscard]] double spacing() const noexcept { return spacing_; }
+  /// The surface as a line, left to right: its corners, points of its arcs no farther apart than
+  /// `step`, or 4096 of an arc, and its ends `beyond` the first and the last point [m].
+  /// @pre step > 0
+  [[nodiscard]] std::vector<Vec2> outline(double step, double beyond) const;
   /// No ground above this height; infinite where the ground rises for ever                [m]
   [[nodiscard]] double top() const noexcept { return top_; }
 
@@ -121,12 +127,12 @@ class Ground {
   [[nodiscard]] double length_so_far() const noexcept;
   void add_segment(const GroundShape& shape, std::size_t i);
   void add_bend(const GroundShape& shape, std::size_t i);
-  void choose_corners(const std::vector<Turn>& turns, double spacing);
+  void choose_corners(const std::vector<Turn>& turns);
 
   std::vector<Facet> facets_;
   std::vector<double> begins_;  ///< (n_facets) x of their beginnings [m]
   std::vector<Corner> bends_, corners_;
-  double bend_reach_ = 0.0;                               ///< [m]
+  double spacing_ = 0.0, bend_reach_ = 0.0;               ///< [m]
   double top_ = std::numeric_limits<double>::infinity();  ///< [m]
 };
 

@@ -21,4 +21,20 @@ struct Intrusion {
 [[nodiscard]] Intrusion deepest_inside(const Ground& ground, Vec2 a, Vec2 b,
                                        double deepest) noexcept;
 
+/// Depths below this share of the spacing of the nodes are as good as none.
+inline constexpr double least_hidden = 0.02;
+
+/// What of the ground may stand inside a body whose contact is at its nodes alone.
+struct Hidden {
+  Intrusion deepest;  ///< between two nodes that both lie on the ground
+  /// The deepest obstacle that stands between them as a whole: where they lie the ground runs along
+  /// the straight line from one to the other.
+  Intrusion whole;
+};
+
+/// Looks at places of the first node a sixteenth of the spacing apart. Time in proportion to the
+/// surface's length around its bends, over the spacing, and to the points of it in a spacing.
+/// @param spacing of neighbouring nodes [m], > 0
+[[nodiscard]] Hidden hidden_between_nodes(const Ground& ground, double spacing);
+
 }  // namespace rondo::contact

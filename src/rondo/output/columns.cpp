@@ -34,7 +34,10 @@ constexpr std::array history{
               [](const H& r) { return static_cast<double>(r.sticking); }},
     Column<H>{"contact_length_m", "m", "tributary lengths of the nodes with a normal force, summed",
               [](const H& r) { return r.contact_length; }},
-    Column<H>{"penetration_max_m", "m", "largest in the interval",
+    Column<H>{"penetration_max_m", "m",
+              "largest depth of a contact node in the ground in the interval; at the row's time "
+              "also of corners and arcs of the ground in the body, behind the straight line from "
+              "one contact node to the next",
               [](const H& r) { return r.penetration; }},
     Column<H>{
         "slip_ratio", "1",

@@ -73,8 +73,8 @@ bool History::is_due(double time) const noexcept {
          time + 0.5 * dt_ > static_cast<double>(at_.next) * interval_;
 }
 
-long long History::next_probed() const noexcept {
-  if (setup_.probes.empty()) return std::numeric_limits<long long>::max();
+long long History::next_row() const noexcept {
+  if (at_.next == HistoryPlace::never) return HistoryPlace::never;
   if (interval_ == 0.0) return at_.done + 1;
   const auto time = [&](long long step) { return static_cast<double>(step) * dt_; };
   // A guess, then the same comparison as that of the step itself.

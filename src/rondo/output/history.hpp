@@ -43,9 +43,12 @@ class History {
   /// No step comes after the one seen last: its row, where none was due.
   void finish(const dynamics::StepReport& step, const dynamics::State* state,
               std::vector<double>& rows);
-  /// The next step that gives a row with probes: its state is wanted. The largest number where
-  /// there are none.
-  [[nodiscard]] long long next_probed() const noexcept;
+  /// The next step that gives a row; never: none does.
+  [[nodiscard]] long long next_row() const noexcept;
+  /// Likewise of a row with probes: its state is wanted.
+  [[nodiscard]] long long next_probed() const noexcept {
+    return setup_.probes.empty() ? HistoryPlace::never : next_row();
+  }
 
  private:
   [[nodiscard]] double slip_ratio(const dynamics::StepReport& step) const;

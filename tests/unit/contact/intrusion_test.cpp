@@ -56,3 +56,40 @@ TEST(Intrusion, ArcIsMetWhereItIsDeepest) {
   EXPECT_NEAR(found.depth, 0.003, 1e-15);
   EXPECT_LT(norm(found.at - end), 1e-15);
 }
+
+TEST(Intrusion, HiddenBetweenTwoNodes) {
+  constexpr double h = 0.01;
+  const auto hidden = [](std::vector<Vec2> profile, double fillet) {
+    return hidden_between_nodes(Ground{GroundShape{std::move(profile), fillet}}, h);
+  };
+  // A post, as a whole.
+  EXPECT_NEAR(hidden(post, 0.0).whole.depth, 0.02, 1e-12);
+  EXPECT_NEAR(hidden(post, 0.0004).whole.depth, 0.02, 1e-12);
+  // A corner of 90 degrees: half the spacing, and none of it as a whole.
+  const std::vector<Vec2> corner{{-1, 0}, {0, 0}, {0, -1}};
+  EXPECT_NEAR(hidden(corner, 0.0).deepest.depth, 0.5 * h, 0.005 * h);
+  EXPECT_LT(norm(hidden(corner, 0.0).deepest.at), 1e-15);
+  EXPECT_EQ(hidden(corner, 0.0).whole.depth, 0.0);
+  // An arc of the spacing: its height over a chord.
+  EXPECT_NEAR(hidden(corner, h).deepest.depth, (1.0 - std::sqrt(0.75)) * h, 0.002 * h);
+  EXPECT_NEAR(hidden(corner, 5.0 * h).deepest.depth, (5.0 - std::sqrt(24.75)) * h, 0.002 * h);
+  // A corner of a small angle δ: h δ/4.
+  EXPECT_NEAR(hidden({{-1, 0}, {0, 0}, {1, -0.05}}, 0.0).deepest.depth, 0.0125 * h, 0.0002 * h);
+  // A valley and flat ground hide nothing.
+  EXPECT_EQ(hidden({{-1, 1}, {0, 0}, {1, 1}}, 0.0).deepest.depth, 0.0);
+  EXPECT_EQ(hidden({{-1, 0}, {1, 0}}, 0.0).deepest.depth, 0.0);
+}
+
+/// What is as long as the nodes are apart is met somewhere; what is shorter may stand between them.
+TEST(Intrusion, ObstaclesShorterThanTheSpacingAreHiddenAsAWhole) {
+  constexpr double h = 0.01, high = 0.001;
+  for (const double foot : {0.2, 0.9, 1.1, 2.0}) {
+    const double x = 0.5 * foot * h;
+    const Ground ground{GroundShape{.profile = {{-1, 0}, {-x, 0}, {0, high}, {x, 0}, {1, 0}}}};
+    const Hidden hidden = hidden_between_nodes(ground, h);
+    if (foot < 1.0)
+      EXPECT_NEAR(hidden.whole.depth, high, 1e-15) << foot;
+    else
+      EXPECT_EQ(hidden.whole.depth, 0.0) << foot;
+  }
+}

@@ -21,6 +21,7 @@
 #include "rondo/case/case_keys.hpp"
 #include "rondo/case/case_rules.hpp"
 #include "rondo/integrators/fused/batch_integrator.hpp"
+#include "rondo/mesh/edges.hpp"
 #include "rondo/statics/stationary_spin.hpp"
 
 namespace rondo::study {
@@ -36,9 +37,9 @@ contact::Law law_of(const Contact& of) {
 /// What the candidates may touch: the ground, and bodies.
 void add_contacts(const Case& c, const mesh::Mesh& mesh, dynamics::Model& model) {
   if (c.ground)
-    model.contact.emplace(dynamics::ContactModel{contact::Ground(c.ground->shape),
-                                                 law_of(*c.ground), mesh.boundary, mesh.tributary,
-                                                 mesh.contact_edges});
+    model.contact.emplace(dynamics::ContactModel{
+        contact::Ground(c.ground->shape, mesh::longest_edge(mesh.coordinates, mesh.contact_edges)),
+        law_of(*c.ground), mesh.boundary, mesh.tributary, mesh.contact_edges});
   const BodyContactCase& between = c.body_contact;
   if (between.between != BodyContact::none)
     model.surfaces.emplace(

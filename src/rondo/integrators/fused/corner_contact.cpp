@@ -108,7 +108,7 @@ CornerContact::Extent CornerContact::extent(std::size_t n_steps,
   const double touch = contact_.finder().deepest();
   way_ = 4.0 * touch + 2.0 * time * fastest;
   farthest_ = farthest;
-  return {touch + way_, farthest};
+  return {touch + way_ + boundary_.contact->ground.bend_reach(), farthest};
 }
 
 void CornerContact::look_out(std::span<StepContext> steps, const CandidateFields& fields) noexcept {

@@ -214,7 +214,9 @@ Box ContactFinder::box_of_candidates() const {
 
 /// A profile may have many corners; few are where the bodies are, and these look at all edges.
 void ContactFinder::find_corners(std::vector<ContactRow>& rows) const {
-  const Box box = box_of_candidates();
+  Box box = box_of_candidates();
+  const double reach = model_.contact->ground.bend_reach();
+  box = {box.low - Vec2{reach, reach}, box.high + Vec2{reach, reach}};
   const auto corners = model_.contact->ground.corners();
   for (std::size_t c = 0; c < corners.size(); ++c) {
     const Vec2 p = corners[c].position;
@@ -226,9 +228,9 @@ void ContactFinder::find_corners(std::vector<ContactRow>& rows) const {
 void ContactFinder::find_corner(std::size_t c, std::span<const int> edges,
                                 std::vector<ContactRow>& rows) const {
   const contact::Corner& corner = model_.contact->ground.corners()[c];
-  const Vec2 p = corner.position, facing = corner.normals[0] + corner.normals[1];
-  const contact::EdgeTouches touches =
-      contact::touch_boundary({.position = p}, {ground_side_, positions_, edges, deepest_});
+  const Vec2 facing = corner.normals[0] + corner.normals[1];
+  const contact::EdgeTouches touches = contact::touch_boundary(
+      {.position = corner.position, .bend = &corner}, {ground_side_, positions_, edges, deepest_});
   for (int t = 0; t < touches.count; ++t) {
     const EdgeTouch& found = touches.at[at(t)];
     const mesh::Edge& e = ground_side_.edges[at(found.edge)];
@@ -239,7 +241,7 @@ void ContactFinder::find_corner(std::size_t c, std::span<const int> edges,
     ContactRow row;
     row.kind = ContactKind::corner;
     row.rows = contact::corner_rows(found.touch, length, e[0], e[1]);
-    row.point = p;
+    row.point = contact::first_met(corner, -found.touch.normal);
     row.key = key_of(row.kind, c, at(found.edge));
     row.normal = found.touch.normal;
     row.gap = found.touch.gap;
