@@ -45,7 +45,7 @@ class History {
               std::vector<double>& rows);
   /// The next step that gives a row; never: none does.
   [[nodiscard]] long long next_row() const noexcept;
-  /// Likewise of a row with probes: its state is wanted.
+  /// The next step that gives a row with probes, which want its state; never: there are none.
   [[nodiscard]] long long next_probed() const noexcept {
     return setup_.probes.empty() ? HistoryPlace::never : next_row();
   }
