@@ -85,35 +85,88 @@ std::vector<ShapeFault> shape_faults(const GroundShape& shape) {
   return faults.empty() ? fillet_faults(shape) : faults;
 }
 
-Ground::Ground(const GroundShape& shape) {
+Vec2 first_met(const Corner& bend, Vec2 inward) noexcept {
+  if (bend.radius == 0.0) return bend.position;
+  const auto [first, last] = bend.normals;
+  Vec2 normal = inward;
+  if (cross(first, inward) > 0.0) normal = first;  // the side meets an end of the arc
+  if (cross(last, inward) < 0.0) normal = last;
+  return bend.center + bend.radius * normal;
+}
+
+double Ground::length_so_far() const noexcept {
+  return facets_.empty() ? 0.0 : facets_.back().start_length + facets_.back().to;
+}
+
+/// Between the points i and i + 1 of the profile, without what the fillets take of it.
+void Ground::add_segment(const GroundShape& shape, std::size_t i) {
+  const auto& p = shape.profile;
+  const Vec2 t = direction(p, i);
+  const double lead = fillet_reach(shape, i), trail = fillet_reach(shape, i + 1);
+  const bool is_last = i + 2 == p.size();
+  Facet segment{.begin = p[i] + lead * t, .tangent = t, .normal = turn90(t), .center = {}};
+  segment.from = i == 0 ? -infinity : 0.0;
+  segment.to = is_last ? infinity : norm(p[i + 1] - p[i]) - lead - trail;
+  segment.start_length = length_so_far();
+  segment.concave_end = !is_last && turn_at(p, i + 1) > blunt_turn;
+  segment.sharp_end = !is_last && trail == 0.0 && turn_at(p, i + 1) < -straight;
+  facets_.push_back(segment);
+}
+
+/// After the segment that ends at point i of the profile, a convex one.
+void Ground::add_bend(const GroundShape& shape, std::size_t i) {
+  const auto& p = shape.profile;
+  const Facet& before = facets_.back();
+  const std::array<Vec2, 2> normals{before.normal, turn90(direction(p, i))};
+  const double reach = fillet_reach(shape, i);
+  if (reach == 0.0) return bends_.push_back({p[i], normals});
+  Facet arc{.begin = p[i] - reach * before.tangent,
+            .tangent = before.tangent,
+            .normal = before.normal,
+            .center = {}};
+  arc.radius = shape.fillet;
+  arc.center = arc.begin - arc.radius * arc.normal;
+  arc.to = -turn_at(p, i) * arc.radius;
+  arc.start_length = length_so_far();
+  facets_.push_back(arc);
+  const Vec2 middle = rotation(0.5 * turn_at(p, i)) * arc.normal;
+  bends_.push_back({arc.center + arc.radius * middle, normals, arc.center, arc.radius});
+  bend_reach_ = std::max(bend_reach_, 0.5 * arc.to);
+}
+
+/// Nodes meet an arc that is as wide as they are apart, and what turns no more than a blunt corner
+/// within that length.
+void Ground::choose_corners(const std::vector<Turn>& turns, double spacing) {
+  std::size_t bend = 0, counted = 0;  // turns before `counted` belong to an earlier corner
+  for (std::size_t i = 0; i < turns.size(); ++i) {
+    if (!(turns[i].angle > straight)) continue;
+    const Corner& here = bends_[bend++];
+    if (here.radius > 0.0 && here.radius >= spacing) continue;
+    double turned = 0.0;
+    for (std::size_t k = i + 1; k-- > counted && turned < blunt_turn;) {
+      if (turns[i].length - turns[k].length > spacing) break;
+      turned += turns[k].angle;
+    }
+    if (turned < blunt_turn) continue;
+    corners_.push_back(here);
+    counted = i + 1;
+  }
+}
+
+Ground::Ground(const GroundShape& shape, double spacing) {
   RONDO_DEMAND(shape_faults(shape).empty(), shape.profile.size(), shape.fillet);
+  RONDO_DEMAND(spacing >= 0.0, spacing);
   const auto& p = shape.profile;
   const std::size_t n = p.size() - 1;
-  double length = 0.0;
-  for (std::size_t i = 0; i < n; ++i) {
-    const Vec2 t = direction(p, i);
-    const double lead = fillet_reach(shape, i), trail = fillet_reach(shape, i + 1);
-    const double to = norm(p[i + 1] - p[i]) - lead - trail;
-    Facet segment{.begin = p[i] + lead * t, .tangent = t, .normal = turn90(t), .center = {}};
-    segment.from = i == 0 ? -infinity : 0.0;
-    segment.to = i + 1 == n ? infinity : to;
-    segment.start_length = length;
-    segment.concave_end = i + 1 < n && turn_at(p, i + 1) > straight;
-    segment.sharp_end = i + 1 < n && trail == 0.0 && turn_at(p, i + 1) < -straight;
-    facets_.push_back(segment);
-    if (segment.sharp_end)
-      corners_.push_back({p[i + 1], {segment.normal, turn90(direction(p, i + 1))}});
-    length += to;
-    if (trail > 0.0) {
-      Facet arc{.begin = p[i + 1] - trail * t, .tangent = t, .normal = turn90(t), .center = {}};
-      arc.radius = shape.fillet;
-      arc.center = arc.begin - arc.radius * arc.normal;
-      arc.to = -turn_at(p, i + 1) * arc.radius;
-      arc.start_length = length;
-      facets_.push_back(arc);
-      length += arc.to;
-    }
+  std::vector<Turn> turns;
+  add_segment(shape, 0);
+  for (std::size_t i = 1; i < n; ++i) {
+    const double angle = -turn_at(p, i), before = length_so_far();
+    if (angle > straight) add_bend(shape, i);
+    turns.push_back({angle, 0.5 * (before + length_so_far())});
+    add_segment(shape, i);
   }
+  choose_corners(turns, spacing);
   for (const Facet& facet : facets_) begins_.push_back(facet.begin.x);
   if (direction(p, 0).y >= 0.0 && direction(p, n - 1).y <= 0.0)
     top_ = std::max_element(p.begin(), p.end(), [](Vec2 a, Vec2 b) { return a.y < b.y; })->y;
