@@ -167,9 +167,26 @@ Ground::Ground(const GroundShape& shape, double spacing) {
     add_segment(shape, i);
   }
   choose_corners(turns, spacing);
-  for (const Facet& facet : facets_) begins_.push_back(facet.begin.x);
+  add_boxes();
   if (direction(p, 0).y >= 0.0 && direction(p, n - 1).y <= 0.0)
     top_ = std::max_element(p.begin(), p.end(), [](Vec2 a, Vec2 b) { return a.y < b.y; })->y;
+}
+
+void Ground::add_boxes() {
+  std::vector<BoxTree::Box> boxes;
+  for (const Facet& f : facets_) {
+    begins_.push_back(f.begin.x);
+    const auto end = [&](double along) {  // 0 * infinity is no number
+      return f.begin + Vec2{f.tangent.x == 0.0 ? 0.0 : along * f.tangent.x,
+                            f.tangent.y == 0.0 ? 0.0 : along * f.tangent.y};
+    };
+    // No point of an arc is farther from its beginning than it is long.
+    const Vec2 a = f.radius > 0.0 ? f.begin - Vec2{f.to, f.to} : end(f.from);
+    const Vec2 b = f.radius > 0.0 ? f.begin + Vec2{f.to, f.to} : end(f.to);
+    boxes.push_back(
+        {{std::min(a.x, b.x), std::min(a.y, b.y)}, {std::max(a.x, b.x), std::max(a.y, b.y)}});
+  }
+  boxes_ = BoxTree(boxes);
 }
 
 Ground::Projection Ground::project(const Facet& f, Vec2 x) noexcept {
@@ -209,16 +226,23 @@ std::pair<std::size_t, std::size_t> Ground::around(Vec2 x) const noexcept {
 }
 
 std::size_t Ground::nearest(Vec2 x, Projection& projection) const noexcept {
+  constexpr std::size_t many = 64;  // are sooner searched by their boxes than looked at
   const auto [first, last] = around(x);
   std::size_t best = first;
   projection = project(facets_[first], x);
-  for (std::size_t k = first + 1; k < last; ++k) {
+  const auto look = [&](std::size_t k) {
     const Projection candidate = project(facets_[k], x);
-    if (candidate.distance < projection.distance) {
+    if (candidate.distance < projection.distance ||
+        (candidate.distance == projection.distance && k < best)) {
       projection = candidate;
       best = k;
     }
-  }
+    return projection.distance;
+  };
+  if (last - first > many)
+    boxes_.each_near(x, look);
+  else
+    for (std::size_t k = first + 1; k < last; ++k) look(k);
   // Where a corner itself is nearest, both facets are equally far, and the point may be on the
   // wrong side of the line of one: it is outside a convex corner if it is before either facet,
   // inside a concave one if it is behind either.
@@ -263,6 +287,14 @@ Touch Ground::facet_near(Vec2 x) const noexcept {
   Projection p;
   static_cast<void>(nearest(x, p));
   return {p.gap, p.normal};
+}
+
+std::span<const Corner> Ground::corners(double low, double high) const noexcept {
+  const auto from = std::ranges::lower_bound(corners_, low - bend_reach_, {},
+                                             [](const Corner& c) { return c.position.x; });
+  const auto to = std::upper_bound(from, corners_.end(), high + bend_reach_,
+                                   [](double x, const Corner& c) { return x < c.position.x; });
+  return {from, to};
 }
 
 bool Ground::has_concave_corners() const noexcept {

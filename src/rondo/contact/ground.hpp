@@ -10,6 +10,7 @@
 #include <utility>
 #include <vector>
 
+#include "rondo/contact/box_tree.hpp"
 #include "rondo/core/vec2.hpp"
 
 namespace rondo::contact {
@@ -83,10 +84,15 @@ class Ground {
   /// radius is below the spacing of the nodes. Where the surface turns by less than blunt_turn
   /// within a spacing there is none.
   [[nodiscard]] std::span<const Corner> corners() const noexcept { return corners_; }
+  /// Of these, at least the ones that have a point with x from `low` to `high` [m].
+  [[nodiscard]] std::span<const Corner> corners(double low, double high) const noexcept;
   /// All convex bends, the blunt ones and all arcs too, left to right.
   [[nodiscard]] std::span<const Corner> bends() const noexcept { return bends_; }
   /// How far from its `position` a point of a bend may be: 0 where all are sharp           [m]
   [[nodiscard]] double bend_reach() const noexcept { return bend_reach_; }
+  /// Points of the surface in a box: ends of facets, and so many between them that none is farther
+  /// than `spacing` from the next [m]. @pre spacing > 0
+  [[nodiscard]] std::vector<Vec2> surface_points(Vec2 low, Vec2 high, double spacing) const;
   /// No ground above this height; infinite where the ground rises for ever                [m]
   [[nodiscard]] double top() const noexcept { return top_; }
 
@@ -109,6 +115,11 @@ class Ground {
     double distance = 0.0;  ///< to the facet's nearest point, >= 0                          [m]
     Vec2 normal;
   };
+  void add_boxes();
+  /// Abscissas of a facet's ends as far as it may be in the box; the first is the larger: it is
+  /// not.
+  [[nodiscard]] static std::pair<double, double> within(const Facet& facet, Vec2 low, Vec2 high);
+  [[nodiscard]] static Vec2 point_of(const Facet& facet, double along) noexcept;
   [[nodiscard]] static Projection project(const Facet& facet, Vec2 x) noexcept;
   [[nodiscard]] std::size_t nearest(Vec2 x, Projection& projection) const noexcept;
   /// The first facet that may be the nearest, and the one after the last.
@@ -125,6 +136,7 @@ class Ground {
 
   std::vector<Facet> facets_;
   std::vector<double> begins_;  ///< (n_facets) x of their beginnings [m]
+  BoxTree boxes_;               ///< of the facets
   std::vector<Corner> bends_, corners_;
   double bend_reach_ = 0.0;                               ///< [m]
   double top_ = std::numeric_limits<double>::infinity();  ///< [m]

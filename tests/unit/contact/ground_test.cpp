@@ -263,6 +263,29 @@ TEST(Ground, ManyFacetsAreSearched) {
   }
 }
 
+/// Of a stretch: all that have a point in it, among those of the whole.
+TEST(Ground, CornersOfAStretch) {
+  for (const double fillet : {0.0, 1e-3}) {
+    GroundShape shape{.profile = {{-10.0, 0.0}}, .fillet = fillet};
+    for (int i = 0; i < 50; ++i)
+      for (const double y : {0.0, 0.01}) shape.profile.push_back({0.02 * i + 2.0 * y / 4.0, y});
+    ASSERT_TRUE(shape_faults(shape).empty());
+    const Ground ground(shape, 0.01);
+    ASSERT_EQ(ground.corners().size(), 49U);
+    for (const double low : {-20.0, 0.2, 0.7, 5.0}) {
+      const auto some = ground.corners(low, low + 0.1);
+      for (const Corner& corner : ground.corners()) {
+        const bool inside = corner.position.x >= low && corner.position.x <= low + 0.1;
+        const bool listed = &corner >= some.data() && &corner < some.data() + some.size();
+        EXPECT_TRUE(listed || !inside) << low;
+        if (fillet == 0.0) {
+          EXPECT_EQ(listed, inside) << low;
+        }
+      }
+    }
+  }
+}
+
 TEST(Ground, FaultsAreNamed) {
   const auto first = [](const GroundShape& shape) {
     const auto faults = shape_faults(shape);

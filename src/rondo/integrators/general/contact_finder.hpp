@@ -3,6 +3,7 @@
 /// corners of the ground on segments, candidates on segments of other bodies or of their own.
 #pragma once
 #include <cstddef>
+#include <utility>
 #include <vector>
 
 #include "rondo/contact/segment.hpp"
@@ -51,7 +52,7 @@ class ContactFinder {
 
  private:
   void find_on_ground(std::size_t candidate, std::vector<ContactRow>& rows) const;
-  void find_corners(std::vector<ContactRow>& rows) const;
+  void find_corners(std::vector<ContactRow>& rows);
   void find_corner(std::size_t corner, std::span<const int> edges,
                    std::vector<ContactRow>& rows) const;
   void find_segments(std::vector<ContactRow>& rows);
@@ -84,7 +85,8 @@ class ContactFinder {
   std::vector<int> near_nodes_;   ///< of what is near, ascending
   std::vector<char> is_near_;     ///< (n)
   std::vector<int> facing_;       ///< edges near a node that face it
-  std::vector<int> all_edges_;    ///< of the ground's side: few corners, each looks at them all
+  std::vector<std::pair<std::size_t, int>> corner_edges_;  ///< corners and edges near each other
+  std::vector<int> near_corner_;                           ///< edges near one corner, ascending
   std::vector<ContactRow> corner_rows_;
   std::vector<int> touched_;  ///< nodes of corner_rows_, ascending
 };
