@@ -2,7 +2,7 @@
 """Wrong cases: exit code 2, file and place named, the value and what is allowed, nothing left behind."""
 import unittest
 
-from program import LEDGE, ProgramTest, line_of, replaced, run
+from program import LEDGE, ProgramTest, ROOT, line_of, replaced, run
 
 # (what, line of cases/ledge-smooth.toml to replace, replacement, fragments expected in the message)
 EDITS = [
@@ -74,6 +74,21 @@ EDITS = [
 ]
 
 
+# What stands in the body at the start where no node of its boundary is: (what, case, settings).
+WEDGE = "ground.profile=[[-10,0],[0.002,0],[0.005,0.1],[0.008,0],[10,0]]"
+INSIDE = [
+    ("a wedge", "rolling-flat", [WEDGE]),
+    ("its tip rounded", "rolling-flat", [WEDGE, "ground.fillet=0.0004"]),
+    ("a post whose top is above the body", "rolling-flat",
+     ["ground.profile=[[-10,0],[0.204,0],[0.204,0.5],[0.206,0.5],[0.206,0],[10,0]]",
+      "motion.speed=0"]),
+    ("a free body", "thrown-disk",
+     ["ground.profile=[[-10,0],[0.0030,0],[0.0035,0.02],[0.0040,0],[10,0]]"]),
+    ("a block of a mesh", "block-on-incline",
+     ["ground.profile=[[-10,0],[0.0030,0],[0.0045,0.02],[0.0060,0],[10,0]]", "initial.angle=0"]),
+]
+
+
 class WrongCases(ProgramTest):
     def refused(self, case, fragments, line=None, extra=()):
         """Exit 2, every fragment said, the place named, no results directory."""
@@ -112,6 +127,20 @@ class WrongCases(ProgramTest):
         text = replaced(replaced(LEDGE, "start_x", "start_x = 0.5"), "height", "height = 0.25")
         self.refused(self.case(text), ["motion.height", "inside the ground", "half an element"],
                      line_of(text, "height"))
+
+    def test_ground_inside_the_body_between_its_nodes(self):
+        for what, case, settings in INSIDE:
+            with self.subTest(what):
+                sets = [word for setting in settings for word in ("--set", setting)]
+                self.refused(ROOT / "cases" / f"{case}.toml",
+                             ["the ground stands", "deep inside the body at the start, at (",
+                              "half an element"], extra=sets)
+
+    def test_little_ground_inside_the_body_is_told(self):
+        done = run("check", ROOT / "cases" / "rolling-flat.toml", "--set", "motion.height=0.3",
+                   "--set", "ground.profile=[[-10,0],[0.002,0],[0.005,0.003],[0.008,0],[10,0]]")
+        self.assertEqual(done.returncode, 0, done.stderr)
+        self.assertIn("the ground stands 0.002", done.stderr)
 
     def test_no_stationary_state_beyond_the_softening_limit(self):
         text = replaced(LEDGE, "state", 'state = "stationary"')
