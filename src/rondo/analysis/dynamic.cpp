@@ -259,10 +259,8 @@ void DynamicAnalysis::take(const dynamics::StepReport& step, const dynamics::Sta
 /// before.
 void DynamicAnalysis::judge(const dynamics::StepReport& step) {
   warn_of_impacts(step);
-  OutOfBound found = step.contact.unseen > 0.0
-                         ? OutOfBound{missed_corner(step.contact.unseen), false}
-                     : step.contact.two_facets ? OutOfBound{held_by_two_facets(), false}
-                                               : find_out_of_bound(step.balance, contact_, bounds_);
+  OutOfBound found{contact_not_found(step.contact), false};
+  if (found.what.empty()) found = find_out_of_bound(step.balance, contact_, bounds_);
   if (found.what.empty() && setup_.model.rim) found = {look_at_rim(step), false};
   if (step.material.least_volume <= 0.0) {
     dynamics::State now(setup_.model);  // after the steps of this call

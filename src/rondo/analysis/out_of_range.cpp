@@ -140,18 +140,25 @@ std::string not_finite(const dynamics::State& state, const std::string& otherwis
   return found.empty() ? otherwise : found;
 }
 
-std::string missed_corner(double way) {
-  return fmt::format(
-      "a node has moved {:.3g} m in the last steps, farther than touches of the sharp corners of "
-      "the ground were looked for: one may be missed; a smaller time.step, or ground.fillet > 0",
-      way);
-}
-
-std::string held_by_two_facets() {
-  return "a contact node without mass is held by two facets of the ground at a concave corner, "
-         "which "
-         "is not done; solver.contact_mass = \"lumped\", or a ground.profile whose concave corners "
-         "the body does not reach";
+std::string contact_not_found(const dynamics::ContactReport& step) {
+  if (step.unseen > 0.0)
+    return fmt::format(
+        "a node has moved {:.3g} m in the last steps, farther than touches of the sharp corners of "
+        "the ground were looked for: one may be missed; a smaller time.step, or ground.fillet > 0",
+        step.unseen);
+  if (step.two_facets)
+    return "a contact node without mass is held by two facets of the ground at a concave corner, "
+           "which is not done; solver.contact_mass = \"lumped\", or a ground.profile whose concave "
+           "corners the body does not reach";
+  if (step.late > 0.0)
+    return fmt::format(
+        "a contact begins {:.3g} m deep at ({:.6g}, {:.6g}) m, deeper than its sides came in this "
+        "step: it was inside the body before, and nothing met it there. A mesh that is finer "
+        "there, "
+        "a larger ground.fillet, a smaller time.step; or a start and a mesh.contact with which the "
+        "boundary that may touch meets it from outside",
+        step.late, step.late_at.x, step.late_at.y);
+  return {};
 }
 
 std::string felt_joint() {

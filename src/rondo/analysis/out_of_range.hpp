@@ -43,11 +43,10 @@ std::string impact_cure(const dynamics::Model& model);
 /// What is said of the energy that impacts created, with its bound.
 std::string created_by_impacts(const dynamics::Balance& balance, double bound, const Bounds& of);
 
-/// What is said where a node has moved that far [m] between two looks for sharp corners.
-std::string missed_corner(double way);
-
-/// What is said where a node without mass is held by two facets of the ground.
-std::string held_by_two_facets();
+/// What is wrong with how a step found its contacts: a node that moved farther than sharp corners
+/// were looked for, one without mass that two facets hold, a contact that was found late. Empty:
+/// nothing.
+std::string contact_not_found(const dynamics::ContactReport& step);
 
 /// What is said where contact felt how the parts of the scheme "hati" were joined.
 std::string felt_joint();

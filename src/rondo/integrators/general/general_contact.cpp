@@ -79,6 +79,7 @@ ContactReport GeneralContact::solve_found(const BodyFrames& frames, Vec2 center,
     return report;
   }
   set_velocities(frames, state);
+  look_for_late(frames, report);
   find_clusters();
   const contact::Clusters& clusters = cluster_finder_.find(node_start_, nodes_, model_.n_nodes());
   for (std::size_t k = 0; k < clusters.size(); ++k) {
@@ -135,6 +136,29 @@ void GeneralContact::set_velocities(const BodyFrames& frames, const State& state
     row.bounce = contact::restitution_shift(row.law, row.before.x, row.before.x - row.turning);
     row.impulse = {};
     row.status = Status::open;
+  }
+}
+
+/// The corner, or the node, was behind some segment in the step before.
+bool GeneralContact::was_found(const ContactRow& row) const noexcept {
+  const auto point = [](std::uint64_t key) { return key >> key_bits_of_edge; };
+  const auto found = std::ranges::lower_bound(kept_, point(row.key), {},
+                                              [&](const auto& kept) { return point(kept.first); });
+  return found != kept_.end() && point(found->first) == point(row.key);
+}
+
+/// What is deeper behind a segment than it came in this step was there in the step before, and has
+/// been met by nothing. In the first step of a run it may start so.
+void GeneralContact::look_for_late(const BodyFrames& frames, ContactReport& report) const noexcept {
+  const double round_off = 1e-6 * finder_.deepest();
+  for (const ContactRow& row : rows_) {
+    if (row.kind == ContactKind::facet) continue;
+    const double travel = model_.dt * (norm(row.before) + std::abs(row.turning));
+    const double depth = -row.gap;
+    if (depth <= std::max(report.late, travel + round_off) || was_found(row)) continue;
+    if (frames.of(model_, at(row.rows.node[0])).frame.time < 1.25 * model_.dt) continue;
+    report.late = depth;
+    report.late_at = row.point;
   }
 }
 
