@@ -152,11 +152,10 @@ std::string contact_not_found(const dynamics::ContactReport& step) {
            "corners the body does not reach";
   if (step.late > 0.0)
     return fmt::format(
-        "a contact begins {:.3g} m deep at ({:.6g}, {:.6g}) m, deeper than its sides came in this "
-        "step: it was inside the body before, and nothing met it there. A mesh that is finer "
-        "there, "
-        "a larger ground.fillet, a smaller time.step; or a start and a mesh.contact with which the "
-        "boundary that may touch meets it from outside",
+        "a contact begins {:.3g} m deep at ({:.6g}, {:.6g}) m: it was inside the body a step "
+        "before, "
+        "and nothing met it there. A smaller time.step, a mesh that is finer there, a larger "
+        "ground.fillet; or a mesh.contact that names all of the boundary that comes there",
         step.late, step.late_at.x, step.late_at.y);
   return {};
 }

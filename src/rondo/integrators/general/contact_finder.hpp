@@ -2,6 +2,7 @@
 /// @file  Where a step has contacts (docs/theory.md, 4.1 and 4.8): candidates on the ground, sharp
 /// corners of the ground on segments, candidates on segments of other bodies or of their own.
 #pragma once
+#include <array>
 #include <cstddef>
 #include <utility>
 #include <vector>
@@ -47,6 +48,11 @@ class ContactFinder {
   [[nodiscard]] std::span<const Vec2> positions() const noexcept { return positions_; }
   /// Edges that a corner of the ground may touch: those of ContactModel, in their order.
   [[nodiscard]] const contact::Boundary& ground_side() const noexcept { return ground_side_; }
+  /// Edges beside that of a corner's or a segment's row, -1: there is none.
+  [[nodiscard]] const std::array<int, 2>& beside(const ContactRow& row) const noexcept {
+    const auto edge = static_cast<std::size_t>(row.key & ((1ULL << key_bits_of_edge) - 1));
+    return (row.kind == ContactKind::corner ? ground_side_ : surface_).beside[edge];
+  }
   /// How far a touch is looked for                                                    [m]
   [[nodiscard]] double deepest() const noexcept { return deepest_; }
 

@@ -147,17 +147,28 @@ bool GeneralContact::was_found(const ContactRow& row) const noexcept {
   return found != kept_.end() && point(found->first) == point(row.key);
 }
 
-/// What is deeper behind a segment than it came in this step was there in the step before, and has
-/// been met by nothing. In the first step of a run it may start so.
+/// It may have come in beside the segment, at an end without a neighbour.
+bool GeneralContact::came_round_an_end(const ContactRow& row) const noexcept {
+  const bool corner = row.kind == ContactKind::corner;
+  const Vec2 a = finder_.positions()[at(row.rows.node[corner ? 0 : 1])];
+  const Vec2 along = finder_.positions()[at(row.rows.node[corner ? 1 : 2])] - a;
+  const double length = norm(along), foot = dot(along, row.point - a) / length;
+  const double way = 1.01 * model_.dt * std::abs(row.before.y);
+  const auto& beside = finder_.beside(row);
+  return (foot <= way && beside[0] < 0) || (length - foot <= way && beside[1] < 0);
+}
+
+/// What was behind its segment in the step before already, and was found behind none then, has been
+/// met by nothing. In the first step of a run it may start so.
 void GeneralContact::look_for_late(const BodyFrames& frames, ContactReport& report) const noexcept {
   const double round_off = 1e-6 * finder_.deepest();
   for (const ContactRow& row : rows_) {
-    if (row.kind == ContactKind::facet) continue;
-    const double travel = model_.dt * (norm(row.before) + std::abs(row.turning));
-    const double depth = -row.gap;
-    if (depth <= std::max(report.late, travel + round_off) || was_found(row)) continue;
-    if (frames.of(model_, at(row.rows.node[0])).frame.time < 1.25 * model_.dt) continue;
-    report.late = depth;
+    if (row.kind == ContactKind::facet || -row.gap <= report.late) continue;
+    const double gap_before = row.gap - model_.dt * row.before.x;
+    if (-gap_before <= round_off + model_.dt * std::abs(row.turning) || was_found(row)) continue;
+    const double time = frames.of(model_, at(row.rows.node[0])).frame.time;
+    if (time < 1.25 * model_.dt || came_round_an_end(row)) continue;
+    report.late = -row.gap;
     report.late_at = row.point;
   }
 }
