@@ -84,7 +84,7 @@ class Ground {
   /// radius is below the spacing of the nodes. Where the surface turns by less than blunt_turn
   /// within a spacing there is none.
   [[nodiscard]] std::span<const Corner> corners() const noexcept { return corners_; }
-  /// Of these, at least the ones that have a point with x from `low` to `high` [m].
+  /// At least those corners that have a point with x from `low` to `high` [m].
   [[nodiscard]] std::span<const Corner> corners(double low, double high) const noexcept;
   /// All convex bends, the blunt ones and all arcs too, left to right.
   [[nodiscard]] std::span<const Corner> bends() const noexcept { return bends_; }

@@ -36,8 +36,8 @@ struct ContactReport {
   /// How far a node has come in the last steps, where that is farther than sharp corners were
   /// looked for around it: a touch may be missed. 0: none is [m]
   double unseen = 0.0;
-  /// Depth of a contact that began deeper than its sides came in the step, so that it stood there
-  /// before and was not found; 0: there is none                                          [m]
+  /// Depth of a contact that was there a step before already and was not found then; 0: there is
+  /// none                                                                                [m]
   double late = 0.0;
   Vec2 late_at;  ///< where that is, fixed frame                                        [m]
   // Works of the impulses (5.3), (5.5) [J/m].

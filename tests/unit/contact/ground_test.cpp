@@ -263,7 +263,7 @@ TEST(Ground, ManyFacetsAreSearched) {
   }
 }
 
-/// Of a stretch: all that have a point in it, among those of the whole.
+/// The corners of a stretch are all that have a point in it.
 TEST(Ground, CornersOfAStretch) {
   for (const double fillet : {0.0, 1e-3}) {
     GroundShape shape{.profile = {{-10.0, 0.0}}, .fillet = fillet};

@@ -125,7 +125,7 @@ void check_nodes(const Case& c, const std::vector<double>& size, const std::vect
                   depth.deepest));
 }
 
-/// Likewise of the ground between the nodes: what stands that deep in a cell is met by no node.
+/// Ground between the nodes that stands as deep in a cell is met by no node: refused as well.
 void check_ground_inside(const Case& c, const std::vector<double>& size, const std::vector<Vec2>& x,
                          Setup& s) {
   const GroundInside found = find_ground_inside(s, x, size);
