@@ -13,6 +13,7 @@
 #include <utility>
 
 #include "rondo/core/error.hpp"
+#include "rondo/core/files/regular_file.hpp"
 #include "rondo/fmu/saved_bytes.hpp"
 
 namespace rondo::fmu {
@@ -33,6 +34,7 @@ std::filesystem::path folder_of(const std::string& uri) {
 }
 
 nlohmann::json read_settings(const std::filesystem::path& file) {
+  demand_regular_file(file);
   std::ifstream in(file);
   nlohmann::json settings = nlohmann::json::parse(in, nullptr, false);
   if (settings.is_object()) return settings;

@@ -13,9 +13,10 @@
 
 namespace rondo::reader {
 
-SourceText::SourceText(const std::string& path) : file(open(path.c_str(), O_RDONLY)) {
+SourceText::SourceText(const std::string& path) : file(open(path.c_str(), O_RDONLY | O_NONBLOCK)) {
   struct stat status {};
   if (file < 0 || fstat(file, &status) != 0) throw std::string(std::strerror(errno));
+  if (!S_ISREG(status.st_mode)) throw std::string("it is not a regular file");
   size = static_cast<std::uint64_t>(status.st_size);
   if (size == 0) throw std::string("the file is empty");
   void* const place = mmap(nullptr, size, PROT_READ, MAP_PRIVATE, file, 0);

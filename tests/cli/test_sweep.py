@@ -308,6 +308,31 @@ class Refused(SweepTest):
             self.assertEqual((self.out / name).read_text(), "precious")
             shutil.rmtree(self.out)
 
+    def test_a_damaged_record_can_be_overwritten(self):
+        self.sweep()
+        (self.out / "sweep.json").write_bytes(bytes(100))
+        done = self.sweep("--resume", code=4)
+        self.assertIn("sweep.json: is damaged: not JSON; give --overwrite to make the sweep anew",
+                      done.stderr)
+        self.sweep("--overwrite")
+
+    def test_runs_that_were_damaged_since_are_made_again(self):
+        text = STUDY.replace('base =', 'snapshots = true\nbase =')
+        self.sweep(text=text)
+        whole = {path: path.read_bytes() for path in sorted(self.out.glob("runs/*/*.[ch]*"))}
+        history, contact, results = (self.out / "runs" / f"{run:04}" / name for run, name in (
+            (2, "history.csv"), (4, "contact.csv"), (6, "results.h5")))
+        history.write_bytes(whole[history].replace(b"\n0.0", b"\n0.1", 1))
+        contact.write_bytes(whole[contact][:-40] + bytes(40))
+        with h5py.File(results, "r+") as f:
+            f["/fields/von_mises"][5, 7] = np.inf
+        inodes = {path: path.stat().st_ino for path in whole}
+        self.sweep("--resume", text=text)
+        again = {path.parent.name for path in whole if path.stat().st_ino != inodes[path]}
+        self.assertEqual(again, {"0002", "0004", "0006"})
+        for path, content in whole.items():
+            self.assertEqual(path.read_bytes(), content, path)
+
     def test_settings_of_what_is_varied(self):
         self.assertIn("is varied", self.sweep("--set", "ground.friction=0.5", code=2).stderr)
         self.assertIn("snapshots = true",

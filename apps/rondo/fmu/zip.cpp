@@ -7,6 +7,7 @@
 #include <system_error>
 
 #include "rondo/core/error.hpp"
+#include "rondo/io/files.hpp"
 
 namespace rondo::app {
 namespace {
@@ -29,6 +30,7 @@ bool add(zipFile zip, const ZipEntry& entry) {
 void write_zip(const fs::path& file, const std::vector<ZipEntry>& entries) {
   fs::path part = file;
   part += ".part";
+  const io::UnfinishedFile unfinished(part);
   const zipFile zip = zipOpen64(part.c_str(), APPEND_STATUS_CREATE);
   bool done = zip != nullptr;
   for (const ZipEntry& entry : entries) done = done && add(zip, entry);
@@ -36,7 +38,6 @@ void write_zip(const fs::path& file, const std::vector<ZipEntry>& entries) {
   std::error_code error;
   if (done) fs::rename(part, file, error);
   if (done && !error) return;
-  fs::remove(part, error);
   throw FileError(file.string(), "cannot be written");
 }
 

@@ -58,6 +58,7 @@ void remove_one(const fs::path& file) {
 void remove_pods(const fs::path& directory) {
   std::error_code error;
   for (const auto& entry : fs::directory_iterator(directory / "pod", error)) {
+    remove_left_unfinished(entry.path());
     for (const char* name : pod_files) remove_one(entry.path() / name);
     if (fs::is_empty(entry.path(), error)) remove_one(entry.path());
   }

@@ -290,8 +290,17 @@ void Results::write(const Snapshot& s) {
   if (vtkhdf_) vtkhdf_->add(s.time);
 }
 
+KeptSnapshots Results::place() const {
+  if (!file_) return at_end_;
+  KeptSnapshots kept{.count = written_, .hashes = {}};
+  for (const h5::Dataset* dataset : all_rows_)
+    kept.hashes[dataset->name()] = dataset->hash_of_written();
+  return kept;
+}
+
 void Results::close() {
   if (!file_) return;
+  at_end_ = place();
   resize(written_);
   all_rows_.clear();
   d_ = {};

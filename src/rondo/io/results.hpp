@@ -10,6 +10,7 @@
 #include <array>
 #include <cstddef>
 #include <filesystem>
+#include <map>
 #include <memory>
 #include <optional>
 #include <span>
@@ -94,6 +95,19 @@ struct Snapshot {
   double lateral = 0.0;  ///< of a solid mesh: of the center, along t2        [m]
 };
 
+/// What results.h5 held at some moment: so many snapshots, and for each dataset with a row for each
+/// of them, by its name, the hash of these rows.
+struct KeptSnapshots {
+  std::size_t count = 0;
+  std::map<std::string, std::string> hashes;
+
+  friend bool operator==(const KeptSnapshots&, const KeptSnapshots&) = default;
+};
+
+/// @throws FileError: cannot be read, holds fewer, or differs in a bit of these; the message names
+/// dataset and snapshot where one holds what is no finite number
+void demand_kept(const std::filesystem::path& results, const KeptSnapshots& kept);
+
 class Results {
  public:
   /// Creates directory/results.h5 and, of fields, fields.xdmf and fields.vtkhdf beside it. @param
@@ -113,6 +127,8 @@ class Results {
   /// Cuts to what was written and closes. @throws FileError
   void close();
   [[nodiscard]] std::size_t written() const noexcept { return written_; }
+  /// What it holds by now, also once it is closed.
+  [[nodiscard]] KeptSnapshots place() const;
   /// All that was written is on the disk, whatever happens to the machine. @throws FileError
   void sync() const;
 
@@ -171,6 +187,7 @@ class Results {
   std::vector<double> tributary_;
   std::vector<int> free_body_;
   std::size_t written_ = 0;
+  KeptSnapshots at_end_;  ///< once it is closed
   std::vector<std::array<float, 3>> vectors_, forces_;
   std::vector<std::array<float, 6>> tensors_;
   std::vector<float> scalars_;

@@ -1,10 +1,41 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// The datasets of results.h5: names, shapes, units.
+#include <fmt/format.h>
+
+#include "rondo/core/error.hpp"
 #include "rondo/io/results.hpp"
 
 namespace rondo::io {
 
 using h5::Type;
+
+namespace {
+
+void demand_kept_rows(const h5::File& file, const std::string& name, std::size_t rows,
+                      const std::string& hash) {
+  const h5::Shape shape(file.dataset(name).shape().size(), h5::any);
+  const h5::Dataset dataset = file.dataset(name, shape);
+  if (shape.empty() || dataset.shape()[0] < rows)
+    throw FileError(
+        file.path(),
+        fmt::format("{} holds fewer than the {} snapshots that were written: damaged", name, rows));
+  if (dataset.hash_of_rows(rows) == hash) return;
+  const std::optional<std::size_t> bad = dataset.first_not_finite(rows);
+  throw FileError(file.path(),
+                  bad ? fmt::format("{} holds a number that is not finite in snapshot {} (counted "
+                                    "from 0): damaged",
+                                    name, *bad)
+                      : fmt::format("the first {} snapshots of {} are not what was written: "
+                                    "damaged",
+                                    rows, name));
+}
+
+}  // namespace
+
+void demand_kept(const std::filesystem::path& results, const KeptSnapshots& kept) {
+  const h5::File file = h5::File::open(results);
+  for (const auto& [name, hash] : kept.hashes) demand_kept_rows(file, name, kept.count, hash);
+}
 
 void Results::add_rows(h5::Dataset& to, const std::string& name, Type type, const h5::Shape& shape,
                        const h5::Label& label) {

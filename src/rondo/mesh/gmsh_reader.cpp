@@ -13,6 +13,7 @@
 #include <sstream>
 #include <utility>
 
+#include "rondo/core/files/regular_file.hpp"
 #include "rondo/mesh/gmsh_draft.hpp"
 
 namespace rondo::mesh {
@@ -26,16 +27,16 @@ constexpr std::uint64_t largest_file = 12'000'000'000;
 
 /// Throws FileError: why the file cannot be opened.
 std::pair<std::string, std::uint64_t> beginning_of(const std::filesystem::path& file) {
-  const int opened = open(file.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK);
+  demand_regular_file(file);
+  const int opened = open(file.c_str(), O_RDONLY | O_CLOEXEC);
   if (opened < 0)
     throw FileError(file.string(), fmt::format("cannot be opened: {}", std::strerror(errno)));
   struct stat status {};
-  const bool regular = fstat(opened, &status) == 0 && S_ISREG(status.st_mode);
   std::array<char, 4096> text{};
-  const ssize_t got = regular ? pread(opened, text.data(), text.size(), 0) : 0;
+  const ssize_t got =
+      fstat(opened, &status) == 0 ? pread(opened, text.data(), text.size(), 0) : -1;
   const int error = errno;
   close(opened);
-  if (!regular) throw FileError(file.string(), "is not a file");
   if (got < 0)
     throw FileError(file.string(), fmt::format("cannot be read: {}", std::strerror(error)));
   return {std::string(text.data(), static_cast<std::size_t>(got)),

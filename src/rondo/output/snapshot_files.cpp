@@ -12,14 +12,16 @@
 namespace rondo::study {
 namespace {
 
+constexpr const char* contact_name = "contact.csv";
+
 io::Csv contact_file(const std::filesystem::path& directory, const RecordPlan& plan,
                      const Checkpoint* from) {
-  const std::filesystem::path file = directory / "contact.csv";
+  const std::filesystem::path file = directory / contact_name;
   const bool solid = plan.results.mesh->is_solid();
   std::vector<ColumnLabel> labels = labels_of(solid ? solid_contact_columns() : contact_columns());
   for (ColumnLabel& label : labels_of(plan.contact_columns)) labels.push_back(std::move(label));
   const std::vector<std::string> names = names_of(labels);
-  return from ? io::Csv(file, names, from->files.contact_bytes) : io::Csv(file, names);
+  return from ? io::Csv(file, names, from->files.table(contact_name)) : io::Csv(file, names);
 }
 
 }  // namespace
@@ -31,7 +33,8 @@ SnapshotFiles::SnapshotFiles(const std::filesystem::path& directory, const Recor
       model_(plan.model),
       contact_(plan.results.contact),
       further_columns_(plan.contact_columns),
-      results_(directory, plan.results, from ? std::optional(from->files.snapshots) : std::nullopt),
+      results_(directory, plan.results,
+               from ? std::optional(from->files.snapshots.count) : std::nullopt),
       contact_csv_(contact_file(directory, plan, from)) {
   if (plan.results.stress && !mesh_.is_solid()) stress_.emplace(mesh_, plan.materials);
   if (plan.results.stress && mesh_.is_solid()) solid_stress_.emplace(mesh_, plan.materials);
@@ -170,6 +173,11 @@ void SnapshotFiles::write(const Snapshot& snapshot) {
 void SnapshotFiles::sync() const {
   results_.sync();
   io::sync_file(contact_csv_.path());
+}
+
+void SnapshotFiles::add_to(KeptFiles& files) const {
+  files.tables[contact_name] = contact_csv_.place();
+  files.snapshots = results_.place();
 }
 
 void SnapshotFiles::close() {

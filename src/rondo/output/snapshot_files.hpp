@@ -25,7 +25,8 @@ class SnapshotFiles {
   /// @throws FileError
   void close();
   [[nodiscard]] std::size_t written() const { return results_.written(); }
-  [[nodiscard]] std::size_t contact_bytes() const { return contact_csv_.bytes(); }
+  /// What they hold by now, also once they are closed.
+  void add_to(KeptFiles& files) const;
   /// All that was written is on the disk, whatever happens to the machine. @throws FileError
   void sync() const;
 

@@ -16,6 +16,7 @@
 #include "rondo/analysis/crush/latin_outcome.hpp"
 #include "rondo/analysis/crush/pgd_files.hpp"
 #include "rondo/io/csv.hpp"
+#include "rondo/output/kept/kept_files.hpp"
 #include "rondo/statics/latin/latin.hpp"
 #include "rondo/statics/latin/pgd.hpp"
 #include "rondo/statics/latin/springs.hpp"
@@ -265,6 +266,7 @@ void LatinSolver::describe(Json& j) const {
 }
 
 void LatinSolver::summarise(const statics::CrushState& /*state*/, Json& j, RunReport& /*r*/) const {
+  if (convergence_) j["files"]["convergence.csv"] = as_json(convergence_->place());
   j["candidates_condensed"] = body_->set().size();
   j["iterations"] = report_.iterations;
   j["indicator"] = report_.indicator;

@@ -9,6 +9,7 @@
 #include "rondo/analysis/run.hpp"
 #include "rondo/core/error.hpp"
 #include "rondo/io/files.hpp"
+#include "rondo/output/checkpoint.hpp"
 #include "rondo/output/run_files.hpp"
 #include "rondo/study/sweep/kept_runs.hpp"
 #include "rondo/study/sweep/sweep_directory.hpp"
@@ -57,13 +58,17 @@ MemberRow direct_row(MemberRunner& runner, const Case& c, const std::atomic<bool
   return row;
 }
 
-/// A run of this case and this program was killed or interrupted there; anything else is made
-/// anew.
+/// A run of this case and this program was killed or interrupted there, and what its checkpoint
+/// goes on with is whole; anything else is made anew.
 bool can_go_on(const fs::path& directory, const Case& c) {
   try {
     const Json j = io::read_json(directory / "run.json");
-    return text_in(j, "status") != "done" && j.value("resumable", false) && is_of_this_program(j) &&
-           is_case_of(directory, c);
+    if (text_in(j, "status") == "done" || !j.value("resumable", false) || !is_of_this_program(j) ||
+        !is_case_of(directory, c))
+      return false;
+    if (fs::exists(directory / checkpoint_name))
+      demand_kept(directory, read_checkpoint(directory).files);
+    return true;
   } catch (const FileError&) {
     return false;
   }

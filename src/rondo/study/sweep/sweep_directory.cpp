@@ -29,7 +29,10 @@ Json read_sweep(const fs::path& directory) {
   try {
     found = io::read_json(directory / "sweep.json");
   } catch (const FileError& error) {
-    throw FileError(error, "remove it, or choose another -o");
+    std::error_code none;
+    throw FileError(error, fs::exists(directory / shards_folder, none)
+                               ? "remove it, and collect the shards again"
+                               : "give --overwrite to make the sweep anew, or choose another -o");
   }
   if (text_in(found, "format") != sweep_format)
     io::refuse_directory(directory,
@@ -39,9 +42,14 @@ Json read_sweep(const fs::path& directory) {
   return found;
 }
 
-/// A sweep.json is there. @throws InputError, FileError
+/// A sweep.json is there. A damaged one is no hindrance to a sweep that begins anew.
+/// @throws InputError, FileError
 void accept(const SweepRequest& request, const std::string& hash) {
-  static_cast<void>(read_sweep(request.directory));
+  try {
+    static_cast<void>(read_sweep(request.directory));
+  } catch (const FileError&) {
+    if (!request.overwrite) throw;
+  }
   if (request.overwrite) return;
   if (!request.resume)
     io::refuse_directory(request.directory, "holds a sweep",
