@@ -116,7 +116,15 @@ std::string document(const Json& result, int code, const Kept& told) {
   json["faults"] = faults_of(told.faults);
   json["warnings"] = told.warnings;
   json["result"] = result;
-  return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+  constexpr int indent = 2;
+  try {
+    return json.dump(indent) + "\n";
+  } catch (const Json::type_error&) {  // the name of a file or folder is no UTF-8
+    json["warnings"].push_back(
+        "a name in this document is not UTF-8, which JSON cannot hold: U+FFFD stands there for the "
+        "bytes that are none, and nothing is found by that name; take a name in UTF-8");
+    return json.dump(indent, ' ', false, Json::error_handler_t::replace) + "\n";
+  }
 }
 
 }  // namespace

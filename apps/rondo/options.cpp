@@ -20,6 +20,11 @@ void add_case(CLI::App& command, CaseArguments& arguments,
       ->expected(1);
 }
 
+/// An option of which nothing is left, as where a variable of the shell is not set.
+std::string refuse_empty(const std::string& text) {
+  return text.empty() ? "is empty: a name is to follow, or the option is to be left out" : "";
+}
+
 void add_threads(CLI::App& command, int& threads) {
   command.add_option("--threads", threads, "threads; chosen by size if left out")
       ->check(CLI::Range(1, 1024));
@@ -70,7 +75,8 @@ CLI::App* add_run(CLI::App& program, RunArguments& arguments, Telling& tell) {
            "case file (TOML, docs/cases.md); with --resume a results directory will do");
   add_threads(*run, options.threads);
   run->add_option("-o,--output", options.directory,
-                  "results directory; the case's name in the working folder if left out");
+                  "results directory; the case's name in the working folder if left out")
+      ->check(refuse_empty);
   CLI::Option* overwrite =
       run->add_flag("--overwrite", options.overwrite, "replaces another run's results there");
   run->add_flag("--resume", options.resume,
@@ -109,7 +115,9 @@ CLI::App* add_reduce(CLI::App& program, study::ReduceRequest& r, Telling& tell) 
       ->add_option("run", r.runs,
                    "results directories of one disk: other frictions, speeds, heights, spins")
       ->required();
-  reduce->add_option("-o,--output", r.output, "file of the model, e.g. model.h5")->required();
+  reduce->add_option("-o,--output", r.output, "file of the model, e.g. model.h5")
+      ->required()
+      ->check(refuse_empty);
   reduce->add_option(
       "--displacement-modes", r.displacement_modes,
       "modes of the displacements, each with its derivative by the angle; 30 if left out");
@@ -194,7 +202,8 @@ CLI::App* add_pod(CLI::App& program, study::PodRequest& r, Telling& tell) {
                   "snapshots rebuilt from the modes, for ParaView; 0: none")
       ->capture_default_str();
   pod->add_option("-o,--output", r.directory,
-                  "the results go to OUTPUT/<field>-<frame>; RUN/pod if left out");
+                  "the results go to OUTPUT/<field>-<frame>; RUN/pod if left out")
+      ->check(refuse_empty);
   add_telling(*pod, tell, "prints warnings and the results only");
   pod->footer(
       "Example:\n  rondo pod results/ledge --field velocity --frame rectified --from 0.07\n"
@@ -207,9 +216,11 @@ CLI::App* add_modes(CLI::App& program, ModesArguments& arguments, Telling& tell)
       "modes", "frequencies and shapes of a case's body, at rest and spinning; critical speeds");
   study::ModesRequest& r = arguments.request;
   add_case(*modes, arguments);
-  modes->add_option(
-      "-o,--output", r.run.directory,
-      "results directory; the case's name and \"-modes\" in the working folder if left out");
+  modes
+      ->add_option(
+          "-o,--output", r.run.directory,
+          "results directory; the case's name and \"-modes\" in the working folder if left out")
+      ->check(refuse_empty);
   modes->add_option("--count", r.count, "modes at each spin, besides rigid-body motions")
       ->check(CLI::Range(1, 100000))
       ->capture_default_str();
@@ -252,8 +263,10 @@ CLI::App* add_sweep(CLI::App& program, SweepArguments& arguments, Telling& tell)
   CLI::App* sweep = program.add_subcommand(
       "sweep", "a parametric study: many runs of one case, on all cores or under mpirun");
   sweep->add_option("study", r.study, "study file (TOML, docs/studies.md)")->required();
-  sweep->add_option("-o,--output", r.directory,
-                    "directory of the study; its name in the working folder if left out");
+  sweep
+      ->add_option("-o,--output", r.directory,
+                   "directory of the study; its name in the working folder if left out")
+      ->check(refuse_empty);
   sweep
       ->add_option("--set", r.settings,
                    "KEY=VALUE: a key of the base case, for all runs; repeatable")

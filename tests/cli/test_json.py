@@ -138,6 +138,12 @@ class Run(JsonTest):
             found = self.result("run", self.case(text), "-o", f"{self.out}{k}", *sets)
             self.assertEqual(found["run"]["status"], "done")
 
+    def test_into_a_folder_whose_name_is_no_utf8(self):
+        out = os.fsdecode(os.fsencode(self.folder) + b"/fo\xffder")
+        document = self.answer(0, "run", self.case(), "-o", out)
+        self.assertEqual(document["result"]["directory"], f"{self.folder}/fo\ufffdder")
+        self.assertIn("a name in this document is not UTF-8", document["warnings"][-1])
+
     def test_wrong_input(self):
         self.assertEqual(self.answer(2, "run", self.case(), "-o", self.out, "--set",
                                      "ground.friction=-1")["faults"][0]["key"], "ground.friction")

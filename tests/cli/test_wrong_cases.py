@@ -155,6 +155,39 @@ class WrongCases(ProgramTest):
         self.refused(case, ["--set"], extra=["--set", "nonsense"])
         self.refused(case, ["disk.mesh.radial", "string"], extra=["--set", "disk.mesh.radial=many"])
 
+    def test_numbers_as_others_write_them(self):
+        comma, minus = "it has a decimal comma: write 0.3", "it has the minus sign U+2212"
+        exponent, quote = "it has an exponent with D", "it has the curly quotation mark U+201C"
+        pair = "a comma divides items, a point is in a number"
+        for line, said in (("friction = 0,3", comma), ("friction = \u22120.3", minus),
+                           ("density = 1.1D3", exponent), ("height = [[0, \u22121]]", minus),
+                           ("height = [[0, 0,3], [1, 0.3]]", pair),
+                           ("scheme = \u201cmoreau-jean\u201d", quote)):
+            text = replaced(LEDGE, line.split(" ")[0] if "scheme" not in line else "safety", line)
+            self.refused(self.case(text), [said], line_of(text, line))
+        case = self.case(LEDGE)
+        for setting, said in (("ground.friction=0,3", comma), ("ground.friction=\u22120.3", minus),
+                              ("material.density=1.1d3", exponent), ("motion.height=[[0, 0,3]]", pair),
+                              ("ground.profile=\u201cflat\u201d", quote),
+                              ("time.scheme=\u201csymplectic\u201d", quote)):
+            self.refused(case, [f"--set {setting}: ", said], extra=["--set", setting])
+
+    def test_a_fillet_that_fits_nowhere_on_a_measured_profile(self):
+        points = "\n".join(f"{0.01 * k:.2f}, {0.001 * (k % 2)}" for k in range(20000))
+        (self.folder / "road.csv").write_text(points)
+        text = replaced(replaced(LEDGE, "profile", 'profile = "road.csv"'), "fillet", "fillet = 0.2")
+        done = run("check", self.case(text))
+        self.assertEqual(done.returncode, 2, done.stderr)
+        self.assertEqual(done.stderr.count("the fillet does not fit"), 5)
+        self.assertRegex(done.stderr, "ground.fillet: and [0-9]+ more of this kind")
+        self.assertLess(len(done.stderr.splitlines()), 9)
+
+    def test_an_opencrg_road_is_no_profile(self):
+        (self.folder / "road.dat").write_text("$CT ! comment\nCRG file example\n$ROAD_CRG\n$\n")
+        text = replaced(LEDGE, "profile", 'profile = "road.dat"')
+        self.refused(self.case(text), ["road.dat: ", "is an OpenCRG road file",
+                                       "one section along the road"])
+
 
 class WrongUsage(ProgramTest):
     def test_usage(self):
@@ -166,6 +199,16 @@ class WrongUsage(ProgramTest):
                 done = run(*arguments)
                 self.assertEqual(done.returncode, 2)
                 self.assertNotEqual(done.stderr, "")
+        self.assertEqual([p.name for p in self.folder.iterdir()], ["case.toml"])
+
+    def test_an_output_without_a_name(self):
+        """As of a variable of the shell that is not set."""
+        case = self.case()
+        for arguments in (["run", case], ["modes", case], ["sweep", case], ["pod", self.folder],
+                          ["reduce", self.folder], ["fmu", case]):
+            done = run(*arguments, "-o", "", cwd=self.folder)
+            self.assertEqual(done.returncode, 2, done.stderr)
+            self.assertRegex(done.stderr, "-o|--output")
         self.assertEqual([p.name for p in self.folder.iterdir()], ["case.toml"])
 
 

@@ -399,7 +399,7 @@ TEST(Settings, TextThatIsNotToml) {
   const auto faults = faults_of(base, {"time.end=0,2"});
   ASSERT_EQ(faults.size(), 1U);
   EXPECT_EQ(faults[0].found, "0,2");
-  EXPECT_EQ(faults[0].message, "must be a float, not a string");
+  EXPECT_EQ(faults[0].message, "must be a float, not a string; it has a decimal comma: write 0.2");
 }
 
 }  // namespace
