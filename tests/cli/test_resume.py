@@ -13,6 +13,7 @@ import h5py
 import numpy as np
 
 from program import PROGRAM, ROOT, ProgramTest, SMALL, replaced, run, summary
+from test_solid import WHEEL
 from vtkhdf_layout import Layout
 
 RESULTS = ("history.csv", "contact.csv", "results.h5", "fields.xdmf", "fields.vtkhdf",
@@ -524,6 +525,14 @@ class Damaged(ResumeTest):
             self.restore("results.h5")
         done = self.resume(self.TEXT, "--set", "time.end=0.02")
         self.assertEqual(done.returncode, 0, done.stderr)
+
+    def test_a_wheel_in_three_dimensions(self):
+        shutil.rmtree(self.out)
+        done = self.resume(WHEEL)
+        self.assertEqual(done.returncode, 0, done.stderr)
+        with h5py.File(self.out / "results.h5", "r+") as f:
+            f["/frame/lateral"][1] = np.nan
+        self.assert_refused(self.resume(WHEEL), 4, "/frame/lateral", "not finite in snapshot 1")
 
 
 class TwoPrograms(ResumeTest):
