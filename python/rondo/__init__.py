@@ -1,7 +1,11 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Runs cases in this process, reads and draws what the program rondo writes:
 rondo.run("case.toml").plot_field(0.1), rondo.Simulation("case.toml"), rondo.open("results")."""
-from .about import about
+from .interrupts import while_loading
+
+while_loading()  # of python3 -m rondo
+
+from .about import about  # noqa: E402
 from .calls import fmu, modes, pod, reduce, run, sweep
 from .data.errors import (
     Error,

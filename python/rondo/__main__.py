@@ -9,7 +9,7 @@ import sys
 from collections.abc import Callable, Sequence
 from typing import NoReturn
 
-from rondo import open_modes, open_paper, open_sweep, open_validation
+from rondo import interrupts, open_modes, open_paper, open_sweep, open_validation
 from rondo import open as open_run
 from rondo.data.errors import Error, FileError, UnfinishedRunError
 from rondo.data.names import FRAME, OLDER_FRAMES
@@ -314,8 +314,11 @@ def main(arguments: Sequence[str] | None = None) -> int:
         "campbell": _campbell, "sweep": _sweep, "validate": _validate,
         "validation": _validation}
     try:
+        interrupts.while_working()
         code = commands[options.command](options)
         sys.stdout.flush()
+    except KeyboardInterrupt:
+        return interrupts.ended()
     except BrokenPipeError:  # the reader, as `head`, has enough
         os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())  # for the flush at exit
         return BROKEN_PIPE

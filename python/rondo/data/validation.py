@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import csv
+import io
 import os
 import pathlib
 from collections.abc import Callable
@@ -12,6 +13,7 @@ import numpy as np
 
 from .errors import Error, unknown
 from .files import check_format, read_json, read_table, require
+from .plain_files import text_of
 from .run import Run, open_run
 
 if TYPE_CHECKING:
@@ -85,10 +87,9 @@ class Validation:
 
 def _read(path: pathlib.Path) -> tuple[list[str], dict[str, np.ndarray]]:
     try:
-        with open(path, newline="") as file:
-            header, *rows = list(csv.reader(file)) or [[]]
+        header, *rows = list(csv.reader(io.StringIO(text_of(path)))) or [[]]
         values = [[float(text) for text in row[1:]] for row in rows]
-    except (OSError, ValueError) as reason:
+    except (csv.Error, ValueError) as reason:
         raise Error(f"{path}: cannot be read: {reason}") from None
     if header[:1] != ["run"] or any(len(row) != len(header) for row in rows):
         raise Error(f"{path}: damaged: a column run and as many numbers in each row as there are "
