@@ -21,7 +21,9 @@ void add_case(CLI::App& command, CaseArguments& arguments,
 }
 
 void add_threads(CLI::App& command, int& threads) {
-  command.add_option("--threads", threads, "threads; chosen by size if left out")
+  command
+      .add_option("--threads,--jobs", threads,
+                  "cores used, by threads of the run; chosen by size if left out")
       ->check(CLI::Range(1, 1024));
 }
 
@@ -260,7 +262,8 @@ CLI::App* add_sweep(CLI::App& program, SweepArguments& arguments, Telling& tell)
       ->take_all()
       ->expected(1);
   sweep
-      ->add_option("--jobs", arguments.jobs, "runs at once; as many as there are cores if left out")
+      ->add_option("--jobs,--threads", arguments.jobs,
+                   "cores used, by runs at once; all that there are if left out")
       ->check(CLI::Range(1, 1024));
   sweep->add_flag("--dry-run", arguments.dry_run,
                   "checks all runs and lists them with what they would cost; writes nothing");

@@ -65,7 +65,10 @@ CheckReport check_case(const Case& c, const CheckOptions& options) {
   RunOptions run;
   run.threads = options.threads;
   run.shared = options.shared;
-  return make_analysis(c, run)->check(options.trial_s);
+  const std::unique_ptr<Analysis> analysis = make_analysis(c, run);
+  CheckReport report = analysis->check(options.trial_s);
+  if (options.columns) report.columns = analysis->record_plan().columns;
+  return report;
 }
 
 }  // namespace rondo::study

@@ -122,14 +122,11 @@ io::DirectoryLock take_directory(const Case& c, const RunOptions& options) {
 }
 
 std::string warning_of_another_host(const std::filesystem::path& directory) {
-  if (!io::is_cut_off(directory)) return {};
-  const Json json = io::read_json(directory / "run.json");
-  const std::string host = text_in(json, "host");
-  if (text_in(json, "status") != "running" || host.empty() || host == io::host_name()) return {};
+  const std::string host = io::holder_of(directory).host;
+  if (host.empty() || host == io::host_name()) return {};
   return fmt::format(
-      "{} was begun on {} and has not ended there by its run.json: make sure that it does not go "
-      "on "
-      "there, locks do not reach across machines",
+      "{} was begun on {}, and its files do not say that it has ended there: make sure that it "
+      "does not go on there, locks do not reach across machines",
       directory.string(), host);
 }
 

@@ -39,7 +39,7 @@ void write_contact_problem(const std::filesystem::path& directory, int number,
 /// @throws InputError (it holds another run), FileError
 [[nodiscard]] io::DirectoryLock take_directory(const Case& c, const RunOptions& options);
 
-/// The run that is gone on with may still be at work on another machine; empty: no sign of that.
+/// The run, sweep or shard there may still be at work on another machine; empty: no sign of that.
 std::string warning_of_another_host(const std::filesystem::path& directory);
 
 /// case.toml and run.json. @throws FileError
