@@ -16,7 +16,7 @@ from rondo.data.names import FRAME, OLDER_FRAMES
 from rondo.data.run import Run
 
 WRONG, FILES = 2, 4  # exit codes of wrong input and of files, as the program's
-NO_PICTURES = ("paper", "validate", "means")  # commands that need not load what draws
+NO_PICTURES = ("paper", "validate", "means", "converge")  # commands that need not load what draws
 BROKEN_PIPE = 141  # as a shell has it of a program that is killed by SIGPIPE
 
 
@@ -40,8 +40,8 @@ def _parser() -> argparse.ArgumentParser:
     paper.add_argument("-o", "--output", type=pathlib.Path, metavar="DIRECTORY",
                        help='of the study; default "paper", or "paper-quick"')
     paper.add_argument("--quick", action="store_true", help="coarse meshes, a third of the work")
-    paper.add_argument("--jobs", type=_count, metavar="N",
-                       help="runs at once; default as many as there are cores")
+    paper.add_argument("--jobs", "--threads", type=_count, metavar="N",
+                       help="cores used, by runs at once; default all that there are")
     paper.add_argument("--overwrite", action="store_true", help="does again what is there")
     paper.add_argument("--quiet", action="store_true", help="prints failures and the table only")
     paper.add_argument("--study", type=pathlib.Path, metavar="FOLDER",
@@ -132,6 +132,16 @@ def _parser() -> argparse.ArgumentParser:
     sweep.add_argument("-o", "--output", type=pathlib.Path, metavar="FOLDER",
                        help="where the .png and .svg files go; default DIRECTORY/figures")
 
+    converge = commands.add_parser(
+        "converge", help="print how the figures of a sweep converge with its mesh or its step",
+        epilog="Observed orders, Richardson's extrapolated value with an error bar; or that a figure does "
+               "not converge monotonically. Exit code 3: one that --figure names does not. docs/studies.md.")
+    converge.add_argument("directory", type=pathlib.Path,
+                          help="of `rondo sweep` over disk.mesh.radial, time.step, ...: three levels and more")
+    converge.add_argument("--figure", nargs="+", action="extend", default=[], metavar="NAME",
+                          help="columns of results.csv, as force_y_mean; default: all")
+    converge.add_argument("--by", metavar="KEY", help="what is refined, where several keys might be")
+
     validate = commands.add_parser(
         "validate", help="compare reduced runs with the full runs that they are to predict",
         epilog="The table goes to stdout, validation.csv, validation.json and profiles to OUTPUT. "
@@ -160,7 +170,7 @@ def _parser() -> argparse.ArgumentParser:
                              help="from this time on")
         command.add_argument("--to", dest="to_time", type=float, metavar="SECONDS",
                              help="up to this time")
-    for command in figures, film, wheel, footprint, traction, tyre, sweep, means:
+    for command in figures, film, wheel, footprint, traction, tyre, sweep, means, converge:
         command.add_argument("--unfinished", action="store_true",
                              help="also of what has not ended, was interrupted or has failed")
     return parser
@@ -286,6 +296,11 @@ def _campbell(options: argparse.Namespace) -> None:
         print(path)
 
 
+def _converge(options: argparse.Namespace) -> int:
+    from rondo.studies.converge import command
+    return command(open_sweep(options.directory, options.unfinished), options.figure, options.by)
+
+
 def _validation(options: argparse.Namespace) -> None:
     from rondo import style
 
@@ -311,7 +326,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
     commands: dict[str, Callable[[argparse.Namespace], int | None]] = {
         "paper": _paper, "figures": _figures, "animate": _animate, "report": _report, "means": _means,
         "wheel": _wheel, "footprint": _footprint, "traction": _traction, "tyre": _tyre,
-        "campbell": _campbell, "sweep": _sweep, "validate": _validate,
+        "campbell": _campbell, "sweep": _sweep, "converge": _converge, "validate": _validate,
         "validation": _validation}
     try:
         interrupts.while_working()
