@@ -160,6 +160,13 @@ values = [[[0, 0.3], [0.004, 0.296]], [[0, 0.3], [0.004, 0.2965]]]
         done = self.sweep("--overwrite", text="columns = [\"force_y\"]\n" + steady, code=2)
         self.assertIn("columns: steady rolling without snapshots leaves no history.csv", done.stderr)
 
+    def test_cores_have_the_same_name_in_all_commands(self):
+        self.assertIn("9 runs, 1 at once", self.sweep("--dry-run", "--threads", "1").stdout)
+        for name in ("--jobs", "--threads"):
+            done = run("run", self.folder / "case.toml", "-o", self.out, "--overwrite", name, 2)
+            self.assertEqual((done.returncode, summary(self.out)["threads"]), (0, 2), done.stderr)
+            self.assertIn("on 1 thread", run("check", self.folder / "case.toml", name, 1).stdout)
+
     def test_a_sample_and_geometry(self):
         text = """schema = 1
 base = "case.toml"
