@@ -190,6 +190,15 @@ class Modes(ProgramTest):
             "--spin", 40, "--overwrite", case=self.free_disk(),
             settings=["--set", "disk.mesh.radial=400"]))
 
+    def test_one_layer_of_elements(self):
+        """Two unknowns a sector, of which (8.6) has one with n = 1."""
+        for case, settings in ((ANNULUS, []), (ANNULUS, ["--set", "material.stress_stiffening=centrifugal"]),
+                               (self.free_disk(), [])):
+            out, _ = self.modes("--count", 8, "--overwrite", case=case,
+                                settings=["--set", "disk.mesh.radial=1", *settings])
+            self.assertGreaterEqual(len(table(out / "modes.csv")), 8)
+            self.assertGreater(len(table(out / "critical-speeds.csv")), 10)
+
     def test_beyond_the_softening_limit(self):
         out, done = self.modes("--spin", 0, "--spin", 600, code=3)
         self.assertIn("negative eigenvalues", done.stderr)

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "bodies.hpp"
+#include "rondo/fem/harmonics.hpp"
 
 using namespace rondo;
 using modal::Wave;
@@ -96,5 +97,26 @@ TEST(CriticalSpeeds, UpToASpinAreThoseThatAreNotAboveIt) {
       ASSERT_NE(same, all.end());
       EXPECT_NEAR(c.spin, same->spin, 1e-9 * same->spin);
     }
+  }
+}
+
+/// Two unknowns a sector: a quadratic in 1/s². For n = 1 (8.6)'s right side has rank 1 a node.
+TEST(CriticalSpeeds, OfOneLayerAreThoseOfTwoUnknowns) {
+  const auto b = test::body_of(test::ring(1, 12));
+  fem::Harmonics harmonics(b.sector, b.mass);
+  ASSERT_EQ(harmonics.size(), 2);
+  const auto found = modal::critical_speeds(b.cyclic(), nullptr, 6);
+  ASSERT_EQ(found.size(), 6U);
+  for (const modal::CriticalSpeed& c : found) {
+    const double n = c.diameters;
+    Eigen::Matrix2cd right;
+    right << n * n + 1.0, std::complex<double>(0.0, 2.0 * n), std::complex<double>(0.0, -2.0 * n),
+        n * n + 1.0;
+    const Eigen::MatrixXcd lower = Eigen::MatrixXcd(harmonics.lower(c.diameters, 1.0, 0.0));
+    const Eigen::Matrix2cd left = Eigen::MatrixXcd(lower.selfadjointView<Eigen::Lower>());
+    const double mu =
+        Eigen::GeneralizedSelfAdjointEigenSolver<Eigen::Matrix2cd>(right, left).eigenvalues()[1];
+    EXPECT_NEAR(c.spin * std::sqrt(mu), 1.0, 1e-10) << n;
+    EXPECT_LT(c.residual, 1e-10) << n;
   }
 }
