@@ -14,6 +14,7 @@ from .document import note, table, tiles
 from .encoding import escaped, number
 
 BOUND = 1e-9  # at which a run stops, of energy balance and contact law (docs/theory.md, 5 and 4.5)
+SCHEME_SHARE = 0.05  # above it a steady run warns
 ADDS_UP = 1e-6  # over the largest term, to which the terms of the ledger are what it says
 BOUND_FREE = 1e-2  # of free bodies, whose ledger closes to second order in the step
 Tile = tuple[str, str, str, str]
@@ -44,6 +45,10 @@ def health_tiles(run: Run) -> str:
     if info.get("penetration_max_m") is not None:
         found.append(("largest penetration", f"{number(1e3 * info['penetration_max_m'])} mm", "",
                       "into the ground, at any node"))
+    share = info.get("steady", {}).get("scheme_share")
+    if share is not None:
+        found.append(("power of the discretisation", f"{100 * share:.3g} %", "good" if share <= SCHEME_SHARE else "warn",
+                      "over the largest of drive, damping and friction: rolling resistance is wrong by about that much"))
     if info.get("strain_max") is not None:
         small = info["strain_max"] <= 0.1 or "hyperelastic" in run.case.get("material", {})
         found.append(("largest strain", f"{100 * info['strain_max']:.3g} %", "good" if small else "warn",

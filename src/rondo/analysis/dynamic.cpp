@@ -386,6 +386,7 @@ void DynamicAnalysis::close() {
   integrator_->advance({&beyond, 1});
   balance_ = beyond.balance;
   judge(beyond);
+  warn_of_no_contact();
   if (state_.step == steps_ && !is_looked_at()) look();
 }
 

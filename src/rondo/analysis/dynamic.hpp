@@ -77,6 +77,7 @@ class DynamicAnalysis : public Analysis, public Resumable, public Stepwise {
   [[nodiscard]] bool is_looked_at() const noexcept;
   void look();
   [[nodiscard]] std::string look_at_rim(const dynamics::StepReport& step);
+  void warn_of_no_contact();
   void warn_of_impacts(const dynamics::StepReport& step);
   void record_state(Recorder& recorder);
   void record_snapshot(Recorder& recorder);

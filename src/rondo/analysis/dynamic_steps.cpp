@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-/// @file  A motion in time as its caller stops, sees and drives it.
+/// @file  A motion in time as its caller stops, sees and drives it; what its end tells.
+#include <fmt/format.h>
+
 #include "rondo/analysis/build/rim.hpp"
 #include "rondo/analysis/build/stability.hpp"
 #include "rondo/analysis/dynamic.hpp"
@@ -34,6 +36,18 @@ void copy_pressures(const Case& c, dynamics::Model& model) {
 }
 
 }  // namespace
+
+/// Only the run tells it where the motion does not say the height (else: plausible.hpp).
+void DynamicAnalysis::warn_of_no_contact() {
+  const bool falls = !is_held(case_) || (case_.rim && case_.rim->free_y);
+  if (!case_.ground || !falls || contact_.contact_steps > 0) return;
+  warn(fmt::format(
+      "nothing has touched the ground in the whole run, to t = {:.6g} s: {}; are lengths in m, "
+      "forces in N?",
+      static_cast<double>(steps_) * setup_.model.dt,
+      case_.rim ? "[rim] and its loads have not brought the body down to it"
+                : "initial.position, initial.velocity and motion.gravity do not lead there"));
+}
 
 void DynamicAnalysis::pause_at(long long step) {
   pause_ = step;

@@ -126,6 +126,7 @@ struct AnalysisCase {
   int samples_per_sector = 8;                  ///< P >= 1
   RollingSlip slip = RollingSlip::bdf2;        ///< how slip is taken
   bool massless_contact = true;                ///< with more than one sample always
+  bool accept_scheme_power = false;            ///< much power of the discretisation is no fault
   std::optional<double> load{};                ///< F_y > 0, instead of the height           [N/m]
   std::optional<double> traction{}, torque{};  ///< F_x, or clockwise on the rim, instead of the
                                                ///< speed                                 [N/m], [N]

@@ -506,6 +506,11 @@ constexpr CaseKey keys[] = {
      optional.of(of_steady_rolling).body(never),
      "the mass of the contact nodes is moved to the nodes below them. false: only with "
      "`samples_per_sector = 1`"},
+    {"analysis.accept_scheme_power", "-", FIELD(analysis.accept_scheme_power), any,
+     optional.of(of_steady_rolling).body(never),
+     "a state is a result even where the discretisation makes or takes more than a quarter of the "
+     "largest power ([steady.md](steady.md#the-power-of-the-discretisation)): for forces and "
+     "footprints, whose rolling resistance means nothing then"},
     {"analysis.load", "N/m", FIELD(analysis.load), positive,
      optional.of(of_steady_rolling).if_(has_load, "none").body(never),
      "force of the ground on the steadily rolling body, upwards, instead of `motion.height`"},

@@ -185,11 +185,16 @@ bool LatinSolver::iterate(std::string& trouble) {
   const double tolerance = case_.analysis.tolerance;
   const bool converged =
       report_.iterations > 1 && report_.indicator <= tolerance && report_.residual <= tolerance;
-  if (converged) finish();
+  const bool empty = converged && pgd_ && pgd_->modes() == 0;  // all of it is below the numbers
+  if (converged && !empty) finish();
   solve_wall_s_ += std::chrono::duration<double>(Clock::now() - begin).count();
   record_iteration();
   if (!std::isfinite(report_.residual) || !std::isfinite(report_.indicator))
     trouble = "the forces or displacements are out of the range of the numbers";
+  else if (empty)
+    trouble =
+        "the forces are below the range of the numbers, and no mode is left of them; a larger "
+        "analysis.depth, and material.youngs_modulus in Pa";
   else if (!converged && report_.iterations == most_iterations)
     trouble = not_converged();
   return !converged;

@@ -37,6 +37,8 @@ class SolidSteadyState final : public RolledState {
   [[nodiscard]] SteadyResiduals residuals() const override {
     return {power_.residual, solution_.residual, mean_.penetration};
   }
+  [[nodiscard]] double deflection() const override { return window_.lowest() - solution_.height; }
+  [[nodiscard]] const statics::RollingPower& power() const noexcept override { return power_; }
   [[nodiscard]] Json describe() const override;
   [[nodiscard]] std::vector<std::string> notes() const override;
 

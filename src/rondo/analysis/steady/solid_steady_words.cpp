@@ -92,6 +92,7 @@ Json SolidSteadyState::describe() const {
                  {by_speed, json_of(s.slopes.by_speed)},
                  {"by_slip_angle", json_of(s.slopes.by_slip_angle)}};
   j["power"] = json_of(power_);
+  j["scheme_share"] = power_.scheme_share;
   j["residual"] = s.residual;
   j["newton_steps"] = s.newton_steps;
   j["sweeps"] = s.sweeps;

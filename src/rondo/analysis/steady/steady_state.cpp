@@ -42,6 +42,7 @@ SteadyState::SteadyState(const Case& c, const SteadyBody& body)
       sums_(static_cast<std::size_t>(c.analysis.samples_per_sector)) {
   for (std::size_t k = 0; k < body.mesh.boundary.size(); ++k)
     candidate_of_[static_cast<std::size_t>(body.mesh.boundary[k])] = k;
+  demand_free_shape(c, statics::lowest_place(window_), c.disk.outer_radius);
   solve();
   refuse();
   if (solution_.end == statics::RollingEnd::solved) sum_up();

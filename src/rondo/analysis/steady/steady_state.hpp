@@ -35,6 +35,10 @@ class SteadyState final : public RolledState {
   [[nodiscard]] SteadyResiduals residuals() const override {
     return {power_.residual, solution_.residual, mean_.penetration};
   }
+  [[nodiscard]] double deflection() const override {
+    return statics::lowest_place(window_) - solution_.height;
+  }
+  [[nodiscard]] const statics::RollingPower& power() const noexcept override { return power_; }
   [[nodiscard]] Json describe() const override;
   [[nodiscard]] std::vector<std::string> notes() const override;
 

@@ -85,6 +85,7 @@ Json SteadyState::describe() const {
                  {a.load ? "by_load" : "by_height", json_of(s.slopes.by_height)},
                  {by_speed, json_of(s.slopes.by_speed)}};
   j["power"] = json_of(power_);
+  j["scheme_share"] = power_.scheme_share;
   j["residual"] = s.residual;
   j["newton_steps"] = s.newton_steps;
   j["pivots"] = s.pivots;
