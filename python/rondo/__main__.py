@@ -155,12 +155,23 @@ def _parser() -> argparse.ArgumentParser:
 
     means = commands.add_parser("means", help="print the mean forces of the ground on the body")
     means.add_argument("directory", type=pathlib.Path, nargs="+", help="of `rondo run`")
-    for command in film, means, validate:
+    psd = commands.add_parser(
+        "psd", help="power spectral density of a column of history.csv: a figure and a CSV file",
+        epilog="Welch's method: segments that overlap by half, each less its mean, Hann windows; "
+               "one-sided, so that the integral is the mean square. docs/python.md, Figures.")
+    psd.add_argument("directory", type=pathlib.Path, help="of `rondo run`, dynamic")
+    psd.add_argument("--column", default="force_y", metavar="NAME",
+                     help="of history.csv; default %(default)s")
+    psd.add_argument("--segment", type=float, metavar="SECONDS",
+                     help="length of the segments; default such that there are eight")
+    psd.add_argument("-o", "--output", type=pathlib.Path, metavar="FOLDER",
+                     help="where psd-NAME.png, .svg and .csv go; default DIRECTORY/figures")
+    for command in film, means, validate, psd:
         command.add_argument("--from", dest="from_time", type=float, metavar="SECONDS",
                              help="from this time on")
         command.add_argument("--to", dest="to_time", type=float, metavar="SECONDS",
                              help="up to this time")
-    for command in figures, film, wheel, footprint, traction, tyre, sweep, means:
+    for command in figures, film, wheel, footprint, traction, tyre, sweep, means, psd:
         command.add_argument("--unfinished", action="store_true",
                              help="also of what has not ended, was interrupted or has failed")
     return parser
@@ -243,6 +254,16 @@ def _means(options: argparse.Namespace) -> None:
         print(_mean_forces(run, options.from_time, options.to_time))
 
 
+def _psd(options: argparse.Namespace) -> None:
+    from rondo.figures.psd_figures import draw_psd_of
+
+    words, written = draw_psd_of(open_run(options.directory, options.unfinished), _folder(options),
+                                 options.column, options.from_time, options.to_time, options.segment)
+    print(words)
+    for path in written:
+        print(path)
+
+
 def _wheel(options: argparse.Namespace) -> None:
     from rondo import style
 
@@ -310,6 +331,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
     code: int | None = 0
     commands: dict[str, Callable[[argparse.Namespace], int | None]] = {
         "paper": _paper, "figures": _figures, "animate": _animate, "report": _report, "means": _means,
+        "psd": _psd,
         "wheel": _wheel, "footprint": _footprint, "traction": _traction, "tyre": _tyre,
         "campbell": _campbell, "sweep": _sweep, "validate": _validate,
         "validation": _validation}
@@ -331,7 +353,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
     except OSError as reason:
         # What else writes has said so itself.
         figures = options.command in ("figures", "wheel", "footprint", "traction", "tyre", "campbell",
-                                      "sweep", "validation")
+                                      "sweep", "validation", "psd")
         place = reason.filename or (_folder(options) if figures else "output")
         advice = "; choose another -o" if figures else ""
         print(f"rondo: {place}: {reason.strerror or reason}{advice}", file=sys.stderr)
