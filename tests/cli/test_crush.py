@@ -178,7 +178,7 @@ class Crush(RunTest):
         h = history(self.out)
         self.assertAlmostEqual(h["force_y"][-1] / 4.743e5, 1.0, places=3)
         self.assertAlmostEqual(h["force_y"][20] / 1.882e5, 1.0, places=3)
-        self.assertAlmostEqual(h["contact_length_m"][-1], 0.178, places=3)
+        self.assertAlmostEqual(h["contact_length_m"][-1], 0.1763, places=3)
         self.assertLess(np.abs(h["force_x"]).max(), 1e-12 * h["force_y"][-1])
 
     def test_no_friction_no_shear(self):

@@ -101,16 +101,14 @@ class Steady(RunTest):
         s = self.steady()
         rows, h, n = contact(self.out), history(self.out), s["samples_per_sector"]
         with h5py.File(self.out / "results.h5") as f:
-            width = dict(zip(f["mesh/boundary"][:], f["mesh/tributary"][:]))
             np.testing.assert_array_equal(np.unique(rows["time_s"]), f["frame/time"][:])
-        width = np.array([width[int(k)] for k in rows["node"]])
-        force = -width * rows["shear_pa"]  # in the files shear is counted to the left
+        force = -rows["length_m"] * rows["shear_pa"]  # in the files shear is counted to the left
         np.testing.assert_allclose(force.sum() / n, s["force_x"], rtol=1e-11)
         power = -(force * rows["slip_speed"]).sum() / n
         np.testing.assert_allclose(power, s["power"]["friction"], rtol=1e-11)
         sticks = rows["sticks"] == 1
         self.assertTrue(0 < sticks.sum() < len(sticks))
-        np.testing.assert_allclose(width[sticks].sum() / n, s["stick_length"], rtol=1e-11)
+        np.testing.assert_allclose(rows["length_m"][sticks].sum() / n, s["stick_length"], rtol=1e-11)
         self.assertLess(np.abs(rows["slip_speed"][sticks]).max(), 1e-9)
         bound = 0.4 * rows["pressure_pa"]
         self.assertTrue((np.abs(rows["shear_pa"]) <= bound * (1 + 1e-9)).all())

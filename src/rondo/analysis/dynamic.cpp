@@ -182,7 +182,7 @@ long long DynamicAnalysis::next_snapshot() const noexcept {
 
 /// Takes the initial fields of the setup, which are not needed twice.
 Progress DynamicAnalysis::begin(Recorder& recorder) {
-  history_.emplace(case_, setup_, from_ ? from_->history : HistoryPlace{});
+  history_.emplace(case_, setup_, from_ ? from_->history : HistoryPlace{}, reported_length());
   // Of free bodies of rubber it closes, as of those that are held.
   const bool closes = setup_.model.free_bodies.empty() || fem::has_rubber(setup_.materials);
   bounds_ = {closes ? residual_bound : free_residual_bound, largest_strain_energy(setup_),
@@ -227,12 +227,12 @@ void DynamicAnalysis::start_integrator() {
 /// Steps up to the next one whose state is wanted, at most as many as there are reports.
 Progress DynamicAnalysis::advance(Recorder& recorder) {
   const long long next_look = (steps_ / steps_between_looks + 1) * steps_between_looks;
-  const long long wanted = std::min({next_snapshot(), history_->next_probed(), next_look, pause_});
+  const long long wanted = std::min({next_snapshot(), history_->next_wanted(), next_look, pause_});
   const long long left = std::min(setup_.n_steps, wanted) - steps_;
   const auto n = static_cast<std::size_t>(std::min(static_cast<long long>(reports_.size()), left));
   const std::span reports = std::span(reports_).first(n);
-  // With probes a run that is interrupted has a last row of its own.
-  const bool seen = reports.size() == static_cast<std::size_t>(left) || !setup_.probes.empty();
+  // A run that is interrupted has a last row of its own.
+  const bool seen = reports.size() == static_cast<std::size_t>(left) || history_->needs_state();
   integrator_->advance(reports, seen ? &state_ : nullptr);
   keep_difficult_contacts();
   for (std::size_t i = 0; i < n && !trouble_; ++i)

@@ -60,6 +60,10 @@ class DynamicAnalysis : public Analysis, public Resumable, public Stepwise {
   [[nodiscard]] Setup& own_setup() noexcept { return setup_; }
   /// The law sees velocities alone. Gaps in it push bodies out of the ground, which does work.
   [[nodiscard]] virtual bool guards_impacts() const noexcept { return true; }
+  /// Of the contact length in the integrator's reports.
+  [[nodiscard]] virtual History::Length reported_length() const noexcept {
+    return History::Length::undeformed;
+  }
   /// Fills the fields of the state after the last step, where the integrator left some out.
   virtual void complete(dynamics::State& /*state*/) {}
   /// Adds the values of the plan's series to a snapshot of the state.

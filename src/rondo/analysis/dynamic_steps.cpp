@@ -37,7 +37,7 @@ void copy_pressures(const Case& c, dynamics::Model& model) {
 
 void DynamicAnalysis::pause_at(long long step) {
   pause_ = step;
-  since_pause_.emplace(case_, setup_, never_due());
+  since_pause_.emplace(case_, setup_, never_due(), reported_length());
 }
 
 const dynamics::State* DynamicAnalysis::state() {

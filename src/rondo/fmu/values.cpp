@@ -42,11 +42,11 @@ constexpr Variable table[] = {
     {"hub_height", &Values::hub_height, Kind::output, "m",
      "integral of hub_velocity_y: trapezoids"},
     {"hub_angle", &Values::hub_angle, Kind::output, "rad",
-     "integral of hub_angular_velocity: trapezoids"},
+     "integral of hub_angular_velocity, > 0 as it: trapezoids"},
     {"loaded_radius", &Values::loaded_radius, Kind::output, "m",
      "distance of the hub from the ground"},
     {"contact_length", &Values::contact_length, Kind::output, "m",
-     "of the tyre that touches, in the last internal step"},
+     "of the deformed tyre that touches, in the last internal step"},
 };
 
 }  // namespace

@@ -92,6 +92,9 @@ struct Snapshot {
   std::span<const double> series = {};  ///< values of the layout's series, one after another
   std::span<const SolidNodalStress> solid_stress = {};  ///< likewise of a solid mesh     [Pa]
   double lateral = 0.0;  ///< of a solid mesh: of the center, along t2        [m]
+  /// (nb) length, of a solid mesh area, of the deformed boundary that each stands for, where it is
+  /// pressed; empty: as it is undeformed [m], [m²]
+  std::span<const double> contact_extent = {};
 };
 
 class Results {
@@ -129,6 +132,7 @@ class Results {
   [[nodiscard]] static Counts counts_of(const ResultsLayout& layout) noexcept;
   [[nodiscard]] static std::size_t index_bytes(const Counts& counts) noexcept;
   void begin_shown(const mesh::Mesh& mesh);
+  [[nodiscard]] XdmfSeries labelled(XdmfSeries series) const;
   void add_rows(h5::Dataset& to, const std::string& name, h5::Type type, const h5::Shape& shape,
                 const h5::Label& label);
   void create_frame();

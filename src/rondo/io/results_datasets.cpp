@@ -18,12 +18,13 @@ void Results::create_frame() {
   const h5::Label time_velocity = {words_.time_unit, words_.velocity_time};
   add_rows(d_.time, "/frame/time", Type::float64, times, time);
   add_rows(d_.time_velocity, "/frame/time_velocity", Type::float64, times, time_velocity);
-  add_rows(
-      d_.angle, "/frame/angle", Type::float64, times,
-      {"rad",
-       "angle of the co-rotating frame, counter-clockwise: position = center + R(angle) (X + u)"});
+  add_rows(d_.angle, "/frame/angle", Type::float64, times,
+           {"rad",
+            "angle of the co-rotating frame, counter-clockwise, minus angle_rad of history.csv: "
+            "position "
+            "= center + R(angle) (X + u)"});
   add_rows(d_.angle_velocity, "/frame/angle_velocity", Type::float64, times,
-           {"rad", "angle of the co-rotating frame at /frame/time_velocity"});
+           {"rad", "angle of the co-rotating frame at /frame/time_velocity, counter-clockwise"});
   add_rows(d_.center, "/frame/center", Type::float64, {c_.times, 2},
            {"m", c_.solid ? "center of the co-rotating frame, along t1 and the normal of the ground"
                           : "center of the co-rotating frame, x, y in the fixed frame"});
@@ -52,8 +53,11 @@ void Results::create_contact() {
            {c_.solid ? "N" : "N/m",
             "contact force on each node of /mesh/boundary: " + components + words_.force});
   add_rows(d_.traction, "/contact/traction", Type::float64, shape,
-           {"Pa", c_.solid ? "/contact/force over /mesh/tributary: pressure, two shears"
-                           : "/contact/force over /mesh/tributary: pressure, shear"});
+           {"Pa",
+            c_.solid ? "/contact/force over the area of the deformed boundary that the node stands "
+                       "for: pressure, two shears"
+                     : "/contact/force over the length of the deformed boundary that the node "
+                       "stands for: pressure, shear"});
 }
 
 void Results::create_fields() {

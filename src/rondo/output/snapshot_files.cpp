@@ -27,6 +27,7 @@ io::Csv contact_file(const std::filesystem::path& directory, const RecordPlan& p
 SnapshotFiles::SnapshotFiles(const std::filesystem::path& directory, const RecordPlan& plan,
                              const Checkpoint* from)
     : mesh_(*plan.results.mesh),
+      boundary_(mesh_),
       ground_(plan.ground),
       model_(plan.model),
       contact_(plan.results.contact),
@@ -41,6 +42,8 @@ SnapshotFiles::SnapshotFiles(const std::filesystem::path& directory, const Recor
   if (model_) rotations_.resize(model_->free_bodies.size());
   force_.resize(nb);
   force_fixed_.resize(nb);
+  extent_ = mesh_.tributary;
+  extent_.resize(nb);
   on_ground_.resize(nb);
   slip_.resize(nb);
   sticks_.resize(nb);
@@ -65,6 +68,7 @@ void SnapshotFiles::collect_contact(const Snapshot& snapshot) {
     if (c.force != Vec2{} && !c.sticks) sticks_[c.candidate] = 0;
     lateral_[c.candidate] += c.lateral;
     fixed_axial_[c.candidate] += c.fixed_axial;
+    extent_[c.candidate] = boundary_.extent(c.candidate, snapshot.u, snapshot.axial_u);
   }
 }
 
@@ -94,11 +98,12 @@ void SnapshotFiles::write_contact_rows(const Snapshot& snapshot) {
       const Vec3 place = place_on_ground(snapshot, static_cast<std::size_t>(r.node));
       r.position = place.plane();
       r.lateral = place.z;
-      r.shear_lateral = lateral_[k] / mesh_.tributary[k];
+      r.shear_lateral = lateral_[k] / extent_[k];
     }
     r.abscissa = on_ground_[k] && ground_ ? ground_->abscissa(r.position)
                                           : std::numeric_limits<double>::quiet_NaN();
-    r.traction = force_[k] / mesh_.tributary[k];
+    r.traction = force_[k] / extent_[k];
+    r.extent = extent_[k];
     r.slip = slip_[k];
     r.sticks = sticks_[k] != 0;
     append_values(columns(), r, rows_);
@@ -157,6 +162,7 @@ void SnapshotFiles::write(const Snapshot& snapshot) {
     collect_contact(snapshot);
     s.contact_force = force_;
     s.contact_force_fixed = force_fixed_;
+    s.contact_extent = extent_;
     write_contact_rows(snapshot);
   }
   if (stress_) s.stress = (*stress_)(elastic(snapshot));

@@ -25,6 +25,7 @@ class CrushAnalysis final : public Analysis {
       : case_(c),
         setup_(build_crush(c)),
         ground_(c.ground->shape),
+        boundary_(setup_.mesh),
         strain_(setup_.mesh, setup_.materials),
         solver_(make_crush_solver(c, options, setup_)) {
     tell_physical_figures(c, setup_);
@@ -57,6 +58,7 @@ class CrushAnalysis final : public Analysis {
   const Case& case_;
   CrushSetup setup_;
   contact::Ground ground_;
+  mesh::DeformedBoundary boundary_;
   StrainWatch strain_;
   std::unique_ptr<CrushSolver> solver_;
   double prepare_s_ = 0.0;
@@ -137,7 +139,7 @@ void CrushAnalysis::describe(Json& j) const {
 Progress CrushAnalysis::begin(Recorder& recorder) {
   state_ = statics::start_crush(setup_.model, setup_.mesh.n_nodes());
   const statics::CrushReport nothing;
-  const CrushSums sums = sum_up(setup_, state_);
+  const CrushSums sums = sum_up(setup_, boundary_, state_);
   append_row(setup_, {0, state_, nothing, sums}, recorder.rows());
   recorder.rows_added();
   static_cast<void>(strain_.look(state_.u, {}, 0.0));  // undeformed
@@ -170,7 +172,7 @@ Progress CrushAnalysis::take_next(Recorder& recorder) {
     return {increments_, n};
   }
   increments_ = k;
-  const CrushSums sums = sum_up(setup_, state_);
+  const CrushSums sums = sum_up(setup_, boundary_, state_);
   const CrushRecord record{k, state_, report, sums};
   append_row(setup_, record, recorder.rows());
   recorder.rows_added();
