@@ -100,7 +100,7 @@ void check_ground(const Case& c, const std::vector<double>& size, const std::vec
         fmt::format("the body starts {:.4g} m deep inside the ground, more than half an element "
                     "({:.4g} m)",
                     depth.deepest, depth.allowed),
-        depth.free ? "start above the ground (initial.position, initial.angle)"
+        depth.free ? "start above the ground (initial.position, initial.turn)"
         : c.rim && c.rim->free_y
             ? "start above the ground or touching it (motion.height, motion.start_x)"
             : "start above the ground (motion.height, motion.start_x) and come down by a table");
