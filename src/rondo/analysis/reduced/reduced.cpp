@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <utility>
 
 #include "rondo/analysis/build/build.hpp"
@@ -66,7 +67,11 @@ void describe_reduced(const ReducedRun& run, const RunOptions& options, Json& js
     return;
   }
   const ForceErrors most = estimate.estimate();
-  json["reduced_error_estimate"] = {{"force_x", most.x}, {"force_y", most.y}};
+  const auto known = [](double error) { return std::isnan(error) ? Json() : Json(error); };
+  json["reduced_error_estimate"] = {{"force_x", most.x},
+                                    {"force_y", most.y},
+                                    {"force_x_of_itself", known(most.x_of_itself)},
+                                    {"friction_power", known(most.friction_power)}};
 }
 
 void add_figures(const ReducedRun& run, double time, Json& json) {
