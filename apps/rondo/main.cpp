@@ -13,6 +13,7 @@
 #include "process.hpp"
 #include "report/report_command.hpp"
 #include "rondo/core/build_id.hpp"
+#include "rondo/core/build_record.hpp"
 #include "rondo/core/edit_distance.hpp"
 #include "rondo/core/error.hpp"
 #include "rondo/core/version.hpp"
@@ -103,8 +104,11 @@ int run_program(int argc, char** argv) {
   spdlog::set_pattern("rondo: %^%l%$: %v");
   CLI::App program{"rondo: explicit non-smooth dynamics of rolling bodies", "rondo"};
   program.set_version_flag("--version", [] {
-    return fmt::format("rondo {} ({}; build id {}; kernels {})", version, build_options, build_id(),
-                       study::dispatch_level());
+    std::string text =
+        fmt::format("rondo {} ({}; build id {}; kernels {})\n{}", version, build_options,
+                    build_id(), study::dispatch_level(), in_lines(build_record()));
+    text.pop_back();  // printed with a line feed
+    return text;
   });
   program.require_subcommand(1);
   program.footer(
@@ -130,5 +134,6 @@ int run_program(int argc, char** argv) {
 
 int main(int argc, char** argv) {
   rondo::set_build_id(rondo::modules_id);
+  rondo::set_commit(rondo::built_commit, rondo::built_modified);
   rondo::app::leave(run_program(argc, argv));
 }

@@ -10,6 +10,7 @@
 #include "calls.hpp"
 #include "commands.hpp"
 #include "rondo/core/build_id.hpp"
+#include "rondo/core/build_record.hpp"
 #include "rondo/core/error.hpp"
 #include "rondo/core/version.hpp"
 #include "rondo/output/run_files.hpp"
@@ -62,6 +63,7 @@ void translate(std::exception_ptr thrown) {
 PYBIND11_MODULE(_core, module) {
   module.doc() = "The library of rondo; used through the package rondo.";
   rondo::set_build_id(rondo::modules_id);
+  rondo::set_commit(rondo::built_commit, rondo::built_modified);
   module.attr("version") = rondo::version;
   module.attr("build_options") = rondo::build_options;
   module.def("build_id", [] { return rondo::build_id(); });

@@ -49,7 +49,7 @@ class Crush(RunTest):
                           "run.json"])
         s = summary(self.out)
         self.assertEqual(
-            sorted(s), sorted("status title version build build_id host process analysis nodes dofs depth depth_max "
+            sorted(s), sorted("status title version build build_id build_record dispatch host process analysis nodes dofs depth depth_max "
                               "increments slide slide_increments increments_done candidates_condensed contact_residual_max "
                               "equilibrium_residual_max energy_residual_relative energy_exchanged "
                               "penetration_max_m sweeps_max pivoted_increments factor_wall_s loop_wall_s "

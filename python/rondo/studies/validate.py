@@ -268,7 +268,7 @@ def _record(directory: pathlib.Path, runs: Sequence[Validated]) -> dict[str, Any
                 "profiles": run.profiles is not None}
 
     first = runs[0].reduced.info
-    program = {key: first.get(key) for key in ("version", "build", "build_id", "host")}
+    program = {key: first.get(key) for key in ("version", "build", "build_id", "build_record", "host")}
     return {"format": FORMAT, "status": "done", **program, "model": first.get("reduced_model"),
             "runs": [entry(run) for run in runs], "units": COLUMNS}
 

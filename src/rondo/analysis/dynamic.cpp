@@ -152,7 +152,6 @@ void DynamicAnalysis::describe(Json& j) const {
                  {"fine_dofs", 2 * parts.fine.free.size()},
                  {"interface_dofs", 2 * parts.interface.size()}};
   }
-  j["dispatch"] = dispatch_level();
   if (setup_.model.rim) j["rim"] = rim_facts(*setup_.model.rim);
 }
 

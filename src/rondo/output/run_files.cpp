@@ -13,6 +13,7 @@
 #include <system_error>
 
 #include "rondo/core/build_id.hpp"
+#include "rondo/core/build_record.hpp"
 #include "rondo/core/error.hpp"
 #include "rondo/core/version.hpp"
 #include "rondo/integrators/fused/dispatch.hpp"
@@ -61,10 +62,24 @@ void copy_mesh(const Case& c, const std::filesystem::path& directory) {
 
 }  // namespace
 
+Json build_record_json() {
+  const BuildRecord record = build_record();
+  Json json, libraries;
+  json["commit"] = record.commit;
+  json["modified"] = record.modified ? Json(*record.modified) : Json();
+  json["compiler"] = record.compiler;
+  json["flags"] = record.flags;
+  for (const auto& [name, number] : record.libraries) libraries[name] = number;
+  json["libraries"] = std::move(libraries);
+  return json;
+}
+
 void describe_program(Json& json) {
   json["version"] = version;
   json["build"] = build_options;
   json["build_id"] = build_id();
+  json["build_record"] = build_record_json();
+  json["dispatch"] = dispatch_level();
   json["host"] = io::host_name();
 }
 

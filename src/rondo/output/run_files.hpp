@@ -14,7 +14,11 @@ namespace rondo::study {
 
 using Json = nlohmann::ordered_json;
 
-/// Adds what program wrote it, where: version, build, build id, host.
+/// What the program was built from: commit, modified, compiler, flags, libraries. The same in all
+/// documents.
+[[nodiscard]] Json build_record_json();
+
+/// Adds what program wrote it, where: version, build, build id, build record, kernels, host.
 void describe_program(Json& json);
 
 /// The first keys of run.json, with the status "running".

@@ -13,6 +13,7 @@
 #include "rondo/core/error.hpp"
 #include "rondo/io/checkpoint_file.hpp"
 #include "rondo/io/mesh_files.hpp"
+#include "rondo/output/run_files.hpp"
 
 namespace rondo::study {
 namespace {
@@ -203,6 +204,7 @@ void write_all(File& file, const ReducedFile& content) {
   std::string runs;
   for (const std::string& run : content.runs) runs += run + "\n";
   file.set_attribute("/", "runs", runs);
+  file.set_attribute("/", "build_record", build_record_json().dump());
   io::write_mesh(file, content.mesh, content.mass);
   write_numbers(file, content);
   write_counts(file, content);
