@@ -52,12 +52,6 @@ void check_request(const MeshRequest& request) {
                          "is no scale of lengths", "> 0"});
 }
 
-void pass_on(const std::vector<std::string>& said, Findings& findings) {
-  if (said.empty()) return;
-  findings.warnings.push_back("the Gmsh library says: " +
-                              examples(said.size(), [&](std::size_t k) { return said[k]; }));
-}
-
 }  // namespace
 
 void Findings::add(std::string message, std::string allowed) {
@@ -96,8 +90,9 @@ ReadMesh read_gmsh(const MeshRequest& request) {
 
 ReadMesh mesh_of(const RawMesh& raw, bool version_22, const MeshRequest& request) {
   Findings findings{.file = request.file.string(), .faults = {}, .warnings = {}};
-  pass_on(raw.warnings, findings);
+  findings.warnings = raw.warnings;
   const std::vector<NamedGroup> groups = named_groups(raw);
+  warn_of_groups(raw, groups, findings);
   check_names(request, groups, findings);
   const TagIndex index(raw.node_tags);
   check_types(raw, index, findings);
