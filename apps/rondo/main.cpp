@@ -15,6 +15,7 @@
 #include "rondo/core/build_id.hpp"
 #include "rondo/core/edit_distance.hpp"
 #include "rondo/core/error.hpp"
+#include "rondo/core/limits/processors.hpp"
 #include "rondo/core/version.hpp"
 #include "rondo/output/run_files.hpp"
 #include "signals.hpp"
@@ -113,6 +114,7 @@ int run_program(int argc, char** argv) {
   std::signal(SIGPIPE, SIG_IGN);  // a reader of our output that goes away ends nothing
   std::signal(SIGXFSZ, SIG_IGN);  // a file that grows too long is an error of writing
   app::end_at_stop_signals();
+  use_allowed_processors();
   app::Telling tell;
   tell.json = app::is_json_asked_for(argc, argv);
   if (tell.json) app::begin_answer(argv[1]);

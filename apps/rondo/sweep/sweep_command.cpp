@@ -19,6 +19,7 @@
 #include "rondo/analysis/build/memory.hpp"
 #include "rondo/core/bytes.hpp"
 #include "rondo/core/error.hpp"
+#include "rondo/core/limits/processors.hpp"
 #include "signals.hpp"
 #include "sweep/mpi_team.hpp"
 #include "sweep/sweep_shards.hpp"
@@ -182,7 +183,7 @@ int sweep(SweepArguments arguments, Telling& tell) {
   catch_stop_signals();
   if (!is_started_by_mpi()) {
     refuse_tasks_without_mpi();
-    const int workers = arguments.jobs > 0 ? arguments.jobs : study::available_cores();
+    const int workers = arguments.jobs > 0 ? arguments.jobs : allowed_processors();
     study::LocalTeam team(workers, &stop_requested());
     return run(arguments, team, tell);
   }

@@ -6,7 +6,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <thread>
 
 #include "rondo/analysis/build/initial_state.hpp"
 #include "rondo/analysis/build/memory.hpp"
@@ -20,6 +19,7 @@
 #include "rondo/analysis/elements/subdomains.hpp"
 #include "rondo/case/case_keys.hpp"
 #include "rondo/case/case_rules.hpp"
+#include "rondo/core/limits/processors.hpp"
 #include "rondo/integrators/fused/batch_integrator.hpp"
 #include "rondo/statics/stationary_spin.hpp"
 
@@ -145,7 +145,7 @@ void choose_threads(Setup& s, int asked) {
                     most, asked, operator_name(s.model.stiffness_operator)));
   if (asked <= 0) {
     const bool small = count_dofs(s.model) < single_thread_dofs;
-    asked = small ? 1 : static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
+    asked = small ? 1 : allowed_processors();
   }
   s.model.threads = std::min(asked, most);
 }

@@ -4,13 +4,13 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <thread>
 #include <utility>
 
 #include "rondo/analysis/build/memory.hpp"
 #include "rondo/analysis/build/physical.hpp"
 #include "rondo/analysis/steady/solid_steady_body.hpp"
 #include "rondo/analysis/steady/steady_body.hpp"
+#include "rondo/core/limits/processors.hpp"
 
 namespace rondo::study {
 namespace {
@@ -71,7 +71,7 @@ int threads_for(const Case& c, const RolledBody& body, int asked) {
   if (asked != 0) return asked;
   const auto samples = static_cast<std::size_t>(c.analysis.samples_per_sector);
   if (samples * body.dofs < 2 * single_thread_dofs) return 1;
-  return static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
+  return allowed_processors();
 }
 
 std::shared_ptr<RolledBody> rolled_body(const Case& c, SharedBody* shared) {
