@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "rondo/analysis/base/disk.hpp"
+#include "rondo/analysis/base/region_figures.hpp"
 #include "rondo/io/files.hpp"
 #include "rondo/output/checkpoint.hpp"
 #include "rondo/output/resume.hpp"
@@ -182,6 +183,7 @@ Json RunSession::describe() const {
   Json json = describe_run(case_, plan_.results.words.analysis);
   json["resumable"] = analysis_.resumable() != nullptr;
   analysis_.describe(json);
+  if (plan_.results.mesh != nullptr) describe_regions(*plan_.results.mesh, plan_.materials, json);
   json["columns"] = Json::array();
   for (const ColumnLabel& column : plan_.columns)
     json["columns"].push_back({{"name", column.name}, {"unit", column.unit}});
