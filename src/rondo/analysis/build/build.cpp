@@ -7,6 +7,7 @@
 #include <cmath>
 #include <limits>
 
+#include "rondo/analysis/build/held_ground.hpp"
 #include "rondo/analysis/build/initial_state.hpp"
 #include "rondo/analysis/build/memory.hpp"
 #include "rondo/analysis/build/physical.hpp"
@@ -317,6 +318,7 @@ void set_up_run(const Case& c, Setup& s, SharedBody* shared) {
   s.n_steps = count_steps(c, s.model.dt);
   check_branches(c, s);
   set_initial_fields(c, s, shared);
+  refuse_held_in_ground(c, s);
   check_start(c, s);
   check_stability(c, s);
   tell_physical_figures(c, s);

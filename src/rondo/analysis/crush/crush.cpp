@@ -8,6 +8,7 @@
 
 #include "rondo/analysis/base/disk.hpp"
 #include "rondo/analysis/base/strain_watch.hpp"
+#include "rondo/analysis/build/held_ground.hpp"
 #include "rondo/analysis/build/physical.hpp"
 #include "rondo/analysis/crush/crush_record.hpp"
 #include "rondo/analysis/crush/crush_solver.hpp"
@@ -27,6 +28,7 @@ class CrushAnalysis final : public Analysis {
         ground_(c.ground->shape),
         strain_(setup_.mesh, setup_.materials),
         solver_(make_crush_solver(c, options, setup_)) {
+    refuse_held_in_ground(c, setup_);
     tell_physical_figures(c, setup_);
     if (options.resume)
       throw case_error(c, "analysis.kind", "a crush has no checkpoints to resume from",

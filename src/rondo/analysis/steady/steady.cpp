@@ -9,6 +9,7 @@
 
 #include "rondo/analysis/base/disk.hpp"
 #include "rondo/analysis/base/strain_watch.hpp"
+#include "rondo/analysis/build/held_ground.hpp"
 #include "rondo/analysis/build/physical.hpp"
 #include "rondo/analysis/figures/steady_figures.hpp"
 #include "rondo/analysis/steady/steady_case.hpp"
@@ -34,6 +35,7 @@ class SteadyRolling final : public Analysis {
         body_(rolled_body(c, options.shared)),
         ground_(c.ground->shape),
         strain_(body_->mesh, body_->materials) {
+    refuse_held_in_ground(c, body_->mesh);
     tell_physical_figures(c, body_->mesh, body_->materials, told_);
     if (options.resume)
       throw case_error(c, "analysis.kind", "steady rolling has no checkpoints to resume from",
