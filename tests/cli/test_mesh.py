@@ -261,7 +261,7 @@ class Meshes(ProgramTest):
         self.assertIn(f"{mass:.6g} kg/m", lines["mass"])
 
     def test_half_a_body_is_none(self):
-        """Half of the cells by a count that is too small: before, half the mass and no word."""
+        """Half of the cells, by a count that is too small, are not taken for the whole."""
         text = (self.folder / "block.msh").read_text()
         self.assertIn("\n2 1 3 100\n", text)  # the last block
         (self.folder / "block.msh").write_text(text.replace("\n2 1 3 100\n", "\n2 1 3 50\n"))

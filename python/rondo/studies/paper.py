@@ -18,7 +18,7 @@ from typing import Any
 
 from ..data.errors import Error
 from ..data.files import read_json
-from .jobs import FILES, INTERRUPTED, NUMERICAL, Job, Stop, run_jobs
+from .jobs import FILES, INTERRUPTED, NUMERICAL, Job, Stop, processors, run_jobs
 from .paper_kept import has_ended, identity, pod_is_there, remove_unfinished, run_is_there
 from .paper_plan import Plan, PlannedPod, PlannedRun, read_plan, study_folder
 from .paper_table import Row, make_table, table_text
@@ -205,7 +205,7 @@ class _Study:
                     self.identities[run.name] = identity(self._directory(run.name), run)
             self.write("running")
 
-        at_once = self.request.jobs or len(os.sched_getaffinity(0))
+        at_once = self.request.jobs or processors()
         try:
             run_jobs(self.program, waiting, at_once, stop, ended, progress.watch)
         finally:
