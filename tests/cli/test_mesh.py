@@ -285,6 +285,13 @@ class Meshes(ProgramTest):
         self.assertEqual(done.returncode, 2)
         self.assertIn("should \"tread\" be mesh.contact and \"rim\" mesh.clamped?", done.stderr)
 
+    def test_held_and_touching_curves_of_a_section_that_are_swapped(self):
+        done = run("check", ROOT / "cases" / "wheel3d-tyre.toml", "--set", "section.clamped=tread",
+                   "--set", "section.contact=rim", "--set", "load.pressure=[]")
+        self.assertEqual(done.returncode, 2)
+        self.assertIn("nodes that are held would be up to 0.008 m deep in the ground", done.stderr)
+        self.assertIn("should \"tread\" be section.contact and \"rim\" section.clamped?", done.stderr)
+
     def test_a_rim_in_the_ground(self):
         """A disk, a crush of a mesh and steady rolling refuse it, too."""
         crush = BLOCK[:BLOCK.index("[motion]")] + BLOCK[BLOCK.index("[ground]"):BLOCK.index("[time]")]
