@@ -183,9 +183,7 @@ long long DynamicAnalysis::next_snapshot() const noexcept {
 /// Takes the initial fields of the setup, which are not needed twice.
 Progress DynamicAnalysis::begin(Recorder& recorder) {
   history_.emplace(case_, setup_, from_ ? from_->history : HistoryPlace{});
-  // Of free bodies of rubber it closes, as of those that are held.
-  const bool closes = setup_.model.free_bodies.empty() || fem::has_rubber(setup_.materials);
-  bounds_ = {closes ? residual_bound : free_residual_bound, largest_strain_energy(setup_),
+  bounds_ = {energy_residual_bound(setup_), largest_strain_energy(setup_),
              impact_cure(setup_.model), guards_impacts(),
              unit_of("J/m", setup_.model.solid.has_value())};
   watch_.emplace(case_, setup_);
@@ -399,6 +397,7 @@ void DynamicAnalysis::summarise(Json& j, RunReport& r) const {
   r.step_wall_s = r.loop_wall_s;
   r.ns_per_dof_step = 1e9 * r.loop_wall_s / (dofs * static_cast<double>(std::max(1LL, steps_)));
   r.energy_residual_relative = balance_.relative;
+  r.energy_residual_bound = energy_residual_bound(setup_);
   r.contact_residual_max = contact_.residual;
   r.penetration_max_m = contact_.penetration;
   for (const std::string& warning : warnings_) j["warnings"].push_back(warning);
@@ -408,6 +407,7 @@ void DynamicAnalysis::summarise(Json& j, RunReport& r) const {
   j["end_time"] = time;
   j["ns_per_dof_step"] = r.ns_per_dof_step;
   j["energy_residual_relative"] = balance_.relative;
+  j["energy_residual_bound"] = r.energy_residual_bound;
   j["energy_exchanged"] = balance_.exchanged;
   j["contact_residual_max"] = contact_.residual;
   j["penetration_max_m"] = contact_.penetration;

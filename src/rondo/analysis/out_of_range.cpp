@@ -147,6 +147,11 @@ std::string missed_corner(double way) {
       way);
 }
 
+double energy_residual_bound(const Setup& setup) noexcept {
+  const bool closes = setup.model.free_bodies.empty() || fem::has_rubber(setup.materials);
+  return closes ? residual_bound : free_residual_bound;
+}
+
 std::string held_by_two_facets() {
   return "a contact node without mass is held by two facets of the ground at a concave corner, "
          "which "

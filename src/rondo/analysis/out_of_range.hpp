@@ -23,6 +23,10 @@ struct OutOfBound {
   bool not_finite = false;
 };
 
+/// Bound of the ledger's relative residual: round-off, but for linear elastic bodies that nothing
+/// holds (docs/theory.md, 5 and 9.7).
+double energy_residual_bound(const Setup& setup) noexcept;
+
 /// Largest values that are no trouble.
 struct Bounds {
   double ledger = 0.0;         ///< relative residual

@@ -189,6 +189,7 @@ void CrushAnalysis::summarise(Json& j, RunReport& r) const {
   r.steps = increments_;
   r.reached = reached(increments_, state_.depth, state_.slide);
   r.energy_residual_relative = state_.works.relative;
+  r.energy_residual_bound = residual_bound;
   r.contact_residual_max = residual_;
   r.penetration_max_m = penetration_;
   const bool tables = setup_.path.is_of_tables();
@@ -198,6 +199,7 @@ void CrushAnalysis::summarise(Json& j, RunReport& r) const {
   j["contact_residual_max"] = residual_;
   j["equilibrium_residual_max"] = equilibrium_;
   j["energy_residual_relative"] = state_.works.relative;
+  j["energy_residual_bound"] = r.energy_residual_bound;
   j["energy_exchanged"] = state_.works.exchanged;
   j["penetration_max_m"] = penetration_;
   solver_->summarise(state_, j, r);

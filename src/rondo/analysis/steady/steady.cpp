@@ -174,12 +174,14 @@ void SteadyRolling::summarise(Json& j, RunReport& r) const {
   r.reached = fmt::format("{} places of a sector", recorded_);
   const SteadyResiduals residuals = state_->residuals();
   r.energy_residual_relative = residuals.energy;
+  r.energy_residual_bound = residual_bound;
   r.contact_residual_max = residuals.contact;
   r.penetration_max_m = residuals.penetration;
   strain_.summarise({}, j, r);
   j["steps_done"] = recorded_;
   j["contact_residual_max"] = r.contact_residual_max;
   j["energy_residual_relative"] = r.energy_residual_relative;
+  j["energy_residual_bound"] = r.energy_residual_bound;
   j["penetration_max_m"] = r.penetration_max_m;
   if (recorded_ == 0) return;
   j["steady"] = state_->describe();
