@@ -11,6 +11,7 @@
 
 #include "options.hpp"
 #include "process.hpp"
+#include "report/python_commands.hpp"
 #include "report/report_command.hpp"
 #include "rondo/core/build_id.hpp"
 #include "rondo/core/edit_distance.hpp"
@@ -66,11 +67,12 @@ int dispatch_command(CLI::App& program, int argc, char** argv, app::Telling& tel
   const CLI::App* reduce = app::add_reduce(program, reduce_request, tell);
   const CLI::App* fmu = app::add_fmu(program, fmu_arguments, tell);
   const CLI::App* modes = app::add_modes(program, modes_arguments, tell);
-  app::add_paper(program);
   const CLI::App* sweep = app::add_sweep(program, sweep_arguments, tell);
   const CLI::App* report = app::add_report(program, report_arguments);
   const CLI::App* schema = app::add_schema(program, schema_of);
+  app::add_python_commands(program);
   if (argc > 1 && argv[1][0] != '-') demand_command(program, argv[1]);
+  if (argc > 1 && app::is_python_command(argv[1])) app::do_python_command(argc, argv);
   try {
     program.parse(argc, argv);
   } catch (const CLI::ParseError& error) {

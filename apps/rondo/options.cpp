@@ -55,12 +55,6 @@ void add_reduced(CLI::App& run, study::RunOptions& options) {
       ->needs(reduced);
 }
 
-/// What is done in Python now: to be told, with what to call.
-[[noreturn]] void refuse_moved(const char* what, const char* now) {
-  throw InputError(Fault{what, 0, 0, "", "", "is no part of this program any more",
-                         fmt::format("{} (docs/python.md)", now)});
-}
-
 }  // namespace
 
 CLI::App* add_run(CLI::App& program, RunArguments& arguments, Telling& tell) {
@@ -156,16 +150,17 @@ CLI::App* add_reduce(CLI::App& program, study::ReduceRequest& r, Telling& tell) 
       ->add_option_function<std::string>(
           "--validate",
           [](const std::string&) {
-            refuse_moved("rondo reduce --validate",
-                         "rondo run CASE --reduced MODEL -o REDUCED, then python3 -m rondo "
-                         "validate REDUCED RUN");
+            throw InputError(Fault{"rondo reduce --validate", 0, 0, "", "",
+                                   "is no part of this command any more",
+                                   "rondo run CASE --reduced MODEL -o REDUCED, then rondo validate "
+                                   "REDUCED RUN"});
           })
       ->group("");  // not in the help
   add_telling(*reduce, tell, "prints warnings and the results only");
   reduce->footer(
       "Example:\n  rondo reduce results/mu0 results/mu06 -o model.h5\n"
       "  rondo run cases/rolling-flat.toml --reduced model.h5 -o results/reduced\n"
-      "  python3 -m rondo validate results/reduced results/full\n"
+      "  rondo validate results/reduced results/full\n"
       "What it can do and where it fails: docs/reduced.md.");
   return reduce;
 }
@@ -226,7 +221,7 @@ CLI::App* add_modes(CLI::App& program, ModesArguments& arguments, Telling& tell)
   add_telling(*modes, tell, "prints warnings and the results only");
   modes->footer(
       "Example:\n  rondo modes cases/modes-annulus.toml -o results/modes --spins 0:400:41\n"
-      "  python3 -m rondo campbell results/modes\n"
+      "  rondo campbell results/modes\n"
       "Exit code 3: a spin beyond the softening limit. More: docs/modes.md.");
   return modes;
 }
@@ -238,13 +233,6 @@ CLI::App* add_schema(CLI::App& program, std::string& of) {
       ->required();
   schema->footer("Example:\n  rondo schema case > case.json\nFor editors: docs/machine.md.");
   return schema;
-}
-
-void add_paper(CLI::App& program) {
-  program.add_subcommand("paper", "the study of the paper: python3 -m rondo paper -o DIRECTORY")
-      ->group("")  // not in the help
-      ->allow_extras()
-      ->callback([] { refuse_moved("rondo paper", "python3 -m rondo paper -o DIRECTORY"); });
 }
 
 CLI::App* add_sweep(CLI::App& program, SweepArguments& arguments, Telling& tell) {

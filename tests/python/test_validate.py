@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""python3 -m rondo validate: its figures against those computed here from the two results
+"""rondo validate: its figures against those computed here from the two results
 directories, wrong input; what it measures with, on data made by hand."""
 import csv
 import json

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""A validation of a reduced model: the directory that `python3 -m rondo validate` writes."""
+"""A validation of a reduced model: the directory that `rondo validate` writes."""
 from __future__ import annotations
 
 import csv
@@ -48,7 +48,7 @@ class Validation:
         self.names, self._columns = _read(directory / "validation.csv")
         if self.names != list(self._has_profiles) or set(self.units) != set(self._columns):
             raise Error(f"{directory}: validation.json and validation.csv are not of one "
-                        "validation; python3 -m rondo validate writes both anew")
+                        "validation; rondo validate writes both anew")
 
     def __repr__(self) -> str:
         return (f"Validation({self.directory}: of {self.info.get('model')} "

@@ -13,8 +13,8 @@ if TYPE_CHECKING:
     from .document import Document
 
 INSIDE = {  # what has no page of its own, and which has
-    "modes.json": "draw it with python3 -m rondo campbell",
-    "validation.json": "draw it with python3 -m rondo validation",
+    "modes.json": "draw it with rondo campbell",
+    "validation.json": "draw it with rondo validation",
 }
 
 

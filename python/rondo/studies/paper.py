@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""python3 -m rondo paper: the study of the paper, its runs and decompositions, several at once,
+"""rondo paper: the study of the paper, its runs and decompositions, several at once,
 into one directory, and the table of ours against expected (docs/paper.md, docs/results.md)."""
 from __future__ import annotations
 
@@ -277,7 +277,7 @@ class _Study:
             passed = sum(row["pass"] for row in self.table)
             print(f"\n{passed} of {len(self.table)} as expected, in "
                   f"{time.monotonic() - self._begin:.1f} s; data and paper.json in {directory}\n"
-                  f"figures: python3 -m rondo figures {directory}")
+                  f"figures: rondo figures {directory}")
             if self.message:
                 _say(f"error: {self.message}")
         return self.code
@@ -312,7 +312,7 @@ def _say(text: str) -> None:
 
 def command(directory: pathlib.Path | None, quick: bool, jobs: int | None, overwrite: bool,
             quiet: bool, study: pathlib.Path | None) -> int:
-    """python3 -m rondo paper"""
+    """rondo paper"""
     where = directory or pathlib.Path("paper-quick" if quick else "paper")
     try:
         return run_paper(Request(where, quick, jobs or 0, overwrite, quiet,

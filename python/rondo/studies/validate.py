@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""python3 -m rondo validate: how far off the predictions of a reduced model are, from the results
+"""rondo validate: how far off the predictions of a reduced model are, from the results
 of reduced runs and of the full runs that they are to predict (docs/reduced.md, 10)."""
 from __future__ import annotations
 
