@@ -29,7 +29,7 @@ set(CPACK_DEBIAN_RUNTIME_PACKAGE_NAME rondo)
 set(CPACK_DEBIAN_RUNTIME_PACKAGE_SECTION science)
 set(CPACK_DEBIAN_RUNTIME_DESCRIPTION "Deformable disks, wheels and other bodies in large rotation, in exact
 frictional contact with rigid ground and with each other: transient
-rolling with an energy balance that closes to round-off, steady rolling,
+rolling with an energy balance in each run, steady rolling,
 crushing, modes, reduced models, parametric studies. With the package for
 Python, example cases and pages of man.")
 set(CPACK_DEBIAN_RUNTIME_PACKAGE_SHLIBDEPS ON)

@@ -7,7 +7,8 @@ set(RONDO_PUBLIC_HEADERS
     study/pod/pod.hpp study/reduce/reduce.hpp io/run_reader.hpp
     mesh/mesh.hpp mesh/disk.hpp mesh/gmsh_reader.hpp
     fem/elasticity.hpp fem/assembly.hpp fem/sector_stiffness.hpp fem/stress.hpp
-    contact/ground.hpp model/model.hpp model/integrator.hpp model/stability/critical_step.hpp
+    contact/ground.hpp model/model.hpp model/integrator.hpp model/internal_force.hpp
+    model/stability/critical_step.hpp
     integrators/integrator.hpp integrators/start.hpp)
 set(RONDO_INCLUDED_HEADERS
     core/complex.hpp core/field.hpp core/sum.hpp core/vec2.hpp core/vec3.hpp

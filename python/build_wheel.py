@@ -51,7 +51,7 @@ def version() -> str:
 
 
 def shipped_files() -> dict[str, pathlib.Path]:
-    """What `python3 -m rondo paper` needs besides the package, with its place in it: the study and
+    """What `rondo paper` needs besides the package, with its place in it: the study and
     its cases. In a source archive they are there already."""
     there = ROOT / NAME / "shipped"
     if there.is_dir():

@@ -6,11 +6,11 @@ cd "$(dirname "$0")/.."
 
 bash scripts/setup.sh
 cmake --preset release
-cmake --build --preset release --target rondo
+cmake --build --preset release --target rondo rondo_python
 out=results/ledge-smooth
 build/release/rondo run cases/ledge-smooth.toml -o "$out" --overwrite
 build/release/rondo pod "$out" --frame rectified --from 0.07 --quiet
-PYTHONPATH=python /usr/bin/python3 -m rondo figures "$out"
+build/release/rondo figures "$out"
 build/release/rondo report "$out"
 
 cat <<EOT
@@ -24,6 +24,6 @@ The results are in $out:
   pod/          modes of the displacement as seen from the ground: modes.xdmf for ParaView
   run.json      the figures of the run: steps, speed, largest imbalance of the ledger
 Next: source scripts/env.sh puts rondo and its Python package on the paths of a shell; then
-docs/tutorial.md, or python3 -m rondo paper -o results/paper, the study of the paper (docs/paper.md);
+docs/tutorial.md, or rondo paper -o results/paper, the study of the paper (docs/paper.md);
 rondo run --help, the other files in cases/, and docs/cases.md.
 EOT

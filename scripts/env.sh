@@ -32,8 +32,8 @@ _rondo_missing='import importlib.util as u; print(*[m for m in ("numpy", "h5py",
   if u.find_spec(m) is None])'
 _rondo_missing=$(python3 -c "$_rondo_missing" 2>&1) || true
 if [ -n "$_rondo_missing" ]; then
-  echo "env: $(command -v python3 || echo 'no python3') lacks: $_rondo_missing. The packages of" \
-    "scripts/setup.sh are those of the system's Python: alias python3=/usr/bin/python3" >&2
+  echo "env: $(command -v python3 || echo 'no python3') lacks: $_rondo_missing. Commands of rondo do without it;" \
+    "run scripts that import rondo with /usr/bin/python3, which has the packages of scripts/setup.sh" >&2
 fi
 case ${BASH_VERSION:+$-} in
   *i*)

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// @file  An instance of the FMU: its wheel, and what may be called when (FMI 2.0.4, 4.2.4).
 #pragma once
+#include <limits>
 #include <memory>
 #include <set>
 #include <string>
@@ -26,14 +27,16 @@ class Component {
   fmi2Status get(const fmi2ValueReference* references, std::size_t n, double* values);
   fmi2Status set(const fmi2ValueReference* references, std::size_t n, const double* values);
   fmi2Status step(double at, double length);
-  fmi2Status setup(double start);
+  /// @param stop infinite: none
+  fmi2Status setup(double start, double stop);
   fmi2Status set_logging(bool on, std::size_t n, const fmi2String* categories);
   [[nodiscard]] double time() const noexcept { return time_; }
   [[nodiscard]] bool is_terminated() const noexcept { return phase_ == Phase::failed; }
 
   fmi2Status save(fmi2FMUstate* state);
   fmi2Status restore(fmi2FMUstate state);
-  static void free(fmi2FMUstate* state) noexcept;
+  /// @return fmi2Error: it is none, or is freed
+  static fmi2Status free(fmi2FMUstate* state) noexcept;
   fmi2Status serialized_size(fmi2FMUstate state, std::size_t* n);
   fmi2Status serialize(fmi2FMUstate state, char* bytes, std::size_t n);
   fmi2Status deserialize(const char* bytes, std::size_t n, fmi2FMUstate* state);
@@ -49,6 +52,8 @@ class Component {
     Phase phase = Phase::instantiated;
     bool stale = true;
   };
+  fmi2Status hand_over(std::unique_ptr<State> saved, fmi2FMUstate* state);
+  static const char* no_place_for_state(const fmi2FMUstate* state) noexcept;
   void log(fmi2Status status, const char* category, const std::string& message);
   fmi2Status tell_warnings();
   fmi2Status fail(const std::string& message);
@@ -64,6 +69,14 @@ class Component {
   Phase phase_ = Phase::instantiated;
   bool stale_ = true;  ///< the wheel is not made of the values yet
   double time_ = 0.0;
+  double stop_ = std::numeric_limits<double>::infinity();
 };
+
+/// The instance behind a pointer; null: there is none, or it is freed.
+[[nodiscard]] Component* living(fmi2Component c) noexcept;
+/// Takes it from then on. @throws std::bad_alloc
+fmi2Component enroll(std::unique_ptr<Component> component);
+/// Frees it; nothing, where it is freed already.
+void dismiss(fmi2Component c) noexcept;
 
 }  // namespace rondo::fmu

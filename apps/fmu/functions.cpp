@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// @file  What the FMU exports (FMI 2.0.4, 2.1 and 4.2): no exception goes out of it.
 #include <exception>
+#include <limits>
 #include <new>
 
 #include "component.hpp"
@@ -11,20 +12,18 @@ namespace {
 
 using rondo::fmu::Component;
 
-Component* of(fmi2Component c) noexcept {
-  return static_cast<Component*>(c);
-}
-
+/// An instance that is freed, or none, is fmi2Error: nothing is known that could log it.
 template <class Work>
 fmi2Status guarded(fmi2Component c, const Work& work) noexcept {
-  if (c == nullptr) return fmi2Error;
+  Component* const instance = rondo::fmu::living(c);
+  if (instance == nullptr) return fmi2Error;
   try {
-    return work(*of(c));
+    return work(*instance);
   } catch (const std::bad_alloc&) {
     return fmi2Fatal;
   } catch (const std::exception& e) {
     try {
-      return of(c)->error(e.what());
+      return instance->error(e.what());
     } catch (...) {
       return fmi2Error;
     }
@@ -67,7 +66,8 @@ RONDO_EXPORT fmi2Component fmi2Instantiate(fmi2String name, fmi2Type type, fmi2S
     return say("fmi2Instantiate: name, GUID, resources and callbacks are needed");
   if (type != fmi2CoSimulation) return say("fmi2Instantiate: it is for co-simulation alone");
   try {
-    return new Component(name, resources, guid, *callbacks, logging != 0);
+    return rondo::fmu::enroll(
+        std::make_unique<Component>(name, resources, guid, *callbacks, logging != 0));
   } catch (const std::exception& e) {
     return say(e.what());
   } catch (...) {
@@ -76,7 +76,7 @@ RONDO_EXPORT fmi2Component fmi2Instantiate(fmi2String name, fmi2Type type, fmi2S
 }
 
 RONDO_EXPORT void fmi2FreeInstance(fmi2Component c) {
-  delete of(c);
+  rondo::fmu::dismiss(c);
 }
 
 RONDO_EXPORT fmi2Status fmi2SetDebugLogging(fmi2Component c, fmi2Boolean on, std::size_t n,
@@ -85,8 +85,9 @@ RONDO_EXPORT fmi2Status fmi2SetDebugLogging(fmi2Component c, fmi2Boolean on, std
 }
 
 RONDO_EXPORT fmi2Status fmi2SetupExperiment(fmi2Component c, fmi2Boolean, fmi2Real, fmi2Real start,
-                                            fmi2Boolean, fmi2Real) {
-  return guarded(c, [&](Component& k) { return k.setup(start); });
+                                            fmi2Boolean stops, fmi2Real stop) {
+  const double last = stops != 0 ? stop : std::numeric_limits<double>::infinity();
+  return guarded(c, [&](Component& k) { return k.setup(start, last); });
 }
 
 RONDO_EXPORT fmi2Status fmi2EnterInitializationMode(fmi2Component c) {
@@ -150,30 +151,21 @@ RONDO_EXPORT fmi2Status fmi2GetFMUstate(fmi2Component c, fmi2FMUstate* state) {
 }
 
 RONDO_EXPORT fmi2Status fmi2SetFMUstate(fmi2Component c, fmi2FMUstate state) {
-  return guarded(c, [&](Component& k) {
-    return state != nullptr ? k.restore(state) : k.error("fmi2SetFMUstate: there is no state");
-  });
+  return guarded(c, [&](Component& k) { return k.restore(state); });
 }
 
 RONDO_EXPORT fmi2Status fmi2FreeFMUstate(fmi2Component, fmi2FMUstate* state) {
-  if (state != nullptr) Component::free(state);
-  return fmi2OK;
+  return Component::free(state);
 }
 
 RONDO_EXPORT fmi2Status fmi2SerializedFMUstateSize(fmi2Component c, fmi2FMUstate state,
                                                    std::size_t* n) {
-  return guarded(c, [&](Component& k) {
-    return state != nullptr ? k.serialized_size(state, n)
-                            : k.error("fmi2SerializedFMUstateSize: there is no state");
-  });
+  return guarded(c, [&](Component& k) { return k.serialized_size(state, n); });
 }
 
 RONDO_EXPORT fmi2Status fmi2SerializeFMUstate(fmi2Component c, fmi2FMUstate state, fmi2Byte bytes[],
                                               std::size_t n) {
-  return guarded(c, [&](Component& k) {
-    return state != nullptr ? k.serialize(state, bytes, n)
-                            : k.error("fmi2SerializeFMUstate: there is no state");
-  });
+  return guarded(c, [&](Component& k) { return k.serialize(state, bytes, n); });
 }
 
 RONDO_EXPORT fmi2Status fmi2DeSerializeFMUstate(fmi2Component c, const fmi2Byte bytes[],
@@ -223,6 +215,7 @@ RONDO_EXPORT fmi2Status fmi2GetRealStatus(fmi2Component c, const fmi2StatusKind 
                                           fmi2Real* value) {
   if (kind != fmi2LastSuccessfulTime) return fmi2Discard;
   return guarded(c, [&](Component& k) {
+    if (value == nullptr) return k.error("fmi2GetRealStatus: the pointer to the value is NULL");
     *value = k.time();
     return fmi2OK;
   });
@@ -236,6 +229,7 @@ RONDO_EXPORT fmi2Status fmi2GetBooleanStatus(fmi2Component c, const fmi2StatusKi
                                              fmi2Boolean* value) {
   if (kind != fmi2Terminated) return fmi2Discard;
   return guarded(c, [&](Component& k) {
+    if (value == nullptr) return k.error("fmi2GetBooleanStatus: the pointer to the value is NULL");
     *value = k.is_terminated() ? 1 : 0;
     return fmi2OK;
   });

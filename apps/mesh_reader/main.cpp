@@ -5,13 +5,17 @@
 #include <gmsh.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cstdio>
 #include <cstdlib>
+#include <map>
 #include <new>
 #include <set>
 #include <string>
+#include <tuple>
 #include <vector>
 
+#include "census.hpp"
 #include "limits.hpp"
 #include "rondo/mesh/gmsh_stream.hpp"
 #include "source_text.hpp"
@@ -19,6 +23,9 @@
 namespace {
 
 using rondo::mesh::StreamStatus;
+using rondo::reader::Census;
+using rondo::reader::Id;
+using rondo::reader::TypeShape;
 
 void put(const void* data, std::size_t size) {
   if (size > 0 && std::fwrite(data, 1, size, stdout) != size) std::exit(1);
@@ -66,27 +73,44 @@ void put_types() {
   }
 }
 
-void put_groups() {
+/// The names are those of the file: the library forgets the second of two groups of one name.
+void put_groups(const Census& census) {
+  std::map<Id, std::string> named = census.names;
   gmsh::vectorpair groups;
   gmsh::model::getPhysicalGroups(groups);
-  put_count(groups.size());
-  for (const auto& [dimension, tag] : groups) {
-    std::string name;
-    gmsh::model::getPhysicalName(dimension, tag, name);
-    put(dimension), put(tag), put_text(name);
-  }
+  for (const Id& group : groups) named.try_emplace(group);
+  put_count(named.size());
+  for (const auto& [group, name] : named) put(group.first), put(group.second), put_text(name);
 }
 
-gmsh::vectorpair put_entities() {
-  gmsh::vectorpair entities;
-  gmsh::model::getEntities(entities);
-  put_count(entities.size());
-  for (const auto& [dimension, tag] : entities) {
-    std::vector<int> physical;
-    gmsh::model::getPhysicalGroupsForEntity(dimension, tag, physical);
-    put(dimension), put(tag), put_count(physical.size()), put_all(physical);
+std::vector<int> groups_of(const Census& census, const Id& entity) {
+  std::vector<int> physical;
+  if (census.between_parts.count(entity) == 0)
+    gmsh::model::getPhysicalGroupsForEntity(entity.first, entity.second, physical);
+  for (int& tag : physical) tag = std::abs(tag);  // the sign is that of the normal
+  return physical;
+}
+
+/// Entities whose elements are read: none with copies of elements; of a mesh in parts only parts.
+std::vector<Id> entities_of(const Census& census) {
+  gmsh::vectorpair all;
+  gmsh::model::getEntities(all);
+  std::vector<Id> entities;
+  for (const Id& entity : all) {
+    std::vector<int> types;
+    gmsh::model::mesh::getElementTypes(types, entity.first, entity.second);
+    const bool is_parent = census.n_parts > 0 && types.empty();
+    if (!is_parent && census.ghosts.count(entity) == 0) entities.push_back(entity);
   }
   return entities;
+}
+
+void put_entities(const Census& census, const std::vector<Id>& entities) {
+  put_count(entities.size());
+  for (const Id& entity : entities) {
+    const std::vector<int> physical = groups_of(census, entity);
+    put(entity.first), put(entity.second), put_count(physical.size()), put_all(physical);
+  }
 }
 
 void put_nodes() {
@@ -101,7 +125,7 @@ struct Block {
   std::vector<std::size_t> elements, nodes;
 };
 
-void put_elements(const gmsh::vectorpair& entities) {
+std::vector<Block> blocks_of(const std::vector<Id>& entities) {
   std::vector<Block> blocks;
   for (const auto& [dimension, tag] : entities) {
     std::vector<int> types;
@@ -110,6 +134,36 @@ void put_elements(const gmsh::vectorpair& entities) {
     for (std::size_t k = 0; k < types.size(); ++k)
       blocks.push_back({dimension, tag, types[k], std::move(elements[k]), std::move(nodes[k])});
   }
+  return blocks;
+}
+
+/// Throws std::string where the library has not taken what the file holds.
+void demand_all_groups(const Census& census, const std::vector<Id>& entities) {
+  for (const Id& entity : entities) {
+    const std::vector<int> taken = groups_of(census, entity);
+    const auto known = census.groups.find(entity);
+    if (known == census.groups.end() || census.between_parts.count(entity) > 0 ||
+        std::set<int>(taken.begin(), taken.end()) == known->second)
+      continue;
+    throw "the file has the entity " + std::to_string(entity.second) + " of dimension " +
+        std::to_string(entity.first) + " in other physical groups than the Gmsh library";
+  }
+}
+
+void demand_all_elements(const Census& census, const std::vector<Block>& blocks) {
+  std::map<std::tuple<int, int, int>, std::uint64_t> taken;
+  for (const Block& block : blocks)
+    taken[{block.dimension, block.entity, block.type}] += block.elements.size();
+  for (const auto& [key, n] : census.elements) {
+    if (taken[key] == n) continue;
+    const auto [dimension, entity, type] = key;
+    throw "the file has " + std::to_string(n) + " elements of type " + std::to_string(type) +
+        " with the elementary tag " + std::to_string(entity) + ", and the Gmsh library takes " +
+        std::to_string(taken[key]) + " of them";
+  }
+}
+
+void put_elements(const std::vector<Block>& blocks) {
   put_count(blocks.size());
   for (const Block& block : blocks) {
     put(block.dimension), put(block.entity), put(block.type), put_count(block.elements.size());
@@ -117,16 +171,37 @@ void put_elements(const gmsh::vectorpair& entities) {
   }
 }
 
-void put_mesh(std::uint64_t nodes_in_file) {
-  put(rondo::mesh::stream_start), put(StreamStatus::mesh), put(nodes_in_file);
-  const std::vector<std::string> warnings = logged("Warning");
+/// One line of the library's, and what was made of the file here.
+std::vector<std::string> warnings_of(const Census& census) {
+  std::vector<std::string> warnings;
+  const std::vector<std::string> said = logged("Warning");
+  constexpr std::size_t most = 5;
+  for (std::size_t k = 0; k < std::min(most, said.size()); ++k)
+    (k == 0 ? warnings.emplace_back("the Gmsh library says: ") : warnings.back() += ", ") +=
+        said[k];
+  if (said.size() > most) warnings.back() += " and " + std::to_string(said.size() - most) + " more";
+  if (census.n_parts > 0)
+    warnings.push_back("the mesh is in " + std::to_string(census.n_parts) +
+                       " parts (gmsh -part), which are all in the file: they are joined");
+  if (!census.ghosts.empty())
+    warnings.emplace_back("copies of elements for other parts (gmsh -part_ghosts) are left out");
+  return warnings;
+}
+
+void put_mesh(const Census& census) {
+  const std::vector<Id> entities = entities_of(census);
+  const std::vector<Block> blocks = blocks_of(entities);
+  demand_all_groups(census, entities);
+  demand_all_elements(census, blocks);
+  put(rondo::mesh::stream_start), put(StreamStatus::mesh), put(census.n_nodes);
+  const std::vector<std::string> warnings = warnings_of(census);
   put_count(warnings.size());
   for (const std::string& warning : warnings) put_text(warning);
   put_types();
-  put_groups();
-  const gmsh::vectorpair entities = put_entities();
+  put_groups(census);
+  put_entities(census, entities);
   put_nodes();
-  put_elements(entities);
+  put_elements(blocks);
   put(rondo::mesh::stream_end);
 }
 
@@ -134,11 +209,21 @@ void put_failure(const std::string& why) {
   put(rondo::mesh::stream_start), put(StreamStatus::failure), put_text(why);
 }
 
+TypeShape shape_of(int type) {
+  std::string name;
+  int dimension = 0, order = 0, nodes = 0, corners = 0;
+  std::vector<double> places;
+  try {
+    gmsh::model::mesh::getElementProperties(type, name, dimension, order, nodes, places, corners);
+  } catch (...) {
+    return {};
+  }
+  return {dimension, nodes};
+}
+
 /// Throws std::string. The path has no ending: the library looks at the text alone.
-void read(const rondo::reader::SourceText& source) {
-  if (const std::string missing = source.missing_end(); !missing.empty())
-    throw "the file is cut: there is no " + missing;
-  const std::string path = "/proc/self/fd/" + std::to_string(source.file);
+void read(int file) {
+  const std::string path = "/proc/self/fd/" + std::to_string(file);
   std::string why;
   try {
     gmsh::merge(path);
@@ -163,9 +248,10 @@ int serve(const char* path) {
     gmsh::option::setNumber("General.Terminal", 0);
     gmsh::option::setNumber("General.NumThreads", 1);
     memory = rondo::reader::limit_process(source.size);
+    const Census census = rondo::reader::take_census({source.text, source.size}, shape_of);
     gmsh::logger::start();
-    read(source);
-    put_mesh(source.n_nodes());
+    read(source.file);
+    put_mesh(census);
   } catch (const std::string& why) {
     put_failure(why);
   } catch (const std::bad_alloc&) {

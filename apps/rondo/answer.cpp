@@ -13,6 +13,7 @@
 
 #include "rondo/core/error.hpp"
 #include "rondo/core/version.hpp"
+#include "rondo/output/run_files.hpp"
 #include "rondo/study/sweep/worker_processes.hpp"
 #include "signals.hpp"
 
@@ -104,19 +105,44 @@ Json fault_schema() {
   return schema;
 }
 
+Json build_record_schema() {
+  Json schema = study::closed_object();
+  const auto add = [&](const char* name, Json value, const char* meaning) {
+    value["description"] = meaning;
+    schema["properties"][name] = std::move(value);
+    schema["required"].push_back(name);
+  };
+  add("commit", {{"type", "string"}}, "of the sources; \"unknown\" without git");
+  add("modified", {{"type", {"boolean", "null"}}}, "files differed from the commit; null: unknown");
+  add("compiler", {{"type", "string"}}, "name, version, kind of build; sanitizers");
+  add("flags", {{"type", "string"}}, "of every module; each adds its warnings");
+  add("libraries", {{"type", "object"}, {"additionalProperties", {{"type", "string"}}}},
+      "name and version of the libraries that it was built with");
+  return schema;
+}
+
 std::string document(const Json& result, int code, const Kept& told) {
   std::string message;
   for (const std::string& error : told.errors) message += (message.empty() ? "" : "\n") + error;
   Json json;
   json["command"] = told.command;
   json["version"] = version;
+  json["build_record"] = study::build_record_json();
   json["status"] = name_of(code);
   json["exit_code"] = code;
   json["message"] = text_or_null(message);
   json["faults"] = faults_of(told.faults);
   json["warnings"] = told.warnings;
   json["result"] = result;
-  return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+  constexpr int indent = 2;
+  try {
+    return json.dump(indent) + "\n";
+  } catch (const Json::type_error&) {  // the name of a file or folder is no UTF-8
+    json["warnings"].push_back(
+        "a name in this document is not UTF-8, which JSON cannot hold: U+FFFD stands there for the "
+        "bytes that are none, and nothing is found by that name; take a name in UTF-8");
+    return json.dump(indent, ' ', false, Json::error_handler_t::replace) + "\n";
+  }
 }
 
 }  // namespace
@@ -179,6 +205,7 @@ Json answer_schema(std::string_view command, Json result) {
   }
   add("command", study::one_of({&command, 1}), "whose document it is");
   add("version", {{"type", "string"}}, "of rondo");
+  add("build_record", build_record_schema(), "what rondo was built from");
   add("status", study::one_of(names), "how it ended");
   add("exit_code", {{"enum", codes}}, "of the program");
   add("message", {{"type", {"string", "null"}}}, "what went wrong; null: nothing");

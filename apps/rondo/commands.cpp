@@ -45,8 +45,10 @@ int finish(const study::RunReport& r, const std::filesystem::path& directory, Te
     spdlog::info("{} in {:.2f} s ({:.1f} ns per dof and step)", r.reached, r.loop_wall_s,
                  r.ns_per_dof_step);
   spdlog::info(
-      "energy balance closes to {:.1e}, contact law to {:.1e}, largest penetration {:.2g} m",
-      r.energy_residual_relative, r.contact_residual_max, r.penetration_max_m);
+      "energy balance closes to {:.1e} (bound {:.0e}), contact law to {:.1e}, largest penetration "
+      "{:.2g} m",
+      r.energy_residual_relative, r.energy_residual_bound, r.contact_residual_max,
+      r.penetration_max_m);
   spdlog::info("largest strain {:.2g}, smallest J of an element {:.2g}", r.strain_max,
                r.jacobian_min);
   for (const std::string& note : r.notes) spdlog::info(note);

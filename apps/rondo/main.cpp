@@ -11,10 +11,13 @@
 
 #include "options.hpp"
 #include "process.hpp"
+#include "report/python_commands.hpp"
 #include "report/report_command.hpp"
 #include "rondo/core/build_id.hpp"
+#include "rondo/core/build_record.hpp"
 #include "rondo/core/edit_distance.hpp"
 #include "rondo/core/error.hpp"
+#include "rondo/core/limits/processors.hpp"
 #include "rondo/core/version.hpp"
 #include "rondo/output/run_files.hpp"
 #include "signals.hpp"
@@ -66,11 +69,12 @@ int dispatch_command(CLI::App& program, int argc, char** argv, app::Telling& tel
   const CLI::App* reduce = app::add_reduce(program, reduce_request, tell);
   const CLI::App* fmu = app::add_fmu(program, fmu_arguments, tell);
   const CLI::App* modes = app::add_modes(program, modes_arguments, tell);
-  app::add_paper(program);
   const CLI::App* sweep = app::add_sweep(program, sweep_arguments, tell);
   const CLI::App* report = app::add_report(program, report_arguments);
   const CLI::App* schema = app::add_schema(program, schema_of);
+  app::add_python_commands(program);
   if (argc > 1 && argv[1][0] != '-') demand_command(program, argv[1]);
+  if (argc > 1 && app::is_python_command(argv[1])) app::do_python_command(argc, argv);
   try {
     program.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
@@ -103,8 +107,11 @@ int run_program(int argc, char** argv) {
   spdlog::set_pattern("rondo: %^%l%$: %v");
   CLI::App program{"rondo: explicit non-smooth dynamics of rolling bodies", "rondo"};
   program.set_version_flag("--version", [] {
-    return fmt::format("rondo {} ({}; build id {}; kernels {})", version, build_options, build_id(),
-                       study::dispatch_level());
+    std::string text =
+        fmt::format("rondo {} ({}; build id {}; kernels {})\n{}", version, build_options,
+                    build_id(), study::dispatch_level(), in_lines(build_record()));
+    text.pop_back();  // printed with a line feed
+    return text;
   });
   program.require_subcommand(1);
   program.footer(
@@ -113,6 +120,7 @@ int run_program(int argc, char** argv) {
   std::signal(SIGPIPE, SIG_IGN);  // a reader of our output that goes away ends nothing
   std::signal(SIGXFSZ, SIG_IGN);  // a file that grows too long is an error of writing
   app::end_at_stop_signals();
+  use_allowed_processors();
   app::Telling tell;
   tell.json = app::is_json_asked_for(argc, argv);
   if (tell.json) app::begin_answer(argv[1]);
@@ -130,5 +138,6 @@ int run_program(int argc, char** argv) {
 
 int main(int argc, char** argv) {
   rondo::set_build_id(rondo::modules_id);
+  rondo::set_commit(rondo::built_commit, rondo::built_modified);
   rondo::app::leave(run_program(argc, argv));
 }

@@ -20,8 +20,15 @@ void add_case(CLI::App& command, CaseArguments& arguments,
       ->expected(1);
 }
 
+/// An option of which nothing is left, as where a variable of the shell is not set.
+std::string refuse_empty(const std::string& text) {
+  return text.empty() ? "is empty: a name is to follow, or the option is to be left out" : "";
+}
+
 void add_threads(CLI::App& command, int& threads) {
-  command.add_option("--threads", threads, "threads; chosen by size if left out")
+  command
+      .add_option("--threads,--jobs", threads,
+                  "cores used, by threads of the run; chosen by size if left out")
       ->check(CLI::Range(1, 1024));
 }
 
@@ -55,12 +62,6 @@ void add_reduced(CLI::App& run, study::RunOptions& options) {
       ->needs(reduced);
 }
 
-/// What is done in Python now: to be told, with what to call.
-[[noreturn]] void refuse_moved(const char* what, const char* now) {
-  throw InputError(Fault{what, 0, 0, "", "", "is no part of this program any more",
-                         fmt::format("{} (docs/python.md)", now)});
-}
-
 }  // namespace
 
 CLI::App* add_run(CLI::App& program, RunArguments& arguments, Telling& tell) {
@@ -70,7 +71,8 @@ CLI::App* add_run(CLI::App& program, RunArguments& arguments, Telling& tell) {
            "case file (TOML, docs/cases.md); with --resume a results directory will do");
   add_threads(*run, options.threads);
   run->add_option("-o,--output", options.directory,
-                  "results directory; the case's name in the working folder if left out");
+                  "results directory; the case's name in the working folder if left out")
+      ->check(refuse_empty);
   CLI::Option* overwrite =
       run->add_flag("--overwrite", options.overwrite, "replaces another run's results there");
   run->add_flag("--resume", options.resume,
@@ -109,7 +111,9 @@ CLI::App* add_reduce(CLI::App& program, study::ReduceRequest& r, Telling& tell) 
       ->add_option("run", r.runs,
                    "results directories of one disk: other frictions, speeds, heights, spins")
       ->required();
-  reduce->add_option("-o,--output", r.output, "file of the model, e.g. model.h5")->required();
+  reduce->add_option("-o,--output", r.output, "file of the model, e.g. model.h5")
+      ->required()
+      ->check(refuse_empty);
   reduce->add_option(
       "--displacement-modes", r.displacement_modes,
       "modes of the displacements, each with its derivative by the angle; 30 if left out");
@@ -156,16 +160,17 @@ CLI::App* add_reduce(CLI::App& program, study::ReduceRequest& r, Telling& tell) 
       ->add_option_function<std::string>(
           "--validate",
           [](const std::string&) {
-            refuse_moved("rondo reduce --validate",
-                         "rondo run CASE --reduced MODEL -o REDUCED, then python3 -m rondo "
-                         "validate REDUCED RUN");
+            throw InputError(Fault{"rondo reduce --validate", 0, 0, "", "",
+                                   "is no part of this command any more",
+                                   "rondo run CASE --reduced MODEL -o REDUCED, then rondo validate "
+                                   "REDUCED RUN"});
           })
       ->group("");  // not in the help
   add_telling(*reduce, tell, "prints warnings and the results only");
   reduce->footer(
       "Example:\n  rondo reduce results/mu0 results/mu06 -o model.h5\n"
       "  rondo run cases/rolling-flat.toml --reduced model.h5 -o results/reduced\n"
-      "  python3 -m rondo validate results/reduced results/full\n"
+      "  rondo validate results/reduced results/full\n"
       "What it can do and where it fails: docs/reduced.md.");
   return reduce;
 }
@@ -194,7 +199,8 @@ CLI::App* add_pod(CLI::App& program, study::PodRequest& r, Telling& tell) {
                   "snapshots rebuilt from the modes, for ParaView; 0: none")
       ->capture_default_str();
   pod->add_option("-o,--output", r.directory,
-                  "the results go to OUTPUT/<field>-<frame>; RUN/pod if left out");
+                  "the results go to OUTPUT/<field>-<frame>; RUN/pod if left out")
+      ->check(refuse_empty);
   add_telling(*pod, tell, "prints warnings and the results only");
   pod->footer(
       "Example:\n  rondo pod results/ledge --field velocity --frame rectified --from 0.07\n"
@@ -207,9 +213,11 @@ CLI::App* add_modes(CLI::App& program, ModesArguments& arguments, Telling& tell)
       "modes", "frequencies and shapes of a case's body, at rest and spinning; critical speeds");
   study::ModesRequest& r = arguments.request;
   add_case(*modes, arguments);
-  modes->add_option(
-      "-o,--output", r.run.directory,
-      "results directory; the case's name and \"-modes\" in the working folder if left out");
+  modes
+      ->add_option(
+          "-o,--output", r.run.directory,
+          "results directory; the case's name and \"-modes\" in the working folder if left out")
+      ->check(refuse_empty);
   modes->add_option("--count", r.count, "modes at each spin, besides rigid-body motions")
       ->check(CLI::Range(1, 100000))
       ->capture_default_str();
@@ -226,7 +234,7 @@ CLI::App* add_modes(CLI::App& program, ModesArguments& arguments, Telling& tell)
   add_telling(*modes, tell, "prints warnings and the results only");
   modes->footer(
       "Example:\n  rondo modes cases/modes-annulus.toml -o results/modes --spins 0:400:41\n"
-      "  python3 -m rondo campbell results/modes\n"
+      "  rondo campbell results/modes\n"
       "Exit code 3: a spin beyond the softening limit. More: docs/modes.md.");
   return modes;
 }
@@ -240,27 +248,23 @@ CLI::App* add_schema(CLI::App& program, std::string& of) {
   return schema;
 }
 
-void add_paper(CLI::App& program) {
-  program.add_subcommand("paper", "the study of the paper: python3 -m rondo paper -o DIRECTORY")
-      ->group("")  // not in the help
-      ->allow_extras()
-      ->callback([] { refuse_moved("rondo paper", "python3 -m rondo paper -o DIRECTORY"); });
-}
-
 CLI::App* add_sweep(CLI::App& program, SweepArguments& arguments, Telling& tell) {
   study::SweepRequest& r = arguments.request;
   CLI::App* sweep = program.add_subcommand(
       "sweep", "a parametric study: many runs of one case, on all cores or under mpirun");
   sweep->add_option("study", r.study, "study file (TOML, docs/studies.md)")->required();
-  sweep->add_option("-o,--output", r.directory,
-                    "directory of the study; its name in the working folder if left out");
+  sweep
+      ->add_option("-o,--output", r.directory,
+                   "directory of the study; its name in the working folder if left out")
+      ->check(refuse_empty);
   sweep
       ->add_option("--set", r.settings,
                    "KEY=VALUE: a key of the base case, for all runs; repeatable")
       ->take_all()
       ->expected(1);
   sweep
-      ->add_option("--jobs", arguments.jobs, "runs at once; as many as there are cores if left out")
+      ->add_option("--jobs,--threads", arguments.jobs,
+                   "cores used, by runs at once; all that there are if left out")
       ->check(CLI::Range(1, 1024));
   sweep->add_flag("--dry-run", arguments.dry_run,
                   "checks all runs and lists them with what they would cost; writes nothing");

@@ -21,7 +21,5 @@ CLI::App* add_pod(CLI::App& program, study::PodRequest& r, Telling& tell);
 CLI::App* add_modes(CLI::App& program, ModesArguments& arguments, Telling& tell);
 CLI::App* add_schema(CLI::App& program, std::string& of);
 CLI::App* add_sweep(CLI::App& program, SweepArguments& arguments, Telling& tell);
-/// No command any more: it says what to call.
-void add_paper(CLI::App& program);
 
 }  // namespace rondo::app

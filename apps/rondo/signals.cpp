@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "rondo/core/error.hpp"
+#include "rondo/core/files/removed_at_signal.hpp"
 
 namespace rondo::app {
 namespace {
@@ -26,6 +27,7 @@ extern "C" void end_at_once(int) {
   static_cast<void>(!write(STDERR_FILENO, text, sizeof text - 1));
   if (const std::string* words = last_words.load())
     static_cast<void>(!write(STDOUT_FILENO, words->data(), words->size()));
+  remove_at_signal();
   _exit(exit_interrupted);
 }
 

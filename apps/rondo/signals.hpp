@@ -8,7 +8,7 @@
 namespace rondo::app {
 
 /// From now on they end the program at once, with exit code 130 and a word on stderr: while nothing
-/// is written that would have to be closed.
+/// is written that would have to be closed. Files that are not yet whole are removed.
 void end_at_stop_signals();
 
 /// What they print on stdout then; empty: nothing. Not to be called from several threads.

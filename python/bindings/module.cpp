@@ -10,7 +10,10 @@
 #include "calls.hpp"
 #include "commands.hpp"
 #include "rondo/core/build_id.hpp"
+#include "rondo/core/build_record.hpp"
 #include "rondo/core/error.hpp"
+#include "rondo/core/limits/processors.hpp"
+#include "rondo/core/process_wide.hpp"
 #include "rondo/core/version.hpp"
 #include "rondo/output/run_files.hpp"
 #include "simulation.hpp"
@@ -62,9 +65,13 @@ void translate(std::exception_ptr thrown) {
 PYBIND11_MODULE(_core, module) {
   module.doc() = "The library of rondo; used through the package rondo.";
   rondo::set_build_id(rondo::modules_id);
+  rondo::set_commit(rondo::built_commit, rondo::built_modified);
+  rondo::work_alone_in_forks();
+  rondo::use_allowed_processors();
   module.attr("version") = rondo::version;
   module.attr("build_options") = rondo::build_options;
   module.def("build_id", [] { return rondo::build_id(); });
+  module.def("allowed_processors", rondo::allowed_processors);
   module.def("dispatch_level", [] { return rondo::study::dispatch_level(); });
   module.def("end_calls", rondo::python::end_calls);
   py::register_exception_translator(translate);

@@ -1,6 +1,13 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Runs cases in this process, reads and draws what the program rondo writes:
 rondo.run("case.toml").plot_field(0.1), rondo.Simulation("case.toml"), rondo.open("results")."""
+from .interrupts import while_loading
+from .needs import demand
+
+while_loading()  # of python3 -m rondo
+demand("numpy", "h5py")  # before anything imports them
+
+# ruff: noqa: E402
 from .about import about
 from .calls import fmu, modes, pod, reduce, run, sweep
 from .data.errors import (
@@ -29,7 +36,7 @@ from .solution import Solution, crush, solve, steady_rolling
 __version__ = "0.2.0"
 
 attach()
-del attach
+del attach, demand
 
 __all__ = ["Error", "FileError", "History", "InputError", "Mesh", "Modes", "NewerSchemaError",
            "NotARunError", "NumericalError", "Paper", "Pod", "Run", "Simulation", "Solution",

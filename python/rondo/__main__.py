@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""python3 -m rondo: reports, figures, films and means of what the program rondo wrote."""
+"""Reports, figures, films and means of what the program rondo wrote. `rondo figures` and the like start this, with a
+Python that has what it needs; called by hand it takes the Python that it is called with."""
 from __future__ import annotations
 
 import argparse
@@ -9,14 +10,16 @@ import sys
 from collections.abc import Callable, Sequence
 from typing import NoReturn
 
-from rondo import open_modes, open_paper, open_sweep, open_validation
+from rondo import interrupts, open_modes, open_paper, open_sweep, open_validation
 from rondo import open as open_run
+from rondo.command_help import CommandParser
 from rondo.data.errors import Error, FileError, UnfinishedRunError
 from rondo.data.names import FRAME, OLDER_FRAMES
 from rondo.data.run import Run
+from rondo.needs import missing
 
 WRONG, FILES = 2, 4  # exit codes of wrong input and of files, as the program's
-NO_PICTURES = ("paper", "validate", "means")  # commands that need not load what draws
+NO_PICTURES = ("paper", "validate", "means", "converge")  # commands that need not load what draws
 BROKEN_PIPE = 141  # as a shell has it of a program that is killed by SIGPIPE
 
 
@@ -31,39 +34,41 @@ def _parser() -> argparse.ArgumentParser:
     parser = argparse.ArgumentParser(prog="python3 -m rondo", description=__doc__)
     parser.add_argument("--version", action=_Version, nargs=0,
                         help="versions and places of the package, the library and the program")
-    commands = parser.add_subparsers(dest="command", required=True)
+    commands = parser.add_subparsers(dest="command", required=True, prog="rondo", parser_class=CommandParser)
 
-    paper = commands.add_parser(
-        "paper", help="the study of the paper: its runs, ours against expected",
+    def add(name: str, meaning: str, epilog: str = "", prog: str | None = None) -> CommandParser:
+        return commands.add_parser(name, help=meaning, description=meaning, epilog=epilog, prog=prog)
+
+    paper = add(
+        "paper", "the study of the paper: its runs, ours against expected",
         epilog="A study that was interrupted or killed goes on with the same command. Exit code "
                "3: a row of the table is not as expected. docs/paper.md walks through it.")
     paper.add_argument("-o", "--output", type=pathlib.Path, metavar="DIRECTORY",
-                       help='of the study; default "paper", or "paper-quick"')
+                       help='directory of the study; default "paper", or "paper-quick"')
     paper.add_argument("--quick", action="store_true", help="coarse meshes, a third of the work")
-    paper.add_argument("--jobs", type=_count, metavar="N",
-                       help="runs at once; default as many as there are cores")
+    paper.add_argument("--jobs", "--threads", type=_count, metavar="N",
+                       help="cores used, by runs at once; default all that there are")
     paper.add_argument("--overwrite", action="store_true", help="does again what is there")
     paper.add_argument("--quiet", action="store_true", help="prints failures and the table only")
     paper.add_argument("--study", type=pathlib.Path, metavar="FOLDER",
-                       help="of another study.toml; default studies/paper")
+                       help="directory of another study.toml; default studies/paper")
 
-    figures = commands.add_parser("figures",
-                                  help="draw the figures of a run, a paper study or a sweep")
+    figures = add("figures", "draws the figures of a run, a sweep or a study of the paper")
     figures.add_argument("directory", type=pathlib.Path,
-                         help="of `rondo run`, `rondo sweep` or `python3 -m rondo paper`")
+                         help="directory of `rondo run`, `rondo sweep` or `rondo paper`")
     figures.add_argument("-o", "--output", type=pathlib.Path, metavar="FOLDER",
-                         help="where the .png and .svg files go; default DIRECTORY/figures")
+                         help="directory for the .png and .svg files; default DIRECTORY/figures")
 
-    report = commands.add_parser(
-        "report", help="one HTML file of results, for a browser without network",
+    report = add(
+        "report", "one HTML file of results, for a browser without network",
         epilog="The same as rondo report. Of what has not ended it shows what is there. docs/report.md.")
     report.add_argument("directory", type=pathlib.Path,
-                        help="of `rondo run`, `rondo sweep`, `rondo pod` or `python3 -m rondo paper`")
+                        help="directory of `rondo run`, `rondo sweep`, `rondo pod` or `rondo paper`")
     report.add_argument("-o", "--output", type=pathlib.Path, metavar="FILE",
                         help="ends in .html; default DIRECTORY/report.html")
 
-    film = commands.add_parser("animate", help="make a film of a run")
-    film.add_argument("directory", type=pathlib.Path, help="of `rondo run`")
+    film = add("animate", "makes a film of a run")
+    film.add_argument("directory", type=pathlib.Path, help="directory of `rondo run`")
     film.add_argument("file", type=pathlib.Path, help="ends in .mp4 (needs ffmpeg) or .gif")
     film.add_argument("--quantity", default="displacement",
                       help="displacement, velocity, displacement_y, von_mises, ...; default "
@@ -75,92 +80,111 @@ def _parser() -> argparse.ArgumentParser:
     film.add_argument("--frames", type=int, help="pictures; default at most 300")
     film.add_argument("--fps", type=int, help="pictures a second; default at most 30")
 
-    wheel = commands.add_parser(
-        "wheel", help="draw height, speeds, slip, forces, torques and energies of a rim that "
-                      "forces move")
-    wheel.add_argument("directory", type=pathlib.Path, help="of `rondo run` of a case with [rim]")
+    wheel = add("wheel", "draws height, speeds, slip, forces, torques and energies of a rim that forces move")
+    wheel.add_argument("directory", type=pathlib.Path, help="directory of `rondo run` of a case with [rim]")
     wheel.add_argument("-o", "--output", type=pathlib.Path, metavar="FOLDER",
-                       help="where wheel.png and .svg go; default DIRECTORY/figures")
+                       help="directory for wheel.png and .svg; default DIRECTORY/figures")
 
-    footprint = commands.add_parser(
-        "footprint", help="draw pressure, shear, slip and what sticks in the contact of steady "
-                          "rolling, or of a wheel in three dimensions")
+    footprint = add("footprint", "draws pressure, shear, slip and what sticks in the contact of steady rolling, or of "
+                    "a wheel in three dimensions")
     footprint.add_argument("directory", type=pathlib.Path,
-                           help='of `rondo run` with analysis.kind = "steady-rolling", or of a '
+                           help='directory of `rondo run` with analysis.kind = "steady-rolling", or of a '
                                 'wheel in three dimensions')
     footprint.add_argument("--time", type=float, metavar="SECONDS",
                            help="in three dimensions: of the snapshot nearest to it; default the "
                                 "last with contact")
     footprint.add_argument("-o", "--output", type=pathlib.Path, metavar="FOLDER",
-                           help="where footprint.png and .svg go; default DIRECTORY/figures")
+                           help="directory for footprint.png and .svg; default DIRECTORY/figures")
 
-    traction = commands.add_parser(
-        "traction", help="draw the longitudinal force of a sweep over slip: curves and carpets",
+    traction = add(
+        "traction", "draws the longitudinal force of a sweep over slip: curves and carpets",
         epilog="Curves over slip for each other parameter that varies, the rest at its middle "
                "value; carpets over slip and a load for each value of the rest.")
     traction.add_argument("directory", type=pathlib.Path,
-                          help="of `rondo sweep` over motion.speed (or the angular velocity)")
+                          help="directory of `rondo sweep` over motion.speed (or the angular velocity)")
     traction.add_argument("-o", "--output", type=pathlib.Path, metavar="FOLDER",
-                          help="where the .png and .svg files go; default DIRECTORY/figures")
+                          help="directory for the .png and .svg files; default DIRECTORY/figures")
 
-    tyre = commands.add_parser(
-        "tyre", help="draw lateral force and aligning moment of a sweep over the slip angle",
+    tyre = add(
+        "tyre", "draws lateral force and aligning moment of a sweep over the slip angle",
         epilog="Curves for each other parameter that varies, the rest at its middle value; the "
                "members of further sweeps, as steady ones, as marks beside them, with a table of "
                "two; where spin or speed varies, the forces at combined slip.")
     tyre.add_argument("directory", type=pathlib.Path, nargs="+",
-                      help="of `rondo sweep` over motion.slip_angle")
+                      help="directory of `rondo sweep` over motion.slip_angle")
     tyre.add_argument("-o", "--output", type=pathlib.Path, metavar="FOLDER",
-                      help="where the .png and .svg files go; default DIRECTORY/figures of the first")
+                      help="directory for the .png and .svg files; default DIRECTORY/figures of the first")
 
-    campbell = commands.add_parser("campbell", help="draw the frequencies of a body over its spin")
-    campbell.add_argument("directory", type=pathlib.Path, help="of `rondo modes`")
+    campbell = add("campbell", "draws the frequencies of a body over its spin")
+    campbell.add_argument("directory", type=pathlib.Path, help="directory of `rondo modes`")
     campbell.add_argument("--frame", choices=(FRAME, "fixed", *OLDER_FRAMES), default=FRAME,
-                          metavar=f"{{{FRAME},fixed}}",
-                          help="in which frequencies are seen; default %(default)s")
+                          metavar="FRAME",
+                          help=f"{FRAME} | fixed: in which frequencies are seen; default %(default)s")
     campbell.add_argument("-o", "--output", type=pathlib.Path, metavar="FOLDER",
-                          help="where campbell-FRAME.png and .svg go; default DIRECTORY/figures")
+                          help="directory for campbell-FRAME.png and .svg; default DIRECTORY/figures")
 
-    sweep = commands.add_parser("sweep", help="draw main effects, spread, maps, curves of a sweep")
-    sweep.add_argument("directory", type=pathlib.Path, help="of `rondo sweep`")
-    sweep.add_argument("--figure", nargs="+", action="extend", default=[], metavar="NAME",
-                       help="columns of results.csv, as force_y_mean; default: the usual ones")
-    sweep.add_argument("--map", nargs=2, action="append", default=[], metavar=("X", "Y"),
-                       help="each figure over these two parameters; may be repeated")
-    sweep.add_argument("--curves", nargs=2, action="append", default=[], metavar=("X", "BY"),
-                       help="each figure over X, a curve for each value of BY; may be repeated")
+    sweep = add("sweep", "draws main effects, spread, maps, curves of a sweep; rondo figures does so too",
+                prog="python3 -m rondo sweep")  # rondo sweep makes one
+    sweep.add_argument("directory", type=pathlib.Path, help="directory of `rondo sweep`")
     sweep.add_argument("-o", "--output", type=pathlib.Path, metavar="FOLDER",
-                       help="where the .png and .svg files go; default DIRECTORY/figures")
+                       help="directory for the .png and .svg files; default DIRECTORY/figures")
 
-    validate = commands.add_parser(
-        "validate", help="compare reduced runs with the full runs that they are to predict",
+    converge = add(
+        "converge", "prints how the figures of a sweep converge with its mesh or its step",
+        epilog="Observed orders, Richardson's extrapolated value with an error bar; or that a figure does "
+               "not converge monotonically. Exit code 3: one that --figure names does not. docs/studies.md.")
+    converge.add_argument("directory", type=pathlib.Path,
+                          help="directory of `rondo sweep` over disk.mesh.radial, time.step, ...: three levels and more")
+    converge.add_argument("--figure", nargs="+", action="extend", default=[], metavar="NAME",
+                          help="columns of results.csv, as force_y_mean; default: all")
+    converge.add_argument("--by", metavar="KEY", help="what is refined, where several keys might be")
+
+    validate = add(
+        "validate", "compares reduced runs with the full runs that they are to predict",
         epilog="The table goes to stdout, validation.csv, validation.json and profiles to OUTPUT. "
                "docs/reduced.md, 10, says what is measured.")
     validate.add_argument("runs", type=pathlib.Path, nargs="+", metavar="REDUCED FULL",
                           help="results directories of `rondo run --reduced` and of the same case "
                                "without, in turn")
     validate.add_argument("-o", "--output", type=pathlib.Path, metavar="DIRECTORY",
-                          help="default REDUCED-validation, beside the first one")
+                          help="directory for the tables; default REDUCED-validation, beside the first one")
     validate.add_argument("--model", type=pathlib.Path, metavar="FILE",
                           help="the reduced model; default the one that the reduced run names")
 
-    validation = commands.add_parser("validation",
-                                     help="draw how far off a reduced model's predictions are")
+    validation = add("validation", "draws how far off a reduced model's predictions are")
     validation.add_argument("directory", type=pathlib.Path,
-                            help="of `python3 -m rondo validate`")
+                            help="directory of `rondo validate`")
     validation.add_argument("--run", nargs="+", action="extend", default=[], metavar="NAME",
                             help="of these runs only; default: all")
     validation.add_argument("-o", "--output", type=pathlib.Path, metavar="FOLDER",
-                            help="where validation.png and .svg go; default DIRECTORY/figures")
+                            help="directory for validation.png and .svg; default DIRECTORY/figures")
 
-    means = commands.add_parser("means", help="print the mean forces of the ground on the body")
-    means.add_argument("directory", type=pathlib.Path, nargs="+", help="of `rondo run`")
-    for command in film, means, validate:
+    means = add("means", "prints the mean forces of the ground on the body")
+    means.add_argument("directory", type=pathlib.Path, nargs="+", help="directory of `rondo run`")
+    for command in figures, sweep:
+        command.add_argument("--figure", nargs="+", action="extend", default=[], metavar="NAME",
+                             help="of a sweep: columns of results.csv, as force_y_mean; default: the usual ones")
+        command.add_argument("--map", nargs=2, action="append", default=[], metavar=("X", "Y"),
+                             help="of a sweep: each figure over these two parameters; may be repeated")
+        command.add_argument("--curves", nargs=2, action="append", default=[], metavar=("X", "BY"),
+                             help="of a sweep: each figure over X, a curve for each value of BY; may be repeated")
+    psd = add(
+        "psd", "draws the power spectral density of a column of history.csv, and writes it as CSV",
+        epilog="Welch's method: segments that overlap by half, each less its mean, Hann windows; "
+               "one-sided, so that the integral is the mean square. docs/python.md, Figures.")
+    psd.add_argument("directory", type=pathlib.Path, help="directory of `rondo run`, dynamic")
+    psd.add_argument("--column", default="force_y", metavar="NAME",
+                     help="column of history.csv; default %(default)s")
+    psd.add_argument("--segment", type=float, metavar="SECONDS",
+                     help="length of the segments; default such that there are eight")
+    psd.add_argument("-o", "--output", type=pathlib.Path, metavar="FOLDER",
+                     help="directory for psd-NAME.png, .svg and .csv; default DIRECTORY/figures")
+    for command in film, means, validate, psd:
         command.add_argument("--from", dest="from_time", type=float, metavar="SECONDS",
                              help="from this time on")
         command.add_argument("--to", dest="to_time", type=float, metavar="SECONDS",
                              help="up to this time")
-    for command in figures, film, wheel, footprint, traction, tyre, sweep, means:
+    for command in figures, film, wheel, footprint, traction, tyre, sweep, means, converge, psd:
         command.add_argument("--unfinished", action="store_true",
                              help="also of what has not ended, was interrupted or has failed")
     return parser
@@ -188,7 +212,7 @@ def _validate(options: argparse.Namespace) -> None:
     first = options.runs[0]
     out = options.output or first.with_name(f"{first.resolve().name}-validation")
     print(text_of(validate(pairs, out, options.from_time, options.to_time, options.model)))
-    print(f"validation  {out}\nfigure      python3 -m rondo validation {out}")
+    print(f"validation  {out}\nfigure      rondo validation {out}")
 
 
 def _folder(options: argparse.Namespace) -> pathlib.Path:
@@ -199,12 +223,13 @@ def _folder(options: argparse.Namespace) -> pathlib.Path:
 
 def _figures(options: argparse.Namespace) -> None:
     folder = _folder(options)
+    if (options.directory / "sweep.json").is_file():
+        return _sweep(options)
+    if options.figure or options.map or options.curves:
+        raise Error(f"--figure, --map and --curves: {options.directory} holds no sweep; leave them out")
     if (options.directory / "paper.json").is_file():
         from rondo.figures import draw_paper
         written = draw_paper(open_paper(options.directory, options.unfinished), folder)
-    elif (options.directory / "sweep.json").is_file():
-        from rondo.figures.sweep_figures import draw_sweep
-        written = draw_sweep(open_sweep(options.directory, options.unfinished), folder)
     else:
         from rondo.figures.run_figures import draw_run
         written = draw_run(open_run(options.directory, options.unfinished), folder)
@@ -241,6 +266,16 @@ def _means(options: argparse.Namespace) -> None:
     for directory in options.directory:
         run = open_run(directory, options.unfinished)
         print(_mean_forces(run, options.from_time, options.to_time))
+
+
+def _psd(options: argparse.Namespace) -> None:
+    from rondo.figures.psd_figures import draw_psd_of
+
+    words, written = draw_psd_of(open_run(options.directory, options.unfinished), _folder(options),
+                                 options.column, options.from_time, options.to_time, options.segment)
+    print(words)
+    for path in written:
+        print(path)
 
 
 def _wheel(options: argparse.Namespace) -> None:
@@ -286,6 +321,11 @@ def _campbell(options: argparse.Namespace) -> None:
         print(path)
 
 
+def _converge(options: argparse.Namespace) -> int:
+    from rondo.studies.converge import command
+    return command(open_sweep(options.directory, options.unfinished), options.figure, options.by)
+
+
 def _validation(options: argparse.Namespace) -> None:
     from rondo import style
 
@@ -305,17 +345,24 @@ def _sweep(options: argparse.Namespace) -> None:
 def main(arguments: Sequence[str] | None = None) -> int:
     options = _parser().parse_args(arguments)
     if options.command not in NO_PICTURES:
+        if lacks := missing("matplotlib"):
+            print(f"rondo: {lacks}", file=sys.stderr)
+            return FILES
         import matplotlib
         matplotlib.use("Agg")
     code: int | None = 0
     commands: dict[str, Callable[[argparse.Namespace], int | None]] = {
         "paper": _paper, "figures": _figures, "animate": _animate, "report": _report, "means": _means,
+        "psd": _psd,
         "wheel": _wheel, "footprint": _footprint, "traction": _traction, "tyre": _tyre,
-        "campbell": _campbell, "sweep": _sweep, "validate": _validate,
+        "campbell": _campbell, "sweep": _sweep, "converge": _converge, "validate": _validate,
         "validation": _validation}
     try:
+        interrupts.while_working()
         code = commands[options.command](options)
         sys.stdout.flush()
+    except KeyboardInterrupt:
+        return interrupts.ended()
     except BrokenPipeError:  # the reader, as `head`, has enough
         os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())  # for the flush at exit
         return BROKEN_PIPE
@@ -331,7 +378,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
     except OSError as reason:
         # What else writes has said so itself.
         figures = options.command in ("figures", "wheel", "footprint", "traction", "tyre", "campbell",
-                                      "sweep", "validation")
+                                      "sweep", "validation", "psd")
         place = reason.filename or (_folder(options) if figures else "output")
         advice = "; choose another -o" if figures else ""
         print(f"rondo: {place}: {reason.strerror or reason}{advice}", file=sys.stderr)

@@ -50,6 +50,13 @@ def _spectrum(run: Run, column: str = "force_y", from_time: float | None = None,
     return plot_force_spectrum(run, column, from_time, to_time, ax)
 
 
+def _psd(run: Run, column: str = "force_y", from_time: float | None = None,
+         to_time: float | None = None, segment: float | None = None, ax: Axes | None = None) -> Axes:
+    """Power spectral density of a column of the history; see rondo.plots.psd."""
+    from .plots.psd import plot_psd
+    return plot_psd(run, column, from_time, to_time, segment, ax)
+
+
 def _contact(run: Run, time: float, ax: Axes | None = None) -> Axes:
     """Pressure and shear over the contact patch at the snapshot nearest to `time`."""
     run.need_plane("plot_contact", "plot_footprint(time) draws its contact")
@@ -202,7 +209,7 @@ def attach() -> None:
     """Gives the classes of rondo/data their pictures."""
     Run.plot_field, Run.plot_history, Run.plot_energy = _field, _history, _energy
     Run.plot_spectrum, Run.plot_modes, Run.animate = _spectrum, _modes_of_run, _animate
-    Run.plot_contact, Run.plot_contact_map = _contact, _contact_map
+    Run.plot_contact, Run.plot_contact_map, Run.plot_psd = _contact, _contact_map, _psd
     Run.plot_wheel, Run.plot_footprint, Run.plot_convergence = _wheel, _footprint, _convergence
     Pod.plot_spectrum, Pod.plot_modes = _decay, _modes
     Modes.plot_campbell = _campbell

@@ -4,6 +4,7 @@ import ctypes
 import json
 import os
 import pathlib
+import signal
 import subprocess
 import sys
 import tempfile
@@ -18,8 +19,8 @@ import fmi2_rules
 from program import ROOT, SANITIZED, ProgramTest, history, run
 
 sys.path.insert(0, str(ROOT / "examples" / "fmu"))
-from quarter_car import (DOUBLE, ERROR, ExplicitQuarterCar, Fmu, QuarterCar,  # noqa: E402
-                         unpack)
+from quarter_car import (DOUBLE, ERROR, LOGGER, Callbacks, ExplicitQuarterCar,  # noqa: E402
+                         Fmu, QuarterCar, unpack)
 
 CASE = ROOT / "cases" / "quarter-car-bump.toml"
 STATIC = 1.5e5  # load [N], by which forces are judged
@@ -243,7 +244,163 @@ class State(FmuTest):
             np.testing.assert_array_equal(one, alone)
 
 
+class Forks(FmuTest):
+    """Python's own way to start processes on Linux before 3.14."""
+
+    def in_child(self, work):
+        """What the work returns, a number, in a process forked from this one."""
+        reader, writer = os.pipe()
+        child = os.fork()
+        if child == 0:
+            signal.alarm(60)  # a child that hangs is a fault, and not to be waited for
+            try:
+                os.write(writer, repr(work()).encode())
+            finally:
+                os._exit(0)
+        os.close(writer)
+        with os.fdopen(reader) as told:
+            text = told.read()
+        self.assertEqual(os.waitpid(child, 0)[1], 0, "the child hangs or ends by a signal")
+        return float(text)
+
+    def force(self):
+        fmu = Fmu(self.unpacked)
+        fmu.begin()
+        fmu.set(hub_velocity_y=-0.2)
+        fmu.step(0.0, 4e-4)
+        force = fmu.get("force_y")[0]
+        fmu.free()
+        return force
+
+    def test_a_child_begins_anew(self):
+        expected = self.force()
+        self.assertEqual(self.in_child(self.force), expected)
+        self.assertEqual(self.force(), expected)
+
+    def test_a_child_goes_on_with_its_copy(self):
+        fmu = self.instance()
+
+        def go_on():
+            fmu.set(hub_velocity_y=-0.2)
+            fmu.step(0.0, 4e-4)
+            return fmu.get("force_y")[0]
+
+        self.assertEqual(self.in_child(go_on), go_on())
+
+
+class Pointers(FmuTest):
+    """What an importer gets wrong in C: each of these ended it before."""
+
+    def status(self, fmu, function, *arguments, component=True):
+        """An error; what it says is empty where there is no instance to say it."""
+        del fmu.messages[:]
+        handle = ctypes.c_void_p(fmu.component if component is True else component)
+        self.assertEqual(getattr(fmu.library, "fmi2" + function)(handle, *arguments), ERROR, function)
+        return " ".join(fmu.messages)
+
+    def test_null(self):
+        fmu = self.instance()
+        one, null = ctypes.c_size_t(1), None
+        references, values = (ctypes.c_uint * 1)(0), (DOUBLE * 1)(1.0)
+        saved, size = fmu.save(), ctypes.c_size_t(10_000_000)
+        for function, *arguments in (
+                ("GetReal", null, one, values), ("GetReal", references, one, null),
+                ("SetReal", null, one, values), ("SetReal", references, one, null),
+                ("SetDebugLogging", 1, one, null),
+                ("SetDebugLogging", 1, one, (ctypes.c_char_p * 1)(null)),
+                ("GetFMUstate", null), ("SerializedFMUstateSize", saved, null),
+                ("SerializeFMUstate", saved, null, size),
+                ("DeSerializeFMUstate", null, size, ctypes.byref(ctypes.c_void_p())),
+                ("DeSerializeFMUstate", (ctypes.c_char * 8)(), ctypes.c_size_t(8), null),
+                ("GetRealStatus", 2, null), ("GetBooleanStatus", 3, null)):
+            self.assertIn("NULL", self.status(fmu, function, *arguments), function)
+        for function, *arguments in (("SetFMUstate", null), ("SerializeFMUstate", null, null, size),
+                                     ("SerializedFMUstateSize", null, ctypes.byref(size))):
+            self.assertIn("this is no state", self.status(fmu, function, *arguments))
+        self.assertEqual(fmu.library.fmi2FreeFMUstate(ctypes.c_void_p(fmu.component), None), 0)
+        self.assertEqual(self.status(fmu, "DoStep", DOUBLE(0), DOUBLE(4e-4), 1, component=None), "")
+        fmu.call("GetReal", null, ctypes.c_size_t(0), null)
+        fmu.free_state(saved)
+        fmu.step(0.0, 4e-4)
+
+    def test_freed(self):
+        fmu, other = self.instance(), self.instance()
+        saved = fmu.save()
+        freed = ctypes.c_void_p(saved.value)
+        fmu.free_state(saved)
+        size = ctypes.c_size_t(10_000_000)
+        for function, *arguments in (
+                ("SetFMUstate", freed), ("SerializedFMUstateSize", freed, ctypes.byref(size)),
+                ("SerializeFMUstate", freed, (ctypes.c_char * 8)(), ctypes.c_size_t(8)),
+                ("GetFMUstate", ctypes.byref(freed))):
+            self.assertIn("freed", self.status(fmu, function, *arguments), function)
+        self.assertEqual(self.status(fmu, "FreeFMUstate", ctypes.byref(freed)), "")
+        component = fmu.component
+        fmu.free()
+        fmu.free()  # nothing, the second time
+        for function, *arguments in (
+                ("DoStep", DOUBLE(0), DOUBLE(4e-4), 1), ("Reset",), ("Terminate",),
+                ("GetReal", (ctypes.c_uint * 1)(0), ctypes.c_size_t(1), (DOUBLE * 1)()),
+                ("EnterInitializationMode",), ("CancelStep",)):
+            self.assertEqual(self.status(fmu, function, *arguments, component=component), "")
+        other.step(0.0, 4e-4)
+
+
 class Wrong(FmuTest):
+    def test_bounds(self):
+        early = self.instance(begins=False)
+        for name, value, most in (("friction", 1e6, "100"), ("width", 1e300, "100"),
+                                  ("step", 2.0, "1"), ("hub_height_start", -1e7, "1000000"),
+                                  ("hub_velocity_x", 1e5, "10000"),
+                                  ("hub_angular_velocity", -1e6, "100000")):
+            said = self.refused_to_set(early, name, value)
+            self.assertIn(f"{name} = ", said)
+            self.assertIn(f"at most {most}", said)
+
+    def test_stop_time(self):
+        fmu = self.instance(begins=False)
+        for start, stop in ((1.0, 1.0), (1.0, 0.5), (0.0, float("nan"))):
+            self.assertIn("stopTime", self.refused(fmu, "SetupExperiment", 0, DOUBLE(0.0),
+                                                   DOUBLE(start), 1, DOUBLE(stop)))
+        fmu.call("SetupExperiment", 0, DOUBLE(0.0), DOUBLE(0.0), 1, DOUBLE(8e-4))
+        fmu.call("EnterInitializationMode")
+        fmu.call("ExitInitializationMode")
+        fmu.step(0.0, 4e-4)
+        self.assertIn("after the stopTime of 0.0008 s",
+                      self.refused(fmu, "DoStep", DOUBLE(4e-4), DOUBLE(8e-4), 1))
+        fmu.step(4e-4, 4e-4)
+        self.assertIn("stopTime", self.refused(fmu, "DoStep", DOUBLE(8e-4), DOUBLE(4e-4), 1))
+
+    def test_a_step_that_would_not_end(self):
+        fmu = self.instance()
+        self.assertIn("internal steps of", self.refused(fmu, "DoStep", DOUBLE(0), DOUBLE(1000.0), 1))
+        fmu.step(0.0, 4e-4)
+
+    def test_locations(self):
+        def refused(uri):
+            fmu = Fmu.__new__(Fmu)
+            whole = self.instance(begins=False)
+            fmu.library, fmu.messages = whole.library, []
+            fmu.callbacks = Callbacks(LOGGER(fmu._log))
+            guid = ElementTree.parse(self.unpacked / "modelDescription.xml").getroot().get("guid")
+            self.assertIsNone(fmu.library.fmi2Instantiate(b"wheel", 1, guid.encode(), uri.encode(),
+                                                          ctypes.byref(fmu.callbacks), 0, 1))
+            return fmu.messages[0]
+
+        for uri, words in (("file:///a%zz/b", 'has "%zz", which codes no byte'),
+                           ("file:///a%2", 'has "%2", which'), ("file:///a%00b", 'has "%00", which'),
+                           ("file:///a%+1", 'has "%+1", which'),
+                           ("file://server/a", 'is on another machine, "server"'),
+                           ("http://server/a", "is of another scheme than file")):
+            said = refused(uri)
+            self.assertIn(words, said)
+            self.assertIn("fmuResourceLocation", said)
+
+    def test_an_fmu_that_cannot_be_written(self):
+        done = run("fmu", self.model, "--case", CASE, "-o", self.folder / "none" / "wheel.fmu")
+        self.assertEqual(done.returncode, 4)
+        self.assertIn("cannot be written: No such file or directory", done.stderr)
+
     def test_values(self):
         fmu = self.instance()
         self.assertIn("stays after initialisation", self.refused_to_set(fmu, "friction", 0.5))

@@ -59,7 +59,7 @@ class Refused(ProgramTest):
 
     def test_contacts_that_are_solved_elsewhere(self):
         sharp = SMALL.replace('profile = "flat"', "profile = [[-9, -0.1], [0, 0], [9, -0.1]]")
-        self.refused(sharp + layers(3), ["sharp corners", "ground.fillet"])
+        self.refused(sharp + layers(3), ["sharp convex corners", "ground.fillet"])
         self.refused(TYRE + IMPLICIT + "slower_than = 1.0\n",
                      ["node", "other bodies", "away from the contact boundary"])
         for text in (sharp + layers(2), sharp.replace("friction", "fillet = 0.5\nfriction")

@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """--json: exactly one document on stdout, by its schema, of each command and each way to end."""
+import fcntl
 import json
 import os
 import signal
@@ -137,6 +138,12 @@ class Run(JsonTest):
             text = SMALL if k < 2 else SMALL[:SMALL.index("[motion]")] + SMALL[SMALL.index("[ground]"):]
             found = self.result("run", self.case(text), "-o", f"{self.out}{k}", *sets)
             self.assertEqual(found["run"]["status"], "done")
+
+    def test_into_a_folder_whose_name_is_no_utf8(self):
+        out = os.fsdecode(os.fsencode(self.folder) + b"/fo\xffder")
+        document = self.answer(0, "run", self.case(), "-o", out)
+        self.assertEqual(document["result"]["directory"], f"{self.folder}/fo\ufffdder")
+        self.assertIn("a name in this document is not UTF-8", document["warnings"][-1])
 
     def test_wrong_input(self):
         self.assertEqual(self.answer(2, "run", self.case(), "-o", self.out, "--set",
@@ -302,9 +309,11 @@ class OfRuns(JsonTest):
 
     def test_interrupted_before_there_is_anything(self):
         """These end at once at a signal: their document was ready before."""
-        record = self.runs[0] / "run.json"
-        record.unlink()
-        os.mkfifo(record)  # the program waits for what nobody writes
+        # Who opens a file with a lease waits until its holder gives it back.
+        self.addCleanup(signal.signal, signal.SIGIO, signal.signal(signal.SIGIO, signal.SIG_IGN))
+        held = os.open(self.runs[0] / "run.json", os.O_RDWR)
+        self.addCleanup(os.close, held)
+        fcntl.fcntl(held, fcntl.F_SETLEASE, fcntl.F_WRLCK)
         model = self.folder / "model.h5"
         for command in (["pod", *self.runs, "-o", self.out], ["reduce", *self.runs, "-o", model]):
             with self.subTest(command[0]):

@@ -1,12 +1,13 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Runs of meshes from files: free bodies, bodies on each other, probes, what the results hold."""
 import csv
+import json
 import shutil
 import unittest
 
 import h5py
 import numpy as np
-from program import ROOT, ProgramTest, history, run, summary
+from program import ROOT, SMALL, ProgramTest, history, run, summary
 
 MESHES = ROOT / "cases" / "meshes"
 
@@ -242,6 +243,66 @@ class Meshes(ProgramTest):
             done = run("check", self.case(text), *[f"--set={setting}" for setting in settings])
             self.assertEqual(done.returncode, 2, settings)
             self.assertIn(f"in the .geo: {line}", done.stderr)
+
+    def test_masses_and_areas_are_told(self):
+        (self.folder / "case.toml").write_text(TWO)
+        told = run("check", self.folder / "case.toml", "--json")
+        lines = {line["name"]: line["text"] for line in json.loads(told.stdout)["result"]["lines"]}
+        s = self.run_ok(TWO, "--set", "time.end=1e-4", "--set", "output.snapshots=2")
+        with h5py.File(self.out / "results.h5") as file:
+            mass = file["mesh/mass"][:].sum()
+        self.assertAlmostEqual(s["mass"] / mass, 1.0, delta=1e-12)
+        self.assertEqual([region["name"] for region in s["regions"]], ["left", "right"])
+        self.assertAlmostEqual(sum(region["area"] for region in s["regions"]), s["area"], delta=1e-15)
+        for region, density in zip(s["regions"], (1100.0, 2200.0)):
+            self.assertAlmostEqual(region["mass"] / region["area"] / density, 1.0, delta=1e-12)
+            self.assertIn(f"{region['mass']:.6g} kg/m, area {region['area']:.6g} m2, "
+                          f"{region['elements']} elements", lines[f"  of \"{region['name']}\""])
+        self.assertIn(f"{mass:.6g} kg/m", lines["mass"])
+
+    def test_half_a_body_is_none(self):
+        """Half of the cells, by a count that is too small, are not taken for the whole."""
+        text = (self.folder / "block.msh").read_text()
+        self.assertIn("\n2 1 3 100\n", text)  # the last block
+        (self.folder / "block.msh").write_text(text.replace("\n2 1 3 100\n", "\n2 1 3 50\n"))
+        done = run("check", self.case(BLOCK))
+        self.assertEqual(done.returncode, 2)
+        self.assertIn("$Elements says 5 blocks, and goes on after them", done.stderr)
+
+    def test_held_and_touching_curves_that_are_swapped(self):
+        swapped = ("--set", "mesh.clamped=foot", "--set", "mesh.contact=top")
+        done = run("check", self.case(BLOCK), *swapped)
+        self.assertEqual(done.returncode, 2)
+        self.assertIn("mesh.clamped = foot: at t = 0.02 s nodes that are held would be up to "
+                      "0.001 m deep in the ground", done.stderr)
+        self.assertEqual(run("check", self.case(BLOCK), *swapped, "--set",
+                             "motion.height=[[0, 0.001], [0.02, 0.0]]").returncode, 0)
+        shutil.copy(MESHES / "tyre-section.msh", self.folder)
+        wheel = (ROOT / "cases" / "tyre-section.toml").read_text().replace("meshes/", "")
+        self.assertEqual(run("check", self.case(wheel)).returncode, 0)
+        done = run("check", self.case(wheel), "--set", "mesh.clamped=tread", "--set",
+                   "mesh.contact=rim", "--set", "load.pressure=[]")
+        self.assertEqual(done.returncode, 2)
+        self.assertIn("should \"tread\" be mesh.contact and \"rim\" mesh.clamped?", done.stderr)
+
+    def test_held_and_touching_curves_of_a_section_that_are_swapped(self):
+        done = run("check", ROOT / "cases" / "wheel3d-tyre.toml", "--set", "section.clamped=tread",
+                   "--set", "section.contact=rim", "--set", "load.pressure=[]")
+        self.assertEqual(done.returncode, 2)
+        self.assertIn("nodes that are held would be up to 0.008 m deep in the ground", done.stderr)
+        self.assertIn("should \"tread\" be section.contact and \"rim\" section.clamped?", done.stderr)
+
+    def test_a_rim_in_the_ground(self):
+        """A disk, a crush of a mesh and steady rolling refuse it, too."""
+        crush = BLOCK[:BLOCK.index("[motion]")] + BLOCK[BLOCK.index("[ground]"):BLOCK.index("[time]")]
+        for text, *settings in (
+                (SMALL, "motion.height=[[0, 0.3], [0.004, 0.1]]"),
+                (crush + '[analysis]\nkind = "crush"\ndepth = 0.11\nincrements = 2\n',
+                 "damping.stiffness=0.0"),
+                ((ROOT / "cases" / "steady-rolling.toml").read_text(), "motion.height=0.02")):
+            done = run("check", self.case(text), *[f"--set={setting}" for setting in settings])
+            self.assertEqual(done.returncode, 2, settings)
+            self.assertIn("nodes that are held would be up to", done.stderr)
 
     def test_what_the_mesh_says_is_said_with_its_file(self):
         done = run("check", self.case(BLOCK), "--set", "mesh.contact=sides")

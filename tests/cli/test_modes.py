@@ -190,6 +190,20 @@ class Modes(ProgramTest):
             "--spin", 40, "--overwrite", case=self.free_disk(),
             settings=["--set", "disk.mesh.radial=400"]))
 
+    def test_one_layer_of_elements(self):
+        """Two unknowns a sector, of which (8.6) has one with n = 1."""
+        for case, settings in ((ANNULUS, []), (ANNULUS, ["--set", "material.stress_stiffening=centrifugal"]),
+                               (self.free_disk(), [])):
+            out, _ = self.modes("--count", 8, "--overwrite", case=case,
+                                settings=["--set", "disk.mesh.radial=1", *settings])
+            self.assertGreaterEqual(len(table(out / "modes.csv")), 8)
+            self.assertGreater(len(table(out / "critical-speeds.csv")), 10)
+
+    def test_numbers_beyond_the_range(self):
+        for key, value in (("material.density", "1e200"), ("material.density", "1e-300"),
+                           ("material.youngs_modulus", "1e-320"), ("material.youngs_modulus", "1e300")):
+            self.assertIn(key, self.fails("--spin", 0, settings=COARSE + ["--set", f"{key}={value}"]))
+
     def test_beyond_the_softening_limit(self):
         out, done = self.modes("--spin", 0, "--spin", 600, code=3)
         self.assertIn("negative eigenvalues", done.stderr)

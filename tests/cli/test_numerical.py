@@ -86,6 +86,25 @@ def not_finite(folder):
     return found
 
 
+# A spike that the disk comes onto by more in a step than a corner of the ground may be deep: the
+# contact is lost, and found from inside where the spike leaves the disk.
+SPIKE = ["disk.mesh.radial=4", "disk.mesh.circumferential=60", "motion.height=0.305",
+         "motion.angular_velocity=0", "motion.speed=400", "time.end=0.003", "output.snapshots=0",
+         "ground.profile=[[-10,0],[0.5,0],[0.502,0.08],[0.504,0],[10,0]]"]
+
+
+class LateContact(ProgramTest):
+    def test_a_contact_found_late_ends_the_run(self):
+        sets = [word for setting in SPIKE for word in ("--set", setting)]
+        out = self.folder / "out"
+        done = run("run", ROOT / "cases" / "rolling-flat.toml", "-o", out, "--quiet", *sets)
+        self.assertEqual(done.returncode, 3, done.stderr)
+        self.assertIn("step 17 of 30, t = 0.0017", done.stderr)
+        self.assertIn("a contact begins 0.00841 m deep at (0.502, 0.08) m: it was inside",
+                      done.stderr)
+        self.assertEqual(history(out)["time_s"][-1], summary(out)["end_time"])
+
+
 class Extremes(ProgramTest):
     def test_extremes(self):
         for number, (what, text, settings, code, fragments) in enumerate(EXTREMES):

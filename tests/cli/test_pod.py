@@ -21,7 +21,7 @@ STILL = "\n".join(line for line in replaced(replaced(SMALL, "angular_velocity",
                   if not line.startswith(("friction", "profile", "[ground]")))
 
 
-class Pod(ProgramTest):
+class PodTest(ProgramTest):
     def make(self, text=SMALL, name="out", *extra):
         out = self.folder / name
         done = run("run", self.case(text, name + ".toml"), "-o", out, "--quiet", *extra)
@@ -51,6 +51,8 @@ class Pod(ProgramTest):
         np.testing.assert_array_equal(got["mode"], np.arange(1, len(s) + 1))
         return u, s, vt
 
+
+class Pod(PodTest):
     def test_spectra_are_numpys(self):
         for text, name in (SPUN_UP, "smooth"), (TREADED, "treaded"):
             out = self.make(text, name)
@@ -388,6 +390,37 @@ class Pod(ProgramTest):
         said = self.fails(2, out, "--field", "velocity", "--frame", "rectified")
         self.assertIn("run the case again", said)
         self.pod(out, "--field", "velocity")
+
+
+class Ended(PodTest):
+    """What is not yet whole does not outlive the program."""
+
+    def end(self, out, number):
+        """While files are written; how it ended, and what it left: none where it had ended before."""
+        program = subprocess.Popen([PROGRAM, "pod", str(out), "--reconstruct", "2000", "--quiet"],
+                                   stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+        written = out / "pod" / "displacement-rotating"
+        while program.poll() is None and not any(written.glob(".pod.*.tmp/pod.h5")):
+            time.sleep(0.0005)
+        program.send_signal(number)
+        code = program.wait()
+        return (code, sorted(p.name for p in written.glob(".*"))) if code != 0 else None
+
+    def test_by_signals_and_killed(self):
+        text = replaced(SMALL, "snapshots", "snapshots = 2001")
+        out = self.make(text)
+        for number in (signal.SIGTERM, signal.SIGINT, signal.SIGHUP):
+            ended = [self.end(out, number) for _ in range(4)]
+            self.assertIn((130, []), ended)
+            self.assertLessEqual(set(filter(None, ((e or (130, []))[0] for e in ended))), {130})
+            self.assertTrue(all(e is None or e[1] == [] for e in ended), ended)
+        code, left = self.end(out, signal.SIGKILL)
+        self.assertEqual((code, len(left)), (-signal.SIGKILL, 1), left)
+        written = out / "pod" / "displacement-rotating"
+        other = written / ".pod.another-machine.1.tmp"
+        other.mkdir()
+        self.pod(out)
+        self.assertEqual([p.name for p in written.glob(".*")], [other.name])
 
 
 if __name__ == "__main__":

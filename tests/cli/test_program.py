@@ -1,9 +1,11 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """rondo check; instruction sets, operators, help, the progress of a run."""
+import json
 import os
 import subprocess
 import unittest
 
+import h5py
 import numpy as np
 
 from program import (PROGRAM, ProgramTest, ROOT, SANITIZED, SMALL, estimated_memory, history, replaced,
@@ -56,7 +58,7 @@ class Check(ProgramTest):
 
 class Program(ProgramTest):
     def test_the_instruction_set_is_told_and_can_be_asked_for(self):
-        best = run("--version").stdout.split("kernels ")[1].rstrip(")\n")
+        best = run("--version").stdout.split("kernels ")[1].split(")")[0]
         forces = {}
         for level in dict.fromkeys((best, "baseline")):
             environment = os.environ | {"RONDO_DISPATCH": level}
@@ -90,6 +92,67 @@ class Program(ProgramTest):
             scale = np.abs(both[0][column]).max()
             self.assertGreater(scale, 0.0, column)
             self.assertLess(np.abs(both[0][column] - both[1][column]).max(), 1e-8 * scale, column)
+
+    def test_what_it_was_built_from(self):
+        """One record, in all documents and in --version."""
+        said = run("--version").stdout
+        document = run("check", self.case(), "--json").stdout
+        record = json.loads(document)["build_record"]
+        self.assertRegex(record["commit"], "^(unknown|[0-9a-f]{40})$")
+        self.assertEqual(record["modified"] is None, record["commit"] == "unknown")
+        self.assertIn("-ffp-contract=off", record["flags"])
+        self.assertIn(record["compiler"], said.splitlines()[0])
+        for name in ("Eigen", "CHOLMOD", "Spectra", "OpenBLAS", "FFTW", "HDF5", "Gmsh"):
+            self.assertRegex(record["libraries"][name], r"^\d+\.\d+", name)
+            self.assertIn(f"{name} {record['libraries'][name]}", said)
+        for text in (f"commit     {record['commit']}", f"flags      {record['flags']}"):
+            self.assertIn(text, said)
+        out = self.folder / "out"
+        crush = self.case((ROOT / "cases" / "crush-smooth.toml").read_text(), "crush.toml")
+        study = self.case('schema = 1\nbase = "case.toml"\nset = ["time.end=4e-3"]\nsnapshots = true\n'
+                          '[[vary]]\nkey = "ground.friction"\nvalues = [0.0, 0.3]\n', "study.toml")
+        model = self.folder / "model.h5"
+        for command in (["run", self.case(), "-o", out / "run"],
+                        ["run", crush, "-o", out / "crush", "--set", "analysis.increments=2"],
+                        ["run", ROOT / "cases" / "steady-rolling.toml", "-o", out / "steady"],
+                        ["modes", ROOT / "cases" / "modes-annulus.toml", "-o", out / "modes", "--diameters", "2"],
+                        ["pod", out / "run", "-o", out / "pod"], ["sweep", study, "-o", out / "sweep"],
+                        ["reduce", out / "run", "-o", model]):
+            done = run(*command)
+            self.assertEqual(done.returncode, 0, done.stderr)
+        files = sorted(out.rglob("*.json"))
+        self.assertEqual({file.name for file in files}, {"run.json", "modes.json", "pod.json", "sweep.json"})
+        level = said.split("kernels ")[1].split(")")[0]
+        for file in files:
+            found = json.loads(file.read_text())
+            self.assertEqual((found["build_record"], found["dispatch"]), (record, level), file)
+        with h5py.File(model) as file:
+            self.assertEqual(json.loads(file.attrs["build_record"]), record)
+
+    def test_a_copy_without_git_is_of_no_known_commit(self):
+        made = self.folder / "commit.cpp"
+        def look(folder):
+            subprocess.run(["cmake", f"-DOUTPUT={made}", "-DGIT=git", f"-DSOURCE={folder}", "-P",
+                            ROOT / "cmake" / "commit.cmake"], check=True)
+
+        look(self.folder)
+        self.assertIn('built_commit = "unknown"', made.read_text())
+        self.assertIn("built_modified = -1", made.read_text())
+        git = ["git", "-C", self.folder, "-c", "user.name=a", "-c", "user.email=a"]
+        (self.folder / "file").write_text("a")
+        for command in (["init", "-q"], ["add", "file"], ["commit", "-qm", "a"]):
+            subprocess.run([*git, *command], check=True)
+        look(self.folder)
+        self.assertRegex(made.read_text(), r'built_commit = "[0-9a-f]{40}";\n.*built_modified = 0;')
+        before = made.stat().st_mtime_ns
+        look(self.folder)
+        self.assertEqual(made.stat().st_mtime_ns, before)  # nothing is compiled anew
+        (self.folder / "file").write_text("b")
+        look(self.folder)
+        self.assertIn("built_modified = 1", made.read_text())
+        (self.folder / "part").mkdir()
+        look(self.folder / "part")
+        self.assertIn('"unknown"', made.read_text())  # a copy within another repository
 
     def test_version_and_help(self):
         self.assertRegex(run("--version").stdout, r"^rondo \d+\.\d+\.\d+ ")

@@ -85,13 +85,22 @@ class Reduced(ProgramTest):
         said = self.made("reduce", *runs, "-o", model, *PARTS).stdout
         self.assertIn("twice the largest of 3 runs", said)
         with h5py.File(model) as f:
-            errors = f["/errors/force"][:]
+            errors, of_themselves = f["/errors/force"][:], f["/errors/of_themselves"][:]
             self.assertEqual(f.attrs["estimate_runs"].split(), [str(r) for r in runs])
         out, done = self.reduced(model=model)
         self.assertIn("error estimate of the model: F_x", done.stderr + done.stdout)
         estimate = summary(out)["reduced_error_estimate"]
         np.testing.assert_array_equal([estimate["force_x"], estimate["force_y"]],
                                       2 * abs(errors).max(axis=0))
+        # Over themselves: F_x is a small part of F_y, and friction is neither.
+        self.assertIn("over themselves F_x", done.stderr + done.stdout)
+        np.testing.assert_array_equal([estimate["force_x_of_itself"], estimate["friction_power"]],
+                                      2 * abs(of_themselves).max(axis=0))
+        for k, full in enumerate(runs):
+            h = history(full)
+            late = h["time_s"] > 0.75 * h["time_s"][-1]
+            share = abs(h["force_x"][late].mean()) / h["force_y"][late].mean()
+            self.assertAlmostEqual(of_themselves[k, 0] * share / errors[k, 0], 1.0, places=9)
         # The last of them by hand: from a model of the other two.
         out, _ = self.reduced("--overwrite")
         a, b = history(self.shared / "full"), history(out)
@@ -100,6 +109,14 @@ class Reduced(ProgramTest):
         for k, name in enumerate(("force_x", "force_y")):
             by_hand = (b[name][late[1]].mean() - a[name][late[0]].mean()) / scale
             self.assertAlmostEqual(errors[2, k], by_hand, delta=0.0015)
+        # The friction of the first likewise, which depends more on the modes.
+        model = self.folder / "others.h5"
+        self.made("reduce", runs[1], runs[2], "-o", model, *PARTS)
+        out, _ = self.reduced("--overwrite", "--set", "ground.friction=0.2", model=model)
+        late = [h["time_s"] > 0.75 * h["time_s"][-1] for h in (history(runs[0]), history(out))]
+        a, b = (np.ptp(h["dissipation_friction"][part]) / np.ptp(h["time_s"][part])
+                for h, part in zip((history(runs[0]), history(out)), late))
+        self.assertAlmostEqual(of_themselves[0, 1], b / a - 1.0, delta=0.1)
 
     def test_no_error_estimate_says_why(self):
         out, done = self.reduced()

@@ -13,6 +13,7 @@ import h5py
 import numpy as np
 
 from program import PROGRAM, ROOT, ProgramTest, SMALL, replaced, run, summary
+from test_solid import WHEEL
 from vtkhdf_layout import Layout
 
 RESULTS = ("history.csv", "contact.csv", "results.h5", "fields.xdmf", "fields.vtkhdf",
@@ -95,6 +96,11 @@ class ResumeTest(ProgramTest):
 
     def resume(self, text, *extra):
         return run("run", self.case(text), "-o", self.out, "--resume", *extra)
+
+    def assert_refused(self, done, code, *texts):
+        self.assertEqual(done.returncode, code, done.stderr)
+        for text in texts:
+            self.assertIn(text, done.stderr)
 
 
 class Killed(ResumeTest):
@@ -349,11 +355,6 @@ class Finished(ResumeTest):
 class Refused(ResumeTest):
     TEXT = Finished.TEXT
 
-    def assert_refused(self, done, code, *texts):
-        self.assertEqual(done.returncode, code, done.stderr)
-        for text in texts:
-            self.assertIn(text, done.stderr)
-
     def test_another_case_with_all_that_differs(self):
         self.assertEqual(self.resume(self.TEXT).returncode, 0)
         other = replaced(self.TEXT, "friction", "friction = 0.4\nrestitution = 0.1\n"
@@ -464,6 +465,74 @@ class Refused(ResumeTest):
         self.assertEqual(self.resume(self.TEXT).returncode, 0)
         (self.out / "checkpoint.h5").unlink()
         self.assert_refused(self.resume(self.TEXT), 2, "holds a run without a checkpoint")
+
+
+class Damaged(ResumeTest):
+    """What is kept of a run is what was written, to the bit, whether steps are left to do or not."""
+
+    TEXT = Finished.TEXT
+
+    def setUp(self):
+        super().setUp()
+        self.assertEqual(self.resume(self.TEXT).returncode, 0)
+        self.kept = self.folder / "kept"
+        shutil.copytree(self.out, self.kept)
+
+    def assert_found(self, *texts):
+        before = {path.name: path.read_bytes() for path in self.out.iterdir()}
+        for later in ((), ("--set", "time.end=0.02")):
+            done = self.resume(self.TEXT, *later)
+            self.assert_refused(done, 4, *texts, f"rondo run CASE -o {self.out} --overwrite")
+            self.assertNotIn("--resume", done.stderr)
+        self.assertEqual({path.name: path.read_bytes() for path in self.out.iterdir()}, before)
+
+    def restore(self, name):
+        shutil.copyfile(self.kept / name, self.out / name)
+
+    def test_zeros_in_the_middle_of_tables(self):
+        for name in ("history.csv", "contact.csv"):
+            content = bytearray((self.kept / name).read_bytes())
+            middle = len(content) // 2
+            content[middle : middle + 849] = bytes(len(content[middle : middle + 849]))
+            line = content[:middle].count(b"\n") + 1
+            (self.out / name).write_bytes(content)
+            self.assert_found(f"{self.out / name}: line {line}: ")
+            self.restore(name)
+
+    def test_another_number_in_a_table(self):
+        rows = (self.kept / "history.csv").read_text().splitlines(keepends=True)
+        time = rows[7][: rows[7].index(",")]
+        rows[7] = "nan," + (len(time) - 3) * "0" + rows[7][len(time) + 1 :]  # of the same length
+        (self.out / "history.csv").write_text("".join(rows))
+        self.assert_found("history.csv: line 8 holds a number that is not finite",
+                          "are not those that were written: damaged")
+        rows[7] = "0.1" + rows[7][3:]
+        (self.out / "history.csv").write_text("".join(rows))
+        self.assert_found("history.csv: its first", "are not those that were written: damaged")
+
+    def test_every_dataset_of_the_snapshots(self):
+        with h5py.File(self.out / "results.h5") as f:
+            names = [f"{group}/{name}" for group in ("frame", "snapshots", "contact", "fields")
+                     for name in f[group]]
+        self.assertIn("fields/von_mises", names)
+        values = ((np.nan, "not finite in snapshot 3"), (np.inf, "not finite in snapshot 3"),
+                  (0.123, "are not what was written"))
+        for k, name in enumerate(names):
+            value, text = values[k % 3]
+            with h5py.File(self.out / "results.h5", "r+") as f:
+                f[name][3, ...] = value
+            self.assert_found(f"{self.out / 'results.h5'}: ", f"/{name}", text)
+            self.restore("results.h5")
+        done = self.resume(self.TEXT, "--set", "time.end=0.02")
+        self.assertEqual(done.returncode, 0, done.stderr)
+
+    def test_a_wheel_in_three_dimensions(self):
+        shutil.rmtree(self.out)
+        done = self.resume(WHEEL)
+        self.assertEqual(done.returncode, 0, done.stderr)
+        with h5py.File(self.out / "results.h5", "r+") as f:
+            f["/frame/lateral"][1] = np.nan
+        self.assert_refused(self.resume(WHEEL), 4, "/frame/lateral", "not finite in snapshot 1")
 
 
 class TwoPrograms(ResumeTest):

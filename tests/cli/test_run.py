@@ -1,5 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """rondo run on real cases: files, their contents, exit codes, the same bits."""
+import functools
+import json
 import os
 import unittest
 
@@ -102,8 +104,12 @@ class Run(RunTest):
             self.assertEqual(force.shape, (11, len(boundary), 2))
             self.assertGreaterEqual(force[..., 0].min(), 0.0)
             self.assertLessEqual(np.max(np.abs(force[..., 1]) - 0.3 * force[..., 0]), 1e-9)
-            np.testing.assert_allclose(
-                f["/contact/traction"][:] * f["/mesh/tributary"][:][None, :, None], force, rtol=1e-14)
+            traction = f["/contact/traction"][:]
+            width = np.broadcast_to(f["/mesh/tributary"][:], traction.shape[:2]).copy()
+            pressed = force[..., 0] > 0  # over the deformed boundary: test_contact_lengths.py
+            width[pressed] = force[pressed, 0] / traction[pressed, 0]
+            np.testing.assert_allclose(width, np.broadcast_to(f["/mesh/tributary"][:], width.shape), rtol=0.2)
+            np.testing.assert_allclose(traction * width[..., None], force, rtol=1e-14)
             # Positions in the fixed frame: c + R(θ)(X + u).
             theta, c = f["/frame/angle"][-1], f["/frame/center"][-1]
             arm = f["/mesh/coordinates"][:] + u[-1]
@@ -253,6 +259,20 @@ class Run(RunTest):
         self.run_ok(text.replace("circumferential = 40", "circumferential = 120"))
         self.assertGreater(summary(self.out)["contact"]["pairs_solved"], 0)
         self.assertEqual(summary(self.out)["contact"]["pairs_not_converged"], 0)
+
+
+class Processors(ProgramTest):
+    def test_threads_are_those_that_may_be_used(self):
+        """Not those of the machine: 17.7 s instead of 0.31 s under taskset -c 0, with six threads."""
+        allowed = sorted(os.sched_getaffinity(0))
+        for cpus in (allowed[:1], allowed):
+            done = run("check", ROOT / "cases" / "ledge-smooth.toml", "--json", "--set",
+                       "disk.mesh.radial=20", "--set", "disk.mesh.circumferential=720",
+                       preexec_fn=functools.partial(os.sched_setaffinity, 0, cpus))
+            self.assertEqual(done.returncode, 0, done.stderr)
+            threads = json.loads(done.stdout)["result"]["threads"]
+            self.assertLessEqual(threads, len(cpus))
+            self.assertGreaterEqual(threads, 1)
 
 
 class BlasThreads(ProgramTest):

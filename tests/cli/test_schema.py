@@ -222,6 +222,12 @@ WRONG_STUDIES = [
     (("vary", 0), {"key": "ground.friction", "linspace": [0, 1, 2.0]}),
     (("vary", 0), {"key": "ground.friction", "linspace": [0, 1e301, 2]}),
     (("vary", 0), {"values": [0.1]}),
+    (("vary", 0), {"keys": ["ground.friction"], "values": [[0.1], [0.2]]}),
+    (("vary", 0), {"keys": ["ground.friction", "motion.speed"], "values": [0.1, 0.2]}),
+    (("vary", 0), {"keys": ["ground.friction", "motion.speed"], "linspace": [0, 1, 3]}),
+    (("vary", 0), {"keys": ["ground.friction", "motion.sped"], "values": [[0.1, 10]]}),
+    (("vary", 0), {"key": "time.end", "keys": ["ground.friction", "motion.speed"], "values": [[0.1, 10]]}),
+    (("columns",), "force_x"), (("columns",), ["force_x", "force_x"]),
     (("sample",), {"count": 0}), (("sample",), {"count": 3, "kind": "grid"}),
     (("sample",), {"count": 3, "seed": -1}), (("sample",), {}), (("window",), {"from": "a"}),
     (("window",), {"begin": 1}),
@@ -241,6 +247,9 @@ class OfStudies(ProgramTest):
         list_key = copy.deepcopy(STUDY)
         list_key["vary"][0] = {"key": "material.region[0].density", "values": [900.0]}
         self.assertEqual(errors("study", list_key), [])
+        together = {**STUDY, "columns": ["torque"], "vary": [
+            {"keys": ["ground.friction", "motion.speed"], "values": [[0.1, 9], [0.2, 10]]}]}
+        self.assertEqual((errors("study", together), code_of(together)), ([], 0))
         for path, value in WRONG_STUDIES:
             document = copy.deepcopy(STUDY)
             here = document

@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Wheels in three dimensions from outside: what their runs write, that left and right are mirrored,
 that they resume to the same bits, and what they do not go with."""
+import re
 import signal
 import subprocess
 import time
@@ -9,7 +10,7 @@ import unittest
 import h5py
 import numpy as np
 
-from program import PROGRAM, ProgramTest, contact, history, replaced, run, summary
+from program import PROGRAM, ProgramTest, contact, history, replaced, run, said, summary
 
 # A box wheel that corners, already on the ground: 2×3×40 hexahedra.
 WHEEL = """schema = 1
@@ -350,6 +351,16 @@ class Bodies(SolidTest):
         told = self.refused("load.pressure=[{curve = 'rim', value = 1.0}]", text=TYRE)
         self.assertIn("a pressure there does nothing", told)
         self.assertIn("inside", self.refused("load.pressure=[{curve = 'in', value = 1.0}]", text=TYRE))
+
+    def test_a_section_that_is_not_about_its_middle(self):
+        def warned(off):
+            nodes = re.sub(r"(?m)^(\d+) (\d+) (-?\d+) 0$", lambda m: f"{m[1]} {m[2]} {int(m[3]) + off} 0", SECTION)
+            (self.folder / "tyre.msh").write_text(nodes)
+            return said(run("check", self.case(TYRE)))
+
+        self.assertNotIn("section.file", warned(0))
+        told = warned(80)
+        self.assertIn('the curve "tread" lies from z = 0.03 to 0.13 m, its middle 0.08 m beside z = 0', told)
 
     def test_a_wheel_with_a_loaded_rim(self):
         text = replaced(WHEEL, "height", "height = 0.3") + (

@@ -101,16 +101,14 @@ class Steady(RunTest):
         s = self.steady()
         rows, h, n = contact(self.out), history(self.out), s["samples_per_sector"]
         with h5py.File(self.out / "results.h5") as f:
-            width = dict(zip(f["mesh/boundary"][:], f["mesh/tributary"][:]))
             np.testing.assert_array_equal(np.unique(rows["time_s"]), f["frame/time"][:])
-        width = np.array([width[int(k)] for k in rows["node"]])
-        force = -width * rows["shear_pa"]  # in the files shear is counted to the left
+        force = -rows["length_m"] * rows["shear_pa"]  # in the files shear is counted to the left
         np.testing.assert_allclose(force.sum() / n, s["force_x"], rtol=1e-11)
         power = -(force * rows["slip_speed"]).sum() / n
         np.testing.assert_allclose(power, s["power"]["friction"], rtol=1e-11)
         sticks = rows["sticks"] == 1
         self.assertTrue(0 < sticks.sum() < len(sticks))
-        np.testing.assert_allclose(width[sticks].sum() / n, s["stick_length"], rtol=1e-11)
+        np.testing.assert_allclose(rows["length_m"][sticks].sum() / n, s["stick_length"], rtol=1e-11)
         self.assertLess(np.abs(rows["slip_speed"][sticks]).max(), 1e-9)
         bound = 0.4 * rows["pressure_pa"]
         self.assertTrue((np.abs(rows["shear_pa"]) <= bound * (1 + 1e-9)).all())
@@ -169,6 +167,55 @@ class Steady(RunTest):
         self.assertNotIn("critical spin", said(done))
         done = run("check", self.case(CASE), "--set", "motion.angular_velocity=181.9")
         self.assertIn("above the critical spin of this mesh, 181.78 rad/s (90 nodal diameters)", said(done))
+
+    def test_warns_above_the_critical_spin_in_three_dimensions(self):
+        done = run("check", self.case(WHEEL))
+        self.assertNotIn("critical spin", said(done))
+        done = run("check", self.case(WHEEL), "--set", "motion.angular_velocity=400")
+        self.assertIn("above the critical spin of this mesh", said(done))
+
+    def test_power_of_the_discretisation(self):
+        """With one place a sector the scheme has a third of the largest power."""
+        s = self.steady()
+        power = s["power"]
+        largest = max(abs(power["drive"]), power["mass"] + power["stiffness"], abs(power["friction"]))
+        self.assertAlmostEqual(s["scheme_share"], abs(power["scheme"]) / largest, delta=1e-15)
+        rough = ["analysis.samples_per_sector=1"]
+        done = run("run", self.case(WHEEL), "-o", self.out, "--quiet", "--overwrite", "--set", *rough)
+        self.assertEqual(done.returncode, 3, done.stderr)
+        for part in ("the discretisation takes", "analysis.samples_per_sector", "analysis.accept_scheme_power"):
+            self.assertIn(part, done.stderr)
+        self.assertNotIn("steady", summary(self.out))
+        s = self.steady(*rough, "analysis.accept_scheme_power=true", text=WHEEL)
+        self.assertGreater(s["scheme_share"], 0.25)
+        self.assertIn("rolling resistance is wrong", " ".join(summary(self.out)["warnings"]))
+
+    def test_power_of_the_discretisation_in_sweeps(self):
+        self.case(WHEEL, "small.toml")
+        study = STUDY.replace("ground.friction", "analysis.samples_per_sector").replace("0.1, 0.5", "1, 4")
+        done = run("sweep", self.case(study, "study.toml"), "-o", self.out)
+        self.assertEqual(done.returncode, 3, done.stderr)
+        self.assertIn("the discretisation", done.stderr)
+        table = np.genfromtxt(self.out / "results.csv", delimiter=",", names=True, dtype=None, encoding=None)
+        self.assertEqual(list(table["status"]), ["failed", "done"] * 2)
+        self.assertTrue((table["scheme_share"][1::2] < 0.25).all())
+
+    def test_without_friction_and_damping_there_is_no_power(self):
+        s = self.steady("ground.friction=0", "damping.mass=0", "damping.stiffness=0", text=CASE)
+        self.assertAlmostEqual(s["force_y"], 189717, delta=1)
+
+    def test_numbers_beyond_the_range_are_refused_with_their_key(self):
+        for text, settings in (
+                (SMALL, ("material.density=1e200", "material.density=1e-300", "material.youngs_modulus=1e300",
+                         "damping.mass=1e305", "motion.angular_velocity=1e160")),
+                (WHEEL, ("damping.mass=1e305", "damping.stiffness=1e300", "motion.angular_velocity=1e160",
+                         "material.youngs_modulus=1e-320", "material.density=5e-324"))):
+            for setting in settings:
+                for command in ("check", "run"):
+                    more = ["-o", self.out] if command == "run" else []
+                    done = run(command, self.case(text), *more, "--set", setting)
+                    self.assertEqual(done.returncode, 2, (setting, done.returncode, done.stderr))
+                    self.assertIn(setting.split("=")[0], done.stderr)
 
     def test_check_tells_what_the_case_means(self):
         def lines(text, *settings):

@@ -95,6 +95,78 @@ values = [[[0, 0.3], [0.004, 0.296]], [[0, 0.3], [0.004, 0.2965]]]
                              ["cyclic", "sparse"])
             np.testing.assert_array_equal(f["parameters/solver.operator"][:], [0, 0, 1, 1])
 
+    def test_keys_that_go_together(self):
+        text = STUDY.replace("key = \"motion.speed\"\nlinspace = [9, 11, 3]",
+                             "keys = [\"motion.speed\", \"material.youngs_modulus\"]\n"
+                             "values = [[9, 1e7], [10, 2e7]]")
+        listed = self.sweep("--dry-run", text=text).stdout
+        self.assertIn("run 2 (ground.friction = 0.0, motion.speed = 10, "
+                      "material.youngs_modulus = 20000000.0): ", listed)
+        self.sweep(text=text)
+        rows = table(self.out)
+        self.assertEqual([(row["ground.friction"], row["motion.speed"],
+                           row["material.youngs_modulus"]) for row in rows[1:4]],
+                         [("0.0", "10", "20000000.0"), ("0.2", "9", "10000000.0"),
+                          ("0.2", "10", "20000000.0")])
+        said = json.loads((self.out / "sweep.json").read_text())["parameters"]
+        self.assertEqual([p.get("with") for p in said], [None, None, "motion.speed"])
+        alone = self.folder / "alone"
+        self.assertEqual(run("run", self.folder / "case.toml", "-o", alone, "--set",
+                             "ground.friction=0.2", "--set", "motion.speed=9", "--set",
+                             "material.youngs_modulus=1e7").returncode, 0)
+        self.assertEqual((self.out / "runs" / "0003" / "history.csv").read_bytes(),
+                         (alone / "history.csv").read_bytes())
+
+    def test_columns_of_the_histories(self):
+        self.case(SMALL + "[[output.probe]]\nname = \"tip\"\nposition = [0, -0.3]\n")
+        asked = "columns = [\"tip_uy\", \"force_y\"]\n" + STUDY + "[window]\nfrom = 0.008\nto = 0.012\n"
+        self.sweep(text=asked)
+        h = history(self.out / "runs" / "0005")
+        time = np.concatenate([[0.0], h["time_s"]])
+        inside = (time[:-1] >= 0.008) & (h["time_s"] <= 0.012)
+        row = table(self.out)[4]
+        values = h["tip_uy"][inside]
+        self.assertGreater(np.ptp(values), 0)
+        self.assertEqual([float(row[f"tip_uy_{name}"]) for name in ("min", "max", "last")],
+                         [values.min(), values.max(), values[-1]])
+        mean = np.average(values, weights=np.diff(time)[inside])
+        self.assertAlmostEqual(float(row["tip_uy_mean"]), mean, delta=1e-12 * abs(values).max())
+        names = list(row)
+        self.assertEqual(names[-7:], ["tip_uy_mean", "tip_uy_min", "tip_uy_max", "tip_uy_last",
+                                      "force_y_min", "force_y_max", "force_y_last"])  # one mean
+        with h5py.File(self.out / "sweep.h5") as f:
+            self.assertEqual(f["figures/tip_uy_max"].attrs["units"], "m")
+            self.assertEqual(f["figures/tip_uy_max"][4], values.max())
+        said = json.loads((self.out / "sweep.json").read_text())["columns"]
+        self.assertIn({"name": "force_y_min", "unit": "N/m"}, said)
+        done = self.sweep("--overwrite", text=asked.replace("tip_uy", "tip_vz"), code=2)
+        self.assertIn("\"tip_vz\" is no column of history.csv of these runs", done.stderr)
+        self.assertIn("tip_uy, tip_vx", done.stderr)
+        self.assertIn("another sweep", self.sweep("--resume", text=STUDY, code=2).stderr)
+
+    def test_columns_of_crushes_and_of_steady_rolling(self):
+        self.case(replaced(replaced(SMALL, "end", None), "[time]", None)
+                  .replace("snapshots = 11", "stress = false")
+                  + "[analysis]\nkind = \"crush\"\ndepth = 0.01\nincrements = 5\n")
+        text = ("schema = 1\nbase = \"case.toml\"\ncolumns = [\"pressure_max_pa\"]\n[[vary]]\n"
+                "key = \"ground.friction\"\nvalues = [0, 0.4]\n")
+        self.sweep(text=text)
+        h, row = history(self.out / "runs" / "0002"), table(self.out)[1]
+        self.assertEqual([float(row[f"pressure_max_pa_{name}"]) for name in ("min", "max", "last")],
+                         [h["pressure_max_pa"].min(), h["pressure_max_pa"].max(),
+                          h["pressure_max_pa"][-1]])
+        self.assertNotIn("pressure_max_pa_mean", row)
+        steady = STUDY.replace("case.toml", str(ROOT / "cases" / "steady-rolling.toml"))
+        done = self.sweep("--overwrite", text="columns = [\"force_y\"]\n" + steady, code=2)
+        self.assertIn("columns: steady rolling without snapshots leaves no history.csv", done.stderr)
+
+    def test_cores_have_the_same_name_in_all_commands(self):
+        self.assertIn("9 runs, 1 at once", self.sweep("--dry-run", "--threads", "1").stdout)
+        for name in ("--jobs", "--threads"):
+            done = run("run", self.folder / "case.toml", "-o", self.out, "--overwrite", name, 2)
+            self.assertEqual((done.returncode, summary(self.out)["threads"]), (0, 2), done.stderr)
+            self.assertIn("on 1 thread", run("check", self.folder / "case.toml", name, 1).stdout)
+
     def test_a_sample_and_geometry(self):
         text = """schema = 1
 base = "case.toml"
@@ -307,6 +379,31 @@ class Refused(SweepTest):
                 self.assertIn("and no sweep", self.sweep(*extra, code=2).stderr)
             self.assertEqual((self.out / name).read_text(), "precious")
             shutil.rmtree(self.out)
+
+    def test_a_damaged_record_can_be_overwritten(self):
+        self.sweep()
+        (self.out / "sweep.json").write_bytes(bytes(100))
+        done = self.sweep("--resume", code=4)
+        self.assertIn("sweep.json: is damaged: not JSON; give --overwrite to make the sweep anew",
+                      done.stderr)
+        self.sweep("--overwrite")
+
+    def test_runs_that_were_damaged_since_are_made_again(self):
+        text = STUDY.replace('base =', 'snapshots = true\nbase =')
+        self.sweep(text=text)
+        whole = {path: path.read_bytes() for path in sorted(self.out.glob("runs/*/*.[ch]*"))}
+        history, contact, results = (self.out / "runs" / f"{run:04}" / name for run, name in (
+            (2, "history.csv"), (4, "contact.csv"), (6, "results.h5")))
+        history.write_bytes(whole[history].replace(b"\n0.0", b"\n0.1", 1))
+        contact.write_bytes(whole[contact][:-40] + bytes(40))
+        with h5py.File(results, "r+") as f:
+            f["/fields/von_mises"][5, 7] = np.inf
+        inodes = {path: path.stat().st_ino for path in whole}
+        self.sweep("--resume", text=text)
+        again = {path.parent.name for path in whole if path.stat().st_ino != inodes[path]}
+        self.assertEqual(again, {"0002", "0004", "0006"})
+        for path, content in whole.items():
+            self.assertEqual(path.read_bytes(), content, path)
 
     def test_settings_of_what_is_varied(self):
         self.assertIn("is varied", self.sweep("--set", "ground.friction=0.5", code=2).stderr)

@@ -128,6 +128,20 @@ values = [33, 2000, 34]
             self.assertEqual((self.out / "results.csv").read_bytes(), kept)
             self.assertEqual(json.loads((self.out / "sweep.json").read_text())["status"], "done")
 
+    def test_stopped_while_it_reads_many_members(self):
+        """It says how far it is, and ends at a signal."""
+        many = STUDY.replace("linspace = [9, 11, 3]", "linspace = [9.0, 11.0, 5000]")
+        for way, code in ((("--dry-run",), signal.SIGINT), ((), signal.SIGTERM)):
+            process = subprocess.Popen([PROGRAM, "sweep", str(self.study(many)), "-o", str(self.out), *way],
+                                       stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True)
+            said = process.stderr.readline()
+            process.send_signal(code)
+            rest = process.communicate(timeout=60)[1]
+            self.assertRegex(said, r"^ 10 %  read \d+ of 15000, ")
+            self.assertEqual(process.returncode, 130, rest)
+            self.assertNotIn("check", rest)
+            self.assertFalse(self.out.exists())
+
     def wait_for_runs(self, n):
         deadline = time.time() + 60
         while len(list(self.out.glob("runs/*/run.json"))) < n:

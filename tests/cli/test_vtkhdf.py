@@ -45,11 +45,28 @@ class Bodies(VtkhdfTest):
                                         "stress_xx", "stress_xy", "stress_yy", "stress_zz",
                                         "velocity", "von_mises"])
         self.assertGreater(abs(layout.array("cauchy_stress", 10)[:, 3]).max(), 0)
+        self.look_at_labels()
         self.assertLess((self.out / "fields.vtkhdf").stat().st_size, 40000)  # nothing is copied
+
+    def look_at_labels(self):
+        """Units and descriptions are those of the datasets, of the numbers that are shown."""
+        with h5py.File(self.out / "fields.vtkhdf") as shown, h5py.File(self.out / "results.h5") as file:
+            group = shown["VTKHDF"]
+            arrays = {name: array.attrs for name, array in group["PointData"].items()}
+            arrays["position"] = group["Points"].attrs
+            for name, said in arrays.items():
+                of = file["fields"]["cauchy_stress" if name.startswith("stress_") else name].attrs
+                self.assertEqual(said["units"].decode(), of["units"], name)
+                if "stress" not in name:
+                    self.assertEqual(said["description"].decode(), of["description"], name)
+            self.assertTrue(arrays["cauchy_stress"]["description"].endswith(b": xx, yy, zz, xy, yz, xz"))
+            self.assertTrue(arrays["stress_xy"]["description"].endswith(b": xy"))
+            self.assertEqual(group["Steps/Values"].attrs["units"], b"s")
 
     def test_a_wheel_in_three_dimensions(self):
         self.made(WHEEL)
         layout = self.read()
+        self.look_at_labels()
         self.assertEqual(set(layout.types), {12})
         self.assertIn("stress_yz", layout.names)
         self.assertGreater(np.ptp(layout.points(4)[:, 2]), 0.099)

@@ -2,7 +2,7 @@
 """Wrong cases: exit code 2, file and place named, the value and what is allowed, nothing left behind."""
 import unittest
 
-from program import LEDGE, ProgramTest, line_of, replaced, run
+from program import LEDGE, ProgramTest, ROOT, line_of, replaced, run
 
 # (what, line of cases/ledge-smooth.toml to replace, replacement, fragments expected in the message)
 EDITS = [
@@ -74,6 +74,21 @@ EDITS = [
 ]
 
 
+# What stands in the body at the start where no node of its boundary is: (what, case, settings).
+WEDGE = "ground.profile=[[-10,0],[0.002,0],[0.005,0.1],[0.008,0],[10,0]]"
+INSIDE = [
+    ("a wedge", "rolling-flat", [WEDGE]),
+    ("its tip rounded", "rolling-flat", [WEDGE, "ground.fillet=0.0004"]),
+    ("a post whose top is above the body", "rolling-flat",
+     ["ground.profile=[[-10,0],[0.204,0],[0.204,0.5],[0.206,0.5],[0.206,0],[10,0]]",
+      "motion.speed=0"]),
+    ("a free body", "thrown-disk",
+     ["ground.profile=[[-10,0],[0.0030,0],[0.0035,0.02],[0.0040,0],[10,0]]"]),
+    ("a block of a mesh", "block-on-incline",
+     ["ground.profile=[[-10,0],[0.0030,0],[0.0045,0.02],[0.0060,0],[10,0]]", "initial.angle=0"]),
+]
+
+
 class WrongCases(ProgramTest):
     def refused(self, case, fragments, line=None, extra=()):
         """Exit 2, every fragment said, the place named, no results directory."""
@@ -112,6 +127,20 @@ class WrongCases(ProgramTest):
         text = replaced(replaced(LEDGE, "start_x", "start_x = 0.5"), "height", "height = 0.25")
         self.refused(self.case(text), ["motion.height", "inside the ground", "half an element"],
                      line_of(text, "height"))
+
+    def test_ground_inside_the_body_between_its_nodes(self):
+        for what, case, settings in INSIDE:
+            with self.subTest(what):
+                sets = [word for setting in settings for word in ("--set", setting)]
+                self.refused(ROOT / "cases" / f"{case}.toml",
+                             ["the ground stands", "deep inside the body at the start, at (",
+                              "half an element"], extra=sets)
+
+    def test_little_ground_inside_the_body_is_told(self):
+        done = run("check", ROOT / "cases" / "rolling-flat.toml", "--set", "motion.height=0.3",
+                   "--set", "ground.profile=[[-10,0],[0.002,0],[0.005,0.003],[0.008,0],[10,0]]")
+        self.assertEqual(done.returncode, 0, done.stderr)
+        self.assertIn("the ground stands 0.002", done.stderr)
 
     def test_no_stationary_state_beyond_the_softening_limit(self):
         text = replaced(LEDGE, "state", 'state = "stationary"')
@@ -155,6 +184,39 @@ class WrongCases(ProgramTest):
         self.refused(case, ["--set"], extra=["--set", "nonsense"])
         self.refused(case, ["disk.mesh.radial", "string"], extra=["--set", "disk.mesh.radial=many"])
 
+    def test_numbers_as_others_write_them(self):
+        comma, minus = "it has a decimal comma: write 0.3", "it has the minus sign U+2212"
+        exponent, quote = "it has an exponent with D", "it has the curly quotation mark U+201C"
+        pair = "a comma divides items, a point is in a number"
+        for line, said in (("friction = 0,3", comma), ("friction = \u22120.3", minus),
+                           ("density = 1.1D3", exponent), ("height = [[0, \u22121]]", minus),
+                           ("height = [[0, 0,3], [1, 0.3]]", pair),
+                           ("scheme = \u201cmoreau-jean\u201d", quote)):
+            text = replaced(LEDGE, line.split(" ")[0] if "scheme" not in line else "safety", line)
+            self.refused(self.case(text), [said], line_of(text, line))
+        case = self.case(LEDGE)
+        for setting, said in (("ground.friction=0,3", comma), ("ground.friction=\u22120.3", minus),
+                              ("material.density=1.1d3", exponent), ("motion.height=[[0, 0,3]]", pair),
+                              ("ground.profile=\u201cflat\u201d", quote),
+                              ("time.scheme=\u201csymplectic\u201d", quote)):
+            self.refused(case, [f"--set {setting}: ", said], extra=["--set", setting])
+
+    def test_a_fillet_that_fits_nowhere_on_a_measured_profile(self):
+        points = "\n".join(f"{0.01 * k:.2f}, {0.001 * (k % 2)}" for k in range(20000))
+        (self.folder / "road.csv").write_text(points)
+        text = replaced(replaced(LEDGE, "profile", 'profile = "road.csv"'), "fillet", "fillet = 0.2")
+        done = run("check", self.case(text))
+        self.assertEqual(done.returncode, 2, done.stderr)
+        self.assertEqual(done.stderr.count("the fillet does not fit"), 5)
+        self.assertRegex(done.stderr, "ground.fillet: and [0-9]+ more of this kind")
+        self.assertLess(len(done.stderr.splitlines()), 9)
+
+    def test_an_opencrg_road_is_no_profile(self):
+        (self.folder / "road.dat").write_text("$CT ! comment\nCRG file example\n$ROAD_CRG\n$\n")
+        text = replaced(LEDGE, "profile", 'profile = "road.dat"')
+        self.refused(self.case(text), ["road.dat: ", "is an OpenCRG road file",
+                                       "one section along the road"])
+
 
 class WrongUsage(ProgramTest):
     def test_usage(self):
@@ -166,6 +228,16 @@ class WrongUsage(ProgramTest):
                 done = run(*arguments)
                 self.assertEqual(done.returncode, 2)
                 self.assertNotEqual(done.stderr, "")
+        self.assertEqual([p.name for p in self.folder.iterdir()], ["case.toml"])
+
+    def test_an_output_without_a_name(self):
+        """As of a variable of the shell that is not set."""
+        case = self.case()
+        for arguments in (["run", case], ["modes", case], ["sweep", case], ["pod", self.folder],
+                          ["reduce", self.folder], ["fmu", case]):
+            done = run(*arguments, "-o", "", cwd=self.folder)
+            self.assertEqual(done.returncode, 2, done.stderr)
+            self.assertRegex(done.stderr, "-o|--output")
         self.assertEqual([p.name for p in self.folder.iterdir()], ["case.toml"])
 
 

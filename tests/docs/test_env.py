@@ -1,7 +1,9 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""scripts/env.sh: absolute paths, from any folder, once, in strict shells; it says what is missing."""
+"""scripts/env.sh: absolute paths, from any folder, once, in strict shells; it says what is missing. scripts/demo.sh
+builds what README's examples take."""
 import os
 import pathlib
+import re
 import shutil
 import subprocess
 import tempfile
@@ -54,7 +56,14 @@ class Environment(unittest.TestCase):
             python.chmod(0o755)
             done = shell(f"PATH={folder}:$PATH; source '{scripts}/env.sh'")
             self.assertIn(f"{python} lacks: h5py.", done.stderr)
+            self.assertIn("with /usr/bin/python3", done.stderr)
         self.assertIn("source scripts/env.sh", shell(f"bash {SCRIPT}").stderr)
+
+    def test_the_demo_builds_the_library_for_python(self):
+        demo = (ROOT / "scripts" / "demo.sh").read_text()
+        targets = re.search(r"--target (.*)", demo)[1].split()
+        bindings = (ROOT / "python" / "bindings" / "CMakeLists.txt").read_text()
+        self.assertEqual(set(targets), {"rondo", re.search(r"set_target_properties\((\w+) PROPERTIES OUTPUT_NAME _core", bindings)[1]})
 
 
 if __name__ == "__main__":

@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Relative links and anchors of all pages lead somewhere; the parser of blocks finds what it should."""
+"""Relative links and anchors of all pages lead somewhere, files that they name are there; the parser of blocks finds
+what it should."""
 import functools
 import pathlib
 import re
@@ -41,6 +42,20 @@ def broken(page: pathlib.Path, text: str) -> list[str]:
     return wrong
 
 
+@functools.cache
+def files() -> list[str]:
+    return ["/" + str(path.relative_to(ROOT)) for folder in ("apps", "bench", "cases", "cmake", "docs", "examples",
+            "python", "scripts", "src", "studies", "tests") for path in (ROOT / folder).rglob("*") if path.is_file()]
+
+
+def gone(text: str) -> list[str]:
+    """Files of the project, `folder/name.cpp`, of which there is none; what is built, and names in capitals that
+    stand for others, apart."""
+    named = re.findall(r"`((?:[\w.-]+/)+[\w.-]+\.(?:cpp|hpp|py|sh|cmake|txt|patch|msh|geo|mjs))`", text)
+    return [name for name in named if not re.match(r"build/|rondo/core/version.hpp", name)
+            and not re.search(r"[A-Z]{3}", name) and not any(file.endswith("/" + name) for file in files())]
+
+
 class Links(unittest.TestCase):
     def test_all_of_them(self):
         pages = all_pages()
@@ -48,6 +63,11 @@ class Links(unittest.TestCase):
         wrong = [f"{page_name(page)}: {text}" for page in pages
                  for text in broken(page, page.read_text())]
         self.assertEqual(wrong, [])
+
+    def test_files_that_are_named_are_there(self):
+        self.assertEqual([f"{page_name(page)}: {name}" for page in all_pages() for name in gone(page.read_text())], [])
+        self.assertEqual(gone("`contact/ground.cpp` `contact/gone.cpp` `build/a/b.txt` `fuzz/NAME_fuzz.cpp`"),
+                         ["contact/gone.cpp"])
 
     def test_a_broken_one_is_found(self):
         page = next(page for page in all_pages() if page.name == "architecture.md")

@@ -71,15 +71,8 @@ class Questions(unittest.TestCase):
         commands = re.findall(r"^  ([a-z]+) {2,}\S", usage[usage.index("Subcommands:"):], re.MULTILINE)
         self.assertIn("sweep", commands)
         for command in commands:
-            self.assertRegex(self.table, rf"`rondo {command}\b")
-
-    def test_every_command_of_the_package(self):
-        usage = subprocess.run(["/usr/bin/python3", "-m", "rondo", "--help"], check=True, capture_output=True,
-                               text=True, env=os.environ | {"PYTHONPATH": str(ROOT / "python")}).stdout
-        commands = re.search(r"\{(.*?)\}", usage, re.DOTALL)[1].split(",")
-        for command in commands:
-            self.assertRegex(self.table, rf"`(python3 -m rondo |rondo )?{command}\b")
-        for named in re.findall(r"`python3 -m rondo (\w+)", self.table):
+            self.assertRegex(self.table, rf"`(rondo )?{command}\b")
+        for named in re.findall(r"`rondo (\w+)", self.table):
             self.assertIn(named, commands)
 
     def test_its_files_are_there(self):

@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: BSD-3-Clause
-# Installs the build into a folder of its own, builds another program and the one that docs/library.md
-# shows against it, and runs both. The headers are those of the list, and each stands by itself. Then the
+# Installs the build into a folder of its own, builds another program, the one that docs/library.md shows,
+# and the example of an own material against it, and runs them. The headers are those of the list, and each stands by itself. Then the
 # folder is moved, and the Python package works from there, with the library as its module and the programs.
 set -euo pipefail
 build=$1 source=$2 build_type=$3
@@ -23,13 +23,14 @@ done
 } >"$work/page.cpp"
 cmake -S "$source/tests/house/consumer" -B "$work/build" -G Ninja -DCMAKE_BUILD_TYPE="$build_type" \
   -DCMAKE_PREFIX_PATH="$work/prefix" -DRONDO_INCLUDE="$work/prefix/include" \
-  -DRONDO_PAGE="$work/page.cpp" >/dev/null
+  -DRONDO_PAGE="$work/page.cpp" -DRONDO_MATERIAL="$source/examples/own_material.cpp" >/dev/null
 cmake --build "$work/build"
 cases=$work/prefix/share/rondo/cases
 RONDO_MESH_READER="$work/prefix/bin/rondo-mesh-reader" \
   "$work/build/consumer" "$cases/meshes/block.msh" "$cases/rolling-flat.toml" "$work/results"
 cp "$cases/rolling-flat.toml" "$work/case.toml"
 (cd "$work" && build/page)
+"$work/build/own_material"
 for header in $(sed -n '/PUBLIC_HEADERS/,/)/p' "$source/cmake/public_headers.cmake" | grep -o '[a-z/_]*\.hpp'); do
   grep -qF "rondo/$header" "$source/docs/library.md" || {
     echo "docs/library.md does not name rondo/$header"

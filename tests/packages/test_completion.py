@@ -54,10 +54,14 @@ class Completion(unittest.TestCase):
         self.assertLessEqual({"--set", "--resume", "--output", "--json", "--help"}, found)
         self.assertNotIn("--field", found)
         self.assertEqual(self.ask("pod", "--fi"), {"--field"})
+        self.assertEqual(self.ask("means", "--f"), {"--from"})  # done in Python
 
     def test_values(self):
         self.assertEqual(self.ask("pod", "--field", ""), {"displacement", "velocity", "contact"})
         self.assertEqual(self.ask("pod", "--frame", "r"), {"rectified"})
+        self.assertEqual(self.ask("campbell", "--frame", "f"), {"fixed"})
+        self.assertEqual(self.ask("figures", ""), {"a folder"})
+        self.assertEqual(self.ask("figures", "x", "--output", ""), {"a folder"})
         self.assertEqual(self.ask("pod", "--method", "=", "ts"), {"tsqr"})
         self.assertEqual(self.ask("pod", "--method", "="), {"auto", "direct", "tsqr", "incremental"})
         self.assertLessEqual({"case", "study"}, self.ask("schema", ""))

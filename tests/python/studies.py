@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""What tests of `python3 -m rondo paper` share: its calls, its record, a study of small runs."""
+"""What tests of `rondo paper` share: its calls, its record, a study of small runs."""
 import json
 import pathlib
 import subprocess

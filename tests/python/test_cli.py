@@ -2,14 +2,16 @@
 """python3 -m rondo, from outside."""
 import json
 import os
+import re
 import shutil
 import subprocess
 import sys
 
 import pytest
+from program import PROGRAM, run
 
 import rondo
-from rondo import style
+from rondo import __main__, style
 from rondo.figures.run_figures import draw_run
 
 
@@ -117,7 +119,7 @@ def test_figures_of_a_study_without_its_table(tmp_path):
          "runs": [{"name": "a", "directory": "a", "status": "running"}]}))
     done = rondo_module("figures", tmp_path, "-o", tmp_path / "figures")
     assert done.returncode == 2 and "0 of 1 parts are done" in done.stderr
-    assert f'"python3 -m rondo paper -o {tmp_path} --quick" goes on' in done.stderr
+    assert f'"rondo paper -o {tmp_path} --quick" goes on' in done.stderr
     done = rondo_module("figures", tmp_path, "--unfinished")
     assert done.returncode == 2 and "no run 'spin-up-damped'" in done.stderr
 
@@ -135,4 +137,55 @@ def test_a_reader_that_has_enough(smooth):
 def test_wrong_options_are_code_2():
     for arguments in ((), ("fly",), ("figures",), ("means", "a", "--from", "now")):
         done = rondo_module(*arguments)
-        assert done.returncode == 2 and "usage: python3 -m rondo" in done.stderr
+        command = "rondo" if arguments[:1] in (("figures",), ("means",)) else "python3 -m rondo"
+        assert done.returncode == 2 and f"usage: {command}" in done.stderr
+
+
+def test_the_program_does_the_commands_with_a_python_that_can(smooth, tmp_path):
+    """Whichever is first on the path; and the program that was called is the one that they call."""
+    bad = tmp_path / "python3"
+    bad.write_text("#!/bin/sh\nexit 1\n")
+    bad.chmod(0o755)
+    (tmp_path / "numpy.py").write_text("raise SystemExit('not this one')\n")  # where it is called
+    there = {"PATH": f"{tmp_path}:/usr/bin:/bin", "RONDO": "/none"}
+    done = subprocess.run([PROGRAM, "means", "--from", "0.01", str(smooth)], env=there, cwd=tmp_path,
+                          capture_output=True, text=True)
+    assert (done.returncode, done.stderr) == (0, "")
+    assert done.stdout == rondo_module("means", "--from", 0.01, smooth).stdout
+    assert run("figures", "nowhere").returncode == 2 and run("figures").returncode == 2
+    done = subprocess.run([PROGRAM, "means", str(smooth)], env={"RONDO_PYTHON": str(bad)}, capture_output=True, text=True)
+    assert done.returncode == 4 and done.stderr.count("\n") == 1 and "setup.sh" in done.stderr
+
+
+def test_the_program_names_each_command_with_its_meaning():
+    told = run("--help").stdout.split("Subcommands:")[1]
+    meanings = dict(re.findall(r"^  (\w+) +(\S.*)$", told, re.MULTILINE))
+    parsers = __main__._parser()._subparsers._group_actions[0].choices
+    assert set(parsers) <= set(meanings)
+    for name, parser in parsers.items():
+        if name not in ("sweep", "report"):  # the program's own
+            assert meanings[name] == parser.description, name
+            assert run(name, "--help").stdout == parser.format_help(), name
+
+
+def test_a_python_without_what_it_needs_is_one_line(tmp_path):
+    """-S: without the packages of the system."""
+    for arguments in (["-m", "rondo", "means", "x"], ["-m", "rondo.figures.bars", "x"]):
+        done = subprocess.run(["/usr/bin/python3", "-S", *arguments], capture_output=True, text=True, timeout=60)
+        assert (done.returncode, done.stdout) == (4, "")
+        assert done.stderr.startswith("rondo: /usr/bin/python3") and done.stderr.count("\n") == 1
+        assert "without numpy, h5py" in done.stderr and "scripts/setup.sh" in done.stderr
+    script = subprocess.run(["/usr/bin/python3", "-S", "-c", "import rondo"], capture_output=True, text=True)
+    assert script.stderr.splitlines()[-1].startswith("ImportError: /usr/bin/python3")
+
+
+def test_a_python_without_matplotlib_is_one_line(smooth, monkeypatch, capsys):
+    monkeypatch.setattr(__main__, "missing", lambda *modules: f"without {modules}")
+    assert __main__.main(["figures", str(smooth)]) == 4
+    assert capsys.readouterr().err == "rondo: without ('matplotlib',)\n"
+    assert __main__.main(["means", str(smooth)]) == 0  # needs none
+
+
+def test_figures_of_a_sweep_alone_take_its_options(smooth):
+    done = rondo_module("figures", smooth, "--map", "a", "b")
+    assert done.returncode == 2 and "holds no sweep" in done.stderr

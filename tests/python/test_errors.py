@@ -234,7 +234,7 @@ def test_a_study_without_its_table(tmp_path, quick):
     info = {"format": "rondo paper 1", "status": "interrupted", "quick": quick, "runs": runs,
             "pods": [{"directory": "a/pod", "status": "done"}], "table": []}
     (tmp_path / "paper.json").write_text(json.dumps(info))
-    goes_on = f'"python3 -m rondo paper -o {tmp_path}{" --quick" if quick else ""}" goes on'
+    goes_on = f'"rondo paper -o {tmp_path}{" --quick" if quick else ""}" goes on'
     says(rondo.UnfinishedRunError, rondo.open_paper, tmp_path,
          words=['status "interrupted"', "2 of 5 parts are done, 1 have failed", goes_on,
                 f'rondo.open_paper("{tmp_path}", unfinished=True)'])

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""python3 -m rondo paper on a study of small runs: killed, interrupted, gone on with, what it keeps
+"""rondo paper on a study of small runs: killed, interrupted, gone on with, what it keeps
 and what it refuses. The study itself: test_paper_table.py, paper_in_full.py."""
 import json
 import os

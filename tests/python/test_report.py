@@ -143,6 +143,16 @@ def test_a_term_that_the_ledger_lacks_is_told(smooth, monkeypatch):
     assert "something is not among them" in health.ledger(rondo.open(smooth))
 
 
+def test_the_ledger_is_judged_by_the_bound_that_the_run_names(smooth):
+    def tile(bound, left):
+        opened = rondo.open(smooth)
+        opened.info |= {"energy_residual_relative": left, "energy_residual_bound": bound}
+        html = health.health_tiles(opened)
+        return re.search(r'class="tile (\w*)"><dt>energy balance closes to', html)[1]
+
+    assert [tile(1e-2, 1e-5), tile(1e-9, 1e-5), tile(1e-9, 1e-10)] == ["good", "bad", "good"]
+
+
 def test_each_column_has_a_curve_or_is_named(smooth_page, smooth):
     shown = {trace["column"] for name, chart in smooth_page.data.items() if name.startswith("history-")
              for trace in chart["traces"]}

@@ -173,7 +173,7 @@ def test_wrong_settings_change_nothing(case):
 def test_what_cannot_follow_says_so(case):
     text = replaced(SMALL, "profile", 'profile = [[-1, -0.1], [0, -0.1], [0, 0], [1, 0]]')
     case.write_text(replaced(text, "speed", "speed = 10.0\nstart_x = 0.5"))
-    with pytest.raises(rondo.InputError, match="sharp convex corners has the motion.*fillet"):
+    with pytest.raises(rondo.InputError, match="sharp convex corners .* has the motion.*fillet"):
         rondo.Simulation(case).set({"motion.speed": 9.0})
     for text, spin, wrong in ((SMALL, 1e5, "the rim turns by .* too far for the contact law"),
                               (IN_THE_AIR + IMPLICIT, 1e4, "the spin changes by.*too far for implicit")):

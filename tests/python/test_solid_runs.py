@@ -107,7 +107,11 @@ def test_places_are_those_of_the_program(run):
 def test_forces_are_the_sums_of_the_footprint(run):
     history, k = run.history, 6
     found = footprint.footprint_of(run, k)
-    area = run.mesh.tributary[np.searchsorted(run.mesh.boundary, found.node)]
+    rows = run.contact.rows
+    there = rows["time_s"] == run.times[k]
+    areas = dict(zip(rows["node"][there], rows["area_m2"][there]))
+    area = np.array([areas[node] for node in found.node])
+    assert history["contact_area_m2"][np.abs(history["time_s"] - run.times[k]).argmin()] == pytest.approx(area.sum())
     row = np.abs(history["time_s"] - run.times[k]).argmin()  # a step each
     normal, along, across = (area @ found.pressure, *(area @ found.shear))
     for name, value in (("force_y", normal), ("force_x", along), ("force_lateral", across)):

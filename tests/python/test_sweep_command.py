@@ -70,7 +70,8 @@ def test_figures_command(tmp_path):
     for command in "figures", "sweep":
         done = rondo_module(command, directory)
         assert done.returncode == 2 and done.stderr.endswith("(here: --unfinished)\n")
-    assert rondo_module("sweep", directory, "--unfinished", "--figure", "force_y").returncode == 0
+    for command in "figures", "sweep":
+        assert rondo_module(command, directory, "--unfinished", "--figure", "force_y").returncode == 0
 
 
 @pytest.mark.parametrize("arguments, words", [
@@ -79,7 +80,7 @@ def test_figures_command(tmp_path):
     (["LOADED", "--map", "x", LOAD], "no column 'x'"),
     (["LOADED", "--curves", LOAD, HEIGHT], "has another value in each member"),
     (["LOADED", "-o", "LOADED/sweep.json"], "File exists; choose another -o"),
-    (["LOADED", "--map", LOAD], "usage: python3 -m rondo")])
+    (["LOADED", "--map", LOAD], "usage: python3 -m rondo sweep")])
 def test_wrong_use(studies, arguments, words):
     done = rondo_module("sweep", *(text.replace("LOADED", str(studies / "loaded"))
                                    for text in arguments))

@@ -110,7 +110,7 @@ def test_a_slip_that_is_found_is_no_abscissa(tmp_path):
     sweep = rondo.open_sweep(sweeps.write(tmp_path / "sweep", [(SPIN, "rad/s", "values")], rows,
                                           [*FIGURES, "speed"], analysis="steady-rolling"))
     says(rondo.Error, sweep.plot_traction, words=("traction or torque", "Vary motion.speed",
-                                                  "python3 -m rondo sweep"))
+                                                  "rondo figures"))
     given = [{**row, "speed": 10.0} for row in rows]  # the slip is made by the spin
     sweep = rondo.open_sweep(sweeps.write(tmp_path / "given", [(SPIN, "rad/s", "values")], given,
                                           [*FIGURES, "speed"], analysis="steady-rolling"))

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""python3 -m rondo validate: its figures against those computed here from the two results
+"""rondo validate: its figures against those computed here from the two results
 directories, wrong input; what it measures with, on data made by hand."""
 import csv
 import json
@@ -158,6 +158,9 @@ def test_figures_are_those_of_the_two_runs(shared, tmp_path, options):
     load = sides["full"]["force_y"]
     expected |= {f"{name}_error": (sides["reduced"][name] - sides["full"][name]) / load
                  for name in ("force_x", "force_y")}
+    a, b = (sides[side]["force_x"] for side in ("full", "reduced"))
+    expected["force_x_own_error"] = (b - a) / abs(a)
+    expected["shear_own_error"] = (np.linalg.norm(ours[1] - theirs[1]) / np.linalg.norm(theirs[1]))
     a, b = (sides[side]["friction_power"] for side in ("full", "reduced"))
     expected["friction_error"] = (b - a) / a
     for name, value in expected.items():
@@ -175,6 +178,8 @@ def test_figures_are_those_of_the_two_runs(shared, tmp_path, options):
     assert row["same_host"] == 1
     assert abs(row["force_y_error"]) < 0.02  # few columns in contact
     assert f"{100 * row['velocity_error']:.2f} %" in done.stdout
+    of_itself = next(line for line in done.stdout.splitlines() if "F_x, over itself" in line)
+    assert f" {100 * row['force_x_own_error']:.2f} %" in of_itself
     record = json.loads((out / "validation.json").read_text())
     assert record["format"] == "rondo validation 1" and record["status"] == "done"
     assert set(record["units"]) == set(row)

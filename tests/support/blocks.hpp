@@ -10,6 +10,7 @@
 #include "rondo/fem/contact_mass.hpp"
 #include "rondo/integrators/integrator.hpp"
 #include "rondo/integrators/start.hpp"
+#include "rondo/mesh/edges.hpp"
 #include "rondo/model/stability/critical_step.hpp"
 
 namespace rondo::test {
@@ -71,7 +72,8 @@ inline dynamics::Model body_model(const mesh::Mesh& mesh, const fem::Material& m
 
 inline void add_ground(dynamics::Model& model, const mesh::Mesh& mesh,
                        const contact::GroundShape& shape, contact::Law law) {
-  model.contact.emplace(dynamics::ContactModel{contact::Ground(shape), law, mesh.boundary,
+  const double spacing = mesh::longest_edge(mesh.coordinates, mesh.contact_edges);
+  model.contact.emplace(dynamics::ContactModel{contact::Ground(shape, spacing), law, mesh.boundary,
                                                mesh.tributary, mesh.contact_edges});
 }
 

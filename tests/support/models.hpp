@@ -94,9 +94,11 @@ inline Built build(const DiskCase& c) {
   return build(c, mesh::make_disk(c.disk));
 }
 
-inline void add_ground(Built& b, const contact::GroundShape& shape, contact::Law law) {
-  b.model.contact.emplace(
-      dynamics::ContactModel{contact::Ground(shape), law, b.mesh.boundary, b.mesh.tributary});
+/// @param spacing of the candidates, which says what arcs are corners; 0: none is [m]
+inline void add_ground(Built& b, const contact::GroundShape& shape, contact::Law law,
+                       double spacing = 0.0) {
+  b.model.contact.emplace(dynamics::ContactModel{contact::Ground(shape, spacing), law,
+                                                 b.mesh.boundary, b.mesh.tributary});
 }
 
 /// The candidates lose their mass to the nodes below (docs/theory.md, 3.10); the step stays.

@@ -25,6 +25,12 @@ constexpr Member<LeftOut> left_out_members[] = {
      [](const LeftOut& l) -> Json { return l.error.x; }},
     {"error_y", "number", "", "of the mean of force_y, over itself",
      [](const LeftOut& l) -> Json { return l.error.y; }},
+    {"error_x_of_itself", "number", "",
+     "of the mean of force_x, over its own size; null: below 0.1 % of that of force_y",
+     [](const LeftOut& l) -> Json { return l.error.x_of_itself; }},
+    {"error_friction_power", "number", "",
+     "of the mean power of friction, over itself; null: none, or of a steady state",
+     [](const LeftOut& l) -> Json { return l.error.friction_power; }},
 };
 
 Json left_out(const Reduced& k) {
@@ -86,6 +92,12 @@ constexpr Member<Reduced> members[] = {
      [](const Reduced& k) -> Json { return estimate(k, &ForceErrors::x); }},
     {"estimate_y", "number", "", "error of force_y to be expected; null: none",
      [](const Reduced& k) -> Json { return estimate(k, &ForceErrors::y); }},
+    {"estimate_x_of_itself", "number", "",
+     "error of force_x to be expected, over itself; null: none",
+     [](const Reduced& k) -> Json { return estimate(k, &ForceErrors::x_of_itself); }},
+    {"estimate_friction_power", "number", "",
+     "error of the power of friction to be expected, over itself; null: none",
+     [](const Reduced& k) -> Json { return estimate(k, &ForceErrors::friction_power); }},
     {"estimate_text", "string", "", "in words, or why there is none",
      [](const Reduced& k) -> Json { return study::in_words(k.r.estimate); }},
     {"left_out", "array", "", "what the estimate is from", left_out,

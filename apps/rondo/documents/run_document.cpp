@@ -62,6 +62,8 @@ constexpr Member<Ran> members[] = {
      [](const Ran& k) -> Json { return k.r.step_wall_s; }},
     {"energy_residual_relative", "number", "", "of the energy balance, over the energy exchanged",
      [](const Ran& k) -> Json { return k.r.energy_residual_relative; }},
+    {"energy_residual_bound", "number", "", "above it the run would have failed",
+     [](const Ran& k) -> Json { return k.r.energy_residual_bound; }},
     {"contact_residual_max", "number", "", "largest residual of the contact law",
      [](const Ran& k) -> Json { return k.r.contact_residual_max; }},
     {"penetration_max_m", "number", "m", "largest penetration",

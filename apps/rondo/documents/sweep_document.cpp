@@ -40,13 +40,15 @@ constexpr Member<Swept> members[] = {
 
 struct Planned {
   std::size_t number;
+  const study::SweepStudy& study;
   const study::PlannedMember& member;
 };
 
 constexpr Member<Planned> planned_members[] = {
     {"run", "integer", "", "from 1", [](const Planned& p) -> Json { return p.number; }},
     {"settings", "array", "", "KEY=VALUE over the base case",
-     [](const Planned& p) -> Json { return p.member.settings; }, schema_of_texts},
+     [](const Planned& p) -> Json { return study::settings_of(p.study, p.member.member); },
+     schema_of_texts},
     {"lent", "boolean", "", "of another shard, made here for its fields",
      [](const Planned& p) -> Json { return p.member.part == study::Part::lent; }},
     {"nodes", "integer", "", "of its mesh",
@@ -76,7 +78,7 @@ Json planned_runs(const Plan& plan) {
   for (const study::PlannedMember& member : plan.dry.plan.members) {
     ++number;
     if (member.part != study::Part::other)
-      array.push_back(object_of<Planned>(planned_members, {number, member}));
+      array.push_back(object_of<Planned>(planned_members, {number, plan.dry.study, member}));
   }
   return array;
 }

@@ -18,6 +18,7 @@
 #include "rondo/fmu/description.hpp"
 #include "rondo/fmu/wheel.hpp"
 #include "rondo/io/files.hpp"
+#include "rondo/output/run_files.hpp"
 
 namespace rondo::app {
 namespace {
@@ -114,7 +115,10 @@ int fmu(const FmuArguments& a, Telling& tell) {
   d.title = study::as_utf8(c.title);
   d.guid = guid_of(case_text + fmt::format("{}", a.step_factor), model);
   d.start = fmu::start_values(c, wheel.step());
-  const Json settings = {{"guid", d.guid}, {"step", wheel.step()}, {"step_factor", a.step_factor}};
+  const Json settings = {{"guid", d.guid},
+                         {"step", wheel.step()},
+                         {"step_factor", a.step_factor},
+                         {"build_record", study::build_record_json()}};
   write_zip(a.output, {{"modelDescription.xml", fmu::model_description(d)},
                        {"binaries/linux64/" + d.identifier + ".so", binary},
                        {"resources/case.toml", case_text},

@@ -4,9 +4,11 @@
 #include <minizip/zip.h>
 #include <zlib.h>
 
+#include <cerrno>
 #include <system_error>
 
 #include "rondo/core/error.hpp"
+#include "rondo/io/files.hpp"
 
 namespace rondo::app {
 namespace {
@@ -29,15 +31,17 @@ bool add(zipFile zip, const ZipEntry& entry) {
 void write_zip(const fs::path& file, const std::vector<ZipEntry>& entries) {
   fs::path part = file;
   part += ".part";
+  const io::UnfinishedFile unfinished(part);
+  errno = 0;
   const zipFile zip = zipOpen64(part.c_str(), APPEND_STATUS_CREATE);
   bool done = zip != nullptr;
   for (const ZipEntry& entry : entries) done = done && add(zip, entry);
   if (zip != nullptr) done = zipClose(zip, nullptr) == ZIP_OK && done;
-  std::error_code error;
+  std::error_code error(errno, std::generic_category());
   if (done) fs::rename(part, file, error);
   if (done && !error) return;
-  fs::remove(part, error);
-  throw FileError(file.string(), "cannot be written");
+  throw FileError(file.string(),
+                  "cannot be written" + (error ? ": " + error.message() : std::string()));
 }
 
 }  // namespace rondo::app

@@ -26,9 +26,9 @@ constexpr const char* needed =
     "all(map(u.find_spec, "
     "('numpy', 'h5py', 'matplotlib', 'PIL'))))";
 
-fs::path own_folder() {
+fs::path own_program() {
   std::error_code error;
-  const fs::path own = fs::read_symlink("/proc/self/exe", error).parent_path();
+  fs::path own = fs::read_symlink("/proc/self/exe", error);
   if (error) throw FileError("/proc/self/exe", error.message());
   return own;
 }
@@ -81,14 +81,14 @@ bool succeeds(const std::string& program, const char* code) {
 }  // namespace
 
 std::string find_python_package() {
-  const fs::path own = own_folder();
+  const fs::path own = own_program().parent_path();
   std::vector<fs::path> places = of_installation(own);
   places.insert(places.begin(), {of_build(own), own.parent_path().parent_path()});
   for (const fs::path& place : places)
     if (!place.empty() && is_package(place)) return place.string();
   throw FileError(own.string(),
-                  "the Python package that belongs to this program is not there: it draws the "
-                  "report; install both (cmake --install BUILD, pip install ./python), or build "
+                  "the Python package that belongs to this program is not there, which does this "
+                  "command; install both (cmake --install BUILD, pip install ./python), or build "
                   "rondo where its sources are");
 }
 
@@ -110,8 +110,8 @@ std::string find_python(const std::string& package) {
   std::string tried;
   for (const std::string& python : candidates) tried += (tried.empty() ? "" : ", ") + python;
   throw FileError(tried,
-                  "no Python 3.11 or later with numpy, h5py, matplotlib and Pillow, which draw the "
-                  "report: bash scripts/setup.sh installs them on Debian; or give one as "
+                  "no Python 3.11 or later with numpy, h5py, matplotlib and Pillow, which this "
+                  "command needs: bash scripts/setup.sh installs them on Debian; or give one as "
                   "RONDO_PYTHON=...");
 }
 
@@ -120,7 +120,9 @@ void become_python(const std::vector<std::string>& arguments) {
   const char* before = std::getenv("PYTHONPATH");
   const std::string path = before != nullptr && *before != '\0' ? package + ":" + before : package;
   setenv("PYTHONPATH", path.c_str(), 1);
-  std::vector<std::string> words{python, "-m", "rondo"};
+  setenv("RONDO", own_program().c_str(), 1);  // the one that it calls
+  // -P: no file where it is called is taken for a module.
+  std::vector<std::string> words{python, "-P", "-m", "rondo"};
   words.insert(words.end(), arguments.begin(), arguments.end());
   std::vector<char*> pointers;
   for (std::string& word : words) pointers.push_back(word.data());

@@ -20,7 +20,7 @@ CLI::App* add_report(CLI::App& program, ReportArguments& arguments) {
   report->footer(
       "Example:\n  rondo report results/ledge -o ledge.html\n"
       "Needs Python with numpy, h5py and matplotlib (scripts/setup.sh); docs/report.md.\n"
-      "Exit codes: 0 done, 2 wrong input, 4 files, or no Python.");
+      "Exit codes: 0 done, 2 wrong input, 4 files, or no Python, 130 interrupted.");
   return report;
 }
 

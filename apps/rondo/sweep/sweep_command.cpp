@@ -19,6 +19,7 @@
 #include "rondo/analysis/build/memory.hpp"
 #include "rondo/core/bytes.hpp"
 #include "rondo/core/error.hpp"
+#include "rondo/core/limits/processors.hpp"
 #include "signals.hpp"
 #include "sweep/mpi_team.hpp"
 #include "sweep/sweep_shards.hpp"
@@ -179,10 +180,10 @@ int run_ranks(SweepArguments& arguments, study::Team& team, Telling& tell) {
 
 int sweep(SweepArguments arguments, Telling& tell) {
   if (tell.quiet) spdlog::set_level(spdlog::level::warn);
-  catch_stop_signals();
   if (!is_started_by_mpi()) {
     refuse_tasks_without_mpi();
-    const int workers = arguments.jobs > 0 ? arguments.jobs : study::available_cores();
+    arguments.request.before_files = catch_stop_signals;
+    const int workers = arguments.jobs > 0 ? arguments.jobs : allowed_processors();
     study::LocalTeam team(workers, &stop_requested());
     return run(arguments, team, tell);
   }
@@ -192,6 +193,7 @@ int sweep(SweepArguments arguments, Telling& tell) {
   if (arguments.jobs > 0)
     throw InputError(Fault{"--jobs", 0, 0, "", "", "mpirun decides how many runs go on at once",
                            "leave --jobs out"});
+  catch_stop_signals();
   const std::unique_ptr<study::Team> team = make_mpi_team(stop_requested());
   if (!team->leads()) {  // all say the same
     spdlog::set_level(spdlog::level::off);

@@ -2,6 +2,7 @@
 """Arrays that stay in their file until a part of them is asked for."""
 from __future__ import annotations
 
+import math
 import operator
 import pathlib
 from typing import Any
@@ -10,6 +11,7 @@ import h5py
 import numpy as np
 
 from .files import opened
+from .plain_files import demand_memory
 
 
 class LazyArray:
@@ -61,11 +63,17 @@ class LazyArray:
         rest: list[Any] = [wanted for wanted, _ in ranges]
         if self.component is not None:
             rest.append(self.component)
+        count = sum(_length(piece) for piece in pieces) * math.prod(_length(one) for one, _ in ranges)
+        demand_memory(self.path, f"this part of {self.dataset}", count * self.dtype.itemsize)
         with opened(self.path) as file:
             data: h5py.Dataset = file[self.dataset]
             read = [data[(piece, *rest)] for piece in pieces]
         whole = read[0] if len(read) == 1 else np.concatenate(read)
         return whole[(first, *(after for _, after in ranges))]
+
+
+def _length(part: slice) -> int:
+    return len(range(part.start, part.stop, part.step or 1))
 
 
 def _expanded(key: Any, ndim: int) -> list[Any]:

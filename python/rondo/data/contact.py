@@ -27,9 +27,9 @@ class Contact:
     to the right of travel; forces are in N and tributaries areas [m2]."""
 
     force: LazyArray       # (t, nb, 2) normal, tangential, mean over the step before [N/m]
-    traction: LazyArray    # (t, nb, 2) pressure, shear [Pa]
+    traction: LazyArray    # (t, nb, 2) pressure, shear over the deformed boundary [Pa]
     nodes: np.ndarray      # (nb,) candidates, as mesh.boundary
-    tributary: np.ndarray  # (nb,) length that each stands for [m]
+    tributary: np.ndarray  # (nb,) length that each stands for, undeformed [m]
     path: pathlib.Path     # contact.csv
 
     @cached_property

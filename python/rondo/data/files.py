@@ -14,7 +14,8 @@ from typing import Any
 import h5py
 import numpy as np
 
-from .errors import Error, NewerSchemaError, NotARunError
+from .errors import Error, FileError, NewerSchemaError, NotARunError
+from .plain_files import demand_plausible, demand_regular, text_of
 
 FORMAT = 1  # of results.h5, pod.h5, paper.json, sweep.json, validation.json
 SCHEMA = 1  # of case.toml
@@ -33,8 +34,8 @@ KINDS = {  # what is in a directory with this file, and who opens it
 def read_json(path: pathlib.Path) -> dict[str, Any]:
     """The object in a JSON file."""
     try:
-        found = json.loads(path.read_text())
-    except (OSError, ValueError) as reason:
+        found = json.loads(text_of(path))
+    except (ValueError, RecursionError) as reason:
         raise Error(f"{path}: cannot be read: {reason}") from None
     if not isinstance(found, dict):
         raise Error(f"{path}: damaged: an object is expected, found {type(found).__name__}")
@@ -52,8 +53,8 @@ def some(names: Iterable[object]) -> str:
 def read_case(path: pathlib.Path) -> dict[str, Any]:
     """A case file as nested dicts."""
     try:
-        case = tomllib.loads(path.read_text())
-    except (OSError, ValueError) as reason:
+        case = tomllib.loads(text_of(path))
+    except (ValueError, RecursionError) as reason:
         raise Error(f"{path}: cannot be read: {reason}") from None
     schema = case.get("schema")
     if not isinstance(schema, int):
@@ -68,8 +69,8 @@ def read_table(path: pathlib.Path) -> dict[str, np.ndarray]:
     """Columns of a CSV file of numbers: (rows,) each. The last line may be one being written, or
     one at which the program was killed: without its end of line it is left out."""
     try:
-        text = path.read_text()
-    except (OSError, ValueError) as reason:
+        text = text_of(path)
+    except ValueError as reason:
         raise Error(f"{path}: cannot be read: {reason}") from None
     header, *lines = text[: text.rfind("\n") + 1].splitlines() or [""]
     names = header.split(",")
@@ -91,11 +92,28 @@ def _readable(path: pathlib.Path) -> h5py.File:
     """The file, open for reading. A simulation of this process that writes it has no lock on it (that
     of the directory keeps others out), and HDF5 refuses to have one file open both ways."""
     try:
-        return h5py.File(path, "r")
+        file = h5py.File(path, "r")
     except OSError as reason:
         if "locking flag" not in str(reason):
             raise
-    return h5py.File(path, "r", locking=False)
+        file = h5py.File(path, "r", locking=False)
+    try:
+        _look_once(path, file)
+    except BaseException:
+        file.close()
+        raise
+    return file
+
+
+_seen: set[tuple[pathlib.Path, int, int]] = set()  # files that are plausible, as they were then
+
+
+def _look_once(path: pathlib.Path, file: h5py.File) -> None:
+    found = path.stat()
+    key = (path, found.st_size, found.st_mtime_ns)
+    if key not in _seen:
+        demand_plausible(path, file)
+        _seen.add(key)
 
 
 _kept: dict[pathlib.Path, h5py.File] = {}  # files that stay open
@@ -120,14 +138,18 @@ def kept(path: pathlib.Path) -> Iterator[None]:
 @contextlib.contextmanager
 def opened(path: pathlib.Path) -> Iterator[h5py.File]:
     """An HDF5 file, open for reading as long as the block lasts."""
+    if path not in _kept:
+        if not path.exists():
+            raise Error(f"{path}: no such file")
+        demand_regular(path)
     try:
         if path in _kept:
             yield _kept[path]
         else:
             with _readable(path) as file:
                 yield file
-    except FileNotFoundError:
-        raise Error(f"{path}: no such file") from None
+    except FileError:
+        raise
     except (OSError, KeyError, RuntimeError) as reason:
         raise Error(f"{path}: cannot be read, it may be damaged: {reason}") from None
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import csv
+import io
 import os
 import pathlib
 from collections.abc import Callable
@@ -16,6 +17,7 @@ from numpy.typing import NDArray
 from . import files
 from .errors import Error
 from .html import modes_html
+from .plain_files import text_of
 from .tables import frame_of
 
 if TYPE_CHECKING:
@@ -101,23 +103,21 @@ _UNITS = {"mode": "1", "frequency_rad_s": "rad/s", "frequency_hz": "Hz", "nodal_
 
 def _table(path: pathlib.Path) -> dict[str, NDArray[Any]]:
     try:
-        with open(path, newline="") as file:
-            rows = list(csv.DictReader(file))
+        rows = list(csv.DictReader(io.StringIO(text_of(path))))
         return {name: np.array([kind(row[name]) for row in rows]) for name, kind in _TYPES.items()}
-    except (OSError, ValueError, KeyError, TypeError) as reason:
+    except (csv.Error, ValueError, KeyError, TypeError) as reason:
         raise Error(f"{path}: cannot be read: {reason}") from None
 
 
 def _branches(path: pathlib.Path) -> list[Branch]:
     rows: dict[tuple[int, str, int], list[tuple[float, float, float]]] = {}
     try:
-        with open(path, newline="") as file:
-            for row in csv.DictReader(file):
-                key = (int(row["nodal_diameters"] or -1), row["wave"], int(row["order"]))
-                fixed = float(row["frequency_fixed_rad_s"] or "nan")
-                rows.setdefault(key, []).append(
-                    (float(row["spin_rad_s"]), float(row["frequency_rad_s"]), fixed))
-    except (OSError, ValueError, KeyError, TypeError) as reason:
+        for row in csv.DictReader(io.StringIO(text_of(path))):
+            key = (int(row["nodal_diameters"] or -1), row["wave"], int(row["order"]))
+            fixed = float(row["frequency_fixed_rad_s"] or "nan")
+            rows.setdefault(key, []).append(
+                (float(row["spin_rad_s"]), float(row["frequency_rad_s"]), fixed))
+    except (csv.Error, ValueError, KeyError, TypeError) as reason:
         raise Error(f"{path}: cannot be read: {reason}") from None
     if not rows:
         raise Error(f"{path}: holds no frequency: every spin is beyond the softening limit")

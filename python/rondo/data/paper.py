@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""A paper study: the directory that `python3 -m rondo paper` writes."""
+"""A paper study: the directory that `rondo paper` writes."""
 from __future__ import annotations
 
 import os
@@ -24,7 +24,7 @@ def open_paper(path: str | os.PathLike[str], unfinished: bool = False) -> Paper:
         raise UnfinishedRunError(
             f'{paper.directory}: a study of status "{paper.status}", without its table: '
             f"{parts.count('done')} of {len(parts)} parts are done{failed}. "
-            f'"python3 -m rondo paper -o {paper.directory}{quick}" goes on with it; '
+            f'"rondo paper -o {paper.directory}{quick}" goes on with it; '
             f'rondo.open_paper("{paper.directory}", unfinished=True) reads what is there')
     return paper
 

@@ -56,6 +56,7 @@ class Run:
     plot_history: Callable[..., Axes]
     plot_energy: Callable[..., Axes]
     plot_spectrum: Callable[..., Axes]
+    plot_psd: Callable[..., Axes]
     plot_contact: Callable[..., Axes]
     plot_contact_map: Callable[..., Axes]
     plot_modes: Callable[..., Figure]

@@ -34,11 +34,12 @@ SAME = 1e-9  # relative: a number that is asked for and one of the table
 class Parameter:
     """What the members differ in. kind: "values"; "uniform", sampled between two bounds; of
     earlier versions "target", found for each member such that the force in the column "target.…"
-    before it is reached."""
+    before it is reached. goes_with: the first of the keys whose values go together; "": by itself."""
 
     key: str
     unit: str  # "1" without dimension
     kind: str
+    goes_with: str = ""
 
 
 def open_sweep(path: str | os.PathLike[str], unfinished: bool = False) -> Sweep:
@@ -175,9 +176,22 @@ class Sweep:
 
     @property
     def varied(self) -> list[str]:
-        """The parameters in which these members differ, without those that a target decides."""
+        """The parameters in which these members differ, without those that a target or another
+        parameter decides."""
         return [key for key, parameter in self.parameters.items()
-                if parameter.kind != "target" and len(np.unique(self[key])) > 1]
+                if parameter.kind != "target" and len(np.unique(self[key])) > 1
+                and not self._is_decided(parameter)]
+
+    def leader_of(self, key: str) -> str:
+        """Of keys whose values go together the first; of others the key itself."""
+        return self.parameters[key].goes_with or key
+
+    def _is_decided(self, parameter: Parameter) -> bool:
+        """By the first of the keys that it goes with: a value for each of that one's."""
+        if not parameter.goes_with:
+            return False
+        pairs = set(zip(self[parameter.goes_with].tolist(), self[parameter.key].tolist()))
+        return len(pairs) == len(np.unique(self[parameter.goes_with]))
 
     def is_sampled(self, name: str) -> bool:
         """Whether values are not shared by members: of a sampled parameter, one that a target
@@ -289,7 +303,7 @@ def _read(directory: pathlib.Path) -> Sweep:
     try:
         members, status = int(info["members"]), str(info["status"])
         said = [Parameter(str(p["key"]), "1" if p["unit"] == "-" else str(p["unit"]),
-                          str(p["kind"])) for p in info["parameters"]]
+                          str(p["kind"]), str(p.get("with", ""))) for p in info["parameters"]]
     except (KeyError, TypeError, ValueError) as reason:
         raise Error(f"{path}: damaged: {reason!r}") from None
     table = directory / "results.csv"

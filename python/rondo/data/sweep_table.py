@@ -8,6 +8,7 @@ import pathlib
 import numpy as np
 
 from .errors import Error
+from .plain_files import text_of
 
 
 def read_members(path: pathlib.Path) -> tuple[list[str], dict[str, np.ndarray]]:
@@ -33,8 +34,8 @@ def read_members(path: pathlib.Path) -> tuple[list[str], dict[str, np.ndarray]]:
 def _lines(path: pathlib.Path) -> tuple[list[str], list[list[str]]]:
     """Header and rows, as many texts in each."""
     try:
-        text = path.read_text()
-    except (OSError, ValueError) as reason:
+        text = text_of(path)
+    except ValueError as reason:
         raise Error(f"{path}: cannot be read: {reason}") from None
     whole = text[: text.rfind("\n") + 1].splitlines()
     if not whole:

@@ -1,8 +1,9 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""A validation of a reduced model: the directory that `python3 -m rondo validate` writes."""
+"""A validation of a reduced model: the directory that `rondo validate` writes."""
 from __future__ import annotations
 
 import csv
+import io
 import os
 import pathlib
 from collections.abc import Callable
@@ -12,6 +13,7 @@ import numpy as np
 
 from .errors import Error, unknown
 from .files import check_format, read_json, read_table, require
+from .plain_files import text_of
 from .run import Run, open_run
 
 if TYPE_CHECKING:
@@ -48,7 +50,7 @@ class Validation:
         self.names, self._columns = _read(directory / "validation.csv")
         if self.names != list(self._has_profiles) or set(self.units) != set(self._columns):
             raise Error(f"{directory}: validation.json and validation.csv are not of one "
-                        "validation; python3 -m rondo validate writes both anew")
+                        "validation; rondo validate writes both anew")
 
     def __repr__(self) -> str:
         return (f"Validation({self.directory}: of {self.info.get('model')} "
@@ -85,10 +87,9 @@ class Validation:
 
 def _read(path: pathlib.Path) -> tuple[list[str], dict[str, np.ndarray]]:
     try:
-        with open(path, newline="") as file:
-            header, *rows = list(csv.reader(file)) or [[]]
+        header, *rows = list(csv.reader(io.StringIO(text_of(path)))) or [[]]
         values = [[float(text) for text in row[1:]] for row in rows]
-    except (OSError, ValueError) as reason:
+    except (csv.Error, ValueError) as reason:
         raise Error(f"{path}: cannot be read: {reason}") from None
     if header[:1] != ["run"] or any(len(row) != len(header) for row in rows):
         raise Error(f"{path}: damaged: a column run and as many numbers in each row as there are "

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""The figures of the paper study (`python3 -m rondo paper`), as those of the paper, and more."""
+"""The figures of the paper study (`rondo paper`), as those of the paper, and more."""
 from __future__ import annotations
 
 import os

@@ -156,8 +156,20 @@ def force_spectrum(run: Run, column: str = "force_y", from_time: float | None = 
     two times [s], their mean removed, under a Hann window whose gain is undone.
 
     A sine whose periods fit in the window has its own amplitude there; between two lines it shows
-    up to 15 % less, in both. Rows are the means over their intervals, taken as values at their
-    middles; where intervals differ they are resampled evenly, linearly."""
+    up to 15 % less, in both. Rows are as even_rows() has them."""
+    step, signal = even_rows(run, column, from_time, to_time)
+    rows = len(signal)
+    window = 0.5 - 0.5 * np.cos(2 * np.pi * np.arange(rows) / rows)
+    amplitude = np.abs(np.fft.rfft((signal - signal.mean()) * window)) / window.sum()
+    amplitude[1: (rows + 1) // 2] *= 2  # the other half of the spectrum; not of 0 nor of Nyquist's
+    return np.fft.rfftfreq(rows, step), amplitude
+
+
+def even_rows(run: Run, column: str, from_time: float | None,
+              to_time: float | None) -> tuple[float, np.ndarray]:
+    """Step [s] and values (rows,) of a column between two times [s], for a spectrum. Rows are the
+    means over their intervals, taken as values at their middles; where intervals differ they are
+    resampled evenly, linearly."""
     if run.is_crush:
         raise Error(f"{run.directory}: a crush has no course in time, and no spectrum")
     if run.is_steady:
@@ -173,11 +185,7 @@ def force_spectrum(run: Run, column: str = "force_y", from_time: float | None = 
     begin = np.append(0.0, end)[:-1]
     middle = 0.5 * (begin + end)[chosen]
     even = np.linspace(middle[0], middle[-1], rows)
-    signal = np.interp(even, middle, run.history[column][chosen])
-    window = 0.5 - 0.5 * np.cos(2 * np.pi * np.arange(rows) / rows)
-    amplitude = np.abs(np.fft.rfft((signal - signal.mean()) * window)) / window.sum()
-    amplitude[1: (rows + 1) // 2] *= 2  # the other half of the spectrum; not of 0 nor of Nyquist's
-    return np.fft.rfftfreq(rows, even[1] - even[0]), amplitude
+    return float(even[1] - even[0]), np.interp(even, middle, run.history[column][chosen])
 
 
 @style.paper()
@@ -191,7 +199,7 @@ def plot_force_spectrum(run: Run, column: str = "force_y", from_time: float | No
     run.history.need_ground(column)
     frequency, amplitude = force_spectrum(run, column, from_time, to_time)
     ax = axes_of(ax, 2.4)
-    _mark_passing(ax, run, frequency[-1])
+    mark_passing(ax, run, frequency[-1])
     line: dict[str, Any] = {**style.CURVES[0], "linewidth": 0.8}
     ax.plot(frequency[1:], amplitude[1:], **line)
     top = amplitude.max()
@@ -205,7 +213,7 @@ def plot_force_spectrum(run: Run, column: str = "force_y", from_time: float | No
     return ax
 
 
-def _mark_passing(ax: Axes, run: Run, highest: float) -> None:
+def mark_passing(ax: Axes, run: Run, highest: float) -> None:
     """The multiples, up to a frequency [Hz], of those at which pitches and columns pass."""
     marks = (("tread (pitches × spin)", run.pitch_frequency, PITCHES),
              ("mesh (columns × spin)", run.mesh_frequency, NODES))

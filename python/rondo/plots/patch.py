@@ -91,16 +91,25 @@ def patch_of(run: Run, rows: Rows, k: int, moving: bool = True) -> Patch:
     nodes, place = nodes[order], place[order]
     pairs = np.sort(np.stack([nodes[:-1], nodes[1:]], axis=1), axis=1)
     joined = np.append(np.isin(pairs @ np.array([run.mesh.n_nodes, 1]), rows.sides), False)
-    return Patch(nodes, place, _ends(run, nodes, place, joined), joined[:len(nodes)],
+    return Patch(nodes, place, _ends(_widths(run, part, nodes, order), place, joined), joined[:len(nodes)],
                  part["pressure_pa"][order], sense * part["shear_pa"][order])
 
 
-def _ends(run: Run, nodes: NDArray[np.int64], place: Array, joined: NDArray[np.bool_]) -> Array:
-    """(m, 2) m, see Patch."""
+def _widths(run: Run, part: dict[str, Array], nodes: NDArray[np.int64],
+            order: NDArray[np.int64]) -> Array:
+    """(m,) m: length of the deformed boundary that each node stands for; of runs of earlier
+    versions, which do not say it, as it is undeformed."""
     assert run.contact is not None
+    if "length_m" in part:
+        return part["length_m"][order]
     width = np.zeros(run.mesh.n_nodes)
     width[run.contact.nodes] = run.contact.tributary
-    ends = place[:, None] + 0.5 * width[nodes, None] * np.array([-1.0, 1.0])
+    return width[nodes]
+
+
+def _ends(width: Array, place: Array, joined: NDArray[np.bool_]) -> Array:
+    """(m, 2) m, see Patch."""
+    ends = place[:, None] + 0.5 * width[:, None] * np.array([-1.0, 1.0])
     between = np.flatnonzero(joined)
     ends[between, 1] = ends[between + 1, 0] = 0.5 * (place[between] + place[between + 1])
     return ends

@@ -27,7 +27,8 @@ OVER_TIME = ("mean", "peak", "fluctuation")  # in names of figures
 FIGURE_LABELS = {"energy_residual_relative": "imbalance of energy, relative",
                  "contact_residual_max": "largest contact residual", "end_time_s": "end time",
                  "dissipation_friction": "dissipated by friction",
-                 "friction_power": "power of friction", "impact_power": "power of impacts"}
+                 "friction_power": "power of friction", "impact_power": "power of impacts",
+                 "scheme_share": "share of the discretisation in the power"}
 ROUND_OFF = 1e-10  # of the greatest force: what is nothing beside it
 LONGEST = 18  # characters of a text at an axis
 NUMBER = 0.36  # in, for a number at an axis

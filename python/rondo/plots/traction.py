@@ -58,7 +58,7 @@ def _need_slip_that_is_made(sweep: Sweep) -> None:
                     f"{SPEED} at a given {SPIN} (or the other way round), with a height or "
                     "analysis.load, and without analysis.traction or analysis.torque; or vary one "
                     "of these two. Figures of this sweep over its parameters: "
-                    f"python3 -m rondo sweep {sweep.directory}")
+                    f"rondo figures {sweep.directory}")
 
 
 def _constants(sweep: Sweep) -> list[str]:

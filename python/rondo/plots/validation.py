@@ -32,8 +32,10 @@ MARGIN = 0.15  # of the contact, shown to either side of it
 ERRORS = {
     "displacement_error": "displacement", "displacement_mean_error": "displacement, mean",
     "velocity_error": "velocity", "velocity_mean_error": "velocity, mean",
-    "pressure_error": "pressure, mean", "shear_error": "shear, mean,\nby the pressure",
-    "force_x_error": "horizontal force,\nby the vertical", "force_y_error": "vertical force",
+    "pressure_error": "pressure, mean", "shear_error": "shear, mean,\nover the pressure",
+    "shear_own_error": "shear, mean",
+    "force_x_error": "horizontal force,\nover the vertical", "force_x_own_error": "horizontal force",
+    "force_y_error": "vertical force",
     "friction_error": "dissipated by friction",
 }
 
@@ -108,7 +110,7 @@ def _draw_errors(ax: Axes, rows: dict[str, dict[str, float]], panels: int) -> No
     height = 1.0 / (count + 1)
     places = np.arange(len(ERRORS))
     for k, ((name, row), look) in enumerate(zip(rows.items(), style.CURVES)):
-        sizes = np.array([100.0 * abs(row[column]) for column in ERRORS])
+        sizes = np.array([100.0 * abs(row.get(column, np.nan)) for column in ERRORS])
         at = places + (k - 0.5 * (count - 1)) * height
         known = np.isfinite(sizes)
         ax.barh(at[known], np.maximum(sizes[known] - LEAST, 0.0), 0.9 * height, left=LEAST,

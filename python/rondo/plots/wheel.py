@@ -64,7 +64,7 @@ def need_rim(run: Run) -> None:
     if not run.has_rim or "spin_rad_s" not in run.history:
         raise Error(f"{run.directory}: no [rim] in the case, so that its history has no spin_rad_s, "
                     "speed_y, hub_force_x, ...: give the case a [rim] (free = [] for the reactions "
-                    "alone), or draw the forces of the ground: python3 -m rondo figures")
+                    "alone), or draw the forces of the ground: rondo figures")
 
 
 def given(run: Run, key: str) -> Array:

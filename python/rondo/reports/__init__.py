@@ -13,8 +13,8 @@ if TYPE_CHECKING:
     from .document import Document
 
 INSIDE = {  # what has no page of its own, and which has
-    "modes.json": "draw it with python3 -m rondo campbell",
-    "validation.json": "draw it with python3 -m rondo validation",
+    "modes.json": "draw it with rondo campbell",
+    "validation.json": "draw it with rondo validation",
 }
 
 
@@ -36,8 +36,9 @@ def report(results: str | os.PathLike[str], file: str | os.PathLike[str] | None 
         fresh.write_bytes(text)
         fresh.replace(target)
     except OSError as reason:
-        fresh.unlink(missing_ok=True)
         raise FileError(f"{target}: cannot be written: {reason.strerror or reason}; choose another -o") from None
+    finally:  # also at Ctrl-C
+        fresh.unlink(missing_ok=True)
     return target
 
 

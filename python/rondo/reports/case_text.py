@@ -6,6 +6,8 @@ import base64
 import pathlib
 import re
 
+from ..data.errors import Error
+from ..data.plain_files import bytes_of
 from .document import note, told
 from .encoding import escaped
 
@@ -29,9 +31,9 @@ def highlighted(text: str) -> str:
 def case_html(path: pathlib.Path) -> str:
     """The file, to read and to save."""
     try:
-        data = path.read_bytes()
+        data = bytes_of(path)
         text = data.decode()
-    except (OSError, ValueError) as reason:
+    except (Error, ValueError) as reason:
         return note(f"{path.name} cannot be read: {told(reason, path.parent)}")
     link = (f'<a class="button" download="{escaped(path.name)}" href="data:application/toml;base64,'
             f'{base64.b64encode(data).decode()}">Save as a file</a>')

@@ -94,7 +94,8 @@ BY_NAME = {
                                                        "strain of history.csv."),
     "balance": ("The ledger: what changes the energy", "5.2", BALANCE,
                 "Each term is a column of history.csv: work_frame, work_contact, dissipation_mass, "
-                "dissipation_stiffness, work_scheme. What the two sides leave is energy_residual: round-off."),
+                "dissipation_stiffness, work_scheme. What the two sides leave is energy_residual: round-off, and of "
+                "second order in the step with elastic bodies that nothing holds."),
     "split": ("The part of contact", "5.5", SPLIT,
               "Columns work_rim, dissipation_friction, loss_impact: what the rim does against the ground, and "
               "what friction and impacts take of it."),

@@ -14,8 +14,9 @@ from .document import note, table, tiles
 from .encoding import escaped, number
 
 BOUND = 1e-9  # at which a run stops, of energy balance and contact law (docs/theory.md, 5 and 4.5)
+BOUND_FREE = 1e-2  # of the energy balance of elastic bodies that nothing holds: run.json says which it was
+SCHEME_SHARE = 0.05  # above it a steady run warns
 ADDS_UP = 1e-6  # over the largest term, to which the terms of the ledger are what it says
-BOUND_FREE = 1e-2  # of free bodies, whose ledger closes to second order in the step
 Tile = tuple[str, str, str, str]
 ENERGIES = ("kinetic", "strain", "kinetic_rim", "support_energy")
 POWERS = {"drive": "given by speed and torque", "mass": "taken by mass damping",
@@ -34,7 +35,7 @@ def status_tile(status: str, message: object = None) -> Tile:
 
 def health_tiles(run: Run) -> str:
     info = run.info
-    bound = BOUND_FREE if run.mesh.free.any() else BOUND
+    bound = info.get("energy_residual_bound", BOUND_FREE if run.mesh.free.any() else BOUND)
     found = [status_tile(run.status, info.get("message"))]
     found += _judged(info, "energy_residual_relative", "energy balance closes to", bound,
                      "largest imbalance of the ledger over the energy exchanged; a run stops above "
@@ -44,6 +45,10 @@ def health_tiles(run: Run) -> str:
     if info.get("penetration_max_m") is not None:
         found.append(("largest penetration", f"{number(1e3 * info['penetration_max_m'])} mm", "",
                       "into the ground, at any node"))
+    share = info.get("steady", {}).get("scheme_share")
+    if share is not None:
+        found.append(("power of the discretisation", f"{100 * share:.3g} %", "good" if share <= SCHEME_SHARE else "warn",
+                      "over the largest of drive, damping and friction: rolling resistance is wrong by about that much"))
     if info.get("strain_max") is not None:
         small = info["strain_max"] <= 0.1 or "hyperelastic" in run.case.get("material", {})
         found.append(("largest strain", f"{100 * info['strain_max']:.3g} %", "good" if small else "warn",

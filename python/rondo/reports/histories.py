@@ -31,7 +31,7 @@ GROUPS: tuple[tuple[str, str, tuple[str, ...]], ...] = (
      ("work_frame", "work_contact", "work_rim", "work_load", "work_gravity", "work_rim_load", "work_torque",
       "work_held", "dissipation_friction", "loss_impact", "dissipation_mass", "dissipation_stiffness",
       "dissipation_brake", "dissipation_support", "dissipation_viscous", "work_scheme")),
-    ("residual", "What the energy balance leaves (round-off)", ("energy_residual",)),
+    ("residual", "What the energy balance leaves open", ("energy_residual",)),
     ("iterations", "Iterations of the contact law in a step", ("contact_iterations", "contact_extensions")),
 )
 FLAT = 1e-12  # size of a column over that of the largest of its group, below which it is not drawn

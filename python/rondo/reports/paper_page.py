@@ -51,7 +51,7 @@ def _summary(paper: Paper) -> str:
              ("machine", str(paper.info.get("host", "not said")), "",
               f"rondo {paper.info.get('version', '?')}, {paper.info.get('build', '?')}")]
     unfinished = "" if paper.table else note(
-        f'This study is of status "{paper.status}" and has no table yet: python3 -m rondo paper -o '
+        f'This study is of status "{paper.status}" and has no table yet: rondo paper -o '
         f"{paper.directory.name}{' --quick' if paper.quick else ''} goes on with it; then make the report again.")
     return unfinished + paragraph(
         "A deformable disk rolls, climbs a ledge, is spun up and crushed, as in the paper that rondo is built on "

@@ -7,6 +7,7 @@ import pathlib
 from functools import cache
 
 from ..data.errors import Error
+from ..data.plain_files import text_of
 
 PACKAGE = "plotly.js-basic-dist-min"
 VERSION = "4.1.1"
@@ -36,8 +37,8 @@ def plotly() -> str:
     """Its text with its licence, to stand in a page."""
     path = find_plotly()
     try:
-        text = path.read_text(encoding="utf-8")
-    except (OSError, ValueError) as reason:
+        text = text_of(path)
+    except ValueError as reason:
         raise Error(f"{path}: cannot be read: {reason}") from None
     if "plotly.js (basic" not in text[:400]:
         raise Error(f"{path}: is not {NAME} of npm's {PACKAGE}: give another file as RONDO_PLOTLY=...")

@@ -2,6 +2,7 @@
 """Commands of the program rondo, several at once, some after others."""
 from __future__ import annotations
 
+import os
 import signal
 import subprocess
 import tempfile
@@ -10,6 +11,7 @@ from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field
 from typing import IO
 
+from ..data.errors import Error
 from .program import Program, start
 
 INTERRUPTED, NUMERICAL, FILES = 130, 3, 4  # exit codes, as the program's
@@ -61,6 +63,15 @@ class Stop:
 
     def _ask(self, *_: object) -> None:
         self.asked = True
+
+
+def processors() -> int:
+    """As many as this process may use: the library knows of quotas, too, where it is built."""
+    from ..native import core  # which imports modules of this folder
+    try:
+        return int(core().allowed_processors())
+    except Error:
+        return len(os.sched_getaffinity(0))
 
 
 def run_jobs(program: Program, jobs: Sequence[Job], at_once: int, stop: Stop,

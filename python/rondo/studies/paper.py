@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""python3 -m rondo paper: the study of the paper, its runs and decompositions, several at once,
+"""rondo paper: the study of the paper, its runs and decompositions, several at once,
 into one directory, and the table of ours against expected (docs/paper.md, docs/results.md)."""
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ from typing import Any
 
 from ..data.errors import Error
 from ..data.files import read_json
-from .jobs import FILES, INTERRUPTED, NUMERICAL, Job, Stop, run_jobs
+from .jobs import FILES, INTERRUPTED, NUMERICAL, Job, Stop, processors, run_jobs
 from .paper_kept import has_ended, identity, pod_is_there, remove_unfinished, run_is_there
 from .paper_plan import Plan, PlannedPod, PlannedRun, read_plan, study_folder
 from .paper_table import Row, make_table, table_text
@@ -205,7 +205,7 @@ class _Study:
                     self.identities[run.name] = identity(self._directory(run.name), run)
             self.write("running")
 
-        at_once = self.request.jobs or len(os.sched_getaffinity(0))
+        at_once = self.request.jobs or processors()
         try:
             run_jobs(self.program, waiting, at_once, stop, ended, progress.watch)
         finally:
@@ -277,7 +277,7 @@ class _Study:
             passed = sum(row["pass"] for row in self.table)
             print(f"\n{passed} of {len(self.table)} as expected, in "
                   f"{time.monotonic() - self._begin:.1f} s; data and paper.json in {directory}\n"
-                  f"figures: python3 -m rondo figures {directory}")
+                  f"figures: rondo figures {directory}")
             if self.message:
                 _say(f"error: {self.message}")
         return self.code
@@ -312,7 +312,7 @@ def _say(text: str) -> None:
 
 def command(directory: pathlib.Path | None, quick: bool, jobs: int | None, overwrite: bool,
             quiet: bool, study: pathlib.Path | None) -> int:
-    """python3 -m rondo paper"""
+    """rondo paper"""
     where = directory or pathlib.Path("paper-quick" if quick else "paper")
     try:
         return run_paper(Request(where, quick, jobs or 0, overwrite, quiet,

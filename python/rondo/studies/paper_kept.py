@@ -10,6 +10,7 @@ from typing import Any
 
 from ..data.errors import Error
 from ..data.files import read_json
+from ..data.plain_files import text_of
 from ..data.pod import open_pod
 from ..data.run import open_run
 from .paper_plan import PlannedPod, PlannedRun
@@ -18,10 +19,10 @@ from .program import Program
 
 def identity(directory: pathlib.Path, run: PlannedRun) -> str:
     """Of the case that is asked for and of the one that was kept beside its results."""
-    asked = [run.case.read_text(), *run.settings]
+    asked = [text_of(run.case), *run.settings]
     try:
-        asked.append((directory / "case.toml").read_text())
-    except (OSError, ValueError):
+        asked.append(text_of(directory / "case.toml"))
+    except (Error, ValueError):
         return ""
     return hashlib.sha256("\0".join(asked).encode()).hexdigest()
 
@@ -68,7 +69,7 @@ def pod_is_there(run: pathlib.Path, pod: PlannedPod, modes: int, program: Progra
                 and info.get("shift", "") == ("fourier" if pod.frame == "rectified" else "")
                 and info["snapshots"] == read_json(run / "run.json")["snapshots"]
                 and info["modes_kept"] in (modes, info["rank"])
-                and (directory / "spectrum.csv").read_text().count("\n") > 1)
+                and text_of(directory / "spectrum.csv").count("\n") > 1)
     except (Error, OSError, KeyError, TypeError, ValueError):
         return False
 

@@ -9,6 +9,7 @@ from dataclasses import dataclass
 from typing import Any
 
 from ..data.errors import Error
+from ..data.plain_files import text_of
 from .program import CHECKOUT
 
 SHIPPED = pathlib.Path(__file__).resolve().parents[1] / "shipped"  # in an installed package
@@ -51,8 +52,8 @@ def study_folder() -> pathlib.Path:
 def read_plan(folder: pathlib.Path, quick: bool) -> Plan:
     path = folder / "study.toml"
     try:
-        study = tomllib.loads(path.read_text())
-    except (OSError, ValueError) as reason:
+        study = tomllib.loads(text_of(path))
+    except (Error, ValueError) as reason:
         raise Error(f"{path}: cannot be read: {reason}; --study names the folder of a study.toml") \
             from None
     try:

@@ -42,7 +42,8 @@ def find_program() -> Program:
         done = subprocess.run([path, "--version"], capture_output=True, text=True, check=True)
     except (OSError, subprocess.CalledProcessError) as reason:
         raise Error(f"{path}: cannot be run: {reason}; give another program as RONDO=...") from None
-    found = re.fullmatch(r"rondo (\S+) \((.*); build id ([0-9a-f]*); kernels \w+\)\n", done.stdout)
+    found = re.fullmatch(r"rondo (\S+) \((.*); build id ([0-9a-f]*); kernels \w+\)\n.*", done.stdout,
+                         re.DOTALL)
     if found is None:
         raise Error(f"{path}: is no rondo of this version: --version says {done.stdout!r}; give "
                     "another program as RONDO=...")

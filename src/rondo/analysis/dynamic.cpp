@@ -152,7 +152,6 @@ void DynamicAnalysis::describe(Json& j) const {
                  {"fine_dofs", 2 * parts.fine.free.size()},
                  {"interface_dofs", 2 * parts.interface.size()}};
   }
-  j["dispatch"] = dispatch_level();
   if (setup_.model.rim) j["rim"] = rim_facts(*setup_.model.rim);
 }
 
@@ -182,13 +181,12 @@ long long DynamicAnalysis::next_snapshot() const noexcept {
 
 /// Takes the initial fields of the setup, which are not needed twice.
 Progress DynamicAnalysis::begin(Recorder& recorder) {
-  history_.emplace(case_, setup_, from_ ? from_->history : HistoryPlace{});
-  // Of free bodies of rubber it closes, as of those that are held.
-  const bool closes = setup_.model.free_bodies.empty() || fem::has_rubber(setup_.materials);
-  bounds_ = {closes ? residual_bound : free_residual_bound, largest_strain_energy(setup_),
+  history_.emplace(case_, setup_, from_ ? from_->history : HistoryPlace{}, reported_length());
+  bounds_ = {energy_residual_bound(setup_), largest_strain_energy(setup_),
              impact_cure(setup_.model), guards_impacts(),
              unit_of("J/m", setup_.model.solid.has_value())};
   watch_.emplace(case_, setup_);
+  between_nodes_.emplace(setup_.model);
   hub_.emplace(setup_);
   reports_.resize(steps_at_once(setup_));
   state_ = start(setup_.model, std::move(setup_.displacement), std::move(setup_.velocity),
@@ -227,18 +225,27 @@ void DynamicAnalysis::start_integrator() {
 /// Steps up to the next one whose state is wanted, at most as many as there are reports.
 Progress DynamicAnalysis::advance(Recorder& recorder) {
   const long long next_look = (steps_ / steps_between_looks + 1) * steps_between_looks;
-  const long long wanted = std::min({next_snapshot(), history_->next_probed(), next_look, pause_});
+  const bool may_be_deep =
+      between_nodes_->may_be_deep(last_ ? &last_->frame : nullptr, steps_between_looks);
+  const long long next_row = may_be_deep ? history_->next_row() : history_->next_wanted();
+  const long long wanted = std::min({next_snapshot(), next_row, next_look, pause_});
   const long long left = std::min(setup_.n_steps, wanted) - steps_;
   const auto n = static_cast<std::size_t>(std::min(static_cast<long long>(reports_.size()), left));
   const std::span reports = std::span(reports_).first(n);
-  // With probes a run that is interrupted has a last row of its own.
-  const bool seen = reports.size() == static_cast<std::size_t>(left) || !setup_.probes.empty();
+  // A run that is interrupted has a last row of its own.
+  const bool seen = reports.size() == static_cast<std::size_t>(left) || history_->needs_state();
   integrator_->advance(reports, seen ? &state_ : nullptr);
   keep_difficult_contacts();
+  if (seen && may_be_deep && state_.step == next_row) add_depth_between_nodes(reports.back());
   for (std::size_t i = 0; i < n && !trouble_; ++i)
     take(reports[i], seen && i + 1 == n ? &state_ : nullptr, recorder);
   if (seen && state_.step == steps_) record_state(recorder);
   return {steps_, setup_.n_steps};
+}
+
+void DynamicAnalysis::add_depth_between_nodes(dynamics::StepReport& step) {
+  complete(state_);
+  step.contact.penetration = std::max(step.contact.penetration, between_nodes_->depth(state_));
 }
 
 void DynamicAnalysis::take(const dynamics::StepReport& step, const dynamics::State* state,
@@ -259,10 +266,8 @@ void DynamicAnalysis::take(const dynamics::StepReport& step, const dynamics::Sta
 /// before.
 void DynamicAnalysis::judge(const dynamics::StepReport& step) {
   warn_of_impacts(step);
-  OutOfBound found = step.contact.unseen > 0.0
-                         ? OutOfBound{missed_corner(step.contact.unseen), false}
-                     : step.contact.two_facets ? OutOfBound{held_by_two_facets(), false}
-                                               : find_out_of_bound(step.balance, contact_, bounds_);
+  OutOfBound found{contact_not_found(step.contact), false};
+  if (found.what.empty()) found = find_out_of_bound(step.balance, contact_, bounds_);
   if (found.what.empty() && setup_.model.rim) found = {look_at_rim(step), false};
   if (step.material.least_volume <= 0.0) {
     dynamics::State now(setup_.model);  // after the steps of this call
@@ -386,6 +391,7 @@ void DynamicAnalysis::close() {
   integrator_->advance({&beyond, 1});
   balance_ = beyond.balance;
   judge(beyond);
+  warn_of_no_contact();
   if (state_.step == steps_ && !is_looked_at()) look();
 }
 
@@ -399,6 +405,7 @@ void DynamicAnalysis::summarise(Json& j, RunReport& r) const {
   r.step_wall_s = r.loop_wall_s;
   r.ns_per_dof_step = 1e9 * r.loop_wall_s / (dofs * static_cast<double>(std::max(1LL, steps_)));
   r.energy_residual_relative = balance_.relative;
+  r.energy_residual_bound = energy_residual_bound(setup_);
   r.contact_residual_max = contact_.residual;
   r.penetration_max_m = contact_.penetration;
   for (const std::string& warning : warnings_) j["warnings"].push_back(warning);
@@ -408,6 +415,7 @@ void DynamicAnalysis::summarise(Json& j, RunReport& r) const {
   j["end_time"] = time;
   j["ns_per_dof_step"] = r.ns_per_dof_step;
   j["energy_residual_relative"] = balance_.relative;
+  j["energy_residual_bound"] = r.energy_residual_bound;
   j["energy_exchanged"] = balance_.exchanged;
   j["contact_residual_max"] = contact_.residual;
   j["penetration_max_m"] = contact_.penetration;

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "rondo/analysis/base/analysis.hpp"
+#include "rondo/analysis/base/between_nodes.hpp"
 #include "rondo/analysis/base/stepwise.hpp"
 #include "rondo/analysis/base/strain_watch.hpp"
 #include "rondo/analysis/boundary_watch.hpp"
@@ -60,6 +61,10 @@ class DynamicAnalysis : public Analysis, public Resumable, public Stepwise {
   [[nodiscard]] Setup& own_setup() noexcept { return setup_; }
   /// The law sees velocities alone. Gaps in it push bodies out of the ground, which does work.
   [[nodiscard]] virtual bool guards_impacts() const noexcept { return true; }
+  /// Of the contact length in the integrator's reports.
+  [[nodiscard]] virtual History::Length reported_length() const noexcept {
+    return History::Length::undeformed;
+  }
   /// Fills the fields of the state after the last step, where the integrator left some out.
   virtual void complete(dynamics::State& /*state*/) {}
   /// Adds the values of the plan's series to a snapshot of the state.
@@ -72,11 +77,13 @@ class DynamicAnalysis : public Analysis, public Resumable, public Stepwise {
  private:
   [[nodiscard]] long long next_snapshot() const noexcept;
   void start_integrator();
+  void add_depth_between_nodes(dynamics::StepReport& step);
   void take(const dynamics::StepReport& step, const dynamics::State* state, Recorder& recorder);
   void judge(const dynamics::StepReport& step);
   [[nodiscard]] bool is_looked_at() const noexcept;
   void look();
   [[nodiscard]] std::string look_at_rim(const dynamics::StepReport& step);
+  void warn_of_no_contact();
   void warn_of_impacts(const dynamics::StepReport& step);
   void record_state(Recorder& recorder);
   void record_snapshot(Recorder& recorder);
@@ -107,6 +114,7 @@ class DynamicAnalysis : public Analysis, public Resumable, public Stepwise {
   std::vector<std::string> warnings_;  ///< given while it ran
   Bounds bounds_;
   std::optional<BoundaryWatch> watch_;
+  std::optional<BetweenNodes> between_nodes_;
   std::optional<HubWatch> hub_;
   bool impacts_told_ = false;
   int problems_kept_ = 0;                       ///< contact problems kept as files

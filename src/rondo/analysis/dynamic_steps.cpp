@@ -1,8 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
-/// @file  A motion in time as its caller stops, sees and drives it.
+/// @file  A motion in time as its caller stops, sees and drives it; what its end tells.
+#include <fmt/format.h>
+
 #include "rondo/analysis/build/rim.hpp"
 #include "rondo/analysis/build/stability.hpp"
 #include "rondo/analysis/dynamic.hpp"
+#include "rondo/analysis/elements/corner_words.hpp"
 
 namespace rondo::study {
 namespace {
@@ -19,10 +22,11 @@ void refuse_fixed_motion(const Case& c, const dynamics::Model& model) {
     throw case_error(c, "time.scheme",
                      "parts with steps of their own have the motion of the rim from the start",
                      "\"symplectic\"; or the tables in the case");
-  if (model.contact && dynamics::has_sharp_corners(model))
-    throw case_error(c, "ground.fillet",
-                     "contact at sharp convex corners has the motion of the rim from the start",
-                     "a fillet above 0; or the tables in the case");
+  if (!dynamics::has_sharp_corners(model)) return;
+  const CornerWords words = corner_words(c, model);
+  throw case_error(c, "ground.fillet",
+                   "contact at " + words.corners + " has the motion of the rim from the start",
+                   words.instead + "; or the tables in the case");
 }
 
 void copy_pressures(const Case& c, dynamics::Model& model) {
@@ -35,9 +39,21 @@ void copy_pressures(const Case& c, dynamics::Model& model) {
 
 }  // namespace
 
+/// Only the run tells it where the motion does not say the height (else: plausible.hpp).
+void DynamicAnalysis::warn_of_no_contact() {
+  const bool falls = !is_held(case_) || (case_.rim && case_.rim->free_y);
+  if (!case_.ground || !falls || contact_.contact_steps > 0) return;
+  warn(fmt::format(
+      "nothing has touched the ground in the whole run, to t = {:.6g} s: {}; are lengths in m, "
+      "forces in N?",
+      static_cast<double>(steps_) * setup_.model.dt,
+      case_.rim ? "[rim] and its loads have not brought the body down to it"
+                : "initial.position, initial.velocity and motion.gravity do not lead there"));
+}
+
 void DynamicAnalysis::pause_at(long long step) {
   pause_ = step;
-  since_pause_.emplace(case_, setup_, never_due());
+  since_pause_.emplace(case_, setup_, never_due(), reported_length());
 }
 
 const dynamics::State* DynamicAnalysis::state() {

@@ -140,18 +140,29 @@ std::string not_finite(const dynamics::State& state, const std::string& otherwis
   return found.empty() ? otherwise : found;
 }
 
-std::string missed_corner(double way) {
-  return fmt::format(
-      "a node has moved {:.3g} m in the last steps, farther than touches of the sharp corners of "
-      "the ground were looked for: one may be missed; a smaller time.step, or ground.fillet > 0",
-      way);
+double energy_residual_bound(const Setup& setup) noexcept {
+  const bool closes = setup.model.free_bodies.empty() || fem::has_rubber(setup.materials);
+  return closes ? residual_bound : free_residual_bound;
 }
 
-std::string held_by_two_facets() {
-  return "a contact node without mass is held by two facets of the ground at a concave corner, "
-         "which "
-         "is not done; solver.contact_mass = \"lumped\", or a ground.profile whose concave corners "
-         "the body does not reach";
+std::string contact_not_found(const dynamics::ContactReport& step) {
+  if (step.unseen > 0.0)
+    return fmt::format(
+        "a node has moved {:.3g} m in the last steps, farther than touches of the sharp corners of "
+        "the ground were looked for: one may be missed; a smaller time.step, or ground.fillet > 0",
+        step.unseen);
+  if (step.two_facets)
+    return "a contact node without mass is held by two facets of the ground at a concave corner, "
+           "which is not done; solver.contact_mass = \"lumped\", or a ground.profile whose concave "
+           "corners the body does not reach";
+  if (step.late > 0.0)
+    return fmt::format(
+        "a contact begins {:.3g} m deep at ({:.6g}, {:.6g}) m: it was inside the body a step "
+        "before, "
+        "and nothing met it there. A smaller time.step, a mesh that is finer there, a larger "
+        "ground.fillet; or a mesh.contact that names all of the boundary that comes there",
+        step.late, step.late_at.x, step.late_at.y);
+  return {};
 }
 
 std::string felt_joint() {

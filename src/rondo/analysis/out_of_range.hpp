@@ -23,6 +23,10 @@ struct OutOfBound {
   bool not_finite = false;
 };
 
+/// Bound of the ledger's relative residual: round-off, but for linear elastic bodies that nothing
+/// holds (docs/theory.md, 5 and 9.7).
+double energy_residual_bound(const Setup& setup) noexcept;
+
 /// Largest values that are no trouble.
 struct Bounds {
   double ledger = 0.0;         ///< relative residual
@@ -43,11 +47,10 @@ std::string impact_cure(const dynamics::Model& model);
 /// What is said of the energy that impacts created, with its bound.
 std::string created_by_impacts(const dynamics::Balance& balance, double bound, const Bounds& of);
 
-/// What is said where a node has moved that far [m] between two looks for sharp corners.
-std::string missed_corner(double way);
-
-/// What is said where a node without mass is held by two facets of the ground.
-std::string held_by_two_facets();
+/// What is wrong with how a step found its contacts: a node that moved farther than sharp corners
+/// were looked for, one without mass that two facets hold, a contact that was found late. Empty:
+/// nothing.
+std::string contact_not_found(const dynamics::ContactReport& step);
 
 /// What is said where contact felt how the parts of the scheme "hati" were joined.
 std::string felt_joint();

@@ -3,6 +3,7 @@
 
 #include <array>
 
+#include "rondo/analysis/base/region_figures.hpp"
 #include "rondo/analysis/crush/crush.hpp"
 #include "rondo/analysis/dynamic.hpp"
 #include "rondo/analysis/figures/crush_figures.hpp"
@@ -65,7 +66,13 @@ CheckReport check_case(const Case& c, const CheckOptions& options) {
   RunOptions run;
   run.threads = options.threads;
   run.shared = options.shared;
-  return make_analysis(c, run)->check(options.trial_s);
+  const std::unique_ptr<Analysis> analysis = make_analysis(c, run);
+  CheckReport report = analysis->check(options.trial_s);
+  const RecordPlan plan = analysis->record_plan();
+  const std::vector<Told> regions = region_lines(*plan.results.mesh, plan.materials);
+  report.lines.insert(report.lines.begin(), regions.begin(), regions.end());
+  if (options.columns) report.columns = plan.columns;
+  return report;
 }
 
 }  // namespace rondo::study

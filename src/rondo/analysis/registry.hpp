@@ -38,6 +38,7 @@ struct CheckOptions {
   int threads = 0;               ///< 0: chosen by size
   double trial_s = 0.2;          ///< of steps made to estimate `seconds`; 0: none, which is 0 then
   SharedBody* shared = nullptr;  ///< as for build()
+  bool columns = false;          ///< those of history.csv are wanted
 };
 
 /// What a case would cost and whether it can run, without running it. @throws InputError as a run

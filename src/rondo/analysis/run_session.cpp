@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "rondo/analysis/base/disk.hpp"
+#include "rondo/analysis/base/region_figures.hpp"
 #include "rondo/io/files.hpp"
 #include "rondo/output/checkpoint.hpp"
 #include "rondo/output/resume.hpp"
@@ -70,7 +71,7 @@ void RunSession::take_directory() {
   if (options_.resume) refuse_without_checkpoints(options_.directory);
   lock_.emplace(study::take_directory(case_, options_));
   if (options_.resume && analysis_.resumable()) {
-    from_ = analysis_.resumable()->find(options_.directory);
+    find_checkpoint();
     was_complete_ = from_ && is_complete(*from_, options_.directory);
     if (was_complete_) json_ = io::read_json(options_.directory / "run.json");
     if (was_complete_) return;
@@ -79,6 +80,18 @@ void RunSession::take_directory() {
   }
   const std::string other = warning_of_another_host(options_.directory);
   if (!other.empty()) give_warnings({other}, options_);
+}
+
+/// Before anything is changed: all bits are there of what the run goes on with.
+void RunSession::find_checkpoint() {
+  try {
+    from_ = analysis_.resumable()->find(options_.directory);
+    if (from_) demand_kept(options_.directory, from_->files);
+  } catch (const FileError& error) {
+    throw FileError(error, fmt::format("restore that file, or run the case anew: rondo run CASE "
+                                       "-o {} --overwrite, with a case file outside of it",
+                                       options_.directory.string()));
+  }
 }
 
 void RunSession::demand_disk_of() const {
@@ -159,6 +172,7 @@ RunReport RunSession::finish() {
     loop = looper_->finish();
     if (!files_) return;
     files_->close();
+    json_["files"] = as_json(files_->files());
     loop.snapshots = files_->written();
     loop.last_time = files_->last_time();
     loop.output = files_->cost();
@@ -182,6 +196,7 @@ Json RunSession::describe() const {
   Json json = describe_run(case_, plan_.results.words.analysis);
   json["resumable"] = analysis_.resumable() != nullptr;
   analysis_.describe(json);
+  if (plan_.results.mesh != nullptr) describe_regions(*plan_.results.mesh, plan_.materials, json);
   json["columns"] = Json::array();
   for (const ColumnLabel& column : plan_.columns)
     json["columns"].push_back({{"name", column.name}, {"unit", column.unit}});
@@ -235,7 +250,7 @@ RunReport RunSession::nothing_to_do() const {
   r.steps = from_->state.step;
   r.end_time = static_cast<double>(r.steps) * from_->identity.step;
   r.reached = fmt::format("{} steps to t = {:.6g} s", r.steps, r.end_time);
-  r.snapshots = from_->files.snapshots;
+  r.snapshots = from_->files.snapshots.count;
   return r;
 }
 

@@ -56,6 +56,7 @@ class RunSession {
 
  private:
   void take_directory();
+  void find_checkpoint();
   void demand_disk_of() const;
   void open_recorder();
   void keep_case();

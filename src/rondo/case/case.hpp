@@ -126,6 +126,7 @@ struct AnalysisCase {
   int samples_per_sector = 8;                  ///< P >= 1
   RollingSlip slip = RollingSlip::bdf2;        ///< how slip is taken
   bool massless_contact = true;                ///< with more than one sample always
+  bool accept_scheme_power = false;            ///< much power of the discretisation is no fault
   std::optional<double> load{};                ///< F_y > 0, instead of the height           [N/m]
   std::optional<double> traction{}, torque{};  ///< F_x, or clockwise on the rim, instead of the
                                                ///< speed                                 [N/m], [N]
@@ -144,9 +145,10 @@ struct Initial {
   InitialState state = InitialState::rest;
   Vec2 velocity;  ///< added to every free node, fixed frame [m/s]
   std::array<std::array<double, 2>, 2> displacement_gradient{};  ///< u0 += G X on free nodes [-]
-  // Of free bodies only: the mesh is turned by `angle` about the origin, then moved by `position`.
+  // Of free bodies only: the mesh is turned by `turn` about the origin, then moved by `position`.
   Vec2 position;                  ///< [m]
-  double angle = 0.0;             ///< [rad]
+  double turn = 0.0;              ///< > 0 clockwise, as `angular_velocity` [rad]
+  double angle = 0.0;             ///< as given: minus `turn`; 0 once the case is read [rad]
   double angular_velocity = 0.0;  ///< of each about its center of mass, > 0 clockwise [rad/s]
   std::vector<InitialRegion> regions;
 };

@@ -323,7 +323,8 @@ constexpr CaseKey keys[] = {
     {"motion.angular_velocity", "rad/s", FIELD(motion.angular_velocity), any,
      required.if_(is_held, "required if constrained and dynamic").body(never),
      "angular velocity ω of the rim; > 0 turns clockwise, which rolls towards +x. So do all "
-     "angular velocities of a case, and `angle_rad` of history.csv, its integral"},
+     "angular velocities and angles of turns of a case (`initial.turn`), and `angle_rad` of "
+     "history.csv, its integral"},
     {"motion.speed", "m/s", FIELD(motion.speed), any,
      required.if_(has_speed, "required if constrained and dynamic").only_in(in_time).body(never),
      "speed V of the center along x"},
@@ -430,9 +431,13 @@ constexpr CaseKey keys[] = {
     {"initial.position", "m", FIELD(initial.position), any,
      optional.if_(may_be_free).body(may_be_free),
      "free bodies only: they are moved by that much..."},
-    {"initial.angle", "rad", FIELD(initial.angle), any, optional.if_(may_be_free).body(may_be_free),
-     "... after they were turned by this angle, counter-clockwise (unlike angular velocities, "
-     "which are clockwise), about the origin of the mesh"},
+    {"initial.turn", "rad", FIELD(initial.turn), any, optional.if_(may_be_free).body(may_be_free),
+     "... after they were turned by this angle about the origin of the mesh; > 0 turns clockwise, "
+     "as `initial.angular_velocity` does"},
+    {"initial.angle", "rad", FIELD(initial.angle), any,
+     optional.if_(never, "0, or minus initial.turn").body(may_be_free),
+     "the key of earlier versions for −`initial.turn`, counter-clockwise: taken, with a warning, "
+     "and written as `initial.turn`"},
     {"initial.angular_velocity", "rad/s", FIELD(initial.angular_velocity), any,
      optional.if_(may_be_free).body(may_be_free),
      "free bodies only: each turns about its center of mass, signed as `motion.angular_velocity`"},
@@ -506,6 +511,11 @@ constexpr CaseKey keys[] = {
      optional.of(of_steady_rolling).body(never),
      "the mass of the contact nodes is moved to the nodes below them. false: only with "
      "`samples_per_sector = 1`"},
+    {"analysis.accept_scheme_power", "-", FIELD(analysis.accept_scheme_power), any,
+     optional.of(of_steady_rolling).body(never),
+     "a state is a result even where the discretisation makes or takes more than a quarter of the "
+     "largest power ([steady.md](steady.md#the-power-of-the-discretisation)): for forces and "
+     "footprints, whose rolling resistance means nothing then"},
     {"analysis.load", "N/m", FIELD(analysis.load), positive,
      optional.of(of_steady_rolling).if_(has_load, "none").body(never),
      "force of the ground on the steadily rolling body, upwards, instead of `motion.height`"},

@@ -155,7 +155,7 @@ void check_placing(CaseValues& in) {
              "disk.rim = \"free\" beside it");
   };
   for (const std::string_view key :
-       {"initial.position", "initial.angle", "initial.angular_velocity"})
+       {"initial.position", "initial.turn", "initial.angle", "initial.angular_velocity"})
     if (in.has(key)) refuse(key);
   if (in.n_items("initial.region") > 0) refuse("initial.region[0]");
 }
@@ -170,7 +170,22 @@ void warn_of_sign(Case& c) {
         "this version it was counter-clockwise");
 }
 
+/// The key of earlier versions has the other sign.
+void take_angle(CaseValues& in, Case& c) {
+  if (!in.has("initial.angle") || !may_be_free(c)) return;
+  if (in.has("initial.turn"))
+    in.fault("initial.angle", "is minus initial.turn, which is there as well", "one of both");
+  if (c.initial.angle == 0.0) return;
+  c.initial.turn = -c.initial.angle;
+  c.warnings.push_back(fmt::format(
+      "initial.angle = {} is counter-clockwise, unlike all other angles of turns: it is taken as "
+      "initial.turn = {}, which takes its place",
+      c.initial.angle, c.initial.turn));
+  c.initial.angle = 0.0;
+}
+
 void check_initial(CaseValues& in, Case& c) {
+  take_angle(in, c);
   warn_of_sign(c);
   if (c.initial.state == InitialState::stationary && !is_held(c))
     in.fault("initial.state", "nothing turns a free body: it has no stationary spin", "\"rest\"");

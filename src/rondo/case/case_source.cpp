@@ -13,8 +13,10 @@
 #include <utility>
 
 #include "rondo/case/case_keys.hpp"
+#include "rondo/case/numbers/foreign_writing.hpp"
 #include "rondo/case/toml_text.hpp"
 #include "rondo/core/contract.hpp"
+#include "rondo/core/files/regular_file.hpp"
 
 namespace rondo::study {
 namespace {
@@ -48,8 +50,9 @@ std::string read_input(const std::filesystem::path& file, std::string_view what)
   const auto status = std::filesystem::status(file, error);
   if (status.type() == std::filesystem::file_type::not_found)
     throw InputError(file_fault(name, "there is no such file"));
-  if (std::filesystem::is_directory(status))
-    throw InputError(file_fault(name, fmt::format("is a directory, not {}", what)));
+  if (const std::string kind = kind_of_no_file(file); !kind.empty())
+    throw InputError(file_fault(name, fmt::format("is {}, not {}", kind, what),
+                                "a regular file: what a pipe gives is to be written into one"));
   errno = 0;
   std::ifstream in(file, std::ios::binary);
   if (!in)
@@ -88,6 +91,13 @@ SourceText source_text(std::string name, std::string text) {
   for (std::size_t i = 0; i < source.text.size(); ++i)
     if (source.text[i] == '\n') source.line_begin.push_back(i + 1);
   return source;
+}
+
+std::string_view line_of(const SourceText& source, int line) {
+  const auto at = static_cast<std::size_t>(line - 1);
+  if (line < 1 || at >= source.line_begin.size()) return {};
+  const std::string_view rest = std::string_view(source.text).substr(source.line_begin[at]);
+  return rest.substr(0, rest.find('\n'));
 }
 
 Place place_of(const toml::source_region& region, int source) {
@@ -312,8 +322,11 @@ CaseSource load_toml_text(const std::string& name, std::string text, const TomlS
     add_table({source, shape}, "", toml::parse(source.sources[0].text));
   } catch (const toml::parse_error& error) {
     const Place at = place_of(error.source(), 0);
-    throw InputError(Fault{name, at.line, at.column, "", "",
-                           "is not TOML: " + std::string(error.description()), ""});
+    const std::string cause = foreign_writing_in_line(line_of(source.sources[0], at.line));
+    throw InputError(Fault{
+        name, at.line, at.column, "", "",
+        fmt::format("is not TOML: {}{}{}", error.description(), cause.empty() ? "" : "; ", cause),
+        ""});
   }
   return source;
 }

@@ -6,9 +6,11 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <map>
 #include <tuple>
 #include <utility>
 
+#include "rondo/case/numbers/foreign_writing.hpp"
 #include "rondo/case/profile_file.hpp"
 #include "rondo/core/contract.hpp"
 
@@ -107,7 +109,8 @@ void CaseValues::bad(const Reading& in, const CaseValue& value, std::string mess
 }
 
 void CaseValues::wrong_type(const Reading& in, const CaseValue& value, std::string_view asked) {
-  bad(in, value, fmt::format("must be {}, not {}", asked, type_word(value.type)));
+  bad(in, value,
+      fmt::format("must be {}, not {}{}", asked, type_word(value.type), cause_in(value.text)));
 }
 
 void CaseValues::fault(std::string_view key, std::string message, std::string allowed) {
@@ -157,6 +160,19 @@ void CaseValues::add_missing_tables() {
   missing_.clear();
 }
 
+/// In turn, and how many more there are.
+std::vector<Fault> CaseValues::first_of_each_key() {
+  std::vector<Fault> faults;
+  std::map<std::string, std::size_t> counts;
+  for (const Located& located : faults_)
+    if (++counts[located.fault.key] <= most_faults_of_a_key) faults.push_back(located.fault);
+  for (const auto& [key, count] : counts)
+    if (count > most_faults_of_a_key)
+      faults.push_back({source_.sources[0].name, 0, 0, key, "",
+                        fmt::format("and {} more of this kind", count - most_faults_of_a_key), ""});
+  return faults;
+}
+
 void CaseValues::finish() {
   add_missing_tables();
   const auto order = [](const Located& a) {
@@ -166,8 +182,7 @@ void CaseValues::finish() {
   };
   std::stable_sort(faults_.begin(), faults_.end(),
                    [&](const Located& a, const Located& b) { return order(a) < order(b); });
-  std::vector<Fault> faults;
-  for (Located& located : faults_) faults.push_back(std::move(located.fault));
+  std::vector<Fault> faults = first_of_each_key();
   faults.insert(faults.end(), source_.bad_settings.begin(), source_.bad_settings.end());
   if (!faults.empty()) throw InputError(std::move(faults));
 }
@@ -208,7 +223,7 @@ void CaseValues::take(const Reading& in, bool& target) {
 std::optional<std::string> CaseValues::text(const Reading& in) {
   if (in.value.type != ValueType::text) return wrong_type(in, in.value, "a string"), std::nullopt;
   if (in.key.allowed.is_choice() && !find_choice(in.key.allowed, in.value.text))
-    return bad(in, in.value, "is not one of the choices"), std::nullopt;
+    return bad(in, in.value, "is not one of the choices" + cause_in(in.value.text)), std::nullopt;
   if (in.key.use.required && in.value.text.empty())
     return fault(in.path, "must not be empty"), std::nullopt;
   return in.value.text;
@@ -241,7 +256,10 @@ void CaseValues::take(const Reading& in, const ChoiceList& target) {
 bool CaseValues::pair(const Reading& in, const CaseValue& value, std::array<double, 2>& target) {
   if (value.type != ValueType::array) return wrong_type(in, value, "a pair of floats"), false;
   if (value.items.size() != 2)
-    return bad(in, value, fmt::format("must have 2 items, not {}", value.items.size())), false;
+    return bad(in, value,
+               fmt::format("must have 2 items, not {}{}", value.items.size(),
+                           cause_in_items(source_.written(value.place)))),
+           false;
   const bool first = finite(in, value.items[0], target[0]);
   return finite(in, value.items[1], target[1]) && first;
 }
@@ -335,6 +353,7 @@ void CaseValues::take_profile_file(const Reading& in, std::vector<Vec2>& target)
   const auto folder = std::filesystem::path(source_.sources[0].name).parent_path();
   const std::filesystem::path file = folder / in.value.text;
   try {
+    refuse_road(file);
     ProfileFile profile = parse_profile(file.string(), read_input(file, "a profile"));
     for (Fault& fault : profile.faults) faults_.push_back({in.value.place, std::move(fault)});
     if (profile.points.empty()) return static_cast<void>(bad_keys_.emplace(in.path));
@@ -343,7 +362,9 @@ void CaseValues::take_profile_file(const Reading& in, std::vector<Vec2>& target)
     profile_lines_ = std::move(profile.lines);
   } catch (const InputError& error) {
     const Fault& fault = error.faults().front();
-    bad(in, in.value, fmt::format("{}: {}", fault.file, fault.message));
+    add(in.value.place, in.path, source_.written(in.value.place),
+        fmt::format("{}: {}{}", fault.file, fault.message, cause_in(in.value.text)),
+        fault.allowed.empty() ? allowed_text(in.key) : fault.allowed);
   }
 }
 

@@ -84,6 +84,7 @@ class CaseValues {
   void check_key(const std::string& path, const CaseValue& value);
   void not_a_list(const std::string& path, const CaseValue& value);
   void add_missing_tables();
+  [[nodiscard]] std::vector<Fault> first_of_each_key();
   [[nodiscard]] Place place_of_table(std::string_view table) const;
 
   CaseSource source_;

@@ -5,8 +5,12 @@
 
 #include <algorithm>
 #include <array>
+#include <cctype>
 #include <charconv>
 #include <cmath>
+#include <system_error>
+
+#include "rondo/case/numbers/foreign_writing.hpp"
 
 namespace rondo::study {
 namespace {
@@ -48,7 +52,8 @@ bool is_number(std::string_view text, double& value) {
 
 /// As a number begins; no name of a column does.
 bool begins_as_number(std::string_view text) {
-  return !text.empty() && std::string_view("0123456789+-.").find(text[0]) != text.npos;
+  return begins_with_foreign_minus(text) ||
+         (!text.empty() && std::string_view("0123456789+-.").find(text[0]) != text.npos);
 }
 
 /// Names of columns: words with letters. "0;0" is none, but numbers that are divided otherwise.
@@ -65,11 +70,35 @@ bool is_header(const std::vector<Token>& tokens) {
          });
 }
 
+constexpr const char* is_road =
+    "is an OpenCRG road file: heights over a surface, which are not read";
+constexpr const char* instead_of_road =
+    "two columns, x and y in m: one section along the road, exported as a CSV file by an OpenCRG "
+    "tool (the heights z over u at one v)";
+
+/// Keywords with which lines of the head of an OpenCRG file begin.
+bool is_opencrg(std::string_view text) {
+  constexpr std::size_t head = 65536;
+  text = text.substr(0, head);
+  return std::ranges::any_of(
+      std::array{"$CT", "$ROAD_CRG", "$KD_DEFINITION"}, [&](const char* key) {
+        return text.starts_with(key) || text.find(std::string("\n") + key) != text.npos;
+      });
+}
+
+/// Why a line has not two numbers.
+std::string cause_in_line(std::string_view line) {
+  if (line.find(';') != line.npos) return "; a semicolon divides no numbers here";
+  const std::string comma = cause_in_items(line);
+  return comma.empty() ? cause_in(line) : comma;
+}
+
 /// One file while it is read.
 struct Reading {
   const std::string& name;
   ProfileFile& into;
   int line = 0;
+  std::string_view text{};  ///< of the line
 
   void fault(const Token& at, std::string message) const {
     std::string found(at.text.substr(0, longest_found));
@@ -81,10 +110,12 @@ struct Reading {
   void add_point(const std::vector<Token>& tokens) {
     if (tokens.size() != 2)
       return fault(tokens.size() > 2 ? tokens[2] : tokens[0],
-                   fmt::format("the line must have 2 numbers, not {}", tokens.size()));
+                   fmt::format("the line must have 2 numbers, not {}{}", tokens.size(),
+                               cause_in_line(text)));
     std::array<double, 2> p{};
     for (std::size_t k = 0; k < 2; ++k) {
-      if (!is_number(tokens[k].text, p[k])) return fault(tokens[k], "is not a number");
+      if (!is_number(tokens[k].text, p[k]))
+        return fault(tokens[k], "is not a number" + cause_in(tokens[k].text));
       if (!std::isfinite(p[k])) return fault(tokens[k], "must be a finite number");
     }
     into.points.push_back({p[0], p[1]});
@@ -94,17 +125,30 @@ struct Reading {
 
 }  // namespace
 
+void refuse_road(const std::filesystem::path& file) {
+  std::string ending = file.extension().string();
+  std::ranges::transform(ending, ending.begin(), [](unsigned char c) { return std::tolower(c); });
+  std::error_code error;
+  if (ending == ".crg" && std::filesystem::is_regular_file(file, error))
+    throw InputError(Fault{file.string(), 0, 0, "ground.profile", "", is_road, instead_of_road});
+}
+
 ProfileFile parse_profile(const std::string& name, std::string_view text) {
   ProfileFile found;
   Reading in{name, found};
   bool is_first = true;
+  if (is_opencrg(text)) {
+    found.faults.push_back({name, 0, 0, "ground.profile", "", is_road, instead_of_road});
+    return found;
+  }
   if (text.starts_with("\xEF\xBB\xBF")) text.remove_prefix(3);  // the mark of UTF-8
   while (!text.empty() && found.faults.size() < most_faults) {
     const std::size_t end = std::min(text.find('\n'), text.size());
     const std::string_view line = text.substr(0, end);
     text.remove_prefix(std::min(end + 1, text.size()));
     ++in.line;
-    const std::vector<Token> tokens = tokens_of(line.substr(0, line.find('#')));
+    in.text = line.substr(0, line.find('#'));
+    const std::vector<Token> tokens = tokens_of(in.text);
     if (tokens.empty()) continue;
     if (!(is_first && is_header(tokens))) in.add_point(tokens);
     is_first = false;

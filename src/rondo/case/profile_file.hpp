@@ -2,6 +2,7 @@
 /// @file  The ground's profile from a CSV file: two columns, x and y in m (docs/cases.md,
 /// [ground]).
 #pragma once
+#include <filesystem>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -19,6 +20,10 @@ struct ProfileFile {
   std::vector<int> lines;     ///< of the points, from 1
   std::vector<Fault> faults;  ///< the first few; there are points only where there are none
 };
+
+/// What other tools call a road is none of these files. @throws InputError: an OpenCRG file by its
+/// name, whose text may be longer than is read
+void refuse_road(const std::filesystem::path& file);
 
 /// Lines of two numbers with a comma or white space between them. `#` begins a comment; the first
 /// line may be a header, in which nothing is a number. @param name  of the file, for its faults

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <deque>
 
 #include "rondo/core/complex.hpp"
 #include "rondo/core/contract.hpp"
@@ -85,38 +86,124 @@ std::vector<ShapeFault> shape_faults(const GroundShape& shape) {
   return faults.empty() ? fillet_faults(shape) : faults;
 }
 
-Ground::Ground(const GroundShape& shape) {
+Vec2 first_met(const Corner& bend, Vec2 inward) noexcept {
+  if (bend.radius == 0.0) return bend.position;
+  const auto [first, last] = bend.normals;
+  Vec2 normal = inward;
+  if (cross(first, inward) > 0.0) normal = first;  // the side meets an end of the arc
+  if (cross(last, inward) < 0.0) normal = last;
+  return bend.center + bend.radius * normal;
+}
+
+double Ground::length_so_far() const noexcept {
+  return facets_.empty() ? 0.0 : facets_.back().start_length + facets_.back().to;
+}
+
+/// Between the points i and i + 1 of the profile, without what the fillets take of it.
+void Ground::add_segment(const GroundShape& shape, std::size_t i) {
+  const auto& p = shape.profile;
+  const Vec2 t = direction(p, i);
+  const double lead = fillet_reach(shape, i), trail = fillet_reach(shape, i + 1);
+  const bool is_last = i + 2 == p.size();
+  Facet segment{.begin = p[i] + lead * t, .tangent = t, .normal = turn90(t), .center = {}};
+  segment.from = i == 0 ? -infinity : 0.0;
+  segment.to = is_last ? infinity : norm(p[i + 1] - p[i]) - lead - trail;
+  segment.start_length = length_so_far();
+  segment.concave_end = !is_last && turn_at(p, i + 1) > blunt_turn;
+  segment.sharp_end = !is_last && trail == 0.0 && turn_at(p, i + 1) < -straight;
+  facets_.push_back(segment);
+}
+
+/// After the segment that ends at point i of the profile, a convex one.
+void Ground::add_bend(const GroundShape& shape, std::size_t i) {
+  const auto& p = shape.profile;
+  const Facet& before = facets_.back();
+  const std::array<Vec2, 2> normals{before.normal, turn90(direction(p, i))};
+  const double reach = fillet_reach(shape, i);
+  if (reach == 0.0) return bends_.push_back({p[i], normals});
+  Facet arc{.begin = p[i] - reach * before.tangent,
+            .tangent = before.tangent,
+            .normal = before.normal,
+            .center = {}};
+  arc.radius = shape.fillet;
+  arc.center = arc.begin - arc.radius * arc.normal;
+  arc.to = -turn_at(p, i) * arc.radius;
+  arc.start_length = length_so_far();
+  facets_.push_back(arc);
+  const Vec2 middle = rotation(0.5 * turn_at(p, i)) * arc.normal;
+  bends_.push_back({arc.center + arc.radius * middle, normals, arc.center, arc.radius});
+  bend_reach_ = std::max(bend_reach_, 0.5 * arc.to);
+}
+
+/// Nodes meet an arc that is as wide as they are apart, and what turns no more than a blunt corner
+/// within that length: `least` has the turns before the points of the last spacing that a later
+/// point may have turned most from, since the last corner.
+void Ground::choose_corners(const std::vector<Turn>& turns) {
+  std::deque<Turn> least;
+  std::size_t bend = 0;
+  double turned = 0.0;
+  for (const auto& [angle, length] : turns) {
+    while (!least.empty() && length - least.front().length > spacing_) least.pop_front();
+    while (!least.empty() && least.back().angle >= turned) least.pop_back();
+    least.push_back({turned, length});
+    turned += angle;
+    if (!(angle > straight)) continue;
+    const Corner& here = bends_[bend++];
+    if (here.radius > 0.0 && here.radius >= spacing_) continue;
+    if (turned - least.front().angle < blunt_turn) continue;
+    corners_.push_back(here);
+    least.clear();
+  }
+}
+
+Ground::Ground(const GroundShape& shape, double spacing) : spacing_(spacing) {
   RONDO_DEMAND(shape_faults(shape).empty(), shape.profile.size(), shape.fillet);
+  RONDO_DEMAND(spacing >= 0.0, spacing);
   const auto& p = shape.profile;
   const std::size_t n = p.size() - 1;
-  double length = 0.0;
-  for (std::size_t i = 0; i < n; ++i) {
-    const Vec2 t = direction(p, i);
-    const double lead = fillet_reach(shape, i), trail = fillet_reach(shape, i + 1);
-    const double to = norm(p[i + 1] - p[i]) - lead - trail;
-    Facet segment{.begin = p[i] + lead * t, .tangent = t, .normal = turn90(t), .center = {}};
-    segment.from = i == 0 ? -infinity : 0.0;
-    segment.to = i + 1 == n ? infinity : to;
-    segment.start_length = length;
-    segment.concave_end = i + 1 < n && turn_at(p, i + 1) > straight;
-    segment.sharp_end = i + 1 < n && trail == 0.0 && turn_at(p, i + 1) < -straight;
-    facets_.push_back(segment);
-    if (segment.sharp_end)
-      corners_.push_back({p[i + 1], {segment.normal, turn90(direction(p, i + 1))}});
-    length += to;
-    if (trail > 0.0) {
-      Facet arc{.begin = p[i + 1] - trail * t, .tangent = t, .normal = turn90(t), .center = {}};
-      arc.radius = shape.fillet;
-      arc.center = arc.begin - arc.radius * arc.normal;
-      arc.to = -turn_at(p, i + 1) * arc.radius;
-      arc.start_length = length;
-      facets_.push_back(arc);
-      length += arc.to;
-    }
+  std::vector<Turn> turns;
+  add_segment(shape, 0);
+  for (std::size_t i = 1; i < n; ++i) {
+    const double angle = -turn_at(p, i), before = length_so_far();
+    if (angle > straight) add_bend(shape, i);
+    turns.push_back({angle, 0.5 * (before + length_so_far())});
+    add_segment(shape, i);
   }
-  for (const Facet& facet : facets_) begins_.push_back(facet.begin.x);
+  choose_corners(turns);
+  add_boxes();
   if (direction(p, 0).y >= 0.0 && direction(p, n - 1).y <= 0.0)
     top_ = std::max_element(p.begin(), p.end(), [](Vec2 a, Vec2 b) { return a.y < b.y; })->y;
+}
+
+void Ground::add_boxes() {
+  std::vector<BoxTree::Box> boxes;
+  for (const Facet& f : facets_) {
+    begins_.push_back(f.begin.x);
+    const auto end = [&](double along) {  // 0 * infinity is no number
+      return f.begin + Vec2{f.tangent.x == 0.0 ? 0.0 : along * f.tangent.x,
+                            f.tangent.y == 0.0 ? 0.0 : along * f.tangent.y};
+    };
+    // No point of an arc is farther from its beginning than it is long.
+    const Vec2 a = f.radius > 0.0 ? f.begin - Vec2{f.to, f.to} : end(f.from);
+    const Vec2 b = f.radius > 0.0 ? f.begin + Vec2{f.to, f.to} : end(f.to);
+    boxes.push_back(
+        {{std::min(a.x, b.x), std::min(a.y, b.y)}, {std::max(a.x, b.x), std::max(a.y, b.y)}});
+  }
+  boxes_ = BoxTree(boxes);
+}
+
+std::vector<Vec2> Ground::outline(double step, double beyond) const {
+  RONDO_DEMAND(step > 0.0, step);
+  std::vector<Vec2> line{facets_.front().begin - beyond * facets_.front().tangent};
+  for (const Facet& f : facets_) {
+    if (f.begin != line.back()) line.push_back(f.begin);
+    constexpr double most = 4096.0;  // for an arc of any size
+    const double pieces = f.radius > 0.0 ? std::min(most, std::ceil(f.to / step)) : 1.0;
+    for (double i = 1.0; i < pieces; ++i)
+      line.push_back(f.center + f.radius * (rotation(-i / pieces * f.to / f.radius) * f.normal));
+  }
+  line.push_back(facets_.back().begin + beyond * facets_.back().tangent);
+  return line;
 }
 
 Ground::Projection Ground::project(const Facet& f, Vec2 x) noexcept {
@@ -156,16 +243,23 @@ std::pair<std::size_t, std::size_t> Ground::around(Vec2 x) const noexcept {
 }
 
 std::size_t Ground::nearest(Vec2 x, Projection& projection) const noexcept {
+  constexpr std::size_t many = 64;  // are sooner searched by their boxes than looked at
   const auto [first, last] = around(x);
   std::size_t best = first;
   projection = project(facets_[first], x);
-  for (std::size_t k = first + 1; k < last; ++k) {
+  const auto look = [&](std::size_t k) {
     const Projection candidate = project(facets_[k], x);
-    if (candidate.distance < projection.distance) {
+    if (candidate.distance < projection.distance ||
+        (candidate.distance == projection.distance && k < best)) {
       projection = candidate;
       best = k;
     }
-  }
+    return projection.distance;
+  };
+  if (last - first > many)
+    boxes_.each_near(x, look);
+  else
+    for (std::size_t k = first + 1; k < last; ++k) look(k);
   // Where a corner itself is nearest, both facets are equally far, and the point may be on the
   // wrong side of the line of one: it is outside a convex corner if it is before either facet,
   // inside a concave one if it is behind either.
@@ -210,6 +304,14 @@ Touch Ground::facet_near(Vec2 x) const noexcept {
   Projection p;
   static_cast<void>(nearest(x, p));
   return {p.gap, p.normal};
+}
+
+std::span<const Corner> Ground::corners(double low, double high) const noexcept {
+  const auto from = std::ranges::lower_bound(corners_, low - bend_reach_, {},
+                                             [](const Corner& c) { return c.position.x; });
+  const auto to = std::upper_bound(from, corners_.end(), high + bend_reach_,
+                                   [](double x, const Corner& c) { return x < c.position.x; });
+  return {from, to};
 }
 
 bool Ground::has_concave_corners() const noexcept {

@@ -10,6 +10,7 @@
 #include <utility>
 #include <vector>
 
+#include "rondo/contact/box_tree.hpp"
 #include "rondo/core/vec2.hpp"
 
 namespace rondo::contact {
@@ -31,11 +32,21 @@ struct ShapeFault {
 /// the left or turns back on itself, a fillet that is negative or does not fit.
 std::vector<ShapeFault> shape_faults(const GroundShape& shape);
 
-/// A sharp convex corner: it may touch a body between two nodes (docs/theory.md, 4.1).
+/// A turn below this angle is no corner, convex or concave (docs/theory.md, 4.1)          [rad]
+inline constexpr double blunt_turn = 0.01;
+
+/// A convex bend of the surface, sharp or rounded: it may stand inside a body between two nodes
+/// (docs/theory.md, 4.1).
 struct Corner {
-  Vec2 position;                ///< [m]
+  Vec2 position;                ///< a sharp corner, or the middle of an arc              [m]
   std::array<Vec2, 2> normals;  ///< of the facets before and after it, out of the solid
+  Vec2 center{};                ///< of the arc                                           [m]
+  double radius = 0.0;          ///< of the arc; 0: sharp                                 [m]
 };
+
+/// The bend's point that a straight side of a body meets first, the deepest one inside it.
+/// @param inward unit normal of the side, into the body
+[[nodiscard]] Vec2 first_met(const Corner& bend, Vec2 inward) noexcept;
 
 /// A place where a point touches the ground.
 struct Touch {
@@ -51,8 +62,10 @@ struct Touches {
 
 class Ground {
  public:
-  /// @pre shape_faults(shape) is empty.
-  explicit Ground(const GroundShape& shape);
+  /// @param spacing of the contact nodes that come to this ground; arcs of smaller radius are
+  /// among the corners                                                                     [m]
+  /// @pre shape_faults(shape) is empty, spacing >= 0
+  explicit Ground(const GroundShape& shape, double spacing = 0.0);
 
   /// Facets with gap <= 0 at x. Looks at those as far as the
   /// surface is; one comparison where x is above the whole ground.
@@ -67,8 +80,25 @@ class Ground {
   [[nodiscard]] double distance(Vec2 x) const noexcept;
   /// Length along the surface, from the first point of the profile, of the point nearest to x [m]
   [[nodiscard]] double abscissa(Vec2 x) const noexcept;
-  /// Sharp convex corners, left to right: none where a fillet rounds them.
+  /// Convex bends that touch a body between its nodes, left to right: sharp corners, and arcs whose
+  /// radius is below the spacing of the nodes. Where the surface turns by less than blunt_turn
+  /// within a spacing there is none.
   [[nodiscard]] std::span<const Corner> corners() const noexcept { return corners_; }
+  /// At least those corners that have a point with x from `low` to `high` [m].
+  [[nodiscard]] std::span<const Corner> corners(double low, double high) const noexcept;
+  /// All convex bends, the blunt ones and all arcs too, left to right.
+  [[nodiscard]] std::span<const Corner> bends() const noexcept { return bends_; }
+  /// How far from its `position` a point of a bend may be: 0 where all are sharp           [m]
+  [[nodiscard]] double bend_reach() const noexcept { return bend_reach_; }
+  /// Points of the surface in a box: ends of facets, and so many between them that none is farther
+  /// than `spacing` from the next [m]. @pre spacing > 0
+  [[nodiscard]] std::vector<Vec2> surface_points(Vec2 low, Vec2 high, double spacing) const;
+  /// Spacing of the contact nodes that it was made for                                     [m]
+  [[nodiscard]] double spacing() const noexcept { return spacing_; }
+  /// The surface as a line, left to right: its corners, points of its arcs no farther apart than
+  /// `step`, or 4096 of an arc, and its ends `beyond` the first and the last point [m].
+  /// @pre step > 0
+  [[nodiscard]] std::vector<Vec2> outline(double step, double beyond) const;
   /// No ground above this height; infinite where the ground rises for ever                [m]
   [[nodiscard]] double top() const noexcept { return top_; }
 
@@ -82,7 +112,7 @@ class Ground {
     double from = 0.0;     ///< abscissa of its ends along the facet; the first segment's from is
     double to = 0.0;       ///<   -inf, the last one's to is +inf                          [m]
     double start_length = 0.0;  ///< length of the surface before abscissa 0                [m]
-    bool concave_end = false;   ///< a concave corner between this facet and the next
+    bool concave_end = false;   ///< a concave corner between this facet and the next, not blunt
     bool sharp_end = false;     ///< a sharp convex one
   };
   struct Projection {
@@ -91,14 +121,30 @@ class Ground {
     double distance = 0.0;  ///< to the facet's nearest point, >= 0                          [m]
     Vec2 normal;
   };
+  void add_boxes();
+  /// Abscissas of a facet's ends as far as it may be in the box; the first is the larger: it is
+  /// not.
+  [[nodiscard]] static std::pair<double, double> within(const Facet& facet, Vec2 low, Vec2 high);
+  [[nodiscard]] static Vec2 point_of(const Facet& facet, double along) noexcept;
   [[nodiscard]] static Projection project(const Facet& facet, Vec2 x) noexcept;
   [[nodiscard]] std::size_t nearest(Vec2 x, Projection& projection) const noexcept;
   /// The first facet that may be the nearest, and the one after the last.
   [[nodiscard]] std::pair<std::size_t, std::size_t> around(Vec2 x) const noexcept;
+  /// How the surface turns: by angles > 0 at its bends, < 0 where it is concave.
+  struct Turn {
+    double angle;   ///< [rad]
+    double length;  ///< of the surface before it [m]
+  };
+  [[nodiscard]] double length_so_far() const noexcept;
+  void add_segment(const GroundShape& shape, std::size_t i);
+  void add_bend(const GroundShape& shape, std::size_t i);
+  void choose_corners(const std::vector<Turn>& turns);
 
   std::vector<Facet> facets_;
   std::vector<double> begins_;  ///< (n_facets) x of their beginnings [m]
-  std::vector<Corner> corners_;
+  BoxTree boxes_;               ///< of the facets
+  std::vector<Corner> bends_, corners_;
+  double spacing_ = 0.0, bend_reach_ = 0.0;               ///< [m]
   double top_ = std::numeric_limits<double>::infinity();  ///< [m]
 };
 

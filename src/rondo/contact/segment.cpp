@@ -43,6 +43,10 @@ Segment segment_of(const BoundaryQuery& query, int edge) noexcept {
           point(b), after < 0 ? point(b) : point(edges[static_cast<std::size_t>(after)][1])};
 }
 
+Vec2 place_at(const BoundaryPoint& point, const Segment& s) noexcept {
+  return point.bend ? first_met(*point.bend, unit(turn90(s.b - s.a))) : point.position;
+}
+
 bool may_touch(const BoundaryPoint& point, const Boundary& boundary, int edge) noexcept {
   const auto e = static_cast<std::size_t>(edge);
   if (boundary.edges[e][0] == point.node || boundary.edges[e][1] == point.node) return false;
@@ -74,7 +78,7 @@ std::optional<EdgeTouch> across_joint(const BoundaryPoint& point, const Boundary
   const Vec2 second = at_end ? there.b - there.a : here.b - here.a;
   if (cross(first, second) > 0.0) return {};
   if (std::atan2(cross(first, second), dot(first, second)) > -inward_turn) return {};
-  const SegmentTouch touch = line_touch(point.position, there.a, there.b);
+  const SegmentTouch touch = line_touch(place_at(point, there), there.a, there.b);
   if (touch.gap > 0.0 || distance_from(touch, norm(there.b - there.a)) > query.deepest) return {};
   return EdgeTouch{other, touch};
 }
@@ -118,7 +122,8 @@ EdgeTouches touch_boundary(const BoundaryPoint& point, const BoundaryQuery& quer
   EdgeTouches out;
   for (const int edge : query.candidates) {
     if (!may_touch(point, query.boundary, edge)) continue;
-    const auto touch = touch_segment(point.position, segment_of(query, edge), query.deepest);
+    const Segment segment = segment_of(query, edge);
+    const auto touch = touch_segment(place_at(point, segment), segment, query.deepest);
     if (touch) keep(out, query.boundary, {edge, *touch});
   }
   for (int i = 0, bodies = out.count; i < bodies; ++i) {

@@ -7,6 +7,7 @@
 #include <span>
 #include <vector>
 
+#include "rondo/contact/ground.hpp"
 #include "rondo/core/vec2.hpp"
 
 namespace rondo::contact {
@@ -68,6 +69,8 @@ struct BoundaryPoint {
   int node = -1;      ///< edges of this node do not count; -1: not a node
   int body = -1;      ///< of that node
   bool self = false;  ///< edges of its own body count
+  /// In place of the position, the point of this bend of the ground that an edge meets first.
+  const Corner* bend = nullptr;
 };
 
 /// What the point may touch.

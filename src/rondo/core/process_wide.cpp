@@ -2,6 +2,8 @@
 #include "rondo/core/process_wide.hpp"
 
 #include <cblas.h>
+#include <omp.h>
+#include <pthread.h>
 
 namespace rondo {
 namespace {
@@ -44,12 +46,20 @@ OneBlasThread::~OneBlasThread() {
   give_back(living());
 }
 
-BorrowedBlas::BorrowedBlas() {
+BorrowedBlas::BorrowedBlas() : levels_(omp_get_max_active_levels()) {
   take_one(borrowed());
+  omp_set_max_active_levels(0);
 }
 
 BorrowedBlas::~BorrowedBlas() {
+  omp_set_max_active_levels(levels_);
   give_back(borrowed());
+}
+
+void work_alone_in_forks() {
+  static const int registered =
+      pthread_atfork(nullptr, nullptr, [] { omp_set_max_active_levels(0); });
+  static_cast<void>(registered);
 }
 
 std::mutex& fftw_planner() noexcept {

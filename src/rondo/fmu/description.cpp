@@ -68,9 +68,10 @@ const char* kind_text(Kind kind) {
 
 std::string real_text(const Variable& v, const Values& start) {
   std::string text = fmt::format("<Real unit=\"{}\"", v.unit);
-  if (v.bounded && !v.exclusive) text += fmt::format(" min=\"{}\"", v.least);
-  if (v.kind == Kind::parameter || v.kind == Kind::input)
-    text += fmt::format(" start=\"{}\"", start.*v.value);
+  if (v.kind == Kind::parameter || v.kind == Kind::input) {
+    if (!v.exclusive) text += fmt::format(" min=\"{}\"", v.least);
+    text += fmt::format(" max=\"{}\" start=\"{}\"", v.most, start.*v.value);
+  }
   return text + "/>";
 }
 

@@ -8,24 +8,31 @@
 namespace rondo::fmu {
 namespace {
 
+constexpr double farthest = 1e6;      // m
+constexpr double fastest = 1e4;       // m/s
+constexpr double fastest_spin = 1e5;  // rad/s
+
 constexpr Variable table[] = {
     {"friction", &Values::friction, Kind::parameter, "1", "Coulomb's, of tyre and ground", 0.0,
-     true},
+     100.0},
     {"ground_height", &Values::ground_height, Kind::parameter, "m",
-     "height at which the profile of the case has its zero"},
+     "height at which the profile of the case has its zero", -farthest, farthest},
     {"width", &Values::width, Kind::parameter, "m",
-     "of the tyre: multiplies forces and masses of the plane model", 0.0, true, true},
-    {"hub_x_start", &Values::hub_x_start, Kind::parameter, "m", "x of the hub at the start"},
+     "of the tyre: multiplies forces and masses of the plane model", 0.0, 100.0, true},
+    {"hub_x_start", &Values::hub_x_start, Kind::parameter, "m", "x of the hub at the start",
+     -farthest, farthest},
     {"hub_height_start", &Values::hub_height_start, Kind::parameter, "m",
-     "height of the hub at the start"},
+     "height of the hub at the start", -farthest, farthest},
     {"step", &Values::step, Kind::parameter, "s",
-     "largest internal step: a communication step has as many equal ones as it needs", 0.0, true,
+     "largest internal step: a communication step has as many equal ones as it needs", 0.0, 1.0,
      true},
     {"hub_velocity_x", &Values::hub_velocity_x, Kind::input, "m/s",
-     "of the hub along x at the end of the communication step, to which it goes linearly"},
-    {"hub_velocity_y", &Values::hub_velocity_y, Kind::input, "m/s", "likewise, upwards"},
+     "of the hub along x at the end of the communication step, to which it goes linearly", -fastest,
+     fastest},
+    {"hub_velocity_y", &Values::hub_velocity_y, Kind::input, "m/s", "likewise, upwards", -fastest,
+     fastest},
     {"hub_angular_velocity", &Values::hub_angular_velocity, Kind::input, "rad/s",
-     "likewise; > 0 rolls towards +x"},
+     "likewise; > 0 rolls towards +x", -fastest_spin, fastest_spin},
     {"tyre_mass", &Values::tyre_mass, Kind::calculated, "kg",
      "to be added to that of the hub, its weight too: force_x and force_y are without"},
     {"tyre_inertia", &Values::tyre_inertia, Kind::calculated, "kg.m2",
@@ -42,11 +49,11 @@ constexpr Variable table[] = {
     {"hub_height", &Values::hub_height, Kind::output, "m",
      "integral of hub_velocity_y: trapezoids"},
     {"hub_angle", &Values::hub_angle, Kind::output, "rad",
-     "integral of hub_angular_velocity: trapezoids"},
+     "integral of hub_angular_velocity, > 0 as it: trapezoids"},
     {"loaded_radius", &Values::loaded_radius, Kind::output, "m",
      "distance of the hub from the ground"},
     {"contact_length", &Values::contact_length, Kind::output, "m",
-     "of the tyre that touches, in the last internal step"},
+     "of the deformed tyre that touches, in the last internal step"},
 };
 
 }  // namespace
@@ -70,11 +77,10 @@ Values start_values(const study::Case& c, double step) {
 
 std::string refusal(const Variable& variable, double value) {
   if (!std::isfinite(value)) return fmt::format("{} = {}: not a number", variable.name, value);
-  const bool fits = !variable.bounded || value > variable.least ||
-                    (value == variable.least && !variable.exclusive);
-  if (fits) return {};
-  return fmt::format("{} = {}: must be {} {}", variable.name, value,
-                     variable.exclusive ? "above" : "at least", variable.least);
+  const bool above = value > variable.least || (value == variable.least && !variable.exclusive);
+  if (above && value <= variable.most) return {};
+  return fmt::format("{} = {}: must be {} {} and at most {}", variable.name, value,
+                     variable.exclusive ? "above" : "at least", variable.least, variable.most);
 }
 
 }  // namespace rondo::fmu

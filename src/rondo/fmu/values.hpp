@@ -36,8 +36,8 @@ struct Variable {
   Kind kind;
   const char* unit;
   const char* description;
-  double least = 0.0;      ///< allowed of parameters and inputs
-  bool bounded = false;    ///< `least` counts
+  // Allowed of parameters and inputs: what is beyond is a slip, or no number that steps survive.
+  double least = 0.0, most = 0.0;
   bool exclusive = false;  ///< `least` itself is not allowed
 };
 

@@ -119,10 +119,10 @@ void Wheel::begin(Values& values) {
   b.mass = b.setup.model.rim->mass + b.run.file.model.rim->mass;
   b.inertia = b.setup.model.rim->inertia + b.run.file.model.rim->inertia;
   body_ = std::move(body);
-  for (const std::string& text : b.setup.warnings) warn(text);
   // What is said of [motion] and the step of a run is said of the inputs instead.
-  for (const std::string& text : b.run.warnings)
-    if (!text.starts_with("motion.") && !text.starts_with("--step-factor")) warn(text);
+  for (const auto* said : {&b.setup.warnings, &b.run.warnings})
+    for (const std::string& text : *said)
+      if (!text.starts_with("motion.") && !text.starts_with("--step-factor")) warn(text);
   values.tyre_mass = values.width * b.mass;
   values.tyre_inertia = values.width * b.inertia;
   b.hub = velocities(values);
@@ -187,9 +187,13 @@ std::string Wheel::refuse_length(double length, double slack) const {
   const Body& b = *body_;
   if (!(length > 0.0) || !std::isfinite(length))
     return fmt::format("a communication step of {} s: must be above 0", length);
-  constexpr double most = 1e9, close = 1e-9;
-  const double steps = length / (b.dt > 0.0 ? b.dt : b.largest_step);
-  if (steps > most) return fmt::format("a communication step of {} s is too long", length);
+  constexpr double most = 1e5, close = 1e-9;
+  const double step = b.dt > 0.0 ? b.dt : b.largest_step, steps = length / step;
+  if (steps > most)
+    return fmt::format(
+        "a communication step of {:.6g} s has {:.3g} internal steps of {:.3g} s: at most {:.6g}, "
+        "{:.3g} s, in one call",
+        length, steps, step, most, most * step);
   if (b.dt == 0.0 || std::abs(steps - std::round(steps)) <= close * steps + slack / b.dt) return {};
   return fmt::format(
       "a communication step of {:.9g} s is no whole number of internal steps, which are {:.9g} s "

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "rondo/core/error.hpp"
+#include "rondo/core/files/regular_file.hpp"
 #include "rondo/io/files.hpp"
 #include "rondo/io/h5/hash.hpp"
 
@@ -59,6 +60,7 @@ void write_checkpoint_file(const fs::path& file, const std::function<void(h5::Fi
 }
 
 h5::File open_checkpoint_file(const fs::path& file) {
+  demand_regular_file(file);
   std::ifstream in(file, std::ios::binary);
   std::string block(hash_block_bytes, '\0');
   if (!in) fail_on(file, "read");

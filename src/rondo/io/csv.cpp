@@ -10,11 +10,13 @@
 #include <cmath>
 #include <fstream>
 #include <iterator>
+#include <span>
 #include <sstream>
 #include <system_error>
 
 #include "rondo/core/contract.hpp"
 #include "rondo/core/error.hpp"
+#include "rondo/core/files/regular_file.hpp"
 #include "rondo/io/files.hpp"
 
 namespace rondo::io {
@@ -25,20 +27,106 @@ std::string header_of(const std::vector<std::string>& columns) {
   return fmt::format("{}\n", fmt::join(columns, ","));
 }
 
+/// A field as a message repeats it: short, and without characters that are none.
+std::string shown(std::string_view field) {
+  constexpr std::size_t longest = 40;
+  std::string text(field.substr(0, longest));
+  for (char& c : text)
+    if (static_cast<unsigned char>(c) < 0x20 || c == 0x7F) c = '?';
+  return field.size() > longest ? text + "..." : text;
+}
+
+double number(std::string_view field, const std::filesystem::path& path, std::size_t line) {
+  double value = 0.0;
+  const auto [end, error] = std::from_chars(field.data(), field.data() + field.size(), value);
+  if (error != std::errc() || end != field.data() + field.size())
+    throw FileError(path.string(),
+                    fmt::format("line {}: \"{}\" is not a number", line, shown(field)));
+  return value;
+}
+
+/// take(k, value) of the field k of a row of n.
+template <class Take>
+void read_row(std::string_view row, std::size_t n, std::size_t line,
+              const std::filesystem::path& path, Take&& take) {
+  for (std::size_t k = 0; k < n; ++k) {
+    const auto comma = row.find(',');
+    if ((comma == std::string_view::npos) != (k + 1 == n))
+      throw FileError(path.string(),
+                      fmt::format("line {}: not {} fields as in the header", line, n));
+    take(k, number(row.substr(0, comma), path, line));
+    if (comma != std::string_view::npos) row.remove_prefix(comma + 1);
+  }
+}
+
+/// The first `bytes`, and their hash into `hash`. @throws FileError: there are fewer
+std::string beginning_of(const std::filesystem::path& file, std::size_t bytes, Hash& hash) {
+  demand_regular_file(file);
+  std::error_code error;
+  const auto size = std::filesystem::file_size(file, error);
+  if (error) throw FileError(file.string(), "cannot be measured: " + error.message());
+  if (size < bytes)
+    throw FileError(file.string(),
+                    fmt::format("holds {} bytes where it held {}: damaged", size, bytes));
+  std::ifstream in(file, std::ios::binary);
+  std::string text(bytes, '\0');
+  if (!in || !in.read(text.data(), static_cast<std::streamsize>(bytes))) fail_on(file, "read");
+  hash.add(std::span<const char>(text));
+  return text;
+}
+
+/// Number of the first line with a number that is not finite; 0: there is none.
+/// @throws FileError: a line that is no row
+std::size_t first_not_finite(std::string_view text, const std::filesystem::path& file) {
+  const std::string_view header = text.substr(0, text.find('\n'));
+  const auto n = static_cast<std::size_t>(1 + std::count(header.begin(), header.end(), ','));
+  std::size_t found = 0;
+  for (std::size_t line = 1; !text.empty() && found == 0; ++line) {
+    const std::size_t end = std::min(text.find('\n'), text.size());
+    const auto look = [&](std::size_t, double value) {
+      if (!std::isfinite(value)) found = line;
+    };
+    if (line > 1) read_row(text.substr(0, end), n, line, file, look);
+    text.remove_prefix(std::min(end + 1, text.size()));
+  }
+  return found;
+}
+
+/// The hash of what is kept. @throws FileError as demand_kept()
+Hash hash_of_kept(const std::filesystem::path& file, const CsvPlace& kept) {
+  Hash hash;
+  const std::string text = beginning_of(file, kept.bytes, hash);
+  if (hash.text() == kept.hash) return hash;
+  const std::size_t line = first_not_finite(text, file);
+  const std::string where =
+      line > 0 ? fmt::format("line {} holds a number that is not finite; ", line) : "";
+  throw FileError(file.string(),
+                  fmt::format("{}its first {} bytes are not those that were written: damaged",
+                              where, kept.bytes));
+}
+
 }  // namespace
 
+void demand_kept(const std::filesystem::path& file, const CsvPlace& kept) {
+  static_cast<void>(hash_of_kept(file, kept));
+}
+
 Csv::Csv(const std::filesystem::path& file, const std::vector<std::string>& columns)
-    : path_(file), n_columns_(columns.size()), file_(std::fopen(file.c_str(), "we")) {
+    : path_(file), n_columns_(columns.size()) {
+  std::error_code error;
+  if (std::filesystem::is_fifo(file, error)) demand_regular_file(file);  // it waits for a reader
+  file_.reset(std::fopen(file.c_str(), "we"));
   if (!file_) fail_on(path_, "create");
   std::setvbuf(file_.get(), nullptr, _IONBF, 0);
   put(header_of(columns));
 }
 
 Csv::Csv(const std::filesystem::path& file, const std::vector<std::string>& columns,
-         std::size_t bytes)
+         const CsvPlace& kept)
     : path_(file),
       n_columns_(columns.size()),
-      bytes_(bytes),
+      bytes_(kept.bytes),
+      hash_(hash_of_kept(file, kept)),
       file_(std::fopen(file.c_str(), "r+e")) {
   if (!file_) fail_on(path_, "open");
   std::setvbuf(file_.get(), nullptr, _IONBF, 0);
@@ -46,11 +134,8 @@ Csv::Csv(const std::filesystem::path& file, const std::vector<std::string>& colu
   std::string found(header.size(), '\0');
   if (std::fread(found.data(), 1, found.size(), file_.get()) != found.size() || found != header)
     throw FileError(path_.string(), "does not begin with the columns of this run");
-  if (std::fseek(file_.get(), 0, SEEK_END) != 0) fail_on(path_, "measure");
-  if (const long size = std::ftell(file_.get()); size < static_cast<long>(bytes))
-    throw FileError(path_.string(),
-                    fmt::format("holds {} bytes where it held {}: damaged", size, bytes));
-  if (::ftruncate(::fileno(file_.get()), static_cast<off_t>(bytes)) != 0) fail_on(path_, "shorten");
+  if (::ftruncate(::fileno(file_.get()), static_cast<off_t>(bytes_)) != 0)
+    fail_on(path_, "shorten");
   if (std::fseek(file_.get(), 0, SEEK_END) != 0) fail_on(path_, "write");
 }
 
@@ -61,7 +146,9 @@ void Csv::put(const std::string& text) {
   const int code = errno;
   const bool whole = written == text.size();
   const std::string_view there = std::string_view(text).substr(0, written);
-  bytes_ += whole ? written : there.rfind('\n') + 1;  // of no row npos + 1 = 0
+  const std::size_t kept = whole ? written : there.rfind('\n') + 1;  // of no row npos + 1 = 0
+  bytes_ += kept;
+  hash_.add(std::span<const char>(text).first(kept));
   if (whole) return;
   static_cast<void>(::ftruncate(::fileno(file_.get()), static_cast<off_t>(bytes_)));
   errno = code;
@@ -92,27 +179,6 @@ void Csv::close() {
 
 namespace {
 
-double number(std::string_view field, const std::filesystem::path& path, std::size_t line) {
-  double value = 0.0;
-  const auto [end, error] = std::from_chars(field.data(), field.data() + field.size(), value);
-  if (error != std::errc() || end != field.data() + field.size())
-    throw FileError(path.string(), fmt::format("line {}: \"{}\" is not a number", line, field));
-  return value;
-}
-
-/// Appends the fields of a row to as many columns.
-void add_row(std::string_view row, std::vector<std::vector<double>>& columns,
-             const std::filesystem::path& path, std::size_t line) {
-  for (std::size_t k = 0; k < columns.size(); ++k) {
-    const auto comma = row.find(',');
-    if ((comma == std::string_view::npos) != (k + 1 == columns.size()))
-      throw FileError(path.string(),
-                      fmt::format("line {}: not {} fields as in the header", line, columns.size()));
-    columns[k].push_back(number(row.substr(0, comma), path, line));
-    if (comma != std::string_view::npos) row.remove_prefix(comma + 1);
-  }
-}
-
 /// Each name of its own: two columns of one name would be one.
 std::vector<std::string> names_in(const std::string& header, const std::filesystem::path& path) {
   std::vector<std::string> names;
@@ -130,6 +196,7 @@ std::vector<std::string> names_in(const std::string& header, const std::filesyst
 
 std::map<std::string, std::vector<double>, std::less<>> read_columns(
     const std::filesystem::path& file) {
+  demand_regular_file(file);
   std::ifstream in(file, std::ios::binary);
   if (!in) fail_on(file, "read");
   std::vector<std::string> names;
@@ -137,7 +204,8 @@ std::map<std::string, std::vector<double>, std::less<>> read_columns(
   std::string line;
   for (std::size_t number = 1; std::getline(in, line) && !in.eof(); ++number) {
     if (number > 1) {
-      add_row(line, columns, file, number);
+      read_row(line, columns.size(), number, file,
+               [&](std::size_t k, double value) { columns[k].push_back(value); });
       continue;
     }
     names = names_in(line, file);

@@ -14,23 +14,37 @@
 #include <string_view>
 #include <vector>
 
+#include "rondo/io/h5/hash.hpp"
+
 namespace rondo::io {
+
+/// What a CSV file held at some moment: its first bytes, all rows complete, and their hash.
+struct CsvPlace {
+  std::size_t bytes = 0;
+  std::string hash;
+
+  friend bool operator==(const CsvPlace&, const CsvPlace&) = default;
+};
+
+/// @throws FileError: cannot be read, is shorter, or differs in a byte of these; the message names
+/// the line where one holds what is no finite number
+void demand_kept(const std::filesystem::path& file, const CsvPlace& kept);
 
 class Csv {
  public:
   /// Creates the file and writes the header. @throws FileError
   Csv(const std::filesystem::path& file, const std::vector<std::string>& columns);
-  /// Goes on with a file of the same columns, of which the first `bytes` are kept. @throws
-  /// FileError: it is shorter, or has other columns
+  /// Goes on with a file of the same columns after what is kept of it. @throws FileError: it has
+  /// other columns, or as demand_kept()
   Csv(const std::filesystem::path& file, const std::vector<std::string>& columns,
-      std::size_t bytes);
+      const CsvPlace& kept);
   /// @pre as many values as columns. @throws FileError
   void row(std::span<const double> values);
   /// Rows put together by the caller are flushed at once. @throws FileError
   void rows(std::span<const double> values);
   void close();
-  /// Of the file, all rows complete.
-  [[nodiscard]] std::size_t bytes() const noexcept { return bytes_; }
+  /// Of the file so far.
+  [[nodiscard]] CsvPlace place() const { return {bytes_, hash_.text()}; }
   [[nodiscard]] const std::filesystem::path& path() const noexcept { return path_; }
 
  private:
@@ -42,6 +56,7 @@ class Csv {
   std::filesystem::path path_;
   std::size_t n_columns_ = 0;
   std::size_t bytes_ = 0;
+  Hash hash_;  ///< of these bytes
   std::unique_ptr<std::FILE, Closer> file_;
   std::string text_;  ///< reused
 };

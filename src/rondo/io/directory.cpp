@@ -11,6 +11,7 @@
 #include <cerrno>
 #include <chrono>
 #include <csignal>
+#include <fstream>
 #include <system_error>
 #include <thread>
 #include <utility>
@@ -58,6 +59,7 @@ void remove_one(const fs::path& file) {
 void remove_pods(const fs::path& directory) {
   std::error_code error;
   for (const auto& entry : fs::directory_iterator(directory / "pod", error)) {
+    remove_left_unfinished(entry.path());
     for (const char* name : pod_files) remove_one(entry.path() / name);
     if (fs::is_empty(entry.path(), error)) remove_one(entry.path());
   }
@@ -86,18 +88,15 @@ void remove_contact_problems(const fs::path& directory) {
   if (fs::is_empty(folder, error)) remove_one(folder);
 }
 
-/// The process that run.json says is at work: 0 where there is none.
-struct Holder {
-  pid_t process = 0;
-  std::string host;
-};
+/// What the directory's files say is at work there: of a run, a sweep, a shard.
+constexpr std::array state_files = {"run.json", "sweep.json", "rows.json"};
 
-Holder holder_of(const fs::path& directory) {
+Holder holder_by(const fs::path& file) {
   try {
-    const auto json = read_json(directory / "run.json");
+    const auto json = read_json(file);
     if (json.value("status", "") != "running") return {};
     return {json.value("process", 0), json.value("host", "")};
-  } catch (const std::exception&) {  // no run.json, or another one
+  } catch (const std::exception&) {  // no such file, or another one
     return {};
   }
 }
@@ -113,10 +112,19 @@ bool is_without_locks(int code) {
   return code == ENOSYS || code == EOPNOTSUPP || code == ENOLCK || code == EINVAL;
 }
 
-/// Of another host nothing is known: it is believed to have ended.
+/// Whether the process has ended, though its parent has not asked for that yet.
+bool is_zombie(int process) {
+  std::ifstream file(fmt::format("/proc/{}/stat", process));
+  std::string stat;
+  std::getline(file, stat);  // "PID (NAME) STATE ..."
+  const auto name_end = stat.rfind(") ");
+  return name_end != std::string::npos && (stat[name_end + 2] == 'Z' || stat[name_end + 2] == 'X');
+}
+
+/// Nothing is known of another host: the process there is believed to have ended.
 bool lives(const Holder& holder) {
   return holder.process > 0 && holder.host == host_name() &&
-         (::kill(holder.process, 0) == 0 || errno == EPERM);
+         (::kill(holder.process, 0) == 0 || errno == EPERM) && !is_zombie(holder.process);
 }
 
 }  // namespace
@@ -131,6 +139,15 @@ std::string host_name() {
   return gethostname(name.data(), name.size() - 1) == 0 ? name.data() : "unknown";
 }
 
+Holder holder_of(const fs::path& directory) {
+  for (const char* name : state_files) {
+    std::error_code error;
+    if (!fs::exists(directory / name, error)) continue;
+    if (Holder holder = holder_by(directory / name); !holder.host.empty()) return holder;
+  }
+  return {};
+}
+
 DirectoryLock::DirectoryLock(const fs::path& directory)
     : descriptor_(::open(directory.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC)) {
   if (descriptor_ < 0) fail_on(directory, "open the directory");
@@ -138,11 +155,11 @@ DirectoryLock::DirectoryLock(const fs::path& directory)
   for (int tries = 0; tries < 20; ++tries) {  // a second: processes of a killed one may be ending
     if (::flock(descriptor_, LOCK_EX | LOCK_NB) == 0) return;
     code = errno;
-    if (code != EWOULDBLOCK && code != EINTR) break;
+    if (is_without_locks(code) && !lives(holder_of(directory))) return;
+    if (code != EWOULDBLOCK && code != EINTR && !is_without_locks(code)) break;
     std::this_thread::sleep_for(std::chrono::milliseconds(50));
   }
   const Holder holder = holder_of(directory);
-  if (is_without_locks(code) && !lives(holder)) return;
   ::close(descriptor_);
   if (code == EWOULDBLOCK || is_without_locks(code)) refuse_held(directory, holder);
   throw FileError(directory.string(), "cannot lock: " + message(code));

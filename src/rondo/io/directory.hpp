@@ -13,11 +13,21 @@ std::string host_name();
 [[noreturn]] void refuse_directory(const std::filesystem::path& directory, const std::string& what,
                                    const std::string& to_do);
 
+/// A process that is at work in a directory.
+struct Holder {
+  int process = 0;
+  std::string host;  ///< empty: no file says that one is at work
+};
+
+/// By run.json, sweep.json or rows.json, whose status is then "running"; whether the process is
+/// still alive is another matter.
+Holder holder_of(const std::filesystem::path& directory);
+
 /// Held by one program at a time, until it and the processes that it forked have ended, however
 /// they end.
 class DirectoryLock {
  public:
-  /// On a file system without locks the process named in run.json is looked for instead.
+  /// On a file system without locks the process of holder_of() is looked for instead.
   /// @throws FileError: another program holds it, still after a second; cannot be made
   explicit DirectoryLock(const std::filesystem::path& directory);
   ~DirectoryLock();

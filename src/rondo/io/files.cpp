@@ -6,12 +6,17 @@
 #include <unistd.h>
 
 #include <cerrno>
+#include <charconv>
+#include <csignal>
 #include <fstream>
 #include <iterator>
+#include <string_view>
 #include <system_error>
 #include <utility>
 
 #include "rondo/core/error.hpp"
+#include "rondo/core/files/regular_file.hpp"
+#include "rondo/io/directory.hpp"
 
 namespace rondo::io {
 namespace fs = std::filesystem;
@@ -62,12 +67,13 @@ void fail_on(const fs::path& file, const char* doing) {
 }
 
 std::string text_of(const fs::path& file) {
+  if (!kind_of_no_file(file).empty()) return {};
   std::ifstream in(file, std::ios::binary);
   return {std::istreambuf_iterator<char>(in), {}};
 }
 
 void write_file(const fs::path& file, const std::string& text) {
-  Beside beside(file, fmt::format(".{}.tmp", ::getpid()));
+  Beside beside(file, unfinished_ending());
   beside.write(text);
   beside.sync();
   beside.keep();
@@ -86,14 +92,42 @@ void write_json(const fs::path& file, const nlohmann::ordered_json& json) {
 }
 
 nlohmann::ordered_json read_json(const fs::path& file) {
+  demand_regular_file(file);
   std::ifstream in(file, std::ios::binary);
   if (!in) fail_on(file, "read");
-  std::error_code error;
-  if (fs::is_directory(file, error)) throw FileError(file.string(), "is a directory");
   constexpr bool exceptions = false;
   auto json = nlohmann::ordered_json::parse(in, nullptr, exceptions);
   if (json.is_discarded()) throw FileError(file.string(), "is damaged: not JSON");
   return json;
+}
+
+std::string unfinished_ending() {
+  return fmt::format(".{}.{}.tmp", host_name(), ::getpid());
+}
+
+namespace {
+
+/// The process of this machine that the name of an unfinished file ends with; 0: it has none.
+pid_t process_in(const std::string& name) {
+  constexpr std::string_view ending = ".tmp";
+  const std::string host = fmt::format(".{}.", host_name());
+  const std::size_t at = name.rfind(host);
+  if (!name.ends_with(ending) || at == name.npos) return 0;
+  const std::size_t begin = at + host.size(), end = name.size() - ending.size();
+  pid_t process = 0;
+  const auto [stop, error] = std::from_chars(&name[begin], &name[end], process);
+  return error == std::errc() && stop == &name[end] ? process : 0;
+}
+
+}  // namespace
+
+void remove_left_unfinished(const fs::path& directory) {
+  std::error_code error;
+  for (const auto& entry : fs::directory_iterator(directory, error)) {
+    const pid_t process = process_in(entry.path().filename().string());
+    if (process > 0 && ::kill(process, 0) != 0 && errno == ESRCH)
+      fs::remove_all(entry.path(), error);
+  }
 }
 
 UnfinishedFile::~UnfinishedFile() {

@@ -8,6 +8,8 @@
 
 #include <nlohmann/json.hpp>
 
+#include "rondo/core/files/removed_at_signal.hpp"
+
 namespace rondo::io {
 
 /// Of a call of the system that has just failed, by errno. @throws FileError: cannot `doing`
@@ -26,16 +28,22 @@ nlohmann::ordered_json read_json(const std::filesystem::path& file);
 /// The file takes the place of `target` in the same file system, at once and for good.
 /// @throws FileError
 void replace_file(const std::filesystem::path& file, const std::filesystem::path& target);
-/// A file being written under a name of its own: removed at the end of its life, unless it was
-/// renamed by then.
+/// A file being written under a name of its own: removed at the end of its life, and where a signal
+/// ends the program at once, unless it was renamed by then.
 struct UnfinishedFile {
   std::filesystem::path path;
+  RemovedAtSignal at_signal;
 
-  explicit UnfinishedFile(std::filesystem::path file) : path(std::move(file)) {}
+  explicit UnfinishedFile(std::filesystem::path file) : path(std::move(file)), at_signal(path) {}
   ~UnfinishedFile();
   UnfinishedFile(const UnfinishedFile&) = delete;
   UnfinishedFile& operator=(const UnfinishedFile&) = delete;
 };
+/// What the names of this process's unfinished files end with: ".HOST.PROCESS.tmp".
+std::string unfinished_ending();
+/// Removes files and folders with such names that processes of this machine have left which are no
+/// more: they were killed, or the machine went down.
+void remove_left_unfinished(const std::filesystem::path& directory);
 /// What the file holds is on the disk, whatever happens to the machine. @throws FileError
 void sync_file(const std::filesystem::path& file);
 /// Better before the work than after it: a file of that many bytes would fill the disk. File

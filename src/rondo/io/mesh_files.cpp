@@ -91,10 +91,11 @@ void write_mesh(h5::File& file, const mesh::Mesh& m, std::span<const double> mas
   file.write("/mesh/boundary", {nb}, m.boundary,
              {"1", solid ? "nodes that may touch something, ascending"
                          : "nodes that may touch something, in order along the boundary"});
-  file.write("/mesh/tributary", {nb}, m.tributary,
-             {solid ? "m2" : "m", solid ? "area that each node of /mesh/boundary stands for"
-                                        : "length of boundary that each node of /mesh/boundary "
-                                          "stands for"});
+  file.write(
+      "/mesh/tributary", {nb}, m.tributary,
+      {solid ? "m2" : "m", solid ? "area that each node of /mesh/boundary stands for, undeformed"
+                                 : "length of boundary that each node of /mesh/boundary "
+                                   "stands for, undeformed"});
   file.write("/mesh/mass", {n}, mass,
              {solid ? "kg" : "kg/m",
               solid ? "lumped mass of each node" : "lumped mass of each node, per unit thickness"});

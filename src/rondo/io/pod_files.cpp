@@ -2,7 +2,6 @@
 #include "rondo/io/pod_files.hpp"
 
 #include <fmt/format.h>
-#include <unistd.h>
 
 #include <array>
 #include <system_error>
@@ -23,6 +22,9 @@ namespace fs = std::filesystem;
 namespace {
 
 using Eigen::Index;
+
+constexpr std::array file_names{"pod.h5", "spectrum.csv", "modes.xdmf", "reconstruction.xdmf",
+                                "basis.h5"};
 using h5::Type;
 using Vector = PodWriter::Vector;
 
@@ -140,7 +142,7 @@ void write_temporal(h5::File& file, const PodContent& c, const Counts& n) {
 
 PodWriter::PodWriter(const fs::path& directory, const PodContent& c, std::size_t n_reconstructed)
     : directory_(directory),
-      folder_(directory / fmt::format(".pod.{}.tmp", ::getpid())),
+      folder_(directory / (".pod" + unfinished_ending())),
       n_(counts_of(c, n_reconstructed)),
       field_(n_.nodes, Vector{}),
       difference_(n_.points * c.components),
@@ -148,6 +150,9 @@ PodWriter::PodWriter(const fs::path& directory, const PodContent& c, std::size_t
   check(c, n_);
   if (c.contact) boundary_ = c.mesh->boundary;
   demand_room(directory_ / "pod.h5", bytes(c, n_reconstructed));
+  remove_left_unfinished(directory_);
+  at_signal_.emplace_back(folder_);
+  for (const char* name : file_names) at_signal_.emplace_back(folder_ / name);
   std::error_code error;
   fs::remove_all(folder_, error);
   if (!fs::create_directory(folder_, error))
@@ -279,8 +284,7 @@ void PodWriter::commit() {
     if (error) throw FileError((directory_ / name).string(), "cannot remove: " + error.message());
   };
   remove("pod.json");
-  for (const char* name :
-       {"pod.h5", "spectrum.csv", "modes.xdmf", "reconstruction.xdmf", "basis.h5"}) {
+  for (const char* name : file_names) {
     std::error_code none;
     if (fs::exists(folder_ / name, none))
       replace_file(folder_ / name, directory_ / name);

@@ -8,12 +8,14 @@
 #include <Eigen/Core>
 #include <array>
 #include <filesystem>
+#include <list>
 #include <memory>
 #include <span>
 #include <string>
 #include <vector>
 
 #include "rondo/core/field.hpp"
+#include "rondo/core/files/removed_at_signal.hpp"
 #include "rondo/io/h5/h5.hpp"
 #include "rondo/io/xdmf.hpp"
 #include "rondo/mesh/mesh.hpp"
@@ -87,6 +89,7 @@ class PodWriter {
   void put(h5::Dataset& dataset, std::size_t row, FieldView values);
 
   std::filesystem::path directory_, folder_;  ///< folder_: where the files are made
+  std::list<RemovedAtSignal> at_signal_;      ///< folder_ and what is in it
   PodCounts n_;
   std::vector<int> boundary_;       ///< nodes of the points; empty: points are the nodes
   std::vector<Vector> field_;       ///< (n) reused

@@ -166,12 +166,32 @@ Results::Results(const std::filesystem::path& directory, const ResultsLayout& la
   if (c_.modes == 0) begin_shown(*layout.mesh);
 }
 
+/// What a shown field holds is what its dataset says, in the order in which fields.vtkhdf shows it.
+XdmfSeries Results::labelled(XdmfSeries series) const {
+  const auto label_of = [&](const std::string& dataset) {
+    const h5::Label label = file_.dataset(dataset).label();
+    return ShownLabel{label.units, label.description};
+  };
+  for (XdmfField& f : series.fields) {
+    f.label = label_of(f.dataset);
+    std::string& text = f.label.description;
+    const std::size_t order = text.rfind(": ");
+    if (f.type == "Tensor6") text.replace(order, text.npos, ": xx, yy, zz, xy, yz, xz");
+    if (f.components < f.width)
+      text.replace(order, text.npos, ": " + f.name.substr(f.name.size() - 2));
+  }
+  series.position_label = label_of(series.position);
+  series.time_label = {words_.time_unit, "of each step: /frame/time of " + series.data_file};
+  return series;
+}
+
 /// With the grids of the snapshots that are there.
 void Results::begin_shown(const mesh::Mesh& mesh) {
   std::vector<double> times = d_.time ? d_.time.read<double>() : std::vector<double>();
   times.resize(written_);
   if (has_fields(c_))
-    vtkhdf_ = std::make_unique<Vtkhdf>(directory_ / "fields.vtkhdf", series_of(mesh, c_), times);
+    vtkhdf_ = std::make_unique<Vtkhdf>(directory_ / "fields.vtkhdf", labelled(series_of(mesh, c_)),
+                                       times);
   xdmf_ = std::make_unique<Xdmf>(directory_ / "fields.xdmf", series_of(mesh, c_), std::move(times));
 }
 
@@ -197,6 +217,8 @@ void Results::check(const Snapshot& s) const {
   const std::size_t nb = c_.contact ? c_.candidates : 0;
   RONDO_DEMAND(!c_.contact || (s.contact_force.size() == nb && s.contact_force_fixed.size() == nb),
                s.contact_force.size(), s.contact_force_fixed.size(), nb);
+  RONDO_DEMAND(s.contact_extent.empty() || s.contact_extent.size() == nb, s.contact_extent.size(),
+               nb);
   const std::size_t stresses = c_.solid ? s.solid_stress.size() : s.stress.size();
   RONDO_DEMAND(!c_.stress || stresses == c_.nodes, stresses, c_.nodes);
   const int last =
@@ -254,10 +276,12 @@ void Results::write_solid_stress(const Snapshot& s) {
 }
 
 void Results::write_contact(const Snapshot& s) {
+  const std::span<const double> extent =
+      s.contact_extent.empty() ? std::span<const double>(tributary_) : s.contact_extent;
   for (std::size_t k = 0; k < c_.candidates; ++k) {
     forces_[static_cast<std::size_t>(boundary_[k])] = rounded(in_space(s.contact_force_fixed[k]));
     for (std::size_t i = k * c_.components; i < (k + 1) * c_.components; ++i)
-      traction_[i] = s.contact_force.values[i] / tributary_[k];
+      traction_[i] = s.contact_force.values[i] / extent[k];
   }
   if (c_.modes == 0) row(d_.field_force, forces_);
   d_.force.write_row(written_, s.contact_force.values);
@@ -290,8 +314,17 @@ void Results::write(const Snapshot& s) {
   if (vtkhdf_) vtkhdf_->add(s.time);
 }
 
+KeptSnapshots Results::place() const {
+  if (!file_) return at_end_;
+  KeptSnapshots kept{.count = written_, .hashes = {}};
+  for (const h5::Dataset* dataset : all_rows_)
+    kept.hashes[dataset->name()] = dataset->hash_of_written();
+  return kept;
+}
+
 void Results::close() {
   if (!file_) return;
+  at_end_ = place();
   resize(written_);
   all_rows_.clear();
   d_ = {};

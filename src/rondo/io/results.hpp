@@ -10,6 +10,7 @@
 #include <array>
 #include <cstddef>
 #include <filesystem>
+#include <map>
 #include <memory>
 #include <optional>
 #include <span>
@@ -92,7 +93,23 @@ struct Snapshot {
   std::span<const double> series = {};  ///< values of the layout's series, one after another
   std::span<const SolidNodalStress> solid_stress = {};  ///< likewise of a solid mesh     [Pa]
   double lateral = 0.0;  ///< of a solid mesh: of the center, along t2        [m]
+  /// (nb) length, of a solid mesh area, of the deformed boundary that each stands for, where it is
+  /// pressed; empty: as it is undeformed [m], [m²]
+  std::span<const double> contact_extent = {};
 };
+
+/// What results.h5 held at some moment: so many snapshots, and for each dataset with a row for each
+/// of them, by its name, the hash of these rows.
+struct KeptSnapshots {
+  std::size_t count = 0;
+  std::map<std::string, std::string> hashes;
+
+  friend bool operator==(const KeptSnapshots&, const KeptSnapshots&) = default;
+};
+
+/// @throws FileError: cannot be read, holds fewer, or differs in a bit of these; the message names
+/// dataset and snapshot where one holds what is no finite number
+void demand_kept(const std::filesystem::path& results, const KeptSnapshots& kept);
 
 class Results {
  public:
@@ -113,6 +130,8 @@ class Results {
   /// Cuts to what was written and closes. @throws FileError
   void close();
   [[nodiscard]] std::size_t written() const noexcept { return written_; }
+  /// What it holds by now, also once it is closed.
+  [[nodiscard]] KeptSnapshots place() const;
   /// All that was written is on the disk, whatever happens to the machine. @throws FileError
   void sync() const;
 
@@ -129,6 +148,7 @@ class Results {
   [[nodiscard]] static Counts counts_of(const ResultsLayout& layout) noexcept;
   [[nodiscard]] static std::size_t index_bytes(const Counts& counts) noexcept;
   void begin_shown(const mesh::Mesh& mesh);
+  [[nodiscard]] XdmfSeries labelled(XdmfSeries series) const;
   void add_rows(h5::Dataset& to, const std::string& name, h5::Type type, const h5::Shape& shape,
                 const h5::Label& label);
   void create_frame();
@@ -171,6 +191,7 @@ class Results {
   std::vector<double> tributary_;
   std::vector<int> free_body_;
   std::size_t written_ = 0;
+  KeptSnapshots at_end_;  ///< once it is closed
   std::vector<std::array<float, 3>> vectors_, forces_;
   std::vector<std::array<float, 6>> tensors_;
   std::vector<float> scalars_;

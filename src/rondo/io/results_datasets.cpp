@@ -1,10 +1,41 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// The datasets of results.h5: names, shapes, units.
+#include <fmt/format.h>
+
+#include "rondo/core/error.hpp"
 #include "rondo/io/results.hpp"
 
 namespace rondo::io {
 
 using h5::Type;
+
+namespace {
+
+void demand_kept_rows(const h5::File& file, const std::string& name, std::size_t rows,
+                      const std::string& hash) {
+  const h5::Shape shape(file.dataset(name).shape().size(), h5::any);
+  const h5::Dataset dataset = file.dataset(name, shape);
+  if (shape.empty() || dataset.shape()[0] < rows)
+    throw FileError(
+        file.path(),
+        fmt::format("{} holds fewer than the {} snapshots that were written: damaged", name, rows));
+  if (dataset.hash_of_rows(rows) == hash) return;
+  const std::optional<std::size_t> bad = dataset.first_not_finite(rows);
+  throw FileError(file.path(),
+                  bad ? fmt::format("{} holds a number that is not finite in snapshot {} (counted "
+                                    "from 0): damaged",
+                                    name, *bad)
+                      : fmt::format("the first {} snapshots of {} are not what was written: "
+                                    "damaged",
+                                    rows, name));
+}
+
+}  // namespace
+
+void demand_kept(const std::filesystem::path& results, const KeptSnapshots& kept) {
+  const h5::File file = h5::File::open(results);
+  for (const auto& [name, hash] : kept.hashes) demand_kept_rows(file, name, kept.count, hash);
+}
 
 void Results::add_rows(h5::Dataset& to, const std::string& name, Type type, const h5::Shape& shape,
                        const h5::Label& label) {
@@ -18,12 +49,13 @@ void Results::create_frame() {
   const h5::Label time_velocity = {words_.time_unit, words_.velocity_time};
   add_rows(d_.time, "/frame/time", Type::float64, times, time);
   add_rows(d_.time_velocity, "/frame/time_velocity", Type::float64, times, time_velocity);
-  add_rows(
-      d_.angle, "/frame/angle", Type::float64, times,
-      {"rad",
-       "angle of the co-rotating frame, counter-clockwise: position = center + R(angle) (X + u)"});
+  add_rows(d_.angle, "/frame/angle", Type::float64, times,
+           {"rad",
+            "angle of the co-rotating frame, counter-clockwise, minus angle_rad of history.csv: "
+            "position "
+            "= center + R(angle) (X + u)"});
   add_rows(d_.angle_velocity, "/frame/angle_velocity", Type::float64, times,
-           {"rad", "angle of the co-rotating frame at /frame/time_velocity"});
+           {"rad", "angle of the co-rotating frame at /frame/time_velocity, counter-clockwise"});
   add_rows(d_.center, "/frame/center", Type::float64, {c_.times, 2},
            {"m", c_.solid ? "center of the co-rotating frame, along t1 and the normal of the ground"
                           : "center of the co-rotating frame, x, y in the fixed frame"});
@@ -52,8 +84,11 @@ void Results::create_contact() {
            {c_.solid ? "N" : "N/m",
             "contact force on each node of /mesh/boundary: " + components + words_.force});
   add_rows(d_.traction, "/contact/traction", Type::float64, shape,
-           {"Pa", c_.solid ? "/contact/force over /mesh/tributary: pressure, two shears"
-                           : "/contact/force over /mesh/tributary: pressure, shear"});
+           {"Pa",
+            c_.solid ? "/contact/force over the area of the deformed boundary that the node stands "
+                       "for: pressure, two shears"
+                     : "/contact/force over the length of the deformed boundary that the node "
+                       "stands for: pressure, shear"});
 }
 
 void Results::create_fields() {

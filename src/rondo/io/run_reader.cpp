@@ -11,6 +11,7 @@
 
 #include "rondo/core/contract.hpp"
 #include "rondo/core/error.hpp"
+#include "rondo/core/files/regular_file.hpp"
 #include "rondo/io/mesh_files.hpp"
 
 namespace rondo::io {
@@ -68,6 +69,7 @@ RunReader::RunReader(fs::path directory)
 }
 
 void RunReader::read_summary() {
+  demand_regular_file(directory_ / "run.json");
   std::ifstream in(directory_ / "run.json", std::ios::binary);
   constexpr bool exceptions = false;
   const nlohmann::json json = nlohmann::json::parse(in, nullptr, exceptions);

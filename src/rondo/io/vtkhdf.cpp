@@ -103,11 +103,22 @@ void Vtkhdf::build() {
   file.link("/VTKHDF/Types", series_.data_file, "/mesh/vtk/types");
   const std::size_t rows = series_.n_times, n = series_.n_nodes;
   file.show("/VTKHDF/Points", {series_.data_file, series_.position, rows, n, 3, {}});
-  for (const XdmfField& f : series_.fields)
-    file.show("/VTKHDF/PointData/" + f.name,
-              {series_.data_file, f.dataset, rows, n, f.width, columns_of(f)});
+  label("/VTKHDF/Points", series_.position_label);
+  for (const XdmfField& f : series_.fields) {
+    const std::string name = "/VTKHDF/PointData/" + f.name;
+    file.show(name, {series_.data_file, f.dataset, rows, n, f.width, columns_of(f)});
+    label(name, f.label);
+  }
   build_steps();
+  label(in_steps("Values"), series_.time_label);
   for (std::size_t k = 0; k < times_.size(); ++k) put_step(k);
+}
+
+/// Readers of VTKHDF pass over attributes that they do not know.
+void Vtkhdf::label(const std::string& name, const ShownLabel& of) {
+  if (of.units.empty()) return;
+  file_->set_attribute(name, "units", of.units);
+  file_->set_attribute(name, "description", of.description);
 }
 
 /// Where in the arrays each step has its points, cells and fields: cells stand at their beginning,

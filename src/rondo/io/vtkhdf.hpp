@@ -47,6 +47,7 @@ class Vtkhdf {
  private:
   void build();
   void build_steps();
+  void label(const std::string& name, const ShownLabel& of);
   void put_step(std::size_t k);
   void put();
 

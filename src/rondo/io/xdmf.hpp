@@ -19,6 +19,11 @@ struct XdmfTopology {
   std::size_t n_corners = 0;  ///< of all cells together
 };
 
+/// What a dataset that is shown holds, as the attributes of datasets say it.
+struct ShownLabel {
+  std::string units, description;
+};
+
 /// A nodal field in time, or some components of it: a dataset (t, n) or (t, n, width) of float32.
 struct XdmfField {
   std::string name;
@@ -27,6 +32,7 @@ struct XdmfField {
   std::size_t width = 1;       ///< numbers of a node in the dataset
   std::size_t first = 0;       ///< the first of the numbers shown
   std::size_t components = 1;  ///< how many are shown
+  ShownLabel label = {};       ///< of those that are shown; XDMF has no place for it
 };
 
 struct XdmfSeries {
@@ -39,6 +45,7 @@ struct XdmfSeries {
   std::size_t n_nodes = 0;
   std::size_t n_times = 0;  ///< t
   std::vector<XdmfField> fields;
+  ShownLabel position_label = {}, time_label = {};  ///< likewise
 };
 
 class Xdmf {

@@ -60,6 +60,13 @@ std::vector<char> boundary_flags(const EdgeTable& table, std::size_t n_nodes) {
   return flags;
 }
 
+double longest_edge(std::span<const Vec2> x, std::span<const Edge> edges) {
+  const auto at = [&](int node) { return x[static_cast<std::size_t>(node)]; };
+  double longest = 0.0;
+  for (const Edge& edge : edges) longest = std::max(longest, norm(at(edge[1]) - at(edge[0])));
+  return longest;
+}
+
 std::vector<Edge> in_order(std::span<const Edge> edges) {
   std::vector<Edge> sorted(edges.begin(), edges.end());
   std::ranges::sort(sorted);

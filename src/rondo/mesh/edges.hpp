@@ -46,6 +46,9 @@ std::vector<Edge> boundary_edges(const EdgeTable& table);
 /// (n) 1 at the nodes of the boundary.
 std::vector<char> boundary_flags(const EdgeTable& table, std::size_t n_nodes);
 
+/// Length of the longest edge, 0 where there is none [m]. @param x (n) places of the nodes
+double longest_edge(std::span<const Vec2> x, std::span<const Edge> edges);
+
 /// Edges one after the other, as they follow each other: open lines first, then closed ones, each
 /// by the number of its first node; a closed one begins at its smallest number. @pre no edge twice
 std::vector<Edge> in_order(std::span<const Edge> edges);

@@ -204,10 +204,11 @@ Draft draft_mesh(const RawMesh& raw, const TagIndex& index, const MeshRequest& r
     return !block.tags.empty() && raw.types[block.type].dimension >= 2;
   });
   if (cells.empty() && !has_other)
-    findings.add("there are no triangles and no quadrilaterals in it",
-                 "a surface mesh (gmsh -2); with physical groups only what is in one is saved, "
-                 "unless Mesh.SaveAll = 1: " +
-                     physical_group_line("Surface", "body"));
+    findings.add(
+        "there are no triangles and no quadrilaterals in it",
+        "a surface mesh (gmsh -2). Where there are physical groups, Gmsh saves only what is "
+        "in one of them, so every surface of the body must be in a physical surface: " +
+            physical_group_line("Surface", "body"));
   check_coordinates(draft, findings);
   check_plane(raw, draft, findings);
   warn_of_dropped(raw, draft, findings);

@@ -138,9 +138,11 @@ void name_lines(const NamedGroup& group, const Sorted& sorted, const CurveInput&
       fmt::format("{} lines of the physical curve \"{}\" are no edge of a cell: {}",
                   sorted.loose.size(), group.name, list(sorted.loose));
   if (!sorted.loose.empty() && demand.named)
-    findings.add(said,
-                 "curves along the edges of cells; a curve inside a surface must be embedded "
-                 "in it");
+    findings.add(
+        said,
+        "curves along the edges of cells: a curve inside a surface must be embedded in it, "
+        "and a surface that is in no physical surface is not saved where there are "
+        "physical groups");
   else if (!sorted.loose.empty())
     findings.warnings.push_back(said + "; they are left out");
   if (!sorted.inside.empty() && demand.boundary)

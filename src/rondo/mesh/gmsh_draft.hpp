@@ -66,6 +66,9 @@ struct NamedGroup {
 /// Ascending by dimension, then by the first tag.
 std::vector<NamedGroup> named_groups(const RawMesh& raw);
 
+/// Says what was made of groups that share a name, and which surfaces have no elements.
+void warn_of_groups(const RawMesh& raw, const std::vector<NamedGroup>& groups, Findings& findings);
+
 /// Finds fault with names of the request that the file does not have.
 void check_names(const MeshRequest& request, const std::vector<NamedGroup>& groups,
                  Findings& findings);

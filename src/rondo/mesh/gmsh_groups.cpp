@@ -88,7 +88,8 @@ void name_overlaps(const RawMesh& raw, const std::vector<NamedGroup>& groups,
   if (overlaps.empty()) return;
   findings.add(fmt::format("cells are in more than one physical surface: {}",
                            examples(overlaps.size(), [&](std::size_t k) { return overlaps[k]; })),
-               "one physical surface for each cell");
+               "one physical surface for each cell; in MSH 2.2 also another elementary tag (the "
+               "second tag of an element) in each physical surface");
 }
 
 }  // namespace
@@ -121,6 +122,44 @@ std::vector<NamedGroup> named_groups(const RawMesh& raw) {
       group.empty = group.empty && filled[k] == 0;
     }
   return groups;
+}
+
+namespace {
+
+/// MSH 4.1 lists what is in no physical group, and is not saved with groups, all the same.
+void warn_of_empty_surfaces(const RawMesh& raw, Findings& findings) {
+  std::vector<char> filled(raw.entities.size(), 0);
+  for (const RawBlock& block : raw.blocks)
+    if (!block.tags.empty()) filled[block.entity] = 1;
+  std::vector<int> empty;
+  std::size_t all = 0;
+  for (std::size_t k = 0; k < raw.entities.size(); ++k) {
+    if (raw.entities[k].dimension != 2) continue;
+    ++all;
+    if (!filled[k]) empty.push_back(raw.entities[k].tag);
+  }
+  if (empty.empty() || empty.size() == all) return;
+  findings.warnings.push_back(fmt::format(
+      "{} of {} surfaces of the geometry have no elements in the file and are not part of the "
+      "body: surface {}. Where there are physical groups, Gmsh saves what is in one of them; to "
+      "have the others too, {}",
+      empty.size(), all,
+      examples(empty.size(), [&](std::size_t k) { return fmt::format("{}", empty[k]); }),
+      physical_group_line("Surface", "body")));
+}
+
+}  // namespace
+
+void warn_of_groups(const RawMesh& raw, const std::vector<NamedGroup>& groups, Findings& findings) {
+  for (const NamedGroup& group : groups) {
+    if (group.tags.size() < 2) continue;
+    findings.warnings.push_back(fmt::format(
+        "{} physical {}s have the name {} (numbers {}): they are taken as one", group.tags.size(),
+        kinds[static_cast<std::size_t>(group.dimension)], in_quotes(group.name),
+        examples(group.tags.size(),
+                 [&](std::size_t k) { return fmt::format("{}", group.tags[k]); })));
+  }
+  warn_of_empty_surfaces(raw, findings);
 }
 
 const NamedGroup* find_group(const std::vector<NamedGroup>& groups, int dimension,

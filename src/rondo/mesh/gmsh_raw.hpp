@@ -42,8 +42,8 @@ struct RawBlock {
 
 /// Counts and places of entities and types are right; tags of nodes are as the file has them.
 struct RawMesh {
-  std::uint64_t nodes_in_file = 0;  ///< 0: not known
-  std::vector<std::string> warnings;
+  std::uint64_t nodes_in_file = 0;    ///< 0: not known
+  std::vector<std::string> warnings;  ///< for the user, one line each
   std::vector<RawType> types;
   std::vector<RawGroup> groups;
   std::vector<RawEntity> entities;

@@ -13,6 +13,7 @@
 #include <sstream>
 #include <utility>
 
+#include "rondo/core/files/regular_file.hpp"
 #include "rondo/mesh/gmsh_draft.hpp"
 
 namespace rondo::mesh {
@@ -26,16 +27,15 @@ constexpr std::uint64_t largest_file = 12'000'000'000;
 
 /// Throws FileError: why the file cannot be opened.
 std::pair<std::string, std::uint64_t> beginning_of(const std::filesystem::path& file) {
-  const int opened = open(file.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK);
+  demand_regular_file(file);
+  const int opened = open(file.c_str(), O_RDONLY | O_CLOEXEC);
   if (opened < 0)
     throw FileError(file.string(), fmt::format("cannot be opened: {}", std::strerror(errno)));
   struct stat status {};
-  const bool regular = fstat(opened, &status) == 0 && S_ISREG(status.st_mode);
   std::array<char, 4096> text{};
-  const ssize_t got = regular ? pread(opened, text.data(), text.size(), 0) : 0;
+  const ssize_t got = fstat(opened, &status) == 0 ? pread(opened, text.data(), text.size(), 0) : -1;
   const int error = errno;
   close(opened);
-  if (!regular) throw FileError(file.string(), "is not a file");
   if (got < 0)
     throw FileError(file.string(), fmt::format("cannot be read: {}", std::strerror(error)));
   return {std::string(text.data(), static_cast<std::size_t>(got)),
@@ -50,12 +50,6 @@ void check_request(const MeshRequest& request) {
   if (std::isfinite(request.scale) && request.scale > 0.0) return;
   throw InputError(Fault{request.file.string(), 0, 0, "scale", fmt::format("{}", request.scale),
                          "is no scale of lengths", "> 0"});
-}
-
-void pass_on(const std::vector<std::string>& said, Findings& findings) {
-  if (said.empty()) return;
-  findings.warnings.push_back("the Gmsh library says: " +
-                              examples(said.size(), [&](std::size_t k) { return said[k]; }));
 }
 
 }  // namespace
@@ -96,8 +90,9 @@ ReadMesh read_gmsh(const MeshRequest& request) {
 
 ReadMesh mesh_of(const RawMesh& raw, bool version_22, const MeshRequest& request) {
   Findings findings{.file = request.file.string(), .faults = {}, .warnings = {}};
-  pass_on(raw.warnings, findings);
+  findings.warnings = raw.warnings;
   const std::vector<NamedGroup> groups = named_groups(raw);
+  warn_of_groups(raw, groups, findings);
   check_names(request, groups, findings);
   const TagIndex index(raw.node_tags);
   check_types(raw, index, findings);

@@ -4,7 +4,7 @@
 ///
 ///   u64 start mark, u32 0: a mesh follows; 1: text, why there is none
 ///   u64 nodes the file says it has (0: not known)
-///   u64 n, n times text: warnings of the Gmsh library
+///   u64 n, n times text: warnings, what the Gmsh library says among them
 ///   u64 n, n times i32 type, dimension, order, nodes per element, text name
 ///   u64 n, n times i32 dimension, tag, text name: physical groups
 ///   u64 n, n times i32 dimension, tag, u64 m, m times i32: entities, physical groups of each

@@ -57,7 +57,7 @@ class CriticalProblem {
       space.widen();
       ritz = eigenvalues_beyond(space, ritz.value[0] * (1.0 + 1e-6), 1, 0);
     }
-    if (!(ritz.value[0] > 0.0)) return {n, 0.0, 0.0};
+    if (ritz.value.size() == 0 || !(ritz.value[0] > 0.0)) return {n, 0.0, 0.0};
     const Vector w = op.apply(space.vector(ritz, 0));
     const Vector aw = left(w);
     return {n, 1.0 / std::sqrt(ritz.value[0]), (aw - right(w) / ritz.value[0]).norm() / aw.norm()};

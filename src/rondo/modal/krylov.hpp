@@ -18,6 +18,7 @@ struct Operator {
 
   Eigen::Index size = 0;  ///< of a vector
   /// Dimension of the space of eigenvectors sought: `size` less those that `apply` takes out.
+  /// It may be less, as where T is singular: the space ends where T gives nothing new.
   Eigen::Index rank = 0;
   bool skew = false;
   std::function<Vector(const Vector&)> apply;   ///< T x
@@ -38,15 +39,15 @@ class Krylov {
   using Vector = typename Operator<Scalar>::Vector;
   using Columns = typename Operator<Scalar>::Columns;
 
-  explicit Krylov(const Operator<Scalar>& op) : op_(op) {}
+  explicit Krylov(const Operator<Scalar>& op) : op_(op), rank_(op.rank) {}
 
   /// One more block; a new direction where the space does not grow by itself any more.
   void grow();
   /// A random direction: what the space cannot reach, such as the second vector of a double
   /// eigenvalue, it will reach after that.
   void widen();
-  /// Nothing is outside: the Ritz values are the eigenvalues.
-  [[nodiscard]] bool complete() const noexcept { return done_ >= op_.rank; }
+  /// Nothing is outside but what T takes to 0: the Ritz values are the eigenvalues.
+  [[nodiscard]] bool complete() const noexcept { return done_ >= rank_; }
   [[nodiscard]] Eigen::Index dimension() const noexcept { return done_; }
 
   [[nodiscard]] Ritz ritz() const;
@@ -62,6 +63,7 @@ class Krylov {
   const Operator<Scalar>& op_;
   Columns basis_;      ///< P-orthonormal; the first done_ columns have been multiplied by T
   Columns projected_;  ///< column j: basisᴴ P T (column j of the basis), j < done_
+  Eigen::Index rank_;  ///< of what T gives, as far as it is known
   Eigen::Index done_ = 0, all_ = 0;
   std::uint64_t seed_ = 1;
 };

@@ -108,6 +108,9 @@ void ContactReport::add(const ContactReport& other) noexcept {
   dissipation_friction += other.dissipation_friction;
   loss_impact += other.loss_impact;
   work_rim += other.work_rim;
+  if (other.late <= late) return;
+  late = other.late;
+  late_at = other.late_at;
 }
 
 ContactStep::ContactStep(const Model& model, const FrameStep& f,

@@ -36,6 +36,10 @@ struct ContactReport {
   /// How far a node has come in the last steps, where that is farther than sharp corners were
   /// looked for around it: a touch may be missed. 0: none is [m]
   double unseen = 0.0;
+  /// Depth of a contact that was there a step before already and was not found then; 0: there is
+  /// none                                                                                [m]
+  double late = 0.0;
+  Vec2 late_at;  ///< where that is, fixed frame                                        [m]
   // Works of the impulses (5.3), (5.5) [J/m].
   double work = 0.0;
   double dissipation_friction = 0.0;

@@ -25,9 +25,11 @@ namespace rondo::dynamics {
 struct ContactModel {
   contact::Ground ground;
   contact::Law law;
-  std::vector<int> nodes;           ///< (nb) candidates; none is clamped
-  std::vector<double> tributary;    ///< (nb) length of boundary each stands for [m]
-  std::vector<mesh::Edge> edges{};  ///< between candidates, for sharp corners of the ground; nodes
+  std::vector<int> nodes;         ///< (nb) candidates; none is clamped
+  std::vector<double> tributary;  ///< (nb) length of boundary each stands for [m]
+  /// Between candidates, nodes: what corners of the ground may touch; in three dimensions those
+  /// around the wheel.
+  std::vector<mesh::Edge> edges{};
 };
 
 /// A body that nothing holds. It moves in the fixed frame, where u is its whole displacement x - X;
@@ -254,7 +256,8 @@ inline const std::vector<double>& lumped_mass_of(const Model& model) noexcept {
 /// elements, contact nodes without mass and loaded rims.
 [[nodiscard]] bool is_of_bodies(const Model& model) noexcept;
 
-/// The ground has corners that may touch the body between two candidates.
+/// The ground has corners that may touch the body between two candidates: sharp ones, and arcs
+/// whose radius is below the spacing of the candidates. None of wheels in three dimensions.
 [[nodiscard]] bool has_sharp_corners(const Model& model) noexcept;
 
 /// Position of a node in the fixed frame at t_{n+1} [m].

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "rondo/output/checkpoint.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <array>
 #include <span>
@@ -9,6 +11,7 @@
 
 #include "rondo/core/build_id.hpp"
 #include "rondo/core/column.hpp"
+#include "rondo/core/error.hpp"
 #include "rondo/core/version.hpp"
 #include "rondo/io/checkpoint_file.hpp"
 #include "rondo/io/mesh_files.hpp"
@@ -99,9 +102,6 @@ void for_scalars(Known& k, Visit&& visit) {
   visit("/run/problems_kept", k.problems_kept, {"1", "files in contact-problems"});
   visit("/run/loop_wall", k.loop_wall_s, {"s", loop + "wall clock"});
   visit("/run/loop_cpu", k.loop_cpu_s, {"s", loop + "processor"});
-  visit("/files/snapshots", k.files.snapshots, {"1", "snapshots in results.h5"});
-  visit("/files/history", k.files.history_bytes, {"1", "bytes of history.csv"});
-  visit("/files/contact", k.files.contact_bytes, {"1", "bytes of contact.csv"});
   visit("/history/next", next, {"1", "interval of the next row"});
   visit("/history/since", since, {"1", "steps " + row});
   visit("/history/done", done, {"1", "the last step seen"});
@@ -119,6 +119,26 @@ void for_scalars(Known& k, Visit&& visit) {
   visit("/history/overturning", overturning, {"N*s", "of the ground about t1, " + row});
   for_contact(k.contact, visit);
   for_deformation(k.deformation, visit);
+}
+
+void put_text(File& file, const std::string& name, const std::string& text,
+              const std::string& meaning) {
+  put(file, name, std::vector<std::uint8_t>(text.begin(), text.end()), {"1", meaning});
+}
+
+std::string get_text(const File& file, const std::string& name) {
+  const auto bytes = get<std::uint8_t>(file, name);
+  return {bytes.begin(), bytes.end()};
+}
+
+constexpr const char* kept_name = "/files/kept";
+
+KeptFiles get_kept(const File& file) {
+  try {
+    return kept_files_of(Json::parse(get_text(file, kept_name)));
+  } catch (const nlohmann::json::exception& error) {
+    throw FileError(file.path(), fmt::format("{} is damaged: {}", kept_name, error.what()));
+  }
 }
 
 bool is_solid(const dynamics::SavedState& s) noexcept {
@@ -198,7 +218,7 @@ RunIdentity identity_of(const Case& c, const Setup& setup) {
 void write_checkpoint(const std::filesystem::path& directory, const Checkpoint& k) {
   io::write_checkpoint_file(directory / checkpoint_name, [&](File& file) {
     for_texts(k.identity, [&](const char* name, const std::string& text) {
-      put(file, name, std::vector<std::uint8_t>(text.begin(), text.end()), {"1", "UTF-8 text"});
+      put_text(file, name, text, "UTF-8 text");
     });
     for_scalars(k, [&](const char* name, const auto& value, const h5::Label& label) {
       const std::string unit(unit_of(label.units, is_solid(k.state)));
@@ -208,6 +228,8 @@ void write_checkpoint(const std::filesystem::path& directory, const Checkpoint& 
     put(file, "/run/snapshot_steps",
         std::vector<std::int64_t>(k.schedule.steps.begin(), k.schedule.steps.end()),
         {"1", "steps at which snapshots are taken"});
+    put_text(file, kept_name, as_json(k.files).dump(),
+             "what the other files held: JSON, as `files` of run.json");
     put_state(file, k.state);
   });
 }
@@ -216,10 +238,7 @@ Checkpoint read_checkpoint(const std::filesystem::path& directory,
                            const std::function<void(const RunIdentity&)>& check) {
   const File file = io::open_checkpoint_file(directory / checkpoint_name);
   Checkpoint k;
-  for_texts(k.identity, [&](const char* name, std::string& text) {
-    const auto bytes = get<std::uint8_t>(file, name);
-    text.assign(bytes.begin(), bytes.end());
-  });
+  for_texts(k.identity, [&](const char* name, std::string& text) { text = get_text(file, name); });
   if (check) check(k.identity);
   for_scalars(k, [&](const char* name, auto& value, const h5::Label&) {
     using Value = std::remove_reference_t<decltype(value)>;
@@ -228,6 +247,7 @@ Checkpoint read_checkpoint(const std::filesystem::path& directory,
   k.last_row = get<double>(file, "/run/last_row");
   const auto steps = get<std::int64_t>(file, "/run/snapshot_steps");
   k.schedule.steps.assign(steps.begin(), steps.end());
+  k.files = get_kept(file);
   get_state(file, k.state);
   return k;
 }

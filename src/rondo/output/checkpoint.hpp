@@ -12,6 +12,7 @@
 #include "rondo/model/saved_state.hpp"
 #include "rondo/output/contact_statistics.hpp"
 #include "rondo/output/history.hpp"
+#include "rondo/output/kept/kept_files.hpp"
 #include "rondo/output/snapshot_schedule.hpp"
 
 namespace rondo::study {
@@ -25,12 +26,6 @@ struct RunIdentity {
   double step = 0.0;      ///< Δt [s]
 };
 
-/// Where its files stood.
-struct FilePlaces {
-  std::size_t history_bytes = 0, contact_bytes = 0;  ///< of history.csv, contact.csv
-  std::size_t snapshots = 0;                         ///< in results.h5
-};
-
 struct Checkpoint {
   RunIdentity identity;
   dynamics::SavedState state;
@@ -42,7 +37,7 @@ struct Checkpoint {
   fem::LargestDeformation deformation;
   int problems_kept = 0;  ///< in contact-problems/
   double loop_wall_s = 0.0, loop_cpu_s = 0.0;
-  FilePlaces files;
+  KeptFiles files;
   bool is_at_end = false;  ///< the run that goes on from it ends there; not in the file
 };
 

@@ -25,16 +25,22 @@ constexpr std::array history{
     Column<H>{"force_x", "N/m", "of the ground on the body, mean over the interval",
               [](const H& r) { return r.force.x; }},
     Column<H>{"force_y", "N/m", "likewise", [](const H& r) { return r.force.y; }},
-    Column<H>{"torque", "N·m/m",
-              "of the ground on the body about the center, mean over the interval",
-              [](const H& r) { return r.torque; }},
+    Column<H>{
+        "torque", "N·m/m",
+        "of the ground on the body about the center, > 0 counter-clockwise, mean over the interval",
+        [](const H& r) { return r.torque; }},
     Column<H>{"contact_nodes", "1", "of the nodes that may touch, those with a normal force",
               [](const H& r) { return static_cast<double>(r.nodes); }},
     Column<H>{"sticking_nodes", "1", "of these, those that stick",
               [](const H& r) { return static_cast<double>(r.sticking); }},
-    Column<H>{"contact_length_m", "m", "tributary lengths of the nodes with a normal force, summed",
+    Column<H>{"contact_length_m", "m",
+              "of the deformed boundary: half of the edges beside each node with a normal force, "
+              "summed; `nan` in the last row of a run that failed",
               [](const H& r) { return r.contact_length; }},
-    Column<H>{"penetration_max_m", "m", "largest in the interval",
+    Column<H>{"penetration_max_m", "m",
+              "largest depth of a contact node in the ground in the interval; at the row's time "
+              "also of corners and arcs of the ground in the body, behind the straight line from "
+              "one contact node to the next",
               [](const H& r) { return r.penetration; }},
     Column<H>{
         "slip_ratio", "1",
@@ -84,12 +90,17 @@ constexpr std::array rim{
     Column<H>{"speed_x", "m/s", "velocity of the center, likewise",
               [](const H& r) { return r.rim.velocity.x; }},
     Column<H>{"speed_y", "m/s", "likewise", [](const H& r) { return r.rim.velocity.y; }},
-    Column<H>{"hub_force_x", "N/m",
-              "that holds the center along x, mean over the interval; 0 where `rim.free` has "
-              "\"speed\"",
-              [](const H& r) { return r.rim.force.x; }},
-    Column<H>{"hub_force_y", "N/m", "along y; 0 where `rim.free` has \"height\"",
-              [](const H& r) { return r.rim.force.y; }},
+    Column<H>{
+        "hub_force_x", "N/m",
+        "of what holds the rim's center along x, on the rim, mean over the interval; from the "
+        "ground's `force_x` it differs by the inertia and the weight of body and rim. 0 where "
+        "`rim.free` has \"speed\": nothing holds it",
+        [](const H& r) { return r.rim.force.x; }},
+    Column<H>{
+        "hub_force_y", "N/m",
+        "likewise along y; 0 where `rim.free` has \"height\": then `rim.force_y`, gravity and "
+        "supports are the load",
+        [](const H& r) { return r.rim.force.y; }},
     Column<H>{"hub_torque", "N·m/m",
               "that holds the spin, > 0 drives towards +x, mean over the interval; 0 where "
               "`rim.free` has \"angular_velocity\"",
@@ -169,10 +180,16 @@ constexpr std::array contact{
               [](const P& r) { return r.abscissa; }},
     Column<P>{"x_m", "m", "position, fixed frame", [](const P& r) { return r.position.x; }},
     Column<P>{"y_m", "m", "likewise", [](const P& r) { return r.position.y; }},
-    Column<P>{"pressure_pa", "Pa", "normal force over the node's tributary length",
+    Column<P>{"pressure_pa", "Pa", "normal force over `length_m`",
               [](const P& r) { return r.traction.x; }},
     Column<P>{"shear_pa", "Pa", "tangential force likewise",
-              [](const P& r) { return r.traction.y; }}};
+              [](const P& r) { return r.traction.y; }},
+    Column<P>{
+        "length_m", "m",
+        "of the deformed boundary that the node stands for: half of the edges beside it; "
+        "all of a snapshot make `contact_length_m` of history.csv, but where bodies touch each "
+        "other or a reduced model touches at places that stand still",
+        [](const P& r) { return r.extent; }}};
 
 /// Of a wheel in three dimensions. x is along t1, y along the normal n of the ground.
 constexpr std::array solid_contact{
@@ -191,7 +208,7 @@ constexpr std::array solid_contact{
               "along t2, to the right, in the fixed frame: less `center_lateral` it is the place "
               "beside the center",
               [](const P& r) { return r.lateral; }},
-    Column<P>{"pressure_pa", "Pa", "normal force over the node's tributary area",
+    Column<P>{"pressure_pa", "Pa", "normal force over `area_m2`",
               [](const P& r) { return r.traction.x; }},
     Column<P>{"shear_x_pa", "Pa",
               "shear of the ground on the wheel likewise, along the profile towards +x",
@@ -199,7 +216,11 @@ constexpr std::array solid_contact{
     Column<P>{"shear_lateral_pa", "Pa", "along t2, to the right",
               [](const P& r) { return r.shear_lateral; }},
     Column<P>{"sticks", "1", "1: the node sticks; 0: it slips",
-              [](const P& r) { return r.sticks ? 1.0 : 0.0; }}};
+              [](const P& r) { return r.sticks ? 1.0 : 0.0; }},
+    Column<P>{"area_m2", "m2",
+              "of the deformed surface that the node stands for; all of a snapshot make "
+              "`contact_area_m2` of history.csv",
+              [](const P& r) { return r.extent; }}};
 
 std::vector<ColumnLabel> in_units_of(std::span<const Column<H>> columns, bool is_solid) {
   std::vector<ColumnLabel> labels = labels_of(columns);
@@ -213,7 +234,8 @@ std::vector<ColumnLabel> history_labels(bool is_solid) {
   std::vector<ColumnLabel> labels = in_units_of(history, is_solid);
   for (ColumnLabel& label : labels)
     if (is_solid && label.name == "contact_length_m")
-      label = {"contact_area_m2", "m2", "tributary areas of the nodes with a normal force, summed"};
+      label = {"contact_area_m2", "m2",
+               "of the deformed surface: the share of each node with a normal force, summed"};
   return labels;
 }
 

@@ -18,7 +18,7 @@ struct HistoryRecord {
   Vec2 force;           ///< of the ground on the body                                    [N/m]
   double torque = 0.0;  ///< of the ground about the center                               [N]
   int nodes = 0, sticking = 0;
-  double contact_length = 0.0;  ///< [m]; in three dimensions an area [m²]
+  double contact_length = 0.0;  ///< deformed [m]; in three dimensions an area [m²]
   double penetration = 0.0;     ///< [m]
   double slip_ratio = 0.0;      ///< [1]
   dynamics::Balance balance;
@@ -40,6 +40,7 @@ struct ContactRecord {
   double abscissa = 0.0;  ///< along the ground; NaN: pressed against a body             [m]
   Vec2 position;          ///< fixed frame                                                [m]
   Vec2 traction;          ///< pressure, shear                                            [Pa]
+  double extent = 0.0;    ///< of the deformed boundary that the node stands for   [m], [m²]
   double slip = 0.0;      ///< as in ContactForce                                        [m/s]
   bool sticks = false;    ///< likewise
   double lateral = 0.0;   ///< in three dimensions: of the place along t2; `position` is along t1

@@ -24,13 +24,17 @@ double rolling_radius(const Case& c, const Setup& setup) {
 
 }  // namespace
 
-History::History(const Case& c, const Setup& setup, const HistoryPlace& place)
+History::History(const Case& c, const Setup& setup, const HistoryPlace& place, Length reported)
     : case_(c),
       setup_(setup),
       dt_(setup.model.dt),
       interval_(c.output.history_interval),
       radius_(rolling_radius(c, setup)),
-      at_(place) {}
+      at_(place) {
+  const bool touches = setup.model.contact || setup.model.surfaces;
+  if (touches && reported == Length::undeformed)
+    boundary_ = std::make_shared<const mesh::DeformedBoundary>(setup.mesh);
+}
 
 std::vector<ColumnLabel> History::columns() const {
   const bool is_solid = setup_.model.solid.has_value();
@@ -73,8 +77,8 @@ bool History::is_due(double time) const noexcept {
          time + 0.5 * dt_ > static_cast<double>(at_.next) * interval_;
 }
 
-long long History::next_probed() const noexcept {
-  if (setup_.probes.empty()) return std::numeric_limits<long long>::max();
+long long History::next_row() const noexcept {
+  if (at_.next == HistoryPlace::never) return HistoryPlace::never;
   if (interval_ == 0.0) return at_.done + 1;
   const auto time = [&](long long step) { return static_cast<double>(step) * dt_; };
   // A guess, then the same comparison as that of the step itself.
@@ -83,6 +87,23 @@ long long History::next_probed() const noexcept {
   while (step > at_.done + 1 && is_due(time(step - 1))) --step;
   while (!is_due(time(step))) ++step;
   return step;
+}
+
+/// The report's length, stretched like the boundary of the nodes that are pressed.
+double History::contact_length(const dynamics::StepReport& step,
+                               const dynamics::State* state) const {
+  const double length = step.contact.length;
+  if (!boundary_ || length == 0.0) return length;
+  if (!state) return std::numeric_limits<double>::quiet_NaN();
+  double undeformed = 0.0, deformed = 0.0;
+  std::size_t last = setup_.mesh.boundary.size();
+  for (const dynamics::ActiveContact& c : state->active) {
+    if (c.impulse.x <= 0.0 || c.candidate == last) continue;
+    last = c.candidate;
+    undeformed += setup_.mesh.tributary[last];
+    deformed += boundary_->extent(last, state->u, state->axial_u);
+  }
+  return undeformed > 0.0 ? length * (deformed / undeformed) : length;
 }
 
 void History::append_probes(const dynamics::State* state, std::vector<double>& rows) const {
@@ -135,7 +156,7 @@ void History::append_row(const dynamics::StepReport& step, const dynamics::State
   r.torque = at_.angular_impulse / span;
   r.nodes = step.contact.nodes;
   r.sticking = step.contact.sticking;
-  r.contact_length = step.contact.length;
+  r.contact_length = contact_length(step, state);
   r.penetration = at_.penetration;
   r.slip_ratio = slip_ratio(step);
   r.balance = step.balance;

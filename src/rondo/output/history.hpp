@@ -3,11 +3,13 @@
 /// row, the ledger at half a step before, probes as they are at the row's time.
 #pragma once
 #include <limits>
+#include <memory>
 #include <string>
 #include <vector>
 
 #include "rondo/case/setup.hpp"
 #include "rondo/integrators/integrator.hpp"
+#include "rondo/mesh/deformed_boundary.hpp"
 #include "rondo/output/columns.hpp"
 
 namespace rondo::study {
@@ -32,24 +34,37 @@ struct HistoryPlace {
 
 class History {
  public:
+  /// Who has measured the contact length of a step's report.
+  enum class Length {
+    undeformed,  ///< of undeformed edges: a row measures it, with the state
+    deformed,    ///< as it is in a row
+  };
   /// c.output.history_interval 0: every step. Case and setup must outlive the object.
-  History(const Case& c, const Setup& setup, const HistoryPlace& place = {});
+  History(const Case& c, const Setup& setup, const HistoryPlace& place = {},
+          Length reported = Length::undeformed);
   [[nodiscard]] const HistoryPlace& place() const noexcept { return at_; }
   [[nodiscard]] std::vector<ColumnLabel> columns() const;
   /// Every step, in turn: appends a row where one is due.
-  /// @param state of this step, where there are probes; null: their numbers are NaN
+  /// @param state of this step, where needs_state(); null: what is of it is NaN
   void observe(const dynamics::StepReport& step, const dynamics::State* state,
                std::vector<double>& rows);
   /// No step comes after the one seen last: its row, where none was due.
   void finish(const dynamics::StepReport& step, const dynamics::State* state,
               std::vector<double>& rows);
-  /// The next step that gives a row with probes: its state is wanted. The largest number where
-  /// there are none.
-  [[nodiscard]] long long next_probed() const noexcept;
+  /// Rows have numbers of the state: those of probes, the deformed contact length.
+  [[nodiscard]] bool needs_state() const noexcept { return boundary_ || !setup_.probes.empty(); }
+  /// The next step that gives a row; never: none does.
+  [[nodiscard]] long long next_row() const noexcept;
+  /// The next step that gives a row which needs the state; never: none does.
+  [[nodiscard]] long long next_wanted() const noexcept {
+    return needs_state() ? next_row() : HistoryPlace::never;
+  }
 
  private:
   [[nodiscard]] double slip_ratio(const dynamics::StepReport& step) const;
   [[nodiscard]] bool is_due(double time) const noexcept;
+  [[nodiscard]] double contact_length(const dynamics::StepReport& step,
+                                      const dynamics::State* state) const;
   void append_row(const dynamics::StepReport& step, const dynamics::State* state,
                   std::vector<double>& rows);
   void append_probes(const dynamics::State* state, std::vector<double>& rows) const;
@@ -58,6 +73,7 @@ class History {
   const Setup& setup_;
   double dt_, interval_;
   double radius_ = 0.0;  ///< of what rolls; 0: nothing does                       [m]
+  std::shared_ptr<const mesh::DeformedBoundary> boundary_;  ///< null: reports have the length
   HistoryPlace at_;
 };
 

@@ -14,6 +14,7 @@
 namespace rondo::study {
 namespace {
 
+constexpr const char* history_name = "history.csv";
 constexpr std::size_t rows_at_once = 32;
 constexpr std::chrono::milliseconds longest_wait{200};  ///< of a row before it is handed over
 
@@ -31,16 +32,16 @@ std::optional<io::Csv> history_file(const std::filesystem::path& directory,
                                     const std::vector<ColumnLabel>& columns,
                                     const Checkpoint* from) {
   if (columns.empty()) return {};
-  const std::filesystem::path file = directory / "history.csv";
+  const std::filesystem::path file = directory / history_name;
   const std::vector<std::string> names = names_of(columns);
-  return from ? io::Csv(file, names, from->files.history_bytes) : io::Csv(file, names);
+  return from ? io::Csv(file, names, from->files.table(history_name)) : io::Csv(file, names);
 }
 
 /// First number of the last whole row of history.csv as it was then; 0: it has none.
 double time_kept(const std::filesystem::path& directory, const Checkpoint* from) {
   if (!from) return 0.0;
-  std::ifstream file(directory / "history.csv", std::ios::binary);
-  std::string text(from->files.history_bytes, '\0');
+  std::ifstream file(directory / history_name, std::ios::binary);
+  std::string text(from->files.table(history_name).bytes, '\0');
   file.read(text.data(), static_cast<std::streamsize>(text.size()));
   if (text.size() < 2) return 0.0;
   const std::size_t row = text.rfind('\n', text.size() - 2) + 1;
@@ -171,7 +172,7 @@ void FileRecorder::write(Slot& slot) {
 void FileRecorder::write(Checkpoint& checkpoint) {
   io::sync_file(history_csv_->path());
   snapshots_->sync();
-  checkpoint.files = {history_csv_->bytes(), snapshots_->contact_bytes(), snapshots_->written()};
+  checkpoint.files = files();
   write_checkpoint(directory_, checkpoint);
   saved_step_ = checkpoint.state.step;
 }
@@ -199,6 +200,13 @@ std::string FileRecorder::kept() {
   const std::string until = time_unit_ == "s" ? fmt::format("t = {:.9g} s", kept_until_)
                                               : fmt::format("{:.9g} of the load", kept_until_);
   return fmt::format("kept are history.csv to {} and {} snapshots", until, snapshots_->written());
+}
+
+KeptFiles FileRecorder::files() const {
+  KeptFiles all;
+  if (history_csv_) all.tables[history_name] = history_csv_->place();
+  if (snapshots_) snapshots_->add_to(all);
+  return all;
 }
 
 OutputCost FileRecorder::cost() const {

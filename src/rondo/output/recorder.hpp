@@ -111,6 +111,8 @@ class FileRecorder : public Recorder {
   [[nodiscard]] std::string kept();
   /// Complete once closed.
   [[nodiscard]] OutputCost cost() const;
+  /// What they hold. @pre closed, or called by the thread that writes
+  [[nodiscard]] KeptFiles files() const;
   /// Snapshots in the files. @pre closed.
   [[nodiscard]] std::size_t written() const;
   /// First number of the last row of history.csv; 0: none. @pre closed.

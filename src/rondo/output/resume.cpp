@@ -123,7 +123,7 @@ void clear_without_checkpoint(const Case& c, const std::filesystem::path& direct
   const std::string mark = io::mark_of_run(directory);
   if (mark.empty()) return;
   const auto refuse = [&](const std::string& what) {
-    io::refuse_directory(directory, what, fmt::format("leave --resume out{}", or_begin_again));
+    io::refuse_directory(directory, what, fmt::format("another -o{}", or_begin_again));
   };
   if (!io::is_cut_off(directory))
     refuse(fmt::format("holds a run without a checkpoint ({} is there)", mark));
@@ -183,19 +183,17 @@ bool fits(const SnapshotSchedule& schedule, const Checkpoint& k) {
   const auto passed = std::upper_bound(steps.begin(), steps.end(), k.state.step) - steps.begin();
   return std::adjacent_find(steps.begin(), steps.end(), std::greater_equal<>()) == steps.end() &&
          (steps.empty() || (steps.front() >= 0 && steps.back() <= k.n_steps)) &&
-         k.files.snapshots == static_cast<std::size_t>(passed) &&
+         k.files.snapshots.count == static_cast<std::size_t>(passed) &&
          std::isfinite(schedule.interval) && schedule.interval >= 0.0;
 }
 
 /// Its numbers do not contradict each other, the case, or the model.
 void demand_sound(const Checkpoint& k, const Case& c, const Setup& setup,
                   const std::filesystem::path& directory) {
-  constexpr std::size_t longest = std::size_t{1} << 60U;
   const HistoryPlace& h = k.history;
   const std::size_t columns = History(c, setup).columns().size();
   if (fits(k.state, setup) && fits(k.schedule, k) && k.state.step <= k.n_steps && h.next > 0 &&
       h.done == k.state.step && h.steps >= 0 && h.steps <= h.done && k.problems_kept >= 0 &&
-      k.files.history_bytes < longest && k.files.contact_bytes < longest &&
       (k.last_row.empty() || k.last_row.size() == columns))
     return;
   throw FileError((directory / checkpoint_name).string(),

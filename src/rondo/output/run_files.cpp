@@ -13,6 +13,7 @@
 #include <system_error>
 
 #include "rondo/core/build_id.hpp"
+#include "rondo/core/build_record.hpp"
 #include "rondo/core/error.hpp"
 #include "rondo/core/version.hpp"
 #include "rondo/integrators/fused/dispatch.hpp"
@@ -61,10 +62,24 @@ void copy_mesh(const Case& c, const std::filesystem::path& directory) {
 
 }  // namespace
 
+Json build_record_json() {
+  const BuildRecord record = build_record();
+  Json json, libraries;
+  json["commit"] = record.commit;
+  json["modified"] = record.modified ? Json(*record.modified) : Json();
+  json["compiler"] = record.compiler;
+  json["flags"] = record.flags;
+  for (const auto& [name, number] : record.libraries) libraries[name] = number;
+  json["libraries"] = std::move(libraries);
+  return json;
+}
+
 void describe_program(Json& json) {
   json["version"] = version;
   json["build"] = build_options;
   json["build_id"] = build_id();
+  json["build_record"] = build_record_json();
+  json["dispatch"] = dispatch_level();
   json["host"] = io::host_name();
 }
 
@@ -122,14 +137,11 @@ io::DirectoryLock take_directory(const Case& c, const RunOptions& options) {
 }
 
 std::string warning_of_another_host(const std::filesystem::path& directory) {
-  if (!io::is_cut_off(directory)) return {};
-  const Json json = io::read_json(directory / "run.json");
-  const std::string host = text_in(json, "host");
-  if (text_in(json, "status") != "running" || host.empty() || host == io::host_name()) return {};
+  const std::string host = io::holder_of(directory).host;
+  if (host.empty() || host == io::host_name()) return {};
   return fmt::format(
-      "{} was begun on {} and has not ended there by its run.json: make sure that it does not go "
-      "on "
-      "there, locks do not reach across machines",
+      "{} was begun on {}, and its files do not say that it has ended there: make sure that it "
+      "does not go on there, locks do not reach across machines",
       directory.string(), host);
 }
 

@@ -14,7 +14,11 @@ namespace rondo::study {
 
 using Json = nlohmann::ordered_json;
 
-/// Adds what program wrote it, where: version, build, build id, host.
+/// What the program was built from: commit, modified, compiler, flags, libraries. The same in all
+/// documents.
+[[nodiscard]] Json build_record_json();
+
+/// Adds what program wrote it, where: version, build, build id, build record, kernels, host.
 void describe_program(Json& json);
 
 /// The first keys of run.json, with the status "running".
@@ -39,7 +43,7 @@ void write_contact_problem(const std::filesystem::path& directory, int number,
 /// @throws InputError (it holds another run), FileError
 [[nodiscard]] io::DirectoryLock take_directory(const Case& c, const RunOptions& options);
 
-/// The run that is gone on with may still be at work on another machine; empty: no sign of that.
+/// The run, sweep or shard there may still be at work on another machine; empty: no sign of that.
 std::string warning_of_another_host(const std::filesystem::path& directory);
 
 /// case.toml and run.json. @throws FileError

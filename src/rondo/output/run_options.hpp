@@ -52,6 +52,7 @@ struct RunReport {
   double slowest_step = 0.0;     ///< of a reduced run: over the time that it stands for
   double ns_per_dof_step = 0.0;  ///< 0: means nothing
   double energy_residual_relative = 0.0;
+  double energy_residual_bound = 0.0;  ///< above which the run ends as failed
   double contact_residual_max = 0.0;
   double penetration_max_m = 0.0;
   double strain_max = 0.0;    ///< largest |principal strain| seen
@@ -60,11 +61,11 @@ struct RunReport {
   std::vector<std::string> warnings;  ///< of what only the run could tell; the caller prints them
 };
 
-/// Bound of both residuals: beyond it a run stops.
+/// Bound of both residuals, which are round-off: beyond it a run stops.
 inline constexpr double residual_bound = 1e-9;
 
-/// Bound of the ledger's residual where bodies are free: in large rotation it closes to second
-/// order in the step only (docs/theory.md, section 9).
+/// Bound of the ledger's residual where linear elastic bodies are free: in large rotation it closes
+/// to second order in the step only (docs/theory.md, section 9).
 inline constexpr double free_residual_bound = 1e-2;
 
 }  // namespace rondo::study

@@ -12,14 +12,16 @@
 namespace rondo::study {
 namespace {
 
+constexpr const char* contact_name = "contact.csv";
+
 io::Csv contact_file(const std::filesystem::path& directory, const RecordPlan& plan,
                      const Checkpoint* from) {
-  const std::filesystem::path file = directory / "contact.csv";
+  const std::filesystem::path file = directory / contact_name;
   const bool solid = plan.results.mesh->is_solid();
   std::vector<ColumnLabel> labels = labels_of(solid ? solid_contact_columns() : contact_columns());
   for (ColumnLabel& label : labels_of(plan.contact_columns)) labels.push_back(std::move(label));
   const std::vector<std::string> names = names_of(labels);
-  return from ? io::Csv(file, names, from->files.contact_bytes) : io::Csv(file, names);
+  return from ? io::Csv(file, names, from->files.table(contact_name)) : io::Csv(file, names);
 }
 
 }  // namespace
@@ -27,11 +29,13 @@ io::Csv contact_file(const std::filesystem::path& directory, const RecordPlan& p
 SnapshotFiles::SnapshotFiles(const std::filesystem::path& directory, const RecordPlan& plan,
                              const Checkpoint* from)
     : mesh_(*plan.results.mesh),
+      boundary_(mesh_),
       ground_(plan.ground),
       model_(plan.model),
       contact_(plan.results.contact),
       further_columns_(plan.contact_columns),
-      results_(directory, plan.results, from ? std::optional(from->files.snapshots) : std::nullopt),
+      results_(directory, plan.results,
+               from ? std::optional(from->files.snapshots.count) : std::nullopt),
       contact_csv_(contact_file(directory, plan, from)) {
   if (plan.results.stress && !mesh_.is_solid()) stress_.emplace(mesh_, plan.materials);
   if (plan.results.stress && mesh_.is_solid()) solid_stress_.emplace(mesh_, plan.materials);
@@ -41,6 +45,8 @@ SnapshotFiles::SnapshotFiles(const std::filesystem::path& directory, const Recor
   if (model_) rotations_.resize(model_->free_bodies.size());
   force_.resize(nb);
   force_fixed_.resize(nb);
+  extent_ = mesh_.tributary;
+  extent_.resize(nb);
   on_ground_.resize(nb);
   slip_.resize(nb);
   sticks_.resize(nb);
@@ -65,6 +71,7 @@ void SnapshotFiles::collect_contact(const Snapshot& snapshot) {
     if (c.force != Vec2{} && !c.sticks) sticks_[c.candidate] = 0;
     lateral_[c.candidate] += c.lateral;
     fixed_axial_[c.candidate] += c.fixed_axial;
+    extent_[c.candidate] = boundary_.extent(c.candidate, snapshot.u, snapshot.axial_u);
   }
 }
 
@@ -94,11 +101,12 @@ void SnapshotFiles::write_contact_rows(const Snapshot& snapshot) {
       const Vec3 place = place_on_ground(snapshot, static_cast<std::size_t>(r.node));
       r.position = place.plane();
       r.lateral = place.z;
-      r.shear_lateral = lateral_[k] / mesh_.tributary[k];
+      r.shear_lateral = lateral_[k] / extent_[k];
     }
     r.abscissa = on_ground_[k] && ground_ ? ground_->abscissa(r.position)
                                           : std::numeric_limits<double>::quiet_NaN();
-    r.traction = force_[k] / mesh_.tributary[k];
+    r.traction = force_[k] / extent_[k];
+    r.extent = extent_[k];
     r.slip = slip_[k];
     r.sticks = sticks_[k] != 0;
     append_values(columns(), r, rows_);
@@ -157,6 +165,7 @@ void SnapshotFiles::write(const Snapshot& snapshot) {
     collect_contact(snapshot);
     s.contact_force = force_;
     s.contact_force_fixed = force_fixed_;
+    s.contact_extent = extent_;
     write_contact_rows(snapshot);
   }
   if (stress_) s.stress = (*stress_)(elastic(snapshot));
@@ -170,6 +179,11 @@ void SnapshotFiles::write(const Snapshot& snapshot) {
 void SnapshotFiles::sync() const {
   results_.sync();
   io::sync_file(contact_csv_.path());
+}
+
+void SnapshotFiles::add_to(KeptFiles& files) const {
+  files.tables[contact_name] = contact_csv_.place();
+  files.snapshots = results_.place();
 }
 
 void SnapshotFiles::close() {

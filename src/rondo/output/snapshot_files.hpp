@@ -9,6 +9,7 @@
 
 #include "rondo/fem/solid/solid_stress.hpp"
 #include "rondo/fem/stress.hpp"
+#include "rondo/mesh/deformed_boundary.hpp"
 #include "rondo/output/columns.hpp"
 #include "rondo/output/recorder.hpp"
 
@@ -25,7 +26,8 @@ class SnapshotFiles {
   /// @throws FileError
   void close();
   [[nodiscard]] std::size_t written() const { return results_.written(); }
-  [[nodiscard]] std::size_t contact_bytes() const { return contact_csv_.bytes(); }
+  /// What they hold by now, also once they are closed.
+  void add_to(KeptFiles& files) const;
   /// All that was written is on the disk, whatever happens to the machine. @throws FileError
   void sync() const;
 
@@ -41,6 +43,7 @@ class SnapshotFiles {
   }
 
   const mesh::Mesh& mesh_;
+  const mesh::DeformedBoundary boundary_;
   const contact::Ground* ground_;
   const dynamics::Model* model_;
   const bool contact_;
@@ -51,9 +54,10 @@ class SnapshotFiles {
   std::vector<Vec2> elastic_;  ///< (n) displacement in the frame of its body; empty: no free body
   std::vector<Complex> rotations_;         ///< of the free bodies
   std::vector<Vec2> force_, force_fixed_;  ///< (nb)
-  std::vector<char> on_ground_;            ///< (nb) 1: the ground presses it
-  std::vector<double> slip_;               ///< (nb)
-  std::vector<char> sticks_;               ///< (nb)
+  std::vector<double> extent_;   ///< (nb) of the deformed boundary, where a node is pressed
+  std::vector<char> on_ground_;  ///< (nb) 1: the ground presses it
+  std::vector<double> slip_;     ///< (nb)
+  std::vector<char> sticks_;     ///< (nb)
   // Of a wheel in three dimensions.
   std::optional<fem::SolidStressRecovery> solid_stress_;
   double camber_ = 0.0;

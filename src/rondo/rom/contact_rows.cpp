@@ -40,13 +40,35 @@ MatrixXd hat_weights(int n_sectors, int stride) {
 
 namespace {
 
+/// Of m points around a closed boundary, in their order.
+std::vector<std::array<int, 2>> beside_in_ring(int m) {
+  std::vector<std::array<int, 2>> beside;
+  for (int k = 0; k < m; ++k) beside.push_back({(k + m - 1) % m, (k + 1) % m});
+  return beside;
+}
+
+/// Of candidates in the order of the rings.
+std::vector<std::array<int, 2>> beside_in(const mesh::Mesh& mesh, const pod::Rings& rings) {
+  std::vector<int> place(mesh.n_nodes(), -1);
+  std::vector<std::array<int, 2>> beside(rings.point.size(), {-1, -1});
+  for (std::size_t k = 0; k < rings.point.size(); ++k)
+    place[static_cast<std::size_t>(mesh.boundary[static_cast<std::size_t>(rings.point[k])])] =
+        static_cast<int>(k);
+  for (const auto& [a, b] : mesh.contact_edges) {
+    const int from = place[static_cast<std::size_t>(a)], to = place[static_cast<std::size_t>(b)];
+    beside[static_cast<std::size_t>(from)][1] = to;
+    beside[static_cast<std::size_t>(to)][0] = from;
+  }
+  return beside;
+}
+
 /// Point k · phases + j is the place of sector k, j / phases of a sector further on.
 ContactRows rows_between(const mesh::Mesh& mesh, const ReducedModel& model) {
   const Index n = mesh.n_sectors, phases = model.weights.cols() / n;
   NodeRows nodes(mesh, model);
   const auto points = static_cast<std::size_t>(n * phases);
   ContactRows out{MatrixXd(2 * n * phases, model.size()), std::vector<Vec2>(points),
-                  std::vector<double>(points)};
+                  std::vector<double>(points), beside_in_ring(static_cast<int>(points))};
   const double sector = 2.0 * std::numbers::pi / static_cast<double>(n);
   for (Index j = 0; j < phases; ++j) {
     const ContactRows at = nodes.at(sector * static_cast<double>(j) / static_cast<double>(phases));
@@ -70,7 +92,7 @@ ContactRows standing_rows(const mesh::Mesh& mesh, const ReducedModel& model) {
                model.weights.rows());
   const auto points = static_cast<std::size_t>(model.weights.cols());
   ContactRows out{MatrixXd::Zero(2 * model.weights.cols(), model.size()), std::vector<Vec2>(points),
-                  std::vector<double>(points)};
+                  std::vector<double>(points), beside_in_ring(static_cast<int>(points))};
   // A place that k points have a part in counts for each of them with its part.
   const Eigen::VectorXd all = model.weights.rowwise().sum();
   for (std::size_t k = 0; k < points; ++k)
@@ -92,6 +114,7 @@ NodeRows::NodeRows(const mesh::Mesh& mesh, const ReducedModel& model)
     : mesh_(mesh),
       model_(model),
       rings_(pod::boundary_rings(mesh)),
+      beside_(beside_in(mesh, rings_)),
       rectifier_(rings_.n_sectors, rings_.n_rings() * static_cast<std::size_t>(model.size()),
                  pod::Components::cartesian, pod::Shift::fourier),
       modes_(static_cast<Index>(2 * rings_.point.size()), model.size()) {
@@ -107,7 +130,7 @@ ContactRows NodeRows::at(double phase) {
   const std::size_t m = rings_.point.size();
   const bool moves = model_.frame == ModelFrame::rectified && phase != 0.0;
   const Complex turned = moves ? rotation(phase) : Complex{1.0, 0.0};
-  ContactRows out{modes_, std::vector<Vec2>(m), std::vector<double>(m)};
+  ContactRows out{modes_, std::vector<Vec2>(m), std::vector<double>(m), beside_};
   for (std::size_t k = 0; k < m; ++k) {
     const auto candidate = static_cast<std::size_t>(rings_.point[k]);
     out.points[k] = turned * mesh_.coordinates[static_cast<std::size_t>(mesh_.boundary[candidate])];

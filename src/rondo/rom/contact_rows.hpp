@@ -3,6 +3,7 @@
 /// stand still in space, or the nodes of the boundary as they come by (docs/reduced.md, 5).
 #pragma once
 #include <Eigen/Core>
+#include <array>
 #include <vector>
 
 #include "rondo/core/vec2.hpp"
@@ -22,7 +23,8 @@ enum class ContactForm {
 struct ContactRows {
   Eigen::MatrixXd rows;       ///< (2m, r) H: the modes at the points, x and y of each
   std::vector<Vec2> points;   ///< (m) X of these, in the frame of the model                 [m]
-  std::vector<double> share;  ///< (m) length of boundary each stands for                   [m]
+  std::vector<double> share;  ///< (m) length of undeformed boundary each stands for        [m]
+  std::vector<std::array<int, 2>> beside;  ///< (m) points next to it on the boundary; -1: none
 };
 
 /// Share that a node of the boundary has in a contact point `distance` nodes away: a hat over
@@ -56,8 +58,9 @@ class NodeRows {
   const mesh::Mesh& mesh_;
   const ReducedModel& model_;
   pod::Rings rings_;
-  pod::Rectifier rectifier_;  ///< of all modes at once
-  Eigen::MatrixXd modes_;     ///< (2m, r) at the nodes, in the order of the rings
+  std::vector<std::array<int, 2>> beside_;  ///< as ContactRows has it
+  pod::Rectifier rectifier_;                ///< of all modes at once
+  Eigen::MatrixXd modes_;                   ///< (2m, r) at the nodes, in the order of the rings
 };
 
 }  // namespace rondo::rom

@@ -28,12 +28,26 @@ ContactTable::ContactTable(const rom::ContactRows& rows, const MatrixXd& carried
       carried_(carried),
       points_(rows.points),
       share_(rows.share),
+      beside_(rows.beside),
       slot_(points_.size(), -1) {
   for (Index k = 0; k < rows_.rows(); k += 2) reach_.push_back(rows_.middleRows(k, 2).norm());
 }
 
 Vec2 ContactTable::at(int k, const VectorXd& coefficients) const {
   return times(rows_, k, coefficients);
+}
+
+double ContactTable::length(int k, const VectorXd& q) const {
+  const double share = share_[static_cast<std::size_t>(k)];
+  const Vec2 u = at(k, q);
+  double undeformed = 0.0, deformed = 0.0;
+  for (const int other : beside_[static_cast<std::size_t>(k)]) {
+    if (other < 0) continue;
+    const Vec2 way = point(other) - point(k);
+    undeformed += norm(way);
+    deformed += norm(way + at(other, q) - u);
+  }
+  return undeformed > 0.0 ? share * (deformed / undeformed) : share;
 }
 
 Vec2 ContactTable::carried(int k, const VectorXd& coefficients) const {

@@ -2,6 +2,7 @@
 /// @file  Contact points at one phase of the disk, and the Delassus blocks between those of them
 /// that have been needed (docs/reduced.md, 5).
 #pragma once
+#include <array>
 #include <span>
 #include <vector>
 
@@ -27,7 +28,9 @@ class ContactTable {
 
   [[nodiscard]] std::size_t size() const noexcept { return points_.size(); }
   [[nodiscard]] Vec2 point(int k) const noexcept { return points_[static_cast<std::size_t>(k)]; }
-  [[nodiscard]] double share(int k) const noexcept { return share_[static_cast<std::size_t>(k)]; }
+  /// Length of boundary that a point stands for, as it is deformed: stretched like the way to the
+  /// points beside it. @param q (r) displacement [m]
+  [[nodiscard]] double length(int k, const VectorXd& q) const;
   /// Norm of the rows: |H q| <= reach |q|.
   [[nodiscard]] double reach(int k) const noexcept { return reach_[static_cast<std::size_t>(k)]; }
   /// H at a point, times coefficients (r).
@@ -52,15 +55,16 @@ class ContactTable {
  private:
   void grow(Index slots);
 
-  RowMatrix rows_, carried_;               ///< (2m, r)
-  std::vector<Vec2> points_;               ///< (m)
-  std::vector<double> share_;              ///< (m)
-  std::vector<double> reach_;              ///< (m)
-  std::vector<int> slot_;                  ///< (m) -1: not there
-  std::vector<int> known_;                 ///< points in the order of the slots
-  std::vector<std::size_t> portion_ends_;  ///< in known_, of each prepare() that added some
-  RowMatrix slot_rows_, slot_carried_;     ///< (2 slots, r)
-  MatrixXd dq_, dp_;                       ///< (r, 2 slots) at the end of the step
+  RowMatrix rows_, carried_;                ///< (2m, r)
+  std::vector<Vec2> points_;                ///< (m)
+  std::vector<double> share_;               ///< (m) undeformed
+  std::vector<std::array<int, 2>> beside_;  ///< (m)
+  std::vector<double> reach_;               ///< (m)
+  std::vector<int> slot_;                   ///< (m) -1: not there
+  std::vector<int> known_;                  ///< points in the order of the slots
+  std::vector<std::size_t> portion_ends_;   ///< in known_, of each prepare() that added some
+  RowMatrix slot_rows_, slot_carried_;      ///< (2 slots, r)
+  MatrixXd dq_, dp_;                        ///< (r, 2 slots) at the end of the step
   MatrixXd normal_, tangential_;  ///< (2 slots, 2 slots); tangential_ empty: the same as normal_
 };
 

@@ -223,7 +223,7 @@ void ReducedIntegrator::count_contacts(const Motion& m, const Carrier& carrier,
     if (c.impulse.x <= 0.0) continue;
     ++report.nodes;
     report.sticking += c.status == contact::Status::stick ? 1 : 0;
-    report.length += table.share(c.point);
+    report.length += table.length(c.point, q_end_);
     report.dissipation_friction -= c.impulse.y * dot(turn90(c.normal), velocity);
     report.loss_impact -= c.impulse.x * dot(c.normal, velocity);
     report.work_rim -= dot(impulse, velocity);

@@ -32,6 +32,15 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   io::Csv csv(file, names);
   csv.rows(rows);
   csv.close();
+  // Its place is that of these bytes and of no others.
+  const io::CsvPlace place = csv.place();
+  const std::string written = fuzz::text_of(file);
+  io::demand_kept(file, place);
+  fuzz::put(file, fuzz::view(data, size));
+  const bool same = fuzz::view(data, size).starts_with(written);
+  fuzz::check(fuzz::accepted([&] { io::demand_kept(file, place); }) == same,
+              "other bytes are taken for those that were written");
+  fuzz::put(file, written);
   const auto again = io::read_columns(file);
   for (const auto& [name, values] : columns)
     for (std::size_t i = 0; i < n; ++i) {

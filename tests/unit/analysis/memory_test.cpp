@@ -6,7 +6,7 @@
 #include "rondo/analysis/build/bodies.hpp"
 #include "rondo/analysis/build/crush/crush_setup.hpp"
 #include "rondo/core/bytes.hpp"
-#include "rondo/core/memory_limits.hpp"
+#include "rondo/core/limits/memory_limits.hpp"
 #include "unit/case/case_fixture.hpp"
 
 namespace rondo::study {

@@ -40,7 +40,7 @@ value = [[0, 0], [0.1, 2e5]]
 [initial]
 velocity = [3.0, 1.0]
 position = [0.0, 0.5]
-angle = 0.25
+turn = 0.25
 angular_velocity = -12.5
 [[initial.region]]
 surface = "core"
@@ -92,7 +92,7 @@ TEST(ReadBodies, TakesEveryKeyOfTheRun) {
   EXPECT_EQ(c.pressures[0].curve, "bore");
   EXPECT_EQ(c.pressures[0].pressure.at(0.05), 1e5);
   EXPECT_EQ(c.initial.position, (Vec2{0.0, 0.5}));
-  EXPECT_EQ(c.initial.angle, 0.25);
+  EXPECT_EQ(c.initial.turn, 0.25);
   EXPECT_EQ(c.initial.angular_velocity, -12.5);
   ASSERT_EQ(c.initial.regions.size(), 2U);
   EXPECT_EQ(c.initial.regions[0].velocity, (Vec2{-1, 2}));
@@ -191,6 +191,24 @@ TEST(WrongBodies, AListOfSomethingElse) {
   EXPECT_EQ(faults[0].line, 44);
   EXPECT_EQ(faults[0].found, "7");
   EXPECT_NE(faults[0].message.find("not an integer in it"), std::string::npos);
+}
+
+TEST(ReadBodies, TheAngleOfEarlierVersionsIsATurnTheOtherWay) {
+  std::string old = thrown;
+  old.replace(old.find("turn = 0.25"), 11, "angle = 0.25");
+  const Case c = read_text(old);
+  EXPECT_EQ(c.initial.turn, -0.25);
+  EXPECT_EQ(c.initial.angle, 0.0);
+  ASSERT_FALSE(c.warnings.empty());
+  EXPECT_NE(c.warnings.front().find("initial.turn = -0.25"), std::string::npos);
+  const auto from_material = [](const std::string& text) {
+    return text.substr(text.find("[material]"));
+  };
+  EXPECT_EQ(from_material(write_case(c)),
+            from_material(write_case(read_text(thrown, {"initial.turn=-0.25"}))));
+  const auto faults = faults_of(thrown, {"initial.angle=0.5"});
+  ASSERT_EQ(faults.size(), 1U);
+  EXPECT_EQ(faults[0].key, "initial.angle");
 }
 
 TEST(WrongBodies, ABondedDiskIsPlacedByItsRim) {

@@ -158,7 +158,7 @@ TEST(WrongFiles, AreNamed) {
             std::string::npos);
   EXPECT_EQ(file_fault(CaseFile(std::string(16'000'001, '#')).path()),
             "is longer than a case file may be");
-  EXPECT_EQ(file_fault("/dev/zero"), "is longer than a case file may be");
+  EXPECT_EQ(file_fault("/dev/zero"), "is a device, not a case file");
 }
 
 TEST(WrongFiles, NestingHasALimit) {

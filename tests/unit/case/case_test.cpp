@@ -187,7 +187,8 @@ TEST(ReadCase, DefaultsAreThoseOfTheManual) {
       "\n" + write_case(read_text(least + ground + "[analysis]\nkind = 'crush'\ndepth = 0.1\n",
                                   {"analysis.increments=4"}));
   const auto is_for_free_bodies = [](std::string_view key) {
-    return key == "initial.position" || key == "initial.angle" || key == "initial.angular_velocity";
+    return key == "initial.position" || key == "initial.turn" || key == "initial.angle" ||
+           key == "initial.angular_velocity";
   };
   const std::string wheel = "\n" + write_case(read_text(least + ground, {"disk.width=0.1"}));
   const auto is_for_wheels = [](std::string_view key) {
@@ -242,7 +243,7 @@ TEST(WriteCase, RoundTrips) {
 }
 
 TEST(WriteCase, RoundTripsBodies) {
-  expect_round_trip(read_text(free_disk, {"initial.position=[0.1, 0.2]", "initial.angle=-0.3"}));
+  expect_round_trip(read_text(free_disk, {"initial.position=[0.1, 0.2]", "initial.turn=-0.3"}));
   const std::vector<std::string> mesh{
       "mesh.file=/a \"b\"/c.msh",
       "mesh.scale=1e-3",
@@ -399,7 +400,7 @@ TEST(Settings, TextThatIsNotToml) {
   const auto faults = faults_of(base, {"time.end=0,2"});
   ASSERT_EQ(faults.size(), 1U);
   EXPECT_EQ(faults[0].found, "0,2");
-  EXPECT_EQ(faults[0].message, "must be a float, not a string");
+  EXPECT_EQ(faults[0].message, "must be a float, not a string; it has a decimal comma: write 0.2");
 }
 
 }  // namespace

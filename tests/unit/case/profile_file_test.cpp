@@ -106,6 +106,55 @@ TEST(ProfileFile, IsRelativeToTheCase) {
   EXPECT_EQ(write_case(again), write_case(c));
 }
 
+TEST(ProfileFile, ForeignNumbersAreNamedWithTheirCause) {
+  const auto said = [](const char* text) {
+    const ProfileFile found = parse_profile("road.csv", text);
+    return found.faults.empty() ? "" : found.faults.front().message;
+  };
+  EXPECT_EQ(said("0,0 0,0\n0,5 0,1\n"),
+            "the line must have 2 numbers, not 4; a comma divides items, a point is in a number: "
+            "0.3, not 0,3");
+  EXPECT_EQ(said("0;0\n1;0\n"),
+            "the line must have 2 numbers, not 1; a semicolon divides no numbers here");
+  EXPECT_EQ(said("0 0\n1.5D-01 0\n"),
+            "is not a number; it has an exponent with D, as Fortran writes it: write 1.5e-01");
+  EXPECT_EQ(said("0 0\n1 \u22120.1\n"),
+            "is not a number; it has the minus sign U+2212 where - is to stand");
+  EXPECT_EQ(said("\u22121 \u22122\n0 0\n1 0\n"),
+            "is not a number; it has the minus sign U+2212 where - is to stand")
+      << "it is no header";
+}
+
+TEST(ProfileFile, OpenCrgRoadsAreToldFromProfiles) {
+  for (const char* text : {"$CT\nCRG file example\n$\n", "a comment\n$ROAD_CRG\n$\n",
+                           "\n$KD_DEFINITION\n#:LRFI\n$\n"}) {
+    const ProfileFile found = parse_profile("road.csv", text);
+    ASSERT_EQ(found.faults.size(), 1U);
+    EXPECT_NE(found.faults.front().text().find("is an OpenCRG road file"), std::string::npos);
+    EXPECT_NE(found.faults.front().allowed.find("exported as a CSV file"), std::string::npos);
+  }
+  const CaseFile named(test::with_line(25, "profile = \"road.CRG\"", test::with_line(26, "")));
+  std::ofstream(named.path().parent_path() / "road.CRG") << std::string(17'000'000, ' ');
+  try {
+    static_cast<void>(read_case(named.path()));
+    FAIL() << "it is taken";
+  } catch (const InputError& error) {
+    EXPECT_NE(std::string(error.what()).find("road.CRG: is an OpenCRG road file"),
+              std::string::npos)
+        << error.what();
+    EXPECT_NE(error.faults().front().allowed.find("one section along the road"), std::string::npos);
+  }
+}
+
+TEST(ProfileFile, OfManyFaultsOfAKeyTheFirstAreTold) {
+  std::string csv;
+  for (int k = 0; k < 1000; ++k) csv += std::to_string(k % 2 == 0 ? k : k - 3) + " 0\n";
+  const std::string text = ProfileCase(csv).faults();
+  EXPECT_EQ(std::count(text.begin(), text.end(), '\n'), 5) << text.substr(0, 2000);
+  EXPECT_NE(text.find("ground.profile: and "), std::string::npos) << text;
+  EXPECT_NE(text.find(" more of this kind"), std::string::npos) << text;
+}
+
 TEST(ProfileFile, FaultsOfTheShapeNameTheLine) {
   const ProfileCase back("x y\n0 0\n\n1 0\n0.5 0\n");
   EXPECT_EQ(back.faults().find("road.csv:5:1: ground.profile: the profile goes back to the left"),

@@ -132,6 +132,51 @@ TEST(Ground, SharpConvexCornersAreListed) {
   EXPECT_EQ(Ground{in_line}.corners()[1].position, (Vec2{3.0, 0.0}));
 }
 
+TEST(Ground, ArcsBelowTheSpacingOfNodesAreCorners) {
+  const Ground ground{ledge, 0.021};
+  ASSERT_EQ(ground.corners().size(), 1u);
+  const Corner& corner = ground.corners()[0];
+  EXPECT_EQ(corner.radius, 0.02);
+  EXPECT_LT(norm(corner.center - Vec2{0.02, -0.02}), 1e-16);
+  EXPECT_LT(norm(corner.position - (corner.center + 0.02 * direction_at(0.75 * std::numbers::pi))),
+            1e-16);
+  EXPECT_NEAR(ground.bend_reach(), 0.005 * std::numbers::pi, 1e-16);
+  const Ground resolved{ledge, 0.02};
+  EXPECT_TRUE(resolved.corners().empty());
+  EXPECT_EQ(resolved.bends().size(), 1u);
+}
+
+TEST(Ground, BluntTurnsAreNoCorners) {
+  GroundShape noisy;
+  noisy.profile.clear();
+  for (int i = 0; i <= 1000; ++i) noisy.profile.push_back({0.01 * i, i % 2 * 1e-12});
+  const Ground ground{noisy, 0.01};
+  EXPECT_TRUE(ground.corners().empty());
+  EXPECT_FALSE(ground.has_concave_corners());
+  EXPECT_EQ(ground.touches({5.0, -0.001}).count, 1);
+  const auto corners = [](double turn) {  // a hill and its valleys
+    const Ground hill{GroundShape{.profile = {{-2, 0}, {-1, 0}, {0, turn}, {1, 0}, {2, 0}}}};
+    return std::pair(hill.corners().size(), hill.has_concave_corners());
+  };
+  EXPECT_EQ(corners(0.51 * blunt_turn), std::pair(std::size_t{1}, false));
+  EXPECT_EQ(corners(0.49 * blunt_turn), std::pair(std::size_t{0}, false));
+  EXPECT_EQ(corners(1.01 * blunt_turn), std::pair(std::size_t{1}, true));
+}
+
+/// Many turns that are blunt each: a round bar of 5 mm in a thousand pieces.
+TEST(Ground, BluntTurnsAddUpWithinASpacing) {
+  GroundShape bar;
+  bar.profile = {{-1, 0}};
+  for (int i = 0; i <= 1000; ++i)
+    bar.profile.push_back(0.005 * direction_at(std::numbers::pi * (1.0 - 0.001 * i)));
+  bar.profile.push_back({1, 0});
+  EXPECT_TRUE(Ground(bar, 1e-6).corners().empty());
+  const Ground ground{bar, 0.01};
+  EXPECT_NEAR(static_cast<double>(ground.corners().size()), std::numbers::pi / blunt_turn, 70.0);
+  for (std::size_t k = 1; k < ground.corners().size(); ++k)
+    EXPECT_LT(norm(ground.corners()[k].position - ground.corners()[k - 1].position), 1e-4);
+}
+
 TEST(Ground, BesideASharpCornerTheNearerFacetHolds) {
   const Ground ground{GroundShape{.profile = ledge.profile}};
   const auto hold = [&](Vec2 x) {
@@ -215,6 +260,29 @@ TEST(Ground, ManyFacetsAreSearched) {
       least = std::min(least, norm(x - (p[i] + along * d)));
     }
     EXPECT_NEAR(std::abs(ground.distance(x)), least, 1e-12 * (1.0 + norm(x))) << trial;
+  }
+}
+
+/// The corners of a stretch are all that have a point in it.
+TEST(Ground, CornersOfAStretch) {
+  for (const double fillet : {0.0, 1e-3}) {
+    GroundShape shape{.profile = {{-10.0, 0.0}}, .fillet = fillet};
+    for (int i = 0; i < 50; ++i)
+      for (const double y : {0.0, 0.01}) shape.profile.push_back({0.02 * i + 2.0 * y / 4.0, y});
+    ASSERT_TRUE(shape_faults(shape).empty());
+    const Ground ground(shape, 0.01);
+    ASSERT_EQ(ground.corners().size(), 49U);
+    for (const double low : {-20.0, 0.2, 0.7, 5.0}) {
+      const auto some = ground.corners(low, low + 0.1);
+      for (const Corner& corner : ground.corners()) {
+        const bool inside = corner.position.x >= low && corner.position.x <= low + 0.1;
+        const bool listed = &corner >= some.data() && &corner < some.data() + some.size();
+        EXPECT_TRUE(listed || !inside) << low;
+        if (fillet == 0.0) {
+          EXPECT_EQ(listed, inside) << low;
+        }
+      }
+    }
   }
 }
 

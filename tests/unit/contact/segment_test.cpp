@@ -179,6 +179,27 @@ TEST(Boundary, ABodyAndItsOwnNodes) {
   EXPECT_EQ(touch_boundary({closing[3], 3, 0, false}, moved).count, 0);  // not asked for
 }
 
+/// The arc's point under each segment is another one; beyond a joint the node is what touches.
+TEST(Boundary, AnArcOfTheGroundTouchesWhereTheSegmentMeetsItFirst) {
+  const Body b = body_of({{0, 0.1}, {1, 0}, {2, 0.1}, {2, 1}, {0, 1}});
+  const auto at = [&](double x, double top) {  // of a post with a round head of radius 0.2
+    const Corner head{{x, top}, {Vec2{-1, 0}, Vec2{1, 0}}, {x, top - 0.2}, 0.2};
+    return touch_boundary({.position = head.position, .bend = &head},
+                          {b.boundary, b.points, b.all, 0.3});
+  };
+  const double slope = std::atan(0.1);
+  const EdgeTouches left = at(0.5, 0.1);
+  ASSERT_EQ(left.count, 1);
+  EXPECT_EQ(left.at[0].edge, 0);
+  // The center is 0.15 below the segment, along y.
+  EXPECT_NEAR(left.at[0].touch.gap, 0.15 * std::cos(slope) - 0.2, 1e-15);
+  EXPECT_NEAR(left.at[0].touch.at * norm({1.0, 0.1}),
+              0.5 / std::cos(slope) + 0.15 * std::sin(slope), 1e-15);
+  EXPECT_EQ(at(1.5, 0.1).at[0].edge, 1);
+  EXPECT_EQ(at(1.0, 0.1).count, 0);  // on either side the foot is beyond the node
+  EXPECT_EQ(at(0.5, 0.04).count, 0);
+}
+
 TEST(Boundary, EachBodyHoldsByItself) {
   // Two blocks side by side, a point in both: a crevice holds by both walls.
   std::vector<Vec2> points{{0, 0}, {1.01, 0}, {1.01, 1}, {0, 1}, {1, 0}, {2, 0}, {2, 1}, {1, 1}};

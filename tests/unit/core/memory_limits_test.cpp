@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "rondo/core/memory_limits.hpp"
+#include "rondo/core/limits/memory_limits.hpp"
 
 #include <gtest/gtest.h>
 #include <unistd.h>

@@ -105,7 +105,7 @@ TEST(ContactFinder, FindsWhatASearchOfEverythingFinds) {
   test::add_block(mesh, {.corner = {0.07, 0.99}, .columns = 9, .rows = 7});
   Model model = test::body_model(mesh, rubber, 0.0, 0.0, 0.8);
   test::add_surfaces(model, mesh, {0.3, 0.0});
-  test::add_ground(model, mesh, {.profile = {{-9, 0.01}, {0.33, 0.01}, {9, -0.3}}, .fillet = 0.05},
+  test::add_ground(model, mesh, {.profile = {{-9, 0.01}, {0.33, 0.01}, {9, -0.3}}, .fillet = 0.2},
                    {0.3, 0.0});
   bool tried = false;
   const Seen seen = compare(model, 400, [&](int n, std::vector<Vec2>& u) {

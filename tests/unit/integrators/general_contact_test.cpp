@@ -62,16 +62,20 @@ TEST(GeneralContact, ABlockOnFlatGroundAsTheReferenceStepHasIt) {
   EXPECT_LT(free.balance().relative, 1e-12);
 }
 
-/// A block comes down on a sharp edge between two of its nodes, frictionless and with friction.
+/// A block comes down on an edge between two of its nodes, sharp or rounded by less than the nodes
+/// are apart, frictionless and with friction.
 TEST(GeneralContact, ASharpCornerHoldsASegment) {
   mesh::Mesh mesh;
   test::add_block(mesh, {.corner = {-0.5, 0.0}, .columns = 3, .rows = 3});
-  for (const double mu : {0.0, 0.5}) {
+  for (const auto& [mu, fillet] : {std::pair{0.0, 0.0}, {0.5, 0.0}, {0.0, 0.05}, {0.5, 0.05}}) {
     Model model = test::body_model(mesh, rubber, 20.0, 2e-4, 0.8);
     model.motion.gravity = Table(9.81);
-    // A roof whose ridge is under the middle of the middle edge.
-    test::add_ground(model, mesh, {.profile = {{-10, -10.01}, {0, -0.01}, {10, -10.01}}},
-                     {mu, 0.0});
+    // A roof whose ridge is under the middle of the middle edge, 0.01 m below it.
+    const double ridge = fillet * (std::sqrt(2.0) - 1.0) - 0.01;
+    test::add_ground(
+        model, mesh,
+        {.profile = {{-10, ridge - 10}, {0, ridge}, {10, ridge - 10}}, .fillet = fillet},
+        {mu, 0.0});
     test::Stepping stepping(model, start(model, std::vector<Vec2>(model.n_nodes()),
                                          std::vector<Vec2>(model.n_nodes())));
     Extremes seen;
@@ -82,6 +86,7 @@ TEST(GeneralContact, ASharpCornerHoldsASegment) {
     EXPECT_LT(seen.penetration, std::sqrt(2.0 * 9.81 * 0.011) * model.dt) << mu;
     EXPECT_LT(seen.residual, 1e-12) << mu;
     EXPECT_EQ(seen.not_converged, 0);
+    EXPECT_LT(stepping.balance().relative, 1e-9) << fillet;
   }
 }
 

@@ -19,6 +19,7 @@ struct RollingCase {
   DiskCase disk;
   contact::Law law{0.4, 0.0};
   std::optional<contact::GroundShape> ground;
+  double spacing = 0.0;                    ///< that the ground is told of its nodes
   bool stiffened = false;                  ///< by the stress of the initial spin
   bool pressed = false;                    ///< by pressures on its boundary
   std::optional<dynamics::RimBody> rim{};  ///< without the bonded nodes
@@ -64,6 +65,13 @@ inline RollingCase pressed(RollingCase c) {
 inline RollingCase sharp(RollingCase c) {
   c.name += "_sharp";
   c.ground->fillet = 0.0;
+  return c;
+}
+/// With arcs that are smaller than the nodes are apart.
+inline RollingCase small_arcs(RollingCase c) {
+  c.name += "_small_arcs";
+  c.ground->fillet = 0.008;
+  c.spacing = 0.02;
   return c;
 }
 
@@ -202,7 +210,7 @@ inline Built build(const RollingCase& c) {
     set_stiffness(b, c.disk);
   }
   if (c.ground) {
-    add_ground(b, *c.ground, c.law);
+    add_ground(b, *c.ground, c.law, c.spacing);
     b.model.contact->edges = b.mesh.contact_edges;
   }
   if (c.massless) make_contact_massless(b);

@@ -9,6 +9,12 @@
 namespace rondo::io::test {
 namespace {
 
+std::string hash_of(const std::string& text, std::size_t bytes) {
+  Hash hash;
+  hash.add(std::span<const char>(text).first(std::min(bytes, text.size())));
+  return hash.text();
+}
+
 TEST(Csv, NumbersReadBackTheSameBits) {
   const Folder folder;
   const double third = 1.0 / 3.0, tiny = std::numeric_limits<double>::denorm_min();
@@ -57,12 +63,12 @@ TEST(Csv, GoesOnAfterTheBytesThatAreKept) {
   const auto path = folder / "a.csv";
   Csv csv(path, {"a", "b"});
   csv.row(std::vector<double>{1.0, 2.0});
-  const std::size_t bytes = csv.bytes();
+  const CsvPlace kept = csv.place();
   csv.row(std::vector<double>{3.0, 4.0});
   csv.close();
-  Csv again(path, {"a", "b"}, bytes);
+  Csv again(path, {"a", "b"}, kept);
   again.row(std::vector<double>{5.0, 6.0});
-  EXPECT_EQ(again.bytes(), text_of(path).size());
+  EXPECT_EQ(again.place().bytes, text_of(path).size());
   again.close();
   EXPECT_EQ(text_of(path), "a,b\n1,2\n5,6\n");
 }
@@ -71,12 +77,48 @@ TEST(Csv, DoesNotGoOnWithAnotherFile) {
   const Folder folder;
   put_text(folder / "a.csv", "a,b\n1,2\n");
   const auto error = [&](const std::vector<std::string>& columns, std::size_t bytes) {
-    return error_of<FileError>([&] { const Csv csv(folder / "a.csv", columns, bytes); });
+    const CsvPlace kept{bytes, hash_of("a,b\n1,2\n", bytes)};
+    return error_of<FileError>([&] { const Csv csv(folder / "a.csv", columns, kept); });
   };
   EXPECT_NE(error({"a", "b"}, 9).find("holds 8 bytes where it held 9"), std::string::npos);
   EXPECT_NE(error({"a", "c"}, 4).find("does not begin with the columns"), std::string::npos);
   EXPECT_NE(error({"a", "b", "c and more"}, 4).find("does not begin"), std::string::npos);
   EXPECT_EQ(text_of(folder / "a.csv"), "a,b\n1,2\n");
+}
+
+TEST(Csv, DamageInWhatIsKeptIsToldWithItsLine) {
+  const Folder folder;
+  const auto path = folder / "a.csv";
+  CsvPlace kept;
+  {
+    Csv csv(path, {"a", "b"});
+    csv.rows(std::vector<double>{1.0, 2.0, 3.0, 444.0, 5.0, 6.0});
+    kept = csv.place();
+    csv.row(std::vector<double>{7.0, 8.0});
+  }
+  const std::string whole = text_of(path);
+  const auto expect = [&](std::size_t at, const std::string& bytes, const std::string& said) {
+    std::string text = whole;
+    put_text(path, text.replace(at, bytes.size(), bytes));
+    const std::string error = error_of<FileError>([&] { demand_kept(path, kept); });
+    EXPECT_NE(error.find(said), std::string::npos) << error;
+  };
+  EXPECT_NO_THROW(demand_kept(path, kept));
+  expect(0, "x", "a.csv: its first 18 bytes are not those that were written: damaged");
+  expect(4, std::string(1, '\0'), "line 2: \"?\" is not a number");
+  expect(10, "nan", "line 3 holds a number that is not finite; its first 18 bytes");
+  expect(14, "566", "line 4: not 2 fields as in the header");
+  expect(14, "5,7", "a.csv: its first 18 bytes are not those that were written: damaged");
+  put_text(path, whole.substr(0, 18) + std::string(7, '\0'));  // what follows does not matter
+  EXPECT_NO_THROW(demand_kept(path, kept));
+}
+
+/// As the abscissa of what the ground does not press.
+TEST(Csv, ANumberThatIsNotFiniteMayHaveBeenWritten) {
+  const Folder folder;
+  Csv csv(folder / "a.csv", {"a"});
+  csv.row(std::vector<double>{std::nan("")});
+  EXPECT_NO_THROW(demand_kept(folder / "a.csv", csv.place()));
 }
 
 TEST(Csv, OfWhatHasNoRoomNothingIsLeft) {

@@ -173,8 +173,9 @@ TEST(GmshFaults, Volumes) {
 TEST(GmshFaults, NoCells) {
   Msh msh = squares();
   msh.elements.resize(first_square);
-  expect_refused(
-      msh, {"no triangles and no quadrilaterals", "Mesh.SaveAll", "Physical Surface(\"body\")"});
+  expect_refused(msh, {"no triangles and no quadrilaterals",
+                       "every surface of the body must be in a physical surface",
+                       "Physical Surface(\"body\")"});
 }
 
 // Physical groups -----------------------------------------------------------------------------

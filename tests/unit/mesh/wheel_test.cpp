@@ -9,6 +9,7 @@
 
 #include "rondo/core/complex.hpp"
 #include "rondo/fem/solid/hexahedron.hpp"
+#include "rondo/mesh/edges.hpp"
 #include "rondo/mesh/gmsh_reader.hpp"
 #include "rondo/mesh/solid/face.hpp"
 #include "support/msh_files.hpp"
@@ -131,6 +132,24 @@ TEST(Wheel, TributariesSumToTheContactSurface) {
   EXPECT_NEAR(std::accumulate(m.tributary.begin(), m.tributary.end(), 0.0), 90 * 4 * face, 1e-15);
   EXPECT_NEAR(m.tributary[0], 0.5 * face, 1e-17);  // on a shoulder
   EXPECT_NEAR(m.tributary[1], face, 1e-17);
+}
+
+/// Each once, with the axle on its left; none across a groove, and none from or to what is held.
+TEST(Wheel, EdgesAroundTheWheel) {
+  for (const mesh::Wheel& wheel : {box(), treaded()}) {
+    const Mesh m = mesh::make_wheel(wheel);
+    const auto edges = mesh::rolling_edges(m, "tread");
+    const std::size_t lines = static_cast<std::size_t>(wheel.axial) + 1;
+    EXPECT_EQ(edges.size(), wheel.disk.tread ? 12 * 3 * lines : 90 * lines);
+    for (const auto& [a, b] : edges) {
+      const auto i = static_cast<std::size_t>(a), j = static_cast<std::size_t>(b);
+      EXPECT_EQ(m.axial[i], m.axial[j]);
+      EXPECT_GT(cross(m.coordinates[i], m.coordinates[j]), 0.0);
+    }
+    const double columns = wheel.disk.tread ? 60 : 90;
+    EXPECT_NEAR(mesh::longest_edge(m.coordinates, edges),
+                0.60 * std::sin(std::numbers::pi / columns), 1e-15);
+  }
 }
 
 TEST(Wheel, TreadHasLandsAndGroovesAcross) {

@@ -10,6 +10,9 @@
 #include <vector>
 
 #include "bodies.hpp"
+#include "rondo/fem/harmonics.hpp"
+#include "rondo/mesh/solid/wheel.hpp"
+#include "rondo/modal/solid_critical_spin.hpp"
 
 using namespace rondo;
 using modal::Wave;
@@ -97,4 +100,99 @@ TEST(CriticalSpeeds, UpToASpinAreThoseThatAreNotAboveIt) {
       EXPECT_NEAR(c.spin, same->spin, 1e-9 * same->spin);
     }
   }
+}
+
+/// Two unknowns a sector: a quadratic in 1/s². For n = 1 (8.6)'s right side has rank 1 a node.
+TEST(CriticalSpeeds, OfOneLayerAreThoseOfTwoUnknowns) {
+  const auto b = test::body_of(test::ring(1, 12));
+  fem::Harmonics harmonics(b.sector, b.mass);
+  ASSERT_EQ(harmonics.size(), 2);
+  const auto found = modal::critical_speeds(b.cyclic(), nullptr, 6);
+  ASSERT_EQ(found.size(), 6U);
+  for (const modal::CriticalSpeed& c : found) {
+    const double n = c.diameters;
+    Eigen::Matrix2cd right;
+    right << n * n + 1.0, std::complex<double>(0.0, 2.0 * n), std::complex<double>(0.0, -2.0 * n),
+        n * n + 1.0;
+    const Eigen::MatrixXcd lower = Eigen::MatrixXcd(harmonics.lower(c.diameters, 1.0, 0.0));
+    const Eigen::Matrix2cd left = Eigen::MatrixXcd(lower.selfadjointView<Eigen::Lower>());
+    const double mu =
+        Eigen::GeneralizedSelfAdjointEigenSolver<Eigen::Matrix2cd>(right, left).eigenvalues()[1];
+    EXPECT_NEAR(c.spin * std::sqrt(mu), 1.0, 1e-10) << n;
+    EXPECT_LT(c.residual, 1e-10) << n;
+  }
+}
+
+namespace {
+
+struct SolidWheel {
+  mesh::Mesh mesh;
+  fem::SolidSector sector;
+  std::vector<double> mass;
+};
+
+SolidWheel solid_wheel(double poissons_ratio) {
+  const fem::Material material{5.0e6, poissons_ratio, 1100.0, fem::Plane::strain};
+  SolidWheel w;
+  mesh::Wheel wheel;
+  wheel.disk = {.outer_radius = 0.3,
+                .inner_radius = 0.2,
+                .radial = 2,
+                .circumferential = 12,
+                .grading = 1.0,
+                .tread = {}};
+  wheel.width = 0.1;
+  wheel.axial = 2;
+  w.mesh = mesh::make_wheel(wheel);
+  w.sector = fem::assemble_solid_sector(w.mesh, {&material, 1});
+  w.mass = fem::solid_mass(w.mesh, {&material, 1});
+  return w;
+}
+
+/// Lowest spin of n = 0 … N/2 at which K(n) - s² Q is singular, by dense matrices.
+modal::CriticalSpeed dense_critical_spin(const SolidWheel& w) {
+  fem::Harmonics harmonics(w.sector, w.mass);
+  modal::CriticalSpeed lowest{-1, std::numeric_limits<double>::infinity(), 0.0};
+  for (int n = 0; n < harmonics.count(); ++n) {
+    const double waves = n;
+    const Eigen::MatrixXcd lower = Eigen::MatrixXcd(harmonics.lower(n, 1.0, 0.0));
+    const Eigen::MatrixXcd left = lower.selfadjointView<Eigen::Lower>();
+    Eigen::MatrixXcd right = Eigen::MatrixXcd::Zero(left.rows(), left.cols());
+    for (Eigen::Index k = 0; k < left.rows(); k += 3) {
+      right(k, k) = right(k + 1, k + 1) = waves * waves + 1.0;
+      right(k + 2, k + 2) = waves * waves;
+      right(k, k + 1) = std::complex<double>(0.0, 2.0 * waves);
+      right(k + 1, k) = std::complex<double>(0.0, -2.0 * waves);
+    }
+    const double mu = Eigen::GeneralizedSelfAdjointEigenSolver<Eigen::MatrixXcd>(right, left)
+                          .eigenvalues()
+                          .maxCoeff();
+    if (1.0 / std::sqrt(mu) < lowest.spin) lowest = {n, 1.0 / std::sqrt(mu), 0.0};
+  }
+  return lowest;
+}
+
+}  // namespace
+
+TEST(SolidCriticalSpin, IsTheLowestOfADenseSolution) {
+  const SolidWheel w = solid_wheel(0.45);
+  const modal::CriticalSpeed exact = dense_critical_spin(w);
+  EXPECT_FALSE(modal::lowest_critical_spin(w.sector, w.mass, 0.999 * exact.spin).has_value());
+  for (const double spin : {1.001 * exact.spin, -3.0 * exact.spin}) {
+    const auto found = modal::lowest_critical_spin(w.sector, w.mass, spin);
+    ASSERT_TRUE(found.has_value());
+    EXPECT_EQ(found->diameters, exact.diameters);
+    EXPECT_NEAR(found->spin / exact.spin, 1.0, 2.0 * modal::solid_critical_tolerance);
+  }
+}
+
+/// Without lateral contraction a wheel can move as the plane body does, and in more ways besides.
+TEST(SolidCriticalSpin, IsNotAboveThatOfThePlaneBody) {
+  const SolidWheel w = solid_wheel(0.0);
+  const fem::SectorStiffness plane = fem::plane_part(w.sector);
+  const auto of_plane = modal::critical_speeds({plane, w.mass, w.mesh.coordinates}, nullptr, 6);
+  const auto lowest = std::ranges::min_element(of_plane, {}, &modal::CriticalSpeed::spin);
+  const auto found = modal::lowest_critical_spin(w.sector, w.mass, 1.0001 * lowest->spin);
+  ASSERT_TRUE(found.has_value());
+  EXPECT_LE(found->spin, 1.0001 * lowest->spin);
 }

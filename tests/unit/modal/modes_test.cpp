@@ -39,8 +39,10 @@ double product(const test::ModalBody& b, const modal::Mode& p, const modal::Mode
 }  // namespace
 
 TEST(Modes, AllAreThoseOfADenseSolution) {
-  for (const int columns : {9, 8}) {  // odd, and even: a harmonic N/2
-    const auto b = test::body_of(test::ring(2, columns));
+  // Odd columns, and even ones, which have a harmonic N/2; one layer: two unknowns a sector.
+  for (const auto& [layers, columns] :
+       {std::pair{2, 9}, std::pair{2, 8}, std::pair{1, 9}, std::pair{1, 8}, std::pair{1, 3}}) {
+    const auto b = test::body_of(test::ring(layers, columns));
     const int all = static_cast<int>(2 * fem::free_nodes(b.mesh).size());
     for (const double spin : {0.0, 60.0, -60.0}) {
       const std::vector<double> expected = test::dense_frequencies(b, spin);

@@ -53,7 +53,31 @@ TEST(History, EveryStepIsARowWhereNoIntervalIsGiven) {
   std::vector<double> rows;
   for (long long k = 1; k <= 3; ++k) history.observe(step_of(b, k, 1.0), nullptr, rows);
   EXPECT_EQ(rows.size(), 3 * history.columns().size());
-  EXPECT_EQ(history.next_probed(), std::numeric_limits<long long>::max()) << "no probe";
+  EXPECT_EQ(history.next_wanted(), 4) << "the contact length of a row is of its state";
+  const History reduced(b.c, b.setup, {}, History::Length::deformed);
+  EXPECT_EQ(reduced.next_wanted(), std::numeric_limits<long long>::max()) << "no probe";
+}
+
+TEST(History, TheContactLengthIsThatOfTheDeformedBoundary) {
+  const Built b = built({"output.history_interval=0"});
+  dynamics::StepReport step = step_of(b, 1, 1.0);
+  dynamics::State state(b.setup.model);
+  for (std::size_t i = 0; i < state.u.size(); ++i) state.u[i] = 0.1 * b.setup.mesh.coordinates[i];
+  for (const std::size_t k : {3U, 4U}) {
+    dynamics::ActiveContact contact;
+    contact.candidate = k;
+    contact.impulse = {1.0, 0.0};
+    state.active.push_back(contact);
+    step.contact.length += b.setup.mesh.tributary[k];
+  }
+  History history(b.c, b.setup), deformed(b.c, b.setup, {}, History::Length::deformed);
+  std::vector<double> row, blind, reported;
+  history.observe(step, &state, row);
+  EXPECT_NEAR(value(history.columns(), row, "contact_length_m"), 1.1 * step.contact.length, 1e-15);
+  deformed.observe(step, nullptr, reported);
+  EXPECT_EQ(value(history.columns(), reported, "contact_length_m"), step.contact.length);
+  history.observe(step_of(b, 2, 1.0), nullptr, blind);
+  EXPECT_EQ(value(history.columns(), blind, "contact_length_m"), 0.0) << "nothing touches";
 }
 
 TEST(History, ForcesAreMeansOverTheIntervalAndPenetrationItsLargest) {
@@ -116,7 +140,7 @@ TEST(History, TheStateOfRowsWithProbesIsAskedForInTurn) {
   History history(b.c, b.setup);
   std::vector<double> rows;
   for (long long k = 1; k <= 40; ++k) {
-    const bool wanted = history.next_probed() == k;
+    const bool wanted = history.next_wanted() == k;
     const std::size_t before = rows.size();
     dynamics::State state(b.setup.model);
     history.observe(step_of(b, k, 1.0), wanted ? &state : nullptr, rows);

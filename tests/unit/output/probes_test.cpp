@@ -32,7 +32,7 @@ TEST(Probes, AreInTheMeshBeforeBodiesArePlaced) {
   const MeshCaseFile file(squares);
   const auto s =
       build(file.read({"output.probe[0].name=p", "output.probe[0].position=[0.2, 0.9]",
-                       "initial.angle=1.5707963267948966", "initial.position=[3.0, 0.0]"}),
+                       "initial.turn=-1.5707963267948966", "initial.position=[3.0, 0.0]"}),
             1);
   ASSERT_EQ(s.probes.size(), 1U);
   Vec2 x;

@@ -96,6 +96,7 @@ TEST(SweepStudy, EveryFaultIsNamedAtItsPlace) {
   };
   const std::string vary = "[[vary]]\nkey = \"ground.friction\"\n";
   const std::string values = vary + "values = [0.1]\n";
+  const std::string several = "[[vary]]\nkeys = [\"ground.friction\", \"motion.speed\"]\n";
   for (const Wrong& wrong : std::vector<Wrong>{
            {"base = \"c.toml\"\n" + values, "schema", "is missing", 0},
            {"schema = 2\nbase = \"c.toml\"\n" + values, "schema", "another version", 1},
@@ -140,6 +141,28 @@ TEST(SweepStudy, EveryFaultIsNamedAtItsPlace) {
            {top + values + "[window]\nfrom = 2\nto = 1\n", "window.to", "not after", 8},
            {top + "set = [\"time.end\"]\n" + values, "set", "not a setting", 3},
            {top + "snapshots = 10\n" + values, "snapshots", "must be a boolean", 3},
+           {top + several + "values = [[0.1, 1], [0.2]]\n", "vary[0].values",
+            "[0.2] is not a value for each of the 2 keys", 5},
+           {top + several + "values = [0.1, 0.2]\n", "vary[0].values",
+            "0.1 is not a value for each", 5},
+           {top + several + "values = [[0.1, 1], [0.1, 1.0]]\n", "vary[0].values",
+            "[0.1, 1.0] stands there twice", 5},
+           {top + several + "values = [[0.1, {a = 1}]]\n", "vary[0].values", "no key", 5},
+           {top + several + "values = []\n", "vary[0].values", "is empty", 5},
+           {top + several, "vary[0]", "has no values", 3},
+           {top + several + "linspace = [0, 1, 3]\n", "vary[0].linspace", "is of one key", 5},
+           {top + several + "target = 3\n", "vary[0].target", "is of one key", 5},
+           {top + several + "key = \"time.end\"\nvalues = [[1, 2]]\n", "vary[0].key",
+            "stands beside keys", 5},
+           {top + "[[vary]]\nkeys = [\"motion.speed\"]\nvalues = [[1]]\n", "vary[0].keys",
+            "are fewer than two", 4},
+           {top + "[[vary]]\nkeys = [\"motion.speed\", \"motion.sped\"]\nvalues = [[1, 2]]\n",
+            "vary[0].keys", "\"motion.sped\" is no key of a case file", 4},
+           {top + several + "values = [[1, 2]]\n" + values, "vary[1].key", "varied twice", 7},
+           {top + values + several + "values = [[1, 2]]\n", "vary[1].keys",
+            "ground.friction is varied twice", 7},
+           {top + "columns = [\"a\", 3]\n" + values, "columns", "array of strings", 3},
+           {top + "columns = [\"a\", \"a\"]\n" + values, "columns", "\"a\" stands there twice", 3},
            {top + "[[vary]]\nkey = \"analysis.kind\"\nvalues = [\"crush\"]\n", "vary[0].key",
             "the same in all members", 4},
            {top + "[[vary]]\nkey = \"output.probe[0].name\"\nvalues = [\"a\"]\n", "vary[0].key",
@@ -185,6 +208,27 @@ values = [1, 2, 3]
   EXPECT_EQ(members[5].values, (Texts{"0.2", "3"}));
   EXPECT_EQ(settings_of(study, members[5]), (Texts{"ground.friction=0.2", "motion.speed=3"}));
   EXPECT_EQ(name_of(study, members[5], 6), "run 6 (ground.friction = 0.2, motion.speed = 3)");
+}
+
+TEST(SweepPlan, KeysThatGoTogetherAreOneParameterOfTheGrid) {
+  const SweepStudy study = read(top + R"(columns = ["tip_ux", "hub_force_x"]
+[[vary]]
+key = "motion.speed"
+values = [1, 2]
+[[vary]]
+keys = ["ground.friction", "material.youngs_modulus", "ground.profile"]
+values = [[0.3, 1e7, "flat"], [0.5, 2e7, [[0, 1], [1, 1]]], [0.3, 2e7, "flat"]]
+)");
+  EXPECT_EQ(study.columns, (Texts{"tip_ux", "hub_force_x"}));
+  ASSERT_EQ(study.parameters.size(), 4U);
+  EXPECT_FALSE(study.parameters[1].goes_with_previous);
+  EXPECT_TRUE(study.parameters[2].goes_with_previous && study.parameters[3].goes_with_previous);
+  const std::vector<Member> members = members_of(study);
+  ASSERT_EQ(members.size(), 6U);
+  EXPECT_EQ(members[0].values, (Texts{"1", "0.3", "10000000.0", "\"flat\""}));
+  EXPECT_EQ(members[1].values, (Texts{"1", "0.5", "20000000.0", "[[0, 1], [1, 1]]"}));
+  EXPECT_EQ(members[2].values, (Texts{"1", "0.3", "20000000.0", "\"flat\""}));
+  EXPECT_EQ(members[4].values, (Texts{"2", "0.5", "20000000.0", "[[0, 1], [1, 1]]"}));
 }
 
 TEST(SweepPlan, TheSampleIsMadeForEachPointOfTheGrid) {

@@ -87,19 +87,6 @@ TEST(Workers, EachHasAProcessOfItsOwnAndATextOfAnyLength) {
   EXPECT_TRUE(run_workers(0, {}, nullptr, {}).empty());
 }
 
-TEST(Workers, CoresAreAtLeastOne) {
-  cpu_set_t all;
-  ASSERT_EQ(sched_getaffinity(0, sizeof all, &all), 0);
-  EXPECT_EQ(in_process([&] {
-              cpu_set_t one;
-              CPU_ZERO(&one);
-              for (int i = 0; i < CPU_SETSIZE && CPU_COUNT(&one) == 0; ++i)
-                if (CPU_ISSET(i, &all)) CPU_SET(i, &one);
-              return sched_setaffinity(0, sizeof one, &one) == 0 ? available_cores() : 99;
-            }),
-            1);
-}
-
 TEST(Workers, ExceptionsBecomeCodes) {
   const WorkerOutcome input =
       only([](int, const Stop&) -> std::string { throw InputError(Fault{}); });

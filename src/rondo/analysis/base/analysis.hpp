@@ -34,6 +34,7 @@ struct CheckReport {
   /// Further lines, what is told and its value, in the words of the analysis.
   std::vector<std::pair<std::string, std::string>> lines;
   std::vector<std::string> warnings;
+  std::vector<ColumnLabel> columns;  ///< of history.csv, where they were asked for
 };
 
 /// An analysis that can go on from a checkpoint to the same bits.

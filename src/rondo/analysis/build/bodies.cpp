@@ -180,7 +180,7 @@ void refuse_for_held_bodies(const Case& c) {
                      "[motion], which moves what mesh.clamped holds");
   };
   if (i.position != Vec2{}) refuse("initial.position");
-  if (i.angle != 0.0) refuse("initial.angle");
+  if (i.turn != 0.0) refuse("initial.turn");
   if (i.angular_velocity != 0.0) refuse("initial.angular_velocity");
   if (!i.regions.empty()) refuse(item_of("initial.region", 0));
 }
@@ -274,9 +274,9 @@ std::vector<double> element_sizes(const mesh::Mesh& mesh) {
 
 void place_free_bodies(const Case& c, mesh::Mesh& mesh, dynamics::Model& model) {
   if (model.free_bodies.empty()) return refuse_for_held_bodies(c);
-  const Complex turn = rotation(c.initial.angle);
+  const Complex turn = rotation(-c.initial.turn);
   const Vec2 position = c.initial.position;
-  if (c.initial.angle == 0.0 && position == Vec2{}) return;
+  if (c.initial.turn == 0.0 && position == Vec2{}) return;
   for (dynamics::FreeBody& body : model.free_bodies) {
     body.center = position + turn * body.center;
     for (const int node : body.nodes)

@@ -6,8 +6,8 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <thread>
 
+#include "rondo/analysis/build/ground/held_ground.hpp"
 #include "rondo/analysis/build/initial_state.hpp"
 #include "rondo/analysis/build/memory.hpp"
 #include "rondo/analysis/build/physical.hpp"
@@ -20,7 +20,9 @@
 #include "rondo/analysis/elements/subdomains.hpp"
 #include "rondo/case/case_keys.hpp"
 #include "rondo/case/case_rules.hpp"
+#include "rondo/core/limits/processors.hpp"
 #include "rondo/integrators/fused/batch_integrator.hpp"
+#include "rondo/mesh/edges.hpp"
 #include "rondo/statics/stationary_spin.hpp"
 
 namespace rondo::study {
@@ -36,9 +38,9 @@ contact::Law law_of(const Contact& of) {
 /// What the candidates may touch: the ground, and bodies.
 void add_contacts(const Case& c, const mesh::Mesh& mesh, dynamics::Model& model) {
   if (c.ground)
-    model.contact.emplace(dynamics::ContactModel{contact::Ground(c.ground->shape),
-                                                 law_of(*c.ground), mesh.boundary, mesh.tributary,
-                                                 mesh.contact_edges});
+    model.contact.emplace(dynamics::ContactModel{
+        contact::Ground(c.ground->shape, mesh::longest_edge(mesh.coordinates, mesh.contact_edges)),
+        law_of(*c.ground), mesh.boundary, mesh.tributary, mesh.contact_edges});
   const BodyContactCase& between = c.body_contact;
   if (between.between != BodyContact::none)
     model.surfaces.emplace(
@@ -145,7 +147,7 @@ void choose_threads(Setup& s, int asked) {
                     most, asked, operator_name(s.model.stiffness_operator)));
   if (asked <= 0) {
     const bool small = count_dofs(s.model) < single_thread_dofs;
-    asked = small ? 1 : static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
+    asked = small ? 1 : allowed_processors();
   }
   s.model.threads = std::min(asked, most);
 }
@@ -317,6 +319,7 @@ void set_up_run(const Case& c, Setup& s, SharedBody* shared) {
   s.n_steps = count_steps(c, s.model.dt);
   check_branches(c, s);
   set_initial_fields(c, s, shared);
+  refuse_held_in_ground(c, s);
   check_start(c, s);
   check_stability(c, s);
   tell_physical_figures(c, s);

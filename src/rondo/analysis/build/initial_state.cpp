@@ -6,6 +6,7 @@
 #include <algorithm>
 
 #include "rondo/analysis/build/bodies.hpp"
+#include "rondo/analysis/build/ground/ground_inside.hpp"
 #include "rondo/analysis/build/overlap.hpp"
 #include "rondo/analysis/build/solid/solid_body.hpp"
 #include "rondo/analysis/build/steady_start.hpp"
@@ -88,11 +89,18 @@ Depth deepest_start(const Setup& s, const std::vector<double>& size, const std::
   return depth;
 }
 
+/// What to do about a start inside the ground. @param free the body is
+std::string other_start(const Case& c, bool free) {
+  if (free) return "start above the ground (initial.position, initial.turn)";
+  return c.rim && c.rim->free_y
+             ? "start above the ground or touching it (motion.height, motion.start_x)"
+             : "start above the ground (motion.height, motion.start_x) and come down by a table";
+}
+
 /// A node deeper than half an element would get an impulse that means nothing: refused. One less
-/// deep is held where it is, for the law acts on velocities: said.
-void check_ground(const Case& c, const std::vector<double>& size, const std::vector<Vec2>& x,
-                  Setup& s) {
-  if (!s.model.contact) return;
+/// deep is held where it is, for the law acts on velocities: said. Returns the largest depth [m].
+double check_nodes(const Case& c, const std::vector<double>& size, const std::vector<Vec2>& x,
+                   Setup& s) {
   const Depth depth = deepest_start(s, size, x);
   if (depth.worst > 0.5)
     throw case_error(
@@ -100,11 +108,8 @@ void check_ground(const Case& c, const std::vector<double>& size, const std::vec
         fmt::format("the body starts {:.4g} m deep inside the ground, more than half an element "
                     "({:.4g} m)",
                     depth.deepest, depth.allowed),
-        depth.free ? "start above the ground (initial.position, initial.angle)"
-        : c.rim && c.rim->free_y
-            ? "start above the ground or touching it (motion.height, motion.start_x)"
-            : "start above the ground (motion.height, motion.start_x) and come down by a table");
-  if (!(depth.deepest > 1e-9 * extent_of(s.mesh))) return;
+        other_start(c, depth.free));
+  if (!(depth.deepest > 1e-9 * extent_of(s.mesh))) return 0.0;
   if (has_massless_contact(s.model))
     throw case_error(
         c, "motion.height",
@@ -118,6 +123,30 @@ void check_ground(const Case& c, const std::vector<double>& size, const std::vec
       fmt::format("the body starts {:.4g} m inside the ground: contact keeps it "
                   "from going deeper, but does not push it out",
                   depth.deepest));
+  return depth.deepest;
+}
+
+/// Ground between the nodes that stands as deep in a cell is met by no node: refused as well.
+/// @param told depth that the nodes were said to be in the ground [m]
+void check_ground_inside(const Case& c, const std::vector<double>& size, const std::vector<Vec2>& x,
+                         double told, Setup& s) {
+  const GroundInside found = find_ground_inside(s, x, size);
+  const std::string where = fmt::format("({:.6g}, {:.6g})", found.place.x, found.place.y);
+  if (found.depth > 0.5 * found.size) {
+    const bool free = in_fixed_frame(s.model, at(found.node));
+    throw case_error(
+        c, free ? "initial.position" : "motion.height",
+        fmt::format(
+            "the ground stands {:.4g} m deep inside the body at the start, at {} m, between "
+            "the nodes of its boundary: more than half an element ({:.4g} m)",
+            found.depth, where, 0.5 * found.size),
+        other_start(c, free));
+  }
+  if (!(found.depth > told + 1e-9 * extent_of(s.mesh))) return;
+  s.warnings.push_back(
+      fmt::format("the ground stands {:.4g} m deep inside the body at the start, at {} m, between "
+                  "the nodes of its boundary: contact does not push it out",
+                  found.depth, where));
 }
 
 }  // namespace
@@ -146,7 +175,11 @@ void set_initial_fields(const Case& c, Setup& s, SharedBody* shared) {
 void check_start(const Case& c, Setup& s) {
   const std::vector<double> size = element_sizes(s.mesh);
   const std::vector<Vec2> x = start_positions(s);
-  check_ground(c, size, x, s);
+  if (s.model.contact) {
+    const double told = check_nodes(c, size, x, s);
+    // In three dimensions ground that fits between nodes is refused, wherever the wheel starts.
+    if (!s.model.solid) check_ground_inside(c, size, x, told, s);
+  }
   if (s.mesh.is_solid()) return;  // its elements lie beside each other as they are made
   refuse_overlaps(c, {s.mesh, x, s.model.surfaces.has_value()}, s.warnings);
 }

@@ -12,7 +12,7 @@
 #include "rondo/analysis/build/stability.hpp"
 #include "rondo/case/case_rules.hpp"
 #include "rondo/core/bytes.hpp"
-#include "rondo/core/memory_limits.hpp"
+#include "rondo/core/limits/memory_limits.hpp"
 #include "rondo/integrators/massless/ring_matrix.hpp"
 #include "rondo/output/recorder.hpp"
 

@@ -10,6 +10,7 @@
 #include <span>
 
 #include "rondo/analysis/build/bodies.hpp"
+#include "rondo/analysis/build/plausible/plausible.hpp"
 #include "rondo/analysis/build/rim.hpp"
 #include "rondo/analysis/build/rubber.hpp"
 
@@ -55,12 +56,18 @@ struct Tell {
 
 /// What the wall is pressed in by, and about how hard: as a layer on a rim, E/(1 - ν²) times that
 /// over its thickness.
-void tell_deflection(double deflection, const Wall& wall, const fem::Material& m, const Tell& to) {
+/// @param key that says how far
+void tell_deflection(const std::string& key, double deflection, const Wall& wall,
+                     const fem::Material& m, const Tell& to) {
+  const auto warn = [&](std::string text) {
+    if (!text.empty()) to.warnings.push_back(std::move(text));
+  };
   if (!(deflection > 0.0)) {
     to.figures.emplace_back("deflection",
                             fmt::format("none: {:.4g} m above the ground", -deflection));
-    return;
+    return warn(stays_above_ground(wall.radius - deflection, wall.radius));
   }
+  warn(hardly_pressed(key, deflection, wall.radius));
   const double share = deflection / wall.thickness;
   const double of_modulus = share / (1.0 - m.poissons_ratio * m.poissons_ratio);
   to.figures.emplace_back("deflection",
@@ -215,6 +222,7 @@ std::optional<Wall> wall_of(const mesh::Mesh& mesh) {
 
 void tell_physical_figures(const Case& c, Setup& s) {
   const Tell to{s.figures, s.warnings};
+  warn_of_senses(c, s.mesh, s.materials, s.warnings);
   tell_stiffness(s.materials, to);
   for (Told& told : rubber_lines(c, explicit_step(s.model))) s.figures.push_back(std::move(told));
   const std::optional<Wall> wall = is_held(c) ? wall_of(s.mesh) : std::nullopt;
@@ -223,7 +231,7 @@ void tell_physical_figures(const Case& c, Setup& s) {
   if (s.model.rim) tell_rim(c, s);
   if (!wall || !s.model.contact) return;
   if (!s.model.rim || !s.model.rim->free_y)  // else the run looks (HubWatch)
-    tell_deflection(deflection_by_motion(c, s, *wall), *wall,
+    tell_deflection("motion.height", deflection_by_motion(c, s, *wall), *wall,
                     touching_material(s.mesh, s.materials), to);
   tell_slip(c, wall->radius, to);
 }
@@ -231,15 +239,18 @@ void tell_physical_figures(const Case& c, Setup& s) {
 void tell_physical_figures(const Case& c, CrushSetup& s) {
   const Tell to{s.figures, s.warnings};
   warn_of_units(c, s.mesh, s.materials, s.warnings);
+  warn_of_senses(c, s.mesh, s.materials, s.warnings);
   tell_stiffness(s.materials, to);
   for (Told& told : rubber_lines(c, 0.0)) s.figures.push_back(std::move(told));
   if (const std::optional<Wall> wall = wall_of(s.mesh))
-    tell_deflection(s.path.largest_depth(), *wall, touching_material(s.mesh, s.materials), to);
+    tell_deflection("analysis.depth", s.path.largest_depth(), *wall,
+                    touching_material(s.mesh, s.materials), to);
 }
 
 void tell_physical_figures(const Case& c, const mesh::Mesh& mesh,
                            const std::vector<fem::Material>& materials, PhysicalFigures& told) {
   const Tell to{told.figures, told.warnings};
+  warn_of_senses(c, mesh, materials, told.warnings);
   tell_stiffness(materials, to);
   const std::optional<Wall> wall = wall_of(mesh);
   const double radius = wall ? wall->radius : extent_of(mesh);
@@ -249,7 +260,8 @@ void tell_physical_figures(const Case& c, const mesh::Mesh& mesh,
   if (!wall) return;
   if (!c.analysis.load) {
     const double height = c.motion.height.at(0.0) - c.ground->shape.profile.front().y;
-    tell_deflection(wall->radius - height, *wall, touching_material(mesh, materials), to);
+    tell_deflection("motion.height", wall->radius - height, *wall,
+                    touching_material(mesh, materials), to);
   }
   if (!finds_speed) tell_slip(c, wall->radius, to);
 }

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 
+#include "rondo/analysis/build/ground/held_ground.hpp"
 #include "rondo/core/column.hpp"
 #include "rondo/mesh/physical_group.hpp"
 
@@ -158,12 +159,21 @@ dynamics::CriticalStep step_with_rim(const dynamics::Model& model,
 
 HubWatch::HubWatch(const Setup& setup) : setup_(setup) {
   const dynamics::Model& model = setup.model;
-  if (model.rim && model.rim->free_y && model.contact) wall_ = wall_of(setup.mesh);
+  if (!model.rim || !model.rim->free_y || !model.contact) return;
+  wall_ = wall_of(setup.mesh);
+  held_ = held_radius(setup.mesh);
 }
 
 HubWatch::Seen HubWatch::look(Vec2 center, double time) {
-  if (!wall_) return {};
+  if (!wall_ && held_ == 0.0) return {};
   const double above = setup_.model.contact->ground.distance(center);
+  if (!wall_ && above < held_)
+    return {
+        {},
+        fmt::format("the hub is {:.4g} m above the ground, and nodes that are held are {:.4g} m "
+                    "from it: they are in the ground, which does nothing to them",
+                    above, held_)};
+  if (!wall_) return {};
   const double deflection = wall_->radius - above, share = deflection / wall_->thickness;
   const std::string told = fmt::format(
       "the hub is {:.4g} m above the ground, {:.3g} % of the {:.4g} m of the wall below "

@@ -42,7 +42,8 @@ class HubWatch {
 
  private:
   const Setup& setup_;
-  std::optional<Wall> wall_;  ///< none: nothing to look at
+  std::optional<Wall> wall_;  ///< none: only that the rim stays out of the ground is looked at
+  double held_ = 0.0;         ///< radius of what is held; 0: nothing to look at [m]
   bool told_ = false;
 };
 

@@ -8,6 +8,7 @@
 
 #include "rondo/analysis/base/disk.hpp"
 #include "rondo/analysis/base/strain_watch.hpp"
+#include "rondo/analysis/build/ground/held_ground.hpp"
 #include "rondo/analysis/build/physical.hpp"
 #include "rondo/analysis/crush/crush_record.hpp"
 #include "rondo/analysis/crush/crush_solver.hpp"
@@ -25,8 +26,10 @@ class CrushAnalysis final : public Analysis {
       : case_(c),
         setup_(build_crush(c)),
         ground_(c.ground->shape),
+        boundary_(setup_.mesh),
         strain_(setup_.mesh, setup_.materials),
         solver_(make_crush_solver(c, options, setup_)) {
+    refuse_held_in_ground(c, setup_);
     tell_physical_figures(c, setup_);
     if (options.resume)
       throw case_error(c, "analysis.kind", "a crush has no checkpoints to resume from",
@@ -57,6 +60,7 @@ class CrushAnalysis final : public Analysis {
   const Case& case_;
   CrushSetup setup_;
   contact::Ground ground_;
+  mesh::DeformedBoundary boundary_;
   StrainWatch strain_;
   std::unique_ptr<CrushSolver> solver_;
   double prepare_s_ = 0.0;
@@ -137,7 +141,7 @@ void CrushAnalysis::describe(Json& j) const {
 Progress CrushAnalysis::begin(Recorder& recorder) {
   state_ = statics::start_crush(setup_.model, setup_.mesh.n_nodes());
   const statics::CrushReport nothing;
-  const CrushSums sums = sum_up(setup_, state_);
+  const CrushSums sums = sum_up(setup_, boundary_, state_);
   append_row(setup_, {0, state_, nothing, sums}, recorder.rows());
   recorder.rows_added();
   static_cast<void>(strain_.look(state_.u, {}, 0.0));  // undeformed
@@ -170,7 +174,7 @@ Progress CrushAnalysis::take_next(Recorder& recorder) {
     return {increments_, n};
   }
   increments_ = k;
-  const CrushSums sums = sum_up(setup_, state_);
+  const CrushSums sums = sum_up(setup_, boundary_, state_);
   const CrushRecord record{k, state_, report, sums};
   append_row(setup_, record, recorder.rows());
   recorder.rows_added();
@@ -189,6 +193,7 @@ void CrushAnalysis::summarise(Json& j, RunReport& r) const {
   r.steps = increments_;
   r.reached = reached(increments_, state_.depth, state_.slide);
   r.energy_residual_relative = state_.works.relative;
+  r.energy_residual_bound = residual_bound;
   r.contact_residual_max = residual_;
   r.penetration_max_m = penetration_;
   const bool tables = setup_.path.is_of_tables();
@@ -198,6 +203,7 @@ void CrushAnalysis::summarise(Json& j, RunReport& r) const {
   j["contact_residual_max"] = residual_;
   j["equilibrium_residual_max"] = equilibrium_;
   j["energy_residual_relative"] = state_.works.relative;
+  j["energy_residual_bound"] = r.energy_residual_bound;
   j["energy_exchanged"] = state_.works.exchanged;
   j["penetration_max_m"] = penetration_;
   solver_->summarise(state_, j, r);

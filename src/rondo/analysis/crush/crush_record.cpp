@@ -18,7 +18,8 @@ constexpr std::array own_columns{
               "of the center below first touch; with `force_y` the curve of force over depth; the "
               "slide is `center_x_m`",
               [](const R& r) { return r.state.depth; }},
-    Column<R>{"pressure_max_pa", "Pa", "largest of all contact nodes",
+    Column<R>{"pressure_max_pa", "Pa",
+              "largest of all contact nodes, over the deformed boundary as in contact.csv",
               [](const R& r) { return r.sums.pressure; }},
     Column<R>{"shear_max_pa", "Pa", "likewise", [](const R& r) { return r.sums.shear; }},
     Column<R>{"contact_residual", "1", "of the contact law, from the whole field",
@@ -54,21 +55,22 @@ bool touches(const statics::CrushState& state, std::size_t k) {
 
 }  // namespace
 
-CrushSums sum_up(const CrushSetup& setup, const statics::CrushState& state) {
+CrushSums sum_up(const CrushSetup& setup, const mesh::DeformedBoundary& boundary,
+                 const statics::CrushState& state) {
   CrushSums s;
   for (std::size_t k = 0; k < state.force.size(); ++k) {
     const Vec2 r = state.force[k];
     if (!touches(state, k)) continue;
     const auto node = static_cast<std::size_t>(setup.model.nodes[k]);
-    const double tributary = setup.mesh.tributary[k];
+    const double length = boundary.extent(k, state.u);
     s.contact += r;
     s.force += from_frame(normal, r);
     s.torque += cross(setup.mesh.coordinates[node] + state.u[node], from_frame(normal, r));
     ++s.nodes;
     s.sticking += state.status[k] == contact::Status::stick ? 1 : 0;
-    s.length += tributary;
-    s.pressure = std::max(s.pressure, r.x / tributary);
-    s.shear = std::max(s.shear, std::abs(r.y) / tributary);
+    s.length += length;
+    s.pressure = std::max(s.pressure, r.x / length);
+    s.shear = std::max(s.shear, std::abs(r.y) / length);
   }
   return s;
 }
@@ -103,8 +105,9 @@ io::ResultsWords crush_words(const CrushPath& path) {
 std::vector<io::Series> crush_series() {
   return {{"/crush/depth", "m", "depth of the center below first touch"},
           {"/crush/force", "N/m", "force of the ground on the body: normal, tangential", 2},
-          {"/crush/contact_length", "m", "/mesh/tributary of the nodes in contact, summed"},
-          {"/crush/pressure_max", "Pa", "largest pressure of all contact nodes"}};
+          {"/crush/contact_length", "m", "length of the deformed boundary in contact"},
+          {"/crush/pressure_max", "Pa",
+           "largest pressure of all contact nodes, over the deformed boundary"}};
 }
 
 void fill(const CrushSetup& setup, const CrushRecord& r, const std::vector<Vec2>& before,

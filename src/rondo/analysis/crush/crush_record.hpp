@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "rondo/analysis/build/crush/crush_setup.hpp"
+#include "rondo/mesh/deformed_boundary.hpp"
 #include "rondo/output/recorder.hpp"
 
 namespace rondo::study {
@@ -18,7 +19,9 @@ struct CrushSums {
   double pressure = 0.0, shear = 0.0;  ///< largest [Pa]
 };
 
-CrushSums sum_up(const CrushSetup& setup, const statics::CrushState& state);
+/// @param boundary of setup.mesh: length and tractions are those of the deformed boundary
+CrushSums sum_up(const CrushSetup& setup, const mesh::DeformedBoundary& boundary,
+                 const statics::CrushState& state);
 
 /// Increment k; 0: first touch.
 struct CrushRecord {

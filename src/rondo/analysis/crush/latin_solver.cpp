@@ -16,6 +16,7 @@
 #include "rondo/analysis/crush/latin_outcome.hpp"
 #include "rondo/analysis/crush/pgd_files.hpp"
 #include "rondo/io/csv.hpp"
+#include "rondo/output/kept/kept_files.hpp"
 #include "rondo/statics/latin/latin.hpp"
 #include "rondo/statics/latin/pgd.hpp"
 #include "rondo/statics/latin/springs.hpp"
@@ -185,11 +186,16 @@ bool LatinSolver::iterate(std::string& trouble) {
   const double tolerance = case_.analysis.tolerance;
   const bool converged =
       report_.iterations > 1 && report_.indicator <= tolerance && report_.residual <= tolerance;
-  if (converged) finish();
+  const bool empty = converged && pgd_ && pgd_->modes() == 0;  // all of it is below the numbers
+  if (converged && !empty) finish();
   solve_wall_s_ += std::chrono::duration<double>(Clock::now() - begin).count();
   record_iteration();
   if (!std::isfinite(report_.residual) || !std::isfinite(report_.indicator))
     trouble = "the forces or displacements are out of the range of the numbers";
+  else if (empty)
+    trouble =
+        "the forces are below the range of the numbers, and no mode is left of them; a larger "
+        "analysis.depth, and material.youngs_modulus in Pa";
   else if (!converged && report_.iterations == most_iterations)
     trouble = not_converged();
   return !converged;
@@ -265,6 +271,7 @@ void LatinSolver::describe(Json& j) const {
 }
 
 void LatinSolver::summarise(const statics::CrushState& /*state*/, Json& j, RunReport& /*r*/) const {
+  if (convergence_) j["files"]["convergence.csv"] = as_json(convergence_->place());
   j["candidates_condensed"] = body_->set().size();
   j["iterations"] = report_.iterations;
   j["indicator"] = report_.indicator;

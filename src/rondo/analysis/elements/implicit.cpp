@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <limits>
 
+#include "rondo/analysis/elements/corner_words.hpp"
 #include "rondo/analysis/elements/parts.hpp"
 #include "rondo/case/case_keys.hpp"
 
@@ -61,9 +62,10 @@ void refuse_contacts(const Case& c, const Setup& s, const std::vector<int>& node
   if (s.model.surfaces)
     throw case_error(c, first_table, where + " other bodies: only the ground is possible there",
                      "elements away from the contact boundary, or no [contact]");
-  if (has_sharp_corners(s.model))
-    throw case_error(c, first_table, where + " sharp corners of the ground",
-                     "elements away from the contact boundary, or a ground.fillet");
+  if (!has_sharp_corners(s.model)) return;
+  const CornerWords words = corner_words(c, s.model);
+  throw case_error(c, first_table, where + " " + words.corners,
+                   "elements away from the contact boundary, or " + words.instead);
 }
 
 /// What an impulse on one of these nodes does to all others is kept; round a disk once for all

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "rondo/analysis/elements/corner_words.hpp"
 #include "rondo/analysis/elements/parts.hpp"
 #include "rondo/case/case_keys.hpp"
 #include "rondo/fem/contact_mass.hpp"
@@ -101,6 +102,14 @@ void warn_of_concave_corners(const Case& c, Setup& s) {
       key));
 }
 
+/// With a fillet: without one the rules between keys have refused it.
+void refuse_corners(const Case& c, const dynamics::Model& m) {
+  if (!has_sharp_corners(m)) return;
+  const CornerWords words = corner_words(c, m);
+  throw case_error(c, key, "contact nodes without mass know no " + words.corners,
+                   "\"lumped\", or " + words.instead);
+}
+
 void warn_of_thin_layer(Setup& s) {
   constexpr double thin = 0.5 * (1.0 - 1e-9);
   const auto beside = joined_nodes(s.mesh);
@@ -126,6 +135,7 @@ void make_contact_massless(const Case& c, Setup& s) {
   if (c.contact_mass == ContactMass::lumped) return;
   dynamics::Model& m = s.model;
   refuse_free_bodies(c, m);
+  refuse_corners(c, m);
   refuse_pressed_nodes(c, s.mesh, m);
   fem::MovedMass moved = fem::move_contact_mass(s.mesh, m.mass, m.contact->nodes);
   if (moved.without_neighbour >= 0) throw no_neighbour(c, s.mesh, moved.without_neighbour);

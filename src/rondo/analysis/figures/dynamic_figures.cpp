@@ -1,8 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "rondo/analysis/figures/dynamic_figures.hpp"
-#include "rondo/io/files.hpp"
-
-#include <fmt/format.h>
 
 #include <algorithm>
 #include <array>
@@ -11,9 +8,8 @@
 #include <span>
 #include <string>
 
-#include "rondo/analysis/figures/history_statistics.hpp"
-#include "rondo/core/error.hpp"
-#include "rondo/io/csv.hpp"
+#include "rondo/analysis/figures/window_rows.hpp"
+#include "rondo/io/files.hpp"
 
 namespace rondo::study {
 namespace {
@@ -82,64 +78,12 @@ constexpr std::array solid_columns{
 /// Of the force that presses the wheel on the ground: what is left of a lateral one straight on.
 constexpr double round_off = 1e-9;
 
-/// Of a run's rows those in the window.
-class Rows {
- public:
-  Rows(const std::filesystem::path& directory, const Window& window)
-      : file_(directory / "history.csv"), history_(io::read_columns(file_)) {
-    const double end = column(history_, "time_s", file_).back();
-    to_ = std::min(window.to.value_or(end), end);
-    from_ = window.from.value_or(0.5 * to_);
-    length_ = until(intervals(history_, "force_y", from_, file_)).length;
-    if (length_.empty())
-      throw FileError(file_.string(),
-                      fmt::format("has no row between {:.6g} and {:.6g} s", from_, to_));
-  }
-
-  [[nodiscard]] Intervals of(const char* name) const {
-    return until(intervals(history_, name, from_, file_));
-  }
-
-  /// Increase of a cumulative column over the window, by its length.
-  [[nodiscard]] double rate(const char* name) const {
-    const std::vector<double>& time = column(history_, "time_s", file_);
-    const std::vector<double>& value = column(history_, name, file_);
-    const double first = of(name).middle.front() - 0.5 * length_.front();
-    double before = 0.0, after = 0.0, begin = 0.0, end = 0.0;
-    for (std::size_t k = 0; k < time.size() && time[k] <= to_ * (1.0 + 1e-12); ++k) {
-      if (time[k] <= first * (1.0 + 1e-12)) {
-        before = value[k];
-        begin = time[k];
-      }
-      after = value[k];
-      end = time[k];
-    }
-    return (after - before) / (end - begin);
-  }
-
- private:
-  /// Rows whose interval ends in the window.
-  [[nodiscard]] Intervals until(Intervals f) const {
-    std::size_t n = 0;
-    while (n < f.value.size() && f.middle[n] + 0.5 * f.length[n] <= to_ * (1.0 + 1e-12)) ++n;
-    f.middle.resize(n);
-    f.length.resize(n);
-    f.value.resize(n);
-    return f;
-  }
-
-  std::filesystem::path file_;
-  Columns history_;
-  double from_ = 0.0, to_ = 0.0;
-  std::vector<double> length_;
-};
-
 double peak(const Intervals& f) {
   return *std::ranges::max_element(f.value, {}, [](double value) { return std::abs(value); });
 }
 
 /// Mean, peak and fluctuation of each.
-void add_courses(const Rows& rows, std::span<const char* const> names,
+void add_courses(const WindowRows& rows, std::span<const char* const> names,
                  std::vector<double>& figures) {
   for (const char* name : names) {
     const Intervals f = rows.of(name);
@@ -148,7 +92,7 @@ void add_courses(const Rows& rows, std::span<const char* const> names,
 }
 
 /// Slips, place, speeds, powers, and what run.json says.
-void add_motion(const Rows& rows, const std::filesystem::path& directory,
+void add_motion(const WindowRows& rows, const std::filesystem::path& directory,
                 std::vector<double>& figures) {
   figures.insert(figures.end(), {mean(rows.of("slip_ratio")), mean(rows.of("center_y_m")),
                                  rows.rate("center_x_m"), rows.rate("angle_rad"),
@@ -157,7 +101,7 @@ void add_motion(const Rows& rows, const std::filesystem::path& directory,
 }
 
 std::vector<double> figures_of(const std::filesystem::path& directory, const Window& window) {
-  const Rows rows(directory, window);
+  const WindowRows rows(directory, window);
   std::vector<double> figures;
   add_courses(rows, std::array{"force_x", "force_y", "torque"}, figures);
   const Intervals length = rows.of("contact_length_m");
@@ -167,7 +111,7 @@ std::vector<double> figures_of(const std::filesystem::path& directory, const Win
 }
 
 std::vector<double> solid_figures_of(const std::filesystem::path& directory, const Window& window) {
-  const Rows rows(directory, window);
+  const WindowRows rows(directory, window);
   std::vector<double> figures;
   add_courses(rows, std::array{"force_x", "force_y", "force_lateral", "torque", "moment_aligning"},
               figures);

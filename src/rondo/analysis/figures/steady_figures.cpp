@@ -10,6 +10,9 @@
 namespace rondo::study {
 namespace {
 
+constexpr const char* scheme_share =
+    "power of the discretisation over the largest of drive, damping and friction";
+
 constexpr std::array steady_columns{
     FigureColumn{"force_x", "N/m", "of the ground on the body, mean over a sector's pass"},
     FigureColumn{"force_y", "N/m", "likewise"},
@@ -23,6 +26,7 @@ constexpr std::array steady_columns{
     FigureColumn{"pressure_max_pa", "Pa", "largest"},
     FigureColumn{"shear_max_pa", "Pa", "largest"},
     FigureColumn{"friction_power", "W/m", "taken by friction"},
+    FigureColumn{"scheme_share", "1", scheme_share},
     FigureColumn{"energy_residual_relative", "1", "of the balance of powers"},
     FigureColumn{"contact_residual_max", "1", "of the contact law"},
     FigureColumn{"penetration_max_m", "m", "largest"},
@@ -49,6 +53,7 @@ constexpr std::array solid_columns{
     FigureColumn{"pressure_max_pa", "Pa", "largest"},
     FigureColumn{"shear_max_pa", "Pa", "largest"},
     FigureColumn{"friction_power", "W", "taken by friction"},
+    FigureColumn{"scheme_share", "1", scheme_share},
     FigureColumn{"energy_residual_relative", "1", "of the balance of powers"},
     FigureColumn{"contact_residual_max", "1", "of the contact law"},
     FigureColumn{"penetration_max_m", "m", "largest"},
@@ -84,6 +89,7 @@ std::vector<double> steady_figures_of(const Json& run) {
   figures.push_back(number(steady, "pressure_max"));
   figures.push_back(number(steady, "shear_max"));
   figures.push_back(number(steady.value("power", Json::object()), "friction"));
+  figures.push_back(number(steady, "scheme_share"));
   add_figures_of_all(run, figures);
   return figures;
 }
@@ -108,6 +114,7 @@ std::vector<double> solid_steady_figures_of(const Json& run) {
   figures.push_back(number(steady, "pressure_max"));
   figures.push_back(number(steady, "shear_max"));
   figures.push_back(number(steady.value("power", Json::object()), "friction"));
+  figures.push_back(number(steady, "scheme_share"));
   add_figures_of_all(run, figures);
   return figures;
 }

@@ -16,6 +16,7 @@
 #include "rondo/analysis/build/memory.hpp"
 #include "rondo/analysis/build/overlap.hpp"
 #include "rondo/analysis/build/physical.hpp"
+#include "rondo/analysis/build/plausible/number_range.hpp"
 #include "rondo/analysis/modes/modes_output.hpp"
 #include "rondo/analysis/run.hpp"
 #include "rondo/core/error.hpp"
@@ -65,11 +66,12 @@ Body make_body(const Case& c) {
   b.largest_frequency = std::sqrt(b.cyclic() ? fem::sector_eigenvalue_bound(b.mesh, b.materials)
                                              : fem::element_eigenvalue_bound(b.mesh, b.materials));
   if (!(b.largest_frequency > 0.0) || !std::isfinite(b.largest_frequency))
-    throw case_error(c, "material.youngs_modulus",
-                     fmt::format("with this density and mesh the largest frequency is {} rad/s, "
+    throw case_error(c, furthest_key(c),
+                     fmt::format("with this number and mesh the largest frequency is {} rad/s, "
                                  "out of the range of the numbers",
                                  b.largest_frequency),
                      "a modulus and a density in SI units");
+  demand_harmonic_range(c, b.materials, b.mass, b.largest_frequency);
   return b;
 }
 

@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "rondo/analysis/build/build.hpp"
+#include "rondo/analysis/elements/corner_words.hpp"
 #include "rondo/core/error.hpp"
 
 namespace rondo::study {
@@ -85,12 +86,17 @@ void check_case(const Case& c, const RunOptions& options, const Setup& setup) {
   if (!c.implicit.empty())
     throw case_error(c, "solver.implicit[0]", "a reduced run has no elements, but modes",
                      "no [[solver.implicit]]");
-  if (is_general(model) || !model.pressures.empty() || has_sharp_corners(model))
-    throw case_error(
-        c, "ground.profile",
-        "a reduced run knows one constrained disk on ground without sharp convex corners; "
-        "here are such corners, pressures, free bodies or contact of bodies",
-        "ground.fillet > 0, and none of the others");
+  if (has_sharp_corners(model)) {
+    const CornerWords words = corner_words(c, model);
+    throw case_error(c, c.ground->shape.fillet > 0.0 ? "ground.fillet" : "ground.profile",
+                     "a reduced run knows contact at nodes alone, not " + words.corners,
+                     words.instead);
+  }
+  if (is_general(model) || !model.pressures.empty())
+    throw case_error(c, "analysis.kind",
+                     "a reduced run knows one constrained disk on the ground; here are pressures, "
+                     "free bodies or contact of bodies",
+                     "none of these");
 }
 
 void check_model(const Case& c, const RunOptions& options, const ReducedFile& file,

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <utility>
 
 #include "rondo/analysis/build/build.hpp"
@@ -66,7 +67,11 @@ void describe_reduced(const ReducedRun& run, const RunOptions& options, Json& js
     return;
   }
   const ForceErrors most = estimate.estimate();
-  json["reduced_error_estimate"] = {{"force_x", most.x}, {"force_y", most.y}};
+  const auto known = [](double error) { return std::isnan(error) ? Json() : Json(error); };
+  json["reduced_error_estimate"] = {{"force_x", most.x},
+                                    {"force_y", most.y},
+                                    {"force_x_of_itself", known(most.x_of_itself)},
+                                    {"friction_power", known(most.friction_power)}};
 }
 
 void add_figures(const ReducedRun& run, double time, Json& json) {
@@ -94,11 +99,13 @@ void plan_modes(const ReducedRun& run, io::ResultsLayout& results) {
   results.stress = false;
   results.modes = {
       {m.basis.data(), static_cast<std::size_t>(m.basis.size())}, r, name_in(frame_names, m.frame)};
-  results.series = {{"/reduced/displacement", "kg^(1/2) m", "coefficients q of /reduced/modes", r},
-                    {"/reduced/velocity", "kg^(1/2) m/s",
-                     "coefficients p of /reduced/modes, at /frame/time_velocity", r},
-                    {"/reduced/angle", "rad",
-                     "angles that lift displacement and velocity from the rectified frame", 2}};
+  results.series = {
+      {"/reduced/displacement", "kg^(1/2) m", "coefficients q of /reduced/modes", r},
+      {"/reduced/velocity", "kg^(1/2) m/s",
+       "coefficients p of /reduced/modes, at /frame/time_velocity", r},
+      {"/reduced/angle", "rad",
+       "angles that lift displacement and velocity from the rectified frame, counter-clockwise",
+       2}};
 }
 
 /// The loop, the files and the figures are those of motion in time; the steps are those of the
@@ -150,6 +157,9 @@ class ReducedAnalysis final : public DynamicAnalysis {
  protected:
   [[nodiscard]] bool guards_impacts() const noexcept override {
     return sees_velocities_alone(run_);
+  }
+  [[nodiscard]] History::Length reported_length() const noexcept override {
+    return History::Length::deformed;
   }
   [[nodiscard]] std::unique_ptr<dynamics::Integrator> make_integrator(
       dynamics::State& start) override {

@@ -13,6 +13,7 @@
 #include "rondo/core/error.hpp"
 #include "rondo/io/checkpoint_file.hpp"
 #include "rondo/io/mesh_files.hpp"
+#include "rondo/output/run_files.hpp"
 
 namespace rondo::study {
 namespace {
@@ -162,6 +163,13 @@ void write_estimate(File& file, const ErrorEstimate& estimate) {
              {"1",
               "run: F_x, F_y as predicted from the other runs less the run's own, means over "
               "its last quarter, over its mean F_y"});
+  numbers.clear();
+  for (const ForceErrors& e : estimate.errors)
+    numbers.insert(numbers.end(), {e.x_of_itself, e.friction_power});
+  file.write("/errors/of_themselves", {estimate.errors.size(), 2}, std::span<const double>(numbers),
+             {"1",
+              "run: F_x, power of friction likewise, over the run's own mean of each; NaN: next to "
+              "none of it"});
 }
 
 /// A file of an earlier version has none.
@@ -178,6 +186,13 @@ ErrorEstimate read_estimate(const File& file, const std::string& path) {
       throw FileError(path, "its error estimate holds numbers that are not finite");
     estimate.errors.push_back({numbers[k], numbers[k + 1]});
   }
+  if (!file.contains("/errors/of_themselves")) return estimate;
+  const std::vector<double> own =
+      file.dataset("/errors/of_themselves", {estimate.runs.size(), 2}).read<double>();
+  for (std::size_t k = 0; k < estimate.errors.size(); ++k) {
+    estimate.errors[k].x_of_itself = own[2 * k];
+    estimate.errors[k].friction_power = own[2 * k + 1];
+  }
   return estimate;
 }
 
@@ -189,6 +204,7 @@ void write_all(File& file, const ReducedFile& content) {
   std::string runs;
   for (const std::string& run : content.runs) runs += run + "\n";
   file.set_attribute("/", "runs", runs);
+  file.set_attribute("/", "build_record", build_record_json().dump());
   io::write_mesh(file, content.mesh, content.mass);
   write_numbers(file, content);
   write_counts(file, content);
@@ -220,17 +236,25 @@ std::string outside(const char* what, const ModelRange& built, const ModelRange&
 ForceErrors ErrorEstimate::estimate() const noexcept {
   ForceErrors most;
   for (const ForceErrors& e : errors)
-    most = {std::max(most.x, std::abs(e.x)), std::max(most.y, std::abs(e.y))};
-  return {estimate_over_largest * most.x, estimate_over_largest * most.y};
+    most = {std::max(most.x, std::abs(e.x)), std::max(most.y, std::abs(e.y)),
+            std::fmax(most.x_of_itself, std::abs(e.x_of_itself)),
+            std::fmax(most.friction_power, std::abs(e.friction_power))};
+  for (double* const part : {&most.x, &most.y, &most.x_of_itself, &most.friction_power})
+    *part *= estimate_over_largest;
+  return most;
 }
 
 std::string in_words(const ErrorEstimate& estimate) {
   if (estimate.errors.empty()) return "none: " + estimate.none;
   const ForceErrors most = estimate.estimate();
+  const auto percent = [](double error) {
+    return std::isnan(error) ? std::string("not known") : fmt::format("{:.2g} %", 100.0 * error);
+  };
   return fmt::format(
       "F_x {:.2g} %, F_y {:.2g} % of F_y (twice the largest of {} runs, each predicted from "
-      "the others)",
-      100.0 * most.x, 100.0 * most.y, estimate.errors.size());
+      "the others); over themselves F_x {}, friction power {}",
+      100.0 * most.x, 100.0 * most.y, estimate.errors.size(), percent(most.x_of_itself),
+      percent(most.friction_power));
 }
 
 std::string body_text(const Case& c) {

@@ -6,7 +6,7 @@
 #include "rondo/analysis/registry.hpp"
 #include "rondo/analysis/run_session.hpp"
 #include "rondo/core/bytes.hpp"
-#include "rondo/core/memory_limits.hpp"
+#include "rondo/core/limits/memory_limits.hpp"
 
 namespace rondo::study {
 namespace {

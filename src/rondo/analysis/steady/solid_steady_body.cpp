@@ -7,6 +7,7 @@
 #include "rondo/analysis/build/memory.hpp"
 #include "rondo/analysis/build/solid/solid_body.hpp"
 #include "rondo/fem/solid/solid_sector.hpp"
+#include "rondo/modal/solid_critical_spin.hpp"
 
 namespace rondo::study {
 namespace {
@@ -43,6 +44,11 @@ std::vector<Vec3> load_of(const Case& c, const SolidSteadyBody& b) {
   return load;
 }
 
+void warn_of_critical_spin(const Case& c, SolidSteadyBody& b) {
+  const auto lowest = modal::lowest_critical_spin(b.sector, b.mass, spin_of(c));
+  if (lowest) b.warnings.push_back(above_critical_spin(c, *lowest));
+}
+
 double radius_of(const Case& c, const mesh::Mesh& mesh) {
   if (is_generated(c)) return c.disk.outer_radius;
   double radius = 0.0;
@@ -72,12 +78,14 @@ std::size_t SolidSteadyBody::memory(const Case& c) const {
 
 void SolidSteadyBody::assemble(const Case& c) {
   mass = fem::solid_mass(mesh, materials);
+  demand_range(c, *this);
   dofs = 3 * fem::free_nodes(mesh).size();
   sector = fem::assemble_solid_sector(mesh, materials);
   sector_dofs = 3 * sector.n_local();
   radius = radius_of(c, mesh);
   static_cast<void>(load_of(c, *this));  // refused before anything takes time
   demand_rows_below(c, *this);
+  warn_of_critical_spin(c, *this);
 }
 
 void SolidSteadyBody::find_harmonics(const Case& c, int threads) {

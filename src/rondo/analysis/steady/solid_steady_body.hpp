@@ -15,6 +15,7 @@ class SolidSteadyBody final : public RolledBody {
   [[nodiscard]] std::size_t memory(const Case& c) const override;
   void assemble(const Case& c) override;
   void find_harmonics(const Case& c, int threads) override;
+  [[nodiscard]] bool has_solution() const noexcept override { return harmonics->finite(); }
   [[nodiscard]] std::unique_ptr<RolledState> solve(const Case& c) const override;
   void add_columns(RecordPlan& plan) const override;
 

@@ -8,6 +8,7 @@
 #include <limits>
 
 #include "rondo/fem/solid/solid_sector.hpp"
+#include "rondo/mesh/deformed_boundary.hpp"
 
 namespace rondo::study {
 namespace {
@@ -40,6 +41,7 @@ SolidSteadyState::SolidSteadyState(const Case& c, const SolidSteadyBody& body)
       sums_(static_cast<std::size_t>(c.analysis.samples_per_sector)) {
   for (std::size_t k = 0; k < body.mesh.boundary.size(); ++k)
     candidate_of_[static_cast<std::size_t>(body.mesh.boundary[k])] = k;
+  demand_free_shape(c, window_.lowest(), body.radius);
   solve();
   refuse();
   if (solution_.end == statics::RollingEnd::solved) sum_up();
@@ -157,23 +159,38 @@ void SolidSteadyState::add(std::size_t pair, double share, SolidSteadySums& s) c
   const Vec3 r = force(pair), f = ground.to_wheel(r);
   const double gap = solution_.gap_and_slip[row];
   const Vec3 arm = ground.to_wheel({gap, solution_.place[place], solution_.place[place + 1]});
-  const double tributary = body_.mesh.tributary[where(pair).candidate];
+  const double area = extent_[pair];
   const bool sticks = solution_.status[pair] == Status::stick;
   s.force += share * r;
   s.moment += share * cross(arm, f);
   s.torque += share * cross(arm - solution_.height * ground.normal, f).z;
   ++s.nodes;
   s.sticking += sticks ? 1 : 0;
-  (sticks ? s.stick_area : s.slip_area) += share * tributary;
-  s.pressure = std::max(s.pressure, r.x / tributary);
-  s.shear = std::max(s.shear, std::hypot(r.y, r.z) / tributary);
+  (sticks ? s.stick_area : s.slip_area) += share * area;
+  s.pressure = std::max(s.pressure, r.x / area);
+  s.shear = std::max(s.shear, std::hypot(r.y, r.z) / area);
   s.friction -= share * force(pair).y * solution_.gap_and_slip[row + 1] +
                 share * force(pair).z * solution_.gap_and_slip[row + 2];
   s.slip = std::max(s.slip, slip(pair));
   s.penetration = std::max(s.penetration, -gap);
 }
 
+/// What each pair that is pressed stands for at its place, of the deformed boundary.
+void SolidSteadyState::measure_extents() {
+  const mesh::DeformedBoundary boundary(body_.mesh);
+  extent_.assign(window_.pairs().size(), 0.0);
+  std::vector<Vec2> u;
+  std::vector<double> axial;
+  for (int place = 0; place < window_.harmonics().body().samples; ++place) {
+    unroll(u_, place, 1.0, u, axial);
+    for (std::size_t j = 0; j < extent_.size(); ++j)
+      if (const Where w = where(j); w.place == place)
+        extent_[j] = boundary.extent(w.candidate, u, axial);
+  }
+}
+
 void SolidSteadyState::sum_up() {
+  measure_extents();
   const double share = 1.0 / window_.harmonics().body().samples;
   for (std::size_t j = 0; j < window_.pairs().size(); ++j) {
     if (!(force(j).x > 0.0)) continue;

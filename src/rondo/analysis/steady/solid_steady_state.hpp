@@ -17,7 +17,7 @@ struct SolidSteadySums {
   Vec3 moment;  ///< about the center's projection on the ground, axes of the wheel      [N·m]
   double torque = 0.0;                       ///< about the axle, counter-clockwise      [N·m]
   int nodes = 0, sticking = 0;               ///< not of means
-  double stick_area = 0.0, slip_area = 0.0;  ///< tributary areas, summed                 [m²]
+  double stick_area = 0.0, slip_area = 0.0;  ///< of the deformed surface                [m²]
   double pressure = 0.0, shear = 0.0;        ///< largest                                 [Pa]
   double friction = 0.0;                     ///< power taken by friction                  [W]
   double slip = 0.0;                         ///< largest                                [m/s]
@@ -37,6 +37,8 @@ class SolidSteadyState final : public RolledState {
   [[nodiscard]] SteadyResiduals residuals() const override {
     return {power_.residual, solution_.residual, mean_.penetration};
   }
+  [[nodiscard]] double deflection() const override { return window_.lowest() - solution_.height; }
+  [[nodiscard]] const statics::RollingPower& power() const noexcept override { return power_; }
   [[nodiscard]] Json describe() const override;
   [[nodiscard]] std::vector<std::string> notes() const override;
 
@@ -52,6 +54,7 @@ class SolidSteadyState final : public RolledState {
   void refuse() const;
   [[nodiscard]] std::string not_solved() const;
   void sum_up();
+  void measure_extents();
   void add(std::size_t pair, double share, SolidSteadySums& sums) const;
   void unroll(const Eigen::MatrixXd& field, int place, double by, std::vector<Vec2>& plane,
               std::vector<double>& axial) const;
@@ -75,7 +78,8 @@ class SolidSteadyState final : public RolledState {
   statics::RollingPower power_;
   Eigen::MatrixXd u_, rate_;               ///< (3 n_local, L); rates once a place is filled
   std::vector<std::size_t> candidate_of_;  ///< (n) place in mesh.boundary
-  std::vector<SolidSteadySums> sums_;      ///< (P)
+  std::vector<double> extent_;         ///< (pairs) of the deformed boundary, where pressed [m²]
+  std::vector<SolidSteadySums> sums_;  ///< (P)
   SolidSteadySums mean_;
 };
 

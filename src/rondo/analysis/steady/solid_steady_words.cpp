@@ -12,10 +12,11 @@ namespace {
 
 using R = SolidSteadySums;
 constexpr std::array own_columns{
-    Column<R>{"stick_area_m2", "m2", "tributary areas of the nodes that stick, summed",
+    Column<R>{"stick_area_m2", "m2", "of the deformed surface at the nodes that stick, summed",
               [](const R& r) { return r.stick_area; }},
     Column<R>{"slip_area_m2", "m2", "of those that slip", [](const R& r) { return r.slip_area; }},
-    Column<R>{"pressure_max_pa", "Pa", "largest of all contact nodes",
+    Column<R>{"pressure_max_pa", "Pa",
+              "largest of all contact nodes, over the deformed boundary as in contact.csv",
               [](const R& r) { return r.pressure; }},
     Column<R>{"shear_max_pa", "Pa", "likewise", [](const R& r) { return r.shear; }},
     Column<R>{"slip_speed_max", "m/s", "likewise, by the slip that the law of friction sees",
@@ -92,6 +93,7 @@ Json SolidSteadyState::describe() const {
                  {by_speed, json_of(s.slopes.by_speed)},
                  {"by_slip_angle", json_of(s.slopes.by_slip_angle)}};
   j["power"] = json_of(power_);
+  j["scheme_share"] = power_.scheme_share;
   j["residual"] = s.residual;
   j["newton_steps"] = s.newton_steps;
   j["sweeps"] = s.sweeps;

@@ -9,8 +9,12 @@
 
 #include "rondo/analysis/base/disk.hpp"
 #include "rondo/analysis/base/strain_watch.hpp"
+#include "rondo/analysis/build/ground/held_ground.hpp"
 #include "rondo/analysis/build/physical.hpp"
+#include "rondo/analysis/build/plausible/number_range.hpp"
+#include "rondo/analysis/build/plausible/plausible.hpp"
 #include "rondo/analysis/figures/steady_figures.hpp"
+#include "rondo/analysis/steady/scheme_power.hpp"
 #include "rondo/analysis/steady/steady_case.hpp"
 
 namespace rondo::study {
@@ -34,6 +38,7 @@ class SteadyRolling final : public Analysis {
         body_(rolled_body(c, options.shared)),
         ground_(c.ground->shape),
         strain_(body_->mesh, body_->materials) {
+    refuse_held_in_ground(c, body_->mesh);
     tell_physical_figures(c, body_->mesh, body_->materials, told_);
     if (options.resume)
       throw case_error(c, "analysis.kind", "steady rolling has no checkpoints to resume from",
@@ -63,6 +68,8 @@ class SteadyRolling final : public Analysis {
   /// A sweep without snapshots asks for none.
   [[nodiscard]] bool keeps_fields() const noexcept { return case_.output.snapshots > 0; }
   [[nodiscard]] std::string look(double time);
+  [[nodiscard]] std::string wrong_state() const;
+  [[nodiscard]] std::vector<std::string> warnings_of_state() const;
   [[nodiscard]] int samples() const noexcept { return case_.analysis.samples_per_sector; }
 
   const Case& case_;
@@ -116,6 +123,13 @@ RecordPlan SteadyRolling::record_plan() const {
 
 void SteadyRolling::prepare() {
   body_->find_harmonics(case_, threads_);
+  if (!body_->has_solution()) {
+    trouble_ = fmt::format(
+        "the harmonics of a sector have no solution in the range of the numbers; other values, of "
+        "{} first: are they in SI units?",
+        furthest_key(case_));
+    return;
+  }
   const auto begin = Clock::now();
   state_ = body_->solve(case_);
   solve_s_ = std::chrono::duration<double>(Clock::now() - begin).count();
@@ -141,8 +155,23 @@ std::string SteadyRolling::look(double time) {
   return strain_.look(now_.u, {}, time, now_.axial_u);
 }
 
-Progress SteadyRolling::advance(Recorder& recorder) {
+std::string SteadyRolling::wrong_state() const {
+  if (!state_) return *trouble_;
   std::string wrong = state_->trouble();
+  return wrong.empty() ? scheme_trouble(case_, state_->power()) : wrong;
+}
+
+std::vector<std::string> SteadyRolling::warnings_of_state() const {
+  std::vector<std::string> all{scheme_warning(case_, state_->power())};
+  const std::optional<Wall> wall = wall_of(body_->mesh);
+  if (case_.analysis.load && wall)
+    all.push_back(hardly_pressed("analysis.load", state_->deflection(), wall->radius));
+  std::erase(all, std::string());
+  return all;
+}
+
+Progress SteadyRolling::advance(Recorder& recorder) {
+  std::string wrong = wrong_state();
   if (wrong.empty()) {
     state_->fill(recorded_, now_);
     wrong = look(now_.time);
@@ -161,7 +190,7 @@ Progress SteadyRolling::advance(Recorder& recorder) {
 }
 
 std::string SteadyRolling::look_at_all() {
-  std::string wrong = state_->trouble();
+  std::string wrong = wrong_state();
   for (recorded_ = 0; wrong.empty() && recorded_ < samples(); ++recorded_) {
     state_->displace(recorded_, now_);
     wrong = look(recorded_ * state_->sample_time());
@@ -172,18 +201,25 @@ std::string SteadyRolling::look_at_all() {
 void SteadyRolling::summarise(Json& j, RunReport& r) const {
   r.steps = recorded_;
   r.reached = fmt::format("{} places of a sector", recorded_);
+  if (!state_) return;
   const SteadyResiduals residuals = state_->residuals();
   r.energy_residual_relative = residuals.energy;
+  r.energy_residual_bound = residual_bound;
   r.contact_residual_max = residuals.contact;
   r.penetration_max_m = residuals.penetration;
   strain_.summarise({}, j, r);
   j["steps_done"] = recorded_;
   j["contact_residual_max"] = r.contact_residual_max;
   j["energy_residual_relative"] = r.energy_residual_relative;
+  j["energy_residual_bound"] = r.energy_residual_bound;
   j["penetration_max_m"] = r.penetration_max_m;
   if (recorded_ == 0) return;
   j["steady"] = state_->describe();
   for (std::string& note : state_->notes()) r.notes.push_back(std::move(note));
+  for (std::string warning : warnings_of_state()) {
+    j["warnings"].push_back(warning);
+    r.warnings.push_back(std::move(warning));
+  }
 }
 
 }  // namespace

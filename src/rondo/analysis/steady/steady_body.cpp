@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "rondo/analysis/steady/steady_body.hpp"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <chrono>
 #include <cmath>
@@ -36,11 +34,7 @@ void warn_of_critical_spin(const Case& c, SteadyBody& b) {
   if (found.empty()) return;
   const auto lowest =
       std::ranges::min_element(found, [](const auto& x, const auto& y) { return x.spin < y.spin; });
-  b.warnings.push_back(fmt::format(
-      "motion.angular_velocity: {:.6g} rad/s is above the critical spin of this mesh, {:.6g} rad/s "
-      "({} nodal diameters), at which a wave stands still in the fixed frame: damping alone bounds "
-      "the deformation",
-      spin, lowest->spin, lowest->diameters));
+  b.warnings.push_back(above_critical_spin(c, *lowest));
 }
 
 /// (n_local) in the frame of the sector: the curves of a disk are the same in all.
@@ -70,6 +64,7 @@ std::size_t SteadyBody::memory(const Case& c) const {
 void SteadyBody::assemble(const Case& c) {
   mass = fem::lumped_mass(mesh, materials);
   dofs = 2 * fem::free_nodes(mesh).size();
+  demand_range(c, *this);
   sector = fem::assemble_sector(mesh, materials);
   sector_dofs = 2 * sector.n_local();
   add_stress_stiffening(c, *this);

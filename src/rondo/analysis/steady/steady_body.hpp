@@ -16,6 +16,7 @@ class SteadyBody final : public RolledBody {
   void assemble(const Case& c) override;
   /// And the window.
   void find_harmonics(const Case& c, int threads) override;
+  [[nodiscard]] bool has_solution() const noexcept override { return harmonics->finite(); }
   [[nodiscard]] std::unique_ptr<RolledState> solve(const Case& c) const override;
   void add_columns(RecordPlan& plan) const override;
 

@@ -4,13 +4,15 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <thread>
+#include <cmath>
 #include <utility>
 
 #include "rondo/analysis/build/memory.hpp"
 #include "rondo/analysis/build/physical.hpp"
+#include "rondo/analysis/build/plausible/number_range.hpp"
 #include "rondo/analysis/steady/solid_steady_body.hpp"
 #include "rondo/analysis/steady/steady_body.hpp"
+#include "rondo/core/limits/processors.hpp"
 
 namespace rondo::study {
 namespace {
@@ -67,11 +69,35 @@ Json json_of(const statics::RollingPower& p) {
           {"residual", p.residual}};
 }
 
+void demand_range(const Case& c, const RolledBody& body) {
+  const double highest = 0.5 * body.mesh.n_sectors * c.analysis.samples_per_sector;
+  demand_harmonic_range(c, body.materials, body.mass, highest * std::abs(spin_of(c)));
+}
+
+void demand_free_shape(const Case& c, double lowest, double radius) {
+  constexpr double most = 2.0;
+  if (lowest < most * radius) return;
+  throw case_error(
+      c, furthest_key(c),
+      fmt::format("spin, weight and loads alone bring the lowest place of the body "
+                  "{:.3g} m away from the axle, from {:.3g} m undeformed",
+                  lowest, radius),
+      fmt::format("less of them, or a stiffer material: at most {:.3g} m", most * radius));
+}
+
+std::string above_critical_spin(const Case& c, const modal::CriticalSpeed& lowest) {
+  return fmt::format(
+      "motion.angular_velocity: {:.6g} rad/s is above the critical spin of this mesh, {:.5g} rad/s "
+      "({} nodal diameters), at which a wave stands still in the fixed frame: damping alone bounds "
+      "the deformation",
+      std::abs(spin_of(c)), lowest.spin, lowest.diameters);
+}
+
 int threads_for(const Case& c, const RolledBody& body, int asked) {
   if (asked != 0) return asked;
   const auto samples = static_cast<std::size_t>(c.analysis.samples_per_sector);
   if (samples * body.dofs < 2 * single_thread_dofs) return 1;
-  return static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
+  return allowed_processors();
 }
 
 std::shared_ptr<RolledBody> rolled_body(const Case& c, SharedBody* shared) {

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "rondo/analysis/build/build.hpp"
+#include "rondo/modal/critical_speeds.hpp"
 #include "rondo/output/recorder.hpp"
 #include "rondo/output/run_files.hpp"
 #include "rondo/output/snapshot.hpp"
@@ -51,6 +52,10 @@ class RolledState {
   /// Of history.csv. @param now as filled for the place
   virtual void append_row(int place, const Snapshot& now, std::vector<double>& rows) const = 0;
   [[nodiscard]] virtual SteadyResiduals residuals() const = 0;
+  /// How far the lowest place of the body would be below the ground if nothing touched it [m].
+  [[nodiscard]] virtual double deflection() const = 0;
+  /// Where power goes. @pre it is solved
+  [[nodiscard]] virtual const statics::RollingPower& power() const noexcept = 0;
   /// For run.json.
   [[nodiscard]] virtual Json describe() const = 0;
   /// Forces, height, speed and slip, for the user.
@@ -73,8 +78,10 @@ class RolledBody {
   virtual void assemble(const Case& c) = 0;
   /// Adds them, if they are not there. @param threads 0: chosen by size
   virtual void find_harmonics(const Case& c, int threads) = 0;
-  /// @pre find_harmonics(). @throws InputError: nothing touches; the speed of what slides as a
-  /// whole is asked for. Case and body must outlive the state.
+  /// False: the harmonics have no solution in the range of the numbers. @pre find_harmonics()
+  [[nodiscard]] virtual bool has_solution() const noexcept = 0;
+  /// @pre find_harmonics(), has_solution(). @throws InputError: nothing touches; the speed of what
+  /// slides as a whole is asked for. Case and body must outlive the state.
   [[nodiscard]] virtual std::unique_ptr<RolledState> solve(const Case& c) const = 0;
   /// Of history.csv and contact.csv.
   virtual void add_columns(RecordPlan& plan) const = 0;
@@ -86,6 +93,18 @@ class RolledBody {
   std::vector<std::string> warnings;  ///< for the user: the caller prints them
   double harmonics_wall_s = 0.0;
 };
+
+/// The equations of all harmonics stay within the range of the numbers. @pre mesh, materials and
+/// mass are there @throws InputError
+void demand_range(const Case& c, const RolledBody& body);
+
+/// What spin, weight and loads alone make of the body is still about as large as it was.
+/// @param lowest place of the deformed body that nothing touches, below the axle [m]
+/// @throws InputError
+void demand_free_shape(const Case& c, double lowest, double radius);
+
+/// For a spin of the case at which a wave has come to stand still.
+[[nodiscard]] std::string above_critical_spin(const Case& c, const modal::CriticalSpeed& lowest);
 
 /// As many as asked for, or chosen by size for 0.
 [[nodiscard]] int threads_for(const Case& c, const RolledBody& body, int asked);

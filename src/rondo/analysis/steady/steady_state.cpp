@@ -8,6 +8,8 @@
 #include <limits>
 #include <string_view>
 
+#include "rondo/mesh/deformed_boundary.hpp"
+
 namespace rondo::study {
 namespace {
 
@@ -42,6 +44,7 @@ SteadyState::SteadyState(const Case& c, const SteadyBody& body)
       sums_(static_cast<std::size_t>(c.analysis.samples_per_sector)) {
   for (std::size_t k = 0; k < body.mesh.boundary.size(); ++k)
     candidate_of_[static_cast<std::size_t>(body.mesh.boundary[k])] = k;
+  demand_free_shape(c, statics::lowest_place(window_), c.disk.outer_radius);
   solve();
   refuse();
   if (solution_.end == statics::RollingEnd::solved) sum_up();
@@ -131,7 +134,20 @@ SteadyState::Where SteadyState::where(std::size_t pair) const {
   return {place, candidate_of_[body_.sector.node(row, static_cast<std::size_t>(sector))]};
 }
 
+/// What each pair that is pressed stands for at its place, of the deformed boundary.
+void SteadyState::measure_extents() {
+  const mesh::DeformedBoundary boundary(body_.mesh);
+  extent_.assign(window_.pairs().size(), 0.0);
+  std::vector<Vec2> u;
+  for (int place = 0; place < window_.harmonics().body().samples; ++place) {
+    unroll(u_, place, 1.0, u);
+    for (std::size_t j = 0; j < extent_.size(); ++j)
+      if (const Where w = where(j); w.place == place) extent_[j] = boundary.extent(w.candidate, u);
+  }
+}
+
 void SteadyState::sum_up() {
+  measure_extents();
   const statics::RollingHarmonics& h = window_.harmonics();
   const double share = 1.0 / h.body().samples;
   for (std::size_t j = 0; j < window_.pairs().size(); ++j) {
@@ -144,7 +160,7 @@ void SteadyState::sum_up() {
     const Vec2 x =
         body_.mesh.coordinates[body_.sector.node(static_cast<std::size_t>(local / 2), 0)];
     const Vec2 arm = window_.frame(p.sample) * (x + Vec2{u_(local, sample), u_(local + 1, sample)});
-    const double tributary = body_.mesh.tributary[w.candidate];
+    const double length = extent_[j];
     const double slip = solution_.gap_and_slip[row + 1];
     const bool sticks = solution_.status[j].status == Status::stick;
     for (SteadySums* s : {&sums_[static_cast<std::size_t>(w.place)], &mean_}) {
@@ -153,9 +169,9 @@ void SteadyState::sum_up() {
       s->torque += part * cross(arm, r);
       ++s->nodes;
       s->sticking += sticks ? 1 : 0;
-      (sticks ? s->stick_length : s->slip_length) += part * tributary;
-      s->pressure = std::max(s->pressure, r.y / tributary);
-      s->shear = std::max(s->shear, std::abs(r.x) / tributary);
+      (sticks ? s->stick_length : s->slip_length) += part * length;
+      s->pressure = std::max(s->pressure, r.y / length);
+      s->shear = std::max(s->shear, std::abs(r.x) / length);
       s->friction -= part * r.x * slip;
       s->slip = std::max(s->slip, std::abs(slip));
       s->penetration = std::max(s->penetration, -solution_.gap_and_slip[row]);

@@ -15,7 +15,7 @@ struct SteadySums {
   Vec2 force;                                    ///< of the ground, fixed axes        [N/m]
   double torque = 0.0;                           ///< about the center, counter-clockwise [N]
   int nodes = 0, sticking = 0;                   ///< not of means
-  double stick_length = 0.0, slip_length = 0.0;  ///< tributary lengths, summed          [m]
+  double stick_length = 0.0, slip_length = 0.0;  ///< of the deformed boundary          [m]
   double pressure = 0.0, shear = 0.0;            ///< largest                           [Pa]
   double friction = 0.0;                         ///< power taken by friction          [W/m]
   double slip = 0.0;                             ///< largest                          [m/s]
@@ -35,6 +35,10 @@ class SteadyState final : public RolledState {
   [[nodiscard]] SteadyResiduals residuals() const override {
     return {power_.residual, solution_.residual, mean_.penetration};
   }
+  [[nodiscard]] double deflection() const override {
+    return statics::lowest_place(window_) - solution_.height;
+  }
+  [[nodiscard]] const statics::RollingPower& power() const noexcept override { return power_; }
   [[nodiscard]] Json describe() const override;
   [[nodiscard]] std::vector<std::string> notes() const override;
 
@@ -48,6 +52,7 @@ class SteadyState final : public RolledState {
   void solve();
   void refuse() const;
   void sum_up();
+  void measure_extents();
   void unroll(const Eigen::MatrixXd& field, int place, double by, std::vector<Vec2>& out) const;
   [[nodiscard]] int sense() const noexcept { return spin() > 0.0 ? 1 : -1; }
   [[nodiscard]] double spin() const noexcept { return body_.harmonics->body().spin; }
@@ -68,6 +73,7 @@ class SteadyState final : public RolledState {
   statics::RollingPower power_;
   Eigen::MatrixXd u_, rate_;               ///< (2 n_local, L); rates once a place is filled
   std::vector<std::size_t> candidate_of_;  ///< (n) place in mesh.boundary
+  std::vector<double> extent_;             ///< (pairs) of the deformed boundary, where pressed [m]
   std::vector<SteadySums> sums_;           ///< (P)
   SteadySums mean_;
 };

@@ -12,10 +12,11 @@ namespace {
 
 using R = SteadySums;
 constexpr std::array own_columns{
-    Column<R>{"stick_length_m", "m", "tributary lengths of the nodes that stick, summed",
+    Column<R>{"stick_length_m", "m", "of the deformed boundary at the nodes that stick, summed",
               [](const R& r) { return r.stick_length; }},
     Column<R>{"slip_length_m", "m", "of those that slip", [](const R& r) { return r.slip_length; }},
-    Column<R>{"pressure_max_pa", "Pa", "largest of all contact nodes",
+    Column<R>{"pressure_max_pa", "Pa",
+              "largest of all contact nodes, over the deformed boundary as in contact.csv",
               [](const R& r) { return r.pressure; }},
     Column<R>{"shear_max_pa", "Pa", "likewise", [](const R& r) { return r.shear; }},
     Column<R>{"slip_speed_max", "m/s", "likewise, by the slip that the law of friction sees",
@@ -85,6 +86,7 @@ Json SteadyState::describe() const {
                  {a.load ? "by_load" : "by_height", json_of(s.slopes.by_height)},
                  {by_speed, json_of(s.slopes.by_speed)}};
   j["power"] = json_of(power_);
+  j["scheme_share"] = power_.scheme_share;
   j["residual"] = s.residual;
   j["newton_steps"] = s.newton_steps;
   j["pivots"] = s.pivots;

@@ -48,6 +48,17 @@ void check_other_bodies(CaseValues& in) {
                fmt::format("[{}] or [section]", other));
 }
 
+/// Lines of nodes that numbers tell apart beside the radius.
+void check_width(CaseValues& in, const Case& c) {
+  if (!in.good({"disk.width", "disk.outer_radius", "disk.mesh.axial"})) return;
+  const double least = 1e-9 * c.wheel.axial * c.disk.outer_radius;
+  if (*c.wheel.width < least)
+    in.fault("disk.width",
+             fmt::format("each of the {} elements over it would be {:.2g} m thin", c.wheel.axial,
+                         *c.wheel.width / c.wheel.axial),
+             fmt::format(">= {:.2g}; or no disk.width: a plane body", least));
+}
+
 void check_crown(CaseValues& in, const Case& c) {
   constexpr std::string_view key = "disk.crown_radius";
   if (!c.wheel.crown_radius ||
@@ -127,6 +138,7 @@ void check_body(CaseValues& in, const Case& c) {
   if (c.free_rim)
     refuse(in, "disk.rim", fmt::format("{} is held by its rim", wheel),
            "\"bonded\"; or no disk.width: free bodies are plane");
+  check_width(in, c);
   check_crown(in, c);
   check_grooves(in, c);
   check_size(in, c);

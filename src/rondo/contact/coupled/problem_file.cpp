@@ -11,6 +11,7 @@
 #include <nlohmann/json.hpp>
 
 #include "rondo/core/error.hpp"
+#include "rondo/core/files/regular_file.hpp"
 
 namespace rondo::contact {
 namespace {
@@ -143,6 +144,7 @@ void write_problem(const std::filesystem::path& path, const ProblemFile& f) {
 }
 
 ProblemFile read_problem(const std::filesystem::path& path) {
+  demand_regular_file(path);
   std::ifstream in(path, std::ios::binary);
   if (!in) throw FileError(path.string(), "cannot be opened");
   ProblemFile f;

@@ -84,6 +84,7 @@ CornerContact::CornerContact(const Model& model)
       state_(boundary_),
       contact_(boundary_),
       begin_(boundary_.n_nodes()),
+      edge_boxes_(boundary_.contact->edges.size()),
       wanted_(boundary_.n_nodes()),
       is_held_(boundary_.n_nodes()),
       load_of_(loads_of(model)) {}
@@ -108,7 +109,7 @@ CornerContact::Extent CornerContact::extent(std::size_t n_steps,
   const double touch = contact_.finder().deepest();
   way_ = 4.0 * touch + 2.0 * time * fastest;
   farthest_ = farthest;
-  return {touch + way_, farthest};
+  return {touch + way_ + boundary_.contact->ground.bend_reach(), farthest};
 }
 
 void CornerContact::look_out(std::span<StepContext> steps, const CandidateFields& fields) noexcept {
@@ -120,13 +121,11 @@ void CornerContact::look_out(std::span<StepContext> steps, const CandidateFields
   Box centers = empty_box();
   for (const StepContext& step : steps) include(centers, step.frame.center);
   const Box around = around_ = widened(centers, e.farthest + e.reach);
-  const std::span<const contact::Corner> corners = boundary_.contact->ground.corners();
-  const auto first = std::partition_point(corners.begin(), corners.end(), [&](const auto& corner) {
-    return corner.position.x < around.low.x;
-  });
-  for (auto c = first; c != corners.end() && c->position.x <= around.high.x; ++c)
-    if (c->position.y >= around.low.y && c->position.y <= around.high.y)
-      look_at(static_cast<std::size_t>(c - corners.begin()), steps, e);
+  const contact::Ground& ground = boundary_.contact->ground;
+  set_edge_boxes();
+  for (const contact::Corner& c : ground.corners(around.low.x, around.high.x))
+    if (c.position.y >= around.low.y && c.position.y <= around.high.y)
+      look_at(static_cast<std::size_t>(&c - ground.corners().data()), steps, e);
   for (StepContext& step : steps) step.held = any_near() ? is_held_.data() : nullptr;
   if (any_near() || !was_near) return;
   release();
@@ -142,7 +141,7 @@ double CornerContact::unseen(const CandidateFields& fields, double astray) const
   const double moved = std::sqrt(squared) + astray;
   if (!(moved > way_)) return 0.0;
   const Box within = widened(around_, moved);
-  const std::span<const contact::Corner> corners = boundary_.contact->ground.corners();
+  const auto corners = boundary_.contact->ground.corners(within.low.x, within.high.x);
   return std::ranges::any_of(corners,
                              [&](const auto& c) {
                                return overlap({c.position, c.position}, within);
@@ -169,18 +168,22 @@ void CornerContact::look_at(std::size_t corner, std::span<const StepContext> ste
   if (nearest <= e.farthest + e.reach + length) add_near(corner, widened(path, e.reach + length));
 }
 
+void CornerContact::set_edge_boxes() noexcept {
+  const std::vector<mesh::Edge>& edges = boundary_.contact->edges;
+  for (std::size_t i = 0; i < edges.size(); ++i) {
+    edge_boxes_[i] = empty_box();
+    for (const int node : edges[i])
+      include(edge_boxes_[i], boundary_.reference[at(node)] + state_.u[at(node)]);
+  }
+}
+
 void CornerContact::add_near(std::size_t corner, const Box& box) {
   if (near_.size() == n_near_) near_.emplace_back();
   NearCorner& near = near_[n_near_];
   near.corner = corner;
   near.edges.clear();
-  const std::vector<mesh::Edge>& edges = boundary_.contact->edges;
-  for (std::size_t i = 0; i < edges.size(); ++i) {
-    Box of_edge = empty_box();
-    for (const int node : edges[i])
-      include(of_edge, boundary_.reference[at(node)] + state_.u[at(node)]);
-    if (overlap(of_edge, box)) near.edges.push_back(static_cast<int>(i));
-  }
+  for (std::size_t i = 0; i < edge_boxes_.size(); ++i)
+    if (overlap(edge_boxes_[i], box)) near.edges.push_back(static_cast<int>(i));
   if (near.edges.empty()) return;
   ++n_near_;
   for (const int edge : near.edges) want(edge, 2);

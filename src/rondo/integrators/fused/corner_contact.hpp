@@ -85,6 +85,7 @@ class CornerContact {
   [[nodiscard]] Extent extent(std::size_t n_steps, const CandidateFields& fields) noexcept;
   void look_at(std::size_t corner, std::span<const StepContext> steps, const Extent& e);
   void add_near(std::size_t corner, const Box& box);
+  void set_edge_boxes() noexcept;
   void want(int edge, int layers);
   void release() noexcept;
   [[nodiscard]] Vec2 load_on(const StepContext& step, std::size_t candidate) const noexcept;
@@ -94,12 +95,13 @@ class CornerContact {
   GeneralContact contact_;
   std::vector<NearCorner> near_;  ///< the first n_near_ count
   std::size_t n_near_ = 0;
-  std::vector<Vec2> begin_;   ///< (nb) u where the batch began                           [m]
-  double farthest_ = 0.0;     ///< from the center                                         [m]
-  double way_ = 0.0;          ///< that a candidate may come from there                   [m]
-  Box around_{};              ///< that holds the boundary in the batch, way_ beside it    [m]
-  std::vector<int> nodes_;    ///< of the near edges and their neighbours
-  std::vector<char> wanted_;  ///< (nb) is in nodes_
+  std::vector<Vec2> begin_;      ///< (nb) u where the batch began                           [m]
+  std::vector<Box> edge_boxes_;  ///< there, turning frame                                [m]
+  double farthest_ = 0.0;        ///< from the center                                         [m]
+  double way_ = 0.0;             ///< that a candidate may come from there                   [m]
+  Box around_{};                 ///< that holds the boundary in the batch, way_ beside it    [m]
+  std::vector<int> nodes_;       ///< of the near edges and their neighbours
+  std::vector<char> wanted_;     ///< (nb) is in nodes_
   std::vector<Held> held_;
   std::vector<char> is_held_;                    ///< (nb)
   std::vector<std::vector<NodalLoad>> load_of_;  ///< (nb), or empty: no loads

@@ -15,8 +15,8 @@ namespace {
 using contact::EdgeTouch;
 
 std::uint64_t key_of(ContactKind kind, std::size_t first, std::size_t second) noexcept {
-  return static_cast<std::uint64_t>(kind) << 62U | static_cast<std::uint64_t>(first) << 31U |
-         static_cast<std::uint64_t>(second);
+  return static_cast<std::uint64_t>(kind) << 62U |
+         static_cast<std::uint64_t>(first) << key_bits_of_edge | static_cast<std::uint64_t>(second);
 }
 
 std::size_t at(int node) noexcept {
@@ -79,9 +79,7 @@ ContactFinder::ContactFinder(const Model& model)
       boundary_(boundary_of(model)),
       positions_(model.n_nodes()),
       near_edges_(model, surface_, deepest_),
-      is_near_(model.n_nodes()),
-      all_edges_(ground_side_.edges.size()) {
-  std::iota(all_edges_.begin(), all_edges_.end(), 0);
+      is_near_(model.n_nodes()) {
   if (model.contact && !model.contact->tributary.empty())
     ground_margin_ = std::ranges::min(model.contact->tributary);
   if (!model.surfaces) return;
@@ -212,23 +210,42 @@ Box ContactFinder::box_of_candidates() const {
   return box;
 }
 
-/// A profile may have many corners; few are where the bodies are, and these look at all edges.
-void ContactFinder::find_corners(std::vector<ContactRow>& rows) const {
-  const Box box = box_of_candidates();
-  const auto corners = model_.contact->ground.corners();
-  for (std::size_t c = 0; c < corners.size(); ++c) {
-    const Vec2 p = corners[c].position;
-    if (p.x < box.low.x || p.x > box.high.x || p.y < box.low.y || p.y > box.high.y) continue;
-    find_corner(c, all_edges_, rows);
+/// A profile may have many corners: each looks at the edges whose boxes it is near, no touch being
+/// farther from its segment than `deepest_`.
+void ContactFinder::find_corners(std::vector<ContactRow>& rows) {
+  Box box = box_of_candidates();
+  const contact::Ground& ground = model_.contact->ground;
+  const contact::Corner* const first = ground.corners().data();
+  const double reach = ground.bend_reach(), far = 1.001 * deepest_ + reach;  // places are rounded
+  box = {box.low - Vec2{reach, reach}, box.high + Vec2{reach, reach}};
+  corner_edges_.clear();
+  if (ground.corners(box.low.x, box.high.x).empty()) return;
+  for (std::size_t i = 0; i < ground_side_.edges.size(); ++i) {
+    const Vec2 a = positions_[at(ground_side_.edges[i][0])];
+    const Vec2 b = positions_[at(ground_side_.edges[i][1])];
+    const double low = std::max(std::min(a.y, b.y) - far, box.low.y);
+    const double high = std::min(std::max(a.y, b.y) + far, box.high.y);
+    for (const contact::Corner& c : ground.corners(std::max(std::min(a.x, b.x) - far, box.low.x),
+                                                   std::min(std::max(a.x, b.x) + far, box.high.x)))
+      if (c.position.y >= low && c.position.y <= high)
+        corner_edges_.emplace_back(static_cast<std::size_t>(&c - first), static_cast<int>(i));
+  }
+  std::ranges::sort(corner_edges_);
+  for (auto of = corner_edges_.begin(); of != corner_edges_.end();) {
+    const std::size_t corner = of->first;
+    near_corner_.clear();
+    for (; of != corner_edges_.end() && of->first == corner; ++of)
+      near_corner_.push_back(of->second);
+    find_corner(corner, near_corner_, rows);
   }
 }
 
 void ContactFinder::find_corner(std::size_t c, std::span<const int> edges,
                                 std::vector<ContactRow>& rows) const {
   const contact::Corner& corner = model_.contact->ground.corners()[c];
-  const Vec2 p = corner.position, facing = corner.normals[0] + corner.normals[1];
-  const contact::EdgeTouches touches =
-      contact::touch_boundary({.position = p}, {ground_side_, positions_, edges, deepest_});
+  const Vec2 facing = corner.normals[0] + corner.normals[1];
+  const contact::EdgeTouches touches = contact::touch_boundary(
+      {.position = corner.position, .bend = &corner}, {ground_side_, positions_, edges, deepest_});
   for (int t = 0; t < touches.count; ++t) {
     const EdgeTouch& found = touches.at[at(t)];
     const mesh::Edge& e = ground_side_.edges[at(found.edge)];
@@ -239,7 +256,7 @@ void ContactFinder::find_corner(std::size_t c, std::span<const int> edges,
     ContactRow row;
     row.kind = ContactKind::corner;
     row.rows = contact::corner_rows(found.touch, length, e[0], e[1]);
-    row.point = p;
+    row.point = contact::first_met(corner, -found.touch.normal);
     row.key = key_of(row.kind, c, at(found.edge));
     row.normal = found.touch.normal;
     row.gap = found.touch.gap;

@@ -2,7 +2,9 @@
 /// @file  Where a step has contacts (docs/theory.md, 4.1 and 4.8): candidates on the ground, sharp
 /// corners of the ground on segments, candidates on segments of other bodies or of their own.
 #pragma once
+#include <array>
 #include <cstddef>
+#include <utility>
 #include <vector>
 
 #include "rondo/contact/segment.hpp"
@@ -46,12 +48,17 @@ class ContactFinder {
   [[nodiscard]] std::span<const Vec2> positions() const noexcept { return positions_; }
   /// Edges that a corner of the ground may touch: those of ContactModel, in their order.
   [[nodiscard]] const contact::Boundary& ground_side() const noexcept { return ground_side_; }
+  /// Edges beside that of a corner's or a segment's row, -1: there is none.
+  [[nodiscard]] const std::array<int, 2>& beside(const ContactRow& row) const noexcept {
+    const auto edge = static_cast<std::size_t>(row.key & ((1ULL << key_bits_of_edge) - 1));
+    return (row.kind == ContactKind::corner ? ground_side_ : surface_).beside[edge];
+  }
   /// How far a touch is looked for                                                    [m]
   [[nodiscard]] double deepest() const noexcept { return deepest_; }
 
  private:
   void find_on_ground(std::size_t candidate, std::vector<ContactRow>& rows) const;
-  void find_corners(std::vector<ContactRow>& rows) const;
+  void find_corners(std::vector<ContactRow>& rows);
   void find_corner(std::size_t corner, std::span<const int> edges,
                    std::vector<ContactRow>& rows) const;
   void find_segments(std::vector<ContactRow>& rows);
@@ -84,7 +91,8 @@ class ContactFinder {
   std::vector<int> near_nodes_;   ///< of what is near, ascending
   std::vector<char> is_near_;     ///< (n)
   std::vector<int> facing_;       ///< edges near a node that face it
-  std::vector<int> all_edges_;    ///< of the ground's side: few corners, each looks at them all
+  std::vector<std::pair<std::size_t, int>> corner_edges_;  ///< corners and edges near each other
+  std::vector<int> near_corner_;                           ///< edges near one corner, ascending
   std::vector<ContactRow> corner_rows_;
   std::vector<int> touched_;  ///< nodes of corner_rows_, ascending
 };

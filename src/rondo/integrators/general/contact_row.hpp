@@ -15,6 +15,9 @@ enum class ContactKind : std::uint8_t {
   segment,  ///< a node on a segment of a body: r acts on the node, the first of three
 };
 
+/// In a row's key the edge of the body has this many bits; before them are kind and corner or node.
+inline constexpr unsigned key_bits_of_edge = 31;
+
 struct ContactRow {
   ContactKind kind = ContactKind::facet;
   contact::ContactRows rows;

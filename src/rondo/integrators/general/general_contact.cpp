@@ -79,6 +79,7 @@ ContactReport GeneralContact::solve_found(const BodyFrames& frames, Vec2 center,
     return report;
   }
   set_velocities(frames, state);
+  look_for_late(frames, report);
   find_clusters();
   const contact::Clusters& clusters = cluster_finder_.find(node_start_, nodes_, model_.n_nodes());
   for (std::size_t k = 0; k < clusters.size(); ++k) {
@@ -135,6 +136,40 @@ void GeneralContact::set_velocities(const BodyFrames& frames, const State& state
     row.bounce = contact::restitution_shift(row.law, row.before.x, row.before.x - row.turning);
     row.impulse = {};
     row.status = Status::open;
+  }
+}
+
+/// The corner, or the node, was behind some segment in the step before.
+bool GeneralContact::was_found(const ContactRow& row) const noexcept {
+  const auto point = [](std::uint64_t key) { return key >> key_bits_of_edge; };
+  const auto found = std::ranges::lower_bound(kept_, point(row.key), {},
+                                              [&](const auto& kept) { return point(kept.first); });
+  return found != kept_.end() && point(found->first) == point(row.key);
+}
+
+/// It may have come in beside the segment, at an end without a neighbour.
+bool GeneralContact::came_round_an_end(const ContactRow& row) const noexcept {
+  const bool corner = row.kind == ContactKind::corner;
+  const Vec2 a = finder_.positions()[at(row.rows.node[corner ? 0 : 1])];
+  const Vec2 along = finder_.positions()[at(row.rows.node[corner ? 1 : 2])] - a;
+  const double length = norm(along), foot = dot(along, row.point - a) / length;
+  const double way = 1.01 * model_.dt * std::abs(row.before.y);
+  const auto& beside = finder_.beside(row);
+  return (foot <= way && beside[0] < 0) || (length - foot <= way && beside[1] < 0);
+}
+
+/// What was behind its segment in the step before already, and was found behind none then, has been
+/// met by nothing. In the first step of a run it may start so.
+void GeneralContact::look_for_late(const BodyFrames& frames, ContactReport& report) const noexcept {
+  const double round_off = 1e-6 * finder_.deepest();
+  for (const ContactRow& row : rows_) {
+    if (row.kind == ContactKind::facet || -row.gap <= report.late) continue;
+    const double gap_before = row.gap - model_.dt * row.before.x;
+    if (-gap_before <= round_off + model_.dt * std::abs(row.turning) || was_found(row)) continue;
+    const double time = frames.of(model_, at(row.rows.node[0])).frame.time;
+    if (time < 1.25 * model_.dt || came_round_an_end(row)) continue;
+    report.late = -row.gap;
+    report.late_at = row.point;
   }
 }
 

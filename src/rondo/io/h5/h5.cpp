@@ -2,9 +2,11 @@
 #include "rondo/io/h5/h5.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 #include "rondo/core/contract.hpp"
 #include "rondo/core/error.hpp"
+#include "rondo/core/files/regular_file.hpp"
 #include "rondo/io/h5/library.hpp"
 
 namespace rondo::io::h5 {
@@ -106,6 +108,7 @@ void Dataset::write_one(std::size_t row, const void* values, Type type, std::siz
   if (H5Dwrite(id_.get(), native(type), row_space_.get(), file_space_.get(), H5P_DEFAULT, values) <
       0)
     fail("write");
+  if (written_) written_->add(std::span(static_cast<const std::byte*>(values), n * bytes_of(type)));
 }
 
 void Dataset::read_all(void* values, Type type, std::size_t n) const {
@@ -141,17 +144,47 @@ void Dataset::copy_rows(const File& from, std::size_t rows) {
   const Handle type(H5Dget_type(id_.get())), other(H5Dget_type(source.id_.get()));
   if (H5Tequal(type.get(), other.get()) <= 0 || source.shape_[0] < rows)
     throw FileError(source.file_, name_ + " holds less than it did: damaged");
-  std::vector<unsigned char> row(n_in_row() * H5Tget_size(type.get()));
-  for (std::size_t r = 0; r < rows; ++r) {
-    source.select_row(r);
-    if (H5Dread(source.id_.get(), type.get(), source.row_space_.get(), source.file_space_.get(),
-                H5P_DEFAULT, row.data()) < 0)
-      source.fail("read");
+  source.each_row(rows, [&](std::size_t r, std::span<const std::byte> row) {
     select_row(r);
     if (H5Dwrite(id_.get(), type.get(), row_space_.get(), file_space_.get(), H5P_DEFAULT,
                  row.data()) < 0)
       fail("write");
+    if (written_) written_->add(row);
+  });
+}
+
+void Dataset::each_row(
+    std::size_t rows,
+    const std::function<void(std::size_t, std::span<const std::byte>)>& take) const {
+  const Handle type(H5Dget_type(id_.get()));
+  std::vector<std::byte> row(n_in_row() * H5Tget_size(type.get()));
+  for (std::size_t r = 0; r < rows; ++r) {
+    select_row(r);
+    if (H5Dread(id_.get(), type.get(), row_space_.get(), file_space_.get(), H5P_DEFAULT,
+                row.data()) < 0)
+      fail("read");
+    take(r, row);
   }
+}
+
+std::string Dataset::hash_of_written() const {
+  RONDO_DEMAND(written_.has_value(), name_);
+  return written_->text();
+}
+
+std::string Dataset::hash_of_rows(std::size_t rows) const {
+  Hash hash;
+  each_row(rows, [&](std::size_t, std::span<const std::byte> row) { hash.add(row); });
+  return hash.text();
+}
+
+std::optional<std::size_t> Dataset::first_not_finite(std::size_t rows) const {
+  std::vector<double> row(n_in_row());
+  for (std::size_t r = 0; r < rows; ++r) {
+    read_some(r, 0, row.data(), Type::float64, row.size());
+    if (!std::ranges::all_of(row, [](double x) { return std::isfinite(x); })) return r;
+  }
+  return std::nullopt;
 }
 
 Label Dataset::label() const {
@@ -190,6 +223,7 @@ File File::create(const std::filesystem::path& path, const Handle& creation,
 }
 
 File File::open(const std::filesystem::path& path) {
+  demand_regular_file(path);
   be_quiet();
   File file;
   file.path_ = path.string();
@@ -223,6 +257,7 @@ Dataset File::make(const std::string& name, Type type, const Shape& shape, const
       !write_text(dataset.id_.get(), "description", label.description))
     dataset.fail("create");
   dataset.find_spaces();
+  if (rows) dataset.written_.emplace();
   return dataset;
 }
 

@@ -9,12 +9,15 @@
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
+#include <functional>
+#include <optional>
 #include <span>
 #include <string>
 #include <utility>
 #include <vector>
 
 #include "rondo/core/vec2.hpp"
+#include "rondo/io/h5/hash.hpp"
 
 namespace rondo::io::h5 {
 
@@ -95,6 +98,7 @@ class Dataset {
 
   explicit operator bool() const noexcept { return id_.get() >= 0; }
   [[nodiscard]] const Shape& shape() const noexcept { return shape_; }
+  [[nodiscard]] const std::string& name() const noexcept { return name_; }
 
   /// The whole dataset. @pre as many numbers as the shape has. @throws FileError
   template <class T>
@@ -127,6 +131,14 @@ class Dataset {
   /// @pre that many rows here. @throws FileError: fewer there, or of another kind
   void copy_rows(const File& from, std::size_t rows);
 
+  /// Of the rows written and copied so far, one after another as they lie in the file.
+  /// @pre made by File::create_rows; each row was written once, in turn
+  [[nodiscard]] std::string hash_of_written() const;
+  /// The same of the first rows as they are in the file. @throws FileError: cannot be read
+  [[nodiscard]] std::string hash_of_rows(std::size_t rows) const;
+  /// Of these rows the first with a number that is not finite; none: there is no such row.
+  [[nodiscard]] std::optional<std::size_t> first_not_finite(std::size_t rows) const;
+
   [[nodiscard]] Label label() const;  ///< @throws FileError
 
  private:
@@ -136,6 +148,8 @@ class Dataset {
   void find_spaces();
   void select(std::size_t row, std::size_t first, std::size_t n) const;
   void select_row(std::size_t row) const { select(row, 0, shape_.size() > 1 ? shape_[1] : 1); }
+  void each_row(std::size_t rows,
+                const std::function<void(std::size_t, std::span<const std::byte>)>& take) const;
   void write_all(const void* values, Type type, std::size_t n);
   void write_one(std::size_t row, const void* values, Type type, std::size_t n);
   void read_all(void* values, Type type, std::size_t n) const;
@@ -145,7 +159,8 @@ class Dataset {
   std::string file_, name_;
   Shape shape_;
   Handle id_, file_space_;
-  Handle row_space_;  ///< of a row or a part of it: its extent changes with each call
+  Handle row_space_;             ///< of a row or a part of it: its extent changes with each call
+  std::optional<Hash> written_;  ///< only where it was made by File::create_rows
 };
 
 class File {

@@ -42,11 +42,11 @@ class LinkedFile {
   void link(const std::string& name, const std::string& file, const std::string& dataset);
   /// A dataset (rows * n) or (rows * n, columns) of float32: NaN where the other file is missing.
   void show(const std::string& name, const Shown& what);
-  /// It may be there already.
+  /// Of a group or a dataset. It may be there already.
   void set_attribute(const std::string& group, const std::string& name, std::int64_t value);
   void set_attribute(const std::string& group, const std::string& name,
                      std::span<const std::int64_t> values);
-  /// Of the text's own length, ASCII.
+  /// Of the text's own length, ASCII. @pre not empty
   void set_attribute(const std::string& group, const std::string& name, const std::string& text);
 
   /// The file as it is now. @throws FileError

@@ -159,6 +159,21 @@ class Sweep {
 
 }  // namespace
 
+std::vector<Edge> rolling_edges(const Mesh& mesh, std::string_view contact) {
+  std::vector<Edge> edges;
+  const auto is_candidate = [&](int node) {
+    return std::ranges::binary_search(mesh.boundary, node);
+  };
+  const auto surface = std::ranges::find(mesh.surfaces, contact, &Surface::name);
+  if (surface == mesh.surfaces.end()) return edges;
+  for (const Face& f : surface->faces)
+    for (const Edge edge : {Edge{f[0], f[1]}, Edge{f[3], f[2]}})
+      if (is_candidate(edge[0]) && is_candidate(edge[1])) edges.push_back(edge);
+  std::ranges::sort(edges);
+  edges.erase(std::unique(edges.begin(), edges.end()), edges.end());
+  return edges;
+}
+
 Mesh revolve(const Mesh& section, const Columns& columns, std::string_view contact) {
   RONDO_DEMAND(columns.n_sectors >= 3 && columns.columns >= 1, columns.n_sectors, columns.columns);
   const auto n = static_cast<std::size_t>(columns.columns) * section.cells.size();

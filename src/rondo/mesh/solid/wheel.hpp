@@ -59,6 +59,10 @@ Columns columns_of(const Wheel& wheel, const Mesh& section);
 /// @pre r > 0 in the section, which has no triangles.
 Mesh revolve(const Mesh& section, const Columns& columns, std::string_view contact);
 
+/// Edges around the wheel between candidates, each once, the axle on the left of it.
+/// @param contact name of the surface of the candidates. @pre the mesh is of revolve()
+std::vector<Edge> rolling_edges(const Mesh& mesh, std::string_view contact);
+
 inline Mesh make_wheel(const Wheel& wheel) {
   const Mesh section = make_section(wheel);
   return revolve(section, columns_of(wheel, section), "tread");

@@ -17,13 +17,6 @@ using Eigen::Index;
 
 constexpr int most_rounds = 60;
 
-double lowest(const RollingWindow& w) {
-  const RollingHarmonics& h = w.harmonics();
-  double least = 0.0;
-  for (std::size_t a = 0; a < h.n_candidates(); ++a) least = std::max(least, norm(h.place(a, 0)));
-  return least;
-}
-
 /// The speed is asked for, and nothing that sticks tells it.
 bool slides(const RollingDrive& drive, const RollingState& s) {
   const bool sticks =
@@ -66,10 +59,17 @@ RollingSolution nothing(const RollingWindow& window, const RollingPoint& point, 
 
 }  // namespace
 
+double lowest_place(const RollingWindow& w) {
+  const RollingHarmonics& h = w.harmonics();
+  double least = 0.0;
+  for (std::size_t a = 0; a < h.n_candidates(); ++a) least = std::max(least, norm(h.place(a, 0)));
+  return least;
+}
+
 RollingSolution solve_rolling(RollingWindow& window, const RollingDrive& drive,
                               const std::vector<RollingStatus>& from) {
   const OneBlasThread one_thread;
-  const double radius = lowest(window);
+  const double radius = lowest_place(window);
   RollingSolution s;
   RollingState state;
   state.point.height = drive.load ? radius * (1.0 - 1e-3) : drive.height;

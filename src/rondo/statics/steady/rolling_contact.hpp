@@ -32,6 +32,10 @@ struct RollingSolution {
   RollingSlopes slopes;
 };
 
+/// Distance of the lowest contact node from the center where nothing touches, as spin, gravity and
+/// loads leave it [m].
+[[nodiscard]] double lowest_place(const RollingWindow& window);
+
 /// The window grows by the pairs that are missing.
 /// @param from statuses to start from, of the window's first pairs
 [[nodiscard]] RollingSolution solve_rolling(RollingWindow& window, const RollingDrive& drive,

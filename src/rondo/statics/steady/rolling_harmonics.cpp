@@ -37,6 +37,11 @@ RollingHarmonics::RollingHarmonics(RollingBody body)
   find_weight_torque();
 }
 
+bool RollingHarmonics::finite() const noexcept {
+  return std::ranges::all_of(history_, [](double x) { return std::isfinite(x); }) &&
+         base_.allFinite();
+}
+
 /// Minus the power of the weight over s, -2N Re(i R_1ᴴ U_1), and what each force adds to U_1.
 void RollingHarmonics::find_weight_torque() {
   const Eigen::VectorXcd load = load_of(1);

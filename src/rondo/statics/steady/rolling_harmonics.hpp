@@ -44,6 +44,9 @@ class RollingHarmonics {
   /// L.
   [[nodiscard]] int turn() const noexcept { return turn_; }
   [[nodiscard]] std::size_t n_candidates() const noexcept { return body_.candidates.size(); }
+  /// False: an equation was singular, or left the range of the numbers, and there is nothing to
+  /// solve contact with.
+  [[nodiscard]] bool finite() const noexcept;
 
   /// Displacement of candidate a, `ahead` samples after a force on candidate b, in the frames of
   /// the sector at either sample; 2×2, of (x, y) [m²/N].

@@ -14,7 +14,18 @@ int sample_of(const RollingWindow& w, const RollingPair& p) noexcept {
   return (p.sample % turn + turn) % turn;
 }
 
+/// A scheme below this share of load times speed is round-off.
+constexpr double round_off = 1e-12;
+
 }  // namespace
+
+void find_scheme_shares(double carried, RollingPower& p) noexcept {
+  const double scheme = std::abs(p.scheme);
+  if (!(scheme > round_off * carried)) return;
+  const double largest = std::max({std::abs(p.drive), p.mass + p.stiffness, std::abs(p.friction)});
+  p.scheme_share = scheme / largest;
+  p.scheme_over_load = scheme / carried;
+}
 
 RollingHarmonics::Block spectrum_of(const RollingWindow& w, const RollingSolution& s) {
   const RollingHarmonics& h = w.harmonics();
@@ -44,6 +55,7 @@ RollingPower rolling_power(const RollingWindow& w, const RollingSolution& s,
   const double torque = s.forces.torque + power.weight / spin;
   power.drive = s.speed * s.forces.x + spin * torque;
   double of_field = 0.0;  // Σ r·w by the field's own velocity
+  double turned = 0.0;    // Σ |s x r_n|, of which the torque is what does not cancel
   for (std::size_t j = 0; j < w.pairs().size(); ++j) {
     const RollingPair& p = w.pairs()[j];
     const auto row = static_cast<Index>(2 * j);
@@ -56,13 +68,16 @@ RollingPower rolling_power(const RollingWindow& w, const RollingSolution& s,
     const Vec2 way = turn90(arm) + Vec2{rate(node, m), rate(node + 1, m)};
     const Vec2 velocity = spin * (w.frame(p.sample) * way) + Vec2{s.speed, 0.0};
     of_field += dot(force, velocity) / pass;
+    turned += std::abs(spin * (w.frame(p.sample) * arm).x * force.y) / pass;
     power.friction -= force.x * s.gap_and_slip[row + 1] / pass;
   }
   power.scheme = of_field + power.friction;
   const double left = power.drive + power.mass + power.stiffness - power.weight - of_field;
-  const double largest = std::max({std::abs(s.speed * s.forces.x), std::abs(spin * torque),
-                                   power.mass, power.stiffness, std::abs(power.friction)});
+  const double largest =
+      std::max({std::abs(s.speed * s.forces.x), std::abs(spin * torque), power.mass,
+                power.stiffness, std::abs(power.friction), least_power_share * turned});
   power.residual = largest > 0.0 ? std::abs(left) / largest : 0.0;
+  find_scheme_shares(s.forces.y * std::max(std::abs(s.speed), std::abs(spin) * s.height), power);
   return power;
 }
 

@@ -17,7 +17,20 @@ struct RollingPower {
   /// By which the velocity of the field differs from what the law sees: Σ r·(w - w_law).
   double scheme = 0.0;
   double residual = 0.0;  ///< what the identity leaves, over the largest of these          [-]
+  /// |scheme| over the largest of |drive|, what damping takes, and |friction|: how much of the
+  /// powers is of the discretisation. 0 where scheme is round-off                            [-]
+  double scheme_share = 0.0;
+  /// |scheme| over load times speed: the error of the coefficient of rolling resistance       [-]
+  double scheme_over_load = 0.0;
 };
+
+/// Without friction and damping there is no power but round-off, which is not judged by itself: at
+/// least this share of the power by which normal forces would turn the body if they did not cancel.
+inline constexpr double least_power_share = 1e-3;
+
+/// Fills both shares of the scheme from the powers.
+/// @param carried load times speed, >= 0: what there would be at a coefficient of 1
+void find_scheme_shares(double carried, RollingPower& power) noexcept;
 
 /// U_k of all rows under the solution's forces [m].
 [[nodiscard]] RollingHarmonics::Block spectrum_of(const RollingWindow& window,

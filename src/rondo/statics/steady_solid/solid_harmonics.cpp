@@ -46,6 +46,11 @@ SolidHarmonics::SolidHarmonics(SolidRollingBody body)
   find_bases();
 }
 
+bool SolidHarmonics::finite() const noexcept {
+  return std::ranges::all_of(history_, [](double x) { return std::isfinite(x); }) &&
+         constant_.allFinite() && leaning_.allFinite() && turning_.allFinite();
+}
+
 Vec3 SolidHarmonics::reference(std::size_t a) const noexcept {
   const std::size_t node = body_.stiffness.node(at(body_.candidates[a]), 0);
   return {body_.reference[node], body_.axial[node]};

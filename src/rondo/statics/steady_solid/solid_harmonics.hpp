@@ -47,6 +47,9 @@ class SolidHarmonics {
   /// L.
   [[nodiscard]] int turn() const noexcept { return turn_; }
   [[nodiscard]] std::size_t n_candidates() const noexcept { return body_.candidates.size(); }
+  /// False: an equation was singular, or left the range of the numbers, and there is nothing to
+  /// solve contact with.
+  [[nodiscard]] bool finite() const noexcept;
   /// X of a candidate, in the frame of its sector [m].
   [[nodiscard]] Vec3 reference(std::size_t a) const noexcept;
 

@@ -10,6 +10,7 @@
 #include <lapacke.h>
 
 #include <algorithm>
+#include <limits>
 #include <utility>
 
 #include "rondo/core/contract.hpp"
@@ -21,6 +22,7 @@ using Complexes = std::complex<double>;
 using Eigen::Index;
 using Layers = std::span<const SolidLayer>;
 constexpr Complexes i{0.0, 1.0};
+constexpr Complexes no_number{std::numeric_limits<double>::quiet_NaN(), 0.0};
 
 /// (n_local) elements between a row and the nearest candidate, across sectors too.
 std::vector<int> distances(const fem::SolidSector& k, std::span<const int> candidates) {
@@ -98,26 +100,31 @@ SolidElimination::SolidElimination(Layers layers, const RollingOrder& order)
     factorise(std::move(here));
   }
   surface_ = factors_.back().matrix;
-  LAPACKE_zgetri(LAPACK_COL_MAJOR, size_of(surface_), surface_.data(), size_of(surface_),
-                 factors_.back().pivots.data());
+  const lapack_int bad = LAPACKE_zgetri(LAPACK_COL_MAJOR, size_of(surface_), surface_.data(),
+                                        size_of(surface_), factors_.back().pivots.data());
+  if (bad != 0) surface_.setConstant(no_number);
 }
 
-/// Of a matrix that is not Hermitian.
+/// Of a matrix that is not Hermitian. One that is singular, or not finite, leaves no numbers, and
+/// what is solved with it has none.
 void SolidElimination::factorise(Block here) {
   Factor f{std::move(here), {}};
   const int n = size_of(f.matrix);
   f.pivots.resize(static_cast<std::size_t>(n));
   const lapack_int bad =
       LAPACKE_zgetrf(LAPACK_COL_MAJOR, n, n, f.matrix.data(), n, f.pivots.data());
-  RONDO_DEMAND(bad == 0, bad);
+  if (bad != 0) f.matrix.setConstant(no_number);
   factors_.push_back(std::move(f));
 }
 
 SolidElimination::Block SolidElimination::solved(std::size_t l, Block right) const {
   const Block& factor = factors_[l].matrix;
   const int n = size_of(factor);
-  LAPACKE_zgetrs(LAPACK_COL_MAJOR, 'N', n, static_cast<int>(right.cols()), factor.data(), n,
-                 factors_[l].pivots.data(), right.data(), n);
+  // It looks for NaN in either, and then does nothing.
+  const lapack_int bad =
+      LAPACKE_zgetrs(LAPACK_COL_MAJOR, 'N', n, static_cast<int>(right.cols()), factor.data(), n,
+                     factors_[l].pivots.data(), right.data(), n);
+  if (bad != 0) right.setConstant(no_number);
   return right;
 }
 

@@ -9,9 +9,6 @@ namespace {
 
 using Eigen::Index;
 
-/// Without friction and damping there is no power but round-off, which is not judged by itself.
-constexpr double least_share = 1e-3;
-
 int sample_of(const SolidWindow& w, const RollingPair& p) noexcept {
   const int turn = w.harmonics().turn();
   return (p.sample % turn + turn) % turn;
@@ -84,8 +81,10 @@ RollingPower rolling_power(const SolidWindow& w, const SolidRollingSolution& s,
   const double largest =
       std::max({std::abs(ahead * s.forces.heading) + std::abs(aside * s.forces.lateral),
                 std::abs(spin * torque), power.mass, power.stiffness, std::abs(power.friction),
-                least_share * turned});
+                least_power_share * turned});
   power.residual = largest > 0.0 ? std::abs(left) / largest : 0.0;
+  find_scheme_shares(s.forces.normal * std::max(std::abs(s.speed), std::abs(spin) * s.height),
+                     power);
   return power;
 }
 

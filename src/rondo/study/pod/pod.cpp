@@ -8,7 +8,7 @@
 #include <cmath>
 
 #include "rondo/core/bytes.hpp"
-#include "rondo/core/memory_limits.hpp"
+#include "rondo/core/limits/memory_limits.hpp"
 #include "rondo/io/files.hpp"
 #include "rondo/output/run_files.hpp"
 #include "rondo/study/pod/pod_input.hpp"

@@ -338,7 +338,7 @@ ErrorEstimate estimate_errors(const ReduceRequest& r, const Source& source, cons
         source.cases[run], make_model(r, setup, basis, contact, source.cases[run].rim.has_value()),
         source.runs[run]);
     estimate.runs.push_back(source.runs[run].directory().string());
-    estimate.errors.push_back({(found.x - own->x) / own->y, (found.y - own->y) / own->y});
+    estimate.errors.push_back(errors_of(found, *own));
   }
   if (r.progress) r.progress(n, n);
   if (estimate.errors.empty())

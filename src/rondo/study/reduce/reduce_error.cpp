@@ -43,13 +43,28 @@ std::optional<MeanForce> mean_force_of(const io::RunReader& run) {
     return {};
   MeanForce sum;
   double rows = 0.0;
+  std::size_t first = 0;
   for (std::size_t k = 0; k < time->second.size(); ++k) {
     if (!is_steady(run) && time->second[k] <= window * time->second.back()) continue;
+    if (rows == 0.0) first = k;
     sum.x += x->second[k];
     sum.y += y->second[k];
     rows += 1.0;
   }
-  return MeanForce{sum.x / rows, sum.y / rows};
+  MeanForce mean{sum.x / rows, sum.y / rows};
+  const auto lost = columns.find("dissipation_friction");
+  if (is_steady(run) || lost == columns.end() || first == 0) return mean;
+  mean.friction = (lost->second.back() - lost->second[first - 1]) /
+                  (time->second.back() - time->second[first - 1]);
+  return mean;
+}
+
+ForceErrors errors_of(const MeanForce& predicted, const MeanForce& own) noexcept {
+  ForceErrors e{(predicted.x - own.x) / own.y, (predicted.y - own.y) / own.y};
+  if (std::abs(own.x) >= least_share * own.y)
+    e.x_of_itself = (predicted.x - own.x) / std::abs(own.x);
+  if (own.friction > 0.0) e.friction_power = (predicted.friction - own.friction) / own.friction;
+  return e;
 }
 
 MeanForce predicted_force(const Case& c, const rom::ReducedModel& model, const io::RunReader& run) {
@@ -67,16 +82,17 @@ MeanForce predicted_force(const Case& c, const rom::ReducedModel& model, const i
       {setup.mesh, full, model, figures},
       dynamics::start(full, std::move(setup.displacement), std::move(setup.velocity)));
   MeanForce sum;
-  double counted = 0.0;
+  double counted = 0.0, lost = 0.0;
   std::array<dynamics::StepReport, 1> report;
   for (long long k = 1; k <= steps; ++k) {
     integrator.advance(report);
     if (static_cast<double>(k) <= window * static_cast<double>(steps)) continue;
     sum.x += report[0].contact.impulse.x / full.dt;
     sum.y += report[0].contact.impulse.y / full.dt;
+    lost += report[0].contact.dissipation_friction / full.dt;
     counted += 1.0;
   }
-  return {sum.x / counted, sum.y / counted};
+  return {sum.x / counted, sum.y / counted, lost / counted};
 }
 
 }  // namespace rondo::study

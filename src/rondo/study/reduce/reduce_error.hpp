@@ -3,8 +3,10 @@
 /// out in turn and predicted (docs/reduced.md, 8b).
 #pragma once
 #include <functional>
+#include <limits>
 #include <optional>
 
+#include "rondo/analysis/error_estimate.hpp"
 #include "rondo/case/case.hpp"
 #include "rondo/io/run_reader.hpp"
 #include "rondo/rom/reduced_model.hpp"
@@ -16,8 +18,12 @@ inline constexpr std::size_t least_runs_to_estimate = 3;
 
 /// Means over the last quarter of a run, or over the pass of a steady state.
 struct MeanForce {
-  double x = 0.0, y = 0.0;  ///< of the ground on the body [N/m]
+  double x = 0.0, y = 0.0;                                     ///< of the ground on the body [N/m]
+  double friction = std::numeric_limits<double>::quiet_NaN();  ///< power that it takes [W/m]
 };
+
+/// Of means that a model predicts against a run's own. @pre own.y > 0
+[[nodiscard]] ForceErrors errors_of(const MeanForce& predicted, const MeanForce& own) noexcept;
 
 /// From history.csv; none: the run has none, or no ground. @throws FileError
 [[nodiscard]] std::optional<MeanForce> mean_force_of(const io::RunReader& run);

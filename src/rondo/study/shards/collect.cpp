@@ -107,7 +107,7 @@ Found find_shards(const fs::path& directory, const SweepIdentity& identity,
   found.shard_of = divide(plan.members, found.count);
   for (std::size_t s = 1; s <= found.count; ++s) found.states[s] = "has not begun";
   for (const ShardFile& file : found.files) {
-    demand_whole(directory, file, found, plan.type->figures.columns.size());
+    demand_whole(directory, file, found, figure_labels(plan).size());
     if (file.status == "done" || file.status == "failed")
       found.states.erase(file.shard.number);
     else
@@ -206,6 +206,7 @@ CollectReport collect_shards(const SweepRequest& request, Team& team) {
     demand_same_sweep(directory, identity.members_hash, "");
   else
     refuse_foreign_files(directory, false);
+  if (request.before_files) request.before_files();
   const io::DirectoryLock lock(directory);
   SweepRows rows(request, study, plan);
   take_rows(found, rows);

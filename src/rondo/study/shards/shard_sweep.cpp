@@ -87,10 +87,12 @@ std::optional<io::DirectoryLock> begin(const SweepRequest& request, const Shard&
                                        const SweepIdentity& identity, const PlannedSweep& plan,
                                        Team& team) {
   std::optional<io::DirectoryLock> lock;
+  if (request.before_files) request.before_files();
   lead(team, [&] {
     prepare_shard(request.directory, shard, identity);
     lock.emplace(shard_directory(request.directory, shard));
     demand_new(request, shard);
+    warn_of_another_host(request, shard_directory(request.directory, shard));
     demand_room(request, plan);
     write_shard_file(request.directory, file_of(shard, "running", identity));
     warn_of_members(request, plan);
@@ -132,7 +134,7 @@ SweepReport run_shard(const SweepRequest& request, const Shard& shard, Team& tea
       study,       plan, request.directory, shard_directory(request.directory, shard), rows.rows(),
       team.tick(), {}};
   run_members(request, runner, team, rows);
-  if (team.leads()) rows.take_what_is_there(runner);
+  if (team.leads()) rows.compare_with_files(runner);
   const SweepReport report = rows.report();
   if (team.leads()) end(request, file_of(shard, status_of(report), identity), rows, plan, report);
   return report;

@@ -9,29 +9,27 @@
 #include "rondo/analysis/registry.hpp"
 #include "rondo/core/build_id.hpp"
 #include "rondo/core/error.hpp"
+#include "rondo/io/basis_file.hpp"
 #include "rondo/io/csv.hpp"
 #include "rondo/io/files.hpp"
-#include "rondo/io/h5/h5.hpp"
 #include "rondo/io/run_reader.hpp"
+#include "rondo/output/kept/kept_files.hpp"
 
 namespace rondo::study {
 namespace {
 
 namespace fs = std::filesystem;
 
-/// The files hold what run.json says, as far as their ends and heads tell. @throws FileError,
-/// InputError: they cannot be read
+/// The files hold what was written. @throws FileError, InputError: they do not, or cannot be read
 bool is_whole(const fs::path& directory, const Case& c, const Json& j) {
   const auto number = [&](const char* key) { return number_in(j, key); };
+  demand_kept(directory, kept_files_of(j.at("files")));
   const Columns history = io::read_columns(directory / "history.csv");
   const std::vector<double>& time = column(history, "time_s", directory / "history.csv");
   if (std::abs(time.back() - number("last_time")) > 1e-9 * time.back()) return false;
   if (finds_modes(c) && text_in(j, "status") == "done")
-    static_cast<void>(io::h5::File::open(pgd_basis_file(directory)));
-  if (number("snapshots") == 0.0) {
-    static_cast<void>(io::h5::File::open(directory / "results.h5"));  // it opens
-    return true;
-  }
+    static_cast<void>(io::read_basis(pgd_basis_file(directory)));
+  if (number("snapshots") == 0.0) return true;
   return static_cast<double>(io::RunReader(directory).n_snapshots()) == number("snapshots") &&
          fs::is_regular_file(directory / "fields.xdmf");
 }

@@ -17,8 +17,8 @@ namespace rondo::study {
 /// Its case.toml is this case's, and so is its copy of the mesh.
 [[nodiscard]] bool is_case_of(const std::filesystem::path& directory, const Case& c);
 
-/// The run in the directory came to its end, or failed there by itself; its files are whole as far
-/// as their ends and heads tell. What cannot be read is not there.
+/// The run in the directory came to its end, or failed there by itself; its files are, to the
+/// bit, what was written. What cannot be read is not there.
 /// @param modes what run.json calls the modes that it begins with; empty: none
 [[nodiscard]] bool run_is_there(const std::filesystem::path& directory, const Case& c,
                                 const std::string& modes);

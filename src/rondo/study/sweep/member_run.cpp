@@ -9,6 +9,7 @@
 #include "rondo/analysis/run.hpp"
 #include "rondo/core/error.hpp"
 #include "rondo/io/files.hpp"
+#include "rondo/output/checkpoint.hpp"
 #include "rondo/output/run_files.hpp"
 #include "rondo/study/sweep/kept_runs.hpp"
 #include "rondo/study/sweep/sweep_directory.hpp"
@@ -19,7 +20,7 @@ namespace {
 namespace fs = std::filesystem;
 
 /// What run.json and history.csv say of a run that has ended.
-MemberRow row_of(const fs::path& directory, const AnalysisType& type, const Window& window) {
+MemberRow row_of(const fs::path& directory, const MemberRunner& runner) {
   const Json j = io::read_json(directory / "run.json");
   MemberRow row;
   row.status = text_in(j, "status") == "done" ? MemberStatus::done : MemberStatus::failed;
@@ -28,12 +29,17 @@ MemberRow row_of(const fs::path& directory, const AnalysisType& type, const Wind
   row.steps = static_cast<long long>(number_in(j, "steps_done"));
   row.end_time = std::max(0.0, number_in(j, "end_time"));
   row.wall_s = std::max(0.0, number_in(j, "total_wall_s"));
-  if (row.status == MemberStatus::done) row.figures = type.figures.of(directory, window);
+  if (row.status != MemberStatus::done) return row;
+  const FigureTable& table = runner.plan.type->figures;
+  row.figures = table.of(directory, runner.study.window);
+  const std::vector<double> chosen =
+      values_of(runner.plan.chosen, directory, runner.study.window, table.has_window);
+  row.figures.insert(row.figures.end(), chosen.begin(), chosen.end());
   return row;
 }
 
-MemberRow interrupted_row(const fs::path& directory, const AnalysisType& type) {
-  MemberRow row = row_of(directory, type, {});
+MemberRow interrupted_row(const fs::path& directory, const MemberRunner& runner) {
+  MemberRow row = row_of(directory, runner);
   row.status = MemberStatus::interrupted;
   row.code = exit_interrupted;
   return row;
@@ -57,13 +63,17 @@ MemberRow direct_row(MemberRunner& runner, const Case& c, const std::atomic<bool
   return row;
 }
 
-/// A run of this case and this program was killed or interrupted there; anything else is made
-/// anew.
+/// A run of this case and this program was killed or interrupted there, and what its checkpoint
+/// goes on with is whole; anything else is made anew.
 bool can_go_on(const fs::path& directory, const Case& c) {
   try {
     const Json j = io::read_json(directory / "run.json");
-    return text_in(j, "status") != "done" && j.value("resumable", false) && is_of_this_program(j) &&
-           is_case_of(directory, c);
+    if (text_in(j, "status") == "done" || !j.value("resumable", false) || !is_of_this_program(j) ||
+        !is_case_of(directory, c))
+      return false;
+    if (fs::exists(directory / checkpoint_name))
+      demand_kept(directory, read_checkpoint(directory).files);
+    return true;
   } catch (const FileError&) {
     return false;
   }
@@ -110,7 +120,7 @@ RunStatus make(MemberRunner& runner, std::size_t member, const Case& c,
 std::optional<MemberRow> row_there(const MemberRunner& runner, std::size_t member, const Case& c) {
   const fs::path directory = directory_of(runner, member);
   if (!run_is_there(directory, c, modes_of(runner, member).told)) return std::nullopt;
-  MemberRow row = row_of(directory, *runner.plan.type, runner.study.window);
+  MemberRow row = row_of(directory, runner);
   row.kept = true;
   return row;
 }
@@ -123,9 +133,17 @@ MemberRow run_member(MemberRunner& runner, std::size_t member, const std::atomic
   if (std::optional<MemberRow> row = row_there(runner, member, c)) return *std::move(row);
   const RunStatus status = make(runner, member, c, stop);
   const fs::path directory = directory_of(runner, member);
-  return status == RunStatus::interrupted
-             ? interrupted_row(directory, *runner.plan.type)
-             : row_of(directory, *runner.plan.type, runner.study.window);
+  return status == RunStatus::interrupted ? interrupted_row(directory, runner)
+                                          : row_of(directory, runner);
+}
+
+std::string missing_file(const fs::path& sweep, std::size_t member, std::size_t n) {
+  const fs::path directory = run_directory(sweep, member, n);
+  std::error_code error;
+  if (!fs::exists(directory, error)) return directory.string();
+  for (const char* name : {"run.json", "case.toml", "history.csv", "results.h5"})
+    if (!fs::exists(directory / name, error)) return (directory / name).string();
+  return {};
 }
 
 std::optional<MemberRow> kept_row(const MemberRunner& runner, std::size_t member) {

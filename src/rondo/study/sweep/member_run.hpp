@@ -30,6 +30,10 @@ struct MemberRunner {
 [[nodiscard]] MemberRow run_member(MemberRunner& runner, std::size_t member,
                                    const std::atomic<bool>& stop);
 
+/// A file of a member that was done, and is not there any more; empty: there is none.
+[[nodiscard]] std::string missing_file(const std::filesystem::path& sweep, std::size_t member,
+                                       std::size_t n);
+
 /// The row of a member that is there already; none: it is to be made. @pre !plan.direct
 /// @throws InputError, FileError
 [[nodiscard]] std::optional<MemberRow> kept_row(const MemberRunner& runner, std::size_t member);

@@ -17,12 +17,14 @@ std::optional<io::DirectoryLock> begin(const SweepRequest& request, const SweepR
                                        const SweepStudy& study, const PlannedSweep& plan,
                                        Team& team) {
   std::optional<io::DirectoryLock> lock;
+  if (request.before_files) request.before_files();
   lead(team, [&] {
     prepare_sweep(request, hash_of(study, plan));
     lock.emplace(request.directory);
+    warn_of_another_host(request, request.directory);
     demand_room(request, plan);  // before anything is removed
+    rows.write("running");       // by which others know of it where there are no locks
     clear_sweep(request);
-    rows.write("running");
     warn_of_members(request, plan);
     if (request.begin) request.begin(plan, team.workers());
   });
@@ -45,7 +47,7 @@ SweepReport run_sweep(const SweepRequest& request, Team& team) {
   const std::optional<io::DirectoryLock> lock = begin(request, rows, study, plan, team);
   MemberRunner runner{study, plan, request.directory, {}, rows.rows(), team.tick(), {}};
   run_members(request, runner, team, rows);
-  if (team.leads()) rows.take_what_is_there(runner);
+  if (team.leads()) rows.compare_with_files(runner);
   const SweepReport report = rows.report();
   if (team.leads()) {
     rows.write_tables();

@@ -20,10 +20,13 @@ struct SweepRequest {
   bool resume = false;     ///< a study there is gone on with
   const std::atomic<bool>* stop = nullptr;
   std::function<void(const std::string&)> warn;  ///< takes warnings; may be empty
-  /// Takes what is checked or searched ("check", "load"), how many are done, of how many; may be
+  /// Takes what is done with the members ("read", "check"), how many are done, of how many; may be
   /// empty.
   std::function<void(const char* what, long long done, long long all)> checking;
-  /// Called once all is checked, before the first run; may be empty.
+  /// Called once all is checked, before the directory is touched: from here on signals ask for a
+  /// clean end. May be empty.
+  std::function<void()> before_files;
+  /// Called before the first run; may be empty.
   std::function<void(const PlannedSweep& plan, int workers)> begin;
   /// Runs that have ended, and all of them; may be empty.
   std::function<void(long long ended, long long all)> progress;

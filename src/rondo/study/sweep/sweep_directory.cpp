@@ -29,7 +29,10 @@ Json read_sweep(const fs::path& directory) {
   try {
     found = io::read_json(directory / "sweep.json");
   } catch (const FileError& error) {
-    throw FileError(error, "remove it, or choose another -o");
+    std::error_code none;
+    throw FileError(error, fs::exists(directory / shards_folder, none)
+                               ? "remove it, and collect the shards again"
+                               : "give --overwrite to make the sweep anew, or choose another -o");
   }
   if (text_in(found, "format") != sweep_format)
     io::refuse_directory(directory,
@@ -39,22 +42,50 @@ Json read_sweep(const fs::path& directory) {
   return found;
 }
 
-/// A sweep.json is there. @throws InputError, FileError
-void accept(const SweepRequest& request, const std::string& hash) {
-  static_cast<void>(read_sweep(request.directory));
-  if (request.overwrite) return;
-  if (!request.resume)
-    io::refuse_directory(request.directory, "holds a sweep",
-                         "give --resume to continue it or --overwrite to begin anew, or choose "
-                         "another -o");
-  demand_same_sweep(request.directory, hash, ", or give --overwrite to begin anew");
-}
-
 /// Shards that are at work there are not to lose their runs. @throws FileError
 void demand_no_shard_at_work(const fs::path& directory) {
   std::error_code error;
   for (const auto& entry : fs::directory_iterator(directory / shards_folder, error))
     if (entry.is_directory(error)) static_cast<void>(io::DirectoryLock(entry.path()));
+}
+
+/// What is to be removed is not at work, also not on another machine, as far as files tell.
+/// @throws FileError
+void demand_ended(const fs::path& directory) {
+  const std::string host = io::holder_of(directory).host;
+  if (host.empty()) return;
+  static_cast<void>(io::DirectoryLock(directory));
+  if (host != io::host_name())
+    throw FileError(directory.string(),
+                    fmt::format("was begun on {}, and its files do not say that it has ended "
+                                "there: it is not removed; make sure that it has ended, and "
+                                "remove it by hand or choose another -o",
+                                host));
+}
+
+/// Neither the sweep nor any of its shards and runs. @throws FileError
+void demand_all_ended(const fs::path& sweep) {
+  demand_ended(sweep);
+  std::error_code error;
+  for (const char* folder : {shards_folder, "runs"})
+    for (const auto& entry : fs::directory_iterator(sweep / folder, error))
+      demand_ended(entry.path());
+}
+
+/// A sweep.json is there. A damaged one is no hindrance to a sweep that begins anew.
+/// @throws InputError, FileError
+void accept(const SweepRequest& request, const std::string& hash) {
+  try {
+    static_cast<void>(read_sweep(request.directory));
+  } catch (const FileError&) {
+    if (!request.overwrite) throw;
+  }
+  if (request.overwrite) return demand_all_ended(request.directory);
+  if (!request.resume)
+    io::refuse_directory(request.directory, "holds a sweep",
+                         "give --resume to continue it or --overwrite to begin anew, or choose "
+                         "another -o");
+  demand_same_sweep(request.directory, hash, ", or give --overwrite to begin anew");
 }
 
 }  // namespace
@@ -71,6 +102,7 @@ std::string hash_of(const SweepStudy& study, const PlannedSweep& plan) {
   };
   const std::string window = time(study.window.from) + " " + time(study.window.to);
   hash.add(std::span<const char>(window));
+  for (const std::string& column : study.columns) hash.add(std::span<const char>(column));
   for (const PlannedMember& member : plan.members) hash.add(std::span<const char>(member.hash));
   return hash.text();
 }
@@ -132,8 +164,9 @@ void clear_sweep(const SweepRequest& request) {
 void demand_room(const SweepRequest& request, const PlannedSweep& plan) {
   std::size_t bytes = 0;
   std::error_code error;
+  const bool none = !fs::exists(request.directory / "runs", error);
   for (std::size_t m = 0; m < plan.members.size(); ++m)
-    if (!fs::exists(run_directory(request.directory, m, plan.members.size()), error))
+    if (none || !fs::exists(run_directory(request.directory, m, plan.members.size()), error))
       bytes += plan.members[m].disk_bytes;
   io::demand_room(request.directory / "sweep.h5", bytes);
 }

@@ -15,11 +15,12 @@
 #include "rondo/analysis/build/build.hpp"
 #include "rondo/analysis/build/memory.hpp"
 #include "rondo/case/solid/wheel_of.hpp"
-#include "rondo/core/memory_limits.hpp"
+#include "rondo/core/limits/memory_limits.hpp"
 #include "rondo/io/files.hpp"
 #include "rondo/io/h5/hash.hpp"
 #include "rondo/output/run_files.hpp"
-#include "rondo/study/sweep/member_faults.hpp"
+#include "rondo/study/sweep/members/member_blocks.hpp"
+#include "rondo/study/sweep/members/member_faults.hpp"
 
 namespace rondo::study {
 
@@ -84,27 +85,103 @@ std::size_t guessed_memory(const Case& c) {
   return c.section ? bytes * static_cast<std::size_t>(c.section->sectors) : bytes;
 }
 
-void read_members(const SweepStudy& study, PlannedSweep& plan, MemberFaults& faults) {
-  MeshHashes meshes;
-  for (std::size_t m = 0; m < plan.members.size(); ++m) {
-    PlannedMember& member = plan.members[m];
-    try {
-      const Case c = case_of(study, member);
-      check_window(study, c);
-      const AnalysisType& type = type_of(c);  // those of one study differ in the last columns alone
-      if (!plan.type || type.figures.columns.size() > plan.type->figures.columns.size())
-        plan.type = &type;
-      plan.is_solid = is_solid(c);
-      plan.direct = plan.type->direct && !study.snapshots;
-      member.hash = hash_of(write_case(kept_case(c)) + meshes.of(c));  // wherever it is read from
-      member.body = hash_of(body_key(c) + meshes.of(c));
-      member.is_linear = !has_rubber(c);
-      member.finds_modes = finds_modes(c);
-      member.memory_bytes = guessed_memory(c);
-    } catch (const InputError& error) {
-      faults.add(m, error);
-    }
+nlohmann::json faults_of(const InputError& error) {
+  nlohmann::json j = nlohmann::json::array();
+  for (const Fault& fault : error.faults())
+    j.push_back({{"kind", fault.key + '\n' + fault.message}, {"text", fault.text()}});
+  return {{"faults", j}};
+}
+
+/// What is known of a member by its case alone.
+nlohmann::json read_member(const SweepStudy& study, const PlannedMember& member,
+                           MeshHashes& meshes) {
+  try {
+    const Case c = case_of(study, member);
+    check_window(study, c);
+    return {{"columns", type_of(c).figures.columns.size()},
+            {"hash", hash_of(write_case(kept_case(c)) + meshes.of(c))},  // wherever it is read from
+            {"body", hash_of(body_key(c) + meshes.of(c))},
+            {"is_linear", !has_rubber(c)},
+            {"finds_modes", study::finds_modes(c)},
+            {"memory_bytes", guessed_memory(c)}};
+  } catch (const InputError& error) {
+    return faults_of(error);
   }
+}
+
+/// False: there are faults instead.
+bool take_faults(const nlohmann::json& j, std::size_t m, MemberFaults& faults) {
+  if (!j.contains("faults")) return false;
+  for (const nlohmann::json& fault : j["faults"])
+    faults.add(m, fault["kind"].get<std::string>(), fault["text"].get<std::string>());
+  return true;
+}
+
+void take_reading(const nlohmann::json& j, PlannedMember& member) {
+  j["hash"].get_to(member.hash);
+  j["body"].get_to(member.body);
+  j["is_linear"].get_to(member.is_linear);
+  j["finds_modes"].get_to(member.finds_modes);
+  j["memory_bytes"].get_to(member.memory_bytes);
+}
+
+/// All of a study are of one analysis; they differ in the last columns alone.
+void take_type(const SweepStudy& study, std::size_t member, PlannedSweep& plan) {
+  const Case c = case_of(study, plan.members[member]);
+  plan.type = &type_of(c);
+  plan.is_solid = is_solid(c);
+  plan.direct = plan.type->direct && !study.snapshots;
+}
+
+/// The columns of history.csv are those of a member that is built for them, by a worker.
+/// False: a stop was asked for. @throws InputError: there is no such column
+bool choose_columns(const SweepStudy& study, std::size_t member, Team& team, PlannedSweep& plan) {
+  const std::string file = study.file.string();
+  if (plan.direct)
+    throw InputError(Fault{file, 0, 0, "columns", "",
+                           "steady rolling without snapshots leaves no history.csv",
+                           "snapshots = true at the top of the study, or no columns"});
+  std::vector<ColumnLabel> history;
+  MemberWork work;
+  work.count = 1;
+  work.work = [&](std::size_t) {
+    nlohmann::json labels = nlohmann::json::array();
+    const Case c = case_of(study, plan.members[member]);
+    for (const ColumnLabel& label :
+         check_case(c, {.threads = 1, .trial_s = 0.0, .columns = true}).columns)
+      labels.push_back({label.name, label.unit});
+    return labels;
+  };
+  work.take = [&](std::size_t, const nlohmann::json& labels) {
+    for (const nlohmann::json& label : labels)
+      history.push_back({label[0].get<std::string>(), label[1].get<std::string>(), ""});
+  };
+  if (!each_member(work, team)) return false;
+  plan.chosen = choose_figures(study.columns, history, plan.type->figures, study.file);
+  return true;
+}
+
+/// False: a stop was asked for.
+bool read_members(const MembersRequest& request, Team& team, PlannedSweep& plan,
+                  MemberFaults& faults) {
+  MeshHashes meshes;
+  std::size_t most_columns = 0, typical = 0;
+  MemberWork work;
+  work.count = plan.members.size();
+  work.work = [&](std::size_t m) { return read_member(request.study, plan.members[m], meshes); };
+  work.take = [&](std::size_t m, const nlohmann::json& j) {
+    if (take_faults(j, m, faults)) return;
+    take_reading(j, plan.members[m]);
+    const auto columns = j["columns"].get<std::size_t>();
+    if (columns > most_columns) typical = m;
+    most_columns = std::max(most_columns, columns);
+  };
+  work.watch = request.watch("read", work.count);
+  if (!each_member(work, team)) return false;
+  if (most_columns == 0) return true;
+  take_type(request.study, typical, plan);
+  return request.study.columns.empty() || faults.any() ||
+         choose_columns(request.study, typical, team, plan);
 }
 
 /// The first member of a body hands its modes on to all others.
@@ -149,45 +226,33 @@ struct Checker {
 };
 
 /// One member, built on the body of the one before where it fits.
-std::string check_member(const MembersRequest& request, const PlannedMember& member,
-                         Checker& checker) {
+nlohmann::json check_member(const MembersRequest& request, const PlannedMember& member,
+                            Checker& checker) {
   using Clock = std::chrono::steady_clock;
   const bool timed = request.seconds && checker.body != member.body;
   const double trial = timed ? 0.05 : 0.0;
-  nlohmann::json j;
+  const std::vector<std::string>& asked = request.study.columns;
   try {
     const Case c = case_of(request.study, member);
     const auto begin = Clock::now();
-    const CheckReport r =
-        check_case(c, {.threads = 1, .trial_s = trial, .shared = &checker.shared});
+    const CheckReport r = check_case(
+        c, {.threads = 1, .trial_s = trial, .shared = &checker.shared, .columns = !asked.empty()});
+    static_cast<void>(choose_figures(asked, r.columns, type_of(c).figures, request.study.file));
     const double built = std::chrono::duration<double>(Clock::now() - begin).count() - trial;
     if (timed && r.steps > 0) checker.per_step = r.seconds / static_cast<double>(r.steps);
     checker.body = member.body;
     const double stepping = checker.per_step * static_cast<double>(r.steps);
     constexpr double files = 0.01;  // of a run: measured, docs/studies.md
-    j = MemberCost{.memory_bytes = r.memory_bytes,
-                   .disk_bytes = r.disk_bytes,
-                   .nodes = r.nodes,
-                   .dofs = r.dofs,
-                   .steps = r.steps,
-                   .seconds = stepping > 0.0 ? stepping + std::max(0.0, built) + files : 0.0,
-                   .warnings = r.warnings};
+    return MemberCost{.memory_bytes = r.memory_bytes,
+                      .disk_bytes = r.disk_bytes,
+                      .nodes = r.nodes,
+                      .dofs = r.dofs,
+                      .steps = r.steps,
+                      .seconds = stepping > 0.0 ? stepping + std::max(0.0, built) + files : 0.0,
+                      .warnings = r.warnings};
   } catch (const InputError& error) {
-    j["faults"] = nlohmann::json::array();
-    for (const Fault& fault : error.faults())
-      j["faults"].push_back({{"kind", fault.key + '\n' + fault.message}, {"text", fault.text()}});
+    return faults_of(error);
   }
-  return j.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
-}
-
-void take_check(const nlohmann::json& j, std::size_t m, PlannedMember& member,
-                MemberFaults& faults) {
-  if (j.contains("faults")) {
-    for (const nlohmann::json& fault : j["faults"])
-      faults.add(m, fault["kind"].get<std::string>(), fault["text"].get<std::string>());
-    return;
-  }
-  j.get_to(static_cast<MemberCost&>(member));
 }
 
 /// False: a stop was asked for.
@@ -197,20 +262,17 @@ bool build_members(const MembersRequest& request, Team& team, PlannedSweep& plan
   std::erase_if(
       order, [&](std::size_t m) { return faults.has(m) || plan.members[m].part == Part::other; });
   Checker checker;
-  TeamWork work;
+  MemberWork work;
   work.count = order.size();
-  work.work = [&](std::size_t k, const std::atomic<bool>&) {
-    return check_member(request, plan.members[order[k]], checker);
+  work.work = [&](std::size_t k) { return check_member(request, plan.members[order[k]], checker); };
+  work.take = [&](std::size_t k, const nlohmann::json& j) {
+    PlannedMember& member = plan.members[order[k]];
+    if (take_faults(j, order[k], faults)) return;
+    j.get_to(static_cast<MemberCost&>(member));
+    if (plan.direct) member.disk_bytes = 0;
   };
   work.watch = request.watch("check", order.size());
-  const std::vector<Piece> pieces = team.each(work);
-  for (std::size_t k = 0; k < order.size(); ++k) {
-    if (pieces[k].state == Piece::State::missing) return false;
-    demand_done(pieces[k]);
-    take_check(nlohmann::json::parse(pieces[k].text), order[k], plan.members[order[k]], faults);
-    if (plan.direct) plan.members[order[k]].disk_bytes = 0;
-  }
-  return true;
+  return each_member(work, team);
 }
 
 /// As many workers as there is memory for.
@@ -232,7 +294,7 @@ std::function<void(std::size_t)> MembersRequest::watch(const char* what, std::si
 }
 
 Case case_of(const SweepStudy& study, const PlannedMember& member) {
-  Case c = read_case(study.base, member.settings);
+  Case c = read_case(study.base, settings_of(study, member.member));
   if (!study.snapshots) c.output.snapshots = 0;
   return c;
 }
@@ -240,25 +302,28 @@ Case case_of(const SweepStudy& study, const PlannedMember& member) {
 PlannedSweep plan_sweep(const MembersRequest& request, Team& team) {
   const SweepStudy& study = request.study;
   PlannedSweep plan;
-  const std::vector<Member> members = members_of(study);
-  for (const Member& member : members) {
-    PlannedMember& planned = plan.members.emplace_back();
-    planned.member = member;
-    planned.settings = settings_of(study, member);
-  }
-  MemberFaults faults(study, members.size());
-  read_members(study, plan, faults);
+  for (Member& member : members_of(study)) plan.members.emplace_back().member = std::move(member);
+  MemberFaults faults(study, plan.members.size());
+  plan.stopped = !read_members(request, team, plan, faults);
+  if (plan.stopped) return plan;
   hand_on_modes(plan.members);
   if (request.choose && !faults.any()) request.choose(plan.members);
   limit_workers(plan.members, team);
-  if (!build_members(request, team, plan, faults)) {
-    plan.stopped = true;
-    return plan;
-  }
-  if (faults.any()) faults.raise(members);
+  plan.stopped = !build_members(request, team, plan, faults);
+  if (plan.stopped) return plan;
+  if (faults.any()) faults.raise(plan.members);
   limit_workers(plan.members, team);
   plan.order = by_cost(plan.members);
   return plan;
+}
+
+std::vector<ColumnLabel> figure_labels(const PlannedSweep& plan) {
+  std::vector<ColumnLabel> labels;
+  for (const FigureColumn& column : plan.type->figures.columns)
+    labels.push_back(
+        {std::string(column.name), std::string(column.unit), std::string(column.meaning)});
+  for (const ChosenFigure& figure : plan.chosen) labels.push_back(figure.label);
+  return labels;
 }
 
 std::vector<std::vector<std::size_t>> phases_of(const PlannedSweep& plan) {

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "rondo/analysis/figures/chosen_figures.hpp"
 #include "rondo/analysis/registry.hpp"
 #include "rondo/case/case.hpp"
 #include "rondo/study/sweep/sweep_plan.hpp"
@@ -34,11 +35,10 @@ enum class Part {
 struct PlannedMember : MemberCost {
   Member member;
   Part part = Part::own;
-  std::vector<std::string> settings;  ///< all of them
-  std::string hash;                   ///< of the case as run and its mesh
-  std::string body;                   ///< likewise of what members share: see body_key()
-  bool is_linear = true;              ///< no part is rubber
-  bool finds_modes = false;           ///< a crush by LATIN-PGD
+  std::string hash;          ///< of the case as run and its mesh
+  std::string body;          ///< of what members share, see body_key(), and the mesh
+  bool is_linear = true;     ///< no part is rubber
+  bool finds_modes = false;  ///< a crush by LATIN-PGD
   /// Member of the same body whose modes it begins with, where that one is done; none: it is the
   /// first of its body, or has no modes.
   std::optional<std::size_t> modes_of;
@@ -58,6 +58,7 @@ struct MembersRequest {
 
 struct PlannedSweep {
   const AnalysisType* type = nullptr;  ///< of all members
+  std::vector<ChosenFigure> chosen;    ///< besides the type's figures
   bool is_solid = false;               ///< wheels in three dimensions: of the units
   std::vector<PlannedMember> members;  ///< in the order of their numbers
   /// Members in the order in which they are done: those that share a body one after the other, the
@@ -67,6 +68,9 @@ struct PlannedSweep {
   /// Members have no directories: they take less time than these would, and are made anew.
   bool direct = false;
 };
+
+/// Of the figures of a member, in their order.
+[[nodiscard]] std::vector<ColumnLabel> figure_labels(const PlannedSweep& plan);
 
 /// Reads every member's case, builds every member once that is made here. @throws InputError with
 /// all faults of all members, each once, with the members that it concerns; FileError

@@ -30,7 +30,7 @@ std::string sampled(const Vary& vary, double u) {
 std::size_t grid_size(const SweepStudy& study) {
   std::size_t n = 1;
   for (const Vary& vary : study.parameters) {
-    n *= vary.uniform ? 1 : vary.values.size();
+    n *= vary.uniform || vary.goes_with_previous ? 1 : vary.values.size();
     if (n > most_members) return n;
   }
   return n;
@@ -76,7 +76,7 @@ std::vector<Member> members_of(const SweepStudy& study) {
         continue;
       }
       members[m].values[k] = vary.values[rest % vary.values.size()];
-      rest /= vary.values.size();
+      if (!vary.goes_with_previous) rest /= vary.values.size();
     }
   }
   return members;

@@ -14,7 +14,8 @@ struct Member {
 };
 
 /// In the order of their numbers: the last parameter of the grid changes fastest, and the points of
-/// the sample faster than those. The same on every machine. @throws InputError: too many
+/// the sample faster than those; parameters that go together are one. The same on every machine.
+/// @throws InputError: too many
 [[nodiscard]] std::vector<Member> members_of(const SweepStudy& study);
 
 /// `n` points in [0, 1) of `dimensions`, by dimension: in each, one point in each n-th part.

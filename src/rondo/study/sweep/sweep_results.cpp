@@ -45,20 +45,19 @@ std::string header(const SweepTables& t) {
   std::string text = "run";
   for (const Vary& vary : t.study.parameters) text += fmt::format(",{}", vary.key);
   text += ",status,steps,end_time_s";
-  for (const FigureColumn& column : t.plan.type->figures.columns)
-    text += fmt::format(",{}", column.name);
+  for (const ColumnLabel& column : figure_labels(t.plan)) text += fmt::format(",{}", column.name);
   text.push_back('\n');
   return text;
 }
 
-std::string line_of(const SweepTables& t, std::size_t m) {
+std::string line_of(const SweepTables& t, std::size_t m, std::size_t n_figures) {
   const PlannedMember& member = t.plan.members[m];
   const MemberRow& row = t.rows[m];
   std::string text = fmt::format("{}", m + 1);
   for (const std::string& value : member.member.values)
     text += fmt::format(",{}", quoted(plain(value)));
   text += fmt::format(",{},{},{}", name_of(row.status), row.steps, row.end_time);
-  for (std::size_t k = 0; k < t.plan.type->figures.columns.size(); ++k)
+  for (std::size_t k = 0; k < n_figures; ++k)
     text += fmt::format(",{}", number_text(row.figures.empty() ? none : row.figures[k]));
   text.push_back('\n');
   return text;
@@ -118,13 +117,13 @@ void write_h5(const std::filesystem::path& path, const SweepTables& t) {
   write_column(file, "/status", status, {"1", "0 waiting, 1 done, 2 failed, 3 interrupted"});
   write_column(file, "/steps", steps, {"1", "steps or increments done"});
   write_column(file, "/end_time", end_time, {"s", "reached"});
-  const std::span<const FigureColumn> columns = t.plan.type->figures.columns;
+  const std::vector<ColumnLabel> columns = figure_labels(t.plan);
   for (std::size_t k = 0; k < columns.size(); ++k) {
     std::vector<double> values;
     for (const MemberRow& row : t.rows)
       values.push_back(row.figures.empty() ? none : row.figures[k]);
     write_column(file, fmt::format("/figures/{}", columns[k].name), values,
-                 {std::string(columns[k].unit), std::string(columns[k].meaning)});
+                 {columns[k].unit, columns[k].meaning});
   }
   file.close();
   io::replace_file(beside.path, path);
@@ -148,9 +147,10 @@ MemberRow unpacked(const std::string& text) {
 }
 
 void write_tables(const std::filesystem::path& directory, const SweepTables& t) {
+  const std::size_t n_figures = figure_labels(t.plan).size();
   std::string table = header(t), timings = "run,worker,wall_s\n";
   for (std::size_t m = 0; m < t.rows.size(); ++m) {
-    table += line_of(t, m);
+    table += line_of(t, m, n_figures);
     timings += fmt::format("{},{},{:.6f}\n", m + 1, t.rows[m].worker + 1, t.rows[m].wall_s);
   }
   io::write_file(directory / "results.csv", table);

@@ -3,11 +3,13 @@
 
 #include <fmt/format.h>
 #include <malloc.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <map>
 #include <span>
 #include <stdexcept>
+#include <string_view>
 #include <utility>
 
 #include "rondo/analysis/base/strain_watch.hpp"
@@ -21,6 +23,7 @@ namespace rondo::study {
 namespace {
 
 constexpr const char* leader_failed = "failed";
+constexpr std::string_view running = "running";
 constexpr std::size_t most_told = 5;
 
 /// Members of a millisecond would spend a fifth of it on giving memory back and asking for it
@@ -29,6 +32,15 @@ void keep_freed_memory() noexcept {
   constexpr int bytes = 32 << 20;  // the most that it takes
   mallopt(M_MMAP_THRESHOLD, bytes);
   mallopt(M_TRIM_THRESHOLD, 4 * bytes);
+}
+
+MemberRow lost_row(const std::string& file) {
+  MemberRow row;
+  row.status = MemberStatus::failed;
+  row.code = exit_files;
+  row.message = fmt::format(
+      "it was done, and {} was removed while the sweep went on; --resume makes it again", file);
+  return row;
 }
 
 }  // namespace
@@ -50,11 +62,17 @@ void SweepRows::take(const std::vector<std::size_t>& members, const std::vector<
   }
 }
 
-void SweepRows::take_what_is_there(const MemberRunner& runner) {
+void SweepRows::compare_with_files(const MemberRunner& runner) {
   if (plan_.direct) return;
-  for (std::size_t m = 0; m < rows_.size(); ++m)
-    if (is_own(m) && rows_[m].status == MemberStatus::waiting)
+  for (std::size_t m = 0; m < rows_.size(); ++m) {
+    if (!is_own(m)) continue;
+    if (rows_[m].status == MemberStatus::waiting) {
       if (std::optional<MemberRow> row = kept_row(runner, m)) rows_[m] = *std::move(row);
+    } else if (rows_[m].status == MemberStatus::done) {
+      const std::string lost = missing_file(request_.directory, m, rows_.size());
+      if (!lost.empty()) rows_[m] = lost_row(lost);
+    }
+  }
 }
 
 bool SweepRows::is_unfinished(const std::vector<std::size_t>& members) const {
@@ -111,28 +129,32 @@ void SweepRows::add_strains(SweepReport& r) const {
 
 Json SweepRows::describe_parameters() const {
   Json all = Json::array();
+  std::string leader;  // of those that go together, the first
   for (const Vary& vary : study_.parameters) {
     const CaseKey* key = find_case_key(vary.key);
     all.push_back({{"key", vary.key},
                    {"unit", std::string(key ? unit_of(key->unit, plan_.is_solid) : "-")},
                    {"kind", vary.uniform ? "uniform" : "values"}});
+    if (!vary.goes_with_previous) leader = vary.key;
+    if (leader != vary.key) all.back()["with"] = leader;
   }
   return all;
 }
 
-Json SweepRows::describe(const char* status) const {
+Json SweepRows::describe(std::string_view status) const {
   const auto time = [](const std::optional<double>& t) { return t ? Json(*t) : Json(); };
   Json j;
   j["format"] = sweep_format;
   j["status"] = status;
   j["title"] = study_.title;
   describe_program(j);
+  if (status == running) j["process"] = ::getpid();
   j["analysis"] = plan_.type->name;
   j["study"] = as_utf8(study_.file.filename().string());
   j["base"] = as_utf8(study_.base.filename().string());
   j["parameters"] = describe_parameters();
   j["columns"] = Json::array();
-  for (const FigureColumn& column : plan_.type->figures.columns)
+  for (const ColumnLabel& column : figure_labels(plan_))
     j["columns"].push_back({{"name", column.name}, {"unit", column.unit}});
   j["window"] = {{"from", time(study_.window.from)}, {"to", time(study_.window.to)}};
   j["members"] = rows_.size();
@@ -158,6 +180,11 @@ SweepStudy study_of(const SweepRequest& request) {
   study.settings.insert(study.settings.end(), request.settings.begin(), request.settings.end());
   check_settings(study);
   return study;
+}
+
+void warn_of_another_host(const SweepRequest& request, const std::filesystem::path& directory) {
+  const std::string other = warning_of_another_host(directory);
+  if (request.warn && !other.empty()) request.warn(other);
 }
 
 /// Each text once, with the number of members that it is said of.

@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "rondo/output/run_files.hpp"
@@ -27,9 +28,9 @@ class SweepRows {
   /// @param members whose pieces they are
   void take(const std::vector<std::size_t>& members, const std::vector<Piece>& pieces);
   void take(std::size_t member, MemberRow row) { rows_[member] = std::move(row); }
-  /// Of members that were not reached, as far as they were done before. @throws InputError,
-  /// FileError
-  void take_what_is_there(const MemberRunner& runner);
+  /// After the runs: takes the rows of members that were not reached and were done before; members
+  /// that are done and whose files are gone have failed. @throws InputError, FileError
+  void compare_with_files(const MemberRunner& runner);
   /// Of a sweep that was made by others; else the time since this object began.
   void set_wall(double seconds) { wall_s_ = seconds; }
 
@@ -45,7 +46,7 @@ class SweepRows {
   void add_failure(std::size_t m, SweepReport& r) const;
   void add_strains(SweepReport& r) const;
   [[nodiscard]] Json describe_parameters() const;
-  [[nodiscard]] Json describe(const char* status) const;
+  [[nodiscard]] Json describe(std::string_view status) const;
 
   using Clock = std::chrono::steady_clock;
   const SweepRequest& request_;
@@ -61,6 +62,9 @@ class SweepRows {
 
 /// The study file with the settings of the request. @throws InputError, FileError
 [[nodiscard]] SweepStudy study_of(const SweepRequest& request);
+
+/// What is gone on with there may still be at work on another machine.
+void warn_of_another_host(const SweepRequest& request, const std::filesystem::path& directory);
 
 /// Each text once, with the number of members that it is said of.
 void warn_of_members(const SweepRequest& request, const PlannedSweep& plan);

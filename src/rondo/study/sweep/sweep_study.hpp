@@ -19,6 +19,8 @@ struct Vary {
   std::vector<std::string> values;               ///< as TOML, of `values` or `linspace`
   std::optional<std::array<double, 2>> uniform;  ///< from, to: of a sample, instead of values
   int line = 0;                                  ///< of its table in the study file
+  /// Its k-th value goes with the k-th of the parameter before: both are of one [[vary]].
+  bool goes_with_previous = false;
 };
 
 /// How parameters given as `uniform` are sampled.
@@ -35,7 +37,8 @@ struct SweepStudy {
   std::vector<Vary> parameters;       ///< at least one
   std::optional<Sample> sample;
   Window window;
-  bool snapshots = false;  ///< members write those of the base case; else none
+  std::vector<std::string> columns;  ///< of history.csv, whose figures the table has besides
+  bool snapshots = false;            ///< members write those of the base case; else none
 };
 
 /// @throws InputError with every fault

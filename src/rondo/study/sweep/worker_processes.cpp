@@ -4,7 +4,6 @@
 #include <fcntl.h>
 #include <fmt/format.h>
 #include <poll.h>
-#include <sched.h>
 #include <sys/prctl.h>
 #include <sys/wait.h>
 #include <unistd.h>
@@ -18,7 +17,6 @@
 #include <cstring>
 #include <new>
 #include <optional>
-#include <thread>
 
 namespace rondo::study {
 namespace {
@@ -232,12 +230,6 @@ WorkerOutcome failed_by(const std::exception& error) {
   if (dynamic_cast<const std::bad_alloc*>(&error) != nullptr)
     return {exit_files, "not enough memory"};
   return {exit_numerical, fmt::format("unexpected failure, a bug of rondo's: {}", error.what())};
-}
-
-int available_cores() {
-  cpu_set_t set;
-  if (sched_getaffinity(0, sizeof set, &set) == 0) return std::max(1, CPU_COUNT(&set));
-  return static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
 }
 
 std::vector<WorkerOutcome> run_workers(int workers, const WorkerTask& task,

@@ -25,9 +25,6 @@ struct WorkerOutcome {
 /// set by SIGINT, SIGTERM and SIGHUP: the work is to return soon.
 using WorkerTask = std::function<std::string(int worker, const std::atomic<bool>& stop)>;
 
-/// Cores this process may run on, at least 1.
-[[nodiscard]] int available_cores();
-
 /// Forks `workers` processes and returns one outcome each once all have ended.
 ///
 /// Before the call this process must not have run a parallel loop of OpenMP nor have other threads

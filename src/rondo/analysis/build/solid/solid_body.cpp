@@ -7,8 +7,11 @@
 #include <cmath>
 
 #include "rondo/analysis/build/rim.hpp"
+#include "rondo/analysis/build/solid/hidden_ground.hpp"
 #include "rondo/case/case_keys.hpp"
 #include "rondo/fem/solid/solid_sector.hpp"
+#include "rondo/mesh/edges.hpp"
+#include "rondo/mesh/solid/wheel.hpp"
 
 namespace rondo::study {
 namespace {
@@ -50,12 +53,14 @@ void refuse_held(const Case& c, const std::string& key, const mesh::Mesh& mesh,
 
 void add_ground(const Case& c, const mesh::Mesh& mesh, Model& model) {
   if (!c.ground) return;
-  model.contact.emplace(
-      dynamics::ContactModel{contact::Ground(c.ground->shape),
-                             {c.ground->friction, c.ground->restitution, c.ground->impact},
-                             mesh.boundary,
-                             mesh.tributary,
-                             {}});
+  const std::vector<mesh::Edge> edges =
+      mesh::rolling_edges(mesh, c.section ? c.section->mesh.contact : "tread");
+  model.contact.emplace(dynamics::ContactModel{
+      contact::Ground(c.ground->shape, mesh::longest_edge(mesh.coordinates, edges)),
+      {c.ground->friction, c.ground->restitution, c.ground->impact},
+      mesh.boundary,
+      mesh.tributary,
+      edges});
 }
 
 void make_solid_model(const Case& c, Setup& s) {
@@ -125,6 +130,7 @@ void add_solid_pressures(const Case& c, const mesh::Mesh& mesh, dynamics::SolidB
 
 void make_solid_body(const Case& c, int threads, Setup& s) {
   make_solid_model(c, s);
+  check_hidden_ground(c, s);
   choose_threads(s, threads);
   find_solid_step(c, s);
 }

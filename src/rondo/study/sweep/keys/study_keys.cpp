@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <iterator>
 
 namespace rondo::study {
@@ -43,6 +44,18 @@ Json values() {
   return array;
 }
 
+Json names_of_keys() {
+  Json array = array_of(name_of_key(), 2);
+  array["uniqueItems"] = true;
+  return array;
+}
+
+Json texts() {
+  Json array = array_of(text());
+  array["uniqueItems"] = true;
+  return array;
+}
+
 Json linspace() {
   return tuple_of(
       {bounded("number", ends), bounded("number", ends), bounded("integer", linspace_counts)});
@@ -68,10 +81,17 @@ constexpr StudyKey keys[] = {
      [] {
        return Json{{"type", "boolean"}};
      }},
-    {"vary[].key", "a key of a case file, e.g. ground.friction", "required",
-     "the key that is varied", name_of_key},
-    {"vary[].values", "[value, ...]", "none",
-     "its values: what the key may be. One of values, linspace, uniform", values},
+    {"columns", "[\"NAME\", ...], columns of history.csv", "[]",
+     "the table has NAME_mean, NAME_min, NAME_max and NAME_last of each besides, over the window",
+     texts},
+    {"vary[].key", "a key of a case file, e.g. ground.friction", "none",
+     "the key that is varied. One of key, keys", name_of_key},
+    {"vary[].keys", "[\"key\", ...], two keys of a case file and more", "none",
+     "keys whose values go together", names_of_keys},
+    {"vary[].values", "[value, ...]; beside keys [[value, ...], ...]", "none",
+     "its values: what the key may be; beside keys a list for each run, with a value for each key. "
+     "One of values, linspace, uniform",
+     values},
     {"vary[].linspace", "[from, to, n], n an integer of at least 2", "none",
      "n values of equal distance; whole numbers where all are", linspace},
     {"vary[].uniform", "[from, to], from < to", "none", "sampled between these, see [sample]",
@@ -142,8 +162,17 @@ Json study_schema() {
   }
   schema["required"].push_back("vary");
   schema["properties"]["vary"]["minItems"] = 1;
-  Json& one = table_in(schema, "vary[]")["oneOf"];
-  for (const char* kind : {"values", "linspace", "uniform"}) one.push_back(presence_of(kind));
+  Json one_key, several;
+  one_key.update(presence_of("key"));
+  one_key["not"] = presence_of("keys");
+  for (const char* kind : {"values", "linspace", "uniform"})
+    one_key["oneOf"].push_back(presence_of(kind));
+  several["required"] = {"keys", "values"};
+  for (const char* other : {"key", "linspace", "uniform"})
+    several["not"]["anyOf"].push_back(presence_of(other));
+  several["properties"]["values"] = array_of(array_of(Json::object(), 2), 1);
+  Json& vary = table_in(schema, "vary[]");
+  for (Json& way : std::array{one_key, several}) vary["oneOf"].push_back(std::move(way));
   return schema;
 }
 

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "rondo/core/error.hpp"
-#include "rondo/study/sweep/sweep_plan.hpp"
+#include "rondo/study/sweep/sweep_members.hpp"
 
 namespace rondo::study {
 
@@ -17,12 +17,11 @@ class MemberFaults {
 
   /// Faults with the same `kind` are one, told with the first text.
   void add(std::size_t member, const std::string& kind, const std::string& text);
-  void add(std::size_t member, const InputError& error);
   [[nodiscard]] bool any() const noexcept { return !found_.empty(); }
   [[nodiscard]] bool has(std::size_t member) const { return faulty_[member]; }
 
   /// @param members all of the study. @throws InputError
-  [[noreturn]] void raise(const std::vector<Member>& members) const;
+  [[noreturn]] void raise(const std::vector<PlannedMember>& members) const;
 
  private:
   struct Found {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "rondo/study/sweep/member_faults.hpp"
+#include "rondo/study/sweep/members/member_faults.hpp"
 
 #include <fmt/format.h>
 
@@ -20,12 +20,7 @@ void MemberFaults::add(std::size_t member, const std::string& kind, const std::s
   found.last = member;
 }
 
-void MemberFaults::add(std::size_t member, const InputError& error) {
-  for (const Fault& fault : error.faults())
-    add(member, fault.key + '\n' + fault.message, fault.text());
-}
-
-void MemberFaults::raise(const std::vector<Member>& members) const {
+void MemberFaults::raise(const std::vector<PlannedMember>& members) const {
   std::vector<Fault> faults;
   const std::string file = study_.file.string();
   for (const Found& found : found_) {
@@ -34,7 +29,7 @@ void MemberFaults::raise(const std::vector<Member>& members) const {
                         fmt::format("and {} more kinds of errors", found_.size() - most_told), ""});
       break;
     }
-    const std::string whom = name_of(study_, members[found.first], found.first + 1);
+    const std::string whom = name_of(study_, members[found.first].member, found.first + 1);
     const std::string more = found.members == 1
                                  ? ""
                                  : fmt::format(" and {} of {} other{}", found.members - 1,

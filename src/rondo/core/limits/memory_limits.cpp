@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "rondo/core/memory_limits.hpp"
+#include "rondo/core/limits/memory_limits.hpp"
 
 #include <sys/resource.h>
 #include <unistd.h>
@@ -7,7 +7,8 @@
 #include <algorithm>
 #include <array>
 #include <fstream>
-#include <sstream>
+
+#include "rondo/core/limits/control_groups.hpp"
 
 namespace rondo {
 namespace fs = std::filesystem;
@@ -20,24 +21,6 @@ std::size_t limit_in(const fs::path& file) {
   std::ifstream in(file);
   std::size_t bytes = 0;
   return in >> bytes ? bytes : no_limit;
-}
-
-/// Of a group and all above it. In a container the group's own path may not be seen, but the mount
-/// is that of the container.
-std::size_t least_above(const fs::path& mount, const std::string& group, const char* file) {
-  std::size_t least = limit_in(mount / file);
-  fs::path at = mount;
-  for (const fs::path& part : fs::path(group).relative_path())
-    least = std::min(least, limit_in((at /= part) / file));
-  return least;
-}
-
-/// "memory" in "cpu,memory".
-bool names_memory(const std::string& controllers) {
-  std::istringstream list(controllers);
-  for (std::string name; std::getline(list, name, ',');)
-    if (name == "memory") return true;
-  return false;
 }
 
 /// What this process has mapped, in all and as data [B]; 0 where that cannot be read.
@@ -62,27 +45,13 @@ std::size_t left_of(__rlimit_resource resource, std::size_t mapped) {
   return limit.rlim_cur > taken ? limit.rlim_cur - taken : 0;
 }
 
-std::string text_of(const fs::path& file) {
-  std::ostringstream text;
-  text << std::ifstream(file).rdbuf();
-  return text.str();
-}
-
 }  // namespace
 
 std::size_t control_group_limit(const std::string& groups, const fs::path& mount) {
-  std::istringstream lines(groups);
   std::size_t least = no_limit;
-  for (std::string line; std::getline(lines, line);) {  // number:controllers:path
-    const std::size_t first = line.find(':'), second = line.find(':', first + 1);
-    if (first == std::string::npos || second == std::string::npos) continue;
-    const std::string controllers = line.substr(first + 1, second - first - 1);
-    const std::string group = line.substr(second + 1);
-    if (controllers.empty())
-      least = std::min(least, least_above(mount, group, "memory.max"));
-    else if (names_memory(controllers))
-      least = std::min(least, least_above(mount / "memory", group, "memory.limit_in_bytes"));
-  }
+  for (const fs::path& folder : control_group_folders(groups, mount, "memory"))
+    for (const char* file : {"memory.max", "memory.limit_in_bytes"})
+      least = std::min(least, limit_in(folder / file));
   return least;
 }
 
@@ -99,7 +68,7 @@ AllowedMemory allowed_memory() {
   };
   const std::size_t physical = physical_memory();
   limit(physical > 0 ? physical : no_limit, "this machine has");
-  limit(control_group_limit(text_of("/proc/self/cgroup"), "/sys/fs/cgroup"),
+  limit(control_group_limit(text_or_nothing("/proc/self/cgroup"), "/sys/fs/cgroup"),
         "the control group of this process allows");
   const auto [mapped, data] = mapped_memory();
   limit(left_of(RLIMIT_AS, mapped), "the limit of the address space (ulimit -v) leaves");

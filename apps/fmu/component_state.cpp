@@ -1,0 +1,168 @@
+// SPDX-License-Identifier: BSD-3-Clause
+/// @file  States of an instance, kept and as bytes; which instances and states there are.
+#include <cstring>
+#include <mutex>
+#include <set>
+#include <span>
+#include <utility>
+
+#include "component.hpp"
+#include "rondo/fmu/saved_bytes.hpp"
+
+namespace rondo::fmu {
+namespace {
+
+constexpr const char* no_state = "this is no state, or it is freed";
+
+/// Instances and states that are not freed: an importer may hand over what it has freed.
+struct Alive {
+  std::mutex mutex;
+  std::set<const void*> all;
+};
+
+Alive& alive() {
+  static Alive pointers;
+  return pointers;
+}
+
+void keep_alive(const void* pointer) {
+  const std::lock_guard<std::mutex> lock(alive().mutex);
+  alive().all.insert(pointer);
+}
+
+bool is_alive(const void* pointer) noexcept {
+  const std::lock_guard<std::mutex> lock(alive().mutex);
+  return alive().all.count(pointer) > 0;
+}
+
+/// False: it was not alive.
+bool forget(const void* pointer) noexcept {
+  const std::lock_guard<std::mutex> lock(alive().mutex);
+  return alive().all.erase(pointer) > 0;
+}
+
+}  // namespace
+
+Component* living(fmi2Component c) noexcept {
+  return is_alive(c) ? static_cast<Component*>(c) : nullptr;
+}
+
+fmi2Component enroll(std::unique_ptr<Component> component) {
+  keep_alive(component.get());
+  return component.release();
+}
+
+void dismiss(fmi2Component c) noexcept {
+  if (forget(c)) delete static_cast<Component*>(c);
+}
+
+/// In place of a state that is there, as the standard has it.
+fmi2Status Component::hand_over(std::unique_ptr<State> saved, fmi2FMUstate* state) {
+  keep_alive(saved.get());
+  if (*state != nullptr) static_cast<void>(free(state));
+  *state = saved.release();
+  return fmi2OK;
+}
+
+/// What is wrong with where a state is to go to.
+const char* Component::no_place_for_state(const fmi2FMUstate* state) noexcept {
+  if (state == nullptr) return "the pointer to the state is NULL";
+  if (*state != nullptr && !is_alive(*state))
+    return "the state to be replaced is none, or is freed; NULL for a new one";
+  return nullptr;
+}
+
+fmi2Status Component::save(fmi2FMUstate* state) {
+  if (const char* wrong = no_place_for_state(state))
+    return error(std::string("fmi2GetFMUstate: ") + wrong);
+  auto saved = std::make_unique<State>();
+  saved->stale = stale_;
+  saved->phase = phase_;
+  saved->time = time_;
+  if (stale_)
+    saved->wheel.values = values_;
+  else
+    saved->wheel = wheel_->save(values_);
+  return hand_over(std::move(saved), state);
+}
+
+fmi2Status Component::restore(fmi2FMUstate state) {
+  if (!is_alive(state)) return error(std::string("fmi2SetFMUstate: ") + no_state);
+  const State& saved = *static_cast<const State*>(state);
+  phase_ = Phase::failed;  // what throws half way stays so
+  if (saved.stale)
+    values_ = saved.wheel.values;
+  else
+    wheel_->restore(saved.wheel, values_);
+  stale_ = saved.stale;
+  phase_ = saved.phase;
+  time_ = saved.time;
+  static_cast<void>(wheel_->take_warnings());
+  return fmi2OK;
+}
+
+fmi2Status Component::free(fmi2FMUstate* state) noexcept {
+  if (state == nullptr || *state == nullptr) return fmi2OK;
+  if (!forget(*state)) return fmi2Error;
+  delete static_cast<State*>(*state);
+  *state = nullptr;
+  return fmi2OK;
+}
+
+namespace {
+
+/// What precedes the wheel.
+struct Head {
+  double time;
+  int phase, stale;
+};
+
+}  // namespace
+
+fmi2Status Component::serialized_size(fmi2FMUstate state, std::size_t* n) {
+  if (!is_alive(state)) return error(std::string("fmi2SerializedFMUstateSize: ") + no_state);
+  if (n == nullptr) return error("fmi2SerializedFMUstateSize: the pointer to the size is NULL");
+  *n = sizeof(Head) + bytes_of(static_cast<const State*>(state)->wheel, guid_).size() +
+       fmu::hash_size;
+  return fmi2OK;
+}
+
+fmi2Status Component::serialize(fmi2FMUstate state, char* bytes, std::size_t n) {
+  if (!is_alive(state)) return error(std::string("fmi2SerializeFMUstate: ") + no_state);
+  if (bytes == nullptr) return error("fmi2SerializeFMUstate: the pointer to the bytes is NULL");
+  const State& saved = *static_cast<const State*>(state);
+  const std::vector<char> wheel = bytes_of(saved.wheel, guid_);
+  const std::size_t hashed = sizeof(Head) + wheel.size();
+  if (n < hashed + fmu::hash_size)
+    return error("fmi2SerializeFMUstate: fewer bytes than fmi2SerializedFMUstateSize has told");
+  const Head head{saved.time, static_cast<int>(saved.phase), saved.stale ? 1 : 0};
+  std::memcpy(bytes, &head, sizeof head);
+  std::memcpy(bytes + sizeof head, wheel.data(), wheel.size());
+  std::memcpy(bytes + hashed, fmu::hash_of({bytes, hashed}).data(), fmu::hash_size);
+  return fmi2OK;
+}
+
+fmi2Status Component::deserialize(const char* bytes, std::size_t n, fmi2FMUstate* state) {
+  if (bytes == nullptr) return error("fmi2DeSerializeFMUstate: the pointer to the bytes is NULL");
+  if (const char* wrong = no_place_for_state(state))
+    return error(std::string("fmi2DeSerializeFMUstate: ") + wrong);
+  Head head{};
+  const char* const refused =
+      "fmi2DeSerializeFMUstate: these bytes are no state of this FMU, or damaged";
+  if (n < sizeof head + fmu::hash_size) return error(refused);
+  const std::size_t hashed = n - fmu::hash_size;
+  if (fmu::hash_of({bytes, hashed}) != std::string(bytes + hashed, fmu::hash_size))
+    return error(refused);
+  std::memcpy(&head, bytes, sizeof head);
+  const bool known = head.phase >= 0 && head.phase <= static_cast<int>(Phase::failed);
+  if (!known || (head.stale != 0 && head.phase > static_cast<int>(Phase::initializing)))
+    return error(refused);
+  auto saved = std::make_unique<State>();
+  saved->wheel = saved_of({bytes + sizeof head, hashed - sizeof head}, guid_);
+  saved->time = head.time;
+  saved->phase = static_cast<Phase>(head.phase);
+  saved->stale = head.stale != 0;
+  return hand_over(std::move(saved), state);
+}
+
+}  // namespace rondo::fmu

@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: BSD-3-Clause
+/// @file  Sections of Gmsh files of both versions, for census.cpp.
+#pragma once
+#include "census.hpp"
+#include "scanner.hpp"
+
+namespace rondo::reader {
+
+/// Tags of nodes or of elements; each may be there once.
+class Tags {
+ public:
+  void add(std::uint64_t tag);
+  /// Throws std::string. @param what "nodes"
+  void demand_unique(const std::string& what);
+
+ private:
+  std::vector<std::uint64_t> tags_;
+  bool ascending_ = true;
+};
+
+/// A census in the making.
+struct Counting {
+  Scanner& in;
+  const ShapeOf& shape_of;
+  Census& census;
+  std::map<int, TypeShape> shapes{};
+  std::map<Id, std::vector<int>> parts{};  ///< MSH 4.1: of partitioned entities
+
+  /// Shape of a type of elements; fails where the type has no nodes.
+  TypeShape shape(int type);
+};
+
+void count_nodes_22(Counting& c);
+void count_elements_22(Counting& c);
+void count_entities_41(Counting& c);
+void count_parts_41(Counting& c);
+void count_nodes_41(Counting& c);
+void count_elements_41(Counting& c);
+/// That no part is missing.
+void demand_all_parts(const Counting& c);
+
+}  // namespace rondo::reader

@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "report/python_commands.hpp"
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <string>
+#include <vector>
+
+#include "report/python_package.hpp"
+
+namespace rondo::app {
+namespace {
+
+struct PythonCommand {
+  const char *name, *meaning;  ///< as rondo/__main__.py has them
+};
+
+constexpr PythonCommand commands[] = {
+    {"figures", "draws the figures of a run, a sweep or a study of the paper"},
+    {"animate", "makes a film of a run"},
+    {"means", "prints the mean forces of the ground on the body"},
+    {"psd", "draws the power spectral density of a column of history.csv, and writes it as CSV"},
+    {"converge", "prints how the figures of a sweep converge with its mesh or its step"},
+    {"wheel", "draws height, speeds, slip, forces, torques and energies of a rim that forces move"},
+    {"footprint",
+     "draws pressure, shear, slip and what sticks in the contact of steady rolling, or of a wheel "
+     "in three dimensions"},
+    {"traction", "draws the longitudinal force of a sweep over slip: curves and carpets"},
+    {"tyre", "draws lateral force and aligning moment of a sweep over the slip angle"},
+    {"campbell", "draws the frequencies of a body over its spin"},
+    {"validate", "compares reduced runs with the full runs that they are to predict"},
+    {"validation", "draws how far off a reduced model's predictions are"},
+    {"paper", "the study of the paper: its runs, ours against expected"},
+};
+
+}  // namespace
+
+void add_python_commands(CLI::App& program) {
+  for (const PythonCommand& command : commands)
+    program.add_subcommand(command.name, command.meaning);
+}
+
+bool is_python_command(std::string_view name) noexcept {
+  return std::ranges::any_of(commands,
+                             [&](const PythonCommand& command) { return command.name == name; });
+}
+
+void do_python_command(int argc, char** argv) {
+  become_python(std::vector<std::string>(argv + 1, argv + argc));
+}
+
+}  // namespace rondo::app

@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "rondo/analysis/base/between_nodes.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "rondo/contact/intrusion.hpp"
+
+namespace rondo::study {
+namespace {
+
+std::size_t at(int node) noexcept {
+  return static_cast<std::size_t>(node);
+}
+
+}  // namespace
+
+BetweenNodes::BetweenNodes(const dynamics::Model& model)
+    : model_(model), axes_(model.motion.camber) {
+  if (!model.contact) return;
+  const contact::Ground& ground = model.contact->ground;
+  const double spacing = ground.spacing();
+  if (!(spacing > 0.0) || ground.bends().empty()) return;
+  watches_ = contact::hidden_between_nodes(ground, spacing).deepest.depth >
+             contact::least_hidden * spacing;
+  for (const int node : model.contact->nodes)
+    radius_ = std::max(radius_, 1.5 * norm(model.reference[at(node)]));
+}
+
+bool BetweenNodes::may_be_deep(const dynamics::FrameStep* frame, long long steps) const noexcept {
+  if (!watches_) return false;
+  if (!frame || !model_.free_bodies.empty()) return true;
+  const contact::Ground& ground = model_.contact->ground;
+  const double way = 2.0 * static_cast<double>(steps) * norm(frame->advance);
+  const double reach = radius_ + way + ground.bend_reach();
+  return std::ranges::any_of(ground.bends(), [&](const contact::Corner& bend) {
+    return std::abs(bend.position.x - frame->center.x) <= reach &&
+           std::abs(bend.position.y - frame->center.y) <= reach;
+  });
+}
+
+Vec2 BetweenNodes::place(const dynamics::State& state, int node) const noexcept {
+  const std::size_t k = at(node);
+  if (!model_.solid) return position(model_, state, k);
+  const Vec2 arm = state.frame.rotation * (model_.reference[k] + state.u[k]);
+  return state.frame.center + axes_.plane({arm, model_.solid->axial[k] + state.axial_u[k]});
+}
+
+double BetweenNodes::depth(const dynamics::State& state) const noexcept {
+  double deepest = 0.0;
+  for (const auto& [first, second] : model_.contact->edges) {
+    const Vec2 a = place(state, first), b = place(state, second);
+    deepest =
+        std::max(deepest, contact::deepest_inside(model_.contact->ground, a, b, norm(b - a)).depth);
+  }
+  return deepest;
+}
+
+}  // namespace rondo::study

@@ -1,0 +1,91 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "rondo/analysis/base/region_figures.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "rondo/fem/assembly.hpp"
+#include "rondo/fem/solid/solid_sector.hpp"
+
+namespace rondo::study {
+namespace {
+
+/// Area or volume of one region: the mass of the body if this region had the density 1 and the
+/// others 0.
+double size_of(const mesh::Mesh& mesh, std::span<const fem::Material> materials,
+               std::size_t region) {
+  std::vector<fem::Material> dense(materials.begin(), materials.end());
+  for (std::size_t k = 0; k < dense.size(); ++k) dense[k].density = k == region ? 1.0 : 0.0;
+  const std::vector<double> of_nodes =
+      mesh.is_solid() ? fem::solid_mass(mesh, dense) : fem::lumped_mass(mesh, dense);
+  double size = 0.0;
+  for (const double share : of_nodes) size += share;
+  return size;
+}
+
+RegionFigures whole_of(std::span<const RegionFigures> regions) {
+  RegionFigures whole;
+  for (const RegionFigures& region : regions) {
+    whole.elements += region.elements;
+    whole.size += region.size;
+    whole.mass += region.mass;
+  }
+  return whole;
+}
+
+std::string text_of(const RegionFigures& region, bool solid) {
+  return fmt::format("{:.6g} {}, {} {:.6g} {}, {} elements", region.mass, solid ? "kg" : "kg/m",
+                     solid ? "volume" : "area", region.size, solid ? "m3" : "m2", region.elements);
+}
+
+}  // namespace
+
+std::vector<RegionFigures> region_figures(const mesh::Mesh& mesh,
+                                          std::span<const fem::Material> materials) {
+  std::vector<RegionFigures> regions(materials.size());
+  for (std::size_t k = 0; k < regions.size(); ++k) {
+    if (k < mesh.region_names.size()) regions[k].name = mesh.region_names[k];
+    regions[k].elements =
+        mesh.region.empty()
+            ? mesh.n_elements()
+            : static_cast<std::size_t>(std::ranges::count(mesh.region, static_cast<int>(k)));
+    regions[k].size = size_of(mesh, materials, k);
+    regions[k].mass = materials[k].density * regions[k].size;
+  }
+  return regions;
+}
+
+std::vector<Told> region_lines(const mesh::Mesh& mesh, std::span<const fem::Material> materials) {
+  constexpr std::size_t most = 20;
+  const std::vector<RegionFigures> regions = region_figures(mesh, materials);
+  const bool solid = mesh.is_solid();
+  std::vector<Told> lines{{"mass", text_of(whole_of(regions), solid)}};
+  if (regions.size() == 1) return lines;
+  for (std::size_t k = 0; k < std::min(most, regions.size()); ++k) {
+    if (regions[k].elements == 0) continue;
+    lines.emplace_back(
+        regions[k].name.empty() ? "  of no region" : fmt::format("  of \"{}\"", regions[k].name),
+        text_of(regions[k], solid));
+  }
+  if (regions.size() > most)
+    lines.emplace_back("  of others", fmt::format("{} more regions", regions.size() - most));
+  return lines;
+}
+
+void describe_regions(const mesh::Mesh& mesh, std::span<const fem::Material> materials,
+                      Json& json) {
+  const char* const size = mesh.is_solid() ? "volume" : "area";
+  const std::vector<RegionFigures> regions = region_figures(mesh, materials);
+  const RegionFigures whole = whole_of(regions);
+  json["mass"] = whole.mass;
+  json[size] = whole.size;
+  json["regions"] = Json::array();
+  for (const RegionFigures& region : regions)
+    json["regions"].push_back({{"name", region.name},
+                               {"elements", region.elements},
+                               {size, region.size},
+                               {"mass", region.mass}});
+}
+
+}  // namespace rondo::study

@@ -1,0 +1,21 @@
+// SPDX-License-Identifier: BSD-3-Clause
+/// @file  What is held and reaches the ground: the ground does nothing to it, and the run would say
+/// that all forces are 0. Mostly mesh.clamped and mesh.contact are swapped.
+#pragma once
+#include "rondo/analysis/build/crush/crush_setup.hpp"
+#include "rondo/case/setup.hpp"
+
+namespace rondo::study {
+
+/// At the start, and where the rim follows its tables at all times of the run. @throws InputError
+void refuse_held_in_ground(const Case& c, const Setup& s);
+/// At the largest depth. @throws InputError
+void refuse_held_in_ground(const Case& c, const CrushSetup& s);
+/// For steady rolling at a given height. @throws InputError
+void refuse_held_in_ground(const Case& c, const mesh::Mesh& mesh);
+
+/// Radius of held nodes that are about as far from the origin as each other; 0: they are not, or
+/// nothing is held [m]
+[[nodiscard]] double held_radius(const mesh::Mesh& mesh);
+
+}  // namespace rondo::study

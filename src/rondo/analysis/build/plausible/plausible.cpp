@@ -1,0 +1,119 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "rondo/analysis/build/plausible/plausible.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+#include <numeric>
+
+#include "rondo/case/case_keys.hpp"
+#include "rondo/fem/assembly.hpp"
+#include "rondo/fem/solid/solid_sector.hpp"
+
+namespace rondo::study {
+namespace {
+
+constexpr double earth_gravity = 9.81;  // m/s²
+
+double mass_of(const mesh::Mesh& mesh, const std::vector<fem::Material>& materials) {
+  const std::vector<double> mass =
+      mesh.is_solid() ? fem::solid_mass(mesh, materials) : fem::lumped_mass(mesh, materials);
+  return std::accumulate(mass.begin(), mass.end(), 0.0);
+}
+
+void warn_of_load(const std::string& key, double load, double mass, bool solid,
+                  std::vector<std::string>& warnings) {
+  const double weight = mass * earth_gravity;
+  if (load == 0.0 || std::abs(load) >= least_load_share * weight) return;
+  const char* force = solid ? "N" : "N/m";
+  warnings.push_back(fmt::format(
+      "{0} of {1:.4g} {2} is {3:.2g} times the weight of the body ({4:.3g} {5}, "
+      "{6:.3g} {2}): it presses the body hardly at all; is the load in {2}, not in k{2}?",
+      key, load, force, std::abs(load) / weight, mass, solid ? "kg" : "kg/m", weight));
+}
+
+void warn_of_loads(const Case& c, const mesh::Mesh& mesh,
+                   const std::vector<fem::Material>& materials,
+                   std::vector<std::string>& warnings) {
+  const bool by_rim = c.rim && c.rim->free_y && c.motion.gravity.largest() == 0.0;
+  if (!c.analysis.load && !by_rim) return;
+  const double mass = mass_of(mesh, materials);
+  if (c.analysis.load)
+    warn_of_load("analysis.load", *c.analysis.load, mass, mesh.is_solid(), warnings);
+  if (by_rim)
+    warn_of_load("rim.force_y", c.rim->force_y.largest(), mass, mesh.is_solid(), warnings);
+}
+
+void warn_of_pressures(const Case& c, const std::vector<fem::Material>& materials,
+                       std::vector<std::string>& warnings) {
+  double softest = std::numeric_limits<double>::infinity();
+  for (const fem::Material& m : materials) softest = std::min(softest, m.youngs_modulus);
+  for (std::size_t k = 0; k < c.pressures.size(); ++k) {
+    const double most = c.pressures[k].pressure.largest();
+    if (most == 0.0 || most >= least_pressure || most >= least_pressure_share * softest) continue;
+    warnings.push_back(
+        fmt::format("{}.value reaches {:.4g} Pa at most, {:.2g} of the softest modulus: it deforms "
+                    "the body hardly at all; is the pressure in Pa, not in bar or kPa?",
+                    item_of("load.pressure", k), most, most / softest));
+  }
+}
+
+void warn_of_angle(const char* key, double angle, std::vector<std::string>& warnings) {
+  if (angle <= wide_angle) return;
+  warnings.push_back(fmt::format(
+      "{} reaches {:.4g} rad, which is {:.3g} degrees: more than tyres roll at; is the angle in "
+      "rad, not in degrees?",
+      key, angle, angle * 180.0 / std::numbers::pi));
+}
+
+/// The tread lies to one side of the plane in which the wheel is held, turned and steered.
+void warn_of_section(const Case& c, const mesh::Mesh& mesh, std::vector<std::string>& warnings) {
+  if (!c.section || mesh.boundary.empty()) return;
+  double left = std::numeric_limits<double>::infinity(), right = -left;
+  for (const int node : mesh.boundary) {
+    const double z = mesh.axial[static_cast<std::size_t>(node)];
+    left = std::min(left, z);
+    right = std::max(right, z);
+  }
+  const double middle = 0.5 * (left + right), width = right - left;
+  if (std::abs(middle) <= off_middle * width) return;
+  warnings.push_back(fmt::format(
+      "section.file: the curve \"{}\" lies from z = {:.4g} to {:.4g} m, its middle {:.4g} m beside "
+      "z = 0, the plane about which moments, slip angle and camber are taken: the wheel is offset "
+      "by that; is the section drawn about its middle, and whole?",
+      c.section->mesh.contact, left, right, std::abs(middle)));
+}
+
+}  // namespace
+
+void warn_of_senses(const Case& c, const mesh::Mesh& mesh,
+                    const std::vector<fem::Material>& materials,
+                    std::vector<std::string>& warnings) {
+  warn_of_loads(c, mesh, materials, warnings);
+  warn_of_pressures(c, materials, warnings);
+  warn_of_angle("motion.slip_angle", c.motion.slip_angle.largest(), warnings);
+  warn_of_angle("motion.camber", std::abs(c.motion.camber), warnings);
+  warn_of_section(c, mesh, warnings);
+}
+
+std::string stays_above_ground(double height, double radius) {
+  if (!(height - radius > clear_share * radius)) return {};
+  return fmt::format(
+      "motion.height: the center comes no nearer to the ground than {:.4g} m, and the body, whose "
+      "radius is {:.4g} m, stays {:.4g} m above it: nothing touches; is the height in m, not in "
+      "mm, and counted from y = 0 to the center?",
+      height, radius, height - radius);
+}
+
+std::string hardly_pressed(const std::string& key, double deflection, double radius) {
+  if (!(deflection > 0.0) || deflection >= least_deflection * radius) return {};
+  return fmt::format(
+      "{}: the body is pressed in by {:.3g} m, {:.2g} of its radius of {:.4g} m: hardly more than "
+      "a first touch, which the mesh does not resolve; are loads in N and lengths in m?",
+      key, deflection, deflection / radius, radius);
+}
+
+}  // namespace rondo::study

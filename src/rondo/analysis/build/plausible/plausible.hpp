@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: BSD-3-Clause
+/// @file  Whether the numbers of a case mean what their user thinks: loads, pressures and angles in
+/// other units than SI, a section that is not about its middle plane (docs/cases.md, Physical
+/// figures). Warnings, each a sentence with key, value, what it means, and the likely cause.
+#pragma once
+#include <string>
+#include <vector>
+
+#include "rondo/case/case.hpp"
+#include "rondo/mesh/mesh.hpp"
+
+namespace rondo::study {
+
+// What is warned of.
+inline constexpr double least_pressure = 1e3;         ///< [Pa]
+inline constexpr double least_pressure_share = 1e-4;  ///< and over the softest modulus
+inline constexpr double least_load_share = 0.1;       ///< load over the weight of the body
+inline constexpr double least_deflection = 1e-4;      ///< over the outer radius
+inline constexpr double clear_share =
+    1.0;  ///< gap above the ground over the radius: less may be meant
+inline constexpr double off_middle = 0.1;   ///< of the tread over its width
+inline constexpr double wide_angle = 0.35;  ///< slip angle, camber [rad]
+
+/// Adds what there is to say of loads, pressures, angles, and the section. @param materials one for
+/// each region of the mesh
+void warn_of_senses(const Case& c, const mesh::Mesh& mesh,
+                    const std::vector<fem::Material>& materials,
+                    std::vector<std::string>& warnings);
+
+/// The body does not reach the ground; empty: it does. @param height least of the center above
+/// the ground [m]
+[[nodiscard]] std::string stays_above_ground(double height, double radius);
+
+/// The body is pressed in by next to nothing; empty: by more. @param key that says how far
+[[nodiscard]] std::string hardly_pressed(const std::string& key, double deflection, double radius);
+
+}  // namespace rondo::study

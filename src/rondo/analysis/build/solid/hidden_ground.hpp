@@ -1,0 +1,14 @@
+// SPDX-License-Identifier: BSD-3-Clause
+/// @file  Ground that a wheel in three dimensions does not feel, because its contact is at its
+/// nodes alone (docs/theory.md, 4.1).
+#pragma once
+#include "rondo/case/setup.hpp"
+
+namespace rondo::study {
+
+/// Adds a warning where forces hang on where the nodes happen to be.
+/// @throws InputError: an obstacle, or a corner of one, may stand between the nodes
+/// @pre the model of a wheel in three dimensions is there
+void check_hidden_ground(const Case& c, Setup& s);
+
+}  // namespace rondo::study

@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "rondo/analysis/elements/corner_words.hpp"
+
+#include <fmt/format.h>
+
+namespace rondo::study {
+
+CornerWords corner_words(const Case& c, const dynamics::Model& model) {
+  const double fillet = c.ground->shape.fillet, spacing = model.contact->ground.spacing();
+  const Vec2 first = model.contact->ground.corners()[0].position;
+  CornerWords words;
+  words.corners = fmt::format("sharp convex corners of the ground (the first at {:.6g}, {:.6g} m",
+                              first.x, first.y);
+  if (fillet > 0.0)
+    words.corners += fmt::format(
+        "; ground.fillet = {:.3g} m is below the {:.3g} m between two "
+        "contact nodes, which makes them as good as sharp",
+        fillet, spacing);
+  words.corners += ")";
+  words.instead = fmt::format(
+      "a ground.fillet of at least {:.3g} m, the longest distance of two "
+      "contact nodes{}",
+      spacing, fillet > 0.0 ? ", or a finer mesh" : "");
+  return words;
+}
+
+}  // namespace rondo::study

@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: BSD-3-Clause
+/// @file  Unfinished files that must not outlive a program that a signal ends at once, where no
+/// destructor runs.
+#pragma once
+#include <filesystem>
+
+namespace rondo {
+
+/// As long as it lives, remove_at_signal() removes the file, or the folder that is then empty.
+/// Where very many live at once, or a path is longer than the system allows, some are left out.
+class RemovedAtSignal {
+ public:
+  explicit RemovedAtSignal(const std::filesystem::path& path) noexcept;
+  ~RemovedAtSignal();
+  RemovedAtSignal(const RemovedAtSignal&) = delete;
+  RemovedAtSignal& operator=(const RemovedAtSignal&) = delete;
+
+ private:
+  int place_ = -1;  ///< in the list; -1: left out
+};
+
+/// Removes what this process has listed, not what the process that forked it had. May be called
+/// from a signal handler.
+void remove_at_signal() noexcept;
+
+}  // namespace rondo

@@ -1,0 +1,105 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "rondo/mesh/deformed_boundary.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "rondo/core/contract.hpp"
+#include "rondo/mesh/solid/face.hpp"
+
+namespace rondo::mesh {
+namespace {
+
+constexpr double round_off = 1e-12;  ///< of a sum of some shares
+
+std::size_t at(int index) {
+  return static_cast<std::size_t>(index);
+}
+
+}  // namespace
+
+DeformedBoundary::DeformedBoundary(const Mesh& mesh) : mesh_(mesh) {
+  first_.push_back(0);
+  for (const std::vector<Share>& of : find()) {
+    shares_.insert(shares_.end(), of.begin(), of.end());
+    first_.push_back(shares_.size());
+  }
+}
+
+DeformedBoundary::Shares DeformedBoundary::shares_of(std::span<const Edge> edges) const {
+  std::vector<Face> nodes;
+  for (const Edge& edge : edges) nodes.push_back({edge[0], edge[1], -1, -1});
+  return collect(nodes, 2);
+}
+
+DeformedBoundary::Shares DeformedBoundary::shares_of(std::span<const Face> faces) const {
+  return collect(faces, 4);
+}
+
+DeformedBoundary::Shares DeformedBoundary::collect(std::span<const Face> nodes,
+                                                   std::size_t corners) const {
+  std::vector<int> candidate(mesh_.n_nodes(), -1);
+  for (std::size_t k = 0; k < mesh_.boundary.size(); ++k)
+    candidate[at(mesh_.boundary[k])] = static_cast<int>(k);
+  const std::vector<Vec2> still(mesh_.n_nodes());
+  Shares shares(mesh_.boundary.size());
+  for (const Face& of : nodes)
+    for (std::size_t i = 0; i < corners; ++i) {
+      const int k = candidate[at(of[i])];
+      if (k < 0) continue;
+      Share share{of, i, 0.0};
+      share.undeformed = now(share, still, {});
+      shares[at(k)].push_back(share);
+    }
+  return shares;
+}
+
+/// Of the curves and surfaces of the mesh; edges beside a clamped node are in none of
+/// contact_edges.
+DeformedBoundary::Shares DeformedBoundary::find() const {
+  for (const Surface& surface : mesh_.surfaces)
+    if (Shares shares = shares_of(surface.faces); makes_tributaries(shares)) return shares;
+  if (mesh_.is_solid()) return Shares(mesh_.boundary.size());
+  Shares shares = shares_of(mesh_.contact_edges);
+  if (makes_tributaries(shares)) return shares;
+  for (const Curve& curve : mesh_.curves)
+    if (Shares whole = shares_of(curve.edges); makes_tributaries(whole)) return whole;
+  return shares;
+}
+
+bool DeformedBoundary::makes_tributaries(const Shares& shares) const {
+  for (std::size_t k = 0; k < shares.size(); ++k) {
+    double sum = 0.0;
+    for (const Share& share : shares[k]) sum += share.undeformed;
+    if (std::abs(sum - mesh_.tributary[k]) > round_off * mesh_.tributary[k]) return false;
+  }
+  return true;
+}
+
+/// Of an edge half of its length.
+double DeformedBoundary::now(const Share& share, std::span<const Vec2> u,
+                             std::span<const double> axial_u) const noexcept {
+  const auto place = [&](std::size_t i) {
+    const std::size_t node = at(share.nodes[i]);
+    return mesh_.coordinates[node] + u[node];
+  };
+  if (!mesh_.is_solid()) return 0.5 * norm(place(1) - place(0));
+  std::array<Vec3, 4> x;
+  for (std::size_t i = 0; i < x.size(); ++i) {
+    const std::size_t node = at(share.nodes[i]);
+    x[i] = Vec3(place(i), mesh_.axial[node] + (axial_u.empty() ? 0.0 : axial_u[node]));
+  }
+  return norm(face_shares(x)[share.corner]);
+}
+
+double DeformedBoundary::extent(std::size_t candidate, std::span<const Vec2> u,
+                                std::span<const double> axial_u) const noexcept {
+  RONDO_ASSERT(candidate < mesh_.boundary.size() && u.size() == mesh_.n_nodes(), candidate,
+               u.size());
+  double change = 0.0;
+  for (std::size_t s = first_[candidate]; s < first_[candidate + 1]; ++s)
+    change += now(shares_[s], u, axial_u) - shares_[s].undeformed;
+  return std::max(0.0, mesh_.tributary[candidate] + change);
+}
+
+}  // namespace rondo::mesh

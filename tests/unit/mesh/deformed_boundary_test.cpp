@@ -1,0 +1,100 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "rondo/mesh/deformed_boundary.hpp"
+
+#include <gtest/gtest.h>
+
+#include <numeric>
+
+#include "rondo/mesh/disk.hpp"
+#include "rondo/mesh/solid/wheel.hpp"
+
+namespace rondo::mesh {
+namespace {
+
+Disk disk() {
+  return {.outer_radius = 0.3,
+          .inner_radius = 0.15,
+          .radial = 2,
+          .circumferential = 24,
+          .grading = 1.0,
+          .tread = {}};
+}
+
+/// u = (G - 1) X of all nodes.
+std::vector<Vec2> stretched(const Mesh& mesh, double x, double y) {
+  std::vector<Vec2> u;
+  for (const Vec2 p : mesh.coordinates) u.push_back({(x - 1.0) * p.x, (y - 1.0) * p.y});
+  return u;
+}
+
+double sum_of_extents(const Mesh& mesh, const std::vector<Vec2>& u,
+                      const std::vector<double>& axial = {}) {
+  const DeformedBoundary boundary(mesh);
+  double sum = 0.0;
+  for (std::size_t k = 0; k < mesh.boundary.size(); ++k) sum += boundary.extent(k, u, axial);
+  return sum;
+}
+
+double undeformed(const Mesh& mesh) {
+  return std::accumulate(mesh.tributary.begin(), mesh.tributary.end(), 0.0);
+}
+
+}  // namespace
+
+TEST(DeformedBoundary, UndeformedItIsTheTributaryLengthToTheBit) {
+  Disk treaded = disk();
+  treaded.tread = Tread{.pitches = 12, .depth = 0.02, .land_columns = 2, .groove_columns = 1};
+  treaded.tread->layers = 1;
+  for (const Disk& d : {disk(), treaded}) {
+    const Mesh mesh = make_disk(d);
+    const DeformedBoundary boundary(mesh);
+    const std::vector<Vec2> none(mesh.n_nodes());
+    for (std::size_t k = 0; k < mesh.boundary.size(); ++k)
+      EXPECT_EQ(boundary.extent(k, none), mesh.tributary[k]);
+    EXPECT_NEAR(sum_of_extents(mesh, stretched(mesh, 1.5, 1.5)), 1.5 * undeformed(mesh), 1e-14);
+  }
+}
+
+TEST(DeformedBoundary, ANodeHasHalfOfTheEdgesBesideIt) {
+  const Mesh mesh = make_disk(disk());
+  const DeformedBoundary boundary(mesh);
+  std::vector<Vec2> u(mesh.n_nodes());
+  const auto node = [&](std::size_t k) { return static_cast<std::size_t>(mesh.boundary[k]); };
+  u[node(5)] = {0.01, -0.02};
+  const auto place = [&](std::size_t k) { return mesh.coordinates[node(k)] + u[node(k)]; };
+  EXPECT_NEAR(boundary.extent(5, u), 0.5 * (norm(place(5) - place(4)) + norm(place(6) - place(5))),
+              1e-15);
+  EXPECT_NEAR(boundary.extent(4, u), 0.5 * (norm(place(4) - place(3)) + norm(place(5) - place(4))),
+              1e-15);
+  EXPECT_EQ(boundary.extent(8, u), mesh.tributary[8]);
+}
+
+TEST(DeformedBoundary, EdgesToClampedNodesCount) {
+  Mesh mesh;  // a line of three nodes, the first of which is clamped
+  mesh.coordinates = {{0, 0}, {1, 0}, {2, 0}};
+  mesh.clamped = {0};
+  mesh.boundary = {1, 2};
+  mesh.tributary = {1.0, 0.5};
+  mesh.contact_edges = {{1, 2}};
+  mesh.curves = {{"other", {{1, 2}}}, {"tread", {{0, 1}, {1, 2}}}};
+  const std::vector<Vec2> u{{0, 0}, {0.5, 0}, {1.5, 0}};
+  const DeformedBoundary boundary(mesh);
+  EXPECT_DOUBLE_EQ(boundary.extent(0, u), 1.75);  // half of 1.5 and of 2
+  EXPECT_DOUBLE_EQ(boundary.extent(1, u), 1.0);
+}
+
+TEST(DeformedBoundary, OfAWheelItIsTheShareOfTheDeformedFaces) {
+  const Mesh mesh =
+      make_wheel({.disk = disk(), .width = 0.1, .axial = 3, .crown_radius = 0.4, .grooves = {}});
+  const std::vector<double> none(mesh.n_nodes(), 0.0);
+  std::vector<double> wider;
+  for (const double z : mesh.axial) wider.push_back(0.25 * z);
+  const DeformedBoundary boundary(mesh);
+  const std::vector<Vec2> still(mesh.n_nodes());
+  for (std::size_t k = 0; k < mesh.boundary.size(); ++k)
+    EXPECT_EQ(boundary.extent(k, still, none), mesh.tributary[k]);
+  const double all = undeformed(mesh);
+  EXPECT_NEAR(sum_of_extents(mesh, stretched(mesh, 1.25, 1.25), wider), 1.5625 * all, 1e-14);
+}
+
+}  // namespace rondo::mesh
