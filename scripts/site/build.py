@@ -28,8 +28,8 @@ LISTED = {
               "expect. The keys: [case files](../docs/cases.md)."),
     "cases/studies": ("Studies", "*.toml", "Many runs each: `rondo sweep cases/studies/NAME.toml -o results/NAME`. "
                       "How: [studies and sweeps](../../docs/studies.md)."),
-    "examples": ("Examples", "*.py", "Scripts to run and to change: `python3 examples/NAME.py`. The package: "
-                 "[results in Python](../docs/python.md)."),
+    "examples": ("Examples", "*.[pc]*", "To run and to change: `python3 examples/NAME.py` ([results in Python](../docs/python.md)); programs in "
+                 "C++ are for [the library](../docs/library.md)."),
 }
 
 

@@ -14,10 +14,10 @@ def heading_comment(text: str) -> list[str]:
     else:
         lines = []
         for line in text.splitlines():
-            if not line.startswith("#"):
+            if not line.startswith(("#", "//")) or line.startswith("#include"):
                 break
-            if not line.startswith(("#:schema", "# SPDX", "#!")):
-                lines.append(line[1:].strip())
+            if not line.startswith(("#:schema", "# SPDX", "// SPDX", "#!")):
+                lines.append(line.lstrip("#/").strip())
     return [" ".join(part.split()) for part in "\n".join(lines).split("\n\n") if part.strip()]
 
 

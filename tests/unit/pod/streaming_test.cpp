@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <limits>
 #include <vector>
 
 #include "support/matrices.hpp"
@@ -102,6 +103,7 @@ TEST(Tsqr, KeepsWhatFitsInMemory) {
 }
 
 TEST(Incremental, WithinItsBoundOfDirect) {
+  constexpr double epsilon = std::numeric_limits<double>::epsilon();
   for (const auto& [rows, columns] : {std::pair<Index, Index>{300, 90}, {90, 300}, {12, 200}})
     for (const double tolerance : {0.0, 1e-10, 1e-6, 1e-2}) {
       const Index k = std::min(rows, columns);
@@ -112,9 +114,11 @@ TEST(Incremental, WithinItsBoundOfDirect) {
       ASSERT_GT(s.reads, 1);
       const Decomposition all = decompose_dense(a, Method::direct, k);
       const Eigen::VectorXd error = all.sigma.head(s.d.sigma.size()) - s.d.sigma;
-      const double scale = all.sigma[0];
-      EXPECT_GT(error.minCoeff(), -3e-15 * scale) << tolerance;
-      EXPECT_LT(error.maxCoeff(), s.d.sigma_bound + 3e-15 * scale) << tolerance;
+      // Each block's decomposition, and that of the whole, rounds singular values by some ε σ_1: by
+      // how many depends on the kernels that the BLAS has for the processor.
+      const double rounding = 8.0 * epsilon * (s.reads + 1) * all.sigma[0];
+      EXPECT_GT(error.minCoeff(), -rounding) << tolerance;
+      EXPECT_LT(error.maxCoeff(), s.d.sigma_bound + rounding) << tolerance;
       // Not more than aimed at, beside what is under round-off.
       EXPECT_LE(s.d.sigma_bound, std::max(tolerance * std::sqrt(s.d.energy), 1e-12));
       EXPECT_NEAR(s.d.energy, a.squaredNorm(), 1e-14 * s.d.energy);
