@@ -35,8 +35,8 @@ class Component {
 
   fmi2Status save(fmi2FMUstate* state);
   fmi2Status restore(fmi2FMUstate state);
-  /// @return fmi2Error: it is none, or is freed
-  static fmi2Status free(fmi2FMUstate* state) noexcept;
+  /// @return fmi2Error: it is none of this instance, or is freed
+  fmi2Status free(fmi2FMUstate* state) noexcept;
   fmi2Status serialized_size(fmi2FMUstate state, std::size_t* n);
   fmi2Status serialize(fmi2FMUstate state, char* bytes, std::size_t n);
   fmi2Status deserialize(const char* bytes, std::size_t n, fmi2FMUstate* state);
@@ -53,7 +53,7 @@ class Component {
     bool stale = true;
   };
   fmi2Status hand_over(std::unique_ptr<State> saved, fmi2FMUstate* state);
-  static const char* no_place_for_state(const fmi2FMUstate* state) noexcept;
+  const char* no_place_for_state(const fmi2FMUstate* state) const noexcept;
   void log(fmi2Status status, const char* category, const std::string& message);
   fmi2Status tell_warnings();
   fmi2Status fail(const std::string& message);

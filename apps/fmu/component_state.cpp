@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// @file  States of an instance, kept and as bytes; which instances and states there are.
 #include <cstring>
+#include <map>
 #include <mutex>
 #include <set>
 #include <span>
@@ -12,12 +13,13 @@
 namespace rondo::fmu {
 namespace {
 
-constexpr const char* no_state = "this is no state, or it is freed";
+constexpr const char* no_state = "this is no state of this instance, or it is freed";
 
 /// Instances and states that are not freed: an importer may hand over what it has freed.
 struct Alive {
   std::mutex mutex;
-  std::set<const void*> all;
+  std::set<const void*> instances;
+  std::map<const void*, const void*> states;  ///< and the instance of each
 };
 
 Alive& alive() {
@@ -25,50 +27,50 @@ Alive& alive() {
   return pointers;
 }
 
-void keep_alive(const void* pointer) {
+bool is_state(const void* pointer, const void* instance) noexcept {
   const std::lock_guard<std::mutex> lock(alive().mutex);
-  alive().all.insert(pointer);
-}
-
-bool is_alive(const void* pointer) noexcept {
-  const std::lock_guard<std::mutex> lock(alive().mutex);
-  return alive().all.count(pointer) > 0;
-}
-
-/// False: it was not alive.
-bool forget(const void* pointer) noexcept {
-  const std::lock_guard<std::mutex> lock(alive().mutex);
-  return alive().all.erase(pointer) > 0;
+  const auto found = alive().states.find(pointer);
+  return found != alive().states.end() && found->second == instance;
 }
 
 }  // namespace
 
 Component* living(fmi2Component c) noexcept {
-  return is_alive(c) ? static_cast<Component*>(c) : nullptr;
+  const std::lock_guard<std::mutex> lock(alive().mutex);
+  return alive().instances.count(c) > 0 ? static_cast<Component*>(c) : nullptr;
 }
 
 fmi2Component enroll(std::unique_ptr<Component> component) {
-  keep_alive(component.get());
+  const std::lock_guard<std::mutex> lock(alive().mutex);
+  alive().instances.insert(component.get());
   return component.release();
 }
 
 void dismiss(fmi2Component c) noexcept {
-  if (forget(c)) delete static_cast<Component*>(c);
+  std::size_t erased = 0;
+  {
+    const std::lock_guard<std::mutex> lock(alive().mutex);
+    erased = alive().instances.erase(c);
+  }
+  if (erased > 0) delete static_cast<Component*>(c);
 }
 
 /// In place of a state that is there, as the standard has it.
 fmi2Status Component::hand_over(std::unique_ptr<State> saved, fmi2FMUstate* state) {
-  keep_alive(saved.get());
+  {
+    const std::lock_guard<std::mutex> lock(alive().mutex);
+    alive().states.emplace(saved.get(), this);
+  }
   if (*state != nullptr) static_cast<void>(free(state));
   *state = saved.release();
   return fmi2OK;
 }
 
 /// What is wrong with where a state is to go to.
-const char* Component::no_place_for_state(const fmi2FMUstate* state) noexcept {
+const char* Component::no_place_for_state(const fmi2FMUstate* state) const noexcept {
   if (state == nullptr) return "the pointer to the state is NULL";
-  if (*state != nullptr && !is_alive(*state))
-    return "the state to be replaced is none, or is freed; NULL for a new one";
+  if (*state != nullptr && !is_state(*state, this))
+    return "the state to be replaced is none of this instance, or is freed; NULL for a new one";
   return nullptr;
 }
 
@@ -87,7 +89,7 @@ fmi2Status Component::save(fmi2FMUstate* state) {
 }
 
 fmi2Status Component::restore(fmi2FMUstate state) {
-  if (!is_alive(state)) return error(std::string("fmi2SetFMUstate: ") + no_state);
+  if (!is_state(state, this)) return error(std::string("fmi2SetFMUstate: ") + no_state);
   const State& saved = *static_cast<const State*>(state);
   phase_ = Phase::failed;  // what throws half way stays so
   if (saved.stale)
@@ -103,7 +105,11 @@ fmi2Status Component::restore(fmi2FMUstate state) {
 
 fmi2Status Component::free(fmi2FMUstate* state) noexcept {
   if (state == nullptr || *state == nullptr) return fmi2OK;
-  if (!forget(*state)) return fmi2Error;
+  if (!is_state(*state, this)) return fmi2Error;
+  {
+    const std::lock_guard<std::mutex> lock(alive().mutex);
+    alive().states.erase(*state);
+  }
   delete static_cast<State*>(*state);
   *state = nullptr;
   return fmi2OK;
@@ -120,7 +126,7 @@ struct Head {
 }  // namespace
 
 fmi2Status Component::serialized_size(fmi2FMUstate state, std::size_t* n) {
-  if (!is_alive(state)) return error(std::string("fmi2SerializedFMUstateSize: ") + no_state);
+  if (!is_state(state, this)) return error(std::string("fmi2SerializedFMUstateSize: ") + no_state);
   if (n == nullptr) return error("fmi2SerializedFMUstateSize: the pointer to the size is NULL");
   *n = sizeof(Head) + bytes_of(static_cast<const State*>(state)->wheel, guid_).size() +
        fmu::hash_size;
@@ -128,7 +134,7 @@ fmi2Status Component::serialized_size(fmi2FMUstate state, std::size_t* n) {
 }
 
 fmi2Status Component::serialize(fmi2FMUstate state, char* bytes, std::size_t n) {
-  if (!is_alive(state)) return error(std::string("fmi2SerializeFMUstate: ") + no_state);
+  if (!is_state(state, this)) return error(std::string("fmi2SerializeFMUstate: ") + no_state);
   if (bytes == nullptr) return error("fmi2SerializeFMUstate: the pointer to the bytes is NULL");
   const State& saved = *static_cast<const State*>(state);
   const std::vector<char> wheel = bytes_of(saved.wheel, guid_);

@@ -154,8 +154,8 @@ RONDO_EXPORT fmi2Status fmi2SetFMUstate(fmi2Component c, fmi2FMUstate state) {
   return guarded(c, [&](Component& k) { return k.restore(state); });
 }
 
-RONDO_EXPORT fmi2Status fmi2FreeFMUstate(fmi2Component, fmi2FMUstate* state) {
-  return Component::free(state);
+RONDO_EXPORT fmi2Status fmi2FreeFMUstate(fmi2Component c, fmi2FMUstate* state) {
+  return guarded(c, [&](Component& k) { return k.free(state); });
 }
 
 RONDO_EXPORT fmi2Status fmi2SerializedFMUstateSize(fmi2Component c, fmi2FMUstate state,

@@ -30,6 +30,8 @@ struct Counting {
   TypeShape shape(int type);
 };
 
+/// The number of a physical group, which is negative where the group turns the element round.
+int magnitude(Counting& c, int physical);
 void count_nodes_22(Counting& c);
 void count_elements_22(Counting& c);
 void count_entities_41(Counting& c);

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <cstdlib>
+#include <limits>
 
 #include "sections.hpp"
 
@@ -24,7 +25,7 @@ void count_element(Counting& c, int type, int n_tags) {
   for (int k = 0; k < shape.n_nodes; ++k) c.in.get<int>();
   ++c.census.elements[{shape.dimension, elementary, type}];
   std::set<int>& groups = c.census.groups[{shape.dimension, elementary}];
-  if (physical != 0) groups.insert(std::abs(physical));
+  if (physical != 0) groups.insert(magnitude(c, physical));
 }
 
 void demand_count_of_tags(Counting& c, int n_tags) {
@@ -59,6 +60,13 @@ void count_binary_elements(Counting& c, std::uint64_t n, Tags& tags) {
 }
 
 }  // namespace
+
+int magnitude(Counting& c, int physical) {
+  if (physical == std::numeric_limits<int>::min())
+    c.in.fail("a physical group has the number " + std::to_string(physical) +
+              ": numbers have at most 31 bits");
+  return std::abs(physical);
+}
 
 void count_nodes_22(Counting& c) {
   const auto n = c.in.parsed<std::uint64_t>();

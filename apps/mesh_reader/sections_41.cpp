@@ -23,7 +23,7 @@ void rest_of_entity(Counting& c, int dimension, int tag) {
   c.in.skip_doubles(dimension == 0 ? 3 : 6);
   const auto [at, fresh] = c.census.groups.try_emplace({dimension, tag});
   if (!fresh) c.in.fail("the " + entity_text(dimension, tag) + " is there twice");
-  for (std::uint64_t n = count(c); n > 0; --n) at->second.insert(std::abs(c.in.get<int>()));
+  for (std::uint64_t n = count(c); n > 0; --n) at->second.insert(magnitude(c, c.in.get<int>()));
   if (dimension == 0) return;
   for (std::uint64_t n = count(c); n > 0; --n) c.in.get<int>();
 }

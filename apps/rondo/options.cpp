@@ -20,11 +20,6 @@ void add_case(CLI::App& command, CaseArguments& arguments,
       ->expected(1);
 }
 
-/// An option of which nothing is left, as where a variable of the shell is not set.
-std::string refuse_empty(const std::string& text) {
-  return text.empty() ? "is empty: a name is to follow, or the option is to be left out" : "";
-}
-
 void add_threads(CLI::App& command, int& threads) {
   command
       .add_option("--threads,--jobs", threads,

@@ -11,6 +11,11 @@ class App;
 
 namespace rondo::app {
 
+/// An option of which nothing is left, as where a variable of the shell is not set: what is wrong.
+inline std::string refuse_empty(const std::string& text) {
+  return text.empty() ? "is empty: a name is to follow, or the option is to be left out" : "";
+}
+
 // Each adds its command to the program; the arguments are filled when that is parsed, and must
 // outlive it.
 CLI::App* add_run(CLI::App& program, RunArguments& arguments, Telling& tell);

@@ -336,6 +336,7 @@ class Pointers(FmuTest):
             self.assertIn("freed", self.status(fmu, function, *arguments), function)
         self.assertEqual(self.status(fmu, "FreeFMUstate", ctypes.byref(freed)), "")
         component = fmu.component
+        self.mistaken(fmu, other)
         fmu.free()
         fmu.free()  # nothing, the second time
         for function, *arguments in (
@@ -344,6 +345,20 @@ class Pointers(FmuTest):
                 ("EnterInitializationMode",), ("CancelStep",)):
             self.assertEqual(self.status(fmu, function, *arguments, component=component), "")
         other.step(0.0, 4e-4)
+
+    def mistaken(self, fmu, other):
+        """A state for an instance, an instance for a state, a state of another instance."""
+        saved = fmu.save()
+        for function, *arguments in (("Reset",), ("Terminate",), ("EnterInitializationMode",)):
+            self.assertEqual(self.status(fmu, function, *arguments, component=saved.value), "")
+        fmu.library.fmi2FreeInstance(ctypes.c_void_p(saved.value))  # has no status
+        instance = ctypes.c_void_p(fmu.component)
+        self.assertIn("no state of this instance", self.status(fmu, "SetFMUstate", instance))
+        self.assertEqual(self.status(fmu, "FreeFMUstate", ctypes.byref(instance)), "")
+        self.assertIn("no state of this instance", self.status(other, "SetFMUstate", saved))
+        self.assertEqual(self.status(other, "FreeFMUstate", ctypes.byref(saved)), "")
+        fmu.call("SetFMUstate", saved)
+        fmu.free_state(saved)
 
 
 class Wrong(FmuTest):

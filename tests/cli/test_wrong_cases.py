@@ -85,7 +85,7 @@ INSIDE = [
     ("a free body", "thrown-disk",
      ["ground.profile=[[-10,0],[0.0030,0],[0.0035,0.02],[0.0040,0],[10,0]]"]),
     ("a block of a mesh", "block-on-incline",
-     ["ground.profile=[[-10,0],[0.0030,0],[0.0045,0.02],[0.0060,0],[10,0]]", "initial.angle=0"]),
+     ["ground.profile=[[-10,0],[0.0030,0],[0.0045,0.02],[0.0060,0],[10,0]]", "initial.turn=0"]),
 ]
 
 

@@ -34,7 +34,7 @@ def endless(path, kind):
 
 
 @pytest.mark.parametrize("kind, words", [("device", "it is a device, and no regular file"),
-                                         ("pipe", "it is a pipe, and no regular file"),
+                                         ("pipe", "it is a FIFO, and no regular file"),
                                          ("sparse", "its text would take")])
 @pytest.mark.parametrize("name", ["case.toml", "history.csv", "contact.csv"])
 def test_texts_without_end(copy, name, kind, words):

@@ -3,6 +3,7 @@
 
 #include <CLI/CLI.hpp>
 
+#include "options.hpp"
 #include "report/python_package.hpp"
 
 namespace rondo::app {
@@ -15,8 +16,10 @@ CLI::App* add_report(CLI::App& program, ReportArguments& arguments) {
       ->add_option("results", arguments.results,
                    "directory of a run, a sweep, a POD or the study of the paper")
       ->required();
-  report->add_option("-o,--output", arguments.file,
-                     "the file, which ends in .html; report.html in the directory if left out");
+  report
+      ->add_option("-o,--output", arguments.file,
+                   "the file, which ends in .html; report.html in the directory if left out")
+      ->check(refuse_empty);
   report->footer(
       "Example:\n  rondo report results/ledge -o ledge.html\n"
       "Needs Python with numpy, h5py and matplotlib (scripts/setup.sh); docs/report.md.\n"

@@ -14,8 +14,8 @@ from .errors import Error, FileError
 TEXT_ROOM = 8  # bytes of memory for a byte of a text: the text, its lines, the numbers in them
 SMALL = 2**24  # bytes for which nobody looks how many there are
 IN_PARTS = ("snapshots", "fields", "contact")  # groups of results.h5
-_KINDS = ((stat.S_ISFIFO, "a pipe"), (stat.S_ISCHR, "a device"), (stat.S_ISBLK, "a device"),
-          (stat.S_ISSOCK, "a socket"), (stat.S_ISDIR, "a folder"))
+_KINDS = ((stat.S_ISFIFO, "a FIFO"), (stat.S_ISCHR, "a device"), (stat.S_ISBLK, "a device"),
+          (stat.S_ISSOCK, "a socket"), (stat.S_ISDIR, "a directory"))
 
 
 def available_memory() -> int:
@@ -72,7 +72,7 @@ def bytes_of(path: pathlib.Path) -> bytes:
     """All of a regular file that fits into the memory."""
     demand_memory(path, "its text", TEXT_ROOM * demand_regular(path))
     try:
-        descriptor = os.open(path, os.O_RDONLY | os.O_NONBLOCK | os.O_CLOEXEC)  # if it is a pipe by now
+        descriptor = os.open(path, os.O_RDONLY | os.O_NONBLOCK | os.O_CLOEXEC)  # if it is a FIFO by now
         with open(descriptor, "rb") as file:
             return file.read()
     except OSError as reason:

@@ -514,7 +514,8 @@ constexpr CaseKey keys[] = {
     {"analysis.accept_scheme_power", "-", FIELD(analysis.accept_scheme_power), any,
      optional.of(of_steady_rolling).body(never),
      "a state is a result even where the discretisation makes or takes more than a quarter of the "
-     "largest power ([steady.md](steady.md#the-power-of-the-discretisation)): for forces and "
+     "largest power and more than 1e-4 of load times speed "
+     "([steady.md](steady.md#the-power-of-the-discretisation)): for forces and "
      "footprints, whose rolling resistance means nothing then"},
     {"analysis.load", "N/m", FIELD(analysis.load), positive,
      optional.of(of_steady_rolling).if_(has_load, "none").body(never),

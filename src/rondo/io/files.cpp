@@ -123,10 +123,12 @@ pid_t process_in(const std::string& name) {
 
 void remove_left_unfinished(const fs::path& directory) {
   std::error_code error;
-  for (const auto& entry : fs::directory_iterator(directory, error)) {
-    const pid_t process = process_in(entry.path().filename().string());
+  for (fs::directory_iterator entry(directory, error), end; !error && entry != end;
+       entry.increment(error)) {
+    std::error_code removed;
+    const pid_t process = process_in(entry->path().filename().string());
     if (process > 0 && ::kill(process, 0) != 0 && errno == ESRCH)
-      fs::remove_all(entry.path(), error);
+      fs::remove_all(entry->path(), removed);
   }
 }
 

@@ -6,6 +6,7 @@
 #include "rondo/analysis/build/build.hpp"
 #include "rondo/analysis/build/plausible/number_range.hpp"
 #include "rondo/analysis/registry.hpp"
+#include "rondo/analysis/steady/scheme_power.hpp"
 #include "unit/case/case_fixture.hpp"
 
 namespace rondo::study::test {
@@ -117,6 +118,23 @@ TEST(NumberRange, NamesTheKeyThatIsFurthestFromAnyBody) {
   EXPECT_EQ(key("damping.stiffness=1e300"), "damping.stiffness");
   EXPECT_EQ(key("motion.angular_velocity=-1e160"), "motion.angular_velocity");
   EXPECT_EQ(key("material.youngs_modulus=1e-320"), "material.youngs_modulus");
+}
+
+/// A share above the bound is refused only where the power counts beside load times speed.
+TEST(SchemePower, IsRefusedWhereItCounts) {
+  const Case c = read_text(wheel, rolling);
+  statics::RollingPower power;
+  power.scheme_share = 0.5;
+  power.scheme_over_load = 1.1e-4;
+  EXPECT_NE(scheme_trouble(c, power).find("bound 25 %"), std::string::npos);
+  power.scheme_over_load = 0.9e-4;
+  EXPECT_EQ(scheme_trouble(c, power), "");
+  EXPECT_NE(scheme_warning(c, power).find("50 %"), std::string::npos);
+  power.scheme_over_load = 1.1e-4;
+  power.scheme_share = 0.2;
+  EXPECT_EQ(scheme_trouble(c, power), "");
+  power.scheme_share = 0.04;
+  EXPECT_EQ(scheme_warning(c, power), "");
 }
 
 }  // namespace

@@ -33,10 +33,13 @@ bool BetweenNodes::may_be_deep(const dynamics::FrameStep* frame, long long steps
   const contact::Ground& ground = model_.contact->ground;
   const double way = 2.0 * static_cast<double>(steps) * norm(frame->advance);
   const double reach = radius_ + way + ground.bend_reach();
-  return std::ranges::any_of(ground.bends(), [&](const contact::Corner& bend) {
-    return std::abs(bend.position.x - frame->center.x) <= reach &&
-           std::abs(bend.position.y - frame->center.y) <= reach;
+  const auto bends = ground.bends();  // left to right
+  auto bend = std::partition_point(bends.begin(), bends.end(), [&](const contact::Corner& k) {
+    return k.position.x < frame->center.x - reach;
   });
+  for (; bend != bends.end() && bend->position.x <= frame->center.x + reach; ++bend)
+    if (std::abs(bend->position.y - frame->center.y) <= reach) return true;
+  return false;
 }
 
 Vec2 BetweenNodes::place(const dynamics::State& state, int node) const noexcept {

@@ -40,19 +40,23 @@ bool is_outside(const mesh::Mesh& mesh) {
   return farthest(mesh.clamped) > farthest(mesh.boundary);
 }
 
+std::string swapped(const Case& c, const MeshCase& file) {
+  const std::string table = c.mesh ? "mesh" : "section";
+  return fmt::format(
+      "what is held is farther from the center than what may touch: should \"{}\" be "
+      "{}.contact and \"{}\" {}.clamped?",
+      file.clamped, table, file.contact, table);
+}
+
 [[noreturn]] void refuse(const Case& c, const mesh::Mesh& mesh, double depth,
                          const std::string& when) {
   const MeshCase* const file = mesh_file_of(c);
-  const std::string table = c.mesh ? "mesh" : "section";
-  const std::string key = file                                     ? table + ".clamped"
+  const std::string key = file && c.mesh                           ? "mesh.clamped"
+                          : file                                   ? "section.clamped"
                           : c.analysis.kind == AnalysisKind::crush ? "analysis.depth"
                                                                    : "motion.height";
   std::string allowed = "a body whose held nodes stay above the ground";
-  if (file && is_outside(mesh))
-    allowed += fmt::format(
-        "; what is held is farther from the center than what may touch: should \"{}\" be "
-        "{}.contact and \"{}\" {}.clamped?",
-        file->clamped, table, file->contact, table);
+  if (file && is_outside(mesh)) allowed += "; " + swapped(c, *file);
   throw case_error(c, key,
                    fmt::format("{}nodes that are held would be up to {:.4g} m deep in the ground, "
                                "which does nothing to them: forces would be missing",
@@ -104,6 +108,14 @@ void refuse_held_in_ground(const Case& c, const Setup& s) {
       if (time > 0.0 && time < c.time.end) look(time);
   }
   if (deepest > close) refuse(c, s.mesh, deepest, fmt::format("at t = {:.6g} s ", when));
+}
+
+std::string held_outside_contact(const Case& c, const Setup& s) {
+  const MeshCase* const file = mesh_file_of(c);
+  const bool moved = s.model.rim && (s.model.rim->free_x || s.model.rim->free_y);
+  if (!file || !moved || !s.model.contact || s.mesh.clamped.empty() || !is_outside(s.mesh))
+    return {};
+  return swapped(c, *file);
 }
 
 void refuse_held_in_ground(const Case& c, const CrushSetup& s) {
