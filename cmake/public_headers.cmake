@@ -7,12 +7,12 @@ set(RONDO_PUBLIC_HEADERS
     study/pod/pod.hpp study/reduce/reduce.hpp io/run_reader.hpp
     mesh/mesh.hpp mesh/disk.hpp mesh/gmsh_reader.hpp
     fem/elasticity.hpp fem/assembly.hpp fem/sector_stiffness.hpp fem/stress.hpp
-    contact/ground.hpp model/model.hpp model/integrator.hpp model/internal_force.hpp
+    contact/box_tree.hpp contact/ground.hpp model/model.hpp model/integrator.hpp model/internal_force.hpp
     model/stability/critical_step.hpp
     integrators/integrator.hpp integrators/start.hpp)
 set(RONDO_INCLUDED_HEADERS
     core/complex.hpp core/field.hpp core/sum.hpp core/vec2.hpp core/vec3.hpp
-    analysis/error_estimate.hpp case/analysis_kinds.hpp analysis/build/bodies.hpp io/h5/h5.hpp
+    analysis/error_estimate.hpp case/analysis_kinds.hpp analysis/build/bodies.hpp io/h5/h5.hpp io/h5/hash.hpp
     fem/element.hpp fem/nodal_dilatation.hpp fem/rubber.hpp
     fem/hyperelastic/numbers.hpp fem/hyperelastic/laws.hpp fem/hyperelastic/branch.hpp
     fem/hyperelastic/element.hpp fem/hyperelastic/stress.hpp modal/critical_speeds.hpp modal/modes.hpp

@@ -12,7 +12,7 @@ from typing import NoReturn
 
 from rondo import interrupts, open_modes, open_paper, open_sweep, open_validation
 from rondo import open as open_run
-from rondo.command_help import CommandParser
+from rondo.command_help import CommandParser, output_path
 from rondo.data.errors import Error, FileError, UnfinishedRunError
 from rondo.data.names import FRAME, OLDER_FRAMES
 from rondo.data.run import Run
@@ -43,7 +43,7 @@ def _parser() -> argparse.ArgumentParser:
         "paper", "the study of the paper: its runs, ours against expected",
         epilog="A study that was interrupted or killed goes on with the same command. Exit code "
                "3: a row of the table is not as expected. docs/paper.md walks through it.")
-    paper.add_argument("-o", "--output", type=_output, metavar="DIRECTORY",
+    paper.add_argument("-o", "--output", type=output_path, metavar="DIRECTORY",
                        help='directory of the study; default "paper", or "paper-quick"')
     paper.add_argument("--quick", action="store_true", help="coarse meshes, a third of the work")
     paper.add_argument("--jobs", "--threads", type=_count, metavar="N",
@@ -56,7 +56,7 @@ def _parser() -> argparse.ArgumentParser:
     figures = add("figures", "draws the figures of a run, a sweep or a study of the paper")
     figures.add_argument("directory", type=pathlib.Path,
                          help="directory of `rondo run`, `rondo sweep` or `rondo paper`")
-    figures.add_argument("-o", "--output", type=_output, metavar="FOLDER",
+    figures.add_argument("-o", "--output", type=output_path, metavar="FOLDER",
                          help="directory for the .png and .svg files; default DIRECTORY/figures")
 
     report = add(
@@ -64,7 +64,7 @@ def _parser() -> argparse.ArgumentParser:
         epilog="The same as rondo report. Of what has not ended it shows what is there. docs/report.md.")
     report.add_argument("directory", type=pathlib.Path,
                         help="directory of `rondo run`, `rondo sweep`, `rondo pod` or `rondo paper`")
-    report.add_argument("-o", "--output", type=_output, metavar="FILE",
+    report.add_argument("-o", "--output", type=output_path, metavar="FILE",
                         help="ends in .html; default DIRECTORY/report.html")
 
     film = add("animate", "makes a film of a run")
@@ -82,7 +82,7 @@ def _parser() -> argparse.ArgumentParser:
 
     wheel = add("wheel", "draws height, speeds, slip, forces, torques and energies of a rim that forces move")
     wheel.add_argument("directory", type=pathlib.Path, help="directory of `rondo run` of a case with [rim]")
-    wheel.add_argument("-o", "--output", type=_output, metavar="FOLDER",
+    wheel.add_argument("-o", "--output", type=output_path, metavar="FOLDER",
                        help="directory for wheel.png and .svg; default DIRECTORY/figures")
 
     footprint = add("footprint", "draws pressure, shear, slip and what sticks in the contact of steady rolling, or of "
@@ -93,7 +93,7 @@ def _parser() -> argparse.ArgumentParser:
     footprint.add_argument("--time", type=float, metavar="SECONDS",
                            help="in three dimensions: of the snapshot nearest to it; default the "
                                 "last with contact")
-    footprint.add_argument("-o", "--output", type=_output, metavar="FOLDER",
+    footprint.add_argument("-o", "--output", type=output_path, metavar="FOLDER",
                            help="directory for footprint.png and .svg; default DIRECTORY/figures")
 
     traction = add(
@@ -102,7 +102,7 @@ def _parser() -> argparse.ArgumentParser:
                "value; carpets over slip and a load for each value of the rest.")
     traction.add_argument("directory", type=pathlib.Path,
                           help="directory of `rondo sweep` over motion.speed (or the angular velocity)")
-    traction.add_argument("-o", "--output", type=_output, metavar="FOLDER",
+    traction.add_argument("-o", "--output", type=output_path, metavar="FOLDER",
                           help="directory for the .png and .svg files; default DIRECTORY/figures")
 
     tyre = add(
@@ -112,7 +112,7 @@ def _parser() -> argparse.ArgumentParser:
                "two; where spin or speed varies, the forces at combined slip.")
     tyre.add_argument("directory", type=pathlib.Path, nargs="+",
                       help="directory of `rondo sweep` over motion.slip_angle")
-    tyre.add_argument("-o", "--output", type=_output, metavar="FOLDER",
+    tyre.add_argument("-o", "--output", type=output_path, metavar="FOLDER",
                       help="directory for the .png and .svg files; default DIRECTORY/figures of the first")
 
     campbell = add("campbell", "draws the frequencies of a body over its spin")
@@ -120,13 +120,13 @@ def _parser() -> argparse.ArgumentParser:
     campbell.add_argument("--frame", choices=(FRAME, "fixed", *OLDER_FRAMES), default=FRAME,
                           metavar="FRAME",
                           help=f"{FRAME} | fixed: in which frequencies are seen; default %(default)s")
-    campbell.add_argument("-o", "--output", type=_output, metavar="FOLDER",
+    campbell.add_argument("-o", "--output", type=output_path, metavar="FOLDER",
                           help="directory for campbell-FRAME.png and .svg; default DIRECTORY/figures")
 
     sweep = add("sweep", "draws main effects, spread, maps, curves of a sweep; rondo figures does so too",
                 prog="python3 -m rondo sweep")  # rondo sweep makes one
     sweep.add_argument("directory", type=pathlib.Path, help="directory of `rondo sweep`")
-    sweep.add_argument("-o", "--output", type=_output, metavar="FOLDER",
+    sweep.add_argument("-o", "--output", type=output_path, metavar="FOLDER",
                        help="directory for the .png and .svg files; default DIRECTORY/figures")
 
     converge = add(
@@ -146,7 +146,7 @@ def _parser() -> argparse.ArgumentParser:
     validate.add_argument("runs", type=pathlib.Path, nargs="+", metavar="REDUCED FULL",
                           help="results directories of `rondo run --reduced` and of the same case "
                                "without, in turn")
-    validate.add_argument("-o", "--output", type=_output, metavar="DIRECTORY",
+    validate.add_argument("-o", "--output", type=output_path, metavar="DIRECTORY",
                           help="directory for the tables; default REDUCED-validation, beside the first one")
     validate.add_argument("--model", type=pathlib.Path, metavar="FILE",
                           help="the reduced model; default the one that the reduced run names")
@@ -156,7 +156,7 @@ def _parser() -> argparse.ArgumentParser:
                             help="directory of `rondo validate`")
     validation.add_argument("--run", nargs="+", action="extend", default=[], metavar="NAME",
                             help="of these runs only; default: all")
-    validation.add_argument("-o", "--output", type=_output, metavar="FOLDER",
+    validation.add_argument("-o", "--output", type=output_path, metavar="FOLDER",
                             help="directory for validation.png and .svg; default DIRECTORY/figures")
 
     means = add("means", "prints the mean forces of the ground on the body")
@@ -177,7 +177,7 @@ def _parser() -> argparse.ArgumentParser:
                      help="column of history.csv; default %(default)s")
     psd.add_argument("--segment", type=float, metavar="SECONDS",
                      help="length of the segments; default such that there are eight")
-    psd.add_argument("-o", "--output", type=_output, metavar="FOLDER",
+    psd.add_argument("-o", "--output", type=output_path, metavar="FOLDER",
                      help="directory for psd-NAME.png, .svg and .csv; default DIRECTORY/figures")
     for command in film, means, validate, psd:
         command.add_argument("--from", dest="from_time", type=float, metavar="SECONDS",
@@ -188,12 +188,6 @@ def _parser() -> argparse.ArgumentParser:
         command.add_argument("--unfinished", action="store_true",
                              help="also of what has not ended, was interrupted or has failed")
     return parser
-
-
-def _output(text: str) -> pathlib.Path:
-    if not text:
-        raise argparse.ArgumentTypeError("must not be empty")
-    return pathlib.Path(text)
 
 
 def _count(text: str) -> int:

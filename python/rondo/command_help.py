@@ -6,9 +6,19 @@ from __future__ import annotations
 import argparse
 import pathlib
 import textwrap
+from typing import Any
 
 COLUMN, WIDTH = 30, 100  # of descriptions, of the page
-KINDS = {int: "INT", float: "FLOAT", pathlib.Path: "TEXT", None: "TEXT"}
+
+
+def output_path(text: str) -> pathlib.Path:
+    """An empty name is a variable of the shell that is not set, not the working directory."""
+    if not text:
+        raise argparse.ArgumentTypeError("is empty: a name is to follow, or the option is to be left out")
+    return pathlib.Path(text)
+
+
+KINDS: dict[Any, str] = {int: "INT", float: "FLOAT", pathlib.Path: "TEXT", output_path: "TEXT", None: "TEXT"}
 
 
 class CommandParser(argparse.ArgumentParser):
@@ -29,7 +39,7 @@ def _entry(action: argparse.Action) -> str:
     """A line, or two where the name is long."""
     head = f"  {','.join(action.option_strings) or action.dest}"
     if action.nargs != 0:
-        head += f" {KINDS.get(action.type, 'INT')}"  # type: ignore[arg-type]
+        head += f" {KINDS.get(action.type, 'INT')}"
         head += " ..." if action.nargs == "+" else f" x {action.nargs}" if action.nargs else ""
         head += "" if action.option_strings else " REQUIRED"
     meaning = "Print this help message and exit" if action.dest == "help" else action.help or ""

@@ -28,7 +28,11 @@ def of_pieces(part):
     is said of several keys at once."""
     if isinstance(part, dict):
         kept = {key: of_pieces(value) for key, value in part.items() if key not in ("required", "allOf")}
-        return {key: value for key, value in kept.items() if not (key == "oneOf" and {} in value)}
+        if kept.get("not") == {}:
+            del kept["not"]
+        if "oneOf" in kept and {} not in kept["oneOf"]:  # what tells them apart may stand elsewhere
+            kept["anyOf"] = kept["oneOf"]
+        return {key: value for key, value in kept.items() if key != "oneOf"}
     return [of_pieces(value) for value in part] if isinstance(part, list) else part
 
 

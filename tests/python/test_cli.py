@@ -113,6 +113,14 @@ def test_wrong_input_is_one_line_and_code_2(smooth, air, tmp_path, arguments, wo
     assert words in done.stderr
 
 
+@pytest.mark.parametrize("command", ["figures", "footprint", "wheel", "report", "validation"])
+def test_an_empty_output_is_refused(tmp_path, command):
+    done = rondo_module(command, tmp_path, "-o", "", cwd=tmp_path)
+    assert (done.returncode, done.stdout) == (2, "")
+    assert "-o/--output: is empty" in done.stderr
+    assert not list(tmp_path.iterdir())
+
+
 def test_figures_of_a_study_without_its_table(tmp_path):
     (tmp_path / "paper.json").write_text(json.dumps(
         {"format": "rondo paper 1", "status": "running", "quick": True, "table": [], "pods": [],
