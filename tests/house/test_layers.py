@@ -67,8 +67,8 @@ class Layers(unittest.TestCase):
 
     def test_what_public_headers_name_is_public(self):
         """A class that a public header declares and leaves to another header, which a program that gets or gives
-        one of that class needs: but for those that are only handed on."""
-        handed_on = {"Analysis", "CaseValues", "Hyperelasticity"}
+        one of that class needs: but for those that are only handed on, or are of another library."""
+        handed_on = {"Analysis", "CaseValues", "Hyperelasticity", "XXH3_state_s"}
         public = set(re.findall(r"[a-z0-9_/]+\.hpp", (ROOT / "cmake" / "public_headers.cmake").read_text()))
         texts = {name: (ROOT / "src/rondo" / name).read_text() for name in public - {"core/version.hpp"}}
         declared = {name for text in texts.values() for name in re.findall(r"^ *(?:class|struct) (\w+);", text, re.M)}
