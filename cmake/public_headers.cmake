@@ -7,7 +7,7 @@ set(RONDO_PUBLIC_HEADERS
     study/pod/pod.hpp study/reduce/reduce.hpp io/run_reader.hpp
     mesh/mesh.hpp mesh/disk.hpp mesh/gmsh_reader.hpp
     fem/elasticity.hpp fem/assembly.hpp fem/sector_stiffness.hpp fem/stress.hpp
-    contact/box_tree.hpp contact/ground.hpp model/model.hpp model/integrator.hpp model/internal_force.hpp
+    contact/ground.hpp model/model.hpp model/integrator.hpp model/internal_force.hpp
     model/stability/critical_step.hpp
     integrators/integrator.hpp integrators/start.hpp)
 set(RONDO_INCLUDED_HEADERS
@@ -16,7 +16,7 @@ set(RONDO_INCLUDED_HEADERS
     fem/element.hpp fem/nodal_dilatation.hpp fem/rubber.hpp
     fem/hyperelastic/numbers.hpp fem/hyperelastic/laws.hpp fem/hyperelastic/branch.hpp
     fem/hyperelastic/element.hpp fem/hyperelastic/stress.hpp modal/critical_speeds.hpp modal/modes.hpp
-    contact/law.hpp contact/coupled/band.hpp contact/coupled/block.hpp contact/coupled/coupled.hpp
+    contact/box_tree.hpp contact/law.hpp contact/coupled/band.hpp contact/coupled/block.hpp contact/coupled/coupled.hpp
     contact/coupled/problem_file.hpp
     model/contact_node.hpp model/ledger.hpp model/material_report.hpp model/motion.hpp model/rim_body.hpp
     model/saved_state.hpp model/scheme.hpp model/subdomains.hpp)
