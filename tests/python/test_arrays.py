@@ -73,11 +73,11 @@ def test_only_what_is_asked_for_is_read(tmp_path):
     """32 TB, of which nothing but three numbers is there: reading all of it cannot pass."""
     path = tmp_path / "huge.h5"
     with h5py.File(path, "w") as file:
-        data = file.create_dataset("u", (2**40, 2, 2), chunks=(1, 2, 2), dtype=float)
+        data = file.create_dataset("snapshots/u", (2**40, 2, 2), chunks=(1, 2, 2), dtype=float)
         data.attrs["units"], data.attrs["description"] = "m", "huge"
         data[12345, 1, 0] = 7.0
         data[-1, 0, 1] = 8.0
-    array = LazyArray(path, "u", 2**40)
+    array = LazyArray(path, "snapshots/u", 2**40)
     assert array[12345, 1, 0] == 7.0
     np.testing.assert_array_equal(array[12344:12347, 1, 0], [0, 7, 0])
     np.testing.assert_array_equal(array[-1], [[0, 8], [0, 0]])

@@ -9,14 +9,15 @@ import pytest
 PACKAGE = pathlib.Path(__file__).resolve().parents[2] / "python" / "rondo"
 DRAWS = ("plots", "figures", "pictures", "style")
 ALLOWED = {  # by the first folder, or the module itself: what it may import besides its own
-    "data": set(), "style": set(), "plots": {"data", "style"}, "studies": {"data"},
+    "data": set(), "style": set(), "plots": {"data", "style"}, "studies": {"data", "native"},
     "figures": {"data", "plots", "style"}, "pictures": {"data", "plots", "reports"},
     "reports": {"data", "figures", "plots", "style"},
     "native": {"data", "studies"}, "about": {"data", "native", "studies"},
     "_core": set(), "simulation": {"_core", "data", "native"}, "solution": {"data", "native", "simulation"},
     "calls": {"data", "native", "studies"},
-    "__init__": {"about", "calls", "data", "pictures", "simulation", "solution"},
-    "__main__": {"__init__", "about", "data", "studies", "figures", "reports", "style"},
+    "__init__": {"about", "calls", "data", "pictures", "interrupts", "needs", "simulation", "solution"},
+    "command_help": set(), "interrupts": set(), "needs": set(),
+    "__main__": {"__init__", "about", "command_help", "interrupts", "needs", "data", "studies", "figures", "reports", "style"},
 }
 
 
