@@ -61,7 +61,7 @@ class DynamicAnalysis : public Analysis, public Resumable, public Stepwise {
   [[nodiscard]] Setup& own_setup() noexcept { return setup_; }
   /// The law sees velocities alone. Gaps in it push bodies out of the ground, which does work.
   [[nodiscard]] virtual bool guards_impacts() const noexcept { return true; }
-  /// Of the contact length in the integrator's reports.
+  /// Which boundary the integrator measures the contact length of its reports on.
   [[nodiscard]] virtual History::Length reported_length() const noexcept {
     return History::Length::undeformed;
   }

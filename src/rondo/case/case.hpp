@@ -145,7 +145,7 @@ struct Initial {
   InitialState state = InitialState::rest;
   Vec2 velocity;  ///< added to every free node, fixed frame [m/s]
   std::array<std::array<double, 2>, 2> displacement_gradient{};  ///< u0 += G X on free nodes [-]
-  // Of free bodies only: the mesh is turned by `turn` about the origin, then moved by `position`.
+  // A free mesh is turned by `turn` about the origin, then moved by `position`.
   Vec2 position;                  ///< [m]
   double turn = 0.0;              ///< > 0 clockwise, as `angular_velocity` [rad]
   double angle = 0.0;             ///< as given: minus `turn`; 0 once the case is read [rad]

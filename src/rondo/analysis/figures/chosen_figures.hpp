@@ -28,7 +28,7 @@ struct ChosenFigure {
                                                        const FigureTable& table,
                                                        const std::filesystem::path& file);
 
-/// Of a run that is done, over the window, where there is one; else over all rows.
+/// The figures of a finished run: over the rows of the window, or over all rows if it has none.
 /// @throws FileError as FigureTable::of
 [[nodiscard]] std::vector<double> values_of(std::span<const ChosenFigure> figures,
                                             const std::filesystem::path& directory,

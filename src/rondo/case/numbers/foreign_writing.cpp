@@ -55,7 +55,7 @@ std::size_t after_digits(std::string_view text, std::size_t at) {
   return std::min(text.find_first_not_of("0123456789", at), text.size());
 }
 
-/// As a number, but for a comma in the place of the point, or D in that of E.
+/// Finds a number that is written with a comma instead of the point, or with D instead of E.
 std::string foreign_number(std::string_view text) {
   std::string right(text);
   std::size_t at = text.starts_with('-') || text.starts_with('+') ? 1 : 0;

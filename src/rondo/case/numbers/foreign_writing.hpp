@@ -7,8 +7,9 @@
 
 namespace rondo::study {
 
-/// Of one value: a decimal comma, an exponent with D, or a character beyond ASCII that stands for a
-/// minus, a quotation mark, a space, a comma or a point. In words, with what to write; empty: none.
+/// Says what is foreign in the writing of a value, and what to write instead: a decimal comma, an
+/// exponent with D, or a character beyond ASCII that stands for a minus, a quotation mark, a space,
+/// a comma or a point. Empty: nothing is.
 std::string foreign_writing(std::string_view value);
 
 /// The same of a line of TOML, in which strings and comments are not looked at.

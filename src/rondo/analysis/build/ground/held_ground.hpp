@@ -9,8 +9,8 @@ namespace rondo::study {
 
 /// At the start, and where the rim follows its tables at all times of the run. @throws InputError
 void refuse_held_in_ground(const Case& c, const Setup& s);
-/// Of a rim that forces move: that what is held is farther out than what may touch; empty: it is
-/// not.
+/// A question to the user if the held nodes of a wheel on a rim that forces move are farther from
+/// the center than its contact nodes; empty if they are not.
 [[nodiscard]] std::string held_outside_contact(const Case& c, const Setup& s);
 /// At the largest depth. @throws InputError
 void refuse_held_in_ground(const Case& c, const CrushSetup& s);

@@ -12,8 +12,8 @@ namespace {
 
 using contact::least_hidden;
 
-/// As a share of the spacing: an arc of one spacing hides 0.134, and 0.1345 in straight pieces, as
-/// it is looked at. More is refused.
+/// Largest depth that is accepted, over the spacing of the nodes. An arc whose radius is one
+/// spacing hides 0.134, and 0.1345 in the straight pieces by which it is measured.
 constexpr double most_hidden = 0.14;
 
 /// The mesh whose nodes are no farther apart than this [m].
