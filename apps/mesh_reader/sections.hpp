@@ -38,7 +38,7 @@ void count_entities_41(Counting& c);
 void count_parts_41(Counting& c);
 void count_nodes_41(Counting& c);
 void count_elements_41(Counting& c);
-/// That no part is missing.
+/// Fails if a part of the mesh is missing.
 void demand_all_parts(const Counting& c);
 
 }  // namespace rondo::reader

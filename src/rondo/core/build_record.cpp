@@ -22,7 +22,7 @@ Sources& given() {
   return sources;
 }
 
-/// Of "name version;name version"; what CMake did not find of a version is "unknown".
+/// Splits "name version;name version". A version that CMake did not find is "unknown".
 std::vector<std::pair<std::string, std::string>> pairs_in(std::string_view list) {
   std::vector<std::pair<std::string, std::string>> pairs;
   while (!list.empty()) {

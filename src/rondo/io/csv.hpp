@@ -43,7 +43,7 @@ class Csv {
   /// Rows put together by the caller are flushed at once. @throws FileError
   void rows(std::span<const double> values);
   void close();
-  /// Of the file so far.
+  /// How far the file is written, with the hash of it.
   [[nodiscard]] CsvPlace place() const { return {bytes_, hash_.text()}; }
   [[nodiscard]] const std::filesystem::path& path() const noexcept { return path_; }
 

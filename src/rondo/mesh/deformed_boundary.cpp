@@ -54,8 +54,8 @@ DeformedBoundary::Shares DeformedBoundary::collect(std::span<const Face> nodes,
   return shares;
 }
 
-/// Of the curves and surfaces of the mesh; edges beside a clamped node are in none of
-/// contact_edges.
+/// Looks at the curves and surfaces of the mesh, for contact_edges leaves out the edges beside a
+/// clamped node.
 DeformedBoundary::Shares DeformedBoundary::find() const {
   for (const Surface& surface : mesh_.surfaces)
     if (Shares shares = shares_of(surface.faces); makes_tributaries(shares)) return shares;
@@ -76,7 +76,7 @@ bool DeformedBoundary::makes_tributaries(const Shares& shares) const {
   return true;
 }
 
-/// Of an edge half of its length.
+/// Half of the length of an edge, or the share of a face.
 double DeformedBoundary::now(const Share& share, std::span<const Vec2> u,
                              std::span<const double> axial_u) const noexcept {
   const auto place = [&](std::size_t i) {

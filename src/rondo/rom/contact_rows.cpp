@@ -40,14 +40,14 @@ MatrixXd hat_weights(int n_sectors, int stride) {
 
 namespace {
 
-/// Of m points around a closed boundary, in their order.
+/// The two neighbours of each of m points that stand in order around a closed boundary.
 std::vector<std::array<int, 2>> beside_in_ring(int m) {
   std::vector<std::array<int, 2>> beside;
   for (int k = 0; k < m; ++k) beside.push_back({(k + m - 1) % m, (k + 1) % m});
   return beside;
 }
 
-/// Of candidates in the order of the rings.
+/// The two neighbours of each candidate, in the order of the rings.
 std::vector<std::array<int, 2>> beside_in(const mesh::Mesh& mesh, const pod::Rings& rings) {
   std::vector<int> place(mesh.n_nodes(), -1);
   std::vector<std::array<int, 2>> beside(rings.point.size(), {-1, -1});

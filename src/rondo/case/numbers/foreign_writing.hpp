@@ -12,7 +12,7 @@ namespace rondo::study {
 /// a comma or a point. Empty: nothing is.
 std::string foreign_writing(std::string_view value);
 
-/// The same of a line of TOML, in which strings and comments are not looked at.
+/// What foreign_writing() finds in a line of TOML outside its strings and comments.
 std::string foreign_writing_in_line(std::string_view line);
 
 /// foreign_writing() behind what is wrong with a value: "; it has ..."; empty: none.

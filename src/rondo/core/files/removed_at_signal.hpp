@@ -6,8 +6,9 @@
 
 namespace rondo {
 
-/// As long as it lives, remove_at_signal() removes the file, or the folder that is then empty.
-/// Where very many live at once, or a path is longer than the system allows, some are left out.
+/// While an object of this class lives, remove_at_signal() removes its file, or its folder if that
+/// is empty by then. Where very many live at once, or a path is longer than the system allows, some
+/// are left out.
 class RemovedAtSignal {
  public:
   explicit RemovedAtSignal(const std::filesystem::path& path) noexcept;

@@ -131,12 +131,12 @@ class Dataset {
   /// @pre that many rows here. @throws FileError: fewer there, or of another kind
   void copy_rows(const File& from, std::size_t rows);
 
-  /// Of the rows written and copied so far, one after another as they lie in the file.
+  /// Hash of the rows written and copied so far, in the order in which they lie in the file.
   /// @pre made by File::create_rows; each row was written once, in turn
   [[nodiscard]] std::string hash_of_written() const;
-  /// The same of the first rows as they are in the file. @throws FileError: cannot be read
+  /// Hash of the first rows, read from the file. @throws FileError: cannot be read
   [[nodiscard]] std::string hash_of_rows(std::size_t rows) const;
-  /// Of these rows the first with a number that is not finite; none: there is no such row.
+  /// The first of these rows that has a number which is not finite, if any.
   [[nodiscard]] std::optional<std::size_t> first_not_finite(std::size_t rows) const;
 
   [[nodiscard]] Label label() const;  ///< @throws FileError

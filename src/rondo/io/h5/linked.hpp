@@ -42,11 +42,11 @@ class LinkedFile {
   void link(const std::string& name, const std::string& file, const std::string& dataset);
   /// A dataset (rows * n) or (rows * n, columns) of float32: NaN where the other file is missing.
   void show(const std::string& name, const Shown& what);
-  /// Of a group or a dataset. It may be there already.
+  /// Sets an attribute of a group or a dataset, or replaces it.
   void set_attribute(const std::string& group, const std::string& name, std::int64_t value);
   void set_attribute(const std::string& group, const std::string& name,
                      std::span<const std::int64_t> values);
-  /// Of the text's own length, ASCII. @pre not empty
+  /// The attribute is as long as the text, which is ASCII. @pre text is not empty
   void set_attribute(const std::string& group, const std::string& name, const std::string& text);
 
   /// The file as it is now. @throws FileError

@@ -105,8 +105,8 @@ SolidElimination::SolidElimination(Layers layers, const RollingOrder& order)
   if (bad != 0) surface_.setConstant(no_number);
 }
 
-/// Of a matrix that is not Hermitian. One that is singular, or not finite, leaves no numbers, and
-/// what is solved with it has none.
+/// The matrix need not be Hermitian. If it is singular or not finite, all that is solved with it is
+/// NaN.
 void SolidElimination::factorise(Block here) {
   Factor f{std::move(here), {}};
   const int n = size_of(f.matrix);

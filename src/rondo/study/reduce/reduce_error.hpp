@@ -22,7 +22,7 @@ struct MeanForce {
   double friction = std::numeric_limits<double>::quiet_NaN();  ///< power that it takes [W/m]
 };
 
-/// Of means that a model predicts against a run's own. @pre own.y > 0
+/// Errors of the mean forces that a model predicts, against those of the run itself. @pre own.y > 0
 [[nodiscard]] ForceErrors errors_of(const MeanForce& predicted, const MeanForce& own) noexcept;
 
 /// From history.csv; none: the run has none, or no ground. @throws FileError

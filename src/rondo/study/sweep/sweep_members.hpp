@@ -69,7 +69,7 @@ struct PlannedSweep {
   bool direct = false;
 };
 
-/// Of the figures of a member, in their order.
+/// Labels of the figures of a member, in their order.
 [[nodiscard]] std::vector<ColumnLabel> figure_labels(const PlannedSweep& plan);
 
 /// Reads every member's case, builds every member once that is made here. @throws InputError with

@@ -26,7 +26,7 @@ class StudyReader {
   /// Null: it is not there.
   [[nodiscard]] const CaseValue* find(const std::string& path) const;
   [[nodiscard]] bool has_table(const std::string& path) const;
-  /// Of tables [[vary]].
+  /// Number of tables [[vary]].
   [[nodiscard]] std::size_t n_vary() const;
   [[nodiscard]] int line_of(const std::string& path) const;
 
