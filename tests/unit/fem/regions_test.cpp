@@ -5,11 +5,14 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <numbers>
 
 #include "rondo/fem/assembly.hpp"
+#include "rondo/fem/region_sizes.hpp"
 #include "rondo/fem/sector_stiffness.hpp"
 #include "rondo/fem/stress.hpp"
 #include "rondo/mesh/disk.hpp"
+#include "rondo/mesh/solid/wheel.hpp"
 
 using namespace rondo;
 using namespace rondo::fem;
@@ -40,6 +43,29 @@ mesh::Mesh only(const mesh::Mesh& m, int region) {
 }
 
 }  // namespace
+
+/// Polygons of 9 corners with radii from the rim to the tread.
+TEST(Regions, SizesAreThoseOfThePolygons) {
+  const mesh::Mesh m = layered_disk();
+  const std::vector<double> found = region_sizes(m, 2);
+  double expected[2] = {0.0, 0.0};
+  const double turn = 2.0 * std::numbers::pi / 9.0;
+  for (int layer = 0; layer < 4; ++layer) {
+    const double in = 0.15 + 0.0375 * layer, out = in + 0.0375;
+    expected[layer % 2] += 4.5 * std::sin(turn) * (out * out - in * in);
+  }
+  for (std::size_t r = 0; r < 2; ++r) EXPECT_NEAR(found[r], expected[r], 1e-14);
+}
+
+TEST(Regions, SizesOfAWheelAreThoseOfThePolygonsTimesItsWidth) {
+  mesh::Wheel wheel;
+  wheel.width = 0.1;
+  wheel.disk.radial = 3;
+  wheel.disk.circumferential = 20;
+  const mesh::Mesh m = mesh::make_wheel(wheel);
+  const double area = 10.0 * std::sin(2.0 * std::numbers::pi / 20.0) * (0.09 - 0.0225);
+  EXPECT_NEAR(region_sizes(m, 1).at(0), 0.1 * area, 1e-15);
+}
 
 TEST(Regions, StiffnessAndMassAreSumsOverTheRegions) {
   const mesh::Mesh m = layered_disk();

@@ -5,24 +5,10 @@
 
 #include <algorithm>
 
-#include "rondo/fem/assembly.hpp"
-#include "rondo/fem/solid/solid_sector.hpp"
+#include "rondo/fem/region_sizes.hpp"
 
 namespace rondo::study {
 namespace {
-
-/// Area or volume of one region: the mass of the body if this region had the density 1 and the
-/// others 0.
-double size_of(const mesh::Mesh& mesh, std::span<const fem::Material> materials,
-               std::size_t region) {
-  std::vector<fem::Material> dense(materials.begin(), materials.end());
-  for (std::size_t k = 0; k < dense.size(); ++k) dense[k].density = k == region ? 1.0 : 0.0;
-  const std::vector<double> of_nodes =
-      mesh.is_solid() ? fem::solid_mass(mesh, dense) : fem::lumped_mass(mesh, dense);
-  double size = 0.0;
-  for (const double share : of_nodes) size += share;
-  return size;
-}
 
 RegionFigures whole_of(std::span<const RegionFigures> regions) {
   RegionFigures whole;
@@ -43,6 +29,7 @@ std::string text_of(const RegionFigures& region, bool solid) {
 
 std::vector<RegionFigures> region_figures(const mesh::Mesh& mesh,
                                           std::span<const fem::Material> materials) {
+  const std::vector<double> sizes = fem::region_sizes(mesh, materials.size());
   std::vector<RegionFigures> regions(materials.size());
   for (std::size_t k = 0; k < regions.size(); ++k) {
     if (k < mesh.region_names.size()) regions[k].name = mesh.region_names[k];
@@ -50,8 +37,8 @@ std::vector<RegionFigures> region_figures(const mesh::Mesh& mesh,
         mesh.region.empty()
             ? mesh.n_elements()
             : static_cast<std::size_t>(std::ranges::count(mesh.region, static_cast<int>(k)));
-    regions[k].size = size_of(mesh, materials, k);
-    regions[k].mass = materials[k].density * regions[k].size;
+    regions[k].size = sizes[k];
+    regions[k].mass = materials[k].density * sizes[k];
   }
   return regions;
 }

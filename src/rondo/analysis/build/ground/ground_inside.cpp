@@ -90,6 +90,7 @@ std::vector<Vec2> points_in(const contact::Ground& ground, const PlacedCell& cel
     low = {std::min(low.x, corner.x), std::min(low.y, corner.y)};
     high = {std::max(high.x, corner.x), std::max(high.y, corner.y)};
   }
+  if (low.y > ground.top()) return {};
   if (std::abs(ground.distance(0.5 * (low + high))) > 0.5 * norm(high - low)) return {};
   std::vector<Vec2> points = ground.surface_points(low, high, 0.25 * cell.size);
   std::erase_if(points, [&](Vec2 p) { return !mesh::shape_functions(cell.corners(), p); });

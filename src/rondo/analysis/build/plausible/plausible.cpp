@@ -7,11 +7,9 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
-#include <numeric>
 
 #include "rondo/case/case_keys.hpp"
-#include "rondo/fem/assembly.hpp"
-#include "rondo/fem/solid/solid_sector.hpp"
+#include "rondo/fem/region_sizes.hpp"
 
 namespace rondo::study {
 namespace {
@@ -19,9 +17,10 @@ namespace {
 constexpr double earth_gravity = 9.81;  // m/s²
 
 double mass_of(const mesh::Mesh& mesh, const std::vector<fem::Material>& materials) {
-  const std::vector<double> mass =
-      mesh.is_solid() ? fem::solid_mass(mesh, materials) : fem::lumped_mass(mesh, materials);
-  return std::accumulate(mass.begin(), mass.end(), 0.0);
+  const std::vector<double> sizes = fem::region_sizes(mesh, materials.size());
+  double mass = 0.0;
+  for (std::size_t k = 0; k < sizes.size(); ++k) mass += materials[k].density * sizes[k];
+  return mass;
 }
 
 void warn_of_load(const std::string& key, double load, double mass, bool solid,
