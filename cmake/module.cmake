@@ -3,7 +3,8 @@
 # One static library for a room of src/rondo: all sources of the folders (its own where none is
 # named), and those that are named. rondo::NAME is its alias, inside and after install.
 function(rondo_warnings target)
-  target_compile_options(${target} PRIVATE -Wall -Wextra -Wconversion -Wshadow -Wpedantic
+  target_compile_options(${target} PRIVATE -Wall -Wextra -Wconversion -Wpedantic
+                                           $<$<NOT:$<BOOL:${RONDO_UNITY}>>:-Wshadow>
                                            $<$<BOOL:${RONDO_WERROR}>:-Werror>)
 endfunction()
 

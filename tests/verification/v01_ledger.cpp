@@ -10,6 +10,8 @@
 #include "support/stepping.hpp"
 #include "support/traps.hpp"
 
+namespace v01_ledger {
+
 using namespace rondo;
 using namespace rondo::dynamics;
 
@@ -110,3 +112,5 @@ TEST(LedgerCheck, SeesAVelocityChangedBehindItsBack) {
   run.advance(std::span(reports).first(2));
   EXPECT_GT(reports[1].balance.relative, 1e-9);
 }
+
+}  // namespace v01_ledger

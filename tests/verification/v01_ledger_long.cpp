@@ -8,6 +8,8 @@
 #include "support/stepping.hpp"
 #include "support/traps.hpp"
 
+namespace v01_ledger_long {
+
 using namespace rondo;
 using namespace rondo::dynamics;
 
@@ -51,3 +53,5 @@ TEST_P(LedgerLong, FreeSpinWithoutDampingOverAMillionSteps) {
 
 INSTANTIATE_TEST_SUITE_P(Both, LedgerLong, testing::ValuesIn(test::both_operators),
                          [](const auto& p) { return test::name(p.param); });
+
+}  // namespace v01_ledger_long

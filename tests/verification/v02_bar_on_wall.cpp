@@ -10,6 +10,8 @@
 #include "support/bars.hpp"
 #include "support/traps.hpp"
 
+namespace v02_bar_on_wall {
+
 using namespace rondo;
 using namespace rondo::dynamics;
 
@@ -89,3 +91,5 @@ INSTANTIATE_TEST_SUITE_P(All, BarOnWall,
                                          Row{200, 9.9505, fem::Plane::strain},
                                          Row{400, 9.9688, fem::Plane::stress}),
                          [](const auto& p) { return fmt::format("N{}", p.param.elements); });
+
+}  // namespace v02_bar_on_wall

@@ -8,6 +8,8 @@
 #include "support/bars.hpp"
 #include "support/traps.hpp"
 
+namespace v03_bouncing_bar {
+
 using namespace rondo;
 using namespace rondo::dynamics;
 
@@ -64,3 +66,5 @@ INSTANTIATE_TEST_SUITE_P(All, BouncingBar,
                                          Row{200, 0.99608, fem::Plane::strain},
                                          Row{400, 0.99789, fem::Plane::stress}),
                          [](const auto& p) { return fmt::format("N{}", p.param.elements); });
+
+}  // namespace v03_bouncing_bar

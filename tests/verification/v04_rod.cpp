@@ -12,6 +12,8 @@
 #include "support/bars.hpp"
 #include "support/traps.hpp"
 
+namespace v04_rod {
+
 using namespace rondo;
 using namespace rondo::dynamics;
 
@@ -136,3 +138,5 @@ TEST(RodLetGo, EnergySafeImpactsTakeMore) {
   EXPECT_NEAR(left(0.8, 50, contact::Impact::moreau), 0.3448, 1e-4);
   EXPECT_NEAR(left(0.8, 50, contact::Impact::energy_safe), 0.0210, 1e-4);
 }
+
+}  // namespace v04_rod

@@ -9,6 +9,8 @@
 
 #include "support/bars.hpp"
 
+namespace v04_rod_long {
+
 using namespace rondo;
 
 namespace {
@@ -48,3 +50,5 @@ TEST(RodLong, DampingOfTheHighestWaveHoldsIt) {
       EXPECT_LT(found.relative, 1e-9) << n << ' ' << share;
     }
 }
+
+}  // namespace v04_rod_long

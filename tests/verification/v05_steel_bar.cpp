@@ -6,6 +6,8 @@
 #include "support/bars.hpp"
 #include "support/traps.hpp"
 
+namespace v05_steel_bar {
+
 using namespace rondo;
 using namespace rondo::dynamics;
 
@@ -38,3 +40,5 @@ TEST(SteelBar, HitsAWall) {
     EXPECT_LT(course.relative, 1e-12);
   }
 }
+
+}  // namespace v05_steel_bar

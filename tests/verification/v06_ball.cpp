@@ -11,6 +11,8 @@
 #include "support/stepping.hpp"
 #include "support/traps.hpp"
 
+namespace v06_ball {
+
 using namespace rondo;
 using namespace rondo::dynamics;
 
@@ -83,3 +85,5 @@ INSTANTIATE_TEST_SUITE_P(All, Ball,
                          testing::Values(Row{"half", 0.5, 1.354571, 5},
                                          Row{"nine_tenths", 0.9, 8.578949, 12}),
                          [](const auto& p) { return p.param.name; });
+
+}  // namespace v06_ball

@@ -10,6 +10,8 @@
 #include "support/incline.hpp"
 #include "support/traps.hpp"
 
+namespace v07_incline {
+
 using namespace rondo;
 using namespace rondo::dynamics;
 
@@ -84,3 +86,5 @@ TEST(Incline, ABlockStopsWhereItsEnergyIsGone) {
     before = off;
   }
 }
+
+}  // namespace v07_incline

@@ -7,6 +7,8 @@
 #include "support/incline.hpp"
 #include "support/traps.hpp"
 
+namespace v07_incline_long {
+
 using namespace rondo;
 
 TEST(InclineLong, ABlockThatSticksDoesNotCreep) {
@@ -19,3 +21,5 @@ TEST(InclineLong, ABlockThatSticksDoesNotCreep) {
     EXPECT_EQ(stuck.before, stuck.after) << angle;  // to the last bit
   }
 }
+
+}  // namespace v07_incline_long

@@ -11,6 +11,8 @@
 #include "support/thrown_disk.hpp"
 #include "support/traps.hpp"
 
+namespace v08_thrown_disk {
+
 using namespace rondo;
 using namespace rondo::dynamics;
 
@@ -134,3 +136,5 @@ TEST(TwoDisks, ACollisionKeepsLinearAndAngularMomentum) {
     turned = turn;
   }
 }
+
+}  // namespace v08_thrown_disk

@@ -9,6 +9,8 @@
 #include "support/models.hpp"
 #include "support/spinning_annulus.hpp"
 
+namespace v09_stationary_spin {
+
 using namespace rondo;
 
 namespace {
@@ -73,3 +75,5 @@ TEST(StationarySpinMesh, NodalStressConvergesAtLeastFirstOrder) {
   }
   EXPECT_LT(before_r, 0.02);
 }
+
+}  // namespace v09_stationary_spin

@@ -5,6 +5,8 @@
 #include "support/spin_up.hpp"
 #include "support/traps.hpp"
 
+namespace v10_spin_up {
+
 using namespace rondo;
 using namespace rondo::dynamics;
 
@@ -49,3 +51,5 @@ TEST_P(SpinUp, OscillatesAboutTheStationarySpin) {
 
 INSTANTIATE_TEST_SUITE_P(Both, SpinUp, testing::ValuesIn(test::both_operators),
                          [](const auto& p) { return test::name(p.param); });
+
+}  // namespace v10_spin_up

@@ -2,6 +2,8 @@
 /// V10, long times: a million steps without damping, by both operators.
 #include "support/spin_up.hpp"
 
+namespace v10_spin_up_long {
+
 using namespace rondo;
 using namespace rondo::dynamics;
 
@@ -15,3 +17,5 @@ TEST_P(SpinUpLong, OscillatesAboutTheStationarySpinForEver) {
 
 INSTANTIATE_TEST_SUITE_P(Both, SpinUpLong, testing::ValuesIn(test::both_operators),
                          [](const auto& p) { return test::name(p.param); });
+
+}  // namespace v10_spin_up_long

@@ -13,6 +13,8 @@
 #include "rondo/statics/stationary_spin.hpp"
 #include "support/models.hpp"
 
+namespace v11_frequencies {
+
 using namespace rondo;
 using modal::Wave;
 
@@ -99,3 +101,5 @@ TEST(Frequencies, TranslationOfAFreeDiskTurnsBackWithTheSpin) {
   }
   EXPECT_EQ(translations, 2);
 }
+
+}  // namespace v11_frequencies

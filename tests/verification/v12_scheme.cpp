@@ -15,6 +15,8 @@
 #include "support/models.hpp"
 #include "support/stepping.hpp"
 
+namespace v12_scheme {
+
 using namespace rondo;
 using namespace rondo::dynamics;
 using ComplexNumber = std::complex<double>;
@@ -229,3 +231,5 @@ TEST(AsPrinted, LedgerShowsTheEnergyCreated) {
 
 INSTANTIATE_TEST_SUITE_P(Both, Schemes, testing::ValuesIn(test::both_operators),
                          [](const auto& p) { return test::name(p.param); });
+
+}  // namespace v12_scheme

@@ -13,6 +13,8 @@
 #include "support/models.hpp"
 #include "support/stepping.hpp"
 
+namespace v13_critical_step {
+
 using namespace rondo;
 using namespace rondo::dynamics;
 
@@ -113,3 +115,5 @@ TEST(CriticalStep, FormulaWithStiffnessDamping) {
   // Mass damping alone, much larger than the frequencies: v⁺ = (1 - Δt α) v⁻ turns over at 2/α.
   EXPECT_NEAR(critical_step_of(omega, {0.0, 1e9}), 2.0 / 1e9, 1e-17);
 }
+
+}  // namespace v13_critical_step

@@ -2,6 +2,8 @@
 /// V14: half width and largest pressure of a line contact against Hertz; what the rim changes.
 #include "support/hertz.hpp"
 
+namespace v14_hertz {
+
 using namespace rondo;
 
 /// What is left at the finest mesh: (a/R)² = 0.15 %, by which a circle is no parabola, and some
@@ -54,3 +56,5 @@ TEST(Hertz, TheRimNarrowsTheContact) {
   EXPECT_GT(thin.half_width, -0.02);
   EXPECT_LT(thin.pressure, 0.02);
 }
+
+}  // namespace v14_hertz

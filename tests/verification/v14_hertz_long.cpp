@@ -2,6 +2,8 @@
 /// V14 on a mesh with 20 elements to the half width.
 #include "support/hertz.hpp"
 
+namespace v14_hertz_long {
+
 using namespace rondo;
 
 TEST(HertzLong, HalfWidthAndPressure) {
@@ -17,3 +19,5 @@ TEST(HertzLong, NearlyIncompressibleByBBar) {
   EXPECT_LT(std::abs(finest.pressure), 1.5e-3);
   EXPECT_LT(finest.misfit, 2e-3);  // 5.4e-3 at half as many
 }
+
+}  // namespace v14_hertz_long

@@ -16,6 +16,8 @@
 #include "rondo/mesh/disk.hpp"
 #include "rondo/statics/crush.hpp"
 
+namespace v15_cattaneo {
+
 using namespace rondo;
 
 namespace {
@@ -165,3 +167,5 @@ TEST(Cattaneo, StickZoneAndShear) {
   EXPECT_LT(fine.stick, 0.02);
   EXPECT_LT(fine.shear, 0.03);
 }
+
+}  // namespace v15_cattaneo

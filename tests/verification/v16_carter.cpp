@@ -4,6 +4,8 @@
 /// make sliding chatter.
 #include "support/carter.hpp"
 
+namespace v16_carter {
+
 using namespace rondo;
 
 /// 4 elements to the half width, which is found to a fifth of one. Creeps are off by the curvature
@@ -23,3 +25,5 @@ TEST(Carter, FullSlidingIsFullFriction) {
     RecordProperty(fmt::format("full_{}", creep), fmt::format("Q/(muP) {:.5f}", m.share()));
   }
 }
+
+}  // namespace v16_carter

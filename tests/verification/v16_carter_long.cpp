@@ -2,6 +2,8 @@
 /// V16 with 8 elements to the half width, and up to tractions where little of the contact sticks.
 #include "support/steady_carter.hpp"
 
+namespace v16_carter_long {
+
 using namespace rondo;
 
 /// Near full sliding the zone comes out wide, because full sliding has 0.99 μP (the nodes swing a
@@ -29,3 +31,5 @@ TEST(SteadyCarterLong, CreepAndStickZone) {
   test::SteadyCarter disk(192, 14400, statics::SlipDifference::upwind, test::finest_bounds);
   test::expect_carter(disk, 0.015, 0.017);
 }
+
+}  // namespace v16_carter_long

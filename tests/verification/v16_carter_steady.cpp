@@ -2,6 +2,8 @@
 /// V16 by steady rolling: every traction from braking to driving against Carter.
 #include "support/steady_carter.hpp"
 
+namespace v16_carter_steady {
+
 using namespace rondo;
 using statics::SlipDifference;
 
@@ -32,3 +34,5 @@ TEST(SteadyCarter, TractionOfACreep) {
   EXPECT_NEAR(brakes, 0.64, 0.01);
   testing::Test::RecordProperty("shares", fmt::format("{:.4f} {:.4f}", drives, brakes));
 }
+
+}  // namespace v16_carter_steady

@@ -12,6 +12,8 @@
 #include "support/models.hpp"
 #include "support/spinning_annulus.hpp"
 
+namespace v17_near_incompressible {
+
 using namespace rondo;
 using fem::Integration;
 
@@ -204,3 +206,5 @@ TEST(NearlyIncompressible, TheSpinningAnnulusByTriangles) {
     before_r = radial;
   }
 }
+
+}  // namespace v17_near_incompressible

@@ -12,6 +12,8 @@
 #include "support/models.hpp"
 #include "support/stepping.hpp"
 
+namespace v17_patch {
+
 using namespace rondo;
 
 namespace {
@@ -135,3 +137,5 @@ TEST(FreeFall, EveryNodeFallsAtG) {
   }
   EXPECT_LT(run.balance().relative, 1e-13);
 }
+
+}  // namespace v17_patch

@@ -10,6 +10,8 @@
 #include "support/stepping.hpp"
 #include "support/traps.hpp"
 
+namespace v18_rolling_friction {
+
 using namespace rondo;
 using namespace rondo::dynamics;
 
@@ -54,3 +56,5 @@ INSTANTIATE_TEST_SUITE_P(
                                      Row{"friction_6", 0.6, -2.308e4, 1.9000e5}),
                      testing::ValuesIn(test::both_operators)),
     [](const auto& p) { return test::name(std::get<0>(p.param).name, std::get<1>(p.param)); });
+
+}  // namespace v18_rolling_friction

@@ -17,6 +17,8 @@
 #include "rondo/analysis/run.hpp"
 #include "rondo/study/pod/pod.hpp"
 
+namespace v19_reducibility {
+
 using namespace rondo;
 using namespace rondo::study;
 
@@ -136,3 +138,5 @@ INSTANTIATE_TEST_SUITE_P(
                     Counts{"massless-boundary", "displacement", "rectified", "fourier", {1, 1, 4}},
                     Counts{"massless-undamped", "velocity", "rectified", "fourier", {4, 9, 65}}),
     name_of);
+
+}  // namespace v19_reducibility

@@ -10,6 +10,8 @@
 #include "support/models.hpp"
 #include "support/stepping.hpp"
 
+namespace v20_tread {
+
 using namespace rondo;
 using namespace rondo::dynamics;
 
@@ -65,3 +67,5 @@ TEST_P(Tread, ForcesAndPitchFrequency) {
 
 INSTANTIATE_TEST_SUITE_P(Both, Tread, testing::ValuesIn(test::both_operators),
                          [](const auto& p) { return test::name(p.param); });
+
+}  // namespace v20_tread

@@ -11,6 +11,8 @@
 #include "support/stepping.hpp"
 #include "support/traps.hpp"
 
+namespace v21_impacts {
+
 using namespace rondo;
 using namespace rondo::dynamics;
 using contact::Impact;
@@ -130,3 +132,5 @@ TEST(Impacts, BlocksThatBounceHaveNoMoreThanTheyCameWith) {
           EXPECT_LT(found.most, 1.0 + most + 1e-6) << safety << ' ' << turned << ' ' << e;
         }
 }
+
+}  // namespace v21_impacts

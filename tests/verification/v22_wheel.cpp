@@ -7,6 +7,8 @@
 #include "support/traps.hpp"
 #include "support/wheel_rows.hpp"
 
+namespace v22_wheel {
+
 using namespace rondo;
 
 /// 0.8 of the critical one, with a rim that is free to move and with α.
@@ -66,3 +68,5 @@ TEST(WheelUnderLoad, ItsMotionHeldGivesItsForcesBack) {
   EXPECT_NEAR(found.hub_force.x, -found.force.x, 1e-4 * 1.5e5);
   EXPECT_NEAR(found.hub_force.y, -found.force.y, 1e-4 * 1.5e5);
 }
+
+}  // namespace v22_wheel

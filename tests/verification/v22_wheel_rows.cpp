@@ -7,6 +7,8 @@
 #include "support/traps.hpp"
 #include "support/wheel_rows.hpp"
 
+namespace v22_wheel_rows {
+
 using namespace rondo;
 
 namespace {
@@ -26,3 +28,5 @@ INSTANTIATE_TEST_SUITE_P(All, Wheels,
                            return fmt::format("{}_{}", std::get<0>(p.param).name,
                                               test::column_name(std::get<1>(p.param)));
                          });
+
+}  // namespace v22_wheel_rows

@@ -6,6 +6,8 @@
 
 #include "support/wheel_rows.hpp"
 
+namespace v22_wheel_rows_long {
+
 using namespace rondo;
 
 namespace {
@@ -26,3 +28,5 @@ TEST_P(WheelsLong, AreAsAnotherProgramHasThem) {
 
 INSTANTIATE_TEST_SUITE_P(All, WheelsLong, testing::ValuesIn(known_rows()),
                          [](const auto& p) { return p.param.name; });
+
+}  // namespace v22_wheel_rows_long

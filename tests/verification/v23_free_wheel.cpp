@@ -9,6 +9,8 @@
 #include "support/traps.hpp"
 #include "support/wheel_rows.hpp"
 
+namespace v23_free_wheel {
+
 using namespace rondo;
 using dynamics::StepReport;
 
@@ -145,3 +147,5 @@ TEST(FreeWheel, ASlopeIsTiltedGround) {
   EXPECT_LT(spin, 1e-9 * flat.back().rim.spin);
   EXPECT_LT(impulse, 1e-8 * largest);
 }
+
+}  // namespace v23_free_wheel

@@ -12,6 +12,8 @@
 #include "support/stepping.hpp"
 #include "support/traps.hpp"
 
+namespace v25_wheel_modes {
+
 using namespace rondo;
 using namespace rondo::dynamics;
 
@@ -102,3 +104,5 @@ TEST(WheelModes, FrequenciesUnderLoad) {
     EXPECT_NEAR(found, omega, 1e-7 * omega);
   }
 }
+
+}  // namespace v25_wheel_modes

@@ -7,6 +7,8 @@
 #include "support/wheel_momenta.hpp"
 #include "support/wheel_rows.hpp"
 
+namespace v26_wheel_ledger {
+
 using namespace rondo;
 
 namespace {
@@ -78,3 +80,5 @@ TEST(WheelLedgerFlight, MomentaAreKept) {
     EXPECT_EQ(wheel.run().balance().works.contact, 0.0);
   }
 }
+
+}  // namespace v26_wheel_ledger

@@ -9,6 +9,8 @@
 
 #include "support/steady_body.hpp"
 
+namespace v30_steady_rolling {
+
 using namespace rondo;
 using namespace rondo::statics;
 
@@ -223,3 +225,5 @@ TEST(SteadyRolling, RandomCasesMeetTheLawWithManySamples) {
     EXPECT_LT(solve_random_cases(samples, 20, 5), 10);
   }
 }
+
+}  // namespace v30_steady_rolling

@@ -10,6 +10,8 @@
 #include "rondo/modal/critical_speeds.hpp"
 #include "support/steady_body.hpp"
 
+namespace v30_steady_rows {
+
 using namespace rondo;
 using namespace rondo::statics;
 
@@ -162,3 +164,5 @@ TEST(SteadyRollingRows, CriticalSpinOfTheMesh) {
   EXPECT_EQ(found[0].diameters, 90);
   EXPECT_NEAR(found[0].spin, 181.780, 5e-4);
 }
+
+}  // namespace v30_steady_rows

@@ -10,6 +10,8 @@
 #include "support/half_plane.hpp"
 #include "support/steady_body.hpp"
 
+namespace v31_bentall_johnson {
+
 using namespace rondo;
 
 namespace {
@@ -113,3 +115,5 @@ TEST(BentallJohnson, AnIncompressibleCylinderHasCurvatureAlone) {
   EXPECT_LT(found.curvature, -0.3);
   RecordProperty("0.4999", fmt::format("{:.5f}, curvature {:.3f}", found.small, found.curvature));
 }
+
+}  // namespace v31_bentall_johnson

@@ -15,6 +15,8 @@
 #include "support/implicit.hpp"
 #include "support/traps.hpp"
 
+namespace v32_implicit_elements {
+
 using namespace rondo;
 using namespace rondo::dynamics;
 
@@ -256,3 +258,5 @@ INSTANTIATE_TEST_SUITE_P(Implicit, ImplicitLimit,
                          [](const auto& p) {
                            return test::name(std::get<0>(p.param).name, std::get<1>(p.param));
                          });
+
+}  // namespace v32_implicit_elements

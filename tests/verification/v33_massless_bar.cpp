@@ -8,6 +8,8 @@
 #include "support/massless_bars.hpp"
 #include "support/traps.hpp"
 
+namespace v33_massless_bar {
+
 using namespace rondo;
 using namespace rondo::dynamics;
 
@@ -75,3 +77,5 @@ TEST(MasslessBarGaps, TenPeriods) {
     EXPECT_NEAR(found.left, row.left, row.digits) << row.elements << ' ' << row.courant;
   }
 }
+
+}  // namespace v33_massless_bar

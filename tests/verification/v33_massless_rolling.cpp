@@ -14,6 +14,8 @@
 #include "support/stepping.hpp"
 #include "support/traps.hpp"
 
+namespace v33_massless_rolling {
+
 using namespace rondo;
 using namespace rondo::dynamics;
 
@@ -208,3 +210,5 @@ TEST(MasslessStep, IsLongerWhereTheMeshIsGradedTowardsTheRim) {
     EXPECT_LE(ratio, most) << grading;
   }
 }
+
+}  // namespace v33_massless_rolling

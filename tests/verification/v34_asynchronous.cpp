@@ -12,6 +12,8 @@
 #include "support/parts.hpp"
 #include "support/traps.hpp"
 
+namespace v34_asynchronous {
+
 using namespace rondo;
 using namespace rondo::dynamics;
 
@@ -320,3 +322,5 @@ TEST(Asynchronous, FollowsTablesOfSpeedAndHeight) {
     EXPECT_LT(report.balance.relative, 1e-13);
   }
 }
+
+}  // namespace v34_asynchronous

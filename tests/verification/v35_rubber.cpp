@@ -11,7 +11,7 @@
 #include "rondo/statics/rubber_crush.hpp"
 #include "support/rubber.hpp"
 
-namespace rondo::dynamics {
+namespace rondo::dynamics::v35_rubber {
 namespace {
 
 using test::Built;
@@ -157,4 +157,4 @@ TEST(Rubber, TheCriticalStepFallsWithCompression) {
   }
 }
 
-}  // namespace rondo::dynamics
+}  // namespace rondo::dynamics::v35_rubber

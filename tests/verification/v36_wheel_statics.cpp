@@ -15,6 +15,8 @@
 #include "rondo/statics/stationary_spin.hpp"
 #include "support/spinning_annulus.hpp"
 
+namespace v36_wheel_statics {
+
 using namespace rondo;
 using modal::Wave;
 
@@ -188,3 +190,5 @@ TEST(WheelStatics, HeldAlongTheAxleItHasTheFrequenciesOfThePlaneDisk) {
   for (const auto& [key, omega] : expected)
     EXPECT_NEAR(lowest.at(key), omega, 5.1e-4) << key.first << " " << static_cast<int>(key.second);
 }
+
+}  // namespace v36_wheel_statics

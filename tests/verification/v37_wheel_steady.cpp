@@ -11,6 +11,8 @@
 #include "support/kalker.hpp"
 #include "support/solid_steady.hpp"
 
+namespace v37_wheel_steady {
+
 using namespace rondo;
 using namespace rondo::statics;
 using test::solved;
@@ -239,3 +241,5 @@ TEST(SteadyWheel, IsAsStiffAsAFlatTreadInTime) {
   d.traction = 0.0;
   EXPECT_NEAR(-solved(window, d).slopes.by_slip_angle.forces.lateral, 90.4e3, 0.03 * 90.4e3);
 }
+
+}  // namespace v37_wheel_steady

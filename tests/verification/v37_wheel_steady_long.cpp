@@ -8,6 +8,8 @@
 #include "support/kalker.hpp"
 #include "support/solid_steady.hpp"
 
+namespace v37_wheel_steady_long {
+
 using namespace rondo;
 using namespace rondo::statics;
 using test::solved;
@@ -81,3 +83,5 @@ TEST(SteadyWheelLong, CreepsAsKalkersLinearTheory) {
   const double c11 = test::at_poisson(0.45, 3.40, 4.12, 5.20);
   EXPECT_NEAR(-by_speed * d.speed / (shear_modulus * area), c11, 0.06 * c11);
 }
+
+}  // namespace v37_wheel_steady_long

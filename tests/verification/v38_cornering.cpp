@@ -11,7 +11,7 @@
 #include "rondo/integrators/start.hpp"
 #include "support/solid_wheel.hpp"
 
-namespace rondo::dynamics {
+namespace rondo::dynamics::v38_cornering {
 namespace {
 
 using test::Cornering;
@@ -170,4 +170,4 @@ TEST(V38Cornering, HeldAlongTheAxleItIsThePlaneDisk) {
 }
 
 }  // namespace
-}  // namespace rondo::dynamics
+}  // namespace rondo::dynamics::v38_cornering

@@ -9,7 +9,7 @@
 #include "rondo/integrators/start.hpp"
 #include "support/solid_wheel.hpp"
 
-namespace rondo::dynamics {
+namespace rondo::dynamics::v38_cornering_long {
 namespace {
 
 TEST(V38CorneringLong, TheLedgerClosesOverAHundredThousandSteps) {
@@ -32,4 +32,4 @@ TEST(V38CorneringLong, TheLedgerClosesOverAHundredThousandSteps) {
 }
 
 }  // namespace
-}  // namespace rondo::dynamics
+}  // namespace rondo::dynamics::v38_cornering_long

@@ -9,6 +9,8 @@
 
 #include "../support/latin.hpp"
 
+namespace v39_latin {
+
 using namespace rondo;
 
 namespace {
@@ -215,3 +217,5 @@ TEST(V39Latin, AnotherFrictionOrDepthTakesFewerSolvesFromABasis) {
     EXPECT_LT(again.error, 1e-3);
   }
 }
+
+}  // namespace v39_latin

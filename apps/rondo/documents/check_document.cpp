@@ -17,7 +17,7 @@ constexpr Member<Line> line_members[] = {
     {"text", "string", "", "its value, in words", [](const Line& l) -> Json { return l.second; }},
 };
 
-constexpr Member<Checked> members[] = {
+constexpr Member<Checked> check_members[] = {
     {"title", "string", "", "of the case", [](const Checked& k) -> Json { return k.c.title; }},
     {"analysis", "string", "", "analysis.kind",
      [](const Checked& k) -> Json { return study::type_of(k.c).name; }},
@@ -56,11 +56,11 @@ constexpr Member<Checked> members[] = {
 }  // namespace
 
 Json check_document(const study::Case& c, const study::CheckReport& report) {
-  return object_of<Checked>(members, {c, report});
+  return object_of<Checked>(check_members, {c, report});
 }
 
 Json check_schema() {
-  return schema_of<Checked>(members);
+  return schema_of<Checked>(check_members);
 }
 
 }  // namespace rondo::app

@@ -6,7 +6,7 @@
 namespace rondo::app {
 namespace {
 
-constexpr Member<FmuReport> members[] = {
+constexpr Member<FmuReport> fmu_members[] = {
     {"fmu", "string", "", "file of the FMU",
      [](const FmuReport& r) -> Json { return r.file.string(); }},
     {"fmu_bytes", "integer", "B", "its size", [](const FmuReport& r) -> Json { return r.bytes; }},
@@ -24,11 +24,11 @@ constexpr Member<FmuReport> members[] = {
 }  // namespace
 
 Json fmu_document(const FmuReport& report) {
-  return object_of<FmuReport>(members, report);
+  return object_of<FmuReport>(fmu_members, report);
 }
 
 Json fmu_schema() {
-  return schema_of<FmuReport>(members);
+  return schema_of<FmuReport>(fmu_members);
 }
 
 }  // namespace rondo::app

@@ -58,7 +58,7 @@ Json critical_of(const ModesReport& r) {
   return objects_of(critical_members, list);
 }
 
-constexpr Member<ModesReport> members[] = {
+constexpr Member<ModesReport> modes_members[] = {
     {"directory", "string", "", "where the files are",
      [](const ModesReport& r) -> Json { return r.directory.string(); }},
     {"nodes", "integer", "", "of the mesh", [](const ModesReport& r) -> Json { return r.nodes; }},
@@ -83,11 +83,11 @@ constexpr Member<ModesReport> members[] = {
 }  // namespace
 
 Json modes_document(const ModesReport& report) {
-  return object_of<ModesReport>(members, report);
+  return object_of<ModesReport>(modes_members, report);
 }
 
 Json modes_schema() {
-  return schema_of<ModesReport>(members);
+  return schema_of<ModesReport>(modes_members);
 }
 
 }  // namespace rondo::app

@@ -49,7 +49,7 @@ struct Decomposed {
   const PodReport& r;
 };
 
-constexpr Member<Decomposed> members[] = {
+constexpr Member<Decomposed> pod_members[] = {
     {"directory", "string", "", "where the files are",
      [](const Decomposed& k) -> Json { return k.r.directory.string(); }},
     {"field", "string", "", "as asked for", [](const Decomposed& k) -> Json { return k.q.field; }},
@@ -106,11 +106,11 @@ constexpr Member<Decomposed> members[] = {
 }  // namespace
 
 Json pod_document(const study::PodRequest& request, const PodReport& report) {
-  return object_of<Decomposed>(members, {request, report});
+  return object_of<Decomposed>(pod_members, {request, report});
 }
 
 Json pod_schema() {
-  return schema_of<Decomposed>(members);
+  return schema_of<Decomposed>(pod_members);
 }
 
 }  // namespace rondo::app

@@ -62,7 +62,7 @@ Json part_schema() {
   return schema_of<ReducePart>(part_members);
 }
 
-constexpr Member<Reduced> members[] = {
+constexpr Member<Reduced> reduce_members[] = {
     {"model", "string", "", "file of the model",
      [](const Reduced& k) -> Json { return k.q.output.string(); }},
     {"model_bytes", "integer", "B", "its size",
@@ -108,11 +108,11 @@ constexpr Member<Reduced> members[] = {
 }  // namespace
 
 Json reduce_document(const study::ReduceRequest& request, const study::ReduceReport& report) {
-  return object_of<Reduced>(members, {request, report});
+  return object_of<Reduced>(reduce_members, {request, report});
 }
 
 Json reduce_schema() {
-  return schema_of<Reduced>(members);
+  return schema_of<Reduced>(reduce_members);
 }
 
 }  // namespace rondo::app

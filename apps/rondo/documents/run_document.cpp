@@ -37,7 +37,7 @@ Json run_json_schema() {
   return schema;
 }
 
-constexpr Member<Ran> members[] = {
+constexpr Member<Ran> ran_members[] = {
     {"directory", "string", "", "where the results are",
      [](const Ran& k) -> Json { return k.directory.string(); }},
     {"reached", "string", "", "how far the run came, in words",
@@ -81,11 +81,11 @@ constexpr Member<Ran> members[] = {
 }  // namespace
 
 Json run_document(const study::RunReport& report, const std::filesystem::path& directory) {
-  return object_of<Ran>(members, {report, directory});
+  return object_of<Ran>(ran_members, {report, directory});
 }
 
 Json run_schema() {
-  return schema_of<Ran>(members);
+  return schema_of<Ran>(ran_members);
 }
 
 }  // namespace rondo::app

@@ -11,7 +11,7 @@ struct Swept {
   const std::vector<std::size_t>& unfinished;
 };
 
-constexpr Member<Swept> members[] = {
+constexpr Member<Swept> sweep_members[] = {
     {"directory", "string", "", "of results.csv, sweep.h5 and sweep.json",
      [](const Swept& k) -> Json { return k.directory.string(); }},
     {"runs", "integer", "", "of the study, or of the shard",
@@ -93,7 +93,7 @@ constexpr Member<Plan> plan_members[] = {
 
 Json sweep_document(const study::SweepReport& report, const std::filesystem::path& directory,
                     const std::vector<std::size_t>& unfinished) {
-  return object_of<Swept>(members, {report, directory, unfinished});
+  return object_of<Swept>(sweep_members, {report, directory, unfinished});
 }
 
 Json plan_document(const study::DrySweep& dry, int workers) {
@@ -101,7 +101,7 @@ Json plan_document(const study::DrySweep& dry, int workers) {
 }
 
 Json sweep_schema() {
-  Json swept = schema_of<Swept>(members), planned = schema_of<Plan>(plan_members);
+  Json swept = schema_of<Swept>(sweep_members), planned = schema_of<Plan>(plan_members);
   swept["title"] = "what was run";
   planned["title"] = "with --dry-run";
   return Json{{"oneOf", {swept, planned}}};

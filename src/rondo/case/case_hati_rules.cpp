@@ -30,7 +30,7 @@ void check_spin(CaseValues& in, const Case& c) {
              std::string("a number, or ") + elsewhere);
 }
 
-void check_motion(CaseValues& in, const Case& c) {
+void check_hati_motion(CaseValues& in, const Case& c) {
   if (!is_held(c) && in.good({"disk.rim", "mesh.clamped"}))
     in.fault("time.scheme", "\"hati\" knows no body that nothing holds", "\"symplectic\"");
   if (is_held(c)) check_spin(in, c);
@@ -61,7 +61,7 @@ void check_hati(CaseValues& in, Case& c) {
       return in.fault("time.scheme", "\"hati\" needs to know which elements are explicit",
                       "[solver.hati] with fine = {layers = [...]} and ratio beside it");
     check_fine(in, c);
-    check_motion(in, c);
+    check_hati_motion(in, c);
     check_loads(in, c);
     return;
   }

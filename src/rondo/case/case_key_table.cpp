@@ -21,12 +21,12 @@ constexpr Allowed slanted{{-0.78, 0.78, false, false}};  ///< up to about 45°
 constexpr Allowed between(double low, double high) {
   return {{low, high, false, false}};
 }
-constexpr Allowed choice(std::string_view a, std::string_view b, std::string_view c = {},
-                         std::string_view d = {}, std::string_view e = {}) {
+constexpr Allowed one_from(std::string_view a, std::string_view b, std::string_view c = {},
+                           std::string_view d = {}, std::string_view e = {}) {
   return {{}, {a, b, c, d, e}};
 }
-constexpr Allowed model = choice("linear", "neo-hooke", "mooney-rivlin", "yeoh", "ogden");
-constexpr Allowed quadrature = choice("full", "b-bar", "one-point");
+constexpr Allowed model = one_from("linear", "neo-hooke", "mooney-rivlin", "yeoh", "ogden");
+constexpr Allowed quadrature = one_from("full", "b-bar", "one-point");
 constexpr Allowed kind_of_analysis() {
   Allowed allowed;
   for (std::size_t k = 0; k < std::size(analysis_kinds); ++k)
@@ -156,7 +156,7 @@ constexpr CaseKey keys[] = {
      "outer radius R_o, to the top of the tread"},
     {"disk.inner_radius", "m", FIELD(disk.inner_radius), with(positive, "< disk.outer_radius"),
      required, "inner radius R_i, bonded to the rigid rim"},
-    {"disk.rim", "-", CHOICE(free_rim), choice("bonded", "free"), optional,
+    {"disk.rim", "-", CHOICE(free_rim), one_from("bonded", "free"), optional,
      "\"bonded\": the inner boundary turns and moves with the rim, as `[motion]` says. \"free\": "
      "there is no rim and the disk is unconstrained; see [free bodies](#free-bodies)"},
 
@@ -254,7 +254,7 @@ constexpr CaseKey keys[] = {
      "In plane strain above 0.49, with triangles above 0.45, there is a warning where integration "
      "is full: elements are then far too stiff"},
     {"material.density", "kg/m3", FIELD(material.density), positive, required, "density ρ"},
-    {"material.plane", "-", FIELD(material.plane), choice("strain", "stress"), optional,
+    {"material.plane", "-", FIELD(material.plane), one_from("strain", "stress"), optional,
      "plane strain (a wide wheel) or plane stress (a thin sheet)"},
     {"material.integration", "-", FIELD(law.integration), quadrature,
      optional.said("\"full\"; of rubber \"b-bar\""),
@@ -262,7 +262,7 @@ constexpr CaseKey keys[] = {
      "change of volume as a mean, of the quadrilateral or of the triangles around a node, which "
      "does not lock near ν = 0.5. Rubber is by \"b-bar\" or, quadrilaterals, by \"one-point\" "
      "and a stiffness against hourglasses, which takes half the time and is less exact"},
-    {"material.stress_stiffening", "-", FIELD(stress_stiffening), choice("none", "centrifugal"),
+    {"material.stress_stiffening", "-", FIELD(stress_stiffening), one_from("none", "centrifugal"),
      optional.of(in_motion_but_written),
      "\"centrifugal\": the stress of the stationary spin at the initial angular velocity stiffens "
      "the body, so that it does not soften as it spins. \"none\": small strain alone, as "
@@ -350,7 +350,7 @@ constexpr CaseKey keys[] = {
     {"rim.free", "-",
      [](Case& c, std::size_t /*k*/)
          -> Field { return ChoiceList{{&c.rim->free_x, &c.rim->free_y, &c.rim->free_spin}}; },
-     choice("speed", "height", "angular_velocity"), required,
+     one_from("speed", "height", "angular_velocity"), required,
      "what forces move: of these, `[motion]` gives the value at t = 0. The others are held, as "
      "`[motion]` says. []: all of them, for their reactions"},
     {"rim.mass", "kg/m", FIELD(rim->mass), not_negative,
@@ -394,20 +394,21 @@ constexpr CaseKey keys[] = {
      optional.of(in_time).body(never),
      "Newton's coefficient of restitution e of each node's impact; 0: a node that arrives stays "
      "until it is pulled off"},
-    {"ground.impact", "-", FIELD(ground->impact), choice("moreau", "energy-safe"),
+    {"ground.impact", "-", FIELD(ground->impact), one_from("moreau", "energy-safe"),
      optional.of(in_time).body(never),
      "law of the impacts. \"moreau\": a node that arrives or leaves with w_n⁻ goes on with -e "
      "w_n⁻. \"energy-safe\": one that leaves while it is pressed is sent back no faster; no impact "
      "then creates energy at any step, but more is lost ([theory.md](theory.md), 4.3)"},
 
-    {"contact.between", "-", FIELD(body_contact.between), choice("none", "bodies", "all"), optional,
+    {"contact.between", "-", FIELD(body_contact.between), one_from("none", "bodies", "all"),
+     optional,
      "\"bodies\": bodies touch each other; \"all\": the boundary of a body may touch itself as "
      "well, as the walls of a groove that closes"},
     {"contact.friction", "-", FIELD(body_contact.friction), between(0, 100), optional,
      "Coulomb's coefficient of friction μ"},
     {"contact.restitution", "-", FIELD(body_contact.restitution), between(0, 1), optional,
      "Newton's coefficient of restitution e"},
-    {"contact.impact", "-", FIELD(body_contact.impact), choice("moreau", "energy-safe"), optional,
+    {"contact.impact", "-", FIELD(body_contact.impact), one_from("moreau", "energy-safe"), optional,
      "law of the impacts, as `ground.impact`"},
 
     {"load.pressure[].curve", "-", FIELD(pressures[k].curve), any, required,
@@ -417,7 +418,7 @@ constexpr CaseKey keys[] = {
     {"load.pressure[].value", "Pa", FIELD(pressures[k].pressure), any, required,
      "pressure against the outward normal, > 0 presses on the body"},
 
-    {"initial.state", "-", FIELD(initial.state), choice("rest", "stationary", "steady-rolling"),
+    {"initial.state", "-", FIELD(initial.state), one_from("rest", "stationary", "steady-rolling"),
      optional.body(may_be_free),
      "\"rest\": undeformed, at rest relative to the turning rim. \"stationary\": deformed, in "
      "equilibrium with the spin at t = 0. \"steady-rolling\": as it rolls on the ground with the "
@@ -477,7 +478,7 @@ constexpr CaseKey keys[] = {
      "equal parts of a slide that is a number, each an equilibrium; refused beside tables and in a "
      "dynamic case"},
 
-    {"analysis.solver", "-", FIELD(analysis.solver), choice("direct", "latin", "latin-pgd"),
+    {"analysis.solver", "-", FIELD(analysis.solver), one_from("direct", "latin", "latin-pgd"),
      optional.of(of_crush).body(never),
      "how the increments of a crush are solved. \"direct\": one after another, exactly. \"latin\": "
      "all at once, by iterations between the laws of contact and elasticity; \"latin-pgd\": "
@@ -503,7 +504,7 @@ constexpr CaseKey keys[] = {
      "places of a sector, over its own length, at which steady rolling is solved; where it is "
      "left out 16 with a `[disk.tread]`; 4 of a wheel in three dimensions, 8 with a "
      "`[disk.tread]`, 2 of a `[section]`"},
-    {"analysis.slip", "-", FIELD(analysis.slip), choice("bdf2", "upwind"),
+    {"analysis.slip", "-", FIELD(analysis.slip), one_from("bdf2", "upwind"),
      optional.of(of_steady_rolling).body(never),
      "how the slip of a node is taken in steady rolling: from its places one and two samples "
      "before, or from one alone, which is more robust and coarser"},
@@ -540,14 +541,14 @@ constexpr CaseKey keys[] = {
      optional.if_(is_by_step, "none").body(never),
      "a given time step instead, of the scheme \"hati\" the fine one; at most 1e12 steps to the "
      "end"},
-    {"time.scheme", "-", FIELD(time.scheme), choice("symplectic", "as-printed", "hati"), optional,
+    {"time.scheme", "-", FIELD(time.scheme), one_from("symplectic", "as-printed", "hati"), optional,
      "\"symplectic\": gyroscopic and mass damping forces at the middle of the step; keeps energy. "
      "\"as-printed\": at the old half step, as published; it creates energy, which the ledger "
      "shows as `work_scheme`, and serves for comparison. \"hati\": two parts of the body, each "
      "with a step of its own, [below](#two-parts-with-steps-of-their-own). The ledger closes in "
      "all of them"},
 
-    {"solver.operator", "-", FIELD(solver_operator), choice("auto", "cyclic", "sparse"),
+    {"solver.operator", "-", FIELD(solver_operator), one_from("auto", "cyclic", "sparse"),
      optional.of(in_time),
      "how K u is formed: \"cyclic\" from the blocks of one sector, \"sparse\" from an assembled "
      "matrix; \"auto\" takes \"cyclic\" on every mesh of equal sectors, that is on every `[disk]`, "
@@ -555,8 +556,8 @@ constexpr CaseKey keys[] = {
      "`time.scheme` "
      "is not \"symplectic\": there \"cyclic\" is refused. The results are the same to round-off "
      "(docs/performance.md)"},
-    {"solver.contact_mass", "-", FIELD(contact_mass), choice("lumped", "singular", "singular-kept"),
-     optional.of(in_time),
+    {"solver.contact_mass", "-", FIELD(contact_mass),
+     one_from("lumped", "singular", "singular-kept"), optional.of(in_time),
      "mass of the nodes that may touch the ground. \"lumped\": theirs. \"singular\": none; it goes "
      "to "
      "the nodes below, and the contact nodes are where stiffness and ground leave them "

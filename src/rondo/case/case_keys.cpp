@@ -13,7 +13,7 @@
 namespace rondo::study {
 namespace {
 
-constexpr double infinity = std::numeric_limits<double>::infinity();
+constexpr double unbounded = std::numeric_limits<double>::infinity();
 
 using enum KeyType;
 
@@ -43,7 +43,7 @@ const Words& words_of(KeyType type) {
 }
 
 std::string range_text(const Range& r, bool whole) {
-  const bool low = r.low > -infinity, high = r.high < infinity;
+  const bool low = r.low > -unbounded, high = r.high < unbounded;
   if (!low && !high) return whole ? "any integer" : "any finite number";
   if (low && high && r.low == r.high) return fmt::format("{}", r.low);
   if (low && high && !r.low_open && !r.high_open) return fmt::format("{} to {}", r.low, r.high);
@@ -140,7 +140,7 @@ bool Range::contains(double value) const noexcept {
 }
 
 bool Range::is_bounded() const noexcept {
-  return low > -infinity || high < infinity;
+  return low > -unbounded || high < unbounded;
 }
 
 std::span<const CaseKey> keys_of(const CaseTable& table) {

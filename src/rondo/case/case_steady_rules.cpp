@@ -10,7 +10,7 @@
 namespace rondo::study {
 namespace {
 
-void check_body(CaseValues& in, const Case& c) {
+void check_steady_body(CaseValues& in, const Case& c) {
   if (in.has_table("mesh"))
     in.fault("mesh", "is not known to be of equal sectors, which steady rolling is made of",
              "a [disk], smooth or treaded; of a mesh, a dynamic analysis");
@@ -27,7 +27,7 @@ void check_constant(CaseValues& in, std::string_view key, const dynamics::Table&
     in.fault(key, "is a table, and a steady state has one value", "a number");
 }
 
-void check_motion(CaseValues& in, const Case& c) {
+void check_steady_motion(CaseValues& in, const Case& c) {
   constexpr std::string_view spin = "motion.angular_velocity";
   check_constant(in, spin, c.motion.angular_velocity);
   check_constant(in, "motion.speed", c.motion.speed);
@@ -171,8 +171,8 @@ void check_steady_start(CaseValues& in, const Case& c) {
 }
 
 void check_steady_rolling(CaseValues& in, Case& c) {
-  check_body(in, c);
-  check_motion(in, c);
+  check_steady_body(in, c);
+  check_steady_motion(in, c);
   check_given(in);
   check_traction(in, c);
   check_samples(in, c);

@@ -16,7 +16,7 @@ namespace rondo::study {
 namespace {
 
 constexpr std::size_t most_faults = 5;
-constexpr std::size_t longest_found = 40;  ///< characters of a field repeated in a message
+constexpr std::size_t longest_field = 40;  ///< characters of a field repeated in a message
 constexpr std::string_view blank = " \t\r\v\f";
 constexpr std::string_view allowed =
     "x and y in m, comma or white space between x and y, one point a line from left to right";
@@ -101,7 +101,7 @@ struct Reading {
   std::string_view text{};  ///< of the line
 
   void fault(const Token& at, std::string message) const {
-    std::string found(at.text.substr(0, longest_found));
+    std::string found(at.text.substr(0, longest_field));
     if (found.size() < at.text.size()) found += "...";
     into.faults.push_back({name, line, static_cast<int>(at.begin) + 1, "ground.profile",
                            std::move(found), std::move(message), std::string(allowed)});

@@ -23,11 +23,6 @@ Blocks blocks_of(const std::array<Vec3, 3>& w) noexcept {
   return {w[0].x, {w[0].y, w[0].z}, {w[1].x, w[2].x}, {w[1].y, w[1].z}, {w[2].y, w[2].z}};
 }
 
-Vec2 unit(Vec2 a) noexcept {
-  const double length = norm(a);
-  return length > 0.0 ? a / length : Vec2{1.0, 0.0};
-}
-
 /// r = r_n (1, -μτ) with w_n = 0 and w_t along τ: where the direction τ stands still under
 /// (σ + μ k r_n) τ = b_t + r_n [W_tn - μ (W_tt - k) τ], the law holds exactly, whatever k.
 SpatialSolution sliding(const Blocks& w, Vec3 b, double friction, Vec2 tau) noexcept {
@@ -40,7 +35,7 @@ SpatialSolution sliding(const Blocks& w, Vec3 b, double friction, Vec2 tau) noex
   for (; s.turns < most_turns && !s.converged; ++s.turns) {
     rn = -b.x / (w.nn - friction * dot(w.nt, tau));
     const Vec2 rest{dot(w.t1, tau) - k * tau.x, dot(w.t2, tau) - k * tau.y};
-    const Vec2 next = unit(bt + rn * (w.tn - friction * rest));
+    const Vec2 next = direction(bt + rn * (w.tn - friction * rest));
     s.converged = norm(next - tau) <= 1e-15;
     tau = next;
   }
@@ -65,7 +60,7 @@ SpatialSolution solve_spatial(const SpatialProblem& problem, double friction) no
   const Vec3 stick = stopping_impulse(problem.delassus, b);
   const Vec2 pull{stick.y, stick.z};
   if (norm(pull) <= friction * stick.x) return {stick, Status::stick};
-  return sliding(w, b, friction, -unit(pull));
+  return sliding(w, b, friction, -direction(pull));
 }
 
 Vec3 project_on_cone(Vec3 r, double friction) noexcept {

@@ -8,10 +8,10 @@
 namespace rondo::contact {
 namespace {
 
-using Solutions = std::array<SpatialSolution, 2>;
+using SpatialSolutions = std::array<SpatialSolution, 2>;
 
 /// The larger residual of the two over m |free|.
-double residual_of(const SpatialPair& p, double friction, const Solutions& s) noexcept {
+double spatial_residual(const SpatialPair& p, double friction, const SpatialSolutions& s) noexcept {
   const double mass = 1.0 / p.delassus[0].x;
   const Vec3 total = s[0].impulse + p.turn * s[1].impulse;
   const Vec3 w = p.free + Vec3{dot(p.delassus[0], total), dot(p.delassus[1], total),
@@ -24,19 +24,19 @@ double residual_of(const SpatialPair& p, double friction, const Solutions& s) no
 }
 
 /// Keeps the best case so far; true once one is accepted.
-struct Choice {
+struct SpatialChoice {
   const SpatialPair& problem;
   double friction, tolerance;
   SpatialPairSolution best{{}, std::numeric_limits<double>::infinity(), false};
 
-  bool accepts(const Solutions& s) noexcept {
-    const double residual = residual_of(problem, friction, s);
+  bool accepts(const SpatialSolutions& s) noexcept {
+    const double residual = spatial_residual(problem, friction, s);
     if (residual < best.residual) best = {s, residual, residual <= tolerance};
     return best.converged;
   }
 };
 
-Solutions one_alone(const SpatialPair& p, double friction, std::size_t i) noexcept {
+SpatialSolutions one_alone(const SpatialPair& p, double friction, std::size_t i) noexcept {
   SpatialProblem own{p.free, p.delassus, p.bounce[i]};
   if (i == 1) {  // Qᵀ W Q: by the columns of Q, then by its rows
     own.free = conj(p.turn) * p.free;
@@ -45,7 +45,7 @@ Solutions one_alone(const SpatialPair& p, double friction, std::size_t i) noexce
     const auto& [a, b] = p.turn;
     own.delassus = {a * rows[0] + b * rows[1], a * rows[1] - b * rows[0], rows[2]};
   }
-  Solutions alone{};
+  SpatialSolutions alone{};
   alone[i] = solve_spatial(own, friction);
   return alone;
 }
@@ -62,7 +62,7 @@ Vec2 shares(const SpatialPair& p, Vec2 total, Vec2 a, Vec2 b) noexcept {
 
 /// w = 0: any share within the two cones will do. The impulse along the corner is shared as those
 /// along the normals are.
-bool sticks(const SpatialPair& p, Choice& choice) noexcept {
+bool sticks(const SpatialPair& p, SpatialChoice& choice) noexcept {
   const Vec3 total = stopping_impulse(p.delassus, p.free);
   const Vec2 part = shares(p, total.plane(), {1.0, 0.0}, {1.0, 0.0});
   const double both = part.x + part.y;
@@ -73,22 +73,17 @@ bool sticks(const SpatialPair& p, Choice& choice) noexcept {
   return choice.accepts({one(part.x), one(part.y)});
 }
 
-Vec2 unit(Vec2 a) noexcept {
-  const double length = norm(a);
-  return length > 0.0 ? a / length : Vec2{1.0, 0.0};
-}
-
 /// Both slide, at `along` the corner.
 struct Sliding {
-  Solutions contact;
+  SpatialSolutions contact;
   double left;  ///< impulse along the corner that friction does not give
 };
 
 /// @param w the velocity across the corner, frame 0
 Sliding sliding(const SpatialPair& p, double friction, Vec2 w, double along) noexcept {
   const Vec3 total = stopping_impulse(p.delassus, p.free - Vec3(w, along));
-  const Vec2 a = -friction * unit({w.y, along});
-  const Vec2 b = -friction * unit({(conj(p.turn) * w).y, along});
+  const Vec2 a = -friction * direction({w.y, along});
+  const Vec2 b = -friction * direction({(conj(p.turn) * w).y, along});
   const Vec2 part = shares(p, total.plane(), {1.0, a.x}, {1.0, b.x});
   return {{SpatialSolution{std::max(part.x, 0.0) * Vec3{1.0, a.x, a.y}, Status::slip},
            SpatialSolution{std::max(part.y, 0.0) * Vec3{1.0, b.x, b.y}, Status::slip}},
@@ -96,7 +91,7 @@ Sliding sliding(const SpatialPair& p, double friction, Vec2 w, double along) noe
 }
 
 /// What is left rises with the velocity along the corner, beyond all bounds.
-void slides(const SpatialPair& p, Choice& choice) noexcept {
+void slides(const SpatialPair& p, SpatialChoice& choice) noexcept {
   constexpr int most_doublings = 60, most_halvings = 200;
   const Vec2 w{-p.bounce[0], (p.turn.re * p.bounce[0] - p.bounce[1]) / p.turn.im};
   const auto left = [&](double along) { return sliding(p, choice.friction, w, along).left; };
@@ -116,7 +111,7 @@ void slides(const SpatialPair& p, Choice& choice) noexcept {
 
 SpatialPairSolution solve_spatial_pair(const SpatialPair& p, double friction,
                                        double tolerance) noexcept {
-  Choice choice{p, friction, tolerance};
+  SpatialChoice choice{p, friction, tolerance};
   if (choice.accepts({})) return choice.best;
   for (std::size_t i = 0; i < 2; ++i)
     if (choice.accepts(one_alone(p, friction, i))) return choice.best;

@@ -11,7 +11,7 @@ namespace rondo::contact {
 namespace {
 
 /// A place on a line: on the piece from point `piece` to the next.
-struct Place {
+struct BoundaryPlace {
   Vec2 x;
   std::size_t piece = 0;
 };
@@ -39,7 +39,7 @@ class Chords {
   static constexpr double step = 1.0 / 16.0;
 
   /// The surface never goes back to the left: no end is farther to the right than the spacing.
-  void look_from(const Place& from) {
+  void look_from(const BoundaryPlace& from) {
     Vec2 a = from.x;
     for (std::size_t j = from.piece; j + 1 < line_.size(); ++j) {
       const Vec2 b = line_[j + 1];
@@ -57,7 +57,7 @@ class Chords {
     return a + (std::sqrt(std::max(0.0, p * p - q)) - p) * d;
   }
 
-  void look_at(const Place& from, const Place& to) {
+  void look_at(const BoundaryPlace& from, const BoundaryPlace& to) {
     const Vec2 chord = (to.x - from.x) / spacing_;
     Intrusion found;
     for (std::size_t k = from.piece + 1; k <= to.piece; ++k) {

@@ -17,7 +17,7 @@ struct Sources {
   std::optional<bool> modified;
 };
 
-Sources& given() {
+Sources& sources_given() {
   static Sources sources;
   return sources;
 }
@@ -38,12 +38,12 @@ std::vector<std::pair<std::string, std::string>> pairs_in(std::string_view list)
 }  // namespace
 
 void set_commit(std::string commit, int modified) {
-  given().commit = std::move(commit);
-  given().modified = modified < 0 ? std::nullopt : std::optional(modified > 0);
+  sources_given().commit = std::move(commit);
+  sources_given().modified = modified < 0 ? std::nullopt : std::optional(modified > 0);
 }
 
 BuildRecord build_record() {
-  return {given().commit, given().modified, build_options, built_with_flags,
+  return {sources_given().commit, sources_given().modified, build_options, built_with_flags,
           pairs_in(built_with_libraries)};
 }
 

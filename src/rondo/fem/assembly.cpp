@@ -10,14 +10,14 @@
 namespace rondo::fem {
 namespace {
 
-struct Corners {
+struct CellCorners {
   std::array<Vec2, 4> x;
   std::size_t n;
   [[nodiscard]] std::span<const Vec2> span() const { return {x.data(), n}; }
 };
 
-Corners corners_of(const mesh::Mesh& mesh, const mesh::Cell& cell) {
-  Corners c{{}, static_cast<std::size_t>(mesh::n_corners(cell))};
+CellCorners cell_corners(const mesh::Mesh& mesh, const mesh::Cell& cell) {
+  CellCorners c{{}, static_cast<std::size_t>(mesh::n_corners(cell))};
   for (std::size_t a = 0; a < c.n; ++a)
     c.x[a] = mesh.coordinates[static_cast<std::size_t>(cell[a])];
   return c;
@@ -26,7 +26,7 @@ Corners corners_of(const mesh::Mesh& mesh, const mesh::Cell& cell) {
 /// @pre the cell is not inverted
 ElementMatrix elastic_stiffness(const mesh::Mesh& mesh, std::size_t cell, const ElementLaw& law) {
   const mesh::Cell& nodes = mesh.cells[cell];
-  const Corners corners = corners_of(mesh, nodes);
+  const CellCorners corners = cell_corners(mesh, nodes);
   RONDO_DEMAND(smallest_jacobian(corners.span()) > 0.0, nodes[0], nodes[1], nodes[2], nodes[3]);
   return element_stiffness(corners.span(), law);
 }
@@ -34,7 +34,7 @@ ElementMatrix elastic_stiffness(const mesh::Mesh& mesh, std::size_t cell, const 
 ElementMatrix geometric_stiffness(const mesh::Mesh& mesh, std::span<const Vec2> prestress,
                                   std::size_t cell, const ElementLaw& law,
                                   const NodalDilatation& dilatation) {
-  const Corners corners = corners_of(mesh, mesh.cells[cell]);
+  const CellCorners corners = cell_corners(mesh, mesh.cells[cell]);
   const auto displacement = [&](int node) { return prestress[static_cast<std::size_t>(node)]; };
   std::array<Vec2, 4> u;
   for (std::size_t a = 0; a < corners.n; ++a) u[a] = displacement(mesh.cells[cell][a]);
@@ -47,7 +47,7 @@ ElementMatrix geometric_stiffness(const mesh::Mesh& mesh, std::span<const Vec2> 
 double largest_eigenvalue(const mesh::Mesh& mesh, std::span<const Material> materials,
                           std::span<const Vec2> prestress, std::size_t e,
                           const NodalDilatation& dilatation) {
-  const Corners corners = corners_of(mesh, mesh.cells[e]);
+  const CellCorners corners = cell_corners(mesh, mesh.cells[e]);
   ElementLaw law = element_law(material_of(mesh, materials, e));
   ElementMatrix k = elastic_stiffness(mesh, e, law);
   if (dilatation.holds(e)) law.mean_bulk = 0.0;  // its stress is that of the patches
@@ -72,7 +72,7 @@ template <class Density>
 std::vector<double> sum_at_nodes(const mesh::Mesh& mesh, Density&& density) {
   std::vector<double> sum(mesh.n_nodes(), 0.0);
   for (std::size_t e = 0; e < mesh.cells.size(); ++e) {
-    const Corners corners = corners_of(mesh, mesh.cells[e]);
+    const CellCorners corners = cell_corners(mesh, mesh.cells[e]);
     const std::array<double, 4> m = element_masses(corners.span(), density(e));
     for (std::size_t a = 0; a < corners.n; ++a)
       sum[static_cast<std::size_t>(mesh.cells[e][a])] += m[a];

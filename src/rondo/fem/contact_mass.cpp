@@ -5,12 +5,10 @@
 #include <algorithm>
 #include <utility>
 
+#include "rondo/core/index.hpp"
+
 namespace rondo::fem {
 namespace {
-
-std::size_t at(int index) noexcept {
-  return static_cast<std::size_t>(index);
-}
 
 /// Nodes beside each contact node.
 struct Beside {

@@ -18,7 +18,7 @@ namespace {
 
 using Eigen::Index;
 
-constexpr const char* format_name = "rondo basis 1";
+constexpr const char* basis_format = "rondo basis 1";
 constexpr const char* fields = "/basis/field";
 
 void check_format(const h5::File& file) {
@@ -27,10 +27,10 @@ void check_format(const h5::File& file) {
     format = file.attribute("/", "format");
   } catch (const FileError&) {  // said below
   }
-  if (format != format_name)
+  if (format != basis_format)
     throw FileError(file.path(), fmt::format("its format is \"{}\", not \"{}\": damaged, or not of "
                                              "this version; run the case again",
-                                             format, format_name));
+                                             format, basis_format));
 }
 
 }  // namespace
@@ -40,7 +40,7 @@ void write_basis(const std::filesystem::path& path, const mesh::Mesh& mesh,
   RONDO_DEMAND(!mesh.is_solid() && field.rows() == static_cast<Index>(2 * mesh.n_nodes()),
                field.rows(), mesh.n_nodes());
   h5::File file = h5::File::create(path);
-  file.set_attribute("/", "format", format_name);
+  file.set_attribute("/", "format", basis_format);
   write_mesh(file, mesh, mass);
   if (field.cols() > 0)  // a dataset without numbers is left out
     file.write(fields, {static_cast<std::size_t>(field.cols()), mesh.n_nodes(), 2},

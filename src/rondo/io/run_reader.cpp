@@ -18,7 +18,7 @@ namespace rondo::io {
 namespace fs = std::filesystem;
 namespace {
 
-constexpr const char* format_name = "rondo results 1";
+constexpr const char* results_format = "rondo results 1";
 
 [[noreturn]] void refuse(
     const fs::path& directory, const std::string& what,
@@ -42,11 +42,11 @@ h5::File open_results(const fs::path& path) {
     format = file.attribute("/", "format");
   } catch (const FileError&) {  // said below
   }
-  if (format != format_name)
+  if (format != results_format)
     throw FileError(path.string(),
                     fmt::format("not a results file of this version: its format is \"{}\", not "
                                 "\"{}\"; run the case again",
-                                format, format_name));
+                                format, results_format));
   return file;
 }
 

@@ -5,16 +5,13 @@
 #include <cmath>
 
 #include "rondo/core/contract.hpp"
+#include "rondo/core/index.hpp"
 #include "rondo/mesh/solid/face.hpp"
 
 namespace rondo::mesh {
 namespace {
 
 constexpr double round_off = 1e-12;  ///< of a sum of some shares
-
-std::size_t at(int index) {
-  return static_cast<std::size_t>(index);
-}
 
 }  // namespace
 

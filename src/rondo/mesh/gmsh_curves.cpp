@@ -11,23 +11,23 @@ namespace {
 constexpr int line_type = 1;  // Gmsh's number
 
 /// A line element.
-struct Line {
+struct CurveLine {
   Edge nodes{-1, -1};  ///< of the mesh; -1: a node of no cell
   std::uint64_t tag = 0;
   std::uint64_t first = 0, second = 0;  ///< tags of its nodes
 };
 
-Edge undirected(const Edge& edge) {
+Edge undirected_edge(const Edge& edge) {
   return {std::ranges::min(edge), std::ranges::max(edge)};
 }
 
-/// Line elements of each entity.
-std::vector<std::vector<Line>> lines_of_entities(const CurveInput& in, const Draft& draft) {
+/// CurveLine elements of each entity.
+std::vector<std::vector<CurveLine>> lines_of_entities(const CurveInput& in, const Draft& draft) {
   const auto node = [&](std::uint64_t tag) {
     const int place = in.index.find(tag);
     return place < 0 ? -1 : draft.node_of[static_cast<std::size_t>(place)];
   };
-  std::vector<std::vector<Line>> lines(in.raw.entities.size());
+  std::vector<std::vector<CurveLine>> lines(in.raw.entities.size());
   for (const RawBlock& block : in.raw.blocks) {
     if (in.raw.types[block.type].type != line_type) continue;
     for (std::size_t k = 0; k < block.tags.size(); ++k) {
@@ -40,14 +40,14 @@ std::vector<std::vector<Line>> lines_of_entities(const CurveInput& in, const Dra
 
 /// MSH 2.2 repeats the lines of a curve for each of its groups. Where they are not repeated, which
 /// line is of which group is known to the file, but not told by the library.
-void check_groups_of_22(const CurveInput& in, std::vector<std::vector<Line>>& lines,
+void check_groups_of_22(const CurveInput& in, std::vector<std::vector<CurveLine>>& lines,
                         Findings& findings) {
   std::vector<std::string> mixed;
   for (std::size_t k = 0; k < lines.size(); ++k) {
     const RawEntity& entity = in.raw.entities[k];
     if (entity.dimension != 1 || entity.groups.size() < 2) continue;
     std::vector<std::pair<std::uint64_t, std::uint64_t>> ends;
-    for (const Line& line : lines[k]) ends.push_back(std::minmax(line.first, line.second));
+    for (const CurveLine& line : lines[k]) ends.push_back(std::minmax(line.first, line.second));
     std::ranges::sort(ends);
     for (auto at = ends.begin(); at != ends.end();) {
       const auto next = std::upper_bound(at, ends.end(), *at);
@@ -84,31 +84,31 @@ Demand demand_on(const NamedGroup& group, const CurveInput& in) {
 
 struct Sorted {
   std::vector<Edge> edges;
-  std::vector<Line> loose;   ///< no edge of a cell
-  std::vector<Line> inside;  ///< cells on both sides
+  std::vector<CurveLine> loose;   ///< no edge of a cell
+  std::vector<CurveLine> inside;  ///< cells on both sides
 };
 
 /// Each edge once, the body on its left.
-Sorted sort_lines(const NamedGroup& group, const std::vector<std::vector<Line>>& lines,
+Sorted sort_lines(const NamedGroup& group, const std::vector<std::vector<CurveLine>>& lines,
                   const EdgeTable& table) {
-  std::vector<Line> all;
+  std::vector<CurveLine> all;
   for (const std::size_t k : group.entities)
     all.insert(all.end(), lines[k].begin(), lines[k].end());
-  const auto key = [](const Line& line) {
+  const auto key = [](const CurveLine& line) {
     return std::pair{std::min(line.first, line.second), std::max(line.first, line.second)};
   };
   std::ranges::stable_sort(all, {}, key);
   all.erase(std::unique(all.begin(), all.end(),
-                        [&](const Line& a, const Line& b) { return key(a) == key(b); }),
+                        [&](const CurveLine& a, const CurveLine& b) { return key(a) == key(b); }),
             all.end());
   Sorted sorted;
-  for (const Line& line : all) {
+  for (const CurveLine& line : all) {
     if (std::ranges::min(line.nodes) < 0 || table.find(line.nodes).empty()) {
       sorted.loose.push_back(line);
       continue;
     }
     const auto cells = table.find(line.nodes);
-    const auto [low, high] = undirected(line.nodes);
+    const auto [low, high] = undirected_edge(line.nodes);
     if (cells.size() > 1) {
       sorted.inside.push_back(line);
       sorted.edges.push_back(line.nodes);
@@ -120,7 +120,7 @@ Sorted sort_lines(const NamedGroup& group, const std::vector<std::vector<Line>>&
   return sorted;
 }
 
-std::string line_text(const Line& line, const CurveInput& in) {
+std::string line_text(const CurveLine& line, const CurveInput& in) {
   const int place = in.index.find(line.first);
   if (place < 0) return fmt::format("line {}", line.tag);
   const auto k = static_cast<std::size_t>(place);
@@ -131,7 +131,7 @@ std::string line_text(const Line& line, const CurveInput& in) {
 void name_lines(const NamedGroup& group, const Sorted& sorted, const CurveInput& in,
                 Findings& findings) {
   const Demand demand = demand_on(group, in);
-  const auto list = [&](const std::vector<Line>& lines) {
+  const auto list = [&](const std::vector<CurveLine>& lines) {
     return examples(lines.size(), [&](std::size_t k) { return line_text(lines[k], in); });
   };
   const std::string said =
@@ -196,7 +196,7 @@ std::vector<int> clamped_nodes_of(const Curve& curve, const Mesh& mesh) {
 }  // namespace
 
 void add_curves(const CurveInput& in, Draft& draft, Findings& findings) {
-  std::vector<std::vector<Line>> lines = lines_of_entities(in, draft);
+  std::vector<std::vector<CurveLine>> lines = lines_of_entities(in, draft);
   if (in.version_22) check_groups_of_22(in, lines, findings);
   for (const NamedGroup& group : in.groups) {
     if (group.dimension != 1) continue;

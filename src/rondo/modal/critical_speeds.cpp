@@ -13,9 +13,9 @@ namespace rondo::modal {
 namespace {
 
 using Eigen::Index;
-using Complex = std::complex<double>;
+using StdComplex = std::complex<double>;
 using Matrix = fem::Harmonics::Matrix;
-using Vector = Eigen::VectorXcd;
+using Eigen::VectorXcd;
 
 /// A(n) w = s² Q w, Q = n² + 1 - 2inJ - A_σ(n) (8.6).
 class CriticalProblem {
@@ -39,7 +39,8 @@ class CriticalProblem {
     Matrix m = a_;
     if (stiffening_) m += squared * a_sigma_;
     for (Index k = 0; k < m.cols(); ++k) m.coeffRef(k, k) -= squared * (n * n + 1.0);
-    for (Index k = 0; k < m.cols(); k += 2) m.coeffRef(k + 1, k) += Complex(0.0, 2.0 * n * squared);
+    for (Index k = 0; k < m.cols(); k += 2)
+      m.coeffRef(k + 1, k) += StdComplex(0.0, 2.0 * n * squared);
     return negative_eigenvalues(m) == 0;
   }
 
@@ -47,29 +48,29 @@ class CriticalProblem {
     const int n = n_;
     factor_.compute(a_);
     RONDO_DEMAND(factor_.info() == Eigen::Success, n);
-    Operator<Complex> op;
+    Operator<StdComplex> op;
     op.size = op.rank = a_.rows();
-    op.apply = [this](const Vector& x) { return Vector(factor_.solve(right(x))); };
-    op.metric = [this](const Vector& x) { return Vector(left(x)); };
-    Krylov<Complex> space(op);
+    op.apply = [this](const VectorXcd& x) { return VectorXcd(factor_.solve(right(x))); };
+    op.metric = [this](const VectorXcd& x) { return VectorXcd(left(x)); };
+    Krylov<StdComplex> space(op);
     Ritz ritz = eigenvalues_beyond(space, 0.0, 1, 0);
     while (!space.complete() && ritz.value[0] > 0.0 && !is_lowest(ritz.value[0])) {
       space.widen();
       ritz = eigenvalues_beyond(space, ritz.value[0] * (1.0 + 1e-6), 1, 0);
     }
     if (ritz.value.size() == 0 || !(ritz.value[0] > 0.0)) return {n, 0.0, 0.0};
-    const Vector w = op.apply(space.vector(ritz, 0));
-    const Vector aw = left(w);
+    const VectorXcd w = op.apply(space.vector(ritz, 0));
+    const VectorXcd aw = left(w);
     return {n, 1.0 / std::sqrt(ritz.value[0]), (aw - right(w) / ritz.value[0]).norm() / aw.norm()};
   }
 
  private:
-  [[nodiscard]] Vector left(const Vector& x) const {
+  [[nodiscard]] VectorXcd left(const VectorXcd& x) const {
     return a_.selfadjointView<Eigen::Lower>() * x;
   }
-  [[nodiscard]] Vector right(const Vector& x) const {
+  [[nodiscard]] VectorXcd right(const VectorXcd& x) const {
     const double n = n_;
-    Vector y = (n * n + 1.0) * x - n * gyroscopic(x);
+    VectorXcd y = (n * n + 1.0) * x - n * gyroscopic(x);
     if (stiffening_) y -= a_sigma_.selfadjointView<Eigen::Lower>() * x;
     return y;
   }

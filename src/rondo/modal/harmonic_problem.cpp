@@ -11,13 +11,13 @@ namespace rondo::modal {
 namespace {
 
 using Eigen::Index;
-using Vector = Eigen::VectorXcd;
+using Eigen::VectorXcd;
 
 }  // namespace
 
-Vector gyroscopic(const Vector& w) {
+VectorXcd gyroscopic(const VectorXcd& w) {
   const std::complex<double> two_i(0.0, 2.0);
-  Vector out(w.size());
+  VectorXcd out(w.size());
   for (Index a = 0; a < w.size(); a += 2) {
     out[a] = -two_i * w[a + 1];
     out[a + 1] = two_i * w[a];
@@ -54,7 +54,7 @@ bool HarmonicProblem::has_partner() const noexcept {
   return n_ > 0 && 2 * n_ < body_.stiffness.n_sectors;
 }
 
-void HarmonicProblem::take_rigid_out(Eigen::Ref<Vector> w) const {
+void HarmonicProblem::take_rigid_out(Eigen::Ref<VectorXcd> w) const {
   if (rigid_.size() > 0) w -= rigid_.dot(w) * rigid_;
 }
 
@@ -111,12 +111,12 @@ Operator<HarmonicProblem::Complex> HarmonicProblem::at_rest(double shift) {
   Operator<Complex> op;
   op.size = size();
   op.rank = size() - (rigid_.size() > 0 ? 1 : 0);
-  op.apply = [this](const Vector& x) {
-    Vector y = factor_.solve(x);
+  op.apply = [this](const VectorXcd& x) {
+    VectorXcd y = factor_.solve(x);
     take_rigid_out(y);
     return y;
   };
-  op.metric = [](const Vector& x) { return x; };
+  op.metric = [](const VectorXcd& x) { return x; };
   return op;
 }
 
@@ -127,16 +127,16 @@ Operator<HarmonicProblem::Complex> HarmonicProblem::in_spin() {
   Operator<Complex> op;
   op.size = 2 * n;
   op.rank = 2 * (n - (rigid_.size() > 0 ? 1 : 0));
-  op.apply = [this, n](const Vector& x) {
-    Vector y(2 * n);
-    y.head(n) = factor_.solve(Vector(x.tail(n) - spin_ * gyroscopic(x.head(n))));
+  op.apply = [this, n](const VectorXcd& x) {
+    VectorXcd y(2 * n);
+    y.head(n) = factor_.solve(VectorXcd(x.tail(n) - spin_ * gyroscopic(x.head(n))));
     y.tail(n) = x.head(n);
     take_rigid_out(y.head(n));
     take_rigid_out(y.tail(n));
     return y;
   };
-  op.metric = [this, n](const Vector& x) {
-    Vector y(2 * n);
+  op.metric = [this, n](const VectorXcd& x) {
+    VectorXcd y(2 * n);
     y.head(n).noalias() = lower_.selfadjointView<Eigen::Lower>() * x.head(n);
     y.tail(n) = x.tail(n);
     return y;

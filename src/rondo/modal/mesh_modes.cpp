@@ -15,21 +15,21 @@ namespace rondo::modal {
 namespace {
 
 using Eigen::Index;
-using Matrix = Eigen::SparseMatrix<double>;
-using Vector = Eigen::VectorXd;
-using Cholesky = Eigen::CholmodDecomposition<Matrix, Eigen::Lower>;
+using SparseMatrix = Eigen::SparseMatrix<double>;
+using Eigen::VectorXd;
+using Cholesky = Eigen::CholmodDecomposition<SparseMatrix, Eigen::Lower>;
 
 /// The equation on the free nodes, numbered 2·(place in `free`) + component.
-struct Reduced {
+struct ReducedBody {
   std::vector<int> free;
-  Matrix k;  ///< K' = K - s² M
-  Vector mass;
+  SparseMatrix k;  ///< K' = K - s² M
+  VectorXd mass;
   double spin = 0.0;
   Eigen::MatrixXd rigid;  ///< M-orthonormal rigid-body motions of the free bodies
 };
 
 /// Three columns for each body, M-orthonormal: along x, along y, about the center of mass.
-Eigen::MatrixXd rigid_motions(const MeshBody& body, const Reduced& r) {
+Eigen::MatrixXd rigid_motions(const MeshBody& body, const ReducedBody& r) {
   const std::vector<int> bodies = free_bodies(body.mesh);
   const mesh::Bodies all = mesh::find_bodies(body.mesh);
   Eigen::MatrixXd motions =
@@ -60,8 +60,8 @@ Eigen::MatrixXd rigid_motions(const MeshBody& body, const Reduced& r) {
   return motions;
 }
 
-Reduced reduce(const MeshBody& body, double spin) {
-  Reduced r;
+ReducedBody reduce(const MeshBody& body, double spin) {
+  ReducedBody r;
   r.spin = spin;
   r.free = fem::free_nodes(body.mesh);
   r.k = fem::free_matrix(body.stiffness, r.free);
@@ -75,8 +75,8 @@ Reduced reduce(const MeshBody& body, double spin) {
 }
 
 /// J x of each node.
-Vector turned(const Vector& x) {
-  Vector y(x.size());
+VectorXd turned(const VectorXd& x) {
+  VectorXd y(x.size());
   for (Index a = 0; a < x.size(); a += 2) {
     y[a] = -x[a + 1];
     y[a + 1] = x[a];
@@ -85,36 +85,36 @@ Vector turned(const Vector& x) {
 }
 
 /// T = (K + τM)⁻¹ M in the inner product of M, with μ = 1/(ω² + τ); without rigid-body motions.
-Operator<double> at_rest(const Reduced& r, const Cholesky& factor) {
+Operator<double> at_rest(const ReducedBody& r, const Cholesky& factor) {
   Operator<double> op;
   op.size = r.k.rows();
   op.rank = r.k.rows() - r.rigid.cols();
-  op.apply = [&r, &factor](const Vector& x) {
-    Vector y = factor.solve(Vector(r.mass.cwiseProduct(x)));
+  op.apply = [&r, &factor](const VectorXd& x) {
+    VectorXd y = factor.solve(VectorXd(r.mass.cwiseProduct(x)));
     for (int pass = 0; pass < 2; ++pass)
       y -= r.rigid * (r.rigid.transpose() * r.mass.cwiseProduct(y)).eval();
     return y;
   };
-  op.metric = [&r](const Vector& x) { return Vector(r.mass.cwiseProduct(x)); };
+  op.metric = [&r](const VectorXd& x) { return VectorXd(r.mass.cwiseProduct(x)); };
   return op;
 }
 
 /// T = S⁻¹ P of x = (u, u̇), P = diag(K', M), S = [0, K'; -K', -2sMJ]: skew in the inner product of
 /// P, and iT has μ = 1/ω (8.3a).
-Operator<double> in_spin(const Reduced& r, const Cholesky& factor) {
+Operator<double> in_spin(const ReducedBody& r, const Cholesky& factor) {
   const Index n = r.k.rows();
   Operator<double> op;
   op.size = op.rank = 2 * n;
   op.skew = true;
-  op.apply = [&r, &factor, n](const Vector& x) {
-    const Vector load = r.mass.cwiseProduct(x.tail(n) + 2.0 * r.spin * turned(x.head(n)));
-    Vector y(2 * n);
+  op.apply = [&r, &factor, n](const VectorXd& x) {
+    const VectorXd load = r.mass.cwiseProduct(x.tail(n) + 2.0 * r.spin * turned(x.head(n)));
+    VectorXd y(2 * n);
     y.head(n) = -factor.solve(load);
     y.tail(n) = x.head(n);
     return y;
   };
-  op.metric = [&r, n](const Vector& x) {
-    Vector y(2 * n);
+  op.metric = [&r, n](const VectorXd& x) {
+    VectorXd y(2 * n);
     y.head(n).noalias() = r.k * x.head(n);
     y.tail(n) = r.mass.cwiseProduct(x.tail(n));
     return y;
@@ -124,8 +124,8 @@ Operator<double> in_spin(const Reduced& r, const Cholesky& factor) {
 
 /// Roots with 0 < ω < σ, by the negative eigenvalues of K' - σ²M + 2iσsMJ less the rigid-body
 /// motions. Nothing where the factor breaks down.
-std::optional<int> count_below(const Reduced& r, double sigma) {
-  Matrix shifted = r.k;
+std::optional<int> count_below(const ReducedBody& r, double sigma) {
+  SparseMatrix shifted = r.k;
   for (Index i = 0; i < shifted.rows(); ++i) shifted.coeffRef(i, i) -= sigma * sigma * r.mass[i];
   std::optional<int> found;
   if (r.spin == 0.0) {
@@ -159,7 +159,7 @@ Index up_to_gap(const Ritz& r, Index count) {
 
 /// The lowest `count` with what else is as low as the last; then as many as the count of all below
 /// says.
-Ritz find(const Reduced& r, const Search& search, Krylov<double>& space, Index count,
+Ritz find(const ReducedBody& r, const Search& search, Krylov<double>& space, Index count,
           std::vector<double>& omegas, bool& counted) {
   const bool rest = r.spin == 0.0;
   Ritz ritz = eigenvalues_beyond(space, 0.0, count + 1, 0);
@@ -182,7 +182,7 @@ Ritz find(const Reduced& r, const Search& search, Krylov<double>& space, Index c
   return ritz;
 }
 
-Mode mode_of(const Reduced& r, std::span<const double> mass, const Eigen::VectorXcd& x) {
+Mode mode_of(const ReducedBody& r, std::span<const double> mass, const Eigen::VectorXcd& x) {
   Mode mode;
   mode.real.assign(mass.size(), Vec2{});
   mode.imaginary.assign(mass.size(), Vec2{});
@@ -199,9 +199,9 @@ Mode mode_of(const Reduced& r, std::span<const double> mass, const Eigen::Vector
 /// About the square of the lowest frequency: less by as much as an element is smaller than the
 /// body. Of the softest part: by a steel core the shift would be far above all frequencies of the
 /// rubber on it, and their μ not apart. It stays above the rounding of the factor.
-double low_eigenvalue(const Reduced& r) {
+double low_eigenvalue(const ReducedBody& r) {
   constexpr double rounding = 1e-13;
-  const Vector of_node = r.k.diagonal().cwiseQuotient(r.mass);
+  const VectorXd of_node = r.k.diagonal().cwiseQuotient(r.mass);
   return std::max(of_node.minCoeff() / static_cast<double>(r.mass.size()),
                   rounding * of_node.maxCoeff());
 }
@@ -222,13 +222,13 @@ std::vector<int> free_bodies(const mesh::Mesh& mesh) {
 
 Modes mesh_modes(const MeshBody& body, double spin, int count) {
   const OneBlasThread one_thread;
-  const Reduced r = reduce(body, spin);
+  const ReducedBody r = reduce(body, spin);
   const bool rest = spin == 0.0;
   RONDO_DEMAND(rest || r.rigid.cols() == 0, spin, r.rigid.cols());
   RONDO_DEMAND(std::isfinite(r.k.norm()), spin);
   Search search;
   search.shift = r.rigid.cols() > 0 ? low_eigenvalue(r) : 0.0;
-  Matrix held = r.k;
+  SparseMatrix held = r.k;
   for (Index i = 0; i < held.rows(); ++i) held.coeffRef(i, i) += search.shift * r.mass[i];
   Cholesky factor;
   factor.setMode(Eigen::CholmodSupernodalLLt);

@@ -8,7 +8,7 @@
 namespace rondo::modal {
 namespace {
 
-using Complex = std::complex<double>;
+using StdComplex = std::complex<double>;
 
 /// (n) φ = M^-½ w e^{inφ_j} in each sector j, turned back into Cartesian components.
 void spread(const CyclicBody& body, int n, const Eigen::VectorXcd& w, Mode& mode) {
@@ -17,13 +17,13 @@ void spread(const CyclicBody& body, int n, const Eigen::VectorXcd& w, Mode& mode
   mode.imaginary.assign(body.mass.size(), Vec2{});
   for (std::size_t j = 0; j < k.turn.size(); ++j) {
     const auto step = static_cast<long long>(j) * n % k.n_sectors;
-    const Complex phase =
+    const StdComplex phase =
         std::polar(1.0, 2.0 * std::numbers::pi * static_cast<double>(step) / k.n_sectors);
     for (std::size_t a = 0; a < k.n_local(); ++a) {
       const std::size_t node = k.node(a, j);
       const auto at = static_cast<Eigen::Index>(2 * a);
       const double scale = 1.0 / std::sqrt(body.mass[node]);
-      const Complex x = scale * phase * w[at], y = scale * phase * w[at + 1];
+      const StdComplex x = scale * phase * w[at], y = scale * phase * w[at + 1];
       mode.real[node] = k.turn[j] * Vec2{x.real(), y.real()};
       mode.imaginary[node] = k.turn[j] * Vec2{x.imag(), y.imag()};
     }

@@ -5,13 +5,10 @@
 #include <iterator>
 
 #include "rondo/core/contract.hpp"
+#include "rondo/core/index.hpp"
 
 namespace rondo::dynamics {
 namespace {
-
-std::size_t at(int index) noexcept {
-  return static_cast<std::size_t>(index);
-}
 
 Subdomain make_subdomain(const mesh::Mesh& part, std::span<const fem::Material> materials,
                          std::span<const Vec2> prestress) {

@@ -14,7 +14,7 @@
 namespace rondo::pod {
 namespace {
 
-constexpr double turn = 2.0 * std::numbers::pi;
+constexpr double full_turn = 2.0 * std::numbers::pi;
 
 Rings rings_of(const mesh::Mesh& mesh, const std::vector<int>& nodes) {
   RONDO_DEMAND(mesh.n_sectors > 0, mesh.n_sectors);
@@ -38,7 +38,8 @@ Rings rings_of(const mesh::Mesh& mesh, const std::vector<int>& nodes) {
   return rings;
 }
 
-/// In (-π, π] by way of the direction: a remainder by the rounded 2π is wrong by 1e-16 each turn.
+/// In (-π, π] by way of the direction: a remainder by the rounded 2π is wrong by 1e-16 each
+/// full_turn.
 double within_a_turn(double theta) {
   const Vec2 direction = direction_at(theta);
   return std::atan2(direction.y, direction.x);
@@ -68,7 +69,7 @@ Rectifier::Rectifier(int n_sectors, std::size_t n_rings, Components components, 
       work_(n_) {
   const double sectors = n_sectors;
   for (std::size_t k = 0; k < n_; ++k)
-    to_polar_[k] = rotation(-turn * static_cast<double>(k) / sectors);
+    to_polar_[k] = rotation(-full_turn * static_cast<double>(k) / sectors);
   auto* ring = reinterpret_cast<fftw_complex*>(work_.data());
   // Plans chosen by rule, not by timing: the same bits in every run.
   const unsigned flags = FFTW_ESTIMATE | FFTW_UNALIGNED;
@@ -116,7 +117,7 @@ void Rectifier::move_by_harmonics(std::span<double> ring) {
   for (std::size_t k = 0; k < n_; ++k) ring[k] = work_[k].x;
 }
 
-/// Each ring in its polar frames, where they turn with the field.
+/// Each ring in its polar frames, where they full_turn with the field.
 template <class Move>
 void Rectifier::move(std::span<Vec2> values, Move&& move_ring) {
   RONDO_DEMAND(values.size() == n_ * n_rings_, values.size(), n_, n_rings_);
@@ -132,7 +133,7 @@ void Rectifier::move(std::span<Vec2> values, Move&& move_ring) {
 
 /// Sectors, 0 to n, by which a whole number of them moves a field round by the angle in (-π, π].
 std::ptrdiff_t Rectifier::whole_sectors(double angle) const noexcept {
-  const long pitches = std::lround(angle / turn * static_cast<double>(n_));
+  const long pitches = std::lround(angle / full_turn * static_cast<double>(n_));
   return pitches + (pitches < 0 ? static_cast<long>(n_) : 0);
 }
 

@@ -17,7 +17,7 @@ using Eigen::Index;
 // A look costs a direct solve, so it waits for other findings, though not for ever.
 constexpr int sweeps_between_looks = 4, sweeps_without_news = 100;
 
-Vec2 at(const Eigen::VectorXd& v, Index j) {
+Vec2 vec2_at(const Eigen::VectorXd& v, Index j) {
   return {v[2 * j], v[2 * j + 1]};
 }
 
@@ -158,11 +158,12 @@ double condensed_residual(const CondensedProblem& p, const Eigen::VectorXd& r,
   double largest = 0.0, force = 0.0, free = 0.0;
   for (Index j = 0; j < r.size() / 2; ++j) {
     const double stiffness = 1.0 / p.compliance(2 * j, 2 * j);
-    const double residual = contact::law_residual(at(r, j), at(w, j), 0.0, p.friction, stiffness);
+    const double residual =
+        contact::law_residual(vec2_at(r, j), vec2_at(w, j), 0.0, p.friction, stiffness);
     if (!std::isfinite(residual)) return residual;
     largest = std::max(largest, residual);
-    force = std::max(force, norm(at(r, j)));
-    free = std::max(free, stiffness * norm(at(p.free, j)));
+    force = std::max(force, norm(vec2_at(r, j)));
+    free = std::max(free, stiffness * norm(vec2_at(p.free, j)));
   }
   return largest == 0.0 ? 0.0 : largest / (force > 0.0 ? force : free);
 }
@@ -188,7 +189,7 @@ ComplementaryForm make_complementary(const CondensedProblem& p) {
   f.lcp.q = Eigen::VectorXd::Zero(3 * m);
   f.lcp.q.head(m) = p.free(normal) / f.length;
   f.lcp.q.segment(m, m) = p.free(tangential) / f.length;
-  // With the normal part at least μ times the tangential one there is no ray (6.4).
+  // With the normal part vec2_at least μ times the tangential one there is no ray (6.4).
   f.lcp.cover = Eigen::VectorXd::Ones(3 * m);
   f.lcp.cover.segment(m, m).setConstant(1.0 / std::max(1.0, p.friction));
   return f;

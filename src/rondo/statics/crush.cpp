@@ -15,10 +15,6 @@ using contact::Status;
 using Eigen::Index;
 
 /// H u of a node.
-Vec2 in_contact_frame(Vec2 u) {
-  return {u.y, -u.x};
-}
-
 Vec2 displaced(const CrushModel& model, std::size_t candidate, const std::vector<Vec2>& u) {
   return in_contact_frame(u[static_cast<std::size_t>(model.nodes[candidate])]);
 }

@@ -14,6 +14,11 @@
 
 namespace rondo::statics {
 
+/// H u of a node: the components of u along n and t.
+[[nodiscard]] inline Vec2 in_contact_frame(Vec2 u) noexcept {
+  return {u.y, -u.x};
+}
+
 /// Fixed while the body is moved.
 struct CrushModel {
   std::vector<int> nodes;         ///< (nb) candidates

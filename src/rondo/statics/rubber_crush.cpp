@@ -6,6 +6,8 @@
 #include <limits>
 #include <utility>
 
+#include "rondo/core/index.hpp"
+
 namespace rondo::statics {
 namespace {
 
@@ -15,15 +17,6 @@ constexpr int most_iterations = 40, most_halvings = 8;
 constexpr double smallest_part = 1.0 / 256.0;  ///< of an increment
 constexpr double equilibrium_bound = 1e-11;    ///< ends the iteration at once
 constexpr double equilibrium_floor = 1e-9;     ///< ends it where round-off is reached
-
-std::size_t at(int index) noexcept {
-  return static_cast<std::size_t>(index);
-}
-
-/// H u of a node.
-Vec2 in_contact_frame(Vec2 u) noexcept {
-  return {u.y, -u.x};
-}
 
 }  // namespace
 

@@ -14,7 +14,7 @@
 #include "rondo/statics/stationary_spin.hpp"
 #include "unit/case/case_fixture.hpp"
 
-namespace rondo::study {
+namespace rondo::study::build_test {
 namespace {
 
 Case spinning(int radial, int circumferential, double spin) {
@@ -200,4 +200,4 @@ TEST(Build, SofteningIsCheckedWhereOneFactorIsSmall) {
   EXPECT_TRUE(softening_is_checked(500000, 100000));
 }
 
-}  // namespace rondo::study
+}  // namespace rondo::study::build_test

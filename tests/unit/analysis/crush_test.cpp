@@ -7,6 +7,8 @@
 
 #include "rondo/analysis/build/crush/crush_path.hpp"
 
+namespace crush_test {
+
 using namespace rondo;
 
 namespace {
@@ -101,3 +103,5 @@ TEST(CrushPath, OfTablesFollowsThem) {
   EXPECT_DOUBLE_EQ(path.slide(6), -0.005);
   EXPECT_EQ(path.target(4), "depth 0.02 m, slide 0 m");
 }
+
+}  // namespace crush_test

@@ -10,7 +10,7 @@
 #include "rondo/core/build_id.hpp"
 #include "rondo/core/error.hpp"
 
-namespace rondo::study {
+namespace rondo::study::history_statistics_test {
 namespace {
 
 TEST(BuildId, IsTheProgramsOwn) {
@@ -58,4 +58,4 @@ TEST(HistoryStatistics, TimesThatDoNotRiseAreRefused) {
 }
 
 }  // namespace
-}  // namespace rondo::study
+}  // namespace rondo::study::history_statistics_test

@@ -9,7 +9,7 @@
 #include "rondo/output/columns.hpp"
 #include "unit/case/case_fixture.hpp"
 
-namespace rondo::study {
+namespace rondo::study::manual_test {
 namespace {
 
 using Labels = std::vector<ColumnLabel>;
@@ -63,4 +63,4 @@ TEST(Manual, HasTheColumns) {
 }
 
 }  // namespace
-}  // namespace rondo::study
+}  // namespace rondo::study::manual_test

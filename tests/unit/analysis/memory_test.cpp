@@ -9,7 +9,7 @@
 #include "rondo/core/limits/memory_limits.hpp"
 #include "unit/case/case_fixture.hpp"
 
-namespace rondo::study {
+namespace rondo::study::memory_test {
 namespace {
 
 using namespace test;
@@ -90,4 +90,4 @@ TEST(Estimate, MeshLargerThanTheMachineIsRefused) {
 }
 
 }  // namespace
-}  // namespace rondo::study
+}  // namespace rondo::study::memory_test

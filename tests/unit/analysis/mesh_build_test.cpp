@@ -9,7 +9,7 @@
 #include "rondo/analysis/build/overlap.hpp"
 #include "unit/analysis/mesh_fixture.hpp"
 
-namespace rondo::study {
+namespace rondo::study::mesh_build_test {
 namespace {
 
 using namespace test;
@@ -370,4 +370,4 @@ TEST(WrongMeshes, ACrushNeedsEveryBodyHeld) {
 }
 
 }  // namespace
-}  // namespace rondo::study
+}  // namespace rondo::study::mesh_build_test

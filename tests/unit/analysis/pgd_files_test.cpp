@@ -9,7 +9,7 @@
 #include "support/latin.hpp"
 #include "unit/io/support.hpp"
 
-namespace rondo::study {
+namespace rondo::study::pgd_files_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -18,7 +18,8 @@ using Eigen::MatrixXd;
 using Eigen::VectorXd;
 using io::test::error_of;
 using io::test::Folder;
-using test::LatinDisk;
+using rondo::test::LatinDisk;
+using rondo::test::pressing;
 
 constexpr int increments = 30;
 constexpr double share = 1e-3;
@@ -28,7 +29,7 @@ constexpr const char* in_run = "pod/displacement-pgd";
 class SolvedDisk {
  public:
   explicit SolvedDisk(double friction = 0.3)
-      : problem_(disk.problem(test::pressing(increments, 0.02), friction)),
+      : problem_(disk.problem(pressing(increments, 0.02), friction)),
         direction(statics::chosen_direction(problem_.compliance, false)),
         stiffened_(disk.stiffened(direction)),
         pgd(*stiffened_, disk.nodes(), {.direction = direction}),
@@ -297,4 +298,4 @@ TEST(PgdBasis, ADamagedFileIsAnErrorOfFiles) {
 }
 
 }  // namespace
-}  // namespace rondo::study
+}  // namespace rondo::study::pgd_files_test

@@ -8,7 +8,7 @@
 #include "rondo/mesh/locate.hpp"
 #include "unit/case/case_fixture.hpp"
 
-namespace rondo::study::test {
+namespace rondo::study::test::physical_test {
 namespace {
 
 const std::string wheel = R"(schema = 1
@@ -141,4 +141,4 @@ TEST(Physical, OfACrush) {
 }
 
 }  // namespace
-}  // namespace rondo::study::test
+}  // namespace rondo::study::test::physical_test

@@ -9,7 +9,7 @@
 #include "rondo/analysis/steady/scheme_power.hpp"
 #include "unit/case/case_fixture.hpp"
 
-namespace rondo::study::test {
+namespace rondo::study::test::plausible_test {
 namespace {
 
 const std::string wheel = R"(schema = 1
@@ -138,4 +138,4 @@ TEST(SchemePower, IsRefusedWhereItCounts) {
 }
 
 }  // namespace
-}  // namespace rondo::study::test
+}  // namespace rondo::study::test::plausible_test

@@ -6,7 +6,7 @@
 #include "support/wheel.hpp"
 #include "unit/analysis/mesh_fixture.hpp"
 
-namespace rondo::study::test {
+namespace rondo::study::test::rim_build_test {
 namespace {
 
 const std::string& wheel = rondo::test::wheel_text;
@@ -122,4 +122,4 @@ TEST(RimBuild, NoBodyIsFree) {
 }
 
 }  // namespace
-}  // namespace rondo::study::test
+}  // namespace rondo::study::test::rim_build_test

@@ -9,7 +9,7 @@
 #include "rondo/analysis/build/physical.hpp"
 #include "unit/analysis/mesh_fixture.hpp"
 
-namespace rondo::study {
+namespace rondo::study::rubber_build_test {
 namespace {
 
 using namespace test;
@@ -257,4 +257,4 @@ TEST(RubberBuild, DeepOnesAreNotWarnedOf) {
 }
 
 }  // namespace
-}  // namespace rondo::study
+}  // namespace rondo::study::rubber_build_test

@@ -6,7 +6,8 @@
 #include "unit/case/case_fixture.hpp"
 #include "unit/case/key_cases.hpp"
 
-using namespace rondo;
+namespace shared_body_test {
+
 using namespace rondo::study;
 
 namespace {
@@ -131,3 +132,5 @@ TEST(SharedBody, KeyHoldsTheDampingOfTheSchemeAsPrinted) {
   EXPECT_NE(body_key(with({printed, "damping.mass=1"})),
             body_key(with({printed, "damping.mass=2"})));
 }
+
+}  // namespace shared_body_test

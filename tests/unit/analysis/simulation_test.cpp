@@ -10,7 +10,7 @@
 #include "rondo/analysis/simulation/solve.hpp"
 #include "rondo/core/error.hpp"
 
-namespace rondo::study {
+namespace rondo::study::simulation_test {
 namespace {
 
 constexpr const char* small = R"(schema = 1
@@ -139,4 +139,4 @@ TEST(Drive, KeysAreThoseOfTablesThatCount) {
 }
 
 }  // namespace
-}  // namespace rondo::study
+}  // namespace rondo::study::simulation_test

@@ -9,7 +9,7 @@
 #include "rondo/analysis/build/memory.hpp"
 #include "unit/case/case_fixture.hpp"
 
-namespace rondo::study {
+namespace rondo::study::solid_build_test {
 namespace {
 
 const std::string wheel = R"(schema = 1
@@ -116,4 +116,4 @@ TEST(SolidBuild, PressureHasTheAreaOfItsSide) {
 }
 
 }  // namespace
-}  // namespace rondo::study
+}  // namespace rondo::study::solid_build_test

@@ -11,6 +11,8 @@
 #include "rondo/integrators/start.hpp"
 #include "unit/case/case_fixture.hpp"
 
+namespace steady_start_test {
+
 using namespace rondo;
 using study::build;
 using study::flat_ground_below;
@@ -123,3 +125,5 @@ TEST(SteadyStart, GroundIsFlatBelowTheBody) {
 }
 
 }  // namespace
+
+}  // namespace steady_start_test

@@ -7,7 +7,7 @@
 #include "rondo/analysis/build/build.hpp"
 #include "unit/analysis/mesh_fixture.hpp"
 
-namespace rondo::study {
+namespace rondo::study::step_limit_test {
 namespace {
 
 using namespace test;
@@ -88,4 +88,4 @@ TEST(StepLimit, CellsOfNoPhysicalSurface) {
   EXPECT_EQ(find_step_limit(c, s).part, "no physical surface");
 }
 
-}  // namespace rondo::study
+}  // namespace rondo::study::step_limit_test

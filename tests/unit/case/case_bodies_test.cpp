@@ -5,7 +5,7 @@
 
 #include "unit/case/case_fixture.hpp"
 
-namespace rondo::study {
+namespace rondo::study::case_bodies_test {
 namespace {
 
 using namespace test;
@@ -284,4 +284,4 @@ TEST(SettingsOfLists, AMissingKeyOfANewTableIsTold) {
 }
 
 }  // namespace
-}  // namespace rondo::study
+}  // namespace rondo::study::case_bodies_test

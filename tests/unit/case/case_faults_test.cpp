@@ -3,7 +3,7 @@
 
 #include "unit/case/case_fixture.hpp"
 
-namespace rondo::study {
+namespace rondo::study::case_faults_test {
 namespace {
 
 using namespace test;
@@ -184,4 +184,4 @@ TEST(WrongFiles, UnreadableFile) {
 }
 
 }  // namespace
-}  // namespace rondo::study
+}  // namespace rondo::study::case_faults_test

@@ -5,7 +5,7 @@
 
 #include "unit/case/case_fixture.hpp"
 
-namespace rondo::study {
+namespace rondo::study::case_keys_test {
 namespace {
 
 using namespace test;
@@ -65,4 +65,4 @@ TEST(CaseKeys, ExamplesOfTheManualAreCases) {
 }
 
 }  // namespace
-}  // namespace rondo::study
+}  // namespace rondo::study::case_keys_test

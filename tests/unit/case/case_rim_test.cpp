@@ -8,7 +8,7 @@
 
 #include "unit/case/case_fixture.hpp"
 
-namespace rondo::study {
+namespace rondo::study::case_rim_test {
 namespace {
 
 using namespace test;
@@ -193,4 +193,4 @@ TEST(CaseRim, WarnsOfTheStiffnessOfAnotherSpin) {
 }
 
 }  // namespace
-}  // namespace rondo::study
+}  // namespace rondo::study::case_rim_test

@@ -6,7 +6,7 @@
 
 #include "rondo/case/schema/case_schema.hpp"
 
-namespace rondo::study {
+namespace rondo::study::case_schema_test {
 namespace {
 
 TEST(CaseSchema, HasEveryKeyWithItsRow) {
@@ -88,4 +88,4 @@ TEST(JsonSchema, LinksAreTakenOutOfMarkdown) {
 }
 
 }  // namespace
-}  // namespace rondo::study
+}  // namespace rondo::study::case_schema_test

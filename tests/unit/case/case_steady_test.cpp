@@ -4,7 +4,7 @@
 
 #include "unit/case/case_fixture.hpp"
 
-namespace rondo::study {
+namespace rondo::study::case_steady_test {
 namespace {
 
 using namespace test;
@@ -108,4 +108,4 @@ kind = "steady-rolling"
 }
 
 }  // namespace
-}  // namespace rondo::study
+}  // namespace rondo::study::case_steady_test

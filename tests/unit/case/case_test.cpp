@@ -11,7 +11,7 @@
 #include "rondo/case/toml_text.hpp"
 #include "unit/case/case_fixture.hpp"
 
-namespace rondo::study {
+namespace rondo::study::case_test {
 namespace {
 
 using namespace test;
@@ -404,4 +404,4 @@ TEST(Settings, TextThatIsNotToml) {
 }
 
 }  // namespace
-}  // namespace rondo::study
+}  // namespace rondo::study::case_test

@@ -5,7 +5,7 @@
 
 #include "unit/case/case_fixture.hpp"
 
-namespace rondo::study {
+namespace rondo::study::case_wrong_test {
 namespace {
 
 using namespace test;
@@ -449,4 +449,4 @@ INSTANTIATE_TEST_SUITE_P(ReadCase, WrongCase, testing::ValuesIn(wrongs),
                          [](const auto& wrong) { return std::string(wrong.param.name); });
 
 }  // namespace
-}  // namespace rondo::study
+}  // namespace rondo::study::case_wrong_test

@@ -8,7 +8,7 @@
 
 #include "unit/case/case_fixture.hpp"
 
-namespace rondo::study {
+namespace rondo::study::contact_mass_rules_test {
 namespace {
 
 using namespace test;
@@ -76,4 +76,4 @@ TEST(ContactMassKey, FlatGroundAndFilletsAreTaken) {
 }
 
 }  // namespace
-}  // namespace rondo::study
+}  // namespace rondo::study::contact_mass_rules_test

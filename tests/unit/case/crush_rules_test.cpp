@@ -4,7 +4,7 @@
 
 #include "unit/case/case_fixture.hpp"
 
-namespace rondo::study {
+namespace rondo::study::crush_rules_test {
 namespace {
 
 using namespace test;
@@ -145,4 +145,4 @@ TEST(CrushSolvers, AreOfACrushAlone) {
 }
 
 }  // namespace
-}  // namespace rondo::study
+}  // namespace rondo::study::crush_rules_test

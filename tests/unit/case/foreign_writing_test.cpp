@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-namespace rondo::study {
+namespace rondo::study::foreign_writing_test {
 namespace {
 
 TEST(ForeignWriting, OfAValueIsNamedWithWhatToWrite) {
@@ -42,4 +42,4 @@ TEST(ForeignWriting, ACommaBetweenDigitsMayBeMeantAsAPoint) {
 }
 
 }  // namespace
-}  // namespace rondo::study
+}  // namespace rondo::study::foreign_writing_test

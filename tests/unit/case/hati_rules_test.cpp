@@ -4,7 +4,7 @@
 
 #include "unit/case/case_fixture.hpp"
 
-namespace rondo::study {
+namespace rondo::study::hati_rules_test {
 namespace {
 
 using namespace test;
@@ -83,4 +83,4 @@ TEST(HatiCase, TakesATableThatDoesNotVary) {
 }
 
 }  // namespace
-}  // namespace rondo::study
+}  // namespace rondo::study::hati_rules_test

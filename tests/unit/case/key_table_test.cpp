@@ -9,7 +9,7 @@
 
 #include "unit/case/key_cases.hpp"
 
-namespace rondo::study {
+namespace rondo::study::key_table_test {
 namespace {
 
 using namespace test;
@@ -159,4 +159,4 @@ TEST(KeyTable, AKeyThatMeansNothingHasItsDefault) {
 }
 
 }  // namespace
-}  // namespace rondo::study
+}  // namespace rondo::study::key_table_test

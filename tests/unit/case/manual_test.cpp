@@ -8,7 +8,7 @@
 #include "support/manual.hpp"
 #include "unit/case/case_fixture.hpp"
 
-namespace rondo::study {
+namespace rondo::study::manual_test {
 namespace {
 
 std::string rows_of(const CaseTable& table) {
@@ -35,4 +35,4 @@ TEST(Manual, HasTheSchemaOfCases) {
 }
 
 }  // namespace
-}  // namespace rondo::study
+}  // namespace rondo::study::manual_test

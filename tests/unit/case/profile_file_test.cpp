@@ -5,7 +5,7 @@
 
 #include "case_fixture.hpp"
 
-namespace rondo::study {
+namespace rondo::study::profile_file_test {
 namespace {
 
 using test::CaseFile;
@@ -184,4 +184,4 @@ TEST(ProfileFile, FaultsOfTheFileNameItAndTheCase) {
 }
 
 }  // namespace
-}  // namespace rondo::study
+}  // namespace rondo::study::profile_file_test

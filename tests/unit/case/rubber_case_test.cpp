@@ -6,7 +6,7 @@
 
 #include "unit/case/case_fixture.hpp"
 
-namespace rondo::study {
+namespace rondo::study::rubber_case_test {
 namespace {
 
 using namespace test;
@@ -147,4 +147,4 @@ TEST(RubberCase, ASettingTakesThePlaceOfItsRival) {
 }
 
 }  // namespace
-}  // namespace rondo::study
+}  // namespace rondo::study::rubber_case_test

@@ -4,7 +4,7 @@
 
 #include "unit/case/case_fixture.hpp"
 
-namespace rondo::study {
+namespace rondo::study::rubber_rules_test {
 namespace {
 
 using namespace test;
@@ -349,4 +349,4 @@ TEST(RubberRange, TakeTheEndsOfTheRange) {
 }
 
 }  // namespace
-}  // namespace rondo::study
+}  // namespace rondo::study::rubber_rules_test

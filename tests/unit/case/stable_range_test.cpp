@@ -4,7 +4,7 @@
 
 #include <gtest/gtest.h>
 
-namespace rondo::study {
+namespace rondo::study::stable_range_test {
 namespace {
 
 using fem::Rubber;
@@ -86,4 +86,4 @@ TEST(StableRange, ANegativeTermMayMakeItUnstable) {
 }
 
 }  // namespace
-}  // namespace rondo::study
+}  // namespace rondo::study::stable_range_test

@@ -29,6 +29,8 @@ long allocations = 0;
   std::free(memory);
 }
 
+namespace allocation_test {
+
 using namespace rondo;
 using namespace rondo::contact;
 
@@ -90,3 +92,5 @@ TEST(Allocation, NoneInSearchAndClusters) {
   EXPECT_EQ(allocations - before, 0);
   EXPECT_GT(found, 100);
 }
+
+}  // namespace allocation_test

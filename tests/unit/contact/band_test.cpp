@@ -6,6 +6,8 @@
 #include <Eigen/Dense>
 #include <random>
 
+namespace band_test {
+
 using namespace rondo::contact;
 
 TEST(BandLu, SolvesAsADenseFactorisation) {
@@ -43,3 +45,5 @@ TEST(BandLu, SaysThatAMatrixIsSingular) {
   band.at(2, 2) = 1.0;
   EXPECT_FALSE(band.factorise());
 }
+
+}  // namespace band_test

@@ -7,6 +7,8 @@
 #include <limits>
 #include <random>
 
+namespace box_tree_test {
+
 using namespace rondo;
 using namespace rondo::contact;
 
@@ -37,7 +39,7 @@ struct Nearest {
 
   double look(const Line& line, std::size_t i, Vec2 x) {
     ++looks;
-    const double found = ::distance(line, i, x);
+    const double found = box_tree_test::distance(line, i, x);
     if (found < distance || (found == distance && i < piece)) {
       distance = found;
       piece = i;
@@ -105,3 +107,5 @@ TEST(BoxTree, InfiniteAndEmpty) {
     return 0.0;
   });
 }
+
+}  // namespace box_tree_test

@@ -9,7 +9,7 @@
 #include "rondo/contact/cone_pair.hpp"
 #include "rondo/contact/pair.hpp"
 
-namespace rondo::contact {
+namespace rondo::contact::cone_test {
 namespace {
 
 using Rows = std::array<Vec3, 3>;
@@ -165,4 +165,4 @@ TEST(Cone, ProjectsOnTheNearestPoint) {
 }
 
 }  // namespace
-}  // namespace rondo::contact
+}  // namespace rondo::contact::cone_test

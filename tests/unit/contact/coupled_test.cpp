@@ -15,6 +15,8 @@
 #include "support/contact_oracles.hpp"
 #include "support/contact_problems.hpp"
 
+namespace coupled_test {
+
 using namespace rondo;
 using namespace rondo::contact;
 using test::chain;
@@ -340,3 +342,5 @@ TEST(Coupled, NothingToDoTakesNoIteration) {
   none.row_start = {0};
   EXPECT_TRUE(solved(none).result.converged);
 }
+
+}  // namespace coupled_test

@@ -9,6 +9,8 @@
 #include <numbers>
 #include <random>
 
+namespace ground_test {
+
 using namespace rondo;
 using namespace rondo::contact;
 
@@ -306,3 +308,5 @@ TEST(Ground, FaultsAreNamed) {
   EXPECT_EQ(first({.profile = ledge.profile, .fillet = 0.1}), "none");
   EXPECT_EQ(first({.profile = {{-1, 1}, {0, 0}, {1, 1}}}), "none");
 }
+
+}  // namespace ground_test

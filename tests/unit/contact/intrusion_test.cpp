@@ -5,6 +5,8 @@
 
 #include <cmath>
 
+namespace intrusion_test {
+
 using namespace rondo;
 using namespace rondo::contact;
 
@@ -93,3 +95,5 @@ TEST(Intrusion, ObstaclesShorterThanTheSpacingAreHiddenAsAWhole) {
       EXPECT_EQ(hidden.whole.depth, 0.0) << foot;
   }
 }
+
+}  // namespace intrusion_test

@@ -11,6 +11,8 @@
 #include "rondo/contact/residual.hpp"
 #include "rondo/core/complex.hpp"
 
+namespace law_test {
+
 using namespace rondo;
 using namespace rondo::contact;
 
@@ -200,3 +202,5 @@ TEST(Pair, SaysWhenNoCaseMeetsTheLaw) {
   EXPECT_FALSE(s.converged);
   EXPECT_LT(s.residual, 1e-14);  // the best case is returned all the same
 }
+
+}  // namespace law_test

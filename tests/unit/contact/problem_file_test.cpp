@@ -13,6 +13,8 @@
 #include "rondo/core/error.hpp"
 #include "support/contact_oracles.hpp"
 
+namespace problem_file_test {
+
 using namespace rondo;
 using namespace rondo::contact;
 
@@ -194,3 +196,5 @@ TEST(KeptProblems, SmallOnesMatchTheEnumerationOfAllStatuses) {
   EXPECT_EQ(solutions[0], 1u);
   EXPECT_GE(solutions[1], 2u);
 }
+
+}  // namespace problem_file_test

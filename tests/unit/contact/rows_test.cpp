@@ -10,6 +10,8 @@
 #include "rondo/core/complex.hpp"
 #include "support/contact_oracles.hpp"
 
+namespace rows_test {
+
 using namespace rondo;
 using namespace rondo::contact;
 
@@ -202,3 +204,5 @@ TEST(Clusters, AreTheContactsThatSharedNodesJoin) {
     ASSERT_EQ(std::adjacent_find(seen.begin(), seen.end()), seen.end());
   }
 }
+
+}  // namespace rows_test

@@ -8,6 +8,8 @@
 
 #include "rondo/core/vec2.hpp"
 
+namespace search_test {
+
 using namespace rondo;
 using contact::SegmentGrid;
 
@@ -120,3 +122,5 @@ TEST(Search, BodiesFarApartTakeNoMoreCellsThanEdgesNeed) {
   EXPECT_LT(grid.cells(), 20 * s.edges.size());
   compare(s, grid, 1e-3, 0.0, 3);
 }
+
+}  // namespace search_test

@@ -8,6 +8,8 @@
 #include <numeric>
 #include <random>
 
+namespace segment_test {
+
 using namespace rondo;
 using namespace rondo::contact;
 
@@ -193,7 +195,7 @@ TEST(Boundary, AnArcOfTheGroundTouchesWhereTheSegmentMeetsItFirst) {
   EXPECT_EQ(left.at[0].edge, 0);
   // The center is 0.15 below the segment, along y.
   EXPECT_NEAR(left.at[0].touch.gap, 0.15 * std::cos(slope) - 0.2, 1e-15);
-  EXPECT_NEAR(left.at[0].touch.at * norm({1.0, 0.1}),
+  EXPECT_NEAR(left.at[0].touch.at * norm(Vec2{1.0, 0.1}),
               0.5 / std::cos(slope) + 0.15 * std::sin(slope), 1e-15);
   EXPECT_EQ(at(1.5, 0.1).at[0].edge, 1);
   EXPECT_EQ(at(1.0, 0.1).count, 0);  // on either side the foot is beyond the node
@@ -248,3 +250,5 @@ TEST(Boundary, TouchesWhatIsInsideARandomBody) {
   }
   EXPECT_GT(held, 10000);
 }
+
+}  // namespace segment_test

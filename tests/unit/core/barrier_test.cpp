@@ -7,6 +7,8 @@
 #include <thread>
 #include <vector>
 
+namespace barrier_test {
+
 using namespace rondo;
 
 /// What each wrote before the barrier all read after it, over and over, with more threads than
@@ -31,3 +33,5 @@ TEST(Barrier, AllSeeWhatAllDidBefore) {
     EXPECT_EQ(wrong, std::vector<int>(n, 0)) << n;
   }
 }
+
+}  // namespace barrier_test

@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+namespace bytes_test {
+
 using namespace rondo;
 
 namespace {
@@ -26,3 +28,5 @@ TEST(Bytes, BytesInAText) {
 }
 
 }  // namespace
+
+}  // namespace bytes_test

@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-namespace rondo {
+namespace rondo::column_test {
 namespace {
 
 TEST(Units, OfABodyAreNotPerMetreOfItsWidth) {
@@ -22,4 +22,4 @@ TEST(Units, OfABodyAreNotPerMetreOfItsWidth) {
 }
 
 }  // namespace
-}  // namespace rondo
+}  // namespace rondo::column_test

@@ -12,6 +12,8 @@
 #include "rondo/core/keep_larger.hpp"
 #include "rondo/core/sum.hpp"
 
+namespace core_test {
+
 using namespace rondo;
 
 TEST(Complex, MultipliesAndDivides) {
@@ -113,3 +115,5 @@ TEST(KeepLarger, NeverLosesWhatIsNoNumber) {
   EXPECT_EQ(keep_larger(1.0, 2.0), 2.0);
   EXPECT_EQ(keep_larger(2.0, 1.0), 2.0);
 }
+
+}  // namespace core_test

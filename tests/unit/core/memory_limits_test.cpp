@@ -6,6 +6,8 @@
 
 #include <fstream>
 
+namespace memory_limits_test {
+
 using namespace rondo;
 namespace fs = std::filesystem;
 
@@ -63,3 +65,5 @@ TEST(AllowedMemory, IsNeverMoreThanTheMachineHas) {
   EXPECT_LE(allowed.bytes, physical_memory());
   EXPECT_FALSE(allowed.source.empty());
 }
+
+}  // namespace memory_limits_test

@@ -9,6 +9,8 @@
 #include <string>
 #include <thread>
 
+namespace processors_test {
+
 using namespace rondo;
 
 namespace {
@@ -85,3 +87,5 @@ TEST(Processors, AtMostThoseOfTheAffinity) {
   })
       .join();
 }
+
+}  // namespace processors_test

@@ -12,7 +12,7 @@
 #include "rondo/core/error.hpp"
 #include "rondo/core/files/removed_at_signal.hpp"
 
-namespace rondo {
+namespace rondo::regular_file_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -89,4 +89,4 @@ TEST_F(Files, MoreThanThereIsRoomForAreLeftOut) {
 }
 
 }  // namespace
-}  // namespace rondo
+}  // namespace rondo::regular_file_test

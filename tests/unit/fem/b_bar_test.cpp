@@ -8,6 +8,8 @@
 #include "rondo/fem/assembly.hpp"
 #include "rondo/fem/element.hpp"
 
+namespace b_bar_test {
+
 using namespace rondo;
 using namespace rondo::fem;
 
@@ -102,3 +104,5 @@ TEST(BBar, IsFullIntegrationOnOneTriangleAndInPlaneStress) {
   EXPECT_NE(element_stiffness(quad, element_law(rubber)),
             element_stiffness(quad, element_law(full(rubber))));
 }
+
+}  // namespace b_bar_test

@@ -10,7 +10,7 @@
 #include "rondo/fem/assembly.hpp"
 #include "rondo/mesh/disk.hpp"
 
-namespace rondo::fem {
+namespace rondo::fem::contact_mass_test {
 namespace {
 
 const Material rubber{2.0e7, 0.3, 1100.0, Plane::strain};
@@ -123,4 +123,4 @@ TEST(ContactMass, RefusesMomentsThatNoPositiveMassesHave) {
 }
 
 }  // namespace
-}  // namespace rondo::fem
+}  // namespace rondo::fem::contact_mass_test

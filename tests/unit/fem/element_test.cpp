@@ -12,6 +12,8 @@
 #include "rondo/fem/stress.hpp"
 #include "rondo/mesh/disk.hpp"
 
+namespace element_test {
+
 using namespace rondo;
 using namespace rondo::fem;
 
@@ -155,3 +157,5 @@ TEST(StressRecovery, LinearFieldOnADisk) {
   EXPECT_NEAR(von_mises({0.0, 0.0, 0.0, 2.0}), 2.0 * std::sqrt(3.0), 1e-15);
   EXPECT_NEAR(von_mises({5.0, 5.0, 5.0, 0.0}), 0.0, 1e-15);
 }
+
+}  // namespace element_test

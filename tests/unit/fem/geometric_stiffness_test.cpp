@@ -13,6 +13,8 @@
 #include "rondo/fem/sector_stiffness.hpp"
 #include "support/rings.hpp"
 
+namespace geometric_stiffness_test {
+
 using namespace rondo;
 using namespace rondo::fem;
 
@@ -149,3 +151,5 @@ TEST(GeometricStiffness, ElementBoundIsAboveTheLargestEigenvalue) {
     }
   }
 }
+
+}  // namespace geometric_stiffness_test

@@ -10,6 +10,8 @@
 #include "rondo/fem/assembly.hpp"
 #include "support/rings.hpp"
 
+namespace harmonics_test {
+
 using namespace rondo;
 
 namespace {
@@ -117,3 +119,5 @@ TEST(Assembly, ElementBoundOfASectorIsThatOfTheMesh) {
     EXPECT_NEAR(fem::sector_eigenvalue_bound(mesh, {&material, 1}), expected, 1e-12 * expected);
   }
 }
+
+}  // namespace harmonics_test

@@ -6,6 +6,8 @@
 #include <Eigen/Eigenvalues>
 #include <random>
 
+namespace hexahedron_test {
+
 using namespace rondo;
 using fem::HexahedronCorners;
 using fem::Material;
@@ -136,3 +138,5 @@ TEST(Hexahedron, EigenvalueBoundFollowsTheSmallestEdge) {
   const double c2 = 2.0e7 * 0.7 / (1.3 * 0.4) / 1100.0;
   EXPECT_NEAR(fem::hexahedron_eigenvalue_bound(x, full), 4.0 * c2 / 1e-4, 1e-3 * 4.0 * c2 / 1e-4);
 }
+
+}  // namespace hexahedron_test

@@ -8,6 +8,8 @@
 #include "rondo/fem/hyperelastic/laws.hpp"
 #include "unit/fem/rubber_fixture.hpp"
 
+namespace hyperelastic_test {
+
 using namespace rondo;
 using namespace rondo::fem;
 
@@ -329,3 +331,5 @@ TEST(RubberBranches, RotationsAreNoStrain) {
   for (std::size_t k = 0; k < u.size(); ++k)
     EXPECT_LT(norm(rotation(1.0) * here[k] - there[k]), 1e-13);
 }
+
+}  // namespace hyperelastic_test

@@ -5,6 +5,8 @@
 
 #include "rondo/fem/elasticity.hpp"
 
+namespace instantaneous_test {
+
 using namespace rondo::fem;
 
 namespace {
@@ -48,3 +50,5 @@ TEST(Instantaneous, IsTheMaterialItselfWithoutBranches) {
 }
 
 }  // namespace
+
+}  // namespace instantaneous_test

@@ -11,6 +11,8 @@
 #include "rondo/fem/nodal_dilatation.hpp"
 #include "rondo/fem/stress.hpp"
 
+namespace nodal_dilatation_test {
+
 using namespace rondo;
 using namespace rondo::fem;
 
@@ -204,3 +206,5 @@ TEST(NodalDilatation, StressStiffeningTakesTheMeans) {
   const Eigen::MatrixXd other = geometric(full(rubber), field(m));
   EXPECT_GT((geometric(rubber, field(m)) - other).norm(), 0.01 * other.norm());
 }
+
+}  // namespace nodal_dilatation_test

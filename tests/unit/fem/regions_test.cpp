@@ -14,6 +14,8 @@
 #include "rondo/mesh/disk.hpp"
 #include "rondo/mesh/solid/wheel.hpp"
 
+namespace regions_test {
+
 using namespace rondo;
 using namespace rondo::fem;
 
@@ -127,3 +129,5 @@ TEST(Regions, AMissingMaterialIsOurFault) {
   const mesh::Mesh m = layered_disk();
   EXPECT_DEATH(lumped_mass(m, {materials.data(), 1}), "place < materials.size()");
 }
+
+}  // namespace regions_test

@@ -8,7 +8,7 @@
 
 #include "rondo/fem/hyperelastic/branch.hpp"
 
-namespace rondo::fem::hyperelastic {
+namespace rondo::fem::hyperelastic::rubber_branch_test {
 namespace {
 
 const Symmetric<double> undeformed{1.0, 1.0, 0.0};
@@ -70,4 +70,4 @@ TEST(RubberBranch, LosesAsAPronySeries) {
   EXPECT_NEAR(coarse / fine, 4.0, 0.1);
 }
 
-}  // namespace rondo::fem::hyperelastic
+}  // namespace rondo::fem::hyperelastic::rubber_branch_test

@@ -9,6 +9,8 @@
 
 #include "unit/fem/rubber_fixture.hpp"
 
+namespace rubber_cylinder_test {
+
 using namespace rondo;
 using namespace rondo::fem;
 
@@ -153,3 +155,5 @@ TEST(RubberProblems, ACrushedCylinder) {
     EXPECT_NEAR(found, force, 0.02 * force) << to;
   }
 }
+
+}  // namespace rubber_cylinder_test

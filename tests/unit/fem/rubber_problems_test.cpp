@@ -10,6 +10,8 @@
 #include "rondo/core/complex.hpp"
 #include "unit/fem/rubber_fixture.hpp"
 
+namespace rubber_problems_test {
+
 using namespace rondo;
 using namespace rondo::fem;
 
@@ -229,3 +231,5 @@ TEST(RubberProblems, CooksMembraneOfTriangles) {
   EXPECT_NEAR(lifted(4, Cells::triangles, false), 3.1885, 6e-5);
   EXPECT_NEAR(lifted(8, Cells::triangles, false), 4.7740, 6e-5);
 }
+
+}  // namespace rubber_problems_test

@@ -7,7 +7,7 @@
 #include "rondo/fem/stress.hpp"
 #include "unit/fem/rubber_fixture.hpp"
 
-namespace rondo::fem {
+namespace rondo::fem::rubber_stress_test {
 namespace {
 
 namespace hyper = hyperelastic;
@@ -260,4 +260,4 @@ TEST(RubberStress, BesideLinearCells) {
 }
 
 }  // namespace
-}  // namespace rondo::fem
+}  // namespace rondo::fem::rubber_stress_test

@@ -10,6 +10,8 @@
 #include "rondo/fem/assembly.hpp"
 #include "rondo/mesh/disk.hpp"
 
+namespace sector_stiffness_test {
+
 using namespace rondo;
 
 namespace {
@@ -84,3 +86,5 @@ TEST(SectorStiffness, RowsGoOutwardsLayerByLayer) {
     }
   }
 }
+
+}  // namespace sector_stiffness_test

@@ -19,6 +19,8 @@
 #include "rondo/mesh/solid/face.hpp"
 #include "rondo/mesh/solid/wheel.hpp"
 
+namespace solid_sector_test {
+
 using namespace rondo;
 using mesh::Mesh;
 using mesh::Wheel;
@@ -358,3 +360,5 @@ TEST(SolidStress, TurnsAboutTheAxle) {
   EXPECT_DOUBLE_EQ(fem::von_mises({2, 0, 0, 0, 0, 0}), 2.0);
   EXPECT_DOUBLE_EQ(fem::von_mises({0, 0, 0, 0, 3, 0}), 3.0 * std::sqrt(3.0));
 }
+
+}  // namespace solid_sector_test

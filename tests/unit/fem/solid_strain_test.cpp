@@ -8,7 +8,7 @@
 
 #include "rondo/mesh/solid/wheel.hpp"
 
-namespace rondo::fem {
+namespace rondo::fem::solid_strain_test {
 namespace {
 
 mesh::Mesh wheel() {
@@ -80,4 +80,4 @@ TEST(SolidStrain, NamesTheHexahedronThatIsInverted) {
 }
 
 }  // namespace
-}  // namespace rondo::fem
+}  // namespace rondo::fem::solid_strain_test

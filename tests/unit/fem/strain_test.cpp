@@ -6,7 +6,7 @@
 
 #include <cmath>
 
-namespace rondo::fem {
+namespace rondo::fem::strain_test {
 namespace {
 
 /// A skew quadrilateral and a triangle on its right.
@@ -101,4 +101,4 @@ TEST(Strain, TheLargestStays) {
 }
 
 }  // namespace
-}  // namespace rondo::fem
+}  // namespace rondo::fem::strain_test

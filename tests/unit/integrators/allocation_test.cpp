@@ -45,6 +45,8 @@ std::atomic<long> allocations{0};
   std::free(memory);
 }
 
+namespace allocation_test {
+
 using namespace rondo;
 
 namespace {
@@ -182,3 +184,5 @@ INSTANTIATE_TEST_SUITE_P(Both, Allocations,
                            return test::name(std::get<0>(p.param)) + "_" +
                                   std::to_string(std::get<1>(p.param));
                          });
+
+}  // namespace allocation_test

@@ -19,7 +19,7 @@
 #include "support/models.hpp"
 #include "support/thrown_disk.hpp"
 
-namespace rondo::dynamics {
+namespace rondo::dynamics::bodies_test {
 namespace {
 
 const fem::Material rubber{1.0e6, 0.3, 1000.0, fem::Plane::strain};
@@ -239,4 +239,4 @@ TEST(Bodies, AHeldBodyBesideAFreeOneAsTheReadableStepHasThem) {
   EXPECT_GT(seen.nodes, seen.between);
 }
 
-}  // namespace rondo::dynamics
+}  // namespace rondo::dynamics::bodies_test

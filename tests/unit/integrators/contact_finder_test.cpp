@@ -11,7 +11,7 @@
 
 #include "support/blocks.hpp"
 
-namespace rondo::dynamics {
+namespace rondo::dynamics::contact_finder_test {
 namespace {
 
 const fem::Material rubber{1.0e6, 0.3, 1000.0, fem::Plane::strain};
@@ -148,4 +148,4 @@ TEST(ContactFinder, FindsWhereABodyTouchesItself) {
   EXPECT_GT(seen.rows, 20U);
 }
 
-}  // namespace rondo::dynamics
+}  // namespace rondo::dynamics::contact_finder_test

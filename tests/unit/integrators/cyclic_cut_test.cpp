@@ -10,6 +10,8 @@
 #include "rondo/integrators/fused/dispatch.hpp"
 #include "support/stepping.hpp"
 
+namespace cyclic_cut_test {
+
 using namespace rondo;
 using namespace rondo::dynamics;
 
@@ -127,3 +129,5 @@ TEST(CyclicCut, LargeDisksTakeSeveralStepsInAPassOverWideChunks) {
   model.threads = 2;
   EXPECT_EQ(make_cyclic_plan(model).chunks.size(), 2U);
 }
+
+}  // namespace cyclic_cut_test

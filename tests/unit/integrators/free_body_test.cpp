@@ -12,7 +12,7 @@
 #include "support/blocks.hpp"
 #include "support/stepping.hpp"
 
-namespace rondo::dynamics {
+namespace rondo::dynamics::free_body_test {
 namespace {
 
 const fem::Material rubber{1.0e6, 0.3, 1000.0, fem::Plane::strain};
@@ -190,4 +190,4 @@ TEST(FreeBody, FallsAsAParabola) {
 }
 
 }  // namespace
-}  // namespace rondo::dynamics
+}  // namespace rondo::dynamics::free_body_test

@@ -9,7 +9,7 @@
 #include "support/blocks.hpp"
 #include "support/stepping.hpp"
 
-namespace rondo::dynamics {
+namespace rondo::dynamics::general_contact_test {
 namespace {
 
 const fem::Material rubber{1.0e6, 0.3, 1000.0, fem::Plane::strain};
@@ -359,4 +359,4 @@ TEST(GeneralContact, KeepsDifficultProblems) {
 }
 
 }  // namespace
-}  // namespace rondo::dynamics
+}  // namespace rondo::dynamics::general_contact_test

@@ -15,6 +15,8 @@
 #include "support/models.hpp"
 #include "support/traps.hpp"
 
+namespace general_step_test {
+
 using namespace rondo;
 using namespace rondo::dynamics;
 
@@ -233,3 +235,5 @@ TEST(GeneralStep, ClampedNodesStayClamped) {
     EXPECT_EQ(state.v_next[static_cast<std::size_t>(node)], Vec2{});
   }
 }
+
+}  // namespace general_step_test

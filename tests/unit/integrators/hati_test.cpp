@@ -4,7 +4,7 @@
 
 #include "support/parts.hpp"
 
-namespace rondo::dynamics {
+namespace rondo::dynamics::hati_test {
 namespace {
 
 /// A disk of 8 layers over flat ground with a step, the outer `fine` layers fine.
@@ -124,4 +124,4 @@ TEST(Hati, DistanceIsCountedInElements) {
   }
 }
 
-}  // namespace rondo::dynamics
+}  // namespace rondo::dynamics::hati_test

@@ -11,6 +11,8 @@
 #include "integrator_cases.hpp"
 #include "support/stepping.hpp"
 
+namespace held_exceptions_test {
+
 using namespace rondo;
 using namespace rondo::dynamics;
 
@@ -114,3 +116,5 @@ INSTANTIATE_TEST_SUITE_P(All, Exceptions,
                            return test::name(std::get<0>(p.param).name.c_str(),
                                              std::get<1>(p.param));
                          });
+
+}  // namespace held_exceptions_test

@@ -13,6 +13,8 @@
 #include "rondo/integrators/implicit/block_lu.hpp"
 #include "rondo/integrators/implicit/circulant.hpp"
 
+namespace implicit_factors_test {
+
 using namespace rondo;
 using namespace rondo::dynamics;
 
@@ -184,3 +186,5 @@ TEST(Circulant, SlowDecay) {
   }
   EXPECT_GT(levels, 10U);
 }
+
+}  // namespace implicit_factors_test

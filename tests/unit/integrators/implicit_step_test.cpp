@@ -17,6 +17,8 @@
 #include "support/stepping.hpp"
 #include "support/traps.hpp"
 
+namespace implicit_step_test {
+
 using namespace rondo;
 using namespace rondo::dynamics;
 
@@ -253,3 +255,5 @@ TEST(ImplicitStep, OfTheReferenceGoesOnFromASavedStateToTheSameBits) {
   EXPECT_EQ(reports.back().balance.residual, others.back().balance.residual);
   EXPECT_EQ(reports.back().contact.impulse, others.back().contact.impulse);
 }
+
+}  // namespace implicit_step_test

@@ -19,6 +19,8 @@
 #include "support/stepping.hpp"
 #include "support/traps.hpp"
 
+namespace integrator_bits_test {
+
 using namespace rondo;
 using namespace rondo::dynamics;
 
@@ -262,3 +264,5 @@ TEST_P(Integrators, NumbersThatAreNoneReachTheBalance) {
 
 INSTANTIATE_TEST_SUITE_P(Both, Integrators, testing::ValuesIn(test::both_operators),
                          [](const auto& p) { return test::name(p.param); });
+
+}  // namespace integrator_bits_test

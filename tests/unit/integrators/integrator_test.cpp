@@ -11,6 +11,8 @@
 #include "support/stepping.hpp"
 #include "support/traps.hpp"
 
+namespace integrator_test {
+
 using namespace rondo;
 using namespace rondo::dynamics;
 
@@ -132,3 +134,5 @@ INSTANTIATE_TEST_SUITE_P(All, Operators, testing::ValuesIn(test::rolling_cases()
                          [](const auto& p) { return p.param.name; });
 INSTANTIATE_TEST_SUITE_P(OnRim, Operators, testing::ValuesIn(test::wheel_cases()),
                          [](const auto& p) { return p.param.name; });
+
+}  // namespace integrator_test

@@ -17,6 +17,8 @@
 #include "rondo/integrators/fused/sparse_integrator.hpp"
 #include "support/models.hpp"
 
+namespace levels_test {
+
 using namespace rondo;
 using namespace rondo::dynamics;
 
@@ -158,3 +160,5 @@ TEST(Levels, BitsAreThoseRecorded) {
       EXPECT_EQ(bits_of(after(rolling(true), record.of, *table, 200)), record.treaded);
     }
 }
+
+}  // namespace levels_test

@@ -12,7 +12,7 @@
 #include "rondo/integrators/massless/ring_contact.hpp"
 #include "support/models.hpp"
 
-namespace rondo::dynamics {
+namespace rondo::dynamics::massless_test {
 namespace {
 
 using Eigen::MatrixXd;
@@ -282,4 +282,4 @@ TEST(MasslessContact, GoesOnToTheSameBits) {
 }
 
 }  // namespace
-}  // namespace rondo::dynamics
+}  // namespace rondo::dynamics::massless_test

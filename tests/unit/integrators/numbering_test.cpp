@@ -13,6 +13,8 @@
 
 #include "support/models.hpp"
 
+namespace numbering_test {
+
 using namespace rondo;
 using namespace rondo::dynamics;
 
@@ -121,3 +123,5 @@ TEST(Numbering, NoNodes) {
   EXPECT_EQ(bandwidth(k, {}).maximum, 0);
   EXPECT_EQ(bandwidth(k, {}).mean, 0.0);
 }
+
+}  // namespace numbering_test

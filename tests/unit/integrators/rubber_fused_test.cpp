@@ -11,7 +11,7 @@
 #include "support/rubber.hpp"
 #include "support/stepping.hpp"
 
-namespace rondo::dynamics {
+namespace rondo::dynamics::rubber_fused_test {
 namespace {
 
 using test::Built;
@@ -200,4 +200,4 @@ TEST(RubberFused, GoesOnToTheSameBits) {
   }
 }
 
-}  // namespace rondo::dynamics
+}  // namespace rondo::dynamics::rubber_fused_test

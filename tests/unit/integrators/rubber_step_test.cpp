@@ -9,7 +9,7 @@
 #include "support/blocks.hpp"
 #include "support/stepping.hpp"
 
-namespace rondo::dynamics {
+namespace rondo::dynamics::rubber_step_test {
 namespace {
 
 using test::Built;
@@ -216,4 +216,4 @@ TEST(RubberStep, SmallMotionsAreLinear) {
   EXPECT_LT(error, 1e-5 * size);
 }
 
-}  // namespace rondo::dynamics
+}  // namespace rondo::dynamics::rubber_step_test

@@ -15,6 +15,8 @@
 #include "rondo/integrators/start.hpp"
 #include "support/solid_wheel.hpp"
 
+namespace solid_fast_test {
+
 using namespace rondo;
 using namespace rondo::dynamics;
 
@@ -393,3 +395,5 @@ TEST(SolidPlan, BlocksAreSymmetricToTheLastBit) {
         for (std::size_t r = 0; r < 3; ++r) ASSERT_EQ(b.k[3 * c + r], back->k[3 * r + c]);
     }
 }
+
+}  // namespace solid_fast_test

@@ -12,7 +12,7 @@
 #include "rondo/integrators/start.hpp"
 #include "support/solid_wheel.hpp"
 
-namespace rondo::dynamics {
+namespace rondo::dynamics::solid_step_test {
 namespace {
 
 using test::Cornering;
@@ -193,4 +193,4 @@ TEST(SolidStep, AHeldRimIsTheRimThatFollowsItsTables) {
 }
 
 }  // namespace
-}  // namespace rondo::dynamics
+}  // namespace rondo::dynamics::solid_step_test

@@ -18,6 +18,8 @@
 #include "support/models.hpp"
 #include "support/traps.hpp"
 
+namespace sparse_integrator_test {
+
 using namespace rondo;
 using namespace rondo::dynamics;
 
@@ -147,3 +149,5 @@ TEST(SparsePadding, StaysWhereItIs) {
   EXPECT_TRUE(std::isfinite(reports.back().balance.kinetic));
   EXPECT_TRUE(std::isfinite(reports.back().balance.strain));
 }
+
+}  // namespace sparse_integrator_test

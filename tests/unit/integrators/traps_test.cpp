@@ -13,6 +13,8 @@
 #include "support/stepping.hpp"
 #include "support/traps.hpp"
 
+namespace traps_test {
+
 using namespace rondo;
 using namespace rondo::dynamics;
 
@@ -83,3 +85,5 @@ TEST(StepTraps, AreInTheGeneralStep) {
 
 INSTANTIATE_TEST_SUITE_P(Both, Traps, testing::ValuesIn(test::both_operators),
                          [](const auto& p) { return test::name(p.param); });
+
+}  // namespace traps_test

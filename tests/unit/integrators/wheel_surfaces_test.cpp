@@ -13,6 +13,8 @@
 #include "support/stepping.hpp"
 #include "support/wheel_momenta.hpp"
 
+namespace wheel_surfaces_test {
+
 using namespace rondo;
 using namespace rondo::dynamics;
 
@@ -172,3 +174,5 @@ TEST(WheelPressures, OnClosedCurvesGiveNoMomentum) {
   EXPECT_LT(report.balance.relative, 1e-12);
   EXPECT_NE(report.balance.works.load, 0.0);
 }
+
+}  // namespace wheel_surfaces_test

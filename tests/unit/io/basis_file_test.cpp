@@ -6,7 +6,7 @@
 #include "rondo/io/h5/h5.hpp"
 #include "unit/io/support.hpp"
 
-namespace rondo::io::test {
+namespace rondo::io::test::basis_file_test {
 namespace {
 
 Eigen::Index rows_of(const SmallRun& run) {
@@ -46,4 +46,4 @@ TEST(BasisFile, IsNamedWhereItIsDamaged) {
 }
 
 }  // namespace
-}  // namespace rondo::io::test
+}  // namespace rondo::io::test::basis_file_test

@@ -4,7 +4,7 @@
 #include "rondo/io/h5/hash.hpp"
 #include "unit/io/support.hpp"
 
-namespace rondo::io::test {
+namespace rondo::io::test::checkpoint_file_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -90,4 +90,4 @@ TEST(Hash, OfNothingAsPublishedAndOfPiecesAsOfTheWhole) {
 }
 
 }  // namespace
-}  // namespace rondo::io::test
+}  // namespace rondo::io::test::checkpoint_file_test

@@ -6,7 +6,7 @@
 
 #include "unit/io/support.hpp"
 
-namespace rondo::io::test {
+namespace rondo::io::test::csv_test {
 namespace {
 
 std::string hash_of(const std::string& text, std::size_t bytes) {
@@ -184,4 +184,4 @@ TEST(ReadColumns, SaysWhatIsWrongAndWhere) {
 }
 
 }  // namespace
-}  // namespace rondo::io::test
+}  // namespace rondo::io::test::csv_test

@@ -3,7 +3,7 @@
 
 #include "unit/io/support.hpp"
 
-namespace rondo::io::test {
+namespace rondo::io::test::directory_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -140,4 +140,4 @@ TEST(IsCutOff, ByTheStatusInRunJson) {
 }
 
 }  // namespace
-}  // namespace rondo::io::test
+}  // namespace rondo::io::test::directory_test

@@ -5,7 +5,7 @@
 
 #include "unit/io/support.hpp"
 
-namespace rondo::io::test {
+namespace rondo::io::test::files_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -70,4 +70,4 @@ TEST(ReadJson, SaysWhatIsWrong) {
 }
 
 }  // namespace
-}  // namespace rondo::io::test
+}  // namespace rondo::io::test::files_test

@@ -3,7 +3,7 @@
 
 #include "unit/io/support.hpp"
 
-namespace rondo::io::test {
+namespace rondo::io::test::h5_test {
 namespace {
 
 using h5::File;
@@ -105,4 +105,4 @@ TEST(H5, NothingIsPrinted) {
 }
 
 }  // namespace
-}  // namespace rondo::io::test
+}  // namespace rondo::io::test::h5_test

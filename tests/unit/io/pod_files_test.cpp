@@ -14,7 +14,7 @@
 #include "rondo/io/mesh_files.hpp"
 #include "unit/io/support.hpp"
 
-namespace rondo::io::test {
+namespace rondo::io::test::pod_files_test {
 namespace {
 
 using h5::Shape;
@@ -371,4 +371,4 @@ TEST(PodFiles, SameValuesGiveTheSameBytes) {
 }
 
 }  // namespace
-}  // namespace rondo::io::test
+}  // namespace rondo::io::test::pod_files_test

@@ -10,7 +10,7 @@
 #include "rondo/io/results.hpp"
 #include "unit/io/support.hpp"
 
-namespace rondo::io::test {
+namespace rondo::io::test::results_failure_test {
 namespace {
 
 constexpr std::size_t planned = 40, written = 21;
@@ -189,4 +189,4 @@ TEST(ResultsWithoutDirectory, AreRefused) {
 }
 
 }  // namespace
-}  // namespace rondo::io::test
+}  // namespace rondo::io::test::results_failure_test

@@ -4,7 +4,7 @@
 #include "rondo/io/h5/h5.hpp"
 #include "unit/io/support.hpp"
 
-namespace rondo::io::test {
+namespace rondo::io::test::results_test {
 namespace {
 
 using h5::Shape;
@@ -313,4 +313,4 @@ TEST(Results, SameValuesGiveTheSameBytes) {
 }
 
 }  // namespace
-}  // namespace rondo::io::test
+}  // namespace rondo::io::test::results_test

@@ -8,7 +8,7 @@
 #include "rondo/io/mesh_files.hpp"
 #include "unit/io/support.hpp"
 
-namespace rondo::io::test {
+namespace rondo::io::test::run_reader_test {
 namespace {
 
 constexpr double nan = std::numeric_limits<double>::quiet_NaN();
@@ -415,4 +415,4 @@ TEST(MeshDifference, NamesWhatDiffersFirst) {
 }
 
 }  // namespace
-}  // namespace rondo::io::test
+}  // namespace rondo::io::test::run_reader_test

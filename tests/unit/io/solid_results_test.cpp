@@ -10,7 +10,7 @@
 #include "rondo/mesh/solid/wheel.hpp"
 #include "unit/io/support.hpp"
 
-namespace rondo::io::test {
+namespace rondo::io::test::solid_results_test {
 namespace {
 
 constexpr double camber = 0.2, angle = 0.7, lateral = 0.3;
@@ -155,4 +155,4 @@ TEST(SolidResults, UnitsAreThoseOfABody) {
 }
 
 }  // namespace
-}  // namespace rondo::io::test
+}  // namespace rondo::io::test::solid_results_test

@@ -6,7 +6,7 @@
 
 #include "unit/io/support.hpp"
 
-namespace rondo::io::test {
+namespace rondo::io::test::vtkhdf_test {
 namespace {
 
 using Whole = std::vector<std::int64_t>;
@@ -116,4 +116,4 @@ TEST(Vtkhdf, ErrorsNameTheFile) {
 }
 
 }  // namespace
-}  // namespace rondo::io::test
+}  // namespace rondo::io::test::vtkhdf_test

@@ -3,7 +3,7 @@
 
 #include "unit/io/support.hpp"
 
-namespace rondo::io::test {
+namespace rondo::io::test::xdmf_test {
 namespace {
 
 XdmfSeries series() {
@@ -94,4 +94,4 @@ TEST(Xdmf, ErrorsNameTheFileAndTheReason) {
 }
 
 }  // namespace
-}  // namespace rondo::io::test
+}  // namespace rondo::io::test::xdmf_test

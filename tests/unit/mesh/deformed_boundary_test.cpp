@@ -8,7 +8,7 @@
 #include "rondo/mesh/disk.hpp"
 #include "rondo/mesh/solid/wheel.hpp"
 
-namespace rondo::mesh {
+namespace rondo::mesh::deformed_boundary_test {
 namespace {
 
 Disk disk() {
@@ -97,4 +97,4 @@ TEST(DeformedBoundary, OfAWheelItIsTheShareOfTheDeformedFaces) {
   EXPECT_NEAR(sum_of_extents(mesh, stretched(mesh, 1.25, 1.25), wider), 1.5625 * all, 1e-14);
 }
 
-}  // namespace rondo::mesh
+}  // namespace rondo::mesh::deformed_boundary_test

@@ -12,6 +12,8 @@
 #include "rondo/fem/assembly.hpp"
 #include "rondo/fem/element.hpp"
 
+namespace disk_test {
+
 using namespace rondo;
 using mesh::Disk;
 using mesh::Mesh;
@@ -136,3 +138,5 @@ TEST(Disk, EveryNodeBelongsToACellOnce) {
   for (std::size_t i = 0; i < m.n_nodes(); ++i) places.insert({m.sector[i], m.sector_node[i]});
   EXPECT_EQ(places.size(), m.n_nodes());
 }
+
+}  // namespace disk_test

@@ -10,6 +10,8 @@
 #include "rondo/mesh/gmsh_reader.hpp"
 #include "support/msh_files.hpp"
 
+namespace gmsh_contents_test {
+
 using namespace rondo;
 using mesh::MeshRequest;
 using mesh::ReadMesh;
@@ -304,3 +306,5 @@ TEST(GmshContents, OtherSectionsDoNotMatter) {
       3U);
   expect_refused(text + "$Periodic\n3\n", "the file is cut: there is no $EndPeriodic");
 }
+
+}  // namespace gmsh_contents_test

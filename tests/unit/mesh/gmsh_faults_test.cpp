@@ -8,6 +8,8 @@
 #include "rondo/mesh/gmsh_reader.hpp"
 #include "support/msh_files.hpp"
 
+namespace gmsh_faults_test {
+
 using namespace rondo;
 using mesh::MeshRequest;
 using test::Msh;
@@ -314,3 +316,5 @@ TEST(GmshFaults, ScaleOfNoUse) {
   for (const double scale : {0.0, -1.0, std::nan(""), HUGE_VAL})
     expect_refused(squares(), {"scale = ", "> 0"}, {.scale = scale});
 }
+
+}  // namespace gmsh_faults_test

@@ -14,6 +14,8 @@
 #include "rondo/mesh/gmsh_reader.hpp"
 #include "support/msh_files.hpp"
 
+namespace gmsh_program_test {
+
 using namespace rondo;
 using test::squares;
 using test::TemporaryFile;
@@ -129,3 +131,5 @@ TEST(GmshProgram, ChildrenThatNobodyWaitsFor) {
   EXPECT_EQ(mesh::read_gmsh({.file = file.path()}).mesh.cells.size(), 3U);
   std::signal(SIGCHLD, before);
 }
+
+}  // namespace gmsh_program_test

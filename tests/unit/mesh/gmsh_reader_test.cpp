@@ -13,6 +13,8 @@
 #include "rondo/mesh/mesh_check.hpp"
 #include "support/msh_files.hpp"
 
+namespace gmsh_reader_test {
+
 using namespace rondo;
 using namespace rondo::mesh;
 using test::Msh;
@@ -274,3 +276,5 @@ TEST(ReadGmsh, MeshesOfTheCases) {
   EXPECT_EQ(tyre.contact_edges.size(), 320U);  // a block: 4 on top, 2 on each wall
   EXPECT_EQ(tyre.clamped.size(), 60U);
 }
+
+}  // namespace gmsh_reader_test

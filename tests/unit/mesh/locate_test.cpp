@@ -8,7 +8,7 @@
 
 #include "rondo/mesh/disk.hpp"
 
-namespace rondo::mesh {
+namespace rondo::mesh::locate_test {
 namespace {
 
 Vec2 point(std::span<const Vec2> x, const std::array<double, 4>& n) {
@@ -87,4 +87,4 @@ TEST(CellGrid, OfABarOneCellThick) {
 }
 
 }  // namespace
-}  // namespace rondo::mesh
+}  // namespace rondo::mesh::locate_test

@@ -7,6 +7,8 @@
 #include <cmath>
 #include <random>
 
+namespace mesh_check_test {
+
 using namespace rondo;
 using namespace rondo::mesh;
 
@@ -194,3 +196,5 @@ TEST(CoincidentNodes, OfNothingAndOfOnePlace) {
   m.coordinates.push_back({1e12, 1});
   EXPECT_EQ(coincident_nodes(m).size(), 1U);
 }
+
+}  // namespace mesh_check_test

@@ -14,6 +14,8 @@
 #include "rondo/mesh/solid/face.hpp"
 #include "support/msh_files.hpp"
 
+namespace wheel_test {
+
 using namespace rondo;
 using mesh::Mesh;
 using mesh::Wheel;
@@ -331,3 +333,5 @@ TEST(Wheel, TrianglesAndTheAxleAreNoSections) {
   section.coordinates[0].x = 0.0;
   EXPECT_DEATH(mesh::revolve(section, {20, 1, {}}, "tread"), "r > 0");
 }
+
+}  // namespace wheel_test

@@ -14,6 +14,8 @@
 #include "rondo/mesh/solid/wheel.hpp"
 #include "rondo/modal/solid_critical_spin.hpp"
 
+namespace critical_speeds_test {
+
 using namespace rondo;
 using modal::Wave;
 
@@ -196,3 +198,5 @@ TEST(SolidCriticalSpin, IsNotAboveThatOfThePlaneBody) {
   ASSERT_TRUE(found.has_value());
   EXPECT_LE(found->spin, 1.0001 * lowest->spin);
 }
+
+}  // namespace critical_speeds_test

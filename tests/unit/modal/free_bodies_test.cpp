@@ -9,6 +9,8 @@
 #include "bodies.hpp"
 #include "rondo/modal/residual.hpp"
 
+namespace free_bodies_test {
+
 using namespace rondo;
 using modal::Wave;
 
@@ -113,3 +115,5 @@ TEST(FreeBodies, ASpinningFreeDiskIsThatOfADenseSolution) {
     EXPECT_LT(modal::residual(b.cyclic(), spin, found.modes[i]), 1e-10);
   }
 }
+
+}  // namespace free_bodies_test

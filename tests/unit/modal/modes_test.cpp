@@ -13,6 +13,8 @@
 #include "rondo/modal/harmonic_problem.hpp"
 #include "rondo/modal/residual.hpp"
 
+namespace modes_test {
+
 using namespace rondo;
 using modal::Wave;
 
@@ -226,3 +228,5 @@ TEST(Modes, TooMuchSpinIsCounted) {
     EXPECT_TRUE(found.modes.empty());
   }
 }
+
+}  // namespace modes_test

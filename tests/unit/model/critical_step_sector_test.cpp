@@ -11,6 +11,8 @@
 #include "rondo/model/stability/critical_step.hpp"
 #include "support/rings.hpp"
 
+namespace critical_step_sector_test {
+
 using namespace rondo;
 using namespace rondo::dynamics;
 
@@ -144,3 +146,5 @@ TEST(CriticalStepBySectors, NumbersOutOfRangeGiveTheElementBound) {
     EXPECT_EQ(found.omega, std::sqrt(bound));
   }
 }
+
+}  // namespace critical_step_sector_test

@@ -5,6 +5,8 @@
 
 #include <cmath>
 
+namespace motion_test {
+
 using namespace rondo;
 using namespace rondo::dynamics;
 
@@ -101,3 +103,5 @@ TEST(Table, TheIntegralFromTheStartHasTheBitsOfItsPieces) {
                 table.integral(-0.5, end + 0.5) - table.integral(-0.5, 0.5), 1e-14);
   }
 }
+
+}  // namespace motion_test

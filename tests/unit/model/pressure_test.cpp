@@ -12,7 +12,7 @@
 #include "support/blocks.hpp"
 #include "support/stepping.hpp"
 
-namespace rondo::dynamics {
+namespace rondo::dynamics::pressure_test {
 namespace {
 
 const fem::Material rubber{1.0e6, 0.3, 1000.0, fem::Plane::strain};
@@ -96,4 +96,4 @@ TEST(Pressure, OnAHeldBodyTheLedgerClosesToRoundOff) {
 }
 
 }  // namespace
-}  // namespace rondo::dynamics
+}  // namespace rondo::dynamics::pressure_test

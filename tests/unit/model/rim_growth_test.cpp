@@ -12,6 +12,8 @@
 #include "support/stepping.hpp"
 #include "support/traps.hpp"
 
+namespace rim_growth_test {
+
 using namespace rondo;
 using namespace rondo::dynamics;
 
@@ -154,3 +156,5 @@ TEST_P(RimGrowth, ALightRimIsDampedByMoreThanAlpha) {
 
 INSTANTIATE_TEST_SUITE_P(Both, RimGrowth, testing::ValuesIn(test::both_operators),
                          [](const auto& p) { return test::name(p.param); });
+
+}  // namespace rim_growth_test

@@ -10,6 +10,8 @@
 #include "rondo/model/stability/rim_step.hpp"
 #include "support/rings.hpp"
 
+namespace rim_step_test {
+
 using namespace rondo;
 using namespace rondo::dynamics;
 
@@ -202,3 +204,5 @@ TEST(RimStep, BoundsOfHarmonicsEncloseTheBody) {
     EXPECT_NEAR(largest, omega * omega, 3e-6 * largest);
   }
 }
+
+}  // namespace rim_step_test

@@ -11,6 +11,8 @@
 #include "rondo/analysis/build/build.hpp"
 #include "unit/case/case_fixture.hpp"
 
+namespace history_test {
+
 using namespace rondo;
 using namespace rondo::study;
 
@@ -148,3 +150,5 @@ TEST(History, TheStateOfRowsWithProbesIsAskedForInTurn) {
   }
   EXPECT_FALSE(std::any_of(rows.begin(), rows.end(), [](double x) { return std::isnan(x); }));
 }
+
+}  // namespace history_test

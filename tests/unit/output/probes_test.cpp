@@ -8,7 +8,7 @@
 #include "rondo/analysis/build/build.hpp"
 #include "unit/analysis/mesh_fixture.hpp"
 
-namespace rondo::study {
+namespace rondo::study::probes_test {
 namespace {
 
 using namespace test;
@@ -154,4 +154,4 @@ TEST(Probes, OfTrianglesHaveTheMeanDilatation) {
 }
 
 }  // namespace
-}  // namespace rondo::study
+}  // namespace rondo::study::probes_test

@@ -15,6 +15,8 @@
 #include "unit/case/case_fixture.hpp"
 #include "unit/study/processes.hpp"
 
+namespace recorder_test {
+
 using namespace rondo;
 using namespace rondo::study;
 
@@ -166,3 +168,5 @@ TEST_F(RecorderTest, AFullDiskIsThrownAtTheLoopAndTheRestIsClosed) {
   EXPECT_GT(text.size(), 19900U) << "as many rows as fit";
   EXPECT_TRUE(text.ends_with("\n")) << "complete ones";
 }
+
+}  // namespace recorder_test

@@ -12,6 +12,8 @@
 #include "rondo/output/resume.hpp"
 #include "unit/case/case_fixture.hpp"
 
+namespace resume_test {
+
 using namespace rondo;
 using namespace rondo::study;
 
@@ -184,3 +186,5 @@ TEST_F(Resume, AnEndAtTheStepsMadeIsNoLaterOne) {
   setup_.n_steps = k.state.step - 1;
   EXPECT_NE(refusal(k).find("a later end"), std::string::npos);
 }
+
+}  // namespace resume_test

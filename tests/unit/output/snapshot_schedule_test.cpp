@@ -3,6 +3,8 @@
 
 #include "rondo/output/snapshot_schedule.hpp"
 
+namespace snapshot_schedule_test {
+
 using namespace rondo::study;
 
 namespace {
@@ -53,3 +55,5 @@ TEST(SnapshotSchedule, OfAnotherEndHasItsLastSnapshotThere) {
   EXPECT_EQ(with_end(snapshot_schedule(output(9), dt, 2), output(9), dt, 4).steps,
             (Steps{0, 1, 2, 3, 4}));
 }
+
+}  // namespace snapshot_schedule_test

@@ -17,6 +17,8 @@
 #include "rondo/output/writer_thread.hpp"
 #include "unit/study/processes.hpp"
 
+namespace writer_thread_test {
+
 using namespace rondo;
 using namespace rondo::study;
 
@@ -217,3 +219,5 @@ TEST(WriterThread, NoThreadToBeHadIsSaid) {
             }),
             0);
 }
+
+}  // namespace writer_thread_test

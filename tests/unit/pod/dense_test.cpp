@@ -5,6 +5,8 @@
 
 #include <cmath>
 
+namespace dense_test {
+
 using namespace rondo::pod;
 using Eigen::Index;
 using Eigen::MatrixXd;
@@ -39,3 +41,5 @@ TEST(Dense, InverseTakesTheMatrixBack) {
 }
 
 }  // namespace
+
+}  // namespace dense_test

@@ -14,6 +14,8 @@
 #include "rondo/fem/assembly.hpp"
 #include "rondo/mesh/disk.hpp"
 
+namespace rectify_test {
+
 using namespace rondo;
 using namespace rondo::pod;
 
@@ -339,3 +341,5 @@ TEST(Rectifier, AWaveFixedInSpaceBecomesConstant) {
     EXPECT_LT(distance(values, seen(0.0)), 1e-14 + 1e-15 * std::abs(theta));
   }
 }
+
+}  // namespace rectify_test

@@ -8,6 +8,8 @@
 
 #include "support/matrices.hpp"
 
+namespace spectrum_test {
+
 using namespace rondo::pod;
 using namespace rondo::pod::test;
 
@@ -172,3 +174,5 @@ TEST(Identity, OfNothing) {
     EXPECT_EQ(i.squared_error, std::vector<double>(6, 0.0));
   }
 }
+
+}  // namespace spectrum_test

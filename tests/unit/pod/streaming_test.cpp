@@ -8,6 +8,8 @@
 
 #include "support/matrices.hpp"
 
+namespace streaming_test {
+
 using namespace rondo::pod;
 using namespace rondo::pod::test;
 
@@ -235,3 +237,5 @@ TEST(Plan, TooLittleForAny) {
   EXPECT_EQ(s.d.sigma.size(), 1);
   EXPECT_NEAR(s.d.sigma[0] * s.d.sigma[0] + s.d.lost_energy, a.squaredNorm(), 1e-11);
 }
+
+}  // namespace streaming_test

@@ -11,6 +11,8 @@
 #include "rondo/pod/svd.hpp"
 #include "support/matrices.hpp"
 
+namespace svd_test {
+
 using namespace rondo::pod;
 using namespace rondo::pod::test;
 
@@ -147,3 +149,5 @@ TEST(EveryMethod, SameBitsEachTime) {
                 once.temporal == twice.temporal);
   }
 }
+
+}  // namespace svd_test

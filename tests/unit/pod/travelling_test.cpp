@@ -15,6 +15,8 @@
 #include "rondo/pod/rectify.hpp"
 #include "support/matrices.hpp"
 
+namespace travelling_test {
+
 using namespace rondo;
 using namespace rondo::pod;
 using namespace rondo::pod::test;
@@ -207,3 +209,5 @@ TEST(Travelling, ThreeComponentsHaveOneModeInTheRectifiedFrame) {
     for (const double value : *part) energy += n_sectors * weights * value * value;
   EXPECT_NEAR(turning.energy, energy, 1e-12 * energy);
 }
+
+}  // namespace travelling_test

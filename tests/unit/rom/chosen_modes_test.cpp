@@ -8,6 +8,8 @@
 
 #include "rondo/pod/decompose.hpp"
 
+namespace chosen_modes_test {
+
 using namespace rondo::rom;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
@@ -80,3 +82,5 @@ TEST(ChosenModes, AreNoMoreThanTheRank) {
 }
 
 }  // namespace
+
+}  // namespace chosen_modes_test

@@ -14,6 +14,8 @@
 #include "rondo/statics/stationary_spin.hpp"
 #include "whole_space.hpp"
 
+namespace integrator_test {
+
 using namespace rondo;
 using namespace rondo::rom;
 using namespace rondo::rom::test;
@@ -386,3 +388,5 @@ TEST(ReducedIntegrator, GivesItsImpulsesToTheNodes) {
 }
 
 }  // namespace
+
+}  // namespace integrator_test

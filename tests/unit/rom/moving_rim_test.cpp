@@ -8,6 +8,8 @@
 #include "rondo/rom/integrator.hpp"
 #include "whole_space.hpp"
 
+namespace moving_rim_test {
+
 using namespace rondo;
 using namespace rondo::rom;
 using namespace rondo::rom::test;
@@ -358,3 +360,5 @@ TEST(MovingRim, BrakeStopsTheWheelAndKeepsIt) {
 }
 
 }  // namespace
+
+}  // namespace moving_rim_test

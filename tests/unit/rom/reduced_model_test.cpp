@@ -13,6 +13,8 @@
 #include "rondo/fem/sector_stiffness.hpp"
 #include "rondo/mesh/disk.hpp"
 
+namespace reduced_model_test {
+
 using namespace rondo;
 using namespace rondo::rom;
 
@@ -282,3 +284,5 @@ TEST(ContactRows, OfNodesAreTheLiftedField) {
 }
 
 }  // namespace
+
+}  // namespace reduced_model_test

@@ -12,6 +12,8 @@
 #include "rondo/rom/integrator.hpp"
 #include "whole_space.hpp"
 
+namespace saved_reduced_test {
+
 using namespace rondo;
 using namespace rondo::rom;
 using namespace rondo::rom::test;
@@ -196,3 +198,5 @@ TEST(LedRim, GoesWithItsVelocities) {
 }
 
 }  // namespace
+
+}  // namespace saved_reduced_test

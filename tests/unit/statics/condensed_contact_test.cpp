@@ -11,6 +11,8 @@
 #include "rondo/contact/residual.hpp"
 #include "rondo/statics/lemke.hpp"
 
+namespace condensed_contact_test {
+
 using namespace rondo;
 using contact::Status;
 using Eigen::Index;
@@ -262,3 +264,5 @@ TEST(Pivoting, CoveringVectorExcludesTheRay) {
   }
   EXPECT_GT(rays, 0);
 }
+
+}  // namespace condensed_contact_test

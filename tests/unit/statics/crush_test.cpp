@@ -10,6 +10,8 @@
 #include "rondo/contact/residual.hpp"
 #include "rondo/mesh/disk.hpp"
 
+namespace crush_test {
+
 using namespace rondo;
 
 namespace {
@@ -258,3 +260,5 @@ TEST(Crush, KeepsTheStateWhereItDoesNotConverge) {
   EXPECT_EQ(state.depth, 0.0);
   EXPECT_EQ(total(state), Vec2{});
 }
+
+}  // namespace crush_test

@@ -7,6 +7,8 @@
 
 #include "../../support/latin.hpp"
 
+namespace latin_test {
+
 using namespace rondo;
 
 namespace {
@@ -134,3 +136,5 @@ TEST(Pgd, FieldsOfAnotherBodyAreForeign) {
   field(field.rows() / 2, 0) = 1.0;
   EXPECT_GT(statics::adopt(disk.stiffness(), disk.nodes(), direction, field).foreign, 0.5);
 }
+
+}  // namespace latin_test

@@ -7,6 +7,8 @@
 #include <Eigen/LU>
 #include <random>
 
+namespace lemke_test {
+
 using namespace rondo;
 using Eigen::Index;
 using statics::LemkeEnd;
@@ -143,3 +145,5 @@ TEST(Lemke, NothingToDoAndTooFewPivots) {
   EXPECT_EQ(few.end, LemkeEnd::limit);
   EXPECT_EQ(few.pivots, 2);
 }
+
+}  // namespace lemke_test

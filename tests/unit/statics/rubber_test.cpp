@@ -8,6 +8,8 @@
 #include "rondo/statics/stationary_spin.hpp"
 #include "unit/fem/rubber_fixture.hpp"
 
+namespace rubber_test {
+
 using namespace rondo;
 
 namespace {
@@ -194,3 +196,5 @@ TEST(RubberCrush, OfAPublishedRoller) {
   EXPECT_NEAR(found.length, 0.0504, 0.0006);
   EXPECT_NEAR(found.pressure, 0.4325e6, 0.0025e6);
 }
+
+}  // namespace rubber_test

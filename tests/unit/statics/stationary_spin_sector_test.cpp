@@ -7,6 +7,8 @@
 #include "rondo/statics/stationary_spin.hpp"
 #include "support/rings.hpp"
 
+namespace stationary_spin_sector_test {
+
 using namespace rondo;
 using namespace rondo::statics;
 
@@ -119,3 +121,5 @@ TEST(StationarySpinBySectors, SeesAnyHarmonicThatGivesWay) {
     }
   }
 }
+
+}  // namespace stationary_spin_sector_test

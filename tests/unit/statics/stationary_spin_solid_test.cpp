@@ -10,6 +10,8 @@
 #include "rondo/statics/stationary_spin.hpp"
 #include "support/rings.hpp"
 
+namespace stationary_spin_solid_test {
+
 using namespace rondo;
 using namespace rondo::statics;
 
@@ -152,3 +154,5 @@ TEST(StationarySpinSolid, SeesAnyHarmonicThatGivesWay) {
     }
   }
 }
+
+}  // namespace stationary_spin_solid_test

@@ -5,6 +5,8 @@
 
 #include "rondo/mesh/disk.hpp"
 
+namespace stationary_spin_test {
+
 using namespace rondo;
 
 namespace {
@@ -49,3 +51,5 @@ TEST(StationarySpin, BeyondTheSofteningLimitItSaysSo) {
   const auto s = statics::stationary_spin(b.k, b.mass, b.mesh.coordinates, b.free, 2000.0);
   EXPECT_EQ(s.status, statics::SpinStatus::unstable);
 }
+
+}  // namespace stationary_spin_test

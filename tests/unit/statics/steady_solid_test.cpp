@@ -8,6 +8,8 @@
 
 #include "support/solid_steady.hpp"
 
+namespace steady_solid_test {
+
 using namespace rondo;
 using namespace rondo::statics;
 using test::solved;
@@ -230,3 +232,5 @@ TEST(SteadySolid, ResidualKnowsAWrongForce) {
   p.force[largest] *= 1.0 + 1e-6;
   EXPECT_GT(solid_residual(window.problem(), d.slip_angle, p, d.friction), 1e-8);
 }
+
+}  // namespace steady_solid_test

@@ -13,6 +13,8 @@
 #include "rondo/statics/stationary_spin.hpp"
 #include "support/rings.hpp"
 
+namespace stress_stiffening_test {
+
 using namespace rondo;
 
 namespace {
@@ -123,3 +125,5 @@ TEST(StressStiffening, PrestressOfASectorIsThatOfTheAssembledStiffness) {
     EXPECT_LT(off, 1e-12 * largest);  // no softening: as the square of the spin
   }
 }
+
+}  // namespace stress_stiffening_test

@@ -17,6 +17,8 @@
 #include "rondo/study/pod/pod_report.hpp"
 #include "rondo/study/pod/pod_snapshots.hpp"
 
+namespace pod_test {
+
 using namespace rondo;
 using namespace rondo::study;
 
@@ -183,3 +185,5 @@ TEST(PodTrouble, IdentityAndOrthonormalityAreJudged) {
   r.orthonormality = std::nan("");
   EXPECT_NE(trouble_in(r), "");
 }
+
+}  // namespace pod_test

@@ -10,7 +10,7 @@
 #include "rondo/core/error.hpp"
 #include "rondo/io/checkpoint_file.hpp"
 
-namespace rondo::study {
+namespace rondo::study::reduced_file_test {
 namespace {
 
 TEST(ReducedFile, OneWithPatternsSaysWhatToDo) {
@@ -31,4 +31,4 @@ TEST(ReducedFile, OneWithPatternsSaysWhatToDo) {
 }
 
 }  // namespace
-}  // namespace rondo::study
+}  // namespace rondo::study::reduced_file_test

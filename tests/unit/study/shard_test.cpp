@@ -10,7 +10,7 @@
 
 #include "rondo/core/error.hpp"
 
-namespace rondo::study {
+namespace rondo::study::shard_test {
 namespace {
 
 /// `bodies` one after the other, of 1, 2, ... members.
@@ -87,4 +87,4 @@ TEST(Shards, NamesOfFolders) {
 }
 
 }  // namespace
-}  // namespace rondo::study
+}  // namespace rondo::study::shard_test

@@ -21,6 +21,8 @@
 #include "rondo/study/pod/pod.hpp"
 #include "rondo/study/pod/pod_snapshots.hpp"
 
+namespace solid_pod_test {
+
 using namespace rondo;
 using namespace rondo::study;
 
@@ -200,3 +202,5 @@ TEST_F(SolidPod, FilesHaveThreeComponentsAndHexahedra) {
   for (const char* name : {"\"normal\"", "\"tangential\"", "\"lateral\""})
     EXPECT_NE(xdmf.find(name), std::string::npos) << name;
 }
+
+}  // namespace solid_pod_test

@@ -7,7 +7,7 @@
 #include "rondo/study/sweep/keys/study_keys.hpp"
 #include "support/manual.hpp"
 
-namespace rondo::study {
+namespace rondo::study::study_schema_test {
 namespace {
 
 TEST(Manual, HasTheSchemaOfStudies) {
@@ -42,4 +42,4 @@ TEST(StudySchema, NamesEveryKeyOfACaseThatMayVary) {
 }
 
 }  // namespace
-}  // namespace rondo::study
+}  // namespace rondo::study::study_schema_test

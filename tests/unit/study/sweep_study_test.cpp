@@ -9,6 +9,8 @@
 
 #include "rondo/study/sweep/sweep_plan.hpp"
 
+namespace sweep_study_test {
+
 using namespace rondo;
 using namespace rondo::study;
 
@@ -311,3 +313,5 @@ TEST(SweepStudy, ATargetIsALoadOfTheRim) {
   EXPECT_NE(height.allowed.find("free = [\"height\"]"), std::string::npos) << height.allowed;
   EXPECT_NE(depth.allowed.find("values of analysis.depth"), std::string::npos) << depth.allowed;
 }
+
+}  // namespace sweep_study_test

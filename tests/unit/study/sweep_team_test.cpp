@@ -13,6 +13,8 @@
 
 #include "rondo/core/error.hpp"
 
+namespace sweep_team_test {
+
 using namespace rondo;
 using namespace rondo::study;
 
@@ -150,3 +152,5 @@ TEST(TeamPieces, WholeOnesOfAPartAreTaken) {
   EXPECT_EQ(part[3].text, "three");
   EXPECT_EQ(part[1].state, State::missing);
 }
+
+}  // namespace sweep_team_test

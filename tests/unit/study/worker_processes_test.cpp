@@ -19,6 +19,8 @@
 #include "rondo/study/sweep/shared_numbers.hpp"
 #include "unit/study/processes.hpp"
 
+namespace worker_processes_test {
+
 using namespace rondo;
 using namespace rondo::study;
 
@@ -313,3 +315,5 @@ TEST(Workers, AWatchThatThrowsLeavesNothingBehind) {
   EXPECT_TRUE(no_child_left());
   EXPECT_EQ(open_files(), before);
 }
+
+}  // namespace worker_processes_test

@@ -5,15 +5,9 @@
 #include <cmath>
 
 #include "rondo/contact/intrusion.hpp"
+#include "rondo/core/index.hpp"
 
 namespace rondo::study {
-namespace {
-
-std::size_t at(int node) noexcept {
-  return static_cast<std::size_t>(node);
-}
-
-}  // namespace
 
 BetweenNodes::BetweenNodes(const dynamics::Model& model)
     : model_(model), axes_(model.motion.camber) {

@@ -13,6 +13,7 @@
 #include "rondo/analysis/elements/parts.hpp"
 #include "rondo/case/case_keys.hpp"
 #include "rondo/core/contract.hpp"
+#include "rondo/core/index.hpp"
 #include "rondo/mesh/gmsh_reader.hpp"
 #include "rondo/mesh/locate.hpp"
 #include "rondo/mesh/mesh_check.hpp"
@@ -20,10 +21,6 @@
 
 namespace rondo::study {
 namespace {
-
-std::size_t at(int index) noexcept {
-  return static_cast<std::size_t>(index);
-}
 
 std::string file_table(const Case& c) {
   return c.mesh ? "mesh" : "section";

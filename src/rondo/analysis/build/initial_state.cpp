@@ -10,14 +10,11 @@
 #include "rondo/analysis/build/overlap.hpp"
 #include "rondo/analysis/build/solid/solid_body.hpp"
 #include "rondo/analysis/build/steady_start.hpp"
+#include "rondo/core/index.hpp"
 #include "rondo/statics/stationary_spin.hpp"
 
 namespace rondo::study {
 namespace {
-
-std::size_t at(int index) noexcept {
-  return static_cast<std::size_t>(index);
-}
 
 /// Of rubber at finite strain, else by K.
 statics::StationarySpin find_stationary(const Setup& s, double spin) {

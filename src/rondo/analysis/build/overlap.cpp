@@ -9,15 +9,12 @@
 #include <optional>
 
 #include "rondo/analysis/build/bodies.hpp"
+#include "rondo/core/index.hpp"
 #include "rondo/mesh/edges.hpp"
 #include "rondo/mesh/locate.hpp"
 
 namespace rondo::study {
 namespace {
-
-std::size_t at(int index) noexcept {
-  return static_cast<std::size_t>(index);
-}
 
 constexpr const char* one_body =
     "where they should be one body: BooleanFragments{ Surface{:}; Delete; }{} in the .geo file "

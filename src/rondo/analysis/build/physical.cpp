@@ -19,7 +19,7 @@ namespace {
 
 constexpr const char* si = "are the units m, kg, s, Pa, rad/s?";
 
-struct Range {
+struct Extremes {
   double low = std::numeric_limits<double>::infinity();
   double high = -std::numeric_limits<double>::infinity();
   void take(double value) {
@@ -85,7 +85,7 @@ void tell_deflection(const std::string& key, double deflection, const Wall& wall
 }
 
 void tell_slip(const Case& c, double radius, const Tell& to) {
-  Range slip, both_move;
+  Extremes slip, both_move;
   each_time(c, [&](double t) {
     const double rim = c.motion.angular_velocity.at(t) * radius, speed = c.motion.ahead(t);
     const double ratio = dynamics::slip_ratio(rim, speed);
@@ -136,7 +136,7 @@ void tell_speed(double speed, const std::vector<fem::Material>& materials, const
 }
 
 void tell_stiffness(const std::vector<fem::Material>& materials, const Tell& to) {
-  Range e;
+  Extremes e;
   for (const fem::Material& m : materials) e.take(m.youngs_modulus);
   const auto text = [](double modulus) {
     return fmt::format("E = {:.3g} Pa, {}", modulus, order_of(modulus));
@@ -213,7 +213,7 @@ std::optional<Wall> wall_of(const mesh::Mesh& mesh) {
   const auto radius = [&](int node) {
     return norm(mesh.coordinates[static_cast<std::size_t>(node)]);
   };
-  Range outer, inner;
+  Extremes outer, inner;
   for (const int node : mesh.boundary) outer.take(radius(node));
   for (const int node : mesh.clamped) inner.take(radius(node));
   if (outer.low < round * outer.high || inner.high >= outer.low) return std::nullopt;

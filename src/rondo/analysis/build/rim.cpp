@@ -7,16 +7,13 @@
 
 #include "rondo/analysis/build/ground/held_ground.hpp"
 #include "rondo/core/column.hpp"
+#include "rondo/core/index.hpp"
 #include "rondo/mesh/physical_group.hpp"
 
 namespace rondo::study {
 namespace {
 
 using dynamics::RimBody;
-
-std::size_t at(int index) noexcept {
-  return static_cast<std::size_t>(index);
-}
 
 /// Of the clamped nodes, about the origin.
 struct Bonded {

@@ -9,16 +9,10 @@
 #include "rondo/analysis/build/build.hpp"
 #include "rondo/analysis/elements/massless_boundary.hpp"
 #include "rondo/analysis/elements/parts.hpp"
+#include "rondo/core/index.hpp"
 #include "rondo/mesh/locate.hpp"
 
 namespace rondo::study {
-namespace {
-
-std::size_t at(int index) noexcept {
-  return static_cast<std::size_t>(index);
-}
-
-}  // namespace
 
 StepLimit find_step_limit(const Case& c, const Setup& s) {
   const bool lagged = c.time.scheme == Scheme::as_printed;

@@ -9,6 +9,7 @@
 #include "rondo/analysis/elements/corner_words.hpp"
 #include "rondo/analysis/elements/parts.hpp"
 #include "rondo/case/case_keys.hpp"
+#include "rondo/core/index.hpp"
 #include "rondo/fem/contact_mass.hpp"
 #include "rondo/integrators/massless/ring_matrix.hpp"
 
@@ -16,10 +17,6 @@ namespace rondo::study {
 namespace {
 
 constexpr const char* key = "solver.contact_mass";
-
-std::size_t at(int index) noexcept {
-  return static_cast<std::size_t>(index);
-}
 
 void refuse_free_bodies(const Case& c, const dynamics::Model& m) {
   if (m.free_bodies.empty()) return;

@@ -8,14 +8,11 @@
 #include <set>
 
 #include "rondo/case/case_keys.hpp"
+#include "rondo/core/index.hpp"
 #include "rondo/mesh/physical_group.hpp"
 
 namespace rondo::study {
 namespace {
-
-std::size_t at(int index) noexcept {
-  return static_cast<std::size_t>(index);
-}
 
 void demand_layers(const Case& c, const std::string& table, const std::vector<int>& layers,
                    int there) {

@@ -40,7 +40,7 @@ constexpr std::array dynamic_columns{
 };
 
 /// Of a wheel in three dimensions.
-constexpr std::array solid_columns{
+constexpr std::array dynamic_solid_columns{
     FigureColumn{"force_x_mean", "N", "of the ground on the body along t1, mean over the window"},
     FigureColumn{"force_x_peak", "N", "the value of largest magnitude in the window"},
     FigureColumn{"force_x_fluctuation", "N", "root mean square about the mean"},
@@ -134,7 +134,7 @@ FigureTable dynamic_figures() noexcept {
 }
 
 FigureTable solid_dynamic_figures() noexcept {
-  return {solid_columns, solid_figures_of, true};
+  return {dynamic_solid_columns, solid_figures_of, true};
 }
 
 }  // namespace rondo::study

@@ -34,7 +34,7 @@ constexpr std::array steady_columns{
     FigureColumn{"jacobian_min", "1", "least area of an element over that undeformed"},
 };
 
-constexpr std::array solid_columns{
+constexpr std::array steady_solid_columns{
     FigureColumn{"force_x", "N",
                  "of the ground on the wheel along its heading, mean over a "
                  "sector's pass"},
@@ -120,7 +120,7 @@ std::vector<double> solid_steady_figures_of(const Json& run) {
 }
 
 FigureTable solid_steady_figures() noexcept {
-  return {solid_columns, solid_figures_in, false};
+  return {steady_solid_columns, solid_figures_in, false};
 }
 
 }  // namespace rondo::study

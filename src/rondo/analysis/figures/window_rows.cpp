@@ -11,7 +11,7 @@
 namespace rondo::study {
 namespace {
 
-constexpr double round_off = 1.0 + 1e-12;
+constexpr double window_round_off = 1.0 + 1e-12;
 
 }  // namespace
 
@@ -29,7 +29,7 @@ WindowRows::WindowRows(const std::filesystem::path& directory, const Window& win
 Intervals WindowRows::of(std::string_view name) const {
   Intervals f = intervals(history_, name, from_, file_);
   std::size_t n = 0;
-  while (n < f.value.size() && f.middle[n] + 0.5 * f.length[n] <= to_ * round_off) ++n;
+  while (n < f.value.size() && f.middle[n] + 0.5 * f.length[n] <= to_ * window_round_off) ++n;
   f.middle.resize(n);
   f.length.resize(n);
   f.value.resize(n);
@@ -42,8 +42,8 @@ double WindowRows::rate(std::string_view name) const {
   const Intervals inside = of(name);
   const double first = inside.middle.front() - 0.5 * inside.length.front();
   double before = 0.0, after = 0.0, begin = 0.0, end = 0.0;
-  for (std::size_t k = 0; k < time.size() && time[k] <= to_ * round_off; ++k) {
-    if (time[k] <= first * round_off) {
+  for (std::size_t k = 0; k < time.size() && time[k] <= to_ * window_round_off; ++k) {
+    if (time[k] <= first * window_round_off) {
       before = value[k];
       begin = time[k];
     }

@@ -10,27 +10,30 @@
 namespace rondo::study {
 namespace {
 
-using R = SteadySums;
-constexpr std::array own_columns{
-    Column<R>{"stick_length_m", "m", "of the deformed boundary at the nodes that stick, summed",
-              [](const R& r) { return r.stick_length; }},
-    Column<R>{"slip_length_m", "m", "of those that slip", [](const R& r) { return r.slip_length; }},
-    Column<R>{"pressure_max_pa", "Pa",
-              "largest of all contact nodes, over the deformed boundary as in contact.csv",
-              [](const R& r) { return r.pressure; }},
-    Column<R>{"shear_max_pa", "Pa", "likewise", [](const R& r) { return r.shear; }},
-    Column<R>{"slip_speed_max", "m/s", "likewise, by the slip that the law of friction sees",
-              [](const R& r) { return r.slip; }},
-    Column<R>{"friction_power", "W/m", "taken by friction", [](const R& r) { return r.friction; }},
+constexpr std::array plane_columns{
+    Column<SteadySums>{"stick_length_m", "m",
+                       "of the deformed boundary at the nodes that stick, summed",
+                       [](const SteadySums& r) { return r.stick_length; }},
+    Column<SteadySums>{"slip_length_m", "m", "of those that slip",
+                       [](const SteadySums& r) { return r.slip_length; }},
+    Column<SteadySums>{"pressure_max_pa", "Pa",
+                       "largest of all contact nodes, over the deformed boundary as in contact.csv",
+                       [](const SteadySums& r) { return r.pressure; }},
+    Column<SteadySums>{"shear_max_pa", "Pa", "likewise",
+                       [](const SteadySums& r) { return r.shear; }},
+    Column<SteadySums>{"slip_speed_max", "m/s",
+                       "likewise, by the slip that the law of friction sees",
+                       [](const SteadySums& r) { return r.slip; }},
+    Column<SteadySums>{"friction_power", "W/m", "taken by friction",
+                       [](const SteadySums& r) { return r.friction; }},
 };
 
-using P = ContactRecord;
-constexpr std::array pair_columns{
-    Column<P>{"slip_speed", "m/s",
-              "of the node over the ground, along x, as the law of friction sees it",
-              [](const P& r) { return r.slip; }},
-    Column<P>{"sticks", "1", "1: it sticks; 0: it slips",
-              [](const P& r) { return r.sticks ? 1.0 : 0.0; }},
+constexpr std::array plane_pair_columns{
+    Column<ContactRecord>{"slip_speed", "m/s",
+                          "of the node over the ground, along x, as the law of friction sees it",
+                          [](const ContactRecord& r) { return r.slip; }},
+    Column<ContactRecord>{"sticks", "1", "1: it sticks; 0: it slips",
+                          [](const ContactRecord& r) { return r.sticks ? 1.0 : 0.0; }},
 };
 
 Json json_of(const statics::RollingSlope& slope) {
@@ -45,15 +48,16 @@ Json json_of(const statics::RollingSlope& slope) {
 
 void SteadyBody::add_columns(RecordPlan& plan) const {
   plan.columns = labels_of(history_columns());
-  const std::vector<ColumnLabel> own = labels_of(std::span<const Column<R>>(own_columns));
+  const std::vector<ColumnLabel> own =
+      labels_of(std::span<const Column<SteadySums>>(plane_columns));
   plan.columns.insert(plan.columns.end(), own.begin(), own.end());
-  plan.contact_columns = pair_columns;
+  plan.contact_columns = plane_pair_columns;
 }
 
 void SteadyState::append_row(int place, const Snapshot& now, std::vector<double>& rows) const {
   append_values(history_columns(), record(place, now), rows);
-  append_values(std::span<const Column<R>>(own_columns), sums_[static_cast<std::size_t>(place)],
-                rows);
+  append_values(std::span<const Column<SteadySums>>(plane_columns),
+                sums_[static_cast<std::size_t>(place)], rows);
 }
 
 std::vector<std::string> SteadyState::notes() const {

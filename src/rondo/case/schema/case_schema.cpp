@@ -10,14 +10,14 @@
 namespace rondo::study {
 namespace {
 
-const Range unbounded{};
+const Range any_number{};
 
 Json number_in(const Range& range) {
   return bounded("number", range);
 }
 
 Json pair_in(const Range& second) {
-  return tuple_of({number_in(unbounded), number_in(second)});
+  return tuple_of({number_in(any_number), number_in(second)});
 }
 
 Json any_of(Json one, Json other) {
@@ -54,15 +54,15 @@ Json value_schema(const CaseKey& key) {
     case KeyType::history:
       return any_of(number_in(range), array_of(pair_in(range), 1));
     case KeyType::profile:
-      return any_of(text_of(key), array_of(pair_in(unbounded), 2));
+      return any_of(text_of(key), array_of(pair_in(any_number), 2));
     case KeyType::vector:
-      return pair_in(unbounded);
+      return pair_in(any_number);
     case KeyType::matrix:
-      return tuple_of({pair_in(unbounded), pair_in(unbounded)});
+      return tuple_of({pair_in(any_number), pair_in(any_number)});
     case KeyType::integers:
       return without_repeats(array_of(bounded("integer", range), 1));
     case KeyType::pairs:
-      return array_of(pair_in(unbounded), key.use.required ? 1 : 0);
+      return array_of(pair_in(any_number), key.use.required ? 1 : 0);
   }
   return {};
 }

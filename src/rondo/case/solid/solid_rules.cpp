@@ -14,7 +14,7 @@ namespace {
 
 constexpr std::string_view wheel = "a wheel in three dimensions";
 
-void refuse(CaseValues& in, std::string_view key, std::string why, std::string instead) {
+void refuse_solid(CaseValues& in, std::string_view key, std::string why, std::string instead) {
   if (in.good({key})) in.fault(key, std::move(why), std::move(instead));
 }
 
@@ -25,8 +25,9 @@ void check_plane(CaseValues& in) {
        {"disk.crown_radius", "disk.mesh.axial", "disk.tread.circumferential_grooves",
         "motion.slip_angle", "motion.camber"})
     if (in.has(key))
-      refuse(in, key, fmt::format("means something to {} alone, and the body is plane", wheel),
-             "disk.width beside it, which gives the disk a width; or a [section]");
+      refuse_solid(in, key,
+                   fmt::format("means something to {} alone, and the body is plane", wheel),
+                   "disk.width beside it, which gives the disk a width; or a [section]");
 }
 
 /// Else the tread would be none.
@@ -34,8 +35,9 @@ void check_lateral_grooves(CaseValues& in, const Case& c) {
   constexpr std::string_view key = "disk.tread.groove_columns";
   if (is_generated(c) && c.disk.tread && c.wheel.grooves.empty() && in.has(key) &&
       c.disk.tread->groove_columns == 0)
-    refuse(in, key, "leaves the tread without grooves",
-           "1 to 100000; 0 with disk.tread.circumferential_grooves alone, of a wheel with a width");
+    refuse_solid(
+        in, key, "leaves the tread without grooves",
+        "1 to 100000; 0 with disk.tread.circumferential_grooves alone, of a wheel with a width");
 }
 
 // The body --------------------------------------------------------------------------------------
@@ -119,7 +121,7 @@ void check_grooves(CaseValues& in, const Case& c) {
 }
 
 /// The mesh must be numbered by int.
-void check_size(CaseValues& in, const Case& c) {
+void check_solid_size(CaseValues& in, const Case& c) {
   if (!in.good({"disk.mesh.radial", "disk.mesh.circumferential", "disk.mesh.axial",
                 "disk.tread.pitches", "disk.tread.land_columns", "disk.tread.groove_columns",
                 "disk.tread.layers"}))
@@ -136,12 +138,12 @@ void check_body(CaseValues& in, const Case& c) {
   check_other_bodies(in);
   if (c.section) return;
   if (c.free_rim)
-    refuse(in, "disk.rim", fmt::format("{} is held by its rim", wheel),
-           "\"bonded\"; or no disk.width: free bodies are plane");
+    refuse_solid(in, "disk.rim", fmt::format("{} is held by its rim", wheel),
+                 "\"bonded\"; or no disk.width: free bodies are plane");
   check_width(in, c);
   check_crown(in, c);
   check_grooves(in, c);
-  check_size(in, c);
+  check_solid_size(in, c);
 }
 
 // What it does not go with ----------------------------------------------------------------------
@@ -149,25 +151,27 @@ void check_body(CaseValues& in, const Case& c) {
 void check_analysis_kind(CaseValues& in, const Case& c) {
   constexpr std::string_view key = "analysis.kind";
   if (c.analysis.kind == AnalysisKind::crush)
-    refuse(in, key, fmt::format("a crush is of plane bodies, not of {}", wheel),
-           "\"dynamic\" with motion.angular_velocity = 0 and a table of motion.height that comes "
-           "down slowly; or no disk.width");
+    refuse_solid(
+        in, key, fmt::format("a crush is of plane bodies, not of {}", wheel),
+        "\"dynamic\" with motion.angular_velocity = 0 and a table of motion.height that comes "
+        "down slowly; or no disk.width");
 }
 
-void check_material(CaseValues& in, const Case& c) {
+void check_solid_material(CaseValues& in, const Case& c) {
   if (has_rubber(c))
-    refuse(in, "material.model", fmt::format("{} is of linear materials alone", wheel),
-           "\"linear\", with b-bar integration near poissons_ratio = 0.5; or no disk.width: rubber "
-           "at finite strain is plane");
+    refuse_solid(
+        in, "material.model", fmt::format("{} is of linear materials alone", wheel),
+        "\"linear\", with b-bar integration near poissons_ratio = 0.5; or no disk.width: rubber "
+        "at finite strain is plane");
   if (c.material.plane == fem::Plane::stress)
-    refuse(in, "material.plane", fmt::format("{} is in no plane state", wheel),
-           "no such key: its sides are free, which a narrow one shows as plane stress does");
+    refuse_solid(in, "material.plane", fmt::format("{} is in no plane state", wheel),
+                 "no such key: its sides are free, which a narrow one shows as plane stress does");
   if (c.stress_stiffening != StressStiffening::none)
-    refuse(in, "material.stress_stiffening",
-           fmt::format("stress stiffening is of plane bodies, not of {}", wheel), "\"none\"");
+    refuse_solid(in, "material.stress_stiffening",
+                 fmt::format("stress stiffening is of plane bodies, not of {}", wheel), "\"none\"");
 }
 
-void check_ground(CaseValues& in, const Case& c) {
+void check_solid_ground(CaseValues& in, const Case& c) {
   if (!c.ground || !in.good({"ground", "ground.profile", "ground.fillet"})) return;
   const bool sharp =
       c.ground->shape.fillet == 0.0 && !contact::Ground(c.ground->shape).corners().empty();
@@ -179,48 +183,51 @@ void check_ground(CaseValues& in, const Case& c) {
              "ground.fillet > 0, which rounds them: about the size of an element");
 }
 
-void check_steps(CaseValues& in, const Case& c) {
+void check_solid_steps(CaseValues& in, const Case& c) {
   if (c.time.scheme != Scheme::symplectic)
-    refuse(in, "time.scheme", fmt::format("{} moves by the scheme \"symplectic\" alone", wheel),
-           "\"symplectic\"; or no disk.width");
+    refuse_solid(in, "time.scheme",
+                 fmt::format("{} moves by the scheme \"symplectic\" alone", wheel),
+                 "\"symplectic\"; or no disk.width");
   if (c.solver_operator == "sparse")
-    refuse(in, "solver.operator", fmt::format("K of {} is taken sector by sector", wheel),
-           "\"auto\" or \"cyclic\"");
+    refuse_solid(in, "solver.operator", fmt::format("K of {} is taken sector by sector", wheel),
+                 "\"auto\" or \"cyclic\"");
   if (c.contact_mass != ContactMass::lumped)
-    refuse(in, "solver.contact_mass",
-           fmt::format("contact nodes without mass are plane, {} has none", wheel), "\"lumped\"");
+    refuse_solid(in, "solver.contact_mass",
+                 fmt::format("contact nodes without mass are plane, {} has none", wheel),
+                 "\"lumped\"");
   if (!c.implicit.empty())
-    refuse(in, "solver.implicit[0]", fmt::format("implicit elements are plane, {} has none", wheel),
-           "no [[solver.implicit]]; a smaller step, or elements of more even size");
+    refuse_solid(in, "solver.implicit[0]",
+                 fmt::format("implicit elements are plane, {} has none", wheel),
+                 "no [[solver.implicit]]; a smaller step, or elements of more even size");
 }
 
 void check_contact_of_bodies(CaseValues& in, const Case& c) {
   if (c.body_contact.between != BodyContact::none)
-    refuse(in, "contact.between", fmt::format("{} touches nothing but the ground", wheel),
-           "\"none\"; or no disk.width");
+    refuse_solid(in, "contact.between", fmt::format("{} touches nothing but the ground", wheel),
+                 "\"none\"; or no disk.width");
 }
 
 void check_start(CaseValues& in, const Case& c) {
   if (c.initial.state == InitialState::steady_rolling)
-    refuse(in, "initial.state",
-           fmt::format("a start in steady rolling is of plane bodies, not of {}", wheel),
-           "\"stationary\", and a run long enough to settle");
+    refuse_solid(in, "initial.state",
+                 fmt::format("a start in steady rolling is of plane bodies, not of {}", wheel),
+                 "\"stationary\", and a run long enough to settle");
   constexpr std::string_view gradient = "initial.displacement_gradient";
   for (const auto& row : c.initial.displacement_gradient)
     if (row[0] != 0.0 || row[1] != 0.0)
-      return refuse(in, gradient, fmt::format("is of plane bodies, not of {}", wheel),
-                    "no such key; initial.velocity sets it in motion");
+      return refuse_solid(in, gradient, fmt::format("is of plane bodies, not of {}", wheel),
+                          "no such key; initial.velocity sets it in motion");
 }
 
 /// What a rim that loads move does not go with: see integrators/solid/solid_rim.hpp.
 void check_solid_rim(CaseValues& in, const Case& c) {
   if (!c.rim) return;
   if (c.rim->free_x && c.motion.slip_angle.largest() != 0.0)
-    refuse(in, "motion.slip_angle",
-           "with rim.free = \"speed\" nothing says how fast the wheel goes sideways",
-           "0; or a speed that is held: rim.free without \"speed\"");
+    refuse_solid(in, "motion.slip_angle",
+                 "with rim.free = \"speed\" nothing says how fast the wheel goes sideways",
+                 "0; or a speed that is held: rim.free without \"speed\"");
   if (c.rim->free_y && c.motion.camber != 0.0 && !c.pressures.empty())
-    refuse(
+    refuse_solid(
         in, "motion.camber",
         "with rim.free = \"height\" and a [[load.pressure]] the pressure's share on the rim, along "
         "the axle, would lift the wheel or not, and is not known",
@@ -244,9 +251,9 @@ void check_solid(CaseValues& in, Case& c) {
   }
   check_body(in, c);
   check_analysis_kind(in, c);
-  check_material(in, c);
-  check_ground(in, c);
-  check_steps(in, c);
+  check_solid_material(in, c);
+  check_solid_ground(in, c);
+  check_solid_steps(in, c);
   check_contact_of_bodies(in, c);
   check_start(in, c);
   check_solid_rim(in, c);

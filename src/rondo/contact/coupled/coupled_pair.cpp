@@ -10,7 +10,7 @@
 namespace rondo::contact {
 namespace {
 
-constexpr int refinements = 2;
+constexpr int pair_refinements = 2;
 constexpr double much_nearer = 1e-3;
 
 using Vec4 = Eigen::Vector4d;
@@ -79,7 +79,7 @@ Vec4 try_statuses(const Pair& p, const Vec4& from, std::array<int, 2> status) no
       for (int k = 0; k < n; ++k) matrix(i, k) = product(at, k);
     }
     const Eigen::CompleteOrthogonalDecomposition<Small> factors(matrix);
-    for (int i = 0; i < refinements; ++i) {
+    for (int i = 0; i < pair_refinements; ++i) {
       const Vec4 w = p.delassus * r + p.free;
       Eigen::Matrix<double, Eigen::Dynamic, 1, 0, 4, 1> lack(n);
       for (int k = 0; k < n; ++k) lack[k] = -w[row[static_cast<std::size_t>(k)]];

@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "rondo/core/contract.hpp"
+#include "rondo/core/index.hpp"
 #include "rondo/core/threads.hpp"
 #include "rondo/fem/hyperelastic/laws.hpp"
 #include "rondo/fem/stiffness_product.hpp"
@@ -15,10 +16,6 @@ using hyperelastic::CornerForces;
 using hyperelastic::DeformedCell;
 
 namespace {
-
-std::size_t at(int index) noexcept {
-  return static_cast<std::size_t>(index);
-}
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
 

@@ -10,40 +10,40 @@
 namespace rondo::fem {
 namespace {
 
-constexpr std::array<Vec3, 8> corner_xi{{{-1, -1, -1},
-                                         {1, -1, -1},
-                                         {1, 1, -1},
-                                         {-1, 1, -1},
-                                         {-1, -1, 1},
-                                         {1, -1, 1},
-                                         {1, 1, 1},
-                                         {-1, 1, 1}}};
+constexpr std::array<Vec3, 8> hexahedron_xi{{{-1, -1, -1},
+                                             {1, -1, -1},
+                                             {1, 1, -1},
+                                             {-1, 1, -1},
+                                             {-1, -1, 1},
+                                             {1, -1, 1},
+                                             {1, 1, 1},
+                                             {-1, 1, 1}}};
 
-const double gauss = 1.0 / std::sqrt(3.0);
+const double gauss_place = 1.0 / std::sqrt(3.0);
 
 double shape(std::size_t i, Vec3 xi) noexcept {
-  const Vec3 c = corner_xi[i];
+  const Vec3 c = hexahedron_xi[i];
   return 0.125 * (1 + c.x * xi.x) * (1 + c.y * xi.y) * (1 + c.z * xi.z);
 }
 
-/// Gradients of the shape functions with respect to x, and det(∂x/∂ξ).
-struct Gradients {
+/// HexahedronGradients of the shape functions with respect to x, and det(∂x/∂ξ).
+struct HexahedronGradients {
   std::array<Vec3, 8> n;
   double jacobian;
 };
 
-Gradients gradients(const HexahedronCorners& x, Vec3 xi) noexcept {
+HexahedronGradients gradients(const HexahedronCorners& x, Vec3 xi) noexcept {
   std::array<Vec3, 8> local;  // ∂N_i/∂ξ
   Vec3 dx, dy, dz;            // ∂x/∂ξ, ∂x/∂η, ∂x/∂ζ
   for (std::size_t i = 0; i < 8; ++i) {
-    const Vec3 c = corner_xi[i], a{1 + c.x * xi.x, 1 + c.y * xi.y, 1 + c.z * xi.z};
+    const Vec3 c = hexahedron_xi[i], a{1 + c.x * xi.x, 1 + c.y * xi.y, 1 + c.z * xi.z};
     local[i] = 0.125 * Vec3{c.x * (a.y * a.z), c.y * (a.z * a.x), c.z * (a.x * a.y)};
     dx += local[i].x * x[i];
     dy += local[i].y * x[i];
     dz += local[i].z * x[i];
   }
   const Vec3 to_x = cross(dy, dz), to_y = cross(dz, dx), to_z = cross(dx, dy);
-  Gradients g{{}, dot(dx, to_x)};
+  HexahedronGradients g{{}, dot(dx, to_x)};
   for (std::size_t i = 0; i < 8; ++i)
     g.n[i] = (local[i].x * to_x + local[i].y * to_y + local[i].z * to_z) / g.jacobian;
   return g;
@@ -82,7 +82,8 @@ struct AtCorner {
   std::array<PointNumbers, 8> weight;
   AtCorner() {
     for (std::size_t i = 0; i < 8; ++i)
-      for (std::size_t q = 0; q < 8; ++q) weight[i][q] = shape(q, std::sqrt(3.0) * corner_xi[i]);
+      for (std::size_t q = 0; q < 8; ++q)
+        weight[i][q] = shape(q, std::sqrt(3.0) * hexahedron_xi[i]);
   }
 };
 
@@ -129,8 +130,8 @@ Eigen::Matrix<double, 24, 24> hexahedron_stiffness(const HexahedronCorners& x,
   std::array<std::array<Block, 8>, 8> blocks{};
   std::array<Vec3, 8> volumetric{};  // ∫ ∇N
   double volume = 0.0;
-  for (const Vec3 corner : corner_xi) {
-    const Gradients g = gradients(x, gauss * corner);
+  for (const Vec3 corner : hexahedron_xi) {
+    const HexahedronGradients g = gradients(x, gauss_place * corner);
     for (std::size_t i = 0; i < 8; ++i)
       for (std::size_t j = i; j < 8; ++j)
         add_block(g.jacobian * law.first, g.jacobian * law.shear, g.n[i], g.n[j], blocks[i][j]);
@@ -157,8 +158,8 @@ std::array<double, 8> hexahedron_volumes(const HexahedronCorners& x) noexcept {
   std::array<double, 8> share{};
   double volume = 0.0, sum = 0.0;
   for (std::size_t i = 0; i < 8; ++i) {
-    volume += gradients(x, gauss * corner_xi[i]).jacobian;
-    share[i] = gradients(x, corner_xi[i]).jacobian;
+    volume += gradients(x, gauss_place * hexahedron_xi[i]).jacobian;
+    share[i] = gradients(x, hexahedron_xi[i]).jacobian;
     sum += share[i];
   }
   for (double& s : share) s *= volume / sum;
@@ -166,15 +167,16 @@ std::array<double, 8> hexahedron_volumes(const HexahedronCorners& x) noexcept {
 }
 
 double smallest_jacobian(const HexahedronCorners& x) noexcept {
-  double smallest = gradients(x, corner_xi[0]).jacobian;
-  for (const Vec3 corner : corner_xi) smallest = std::min(smallest, gradients(x, corner).jacobian);
+  double smallest = gradients(x, hexahedron_xi[0]).jacobian;
+  for (const Vec3 corner : hexahedron_xi)
+    smallest = std::min(smallest, gradients(x, corner).jacobian);
   return smallest;
 }
 
 HexahedronPoints hexahedron_points(const HexahedronCorners& x) noexcept {
   HexahedronPoints points{};
   for (std::size_t q = 0; q < 8; ++q) {
-    const Gradients g = gradients(x, gauss * corner_xi[q]);
+    const HexahedronGradients g = gradients(x, gauss_place * hexahedron_xi[q]);
     points.volume[q] = g.jacobian;
     for (std::size_t i = 0; i < 8; ++i)
       for (std::size_t c = 0; c < 3; ++c) points.gradient[i][c][q] = components(g.n[i])[c];

@@ -7,11 +7,11 @@
 #include <numbers>
 
 #include "rondo/core/vec3.hpp"
+#include "rondo/fem/solid/hexahedron.hpp"
 
 namespace rondo::fem {
 namespace {
 
-using Corners = std::array<Vec3, 8>;
 using Edges = std::array<Vec3, 3>;  ///< along the three directions of an element
 
 double volume(const Edges& e) noexcept {
@@ -19,7 +19,7 @@ double volume(const Edges& e) noexcept {
 }
 
 /// Of corner k and its neighbours, right-handed at each corner of an element that is not inverted.
-Edges edges_at(const Corners& x, std::size_t k) noexcept {
+Edges edges_at(const HexahedronCorners& x, std::size_t k) noexcept {
   const std::size_t face = k < 4 ? 0 : 4, c = k - face;
   const Vec3 next = x[face + (c + 1) % 4] - x[k], last = x[face + (c + 3) % 4] - x[k];
   const Vec3 across = x[(k + 4) % 8] - x[k];
@@ -27,7 +27,7 @@ Edges edges_at(const Corners& x, std::size_t k) noexcept {
 }
 
 /// Means of the four edges along each direction: the gradient at the center maps these.
-Edges mean_edges(const Corners& x) noexcept {
+Edges mean_edges(const HexahedronCorners& x) noexcept {
   Edges e;
   for (const std::size_t f : {std::size_t{0}, std::size_t{4}}) {
     e[0] += 0.25 * ((x[f + 1] - x[f]) + (x[f + 2] - x[f + 3]));
@@ -38,15 +38,15 @@ Edges mean_edges(const Corners& x) noexcept {
 }
 
 /// Symmetric, by the parts that are needed.
-struct Strain {
+struct SolidStrain {
   double xx, yy, zz, xy, yz, zx;
 };
 
 /// Symmetric part of G = Σ du_k ⊗ g_k, g the vectors dual to the edges.
-Strain strain_of(const Edges& e, const Edges& du) noexcept {
+SolidStrain strain_of(const Edges& e, const Edges& du) noexcept {
   const double scale = 1.0 / volume(e);
   const Edges dual{scale * cross(e[1], e[2]), scale * cross(e[2], e[0]), scale * cross(e[0], e[1])};
-  Strain s{};
+  SolidStrain s{};
   for (std::size_t k = 0; k < 3; ++k) {
     s.xx += du[k].x * dual[k].x;
     s.yy += du[k].y * dual[k].y;
@@ -59,7 +59,7 @@ Strain strain_of(const Edges& e, const Edges& du) noexcept {
 }
 
 /// Largest |eigenvalue|, by the angle whose cosine is half the determinant of the scaled deviator.
-double largest_principal(const Strain& s) noexcept {
+double largest_principal(const SolidStrain& s) noexcept {
   const double mean = (s.xx + s.yy + s.zz) / 3.0;
   const double x = s.xx - mean, y = s.yy - mean, z = s.zz - mean;
   const double off = s.xy * s.xy + s.yz * s.yz + s.zx * s.zx;
@@ -80,7 +80,7 @@ Deformation solid_deformation(const mesh::Mesh& mesh, std::span<const Vec2> u,
                               std::span<const double> axial_u) noexcept {
   Deformation d;
   for (std::size_t e = 0; e < mesh.hexahedra.size(); ++e) {
-    Corners x, change, now;
+    HexahedronCorners x, change, now;
     for (std::size_t k = 0; k < 8; ++k) {
       const auto i = static_cast<std::size_t>(mesh.hexahedra[e][k]);
       x[k] = {mesh.coordinates[i], mesh.axial[i]};

@@ -3,14 +3,9 @@
 
 #include <algorithm>
 
+#include "rondo/core/index.hpp"
+
 namespace rondo::dynamics {
-namespace {
-
-std::size_t at(int node) noexcept {
-  return static_cast<std::size_t>(node);
-}
-
-}  // namespace
 
 BodiesContact::BodiesContact(const Model& model) : contact_(model), state_(model) {}
 

@@ -10,7 +10,7 @@
 namespace rondo::dynamics {
 namespace {
 
-constexpr std::size_t lanes = kernels::lanes;
+using kernels::lanes;
 /// Fewer blocks than this are not worth a thread that waits for others four times a step.
 constexpr std::size_t blocks_of_a_thread = 4;
 

@@ -14,7 +14,7 @@
 namespace rondo::dynamics {
 namespace {
 
-constexpr std::size_t lanes = kernels::lanes;
+using kernels::lanes;
 
 template <std::size_t n>
 void add_lanes(const double* x, std::array<double, n>& sums) noexcept {

@@ -6,7 +6,7 @@
 namespace rondo::dynamics {
 namespace {
 
-constexpr std::size_t lanes = kernels::lanes;
+using kernels::lanes;
 
 }  // namespace
 

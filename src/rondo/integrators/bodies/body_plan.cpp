@@ -10,7 +10,7 @@
 namespace rondo::dynamics {
 namespace {
 
-constexpr std::size_t lanes = kernels::lanes;
+using kernels::lanes;
 /// Packs of a block at least, and blocks of a group at most.
 constexpr std::size_t fewest_packs = 16, most_blocks = 128;
 void add_group(const Model& model, int body, std::span<const int> nodes, BodyPlan& plan) {

@@ -6,15 +6,12 @@
 #include <limits>
 
 #include "rondo/core/contract.hpp"
+#include "rondo/core/index.hpp"
 
 namespace rondo::dynamics {
 namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
-
-std::size_t at(int index) noexcept {
-  return static_cast<std::size_t>(index);
-}
 
 Box empty_box() noexcept {
   return {{infinity, infinity}, {-infinity, -infinity}};

@@ -11,7 +11,7 @@
 namespace rondo::dynamics {
 namespace {
 
-constexpr std::size_t lanes = kernels::lanes;
+using kernels::lanes;
 
 std::size_t row_length(const fem::BlockCsr& k, int node) noexcept {
   const auto row = static_cast<std::size_t>(node);

@@ -9,7 +9,7 @@
 namespace rondo::dynamics {
 namespace {
 
-constexpr std::size_t lanes = kernels::lanes;
+using kernels::lanes;
 constexpr std::size_t force_at = 2 * lanes;  ///< K u of a row, from its v
 
 Vec2 pair_at(const double* u, int row) noexcept {

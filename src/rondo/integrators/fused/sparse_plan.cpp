@@ -15,7 +15,7 @@
 namespace rondo::dynamics {
 namespace {
 
-constexpr std::size_t lanes = kernels::lanes;
+using kernels::lanes;
 /// Packs of a block: few enough that threads share a small body evenly, and on large bodies so many
 /// that the sums of blocks are few.
 constexpr std::size_t fewest_packs = 16, most_blocks = 512;

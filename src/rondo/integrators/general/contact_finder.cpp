@@ -8,6 +8,7 @@
 #include <numeric>
 
 #include "rondo/contact/coupled/node_to_segment.hpp"
+#include "rondo/core/index.hpp"
 
 namespace rondo::dynamics {
 namespace {
@@ -17,10 +18,6 @@ using contact::EdgeTouch;
 std::uint64_t key_of(ContactKind kind, std::size_t first, std::size_t second) noexcept {
   return static_cast<std::uint64_t>(kind) << 62U |
          static_cast<std::uint64_t>(first) << key_bits_of_edge | static_cast<std::uint64_t>(second);
-}
-
-std::size_t at(int node) noexcept {
-  return static_cast<std::size_t>(node);
 }
 
 /// How deep a point may be behind each edge [m]: half the shortest edge of the body, for what is

@@ -7,6 +7,7 @@
 #include <array>
 
 #include "rondo/contact/residual.hpp"
+#include "rondo/core/index.hpp"
 #include "rondo/core/keep_larger.hpp"
 
 namespace rondo::dynamics {
@@ -14,10 +15,6 @@ namespace {
 
 using contact::ContactRows;
 using contact::Status;
-
-std::size_t at(int index) noexcept {
-  return static_cast<std::size_t>(index);
-}
 
 /// Σ H_i value(node i).
 template <class Value>

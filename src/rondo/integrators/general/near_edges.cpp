@@ -5,6 +5,8 @@
 #include <cmath>
 #include <limits>
 
+#include "rondo/core/index.hpp"
+
 namespace rondo::dynamics {
 namespace {
 
@@ -13,10 +15,6 @@ namespace {
 constexpr double skin = 2.0, travel = 0.499;
 /// Of more bodies the grid is asked for all nodes.
 constexpr std::size_t most_boxes = 16;
-
-std::size_t at(int index) noexcept {
-  return static_cast<std::size_t>(index);
-}
 
 void widen(Box& box, Vec2 x, double by) noexcept {
   box.low = {std::min(box.low.x, x.x - by), std::min(box.low.y, x.y - by)};

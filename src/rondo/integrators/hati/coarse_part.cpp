@@ -4,14 +4,11 @@
 #include <algorithm>
 
 #include "rondo/core/contract.hpp"
+#include "rondo/core/index.hpp"
 #include "rondo/fem/stiffness_product.hpp"
 
 namespace rondo::dynamics {
 namespace {
-
-std::size_t at(int index) noexcept {
-  return static_cast<std::size_t>(index);
-}
 
 Eigen::Index row_of(std::size_t place) noexcept {
   return static_cast<Eigen::Index>(2 * place);

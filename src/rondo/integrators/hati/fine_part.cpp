@@ -5,14 +5,11 @@
 #include <utility>
 
 #include "rondo/core/contract.hpp"
+#include "rondo/core/index.hpp"
 #include "rondo/fem/stiffness_product.hpp"
 
 namespace rondo::dynamics {
 namespace {
-
-std::size_t at(int index) noexcept {
-  return static_cast<std::size_t>(index);
-}
 
 /// A as a body of its own, with the general step.
 Model model_of(const Model& whole) {

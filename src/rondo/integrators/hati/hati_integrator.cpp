@@ -5,22 +5,19 @@
 #include <utility>
 
 #include "rondo/core/contract.hpp"
+#include "rondo/core/index.hpp"
 #include "rondo/integrators/general/step_traps.hpp"
 #include "rondo/integrators/hati/coarse_contact.hpp"
 
 namespace rondo::dynamics {
 namespace {
 
-std::size_t at(int index) noexcept {
-  return static_cast<std::size_t>(index);
-}
-
 PartFields fields_of(const State& start) {
   RONDO_DEMAND(start.u.size() == start.v.size(), start.u.size(), start.v.size());
   return {start.u, start.v};
 }
 
-Eigen::Index row_of(std::size_t node) noexcept {
+Eigen::Index row_of_node(std::size_t node) noexcept {
   return static_cast<Eigen::Index>(2 * node);
 }
 
@@ -32,7 +29,7 @@ HatiIntegrator::HatiIntegrator(const Model& model, const State& start)
       fine_(model, fields_of(start)),
       coarse_(model, fields_of(start)),
       multiplier_(parts_.interface.size()),
-      apart_(row_of(parts_.interface.size())),
+      apart_(row_of_node(parts_.interface.size())),
       change_(apart_.size()) {
   RONDO_DEMAND(!parts_.interface.empty());
   factor_interface();
@@ -50,8 +47,8 @@ void HatiIntegrator::factor_interface() {
       fine_.respond(unit, fine);
       coarse_.respond(unit, coarse);
       for (std::size_t j = 0; j < unit.size(); ++j) {
-        h(row_of(j), row_of(i) + component) = fine[j].x - coarse[j].x;
-        h(row_of(j) + 1, row_of(i) + component) = fine[j].y - coarse[j].y;
+        h(row_of_node(j), row_of_node(i) + component) = fine[j].x - coarse[j].x;
+        h(row_of_node(j) + 1, row_of_node(i) + component) = fine[j].y - coarse[j].y;
       }
       unit[i] = {};
     }
@@ -62,12 +59,12 @@ void HatiIntegrator::factor_interface() {
 void HatiIntegrator::correct_multiplier() noexcept {
   for (std::size_t i = 0; i < multiplier_.size(); ++i) {
     const Vec2 apart = fine_.travel()[i] - coarse_.travel()[i];
-    apart_[row_of(i)] = apart.x;
-    apart_[row_of(i) + 1] = apart.y;
+    apart_[row_of_node(i)] = apart.x;
+    apart_[row_of_node(i) + 1] = apart.y;
   }
   change_ = interface_.solve(apart_);
   for (std::size_t i = 0; i < multiplier_.size(); ++i)
-    multiplier_[i] -= Vec2{change_[row_of(i)], change_[row_of(i) + 1]};
+    multiplier_[i] -= Vec2{change_[row_of_node(i)], change_[row_of_node(i) + 1]};
 }
 
 /// Of the last attempt of A, of B's step accepted last.

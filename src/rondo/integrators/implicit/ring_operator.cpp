@@ -10,7 +10,7 @@
 namespace rondo::dynamics {
 namespace {
 
-constexpr std::size_t lanes = 8;
+constexpr std::size_t row_lanes = 8;
 
 /// Of K_I, in polar components; symmetric to the last bit.
 RingBlocks blocks_of(const Model& model, const NodeSet& nodes) {
@@ -134,7 +134,7 @@ NodeSet ring_nodes(const Model& model, std::span<const int> nodes) {
   NodeSet set;
   set.sectors = k.n_sectors;
   const auto n = static_cast<std::size_t>(k.n_sectors);
-  set.row_size = (n + lanes - 1) / lanes * lanes;
+  set.row_size = (n + row_lanes - 1) / row_lanes * row_lanes;
   std::vector<int> rows;
   for (const int node : nodes)
     if (node < k.nodes_per_sector) rows.push_back(node);

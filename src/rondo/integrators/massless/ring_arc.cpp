@@ -7,6 +7,7 @@
 
 #include "rondo/contact/residual.hpp"
 #include "rondo/core/contract.hpp"
+#include "rondo/core/index.hpp"
 
 namespace rondo::dynamics {
 namespace {
@@ -20,10 +21,6 @@ constexpr double nothing = 1e-20;
 constexpr int most_extensions = 30;
 /// Sectors beside the first and the last candidate that are looked at with them.
 constexpr std::size_t margin = 2;
-
-std::size_t at(int index) noexcept {
-  return static_cast<std::size_t>(index);
-}
 
 double size_of(const Block& a) noexcept {
   return std::max({std::abs(a[0]), std::abs(a[1]), std::abs(a[2]), std::abs(a[3])});

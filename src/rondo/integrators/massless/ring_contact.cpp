@@ -6,6 +6,7 @@
 
 #include "rondo/contact/residual.hpp"
 #include "rondo/core/contract.hpp"
+#include "rondo/core/index.hpp"
 
 namespace rondo::dynamics {
 namespace {
@@ -17,10 +18,6 @@ using contact::Status;
 constexpr double closed = -1e-14;
 /// As near as this a node that stands still is held by a second facet [m].
 constexpr double corner_reach = 1e-9;
-
-std::size_t at(int index) noexcept {
-  return static_cast<std::size_t>(index);
-}
 
 }  // namespace
 

@@ -6,6 +6,8 @@
 #include <cmath>
 #include <utility>
 
+#include "rondo/core/index.hpp"
+
 namespace rondo::dynamics {
 namespace {
 
@@ -13,10 +15,6 @@ namespace {
 constexpr double least_pivot = 1e-12;
 /// Sums of rows below this share of their entries are round-off.
 constexpr double round_off = 1e-13;
-
-std::size_t at(int index) noexcept {
-  return static_cast<std::size_t>(index);
-}
 
 Vec2 times(const fem::BlockCsr::Block& block, Vec2 v) noexcept {
   return {block[0] * v.x + block[2] * v.y, block[1] * v.x + block[3] * v.y};

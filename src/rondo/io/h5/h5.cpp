@@ -12,12 +12,6 @@
 namespace rondo::io::h5 {
 namespace {
 
-std::size_t product(const Shape& shape, std::size_t from) {
-  std::size_t n = 1;
-  for (std::size_t i = from; i < shape.size(); ++i) n *= shape[i];
-  return n;
-}
-
 /// Layout of a dataset written row by row (results.hpp: readable after a kill at any moment).
 bool set_rows_layout(hid_t properties, const Shape& shape, Type type) {
   const auto chunk = extents(chunk_shape(shape, bytes_of(type)));

@@ -24,6 +24,8 @@ namespace rondo::io::h5 {
 enum class Type { float64, float32, int32, int64, uint8 };
 
 using Shape = std::vector<std::size_t>;
+/// Numbers in the dimensions from `first` on.
+[[nodiscard]] std::size_t product(const Shape& shape, std::size_t first);
 inline constexpr std::size_t any = ~std::size_t{0};  ///< a size that may be what it is
 
 struct Label {

@@ -9,13 +9,13 @@ namespace {
 constexpr std::size_t tiny_row = 512;        ///< rows below are put together in chunks [bytes]
 constexpr std::size_t rows_together = 1024;  ///< so many of them
 
+}  // namespace
+
 std::size_t product(const Shape& shape, std::size_t from) {
   std::size_t n = 1;
   for (std::size_t i = from; i < shape.size(); ++i) n *= shape[i];
   return n;
 }
-
-}  // namespace
 
 std::size_t Dataset::n_numbers() const noexcept {
   return product(shape_, 0);

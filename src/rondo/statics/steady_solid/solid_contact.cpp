@@ -14,7 +14,7 @@ namespace {
 using contact::Status;
 using Eigen::Index;
 
-constexpr int most_rounds = 60;
+constexpr int contact_rounds = 60;
 
 /// The speed is asked for, and nothing that sticks tells it.
 bool slides(const SolidRollingDrive& drive, const SolidRollingState& s) {
@@ -71,7 +71,7 @@ SolidRollingSolution solve_rolling(SolidWindow& window, const SolidRollingDrive&
   state.point.speed = drive.speed;
   window.include_below(state.point.height);
   int unsolved = 0;
-  for (int round = 0; round < most_rounds; ++round) {
+  for (int round = 0; round < contact_rounds; ++round) {
     const SolidRollingProblem& problem = window.problem();
     s.end = problem.pairs.empty() ? RollingEnd::no_contact : RollingEnd::not_solved;
     if (problem.pairs.empty()) break;

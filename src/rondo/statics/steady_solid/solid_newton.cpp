@@ -16,7 +16,7 @@ namespace {
 using contact::Status;
 using Eigen::Index;
 
-constexpr int most_newton_steps = 60, most_trials = 40, most_rounds = 8, sweeps_a_round = 40;
+constexpr int most_newton_steps = 60, most_trials = 40, newton_rounds = 8, sweeps_a_round = 40;
 constexpr int most_without_gain = 15;  // steps of Newton's method
 constexpr double as_good_as_zero = 1e-14;
 
@@ -184,7 +184,7 @@ void solve_at(const SolidRollingProblem& problem, const SolidRollingDrive& drive
   SolidRollingState from = s;
   if (s.touches) newton(problem, drive, s);
   if (s.touches && !s.solved()) raise_friction(problem, drive, s);
-  for (int n = 0; n < most_rounds && s.touches && !s.solved() && s.work < most_solid_work; ++n) {
+  for (int n = 0; n < newton_rounds && s.touches && !s.solved() && s.work < most_solid_work; ++n) {
     from.newton_steps = s.newton_steps;
     from.work = s.work;
     from.sweeps = s.sweeps;

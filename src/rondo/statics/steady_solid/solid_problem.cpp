@@ -23,7 +23,7 @@ Eigen::VectorXd arms(const SolidRollingProblem& problem, const Eigen::VectorXd& 
   return all;
 }
 
-Vec3 vec3(const Eigen::VectorXd& all, Index pair) noexcept {
+Vec3 vec3_of_pair(const Eigen::VectorXd& all, Index pair) noexcept {
   return {all[3 * pair], all[3 * pair + 1], all[3 * pair + 2]};
 }
 
@@ -49,10 +49,10 @@ SolidRollingForces forces_of(const SolidRollingProblem& problem, const SolidRoll
   const Eigen::VectorXd arm = arms(problem, p.force);
   Vec3 force, moment;  // about the center
   for (Index j = 0; 3 * j < arm.size(); ++j) {
-    const Vec3 r = vec3(p.force, j);
+    const Vec3 r = vec3_of_pair(p.force, j);
     if (r == Vec3{}) continue;
     force += r;
-    moment += cross(problem.ground.to_wheel(vec3(arm, j)), problem.ground.to_wheel(r));
+    moment += cross(problem.ground.to_wheel(vec3_of_pair(arm, j)), problem.ground.to_wheel(r));
   }
   force = force / problem.pass;
   moment = moment / problem.pass;
@@ -72,7 +72,7 @@ Eigen::VectorXd torque_row(const SolidRollingProblem& problem, const SolidRollin
   const GroundFrame& g = problem.ground;
   Eigen::VectorXd row = problem.pass * problem.weight;
   for (Index j = 0; 3 * j < arm.size(); ++j) {
-    const Vec3 a = g.to_wheel(vec3(arm, j)), f = g.to_wheel(vec3(p.force, j));
+    const Vec3 a = g.to_wheel(vec3_of_pair(arm, j)), f = g.to_wheel(vec3_of_pair(p.force, j));
     const auto of_force = [&](Vec3 axis) { return a.x * axis.y - a.y * axis.x; };
     row.segment<3>(3 * j) +=
         Eigen::Vector3d{of_force(g.normal), of_force(g.heading), of_force(g.lateral)};

@@ -30,13 +30,13 @@ bool read_pair(std::string_view text, std::string_view between, Shard& shard) {
 }
 
 /// Where a member stands in the row that is cut into shards.
-struct Place {
+struct ShardPlace {
   std::size_t body_turn = 0, body = 0;  ///< bodies are dealt out to the shards
   std::size_t turn = 0, number = 0;     ///< and a body's members to the shards that it takes
 };
 
 /// Bodies are numbered as they come.
-std::vector<Place> places_of(const std::vector<PlannedMember>& members, std::size_t shards) {
+std::vector<ShardPlace> places_of(const std::vector<PlannedMember>& members, std::size_t shards) {
   std::map<std::string_view, std::size_t> numbers;
   std::vector<std::size_t> body, size;
   for (const PlannedMember& member : members) {
@@ -46,7 +46,7 @@ std::vector<Place> places_of(const std::vector<PlannedMember>& members, std::siz
     ++size[found->second];
   }
   std::vector<std::size_t> seen(size.size(), 0);
-  std::vector<Place> places;
+  std::vector<ShardPlace> places;
   for (const std::size_t b : body) {
     const std::size_t pieces = (size[b] * shards + members.size() - 1) / members.size();
     const std::size_t k = seen[b]++;
@@ -80,11 +80,11 @@ bool shard_of_folder(const std::string& name, Shard& shard) {
 }
 
 std::vector<std::size_t> divide(const std::vector<PlannedMember>& members, std::size_t shards) {
-  const std::vector<Place> places = places_of(members, shards);
+  const std::vector<ShardPlace> places = places_of(members, shards);
   std::vector<std::size_t> order(members.size());
   for (std::size_t m = 0; m < order.size(); ++m) order[m] = m;
   std::ranges::sort(order, {}, [&](std::size_t m) {
-    const Place& p = places[m];
+    const ShardPlace& p = places[m];
     return std::tuple(p.body_turn, p.body, p.turn, p.number);
   });
   std::vector<std::size_t> shard(members.size());

@@ -75,7 +75,7 @@ void write_column(io::h5::File& file, const std::string& name, const std::vector
   file.write<double>(name, {values.size()}, values, label);
 }
 
-std::string unit_of(const Vary& vary, bool is_solid) {
+std::string unit_of_varied(const Vary& vary, bool is_solid) {
   const CaseKey* key = find_case_key(vary.key);
   return key && key->unit != "-" ? std::string(rondo::unit_of(key->unit, is_solid)) : "1";
 }
@@ -90,7 +90,7 @@ void write_parameter(io::h5::File& file, const SweepTables& t, std::size_t k) {
   const bool numbers = std::ranges::none_of(values, [](double value) { return std::isnan(value); });
   if (numbers)
     return write_column(file, name, values,
-                        {unit_of(vary, t.plan.is_solid), "key of the case file"});
+                        {unit_of_varied(vary, t.plan.is_solid), "key of the case file"});
   std::map<std::string, std::size_t> places;
   std::string list;
   for (std::size_t m = 0; m < values.size(); ++m) {

@@ -133,7 +133,7 @@ Json SweepRows::describe_parameters() const {
   for (const Vary& vary : study_.parameters) {
     const CaseKey* key = find_case_key(vary.key);
     all.push_back({{"key", vary.key},
-                   {"unit", std::string(key ? unit_of(key->unit, plan_.is_solid) : "-")},
+                   {"unit", std::string(key ? rondo::unit_of(key->unit, plan_.is_solid) : "-")},
                    {"kind", vary.uniform ? "uniform" : "values"}});
     if (!vary.goes_with_previous) leader = vary.key;
     if (leader != vary.key) all.back()["with"] = leader;

@@ -25,7 +25,7 @@ namespace {
 constexpr int period_ms = 100;
 
 /// Comes before the text in the pipe.
-struct Header {
+struct MessageHeader {
   std::uint64_t length = 0;
   std::int64_t code = 0;
 };
@@ -94,7 +94,7 @@ bool write_all(int file, const void* data, std::size_t size) {
   catch_stop_signals();
   const WorkerOutcome outcome = work_guarded(task, worker);
   std::fflush(nullptr);
-  const Header header{outcome.text.size(), outcome.code};
+  const MessageHeader header{outcome.text.size(), outcome.code};
   const bool sent = write_all(pipe, &header, sizeof header) &&
                     write_all(pipe, outcome.text.data(), outcome.text.size());
   _exit(sent ? 0 : 1);  // no destructor, no atexit handler: those are the parent's
@@ -140,7 +140,7 @@ Process start(const WorkerTask& task, int worker) {
 bool receive(Process& process) {
   std::array<char, 65536> buffer;
   ssize_t size = 0;
-  do size = read(process.pipe, buffer.data(), buffer.size());
+  do size = ::read(process.pipe, buffer.data(), buffer.size());
   while (size < 0 && errno == EINTR);
   if (size > 0) process.received.append(buffer.data(), static_cast<std::size_t>(size));
   return size > 0;
@@ -158,7 +158,7 @@ std::optional<int> finish(Process& process) {
 }
 
 WorkerOutcome outcome_of(const std::string& received, std::optional<int> status) {
-  Header header;
+  MessageHeader header;
   if (received.size() >= sizeof header) {
     std::memcpy(&header, received.data(), sizeof header);
     if (received.size() - sizeof header == header.length)

@@ -9,15 +9,12 @@
 #include <set>
 
 #include "rondo/contact/box_tree.hpp"
+#include "rondo/core/index.hpp"
 #include "rondo/mesh/edges.hpp"
 #include "rondo/mesh/locate.hpp"
 
 namespace rondo::study {
 namespace {
-
-std::size_t at(int index) noexcept {
-  return static_cast<std::size_t>(index);
-}
 
 double distance_to(Vec2 a, Vec2 b, Vec2 p) noexcept {
   const Vec2 d = b - a;

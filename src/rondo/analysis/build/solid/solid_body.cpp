@@ -9,6 +9,7 @@
 #include "rondo/analysis/build/rim.hpp"
 #include "rondo/analysis/build/solid/hidden_ground.hpp"
 #include "rondo/case/case_keys.hpp"
+#include "rondo/core/index.hpp"
 #include "rondo/fem/solid/solid_sector.hpp"
 #include "rondo/mesh/edges.hpp"
 #include "rondo/mesh/solid/wheel.hpp"
@@ -18,10 +19,6 @@ namespace {
 
 using dynamics::GroundAxes;
 using dynamics::Model;
-
-std::size_t at(int index) noexcept {
-  return static_cast<std::size_t>(index);
-}
 
 const mesh::Surface& surface_of(const Case& c, const mesh::Mesh& mesh, const std::string& key,
                                 const std::string& name) {

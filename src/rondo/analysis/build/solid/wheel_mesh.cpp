@@ -9,13 +9,10 @@
 #include "rondo/analysis/build/memory.hpp"
 #include "rondo/analysis/elements/parts.hpp"
 #include "rondo/case/solid/wheel_of.hpp"
+#include "rondo/core/index.hpp"
 
 namespace rondo::study {
 namespace {
-
-std::size_t at(int index) noexcept {
-  return static_cast<std::size_t>(index);
-}
 
 /// The cells of a generated section are numbered layer after layer from the rim.
 void set_regions(const Case& c, mesh::Mesh& section) {

@@ -8,7 +8,7 @@
 namespace rondo::dynamics {
 namespace {
 
-constexpr std::size_t lanes = kernels::lanes;
+using kernels::lanes;
 
 /// Where the load of a row is among those of its pack.
 std::size_t place_of(const SparsePlan& plan, std::size_t row, int load) {

@@ -10,7 +10,7 @@
 namespace rondo::dynamics {
 
 namespace {
-constexpr std::size_t lanes = kernels::lanes;
+using kernels::lanes;
 constexpr std::size_t corners = 4;
 }  // namespace
 

@@ -11,10 +11,10 @@
 namespace rondo::dynamics {
 namespace {
 
-constexpr std::size_t lanes = kernels::lanes;
-constexpr std::size_t corners = 4;
+using kernels::lanes;
+constexpr std::size_t corners_of_element = 4;
 /// Packs of a block: threads share a small body evenly, and the sums of a large one are few.
-constexpr std::size_t fewest_packs = 8, most_blocks = 512;
+constexpr std::size_t fewest_element_packs = 8, most_element_blocks = 512;
 
 /// By material, then by their last row: elements read and write what is near.
 std::vector<int> element_order(const RubberPart& rubber, std::span<const int> row) {
@@ -57,7 +57,8 @@ void add_material(std::span<const int> elements, std::size_t material, std::size
 
 void add_packs(const RubberPart& rubber, std::span<const int> row, RubberPlan& plan) {
   const std::vector<int> order = element_order(rubber, row);
-  const std::size_t packs_of_block = std::max(fewest_packs, order.size() / lanes / most_blocks + 1);
+  const std::size_t packs_of_block =
+      std::max(fewest_element_packs, order.size() / lanes / most_element_blocks + 1);
   std::size_t first = 0;
   for (std::size_t m = 0; m < rubber.materials.size(); ++m) {
     std::size_t last = first;
@@ -83,14 +84,14 @@ void add_branches(const Model& model, RubberPlan& plan) {
 void add_geometry(const Model& model, std::span<const int> row, int zero, RubberPlan& plan) {
   namespace rubber = fem::hyperelastic;
   plan.geometry = LargeArray(plan.n_packs * 6 * lanes);
-  plan.node = LargeArrayOf<std::int32_t>(plan.n_packs * corners * lanes);
+  plan.node = LargeArrayOf<std::int32_t>(plan.n_packs * corners_of_element * lanes);
   for (std::size_t i = 0; i < plan.element.size(); ++i) {
     const mesh::Cell& cell = model.rubber->cells[static_cast<std::size_t>(plan.element[i])];
     rubber::Corners<double> x;
-    for (std::size_t c = 0; c < corners; ++c) {
+    for (std::size_t c = 0; c < corners_of_element; ++c) {
       const auto node = static_cast<std::size_t>(cell[c]);
       x[c] = {model.reference[node].x, model.reference[node].y};
-      plan.node.data()[(i / lanes * corners + c) * lanes + i % lanes] =
+      plan.node.data()[(i / lanes * corners_of_element + c) * lanes + i % lanes] =
           2 * (row[node] < 0 ? zero : row[node]);
     }
     const rubber::Bilinear<double> f = rubber::bilinear(x);
@@ -112,11 +113,11 @@ std::vector<std::vector<std::int32_t>> corners_on_rows(const RubberPart& rubber,
   for (std::size_t i = 0; i < plan.element.size(); ++i) {
     const auto e = static_cast<std::size_t>(plan.element[i]);
     if (std::exchange(seen[e], 1)) continue;
-    for (std::size_t c = 0; c < corners; ++c) {
+    for (std::size_t c = 0; c < corners_of_element; ++c) {
       const int r = row[static_cast<std::size_t>(rubber.cells[e][c])];
       if (r < 0) continue;
-      on[static_cast<std::size_t>(r)].push_back(
-          static_cast<std::int32_t>(((i / lanes * corners + c) * lanes + i % lanes) * 2));
+      on[static_cast<std::size_t>(r)].push_back(static_cast<std::int32_t>(
+          ((i / lanes * corners_of_element + c) * lanes + i % lanes) * 2));
     }
   }
   return on;
@@ -134,7 +135,8 @@ void add_corners(const RubberPart& rubber, std::span<const int> row, std::size_t
   }
   const auto n = static_cast<std::size_t>(plan.start.back()) * lanes;
   plan.corner = LargeArrayOf<std::int32_t>(n);
-  std::fill_n(plan.corner.data(), n, static_cast<std::int32_t>(plan.n_packs * corners * lanes * 2));
+  std::fill_n(plan.corner.data(), n,
+              static_cast<std::int32_t>(plan.n_packs * corners_of_element * lanes * 2));
   for (std::size_t r = 0; r < on.size(); ++r) {
     std::size_t place = static_cast<std::size_t>(plan.start[r / lanes]) * lanes + r % lanes;
     for (const std::int32_t at : on[r]) {
@@ -148,7 +150,8 @@ void add_corners(const RubberPart& rubber, std::span<const int> row, std::size_t
 
 RubberPlan make_rubber_plan(const Model& model, std::span<const int> row, int zero,
                             std::size_t n_row_packs) {
-  constexpr std::size_t most_elements = 1U << 27U;  // their corners are counted in 32 bits
+  constexpr std::size_t most_elements = 1U
+                                        << 27U;  // their corners_of_element are counted in 32 bits
   RONDO_DEMAND(model.rubber && model.rubber->cells.size() < most_elements);
   RubberPlan plan;
   add_packs(*model.rubber, row, plan);

@@ -6,14 +6,11 @@
 #include <utility>
 
 #include "rondo/core/contract.hpp"
+#include "rondo/core/index.hpp"
 #include "rondo/integrators/massless/ring_arc.hpp"
 
 namespace rondo::dynamics {
 namespace {
-
-std::size_t at(int index) noexcept {
-  return static_cast<std::size_t>(index);
-}
 
 /// Places of nodes in a set.
 std::vector<std::size_t> places_of(const Model& model, const NodeSet& set,

@@ -6,7 +6,7 @@
 namespace rondo::study {
 namespace {
 
-constexpr std::size_t most_told = 20;
+constexpr std::size_t most_faults = 20;
 
 }  // namespace
 
@@ -24,9 +24,10 @@ void MemberFaults::raise(const std::vector<PlannedMember>& members) const {
   std::vector<Fault> faults;
   const std::string file = study_.file.string();
   for (const Found& found : found_) {
-    if (faults.size() == most_told) {
+    if (faults.size() == most_faults) {
       faults.push_back({file, 0, 0, "", "",
-                        fmt::format("and {} more kinds of errors", found_.size() - most_told), ""});
+                        fmt::format("and {} more kinds of errors", found_.size() - most_faults),
+                        ""});
       break;
     }
     const std::string whom = name_of(study_, members[found.first].member, found.first + 1);
