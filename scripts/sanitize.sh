@@ -4,7 +4,9 @@
 #   bash scripts/sanitize.sh asan [--short]
 #                                     addresses, leaks, undefined behaviour: all tests but the long
 #                                     ones; --short: the unit tests and the short ones of the program
-#   bash scripts/sanitize.sh tsan     races: the threaded step, the writer thread, runs with both
+#   bash scripts/sanitize.sh tsan [--short]
+#                                     races: the threaded step, the writer thread, runs with both;
+#                                     --short: the barrier and the threaded step
 #   bash scripts/sanitize.sh clang    no test: warnings of clang are errors (asan is built with it too)
 #   bash scripts/sanitize.sh          asan and tsan
 # Whatever is found ends the process in question with exit code 99 and is kept in
@@ -50,8 +52,16 @@ asan() { # [--short]
   no_findings asan
 }
 
-tsan() {
-  build tsan thread_tests
+tsan() { # [--short]
+  local tests=(-L threads)
+  case ${1:-} in
+    '') build tsan thread_tests ;;
+    --short)
+      tests+=(-R '^unit_(core|integrators)')
+      build tsan unit_core unit_integrators
+      ;;
+    *) usage ;;
+  esac
   # libomp tells the sanitizer through Archer where threads wait for each other; without it each
   # parallel loop would be a race.
   local archer
@@ -60,19 +70,19 @@ tsan() {
   # It finds no race in the kernels for AVX (docs/reliability.md).
   RONDO_DISPATCH=baseline OMP_TOOL_LIBRARIES=$archer \
   TSAN_OPTIONS=exitcode=99:log_path=$PWD/build/tsan/findings/report:ignore_noninstrumented_modules=1:handle_segv=0:handle_sigbus=0:handle_sigfpe=0 \
-    ctest --test-dir build/tsan -L threads --output-on-failure -j "$(nproc)" ||
+    ctest --test-dir build/tsan "${tests[@]}" --output-on-failure -j "$(nproc)" ||
     { no_findings tsan; return 1; }
   no_findings tsan
 }
 
 usage() {
-  sed -n '3,10s/^# \{0,1\}//p' "$0" >&2
+  sed -n '3,11s/^# \{0,1\}//p' "$0" >&2
   exit 2
 }
 
 case ${1:-all} in
   asan) asan "${@:2}" ;;
-  tsan) tsan ;;
+  tsan) tsan "${@:2}" ;;
   clang) build clang ;;
   all) asan; tsan ;;
   *) usage ;;

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "rondo/core/contract.hpp"
-#include "rondo/core/edit_distance.hpp"
+#include "rondo/core/text/edit_distance.hpp"
 
 namespace rondo::study {
 namespace {

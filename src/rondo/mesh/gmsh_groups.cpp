@@ -4,7 +4,7 @@
 #include <array>
 #include <map>
 
-#include "rondo/core/edit_distance.hpp"
+#include "rondo/core/text/edit_distance.hpp"
 #include "rondo/mesh/gmsh_draft.hpp"
 #include "rondo/mesh/physical_group.hpp"
 

@@ -6,11 +6,11 @@
 
 #include "rondo/core/complex.hpp"
 #include "rondo/core/contract.hpp"
-#include "rondo/core/edit_distance.hpp"
 #include "rondo/core/error.hpp"
 #include "rondo/core/field.hpp"
 #include "rondo/core/keep_larger.hpp"
 #include "rondo/core/sum.hpp"
+#include "rondo/core/text/edit_distance.hpp"
 
 namespace core_test {
 

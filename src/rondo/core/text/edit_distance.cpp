@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "rondo/core/edit_distance.hpp"
+#include "rondo/core/text/edit_distance.hpp"
 
 #include <algorithm>
 #include <cctype>
