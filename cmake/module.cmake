@@ -30,12 +30,12 @@ function(rondo_count_lines target)
   endif()
 endfunction()
 
-# Whatever a sanitizer finds ends the program. Left out: what tests each pointer before its use.
-# That takes as long to compile as all the rest, and what it finds, the address sanitizer or the
-# processor (aligned loads of the kernels) finds too.
+# Whatever a sanitizer finds ends the program. Left out: what tests each pointer before its use, or
+# each sum of a pointer and an index. That takes as long to compile as all the rest, and what it finds,
+# the address sanitizer or the processor (aligned loads of the kernels) finds too.
 function(rondo_sanitize target sanitizers)
   target_compile_options(${target} PRIVATE -fsanitize=${sanitizers}
-                                           -fno-sanitize=null,alignment,object-size,vptr
+                                           -fno-sanitize=null,alignment,object-size,vptr,pointer-overflow
                                            -fno-sanitize-recover=all
                                            -fno-omit-frame-pointer)
   target_link_options(${target} PUBLIC -fsanitize=${sanitizers})

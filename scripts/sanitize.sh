@@ -3,7 +3,8 @@
 # Builds with sanitizers and runs the tests that they are for:
 #   bash scripts/sanitize.sh asan [--short]
 #                                     addresses, leaks, undefined behaviour: all tests but the long
-#                                     ones; --short: the unit tests and the short ones of the program
+#                                     ones; --short: the unit tests but those of dense algebra, and
+#                                     the short ones of the program
 #   bash scripts/sanitize.sh tsan [--short]
 #                                     races: the threaded step, the writer thread, runs with both;
 #                                     --short: the barrier and the threaded step
@@ -76,7 +77,7 @@ tsan() { # [--short]
 }
 
 usage() {
-  sed -n '3,11s/^# \{0,1\}//p' "$0" >&2
+  sed -n '3,12s/^# \{0,1\}//p' "$0" >&2
   exit 2
 }
 
