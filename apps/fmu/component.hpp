@@ -19,6 +19,9 @@ class Component {
   /// @param resources the folder of the FMU. @throws InputError, FileError
   Component(const std::string& name, const std::string& resources, const std::string& guid,
             const fmi2CallbackFunctions& callbacks, bool logs);
+  Component(const Component&) = delete;
+  Component& operator=(const Component&) = delete;
+  ~Component();
 
   fmi2Status enter_initialization();
   fmi2Status exit_initialization();

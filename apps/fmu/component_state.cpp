@@ -4,7 +4,6 @@
 #include <map>
 #include <mutex>
 #include <set>
-#include <span>
 #include <utility>
 
 #include "component.hpp"
@@ -53,6 +52,15 @@ void dismiss(fmi2Component c) noexcept {
     erased = alive().instances.erase(c);
   }
   if (erased > 0) delete static_cast<Component*>(c);
+}
+
+/// With the states that its importer has not freed: another instance may come to lie here.
+Component::~Component() {
+  const std::lock_guard<std::mutex> lock(alive().mutex);
+  std::erase_if(alive().states, [this](const auto& of) {
+    if (of.second == this) delete static_cast<const State*>(of.first);
+    return of.second == this;
+  });
 }
 
 /// In place of a state that is there, as the standard has it.
@@ -105,10 +113,11 @@ fmi2Status Component::restore(fmi2FMUstate state) {
 
 fmi2Status Component::free(fmi2FMUstate* state) noexcept {
   if (state == nullptr || *state == nullptr) return fmi2OK;
-  if (!is_state(*state, this)) return fmi2Error;
   {
     const std::lock_guard<std::mutex> lock(alive().mutex);
-    alive().states.erase(*state);
+    const auto found = alive().states.find(*state);
+    if (found == alive().states.end() || found->second != this) return fmi2Error;
+    alive().states.erase(found);
   }
   delete static_cast<State*>(*state);
   *state = nullptr;

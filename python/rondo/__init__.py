@@ -36,7 +36,7 @@ from .solution import Solution, crush, solve, steady_rolling
 __version__ = "0.2.0"
 
 attach()
-del attach, demand
+del attach, demand, while_loading
 
 __all__ = ["Error", "FileError", "History", "InputError", "Mesh", "Modes", "NewerSchemaError",
            "NotARunError", "NumericalError", "Paper", "Pod", "Run", "Simulation", "Solution",

@@ -6,6 +6,8 @@ import os
 import signal
 import sys
 
+from .needs import started_as_program
+
 INTERRUPTED = 130
 
 
@@ -18,8 +20,7 @@ def end_at_once(*_: object) -> None:
 def while_loading() -> None:
     """From the first import of python3 -m rondo on; in a program that imports the package Ctrl-C stays
     what it was."""
-    module = sys.argv[:1] == ["-m"]  # as long as Python looks for it
-    if module and signal.getsignal(signal.SIGINT) is signal.default_int_handler:
+    if started_as_program() and signal.getsignal(signal.SIGINT) is signal.default_int_handler:
         signal.signal(signal.SIGINT, end_at_once)
 
 

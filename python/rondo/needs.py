@@ -22,12 +22,19 @@ def missing(*modules: str) -> str:
             "missing for this one")
 
 
+def started_as_program() -> bool:
+    """By python3 -m rondo, and not by another program that imports the package. Known as long as Python looks for the
+    module: until then sys.argv begins with -m."""
+    words = getattr(sys, "orig_argv", ["-m", "rondo"])  # Python before 3.10 has none
+    return sys.argv[:1] == ["-m"] and words[words.index("-m") + 1].split(".")[0] == "rondo"
+
+
 def demand(*modules: str) -> None:
     """Ends `python3 -m rondo` with one line; elsewhere: @raise ImportError."""
     text = missing(*modules)
     if not text:
         return
-    if sys.argv[:1] == ["-m"]:  # as it is until the module is found
+    if started_as_program():
         sys.stderr.write(f"rondo: {text}\n")
         sys.exit(FILES)
     raise ImportError(text)

@@ -346,6 +346,18 @@ class Pointers(FmuTest):
             self.assertEqual(self.status(fmu, function, *arguments, component=component), "")
         other.step(0.0, 4e-4)
 
+    def test_states_are_freed_with_their_instance(self):
+        """The next instance may lie where the one before was, and it takes none of its states."""
+        for _ in range(50):
+            fmu = self.instance()
+            saved, component = fmu.save(), fmu.component
+            fmu.free()
+            fmu = self.instance()
+            if fmu.component == component:
+                self.assertIn("this is no state", self.status(fmu, "SetFMUstate", saved))
+                return
+        self.skipTest("no instance came to lie where one had been freed")
+
     def mistaken(self, fmu, other):
         """A state for an instance, an instance for a state, a state of another instance."""
         saved = fmu.save()

@@ -4,6 +4,7 @@ Audio Electroacoust. 15 (1967) 70."""
 from __future__ import annotations
 
 import csv
+import math
 import pathlib
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
@@ -52,6 +53,8 @@ def power_spectral_density(run: Run, column: str = "force_y", from_time: float |
     if segment is None:
         length = max(2 * rows // (SEGMENTS + 1), min(MIN_ROWS, rows))
     else:
+        if not math.isfinite(segment):
+            raise Error(f"segments of {segment:g} s: a finite time is needed")
         length = round(segment / step)
     if not MIN_ROWS <= length <= rows:
         raise Error(f"{run.history.path}: segments of {length * step:g} s have {length} rows: "

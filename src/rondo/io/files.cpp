@@ -114,6 +114,7 @@ pid_t process_in(const std::string& name) {
   const std::size_t at = name.rfind(host);
   if (!name.ends_with(ending) || at == name.npos) return 0;
   const std::size_t begin = at + host.size(), end = name.size() - ending.size();
+  if (begin >= end) return 0;
   pid_t process = 0;
   const auto [stop, error] = std::from_chars(&name[begin], &name[end], process);
   return error == std::errc() && stop == &name[end] ? process : 0;
