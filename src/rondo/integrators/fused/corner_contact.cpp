@@ -119,8 +119,9 @@ void CornerContact::look_out(std::span<StepContext> steps, const CandidateFields
   for (const StepContext& step : steps) include(centers, step.frame.center);
   const Box around = around_ = widened(centers, e.farthest + e.reach);
   const contact::Ground& ground = boundary_.contact->ground;
-  set_edge_boxes();
-  for (const contact::Corner& c : ground.corners(around.low.x, around.high.x))
+  const auto corners = ground.corners(around.low.x, around.high.x);
+  if (!corners.empty()) set_edge_boxes();
+  for (const contact::Corner& c : corners)
     if (c.position.y >= around.low.y && c.position.y <= around.high.y)
       look_at(static_cast<std::size_t>(&c - ground.corners().data()), steps, e);
   for (StepContext& step : steps) step.held = any_near() ? is_held_.data() : nullptr;
