@@ -15,7 +15,6 @@
 #include "rondo/analysis/build/solid/solid_body.hpp"
 #include "rondo/analysis/build/step_limit.hpp"
 #include "rondo/analysis/elements/massless_boundary.hpp"
-#include "rondo/analysis/rubber_step.hpp"
 #include "rondo/analysis/rubber_watch.hpp"
 #include "rondo/case/case_source.hpp"
 #include "rondo/integrators/start.hpp"
@@ -187,6 +186,7 @@ Progress DynamicAnalysis::begin(Recorder& recorder) {
              unit_of("J/m", setup_.model.solid.has_value())};
   watch_.emplace(case_, setup_);
   between_nodes_.emplace(setup_.model);
+  if (history_->needs_boundary()) boundary_state_ = dynamics::boundary_state(setup_.model);
   hub_.emplace(setup_);
   reports_.resize(steps_at_once(setup_));
   state_ = start(setup_.model, std::move(setup_.displacement), std::move(setup_.velocity),
@@ -222,24 +222,32 @@ void DynamicAnalysis::start_integrator() {
   problems_kept_ = from_->problems_kept;
 }
 
-/// Steps up to the next one whose state is wanted, at most as many as there are reports.
+/// Steps up to the next one whose state is wanted, or the displacements of its contact boundary for
+/// a row; at most as many as there are reports. A run that is interrupted has a last row of its
+/// own.
 Progress DynamicAnalysis::advance(Recorder& recorder) {
   const long long next_look = (steps_ / steps_between_looks + 1) * steps_between_looks;
   const bool may_be_deep =
       between_nodes_->may_be_deep(last_ ? &last_->frame : nullptr, steps_between_looks);
-  const long long next_row = may_be_deep ? history_->next_row() : history_->next_wanted();
-  const long long wanted = std::min({next_snapshot(), next_row, next_look, pause_});
-  const long long left = std::min(setup_.n_steps, wanted) - steps_;
+  const bool whole = may_be_deep || history_->needs_state();  // a row takes the whole state
+  const long long next_row =
+      whole || history_->needs_boundary() ? history_->next_row() : HistoryPlace::never;
+  const long long next_state = std::min(
+      {setup_.n_steps, next_snapshot(), next_look, pause_, whole ? next_row : HistoryPlace::never});
+  const long long left = std::min(next_state, next_row) - steps_;
   const auto n = static_cast<std::size_t>(std::min(static_cast<long long>(reports_.size()), left));
   const std::span reports = std::span(reports_).first(n);
-  // A run that is interrupted has a last row of its own.
-  const bool seen = reports.size() == static_cast<std::size_t>(left) || history_->needs_state();
-  integrator_->advance(reports, seen ? &state_ : nullptr);
+  dynamics::State* const seen =
+      steps_ + static_cast<long long>(n) == next_state || history_->needs_state() ? &state_
+      : history_->needs_boundary()                                                ? &boundary_state_
+                                                                                  : nullptr;
+  integrator_->advance(reports, seen);
   keep_difficult_contacts();
-  if (seen && may_be_deep && state_.step == next_row) add_depth_between_nodes(reports.back());
+  if (may_be_deep && seen == &state_ && state_.step == next_row)
+    add_depth_between_nodes(reports.back());
   for (std::size_t i = 0; i < n && !trouble_; ++i)
-    take(reports[i], seen && i + 1 == n ? &state_ : nullptr, recorder);
-  if (seen && state_.step == steps_) record_state(recorder);
+    take(reports[i], i + 1 == n ? seen : nullptr, recorder);
+  if (seen == &state_ && state_.step == steps_) record_state(recorder);
   return {steps_, setup_.n_steps};
 }
 
@@ -260,74 +268,6 @@ void DynamicAnalysis::take(const dynamics::StepReport& step, const dynamics::Sta
   history_->observe(step, state, recorder.rows());
   if (since_pause_) since_pause_->observe(step, state, recorder.rows());
   recorder.rows_added();
-}
-
-/// The message names the step that made the trouble: what a half step shows came from the step
-/// before.
-void DynamicAnalysis::judge(const dynamics::StepReport& step) {
-  warn_of_impacts(step);
-  OutOfBound found{contact_not_found(step.contact), false};
-  if (found.what.empty()) found = find_out_of_bound(step.balance, contact_, bounds_);
-  if (found.what.empty() && setup_.model.rim) found = {look_at_rim(step), false};
-  if (step.material.least_volume <= 0.0) {
-    dynamics::State now(setup_.model);  // after the steps of this call
-    integrator_->fields(now);
-    found = {inverted_rubber(setup_.mesh, now.u, step.material.least_volume), false};
-  }
-  if (found.what.empty() && step.contact_felt_joint) found = {felt_joint(), false};
-  if (found.what.empty()) return;
-  if (found.not_finite) {
-    dynamics::State now(setup_.model);  // after the steps of this call
-    integrator_->fields(now);
-    found.what = not_finite(now, found.what);
-  }
-  const bool before = found.at_half_step && !setup_.model.subdomains;
-  const double half = before ? 0.5 * setup_.model.dt : 0.0;
-  trouble_ = fmt::format("step {} of {}, t = {:.9g} s: {}", step.step - (before ? 1 : 0),
-                         setup_.n_steps, step.frame.time - half, found.what);
-}
-
-/// What is wrong with a loaded rim; empty: nothing.
-std::string DynamicAnalysis::look_at_rim(const dynamics::StepReport& step) {
-  const std::string turned = turned_too_far(step.frame.turn, setup_.model.dt);
-  if (!turned.empty()) return turned;
-  const HubWatch::Seen hub = hub_->look(step.frame.center, step.frame.time);
-  if (!hub.warning.empty()) warn(hub.warning);
-  return hub.trouble;
-}
-
-/// Once a run: what follows is the same.
-void DynamicAnalysis::warn_of_impacts(const dynamics::StepReport& step) {
-  const double gain = impact_gain(step.balance);
-  if (impacts_told_ || !bounds_.guards_impacts || gain <= impact_gain_spoken_of ||
-      gain > impact_gain_bound)
-    return;
-  impacts_told_ = true;
-  warn(fmt::format("t = {:.9g} s: {}", step.frame.time - 0.5 * setup_.model.dt,
-                   created_by_impacts(step.balance, impact_gain_bound, bounds_)));
-}
-
-void DynamicAnalysis::warn(std::string warning) {
-  give_warnings({warning}, options_);
-  warnings_.push_back(std::move(warning));
-}
-
-bool DynamicAnalysis::is_looked_at() const noexcept {
-  const long long before = next_ > 0 ? schedule_.steps[next_ - 1] : -1;
-  return is_look(state_.step, state_.step == next_snapshot(), before);
-}
-
-void DynamicAnalysis::look() {
-  if (trouble_) return;
-  std::string passing = watch_->look(state_);
-  if (!passing.empty()) warn(std::move(passing));
-  std::string wrong = strain_->look(state_.u, state_.poses, state_.frame.time, state_.axial_u);
-  if (wrong.empty() && setup_.rubber && integrator_ &&
-      rubber_step_.is_due(state_.step, strain_->largest().found.strain))
-    wrong = RubberStepWatch::look(setup_, integrator_->resumable()->save());
-  if (!wrong.empty())
-    trouble_ = fmt::format("step {} of {}, t = {:.9g} s: {}", state_.step, setup_.n_steps,
-                           state_.frame.time, wrong);
 }
 
 /// A look at its strains and its boundary, if one is due; a snapshot, if one is and the files can

@@ -103,6 +103,7 @@ class DynamicAnalysis : public Analysis, public Resumable, public Stepwise {
   double fastest_ = 0.0;                ///< spin that was looked at for softening      [rad/s]
   std::vector<dynamics::StepReport> reports_;
   dynamics::State state_;
+  dynamics::State boundary_state_;  ///< of rows that need no more than the contact boundary
   std::unique_ptr<dynamics::Integrator> integrator_;
   long long steps_ = 0;
   ContactStatistics contact_;

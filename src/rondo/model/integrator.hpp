@@ -56,7 +56,8 @@ class Integrator {
 
   /// Makes as many steps as there are reports, and fills these. `last`, if given, gets step, frame,
   /// u, v, contacts and, where it has room for it, v_next of the last of them; `force` and
-  /// `force_before` are left alone.
+  /// `force_before` are left alone. If it has no room for v, u need be right at the candidates of
+  /// the ground's contact alone.
   /// @pre at least one report; *last was made for this model, not copied (a copy has no room for
   /// contacts). Allocates nothing; the general integrator, and the fused ones near sharp corners,
   /// as little as the contacts of a step need more place than any before.

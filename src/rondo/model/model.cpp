@@ -16,6 +16,14 @@ State::State(const Model& model) : u(model.n_nodes()), v(model.n_nodes()), v_nex
     field->resize(model.n_nodes());
 }
 
+State boundary_state(const Model& model) {
+  State state(model);
+  for (std::vector<Vec2>* field : {&state.v, &state.v_next}) std::vector<Vec2>().swap(*field);
+  for (std::vector<double>* field : {&state.axial_v, &state.axial_v_next})
+    std::vector<double>().swap(*field);
+  return state;
+}
+
 void find_free_bodies(const mesh::Mesh& mesh, Model& model) {
   const mesh::Bodies bodies = mesh::find_bodies(mesh);
   std::vector<char> held(static_cast<std::size_t>(bodies.count), 0);

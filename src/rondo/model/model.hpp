@@ -204,6 +204,10 @@ struct State {
   std::vector<double> axial_force_before;  ///< (n) of force_before                  [N]
 };
 
+/// A state with room for displacements and contacts alone: what Integrator::advance then fills
+/// costs no pass over the body.
+[[nodiscard]] State boundary_state(const Model& model);
+
 /// Axial components of the fields that a run in three dimensions starts with, (n) each.
 struct AxialStart {
   std::vector<double> u, v;  ///< u_0 [m], v_0 [m/s]; empty: 0

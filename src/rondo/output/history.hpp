@@ -45,20 +45,19 @@ class History {
   [[nodiscard]] const HistoryPlace& place() const noexcept { return at_; }
   [[nodiscard]] std::vector<ColumnLabel> columns() const;
   /// Every step, in turn: appends a row where one is due.
-  /// @param state of this step, where needs_state(); null: what is of it is NaN
+  /// @param state of this step, as needs_state() and needs_boundary() say; null: what is of it is
+  /// NaN
   void observe(const dynamics::StepReport& step, const dynamics::State* state,
                std::vector<double>& rows);
   /// No step comes after the one seen last: its row, where none was due.
   void finish(const dynamics::StepReport& step, const dynamics::State* state,
               std::vector<double>& rows);
-  /// Rows have numbers of the state: those of probes, the deformed contact length.
-  [[nodiscard]] bool needs_state() const noexcept { return boundary_ || !setup_.probes.empty(); }
+  /// Rows have numbers of the whole state, those of probes.
+  [[nodiscard]] bool needs_state() const noexcept { return !setup_.probes.empty(); }
+  /// Rows have numbers of the displacements of the contact boundary: the deformed contact length.
+  [[nodiscard]] bool needs_boundary() const noexcept { return boundary_ != nullptr; }
   /// The next step that gives a row; never: none does.
   [[nodiscard]] long long next_row() const noexcept;
-  /// The next step that gives a row which needs the state; never: none does.
-  [[nodiscard]] long long next_wanted() const noexcept {
-    return needs_state() ? next_row() : HistoryPlace::never;
-  }
 
  private:
   [[nodiscard]] double slip_ratio(const dynamics::StepReport& step) const;

@@ -199,6 +199,35 @@ TEST_P(Integrators, SameBitsHoweverTheStepsAreCutIntoCalls) {
   }
 }
 
+/// What a row of the history takes: displacements of the candidates, contacts, nothing else.
+TEST_P(Integrators, AStateWithoutVelocitiesHasTheBitsOfTheWholeOneAtTheCandidates) {
+  for (const test::Built& b : disks()) {
+    const Model model = test::model_with(b, GetParam());
+    State whole = start(model, test::some_displacement(b), test::some_velocity(b));
+    const auto one = make_integrator(model, whole), other = make_integrator(model, whole);
+    State boundary = boundary_state(model);
+    std::vector<StepReport> reports(17), of_other(17);
+    int contacts = 0;
+    for (int call = 0; call < 20; ++call) {
+      one->advance(reports, &whole);
+      other->advance(of_other, &boundary);
+      ASSERT_TRUE(same(numbers(reports.back()), numbers(of_other.back())));
+      for (const int node : model.contact->nodes) {
+        const auto n = static_cast<std::size_t>(node);
+        ASSERT_EQ(boundary.u[n], whole.u[n]) << "node " << node;
+      }
+      State expected = whole;
+      for (std::vector<Vec2>* field : {&expected.u, &expected.v, &expected.v_next}) field->clear();
+      State found = boundary;
+      found.u.clear();
+      ASSERT_TRUE(same(numbers(expected), numbers(found)));
+      contacts += static_cast<int>(whole.active.size());
+    }
+    EXPECT_GT(contacts, 0);
+    EXPECT_TRUE(boundary.v.empty());
+  }
+}
+
 TEST_P(Integrators, SameBitsFromASavedStateAndOtherThreads) {
   std::vector<test::Built> all = disks();
   test::RollingCase undamped = test::everything("", 4, 61);

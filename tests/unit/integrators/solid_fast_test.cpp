@@ -321,6 +321,21 @@ TEST_P(SolidFast, IsTheSameWithEachInstructionSet) {
   }
 }
 
+TEST_P(SolidFast, AStateWithoutVelocitiesHasTheBitsOfTheWholeOneAtTheCandidates) {
+  const Model model = model_of(GetParam());
+  State whole = start_of(model), boundary = boundary_state(model);
+  SolidCyclicIntegrator one(model, whole, kernel_table()), other(model, whole, kernel_table());
+  std::vector<StepReport> reports(37);
+  one.advance(reports, &whole);
+  other.advance(reports, &boundary);
+  for (const int node : model.contact->nodes) {
+    const auto n = static_cast<std::size_t>(node);
+    EXPECT_EQ(boundary.u[n], whole.u[n]);
+    EXPECT_EQ(boundary.axial_u[n], whole.axial_u[n]);
+  }
+  EXPECT_TRUE(boundary.axial_v.empty());
+}
+
 TEST_P(SolidFast, GoesOnFromWhatItSaved) {
   const Model model = model_of(GetParam());
   const State begin = start_of(model);

@@ -55,9 +55,11 @@ TEST(History, EveryStepIsARowWhereNoIntervalIsGiven) {
   std::vector<double> rows;
   for (long long k = 1; k <= 3; ++k) history.observe(step_of(b, k, 1.0), nullptr, rows);
   EXPECT_EQ(rows.size(), 3 * history.columns().size());
-  EXPECT_EQ(history.next_wanted(), 4) << "the contact length of a row is of its state";
+  EXPECT_EQ(history.next_row(), 4);
+  EXPECT_TRUE(history.needs_boundary()) << "the contact length of a row";
+  EXPECT_FALSE(history.needs_state()) << "no probe";
   const History reduced(b.c, b.setup, {}, History::Length::deformed);
-  EXPECT_EQ(reduced.next_wanted(), std::numeric_limits<long long>::max()) << "no probe";
+  EXPECT_FALSE(reduced.needs_boundary()) << "its contact length is of the report";
 }
 
 TEST(History, TheContactLengthIsThatOfTheDeformedBoundary) {
@@ -140,9 +142,10 @@ TEST(History, TheStateOfRowsWithProbesIsAskedForInTurn) {
   Built b = built({"output.probe=[{name = 'rim', position = [0.2, 0.0]}]"});
   b.c.output.history_interval = 3.5 * b.setup.model.dt;
   History history(b.c, b.setup);
+  EXPECT_TRUE(history.needs_state());
   std::vector<double> rows;
   for (long long k = 1; k <= 40; ++k) {
-    const bool wanted = history.next_wanted() == k;
+    const bool wanted = history.next_row() == k;
     const std::size_t before = rows.size();
     dynamics::State state(b.setup.model);
     history.observe(step_of(b, k, 1.0), wanted ? &state : nullptr, rows);

@@ -142,7 +142,7 @@ void BodiesIntegrator::advance(std::span<StepReport> reports, State* last) noexc
   RONDO_DEMAND(!reports.empty());
   if (!last) return advance_batch(reports);
   if (reports.size() > 1) advance_batch(reports.first(reports.size() - 1));
-  save_motion(&last->u, &last->v);
+  save_motion(&last->u, last->v.empty() ? nullptr : &last->v);
   advance_batch(reports.last(1));
   if (!last->v_next.empty()) save_motion(nullptr, &last->v_next);
   last->step = step_;

@@ -244,10 +244,13 @@ void BatchIntegrator::advance(std::span<StepReport> reports, State* last) noexce
     before = before.subspan(n);
   }
   if (!last) return;
-  save_displacement(last->u);
-  save_velocity(last->v);
-  save_axial_displacement(last->axial_u);
-  save_axial_velocity(last->axial_v);
+  const Nodes nodes = last->v.empty() ? Nodes::candidates : Nodes::free;
+  save_displacement(nodes, last->u);
+  save_axial_displacement(nodes, last->axial_u);
+  if (nodes == Nodes::free) {
+    save_velocity(last->v);
+    save_axial_velocity(last->axial_v);
+  }
   advance_batch(reports.last(1));
   if (!last->v_next.empty()) save_velocity(last->v_next);
   if (!last->axial_v_next.empty()) save_axial_velocity(last->axial_v_next);
@@ -261,9 +264,9 @@ void BatchIntegrator::advance(std::span<StepReport> reports, State* last) noexce
 }
 
 void BatchIntegrator::fields(State& state) const noexcept {
-  save_displacement(state.u);
+  save_displacement(Nodes::free, state.u);
   save_velocity(state.v_next);
-  save_axial_displacement(state.axial_u);
+  save_axial_displacement(Nodes::free, state.axial_u);
   save_axial_velocity(state.axial_v_next);
 }
 

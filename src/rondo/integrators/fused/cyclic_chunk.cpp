@@ -114,12 +114,14 @@ Vec2 CyclicChunk::initial_force(const std::vector<Vec2>& u, int a, int c) const 
 }
 
 template <class Visit>
-void CyclicChunk::for_own_nodes(Visit&& visit) const noexcept {
-  for (int a = 0; a < plan_.n_local; ++a)
+void CyclicChunk::for_own_nodes(Visit&& visit, bool candidates) const noexcept {
+  for (int a = 0; a < plan_.n_local; ++a) {
+    if (candidates && plan_.contact_row[static_cast<std::size_t>(a)] < 0) continue;
     for (int c = 0; c < range_.columns; ++c)
       visit(a, c,
             model_.sector->node(static_cast<std::size_t>(a),
                                 static_cast<std::size_t>(std::ptrdiff_t{range_.first} + c)));
+  }
 }
 
 void CyclicChunk::load(const State& state) {
@@ -190,16 +192,15 @@ void CyclicChunk::save(SavedState& saved) const noexcept {
   });
 }
 
-void CyclicChunk::save_field(int field, std::vector<Vec2>& out) const noexcept {
-  for_own_nodes([&](int a, int c, std::size_t node) { out[node] = turn(c) * at(a, field, c); });
-}
-
-void CyclicChunk::save_displacement(std::vector<Vec2>& u) const noexcept {
-  save_field(field_now(), u);
+void CyclicChunk::save_displacement(bool candidates, std::vector<Vec2>& u) const noexcept {
+  for_own_nodes([&](int a, int c, std::size_t node) { u[node] = turn(c) * at(a, field_now(), c); },
+                candidates);
 }
 
 void CyclicChunk::save_velocity(std::vector<Vec2>& v) const noexcept {
-  if (!plan_.wheel) return save_field(field_v, v);
+  if (!plan_.wheel)
+    return for_own_nodes(
+        [&](int a, int c, std::size_t node) { v[node] = turn(c) * at(a, field_v, c); });
   for_own_nodes([&](int a, int c, std::size_t node) {
     v[node] = turn(c) * (at(a, field_now(), c) - at(a, field_next(), c)) / model_.dt;
   });

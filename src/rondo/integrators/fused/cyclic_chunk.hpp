@@ -26,7 +26,8 @@ class CyclicChunk {
   void save(SavedState& saved) const noexcept;
   void restore(const SavedState& saved) noexcept;
   /// u_{n+1} of this chunk's own nodes into u, v_{n+1/2} into v, (n) each.
-  void save_displacement(std::vector<Vec2>& u) const noexcept;
+  /// @param candidates only those of the rows that have contact candidates
+  void save_displacement(bool candidates, std::vector<Vec2>& u) const noexcept;
   void save_velocity(std::vector<Vec2>& v) const noexcept;
 
   /// What neighbours need of this chunk for the pass to come.
@@ -112,12 +113,12 @@ class CyclicChunk {
   void solve_node(const Work& work, const Touching& t) noexcept;
   void take_impulse(const Work& work, const Touching& t, const ContactNode& node, Vec2 after,
                     StepSums* sums) noexcept;
-  /// visit(row, column, node) of this chunk's own nodes.
+  /// visit(row, column, node) of this chunk's own nodes; `candidates`: of rows that have some
+  /// alone.
   template <class Visit>
-  void for_own_nodes(Visit&& visit) const noexcept;
+  void for_own_nodes(Visit&& visit, bool candidates = false) const noexcept;
   [[nodiscard]] int field_of(RowField which) const noexcept;
   void show_to_others() noexcept;
-  void save_field(int field, std::vector<Vec2>& out) const noexcept;
   [[nodiscard]] ChunkFields layout() noexcept {
     return {field(0, 0), plan_.row_size(), plan_.stride, plan_.n_local, 2, range_.columns};
   }

@@ -117,8 +117,8 @@ void CyclicIntegrator::show_changes(Share share) noexcept {
   for (std::size_t c = share.first(n); c < share.last(n); ++c) chunks_[c].show_rows();
 }
 
-void CyclicIntegrator::save_displacement(std::vector<Vec2>& u) const noexcept {
-  for (const CyclicChunk& chunk : chunks_) chunk.save_displacement(u);
+void CyclicIntegrator::save_displacement(Nodes of, std::vector<Vec2>& u) const noexcept {
+  for (const CyclicChunk& chunk : chunks_) chunk.save_displacement(of == Nodes::candidates, u);
 }
 
 void CyclicIntegrator::save_velocity(std::vector<Vec2>& v) const noexcept {

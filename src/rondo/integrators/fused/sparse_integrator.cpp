@@ -149,8 +149,14 @@ void SparseIntegrator::load_on_rim(const State& start) {
   }
 }
 
-void SparseIntegrator::save_displacement(std::vector<Vec2>& u) const noexcept {
+void SparseIntegrator::save_displacement(Nodes of, std::vector<Vec2>& u) const noexcept {
   const double* now = u_[parity(step_)].data();
+  if (of == Nodes::candidates) {
+    for (const SparseCandidate& c : plan_.candidates)
+      u[static_cast<std::size_t>(plan_.node[static_cast<std::size_t>(c.row)])] =
+          pair_at(now, c.row);
+    return;
+  }
   for (std::size_t i = 0; i < plan_.node.size(); ++i)
     u[static_cast<std::size_t>(plan_.node[i])] = pair_at(now, static_cast<int>(i));
 }
@@ -170,7 +176,7 @@ void SparseIntegrator::save_velocity(std::vector<Vec2>& v) const noexcept {
 }
 
 void SparseIntegrator::save_fields(SavedState& saved) const noexcept {
-  save_displacement(saved.u);
+  save_displacement(Nodes::free, saved.u);
   save_velocity(saved.v);
   if (plan_.keeps_force)
     for (std::size_t i = 0; i < plan_.node.size(); ++i)

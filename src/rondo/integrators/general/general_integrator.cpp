@@ -189,7 +189,7 @@ void GeneralIntegrator::advance(std::span<StepReport> reports, State* last) noex
   last->step = state_.step;
   last->frame = state_.frame;
   last->u = state_.u;
-  last->v = state_.v;
+  if (!last->v.empty()) last->v = state_.v;
   if (!last->v_next.empty()) last->v_next = state_.v_next;
   last->poses = state_.poses;
   last->active = state_.active;

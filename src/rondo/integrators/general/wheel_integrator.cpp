@@ -148,6 +148,7 @@ void WheelIntegrator::advance(std::span<StepReport> reports, State* last) noexce
   last->frame = state_.frame;
   last->u = state_.u;
   last->active = state_.active;
+  if (last->v.empty()) return;
   for_free_nodes(model_, [&](std::size_t k) { last->v[k] = relative_before(k); });
   if (last->v_next.empty()) return;
   for_free_nodes(model_, [&](std::size_t k) { last->v_next[k] = relative_after(k); });

@@ -111,25 +111,30 @@ void HatiIntegrator::advance(std::span<StepReport> reports, State* last) noexcep
   if (!last) return;
   last->step = step_;
   last->frame = reports.back().frame;
-  fill(last->u, last->v);
-  if (!last->v_next.empty()) last->v_next = last->v;
+  fill_displacement(last->u);
+  if (!last->v.empty()) fill_velocity(last->v);
+  if (!last->v_next.empty()) fill_velocity(last->v_next);
   merge_contacts(fine_.contacts(), last->active);
 }
 
 /// Where the parts meet, A's displacement, which is B's to round-off, and the mean velocity.
-void HatiIntegrator::fill(Vectors& u, Vectors& v) const noexcept {
+void HatiIntegrator::fill_displacement(Vectors& u) const noexcept {
   u = coarse_.fields().u;
+  for (const int node : parts_.fine.free) u[at(node)] = fine_.fields().u[at(node)];
+}
+
+void HatiIntegrator::fill_velocity(Vectors& v) const noexcept {
   v = coarse_.fields().v;
   for (const int node : parts_.fine.free) {
     const std::size_t k = at(node);
     const double a = parts_.fine.mass[k], b = parts_.coarse.mass[k];
-    u[k] = fine_.fields().u[k];
     v[k] = b == 0.0 ? fine_.fields().v[k] : (a * fine_.fields().v[k] + b * v[k]) / (a + b);
   }
 }
 
 void HatiIntegrator::fields(State& state) const noexcept {
-  fill(state.u, state.v_next);
+  fill_displacement(state.u);
+  fill_velocity(state.v_next);
 }
 
 SavedState HatiIntegrator::save() const {

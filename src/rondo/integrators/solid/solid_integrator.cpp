@@ -86,9 +86,10 @@ void SolidIntegrator::advance(std::span<StepReport> reports, State* last) noexce
   last->frame = frame_;
   last->u = u_.plane;
   last->axial_u = u_.axial;
+  last->active = active_;
+  if (last->v.empty()) return;
   last->v = v_.plane;
   last->axial_v = v_.axial;
-  last->active = active_;
   if (last->v_next.empty()) return;
   last->v_next = v_next_.plane;
   last->axial_v_next = v_next_.axial;

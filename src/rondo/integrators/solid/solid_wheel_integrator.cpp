@@ -126,6 +126,7 @@ void SolidWheelIntegrator::advance(std::span<StepReport> reports, State* last) n
   last->u = u_.plane;
   last->axial_u = u_.axial;
   last->active = active_;
+  if (last->v.empty()) return;
   const bool after = !last->v_next.empty();
   for_free_nodes(model_, [&](std::size_t k) {
     const Vec3 was = relative_before(k), is = relative_after(k);

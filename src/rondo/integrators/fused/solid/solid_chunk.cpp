@@ -87,12 +87,14 @@ Vec3 SolidChunk::initial_force(const State& state, int row, int column) const no
 }
 
 template <class Visit>
-void SolidChunk::for_own_nodes(Visit&& visit) const noexcept {
-  for (int a = 0; a < plan_.n_local; ++a)
+void SolidChunk::for_own_nodes(Visit&& visit, bool candidates) const noexcept {
+  for (int a = 0; a < plan_.n_local; ++a) {
+    if (candidates && plan_.contact_row[static_cast<std::size_t>(a)] < 0) continue;
     for (int c = 0; c < range_.columns; ++c)
       visit(a, c,
             plan_.ordered.sector.node(static_cast<std::size_t>(a),
                                       static_cast<std::size_t>(std::ptrdiff_t{range_.first} + c)));
+  }
 }
 
 void SolidChunk::load(const State& state) {
@@ -127,10 +129,10 @@ void SolidChunk::restore(const SavedState& saved) noexcept {
   show_to_others();
 }
 
-void SolidChunk::save_displacement(std::vector<Vec2>& u) const noexcept {
-  for_own_nodes([&](int a, int c, std::size_t node) {
-    u[node] = frame(a, c) * at(a, field_now(), c).plane();
-  });
+void SolidChunk::save_displacement(bool candidates, std::vector<Vec2>& u) const noexcept {
+  for_own_nodes([&](int a, int c,
+                    std::size_t node) { u[node] = frame(a, c) * at(a, field_now(), c).plane(); },
+                candidates);
 }
 
 void SolidChunk::save_velocity(std::vector<Vec2>& v) const noexcept {
@@ -138,8 +140,9 @@ void SolidChunk::save_velocity(std::vector<Vec2>& v) const noexcept {
       [&](int a, int c, std::size_t node) { v[node] = frame(a, c) * at(a, field_v, c).plane(); });
 }
 
-void SolidChunk::save_axial_displacement(std::vector<double>& u) const noexcept {
-  for_own_nodes([&](int a, int c, std::size_t node) { u[node] = at(a, field_now(), c).z; });
+void SolidChunk::save_axial_displacement(bool candidates, std::vector<double>& u) const noexcept {
+  for_own_nodes([&](int a, int c, std::size_t node) { u[node] = at(a, field_now(), c).z; },
+                candidates);
 }
 
 void SolidChunk::save_axial_velocity(std::vector<double>& v) const noexcept {

@@ -25,9 +25,10 @@ class SolidChunk {
   void save(SavedState& saved) const noexcept;
   void restore(const SavedState& saved) noexcept;
   /// u_{n+1} or v_{n+1/2} of this chunk's own nodes, in the turning frame; (n).
-  void save_displacement(std::vector<Vec2>& u) const noexcept;
+  /// @param candidates only those of the rows that have contact candidates
+  void save_displacement(bool candidates, std::vector<Vec2>& u) const noexcept;
   void save_velocity(std::vector<Vec2>& v) const noexcept;
-  void save_axial_displacement(std::vector<double>& u) const noexcept;
+  void save_axial_displacement(bool candidates, std::vector<double>& u) const noexcept;
   void save_axial_velocity(std::vector<double>& v) const noexcept;
 
   /// What neighbours need of this chunk for the pass to come.
@@ -95,7 +96,7 @@ class SolidChunk {
                     StepSums& sums) const noexcept;
   /// visit(row, column, node) of this chunk's own nodes.
   template <class Visit>
-  void for_own_nodes(Visit&& visit) const noexcept;
+  void for_own_nodes(Visit&& visit, bool candidates = false) const noexcept;
   void show_to_others() noexcept;
   [[nodiscard]] ChunkFields layout() noexcept {
     return {field(0, 0), plan_.row_size(), plan_.stride, plan_.n_local, 3, range_.columns};
