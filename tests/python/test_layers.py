@@ -16,7 +16,7 @@ ALLOWED = {  # by the first folder, or the module itself: what it may import bes
     "_core": set(), "simulation": {"_core", "data", "native"}, "solution": {"data", "native", "simulation"},
     "calls": {"data", "native", "studies"},
     "__init__": {"about", "calls", "data", "pictures", "interrupts", "needs", "simulation", "solution"},
-    "command_help": set(), "interrupts": set(), "needs": set(),
+    "command_help": set(), "interrupts": {"needs"}, "needs": set(),
     "__main__": {"__init__", "about", "command_help", "interrupts", "needs", "data", "studies", "figures", "reports", "style"},
 }
 
