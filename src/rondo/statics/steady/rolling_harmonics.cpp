@@ -9,13 +9,13 @@
 #include <utility>
 
 #include "rondo/core/contract.hpp"
+#include "rondo/statics/imaginary.hpp"
 #include "rondo/statics/steady/fourier.hpp"
 
 namespace rondo::statics {
 namespace {
 
 using Complexes = std::complex<double>;
-using namespace std::complex_literals;
 
 std::size_t at(Eigen::Index index) noexcept {
   return static_cast<std::size_t>(index);
@@ -45,7 +45,7 @@ bool RollingHarmonics::finite() const noexcept {
 /// Minus the power of the weight over s, -2N Re(i R_1ᴴ U_1), and what each force adds to U_1.
 void RollingHarmonics::find_weight_torque() {
   const Eigen::VectorXcd load = load_of(1);
-  const Complexes factor = -2.0 * 1i * static_cast<double>(body_.stiffness.n_sectors);
+  const Complexes factor = -2.0 * i * static_cast<double>(body_.stiffness.n_sectors);
   weight_torque_ = (factor * load.dot(base_.col(1))).real();
   const RollingLayer& last = layers_.back();
   const std::size_t n_transfers = transfer_size(layers_);
@@ -156,7 +156,7 @@ Eigen::VectorXcd RollingHarmonics::load_of(int k) const {
       const auto row = static_cast<Eigen::Index>(2 * a);
       const double m = layer.mass[b];
       if (k == 1) {
-        f[row] = 0.5 * 1i * (m * body_.gravity);
+        f[row] = 0.5 * i * (m * body_.gravity);
         f[row + 1] = -0.5 * (m * body_.gravity);
         continue;
       }
@@ -211,7 +211,7 @@ Eigen::MatrixXd RollingHarmonics::fields(Eigen::Ref<const Block> spectrum, doubl
     const bool last = 2 * k == turn_;  // has no derivative, and no phase
     const auto order = static_cast<double>(k);
     const Complexes phase = last ? Complexes{1.0, 0.0} : std::polar(1.0, order * chi);
-    turned.row(k) *= rate ? (last ? Complexes{} : 1i * order * phase) : phase;
+    turned.row(k) *= rate ? (last ? Complexes{} : i * order * phase) : phase;
   }
   Eigen::MatrixXd out(turn_, turned.cols());
   const int size = turn_;
@@ -240,7 +240,7 @@ RollingHarmonics::Damped RollingHarmonics::damped(const Block& spectrum) const {
 
 /// N Σ R_kᴴ (iks U_k) over k = 1 and -1.
 double RollingHarmonics::weight(const Block& spectrum) const {
-  const Complexes power = load_of(1).dot(spectrum.col(1)) * (1i * body_.spin);
+  const Complexes power = load_of(1).dot(spectrum.col(1)) * (i * body_.spin);
   return 2.0 * body_.stiffness.n_sectors * power.real();
 }
 

@@ -5,13 +5,14 @@
 #include <algorithm>
 #include <cmath>
 
+#include "rondo/statics/imaginary.hpp"
+
 namespace rondo::statics {
 namespace {
 
 using Complexes = std::complex<double>;
 using Eigen::Index;
 using Layers = std::span<const RollingLayer>;
-using namespace std::complex_literals;
 
 /// Of one harmonic, with blocks of a size that is known where all layers are of one row: a smooth
 /// disk's are, and take a fifth of the time so.
@@ -33,13 +34,13 @@ struct Blocks {
     }
   }
   [[nodiscard]] Complexes elastic() const {
-    return 1.0 + 1i * (order.rate * order.stiffness_damping);
+    return 1.0 + i * (order.rate * order.stiffness_damping);
   }
   [[nodiscard]] Block own(const RollingLayer& layer) const {
     Block z = elastic() * turned(layer.own);
     const Complexes straight =
-        -order.rate * order.rate - order.spin * order.spin + 1i * (order.rate * order.mass_damping);
-    const Complexes across = 2.0 * 1i * (order.rate * order.spin);
+        -order.rate * order.rate - order.spin * order.spin + i * (order.rate * order.mass_damping);
+    const Complexes across = 2.0 * i * (order.rate * order.spin);
     for (std::size_t a = 0; a < layer.mass.size(); ++a) {
       const auto row = static_cast<Index>(2 * a);
       const double m = layer.mass[a];

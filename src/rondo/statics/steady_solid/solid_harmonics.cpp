@@ -11,6 +11,7 @@
 
 #include "rondo/core/contract.hpp"
 #include "rondo/core/process_wide.hpp"
+#include "rondo/statics/imaginary.hpp"
 #include "rondo/statics/steady/fourier.hpp"
 
 namespace rondo::statics {
@@ -18,7 +19,6 @@ namespace {
 
 using Complexes = std::complex<double>;
 using Eigen::Index;
-using namespace std::complex_literals;
 
 /// Above it, transfers of the harmonics are made anew wherever fields are asked for [B].
 constexpr double most_kept = 2.5e8;
@@ -148,7 +148,7 @@ Eigen::VectorXcd SolidHarmonics::weight_load(bool axial) const {
       if (axial) {
         f[row + 2] = -m;
       } else {
-        f[row] = 0.5 * 1i * m;
+        f[row] = 0.5 * i * m;
         f[row + 1] = -0.5 * m;
       }
     }
@@ -163,7 +163,7 @@ void SolidHarmonics::find_bases() {
   constant_ = zero.solve(constant_load());
   leaning_ = zero.solve(weight_load(true));
   turning_ = one.solve(load);
-  const Complexes factor = -2.0 * 1i * static_cast<double>(body_.stiffness.n_sectors);
+  const Complexes factor = -2.0 * i * static_cast<double>(body_.stiffness.n_sectors);
   weight_torque_ = (factor * load.dot(turning_)).real();
   for (Index c = 0; c < surface_[1].cols(); ++c) {
     Eigen::VectorXcd u = Eigen::VectorXcd::Zero(n_rows());
@@ -225,7 +225,7 @@ SolidHarmonics::Block SolidHarmonics::spectrum(const Eigen::MatrixXd& force, Sol
 Eigen::MatrixXd SolidHarmonics::fields(Eigen::Ref<const Block> spectrum, bool rate) const {
   Block turned = spectrum.transpose();  // a column a row's component
   for (Index k = 0; rate && k < turned.rows(); ++k)
-    turned.row(k) *= 2 * k == turn_ ? Complexes{} : 1i * static_cast<double>(k);
+    turned.row(k) *= 2 * k == turn_ ? Complexes{} : i * static_cast<double>(k);
   Eigen::MatrixXd out(turn_, turned.cols());
   const int size = turn_;
   transform_once([&] {
@@ -253,7 +253,7 @@ SolidHarmonics::Damped SolidHarmonics::damped(const Block& spectrum) const {
 
 /// N Σ R_kᴴ (iks U_k) over k = 1 and -1.
 double SolidHarmonics::weight(const Block& spectrum, SolidGravity g) const {
-  const Complexes power = weight_load(false).dot(spectrum.col(1)) * (1i * body_.spin);
+  const Complexes power = weight_load(false).dot(spectrum.col(1)) * (i * body_.spin);
   return 2.0 * body_.stiffness.n_sectors * g.down * power.real();
 }
 

@@ -14,6 +14,7 @@
 #include <utility>
 
 #include "rondo/core/contract.hpp"
+#include "rondo/statics/imaginary.hpp"
 
 namespace rondo::statics {
 namespace {
@@ -21,7 +22,6 @@ namespace {
 using Complexes = std::complex<double>;
 using Eigen::Index;
 using Layers = std::span<const SolidLayer>;
-using namespace std::complex_literals;
 constexpr Complexes no_number{std::numeric_limits<double>::quiet_NaN(), 0.0};
 
 /// (n_local) elements between a row and the nearest candidate, across sectors too.
@@ -87,7 +87,7 @@ std::vector<SolidLayer> solid_layers(const fem::SolidSector& k, std::span<const 
 }
 
 SolidElimination::SolidElimination(Layers layers, const RollingOrder& order)
-    : layers_(layers), order_(order), elastic_(1.0 + 1i * (order.rate * order.stiffness_damping)) {
+    : layers_(layers), order_(order), elastic_(1.0 + i * (order.rate * order.stiffness_damping)) {
   for (std::size_t l = 0; l < layers.size(); ++l) {
     Block here = own(layers[l]);
     if (l > 0) {
@@ -141,8 +141,8 @@ SolidElimination::Block SolidElimination::own(const SolidLayer& layer) const {
   for (const SolidLayerEntry& e : layer.own)
     z.block<3, 3>(3 * e.row, 3 * e.column) += elastic_ * order_.turns[e.shift] * e.block;
   const double rate = order_.rate, spin = order_.spin;
-  const Complexes axial = -rate * rate + 1i * (rate * order_.mass_damping);
-  const Complexes straight = axial - spin * spin, across = 2.0 * 1i * (rate * spin);
+  const Complexes axial = -rate * rate + i * (rate * order_.mass_damping);
+  const Complexes straight = axial - spin * spin, across = 2.0 * i * (rate * spin);
   for (std::size_t a = 0; a < layer.mass.size(); ++a) {
     const auto row = static_cast<Index>(3 * a);
     const double m = layer.mass[a];

@@ -1,0 +1,9 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+#include <complex>
+
+namespace rondo::statics {
+
+inline constexpr std::complex<double> i{0.0, 1.0};
+
+}  // namespace rondo::statics
