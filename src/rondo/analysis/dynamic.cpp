@@ -237,10 +237,8 @@ Progress DynamicAnalysis::advance(Recorder& recorder) {
   const long long left = std::min(next_state, next_row) - steps_;
   const auto n = static_cast<std::size_t>(std::min(static_cast<long long>(reports_.size()), left));
   const std::span reports = std::span(reports_).first(n);
-  dynamics::State* const seen =
-      steps_ + static_cast<long long>(n) == next_state || history_->needs_state() ? &state_
-      : history_->needs_boundary()                                                ? &boundary_state_
-                                                                                  : nullptr;
+  dynamics::State* seen = history_->needs_boundary() ? &boundary_state_ : nullptr;
+  if (steps_ + static_cast<long long>(n) == next_state || history_->needs_state()) seen = &state_;
   integrator_->advance(reports, seen);
   keep_difficult_contacts();
   if (may_be_deep && seen == &state_ && state_.step == next_row)

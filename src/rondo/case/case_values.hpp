@@ -9,6 +9,7 @@
 #include <set>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "rondo/case/case.hpp"
@@ -39,6 +40,10 @@ class CaseValues {
 
   /// A fault of a key: at its value, else at its table; or at an item of its array.
   void fault(std::string_view key, std::string message, std::string allowed = {});
+  /// A fault of a key that has none so far.
+  void refuse(std::string_view key, std::string message, std::string allowed) {
+    if (good({key})) fault(key, std::move(message), std::move(allowed));
+  }
   void fault_at_item(std::string_view key, int item, std::string message);
   void missing(std::string_view key);
 

@@ -31,7 +31,7 @@ SpatialSolution solve_spatial(const SpatialProblem& problem, double friction) no
 /// r with velocity + W r = 0. @param delassus rows of W
 [[nodiscard]] Vec3 stopping_impulse(const std::array<Vec3, 3>& delassus, Vec3 velocity) noexcept;
 
-/// The direction of a tangential vector; y where it is zero.
+/// The direction of a tangential vector; (1, 0) where it is zero.
 [[nodiscard]] inline Vec2 direction(Vec2 tangential) noexcept {
   const double length = norm(tangential);
   return length > 0.0 ? tangential / length : Vec2{1.0, 0.0};

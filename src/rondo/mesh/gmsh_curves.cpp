@@ -21,7 +21,7 @@ Edge undirected_edge(const Edge& edge) {
   return {std::ranges::min(edge), std::ranges::max(edge)};
 }
 
-/// CurveLine elements of each entity.
+/// Line elements of each entity.
 std::vector<std::vector<CurveLine>> lines_of_entities(const CurveInput& in, const Draft& draft) {
   const auto node = [&](std::uint64_t tag) {
     const int place = in.index.find(tag);

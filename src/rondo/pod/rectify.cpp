@@ -38,8 +38,7 @@ Rings rings_of(const mesh::Mesh& mesh, const std::vector<int>& nodes) {
   return rings;
 }
 
-/// In (-π, π] by way of the direction: a remainder by the rounded 2π is wrong by 1e-16 each
-/// full_turn.
+/// In (-π, π] by way of the direction: a remainder by the rounded 2π is wrong by 1e-16 each turn.
 double within_a_turn(double theta) {
   const Vec2 direction = direction_at(theta);
   return std::atan2(direction.y, direction.x);
@@ -117,7 +116,7 @@ void Rectifier::move_by_harmonics(std::span<double> ring) {
   for (std::size_t k = 0; k < n_; ++k) ring[k] = work_[k].x;
 }
 
-/// Each ring in its polar frames, where they full_turn with the field.
+/// Each ring in its polar frames, where they turn with the field.
 template <class Move>
 void Rectifier::move(std::span<Vec2> values, Move&& move_ring) {
   RONDO_DEMAND(values.size() == n_ * n_rings_, values.size(), n_, n_rings_);

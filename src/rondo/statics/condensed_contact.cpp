@@ -189,7 +189,7 @@ ComplementaryForm make_complementary(const CondensedProblem& p) {
   f.lcp.q = Eigen::VectorXd::Zero(3 * m);
   f.lcp.q.head(m) = p.free(normal) / f.length;
   f.lcp.q.segment(m, m) = p.free(tangential) / f.length;
-  // With the normal part vec2_at least μ times the tangential one there is no ray (6.4).
+  // With the normal part at least μ times the tangential one there is no ray (6.4).
   f.lcp.cover = Eigen::VectorXd::Ones(3 * m);
   f.lcp.cover.segment(m, m).setConstant(1.0 / std::max(1.0, p.friction));
   return f;

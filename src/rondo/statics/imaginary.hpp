@@ -4,6 +4,7 @@
 
 namespace rondo::statics {
 
+/// The imaginary unit.
 inline constexpr std::complex<double> i{0.0, 1.0};
 
 }  // namespace rondo::statics

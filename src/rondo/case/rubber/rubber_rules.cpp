@@ -5,41 +5,35 @@
 namespace rondo::study {
 namespace {
 
-void refuse_rubber(CaseValues& in, std::string_view key, std::string why, std::string instead) {
-  if (in.good({key})) in.fault(key, std::move(why), std::move(instead));
-}
-
 void refuse_steady_rolling(CaseValues& in, const Case& c) {
   if (c.analysis.kind == AnalysisKind::steady_rolling)
-    refuse_rubber(in, "analysis.kind", "steady rolling is of small strain, and rubber is not",
-                  "\"dynamic\", and a run long enough to settle; or material.model = \"linear\"");
+    in.refuse("analysis.kind", "steady rolling is of small strain, and rubber is not",
+              "\"dynamic\", and a run long enough to settle; or material.model = \"linear\"");
   if (c.initial.state == InitialState::steady_rolling)
-    refuse_rubber(in, "initial.state", "steady rolling is of small strain, and rubber is not",
-                  "\"rest\"");
+    in.refuse("initial.state", "steady rolling is of small strain, and rubber is not", "\"rest\"");
 }
 
 void check_law(CaseValues& in, const Case& c) {
   if (c.material.plane == fem::Plane::stress)
-    refuse_rubber(in, "material.plane", "rubber is done in plane strain alone",
-                  "\"strain\"; or material.model = \"linear\"");
+    in.refuse("material.plane", "rubber is done in plane strain alone",
+              "\"strain\"; or material.model = \"linear\"");
   if (c.stress_stiffening != StressStiffening::none)
-    refuse_rubber(in, "material.stress_stiffening", "rubber at finite strain has it in itself",
-                  "\"none\"");
+    in.refuse("material.stress_stiffening", "rubber at finite strain has it in itself", "\"none\"");
 }
 
 void check_steps(CaseValues& in, const Case& c) {
   if (c.time.scheme != Scheme::symplectic)
-    refuse_rubber(in, "time.scheme", "rubber is done by the scheme \"symplectic\" alone",
-                  "\"symplectic\"; or material.model = \"linear\"");
+    in.refuse("time.scheme", "rubber is done by the scheme \"symplectic\" alone",
+              "\"symplectic\"; or material.model = \"linear\"");
   if (c.contact_mass != ContactMass::lumped)
-    refuse_rubber(
-        in, "solver.contact_mass",
+    in.refuse(
+        "solver.contact_mass",
         "contact nodes without mass follow from the stiffness of small strain, and rubber has "
         "none",
         "\"lumped\"");
   if (!c.implicit.empty())
-    refuse_rubber(
-        in, "solver.implicit[0]",
+    in.refuse(
+        "solver.implicit[0]",
         "implicit elements are part of the step of linear elements alone, and there is rubber",
         "no [[solver.implicit]]; or material.model = \"linear\" for the whole of the body");
 }

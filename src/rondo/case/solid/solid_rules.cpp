@@ -14,10 +14,6 @@ namespace {
 
 constexpr std::string_view wheel = "a wheel in three dimensions";
 
-void refuse_solid(CaseValues& in, std::string_view key, std::string why, std::string instead) {
-  if (in.good({key})) in.fault(key, std::move(why), std::move(instead));
-}
-
 /// Keys that a plane body has no use for.
 void check_plane(CaseValues& in) {
   if (in.has("disk.width") || in.has_table("section")) return;  // at fault
@@ -25,9 +21,8 @@ void check_plane(CaseValues& in) {
        {"disk.crown_radius", "disk.mesh.axial", "disk.tread.circumferential_grooves",
         "motion.slip_angle", "motion.camber"})
     if (in.has(key))
-      refuse_solid(in, key,
-                   fmt::format("means something to {} alone, and the body is plane", wheel),
-                   "disk.width beside it, which gives the disk a width; or a [section]");
+      in.refuse(key, fmt::format("means something to {} alone, and the body is plane", wheel),
+                "disk.width beside it, which gives the disk a width; or a [section]");
 }
 
 /// Else the tread would be none.
@@ -35,8 +30,8 @@ void check_lateral_grooves(CaseValues& in, const Case& c) {
   constexpr std::string_view key = "disk.tread.groove_columns";
   if (is_generated(c) && c.disk.tread && c.wheel.grooves.empty() && in.has(key) &&
       c.disk.tread->groove_columns == 0)
-    refuse_solid(
-        in, key, "leaves the tread without grooves",
+    in.refuse(
+        key, "leaves the tread without grooves",
         "1 to 100000; 0 with disk.tread.circumferential_grooves alone, of a wheel with a width");
 }
 
@@ -138,8 +133,8 @@ void check_body(CaseValues& in, const Case& c) {
   check_other_bodies(in);
   if (c.section) return;
   if (c.free_rim)
-    refuse_solid(in, "disk.rim", fmt::format("{} is held by its rim", wheel),
-                 "\"bonded\"; or no disk.width: free bodies are plane");
+    in.refuse("disk.rim", fmt::format("{} is held by its rim", wheel),
+              "\"bonded\"; or no disk.width: free bodies are plane");
   check_width(in, c);
   check_crown(in, c);
   check_grooves(in, c);
@@ -151,24 +146,24 @@ void check_body(CaseValues& in, const Case& c) {
 void check_analysis_kind(CaseValues& in, const Case& c) {
   constexpr std::string_view key = "analysis.kind";
   if (c.analysis.kind == AnalysisKind::crush)
-    refuse_solid(
-        in, key, fmt::format("a crush is of plane bodies, not of {}", wheel),
+    in.refuse(
+        key, fmt::format("a crush is of plane bodies, not of {}", wheel),
         "\"dynamic\" with motion.angular_velocity = 0 and a table of motion.height that comes "
         "down slowly; or no disk.width");
 }
 
 void check_solid_material(CaseValues& in, const Case& c) {
   if (has_rubber(c))
-    refuse_solid(
-        in, "material.model", fmt::format("{} is of linear materials alone", wheel),
+    in.refuse(
+        "material.model", fmt::format("{} is of linear materials alone", wheel),
         "\"linear\", with b-bar integration near poissons_ratio = 0.5; or no disk.width: rubber "
         "at finite strain is plane");
   if (c.material.plane == fem::Plane::stress)
-    refuse_solid(in, "material.plane", fmt::format("{} is in no plane state", wheel),
-                 "no such key: its sides are free, which a narrow one shows as plane stress does");
+    in.refuse("material.plane", fmt::format("{} is in no plane state", wheel),
+              "no such key: its sides are free, which a narrow one shows as plane stress does");
   if (c.stress_stiffening != StressStiffening::none)
-    refuse_solid(in, "material.stress_stiffening",
-                 fmt::format("stress stiffening is of plane bodies, not of {}", wheel), "\"none\"");
+    in.refuse("material.stress_stiffening",
+              fmt::format("stress stiffening is of plane bodies, not of {}", wheel), "\"none\"");
 }
 
 void check_solid_ground(CaseValues& in, const Case& c) {
@@ -185,50 +180,48 @@ void check_solid_ground(CaseValues& in, const Case& c) {
 
 void check_solid_steps(CaseValues& in, const Case& c) {
   if (c.time.scheme != Scheme::symplectic)
-    refuse_solid(in, "time.scheme",
-                 fmt::format("{} moves by the scheme \"symplectic\" alone", wheel),
-                 "\"symplectic\"; or no disk.width");
+    in.refuse("time.scheme", fmt::format("{} moves by the scheme \"symplectic\" alone", wheel),
+              "\"symplectic\"; or no disk.width");
   if (c.solver_operator == "sparse")
-    refuse_solid(in, "solver.operator", fmt::format("K of {} is taken sector by sector", wheel),
-                 "\"auto\" or \"cyclic\"");
+    in.refuse("solver.operator", fmt::format("K of {} is taken sector by sector", wheel),
+              "\"auto\" or \"cyclic\"");
   if (c.contact_mass != ContactMass::lumped)
-    refuse_solid(in, "solver.contact_mass",
-                 fmt::format("contact nodes without mass are plane, {} has none", wheel),
-                 "\"lumped\"");
+    in.refuse("solver.contact_mass",
+              fmt::format("contact nodes without mass are plane, {} has none", wheel),
+              "\"lumped\"");
   if (!c.implicit.empty())
-    refuse_solid(in, "solver.implicit[0]",
-                 fmt::format("implicit elements are plane, {} has none", wheel),
-                 "no [[solver.implicit]]; a smaller step, or elements of more even size");
+    in.refuse("solver.implicit[0]", fmt::format("implicit elements are plane, {} has none", wheel),
+              "no [[solver.implicit]]; a smaller step, or elements of more even size");
 }
 
 void check_contact_of_bodies(CaseValues& in, const Case& c) {
   if (c.body_contact.between != BodyContact::none)
-    refuse_solid(in, "contact.between", fmt::format("{} touches nothing but the ground", wheel),
-                 "\"none\"; or no disk.width");
+    in.refuse("contact.between", fmt::format("{} touches nothing but the ground", wheel),
+              "\"none\"; or no disk.width");
 }
 
 void check_start(CaseValues& in, const Case& c) {
   if (c.initial.state == InitialState::steady_rolling)
-    refuse_solid(in, "initial.state",
-                 fmt::format("a start in steady rolling is of plane bodies, not of {}", wheel),
-                 "\"stationary\", and a run long enough to settle");
+    in.refuse("initial.state",
+              fmt::format("a start in steady rolling is of plane bodies, not of {}", wheel),
+              "\"stationary\", and a run long enough to settle");
   constexpr std::string_view gradient = "initial.displacement_gradient";
   for (const auto& row : c.initial.displacement_gradient)
     if (row[0] != 0.0 || row[1] != 0.0)
-      return refuse_solid(in, gradient, fmt::format("is of plane bodies, not of {}", wheel),
-                          "no such key; initial.velocity sets it in motion");
+      return in.refuse(gradient, fmt::format("is of plane bodies, not of {}", wheel),
+                       "no such key; initial.velocity sets it in motion");
 }
 
 /// What a rim that loads move does not go with: see integrators/solid/solid_rim.hpp.
 void check_solid_rim(CaseValues& in, const Case& c) {
   if (!c.rim) return;
   if (c.rim->free_x && c.motion.slip_angle.largest() != 0.0)
-    refuse_solid(in, "motion.slip_angle",
-                 "with rim.free = \"speed\" nothing says how fast the wheel goes sideways",
-                 "0; or a speed that is held: rim.free without \"speed\"");
+    in.refuse("motion.slip_angle",
+              "with rim.free = \"speed\" nothing says how fast the wheel goes sideways",
+              "0; or a speed that is held: rim.free without \"speed\"");
   if (c.rim->free_y && c.motion.camber != 0.0 && !c.pressures.empty())
-    refuse_solid(
-        in, "motion.camber",
+    in.refuse(
+        "motion.camber",
         "with rim.free = \"height\" and a [[load.pressure]] the pressure's share on the rim, along "
         "the axle, would lift the wheel or not, and is not known",
         "0; or no [[load.pressure]]; or a height that is held");

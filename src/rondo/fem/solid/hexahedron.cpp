@@ -26,7 +26,7 @@ double shape(std::size_t i, Vec3 xi) noexcept {
   return 0.125 * (1 + c.x * xi.x) * (1 + c.y * xi.y) * (1 + c.z * xi.z);
 }
 
-/// HexahedronGradients of the shape functions with respect to x, and det(∂x/∂ξ).
+/// Gradients of the shape functions with respect to x, and det(∂x/∂ξ).
 struct HexahedronGradients {
   std::array<Vec3, 8> n;
   double jacobian;

@@ -150,8 +150,7 @@ void add_corners(const RubberPart& rubber, std::span<const int> row, std::size_t
 
 RubberPlan make_rubber_plan(const Model& model, std::span<const int> row, int zero,
                             std::size_t n_row_packs) {
-  constexpr std::size_t most_elements = 1U
-                                        << 27U;  // their corners_of_element are counted in 32 bits
+  constexpr std::size_t most_elements = 1U << 27U;  // their corners are counted in 32 bits
   RONDO_DEMAND(model.rubber && model.rubber->cells.size() < most_elements);
   RubberPlan plan;
   add_packs(*model.rubber, row, plan);
