@@ -100,7 +100,7 @@ tidy() {
   [ -s "$work/files.txt" ] || return 0
   cmake -S . -B "$work/clang" -G Ninja -DCMAKE_BUILD_TYPE=Release -DCMAKE_CXX_COMPILER=clang++ \
     -DCMAKE_C_COMPILER=clang -DCMAKE_EXPORT_COMPILE_COMMANDS=ON -DRONDO_BUILD_TESTS=OFF -DRONDO_UNITY=OFF \
-    -DCMAKE_DISABLE_PRECOMPILE_HEADERS=ON >"$work/cmake.log" ||
+    >"$work/cmake.log" ||
     { cat "$work/cmake.log"; return 1; }
   local seconds=0
   [ "$changed" = no ] || seconds=$(seconds_left 28)
