@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Runs the benchmarks and writes the tables of docs/performance.md.
+"""Runs the benchmarks and writes the tables of docs/performance.md and bench/README.md.
 
     cmake --preset bench && cmake --build --preset bench
     /usr/bin/python3 bench/performance.py                  all: some 20 minutes
@@ -9,7 +9,7 @@
 
 One program a mesh, its operators and repetitions mixed at random, so that a disturbance of the
 machine does not fall on one of them; tables show the median and in brackets the least and the
-largest. Raw results stay in BUILD/performance. Text of the page outside the markers is left alone.
+largest. Raw results stay in BUILD/performance. Text of the pages outside the markers is left alone.
 """
 import argparse
 import datetime
@@ -27,7 +27,7 @@ from performance_data import Results, build, machine
 from performance_tables import all_tables
 
 ROOT = pathlib.Path(__file__).resolve().parent.parent
-PAGE = ROOT / "docs" / "performance.md"
+PAGES = [ROOT / "docs" / "performance.md", ROOT / "bench" / "README.md"]
 RECORD = ROOT / "bench" / "instructions.json"
 
 SMALL = ["smooth-4x60", "smooth-5x75", "smooth-12x180", "smooth-26x390", "smooth-82x1230",
@@ -81,7 +81,8 @@ def measure(arguments: argparse.Namespace, raw: pathlib.Path) -> None:
         folder = arguments.build.resolve()
     runner = Runner(folder, raw)
     repetitions = 2 if arguments.quick else arguments.repetitions
-    about = {"machine": machine(), "build": build(arguments.build, ROOT, "docs/performance.md"),
+    written = tuple(str(page.relative_to(ROOT)) for page in PAGES)
+    about = {"machine": machine(), "build": build(arguments.build, ROOT, written),
              "date": datetime.date.today().isoformat(), "repetitions": repetitions,
              "load at the start": f"{os.getloadavg()[0]:.2f}"}
     meshes = SMALL + ([] if arguments.quick else LARGE) + (HUGE if arguments.huge else [])
@@ -102,15 +103,18 @@ def measure(arguments: argparse.Namespace, raw: pathlib.Path) -> None:
     (raw / "run.json").write_text(json.dumps(about, indent=2) + "\n")
 
 
-def fill(page: str, tables: dict[str, str]) -> str:
-    """The page with what is between the markers of each name replaced."""
+def fill(pages: dict[pathlib.Path, str], tables: dict[str, str]) -> dict[pathlib.Path, str]:
+    """The pages with what is between the markers of each name replaced, in the one that has them."""
+    filled = dict(pages)
     for name, text in tables.items():
         begin, end = f"<!-- begin {name} -->", f"<!-- end {name} -->"
-        if page.count(begin) != 1 or page.count(end) != 1 or page.index(begin) > page.index(end):
-            sys.exit(f"{PAGE} needs one line {begin} and one line {end} after it")
-        head, rest = page.split(begin)
-        page = f"{head}{begin}\n{text}\n{end}{rest.split(end)[1]}"
-    return page
+        having = [page for page, old in filled.items() if begin in old or end in old]
+        old = filled[having[0]] if len(having) == 1 else ""
+        if old.count(begin) != 1 or old.count(end) != 1 or old.index(begin) > old.index(end):
+            sys.exit(f"one of {', '.join(map(str, pages))} needs one line {begin} and one line {end} after it")
+        head, rest = old.split(begin)
+        filled[having[0]] = f"{head}{begin}\n{text}\n{end}{rest.split(end)[1]}"
+    return filled
 
 
 def main() -> None:
@@ -136,8 +140,9 @@ def main() -> None:
     if partial:
         print("\n\n".join(f"## {name}\n\n{text}" for name, text in tables.items()))
     else:
-        PAGE.write_text(fill(PAGE.read_text(), tables))
-        print(f"{PAGE} is written")
+        for page, text in fill({page: page.read_text() for page in PAGES}, tables).items():
+            page.write_text(text)
+            print(f"{page} is written")
     for step, error in results.errors.items():
         print(f"ERROR {'/'.join(map(str, step))}: {error}")
     if results.errors:

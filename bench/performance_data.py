@@ -133,8 +133,8 @@ def machine() -> dict[str, str]:
     }
 
 
-def build(folder: pathlib.Path, source: pathlib.Path, written: str) -> dict[str, str]:
-    """Compiler, flags and commit; `written` is the file that the script itself changes."""
+def build(folder: pathlib.Path, source: pathlib.Path, written: tuple[str, ...]) -> dict[str, str]:
+    """Compiler, flags and commit; `written` are the files that the script itself changes."""
     cache = dict(re.findall(r"^(\w+):\w+=(.*)$", (folder / "CMakeCache.txt").read_text(),
                             re.MULTILINE))
     kind = cache["CMAKE_BUILD_TYPE"]
