@@ -25,7 +25,7 @@ mesh::Mesh one_sector(const mesh::Mesh& mesh) {
 }
 
 /// Flops a node: K u is 8 a block; the rest, counted by the formulas: displacement 4, acceleration
-/// 14, velocity 18, ledger 23; with stiffness damping 8 and 4 more (docs/performance.md).
+/// 14, velocity 18, ledger 23; with stiffness damping 8 and 4 more (bench/README.md).
 double flops_per_node(double blocks, bool beta) {
   return 8.0 * blocks + 59.0 + (beta ? 12.0 : 0.0);
 }
