@@ -33,7 +33,7 @@ struct Constants {
   Constants(const Model& model, const dynamics::FrameStep& frame,
             const dynamics::VelocityUpdate& update) noexcept
       : spin{-frame.spin * frame.spin, frame.spin_rate},
-        pull(frame.pull),
+        pull(frame.pull.plane()),
         inverse(Complex{1.0, 0.0} / update.a),
         drag(update.drag),
         dt(model.dt),
@@ -84,9 +84,9 @@ class CsrSteps final : public dynamics::Integrator {
       const auto node = static_cast<std::size_t>(model.free[i]);
       place[node] = i;
       set(reference_, i, model.reference[node]);
-      set(u_, i, start.u[node]);
-      set(v_, i, start.v[node]);
-      set(v_next_, i, start.v_next[node]);
+      set(u_, i, start.u.plane()[node]);
+      set(v_, i, start.v.plane()[node]);
+      set(v_next_, i, start.v_next.plane()[node]);
       mass_[static_cast<Index>(i)] = model.mass[node];
       inverse_mass_[static_cast<Index>(i)] = 1.0 / model.mass[node];
     }
@@ -105,14 +105,14 @@ class CsrSteps final : public dynamics::Integrator {
     last->active = active_;
     fields(*last);
     for (std::size_t i = 0; i < n_; ++i)
-      last->v[static_cast<std::size_t>(model_.free[i])] = at(v_, i);
+      last->v.plane()[static_cast<std::size_t>(model_.free[i])] = at(v_, i);
   }
 
   void fields(State& state) const noexcept override {
     for (std::size_t i = 0; i < n_; ++i) {
       const auto k = static_cast<std::size_t>(model_.free[i]);
-      state.u[k] = at(u_, i);
-      state.v_next[k] = at(v_next_, i);
+      state.u.plane()[k] = at(u_, i);
+      state.v_next.plane()[k] = at(v_next_, i);
     }
   }
 
@@ -202,7 +202,7 @@ class CsrSteps final : public dynamics::Integrator {
     for (std::size_t k = 0; k < candidates_.size(); ++k) {
       const std::size_t i = candidates_[k];
       const Vec2 arm = at(reference_, i) + at(u_, i);
-      const auto touches = contact.ground.touches(frame_.center + frame_.rotation * arm);
+      const auto touches = contact.ground.touches(frame_.center.plane() + frame_.rotation * arm);
       if (touches.count == 0) continue;
       const std::size_t first = active_.size();
       active_.resize(first + static_cast<std::size_t>(touches.count));

@@ -65,10 +65,10 @@ int measure(const Measured& m) {
 double difference(const dynamics::State& a, const dynamics::State& b) {
   double u = 0.0, v = 0.0, largest_u = 0.0, largest_v = 0.0;
   for (std::size_t i = 0; i < a.u.size(); ++i) {
-    u = std::max(u, norm(a.u[i] - b.u[i]));
-    v = std::max(v, norm(a.v_next[i] - b.v_next[i]));
-    largest_u = std::max(largest_u, norm(b.u[i]));
-    largest_v = std::max(largest_v, norm(b.v_next[i]));
+    u = std::max(u, norm(a.u.plane()[i] - b.u.plane()[i]));
+    v = std::max(v, norm(a.v_next.plane()[i] - b.v_next.plane()[i]));
+    largest_u = std::max(largest_u, norm(b.u.plane()[i]));
+    largest_v = std::max(largest_v, norm(b.v_next.plane()[i]));
   }
   return std::max(u / largest_u, v / largest_v);
 }

@@ -116,8 +116,7 @@ struct Measured {
 };
 
 Measured measure(const dynamics::Model& m, int rounds, int batch) {
-  const dynamics::State start =
-      dynamics::start(m, std::vector<Vec2>(m.n_nodes()), std::vector<Vec2>(m.n_nodes()), {}, {});
+  const dynamics::State start = dynamics::start(m, Field(m.n_nodes(), 3), Field(m.n_nodes(), 3));
   const double before = resident();
   const auto integrator = dynamics::make_integrator(m, start);
   std::vector<dynamics::StepReport> reports(static_cast<std::size_t>(batch));

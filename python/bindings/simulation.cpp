@@ -202,7 +202,7 @@ py::object Steps::contacts() {
   for (const dynamics::ActiveContact& c : state->active) {
     nodes.push_back(s.mesh.boundary[c.candidate]);
     force.insert(force.end(), {c.impulse.x / s.model.dt, c.impulse.y / s.model.dt});
-    if (solid) force.push_back(c.lateral.impulse / s.model.dt);
+    if (solid) force.push_back(c.impulse.z / s.model.dt);
     gap.push_back(c.gap);
     sticks.push_back(c.status == contact::Status::stick ? 1 : 0);
   }
@@ -218,7 +218,7 @@ py::object Steps::frame() {
   if (!state) return py::none();
   const dynamics::FrameStep& f = state->frame;
   std::vector<double> center{f.center.x, f.center.y};
-  if (any().setup().model.solid) center.push_back(f.lateral);
+  if (any().setup().model.solid) center.push_back(f.center.z);
   return py::make_tuple(f.angle, owned(std::move(center)));
 }
 

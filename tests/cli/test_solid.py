@@ -279,8 +279,8 @@ class Results(SolidTest):
         process.wait()
         self.assertEqual(summary(out)["status"], "running")
         with h5py.File(out / "checkpoint.h5") as f:
-            units = {name: f[name].attrs["units"] for name in ("state/ledger", "history/lateral", "history/aligning")}
-        self.assertEqual(units, {"state/ledger": "J", "history/lateral": "N*s", "history/aligning": "N*m*s"})
+            units = {name: f[name].attrs["units"] for name in ("state/ledger", "history/impulse_z", "history/aligning")}
+        self.assertEqual(units, {"state/ledger": "J", "history/impulse_z": "N*s", "history/aligning": "N*m*s"})
         done = run("run", self.folder / "case.toml", "-o", out, "--resume", "--quiet")
         self.assertEqual(done.returncode, 0, done.stderr)
         self.assertGreater(summary(out)["resumed_at_steps"][0], 0)

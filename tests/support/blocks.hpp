@@ -98,7 +98,7 @@ struct Momentum {
 inline Momentum momentum(const dynamics::Model& model, const dynamics::State& state) {
   Momentum sum;
   for (std::size_t k = 0; k < model.n_nodes(); ++k) {
-    const Vec2 p = model.mass[k] * state.v[k];
+    const Vec2 p = model.mass[k] * state.v.plane()[k];
     sum.linear += p;
     sum.angular += cross(position(model, state, k), p);
   }

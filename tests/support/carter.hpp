@@ -68,7 +68,7 @@ struct CarterSample {
 inline CarterSample sample_of(const Built& b, const dynamics::State& state,
                               const dynamics::ActiveContact& contact) {
   const auto node = static_cast<std::size_t>(b.mesh.boundary[contact.candidate]);
-  return {(state.frame.rotation * b.mesh.coordinates[node]).x, contact.impulse};
+  return {(state.frame.rotation * b.mesh.coordinates[node]).x, contact.impulse.plane()};
 }
 
 inline void add_spared_shear(const std::vector<CarterSample>& samples, CarterMeans& mean) {
@@ -114,7 +114,7 @@ inline CarterMeans roll(const CarterDisk& of) {
   std::vector<CarterSample> samples;
   while (run.report().frame.time < D::end) {
     run.advance(64, [&](const dynamics::StepReport& r) {
-      mean.load += r.contact.impulse / b.model.dt;
+      mean.load += r.contact.impulse.plane() / b.model.dt;
       steps += 1.0;
     });
     for (const dynamics::ActiveContact& contact : run.state().active)

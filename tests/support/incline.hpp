@@ -61,9 +61,7 @@ inline Stuck stick(const Incline& of, long long steps) {
   const std::vector<Vec2> none(model.n_nodes());
   Stepping run(model, dynamics::start(model, none, none));
   run.advance_to(60.0 * of.period());
-  const auto foot = [&] {
-    return std::vector<Vec2>(run.state().u.begin(), run.state().u.begin() + 9);
-  };
+  const auto foot = [&] { return to_vector(run.state().u.plane().first(9)); };
   Stuck stuck{foot(), {}, 9};
   run.advance(steps, [&](const dynamics::StepReport& report) {
     stuck.sticking = std::min(stuck.sticking, report.contact.sticking);

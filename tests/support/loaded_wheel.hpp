@@ -90,14 +90,14 @@ class WheelModes {
   static double coordinate(const Mode& mode, const Built& b, const LoadedWheel& at,
                            const dynamics::State& state) {
     const dynamics::FrameStep& f = state.frame;
-    const Vec2 c = f.center - Vec2{0.0, at.height};
+    const Vec2 c = f.center.plane() - Vec2{0.0, at.height};
     const Eigen::Index n = mode.mass_times.size() - 3;
     double sum =
         mode.mass_times[n] * c.x + mode.mass_times[n + 1] * c.y + mode.mass_times[n + 2] * f.angle;
     for (Eigen::Index i = 0; i < n / 2; ++i) {
       const auto k = static_cast<std::size_t>(b.model.free[static_cast<std::size_t>(i)]);
-      const Vec2 z =
-          c + f.rotation * (b.model.reference[k] + state.u[k]) - (b.model.reference[k] + at.u[k]);
+      const Vec2 z = c + f.rotation * (b.model.reference[k] + state.u.plane()[k]) -
+                     (b.model.reference[k] + at.u[k]);
       sum += mode.mass_times[2 * i] * z.x + mode.mass_times[2 * i + 1] * z.y;
     }
     return sum;

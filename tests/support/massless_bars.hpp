@@ -63,7 +63,7 @@ inline BarBounce bounce(Bar bar, double end) {
   double moment = -first;
   const dynamics::State& s = run.state();
   for (std::size_t k = 0; k < model.n_nodes(); ++k)
-    moment += model.mass[k] * (position(model, s, k).y - 0.5 * model.dt * s.v[k].y);
+    moment += model.mass[k] * (position(model, s, k).y - 0.5 * model.dt * s.v.plane()[k].y);
   const dynamics::Balance& b = run.balance();
   return {1.0 + (b.kinetic + b.strain + gravity * moment) / (bar.mass() * gravity * bar.gap),
           b.relative};

@@ -20,7 +20,8 @@ inline void expect_oscillation_for_ever(dynamics::StiffnessOperator of, int step
   const auto b = build(rubber_annulus(4, 24));
   const auto exact = statics::stationary_spin(b.model.stiffness, b.model.mass, b.model.reference,
                                               b.model.free, -50.0);
-  const double stationary = -exact.u[4].y;  // top of column 0, straight down: -y is outwards
+  const double stationary =
+      -exact.u.plane()[4].y;  // top of column 0, straight down: -y is outwards
   Stepping run(b, of);
   const double period = 2.0 * std::numbers::pi / 475.0;  // the slowest axisymmetric wave
   const auto window = static_cast<int>(std::lround(200.0 * period / b.model.dt));
@@ -28,7 +29,7 @@ inline void expect_oscillation_for_ever(dynamics::StiffnessOperator of, int step
   ASSERT_GT(steps, 2 * window);
   for (int n = 1; n <= steps; ++n) {
     run.advance();
-    const double u = -run.state().u[4].y;
+    const double u = -run.state().u.plane()[4].y;
     if (n <= window) {
       first_sum += u;
       largest_early = std::max(largest_early, u);

@@ -71,7 +71,7 @@ struct WheelMeans {
     add(spin, report.rim.spin);
     add(speed, report.rim.velocity.x);
     add(height, report.frame.center.y);
-    add(force, (1.0 / dt) * report.contact.impulse);
+    add(force, (1.0 / dt) * report.contact.impulse.plane());
     add(hub_force, report.rim.force);
     add(hub_torque, report.rim.torque);
   }

@@ -27,14 +27,14 @@ inline WheelMomenta wheel_momenta(const dynamics::Model& model, const dynamics::
     sum.linear += mass * velocity;
     sum.angular += mass * cross(place, velocity);
   };
-  const Vec2 of_rim = f.advance / model.dt;
-  add(model.rim->mass, f.center, of_rim);
+  const Vec2 center = f.center.plane(), of_rim = f.advance.plane() / model.dt;
+  add(model.rim->mass, center, of_rim);
   sum.angular += model.rim->inertia * spin;
   for (const int node : model.free) {
     const auto k = static_cast<std::size_t>(node);
-    const Vec2 arm = model.reference[k] + state.u[k], v = state.v_next[k];
+    const Vec2 arm = model.reference[k] + state.u.plane()[k], v = state.v_next.plane()[k];
     const Vec2 relative = (turn * arm) / model.dt + v + turn * v;
-    add(model.mass[k], f.center + f.rotation * arm, of_rim + f.rotation * relative);
+    add(model.mass[k], center + f.rotation * arm, of_rim + f.rotation * relative);
   }
   sum.center = sum.center / sum.mass;
   return sum;

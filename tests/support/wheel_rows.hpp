@@ -84,7 +84,7 @@ class BrakeRamp {
       free_spin_ += (r.rim.spin - free_spin_) / free_steps_;
     }
     if (locked_at == 0.0 && r.rim.spin == 0.0) locked_at = r.frame.time;
-    window_.push_back({-r.frame.angle, r.rim.spin, r.contact.impulse});
+    window_.push_back({-r.frame.angle, r.rim.spin, r.contact.impulse.plane()});
     while (window_.back().angle - window_.front().angle > 16.0 * std::numbers::pi / 180.0)
       window_.pop_front();
     if (r.frame.time > 0.11) see_window();
@@ -226,7 +226,8 @@ inline std::vector<double> landing_figures(Wheel& wheel) {
 /// the flight are within 4e-4 m/s and 8e-4 rad/s of each other.
 inline std::vector<double> drop_figures(Wheel& wheel) {
   Vec2 impulse;
-  wheel.look(0.0, 0.15, [&](const dynamics::StepReport& r) { impulse += r.contact.impulse; });
+  wheel.look(0.0, 0.15,
+             [&](const dynamics::StepReport& r) { impulse += r.contact.impulse.plane(); });
   const WheelMeans m = wheel.means(0.15, 0.2);
   return {m.speed, m.spin, impulse.x, impulse.y, wheel.run().report().frame.center.y};
 }

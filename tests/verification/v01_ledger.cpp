@@ -107,7 +107,7 @@ TEST(LedgerCheck, SeesAVelocityChangedBehindItsBack) {
   run.advance(reports);
   EXPECT_LT(reports.back().balance.relative, 1e-14);
   SavedState state = run.save();
-  state.v[41] += Vec2{1e-5, 0.0};
+  state.v.plane()[41] += Vec2{1e-5, 0.0};
   run.restore(state);
   run.advance(std::span(reports).first(2));
   EXPECT_GT(reports[1].balance.relative, 1e-9);

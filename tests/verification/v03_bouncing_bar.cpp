@@ -50,7 +50,7 @@ TEST_P(BouncingBar, KeepsThePeriodAndLosesWhatItsFootLoses) {
   double moment = 0.0;
   const State& s = run.state();
   for (std::size_t k = 0; k < model.n_nodes(); ++k)
-    moment += model.mass[k] * (position(model, s, k).y - 0.5 * model.dt * s.v[k].y);
+    moment += model.mass[k] * (position(model, s, k).y - 0.5 * model.dt * s.v.plane()[k].y);
   const double weight = gravity * (moment / bar.width() - mass * 0.5 * bar.length);
   const double left = (course.energy.back() + weight) / energy;
   RecordProperty("left", fmt::format("{:.7f}", left));

@@ -54,7 +54,7 @@ TEST_P(Ball, BouncesAndComesToRest) {
   bool flies = true;
   while (run.report().frame.time < GetParam().rest + 0.1) {
     const bool pressed = run.advance().nodes > 0;
-    const double y = height + run.state().u[0].y, time = run.report().frame.time;
+    const double y = height + run.state().u.plane()[0].y, time = run.report().frame.time;
     if (pressed && impact == 0.0) impact = time;
     if (pressed && flies) apexes.push_back(top);  // the one before this bounce; first: the start
     top = pressed ? 0.0 : std::max(top, y);
@@ -75,7 +75,7 @@ TEST_P(Ball, BouncesAndComesToRest) {
   EXPECT_LE(last_move, GetParam().rest);
   EXPECT_GT(last_move, GetParam().rest - 50.0 * dt);
   RecordProperty("rest", fmt::format("{:.6f}", last_move));
-  EXPECT_LT(norm(run.state().v[0]), 1e-300);
+  EXPECT_LT(norm(run.state().v.plane()[0]), 1e-300);
   // All the energy of the fall is lost in impacts, but for the depth that it rests at.
   EXPECT_NEAR(run.balance().works.loss_impact, 2.0 * gravity * height, 1e-8);
   EXPECT_LT(run.balance().relative, 1e-11);

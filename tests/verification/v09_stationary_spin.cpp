@@ -29,7 +29,7 @@ Computed compute(int radial) {
   EXPECT_EQ(s.status, statics::SpinStatus::solved);
   fem::StressRecovery recovery(b.mesh, {&c.material, 1});
   const fem::Stress rim = recovery(s.u)[0];
-  return {-s.u[static_cast<std::size_t>(radial)].y, rim[1], rim[0]};
+  return {-s.u.plane()[static_cast<std::size_t>(radial)].y, rim[1], rim[0]};
 }
 
 }  // namespace

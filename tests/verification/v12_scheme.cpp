@@ -45,8 +45,8 @@ Eigen::VectorXd step_of(const Model& model, const Eigen::VectorXd& y) {
   for (std::size_t i = 0; i < model.free.size(); ++i) {
     const auto k = static_cast<std::size_t>(model.free[i]);
     const auto place = static_cast<Eigen::Index>(2 * i);
-    state.u[k] = {y[place], y[place + 1]};
-    state.v_next[k] = Vec2{y[half + place], y[half + place + 1]} / model.dt;
+    state.u.plane()[k] = {y[place], y[place + 1]};
+    state.v_next.plane()[k] = Vec2{y[half + place], y[half + place + 1]} / model.dt;
   }
   apply_stiffness(model, state.u, state.force);
   StepReport report;
@@ -55,8 +55,9 @@ Eigen::VectorXd step_of(const Model& model, const Eigen::VectorXd& y) {
   for (std::size_t i = 0; i < model.free.size(); ++i) {
     const auto k = static_cast<std::size_t>(model.free[i]);
     const auto place = static_cast<Eigen::Index>(2 * i);
-    out.segment<2>(place) = Eigen::Vector2d(state.u[k].x, state.u[k].y);
-    out.segment<2>(half + place) = model.dt * Eigen::Vector2d(state.v_next[k].x, state.v_next[k].y);
+    out.segment<2>(place) = Eigen::Vector2d(state.u.plane()[k].x, state.u.plane()[k].y);
+    out.segment<2>(half + place) =
+        model.dt * Eigen::Vector2d(state.v_next.plane()[k].x, state.v_next.plane()[k].y);
   }
   return out;
 }

@@ -131,7 +131,7 @@ TEST(FreeFall, EveryNodeFallsAtG) {
   model.dt = 1e-4;
   test::Stepping run(model, test::start_at_rest(model));
   run.advance(1000);
-  for (const Vec2 u : run.state().u) {
+  for (const Vec2 u : run.state().u.plane()) {
     ASSERT_NEAR(u.y, -0.5 * 9.81 * 0.1 * 0.1, 1e-13);  // round-off of K u feeds 1,000 steps
     ASSERT_NEAR(u.x, 0.0, 1e-13);
   }

@@ -44,7 +44,7 @@ TEST(FreeWheel, MirroredTorqueAndSpinMirrorTheRun) {
     spin = std::max(spin, std::abs(a.rim.spin + b.rim.spin));
     speed = std::max(speed, std::abs(a.rim.velocity.x + b.rim.velocity.x));
     height = std::max(height, std::abs(a.frame.center.y - b.frame.center.y));
-    const Vec2 c = a.contact.impulse, d = b.contact.impulse;
+    const Vec3 c = a.contact.impulse, d = b.contact.impulse;
     impulse = std::max({impulse, std::abs(c.x + d.x), std::abs(c.y - d.y)});
     ASSERT_EQ(a.contact.nodes, b.contact.nodes) << i;
   }
@@ -136,9 +136,9 @@ TEST(FreeWheel, ASlopeIsTiltedGround) {
   double place = 0.0, spin = 0.0, impulse = 0.0, largest = 0.0;
   for (std::size_t i = 0; i < flat.size(); ++i) {
     const StepReport &a = flat[i], &b = tilted[i];
-    place = std::max(place, norm(a.frame.center - along(b.frame.center)));
+    place = std::max(place, norm(a.frame.center.plane() - along(b.frame.center.plane())));
     spin = std::max(spin, std::abs(a.rim.spin - b.rim.spin));
-    impulse = std::max(impulse, norm(a.contact.impulse - along(b.contact.impulse)));
+    impulse = std::max(impulse, norm(a.contact.impulse.plane() - along(b.contact.impulse.plane())));
     largest = std::max(largest, norm(a.contact.impulse));
     ASSERT_EQ(a.contact.nodes, b.contact.nodes) << i;
   }

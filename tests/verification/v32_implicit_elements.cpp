@@ -159,7 +159,7 @@ Roll roll(bool implicit, StiffnessOperator of) {
   double time = 0.0;
   run.advance_to(0.06, [&](const StepReport& step) {
     if (step.frame.time <= 0.05) return;
-    r.force += step.contact.impulse;
+    r.force += step.contact.impulse.plane();
     time += b.model.dt;
   });
   r.force = r.force / time;

@@ -25,7 +25,7 @@ struct Forces {
 
 Forces roll(const mesh::Mesh& mesh, const Cornering& c, double end = 0.14) {
   const Model model = test::cornering_model(mesh, c);
-  const std::vector<Vec2> rest(model.n_nodes());
+  const Field rest(model.n_nodes(), 3);
   const State state = start(model, rest, rest);
   const auto integrator = make_integrator(model, state);
   const double pass = 2.0 * std::numbers::pi / (mesh.n_sectors * c.angular_velocity);
@@ -46,7 +46,7 @@ Forces roll(const mesh::Mesh& mesh, const Cornering& c, double end = 0.14) {
       time += c.dt;
       sum.normal += r.contact.impulse.y;
       sum.longitudinal += r.contact.impulse.x;
-      sum.lateral += r.contact.lateral;
+      sum.lateral += r.contact.impulse.z;
       sum.aligning += r.contact.moment_aligning;
       sum.overturning += r.contact.moment_overturning;
       sum.torque += r.contact.angular_impulse;
@@ -150,7 +150,7 @@ TEST(V38Cornering, HeldAlongTheAxleItIsThePlaneDisk) {
   b.motion = a.motion;
   test::touch_flat_ground(plane, a.contact->law, b);
   const auto begin = [](const Model& m) {
-    const std::vector<Vec2> rest(m.n_nodes());
+    const Field rest(m.n_nodes(), m.components());
     return start(m, rest, rest);
   };
   const State start_a = begin(a), start_b = begin(b);
@@ -160,7 +160,7 @@ TEST(V38Cornering, HeldAlongTheAxleItIsThePlaneDisk) {
   for (int n = 0; n < 600; ++n) {
     step_a->advance(of_a);
     step_b->advance(of_b);
-    const Vec2 force = of_b[0].contact.impulse;
+    const Vec3 force = of_b[0].contact.impulse;
     largest = std::max(largest, norm(force));
     apart = std::max(apart, norm(of_a[0].contact.impulse / wheel.width - force));
     ASSERT_EQ(of_a[0].contact.nodes, 2 * of_b[0].contact.nodes) << n;

@@ -17,7 +17,7 @@ TEST(V38CorneringLong, TheLedgerClosesOverAHundredThousandSteps) {
   Model m = test::cornering_model(mesh, {.slip_angle = 0.05, .camber = 0.05});
   m.motion.gravity = Table(9.81);
   m.contact->law.restitution = 0.5;
-  const std::vector<Vec2> rest(m.n_nodes());
+  const Field rest(m.n_nodes(), 3);
   const State s = start(m, rest, rest);
   const auto integrator = make_integrator(m, s);
   std::array<StepReport, 50> reports;

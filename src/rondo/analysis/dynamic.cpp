@@ -52,15 +52,14 @@ void DynamicAnalysis::plan_snapshots() {
 }
 
 std::unique_ptr<dynamics::Integrator> DynamicAnalysis::make_integrator(dynamics::State& start) {
-  if (!setup_.model.subdomains) std::vector<Vec2>().swap(start.v);  // whose steps begin with v_0
-  std::vector<double>().swap(start.axial_v);
+  if (!setup_.model.subdomains) start.v = Field();  // whose steps begin with v_0
   return dynamics::make_integrator(setup_.model, start);
 }
 
 double DynamicAnalysis::seconds_per_step(double trial) {
   if (trial <= 0.0) return 0.0;
   dynamics::State state =
-      start(setup_.model, setup_.displacement, setup_.velocity, setup_.half_velocity, setup_.axial);
+      start(setup_.model, setup_.displacement, setup_.velocity, setup_.half_velocity);
   const auto integrator = make_integrator(state);
   std::array<dynamics::StepReport, 8> reports;  // only their time is of interest
   const auto begin = Clock::now();
@@ -190,28 +189,21 @@ Progress DynamicAnalysis::begin(Recorder& recorder) {
   hub_.emplace(setup_);
   reports_.resize(steps_at_once(setup_));
   state_ = start(setup_.model, std::move(setup_.displacement), std::move(setup_.velocity),
-                 std::move(setup_.half_velocity), setup_.axial);
-  setup_.axial = {};
+                 std::exchange(setup_.half_velocity, {}));
   strain_.emplace(setup_.mesh, setup_.materials, &setup_.model);
   if (!from_) record_state(recorder);
-  const std::vector<Vec2> v = since_pause_ ? state_.v : std::vector<Vec2>();
-  const std::vector<double> axial_v = since_pause_ ? state_.axial_v : std::vector<double>();
+  Field v = since_pause_ ? state_.v : Field();
   start_integrator();
-  std::ranges::copy(v, state_.v.begin());
-  std::ranges::copy(axial_v, state_.axial_v.begin());
+  if (!v.empty()) state_.v = std::move(v);
   return {steps_, setup_.n_steps};
 }
 
 /// Memory that the integrator has as well is given back.
 void DynamicAnalysis::start_integrator() {
-  std::vector<Vec2>().swap(state_.force_before);
+  state_.force_before = Field();
   integrator_ = make_integrator(state_);
-  for (std::vector<Vec2>* field : {&state_.force, &state_.v_next}) std::vector<Vec2>().swap(*field);
-  for (std::vector<double>* field :
-       {&state_.axial_force, &state_.axial_force_before, &state_.axial_v_next})
-    std::vector<double>().swap(*field);
-  state_.v.resize(state_.u.size());
-  state_.axial_v.resize(state_.axial_u.size());
+  state_.force = state_.v_next = Field();
+  state_.v = Field(state_.u.size(), state_.u.components());
   if (!from_) return;
   dynamics::SavedState& saved = from_->state;
   integrator_->resumable()->restore(saved);

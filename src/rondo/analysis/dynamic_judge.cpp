@@ -37,7 +37,7 @@ void DynamicAnalysis::judge(const dynamics::StepReport& step) {
 std::string DynamicAnalysis::look_at_rim(const dynamics::StepReport& step) {
   const std::string turned = turned_too_far(step.frame.turn, setup_.model.dt);
   if (!turned.empty()) return turned;
-  const HubWatch::Seen hub = hub_->look(step.frame.center, step.frame.time);
+  const HubWatch::Seen hub = hub_->look(step.frame.center.plane(), step.frame.time);
   if (!hub.warning.empty()) warn(hub.warning);
   return hub.trouble;
 }
@@ -67,7 +67,7 @@ void DynamicAnalysis::look() {
   if (trouble_) return;
   std::string passing = watch_->look(state_);
   if (!passing.empty()) warn(std::move(passing));
-  std::string wrong = strain_->look(state_.u, state_.poses, state_.frame.time, state_.axial_u);
+  std::string wrong = strain_->look(state_.u, state_.poses, state_.frame.time);
   if (wrong.empty() && setup_.rubber && integrator_ &&
       rubber_step_.is_due(state_.step, strain_->largest().found.strain))
     wrong = RubberStepWatch::look(setup_, integrator_->resumable()->save());

@@ -32,7 +32,8 @@ struct Largest {
 };
 
 /// By squares, which cost a fraction of norms, as long as they hold the numbers.
-Largest largest_of(std::span<const Vec2> field) {
+template <class Vec>
+Largest largest_of(std::span<const Vec> field) {
   constexpr double largest_square = 1e300;
   double square = 0.0;
   std::size_t node = 0;
@@ -50,10 +51,8 @@ Largest largest_of(std::span<const Vec2> field) {
   return largest;
 }
 
-Largest largest_of(std::span<const double> field) {
-  Largest largest;
-  for (std::size_t k = 0; k < field.size(); ++k) largest.add(std::abs(field[k]), k);
-  return largest;
+Largest largest_of(const Field& field) {
+  return field.components() == 3 ? largest_of(field.space()) : largest_of(field.plane());
 }
 
 std::string too_large(const char* name, const Largest& largest, const char* unit) {
@@ -94,24 +93,21 @@ double largest_strain_energy(const Setup& setup) {
 std::string beyond_files(const Setup& setup, const dynamics::State& state) {
   const Largest displacement = largest_of(state.u);
   std::string found = too_large("displacement", displacement, "m");
-  if (found.empty())
-    found = too_large("displacement along the axle", largest_of(state.axial_u), "m");
   if (found.empty()) found = too_large("velocity", largest_of(state.v), "m/s");
-  if (found.empty()) found = too_large("velocity along the axle", largest_of(state.axial_v), "m/s");
   if (found.empty() && !(norm(state.frame.center) <= largest_written))
     found = fmt::format("the center, {:.3g} m away, is out of the range of the result files",
                         norm(state.frame.center));
   if (found.empty()) found = stress_too_large(setup.mesh, setup.materials, displacement);
   Largest force;
   for (const dynamics::ActiveContact& a : state.active)
-    force.add(std::hypot(a.impulse.x, a.impulse.y, a.lateral.impulse) / setup.model.dt,
+    force.add(norm(a.impulse) / setup.model.dt,
               static_cast<std::size_t>(setup.mesh.boundary[a.candidate]));
   const char* const unit = setup.model.solid ? "N" : "N/m";
   return found.empty() ? too_large("contact force", force, unit) : found;
 }
 
 std::string beyond_files(const CrushSetup& setup, const statics::CrushState& state) {
-  const Largest displacement = largest_of(state.u);
+  const Largest displacement = largest_of(std::span<const Vec2>(state.u));
   std::string found = too_large("displacement", displacement, "m");
   if (found.empty()) found = stress_too_large(setup.mesh, setup.materials, displacement);
   Largest force;
@@ -121,22 +117,14 @@ std::string beyond_files(const CrushSetup& setup, const statics::CrushState& sta
 }
 
 std::string not_finite(const dynamics::State& state, const std::string& otherwise) {
-  const auto first = [](const std::vector<Vec2>& field, const char* name) -> std::string {
+  const auto first = [](FieldView field, const char* name) -> std::string {
     for (std::size_t i = 0; i < field.size(); ++i)
-      if (!std::isfinite(field[i].x) || !std::isfinite(field[i].y))
+      if (!std::ranges::all_of(field[i], [](double x) { return std::isfinite(x); }))
         return fmt::format("the {} of node {} is not finite", name, i);
     return {};
   };
-  const auto first_axial = [](const std::vector<double>& field, const char* name) -> std::string {
-    for (std::size_t i = 0; i < field.size(); ++i)
-      if (!std::isfinite(field[i]))
-        return fmt::format("the {} of node {} along the axle is not finite", name, i);
-    return {};
-  };
   std::string found = first(state.v_next, "velocity");
-  if (found.empty()) found = first_axial(state.axial_v_next, "velocity");
   if (found.empty()) found = first(state.u, "displacement");
-  if (found.empty()) found = first_axial(state.axial_u, "displacement");
   return found.empty() ? otherwise : found;
 }
 

@@ -144,7 +144,7 @@ constexpr Use of_region = optional.said("that of [material]");
 using enum MaterialModel;
 
 #define FIELD(member) [](Case& c, [[maybe_unused]] std::size_t k) { return field_of(c.member); }
-#define CHOICE(member) [](Case& c, std::size_t /*k*/) -> Field { return choice_of(c.member); }
+#define CHOICE(member) [](Case& c, std::size_t /*k*/) -> CaseMember { return choice_of(c.member); }
 
 constexpr CaseKey keys[] = {
     {"schema", "-", FIELD(schema), between(1, 1), required,
@@ -349,7 +349,7 @@ constexpr CaseKey keys[] = {
 
     {"rim.free", "-",
      [](Case& c, std::size_t /*k*/)
-         -> Field { return ChoiceList{{&c.rim->free_x, &c.rim->free_y, &c.rim->free_spin}}; },
+         -> CaseMember { return ChoiceList{{&c.rim->free_x, &c.rim->free_y, &c.rim->free_spin}}; },
      one_from("speed", "height", "angular_velocity"), required,
      "what forces move: of these, `[motion]` gives the value at t = 0. The others are held, as "
      "`[motion]` says. []: all of them, for their reactions"},

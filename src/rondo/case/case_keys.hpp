@@ -56,13 +56,13 @@ struct ChoiceList {
 using Matrix = std::array<std::array<double, 2>, 2>;
 
 /// Where in a case the value of a key is.
-using Field =
+using CaseMember =
     std::variant<int*, double*, std::optional<double>*, bool*, std::string*, std::filesystem::path*,
                  Choice, ChoiceList, Vec2*, Matrix*, dynamics::Table*, std::vector<Vec2>*,
                  std::vector<int>*, std::vector<std::array<double, 2>>*>;
 
 template <class T>
-Field field_of(T& target) {
+CaseMember field_of(T& target) {
   if constexpr (std::is_enum_v<T>)
     return choice_of(target);
   else
@@ -181,7 +181,7 @@ struct CaseKey {
   std::string_view path;  ///< dotted, e.g. "disk.tread.depth"; "output.probe[].name": of each table
                           ///< of a list
   std::string_view unit;  ///< "-": none
-  Field (*field)(Case& c, std::size_t k);  ///< of the k-th table of its list. @pre it is there
+  CaseMember (*field)(Case& c, std::size_t k);  ///< of the k-th table of its list. @pre it is there
   Allowed allowed;
   Use use;
   std::string_view meaning;  ///< for the manual, in Markdown
@@ -251,7 +251,7 @@ std::string_view type_text(const CaseKey& key);
 /// The index of a choice by its name; none: it is not one of them.
 std::optional<std::size_t> find_choice(const Allowed& allowed, std::string_view name);
 /// A value as TOML. @param field of this key
-std::string value_text(const CaseKey& key, const Field& field);
+std::string value_text(const CaseKey& key, const CaseMember& field);
 /// As the manual says it: "0.8", "required", "that of [material]".
 std::string default_text(const CaseKey& key);
 

@@ -381,7 +381,7 @@ void CaseValues::take(const Reading& in, std::vector<Vec2>& target) {
   for (const auto& [x, y] : points) target.push_back({x, y});
 }
 
-void CaseValues::read(const CaseKey& key, const std::string& path, const Field& field) {
+void CaseValues::read(const CaseKey& key, const std::string& path, const CaseMember& field) {
   const auto found = source_.values.find(path);
   if (found == source_.values.end()) return;
   const Reading in{key, path, found->second};

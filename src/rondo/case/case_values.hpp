@@ -36,7 +36,7 @@ class CaseValues {
 
   /// Reads a value into its field, which keeps its default where the key is absent or at fault.
   /// @param path of a table of a list with its number
-  void read(const CaseKey& key, const std::string& path, const Field& field);
+  void read(const CaseKey& key, const std::string& path, const CaseMember& field);
 
   /// A fault of a key: at its value, else at its table; or at an item of its array.
   void fault(std::string_view key, std::string message, std::string allowed = {});

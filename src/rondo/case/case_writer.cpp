@@ -71,7 +71,7 @@ struct ValueText {
 };
 
 /// One of several keys of a table in a list, of which another one is given.
-bool is_left_out(const Field& field) {
+bool is_left_out(const CaseMember& field) {
   if (const auto* number = std::get_if<std::optional<double>*>(&field)) return !**number;
   if (const auto* numbers = std::get_if<std::vector<int>*>(&field)) return (*numbers)->empty();
   const auto* text = std::get_if<std::string*>(&field);
@@ -90,7 +90,7 @@ std::string lines_of(const CaseTable& table, std::size_t k, Case& c) {
 
 }  // namespace
 
-std::string value_text(const CaseKey& key, const Field& field) {
+std::string value_text(const CaseKey& key, const CaseMember& field) {
   return std::visit(ValueText{key.allowed}, field);
 }
 

@@ -38,13 +38,17 @@ struct Setup {
   double critical_plain = 0.0;        ///< critical step if all were explicit, with its mass [s]
   long long n_steps = 0;              ///< ceil(end / step); the step is never fitted to the end
   std::vector<Vec2> prestress;        ///< (n) displacement whose stress stiffens the body [m]
-  std::vector<Vec2> displacement;     ///< (n) u_0                          [m]
-  std::vector<Vec2> velocity;         ///< (n) v_0                          [m/s]
-  std::vector<Vec2> half_velocity;    ///< (n) v_{1/2}; empty: as (3.7) has it [m/s]
-  dynamics::AxialStart axial;         ///< of a wheel in three dimensions
+  Field displacement;                 ///< (n) u_0                          [m]
+  Field velocity;                     ///< (n) v_0                          [m/s]
+  Field half_velocity;                ///< (n) v_{1/2}; empty: as (3.7) has it [m/s]
   double frequencies_above = 0.0;     ///< every ω² of the body is known to be above it [1/s²]
   std::vector<Told> figures;          ///< of a physical kind, for `rondo check`
   std::vector<std::string> warnings;  ///< for the user: the caller prints them
 };
+
+/// Speed of a node at the start [m/s].
+inline double initial_speed(const Setup& s, std::size_t node) {
+  return s.model.solid ? norm(s.velocity.space()[node]) : norm(s.velocity.plane()[node]);
+}
 
 }  // namespace rondo::study

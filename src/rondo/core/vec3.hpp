@@ -13,7 +13,8 @@ struct Vec3 {
 
   constexpr Vec3() = default;
   constexpr Vec3(double a, double b, double c) noexcept : x(a), y(b), z(c) {}
-  constexpr Vec3(Vec2 plane, double axial) noexcept : x(plane.x), y(plane.y), z(axial) {}
+  /// A plane vector is one of space.
+  constexpr Vec3(Vec2 plane, double axial = 0.0) noexcept : x(plane.x), y(plane.y), z(axial) {}
 
   [[nodiscard]] constexpr Vec2 plane() const noexcept { return {x, y}; }
   constexpr Vec3& operator+=(Vec3 b) noexcept { return x += b.x, y += b.y, z += b.z, *this; }

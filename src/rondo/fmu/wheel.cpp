@@ -113,8 +113,8 @@ void Wheel::begin(Values& values) {
   b.setup = study::build(b.c, 1);
   b.run = study::prepare_reduced(b.c, b.options, b.setup);
   b.largest_step = values.step > 0.0 ? values.step : b.setup.model.dt;
-  b.start = dynamics::start(b.setup.model, b.setup.displacement, b.setup.velocity,
-                            b.setup.half_velocity, b.setup.axial);
+  b.start =
+      dynamics::start(b.setup.model, b.setup.displacement, b.setup.velocity, b.setup.half_velocity);
   b.bounds = {study::residual_bound, study::largest_strain_energy(b.setup), "", false, "J/m"};
   b.mass = b.setup.model.rim->mass + b.run.file.model.rim->mass;
   b.inertia = b.setup.model.rim->inertia + b.run.file.model.rim->inertia;
@@ -135,7 +135,8 @@ void Wheel::begin(Values& values) {
   first.hub_x = values.hub_x_start;
   first.hub_height = values.hub_height_start;
   first.hub_angle = 0.0;
-  first.loaded_radius = b.setup.model.contact->ground.distance(b.setup.model.motion.center(0.0));
+  first.loaded_radius =
+      b.setup.model.contact->ground.distance(b.setup.model.motion.center(0.0).plane());
   values = first;
   b.integrator.reset();
   b.dt = 0.0;
@@ -231,7 +232,7 @@ std::string Wheel::make_steps(const Values& values, long long n) {
     b.contact.add(b.last.contact);
     b.sums.held += b.last.rim.force;
     b.sums.torque += b.last.rim.torque;
-    b.sums.contact += b.last.contact.impulse / b.dt;
+    b.sums.contact += b.last.contact.impulse.plane() / b.dt;
     ++b.sums.n;
     if (std::string wrong = trouble(); !wrong.empty()) return wrong;
   }
@@ -243,7 +244,7 @@ std::string Wheel::trouble() const {
   const study::OutOfBound found = study::find_out_of_bound(b.last.balance, b.contact, b.bounds);
   const double time = b.last.frame.time;
   if (!found.what.empty()) return fmt::format("t = {:.9g} s of the wheel: {}", time, found.what);
-  const double above = b.setup.model.contact->ground.distance(b.last.frame.center);
+  const double above = b.setup.model.contact->ground.distance(b.last.frame.center.plane());
   if (above > b.c.disk.inner_radius) return {};
   return fmt::format(
       "t = {:.9g} s of the wheel: its hub is {:.4g} m above the ground, and the rim, of {:.4g} m, "
@@ -262,7 +263,7 @@ void Wheel::fill(const Values& from, double length, Values& to) const {
   to.torque = w * (-b.inertia * rate[2] - b.sums.torque / n);
   to.contact_force_x = w * b.sums.contact.x / n;
   to.contact_force_y = w * b.sums.contact.y / n;
-  const Vec2 center = b.last.frame.center;
+  const Vec2 center = b.last.frame.center.plane();
   to.hub_x = center.x;
   to.hub_height = center.y + from.ground_height;
   to.hub_angle = -b.last.frame.angle;

@@ -50,43 +50,26 @@ XdmfSeries series_of(const mesh::Mesh& mesh, const Counts& c) {
 }
 
 /// R σ R^T as xx, xy, xz, yy, yz, zz; r = e^{iθ}.
-std::array<float, 6> turned_tensor(const NodalStress& stress, Complex r) noexcept {
-  const NodalStress s = fem::turned(stress, r);
+std::array<float, 6> turned_tensor(const fem::Stress& stress, Complex r) noexcept {
+  const fem::Stress s = fem::turned(stress, r);
   return {static_cast<float>(s[0]), static_cast<float>(s[3]), 0.0F, static_cast<float>(s[1]), 0.0F,
           static_cast<float>(s[2])};
 }
 
 /// Likewise of all six components.
-std::array<float, 6> turned_tensor(const SolidNodalStress& stress, Complex r) noexcept {
-  const SolidNodalStress s = fem::turned(stress, r);
+std::array<float, 6> turned_tensor(const fem::SolidStress& stress, Complex r) noexcept {
+  const fem::SolidStress s = fem::turned(stress, r);
   return {static_cast<float>(s[0]), static_cast<float>(s[3]), static_cast<float>(s[5]),
           static_cast<float>(s[1]), static_cast<float>(s[4]), static_cast<float>(s[2])};
 }
 
-using Space = std::array<double, 3>;
-
-/// Of a plane field, z is 0.
-Space in_space(std::span<const double> a) noexcept {
+/// A plane vector has no component along z.
+Vec3 in_space(std::span<const double> a) noexcept {
   return {a[0], a[1], a.size() > 2 ? a[2] : 0.0};
 }
 
-Space turned(Complex r, const Space& a) noexcept {
-  const Vec2 plane = r * Vec2{a[0], a[1]};
-  return {plane.x, plane.y, a[2]};
-}
-
-Space sum(const Space& a, const Space& b) noexcept {
-  return {a[0] + b[0], a[1] + b[1], a[2] + b[2]};
-}
-
-/// Along t1, n and t2 of a ground that leans by the camber, in the axes of the wheel.
-Space leaning(Vec2 plane, double lateral, double camber) noexcept {
-  const double c = std::cos(camber), s = std::sin(camber);
-  return {plane.x, c * plane.y - s * lateral, s * plane.y + c * lateral};
-}
-
-std::array<float, 3> rounded(const Space& a) noexcept {
-  return {static_cast<float>(a[0]), static_cast<float>(a[1]), static_cast<float>(a[2])};
+std::array<float, 3> rounded(Vec3 a) noexcept {
+  return {static_cast<float>(a.x), static_cast<float>(a.y), static_cast<float>(a.z)};
 }
 
 constexpr const char* results_name = "results.h5";
@@ -116,7 +99,7 @@ Results::Results(const std::filesystem::path& directory, const ResultsLayout& la
       unfinished_{directory / new_name},
       coordinates_(layout.mesh->coordinates),
       axial_(layout.mesh->axial),
-      camber_(layout.camber),
+      ground_(layout.camber),
       boundary_(layout.mesh->boundary),
       tributary_(layout.mesh->tributary),
       free_body_(layout.free_body.begin(), layout.free_body.end()),
@@ -124,7 +107,7 @@ Results::Results(const std::filesystem::path& directory, const ResultsLayout& la
       forces_(c_.contact ? c_.nodes : 0),
       tensors_(c_.stress ? c_.nodes : 0),
       scalars_(c_.stress ? c_.nodes : 0),
-      traction_(c_.contact ? c_.candidates * c_.components : 0),
+      of_candidates_(c_.contact ? c_.candidates * c_.components : 0),
       words_(layout.words),
       series_(layout.series),
       series_rows_(layout.series.size()) {
@@ -210,82 +193,75 @@ void Results::reserve() {
   d_.time.write(std::span<const double>(never));
 }
 
-void Results::check(const Snapshot& s) const {
+void Results::check(const Snapshot& s, const SnapshotFields& fields) const {
   RONDO_DEMAND(file_ && written_ < c_.times, written_, c_.times);
-  RONDO_DEMAND(s.displacement.size() == c_.nodes && s.velocity.size() == c_.nodes,
-               s.displacement.size(), s.velocity.size(), c_.nodes);
+  for (const Field* field : {&s.u, &s.v})
+    RONDO_DEMAND(field->size() == c_.nodes && field->components() == c_.components, field->size(),
+                 field->components(), c_.nodes);
   const std::size_t nb = c_.contact ? c_.candidates : 0;
-  RONDO_DEMAND(!c_.contact || (s.contact_force.size() == nb && s.contact_force_fixed.size() == nb),
-               s.contact_force.size(), s.contact_force_fixed.size(), nb);
-  RONDO_DEMAND(s.contact_extent.empty() || s.contact_extent.size() == nb, s.contact_extent.size(),
-               nb);
-  const std::size_t stresses = c_.solid ? s.solid_stress.size() : s.stress.size();
+  RONDO_DEMAND(
+      !c_.contact || (fields.contact_force.size() == nb && fields.contact_force_fixed.size() == nb),
+      fields.contact_force.size(), fields.contact_force_fixed.size(), nb);
+  RONDO_DEMAND(fields.contact_extent.empty() || fields.contact_extent.size() == nb,
+               fields.contact_extent.size(), nb);
+  const std::size_t stresses = c_.solid ? fields.solid_stress.size() : fields.stress.size();
   RONDO_DEMAND(!c_.stress || stresses == c_.nodes, stresses, c_.nodes);
   const int last =
       free_body_.empty() ? -1 : *std::max_element(free_body_.begin(), free_body_.end());
-  RONDO_DEMAND(!c_.stress || static_cast<int>(s.body_rotation.size()) > last,
-               s.body_rotation.size(), last);
+  RONDO_DEMAND(!c_.stress || static_cast<int>(s.poses.size()) > last, s.poses.size(), last);
 }
 
 void Results::write_fields(const Snapshot& s) {
-  d_.displacement.write_row(written_, s.displacement.values);
-  d_.velocity.write_row(written_, s.velocity.values);
+  const FieldView u = s.u, v = s.v;
+  d_.displacement.write_row(written_, u.values);
+  d_.velocity.write_row(written_, v.values);
   const Complex turn = rotation(s.angle);
-  const auto to_fixed = [&](std::size_t i, const Space& a) {
-    return is_free(i) ? a : turned(turn, a);
-  };
-  const Space middle =
-      c_.solid ? leaning(s.center, s.lateral, camber_) : Space{s.center.x, s.center.y, 0.0};
+  const auto to_fixed = [&](std::size_t i, Vec3 a) { return is_free(i) ? a : turn * a; };
+  const Vec3 middle = ground_.to_wheel(s.center);
   for (std::size_t i = 0; i < c_.nodes; ++i) {
-    const Space reference{coordinates_[i].x, coordinates_[i].y, c_.solid ? axial_[i] : 0.0};
-    const Space center = is_free(i) ? Space{} : middle;
-    vectors_[i] = rounded(sum(center, to_fixed(i, sum(reference, in_space(s.displacement[i])))));
+    const Vec3 reference{coordinates_[i], c_.solid ? axial_[i] : 0.0};
+    const Vec3 center = is_free(i) ? Vec3{} : middle;
+    vectors_[i] = rounded(center + to_fixed(i, reference + in_space(u[i])));
   }
   row(d_.position, vectors_);
-  for (std::size_t i = 0; i < c_.nodes; ++i)
-    vectors_[i] = rounded(to_fixed(i, in_space(s.displacement[i])));
+  for (std::size_t i = 0; i < c_.nodes; ++i) vectors_[i] = rounded(to_fixed(i, in_space(u[i])));
   row(d_.field_displacement, vectors_);
-  for (std::size_t i = 0; i < c_.nodes; ++i)
-    vectors_[i] = rounded(to_fixed(i, in_space(s.velocity[i])));
+  for (std::size_t i = 0; i < c_.nodes; ++i) vectors_[i] = rounded(to_fixed(i, in_space(v[i])));
   row(d_.field_velocity, vectors_);
-  if (c_.stress && c_.solid)
-    write_solid_stress(s);
-  else if (c_.stress)
-    write_stress(s);
 }
 
-void Results::write_stress(const Snapshot& s) {
+void Results::write_stress(const Snapshot& s, const SnapshotFields& fields) {
   const Complex turn = rotation(s.angle);
-  for (std::size_t i = 0; i < c_.nodes; ++i) {
-    scalars_[i] = static_cast<float>(fem::von_mises(s.stress[i]));
-    tensors_[i] = turned_tensor(
-        s.stress[i], is_free(i) ? s.body_rotation[static_cast<std::size_t>(free_body_[i])] : turn);
-  }
+  const auto write = [&](const auto& stress) {
+    for (std::size_t i = 0; i < c_.nodes; ++i) {
+      scalars_[i] = static_cast<float>(fem::von_mises(stress[i]));
+      tensors_[i] = turned_tensor(
+          stress[i], is_free(i) ? s.poses[static_cast<std::size_t>(free_body_[i])].rotation : turn);
+    }
+  };
+  if (c_.solid)
+    write(fields.solid_stress);
+  else
+    write(fields.stress);
   row(d_.von_mises, scalars_);
   row(d_.stress, tensors_);
 }
 
-void Results::write_solid_stress(const Snapshot& s) {
-  const Complex turn = rotation(s.angle);
-  for (std::size_t i = 0; i < c_.nodes; ++i) {
-    scalars_[i] = static_cast<float>(fem::von_mises(s.solid_stress[i]));
-    tensors_[i] = turned_tensor(s.solid_stress[i], turn);
-  }
-  row(d_.von_mises, scalars_);
-  row(d_.stress, tensors_);
-}
-
-void Results::write_contact(const Snapshot& s) {
+void Results::write_contact(const SnapshotFields& fields) {
   const std::span<const double> extent =
-      s.contact_extent.empty() ? std::span<const double>(tributary_) : s.contact_extent;
+      fields.contact_extent.empty() ? std::span<const double>(tributary_) : fields.contact_extent;
+  const auto put = [&](std::size_t k, Vec3 a) {
+    const std::array numbers{a.x, a.y, a.z};
+    std::copy_n(numbers.begin(), c_.components, &of_candidates_[k * c_.components]);
+  };
   for (std::size_t k = 0; k < c_.candidates; ++k) {
-    forces_[static_cast<std::size_t>(boundary_[k])] = rounded(in_space(s.contact_force_fixed[k]));
-    for (std::size_t i = k * c_.components; i < (k + 1) * c_.components; ++i)
-      traction_[i] = s.contact_force.values[i] / extent[k];
+    forces_[static_cast<std::size_t>(boundary_[k])] = rounded(fields.contact_force_fixed[k]);
+    put(k, fields.contact_force[k]);
   }
   if (c_.modes == 0) row(d_.field_force, forces_);
-  d_.force.write_row(written_, s.contact_force.values);
-  row(d_.traction, traction_);
+  row(d_.force, of_candidates_);
+  for (std::size_t k = 0; k < c_.candidates; ++k) put(k, fields.contact_force[k] / extent[k]);
+  row(d_.traction, of_candidates_);
 }
 
 void Results::write_series(std::span<const double> values) {
@@ -298,13 +274,15 @@ void Results::write_series(std::span<const double> values) {
 }
 
 /// The time comes last: where it is a number, the snapshot is complete.
-void Results::write(const Snapshot& s) {
-  check(s);
+void Results::write(const Snapshot& s, const SnapshotFields& fields) {
+  check(s, fields);
   if (c_.modes == 0) write_fields(s);
-  if (c_.contact) write_contact(s);
+  if (c_.modes == 0 && c_.stress) write_stress(s, fields);
+  if (c_.contact) write_contact(fields);
   write_series(s.series);
-  d_.center.write_row(written_, std::span<const Vec2>(&s.center, 1));
-  if (c_.solid) row(d_.lateral, s.lateral);
+  const Vec2 center = s.center.plane();
+  d_.center.write_row(written_, std::span(&center, 1));
+  if (c_.solid) row(d_.lateral, s.center.z);
   row(d_.angle, s.angle);
   row(d_.angle_velocity, s.angle_velocity);
   row(d_.time_velocity, s.time_velocity);

@@ -19,18 +19,15 @@
 
 #include "rondo/core/complex.hpp"
 #include "rondo/core/field.hpp"
+#include "rondo/core/ground_frame.hpp"
 #include "rondo/io/files.hpp"
 #include "rondo/io/h5/h5.hpp"
+#include "rondo/io/snapshot.hpp"
 #include "rondo/io/vtkhdf.hpp"
 #include "rondo/io/xdmf.hpp"
 #include "rondo/mesh/mesh.hpp"
 
 namespace rondo::io {
-
-/// σ at a node in the turning frame: xx, yy, zz, xy [Pa].
-using NodalStress = std::array<double, 4>;
-/// In three dimensions: xx, yy, zz, xy, yz, zx [Pa].
-using SolidNodalStress = std::array<double, 6>;
 
 /// A dataset with one value for each snapshot, beside those that every analysis has.
 struct Series {
@@ -76,28 +73,6 @@ struct ResultsLayout {
   std::span<const double> mass_dynamic{};  ///< (n) with which it moves; empty: with that [kg/m]
 };
 
-/// One snapshot; spans are only read during the call. Times and rates are in the units of the
-/// layout's words.
-struct Snapshot {
-  double time = 0.0;              ///< of displacement and contact                        [s]
-  double time_velocity = 0.0;     ///< of velocity: half a step before `time`             [s]
-  double angle = 0.0;             ///< θ at `time`, counter-clockwise                     [rad]
-  double angle_velocity = 0.0;    ///< θ at `time_velocity`                      [rad]
-  Vec2 center;                    ///< fixed frame; in three dimensions along t1 and n [m]
-  FieldView displacement;         ///< (n) turning frame; of free bodies fixed frame   [m]
-  FieldView velocity;             ///< (n) the same                                  [m/s]
-  FieldView contact_force;        ///< (nb) normal, tangential, along t2; empty: no contact [N/m]
-  FieldView contact_force_fixed;  ///< (nb) x, y, z in the fixed frame        [N/m]
-  std::span<const NodalStress> stress;  ///< (n) frame of the body; empty: not asked for [Pa]
-  std::span<const Complex> body_rotation = {};  ///< e^{iθ} of each free body
-  std::span<const double> series = {};  ///< values of the layout's series, one after another
-  std::span<const SolidNodalStress> solid_stress = {};  ///< likewise of a solid mesh     [Pa]
-  double lateral = 0.0;  ///< of a solid mesh: of the center, along t2        [m]
-  /// (nb) length, of a solid mesh area, of the deformed boundary that each stands for, where it is
-  /// pressed; empty: as it is undeformed [m], [m²]
-  std::span<const double> contact_extent = {};
-};
-
 /// What results.h5 held at some moment: so many snapshots, and for each dataset with a row for each
 /// of them, by its name, the hash of these rows.
 struct KeptSnapshots {
@@ -126,7 +101,7 @@ class Results {
 
   /// Writes the next snapshot and flushes it. @pre fewer than n_snapshots written. @throws
   /// FileError
-  void write(const Snapshot& snapshot);
+  void write(const Snapshot& snapshot, const SnapshotFields& fields);
   /// Cuts to what was written and closes. @throws FileError
   void close();
   [[nodiscard]] std::size_t written() const noexcept { return written_; }
@@ -159,11 +134,10 @@ class Results {
   void write_modes(const ReducedModes& modes);
   void reserve();
   void resize(std::size_t rows);
-  void check(const Snapshot& s) const;
+  void check(const Snapshot& s, const SnapshotFields& fields) const;
   void write_fields(const Snapshot& s);
-  void write_stress(const Snapshot& s);
-  void write_solid_stress(const Snapshot& s);
-  void write_contact(const Snapshot& s);
+  void write_stress(const Snapshot& s, const SnapshotFields& fields);
+  void write_contact(const SnapshotFields& fields);
   void write_series(std::span<const double> values);
   /// Of displacements and velocities, for descriptions.
   [[nodiscard]] std::string frame() const {
@@ -186,7 +160,7 @@ class Results {
   UnfinishedFile unfinished_;  ///< results.h5 until it is whole
   std::vector<Vec2> coordinates_;
   std::vector<double> axial_;  ///< (n) of a solid mesh
-  double camber_;
+  GroundFrame ground_;
   std::vector<int> boundary_;
   std::vector<double> tributary_;
   std::vector<int> free_body_;
@@ -195,7 +169,7 @@ class Results {
   std::vector<std::array<float, 3>> vectors_, forces_;
   std::vector<std::array<float, 6>> tensors_;
   std::vector<float> scalars_;
-  std::vector<double> traction_;
+  std::vector<double> of_candidates_;  ///< (nb, components) a row of forces or tractions
   h5::File file_;
   struct {
     h5::Dataset time, time_velocity, angle, angle_velocity, center, lateral, displacement, velocity,

@@ -38,14 +38,14 @@ DeformedBoundary::Shares DeformedBoundary::collect(std::span<const Face> nodes,
   std::vector<int> candidate(mesh_.n_nodes(), -1);
   for (std::size_t k = 0; k < mesh_.boundary.size(); ++k)
     candidate[at(mesh_.boundary[k])] = static_cast<int>(k);
-  const std::vector<Vec2> still(mesh_.n_nodes());
+  const Field still(mesh_.n_nodes(), mesh_.is_solid() ? 3 : 2);
   Shares shares(mesh_.boundary.size());
   for (const Face& of : nodes)
     for (std::size_t i = 0; i < corners; ++i) {
       const int k = candidate[at(of[i])];
       if (k < 0) continue;
       Share share{of, i, 0.0};
-      share.undeformed = now(share, still, {});
+      share.undeformed = now(share, still);
       shares[at(k)].push_back(share);
     }
   return shares;
@@ -74,28 +74,26 @@ bool DeformedBoundary::makes_tributaries(const Shares& shares) const {
 }
 
 /// Half of the length of an edge, or the share of a face.
-double DeformedBoundary::now(const Share& share, std::span<const Vec2> u,
-                             std::span<const double> axial_u) const noexcept {
-  const auto place = [&](std::size_t i) {
+double DeformedBoundary::now(const Share& share, FieldView u) const noexcept {
+  const auto in_plane = [&](std::size_t i) {
     const std::size_t node = at(share.nodes[i]);
-    return mesh_.coordinates[node] + u[node];
+    return mesh_.coordinates[node] + Vec2{u[node][0], u[node][1]};
   };
-  if (!mesh_.is_solid()) return 0.5 * norm(place(1) - place(0));
+  if (!mesh_.is_solid()) return 0.5 * norm(in_plane(1) - in_plane(0));
   std::array<Vec3, 4> x;
   for (std::size_t i = 0; i < x.size(); ++i) {
     const std::size_t node = at(share.nodes[i]);
-    x[i] = Vec3(place(i), mesh_.axial[node] + (axial_u.empty() ? 0.0 : axial_u[node]));
+    x[i] = Vec3(in_plane(i), mesh_.axial[node] + u[node][2]);
   }
   return norm(face_shares(x)[share.corner]);
 }
 
-double DeformedBoundary::extent(std::size_t candidate, std::span<const Vec2> u,
-                                std::span<const double> axial_u) const noexcept {
+double DeformedBoundary::extent(std::size_t candidate, FieldView u) const noexcept {
   RONDO_ASSERT(candidate < mesh_.boundary.size() && u.size() == mesh_.n_nodes(), candidate,
                u.size());
   double change = 0.0;
   for (std::size_t s = first_[candidate]; s < first_[candidate + 1]; ++s)
-    change += now(shares_[s], u, axial_u) - shares_[s].undeformed;
+    change += now(shares_[s], u) - shares_[s].undeformed;
   return std::max(0.0, mesh_.tributary[candidate] + change);
 }
 

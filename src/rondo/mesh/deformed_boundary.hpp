@@ -6,6 +6,7 @@
 #include <span>
 #include <vector>
 
+#include "rondo/core/field.hpp"
 #include "rondo/mesh/mesh.hpp"
 
 namespace rondo::mesh {
@@ -19,11 +20,9 @@ class DeformedBoundary {
   /// Tributary length or area of a candidate as the body is displaced, in whatever frame.
   /// Undisplaced it is mesh.tributary to the last bit.
   /// @param candidate place in mesh.boundary
-  /// @param u (n) displacement [m]
-  /// @param axial_u (n) along the axle, in three dimensions, else empty [m]
+  /// @param u (n) displacement, with three components in three dimensions [m]
   /// @return [m], in three dimensions [m²]; >= 0
-  [[nodiscard]] double extent(std::size_t candidate, std::span<const Vec2> u,
-                              std::span<const double> axial_u = {}) const noexcept;
+  [[nodiscard]] double extent(std::size_t candidate, FieldView u) const noexcept;
 
  private:
   /// A corner of a face of the contact surface, or an end of an edge, at a candidate.
@@ -39,8 +38,7 @@ class DeformedBoundary {
   [[nodiscard]] Shares collect(std::span<const Face> nodes, std::size_t corners) const;
   [[nodiscard]] Shares find() const;
   [[nodiscard]] bool makes_tributaries(const Shares& shares) const;
-  [[nodiscard]] double now(const Share& share, std::span<const Vec2> u,
-                           std::span<const double> axial_u) const noexcept;
+  [[nodiscard]] double now(const Share& share, FieldView u) const noexcept;
 
   const Mesh& mesh_;
   std::vector<Share> shares_;       ///< candidate after candidate

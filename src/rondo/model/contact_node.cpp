@@ -16,15 +16,18 @@ void solve(const ContactStep& s, Complex delassus, std::span<ActiveContact> cont
            ContactReport& report) noexcept {
   if (contacts.size() == 1) {
     ActiveContact& a = contacts[0];
-    const auto solution = contact::solve_local({a.free, delassus, a.bounce}, s.law.friction);
+    const auto solution =
+        contact::solve_local({a.free.plane(), delassus, a.bounce}, s.law.friction);
     a.impulse = solution.impulse;
     a.status = solution.status;
     return;
   }
   ActiveContact &a = contacts[0], &b = contacts[1];
-  const auto solution = contact::solve_pair(
-      {{a.free, b.free}, {a.bounce, b.bounce}, delassus, rotation_between(a.normal, b.normal)},
-      s.law.friction);
+  const auto solution = contact::solve_pair({{a.free.plane(), b.free.plane()},
+                                             {a.bounce, b.bounce},
+                                             delassus,
+                                             rotation_between(a.normal, b.normal)},
+                                            s.law.friction);
   for (std::size_t i = 0; i < 2; ++i) {
     contacts[i].impulse = solution.contact[i].impulse;
     contacts[i].status = solution.contact[i].status;
@@ -41,7 +44,7 @@ Vec2 corrected_velocity(const ContactStep& s, const ContactNode& node, Vec2 driv
   for (const ActiveContact& c : contacts) {
     if (c.status == Status::stick)
       return conj(s.rotation_next) * (from_frame(c.normal, {-c.bounce, 0.0}) - drive);
-    impulse += from_frame(c.normal, c.impulse);
+    impulse += from_frame(c.normal, c.impulse.plane());
   }
   if (impulse == Vec2{}) return node.free;
   return node.free + conj(s.rotation) * impulse / (node.mass * s.a);
@@ -49,9 +52,9 @@ Vec2 corrected_velocity(const ContactStep& s, const ContactNode& node, Vec2 driv
 
 void add_works(const ContactStep& s, const ContactNode& node, Vec2 after, const ActiveContact& c,
                ContactReport& report) noexcept {
-  const Vec2 impulse = conj(s.rotation) * from_frame(c.normal, c.impulse);  // turning frame
+  const Vec2 impulse = conj(s.rotation) * from_frame(c.normal, c.impulse.plane());  // turning frame
   const double work = dot(impulse, 0.5 * (node.before + after));
-  const Vec2 mean = 0.5 * (c.before + c.after);
+  const Vec3 mean = 0.5 * (c.before + c.after);
   report.work += work;
   report.dissipation_friction -= c.impulse.y * mean.y;
   report.loss_impact -= c.impulse.x * mean.x;
@@ -63,12 +66,12 @@ void report_node(const ContactStep& s, const ContactNode& node,
   const Vec2 arm = s.rotation * node.arm;
   bool pressed = false, sticks = true;
   for (const ActiveContact& c : contacts) {
-    const double residual =
-        contact::law_residual(c.impulse, c.after, c.bounce, s.law.friction, node.mass);
+    const double residual = contact::law_residual(c.impulse.plane(), c.after.plane(), c.bounce,
+                                                  s.law.friction, node.mass);
     report.residual = keep_larger(report.residual, residual / node.mass);
     report.penetration = std::max(report.penetration, -c.gap);
-    report.free_velocity = std::max(report.free_velocity, norm(c.free));
-    const Vec2 impulse = from_frame(c.normal, c.impulse);
+    report.free_velocity = std::max(report.free_velocity, norm(c.free.plane()));
+    const Vec2 impulse = from_frame(c.normal, c.impulse.plane());
     report.impulse += impulse;
     report.angular_impulse += cross(arm, impulse);
     if (c.impulse.x <= 0.0) continue;
@@ -86,7 +89,6 @@ void report_node(const ContactStep& s, const ContactNode& node,
 void ContactReport::add(const ContactReport& other) noexcept {
   impulse += other.impulse;
   angular_impulse += other.angular_impulse;
-  lateral += other.lateral;
   moment_aligning += other.moment_aligning;
   moment_overturning += other.moment_overturning;
   nodes += other.nodes;
@@ -120,9 +122,9 @@ ContactStep::ContactStep(const Model& model, const FrameStep& f,
       turn(rondo::rotation(f.turn)),
       turn_minus_one(rotation_minus_one(f.turn)),
       turn_back(rotation_minus_one(-f.turn_before)),
-      center(f.center),
-      center_rate(f.advance / model.dt),
-      center_rate_before(f.advance_before / model.dt),
+      center(f.center.plane()),
+      center_rate(f.advance.plane() / model.dt),
+      center_rate_before(f.advance_before.plane() / model.dt),
       a(update.a),
       dt(model.dt),
       law(model.contact ? model.contact->law : contact::Law{}) {}

@@ -12,10 +12,11 @@ namespace rondo::dynamics {
 
 /// What the contacts of a step found. Sums are over the active contacts.
 struct ContactReport {
-  Vec2 impulse;                  ///< of the ground on the body, fixed frame             [N·s/m]
-  double angular_impulse = 0.0;  ///< about the center                                [N·s]
-  // In three dimensions `impulse` is along t1 and n, in N·s; `angular_impulse` about the axle.
-  double lateral = 0.0;             ///< of the impulse along t2                         [N·s]
+  /// Of the ground on the body: x and y of the fixed frame, in three dimensions (t1, n, t2) of
+  /// ground_frame.hpp                                                          [N·s/m], [N·s]
+  Vec3 impulse;
+  double angular_impulse = 0.0;  ///< about the center, or the axle              [N·s], [N·m·s]
+  // In three dimensions:
   double moment_aligning = 0.0;     ///< about n                                       [N·m·s]
   double moment_overturning = 0.0;  ///< about t1, in the ground under the center      [N·m·s]
   int nodes = 0;                    ///< candidates with r_n > 0

@@ -73,13 +73,13 @@ class Hyperelastic final : public InternalForce {
       saved.branches.insert(saved.branches.end(), {c.xx, c.yy, c.xy});
   }
   void restore(const SavedState& saved) override {
-    const std::vector<Vec2>& u = model_.rim ? saved.u_before : saved.u;
+    const Field& u = model_.rim ? saved.u_before : saved.u;
     RONDO_DEMAND(saved.force.size() == force_.size() && u.size() == u_.size() &&
                      saved.poses.size() == poses_.size() && saved.internal_work.size() == 4 &&
                      saved.branches.size() == 3 * histories_.size(),
                  saved.force.size(), u.size(), saved.branches.size());
-    force_ = saved.force;
-    u_ = u;
+    force_ = to_vector(saved.force.plane());
+    u_ = to_vector(u.plane());
     poses_ = saved.poses;
     work_ = {saved.internal_work[0], saved.internal_work[1]};
     loss_ = {saved.internal_work[2], saved.internal_work[3]};

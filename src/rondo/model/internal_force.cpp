@@ -43,7 +43,7 @@ class AssembledStiffness final : public InternalForce {
   void save(SavedState& saved) const override { saved.force = saved.gradient = force_; }
   void restore(const SavedState& saved) override {
     demand_size(model_.n_nodes(), saved);
-    force_ = saved.force;
+    force_ = to_vector(saved.force.plane());
   }
 
  private:
@@ -111,7 +111,7 @@ class Corotated final : public InternalForce {
     demand_size(model_.n_nodes(), saved);
     RONDO_DEMAND(saved.energy.size() == energy_.size() && saved.poses.size() == energy_.size(),
                  saved.energy.size(), saved.poses.size());
-    product_ = saved.force;
+    product_ = to_vector(saved.force.plane());
     gradient_ = saved.gradient;
     energy_ = saved.energy;
     poses_ = saved.poses;

@@ -46,7 +46,7 @@ void add_works(const Line& l, const Moved& m, double h, Works& w) noexcept {
 }  // namespace
 
 LoadedRim::LoadedRim(const Model& model) noexcept : model_(model), rim_(*model.rim) {
-  const Vec2 center = model.motion.center(0.0);
+  const Vec2 center = model.motion.center(0.0).plane();
   x_.add(center.x);
   y_.add(center.y);
   velocity_.x = model.motion.speed.at(0.0) * std::cos(model.motion.slip_angle.at(0.0));
@@ -63,7 +63,7 @@ Complex LoadedRim::turn_minus_one(double spin) const noexcept {
 }
 
 Vec2 LoadedRim::held_velocity(double from) const noexcept {
-  return model_.motion.advance(from, model_.dt) / model_.dt;
+  return model_.motion.advance(from, model_.dt).plane() / model_.dt;
 }
 
 double LoadedRim::held_spin(double from) const noexcept {
@@ -135,9 +135,9 @@ void LoadedRim::move() noexcept {
   frame_.angle = angle_.value();
   frame_.turn_before = turn_;
   frame_.rotation = r;
-  frame_.center = {x_.value(), y_.value()};
+  frame_.center = Vec2{x_.value(), y_.value()};
   frame_.advance_before = dt * velocity_before_;
-  const Vec2 before = frame_.center - frame_.advance_before;
+  const Vec3 before = frame_.center - frame_.advance_before;
   const auto spring = [](const RimSupport& s, double now, double last) {
     return 0.5 * s.stiffness * (now - s.at) * (last - s.at);
   };
@@ -174,7 +174,7 @@ void LoadedRim::restore(long long step, std::span<const double> s) {
   frame_.time = static_cast<double>(step) * model_.dt;
   frame_.rotation = {s[10], s[11]};
   frame_.angle = angle_.value();
-  frame_.center = {x_.value(), y_.value()};
+  frame_.center = Vec2{x_.value(), y_.value()};
 }
 
 RimForce pressure_on_rim(const Model& model, std::span<const Vec2> load) noexcept {

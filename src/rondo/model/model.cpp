@@ -8,19 +8,14 @@
 
 namespace rondo::dynamics {
 
-State::State(const Model& model) : u(model.n_nodes()), v(model.n_nodes()), v_next(model.n_nodes()) {
+State::State(const Model& model) : u(model.n_nodes(), model.components()), v(u), v_next(u) {
   if (model.contact) active.reserve(2 * model.contact->nodes.size());
   for (const FreeBody& body : model.free_bodies) poses.push_back({body.center});
-  if (!model.solid) return;
-  for (std::vector<double>* field : {&axial_u, &axial_v, &axial_v_next})
-    field->resize(model.n_nodes());
 }
 
 State boundary_state(const Model& model) {
   State state(model);
-  for (std::vector<Vec2>* field : {&state.v, &state.v_next}) std::vector<Vec2>().swap(*field);
-  for (std::vector<double>* field : {&state.axial_v, &state.axial_v_next})
-    std::vector<double>().swap(*field);
+  state.v = state.v_next = Field();
   return state;
 }
 

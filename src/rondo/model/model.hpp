@@ -11,6 +11,7 @@
 
 #include "rondo/contact/ground.hpp"
 #include "rondo/contact/law.hpp"
+#include "rondo/core/field.hpp"
 #include "rondo/fem/assembly.hpp"
 #include "rondo/fem/sector_stiffness.hpp"
 #include "rondo/mesh/mesh.hpp"
@@ -93,10 +94,9 @@ struct SolidPressure {
   Table pressure;           ///< [Pa]
 };
 
-/// What a wheel in three dimensions has besides (docs/wheel3d.md). Its vectors of nodes are the
-/// plane ones of the model and the state, with their axial components beside; masses are in kg,
-/// forces in N, energies in J, tributaries in m². It is cyclic, held at its rim, and touches the
-/// ground: what a profile says of x and y is the same along t2.
+/// What a wheel in three dimensions has besides (docs/wheel3d.md). The fields of its state have
+/// three components; masses are in kg, forces in N, energies in J, tributaries in m². It is cyclic,
+/// held at its rim, and touches the ground: what a profile says of x and y is the same along t2.
 struct SolidBody {
   std::vector<double> axial;  ///< (n) z of X                                 [m]
   fem::SolidSector sector;    ///< K of one sector                            [N/m]
@@ -145,6 +145,8 @@ struct Model {
   int threads = 1;
 
   [[nodiscard]] std::size_t n_nodes() const noexcept { return reference.size(); }
+  /// Of the vectors of nodes: 2 in the plane, 3 in space.
+  [[nodiscard]] std::size_t components() const noexcept { return solid ? 3 : 2; }
 };
 
 /// Mean place and rotation of a free body.
@@ -159,26 +161,19 @@ void for_free_nodes(const Model& model, Work&& work) {
   for (const int node : model.free) work(static_cast<std::size_t>(node));
 }
 
-/// What a contact of a wheel in three dimensions has along t2 (motion.hpp).
-struct LateralContact {
-  double before = 0.0, free = 0.0, after = 0.0;  ///< of w⁻, w without impulse, w⁺    [m/s]
-  double impulse = 0.0;                          ///< [N·s]
-};
-
-/// A contact of the step just done, in its frame (normal, tangential). In three dimensions the
-/// plane is that of t1 and n, and the third direction, t2, is at right angles to both.
+/// A contact of the step just done, in its frame: along the normal, along J n and, in three
+/// dimensions, along t2 of ground_frame.hpp.
 struct ActiveContact {
   std::size_t candidate = 0;  ///< place in ContactModel::nodes
   Vec2 normal;                ///< out of the ground, fixed frame
   double gap = 0.0;           ///< at t_{n+1}, <= 0                             [m]
-  Vec2 before;                ///< w⁻: relative velocity of the step that came  [m/s]
-  Vec2 free;                  ///< w without impulse                            [m/s]
-  Vec2 after;                 ///< w⁺: of the step to come                      [m/s]
-  Vec2 impulse;               ///< r of the ground on the node                  [N·s/m]
+  Vec3 before;                ///< w⁻: relative velocity of the step that came  [m/s]
+  Vec3 free;                  ///< w without impulse                            [m/s]
+  Vec3 after;                 ///< w⁺: of the step to come                      [m/s]
+  Vec3 impulse;               ///< r of the ground on the node           [N·s/m], [N·s]
   double bounce = 0.0;        ///< ε of the law (4.3)                           [m/s]
   contact::Status status = contact::Status::open;
   bool on_ground = true;  ///< false: against a segment of a body
-  LateralContact lateral;
 };
 
 /// After step n: displacement and forces at t_{n+1}, velocities half a step before and after.
@@ -188,31 +183,19 @@ struct State {
 
   long long step = 0;                 ///< n + 1: number of the displacement
   FrameStep frame;                    ///< of t_{n+1}
-  std::vector<Vec2> u;                ///< (n) u_{n+1}, turning frame                [m]
-  std::vector<Vec2> v;                ///< (n) v_{n+1/2} (at step 0: v_0)            [m/s]
-  std::vector<Vec2> v_next;           ///< (n) v_{n+3/2}                             [m/s]
-  std::vector<Vec2> force;            ///< (n) K u_{n+1}, of the reference step      [N/m]
-  std::vector<Vec2> force_before;     ///< (n) K u_n, of the reference step          [N/m]
+  Field u;                            ///< (n) u_{n+1}, turning frame                [m]
+  Field v;                            ///< (n) v_{n+1/2} (at step 0: v_0)            [m/s]
+  Field v_next;                       ///< (n) v_{n+3/2}                             [m/s]
+  Field force;                        ///< (n) K u_{n+1}, of the reference step      [N/m], [N]
+  Field force_before;                 ///< (n) K u_n, of the reference step          [N/m], [N]
   std::vector<Pose> poses;            ///< (free_bodies) at t_{n+1}
   std::vector<double> rim;            ///< at step 0: what a loaded rim carries (loaded_rim.hpp)
   std::vector<ActiveContact> active;  ///< capacity for every candidate twice
-  // Axial components in three dimensions, else empty.
-  std::vector<double> axial_u;             ///< (n) of u                             [m]
-  std::vector<double> axial_v;             ///< (n) of v                             [m/s]
-  std::vector<double> axial_v_next;        ///< (n) of v_next                        [m/s]
-  std::vector<double> axial_force;         ///< (n) of force                         [N]
-  std::vector<double> axial_force_before;  ///< (n) of force_before                  [N]
 };
 
 /// A state with room for displacements and contacts alone: what Integrator::advance then fills
 /// costs no pass over the body.
 [[nodiscard]] State boundary_state(const Model& model);
-
-/// Axial components of the fields that a run in three dimensions starts with, (n) each.
-struct AxialStart {
-  std::vector<double> u, v;  ///< u_0 [m], v_0 [m/s]; empty: 0
-  std::vector<double> half;  ///< v_{1/2} where it is known; empty: as start() finds it [m/s]
-};
 
 /// The node belongs to a body that nothing holds: its u and v are those of the fixed frame.
 inline bool in_fixed_frame(const Model& model, std::size_t node) noexcept {
@@ -266,8 +249,9 @@ inline const std::vector<double>& lumped_mass_of(const Model& model) noexcept {
 
 /// Position of a node in the fixed frame at t_{n+1} [m].
 inline Vec2 position(const Model& model, const State& state, std::size_t node) noexcept {
-  if (in_fixed_frame(model, node)) return model.reference[node] + state.u[node];
-  return state.frame.center + state.frame.rotation * (model.reference[node] + state.u[node]);
+  const Vec2 arm = model.reference[node] + state.u.plane()[node];
+  if (in_fixed_frame(model, node)) return arm;
+  return state.frame.center.plane() + state.frame.rotation * arm;
 }
 
 /// K u by what the model has: the assembled stiffness, else that of one sector; both (n).

@@ -167,15 +167,14 @@ Complex travel_of(const Motion& m, double from, double length) noexcept {
 
 }  // namespace
 
-Vec2 Motion::advance(double from, double length) const noexcept {
+Vec3 Motion::advance(double from, double length) const noexcept {
   const double climb = from < 0.0 ? length * height.slope(0.0) : height.change(from, length);
-  if (!is_zero(slip_angle)) return {travel_of(*this, from, length).re, climb};
+  if (!is_zero(slip_angle)) {
+    const Complex along = travel_of(*this, from, length);
+    return {along.re, climb, along.im};
+  }
   return {from < 0.0 ? prolonged_integral(speed, from, length) : speed.integral(from, length),
-          climb};
-}
-
-double Motion::lateral_advance(double from, double length) const noexcept {
-  return is_zero(slip_angle) ? 0.0 : travel_of(*this, from, length).im;
+          climb, 0.0};
 }
 
 namespace {
@@ -194,15 +193,9 @@ FrameStep frame_at(const Motion& motion, double before, double t, double dt) noe
   f.advance = motion.advance(t, dt);
   f.advance_before = motion.advance(before, dt);
   f.slip_angle = motion.slip_angle.at(t);
-  f.lateral = motion.lateral(t);
-  f.lateral_advance = motion.lateral_advance(t, dt);
-  f.lateral_before = motion.lateral_advance(before, dt);
-  const Vec2 acceleration = (f.advance - f.advance_before) / (dt * dt);
-  const Vec3 pull = GroundAxes(motion.camber)
-                        .to_wheel(acceleration - motion.gravity_at(t),
-                                  (f.lateral_advance - f.lateral_before) / (dt * dt));
-  f.pull = conj(f.rotation) * pull.plane();
-  f.axial_pull = pull.z;
+  const Vec3 acceleration = (f.advance - f.advance_before) / (dt * dt);
+  f.pull = conj(f.rotation) *
+           GroundFrame(motion.camber).to_wheel(acceleration - Vec3(motion.gravity_at(t)));
   return f;
 }
 

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <vector>
 
-#include "rondo/core/vec3.hpp"
+#include "rondo/core/ground_frame.hpp"
 
 namespace rondo::dynamics {
 
@@ -56,8 +56,10 @@ struct Motion {
   [[nodiscard]] double angle(double t) const noexcept { return turn(0.0, t); }
   /// θ(from + length) - θ(from); before t = 0 as for the center                        [rad]
   [[nodiscard]] double turn(double from, double length) const noexcept;
-  [[nodiscard]] Vec2 center(double t) const noexcept {
-    return {start_x + advance(0.0, t).x, height.at(t)};
+  /// (t1, n, t2) of ground_frame.hpp; x, y, 0 in the plane [m]
+  [[nodiscard]] Vec3 center(double t) const noexcept {
+    const Vec3 way = advance(0.0, t);
+    return {start_x + way.x, height.at(t), way.z};
   }
   /// Speed of the center along t1: the whole of it without a slip angle [m/s]
   [[nodiscard]] double ahead(double t) const noexcept {
@@ -65,29 +67,7 @@ struct Motion {
   }
   /// c(from + length) - c(from), without cancellation of the position. Before t = 0 the center is
   /// taken to have moved with its initial velocity and acceleration: the start is no kink.
-  [[nodiscard]] Vec2 advance(double from, double length) const noexcept;
-  /// The same along t2 [m]
-  [[nodiscard]] double lateral(double t) const noexcept { return lateral_advance(0.0, t); }
-  [[nodiscard]] double lateral_advance(double from, double length) const noexcept;
-};
-
-/// The ground under a wheel that leans: its components are along t1, n and t2.
-class GroundAxes {
- public:
-  explicit GroundAxes(double camber) noexcept : cos_(std::cos(camber)), sin_(std::sin(camber)) {}
-
-  /// (along t1, along n) and along t2 as a vector in the axes of the wheel.
-  [[nodiscard]] constexpr Vec3 to_wheel(Vec2 plane, double lateral) const noexcept {
-    return {plane.x, cos_ * plane.y - sin_ * lateral, sin_ * plane.y + cos_ * lateral};
-  }
-  /// (along t1, along n) of a vector in the axes of the wheel.
-  [[nodiscard]] constexpr Vec2 plane(Vec3 a) const noexcept {
-    return {a.x, cos_ * a.y + sin_ * a.z};
-  }
-  [[nodiscard]] constexpr double lateral(Vec3 a) const noexcept { return cos_ * a.z - sin_ * a.y; }
-
- private:
-  double cos_, sin_;
+  [[nodiscard]] Vec3 advance(double from, double length) const noexcept;
 };
 
 /// (ω R - V) / max(|V|, |ω R|), of the speeds of rim and center; 0 where both vanish.
@@ -102,21 +82,17 @@ struct FrameStep {
   double turn = 0.0;       ///< θ_{n+2} - θ_{n+1}                                     [rad]
   double turn_before = 0.0;  ///< θ_{n+1} - θ_n                                         [rad]
   Complex rotation;          ///< e^{iθ_{n+1}}
-  Vec2 center;               ///< c_{n+1}                                               [m]
-  Vec2 advance;              ///< c_{n+2} - c_{n+1}                                     [m]
-  Vec2 advance_before;       ///< c_{n+1} - c_n                                         [m]
-  Vec2 pull;                 ///< Rᵀ (c̈ - g) in the turning frame                       [m/s2]
-  // In three dimensions; `center` and its advances are along t1 and n, as the ground is.
-  double slip_angle = 0.0;       ///< α(t_{n+1})                                       [rad]
-  double lateral = 0.0;          ///< c_{n+1} along t2                                 [m]
-  double lateral_advance = 0.0;  ///< of c_{n+2} - c_{n+1}                             [m]
-  double lateral_before = 0.0;   ///< of c_{n+1} - c_n                                 [m]
-  double axial_pull = 0.0;       ///< of c̈ - g along the axle                          [m/s2]
+  double slip_angle = 0.0;   ///< α(t_{n+1}); 0 in the plane                            [rad]
+  // (t1, n, t2) of ground_frame.hpp; x, y, 0 in the plane.
+  Vec3 center;          ///< c_{n+1}                                                    [m]
+  Vec3 advance;         ///< c_{n+2} - c_{n+1}                                          [m]
+  Vec3 advance_before;  ///< c_{n+1} - c_n                                              [m]
+  Vec3 pull;            ///< Rᵀ (c̈ - g) in the turning frame, and along the axle        [m/s2]
 };
 
 /// (ṡJ - s²)(X + u) + Rᵀ(c̈ - g): acceleration of the frame at a place (3.1). @param arm X + u [m]
 constexpr Vec2 frame_acceleration(const FrameStep& f, Vec2 arm) noexcept {
-  return Complex{-f.spin * f.spin, f.spin_rate} * arm + f.pull;
+  return Complex{-f.spin * f.spin, f.spin_rate} * arm + f.pull.plane();
 }
 
 /// The frame at t = n dt.

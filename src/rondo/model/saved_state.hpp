@@ -14,18 +14,16 @@
 namespace rondo::dynamics {
 
 struct SavedState {
-  long long step = 0;          ///< the last step made
-  std::vector<Vec2> u;         ///< (n) displacement                                  [m]
-  std::vector<Vec2> v;         ///< (n) velocity                                      [m/s]
-  std::vector<Vec2> force;     ///< (n) K u; with stiffness damping, or free bodies   [N/m]
-  std::vector<Vec2> u_before;  ///< (n) u a step before; with a loaded rim            [m]
+  long long step = 0;  ///< the last step made
+  Field u;             ///< (n) displacement                                  [m]
+  Field v;             ///< (n) velocity                                      [m/s]
+  Field force;         ///< (n) K u; with stiffness damping, or free bodies          [N/m], [N]
+  Field u_before;      ///< (n) u a step before; with a loaded rim                          [m]
   std::vector<Vec2> gradient;  ///< (n) derivative of the energy, general model       [N/m]
   std::vector<double> energy;  ///< (free_bodies)                                     [J/m]
   std::vector<Pose> poses;     ///< (free_bodies)
   /// By contact, ascending: coupled contacts start from the impulses of the step before [N·s/m].
   std::vector<std::pair<std::uint64_t, Vec2>> impulses;
-  // Axial components in three dimensions.
-  std::vector<double> axial_u, axial_v, axial_force, axial_u_before;  ///< (n)
   std::vector<double> branches;       ///< of rubber: C_i of element and branch, xx, yy, xy
   std::vector<double> internal_work;  ///< of rubber (rubber_work.hpp, hyperelastic.hpp)
   std::vector<double> rim;            ///< what a loaded rim carries (loaded_rim.hpp)

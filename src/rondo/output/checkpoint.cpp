@@ -31,11 +31,22 @@ void put(File& file, const std::string& name, const std::vector<T>& values,
   file.write(name, shape, std::span<const T>(values), label);
 }
 
+void put(File& file, const std::string& name, const Field& field, const h5::Label& label) {
+  file.write(name, {field.size(), field.components()}, FieldView(field).values, label);
+}
+
 template <class T>
 std::vector<T> get(const File& file, const std::string& name, std::size_t rows = h5::any) {
   h5::Shape shape{rows};
   if (h5::Element<T>::count > 1) shape.push_back(h5::Element<T>::count);
   return file.dataset(name, shape).read<T>();
+}
+
+/// In the plane or in space, as its dataset is.
+Field get_field(const File& file, const std::string& name) {
+  const h5::Dataset dataset = file.dataset(name);
+  if (dataset.shape().size() == 2 && dataset.shape()[1] == 3) return get<Vec3>(file, name);
+  return get<Vec2>(file, name);
 }
 
 double stored(double value) {
@@ -94,7 +105,7 @@ template <class Known, class Visit>
 void for_scalars(Known& k, Visit&& visit) {
   const std::string row = "since the last row of history.csv", loop = "of the loop so far, ";
   auto& [next, since, done, impulse, angular_impulse, penetration, hub, hub_angular, iterations,
-         extensions, lateral, aligning, overturning] = k.history;
+         extensions, aligning, overturning] = k.history;
   visit("/run/step", k.identity.step, {"s", "length of a step"});
   visit("/run/steps_done", k.state.step, {"1", "steps made"});
   visit("/run/steps", k.n_steps, {"1", "steps of the whole run"});
@@ -107,6 +118,7 @@ void for_scalars(Known& k, Visit&& visit) {
   visit("/history/done", done, {"1", "the last step seen"});
   visit("/history/impulse_x", impulse.x, {"N*s/m", row});
   visit("/history/impulse_y", impulse.y, {"N*s/m", row});
+  visit("/history/impulse_z", impulse.z, {"N*s/m", row});
   visit("/history/angular_impulse", angular_impulse, {"N*s", row});
   visit("/history/penetration", penetration, {"m", "largest " + row});
   visit("/history/hub_impulse_x", hub.x, {"N*s/m", row});
@@ -114,7 +126,6 @@ void for_scalars(Known& k, Visit&& visit) {
   visit("/history/hub_angular_impulse", hub_angular, {"N*s", row});
   visit("/history/iterations", iterations, {"1", "of contact in a step, most " + row});
   visit("/history/extensions", extensions, {"1", "of contact in a step, most " + row});
-  visit("/history/lateral", lateral, {"N*s/m", "of the ground along t2, " + row});
   visit("/history/aligning", aligning, {"N*s", "of the ground about its normal, " + row});
   visit("/history/overturning", overturning, {"N*s", "of the ground about t1, " + row});
   for_contact(k.contact, visit);
@@ -142,7 +153,7 @@ KeptFiles get_kept(const File& file) {
 }
 
 bool is_solid(const dynamics::SavedState& s) noexcept {
-  return !s.axial_u.empty();
+  return s.u.components() == 3;
 }
 
 void put_state(File& file, const dynamics::SavedState& s) {
@@ -150,11 +161,8 @@ void put_state(File& file, const dynamics::SavedState& s) {
   put(file, "/state/u", s.u, {"m", "displacement, in the integrator's own components"});
   put(file, "/state/v", s.v, {"m/s", "velocity, in the integrator's own components"});
   put(file, "/state/force", s.force, {unit("N/m"), "K u, in the integrator's own components"});
-  put(file, "/state/u_before", s.u_before, {"m", "u a step before, likewise"});
-  put(file, "/state/axial_u", s.axial_u, {"m", "u along the axle, in three dimensions"});
-  put(file, "/state/axial_v", s.axial_v, {"m/s", "v likewise"});
-  put(file, "/state/axial_force", s.axial_force, {unit("N/m"), "K u likewise"});
-  put(file, "/state/axial_u_before", s.axial_u_before, {"m", "u a step before, likewise"});
+  put(file, "/state/u_before", s.u_before,
+      {"m", "u a step before, in the integrator's own components"});
   put(file, "/state/gradient", s.gradient, {"N/m", "derivative of the energy of free bodies"});
   put(file, "/state/energy", s.energy, {"J/m", "energy of each free body"});
   std::vector<std::array<double, 5>> poses;
@@ -183,14 +191,10 @@ void put_state(File& file, const dynamics::SavedState& s) {
 }
 
 void get_state(const File& file, dynamics::SavedState& s) {
-  s.u = get<Vec2>(file, "/state/u");
-  s.v = get<Vec2>(file, "/state/v", s.u.size());
-  s.force = get<Vec2>(file, "/state/force");
-  s.u_before = get<Vec2>(file, "/state/u_before");
-  s.axial_u = get<double>(file, "/state/axial_u");
-  s.axial_v = get<double>(file, "/state/axial_v");
-  s.axial_force = get<double>(file, "/state/axial_force");
-  s.axial_u_before = get<double>(file, "/state/axial_u_before");
+  s.u = get_field(file, "/state/u");
+  s.v = get_field(file, "/state/v");
+  s.force = get_field(file, "/state/force");
+  s.u_before = get_field(file, "/state/u_before");
   s.gradient = get<Vec2>(file, "/state/gradient");
   s.energy = get<double>(file, "/state/energy");
   s.branches = get<double>(file, "/state/branches");

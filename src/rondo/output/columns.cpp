@@ -123,19 +123,19 @@ constexpr std::array rim{
               [](const H& r) { return r.balance.works.dissipation_support; }}};
 
 constexpr std::array solid{
-    Column<H>{"force_lateral", "N",
+    Column<H>{"force_lateral", "N/m",
               "of the ground on the wheel along t2, to the right of its heading, mean over the "
               "interval",
-              [](const H& r) { return r.force_lateral; }},
-    Column<H>{"moment_aligning", "N·m",
+              [](const H& r) { return r.force.z; }},
+    Column<H>{"moment_aligning", "N·m/m",
               "of the ground on the wheel about the ground's normal through the center, likewise",
               [](const H& r) { return r.moment_aligning; }},
-    Column<H>{"moment_overturning", "N·m",
+    Column<H>{"moment_overturning", "N·m/m",
               "about t1, along the heading, in the ground below the center, likewise",
               [](const H& r) { return r.moment_overturning; }},
     Column<H>{"slip_angle", "rad", "`motion.slip_angle` at `time_s`",
               [](const H& r) { return r.slip_angle; }},
-    Column<H>{"center_lateral", "m", "center, along t2", [](const H& r) { return r.lateral; }}};
+    Column<H>{"center_lateral", "m", "center, along t2", [](const H& r) { return r.center.z; }}};
 
 constexpr std::array massless{
     Column<H>{"contact_iterations", "1",
@@ -207,14 +207,14 @@ constexpr std::array solid_contact{
     Column<P>{"z_m", "m",
               "along t2, to the right, in the fixed frame: less `center_lateral` it is the place "
               "beside the center",
-              [](const P& r) { return r.lateral; }},
+              [](const P& r) { return r.position.z; }},
     Column<P>{"pressure_pa", "Pa", "normal force over `area_m2`",
               [](const P& r) { return r.traction.x; }},
     Column<P>{"shear_x_pa", "Pa",
               "shear of the ground on the wheel likewise, along the profile towards +x",
               [](const P& r) { return 0.0 - r.traction.y; }},
     Column<P>{"shear_lateral_pa", "Pa", "along t2, to the right",
-              [](const P& r) { return r.shear_lateral; }},
+              [](const P& r) { return r.traction.z; }},
     Column<P>{"sticks", "1", "1: the node sticks; 0: it slips",
               [](const P& r) { return r.sticks ? 1.0 : 0.0; }},
     Column<P>{"area_m2", "m2",
@@ -222,56 +222,43 @@ constexpr std::array solid_contact{
               "`contact_area_m2` of history.csv",
               [](const P& r) { return r.extent; }}};
 
-std::vector<ColumnLabel> in_units_of(std::span<const Column<H>> columns, bool is_solid) {
-  std::vector<ColumnLabel> labels = labels_of(columns);
-  for (ColumnLabel& label : labels) label.unit = unit_of(label.unit, is_solid);
-  return labels;
-}
+/// Columns that come together, and what a run has where they do.
+struct ColumnGroup {
+  bool HistoryFeatures::*feature;
+  std::span<const Column<H>> columns;
+};
+
+constexpr std::array groups{
+    ColumnGroup{&HistoryFeatures::solid, solid}, ColumnGroup{&HistoryFeatures::rim, rim},
+    ColumnGroup{&HistoryFeatures::massless, massless},
+    ColumnGroup{&HistoryFeatures::rubber, rubber}, ColumnGroup{&HistoryFeatures::hati, hati}};
 
 }  // namespace
 
-std::vector<ColumnLabel> history_labels(bool is_solid) {
-  std::vector<ColumnLabel> labels = in_units_of(history, is_solid);
-  for (ColumnLabel& label : labels)
-    if (is_solid && label.name == "contact_length_m")
+std::vector<ColumnLabel> history_labels(const HistoryFeatures& features) {
+  std::vector<ColumnLabel> labels = labels_of(std::span<const Column<H>>(history));
+  for (const ColumnGroup& group : groups)
+    if (features.*group.feature)
+      for (ColumnLabel& label : labels_of(group.columns)) labels.push_back(std::move(label));
+  if (!features.solid) return labels;
+  for (ColumnLabel& label : labels) {
+    label.unit = unit_of(label.unit, true);
+    if (label.name == "contact_length_m")
       label = {"contact_area_m2", "m2",
                "of the deformed surface: the share of each node with a normal force, summed"};
+  }
   return labels;
 }
 
-std::vector<ColumnLabel> rim_labels(bool is_solid) {
-  return in_units_of(rim, is_solid);
+void append_history(const HistoryFeatures& features, const HistoryRecord& record,
+                    std::vector<double>& values) {
+  append_values(std::span<const Column<H>>(history), record, values);
+  for (const ColumnGroup& group : groups)
+    if (features.*group.feature) append_values(group.columns, record, values);
 }
 
-std::span<const Column<HistoryRecord>> solid_columns() noexcept {
-  return solid;
-}
-
-std::span<const Column<ContactRecord>> solid_contact_columns() noexcept {
-  return solid_contact;
-}
-
-std::span<const Column<HistoryRecord>> history_columns() noexcept {
-  return history;
-}
-
-std::span<const Column<HistoryRecord>> rim_columns() noexcept {
-  return rim;
-}
-
-std::span<const Column<HistoryRecord>> massless_columns() noexcept {
-  return massless;
-}
-
-std::span<const Column<HistoryRecord>> rubber_columns() noexcept {
-  return rubber;
-}
-
-std::span<const Column<HistoryRecord>> hati_columns() noexcept {
-  return hati;
-}
-
-std::span<const Column<ContactRecord>> contact_columns() noexcept {
+std::span<const Column<ContactRecord>> contact_columns(bool is_solid) noexcept {
+  if (is_solid) return solid_contact;
   return contact;
 }
 

@@ -5,17 +5,18 @@
 #include <span>
 
 #include "rondo/core/column.hpp"
-#include "rondo/core/vec2.hpp"
+#include "rondo/core/vec3.hpp"
 #include "rondo/model/integrator.hpp"
 
 namespace rondo::study {
 
 /// A row of history.csv, of any analysis; what an analysis has not is 0.
 struct HistoryRecord {
-  double time = 0.0;    ///< [s], or a share of the load                                  [1]
-  double angle = 0.0;   ///< θ of the turning frame                                       [rad]
-  Vec2 center;          ///< [m]
-  Vec2 force;           ///< of the ground on the body                                    [N/m]
+  double time = 0.0;   ///< [s], or a share of the load                                  [1]
+  double angle = 0.0;  ///< θ of the turning frame                                       [rad]
+  // In three dimensions (t1, n, t2) of ground_frame.hpp, else x, y, 0.
+  Vec3 center;          ///< [m]
+  Vec3 force;           ///< of the ground on the body                               [N/m], [N]
   double torque = 0.0;  ///< of the ground about the center                               [N]
   int nodes = 0, sticking = 0;
   double contact_length = 0.0;  ///< deformed [m]; in three dimensions an area [m²]
@@ -25,9 +26,7 @@ struct HistoryRecord {
   int iterations = 0, extensions = 0;  ///< of contact nodes without mass, most in a step
   dynamics::RimReport rim;            ///< of a loaded rim; what holds it as means over the interval
   dynamics::MaterialReport material;  ///< of rubber
-  // In three dimensions, where `center` and `force` are along t1 and n, in N and N·m.
-  double lateral = 0.0;             ///< of the center along t2                           [m]
-  double force_lateral = 0.0;       ///< along t2                                         [N]
+  // In three dimensions:
   double moment_aligning = 0.0;     ///< about n                                        [N·m]
   double moment_overturning = 0.0;  ///< about t1, in the ground under the center        [N·m]
   double slip_angle = 0.0;          ///< [rad]
@@ -38,32 +37,29 @@ struct ContactRecord {
   double time = 0.0;  ///< as in history.csv
   int node = 0;
   double abscissa = 0.0;  ///< along the ground; NaN: pressed against a body             [m]
-  Vec2 position;          ///< fixed frame                                                [m]
-  Vec2 traction;          ///< pressure, shear                                            [Pa]
+  Vec3 position;          ///< fixed frame; in three dimensions along (t1, n, t2)         [m]
+  Vec3 traction;          ///< pressure, shear along J n, in three dimensions along t2    [Pa]
   double extent = 0.0;    ///< of the deformed boundary that the node stands for   [m], [m²]
   double slip = 0.0;      ///< as in ContactForce                                        [m/s]
-  bool sticks = false;    ///< likewise
-  double lateral = 0.0;   ///< in three dimensions: of the place along t2; `position` is along t1
-                          ///< and n                                                       [m]
-  double shear_lateral = 0.0;  ///< in three dimensions: along t2                         [Pa]
+  bool sticks = false;    ///< as in ContactForce
 };
 
-[[nodiscard]] std::span<const Column<HistoryRecord>> history_columns() noexcept;
-/// The same of a wheel in three dimensions: with its units, and an area for the length.
-[[nodiscard]] std::vector<ColumnLabel> history_labels(bool is_solid);
-[[nodiscard]] std::vector<ColumnLabel> rim_labels(bool is_solid);
-/// Those that a wheel in three dimensions has besides.
-[[nodiscard]] std::span<const Column<HistoryRecord>> solid_columns() noexcept;
-/// Those that a run with a loaded rim has besides.
-[[nodiscard]] std::span<const Column<HistoryRecord>> rim_columns() noexcept;
-/// Behind those, where contact nodes have no mass.
-[[nodiscard]] std::span<const Column<HistoryRecord>> massless_columns() noexcept;
-/// Where some part is rubber.
-[[nodiscard]] std::span<const Column<HistoryRecord>> rubber_columns() noexcept;
-/// Those of the scheme "hati".
-[[nodiscard]] std::span<const Column<HistoryRecord>> hati_columns() noexcept;
-[[nodiscard]] std::span<const Column<ContactRecord>> contact_columns() noexcept;
-/// Of a wheel in three dimensions, instead.
-[[nodiscard]] std::span<const Column<ContactRecord>> solid_contact_columns() noexcept;
+/// What a run has besides a plane body whose rim follows tables. Each gives history.csv a group of
+/// columns.
+struct HistoryFeatures {
+  bool solid = false;     ///< a wheel in three dimensions: also other units, and an area
+  bool rim = false;       ///< a loaded rim
+  bool massless = false;  ///< contact nodes without mass
+  bool rubber = false;
+  bool hati = false;  ///< the scheme
+};
+
+/// Columns of history.csv: those that every run has, then the groups in the order of the features.
+[[nodiscard]] std::vector<ColumnLabel> history_labels(const HistoryFeatures& features);
+/// Adds the values of these columns.
+void append_history(const HistoryFeatures& features, const HistoryRecord& record,
+                    std::vector<double>& values);
+
+[[nodiscard]] std::span<const Column<ContactRecord>> contact_columns(bool is_solid) noexcept;
 
 }  // namespace rondo::study

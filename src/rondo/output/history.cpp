@@ -30,6 +30,11 @@ History::History(const Case& c, const Setup& setup, const HistoryPlace& place, L
       dt_(setup.model.dt),
       interval_(c.output.history_interval),
       radius_(rolling_radius(c, setup)),
+      features_{.solid = setup.model.solid.has_value(),
+                .rim = setup.model.rim.has_value(),
+                .massless = has_massless_contact(setup.model),
+                .rubber = fem::has_rubber(setup.materials),
+                .hati = setup.model.subdomains.has_value()},
       at_(place) {
   const bool touches = setup.model.contact || setup.model.surfaces;
   if (touches && reported == Length::undeformed)
@@ -37,30 +42,8 @@ History::History(const Case& c, const Setup& setup, const HistoryPlace& place, L
 }
 
 std::vector<ColumnLabel> History::columns() const {
-  const bool is_solid = setup_.model.solid.has_value();
-  std::vector<ColumnLabel> labels = history_labels(is_solid);
-  if (is_solid) {
-    const std::vector<ColumnLabel> solid = labels_of(solid_columns());
-    labels.insert(labels.end(), solid.begin(), solid.end());
-  }
-  if (setup_.model.rim) {
-    const std::vector<ColumnLabel> rim = rim_labels(is_solid);
-    labels.insert(labels.end(), rim.begin(), rim.end());
-  }
-  if (has_massless_contact(setup_.model)) {
-    const std::vector<ColumnLabel> massless = labels_of(massless_columns());
-    labels.insert(labels.end(), massless.begin(), massless.end());
-  }
-  if (fem::has_rubber(setup_.materials)) {
-    const std::vector<ColumnLabel> rubber = labels_of(rubber_columns());
-    labels.insert(labels.end(), rubber.begin(), rubber.end());
-  }
-  if (setup_.model.subdomains) {
-    const std::vector<ColumnLabel> hati = labels_of(hati_columns());
-    labels.insert(labels.end(), hati.begin(), hati.end());
-  }
-  const std::vector<ColumnLabel> probes = probe_columns(case_.output.probes);
-  labels.insert(labels.end(), probes.begin(), probes.end());
+  std::vector<ColumnLabel> labels = history_labels(features_);
+  for (ColumnLabel& probe : probe_columns(case_.output.probes)) labels.push_back(std::move(probe));
   return labels;
 }
 
@@ -101,7 +84,7 @@ double History::contact_length(const dynamics::StepReport& step,
     if (c.impulse.x <= 0.0 || c.candidate == last) continue;
     last = c.candidate;
     undeformed += setup_.mesh.tributary[last];
-    deformed += boundary_->extent(last, state->u, state->axial_u);
+    deformed += boundary_->extent(last, state->u);
   }
   return undeformed > 0.0 ? length * (deformed / undeformed) : length;
 }
@@ -122,7 +105,6 @@ void History::observe(const dynamics::StepReport& step, const dynamics::State* s
   ++at_.steps;
   at_.impulse += report.impulse;
   at_.angular_impulse += report.angular_impulse;
-  at_.lateral += report.lateral;
   at_.aligning += report.moment_aligning;
   at_.overturning += report.moment_overturning;
   at_.penetration = std::max(at_.penetration, report.penetration);
@@ -152,7 +134,7 @@ void History::append_row(const dynamics::StepReport& step, const dynamics::State
   r.time = step.frame.time;
   r.angle = step.frame.angle;
   r.center = step.frame.center;
-  r.force = {at_.impulse.x / span, at_.impulse.y / span};
+  r.force = at_.impulse / span;
   r.torque = at_.angular_impulse / span;
   r.nodes = step.contact.nodes;
   r.sticking = step.contact.sticking;
@@ -160,31 +142,16 @@ void History::append_row(const dynamics::StepReport& step, const dynamics::State
   r.penetration = at_.penetration;
   r.slip_ratio = slip_ratio(step);
   r.balance = step.balance;
-  append_values(history_columns(), r, rows);
-  if (setup_.model.solid) {
-    r.force_lateral = at_.lateral / span;
-    r.moment_aligning = at_.aligning / span;
-    r.moment_overturning = at_.overturning / span;
-    r.slip_angle = step.frame.slip_angle;
-    r.lateral = step.frame.lateral;
-    append_values(solid_columns(), r, rows);
-  }
-  if (setup_.model.rim) {
-    r.rim = step.rim;
-    r.rim.force = at_.hub_impulse / span;
-    r.rim.torque = at_.hub_angular_impulse / span;
-    append_values(rim_columns(), r, rows);
-  }
-  if (has_massless_contact(setup_.model)) {
-    r.iterations = at_.iterations;
-    r.extensions = at_.extensions;
-    append_values(massless_columns(), r, rows);
-  }
-  if (fem::has_rubber(setup_.materials)) {
-    r.material = step.material;
-    append_values(rubber_columns(), r, rows);
-  }
-  if (setup_.model.subdomains) append_values(hati_columns(), r, rows);
+  r.moment_aligning = at_.aligning / span;
+  r.moment_overturning = at_.overturning / span;
+  r.slip_angle = step.frame.slip_angle;
+  r.rim = step.rim;
+  r.rim.force = at_.hub_impulse / span;
+  r.rim.torque = at_.hub_angular_impulse / span;
+  r.iterations = at_.iterations;
+  r.extensions = at_.extensions;
+  r.material = step.material;
+  append_history(features_, r, rows);
   append_probes(state, rows);
 }
 

@@ -22,14 +22,12 @@ struct HistoryPlace {
   long long next = 1;   ///< number of the next row's interval
   long long steps = 0;  ///< since the last row
   long long done = 0;   ///< the last step seen
-  Vec2 impulse;         ///< since the last row                                      [N·s/m]
+  Vec3 impulse;         ///< as ContactReport, since the last row             [N·s/m], [N·s]
   double angular_impulse = 0.0, penetration = 0.0;
   Vec2 hub_impulse{};  ///< of what holds a loaded rim, likewise                    [N·s/m]
   double hub_angular_impulse = 0.0;
-  int iterations = 0, extensions = 0;  ///< of contact, most in a step since the last row
-  // In three dimensions, likewise of the ground's impulses.
-  double lateral = 0.0;                      ///< [N·s]
-  double aligning = 0.0, overturning = 0.0;  ///< [N·m·s]
+  int iterations = 0, extensions = 0;        ///< of contact, most in a step since the last row
+  double aligning = 0.0, overturning = 0.0;  ///< in three dimensions, since the last row [N·m·s]
 };
 
 class History {
@@ -72,6 +70,7 @@ class History {
   const Setup& setup_;
   double dt_, interval_;
   double radius_ = 0.0;  ///< of what rolls; 0: nothing does                       [m]
+  HistoryFeatures features_;
   std::shared_ptr<const mesh::DeformedBoundary> boundary_;  ///< null: reports have the length
   HistoryPlace at_;
 };

@@ -18,13 +18,13 @@ ProbeValues look_at(const ProbedBody& body, const ProbeSite& site, const dynamic
   ProbeValues values;
   for (std::size_t a = 0; a < n; ++a) {
     const auto node = static_cast<std::size_t>(cell[a]);
-    values.displacement += site.weight[a] * state.u[node];
-    values.velocity += site.weight[a] * state.v[node];
+    values.displacement += site.weight[a] * state.u.plane()[node];
+    values.velocity += site.weight[a] * state.v.plane()[node];
   }
   const fem::Material& material = fem::material_of(body.mesh, body.materials, site.cell);
   const auto elastic = [&](int node) {
     const auto k = static_cast<std::size_t>(node);
-    return dynamics::elastic_displacement(body.model, state.poses, k, state.u[k]);
+    return dynamics::elastic_displacement(body.model, state.poses, k, state.u.plane()[k]);
   };
   const auto corners =
       fem::cell_stress(body.mesh, site.cell, fem::stress_law(material), body.dilatation, elastic);

@@ -87,16 +87,13 @@ std::vector<FileRecorder::Slot> FileRecorder::make_slots(const RecordPlan& plan)
   const std::size_t nodes = layout.n_snapshots == 0 ? 0 : layout.mesh->n_nodes();
   const std::size_t contacts =
       layout.n_snapshots == 0 || !layout.contact ? 0 : 2 * layout.mesh->boundary.size();
-  const std::size_t solid_nodes = nodes > 0 && layout.mesh->is_solid() ? nodes : 0;
-  const std::size_t bytes = numbers_at_once_ * sizeof(double) + 2 * nodes * sizeof(Vec2) +
-                            2 * solid_nodes * sizeof(double) + contacts * sizeof(ContactForce);
+  const std::size_t bytes = (numbers_at_once_ + 2 * nodes * layout.components) * sizeof(double) +
+                            contacts * sizeof(ContactForce);
   std::vector<Slot> slots(queue_length(layout.n_snapshots, bytes));
   for (Slot& slot : slots) {
     slot.rows = no_rows(numbers_at_once_);
-    slot.snapshot.u.reserve(nodes);
-    slot.snapshot.v.reserve(nodes);
-    slot.snapshot.axial_u.reserve(solid_nodes);
-    slot.snapshot.axial_v.reserve(solid_nodes);
+    slot.snapshot.u.reserve(nodes, layout.components);
+    slot.snapshot.v.reserve(nodes, layout.components);
     slot.snapshot.contacts.reserve(contacts);
   }
   return slots;

@@ -142,13 +142,9 @@ std::size_t branch_numbers(const Setup& setup) {
   return n;
 }
 
-/// Axial components beside those of the plane, or none.
-bool axial_fits(const dynamics::SavedState& s, const dynamics::Model& model) {
-  const auto fits = [&](const std::vector<double>& axial, const std::vector<Vec2>& plane) {
-    return axial.size() == (model.solid ? plane.size() : 0);
-  };
-  return fits(s.axial_u, s.u) && fits(s.axial_v, s.v) && fits(s.axial_force, s.force) &&
-         fits(s.axial_u_before, s.u_before);
+/// As many points, each with as many components as the model's.
+bool fits(const Field& field, std::size_t points, const dynamics::Model& model) {
+  return field.size() == points && (points == 0 || field.components() == model.components());
 }
 
 /// All that the integrator of this model carries, and nothing else.
@@ -165,11 +161,10 @@ bool fits(const dynamics::SavedState& s, const Setup& setup) {
   const std::size_t joined = parts ? 3 * model.subdomains->interface.size() : 0;
   const std::size_t rim_numbers = rim ? dynamics::LoadedRim::n_numbers : 0;
   const std::size_t works = fem::has_rubber(setup.materials) ? 4 : 0;
-  return axial_fits(s, model) && s.branches.size() == branch_numbers(setup) &&
-         s.internal_work.size() == works && s.u.size() == n && s.v.size() == n &&
-         s.force.size() == force && s.gradient.size() == (general ? n : 0) &&
+  return s.branches.size() == branch_numbers(setup) && s.internal_work.size() == works &&
+         fits(s.u, n, model) && fits(s.v, n, model) && fits(s.force, force, model) &&
+         fits(s.u_before, rim ? n : 0, model) && s.gradient.size() == (general ? n : 0) &&
          s.energy.size() == n_free && s.poses.size() == n_free &&
-         s.u_before.size() == (rim ? n : 0) &&
          (massless ? dynamics::MasslessContact::is_saved(s.ring, model.contact->nodes.size())
                    : s.ring.empty()) &&
          s.interface.size() == joined && s.rim.size() == rim_numbers &&

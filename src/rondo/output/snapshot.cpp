@@ -6,26 +6,21 @@
 namespace rondo::study {
 namespace {
 
-/// Of a wheel in three dimensions; the ground is extruded along t2.
-void add_lateral(const dynamics::ActiveContact& c, double camber, double dt, ContactForce& to) {
-  to.lateral = c.lateral.impulse / dt;
-  const Vec3 fixed = dynamics::GroundAxes(camber).to_wheel(to.force_fixed, to.lateral);
-  to.force_fixed = fixed.plane();
-  to.fixed_axial = fixed.z;
-  to.sticks = c.status == contact::Status::stick;
-}
-
 /// A node held by two facets is pressed along the frame of the deeper one, listed first.
 void take_contacts(const dynamics::Model& model, const dynamics::State& state,
                    std::vector<ContactForce>& contacts) {
-  const double dt = model.dt;
+  const GroundFrame ground(model.motion.camber);
   contacts.clear();
   Vec2 normal;
   for (const dynamics::ActiveContact& c : state.active) {
     if (contacts.empty() || c.candidate != contacts.back().candidate) normal = c.normal;
-    const Vec2 force = from_frame(c.normal, c.impulse) / dt;
-    contacts.push_back({c.candidate, to_frame(normal, force), force, c.on_ground});
-    if (model.solid) add_lateral(c, model.motion.camber, dt, contacts.back());
+    const Vec2 force = from_frame(c.normal, c.impulse.plane()) / model.dt;
+    const double lateral = c.impulse.z / model.dt;
+    contacts.push_back({.candidate = c.candidate,
+                        .force = {to_frame(normal, force), lateral},
+                        .force_fixed = ground.to_wheel({force, lateral}),
+                        .on_ground = c.on_ground,
+                        .sticks = model.solid && c.status == contact::Status::stick});
   }
 }
 
@@ -39,11 +34,8 @@ Snapshot& fill_snapshot(const Setup& setup, const dynamics::State& state, Snapsh
   s.angle_velocity = setup.model.rim ? state.frame.angle - 0.5 * state.frame.turn_before
                                      : setup.model.motion.angle(s.time_velocity);
   s.center = state.frame.center;
-  s.lateral = state.frame.lateral;
   s.u = state.u;
   s.v = state.v;
-  s.axial_u = state.axial_u;
-  s.axial_v = state.axial_v;
   s.poses = state.poses;
   take_contacts(setup.model, state, s.contacts);
   return s;

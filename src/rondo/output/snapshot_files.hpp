@@ -35,11 +35,9 @@ class SnapshotFiles {
   void collect_contact(const Snapshot& snapshot);
   [[nodiscard]] std::span<const Vec2> elastic(const Snapshot& snapshot);
   void write_contact_rows(const Snapshot& snapshot);
-  [[nodiscard]] Vec2 position(const Snapshot& snapshot, std::size_t node) const;
-  [[nodiscard]] Vec3 place_on_ground(const Snapshot& snapshot, std::size_t node) const;
-  void interleave(const Snapshot& snapshot, io::Snapshot& s);
+  [[nodiscard]] Vec3 position(const Snapshot& snapshot, std::size_t node) const;
   [[nodiscard]] std::span<const Column<ContactRecord>> columns() const {
-    return mesh_.is_solid() ? solid_contact_columns() : contact_columns();
+    return contact_columns(mesh_.is_solid());
   }
 
   const mesh::Mesh& mesh_;
@@ -52,19 +50,13 @@ class SnapshotFiles {
   io::Csv contact_csv_;
   std::optional<fem::StressRecovery> stress_;
   std::vector<Vec2> elastic_;  ///< (n) displacement in the frame of its body; empty: no free body
-  std::vector<Complex> rotations_;         ///< of the free bodies
-  std::vector<Vec2> force_, force_fixed_;  ///< (nb)
+  std::vector<Vec3> force_, force_fixed_;  ///< (nb)
   std::vector<double> extent_;   ///< (nb) of the deformed boundary, where a node is pressed
   std::vector<char> on_ground_;  ///< (nb) 1: the ground presses it
   std::vector<double> slip_;     ///< (nb)
   std::vector<char> sticks_;     ///< (nb)
-  // Of a wheel in three dimensions.
   std::optional<fem::SolidStressRecovery> solid_stress_;
-  double camber_ = 0.0;
-  std::vector<double> lateral_;      ///< (nb) force along t2                             [N]
-  std::vector<double> fixed_axial_;  ///< (nb) force along the axle                       [N]
-  std::vector<double> u_, v_;        ///< (n, 3)
-  std::vector<double> spatial_, spatial_fixed_;  ///< (nb, 3) forces
+  GroundFrame in_ground_;
   std::vector<double> rows_;
 };
 

@@ -64,8 +64,8 @@ void ReducedIntegrator::start_central() {
   m.spin = f.spin;
   m.spin_rate = f.spin_rate;
   m.angle = f.angle;
-  m.pull = f.rotation * f.pull;
-  if (input_.reduced.frame == rom::ModelFrame::turning) m.pull = f.pull;
+  m.pull = f.rotation * f.pull.plane();
+  if (input_.reduced.frame == rom::ModelFrame::turning) m.pull = f.pull.plane();
   set_load(m);
   StepMatrices half(input_.reduced, {StepScheme::central, m.dt, input_.model.mass_damping,
                                      input_.model.stiffness_damping, 0.0, m.spin, m.spin_rate});
@@ -83,16 +83,16 @@ ReducedIntegrator::Motion ReducedIntegrator::motion_of_step() const {
   m.carry = of.turn(t, dt) / dt;
   m.angle_before = of.angle(t);
   m.angle = of.angle(end);
-  m.center_before = of.center(end) - of.advance(t, dt);
-  m.center = of.center(end);
+  m.center = of.center(end).plane();
+  m.center_before = m.center - of.advance(t, dt).plane();
   if (input_.scheme == StepScheme::central) {
     const dynamics::FrameStep f = dynamics::frame_step(of, n_ + 1, dt);
     m.spin = f.spin;
     m.spin_rate = f.spin_rate;
     m.turn = f.turn;
-    m.velocity_before = f.advance_before / dt;
-    m.velocity = f.advance / dt;
-    m.pull = turning ? f.pull : f.rotation * f.pull;
+    m.velocity_before = f.advance_before.plane() / dt;
+    m.velocity = f.advance.plane() / dt;
+    m.pull = turning ? f.pull.plane() : f.rotation * f.pull.plane();
     return m;
   }
   m.spin = m.carry;

@@ -40,7 +40,7 @@ MovingRim::MovingRim(const dynamics::Model& model, const ReducedModel& reduced)
     : model_(model), rim_(*model.rim), reduced_(reduced), body_(*reduced.rim) {
   RONDO_DEMAND(model.rim && reduced.rim && reduced.frame == ModelFrame::rectified);
   const Index r = reduced.size();
-  center_ = model.motion.center(0.0);
+  center_ = model.motion.center(0.0).plane();
   x_.add(center_.x);
   y_.add(center_.y);
   now_ = given(model.motion, 0.0);
@@ -222,7 +222,7 @@ bool MovingRim::settled(const VectorXd& p_mid) {
 
 Vec2 MovingRim::center_end() const noexcept {
   const double dt = model_.dt;
-  const Vec2 held = model_.motion.center(static_cast<double>(step_ + 1) * dt);
+  const Vec2 held = model_.motion.center(static_cast<double>(step_ + 1) * dt).plane();
   const RimVector v = velocity_mean();
   return {rim_.free_x || led_ ? center_.x + dt * v[0] : held.x,
           rim_.free_y || led_ ? center_.y + dt * v[1] : held.y};
@@ -301,7 +301,7 @@ void MovingRim::finish(const VectorXd& q, const VectorXd& p, const VectorXd& q_e
 
 void MovingRim::move(const RimVector& v) {
   const double dt = model_.dt, t = static_cast<double>(step_) * dt;
-  const Vec2 held = model_.motion.center(t + dt), before = center_;
+  const Vec2 held = model_.motion.center(t + dt).plane(), before = center_;
   x_.add(dt * v[0]);
   y_.add(dt * v[1]);
   const double turn = rim_.free_spin || led_ ? dt * v[2] : model_.motion.turn(t, dt);

@@ -52,7 +52,7 @@ StationarySpin solve(const fem::BlockCsr& k, std::span<const double> mass,
   }
   load.array() *= spin * spin * m.array();
   StationarySpin out;
-  out.u.assign(reference.size(), Vec2{});
+  out.u = Field(reference.size(), 2);
   const OneBlasThread one_thread;
   Cholesky solver;
   if (!factorise(solver, a)) return out;
@@ -61,8 +61,8 @@ StationarySpin solve(const fem::BlockCsr& k, std::span<const double> mass,
   out.status = SpinStatus::solved;
   out.residual = load.norm() > 0.0 ? (a * u - load).norm() / load.norm() : 0.0;
   for (std::size_t i = 0; i < free.size(); ++i)
-    out.u[static_cast<std::size_t>(free[i])] = {u[static_cast<Eigen::Index>(2 * i)],
-                                                u[static_cast<Eigen::Index>(2 * i + 1)]};
+    out.u.plane()[static_cast<std::size_t>(free[i])] = {u[static_cast<Eigen::Index>(2 * i)],
+                                                        u[static_cast<Eigen::Index>(2 * i + 1)]};
   return out;
 }
 
@@ -118,7 +118,7 @@ bool balance(const TurningRubber& r, double square, StationarySpin& out) {
       return true;  // and stable
     best = std::min(best, rest.relative);
     for (std::size_t i = 0; i < r.free.size(); ++i)
-      out.u[static_cast<std::size_t>(r.free[i])] +=
+      out.u.plane()[static_cast<std::size_t>(r.free[i])] +=
           Vec2{step[static_cast<Eigen::Index>(2 * i)], step[static_cast<Eigen::Index>(2 * i + 1)]};
   }
   return false;
@@ -133,7 +133,7 @@ StationarySpin stationary_spin(const fem::Hyperelasticity& body, std::span<const
   const TurningRubber rubber{body, mass, reference, free};
   const OneBlasThread one_thread;
   StationarySpin found;
-  found.u.assign(reference.size(), Vec2{});
+  found.u = Field(reference.size(), 2);
   double done = 0.0, part = 1.0;
   while (done < 1.0) {
     const double next = std::min(1.0, done + part);

@@ -5,6 +5,7 @@
 #include <span>
 #include <vector>
 
+#include "rondo/core/field.hpp"
 #include "rondo/fem/assembly.hpp"
 #include "rondo/fem/hyperelastic/hyperelasticity.hpp"
 #include "rondo/fem/sector_stiffness.hpp"
@@ -18,9 +19,8 @@ enum class SpinStatus {
 
 struct StationarySpin {
   SpinStatus status = SpinStatus::unstable;
-  std::vector<Vec2> u;            ///< (n) turning frame, 0 on clamped nodes                [m]
-  double residual = 0.0;          ///< of the equation solved, relative to ‖s² M X‖         [-]
-  std::vector<double> axial_u{};  ///< (n) of a wheel in three dimensions; empty: plane [m]
+  Field u;                ///< (n) turning frame, 0 on clamped nodes                        [m]
+  double residual = 0.0;  ///< of the equation solved, relative to ‖s² M X‖                 [-]
 };
 
 /// Sparse Cholesky (CHOLMOD). @param spin s [rad/s]; others (n).

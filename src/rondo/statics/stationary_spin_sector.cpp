@@ -63,8 +63,7 @@ Eigen::VectorXd scaled_load(const fem::SectorBlocks<C>& k, const Eigen::VectorXd
 template <int C>
 StationarySpin nothing(std::size_t n) {
   StationarySpin none;
-  none.u.assign(n, Vec2{});
-  if constexpr (C == 3) none.axial_u.assign(n, 0.0);
+  none.u = Field(n, C);
   return none;
 }
 
@@ -74,8 +73,11 @@ void spread(const fem::SectorBlocks<C>& k, const Eigen::VectorXd& polar, Station
   for (std::size_t j = 0; j < k.turn.size(); ++j)
     for (std::size_t a = 0; a < k.n_local(); ++a) {
       const auto at = static_cast<Index>(C * a);
-      out.u[k.node(a, j)] = k.turn[j] * Vec2{polar[at], polar[at + 1]};
-      if constexpr (C == 3) out.axial_u[k.node(a, j)] = polar[at + 2];
+      const Vec2 plane = k.turn[j] * Vec2{polar[at], polar[at + 1]};
+      if constexpr (C == 3)
+        out.u.space()[k.node(a, j)] = {plane, polar[at + 2]};
+      else
+        out.u.plane()[k.node(a, j)] = plane;
     }
 }
 

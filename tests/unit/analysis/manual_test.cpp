@@ -26,7 +26,7 @@ Labels further_contact_of(const std::vector<std::string>& settings) {
 
 /// Behind those that every history has.
 Labels further(Labels labels) {
-  const auto shared = static_cast<std::ptrdiff_t>(history_columns().size());
+  const auto shared = static_cast<std::ptrdiff_t>(history_labels({}).size());
   labels.erase(labels.begin(), labels.begin() + shared);
   return labels;
 }
@@ -52,13 +52,13 @@ TEST(Manual, HasTheColumns) {
   const Labels steady = history_of(rolls);
   rondo::test::expect_in_manual(
       test::source_folder() / "docs" / "results.md",
-      {table_of("history.csv", labels_of(history_columns())), table_of("probe", further(probe)),
+      {table_of("history.csv", history_labels({})), table_of("probe", further(probe)),
        table_of("rim", further(rim)), table_of("massless", further(massless)),
        table_of("hati", further(hati)), table_of("rubber", further(rubber)),
        table_of("crush", further(crush)), table_of("steady-rolling", further(steady)),
        table_of("wheel in three dimensions", further(solid)),
-       table_of("contact.csv", labels_of(contact_columns())),
-       table_of("contact.csv of a wheel in three dimensions", labels_of(solid_contact_columns())),
+       table_of("contact.csv", labels_of(contact_columns(false))),
+       table_of("contact.csv of a wheel in three dimensions", labels_of(contact_columns(true))),
        table_of("contact.csv steady-rolling", further_contact_of(rolls))});
 }
 

@@ -83,15 +83,16 @@ TEST(BuildMesh, FreeBodiesArePlacedAndMove) {
   for (const int node : right.nodes) {
     const auto k = static_cast<std::size_t>(node);
     const Vec2 arm = s.model.reference[k] - right.center;
-    momentum += s.model.mass[k] * s.velocity[k];
-    EXPECT_NEAR(norm(s.velocity[k] - Vec2{-4.0, 0.0} + 3.0 * turn90(arm)), 0.0, 1e-13);
-    spin += s.model.mass[k] * cross(arm, s.velocity[k]);
+    momentum += s.model.mass[k] * s.velocity.plane()[k];
+    EXPECT_NEAR(norm(s.velocity.plane()[k] - Vec2{-4.0, 0.0} + 3.0 * turn90(arm)), 0.0, 1e-13);
+    spin += s.model.mass[k] * cross(arm, s.velocity.plane()[k]);
   }
   EXPECT_NEAR(norm(momentum / right.mass - Vec2{-4.0, 0.0}), 0.0, 1e-13);
   EXPECT_LT(spin, 0.0);  // clockwise, as of the rim
-  EXPECT_NEAR(norm(s.velocity[0] - (Vec2{1.0, 2.0} - 3.0 * turn90(s.model.reference[0] -
-                                                                  s.model.free_bodies[0].center))),
-              0.0, 1e-13);
+  EXPECT_NEAR(
+      norm(s.velocity.plane()[0] -
+           (Vec2{1.0, 2.0} - 3.0 * turn90(s.model.reference[0] - s.model.free_bodies[0].center))),
+      0.0, 1e-13);
 }
 
 /// Only "left" has a node on the line that is held: it turns with the rim, "right" is free.
@@ -111,9 +112,9 @@ TEST(BuildMesh, HeldAndFreeTogether) {
   EXPECT_EQ(s.model.free_body[9], 0);
   EXPECT_EQ(held_nodes(s.model).size(), 7U);  // two of nine are held
   EXPECT_EQ(s.model.reference[9], (Vec2{1.1, 0.5}));
-  EXPECT_GT(norm(s.displacement[8]), 1e-6);  // the spin stretches what is held...
+  EXPECT_GT(norm(s.displacement.plane()[8]), 1e-6);  // the spin stretches what is held...
   EXPECT_GT(norm(s.prestress[8]), 1e-6);
-  EXPECT_EQ(s.displacement[17], Vec2{});  // ... and nothing else
+  EXPECT_EQ(s.displacement.plane()[17], Vec2{});  // ... and nothing else
   EXPECT_EQ(s.prestress[17], Vec2{});
   const auto faults = faults_of_build(
       file, {"mesh.clamped=rim", "motion={angular_velocity = 5, speed = 0, height = 0}",
@@ -134,7 +135,7 @@ TEST(BuildMesh, AFreeDiskTurnsAsAWhole) {
   EXPECT_EQ(s.model.free.size(), s.model.n_nodes());
   EXPECT_EQ(s.mesh.n_sectors, 0);
   EXPECT_FALSE(s.model.sector);
-  EXPECT_NEAR(s.velocity[0].x, -0.2, 1e-15);  // node 0 is at (0, -0.1): clockwise
+  EXPECT_NEAR(s.velocity.plane()[0].x, -0.2, 1e-15);  // node 0 is at (0, -0.1): clockwise
   // Clockwise, so that the outward normal, on the right, points to the center.
   ASSERT_EQ(s.model.pressures[0].edges.size(), 20U);
   const auto& edge = s.model.pressures[0].edges[0];

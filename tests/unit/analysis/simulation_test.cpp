@@ -91,8 +91,8 @@ TEST(Simulation, ShownFieldsStayWhereTheyAreAndAreOfTheLastStep) {
   EXPECT_NE(shown->displacement, before);
   const dynamics::State* state = s.state();
   for (std::size_t i = 0; i < shown->nodes; ++i) {
-    EXPECT_EQ(shown->displacement[2 * i], state->u[i].x);
-    EXPECT_EQ(shown->velocity[2 * i + 1], state->v[i].y);
+    EXPECT_EQ(shown->displacement[2 * i], state->u.plane()[i].x);
+    EXPECT_EQ(shown->velocity[2 * i + 1], state->v.plane()[i].y);
   }
 }
 

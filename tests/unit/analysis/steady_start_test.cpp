@@ -58,7 +58,7 @@ bool is_inside(const study::Setup& s, std::size_t node) {
   return norm(s.model.reference[node]) < 0.25;
 }
 
-double apart(const study::Setup& s, const std::vector<Vec2>& a, const std::vector<Vec2>& b) {
+double apart(const study::Setup& s, std::span<const Vec2> a, std::span<const Vec2> b) {
   double sum = 0.0;
   for (std::size_t k = 0; k < a.size(); ++k)
     if (is_inside(s, k)) sum += s.model.mass[k] * dot(a[k] - b[k], a[k] - b[k]);
@@ -83,17 +83,18 @@ TEST(SteadyStart, WhatTouchesIsInContactInTheFirstStep) {
   for (const auto& settings : motions) {
     const study::Setup s = build(study::test::read_text(text, settings), 1);
     const dynamics::Model& m = s.model;
-    const Vec2 center = m.motion.center(0.0), next = center + m.motion.advance(0.0, m.dt);
+    const Vec2 center = m.motion.center(0.0).plane(),
+               next = center + m.motion.advance(0.0, m.dt).plane();
     const Complex turned = rotation(m.motion.turn(0.0, m.dt));
     int touching = 0;
     for (const int node : m.contact->nodes) {
       const auto k = static_cast<std::size_t>(node);
-      const Vec2 arm = m.reference[k] + s.displacement[k];
+      const Vec2 arm = m.reference[k] + s.displacement.plane()[k];
       const double gap = (center + arm).y;
       EXPECT_GT(gap, -1e-10);
       if (gap > 1e-10) continue;
       ++touching;
-      const double then = (next + turned * (arm + m.dt * s.half_velocity[k])).y;
+      const double then = (next + turned * (arm + m.dt * s.half_velocity.plane()[k])).y;
       EXPECT_LE(then, 0.0);
       EXPECT_GT(then, -1e-11);
     }
@@ -107,8 +108,8 @@ TEST(SteadyStart, OtherSettingsOfInitialAreAdded) {
                          build(study::test::read_text(text, {"initial.velocity=[0, 0.25]"}), 1);
   const auto free = static_cast<std::size_t>(s.model.free.front());
   EXPECT_EQ(pushed.displacement, s.displacement);
-  EXPECT_NEAR((pushed.velocity[free] - s.velocity[free]).y, 0.25, 1e-12);
-  EXPECT_NEAR((pushed.half_velocity[free] - s.half_velocity[free]).y, 0.25, 1e-12);
+  EXPECT_NEAR((pushed.velocity.plane()[free] - s.velocity.plane()[free]).y, 0.25, 1e-12);
+  EXPECT_NEAR((pushed.half_velocity.plane()[free] - s.half_velocity.plane()[free]).y, 0.25, 1e-12);
 }
 
 TEST(SteadyStart, GroundIsFlatBelowTheBody) {

@@ -127,7 +127,7 @@ end = 0.2
 /// Of the keys of a table in a list some are left out for others.
 inline bool is_given(const CaseKey& key, const Case& c) {
   Case fields = c;
-  const Field field = key.field(fields, 0);
+  const CaseMember field = key.field(fields, 0);
   if (const auto* number = std::get_if<std::optional<double>*>(&field))
     return (*number)->has_value();
   if (const auto* numbers = std::get_if<std::vector<int>*>(&field)) return !(*numbers)->empty();

@@ -8,6 +8,7 @@
 #include "rondo/core/contract.hpp"
 #include "rondo/core/error.hpp"
 #include "rondo/core/field.hpp"
+#include "rondo/core/ground_frame.hpp"
 #include "rondo/core/keep_larger.hpp"
 #include "rondo/core/sum.hpp"
 #include "rondo/core/text/edit_distance.hpp"
@@ -62,6 +63,52 @@ TEST(FieldView, ShowsPointsOfAPlaneField) {
   const FieldView in_space(view.values, 3);
   EXPECT_EQ(in_space.size(), 2U);
   EXPECT_EQ(in_space[1][2], 6.0);
+}
+
+TEST(Field, HasTheComponentsItWasMadeWith) {
+  Field plane(3, 2), space(3, 3);
+  EXPECT_EQ(plane.size(), 3U);
+  EXPECT_EQ(space.components(), 3U);
+  space.space()[1] = {1.0, 2.0, 3.0};
+  const FieldView view = space;
+  EXPECT_EQ(view.components, 3U);
+  EXPECT_EQ(view[1][2], 3.0);
+  MutableFieldView(plane).values[3] = 4.0;
+  EXPECT_EQ(plane.plane()[1], (Vec2{0.0, 4.0}));
+  EXPECT_NE(plane, space);
+  EXPECT_NE(Field(3, 3), space);
+  EXPECT_TRUE(Field().plane().empty() && Field().space().empty());
+  EXPECT_DEATH(static_cast<void>(plane.space()), "broken contract.*values: 2");
+  EXPECT_DEATH(static_cast<void>(space.plane()), "broken contract.*values: 3");
+}
+
+/// A state is filled in every batch of steps: that allocates nothing.
+TEST(Field, KeepsItsStorageWhereAVectorIsAssigned) {
+  Field field(4, 2);
+  const Vec2* const storage = field.plane().data();
+  const std::vector<Vec2> values(4, Vec2{1.0, 2.0});
+  field = values;
+  EXPECT_EQ(field.plane().data(), storage);
+  Field copy(4, 2);
+  const Vec2* const of_copy = copy.plane().data();
+  copy = field;
+  EXPECT_EQ(copy.plane().data(), of_copy);
+  EXPECT_EQ(copy, field);
+  field = std::vector<Vec3>(2);
+  EXPECT_EQ(field.components(), 3U);
+}
+
+/// (t1, n, t2) and the axes of the wheel: a rotation about t1 by the camber.
+TEST(GroundFrame, TurnsByTheCamber) {
+  const double camber = 0.3;
+  const GroundFrame ground(camber);
+  const Vec3 normal = ground.to_wheel({0.0, 1.0, 0.0}), across = ground.to_wheel({0.0, 0.0, 1.0});
+  EXPECT_EQ(normal, (Vec3{0.0, std::cos(camber), std::sin(camber)}));
+  EXPECT_EQ(across, cross(Vec3{1.0, 0.0, 0.0}, normal));
+  const Vec3 a{1.0, -2.0, 3.0}, back = ground.from_wheel(ground.to_wheel(a));
+  EXPECT_NEAR(norm(back - a), 0.0, 1e-15);
+  const Vec3 flat = GroundFrame().to_wheel(a);
+  EXPECT_EQ(flat, a);
 }
 
 TEST(CompensatedSum, KeepsWhatPlainSumsLose) {

@@ -41,47 +41,41 @@ std::vector<Wheel> wheels() {
   return {smooth, treaded};
 }
 
-struct Field {
-  std::vector<Vec2> u;
-  std::vector<double> axial;
-  explicit Field(std::size_t n) : u(n), axial(n, 0.0) {}
-  [[nodiscard]] Vec3 at(std::size_t i) const { return {u[i], axial[i]}; }
-  void add(std::size_t i, Vec3 v) { u[i] += v.plane(), axial[i] += v.z; }
-};
+using Vectors = std::vector<Vec3>;
 
 template <class Displacement>
-Field field(const Mesh& m, const Displacement& displacement) {
-  Field f(m.n_nodes());
+Vectors field(const Mesh& m, const Displacement& displacement) {
+  Vectors f(m.n_nodes());
   for (std::size_t i = 0; i < m.n_nodes(); ++i)
-    f.add(i, displacement(mesh::place_of(m, static_cast<int>(i))));
+    f[i] = displacement(mesh::place_of(m, static_cast<int>(i)));
   return f;
 }
 
 /// Σ K_e u over all elements, every node counted.
-Field by_elements(const Mesh& m, std::span<const fem::Material> of, const Field& f) {
-  Field out(m.n_nodes());
+Vectors by_elements(const Mesh& m, std::span<const fem::Material> of, const Vectors& f) {
+  Vectors out(m.n_nodes());
   for (std::size_t e = 0; e < m.hexahedra.size(); ++e) {
     const mesh::Hexahedron& h = m.hexahedra[e];
     fem::HexahedronCorners x;
     Eigen::Matrix<double, 24, 1> u;
     for (std::size_t i = 0; i < 8; ++i) {
       x[i] = mesh::place_of(m, h[i]);
-      const Vec3 v = f.at(static_cast<std::size_t>(h[i]));
+      const Vec3 v = f[static_cast<std::size_t>(h[i])];
       u.segment<3>(static_cast<Eigen::Index>(3 * i)) << v.x, v.y, v.z;
     }
     const Eigen::Matrix<double, 24, 1> force =
         fem::hexahedron_stiffness(x, fem::material_of(m, of, e)) * u;
     for (std::size_t i = 0; i < 8; ++i) {
       const auto at = static_cast<Eigen::Index>(3 * i);
-      out.add(static_cast<std::size_t>(h[i]), {force[at], force[at + 1], force[at + 2]});
+      out[static_cast<std::size_t>(h[i])] += Vec3{force[at], force[at + 1], force[at + 2]};
     }
   }
   return out;
 }
 
-Field product(const Mesh& m, std::span<const fem::Material> of, const Field& f) {
-  Field out(m.n_nodes());
-  fem::apply(fem::assemble_solid_sector(m, of), f.u, f.axial, out.u, out.axial);
+Vectors product(const Mesh& m, std::span<const fem::Material> of, const Vectors& f) {
+  Vectors out(m.n_nodes());
+  fem::apply(fem::assemble_solid_sector(m, of), f, out);
   return out;
 }
 
@@ -98,15 +92,14 @@ TEST(SolidSector, ProductIsThatOfTheElements) {
         for (const mesh::Hexahedron& h : m.hexahedra)
           m.region.push_back(norm(m.coordinates[static_cast<std::size_t>(h[0])]) < 0.19 ? 0 : 1);
       const std::vector<char> clamped = mesh::clamped_flags(m);
-      Field f = field(m, [&](Vec3) { return Vec3{x(random), x(random), x(random)}; });
-      for (const int i : m.clamped)
-        f.u[static_cast<std::size_t>(i)] = {}, f.axial[static_cast<std::size_t>(i)] = 0.0;
-      const Field expected = by_elements(m, of, f), found = product(m, of, f);
+      Vectors f = field(m, [&](Vec3) { return Vec3{x(random), x(random), x(random)}; });
+      for (const int i : m.clamped) f[static_cast<std::size_t>(i)] = {};
+      const Vectors expected = by_elements(m, of, f), found = product(m, of, f);
       double largest = 0.0, error = 0.0;
       for (std::size_t i = 0; i < m.n_nodes(); ++i) {
-        const Vec3 e = clamped[i] ? Vec3{} : expected.at(i);
+        const Vec3 e = clamped[i] ? Vec3{} : expected[i];
         largest = std::max(largest, norm(e));
-        error = std::max(error, norm(e - found.at(i)));
+        error = std::max(error, norm(e - found[i]));
       }
       EXPECT_GT(largest, 1e5);
       EXPECT_LT(error, 1e-13 * largest);
@@ -128,16 +121,16 @@ TEST(SolidSector, LinearDisplacementIsInBalanceInside) {
         for (const mesh::Face& face : s.faces)
           for (const int node : face) outside[static_cast<std::size_t>(node)] = 1;
       m.clamped.clear();
-      const Field f = field(m, linear), force = product(m, {&of, 1}, f);
+      const Vectors f = field(m, linear), force = product(m, {&of, 1}, f);
       fem::SolidStressRecovery recovery(m, {&of, 1});
-      const auto stress = recovery(f.u, f.axial);
+      const auto stress = recovery(f);
       std::size_t inside = 0;
       for (std::size_t i = 0; i < m.n_nodes(); ++i) {
         for (std::size_t c = 0; c < 6; ++c)
           EXPECT_NEAR(stress[i][c], stress[0][c], 1e-10 * std::abs(stress[0][0]));
         if (outside[i] || norm(m.coordinates[i]) > 0.285) continue;  // the tread's grooves
         ++inside;
-        EXPECT_LT(norm(force.at(i)), 1e-11 * of.youngs_modulus * 1e-3 * 1e-3);  // E ε h²
+        EXPECT_LT(norm(force[i]), 1e-11 * of.youngs_modulus * 1e-3 * 1e-3);  // E ε h²
       }
       EXPECT_GT(inside, 80U);
       EXPECT_NEAR(stress[0][3], of.youngs_modulus / (2 * (1 + of.poissons_ratio)) * -1.7e-3, 1e-6);
@@ -150,12 +143,12 @@ TEST(SolidSector, RigidMotionsOfAFreeBodyNeedNoForce) {
     Mesh m = mesh::make_wheel(wheel);
     m.clamped.clear();
     for (const Vec3 axis : axes) {
-      const Field shift = product(m, {&material, 1}, field(m, [&](Vec3) { return axis; }));
-      const Field turn =
+      const Vectors shift = product(m, {&material, 1}, field(m, [&](Vec3) { return axis; }));
+      const Vectors turn =
           product(m, {&material, 1}, field(m, [&](Vec3 x) { return cross(axis, x); }));
       for (std::size_t i = 0; i < m.n_nodes(); ++i) {
-        EXPECT_LT(norm(shift.at(i)), 1e-13 * 2e7);
-        EXPECT_LT(norm(turn.at(i)), 1e-13 * 2e7);
+        EXPECT_LT(norm(shift[i]), 1e-13 * 2e7);
+        EXPECT_LT(norm(turn[i]), 1e-13 * 2e7);
       }
     }
   }
@@ -289,23 +282,23 @@ TEST(SolidSector, NearlyIncompressibleRingDoesNotLockWithBBar) {
       for (Eigen::Index j = 0; j <= i; ++j) radial(i, j) = lower(3 * i + 1, 3 * j + 1).real();
     }
     const Eigen::VectorXd inwards = radial.selfadjointView<Eigen::Lower>().llt().solve(load);
-    Field f(m.n_nodes());
+    Vectors f(m.n_nodes());
     for (Eigen::Index i = 0; i < n; ++i)
       for (std::size_t j = 0; j < 40; ++j)
-        f.u[k.node(static_cast<std::size_t>(i), j)] = k.turn[j] * Vec2{0.0, inwards[i]};
+        f[k.node(static_cast<std::size_t>(i), j)] = k.turn[j] * Vec2{0.0, inwards[i]};
     const double nu = of.poissons_ratio;
     const auto exact = [&](double r) {
       return p * a * a * (1 + nu) * ((1 - 2 * nu) * r + b * b / r) /
              (of.youngs_modulus * (b * b - a * a));
     };
-    const double error = std::abs(-f.u[0].y / exact(a) - 1.0);
+    const double error = std::abs(-f[0].y / exact(a) - 1.0);
     if (integration == fem::Integration::full) {
       EXPECT_GT(error, 0.5);
       continue;
     }
     EXPECT_LT(error, 0.01);
     fem::SolidStressRecovery recovery(m, {&of, 1});
-    const auto stress = recovery(f.u, f.axial);
+    const auto stress = recovery(f);
     for (std::size_t i = 3 * 3; i < 3 * 6; ++i) {  // straight down: y is the radius
       const double r = norm(m.coordinates[i]), ratio = a * a / (b * b - a * a);
       EXPECT_NEAR(stress[i][1], p * ratio * (1 - b * b / (r * r)), 0.02 * p);
@@ -321,14 +314,14 @@ TEST(SolidStress, AtTheNodesIsTheMeanOfTheElementsAround) {
   std::uniform_real_distribution<double> x(-1e-3, 1e-3);
   for (const Wheel& wheel : wheels()) {
     const Mesh m = mesh::make_wheel(wheel);
-    const Field f = field(m, [&](Vec3) { return Vec3{x(random), x(random), x(random)}; });
+    const Vectors f = field(m, [&](Vec3) { return Vec3{x(random), x(random), x(random)}; });
     std::vector<fem::SolidStress> sum(m.n_nodes());
     std::vector<double> weight(m.n_nodes(), 0.0);
     for (const mesh::Hexahedron& h : m.hexahedra) {
       fem::HexahedronCorners corners, u;
       for (std::size_t i = 0; i < 8; ++i) {
         corners[i] = mesh::place_of(m, h[i]);
-        u[i] = f.at(static_cast<std::size_t>(h[i]));
+        u[i] = f[static_cast<std::size_t>(h[i])];
       }
       const auto stress = fem::hexahedron_stress(corners, u, b_bar);
       const std::array<double, 8> volume = fem::hexahedron_volumes(corners);
@@ -338,7 +331,7 @@ TEST(SolidStress, AtTheNodesIsTheMeanOfTheElementsAround) {
         weight[node] += volume[i];
       }
     }
-    const std::vector<fem::SolidStress> found = fem::solid_stress(m, {&b_bar, 1}, f.u, f.axial);
+    const std::vector<fem::SolidStress> found = fem::solid_stress(m, {&b_bar, 1}, f);
     for (std::size_t i = 0; i < m.n_nodes(); ++i)
       for (std::size_t c = 0; c < 6; ++c)
         EXPECT_NEAR(found[i][c], sum[i][c] / weight[i], 1e-11 * b_bar.youngs_modulus * 1e-3);

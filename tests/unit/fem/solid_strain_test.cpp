@@ -23,18 +23,14 @@ mesh::Mesh wheel() {
   return mesh::make_wheel(w);
 }
 
-struct Field {
-  std::vector<Vec2> u;
-  std::vector<double> axial;
-};
+using Vectors = std::vector<Vec3>;
 
-Field linear(const mesh::Mesh& m, const Eigen::Matrix3d& gradient) {
-  Field f;
+Vectors linear(const mesh::Mesh& m, const Eigen::Matrix3d& gradient) {
+  Vectors f;
   for (std::size_t i = 0; i < m.n_nodes(); ++i) {
     const Eigen::Vector3d u =
         gradient * Eigen::Vector3d(m.coordinates[i].x, m.coordinates[i].y, m.axial[i]);
-    f.u.push_back({u[0], u[1]});
-    f.axial.push_back(u[2]);
+    f.push_back({u[0], u[1], u[2]});
   }
   return f;
 }
@@ -52,8 +48,8 @@ TEST(SolidStrain, OfLinearFields) {
   for (const Eigen::Matrix3d& gradient :
        {general, stretch, Eigen::Matrix3d(0.02 * Eigen::Matrix3d::Identity()),
         Eigen::Matrix3d(-general)}) {
-    const Field f = linear(m, gradient);
-    const Deformation d = solid_deformation(m, f.u, f.axial);
+    const Vectors f = linear(m, gradient);
+    const Deformation d = solid_deformation(m, f);
     EXPECT_NEAR(d.strain, largest_principal(gradient), 1e-13);
     EXPECT_EQ(d.linear_strain, d.strain);
     EXPECT_NEAR(d.jacobian, (Eigen::Matrix3d::Identity() + gradient).determinant(), 1e-13);
@@ -62,18 +58,18 @@ TEST(SolidStrain, OfLinearFields) {
 
 TEST(SolidStrain, AtRestThereIsNone) {
   const mesh::Mesh m = wheel();
-  const Field f = linear(m, Eigen::Matrix3d::Zero());
-  EXPECT_EQ(solid_deformation(m, f.u, f.axial).strain, 0.0);
-  EXPECT_EQ(solid_deformation(m, f.u, f.axial).jacobian, 1.0);
+  const Vectors f = linear(m, Eigen::Matrix3d::Zero());
+  EXPECT_EQ(solid_deformation(m, f).strain, 0.0);
+  EXPECT_EQ(solid_deformation(m, f).jacobian, 1.0);
 }
 
 TEST(SolidStrain, NamesTheHexahedronThatIsInverted) {
   const mesh::Mesh m = wheel();
-  Field f = linear(m, Eigen::Matrix3d::Zero());
+  Vectors f = linear(m, Eigen::Matrix3d::Zero());
   const std::size_t e = m.hexahedra.size() - 1;
   const auto node = static_cast<std::size_t>(m.hexahedra[e][6]);
-  f.axial[node] = m.axial[node] > 0.0 ? -1.0 : 1.0;  // through the others
-  const Deformation d = solid_deformation(m, f.u, f.axial);
+  f[node].z = m.axial[node] > 0.0 ? -1.0 : 1.0;  // through the others
+  const Deformation d = solid_deformation(m, f);
   EXPECT_LT(d.jacobian, 0.0);
   const auto& corners = m.hexahedra[d.jacobian_cell];
   EXPECT_NE(std::find(corners.begin(), corners.end(), static_cast<int>(node)), corners.end());

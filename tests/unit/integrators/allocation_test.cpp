@@ -149,8 +149,8 @@ TEST(Allocation, NoneInTheStepsOfAWheelInThreeDimensions) {
     cornering.slip_angle = 0.05;
     dynamics::Model model = test::cornering_model(mesh, cornering);
     model.threads = threads;
-    const std::vector<Vec2> zero(model.n_nodes());
-    dynamics::State state = dynamics::start(model, zero, zero, {}, {});
+    const Field zero(model.n_nodes(), 3);
+    dynamics::State state = dynamics::start(model, zero, zero);
     const auto integrator = dynamics::make_integrator(model, state);
     std::vector<dynamics::StepReport> reports(64);
     long in_contact = 0;

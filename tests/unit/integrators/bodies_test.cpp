@@ -135,7 +135,7 @@ Seen expect_the_same(const Bodies& b, int steps, double bound) {
   expected.fields(fields_a);
   run->fields(fields_b);
   for (std::size_t k = 0; k < b.u.size(); ++k)
-    EXPECT_LT(norm(fields_a.u[k] - fields_b.u[k]), bound) << k;
+    EXPECT_LT(norm(fields_a.u.plane()[k] - fields_b.u.plane()[k]), bound) << k;
   return seen;
 }
 
@@ -148,10 +148,11 @@ struct Numbers {
 };
 
 void add(const State& s, Numbers& to) {
-  for (const std::vector<Vec2>* field : {&s.u, &s.v, &s.v_next})
-    to.fields.insert(to.fields.end(), field->begin(), field->end());
+  for (const Field* field : {&s.u, &s.v, &s.v_next})
+    for (const Vec2 x : field->plane()) to.fields.push_back(x);
   for (const ActiveContact& a : s.active)
-    for (const Vec2 x : {a.normal, a.before, a.free, a.after, a.impulse}) to.fields.push_back(x);
+    for (const Vec3 x : {Vec3(a.normal), a.before, a.free, a.after, a.impulse})
+      to.fields.push_back(x.plane());
   for (const Pose& pose : s.poses) {
     to.fields.push_back(pose.center);
     to.numbers.insert(to.numbers.end(), {pose.rotation.re, pose.rotation.im, pose.angle});
@@ -161,7 +162,7 @@ void add(const State& s, Numbers& to) {
 void add(const StepReport& r, Numbers& to) {
   const ContactReport& c = r.contact;
   const Balance& b = r.balance;
-  to.fields.insert(to.fields.end(), {r.frame.center, c.impulse});
+  to.fields.insert(to.fields.end(), {r.frame.center.plane(), c.impulse.plane()});
   to.numbers.insert(
       to.numbers.end(),
       {r.frame.time, c.work, c.dissipation_friction, c.angular_impulse, c.residual,

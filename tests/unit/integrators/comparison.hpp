@@ -49,13 +49,14 @@ struct Difference {
     size = std::max(size, std::abs(a));
     if (!(std::abs(a - b) <= error)) error = std::abs(a - b);  // NaN comes through
   }
-  void see(Vec2 a, Vec2 b) {
+  void see(Vec3 a, Vec3 b) {
     see(a.x, b.x);
     see(a.y, b.y);
+    see(a.z, b.z);
   }
-  void see(const std::vector<Vec2>& a, const std::vector<Vec2>& b) {
+  void see(const Field& a, const Field& b) {
     ASSERT_EQ(a.size(), b.size());
-    for (std::size_t i = 0; i < a.size(); ++i) see(a[i], b[i]);
+    for (std::size_t i = 0; i < a.size(); ++i) see(a.plane()[i], b.plane()[i]);
   }
 };
 
@@ -121,7 +122,7 @@ class Comparison {
  private:
   void see(const dynamics::FrameStep& a, const dynamics::FrameStep& b) {
     frame_.see(a.center, b.center);
-    frame_.see({a.rotation.re, a.rotation.im}, {b.rotation.re, b.rotation.im});
+    frame_.see(Vec2{a.rotation.re, a.rotation.im}, Vec2{b.rotation.re, b.rotation.im});
   }
   void see(const dynamics::RimReport& a, const dynamics::RimReport& b) {
     rim_.see(a.velocity, b.velocity);
@@ -163,7 +164,7 @@ class Comparison {
   static Impulses by_node(const std::vector<dynamics::ActiveContact>& active) {
     Impulses sums;
     for (const dynamics::ActiveContact& c : active)
-      sums[c.candidate] += from_frame(c.normal, c.impulse);
+      sums[c.candidate] += from_frame(c.normal, c.impulse.plane());
     return sums;
   }
   void see(const Impulses& a, const Impulses& b) {

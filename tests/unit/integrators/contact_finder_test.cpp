@@ -36,7 +36,7 @@ void expect_same(const std::vector<ContactRow>& found, const std::vector<Contact
     EXPECT_TRUE(same(found[i], expected[i])) << "step " << n << " row " << i;
 }
 
-double farthest(const std::vector<Vec2>& from, const std::vector<Vec2>& to) {
+double farthest(std::span<const Vec2> from, std::span<const Vec2> to) {
   double most = 0.0;
   for (std::size_t k = 0; k < from.size(); ++k) most = std::max(most, norm(to[k] - from[k]));
   return most;
@@ -51,15 +51,16 @@ Seen compare(const Model& model, int steps, Step&& step) {
   std::vector<ContactRow> found, expected;
   Seen seen;
   for (int n = 0; n < steps; ++n) {
-    const std::vector<Vec2> before = state.u;
-    step(n, state.u);
+    const std::vector<Vec2> before = to_vector(state.u.plane());
+    step(n, state.u.plane());
     fresh.forget();
     fresh.find(state, expected);
     finder.find(state, found);
     expect_same(found, expected, n);
     const std::span<const int> looked_at = travelled.boundary_after(farthest(before, state.u));
     for (const int node : looked_at)
-      near_alone.u[static_cast<std::size_t>(node)] = state.u[static_cast<std::size_t>(node)];
+      near_alone.u.plane()[static_cast<std::size_t>(node)] =
+          state.u.plane()[static_cast<std::size_t>(node)];
     seen.places += looked_at.size();
     travelled.find(near_alone, found);
     expect_same(found, expected, n);
@@ -108,7 +109,7 @@ TEST(ContactFinder, FindsWhatASearchOfEverythingFinds) {
   test::add_ground(model, mesh, {.profile = {{-9, 0.01}, {0.33, 0.01}, {9, -0.3}}, .fillet = 0.2},
                    {0.3, 0.0});
   bool tried = false;
-  const Seen seen = compare(model, 400, [&](int n, std::vector<Vec2>& u) {
+  const Seen seen = compare(model, 400, [&](int n, std::span<Vec2> u) {
     const Complex turn = rotation(0.3 * std::sin(0.01 * n));
     for (const int node : model.free_bodies[1].nodes) {
       const auto k = static_cast<std::size_t>(node);
@@ -117,7 +118,7 @@ TEST(ContactFinder, FindsWhatASearchOfEverythingFinds) {
     }
     if (n != 20) return;
     State state(model);
-    state.u = u;
+    state.u = to_vector(u);
     ContactFinder finder(model);
     std::vector<ContactRow> rows;
     finder.find(state, rows);
@@ -138,7 +139,7 @@ TEST(ContactFinder, FindsWhereABodyTouchesItself) {
                   {.corner = {0.0, 0.0}, .width = 6.0, .height = 0.3, .columns = 60, .rows = 3});
   Model model = test::body_model(mesh, rubber, 0.0, 0.0, 0.8);
   test::add_surfaces(model, mesh, {0.3, 0.0}, true);
-  const Seen seen = compare(model, 300, [&](int n, std::vector<Vec2>& u) {
+  const Seen seen = compare(model, 300, [&](int n, std::span<Vec2> u) {
     const double radius = 6.0 / (4.0 + 0.01 * n);  // ends meet at 2π of 6
     for (std::size_t k = 0; k < u.size(); ++k) {
       const Vec2 x = model.reference[k];

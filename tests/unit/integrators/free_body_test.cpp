@@ -183,7 +183,7 @@ TEST(FreeBody, FallsAsAParabola) {
                                        std::vector<Vec2>(model.n_nodes(), Vec2{2.0, 0.0})));
   stepping.advance(1000);
   const double t = 1000 * model.dt;
-  for (const Vec2 u : stepping.state().u) {
+  for (const Vec2 u : stepping.state().u.plane()) {
     EXPECT_NEAR(u.x, 2.0 * t, 1e-12);
     EXPECT_NEAR(u.y, -0.5 * 9.81 * t * t, 1e-12);
   }

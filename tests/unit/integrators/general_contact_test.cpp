@@ -57,7 +57,7 @@ TEST(GeneralContact, ABlockOnFlatGroundAsTheReferenceStepHasIt) {
   reference.advance(200);
   // Round-off of a metre's place, over 200 steps.
   for (std::size_t k = 0; k < u.size(); ++k)
-    EXPECT_LT(norm(free.state().u[k] - reference.state().u[k]), 1e-12);
+    EXPECT_LT(norm(free.state().u.plane()[k] - reference.state().u.plane()[k]), 1e-12);
   EXPECT_GT(reference.balance().works.dissipation_friction, 1.0);
   EXPECT_LT(free.balance().relative, 1e-12);
 }
@@ -122,7 +122,8 @@ TEST(GeneralContact, ACollisionKeepsMomentum) {
     double upper = 0.0;
     for (const int node : t.model.free_bodies[1].nodes)
       upper += t.model.mass[static_cast<std::size_t>(node)] *
-               stepping.state().v[static_cast<std::size_t>(node)].y / t.model.free_bodies[1].mass;
+               stepping.state().v.plane()[static_cast<std::size_t>(node)].y /
+               t.model.free_bodies[1].mass;
     EXPECT_GT(upper, 0.0) << "the upper block has bounced";
     EXPECT_LT(seen.residual, 1e-11) << mu;
     EXPECT_EQ(seen.not_converged, 0) << mu;
@@ -165,7 +166,7 @@ TEST(GeneralContact, AStackComesToRest) {
   stepping.advance_to(5.0, [&](const StepReport& r) { seen.see(r); });
   EXPECT_NEAR(stepping.report().contact.impulse.y / t.model.dt, 2 * 9810.0, 0.1);
   double fastest = 0.0;
-  for (const Vec2 v : stepping.state().v) fastest = std::max(fastest, norm(v));
+  for (const Vec2 v : stepping.state().v.plane()) fastest = std::max(fastest, norm(v));
   EXPECT_LT(fastest, 1e-4);  // it falls by a third in a tenth of a second, and goes on
   EXPECT_LT(seen.residual, 1e-11);
   EXPECT_EQ(seen.not_converged, 0);

@@ -170,9 +170,9 @@ Eigen::VectorXd dense_step(const Model& m, const State& at) {
   Eigen::MatrixXd mass = Eigen::MatrixXd::Zero(n, n), spin = mass;
   for (Eigen::Index i = 0; i < n / 2; ++i) {
     const auto node = static_cast<std::size_t>(m.free[static_cast<std::size_t>(i)]);
-    const Vec2 a = frame_acceleration(frame, m.reference[node] + at.u[node]);
-    u.segment<2>(2 * i) << at.u[node].x, at.u[node].y;
-    v.segment<2>(2 * i) << at.v[node].x, at.v[node].y;
+    const Vec2 a = frame_acceleration(frame, m.reference[node] + at.u.plane()[node]);
+    u.segment<2>(2 * i) << at.u.plane()[node].x, at.u.plane()[node].y;
+    v.segment<2>(2 * i) << at.v.plane()[node].x, at.v.plane()[node].y;
     inertia.segment<2>(2 * i) << m.mass[node] * a.x, m.mass[node] * a.y;
     mass(2 * i, 2 * i) = mass(2 * i + 1, 2 * i + 1) = m.mass[node];
     spin(2 * i + 1, 2 * i) = m.mass[node] * frame.spin;  // M J s, J (x, y) = (-y, x)
@@ -200,7 +200,7 @@ TEST(ImplicitStep, IsEquation39) {
     const Eigen::VectorXd expected = dense_step(b.model, run.state);
     double error = 0.0;
     for (std::size_t i = 0; i < b.model.free.size(); ++i) {
-      const Vec2 v = run.state.v_next[static_cast<std::size_t>(b.model.free[i])];
+      const Vec2 v = run.state.v_next.plane()[static_cast<std::size_t>(b.model.free[i])];
       const auto at = static_cast<Eigen::Index>(2 * i);
       error = std::max({error, std::abs(v.x - expected[at]), std::abs(v.y - expected[at + 1])});
     }

@@ -204,9 +204,9 @@ inline Built build(const RollingCase& c) {
   Built b = build(c.disk);
   if (c.stiffened) {
     const double spin = c.disk.motion.angular_velocity.at(0.0);
-    b.prestress = statics::centrifugal_prestress(b.model.stiffness, b.model.mass, b.model.reference,
-                                                 b.model.free, spin)
-                      .u;
+    const auto found = statics::centrifugal_prestress(b.model.stiffness, b.model.mass,
+                                                      b.model.reference, b.model.free, spin);
+    b.prestress = to_vector(found.u.plane());
     set_stiffness(b, c.disk);
   }
   if (c.ground) {

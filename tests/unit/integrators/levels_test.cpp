@@ -68,8 +68,8 @@ std::uint64_t bits_of(const Outcome& o) {
     const auto* byte = static_cast<const unsigned char*>(data);
     for (std::size_t i = 0; i < size; ++i) hash = (hash ^ byte[i]) * 0x100000001b3U;
   };
-  for (const std::vector<Vec2>* field : {&o.state.u, &o.state.v, &o.state.v_next})
-    add(field->data(), field->size() * sizeof(Vec2));
+  for (const Field* field : {&o.state.u, &o.state.v, &o.state.v_next})
+    add(field->plane().data(), field->size() * sizeof(Vec2));
   for (const double x : {o.balance.kinetic, o.balance.strain, o.balance.works.frame,
                          o.balance.works.contact, o.balance.works.dissipation_stiffness})
     add(&x, sizeof x);
@@ -84,8 +84,8 @@ void expect_the_same(const test::Built& b, StiffnessOperator of) {
     const Outcome other = after(b, of, *table, 200);
     double size = 0.0, error = 0.0;
     for (std::size_t i = 0; i < best.state.u.size(); ++i) {
-      size = std::max(size, norm(best.state.u[i]));
-      error = std::max(error, norm(best.state.u[i] - other.state.u[i]));
+      size = std::max(size, norm(best.state.u.plane()[i]));
+      error = std::max(error, norm(best.state.u.plane()[i] - other.state.u.plane()[i]));
     }
     EXPECT_LT(error, 1e-11 * size) << table->name;
     EXPECT_LT(other.balance.relative, 1e-14) << table->name;

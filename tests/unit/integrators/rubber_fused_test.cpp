@@ -93,10 +93,10 @@ Ran run(const Built& b, Integrator& integrator, int steps) {
 void expect_near(const Ran& a, const Ran& b) {
   double u = 0.0, du = 0.0, v = 0.0, dv = 0.0;
   for (std::size_t k = 0; k < a.state.u.size(); ++k) {
-    u = std::max(u, norm(a.state.u[k]));
-    v = std::max(v, norm(a.state.v[k]));
-    du = std::max(du, norm(a.state.u[k] - b.state.u[k]));
-    dv = std::max(dv, norm(a.state.v[k] - b.state.v[k]));
+    u = std::max(u, norm(a.state.u.plane()[k]));
+    v = std::max(v, norm(a.state.v.plane()[k]));
+    du = std::max(du, norm(a.state.u.plane()[k] - b.state.u.plane()[k]));
+    dv = std::max(dv, norm(a.state.v.plane()[k] - b.state.v.plane()[k]));
   }
   EXPECT_LT(du, 1e-11 * u);
   EXPECT_LT(dv, 1e-10 * v);

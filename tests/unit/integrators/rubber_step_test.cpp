@@ -63,7 +63,7 @@ struct Flight {
 double kinetic_at_start(const Model& model, const State& start) {
   double sum = 0.0;
   for (std::size_t k = 0; k < model.n_nodes(); ++k)
-    sum += 0.5 * model.mass[k] * dot(start.v[k], start.v[k]);
+    sum += 0.5 * model.mass[k] * dot(start.v.plane()[k], start.v.plane()[k]);
   return sum;
 }
 
@@ -210,8 +210,8 @@ TEST(RubberStep, SmallMotionsAreLinear) {
   rubber.advance(100);
   double error = 0.0, size = 0.0;
   for (std::size_t k = 0; k < u.size(); ++k) {
-    error = std::max(error, norm(linear.state().u[k] - rubber.state().u[k]));
-    size = std::max(size, norm(linear.state().u[k]));
+    error = std::max(error, norm(linear.state().u.plane()[k] - rubber.state().u.plane()[k]));
+    size = std::max(size, norm(linear.state().u.plane()[k]));
   }
   EXPECT_LT(error, 1e-5 * size);
 }

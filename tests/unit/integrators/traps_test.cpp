@@ -26,7 +26,7 @@ void make_two_steps(StiffnessOperator of, int threads, double v) {
   Model model = test::model_with(b, of);
   model.threads = threads;
   State state = test::start_at_rest(model);
-  state.v_next[static_cast<std::size_t>(model.free.back())].x = v;
+  state.v_next.plane()[static_cast<std::size_t>(model.free.back())].x = v;
   const auto integrator = make_integrator(model, state);
   std::array<StepReport, 2> reports;
   integrator->advance(reports);

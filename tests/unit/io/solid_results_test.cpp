@@ -31,15 +31,19 @@ mesh::Mesh wheel() {
 struct SolidRun {
   mesh::Mesh mesh = wheel();
   std::vector<double> mass = std::vector<double>(mesh.n_nodes(), 0.25);
-  std::vector<double> u, force, fixed;
-  std::vector<SolidNodalStress> stress;
+  std::vector<Vec3> u, force, fixed;
+  std::vector<fem::SolidStress> stress;
 
   SolidRun() {
-    for (std::size_t i = 0; i < 3 * mesh.n_nodes(); ++i)
-      u.push_back(1e-3 * static_cast<double>(i % 17) - 5e-3);
-    for (std::size_t k = 0; k < 3 * mesh.boundary.size(); ++k) {
-      force.push_back(static_cast<double>(k % 7));
-      fixed.push_back(static_cast<double>(k % 5));
+    const auto of = [](std::size_t i, std::size_t period) {
+      const auto number = [&](std::size_t c) { return static_cast<double>((3 * i + c) % period); };
+      return Vec3{number(0), number(1), number(2)};
+    };
+    for (std::size_t i = 0; i < mesh.n_nodes(); ++i)
+      u.push_back(1e-3 * of(i, 17) - Vec3{5e-3, 5e-3, 5e-3});
+    for (std::size_t k = 0; k < mesh.boundary.size(); ++k) {
+      force.push_back(of(k, 7));
+      fixed.push_back(of(k, 5));
     }
     for (std::size_t i = 0; i < mesh.n_nodes(); ++i) {
       const auto s = static_cast<double>(i);
@@ -61,18 +65,15 @@ struct SolidRun {
   [[nodiscard]] Snapshot snapshot() const {
     Snapshot s;
     s.angle = s.angle_velocity = angle;
-    s.center = center;
-    s.lateral = lateral;
-    s.displacement = s.velocity = {u, 3};
-    s.contact_force = {force, 3};
-    s.contact_force_fixed = {fixed, 3};
-    s.solid_stress = stress;
+    s.center = {center, lateral};
+    s.u = s.v = u;
     return s;
   }
-
-  [[nodiscard]] Eigen::Vector3d u_of(std::size_t i) const {
-    return {u[3 * i], u[3 * i + 1], u[3 * i + 2]};
+  [[nodiscard]] SnapshotFields fields() const {
+    return {.contact_force = force, .contact_force_fixed = fixed, .solid_stress = stress};
   }
+
+  [[nodiscard]] Eigen::Vector3d u_of(std::size_t i) const { return {u[i].x, u[i].y, u[i].z}; }
   [[nodiscard]] Eigen::Vector3d place_of(std::size_t i) const {
     return {mesh.coordinates[i].x, mesh.coordinates[i].y, mesh.axial[i]};
   }
@@ -80,7 +81,7 @@ struct SolidRun {
 
 void write(const Folder& folder, const SolidRun& run) {
   Results results(folder.path(), run.layout());
-  results.write(run.snapshot());
+  results.write(run.snapshot(), run.fields());
   results.close();
 }
 
@@ -123,7 +124,7 @@ TEST(SolidResults, FieldsAreAlongTheFixedAxes) {
   for (std::size_t i = 0; i < run.mesh.n_nodes(); ++i) {
     const Eigen::Vector3d x = middle + turn * (run.place_of(i) + run.u_of(i));
     const Eigen::Vector3d u = turn * run.u_of(i);
-    const SolidNodalStress& s = run.stress[i];
+    const fem::SolidStress& s = run.stress[i];
     Eigen::Matrix3d sigma;
     sigma << s[0], s[3], s[5], s[3], s[1], s[4], s[5], s[4], s[2];
     const Eigen::Matrix3d fixed = turn * sigma * turn.transpose();

@@ -149,33 +149,45 @@ class SmallRun {
   [[nodiscard]] ResultsLayout layout(std::size_t snapshots) const {
     return {&mesh, mass, snapshots, true, true};
   }
-  /// Valid until the next call.
-  const Snapshot& snapshot(std::size_t k) {
+  [[nodiscard]] Snapshot snapshot(std::size_t k) const {
     const double t = static_cast<double>(k);
-    u_.clear(), v_.clear(), s_.clear(), force_.clear(), fixed_.clear();
+    Snapshot s;
+    s.time = 0.1 * t;
+    s.time_velocity = s.time - 0.05;
+    s.angle = 0.7 * t;
+    s.angle_velocity = s.angle - 0.35;
+    s.center = {3.0 * t, 0.28, 0.0};
+    s.u = s.v = Field(n(), 2);
     for (std::size_t i = 0; i < n(); ++i) {
       const double x = 1e-3 * static_cast<double>(i);
-      u_.push_back({x + t, x - t});
-      v_.push_back({2.0 * x, -t});
-      s_.push_back({1e5 + t, 2e5 - x, 0.3e5, 4e4 + x});
+      s.u.plane()[i] = {x + t, x - t};
+      s.v.plane()[i] = {2.0 * x, -t};
+    }
+    return s;
+  }
+  /// Of the k-th snapshot; valid until the next call.
+  SnapshotFields fields(std::size_t k) {
+    const double t = static_cast<double>(k);
+    stress_.clear(), force_.clear(), fixed_.clear();
+    for (std::size_t i = 0; i < n(); ++i) {
+      const double x = 1e-3 * static_cast<double>(i);
+      stress_.push_back({1e5 + t, 2e5 - x, 0.3e5, 4e4 + x});
     }
     for (std::size_t b = 0; b < nb(); ++b) {
       const double x = static_cast<double>(b);
-      force_.push_back({100.0 + x, t});
-      fixed_.push_back({-t, 100.0 + x});
+      force_.push_back({100.0 + x, t, 0.0});
+      fixed_.push_back({-t, 100.0 + x, 0.0});
     }
-    snapshot_ = {0.1 * t, 0.1 * t - 0.05, 0.7 * t, 0.7 * t - 0.35, {3.0 * t, 0.28}, u_, v_,
-                 force_,  fixed_,         s_};
-    return snapshot_;
+    return {.contact_force = force_, .contact_force_fixed = fixed_, .stress = stress_};
   }
+  void write(std::size_t k, Results& results) { results.write(snapshot(k), fields(k)); }
 
   mesh::Mesh mesh;
   std::vector<double> mass;
 
  private:
-  std::vector<Vec2> u_, v_, force_, fixed_;
-  std::vector<NodalStress> s_;
-  Snapshot snapshot_;
+  std::vector<Vec3> force_, fixed_;
+  std::vector<fem::Stress> stress_;
 };
 
 }  // namespace rondo::io::test

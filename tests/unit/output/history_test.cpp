@@ -34,7 +34,7 @@ dynamics::StepReport step_of(const Built& b, long long number, double impulse) {
   dynamics::StepReport step;
   step.step = number;
   step.frame.time = static_cast<double>(number) * b.setup.model.dt;
-  step.contact.impulse = {impulse, 2.0 * impulse};
+  step.contact.impulse = Vec2{impulse, 2.0 * impulse};
   step.contact.penetration = impulse;
   return step;
 }
@@ -66,11 +66,12 @@ TEST(History, TheContactLengthIsThatOfTheDeformedBoundary) {
   const Built b = built({"output.history_interval=0"});
   dynamics::StepReport step = step_of(b, 1, 1.0);
   dynamics::State state(b.setup.model);
-  for (std::size_t i = 0; i < state.u.size(); ++i) state.u[i] = 0.1 * b.setup.mesh.coordinates[i];
+  for (std::size_t i = 0; i < state.u.size(); ++i)
+    state.u.plane()[i] = 0.1 * b.setup.mesh.coordinates[i];
   for (const std::size_t k : {3U, 4U}) {
     dynamics::ActiveContact contact;
     contact.candidate = k;
-    contact.impulse = {1.0, 0.0};
+    contact.impulse = {1.0, 0.0, 0.0};
     state.active.push_back(contact);
     step.contact.length += b.setup.mesh.tributary[k];
   }

@@ -51,8 +51,8 @@ TEST(Probes, OfAHeldBodyAreInTheTurningFrame) {
                        1);
   dynamics::State state(s.model);
   for (std::size_t k = 0; k < s.model.n_nodes(); ++k) {
-    state.u[k] = {1e-3 * s.model.reference[k].x, 0.0};
-    state.v[k] = {0.0, s.model.reference[k].y};
+    state.u.plane()[k] = {1e-3 * s.model.reference[k].x, 0.0};
+    state.v.plane()[k] = {0.0, s.model.reference[k].y};
   }
   std::vector<double> row;
   append_probes({s.mesh, s.materials, s.model, s.dilatation}, s.probes, state, row);
@@ -75,7 +75,7 @@ TEST(Probes, OfAFreeBodyAreInTheFixedFrame) {
   for (const int node : s.model.free_bodies[0].nodes) {
     const auto k = static_cast<std::size_t>(node);
     const Vec2 arm = s.model.reference[k] - center;
-    state.u[k] = moved + turn90(Vec2{1.001 * arm.x, arm.y}) - s.model.reference[k];
+    state.u.plane()[k] = moved + turn90(Vec2{1.001 * arm.x, arm.y}) - s.model.reference[k];
   }
   std::vector<double> row;
   append_probes({s.mesh, s.materials, s.model, s.dilatation}, s.probes, state, row);
@@ -102,7 +102,7 @@ TEST(Probes, OfFreeRubberHaveCauchyStress) {
   for (const int node : s.model.free_bodies[0].nodes) {
     const auto k = static_cast<std::size_t>(node);
     const Vec2 arm = s.model.reference[k] - center;
-    state.u[k] = moved + turn90(Vec2{1.5 * arm.x, arm.y / 1.5}) - s.model.reference[k];
+    state.u.plane()[k] = moved + turn90(Vec2{1.5 * arm.x, arm.y / 1.5}) - s.model.reference[k];
   }
   std::vector<double> row;
   append_probes({s.mesh, s.materials, s.model, s.dilatation}, s.probes, state, row);
@@ -137,7 +137,7 @@ TEST(Probes, OfTrianglesHaveTheMeanDilatation) {
   std::vector<double> row;
   const auto sxx_and_szz = [&](auto&& displacement) {
     for (std::size_t k = 0; k < s.model.n_nodes(); ++k)
-      state.u[k] = displacement(s.model.reference[k]);
+      state.u.plane()[k] = displacement(s.model.reference[k]);
     row.clear();
     append_probes({s.mesh, s.materials, s.model, s.dilatation}, s.probes, state, row);
     return std::pair{row[4], row[6]};

@@ -49,8 +49,8 @@ class RecorderTest : public testing::Test {
     Snapshot& s = recorder.next_snapshot();
     s = {};
     s.time = s.time_velocity = time;
-    s.u.assign(mesh_.n_nodes(), {time, 0.0});
-    s.v.assign(mesh_.n_nodes(), {});
+    s.u = std::vector<Vec2>(mesh_.n_nodes(), Vec2{time, 0.0});
+    s.v = Field(mesh_.n_nodes(), 2);
     s.series = {7.0 + time};
     recorder.add_snapshot();
   }

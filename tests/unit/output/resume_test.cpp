@@ -56,7 +56,7 @@ class Resume : public testing::Test {
     k.state.energy = {1.5};
     k.state.poses = {{{1.0, 2.0}, {0.6, 0.8}, 7.0}};
     k.state.impulses = {{~0ULL, {3.0, 4.0}}};
-    k.history = {11, 12, k.state.step, {0.1, 0.2}, 0.3, 0.4};
+    k.history = {11, 12, k.state.step, Vec2{0.1, 0.2}, 0.3, 0.4};
     k.last_row = {0.7, 0.8};
     k.schedule = {{0, 5, 20}, 0.125};
     k.contact = {1e-17, 2.0, 3e-5, 21, 22, 1LL << 40, 24, 25, 26, 27, 28, 29};
@@ -161,9 +161,16 @@ TEST_F(Resume, NumbersThatContradictEachOtherAreRefused) {
     }
   };
   EXPECT_TRUE(is_taken([](Checkpoint&) {}));
-  for (const auto field : {&dynamics::SavedState::u, &dynamics::SavedState::v,
-                           &dynamics::SavedState::force, &dynamics::SavedState::gradient})
-    EXPECT_FALSE(is_taken([&](Checkpoint& k) { (k.state.*field).emplace_back(); }));
+  for (const auto field :
+       {&dynamics::SavedState::u, &dynamics::SavedState::v, &dynamics::SavedState::force}) {
+    const auto longer = [&](Checkpoint& k) {
+      k.state.*field = Field((k.state.*field).size() + 1, 2);
+    };
+    const auto in_space = [&](Checkpoint& k) { k.state.*field = Field(setup_.model.n_nodes(), 3); };
+    EXPECT_FALSE(is_taken(longer));
+    EXPECT_FALSE(is_taken(in_space));
+  }
+  EXPECT_FALSE(is_taken([](Checkpoint& k) { k.state.gradient.emplace_back(); }));
   EXPECT_FALSE(is_taken([](Checkpoint& k) { k.state.energy.push_back(0.0); }));
   EXPECT_FALSE(is_taken([](Checkpoint& k) { k.state.impulses = {{2, {}}, {1, {}}}; }));
   EXPECT_FALSE(is_taken([](Checkpoint& k) { ++k.files.snapshots.count; }));

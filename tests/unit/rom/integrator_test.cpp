@@ -210,9 +210,9 @@ TEST(ReducedIntegrator, ObeysTheLawInTheMotionItMakes) {
       const Vec2 center_rate{motion.speed.at(end), motion.height.slope(end)};
       for (const PointContact& c : reduced.contacts()) {
         const Vec2 arm = m.contact.points[static_cast<std::size_t>(c.point)] + at(u, c.point);
-        const Vec2 moved = motion.advance(t, dt) + at(u, c.point) - at(before, c.point);
+        const Vec2 moved = motion.advance(t, dt).plane() + at(u, c.point) - at(before, c.point);
         // c.gap is that of the free step: the facet is found from its place there.
-        const Vec2 place = motion.center(end) + arm;
+        const Vec2 place = motion.center(end).plane() + arm;
         const double gap = r.full.model.contact->ground.distance(place);
         const double gap_before = gap - dot(c.normal, moved);
         const double opening =
@@ -266,11 +266,12 @@ TEST(ReducedIntegrator, ObeysTheLawAtTheNodesThatComeBy) {
       for (const dynamics::ActiveContact& c : found.active) {
         const auto node = static_cast<std::size_t>(r.full.mesh.boundary[c.candidate]);
         const Vec2 x = r.full.mesh.coordinates[node];
-        const Vec2 arm = turned * (x + after.u[node]), arm_before = earlier * (x + before.u[node]);
-        const double gap = r.full.model.contact->ground.distance(motion.center(end) + arm);
-        const Vec2 moved = motion.advance(t, dt) + arm - arm_before;
-        const Vec2 w = center_rate + spin * turn90(arm) + turned * after.v_next[node];
-        sum += from_frame(c.normal, c.impulse);
+        const Vec2 arm = turned * (x + after.u.plane()[node]),
+                   arm_before = earlier * (x + before.u.plane()[node]);
+        const double gap = r.full.model.contact->ground.distance(motion.center(end).plane() + arm);
+        const Vec2 moved = motion.advance(t, dt).plane() + arm - arm_before;
+        const Vec2 w = center_rate + spin * turn90(arm) + turned * after.v_next.plane()[node];
+        sum += from_frame(c.normal, c.impulse.plane());
         EXPECT_GT(c.impulse.x, 0.0);
         EXPECT_LE(std::abs(c.impulse.y), friction * c.impulse.x * (1.0 + 1e-12));
         ++pressed;
@@ -347,7 +348,7 @@ Vec2 impulse_of(const Form& form) {
   std::vector<dynamics::StepReport> reports(2 * steps_of(form));
   reduced.advance(reports);
   Vec2 sum;
-  for (const dynamics::StepReport& report : reports) sum += report.contact.impulse;
+  for (const dynamics::StepReport& report : reports) sum += report.contact.impulse.plane();
   return sum;
 }
 
@@ -376,9 +377,9 @@ TEST(ReducedIntegrator, GivesItsImpulsesToTheNodes) {
     for (const dynamics::ActiveContact& c : state.active) {
       EXPECT_GE(c.impulse.x, 0.0);
       const auto node = static_cast<std::size_t>(r.full.mesh.boundary[c.candidate]);
-      const Vec2 impulse = from_frame(c.normal, c.impulse);
+      const Vec2 impulse = from_frame(c.normal, c.impulse.plane());
       sum += impulse;
-      moment += cross(position(r.full.model, state, node) - state.frame.center, impulse);
+      moment += cross(position(r.full.model, state, node) - state.frame.center.plane(), impulse);
     }
     // The nodes are where the point is: the mean of a hat that spans 15 degrees lies 1 % inside.
     EXPECT_NEAR(moment, reports.back().contact.angular_impulse, 0.02 * 0.3 * norm(sum));

@@ -142,7 +142,7 @@ Now state_of(const ReducedIntegrator& reduced, const dynamics::StepReport& repor
   return {reduced.displacement(),
           reduced.velocity(),
           {report.rim.velocity.x, report.rim.velocity.y, -report.rim.spin},
-          report.frame.center};
+          report.frame.center.plane()};
 }
 
 TEST(MovingRim, BordersTheStepAsTheDenseEquationsSay) {
@@ -311,7 +311,7 @@ TEST(MovingRim, ObeysTheLawInTheMotionItMakes) {
       EXPECT_NEAR(report.rim.velocity.y + rate[row] + gap / r.full.model.dt, 0.0, 1e-9) << k;
       ++pressed;
     }
-    center = report.frame.center;
+    center = report.frame.center.plane();
   }
   EXPECT_GT(pressed, 100);
 }

@@ -2,6 +2,7 @@
 /// @file  Small disks whose modes are the whole space: what is reduced is the frame and the step.
 #pragma once
 #include <cmath>
+#include <span>
 #include <vector>
 
 #include "rondo/fem/sector_stiffness.hpp"
@@ -64,7 +65,7 @@ inline Reduced pressed(Form form, Index left_out = 0) {
   return r;
 }
 
-inline double difference(const std::vector<Vec2>& a, const std::vector<Vec2>& b) {
+inline double difference(std::span<const Vec2> a, std::span<const Vec2> b) {
   double sum = 0.0, all = 0.0;
   for (std::size_t i = 0; i < a.size(); ++i) {
     sum += dot(a[i] - b[i], a[i] - b[i]);

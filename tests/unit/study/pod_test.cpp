@@ -48,19 +48,20 @@ class PodSnapshots : public testing::Test {
     const fs::path directory = folder_ / name;
     fs::create_directories(directory);
     io::Results results(directory, {&mesh_, mass_, n, true, false});
-    std::vector<Vec2> u(mesh_.n_nodes()), v(u.size()), f(mesh_.boundary.size());
+    std::vector<Vec2> u(mesh_.n_nodes()), v(u.size());
+    std::vector<Vec3> f(mesh_.boundary.size());
     for (std::size_t j = 0; j < n; ++j) {
-      for (auto* field : {&u, &v, &f})
+      for (auto* field : {&u, &v})
         for (Vec2& value : *field) value = {normal(random), normal(random)};
+      for (Vec3& value : f) value = {normal(random), normal(random), 0.0};
       io::Snapshot s;
       s.time = static_cast<double>(j);
       s.time_velocity = s.time - 0.5;
       s.angle = -0.3 * s.time;
       s.angle_velocity = -0.3 * s.time_velocity;
-      s.displacement = u;
-      s.velocity = v;
-      s.contact_force = s.contact_force_fixed = f;
-      results.write(s);
+      s.u = u;
+      s.v = v;
+      results.write(s, {.contact_force = f, .contact_force_fixed = f});
     }
     results.close();
     return directory;

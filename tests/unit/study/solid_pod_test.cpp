@@ -64,8 +64,8 @@ class SolidPod : public testing::Test {
   void TearDown() override { fs::remove_all(folder_); }
 
   /// The pattern as the turning frame sees it, all snapshots with their angle.
-  std::vector<double> travelling(double angle) const {
-    std::vector<double> u;
+  std::vector<Vec3> travelling(double angle) const {
+    std::vector<Vec3> u;
     for (std::size_t k = 0; k < mesh_.n_nodes(); ++k) {
       const Complex direction = (1.0 / norm(mesh_.coordinates[k])) *
                                 Complex{mesh_.coordinates[k].x, mesh_.coordinates[k].y};
@@ -73,14 +73,18 @@ class SolidPod : public testing::Test {
       const auto [radial, tangential, axial] = pattern(phi);
       const double weaker = 1.0 + mesh_.axial[k];
       const Vec2 plane = direction * Vec2{radial, tangential};
-      u.insert(u.end(), {weaker * plane.x, weaker * plane.y, weaker * axial});
+      u.push_back(weaker * Vec3(plane, axial));
     }
     return u;
   }
 
-  std::vector<double> random(std::size_t points) {
-    std::vector<double> values(3 * points);
-    for (double& value : values) value = normal_(engine_);
+  std::vector<Vec3> random(std::size_t points) {
+    std::vector<Vec3> values(points);
+    for (Vec3& value : values) {
+      value.x = normal_(engine_);
+      value.y = normal_(engine_);
+      value.z = normal_(engine_);
+    }
     return values;
   }
 
@@ -96,12 +100,10 @@ class SolidPod : public testing::Test {
       s.time_velocity = s.time - 0.5;
       s.angle = -0.37 * s.time;
       s.angle_velocity = -0.37 * s.time_velocity;
-      const std::vector<double> u = travels ? travelling(s.angle) : random(mesh_.n_nodes());
-      const std::vector<double> v = random(mesh_.n_nodes()), f = random(mesh_.boundary.size());
-      s.displacement = {u, 3};
-      s.velocity = {v, 3};
-      s.contact_force = s.contact_force_fixed = {f, 3};
-      results.write(s);
+      s.u = travels ? travelling(s.angle) : random(mesh_.n_nodes());
+      s.v = random(mesh_.n_nodes());
+      const std::vector<Vec3> f = random(mesh_.boundary.size());
+      results.write(s, {.contact_force = f, .contact_force_fixed = f});
     }
     results.close();
     return directory;
@@ -136,8 +138,8 @@ TEST_F(SolidPod, APatternThatStandsInSpaceIsOneMode) {
   EXPECT_NEAR(rectified.energy, turning.energy, 1e-13 * turning.energy);  // an isometry
   // The energy in the weight's norm, all three components in it.
   double energy = 0.0;
-  const std::vector<double> u = travelling(0.0);
-  for (std::size_t k = 0; k < u.size(); ++k) energy += mass_[k / 3] * u[k] * u[k];
+  const std::vector<Vec3> u = travelling(0.0);
+  for (std::size_t k = 0; k < u.size(); ++k) energy += mass_[k] * dot(u[k], u[k]);
   EXPECT_NEAR(rectified.energy, static_cast<double>(n_snapshots) * energy, 1e-12 * energy);
 }
 

@@ -10,7 +10,7 @@
 namespace rondo::study {
 
 BetweenNodes::BetweenNodes(const dynamics::Model& model)
-    : model_(model), axes_(model.motion.camber) {
+    : model_(model), ground_(model.motion.camber) {
   if (!model.contact) return;
   const contact::Ground& ground = model.contact->ground;
   const double spacing = ground.spacing();
@@ -39,8 +39,8 @@ bool BetweenNodes::may_be_deep(const dynamics::FrameStep* frame, long long steps
 Vec2 BetweenNodes::place(const dynamics::State& state, int node) const noexcept {
   const std::size_t k = at(node);
   if (!model_.solid) return position(model_, state, k);
-  const Vec2 arm = state.frame.rotation * (model_.reference[k] + state.u[k]);
-  return state.frame.center + axes_.plane({arm, model_.solid->axial[k] + state.axial_u[k]});
+  const Vec3 arm = Vec3(model_.reference[k], model_.solid->axial[k]) + state.u.space()[k];
+  return (state.frame.center + ground_.from_wheel(state.frame.rotation * arm)).plane();
 }
 
 double BetweenNodes::depth(const dynamics::State& state) const noexcept {

@@ -24,7 +24,7 @@ class BetweenNodes {
   [[nodiscard]] Vec2 place(const dynamics::State& state, int node) const noexcept;
 
   const dynamics::Model& model_;
-  dynamics::GroundAxes axes_;
+  GroundFrame ground_;
   bool watches_ = false;  ///< some bend hides more than the least that counts
   double radius_ = 0.0;   ///< of the candidates around the center, with a half more      [m]
 };

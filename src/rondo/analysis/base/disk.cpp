@@ -25,8 +25,7 @@ constexpr std::size_t checkpoints = 2;         ///< the new one is written besid
 std::size_t contact_csv_bytes(const RecordPlan& plan) {
   if (!plan.results.contact) return 0;
   const std::size_t candidates = plan.results.mesh->boundary.size();
-  const std::size_t own =
-      plan.results.mesh->is_solid() ? solid_contact_columns().size() : contact_columns().size();
+  const std::size_t own = contact_columns(plan.results.mesh->is_solid()).size();
   const std::size_t columns = own + plan.contact_columns.size();
   return (candidates / 4 + 1) * plan.results.n_snapshots * columns * bytes_of_a_number;
 }

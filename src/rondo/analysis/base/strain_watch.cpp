@@ -52,14 +52,15 @@ std::string StrainWatch::cell_text(std::size_t cell) const {
   return fmt::format("cell {} of /mesh/cells near ({:.4g}, {:.4g})", cell, at.x, at.y);
 }
 
-std::string StrainWatch::look(std::span<const Vec2> u, std::span<const dynamics::Pose> poses,
-                              double time, std::span<const double> axial_u) {
-  if (model_) {
-    dynamics::elastic_displacements(*model_, u, poses, elastic_);
-    u = elastic_;
-  }
-  const fem::Deformation now = mesh_.is_solid() ? fem::solid_deformation(mesh_, u, axial_u)
-                                                : fem::deformation(mesh_, u, rubber_);
+fem::Deformation StrainWatch::deformation(const Field& u, std::span<const dynamics::Pose> poses) {
+  if (mesh_.is_solid()) return fem::solid_deformation(mesh_, u);
+  if (!model_) return fem::deformation(mesh_, u, rubber_);
+  dynamics::elastic_displacements(*model_, u, poses, elastic_);
+  return fem::deformation(mesh_, elastic_, rubber_);
+}
+
+std::string StrainWatch::look(const Field& u, std::span<const dynamics::Pose> poses, double time) {
+  const fem::Deformation now = deformation(u, poses);
   largest_.add(now, time);
   if (now.jacobian > 0.0) return {};
   return fmt::format(

@@ -37,10 +37,8 @@ class StrainWatch {
               const dynamics::Model* model = nullptr);
 
   /// @param u (n) finite [m] @param poses (free_bodies)
-  /// @param axial_u (n) of u, where the mesh is solid [m]
   /// @return the trouble: the inverted cell, with its place; empty: there is none
-  std::string look(std::span<const Vec2> u, std::span<const dynamics::Pose> poses, double time,
-                   std::span<const double> axial_u = {});
+  std::string look(const Field& u, std::span<const dynamics::Pose> poses, double time);
 
   [[nodiscard]] const fem::LargestDeformation& largest() const noexcept { return largest_; }
   /// Goes on from what was seen before.
@@ -51,6 +49,7 @@ class StrainWatch {
   void summarise(const TimeWords& words, Json& json, RunReport& report) const;
 
  private:
+  [[nodiscard]] fem::Deformation deformation(const Field& u, std::span<const dynamics::Pose> poses);
   [[nodiscard]] std::vector<double> middle_of(std::size_t cell) const;
   [[nodiscard]] std::string cell_text(std::size_t cell) const;
   [[nodiscard]] std::string small_strain_warning(const TimeWords& words) const;

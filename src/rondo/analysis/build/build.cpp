@@ -130,7 +130,7 @@ void add_stress_stiffening(const Case& c, Setup& s) {
                      "the stress of the spin was not found: the stiffness is not positive definite "
                      "to round-off",
                      "\"none\", or a material and a mesh in SI units");
-  s.prestress = std::move(found.u);
+  s.prestress = to_vector(found.u.plane());
   if (m.sector) m.sector = fem::assemble_sector(s.mesh, s.materials, s.prestress);
   if (!m.stiffness.row_start.empty())
     m.stiffness = fem::assemble_stiffness(s.mesh, s.materials, s.prestress);

@@ -16,10 +16,9 @@ namespace rondo::study {
 struct SharedBody {
   std::string key;  ///< the case without what may differ; empty: none yet
   Setup setup;
-  double spin = 0.0;                     ///< of the stationary state [rad/s]
-  std::vector<Vec2> stationary;          ///< (n) empty: none yet [m]
-  std::vector<double> stationary_axial;  ///< (n) of a wheel in three dimensions [m]
-  std::any other;                        ///< what an analysis keeps instead, of a type of its own
+  double spin = 0.0;  ///< of the stationary state [rad/s]
+  Field stationary;   ///< (n) empty: none yet [m]
+  std::any other;     ///< what an analysis keeps instead, of a type of its own
 };
 
 /// Equal for cases that share a body.

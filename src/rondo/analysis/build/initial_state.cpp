@@ -31,7 +31,6 @@ void set_stationary(const Case& c, Setup& s, SharedBody* shared) {
   const double spin = -c.motion.angular_velocity.at(0.0);
   if (shared && !shared->stationary.empty() && shared->spin == spin) {
     s.displacement = shared->stationary;
-    s.axial.u = shared->stationary_axial;
     return;
   }
   statics::StationarySpin stationary = find_stationary(s, spin);
@@ -41,11 +40,9 @@ void set_stationary(const Case& c, Setup& s, SharedBody* shared) {
                      "exceeds the stiffness",
                      "a lower rotation speed, or a stiffer material");
   s.displacement = std::move(stationary.u);
-  s.axial.u = std::move(stationary.axial_u);
   if (!shared) return;
   shared->spin = spin;
   shared->stationary = s.displacement;
-  shared->stationary_axial = s.axial.u;
 }
 
 /// How deep the worst node is, compared with its elements.
@@ -64,24 +61,23 @@ struct Depth {
   }
 };
 
-/// (n) fixed frame [m].
+/// (n) fixed frame; of a wheel in three dimensions along t1 and n, where the ground is [m].
 std::vector<Vec2> start_positions(const Setup& s) {
-  const Vec2 center = s.model.motion.center(0.0);
+  const Vec2 center = s.model.motion.center(0.0).plane();
+  if (s.model.solid) return solid_positions(s);
+  const std::span<const Vec2> u = s.displacement.plane();
   std::vector<Vec2> x(s.model.n_nodes());
   for (std::size_t k = 0; k < x.size(); ++k)
-    x[k] =
-        (in_fixed_frame(s.model, k) ? Vec2{} : center) + s.model.reference[k] + s.displacement[k];
+    x[k] = (in_fixed_frame(s.model, k) ? Vec2{} : center) + s.model.reference[k] + u[k];
   return x;
 }
 
 Depth deepest_start(const Setup& s, const std::vector<double>& size, const std::vector<Vec2>& x) {
   const dynamics::ContactModel& contact = *s.model.contact;
-  const std::vector<double> solid = s.model.solid ? solid_depths(s) : std::vector<double>();
   Depth depth;
-  for (std::size_t k = 0; k < contact.nodes.size(); ++k) {
-    const std::size_t node = at(contact.nodes[k]);
-    depth.add(s.model.solid ? solid[k] : -contact.ground.distance(x[node]), size[node],
-              in_fixed_frame(s.model, node));
+  for (const int candidate : contact.nodes) {
+    const std::size_t node = at(candidate);
+    depth.add(-contact.ground.distance(x[node]), size[node], in_fixed_frame(s.model, node));
   }
   return depth;
 }
@@ -146,26 +142,34 @@ void check_ground_inside(const Case& c, const std::vector<double>& size, const s
                   found.depth, where));
 }
 
+/// The plane velocity of all that is free, of a wheel in three dimensions.
+void move_along(Vec2 velocity, Setup& s) {
+  for (Field* field : {&s.velocity, &s.half_velocity})
+    if (!field->empty())
+      for_free_nodes(s.model, [&](std::size_t k) { field->space()[k] += Vec3(velocity, 0.0); });
+}
+
 }  // namespace
 
 void set_initial_fields(const Case& c, Setup& s, SharedBody* shared) {
   const dynamics::Model& model = s.model;
-  s.displacement.assign(model.n_nodes(), Vec2{});
-  s.velocity.assign(model.n_nodes(), Vec2{});
+  s.displacement = s.velocity = Field(model.n_nodes(), model.components());
   if (c.initial.state == InitialState::stationary) set_stationary(c, s, shared);
   if (c.initial.state == InitialState::steady_rolling) set_steady_rolling(c, s);
+  if (model.solid) return move_along(c.initial.velocity, s);
   const auto& g = c.initial.displacement_gradient;
   const std::vector<RigidMotion> motions = motions_of(c, s.mesh, model);
+  const std::span<Vec2> u = s.displacement, v = s.velocity, half = s.half_velocity;
   for (const int node : model.free) {
     const std::size_t k = at(node);
     const Vec2 x = model.reference[k];
-    s.displacement[k] += Vec2{g[0][0] * x.x + g[0][1] * x.y, g[1][0] * x.x + g[1][1] * x.y};
-    s.velocity[k] += c.initial.velocity;  // θ(0) = 0: both frames have the same axes
-    if (!s.half_velocity.empty()) s.half_velocity[k] += c.initial.velocity;
+    u[k] += Vec2{g[0][0] * x.x + g[0][1] * x.y, g[1][0] * x.x + g[1][1] * x.y};
+    v[k] += c.initial.velocity;  // θ(0) = 0: both frames have the same axes
+    if (!half.empty()) half[k] += c.initial.velocity;
     if (!in_fixed_frame(model, k)) continue;
     const std::size_t b = at(model.free_body[k]);
     const double spin = -motions[b].angular_velocity;  // counter-clockwise
-    s.velocity[k] = motions[b].velocity + spin * turn90(x - model.free_bodies[b].center);
+    v[k] = motions[b].velocity + spin * turn90(x - model.free_bodies[b].center);
   }
 }
 

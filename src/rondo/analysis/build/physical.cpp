@@ -109,7 +109,7 @@ void tell_slip(const Case& c, double radius, const Tell& to) {
 double fastest(const Case& c, const Setup& s, double radius) {
   double speed = 0.0;
   for (const int node : s.model.free)
-    speed = std::max(speed, norm(s.velocity[static_cast<std::size_t>(node)]));
+    speed = std::max(speed, initial_speed(s, static_cast<std::size_t>(node)));
   double rim = 0.0;
   if (is_held(c))
     each_time(c, [&](double t) {
@@ -149,7 +149,7 @@ void tell_stiffness(const std::vector<fem::Material>& materials, const Tell& to)
 double deflection_by_motion(const Case& c, const Setup& s, const Wall& wall) {
   double deflection = -std::numeric_limits<double>::infinity();
   each_time(c, [&](double t) {
-    const double gap = s.model.contact->ground.distance(c.motion.center(t));
+    const double gap = s.model.contact->ground.distance(c.motion.center(t).plane());
     deflection = std::max(deflection, wall.radius - gap);
   });
   return deflection;

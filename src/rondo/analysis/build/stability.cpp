@@ -223,7 +223,7 @@ double largest_speed(const Case& c, const Setup& s) {
   double initial = 0.0, radius = 0.0;
   for (const int node : s.mesh.boundary) {
     const auto k = static_cast<std::size_t>(node);
-    initial = std::max(initial, norm(s.velocity[k]));
+    initial = std::max(initial, initial_speed(s, k));
     if (!in_fixed_frame(s.model, k)) radius = std::max(radius, norm(s.model.reference[k]));
   }
   const dynamics::Motion& motion = c.motion;

@@ -83,15 +83,18 @@ std::vector<Vec2> nodal(const Setup& s, const Eigen::MatrixXd& of_samples, doubl
 void hold_down(double radius, Setup& s) {
   const dynamics::Model& m = s.model;
   const contact::Ground& ground = m.contact->ground;
-  const Vec2 center = m.motion.center(0.0), next = center + m.motion.advance(0.0, m.dt);
+  const Vec2 center = m.motion.center(0.0).plane(),
+             next = center + m.motion.advance(0.0, m.dt).plane();
   const Complex turned = rotation(m.motion.turn(0.0, m.dt));
   const double closed = 1e-9 * radius, depth = 1e-12 * radius;
+  const std::span<const Vec2> u = s.displacement;
+  const std::span<Vec2> half = s.half_velocity;
   for (const int node : m.contact->nodes) {
     const auto k = static_cast<std::size_t>(node);
-    const Vec2 arm = m.reference[k] + s.displacement[k];
+    const Vec2 arm = m.reference[k] + u[k];
     if (std::abs(ground.distance(center + arm)) > closed) continue;
-    const double gap = ground.distance(next + turned * (arm + m.dt * s.half_velocity[k]));
-    s.half_velocity[k] -= conj(turned) * Vec2{0.0, (gap + depth) / m.dt};
+    const double gap = ground.distance(next + turned * (arm + m.dt * half[k]));
+    half[k] -= conj(turned) * Vec2{0.0, (gap + depth) / m.dt};
   }
 }
 

@@ -76,7 +76,7 @@ CrushSums sum_up(const CrushSetup& setup, const mesh::DeformedBoundary& boundary
 }
 
 std::vector<ColumnLabel> crush_columns() {
-  std::vector<ColumnLabel> columns = labels_of(history_columns());
+  std::vector<ColumnLabel> columns = history_labels({});
   const std::vector<ColumnLabel> own = labels_of(std::span<const Column<R>>(own_columns));
   columns.insert(columns.end(), own.begin(), own.end());
   columns.front().unit.assign(1, '1');
@@ -84,7 +84,7 @@ std::vector<ColumnLabel> crush_columns() {
 }
 
 void append_row(const CrushSetup& setup, const CrushRecord& r, std::vector<double>& rows) {
-  append_values(history_columns(), record_of(setup, r), rows);
+  append_history({}, record_of(setup, r), rows);
   append_values(std::span<const Column<R>>(own_columns), r, rows);
 }
 
@@ -118,12 +118,15 @@ void fill(const CrushSetup& setup, const CrushRecord& r, const std::vector<Vec2>
   s.time_velocity = setup.path.parameter(r.k - 0.5);
   s.center = setup.center(state);
   s.u = state.u;
-  s.v.resize(state.u.size());
-  for (std::size_t i = 0; i < s.v.size(); ++i) s.v[i] = increments * (state.u[i] - before[i]);
+  s.v = state.u;
+  for (std::size_t i = 0; i < before.size(); ++i)
+    s.v.plane()[i] = increments * (state.u[i] - before[i]);
   s.contacts.clear();
   for (std::size_t k = 0; k < state.force.size(); ++k)
     if (touches(state, k))
-      s.contacts.push_back({k, state.force[k], from_frame(normal, state.force[k]), true});
+      s.contacts.push_back({.candidate = k,
+                            .force = state.force[k],
+                            .force_fixed = from_frame(normal, state.force[k])});
   s.series = {state.depth, r.sums.contact.x, r.sums.contact.y, r.sums.length, r.sums.pressure};
 }
 

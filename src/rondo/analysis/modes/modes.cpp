@@ -167,7 +167,7 @@ class Solver {
                        "the stress of the spin was not found: the stiffness is not positive "
                        "definite to round-off",
                        "\"none\", or a material and a mesh in SI units");
-    unit_prestress_ = std::move(unit.u);
+    unit_prestress_ = to_vector(unit.u.plane());
   }
 
   [[nodiscard]] Solved modes(double angular_velocity, int count) {

@@ -203,7 +203,7 @@ void check_step(const Case& c, const ReducedRun& run, double dt) {
 /// Start that the modes do not hold.
 void warn_of_start(const Setup& setup, ReducedRun& run) {
   rom::Lift lift(setup.mesh, run.file.model);
-  const auto check = [&](const std::vector<Vec2>& field, const char* name) {
+  const auto check = [&](std::span<const Vec2> field, const char* name) {
     double all = 0.0;
     for (std::size_t i = 0; i < field.size(); ++i)
       all += setup.model.mass[i] * dot(field[i], field[i]);

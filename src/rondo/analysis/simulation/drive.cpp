@@ -28,7 +28,7 @@ Table* table_in_time(Case& c, const CaseKey& key, std::size_t k) {
   if (key.allowed.of_increments || !means_to(key, AnalysisKind::dynamic) || !counts(key, c, k) ||
       counts_at_start_alone(c, path_of(key, k)))
     return nullptr;
-  const Field field = key.field(c, k);
+  const CaseMember field = key.field(c, k);
   Table* const* table = std::get_if<Table*>(&field);
   return table ? *table : nullptr;
 }

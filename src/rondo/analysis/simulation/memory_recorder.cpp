@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "rondo/analysis/simulation/memory_recorder.hpp"
 
+#include <array>
+#include <span>
+
 namespace rondo::study {
 
 std::size_t memory_of_snapshots(const RecordPlan& plan) noexcept {
@@ -24,15 +27,6 @@ MemoryRecorder::MemoryRecorder(const RecordPlan& plan, bool keeps_snapshots)
   kept_.contact_force.reserve(n * kept_.candidates * kept_.components);
 }
 
-void MemoryRecorder::add_vectors(const std::vector<Vec2>& plane, const std::vector<double>& axial,
-                                 std::vector<double>& to) const {
-  for (std::size_t i = 0; i < plane.size(); ++i) {
-    to.push_back(plane[i].x);
-    to.push_back(plane[i].y);
-    if (kept_.components == 3) to.push_back(axial[i]);
-  }
-}
-
 /// A node held by two facets gives the sum of both.
 void MemoryRecorder::add_contact() {
   const std::size_t c = kept_.components, begin = kept_.contact_force.size();
@@ -41,7 +35,7 @@ void MemoryRecorder::add_contact() {
     double* at = kept_.contact_force.data() + begin + f.candidate * c;
     at[0] += f.force.x;
     at[1] += f.force.y;
-    if (c == 3) at[2] += f.lateral;
+    if (c == 3) at[2] += f.force.z;
   }
 }
 
@@ -52,9 +46,13 @@ void MemoryRecorder::add_snapshot() {
   kept_.time_velocity.push_back(next_.time_velocity);
   kept_.angle.push_back(next_.angle);
   kept_.angle_velocity.push_back(next_.angle_velocity);
-  add_vectors({next_.center}, {next_.lateral}, kept_.center);
-  add_vectors(next_.u, next_.axial_u, kept_.displacement);
-  add_vectors(next_.v, next_.axial_v, kept_.velocity);
+  const auto add = [](FieldView field, std::vector<double>& to) {
+    to.insert(to.end(), field.values.begin(), field.values.end());
+  };
+  const std::array center{next_.center.x, next_.center.y, next_.center.z};
+  add(FieldView(std::span(center).first(kept_.components), kept_.components), kept_.center);
+  add(next_.u, kept_.displacement);
+  add(next_.v, kept_.velocity);
   if (kept_.candidates > 0) add_contact();
 }
 

@@ -41,8 +41,6 @@ class MemoryRecorder : public Recorder {
   [[nodiscard]] RecordedSnapshots& snapshots() noexcept { return kept_; }
 
  private:
-  void add_vectors(const std::vector<Vec2>& plane, const std::vector<double>& axial,
-                   std::vector<double>& to) const;
   void add_contact();
 
   const std::vector<ColumnLabel> columns_;

@@ -45,16 +45,6 @@ InputError as_set(const InputError& error, const std::vector<DrivenValue>& value
   return InputError(std::move(faults));
 }
 
-void interleave(const std::vector<Vec2>& plane, const std::vector<double>& axial,
-                std::vector<double>& to) {
-  const std::size_t c = axial.empty() ? 2 : 3;
-  for (std::size_t i = 0; i < plane.size(); ++i) {
-    to[c * i] = plane[i].x;
-    to[c * i + 1] = plane[i].y;
-    if (c == 3) to[c * i + 2] = axial[i];
-  }
-}
-
 }  // namespace
 
 Simulation::Simulation(Case c, RunOptions options)
@@ -152,8 +142,8 @@ double Simulation::driven(const std::string& key) {
 void Simulation::fill() {
   const dynamics::State* state = stepwise_->state();
   if (!state) return;
-  interleave(state->u, state->axial_u, shown_->displacement);
-  interleave(state->v, state->axial_v, shown_->velocity);
+  std::ranges::copy(FieldView(state->u).values, shown_->displacement.begin());
+  std::ranges::copy(FieldView(state->v).values, shown_->velocity.begin());
 }
 
 std::shared_ptr<const ShownFields> Simulation::fields() {

@@ -179,13 +179,11 @@ void SolidSteadyState::add(std::size_t pair, double share, SolidSteadySums& s) c
 void SolidSteadyState::measure_extents() {
   const mesh::DeformedBoundary boundary(body_.mesh);
   extent_.assign(window_.pairs().size(), 0.0);
-  std::vector<Vec2> u;
-  std::vector<double> axial;
+  Field u;
   for (int place = 0; place < window_.harmonics().body().samples; ++place) {
-    unroll(u_, place, 1.0, u, axial);
+    unroll(u_, place, 1.0, u);
     for (std::size_t j = 0; j < extent_.size(); ++j)
-      if (const Where w = where(j); w.place == place)
-        extent_[j] = boundary.extent(w.candidate, u, axial);
+      if (const Where w = where(j); w.place == place) extent_[j] = boundary.extent(w.candidate, u);
   }
 }
 
@@ -205,9 +203,7 @@ HistoryRecord SolidSteadyState::record(int place, const Snapshot& now) const {
   h.time = now.time;
   h.angle = now.angle;
   h.center = now.center;
-  h.lateral = now.lateral;
-  h.force = {s.force.y, s.force.x};
-  h.force_lateral = s.force.z;
+  h.force = {s.force.y, s.force.x, s.force.z};
   h.torque = s.torque;
   h.moment_aligning = dot(s.moment, window_.problem().ground.normal);
   h.moment_overturning = dot(s.moment, window_.problem().ground.heading);
@@ -217,38 +213,35 @@ HistoryRecord SolidSteadyState::record(int place, const Snapshot& now) const {
   h.penetration = s.penetration;
   h.slip_ratio = slip_ratio();
   h.slip_angle = drive_.slip_angle;
-  std::vector<Vec2> ku(now.u.size());
-  std::vector<double> axial(now.u.size());
-  fem::apply(body_.sector, now.u, now.axial_u, ku, axial);
-  for (std::size_t i = 0; i < now.u.size(); ++i) {
-    h.balance.strain += 0.5 * (dot(now.u[i], ku[i]) + now.axial_u[i] * axial[i]);
-    h.balance.kinetic +=
-        0.5 * body_.mass[i] * (dot(now.v[i], now.v[i]) + now.axial_v[i] * now.axial_v[i]);
+  const std::span<const Vec3> u = now.u.space(), v = now.v.space();
+  std::vector<Vec3> ku(u.size());
+  fem::apply(body_.sector, u, ku);
+  for (std::size_t i = 0; i < u.size(); ++i) {
+    h.balance.strain += 0.5 * dot(u[i], ku[i]);
+    h.balance.kinetic += 0.5 * body_.mass[i] * dot(v[i], v[i]);
   }
   return h;
 }
 
 /// Polar components at a place into fixed ones of all nodes, times a number.
 void SolidSteadyState::unroll(const Eigen::MatrixXd& field, int place, double by,
-                              std::vector<Vec2>& plane, std::vector<double>& axial) const {
+                              Field& nodes) const {
   const int samples = window_.harmonics().body().samples;
-  plane.assign(body_.mesh.n_nodes(), {});
-  axial.assign(body_.mesh.n_nodes(), 0.0);
+  nodes = Field(body_.mesh.n_nodes(), 3);
   for (int j = 0; j < body_.sector.n_sectors; ++j) {
     const auto sector = static_cast<std::size_t>(j);
     const Index m = wrapped(j * samples + sense() * place, window_.harmonics().turn());
     const Complex turn = by * body_.sector.turn[sector];
     for (std::size_t a = 0; a < body_.sector.n_local(); ++a) {
       const auto row = static_cast<Index>(3 * a);
-      const std::size_t node = body_.sector.node(a, sector);
-      plane[node] = turn * Vec2{field(row, m), field(row + 1, m)};
-      axial[node] = by * field(row + 2, m);
+      nodes.space()[body_.sector.node(a, sector)] = {turn * Vec2{field(row, m), field(row + 1, m)},
+                                                     by * field(row + 2, m)};
     }
   }
 }
 
 void SolidSteadyState::displace(int place, Snapshot& s) const {
-  unroll(u_, place, 1.0, s.u, s.axial_u);
+  unroll(u_, place, 1.0, s.u);
 }
 
 void SolidSteadyState::fill(int place, Snapshot& s) {
@@ -256,10 +249,10 @@ void SolidSteadyState::fill(int place, Snapshot& s) {
   s.time = s.time_velocity = place * sample_time();
   s.angle = s.angle_velocity = spin() * s.time;
   const double way = solution_.speed * s.time;
-  s.center = {case_.motion.start_x + way * std::cos(drive_.slip_angle), height()};
-  s.lateral = way * std::sin(drive_.slip_angle);
+  s.center = {case_.motion.start_x + way * std::cos(drive_.slip_angle), height(),
+              way * std::sin(drive_.slip_angle)};
   displace(place, s);
-  unroll(rate_, place, spin(), s.v, s.axial_v);
+  unroll(rate_, place, spin(), s.v);
   s.contacts.clear();
   constexpr Vec2 normal{0.0, 1.0};  // along t1 and n
   for (std::size_t k = 0; k < window_.pairs().size(); ++k) {
@@ -267,12 +260,10 @@ void SolidSteadyState::fill(int place, Snapshot& s) {
     const Vec3 r = force(k), fixed = window_.problem().ground.to_wheel(r);
     if (w.place == place && r.x > 0.0)
       s.contacts.push_back({.candidate = w.candidate,
-                            .force = to_frame(normal, Vec2{r.y, r.x}),
-                            .force_fixed = fixed.plane(),
+                            .force = {to_frame(normal, Vec2{r.y, r.x}), r.z},
+                            .force_fixed = fixed,
                             .slip = slip(k),
-                            .sticks = solution_.status[k] == Status::stick,
-                            .lateral = r.z,
-                            .fixed_axial = fixed.z});
+                            .sticks = solution_.status[k] == Status::stick});
   }
   std::ranges::sort(s.contacts, {}, &ContactForce::candidate);
 }

@@ -56,8 +56,7 @@ class SolidSteadyState final : public RolledState {
   void sum_up();
   void measure_extents();
   void add(std::size_t pair, double share, SolidSteadySums& sums) const;
-  void unroll(const Eigen::MatrixXd& field, int place, double by, std::vector<Vec2>& plane,
-              std::vector<double>& axial) const;
+  void unroll(const Eigen::MatrixXd& field, int place, double by, Field& nodes) const;
   [[nodiscard]] int sense() const noexcept { return spin() > 0.0 ? 1 : -1; }
   [[nodiscard]] double spin() const noexcept { return body_.harmonics->body().spin; }
   /// Where a pair is touched: place, and number in mesh.boundary.

@@ -41,17 +41,14 @@ Json json_of(const statics::SolidRollingSlope& slope) {
 }  // namespace
 
 void SolidSteadyBody::add_columns(RecordPlan& plan) const {
-  plan.columns = history_labels(true);
-  for (const auto& more :
-       {labels_of(solid_columns()), labels_of(std::span<const Column<R>>(own_columns))})
-    plan.columns.insert(plan.columns.end(), more.begin(), more.end());
+  plan.columns = history_labels({.solid = true});
+  for (ColumnLabel& label : labels_of(std::span<const Column<R>>(own_columns)))
+    plan.columns.push_back(std::move(label));
   plan.contact_columns = pair_columns;
 }
 
 void SolidSteadyState::append_row(int place, const Snapshot& now, std::vector<double>& rows) const {
-  const HistoryRecord row = record(place, now);
-  append_values(history_columns(), row, rows);
-  append_values(solid_columns(), row, rows);
+  append_history({.solid = true}, record(place, now), rows);
   append_values(std::span<const Column<R>>(own_columns), sums_[static_cast<std::size_t>(place)],
                 rows);
 }

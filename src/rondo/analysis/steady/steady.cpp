@@ -152,7 +152,7 @@ Progress SteadyRolling::begin(Recorder& /*recorder*/) {
 }
 
 std::string SteadyRolling::look(double time) {
-  return strain_.look(now_.u, {}, time, now_.axial_u);
+  return strain_.look(now_.u, {}, time);
 }
 
 std::string SteadyRolling::wrong_state() const {

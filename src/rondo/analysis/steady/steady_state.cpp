@@ -138,7 +138,7 @@ SteadyState::Where SteadyState::where(std::size_t pair) const {
 void SteadyState::measure_extents() {
   const mesh::DeformedBoundary boundary(body_.mesh);
   extent_.assign(window_.pairs().size(), 0.0);
-  std::vector<Vec2> u;
+  Field u;
   for (int place = 0; place < window_.harmonics().body().samples; ++place) {
     unroll(u_, place, 1.0, u);
     for (std::size_t j = 0; j < extent_.size(); ++j)
@@ -195,24 +195,23 @@ HistoryRecord SteadyState::record(int place, const Snapshot& now) const {
   std::vector<Vec2> ku(now.u.size());
   fem::apply(body_.sector, now.u, ku);
   for (std::size_t i = 0; i < now.u.size(); ++i) {
-    h.balance.strain += 0.5 * dot(now.u[i], ku[i]);
-    h.balance.kinetic += 0.5 * body_.mass[i] * dot(now.v[i], now.v[i]);
+    h.balance.strain += 0.5 * dot(now.u.plane()[i], ku[i]);
+    h.balance.kinetic += 0.5 * body_.mass[i] * dot(now.v.plane()[i], now.v.plane()[i]);
   }
   return h;
 }
 
 /// Polar components at a place into fixed ones of all nodes, times a number.
-void SteadyState::unroll(const Eigen::MatrixXd& field, int place, double by,
-                         std::vector<Vec2>& out) const {
+void SteadyState::unroll(const Eigen::MatrixXd& field, int place, double by, Field& nodes) const {
   const int samples = window_.harmonics().body().samples;
-  out.assign(body_.mesh.n_nodes(), {});
+  nodes = Field(body_.mesh.n_nodes(), 2);
   for (int j = 0; j < body_.sector.n_sectors; ++j) {
     const auto sector = static_cast<std::size_t>(j);
     const Index m = wrapped(j * samples + sense() * place, window_.harmonics().turn());
     const Complex turn = by * body_.sector.turn[sector];
     for (std::size_t a = 0; a < body_.sector.n_local(); ++a) {
       const auto row = static_cast<Index>(2 * a);
-      out[body_.sector.node(a, sector)] = turn * Vec2{field(row, m), field(row + 1, m)};
+      nodes.plane()[body_.sector.node(a, sector)] = turn * Vec2{field(row, m), field(row + 1, m)};
     }
   }
 }
@@ -225,7 +224,7 @@ void SteadyState::fill(int place, Snapshot& s) {
   if (rate_.size() == 0) rate_ = window_.harmonics().fields(spectrum_, 0.0, true);
   s.time = s.time_velocity = place * sample_time();
   s.angle = s.angle_velocity = spin() * s.time;
-  s.center = {case_.motion.start_x + solution_.speed * place * sample_time(), height()};
+  s.center = Vec2{case_.motion.start_x + solution_.speed * place * sample_time(), height()};
   displace(place, s);
   unroll(rate_, place, spin(), s.v);
   s.contacts.clear();

@@ -53,7 +53,7 @@ class SteadyState final : public RolledState {
   void refuse() const;
   void sum_up();
   void measure_extents();
-  void unroll(const Eigen::MatrixXd& field, int place, double by, std::vector<Vec2>& out) const;
+  void unroll(const Eigen::MatrixXd& field, int place, double by, Field& nodes) const;
   [[nodiscard]] int sense() const noexcept { return spin() > 0.0 ? 1 : -1; }
   [[nodiscard]] double spin() const noexcept { return body_.harmonics->body().spin; }
   /// Where a pair is touched: place, and number in mesh.boundary.

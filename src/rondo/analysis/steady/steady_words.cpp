@@ -47,7 +47,7 @@ Json json_of(const statics::RollingSlope& slope) {
 }  // namespace
 
 void SteadyBody::add_columns(RecordPlan& plan) const {
-  plan.columns = labels_of(history_columns());
+  plan.columns = history_labels({});
   const std::vector<ColumnLabel> own =
       labels_of(std::span<const Column<SteadySums>>(plane_columns));
   plan.columns.insert(plan.columns.end(), own.begin(), own.end());
@@ -55,7 +55,7 @@ void SteadyBody::add_columns(RecordPlan& plan) const {
 }
 
 void SteadyState::append_row(int place, const Snapshot& now, std::vector<double>& rows) const {
-  append_values(history_columns(), record(place, now), rows);
+  append_history({}, record(place, now), rows);
   append_values(std::span<const Column<SteadySums>>(plane_columns),
                 sums_[static_cast<std::size_t>(place)], rows);
 }

@@ -73,11 +73,9 @@ std::vector<Vec3> sector_pressure(const mesh::Mesh& mesh, const SolidSector& k,
   return force;
 }
 
-void apply(const SolidSector& k, std::span<const Vec2> u, std::span<const double> axial_u,
-           std::span<Vec2> out, std::span<double> axial_out) {
+void apply(const SolidSector& k, std::span<const Vec3> u, std::span<Vec3> out) {
   const auto n = static_cast<std::size_t>(k.n_sectors);
-  std::fill(out.begin(), out.end(), Vec2{});
-  std::fill(axial_out.begin(), axial_out.end(), 0.0);
+  std::fill(out.begin(), out.end(), Vec3{});
   for (std::size_t j = 0; j < n; ++j) {
     const std::array<std::size_t, 3> sector{(j + n - 1) % n, j, (j + 1) % n};
     for (std::size_t a = 0; a < k.n_local(); ++a) {
@@ -86,14 +84,12 @@ void apply(const SolidSector& k, std::span<const Vec2> u, std::span<const double
         const int place = e.shift + 1;
         const std::size_t there = sector[static_cast<std::size_t>(place)];
         const std::size_t node = k.node(static_cast<std::size_t>(e.column), there);
-        const Vec2 c = conj(k.turn[there]) * u[node];
-        const double z = axial_u[node];
+        const auto [x, y, z] = conj(k.turn[there]) * u[node];
         const auto& b = e.block;
-        sum += {b[0] * c.x + b[3] * c.y + b[6] * z, b[1] * c.x + b[4] * c.y + b[7] * z,
-                b[2] * c.x + b[5] * c.y + b[8] * z};
+        sum += {b[0] * x + b[3] * y + b[6] * z, b[1] * x + b[4] * y + b[7] * z,
+                b[2] * x + b[5] * y + b[8] * z};
       }
-      out[k.node(a, j)] = k.turn[j] * sum.plane();
-      axial_out[k.node(a, j)] = sum.z;
+      out[k.node(a, j)] = k.turn[j] * sum;
     }
   }
 }

@@ -28,8 +28,7 @@ std::vector<Vec3> sector_pressure(const mesh::Mesh& mesh, const SolidSector& k,
                                   std::span<const mesh::Face> faces);
 
 /// K u in the turning frame, (n) each; clamped nodes give 0. The readable product.
-void apply(const SolidSector& k, std::span<const Vec2> u, std::span<const double> axial_u,
-           std::span<Vec2> out, std::span<double> axial_out);
+void apply(const SolidSector& k, std::span<const Vec3> u, std::span<Vec3> out);
 
 /// Of the radial and tangential components alone, as if no node moved along the axle. Nodes of a
 /// section that differ along the axle alone stay apart [N/m].

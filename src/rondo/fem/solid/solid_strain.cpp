@@ -76,15 +76,14 @@ double largest_principal(const SolidStrain& s) noexcept {
 
 }  // namespace
 
-Deformation solid_deformation(const mesh::Mesh& mesh, std::span<const Vec2> u,
-                              std::span<const double> axial_u) noexcept {
+Deformation solid_deformation(const mesh::Mesh& mesh, std::span<const Vec3> u) noexcept {
   Deformation d;
   for (std::size_t e = 0; e < mesh.hexahedra.size(); ++e) {
     HexahedronCorners x, change, now;
     for (std::size_t k = 0; k < 8; ++k) {
       const auto i = static_cast<std::size_t>(mesh.hexahedra[e][k]);
       x[k] = {mesh.coordinates[i], mesh.axial[i]};
-      change[k] = {u[i], axial_u[i]};
+      change[k] = u[i];
       now[k] = x[k] + change[k];
     }
     const double strain = largest_principal(strain_of(mean_edges(x), mean_edges(change)));

@@ -10,8 +10,8 @@ namespace rondo::fem {
 
 /// As deformation() in the plane: principal strains at the centers, J at the corners; `strain_cell`
 /// and `jacobian_cell` are numbers of hexahedra.
-/// @param u, axial_u (n) finite, turning frame [m]. @pre there is a hexahedron
-[[nodiscard]] Deformation solid_deformation(const mesh::Mesh& mesh, std::span<const Vec2> u,
-                                            std::span<const double> axial_u) noexcept;
+/// @param u (n) finite, turning frame [m]. @pre there is a hexahedron
+[[nodiscard]] Deformation solid_deformation(const mesh::Mesh& mesh,
+                                            std::span<const Vec3> u) noexcept;
 
 }  // namespace rondo::fem

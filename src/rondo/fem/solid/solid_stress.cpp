@@ -33,10 +33,8 @@ SolidStressRecovery::SolidStressRecovery(const mesh::Mesh& mesh,
       elements_[e].weight[i] /= total[number(elements_[e].nodes[i])];
 }
 
-std::span<const SolidStress> SolidStressRecovery::operator()(std::span<const Vec2> u,
-                                                             std::span<const double> axial_u) {
-  RONDO_DEMAND(u.size() == nodal_.size() && axial_u.size() == nodal_.size(), u.size(),
-               axial_u.size());
+std::span<const SolidStress> SolidStressRecovery::operator()(std::span<const Vec3> u) {
+  RONDO_DEMAND(u.size() == nodal_.size(), u.size(), nodal_.size());
   std::fill(nodal_.begin(), nodal_.end(), SolidStress{});
   for (std::size_t j = 0; j < turn_.size(); ++j)
     for (const Element& element : elements_) {
@@ -45,7 +43,7 @@ std::span<const SolidStress> SolidStressRecovery::operator()(std::span<const Vec
       for (std::size_t i = 0; i < 8; ++i) {
         node[i] = static_cast<std::size_t>(element.nodes[i]) + j * nodes_per_sector_;
         if (node[i] >= nodal_.size()) node[i] -= nodal_.size();
-        moved[i] = {conj(turn_[j]) * u[node[i]], axial_u[node[i]]};
+        moved[i] = conj(turn_[j]) * u[node[i]];
       }
       const auto stress = hexahedron_stress(element.points, moved, materials_[element.material]);
       for (std::size_t i = 0; i < 8; ++i) {
@@ -57,9 +55,9 @@ std::span<const SolidStress> SolidStressRecovery::operator()(std::span<const Vec
 }
 
 std::vector<SolidStress> solid_stress(const mesh::Mesh& mesh, std::span<const Material> materials,
-                                      std::span<const Vec2> u, std::span<const double> axial_u) {
+                                      std::span<const Vec3> u) {
   SolidStressRecovery recovery(mesh, materials);
-  const std::span<const SolidStress> found = recovery(u, axial_u);
+  const std::span<const SolidStress> found = recovery(u);
   return {found.begin(), found.end()};
 }
 

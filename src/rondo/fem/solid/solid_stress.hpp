@@ -19,8 +19,8 @@ class SolidStressRecovery {
   SolidStressRecovery(const mesh::Mesh& mesh, std::span<const Material> materials);
 
   /// (n) σ at the nodes in the frame of u, means over the elements around weighted by what the
-  /// corners have of their volumes [Pa]; u, axial_u (n) [m]. Allocates nothing.
-  std::span<const SolidStress> operator()(std::span<const Vec2> u, std::span<const double> axial_u);
+  /// corners have of their volumes [Pa]; u (n) [m]. Allocates nothing.
+  std::span<const SolidStress> operator()(std::span<const Vec3> u);
 
  private:
   /// Of sector 0; its nodes may be of the next sector too.
@@ -39,7 +39,7 @@ class SolidStressRecovery {
 
 /// The same once.
 std::vector<SolidStress> solid_stress(const mesh::Mesh& mesh, std::span<const Material> materials,
-                                      std::span<const Vec2> u, std::span<const double> axial_u);
+                                      std::span<const Vec3> u);
 
 /// R σ Rᵀ: the stress along axes turned back about the axle by the angle of r = e^{iθ}.
 SolidStress turned(const SolidStress& stress, Complex r) noexcept;

@@ -23,11 +23,11 @@ std::span<TouchingNode> BodiesContact::find(const FrameStep& frame) {
 
 ContactReport BodiesContact::solve(const BodyFrames& frames, Vec2 center) {
   for (const TouchingNode& t : touching_) {
-    state_.v[at(t.node)] = t.before;
-    state_.v_next[at(t.node)] = t.free;
+    state_.v.plane()[at(t.node)] = t.before;
+    state_.v_next.plane()[at(t.node)] = t.free;
   }
   const ContactReport report = contact_.solve_found(frames, center, state_);
-  for (TouchingNode& t : touching_) t.after = state_.v_next[at(t.node)];
+  for (TouchingNode& t : touching_) t.after = state_.v_next.plane()[at(t.node)];
   return report;
 }
 

@@ -27,7 +27,7 @@ class BodiesContact {
     return contact_.finder().boundary_after(travelled);
   }
   /// Of these u_{n+1} is to be set before find()                                           [m]
-  [[nodiscard]] std::vector<Vec2>& displacement() noexcept { return state_.u; }
+  [[nodiscard]] std::span<Vec2> displacement() noexcept { return state_.u; }
   /// The nodes of what touches, ascending: `before` and `free` are to be set before solve().
   std::span<TouchingNode> find(const FrameStep& frame);
   /// Sets `after`. @param center about which the ground's angular impulse is taken         [m]

@@ -61,7 +61,7 @@ BodiesIntegrator::BodiesIntegrator(const Model& model, const State& start,
 }
 
 /// Into the rows.
-void BodiesIntegrator::load(const std::vector<Vec2>& u, const std::vector<Vec2>& v) noexcept {
+void BodiesIntegrator::load(std::span<const Vec2> u, std::span<const Vec2> v) noexcept {
   for (std::size_t i = 0; i < plan_.node.size(); ++i) {
     if (plan_.node[i] < 0) continue;
     const auto node = static_cast<std::size_t>(plan_.node[i]);
@@ -73,18 +73,18 @@ void BodiesIntegrator::load(const std::vector<Vec2>& u, const std::vector<Vec2>&
   }
 }
 
-void BodiesIntegrator::save_motion(std::vector<Vec2>* u, std::vector<Vec2>* v) const noexcept {
+void BodiesIntegrator::save_motion(std::span<Vec2> u, std::span<Vec2> v) const noexcept {
   for (std::size_t i = 0; i < plan_.node.size(); ++i) {
     if (plan_.node[i] < 0) continue;
     const auto node = static_cast<std::size_t>(plan_.node[i]);
     const double* motion = motion_.data() + BodyPlan::at(static_cast<int>(i));
-    if (u) (*u)[node] = {motion[0], motion[lanes]};
-    if (v) (*v)[node] = {motion[2 * lanes], motion[3 * lanes]};
+    if (!u.empty()) u[node] = {motion[0], motion[lanes]};
+    if (!v.empty()) v[node] = {motion[2 * lanes], motion[3 * lanes]};
   }
 }
 
 void BodiesIntegrator::fields(State& state) const noexcept {
-  save_motion(&state.u, &state.v_next);
+  save_motion(state.u, state.v_next);
 }
 
 std::vector<contact::ProblemFile> BodiesIntegrator::take_difficult() {
@@ -95,15 +95,14 @@ std::vector<contact::ProblemFile> BodiesIntegrator::take_difficult() {
 SavedState BodiesIntegrator::save() const {
   SavedState saved;
   saved.step = step_;
-  saved.u.resize(model_.n_nodes());
-  saved.v.resize(model_.n_nodes());
-  save_motion(&saved.u, &saved.v);
+  saved.u = saved.v = Field(model_.n_nodes(), 2);
+  save_motion(saved.u, saved.v);
   if (beta_) {
-    saved.force.resize(model_.n_nodes());
+    saved.force = Field(model_.n_nodes(), 2);
     for (std::size_t i = 0; i < plan_.node.size(); ++i) {
       if (plan_.node[i] < 0) continue;
       const double* force = force_.data() + BodyPlan::at(static_cast<int>(i));
-      saved.force[static_cast<std::size_t>(plan_.node[i])] = {force[0], force[lanes]};
+      saved.force.plane()[static_cast<std::size_t>(plan_.node[i])] = {force[0], force[lanes]};
     }
   }
   saved.energy = energy_;
@@ -125,7 +124,7 @@ void BodiesIntegrator::restore(const SavedState& saved) {
   load(saved.u, saved.v);
   for (std::size_t i = 0; beta_ && i < plan_.node.size(); ++i) {
     if (plan_.node[i] < 0) continue;
-    const Vec2 force = saved.force[static_cast<std::size_t>(plan_.node[i])];
+    const Vec2 force = saved.force.plane()[static_cast<std::size_t>(plan_.node[i])];
     double* to = force_.data() + BodyPlan::at(static_cast<int>(i));
     to[0] = force.x;
     to[lanes] = force.y;
@@ -142,9 +141,9 @@ void BodiesIntegrator::advance(std::span<StepReport> reports, State* last) noexc
   RONDO_DEMAND(!reports.empty());
   if (!last) return advance_batch(reports);
   if (reports.size() > 1) advance_batch(reports.first(reports.size() - 1));
-  save_motion(&last->u, last->v.empty() ? nullptr : &last->v);
+  save_motion(last->u, last->v);
   advance_batch(reports.last(1));
-  if (!last->v_next.empty()) save_motion(nullptr, &last->v_next);
+  save_motion({}, last->v_next);
   last->step = step_;
   last->frame = frame_;
   last->poses = poses_;

@@ -77,7 +77,7 @@ class BodiesIntegrator final : public Integrator, public Resumable {
   template <class Sums, class Sum>
   [[nodiscard]] double sum_of(const BodyGroup& group, Sums BlockSums::*sums,
                               Sum sum) const noexcept;
-  void load(const std::vector<Vec2>& u, const std::vector<Vec2>& v) noexcept;
+  void load(std::span<const Vec2> u, std::span<const Vec2> v) noexcept;
   void begin(const State& start) noexcept;
   void set_pose(const BodyGroup& group, GroupStep& step) noexcept;
   [[nodiscard]] Vec2 displacement_of(int row) const noexcept;
@@ -85,7 +85,7 @@ class BodiesIntegrator final : public Integrator, public Resumable {
   [[nodiscard]] Vec2 frame_at(int row) const noexcept;
   [[nodiscard]] Vec2 free_velocity(const Correction& on) const noexcept;
   void report_frame(StepReport& report) const noexcept;
-  void save_motion(std::vector<Vec2>* u, std::vector<Vec2>* v) const noexcept;
+  void save_motion(std::span<Vec2> u, std::span<Vec2> v) const noexcept;
 
   const Model& model_;
   const kernels::BodyTable& table_;

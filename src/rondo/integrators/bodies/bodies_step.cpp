@@ -270,7 +270,7 @@ void BodiesIntegrator::solve_contacts(StepReport& report) noexcept {
     t.before = corrections_.back().before;
     t.free = free_velocity(corrections_.back());
   }
-  report.contact = contact_->solve(BodyFrames(model_, frame_), report.frame.center);
+  report.contact = contact_->solve(BodyFrames(model_, frame_), report.frame.center.plane());
   for (std::size_t i = 0; i < touching.size(); ++i) corrections_[i].after = touching[i].after;
   std::ranges::sort(corrections_, {}, &Correction::row);
 }

@@ -246,14 +246,9 @@ void BatchIntegrator::advance(std::span<StepReport> reports, State* last) noexce
   if (!last) return;
   const Nodes nodes = last->v.empty() ? Nodes::candidates : Nodes::free;
   save_displacement(nodes, last->u);
-  save_axial_displacement(nodes, last->axial_u);
-  if (nodes == Nodes::free) {
-    save_velocity(last->v);
-    save_axial_velocity(last->axial_v);
-  }
+  if (nodes == Nodes::free) save_velocity(last->v);
   advance_batch(reports.last(1));
   if (!last->v_next.empty()) save_velocity(last->v_next);
-  if (!last->axial_v_next.empty()) save_axial_velocity(last->axial_v_next);
   last->active.clear();
   save_active(last->active);
   if (corners_) corners_->save_active(last->active);
@@ -266,24 +261,17 @@ void BatchIntegrator::advance(std::span<StepReport> reports, State* last) noexce
 void BatchIntegrator::fields(State& state) const noexcept {
   save_displacement(Nodes::free, state.u);
   save_velocity(state.v_next);
-  save_axial_displacement(Nodes::free, state.axial_u);
-  save_axial_velocity(state.axial_v_next);
 }
 
 SavedState BatchIntegrator::save() const {
   SavedState saved;
   saved.step = step_;
-  saved.u.resize(model_.n_nodes());
-  saved.v.resize(model_.n_nodes());
-  if (model_.stiffness_damping > 0.0 || rim_) saved.force.resize(model_.n_nodes());
-  if (model_.solid) {
-    saved.axial_u.resize(model_.n_nodes());
-    saved.axial_v.resize(model_.n_nodes());
-    saved.axial_force.resize(saved.force.size());
-  }
+  const Field zero(model_.n_nodes(), model_.components());
+  saved.u = saved.v = zero;
+  if (model_.stiffness_damping > 0.0 || rim_) saved.force = zero;
   if (rim_) {
     saved.rim = rim_->save();
-    saved.u_before.resize(model_.n_nodes());
+    saved.u_before = zero;
   }
   save_fields(saved);
   if (corners_) saved.impulses = corners_->impulses();

@@ -49,11 +49,8 @@ class BatchIntegrator : public Integrator, public Resumable, protected Candidate
   virtual void go_on(const kernels::WheelWay& way, long long step, Share share) noexcept = 0;
   enum class Nodes { free, candidates };
   /// u_{n+1} of these nodes and v_{n+1/2} of the free ones, n the last step made.
-  virtual void save_displacement(Nodes of, std::vector<Vec2>& u) const noexcept = 0;
-  virtual void save_velocity(std::vector<Vec2>& v) const noexcept = 0;
-  /// Their axial components in three dimensions.
-  virtual void save_axial_displacement(Nodes /*of*/, std::vector<double>& /*u*/) const noexcept {}
-  virtual void save_axial_velocity(std::vector<double>& /*v*/) const noexcept {}
+  virtual void save_displacement(Nodes of, Field& u) const noexcept = 0;
+  virtual void save_velocity(Field& v) const noexcept = 0;
   /// u, v and force of the free nodes, as they are held; the force where `saved` has room for it;
   /// u_before with a loaded rim.
   virtual void save_fields(SavedState& saved) const noexcept = 0;

@@ -95,7 +95,7 @@ CornerContact::Extent CornerContact::extent(std::size_t n_steps,
   double farthest = 0.0, fastest = 0.0;
   for (std::size_t k = 0; k < boundary_.n_nodes(); ++k) {
     const CandidateMotion motion = fields.motion_of(k);
-    state_.u[k] = begin_[k] = motion.u;
+    state_.u.plane()[k] = begin_[k] = motion.u;
     const Vec2 arm = boundary_.reference[k] + motion.u;
     farthest = std::max(farthest, dot(arm, arm));
     fastest = std::max(fastest, dot(motion.v, motion.v));
@@ -116,7 +116,7 @@ void CornerContact::look_out(std::span<StepContext> steps, const CandidateFields
   nodes_.clear();
   const Extent e = extent(steps.size(), fields);
   Box centers = empty_box();
-  for (const StepContext& step : steps) include(centers, step.frame.center);
+  for (const StepContext& step : steps) include(centers, step.frame.center.plane());
   const Box around = around_ = widened(centers, e.farthest + e.reach);
   const contact::Ground& ground = boundary_.contact->ground;
   const auto corners = ground.corners(around.low.x, around.high.x);
@@ -157,7 +157,7 @@ void CornerContact::look_at(std::size_t corner, std::span<const StepContext> ste
   Vec2 last;
   for (std::size_t i = 0; i < steps.size(); ++i) {
     const FrameStep& frame = steps[i].frame;
-    const Vec2 place = conj(frame.rotation) * (position - frame.center);
+    const Vec2 place = conj(frame.rotation) * (position - frame.center.plane());
     if (i > 0) length += norm(place - last);
     last = place;
     nearest = std::min(nearest, norm(place));
@@ -171,7 +171,7 @@ void CornerContact::set_edge_boxes() noexcept {
   for (std::size_t i = 0; i < edges.size(); ++i) {
     edge_boxes_[i] = empty_box();
     for (const int node : edges[i])
-      include(edge_boxes_[i], boundary_.reference[at(node)] + state_.u[at(node)]);
+      include(edge_boxes_[i], boundary_.reference[at(node)] + state_.u.plane()[at(node)]);
   }
 }
 
@@ -205,7 +205,7 @@ void CornerContact::release() noexcept {
 void CornerContact::find(const StepContext& step, const CandidateFields& fields) noexcept {
   release();
   state_.frame = step.frame;
-  for (const int node : nodes_) state_.u[at(node)] = fields.motion_of(at(node)).u;
+  for (const int node : nodes_) state_.u.plane()[at(node)] = fields.motion_of(at(node)).u;
   for (const ContactRow& row :
        contact_.find_at_corners(state_, std::span(near_).first(n_near_), nodes_))
     for (int i = 0; i < row.rows.count; ++i) {
@@ -213,7 +213,7 @@ void CornerContact::find(const StepContext& step, const CandidateFields& fields)
       if (std::exchange(is_held_[k], char{1})) continue;
       const CandidateMotion motion = fields.motion_of(k);
       const Complex back{step.wheel.back_x, step.wheel.back_y};  // 0 but with a loaded rim
-      state_.v[k] = motion.v + back * motion.v;
+      state_.v.plane()[k] = motion.v + back * motion.v;
       held_.push_back(
           {k, {.change = motion.force, .load = load_on(step, k), .moved = motion.moved}});
     }
@@ -225,7 +225,7 @@ void CornerContact::solve(const StepContext& step, CandidateFields& fields,
   if (held_.empty()) return contact_.set_impulses({});
   for (Held& h : held_) {
     const CandidateMotion motion = fields.motion_of(h.candidate);
-    state_.v_next[h.candidate] = h.free = motion.v;
+    state_.v_next.plane()[h.candidate] = h.free = motion.v;
     h.forces.change = motion.force - h.forces.change;
     h.forces.elastic = motion.force;
     h.forces.internal = motion.internal;
@@ -233,17 +233,17 @@ void CornerContact::solve(const StepContext& step, CandidateFields& fields,
   const VelocityUpdate update =
       velocity_update(boundary_.scheme, boundary_.dt, boundary_.mass_damping, step.frame.spin);
   const BodyFrames frames({step.frame, update, *step.contact});
-  part.contact = contact_.solve_found(frames, step.frame.center, state_);
+  part.contact = contact_.solve_found(frames, step.frame.center.plane(), state_);
   for (const Held& h : held_) {
     const std::size_t k = h.candidate;
-    const Vec2 after = state_.v_next[k];
+    const Vec2 after = state_.v_next.plane()[k];
     const ContactNode node{k,
                            boundary_.mass[k],
                            boundary_.contact->tributary[k],
-                           boundary_.reference[k] + state_.u[k],
-                           state_.v[k],
+                           boundary_.reference[k] + state_.u.plane()[k],
+                           state_.v.plane()[k],
                            h.free};
-    fields.move(k, after, state_.u[k] + boundary_.dt * after);
+    fields.move(k, after, state_.u.plane()[k] + boundary_.dt * after);
     if (boundary_.rim)
       correct_wheel_sums(node, after, h.forces, part.sums);
     else

@@ -98,7 +98,7 @@ int CyclicChunk::field_next() const noexcept {
 
 /// K u_0 by the very blocks of the steps: with others, alike to round-off, the ledger would begin
 /// with their difference.
-Vec2 CyclicChunk::initial_force(const std::vector<Vec2>& u, int a, int c) const noexcept {
+Vec2 CyclicChunk::initial_force(std::span<const Vec2> u, int a, int c) const noexcept {
   const fem::SectorStiffness& k = *model_.sector;
   const int n = plan_.n_sectors, sector = range_.first + c;
   Vec2 force;
@@ -127,8 +127,8 @@ void CyclicChunk::for_own_nodes(Visit&& visit, bool candidates) const noexcept {
 void CyclicChunk::load(const State& state) {
   for_own_nodes([&](int a, int c, std::size_t node) {
     const Complex to_sector = conj(turn(c));
-    const Vec2 v = to_sector * state.v_next[node];
-    put(a, field_now(), c, to_sector * state.u[node] + model_.dt * v);
+    const Vec2 v = to_sector * state.v_next.plane()[node];
+    put(a, field_now(), c, to_sector * state.u.plane()[node] + model_.dt * v);
     put(a, field_v, c, v);
     if (plan_.keeps_force) put(a, field_force, c, initial_force(state.u, a, c));
   });
@@ -142,19 +142,19 @@ void CyclicChunk::load_on_rim(const State& state) {
   rim.restore(state.step, state.rim);
   for_own_nodes([&](int a, int c, std::size_t node) {
     const Complex to_sector = conj(turn(c));
-    const Vec2 arm = model_.reference[node] + state.u[node];
-    put(a, field_next(), c, to_sector * state.u[node]);
+    const Vec2 arm = model_.reference[node] + state.u.plane()[node];
+    put(a, field_next(), c, to_sector * state.u.plane()[node]);
     put(a, field_v, c,
-        to_sector * velocity_on_rim(rim, model_.dt, arm, model_.dt * state.v_next[node]));
+        to_sector * velocity_on_rim(rim, model_.dt, arm, model_.dt * state.v_next.plane()[node]));
   });
 }
 
 void CyclicChunk::restore(const SavedState& saved) noexcept {
   for_own_nodes([&](int a, int c, std::size_t node) {
-    put(a, field_now(), c, saved.u[node]);
-    put(a, field_v, c, saved.v[node]);
-    if (plan_.keeps_force) put(a, field_force, c, saved.force[node]);
-    if (plan_.wheel) put(a, field_next(), c, saved.u_before[node]);
+    put(a, field_now(), c, saved.u.plane()[node]);
+    put(a, field_v, c, saved.v.plane()[node]);
+    if (plan_.keeps_force) put(a, field_force, c, saved.force.plane()[node]);
+    if (plan_.wheel) put(a, field_next(), c, saved.u_before.plane()[node]);
   });
   show_to_others();
 }
@@ -185,19 +185,19 @@ void CyclicChunk::show_to_others() noexcept {
 
 void CyclicChunk::save(SavedState& saved) const noexcept {
   for_own_nodes([&](int a, int c, std::size_t node) {
-    saved.u[node] = at(a, field_now(), c);
-    saved.v[node] = at(a, field_v, c);
-    if (plan_.keeps_force) saved.force[node] = at(a, field_force, c);
-    if (plan_.wheel) saved.u_before[node] = at(a, field_next(), c);
+    saved.u.plane()[node] = at(a, field_now(), c);
+    saved.v.plane()[node] = at(a, field_v, c);
+    if (plan_.keeps_force) saved.force.plane()[node] = at(a, field_force, c);
+    if (plan_.wheel) saved.u_before.plane()[node] = at(a, field_next(), c);
   });
 }
 
-void CyclicChunk::save_displacement(bool candidates, std::vector<Vec2>& u) const noexcept {
+void CyclicChunk::save_displacement(bool candidates, std::span<Vec2> u) const noexcept {
   for_own_nodes([&](int a, int c, std::size_t node) { u[node] = turn(c) * at(a, field_now(), c); },
                 candidates);
 }
 
-void CyclicChunk::save_velocity(std::vector<Vec2>& v) const noexcept {
+void CyclicChunk::save_velocity(std::span<Vec2> v) const noexcept {
   if (!plan_.wheel)
     return for_own_nodes(
         [&](int a, int c, std::size_t node) { v[node] = turn(c) * at(a, field_v, c); });

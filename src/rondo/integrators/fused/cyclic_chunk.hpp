@@ -27,8 +27,8 @@ class CyclicChunk {
   void restore(const SavedState& saved) noexcept;
   /// u_{n+1} of this chunk's own nodes into u, v_{n+1/2} into v, (n) each.
   /// @param candidates only those of the rows that have contact candidates
-  void save_displacement(bool candidates, std::vector<Vec2>& u) const noexcept;
-  void save_velocity(std::vector<Vec2>& v) const noexcept;
+  void save_displacement(bool candidates, std::span<Vec2> u) const noexcept;
+  void save_velocity(std::span<Vec2> v) const noexcept;
 
   /// What neighbours need of this chunk for the pass to come.
   void give_edges() noexcept { edges_.give(layout(), edge_fields(), passes_); }
@@ -105,7 +105,7 @@ class CyclicChunk {
   void set_motion(CyclicPlace place, int field_u, Vec2 v, Vec2 u) noexcept;
   void fill_loads();
   [[nodiscard]] Vec2 load_on(const Work& work, int row, int column) const noexcept;
-  [[nodiscard]] Vec2 initial_force(const std::vector<Vec2>& u, int a, int c) const noexcept;
+  [[nodiscard]] Vec2 initial_force(std::span<const Vec2> u, int a, int c) const noexcept;
   [[nodiscard]] kernels::CyclicStrip strip_from(int first, int now, int next) noexcept;
   void strip(const Work& work, int i) noexcept;
   [[nodiscard]] std::size_t candidate_at(int row, int column) const noexcept;

@@ -117,11 +117,11 @@ void CyclicIntegrator::show_changes(Share share) noexcept {
   for (std::size_t c = share.first(n); c < share.last(n); ++c) chunks_[c].show_rows();
 }
 
-void CyclicIntegrator::save_displacement(Nodes of, std::vector<Vec2>& u) const noexcept {
+void CyclicIntegrator::save_displacement(Nodes of, Field& u) const noexcept {
   for (const CyclicChunk& chunk : chunks_) chunk.save_displacement(of == Nodes::candidates, u);
 }
 
-void CyclicIntegrator::save_velocity(std::vector<Vec2>& v) const noexcept {
+void CyclicIntegrator::save_velocity(Field& v) const noexcept {
   for (const CyclicChunk& chunk : chunks_) chunk.save_velocity(v);
 }
 

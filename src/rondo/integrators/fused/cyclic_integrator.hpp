@@ -28,8 +28,8 @@ class CyclicIntegrator : public BatchIntegrator {
   void make_steps(const Batch& batch, Share share) noexcept override;
   void go_on(const kernels::WheelWay& way, long long step, Share share) noexcept override;
   void show_changes(Share share) noexcept override;
-  void save_displacement(Nodes of, std::vector<Vec2>& u) const noexcept override;
-  void save_velocity(std::vector<Vec2>& v) const noexcept override;
+  void save_displacement(Nodes of, Field& u) const noexcept override;
+  void save_velocity(Field& v) const noexcept override;
   void save_fields(SavedState& saved) const noexcept override;
   void restore_fields(const SavedState& saved) noexcept override;
   void save_active(std::vector<ActiveContact>& active) const noexcept override;

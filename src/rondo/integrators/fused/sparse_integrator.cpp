@@ -124,12 +124,12 @@ void SparseIntegrator::load(const State& start) {
   double* now = u_[parity(step_)].data();
   for (std::size_t i = 0; i < plan_.node.size(); ++i) {
     const auto node = static_cast<std::size_t>(plan_.node[i]);
-    const Vec2 u = start.u[node] + model_.dt * start.v_next[node];
+    const Vec2 u = start.u.plane()[node] + model_.dt * start.v_next.plane()[node];
     now[2 * i] = u.x;
     now[2 * i + 1] = u.y;
     double* motion = motion_.data() + motion_at(i);
-    put(motion, start.v_next[node]);
-    if (plan_.keeps_force) put(motion + force_at, start.force[node]);
+    put(motion, start.v_next.plane()[node]);
+    if (plan_.keeps_force) put(motion + force_at, start.force.plane()[node]);
   }
   if (plan_.wheel) load_on_rim(start);
 }
@@ -141,38 +141,38 @@ void SparseIntegrator::load_on_rim(const State& start) {
   double* before = u_[parity(step_ + 1)].data();
   for (std::size_t i = 0; i < plan_.node.size(); ++i) {
     const auto node = static_cast<std::size_t>(plan_.node[i]);
-    const Vec2 u = start.u[node];
+    const Vec2 u = start.u.plane()[node];
     before[2 * i] = u.x;
     before[2 * i + 1] = u.y;
     put(motion_.data() + motion_at(i), velocity_on_rim(rim, model_.dt, model_.reference[node] + u,
-                                                       model_.dt * start.v_next[node]));
+                                                       model_.dt * start.v_next.plane()[node]));
   }
 }
 
-void SparseIntegrator::save_displacement(Nodes of, std::vector<Vec2>& u) const noexcept {
+void SparseIntegrator::save_displacement(Nodes of, Field& u) const noexcept {
   const double* now = u_[parity(step_)].data();
   if (of == Nodes::candidates) {
     for (const SparseCandidate& c : plan_.candidates)
-      u[static_cast<std::size_t>(plan_.node[static_cast<std::size_t>(c.row)])] =
+      u.plane()[static_cast<std::size_t>(plan_.node[static_cast<std::size_t>(c.row)])] =
           pair_at(now, c.row);
     return;
   }
   for (std::size_t i = 0; i < plan_.node.size(); ++i)
-    u[static_cast<std::size_t>(plan_.node[i])] = pair_at(now, static_cast<int>(i));
+    u.plane()[static_cast<std::size_t>(plan_.node[i])] = pair_at(now, static_cast<int>(i));
 }
 
-void SparseIntegrator::save_velocity(std::vector<Vec2>& v) const noexcept {
+void SparseIntegrator::save_velocity(Field& v) const noexcept {
   const double *now = u_[parity(step_)].data(), *before = u_[parity(step_ + 1)].data();
   if (plan_.wheel) {
     for (std::size_t i = 0; i < plan_.node.size(); ++i) {
       const auto row = static_cast<int>(i);
-      v[static_cast<std::size_t>(plan_.node[i])] =
+      v.plane()[static_cast<std::size_t>(plan_.node[i])] =
           (pair_at(now, row) - pair_at(before, row)) / model_.dt;
     }
     return;
   }
   for (std::size_t i = 0; i < plan_.node.size(); ++i)
-    v[static_cast<std::size_t>(plan_.node[i])] = vector_at(motion_.data() + motion_at(i));
+    v.plane()[static_cast<std::size_t>(plan_.node[i])] = vector_at(motion_.data() + motion_at(i));
 }
 
 void SparseIntegrator::save_fields(SavedState& saved) const noexcept {
@@ -180,13 +180,15 @@ void SparseIntegrator::save_fields(SavedState& saved) const noexcept {
   save_velocity(saved.v);
   if (plan_.keeps_force)
     for (std::size_t i = 0; i < plan_.node.size(); ++i)
-      saved.force[static_cast<std::size_t>(plan_.node[i])] =
+      saved.force.plane()[static_cast<std::size_t>(plan_.node[i])] =
           vector_at(motion_.data() + motion_at(i) + force_at);
   if (!plan_.wheel) return;
   const double* before = u_[parity(step_ + 1)].data();
   for (std::size_t i = 0; i < plan_.node.size(); ++i) {
-    saved.v[static_cast<std::size_t>(plan_.node[i])] = vector_at(motion_.data() + motion_at(i));
-    saved.u_before[static_cast<std::size_t>(plan_.node[i])] = pair_at(before, static_cast<int>(i));
+    saved.v.plane()[static_cast<std::size_t>(plan_.node[i])] =
+        vector_at(motion_.data() + motion_at(i));
+    saved.u_before.plane()[static_cast<std::size_t>(plan_.node[i])] =
+        pair_at(before, static_cast<int>(i));
   }
 }
 
@@ -194,15 +196,15 @@ void SparseIntegrator::restore_fields(const SavedState& saved) noexcept {
   double* now = u_[parity(step_)].data();
   for (std::size_t i = 0; i < plan_.node.size(); ++i) {
     const auto node = static_cast<std::size_t>(plan_.node[i]);
-    now[2 * i] = saved.u[node].x;
-    now[2 * i + 1] = saved.u[node].y;
+    now[2 * i] = saved.u.plane()[node].x;
+    now[2 * i + 1] = saved.u.plane()[node].y;
     double* motion = motion_.data() + motion_at(i);
-    put(motion, saved.v[node]);
-    if (plan_.keeps_force) put(motion + force_at, saved.force[node]);
+    put(motion, saved.v.plane()[node]);
+    if (plan_.keeps_force) put(motion + force_at, saved.force.plane()[node]);
     if (!plan_.wheel) continue;
     double* before = u_[parity(step_ + 1)].data() + 2 * i;
-    before[0] = saved.u_before[node].x;
-    before[1] = saved.u_before[node].y;
+    before[0] = saved.u_before.plane()[node].x;
+    before[1] = saved.u_before.plane()[node].y;
   }
 }
 

@@ -8,8 +8,8 @@ namespace {
 void add_axial(const Model& model, const FrameStep& f, const VelocityUpdate& update,
                StepContext& s) noexcept {
   const double dt = model.dt, axial_a = 1.0 + 0.5 * dt * model.mass_damping;
-  s.axial = {.pull = dt * f.axial_pull, .inverse = 1.0 / axial_a, .drag = dt * model.mass_damping};
-  s.terms.unsteady = s.terms.unsteady || f.axial_pull != 0.0;
+  s.axial = {.pull = dt * f.pull.z, .inverse = 1.0 / axial_a, .drag = dt * model.mass_damping};
+  s.terms.unsteady = s.terms.unsteady || f.pull.z != 0.0;
   if (model.contact) s.solid_contact.emplace(model, f, update, axial_a);
 }
 
@@ -32,7 +32,7 @@ StepContext step_context(const Model& model, const FrameStep& f) noexcept {
                .drag_y = update.drag.im,
                .beta_over_dt = model.stiffness_damping / dt};
   s.terms = {.stiffness_damping = model.stiffness_damping > 0.0,
-             .unsteady = f.spin_rate != 0.0 || f.pull != Vec2{}};
+             .unsteady = f.spin_rate != 0.0 || f.pull.plane() != Vec2{}};
   if (model.solid)
     add_axial(model, f, update, s);
   else if (model.contact)

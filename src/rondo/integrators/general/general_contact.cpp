@@ -26,7 +26,7 @@ Vec2 row_sum(const ContactRows& rows, Value&& value) {
 }
 
 Vec2 arm_of(const Model& model, const State& state, std::size_t k) noexcept {
-  return model.reference[k] + state.u[k];
+  return model.reference[k] + state.u.plane()[k];
 }
 
 /// (x_{n+2} - x_{n+1})/Δt that a velocity v⁺ means, fixed frame.
@@ -106,8 +106,8 @@ double GeneralContact::turning_of(const BodyFrames& frames, const ContactRow& ro
                                   const State& state) const {
   const auto travel = [&](int node) {
     const auto k = at(node);
-    return model_.dt *
-           velocity_before(frames.of(model_, k).contact, arm_of(model_, state, k), state.v[k]);
+    return model_.dt * velocity_before(frames.of(model_, k).contact, arm_of(model_, state, k),
+                                       state.v.plane()[k]);
   };
   const bool corner = row.kind == ContactKind::corner;
   const int a = row.rows.node[corner ? 0 : 1], b = row.rows.node[corner ? 1 : 2];
@@ -122,12 +122,13 @@ double GeneralContact::turning_of(const BodyFrames& frames, const ContactRow& ro
 void GeneralContact::set_velocities(const BodyFrames& frames, const State& state) {
   for (ContactRow& row : rows_) {
     row.before = row_sum(row.rows, [&](std::size_t k) {
-      return velocity_before(frames.of(model_, k).contact, arm_of(model_, state, k), state.v[k]);
+      return velocity_before(frames.of(model_, k).contact, arm_of(model_, state, k),
+                             state.v.plane()[k]);
     });
     row.free = row_sum(row.rows, [&](std::size_t k) {
       const ContactStep& step = frames.of(model_, k).contact;
       response_[k] = step.turn / (model_.mass[k] * step.a);
-      return velocity_after(step, arm_of(model_, state, k), state.v_next[k]);
+      return velocity_after(step, arm_of(model_, state, k), state.v_next.plane()[k]);
     });
     row.turning = row.kind == ContactKind::facet ? 0.0 : turning_of(frames, row, state);
     row.bounce = contact::restitution_shift(row.law, row.before.x, row.before.x - row.turning);
@@ -196,16 +197,20 @@ void GeneralContact::solve_on_ground(const BodyFrames& frames, Rows rows, State&
     touches.at[at(touches.count++)] = {rows_[at(j)].gap, rows_[at(j)].normal};
   std::array<ActiveContact, 2> contacts;
   const std::span active(contacts.data(), rows.size());
-  const ContactNode node{
-      i,          model_.mass[k], model_.contact->tributary[i], arm_of(model_, state, k),
-      state.v[k], state.v_next[k]};
+  const ContactNode node{i,
+                         model_.mass[k],
+                         model_.contact->tributary[i],
+                         arm_of(model_, state, k),
+                         state.v.plane()[k],
+                         state.v_next.plane()[k]};
   const ContactStep& step = frames.of(model_, k).contact;
-  const Vec2 before = report.impulse;
-  state.v_next[k] = solve_contacts(step, node, touches, active, report);
+  const Vec3 before = report.impulse;
+  state.v_next.plane()[k] = solve_contacts(step, node, touches, active, report);
   // The moment was taken about the center of the node's frame.
-  report.angular_impulse += cross(step.center - center_, report.impulse - before);
+  report.angular_impulse += cross(step.center - center_, (report.impulse - before).plane());
   state.active.insert(state.active.end(), active.begin(), active.end());
-  for (std::size_t j = 0; j < rows.size(); ++j) rows_[at(rows[j])].impulse = active[j].impulse;
+  for (std::size_t j = 0; j < rows.size(); ++j)
+    rows_[at(rows[j])].impulse = active[j].impulse.plane();
 }
 
 void GeneralContact::make_problem(Rows rows) {
@@ -258,7 +263,7 @@ void GeneralContact::add_impulses(const BodyFrames& frames, Rows rows, bool conv
       const auto k = at(row.rows.node[at(i)]);
       const ContactStep& step = frames.of(model_, k).contact;
       const Vec2 impulse = contact::transposed(row.rows.block[at(i)], row.impulse);
-      state.v_next[k] += conj(step.rotation) * impulse / (model_.mass[k] * step.a);
+      state.v_next.plane()[k] += conj(step.rotation) * impulse / (model_.mass[k] * step.a);
     }
   }
   if (!converged) return;
@@ -267,8 +272,9 @@ void GeneralContact::add_impulses(const BodyFrames& frames, Rows rows, bool conv
     if (row.kind != ContactKind::facet || row.status != Status::stick) continue;
     const auto k = at(row.rows.node[0]);
     const ContactStep& step = frames.of(model_, k).contact;
-    state.v_next[k] = conj(step.rotation_next) * (from_frame(row.normal, {-row.bounce, 0.0}) -
-                                                  drive_of(step, arm_of(model_, state, k)));
+    state.v_next.plane()[k] =
+        conj(step.rotation_next) *
+        (from_frame(row.normal, {-row.bounce, 0.0}) - drive_of(step, arm_of(model_, state, k)));
   }
 }
 
@@ -276,14 +282,15 @@ void GeneralContact::add_impulses(const BodyFrames& frames, Rows rows, bool conv
 void GeneralContact::finish_row(const BodyFrames& frames, ContactRow& row, double mass,
                                 State& state, ContactReport& report) {
   row.after = row_sum(row.rows, [&](std::size_t k) {
-    return velocity_after(frames.of(model_, k).contact, arm_of(model_, state, k), state.v_next[k]);
+    return velocity_after(frames.of(model_, k).contact, arm_of(model_, state, k),
+                          state.v_next.plane()[k]);
   });
   double work = 0.0;
   for (int i = 0; i < row.rows.count; ++i) {
     const auto k = at(row.rows.node[at(i)]);
     const Vec2 impulse = conj(frames.of(model_, k).contact.rotation) *
                          contact::transposed(row.rows.block[at(i)], row.impulse);
-    work += dot(impulse, 0.5 * (state.v[k] + state.v_next[k]));
+    work += dot(impulse, 0.5 * (state.v.plane()[k] + state.v_next.plane()[k]));
   }
   const Vec2 mean = 0.5 * (row.before + row.after);
   report.work += work;

@@ -18,7 +18,7 @@ GeneralIntegrator::GeneralIntegrator(const Model& model, const State& start)
       damping_(model.stiffness_damping > 0.0 ? model.n_nodes() : 0),
       load_(model.pressures.empty() ? 0 : model.n_nodes()) {
   RONDO_DEMAND(!model.rim && (model.free_bodies.empty() || model.scheme == Scheme::symplectic));
-  state_.v.resize(model.n_nodes());
+  state_.v = Field(model.n_nodes(), 2);
   take_poses();
   if (model.implicit) set_implicit();
   if (!has_massless_contact(model)) return;
@@ -45,8 +45,8 @@ void GeneralIntegrator::take_poses() noexcept {
 /// u_{n+1}, and ½ vᵀ M v before it.
 void GeneralIntegrator::move(double& kinetic) noexcept {
   for_free_nodes(model_, [&](std::size_t k) {
-    state_.u[k] += model_.dt * state_.v[k];
-    kinetic += 0.5 * model_.mass[k] * dot(state_.v[k], state_.v[k]);
+    state_.u.plane()[k] += model_.dt * state_.v.plane()[k];
+    kinetic += 0.5 * model_.mass[k] * dot(state_.v.plane()[k], state_.v.plane()[k]);
   });
 }
 
@@ -72,27 +72,28 @@ void GeneralIntegrator::move_ring(const ContactStep& step) noexcept {
   const std::span<const int> nodes = ring_->nodes(), around = ring_->neighbours();
   const auto at = [](int node) { return static_cast<std::size_t>(node); };
   for (std::size_t i = 0; i < nodes.size(); ++i) {
-    motion.place[i] = state_.u[at(nodes[i])];
-    motion.before[i] = state_.v[at(nodes[i])];
+    motion.place[i] = state_.u.plane()[at(nodes[i])];
+    motion.before[i] = state_.v.plane()[at(nodes[i])];
   }
   for (std::size_t i = 0; i < around.size(); ++i) {
-    motion.rate[i] = state_.v_next[at(around[i])];
-    motion.place[nodes.size() + i] = state_.u[at(around[i])] + model_.dt * motion.rate[i];
+    motion.rate[i] = state_.v_next.plane()[at(around[i])];
+    motion.place[nodes.size() + i] = state_.u.plane()[at(around[i])] + model_.dt * motion.rate[i];
   }
   ring_->solve(step);
-  for (std::size_t i = 0; i < nodes.size(); ++i) state_.v_next[at(nodes[i])] = ring_->velocity()[i];
+  for (std::size_t i = 0; i < nodes.size(); ++i)
+    state_.v_next.plane()[at(nodes[i])] = ring_->velocity()[i];
 }
 
 ContactReport GeneralIntegrator::solve_contacts(const BodyFrames& frames,
                                                 const StepReport& report) noexcept {
   if (!ring_) {
-    const ContactReport found = contact_.solve(frames, report.frame.center, state_);
+    const ContactReport found = contact_.solve(frames, report.frame.center.plane(), state_);
     if (implicit_ && implicit_->contact()) add_active(implicit_->contact()->active());
     return found;
   }
   const ContactStep step = BodyFrame(model_, state_.frame).contact;
   move_ring(step);
-  return ring_->report(step, report.frame.center, state_.active);
+  return ring_->report(step, report.frame.center.plane(), state_.active);
 }
 
 /// v⁺ = v⁻ + [Δt f/m - drag v⁻]/a, without contact (3.4).
@@ -106,9 +107,10 @@ void GeneralIntegrator::free_velocities(const BodyFrames& frames) noexcept {
     if (!damping_.empty()) force -= damping_[k];
     if (!load_.empty()) force += load_[k];
     const Vec2 acceleration =
-        force / model_.mass[k] - frame_acceleration(f.frame, model_.reference[k] + state_.u[k]);
-    const Vec2 v = state_.v[k];
-    state_.v_next[k] = v + (dt * acceleration - f.update.drag * v) / f.update.a;
+        force / model_.mass[k] -
+        frame_acceleration(f.frame, model_.reference[k] + state_.u.plane()[k]);
+    const Vec2 v = state_.v.plane()[k];
+    state_.v_next.plane()[k] = v + (dt * acceleration - f.update.drag * v) / f.update.a;
   });
 }
 
@@ -120,15 +122,15 @@ void GeneralIntegrator::correct_implicit(const BodyFrames& frames, StepEnergy& e
   PlaneField& v = implicit_velocity_;
   for (std::size_t i = 0; i < nodes.size(); ++i) {
     const auto k = static_cast<std::size_t>(nodes[i]);
-    implicit.u().put(i, state_.u[k]);
-    implicit.before().put(i, state_.v[k]);
-    v.put(i, state_.v_next[k]);
+    implicit.u().put(i, state_.u.plane()[k]);
+    implicit.before().put(i, state_.v.plane()[k]);
+    v.put(i, state_.v_next.plane()[k]);
   }
   const BodyFrame& frame = frames.of(model_, static_cast<std::size_t>(nodes.front()));
   const ImplicitEnergy more =
       implicit.solve(frame.frame.spin, model_.contact ? &frame.contact : nullptr, v, report);
   for (std::size_t i = 0; i < nodes.size(); ++i)
-    state_.v_next[static_cast<std::size_t>(nodes[i])] = v.at(i);
+    state_.v_next.plane()[static_cast<std::size_t>(nodes[i])] = v.at(i);
   energy.strain += more.strain;
   energy.works.dissipation_stiffness += more.dissipation_stiffness;
 }
@@ -139,9 +141,10 @@ void GeneralIntegrator::add_works(const BodyFrames& frames, Works& w) const noex
   for_free_nodes(model_, [&](std::size_t k) {
     const double m = model_.mass[k];
     const FrameStep& frame = frames.of(model_, k).frame;
-    const Vec2 mean = 0.5 * (state_.v[k] + state_.v_next[k]);
-    const Vec2 taken = velocity_of_terms(model_.scheme, state_.v[k], mean);
-    w.frame -= dt * m * dot(mean, frame_acceleration(frame, model_.reference[k] + state_.u[k]));
+    const Vec2 mean = 0.5 * (state_.v.plane()[k] + state_.v_next.plane()[k]);
+    const Vec2 taken = velocity_of_terms(model_.scheme, state_.v.plane()[k], mean);
+    w.frame -=
+        dt * m * dot(mean, frame_acceleration(frame, model_.reference[k] + state_.u.plane()[k]));
     w.dissipation_mass += dt * model_.mass_damping * m * dot(mean, taken);
     if (!damping_.empty()) w.dissipation_stiffness += dt * dot(mean, damping_[k]);
     if (!load_.empty()) w.load += dt * dot(mean, load_[k]);
@@ -197,7 +200,8 @@ void GeneralIntegrator::advance(std::span<StepReport> reports, State* last) noex
 
 void GeneralIntegrator::fields(State& state) const noexcept {
   state.u = state_.u;
-  for_free_nodes(model_, [&](std::size_t k) { state.u[k] += model_.dt * state_.v_next[k]; });
+  for_free_nodes(
+      model_, [&](std::size_t k) { state.u.plane()[k] += model_.dt * state_.v_next.plane()[k]; });
   state.v_next = state_.v_next;
 }
 

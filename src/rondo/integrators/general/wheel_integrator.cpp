@@ -21,15 +21,15 @@ WheelIntegrator::WheelIntegrator(const Model& model, const State& start)
       contact_(model) {
   RONDO_DEMAND(model.rim && model.free_bodies.empty() && model.scheme == Scheme::symplectic);
   rim_.restore(start.step, start.rim);
-  state_.v.assign(model.n_nodes(), {});
+  state_.v = Field(model.n_nodes(), 2);
   forces_.all.resize(model.n_nodes());
   if (model.stiffness_damping > 0.0) forces_.damping.resize(model.n_nodes());
   if (!model.pressures.empty()) forces_.load.resize(model.n_nodes());
   for_free_nodes(model, [&](std::size_t k) {
-    const Vec2 travel = model.dt * start.v_next[k];
-    next_[k] = start.u[k] + travel;
-    absolute_[k] =
-        rim_.frame().rotation * velocity_on_rim(rim_, model.dt, arm(k), next_[k] - start.u[k]);
+    const Vec2 travel = model.dt * start.v_next.plane()[k];
+    next_.plane()[k] = start.u.plane()[k] + travel;
+    absolute_[k] = rim_.frame().rotation *
+                   velocity_on_rim(rim_, model.dt, arm(k), next_.plane()[k] - start.u.plane()[k]);
   });
 }
 
@@ -41,7 +41,7 @@ void WheelIntegrator::move(StepEnergy& energy) noexcept {
   std::swap(state_.u, next_);
   const Complex back = conj(state_.frame.rotation);
   for_free_nodes(model_, [&](std::size_t k) {
-    state_.v[k] = back * absolute_[k];
+    state_.v.plane()[k] = back * absolute_[k];
     energy.kinetic += 0.5 * model_.mass[k] * dot(absolute_[k], absolute_[k]);
   });
 }
@@ -49,7 +49,7 @@ void WheelIntegrator::move(StepEnergy& energy) noexcept {
 /// q at u_{n+1}, damping at the half step before.
 RimForce WheelIntegrator::find_forces(double& strain) noexcept {
   internal_->evaluate(state_.u);
-  std::vector<Vec2>& relative = state_.v_next;  // not yet of use
+  const std::span<Vec2> relative = state_.v_next.plane();  // not yet of use
   for_free_nodes(model_, [&](std::size_t k) { relative[k] = relative_before(k); });
   strain = internal_->half_step_energy(state_.u, relative);
   if (!forces_.damping.empty()) internal_->damping(forces_.damping);
@@ -73,13 +73,13 @@ ContactReport WheelIntegrator::push(Vec2 gravity) noexcept {
   for_free_nodes(model_, [&](std::size_t k) {
     Vec2 force = -forces_.all[k];
     if (!forces_.load.empty()) force += forces_.load[k];
-    state_.v_next[k] = state_.v[k] + model_.dt * (force / model_.mass[k] + gravity);
+    state_.v_next.plane()[k] = state_.v.plane()[k] + model_.dt * (force / model_.mass[k] + gravity);
   });
   const FrameStep& frame = state_.frame;
   const BodyFrames frames({frame, {{1.0, 0.0}, {0.0, 0.0}}, ContactStep(model_, frame)});
-  const ContactReport report = contact_.solve(frames, frame.center, state_);
+  const ContactReport report = contact_.solve(frames, frame.center.plane(), state_);
   for_free_nodes(model_, [&](std::size_t k) {
-    absolute_[k] += frame.rotation * (state_.v_next[k] - state_.v[k]);
+    absolute_[k] += frame.rotation * (state_.v_next.plane()[k] - state_.v.plane()[k]);
   });
   return report;
 }
@@ -88,7 +88,7 @@ ContactReport WheelIntegrator::push(Vec2 gravity) noexcept {
 void WheelIntegrator::find_next() noexcept {
   next_ = state_.u;
   for_free_nodes(model_, [&](std::size_t k) {
-    next_[k] += travel_on_rim(rim_, model_.dt, arm(k), state_.v_next[k]);
+    next_.plane()[k] += travel_on_rim(rim_, model_.dt, arm(k), state_.v_next.plane()[k]);
   });
 }
 
@@ -106,7 +106,7 @@ void WheelIntegrator::add_works(Vec2 gravity, Works& w) const noexcept {
     const Vec2 was = relative_before(k), is = relative_after(k);
     const Vec2 excess = bend * arm(k) + dt * (after * is + before * was);
     const Vec2 way = excess + dt * (is + was);  // D
-    const Vec2 mean = 0.5 * (state_.v[k] + state_.v_next[k]);
+    const Vec2 mean = 0.5 * (state_.v.plane()[k] + state_.v_next.plane()[k]);
     w.scheme -= 0.5 * dot(gradient[k], excess);
     w.dissipation_mass += 0.5 * alpha * model_.mass[k] * dot(was, way);
     if (!forces_.damping.empty()) w.dissipation_stiffness += 0.5 * dot(forces_.damping[k], way);
@@ -149,14 +149,14 @@ void WheelIntegrator::advance(std::span<StepReport> reports, State* last) noexce
   last->u = state_.u;
   last->active = state_.active;
   if (last->v.empty()) return;
-  for_free_nodes(model_, [&](std::size_t k) { last->v[k] = relative_before(k); });
+  for_free_nodes(model_, [&](std::size_t k) { last->v.plane()[k] = relative_before(k); });
   if (last->v_next.empty()) return;
-  for_free_nodes(model_, [&](std::size_t k) { last->v_next[k] = relative_after(k); });
+  for_free_nodes(model_, [&](std::size_t k) { last->v_next.plane()[k] = relative_after(k); });
 }
 
 void WheelIntegrator::fields(State& state) const noexcept {
   state.u = next_;
-  for_free_nodes(model_, [&](std::size_t k) { state.v_next[k] = relative_after(k); });
+  for_free_nodes(model_, [&](std::size_t k) { state.v_next.plane()[k] = relative_after(k); });
 }
 
 SavedState WheelIntegrator::save() const {
@@ -179,7 +179,7 @@ void WheelIntegrator::restore(const SavedState& saved) {
   state_.step = saved.step;
   next_ = saved.u;
   state_.u = saved.u_before;
-  absolute_ = saved.v;
+  absolute_ = to_vector(saved.v.plane());
   rim_.restore(saved.step, saved.rim);
   internal_->restore(saved);
   contact_.set_impulses(saved.impulses);

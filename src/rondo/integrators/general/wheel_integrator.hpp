@@ -40,19 +40,21 @@ class WheelIntegrator final : public Integrator, public Resumable {
   ContactReport push(Vec2 gravity) noexcept;
   void find_next() noexcept;
   void add_works(Vec2 gravity, Works& works) const noexcept;
-  [[nodiscard]] Vec2 arm(std::size_t k) const noexcept { return model_.reference[k] + state_.u[k]; }
+  [[nodiscard]] Vec2 arm(std::size_t k) const noexcept {
+    return model_.reference[k] + state_.u.plane()[k];
+  }
   [[nodiscard]] Vec2 relative_before(std::size_t k) const noexcept {
-    return (state_.u[k] - before_[k]) / model_.dt;
+    return (state_.u.plane()[k] - before_.plane()[k]) / model_.dt;
   }
   [[nodiscard]] Vec2 relative_after(std::size_t k) const noexcept {
-    return (next_[k] - state_.u[k]) / model_.dt;
+    return (next_.plane()[k] - state_.u.plane()[k]) / model_.dt;
   }
 
   const Model& model_;
   LoadedRim rim_;
-  State state_;  ///< u_{n+1}; v and v_next are absolute velocities in the axes of R_{n+1}
-  std::vector<Vec2> before_, next_;  ///< (n) u_n, u_{n+2}                                [m]
-  std::vector<Vec2> absolute_;       ///< (n) V of the half step after, fixed frame       [m/s]
+  State state_;          ///< u_{n+1}; v and v_next are absolute velocities in the axes of R_{n+1}
+  Field before_, next_;  ///< (n) u_n, u_{n+2}                                     [m]
+  std::vector<Vec2> absolute_;  ///< (n) V of the half step after, fixed frame            [m/s]
   Ledger ledger_;
   const std::unique_ptr<InternalForce> internal_;
   GeneralContact contact_;

@@ -29,8 +29,8 @@ CoarsePart::CoarsePart(const Model& whole, const PartFields& start)
       load_(row_of(part_.free.size())),
       change_(load_.size()) {
   for (const int node : part_.free) {
-    fields_.u[at(node)] = start.u[at(node)];
-    fields_.v[at(node)] = start.v[at(node)];
+    fields_.u.plane()[at(node)] = start.u.plane()[at(node)];
+    fields_.v.plane()[at(node)] = start.v.plane()[at(node)];
   }
   for (const int node : interface_)
     place_.push_back(static_cast<int>(std::lower_bound(part_.free.begin(), part_.free.end(), node) -
@@ -74,11 +74,12 @@ void CoarsePart::find_load(Vec2 pull) {
   const double dt = whole_.dt, ahead = 0.5 * dt + whole_.stiffness_damping;
   const Complex drag{whole_.mass_damping, 2.0 * spin_};
   for (const int node : part_.free)
-    at_[at(node)] = fields_.u[at(node)] + ahead * fields_.v[at(node)];
+    at_[at(node)] = fields_.u.plane()[at(node)] + ahead * fields_.v.plane()[at(node)];
   apply(part_.stiffness, at_, force_, whole_.threads);
   for (std::size_t i = 0; i < part_.free.size(); ++i) {
     const std::size_t k = at(part_.free[i]);
-    const Vec2 v = fields_.v[k], arm = whole_.reference[k] + fields_.u[k] + 0.5 * dt * v;
+    const Vec2 v = fields_.v.plane()[k],
+               arm = whole_.reference[k] + fields_.u.plane()[k] + 0.5 * dt * v;
     const Vec2 acceleration = spin_ * spin_ * arm - drag * v - pull;
     const Vec2 load = dt * (part_.mass[k] * acceleration - force_[k]);
     load_[row_of(i)] = load.x;
@@ -99,7 +100,7 @@ void CoarsePart::solve() {
 
 Vec2 CoarsePart::mean_velocity(const PartFields& from, std::size_t place) const noexcept {
   const Vec2 change{change_[row_of(place)], change_[row_of(place) + 1]};
-  return from.v[at(part_.free[place])] + change;
+  return from.v.plane()[at(part_.free[place])] + change;
 }
 
 /// Δ v̄ of the interface.
@@ -113,8 +114,8 @@ void CoarsePart::accept() {
   for (std::size_t i = 0; i < part_.free.size(); ++i) {
     const std::size_t k = at(part_.free[i]);
     const Vec2 mean = mean_velocity(fields_, i);
-    fields_.u[k] += whole_.dt * mean;
-    fields_.v[k] += 2.0 * Vec2{change_[row_of(i)], change_[row_of(i) + 1]};
+    fields_.u.plane()[k] += whole_.dt * mean;
+    fields_.v.plane()[k] += 2.0 * Vec2{change_[row_of(i)], change_[row_of(i) + 1]};
   }
 }
 
@@ -127,7 +128,7 @@ void CoarsePart::find_works(Vec2 pull) {
   if (beta > 0.0) apply(part_.stiffness, at_, force_, whole_.threads);
   for (const int node : part_.free) {
     const std::size_t k = at(node);
-    const Vec2 mean = at_[k], middle = fields_.u[k] + 0.5 * dt * mean;
+    const Vec2 mean = at_[k], middle = fields_.u.plane()[k] + 0.5 * dt * mean;
     const double mass = part_.mass[k];
     works_.frame += dt * mass * dot(mean, spin_ * spin_ * (whole_.reference[k] + middle) - pull);
     works_.dissipation_mass += dt * alpha * mass * dot(mean, mean);
@@ -140,8 +141,8 @@ void CoarsePart::add_energy(double& kinetic, double& strain) {
   apply(part_.stiffness, fields_.u, force_, whole_.threads);
   for (const int node : part_.free) {
     const std::size_t k = at(node);
-    kinetic += 0.5 * part_.mass[k] * dot(fields_.v[k], fields_.v[k]);
-    strain += 0.5 * dot(fields_.u[k], force_[k]);
+    kinetic += 0.5 * part_.mass[k] * dot(fields_.v.plane()[k], fields_.v.plane()[k]);
+    strain += 0.5 * dot(fields_.u.plane()[k], force_[k]);
   }
 }
 

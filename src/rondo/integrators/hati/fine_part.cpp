@@ -38,7 +38,7 @@ FinePart::FinePart(const Model& whole, const PartFields& start)
     : model_(model_of(whole)),
       interface_(whole.subdomains->interface),
       ratio_(whole.subdomains->ratio),
-      fields_{std::vector<Vec2>(model_.n_nodes()), std::vector<Vec2>(model_.n_nodes())},
+      fields_{Field(model_.n_nodes(), 2), Field(model_.n_nodes(), 2)},
       state_(model_),
       contact_(model_),
       contacts_(at(ratio_)),
@@ -48,8 +48,8 @@ FinePart::FinePart(const Model& whole, const PartFields& start)
       nowhere_(model_.n_nodes()),
       travel_(interface_.size()) {
   for_free_nodes(model_, [&](std::size_t k) {
-    fields_.u[k] = start.u[k];
-    fields_.v[k] = start.v[k];
+    fields_.u.plane()[k] = start.u.plane()[k];
+    fields_.v.plane()[k] = start.v.plane()[k];
   });
 }
 
@@ -70,7 +70,7 @@ void FinePart::attempt(long long n, std::span<const Vec2> multiplier) {
     state_.step = (n - 1) * ratio_ + j;
     state_.frame = middle_frame_step(model_.motion, state_.step, model_.dt);
     const BodyFrame frame(model_, state_.frame);
-    pull_ += state_.frame.pull / ratio_;
+    pull_ += state_.frame.pull.plane() / ratio_;
     move_half();
     find_forces(multiplier);
     find_free_velocities(frame, model_.reference);
@@ -91,7 +91,7 @@ void FinePart::accept() {
 /// u += δ/2 v
 void FinePart::move_half() noexcept {
   const double half = 0.5 * model_.dt;
-  for_free_nodes(model_, [&](std::size_t k) { state_.u[k] += half * state_.v[k]; });
+  for_free_nodes(model_, [&](std::size_t k) { state_.u.plane()[k] += half * state_.v.plane()[k]; });
 }
 
 void FinePart::find_forces(std::span<const Vec2> multiplier) noexcept {
@@ -108,15 +108,16 @@ void FinePart::find_forces(std::span<const Vec2> multiplier) noexcept {
 void FinePart::find_free_velocities(const BodyFrame& frame,
                                     std::span<const Vec2> reference) noexcept {
   for_free_nodes(model_, [&](std::size_t k) {
-    const Vec2 acceleration =
-        -(force_[k] / model_.mass[k]) - frame_acceleration(frame.frame, reference[k] + state_.u[k]);
-    const Vec2 v = state_.v[k];
-    state_.v_next[k] = v + (model_.dt * acceleration - frame.update.drag * v) / frame.update.a;
+    const Vec2 acceleration = -(force_[k] / model_.mass[k]) -
+                              frame_acceleration(frame.frame, reference[k] + state_.u.plane()[k]);
+    const Vec2 v = state_.v.plane()[k];
+    state_.v_next.plane()[k] =
+        v + (model_.dt * acceleration - frame.update.drag * v) / frame.update.a;
   });
 }
 
 void FinePart::solve_contacts(const BodyFrames& frames, FineContact& found) {
-  found.report = contact_.solve(frames, state_.frame.center, state_);
+  found.report = contact_.solve(frames, state_.frame.center.plane(), state_);
   found.active = state_.active;
   works_.contact += found.report.work;
   works_.dissipation_friction += found.report.dissipation_friction;
@@ -129,7 +130,7 @@ void FinePart::add_travel(std::span<Vec2> travel) const noexcept {
   const double half = 0.5 * model_.dt;
   for (std::size_t i = 0; i < interface_.size(); ++i) {
     const std::size_t k = at(interface_[i]);
-    travel[i] += half * (state_.v[k] + state_.v_next[k]);
+    travel[i] += half * (state_.v.plane()[k] + state_.v_next.plane()[k]);
   }
 }
 
@@ -138,9 +139,9 @@ void FinePart::add_works(const FrameStep& frame) noexcept {
   const double dt = model_.dt, alpha = model_.mass_damping, beta = model_.stiffness_damping;
   for_free_nodes(model_, [&](std::size_t k) {
     const double m = model_.mass[k];
-    const Vec2 mean = 0.5 * (state_.v[k] + state_.v_next[k]);
+    const Vec2 mean = 0.5 * (state_.v.plane()[k] + state_.v_next.plane()[k]);
     works_.frame -=
-        dt * m * dot(mean, frame_acceleration(frame, model_.reference[k] + state_.u[k]));
+        dt * m * dot(mean, frame_acceleration(frame, model_.reference[k] + state_.u.plane()[k]));
     works_.dissipation_mass += dt * alpha * m * dot(mean, mean);
     if (!rate_.empty()) works_.dissipation_stiffness += dt * beta * dot(mean, rate_[k]);
   });
@@ -151,11 +152,12 @@ void FinePart::add_energy(double& kinetic, double& strain) {
   const double quarter = 0.25 * model_.dt * model_.dt;
   apply(model_.stiffness, fields_.v, force_, model_.threads);
   for_free_nodes(model_, [&](std::size_t k) {
-    const Vec2 v = fields_.v[k];
+    const Vec2 v = fields_.v.plane()[k];
     kinetic += 0.5 * dot(v, model_.mass[k] * v - quarter * force_[k]);
   });
   apply(model_.stiffness, fields_.u, force_, model_.threads);
-  for_free_nodes(model_, [&](std::size_t k) { strain += 0.5 * dot(fields_.u[k], force_[k]); });
+  for_free_nodes(model_,
+                 [&](std::size_t k) { strain += 0.5 * dot(fields_.u.plane()[k], force_[k]); });
 }
 
 bool FinePart::same_impulses() const noexcept {
@@ -168,8 +170,8 @@ bool FinePart::same_impulses() const noexcept {
 }
 
 void FinePart::respond(std::span<const Vec2> multiplier, std::span<Vec2> travel) {
-  std::fill(state_.u.begin(), state_.u.end(), Vec2{});
-  std::fill(state_.v.begin(), state_.v.end(), Vec2{});
+  std::ranges::fill(state_.u.plane(), Vec2{});
+  std::ranges::fill(state_.v.plane(), Vec2{});
   std::fill(travel.begin(), travel.end(), Vec2{});
   FrameStep only_spin;
   only_spin.spin = -model_.motion.angular_velocity.at(0.0);

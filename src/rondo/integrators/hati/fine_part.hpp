@@ -12,7 +12,7 @@ namespace rondo::dynamics {
 
 /// Displacement and velocity of a part at the end of a coarse step.
 struct PartFields {
-  std::vector<Vec2> u, v;  ///< (n) 0 where the part has no nodes                    [m], [m/s]
+  Field u, v;  ///< (n) 0 where the part has no nodes                    [m], [m/s]
 };
 
 /// What the contacts of a fine step found.

@@ -118,17 +118,18 @@ void HatiIntegrator::advance(std::span<StepReport> reports, State* last) noexcep
 }
 
 /// Where the parts meet, A's displacement, which is B's to round-off, and the mean velocity.
-void HatiIntegrator::fill_displacement(Vectors& u) const noexcept {
+void HatiIntegrator::fill_displacement(Field& u) const noexcept {
   u = coarse_.fields().u;
-  for (const int node : parts_.fine.free) u[at(node)] = fine_.fields().u[at(node)];
+  for (const int node : parts_.fine.free) u.plane()[at(node)] = fine_.fields().u.plane()[at(node)];
 }
 
-void HatiIntegrator::fill_velocity(Vectors& v) const noexcept {
+void HatiIntegrator::fill_velocity(Field& v) const noexcept {
   v = coarse_.fields().v;
   for (const int node : parts_.fine.free) {
     const std::size_t k = at(node);
     const double a = parts_.fine.mass[k], b = parts_.coarse.mass[k];
-    v[k] = b == 0.0 ? fine_.fields().v[k] : (a * fine_.fields().v[k] + b * v[k]) / (a + b);
+    v.plane()[k] = b == 0.0 ? fine_.fields().v.plane()[k]
+                            : (a * fine_.fields().v.plane()[k] + b * v.plane()[k]) / (a + b);
   }
 }
 
@@ -142,12 +143,12 @@ SavedState HatiIntegrator::save() const {
   saved.step = step_;
   saved.u = coarse_.fields().u;
   saved.v = coarse_.fields().v;
-  for (const Vectors* of : {&saved.u, &saved.v})
-    for (const int node : parts_.interface) saved.interface.push_back((*of)[at(node)]);
+  for (const Field* of : {&saved.u, &saved.v})
+    for (const int node : parts_.interface) saved.interface.push_back(of->plane()[at(node)]);
   saved.interface.insert(saved.interface.end(), multiplier_.begin(), multiplier_.end());
   for (const int node : parts_.fine.free) {
-    saved.u[at(node)] = fine_.fields().u[at(node)];
-    saved.v[at(node)] = fine_.fields().v[at(node)];
+    saved.u.plane()[at(node)] = fine_.fields().u.plane()[at(node)];
+    saved.v.plane()[at(node)] = fine_.fields().v.plane()[at(node)];
   }
   saved.impulses = fine_.impulses();
   saved.ledger = ledger_.save();
@@ -159,18 +160,19 @@ void HatiIntegrator::restore(const SavedState& saved) {
   RONDO_DEMAND(saved.u.size() == model_.n_nodes() && saved.v.size() == model_.n_nodes() &&
                    saved.interface.size() == 3 * n,
                saved.u.size(), saved.v.size(), saved.interface.size(), n);
-  PartFields fine{Vectors(saved.u.size()), Vectors(saved.u.size())}, coarse = fine;
+  const Field zero(saved.u.size(), 2);
+  PartFields fine{zero, zero}, coarse = fine;
   for (const int node : parts_.fine.free) {
-    fine.u[at(node)] = saved.u[at(node)];
-    fine.v[at(node)] = saved.v[at(node)];
+    fine.u.plane()[at(node)] = saved.u.plane()[at(node)];
+    fine.v.plane()[at(node)] = saved.v.plane()[at(node)];
   }
   for (const int node : parts_.coarse.free) {
-    coarse.u[at(node)] = saved.u[at(node)];
-    coarse.v[at(node)] = saved.v[at(node)];
+    coarse.u.plane()[at(node)] = saved.u.plane()[at(node)];
+    coarse.v.plane()[at(node)] = saved.v.plane()[at(node)];
   }
   for (std::size_t i = 0; i < n; ++i) {
-    coarse.u[at(parts_.interface[i])] = saved.interface[i];
-    coarse.v[at(parts_.interface[i])] = saved.interface[n + i];
+    coarse.u.plane()[at(parts_.interface[i])] = saved.interface[i];
+    coarse.v.plane()[at(parts_.interface[i])] = saved.interface[n + i];
     multiplier_[i] = saved.interface[2 * n + i];
   }
   step_ = saved.step;

@@ -45,8 +45,8 @@ class HatiIntegrator final : public Integrator, public Resumable {
   void correct_multiplier() noexcept;
   [[nodiscard]] Works works() const noexcept;
   [[nodiscard]] StepEnergy energy() noexcept;
-  void fill_displacement(Vectors& u) const noexcept;
-  void fill_velocity(Vectors& v) const noexcept;
+  void fill_displacement(Field& u) const noexcept;
+  void fill_velocity(Field& v) const noexcept;
 
   const Model& model_;
   const Subdomains& parts_;

@@ -134,9 +134,9 @@ void ImplicitContact::solve(const ContactStep& step, const PlaneField& free, Pla
   for (std::size_t j = 0; j < rows_.size(); ++j) {
     const std::size_t place = candidates_[rows_[j].of].place;
     const Vec2 velocity = nodes_.turn[place] * free.at(place);
-    active_[j].free =
+    problem_.free[j] =
         to_frame(active_[j].normal, drive_of(step, rows_[j].arm) + step.rotation_next * velocity);
-    problem_.free[j] = active_[j].free;
+    active_[j].free = problem_.free[j];
   }
   const contact::CoupledLimits limits{.most_iterations = model_.coupled.most_iterations};
   result_ = contact::solve_coupled(problem_, limits, impulse_, status_, workspace_);

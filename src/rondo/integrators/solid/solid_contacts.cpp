@@ -6,7 +6,8 @@
 namespace rondo::dynamics {
 
 ContactReport solve_solid_contacts(const Model& model, const SolidContactStep& step,
-                                   const SolidField& u, const SolidField& v, SolidField& next,
+                                   std::span<const Vec3> u, std::span<const Vec3> v,
+                                   std::span<Vec3> next,
                                    std::vector<ActiveContact>& active) noexcept {
   ContactReport report;
   active.clear();
@@ -14,14 +15,14 @@ ContactReport solve_solid_contacts(const Model& model, const SolidContactStep& s
   const ContactModel& contact = *model.contact;
   for (std::size_t candidate = 0; candidate < contact.nodes.size(); ++candidate) {
     const auto k = static_cast<std::size_t>(contact.nodes[candidate]);
-    const Vec3 arm = Vec3(model.reference[k], model.solid->axial[k]) + u.at(k);
+    const Vec3 arm = Vec3(model.reference[k], model.solid->axial[k]) + u[k];
     const contact::Touches touches = contact.ground.touches(place_on_ground(step, arm));
     if (touches.count == 0) continue;
     const std::size_t first = active.size();
     active.resize(first + static_cast<std::size_t>(touches.count));
     const SolidContactNode node{candidate, model.mass[k], contact.tributary[candidate],
-                                arm,       v.at(k),       next.at(k)};
-    next.put(k, solve_contacts(step, node, touches, std::span(active).subspan(first), report));
+                                arm,       v[k],          next[k]};
+    next[k] = solve_contacts(step, node, touches, std::span(active).subspan(first), report);
   }
   return report;
 }

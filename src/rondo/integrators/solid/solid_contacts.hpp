@@ -13,7 +13,8 @@ namespace rondo::dynamics {
 /// @param next v_{n+3/2} without contact, becomes that with it
 /// @param active filled; has room for each candidate twice
 ContactReport solve_solid_contacts(const Model& model, const SolidContactStep& step,
-                                   const SolidField& u, const SolidField& v, SolidField& next,
+                                   std::span<const Vec3> u, std::span<const Vec3> v,
+                                   std::span<Vec3> next,
                                    std::vector<ActiveContact>& active) noexcept;
 
 }  // namespace rondo::dynamics

@@ -9,30 +9,27 @@
 
 namespace rondo::dynamics {
 
-SolidForces::SolidForces(const Model& model, const SolidField& u)
+SolidForces::SolidForces(const Model& model, std::span<const Vec3> u)
     : model_(model), now_(model.n_nodes()), before_(model.n_nodes()) {
   RONDO_DEMAND(model.solid && model.solid->axial.size() == model.n_nodes());
-  if (!model.solid->pressures.empty()) load_ = SolidField(model.n_nodes());
-  fem::apply(model.solid->sector, u.plane, u.axial, now_.plane, now_.axial);
+  if (!model.solid->pressures.empty()) load_.resize(model.n_nodes());
+  fem::apply(model.solid->sector, u, now_);
 }
 
-void SolidForces::evaluate(const SolidField& u, double time) noexcept {
+void SolidForces::evaluate(std::span<const Vec3> u, double time) noexcept {
   std::swap(now_, before_);
-  fem::apply(model_.solid->sector, u.plane, u.axial, now_.plane, now_.axial);
-  if (!load_.plane.empty()) solid_pressure_forces(model_, time, load_);
+  fem::apply(model_.solid->sector, u, now_);
+  if (!load_.empty()) solid_pressure_forces(model_, time, load_);
 }
 
-void solid_pressure_forces(const Model& model, double time, SolidField& load) noexcept {
+void solid_pressure_forces(const Model& model, double time, std::span<Vec3> load) noexcept {
   const fem::SolidSector& k = model.solid->sector;
-  std::ranges::fill(load.plane, Vec2{});
-  std::ranges::fill(load.axial, 0.0);
+  std::ranges::fill(load, Vec3{});
   for (const SolidPressure& p : model.solid->pressures) {
     const double pressure = p.pressure.at(time);
     for (std::size_t j = 0; j < k.turn.size(); ++j)
-      for (std::size_t a = 0; a < k.n_local(); ++a) {
-        const std::size_t node = k.node(a, j);
-        load.put(node, load.at(node) + pressure * (k.turn[j] * p.force[a]));
-      }
+      for (std::size_t a = 0; a < k.n_local(); ++a)
+        load[k.node(a, j)] += pressure * (k.turn[j] * p.force[a]);
   }
 }
 

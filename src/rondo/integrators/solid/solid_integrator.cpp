@@ -12,9 +12,9 @@ SolidIntegrator::SolidIntegrator(const Model& model, const State& start)
     : model_(model),
       step_(start.step),
       frame_(start.frame),
-      u_(field_of(start.u, start.axial_u)),
+      u_(to_vector(start.u.space())),
       v_(model.n_nodes()),
-      v_next_(field_of(start.v_next, start.axial_v_next)),
+      v_next_(to_vector(start.v_next.space())),
       forces_(model, u_) {
   RONDO_DEMAND(!model.rim && model.scheme == Scheme::symplectic);
   if (model.contact) active_.reserve(2 * model.contact->nodes.size());
@@ -23,13 +23,13 @@ SolidIntegrator::SolidIntegrator(const Model& model, const State& start)
 /// u_{n+1}, and the energy of the half step before it.
 void SolidIntegrator::move(StepEnergy& energy) noexcept {
   for_free_nodes(model_, [&](std::size_t k) {
-    u_.put(k, u_.at(k) + model_.dt * v_.at(k));
-    energy.kinetic += 0.5 * model_.mass[k] * dot(v_.at(k), v_.at(k));
+    u_[k] += model_.dt * v_[k];
+    energy.kinetic += 0.5 * model_.mass[k] * dot(v_[k], v_[k]);
   });
   frame_ = frame_step(model_.motion, step_, model_.dt);
   forces_.evaluate(u_, frame_.time);
   for_free_nodes(model_, [&](std::size_t k) {
-    energy.strain += 0.5 * dot(u_.at(k), forces_.gradient_before(k));
+    energy.strain += 0.5 * dot(u_[k], forces_.gradient_before(k));
   });
 }
 
@@ -39,9 +39,9 @@ void SolidIntegrator::free_velocities(const VelocityUpdate& update, double axial
   for_free_nodes(model_, [&](std::size_t k) {
     const Vec3 force = forces_.load(k) - forces_.gradient(k) - forces_.damping(k);
     const Vec3 push = dt * (force / model_.mass[k] - acceleration_of_frame(k));
-    const Vec3 v = v_.at(k);
+    const Vec3 v = v_[k];
     const Vec2 plane = v.plane() + (push.plane() - update.drag * v.plane()) / update.a;
-    v_next_.put(k, {plane, v.z + (push.z - dt * model_.mass_damping * v.z) / axial_a});
+    v_next_[k] = {plane, v.z + (push.z - dt * model_.mass_damping * v.z) / axial_a};
   });
 }
 
@@ -49,7 +49,7 @@ void SolidIntegrator::add_works(Works& w) const noexcept {
   const double dt = model_.dt;
   for_free_nodes(model_, [&](std::size_t k) {
     const double m = model_.mass[k];
-    const Vec3 mean = 0.5 * (v_.at(k) + v_next_.at(k));
+    const Vec3 mean = 0.5 * (v_[k] + v_next_[k]);
     w.frame -= dt * m * dot(mean, acceleration_of_frame(k));
     w.dissipation_mass += dt * model_.mass_damping * m * dot(mean, mean);
     w.dissipation_stiffness += dt * dot(mean, forces_.damping(k));
@@ -84,49 +84,37 @@ void SolidIntegrator::advance(std::span<StepReport> reports, State* last) noexce
   if (!last) return;
   last->step = step_;
   last->frame = frame_;
-  last->u = u_.plane;
-  last->axial_u = u_.axial;
+  last->u = u_;
   last->active = active_;
   if (last->v.empty()) return;
-  last->v = v_.plane;
-  last->axial_v = v_.axial;
+  last->v = v_;
   if (last->v_next.empty()) return;
-  last->v_next = v_next_.plane;
-  last->axial_v_next = v_next_.axial;
+  last->v_next = v_next_;
 }
 
 void SolidIntegrator::fields(State& state) const noexcept {
-  state.u = u_.plane;
-  state.axial_u = u_.axial;
-  for_free_nodes(model_, [&](std::size_t k) {
-    state.u[k] += model_.dt * v_next_.plane[k];
-    state.axial_u[k] += model_.dt * v_next_.axial[k];
-  });
-  state.v_next = v_next_.plane;
-  state.axial_v_next = v_next_.axial;
+  state.u = u_;
+  for_free_nodes(model_, [&](std::size_t k) { state.u.space()[k] += model_.dt * v_next_[k]; });
+  state.v_next = v_next_;
 }
 
 SavedState SolidIntegrator::save() const {
   SavedState saved;
   saved.step = step_;
-  saved.u = u_.plane;
-  saved.axial_u = u_.axial;
-  saved.v = v_next_.plane;
-  saved.axial_v = v_next_.axial;
-  saved.force = forces_.saved().plane;
-  saved.axial_force = forces_.saved().axial;
+  saved.u = u_;
+  saved.v = v_next_;
+  saved.force = forces_.saved();
   saved.ledger = ledger_.save();
   return saved;
 }
 
 void SolidIntegrator::restore(const SavedState& saved) {
-  RONDO_DEMAND(saved.u.size() == model_.n_nodes() && saved.axial_u.size() == model_.n_nodes() &&
-                   saved.force.size() == model_.n_nodes(),
-               saved.u.size(), saved.axial_u.size(), saved.force.size());
+  RONDO_DEMAND(saved.u.size() == model_.n_nodes() && saved.force.size() == model_.n_nodes(),
+               saved.u.size(), saved.force.size());
   step_ = saved.step;
-  u_ = field_of(saved.u, saved.axial_u);
-  v_next_ = field_of(saved.v, saved.axial_v);
-  forces_.restore(field_of(saved.force, saved.axial_force));
+  u_ = to_vector(saved.u.space());
+  v_next_ = to_vector(saved.v.space());
+  forces_.restore(saved.force);
   ledger_.restore(saved.ledger);
 }
 

@@ -26,16 +26,16 @@ class SolidIntegrator final : public Integrator, public Resumable {
   void free_velocities(const VelocityUpdate& update, double axial_a) noexcept;
   void add_works(Works& works) const noexcept;
   [[nodiscard]] Vec3 arm(std::size_t k) const noexcept {
-    return Vec3(model_.reference[k], model_.solid->axial[k]) + u_.at(k);
+    return Vec3(model_.reference[k], model_.solid->axial[k]) + u_[k];
   }
   [[nodiscard]] Vec3 acceleration_of_frame(std::size_t k) const noexcept {
-    return {frame_acceleration(frame_, arm(k).plane()), frame_.axial_pull};
+    return {frame_acceleration(frame_, arm(k).plane()), frame_.pull.z};
   }
 
   const Model& model_;
   long long step_;
   FrameStep frame_;
-  SolidField u_, v_, v_next_;
+  std::vector<Vec3> u_, v_, v_next_;
   SolidForces forces_;
   std::vector<ActiveContact> active_;
   Ledger ledger_;

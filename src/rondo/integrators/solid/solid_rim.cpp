@@ -15,12 +15,12 @@ SolidRim::SolidRim(const Model& model) noexcept
 }
 
 double SolidRim::lateral_rate(double t) const noexcept {
-  return model_.motion.lateral_advance(t, model_.dt) / model_.dt;
+  return model_.motion.advance(t, model_.dt).z / model_.dt;
 }
 
 /// What the rim feels in the directions in which it may move.
 RimForce SolidRim::in_plane(Vec3 force, double moment) const noexcept {
-  return {conj(rim_.frame().rotation) * ground_.plane(force), moment};
+  return {conj(rim_.frame().rotation) * ground_.from_wheel(force).plane(), moment};
 }
 
 void SolidRim::start(Vec3 force, double moment) noexcept {
@@ -33,28 +33,28 @@ void SolidRim::move() noexcept {
   rim_.move();
   frame_ = rim_.frame();
   frame_.slip_angle = model_.motion.slip_angle.at(frame_.time);
-  frame_.lateral = model_.motion.lateral(frame_.time);
-  frame_.lateral_before = model_.dt * lateral_before_;
+  frame_.center.z = model_.motion.center(frame_.time).z;
+  frame_.advance_before.z = model_.dt * lateral_before_;
 }
 
 void SolidRim::take(Vec3 force, double moment) noexcept {
   rim_.take(in_plane(force, moment));
-  lateral_force_ = ground_.lateral(force);
+  lateral_force_ = ground_.from_wheel(force).z;
   lateral_ = lateral_rate(frame_.time);
   FrameStep frame = rim_.frame();
   frame.slip_angle = frame_.slip_angle;
-  frame.lateral = frame_.lateral;
-  frame.lateral_before = frame_.lateral_before;
-  frame.lateral_advance = model_.dt * lateral_;
+  frame.center.z = frame_.center.z;
+  frame.advance_before.z = frame_.advance_before.z;
+  frame.advance.z = model_.dt * lateral_;
   frame_ = frame;
 }
 
 Vec3 SolidRim::velocity_before() const noexcept {
-  return ground_.to_wheel(rim_.velocity_before(), lateral_before_);
+  return ground_.to_wheel({rim_.velocity_before(), lateral_before_});
 }
 
 Vec3 SolidRim::velocity() const noexcept {
-  return ground_.to_wheel(rim_.velocity(), lateral_);
+  return ground_.to_wheel({rim_.velocity(), lateral_});
 }
 
 StepEnergy SolidRim::energy() const noexcept {

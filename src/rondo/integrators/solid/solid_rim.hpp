@@ -41,7 +41,7 @@ class SolidRim {
   [[nodiscard]] double lateral_rate(double t) const noexcept;
 
   const Model& model_;
-  GroundAxes ground_;
+  GroundFrame ground_;
   LoadedRim rim_;
   FrameStep frame_;
   double lateral_before_, lateral_;  ///< ċ along t2                                 [m/s]

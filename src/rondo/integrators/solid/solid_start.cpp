@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "rondo/integrators/solid/solid_start.hpp"
 
-#include <utility>
+#include <span>
+#include <vector>
 
-#include "rondo/core/contract.hpp"
 #include "rondo/fem/solid/solid_sector.hpp"
 #include "rondo/integrators/solid/solid_forces.hpp"
 #include "rondo/integrators/solid/solid_rim.hpp"
@@ -11,49 +11,38 @@
 namespace rondo::dynamics {
 namespace {
 
-/// (n) 0 on clamped nodes. @param given (n), or empty: 0
-std::vector<double> free_only(const Model& model, const std::vector<double>& given) {
-  RONDO_DEMAND(given.empty() || given.size() == model.n_nodes(), given.size());
-  std::vector<double> field(model.n_nodes());
-  if (!given.empty()) for_free_nodes(model, [&](std::size_t k) { field[k] = given[k]; });
-  return field;
-}
-
 Vec3 arm_of(const Model& model, const State& state, std::size_t k) noexcept {
-  return Vec3(model.reference[k], model.solid->axial[k]) + Vec3(state.u[k], state.axial_u[k]);
+  return Vec3(model.reference[k], model.solid->axial[k]) + state.u.space()[k];
 }
 
 /// K u_0 and β K v_0.
 Vec3 elastic_force(const Model& model, const State& state, std::size_t k) noexcept {
-  return Vec3(state.force[k], state.axial_force[k]) +
-         model.stiffness_damping * Vec3(state.force_before[k], state.axial_force_before[k]);
+  return state.force.space()[k] + model.stiffness_damping * state.force_before.space()[k];
 }
 
 /// v_{1/2} by half a step without contact (docs/theory.md, 3.7).
-void start_body(const Model& model, const SolidField& load, State& state) {
+void start_body(const Model& model, std::span<const Vec3> load, State& state) {
   const double half = 0.5 * model.dt, alpha = model.mass_damping;
   const VelocityUpdate update = velocity_update(model.scheme, half, alpha, state.frame.spin);
   for_free_nodes(model, [&](std::size_t k) {
     const Vec3 frame{frame_acceleration(state.frame, arm_of(model, state, k).plane()),
-                     state.frame.axial_pull};
-    const Vec3 force = load.at(k) - elastic_force(model, state, k);
+                     state.frame.pull.z};
+    const Vec3 force = load[k] - elastic_force(model, state, k);
     const Vec3 push = half * (force / model.mass[k] - frame);
-    const Vec2 v = state.v[k];
-    const double vz = state.axial_v[k];
-    state.v_next[k] = v + (push.plane() - update.drag * v) / update.a;
-    state.axial_v_next[k] = vz + (push.z - half * alpha * vz) / (1.0 + 0.5 * half * alpha);
+    const Vec3 v = state.v.space()[k];
+    state.v_next.space()[k] = {v.plane() + (push.plane() - update.drag * v.plane()) / update.a,
+                               v.z + (push.z - half * alpha * v.z) / (1.0 + 0.5 * half * alpha)};
   });
 }
 
 /// The same of absolute velocities, on a loaded rim (10.6).
-void start_wheel(const Model& model, const SolidField& load, State& state) {
+void start_wheel(const Model& model, std::span<const Vec3> load, State& state) {
   SolidRim rim(model);
   const Vec3 center = rim.velocity();
   const double spin = rim.plane().spin();
-  const Vec3 gravity = GroundAxes(model.motion.camber).to_wheel(model.motion.gravity_at(0.0), 0.0);
+  const Vec3 gravity = GroundFrame(model.motion.camber).to_wheel(model.motion.gravity_at(0.0));
   const auto force = [&](std::size_t k) {
-    return elastic_force(model, state, k) +
-           model.mass_damping * model.mass[k] * Vec3(state.v[k], state.axial_v[k]);
+    return elastic_force(model, state, k) + model.mass_damping * model.mass[k] * state.v.space()[k];
   };
   Vec3 sum;
   double moment = 0.0;
@@ -65,33 +54,25 @@ void start_wheel(const Model& model, const SolidField& load, State& state) {
   state.rim = rim.save();
   for_free_nodes(model, [&](std::size_t k) {
     const Vec3 arm = arm_of(model, state, k);
-    const Vec3 velocity = center + Vec3(state.v[k] + spin * turn90(arm.plane()), state.axial_v[k]) +
-                          0.5 * model.dt * (gravity - (force(k) - load.at(k)) / model.mass[k]);
-    const Vec3 next = rim.travel(arm, velocity) / model.dt;
-    state.v_next[k] = next.plane();
-    state.axial_v_next[k] = next.z;
+    const Vec3 v = state.v.space()[k];
+    const Vec3 velocity = center + Vec3(v.plane() + spin * turn90(arm.plane()), v.z) +
+                          0.5 * model.dt * (gravity - (force(k) - load[k]) / model.mass[k]);
+    state.v_next.space()[k] = rim.travel(arm, velocity) / model.dt;
   });
 }
 
 }  // namespace
 
-void start_solid(const Model& model, const AxialStart& axial, State& state) {
-  const std::size_t n = model.n_nodes();
+void start_solid(const Model& model, State& state) {
   const fem::SolidSector& stiffness = model.solid->sector;
-  state.axial_u = free_only(model, axial.u);
-  state.axial_v = free_only(model, axial.v);
-  state.axial_v_next.resize(n);
-  state.axial_force.resize(n);
-  state.axial_force_before.resize(n);
-  fem::apply(stiffness, state.u, state.axial_u, state.force, state.axial_force);
-  fem::apply(stiffness, state.v, state.axial_v, state.force_before, state.axial_force_before);
-  SolidField load(n);
+  fem::apply(stiffness, state.u, state.force);
+  fem::apply(stiffness, state.v, state.force_before);
+  std::vector<Vec3> load(model.n_nodes());
   solid_pressure_forces(model, 0.0, load);
   if (model.rim)
     start_wheel(model, load, state);
   else
     start_body(model, load, state);
-  if (!axial.half.empty()) state.axial_v_next = free_only(model, axial.half);
 }
 
 }  // namespace rondo::dynamics

@@ -7,7 +7,7 @@
 namespace rondo::dynamics {
 
 /// Of a state with u_0, v_0 and the frame of t = 0: K u_0, its rate, and v_{1/2} by half a step
-/// without contact. Clamped nodes rest. @param axial empty fields are 0
-void start_solid(const Model& model, const AxialStart& axial, State& state);
+/// without contact. Clamped nodes rest.
+void start_solid(const Model& model, State& state);
 
 }  // namespace rondo::dynamics

@@ -13,7 +13,7 @@ SolidWheelIntegrator::SolidWheelIntegrator(const Model& model, const State& star
     : model_(model),
       step_(start.step),
       rim_(model),
-      before_(field_of(start.u, start.axial_u)),
+      before_(to_vector(start.u.space())),
       u_(before_),
       next_(before_),
       v_(model.n_nodes()),
@@ -23,9 +23,8 @@ SolidWheelIntegrator::SolidWheelIntegrator(const Model& model, const State& star
   RONDO_DEMAND(model.rim && model.scheme == Scheme::symplectic);
   rim_.restore(start.step, start.rim);
   for_free_nodes(model, [&](std::size_t k) {
-    const Vec3 travel = model.dt * Vec3(start.v_next[k], start.axial_v_next[k]);
-    next_.put(k, u_.at(k) + travel);
-    absolute_.put(k, rim_.frame().rotation * rim_.velocity_of(arm(k), next_.at(k) - u_.at(k)));
+    next_[k] = u_[k] + model.dt * start.v_next.space()[k];
+    absolute_[k] = rim_.frame().rotation * rim_.velocity_of(arm(k), next_[k] - u_[k]);
   });
   if (model.contact) active_.reserve(2 * model.contact->nodes.size());
 }
@@ -38,9 +37,9 @@ void SolidWheelIntegrator::move(StepEnergy& energy) noexcept {
   forces_.evaluate(u_, rim_.frame().time);
   const Complex back = conj(rim_.frame().rotation);
   for_free_nodes(model_, [&](std::size_t k) {
-    v_.put(k, back * absolute_.at(k));
-    energy.kinetic += 0.5 * model_.mass[k] * dot(absolute_.at(k), absolute_.at(k));
-    energy.strain += 0.5 * dot(u_.at(k), forces_.gradient_before(k));
+    v_[k] = back * absolute_[k];
+    energy.kinetic += 0.5 * model_.mass[k] * dot(absolute_[k], absolute_[k]);
+    energy.strain += 0.5 * dot(u_[k], forces_.gradient_before(k));
   });
 }
 
@@ -54,21 +53,20 @@ ContactReport SolidWheelIntegrator::push(Vec3 gravity, Vec3& force, double& mome
         forces_.gradient(k) + model_.mass_damping * m * relative_before(k) + forces_.damping(k);
     sum += q;
     moment += cross(arm(k).plane(), q.plane());
-    v_next_.put(k, v_.at(k) + model_.dt * ((forces_.load(k) - q) / m + gravity));
+    v_next_[k] = v_[k] + model_.dt * ((forces_.load(k) - q) / m + gravity);
   });
   force = frame.rotation * sum;
   const ContactReport report =
       solve_solid_contacts(model_, SolidContactStep(model_, frame), u_, v_, v_next_, active_);
-  for_free_nodes(model_, [&](std::size_t k) {
-    absolute_.put(k, absolute_.at(k) + frame.rotation * (v_next_.at(k) - v_.at(k)));
-  });
+  for_free_nodes(model_,
+                 [&](std::size_t k) { absolute_[k] += frame.rotation * (v_next_[k] - v_[k]); });
   return report;
 }
 
 /// u_{n+2}.
 void SolidWheelIntegrator::find_next() noexcept {
-  for_free_nodes(
-      model_, [&](std::size_t k) { next_.put(k, u_.at(k) + rim_.travel(arm(k), v_next_.at(k))); });
+  for_free_nodes(model_,
+                 [&](std::size_t k) { next_[k] = u_[k] + rim_.travel(arm(k), v_next_[k]); });
 }
 
 /// (10.5): along the axle the way that the rim sees is twice the mean travel, and nothing bends.
@@ -80,7 +78,7 @@ void SolidWheelIntegrator::add_works(Vec3 gravity, Works& w) const noexcept {
     const Vec3 was = relative_before(k), is = relative_after(k);
     const Vec2 excess = bend * arm(k).plane() + dt * (after * is.plane() + before * was.plane());
     const Vec3 way = Vec3(excess, 0.0) + dt * (is + was);  // D
-    const Vec3 mean = 0.5 * (v_.at(k) + v_next_.at(k));
+    const Vec3 mean = 0.5 * (v_[k] + v_next_[k]);
     w.scheme -= 0.5 * dot(forces_.gradient(k).plane(), excess);
     w.dissipation_mass += 0.5 * alpha * model_.mass[k] * dot(was, way);
     w.dissipation_stiffness += 0.5 * dot(forces_.damping(k), way);
@@ -95,9 +93,8 @@ StepReport SolidWheelIntegrator::step() noexcept {
   StepEnergy energy;
   move(energy);
   const double time = rim_.frame().time;
-  const Vec3 gravity =
-      conj(rim_.frame().rotation) *
-      GroundAxes(model_.motion.camber).to_wheel(model_.motion.gravity_at(time), 0.0);
+  const Vec3 gravity = conj(rim_.frame().rotation) *
+                       GroundFrame(model_.motion.camber).to_wheel(model_.motion.gravity_at(time));
   StepReport report;
   report.step = step_;
   Vec3 force;
@@ -123,55 +120,42 @@ void SolidWheelIntegrator::advance(std::span<StepReport> reports, State* last) n
   if (!last) return;
   last->step = step_;
   last->frame = rim_.frame();
-  last->u = u_.plane;
-  last->axial_u = u_.axial;
+  last->u = u_;
   last->active = active_;
   if (last->v.empty()) return;
   const bool after = !last->v_next.empty();
   for_free_nodes(model_, [&](std::size_t k) {
     const Vec3 was = relative_before(k), is = relative_after(k);
-    last->v[k] = was.plane();
-    last->axial_v[k] = was.z;
-    if (!after) return;
-    last->v_next[k] = is.plane();
-    last->axial_v_next[k] = is.z;
+    last->v.space()[k] = was;
+    if (after) last->v_next.space()[k] = is;
   });
 }
 
 void SolidWheelIntegrator::fields(State& state) const noexcept {
-  state.u = next_.plane;
-  state.axial_u = next_.axial;
-  for_free_nodes(model_, [&](std::size_t k) {
-    state.v_next[k] = relative_after(k).plane();
-    state.axial_v_next[k] = relative_after(k).z;
-  });
+  state.u = next_;
+  for_free_nodes(model_, [&](std::size_t k) { state.v_next.space()[k] = relative_after(k); });
 }
 
 SavedState SolidWheelIntegrator::save() const {
   SavedState saved;
   saved.step = step_;
-  saved.u = next_.plane;
-  saved.axial_u = next_.axial;
-  saved.u_before = u_.plane;
-  saved.axial_u_before = u_.axial;
-  saved.v = absolute_.plane;
-  saved.axial_v = absolute_.axial;
-  saved.force = forces_.saved().plane;
-  saved.axial_force = forces_.saved().axial;
+  saved.u = next_;
+  saved.u_before = u_;
+  saved.v = absolute_;
+  saved.force = forces_.saved();
   saved.rim = rim_.save();
   saved.ledger = ledger_.save();
   return saved;
 }
 
 void SolidWheelIntegrator::restore(const SavedState& saved) {
-  RONDO_DEMAND(saved.u.size() == model_.n_nodes() && saved.axial_u.size() == model_.n_nodes() &&
-                   saved.axial_u_before.size() == model_.n_nodes(),
-               saved.u.size(), saved.axial_u.size(), saved.axial_u_before.size());
+  RONDO_DEMAND(saved.u.size() == model_.n_nodes() && saved.u_before.size() == model_.n_nodes(),
+               saved.u.size(), saved.u_before.size());
   step_ = saved.step;
-  next_ = field_of(saved.u, saved.axial_u);
-  u_ = field_of(saved.u_before, saved.axial_u_before);
-  absolute_ = field_of(saved.v, saved.axial_v);
-  forces_.restore(field_of(saved.force, saved.axial_force));
+  next_ = to_vector(saved.u.space());
+  u_ = to_vector(saved.u_before.space());
+  absolute_ = to_vector(saved.v.space());
+  forces_.restore(saved.force);
   rim_.restore(saved.step, saved.rim);
   ledger_.restore(saved.ledger);
 }

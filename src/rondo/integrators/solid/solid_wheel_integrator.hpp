@@ -26,22 +26,22 @@ class SolidWheelIntegrator final : public Integrator, public Resumable {
   void find_next() noexcept;
   void add_works(Vec3 gravity, Works& works) const noexcept;
   [[nodiscard]] Vec3 arm(std::size_t k) const noexcept {
-    return Vec3(model_.reference[k], model_.solid->axial[k]) + u_.at(k);
+    return Vec3(model_.reference[k], model_.solid->axial[k]) + u_[k];
   }
   /// Of the half steps before and after, as the rim sees them [m/s].
   [[nodiscard]] Vec3 relative_before(std::size_t k) const noexcept {
-    return (u_.at(k) - before_.at(k)) / model_.dt;
+    return (u_[k] - before_[k]) / model_.dt;
   }
   [[nodiscard]] Vec3 relative_after(std::size_t k) const noexcept {
-    return (next_.at(k) - u_.at(k)) / model_.dt;
+    return (next_[k] - u_[k]) / model_.dt;
   }
 
   const Model& model_;
   long long step_;
   SolidRim rim_;
-  SolidField before_, u_, next_;  ///< u_n, u_{n+1}, u_{n+2}
-  SolidField v_, v_next_;         ///< absolute, in the axes of R_{n+1}                 [m/s]
-  SolidField absolute_;           ///< of the half step after, axes of the wheel        [m/s]
+  std::vector<Vec3> before_, u_, next_;  ///< u_n, u_{n+1}, u_{n+2}
+  std::vector<Vec3> v_, v_next_;         ///< absolute, in the axes of R_{n+1}                 [m/s]
+  std::vector<Vec3> absolute_;           ///< of the half step after, axes of the wheel        [m/s]
   SolidForces forces_;
   std::vector<ActiveContact> active_;
   Ledger ledger_;

@@ -16,7 +16,7 @@
 #include <utility>
 #include <vector>
 
-#include "rondo/core/vec2.hpp"
+#include "rondo/core/vec3.hpp"
 #include "rondo/io/h5/hash.hpp"
 
 namespace rondo::io::h5 {
@@ -65,6 +65,11 @@ template <>
 struct Element<Vec2> {
   static constexpr Type type = Type::float64;
   static constexpr std::size_t count = 2;
+};
+template <>
+struct Element<Vec3> {
+  static constexpr Type type = Type::float64;
+  static constexpr std::size_t count = 3;
 };
 template <class T, std::size_t N>
 struct Element<std::array<T, N>> {

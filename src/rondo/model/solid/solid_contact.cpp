@@ -19,10 +19,10 @@ constexpr int most_passes = 1000;
 struct Frame {
   Vec3 normal, tangent, lateral;
 
-  Frame(const GroundAxes& ground, Vec2 n) noexcept
-      : normal(ground.to_wheel(n, 0.0)),
-        tangent(ground.to_wheel(turn90(n), 0.0)),
-        lateral(ground.to_wheel({}, 1.0)) {}
+  Frame(const GroundFrame& ground, Vec2 n) noexcept
+      : normal(ground.to_wheel(n)),
+        tangent(ground.to_wheel(turn90(n))),
+        lateral(ground.to_wheel({0.0, 0.0, 1.0})) {}
 
   [[nodiscard]] Vec3 to(Vec3 a) const noexcept {
     return {dot(normal, a), dot(tangent, a), dot(lateral, a)};
@@ -31,14 +31,6 @@ struct Frame {
     return a.x * normal + a.y * tangent + a.z * lateral;
   }
 };
-
-void put(Vec3 value, Vec2& plane, double& lateral) noexcept {
-  plane = {value.x, value.y};
-  lateral = value.z;
-}
-Vec3 impulse_of(const ActiveContact& c) noexcept {
-  return {c.impulse, c.lateral.impulse};
-}
 
 /// What a node's impulses do to its velocity of the step to come, axes of the wheel.
 struct Mobility {
@@ -61,7 +53,7 @@ bool solve_one(const Mobility& w, const Frame& frame, Vec3 free, double friction
                ActiveContact& c) noexcept {
   const auto solution =
       contact::solve_spatial({free, delassus(w, frame, frame), c.bounce}, friction);
-  put(solution.impulse, c.impulse, c.lateral.impulse);
+  c.impulse = solution.impulse;
   c.status = solution.status;
   return solution.converged;
 }
@@ -74,11 +66,11 @@ bool solve_in_turn(const Mobility& w, std::span<const Frame> frames, double fric
     still = true;
     for (std::size_t i = 0; i < 2; ++i) {
       ActiveContact& c = contacts[i];
-      const Vec3 before = impulse_of(c);
-      const Vec3 push = w * frames[1 - i].from(impulse_of(contacts[1 - i]));
-      const Vec3 free = Vec3(c.free, c.lateral.free) + frames[i].to(push);
+      const Vec3 before = c.impulse;
+      const Vec3 push = w * frames[1 - i].from(contacts[1 - i].impulse);
+      const Vec3 free = c.free + frames[i].to(push);
       still = solve_one(w, frames[i], free, friction, c) && still;
-      still = norm(impulse_of(c) - before) <= 1e-15 * norm(before) && still;
+      still = norm(c.impulse - before) <= 1e-15 * norm(before) && still;
     }
   }
   return still;
@@ -88,13 +80,13 @@ bool solve_in_turn(const Mobility& w, std::span<const Frame> frames, double fric
 void solve_two(const Mobility& w, std::span<const Frame> frames, double friction,
                std::span<ActiveContact> contacts, ContactReport& report) noexcept {
   const ActiveContact &a = contacts[0], &b = contacts[1];
-  const auto pair = contact::solve_spatial_pair({Vec3(a.free, a.lateral.free),
+  const auto pair = contact::solve_spatial_pair({a.free,
                                                  delassus(w, frames[0], frames[0]),
                                                  {a.bounce, b.bounce},
                                                  rotation_between(a.normal, b.normal)},
                                                 friction);
   for (std::size_t i = 0; i < 2 && pair.converged; ++i) {
-    put(pair.contact[i].impulse, contacts[i].impulse, contacts[i].lateral.impulse);
+    contacts[i].impulse = pair.contact[i].impulse;
     contacts[i].status = pair.contact[i].status;
   }
   ++report.pairs;
@@ -126,7 +118,7 @@ Vec3 corrected_velocity(const SolidContactStep& s, const SolidContactNode& node,
       const Vec3 rest = frames[i].from({-contacts[i].bounce, 0.0, 0.0}) - drive;
       return {conj(s.plane.rotation_next) * rest.plane(), rest.z};
     }
-    impulse += frames[i].from(impulse_of(contacts[i]));
+    impulse += frames[i].from(contacts[i].impulse);
   }
   if (impulse == Vec3{}) return node.free;
   const Vec2 plane = conj(s.plane.rotation) * impulse.plane() / (node.mass * s.plane.a);
@@ -137,8 +129,7 @@ void add_works(const SolidContactStep& s, const SolidContactNode& node, Vec3 aft
                const ActiveContact& c, ContactReport& report) noexcept {
   const Vec3 impulse{conj(s.plane.rotation) * push.plane(), push.z};  // turning frame
   const double work = dot(impulse, 0.5 * (node.before + after));
-  const Vec3 mean = 0.5 * (Vec3(c.before, c.lateral.before) + Vec3(c.after, c.lateral.after));
-  const Vec3 r = impulse_of(c);
+  const Vec3 mean = 0.5 * (c.before + c.after), r = c.impulse;
   report.work += work;
   report.dissipation_friction -= r.y * mean.y + r.z * mean.z;
   report.loss_impact -= r.x * mean.x;
@@ -146,10 +137,9 @@ void add_works(const SolidContactStep& s, const SolidContactNode& node, Vec3 aft
 }
 
 void add_impulse(const SolidContactStep& s, Vec3 arm, Vec3 push, ContactReport& report) noexcept {
-  const Vec3 normal = s.ground.to_wheel({0.0, 1.0}, 0.0);
+  const Vec3 normal = s.ground.to_wheel({0.0, 1.0, 0.0});
   const Vec3 moment = cross(arm, push);
-  report.impulse += s.ground.plane(push);
-  report.lateral += s.ground.lateral(push);
+  report.impulse += s.ground.from_wheel(push);
   report.angular_impulse += moment.z;
   report.moment_aligning += dot(normal, moment);
   report.moment_overturning += moment.x + s.plane.center.y * cross(normal, push).x;
@@ -163,15 +153,15 @@ void report_contacts(const SolidContactStep& s, const SolidContactNode& node, Ve
   bool pressed = false, sticks = true;
   for (std::size_t i = 0; i < contacts.size(); ++i) {
     ActiveContact& c = contacts[i];
-    put(frames[i].to(w), c.after, c.lateral.after);
-    const Vec3 push = frames[i].from(impulse_of(c));
+    c.after = frames[i].to(w);
+    const Vec3 push = frames[i].from(c.impulse);
     add_works(s, node, after, push, c, report);
     add_impulse(s, arm, push, report);
-    const double residual = contact::law_residual(impulse_of(c), Vec3(c.after, c.lateral.after),
-                                                  c.bounce, s.plane.law.friction, node.mass);
+    const double residual =
+        contact::law_residual(c.impulse, c.after, c.bounce, s.plane.law.friction, node.mass);
     report.residual = keep_larger(report.residual, residual / node.mass);
     report.penetration = std::max(report.penetration, -c.gap);
-    report.free_velocity = std::max(report.free_velocity, norm(Vec3(c.free, c.lateral.free)));
+    report.free_velocity = std::max(report.free_velocity, norm(c.free));
     if (c.impulse.x <= 0.0) continue;
     pressed = true;
     sticks = sticks && c.status == Status::stick;
@@ -189,8 +179,8 @@ SolidContactStep::SolidContactStep(const Model& model, const FrameStep& f,
     : plane(model, f, update),
       ground(model.motion.camber),
       axial_a(axial),
-      center_rate(ground.to_wheel(f.advance, f.lateral_advance) / model.dt),
-      center_rate_before(ground.to_wheel(f.advance_before, f.lateral_before) / model.dt) {}
+      center_rate(ground.to_wheel(f.advance) / model.dt),
+      center_rate_before(ground.to_wheel(f.advance_before) / model.dt) {}
 
 SolidContactStep::SolidContactStep(const Model& model, const FrameStep& f) noexcept
     : plane(model, f), ground(model.motion.camber), axial_a(1.0) {}
@@ -208,8 +198,8 @@ Vec3 solve_contacts(const SolidContactStep& s, const SolidContactNode& node,
     c.candidate = node.candidate;
     c.normal = touches.at[i].normal;
     c.gap = touches.at[i].gap;
-    put(frames[i].to(before), c.before, c.lateral.before);
-    put(frames[i].to(free), c.free, c.lateral.free);
+    c.before = frames[i].to(before);
+    c.free = frames[i].to(free);
     c.bounce = contact::restitution_shift(s.plane.law, c.before.x, c.before.x);
   }
   const Mobility w{s.plane.turn / (node.mass * s.plane.a), 1.0 / (node.mass * s.axial_a)};
@@ -217,8 +207,7 @@ Vec3 solve_contacts(const SolidContactStep& s, const SolidContactNode& node,
   if (contacts.size() == 2)
     solve_two(w, frames, friction, contacts, report);
   else
-    (void)solve_one(w, frames[0], {contacts[0].free, contacts[0].lateral.free}, friction,
-                    contacts[0]);
+    (void)solve_one(w, frames[0], contacts[0].free, friction, contacts[0]);
   const Vec3 after = corrected_velocity(s, node, drive, frames, contacts);
   report_contacts(s, node, after, frames, contacts, report);
   return after;

@@ -20,7 +20,7 @@ struct SolidContactStep {
   SolidContactStep(const Model& model, const FrameStep& frame) noexcept;
 
   ContactStep plane;  ///< center and its rates are along t1 and n
-  GroundAxes ground;
+  GroundFrame ground;
   double axial_a;
   Vec3 center_rate;         ///< (c_{n+2} - c_{n+1})/Δt                        [m/s]
   Vec3 center_rate_before;  ///< (c_{n+1} - c_n)/Δt                            [m/s]
@@ -38,7 +38,7 @@ struct SolidContactNode {
 
 /// Place of a node along t1 and n: where the ground is looked for.                   [m]
 inline Vec2 place_on_ground(const SolidContactStep& s, Vec3 arm) noexcept {
-  return s.plane.center + s.ground.plane(s.plane.rotation * arm);
+  return s.plane.center + s.ground.from_wheel(s.plane.rotation * arm).plane();
 }
 
 /// As solve_contacts() in the plane. @pre touches.count is 1 or 2. Allocates nothing.

@@ -25,7 +25,7 @@ double reach_below(const mesh::Mesh& mesh, double camber) {
   for (const int node : mesh.clamped) {
     const double radius = norm(place_of(mesh, node));
     const double axial = mesh.is_solid() ? mesh.axial[static_cast<std::size_t>(node)] : 0.0;
-    reach = std::max(reach, std::cos(camber) * radius - std::sin(camber) * axial);
+    reach = std::max(reach, -GroundFrame(camber).from_wheel({0.0, -radius, axial}).y);
   }
   return reach;
 }
@@ -67,7 +67,7 @@ std::string swapped(const Case& c, const MeshCase& file) {
 /// How deep held nodes are at a time [m].
 double depth_at(const Setup& s, double reach, double time) {
   const contact::Ground& ground = s.model.contact->ground;
-  const Vec2 center = s.model.motion.center(time);
+  const Vec2 center = s.model.motion.center(time).plane();
   const double above = ground.distance(center);
   if (s.mesh.is_solid() || above >= reach) return reach - above;
   const double angle = s.model.motion.angle(time);

@@ -17,7 +17,6 @@
 namespace rondo::study {
 namespace {
 
-using dynamics::GroundAxes;
 using dynamics::Model;
 
 const mesh::Surface& surface_of(const Case& c, const mesh::Mesh& mesh, const std::string& key,
@@ -79,10 +78,11 @@ void make_solid_model(const Case& c, Setup& s) {
 /// The rim moves in its plane: what it feels of K is that of no axial displacement.
 dynamics::CriticalStep step_with_solid_rim(const Model& model, const dynamics::CriticalStep& held,
                                            dynamics::LaggedDamping damping) {
-  const std::vector<double> none(model.n_nodes(), 0.0);
-  std::vector<double> axial(model.n_nodes());
+  std::vector<Vec3> in_space(model.n_nodes()), force(model.n_nodes());
   const auto product = [&](std::span<const Vec2> u, std::span<Vec2> out) {
-    fem::apply(model.solid->sector, u, none, out, axial);
+    std::ranges::transform(u, in_space.begin(), [](Vec2 a) { return Vec3(a, 0.0); });
+    fem::apply(model.solid->sector, in_space, force);
+    std::ranges::transform(force, out.begin(), &Vec3::plane);
   };
   return step_with_rim(model, product, held, damping);
 }
@@ -132,18 +132,16 @@ void make_solid_body(const Case& c, int threads, Setup& s) {
   find_solid_step(c, s);
 }
 
-std::vector<double> solid_depths(const Setup& s) {
+std::vector<Vec2> solid_positions(const Setup& s) {
   const Model& m = s.model;
-  const GroundAxes axes(m.motion.camber);
-  const Vec2 center = m.motion.center(0.0);
-  std::vector<double> depths;
-  for (const int node : m.contact->nodes) {
-    const std::size_t k = at(node);
-    const double axial = m.solid->axial[k] + (s.axial.u.empty() ? 0.0 : s.axial.u[k]);
-    const Vec3 arm{m.reference[k] + s.displacement[k], axial};
-    depths.push_back(-m.contact->ground.distance(center + axes.plane(arm)));
-  }
-  return depths;
+  const GroundFrame ground(m.motion.camber);
+  const Vec3 center = m.motion.center(0.0);
+  const std::span<const Vec3> u = s.displacement.space();
+  std::vector<Vec2> x;
+  for (std::size_t k = 0; k < u.size(); ++k)
+    x.push_back(
+        (center + ground.from_wheel(Vec3(m.reference[k], m.solid->axial[k]) + u[k])).plane());
+  return x;
 }
 
 void describe_solid(const Setup& s, Json& json) {

@@ -10,9 +10,8 @@ namespace rondo::study {
 /// @throws InputError: as add_pressures()
 void make_solid_body(const Case& c, int threads, Setup& s);
 
-/// How deep the nodes that may touch the ground are in it at the start [m], in the order of the
-/// candidates; < 0: above it.
-std::vector<double> solid_depths(const Setup& s);
+/// (n) positions at the start along t1 and n, in which the ground is [m].
+std::vector<Vec2> solid_positions(const Setup& s);
 
 /// The pressures of the case on its surfaces. @throws InputError: no such curve in the section, or
 /// one that is held

@@ -11,7 +11,7 @@ RubberWork::RubberWork(const Model& model, const State& start) : model_(model) {
   work_.add(make_internal_force(model, start.u, start.poses)->material().stored_energy);
   if (model.rim) return;
   for_free_nodes(model, [&](std::size_t k) {
-    work_.add(0.5 * model.dt * dot(start.force[k], start.v_next[k]));
+    work_.add(0.5 * model.dt * dot(start.force.plane()[k], start.v_next.plane()[k]));
   });
 }
 

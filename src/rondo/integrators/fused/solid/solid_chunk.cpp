@@ -78,7 +78,7 @@ Vec3 SolidChunk::initial_force(const State& state, int row, int column) const no
     const auto sector = static_cast<std::size_t>((range_.first + column + b.shift + n) % n);
     const std::size_t node = k.node(of, sector);
     const Complex frame = k.turn[sector] * plan_.stiffness.frame[of];
-    const Vec3 u = conj(frame) * Vec3(state.u[node], state.axial_u[node]);
+    const Vec3 u = conj(frame) * state.u.space()[node];
     force +=
         {b.k[0] * u.x + b.k[3] * u.y + b.k[6] * u.z, b.k[1] * u.x + b.k[4] * u.y + b.k[7] * u.z,
          b.k[2] * u.x + b.k[5] * u.y + b.k[8] * u.z};
@@ -100,8 +100,8 @@ void SolidChunk::for_own_nodes(Visit&& visit, bool candidates) const noexcept {
 void SolidChunk::load(const State& state) {
   for_own_nodes([&](int a, int c, std::size_t node) {
     const Complex to_node = conj(frame(a, c));
-    const Vec3 v = to_node * Vec3(state.v_next[node], state.axial_v_next[node]);
-    put(a, field_now(), c, to_node * Vec3(state.u[node], state.axial_u[node]) + model_.dt * v);
+    const Vec3 v = to_node * state.v_next.space()[node];
+    put(a, field_now(), c, to_node * state.u.space()[node] + model_.dt * v);
     put(a, field_v, c, v);
     if (plan_.keeps_force) put(a, field_force, c, initial_force(state, a, c));
   });
@@ -109,44 +109,30 @@ void SolidChunk::load(const State& state) {
 }
 
 void SolidChunk::save(SavedState& saved) const noexcept {
-  const auto write = [](Vec3 x, Vec2& plane, double& axial) {
-    plane = x.plane();
-    axial = x.z;
-  };
   for_own_nodes([&](int a, int c, std::size_t node) {
-    write(at(a, field_now(), c), saved.u[node], saved.axial_u[node]);
-    write(at(a, field_v, c), saved.v[node], saved.axial_v[node]);
-    if (plan_.keeps_force) write(at(a, field_force, c), saved.force[node], saved.axial_force[node]);
+    saved.u.space()[node] = at(a, field_now(), c);
+    saved.v.space()[node] = at(a, field_v, c);
+    if (plan_.keeps_force) saved.force.space()[node] = at(a, field_force, c);
   });
 }
 
 void SolidChunk::restore(const SavedState& saved) noexcept {
   for_own_nodes([&](int a, int c, std::size_t node) {
-    put(a, field_now(), c, {saved.u[node], saved.axial_u[node]});
-    put(a, field_v, c, {saved.v[node], saved.axial_v[node]});
-    if (plan_.keeps_force) put(a, field_force, c, {saved.force[node], saved.axial_force[node]});
+    put(a, field_now(), c, saved.u.space()[node]);
+    put(a, field_v, c, saved.v.space()[node]);
+    if (plan_.keeps_force) put(a, field_force, c, saved.force.space()[node]);
   });
   show_to_others();
 }
 
-void SolidChunk::save_displacement(bool candidates, std::vector<Vec2>& u) const noexcept {
-  for_own_nodes([&](int a, int c,
-                    std::size_t node) { u[node] = frame(a, c) * at(a, field_now(), c).plane(); },
-                candidates);
-}
-
-void SolidChunk::save_velocity(std::vector<Vec2>& v) const noexcept {
+void SolidChunk::save_displacement(bool candidates, std::span<Vec3> u) const noexcept {
   for_own_nodes(
-      [&](int a, int c, std::size_t node) { v[node] = frame(a, c) * at(a, field_v, c).plane(); });
+      [&](int a, int c, std::size_t node) { u[node] = frame(a, c) * at(a, field_now(), c); },
+      candidates);
 }
 
-void SolidChunk::save_axial_displacement(bool candidates, std::vector<double>& u) const noexcept {
-  for_own_nodes([&](int a, int c, std::size_t node) { u[node] = at(a, field_now(), c).z; },
-                candidates);
-}
-
-void SolidChunk::save_axial_velocity(std::vector<double>& v) const noexcept {
-  for_own_nodes([&](int a, int c, std::size_t node) { v[node] = at(a, field_v, c).z; });
+void SolidChunk::save_velocity(std::span<Vec3> v) const noexcept {
+  for_own_nodes([&](int a, int c, std::size_t node) { v[node] = frame(a, c) * at(a, field_v, c); });
 }
 
 /// With a wide halo, step i of k leaves k - 1 - i columns of it right on each side.

@@ -26,10 +26,8 @@ class SolidChunk {
   void restore(const SavedState& saved) noexcept;
   /// u_{n+1} or v_{n+1/2} of this chunk's own nodes, in the turning frame; (n).
   /// @param candidates only those of the rows that have contact candidates
-  void save_displacement(bool candidates, std::vector<Vec2>& u) const noexcept;
-  void save_velocity(std::vector<Vec2>& v) const noexcept;
-  void save_axial_displacement(bool candidates, std::vector<double>& u) const noexcept;
-  void save_axial_velocity(std::vector<double>& v) const noexcept;
+  void save_displacement(bool candidates, std::span<Vec3> u) const noexcept;
+  void save_velocity(std::span<Vec3> v) const noexcept;
 
   /// What neighbours need of this chunk for the pass to come.
   void give_edges() noexcept { edges_.give(layout(), edge_fields(), passes_); }

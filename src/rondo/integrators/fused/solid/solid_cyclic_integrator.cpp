@@ -38,21 +38,12 @@ void SolidCyclicIntegrator::make_steps(const Batch& batch, Share share) noexcept
   }
 }
 
-void SolidCyclicIntegrator::save_displacement(Nodes of, std::vector<Vec2>& u) const noexcept {
+void SolidCyclicIntegrator::save_displacement(Nodes of, Field& u) const noexcept {
   for (const SolidChunk& chunk : chunks_) chunk.save_displacement(of == Nodes::candidates, u);
 }
 
-void SolidCyclicIntegrator::save_velocity(std::vector<Vec2>& v) const noexcept {
+void SolidCyclicIntegrator::save_velocity(Field& v) const noexcept {
   for (const SolidChunk& chunk : chunks_) chunk.save_velocity(v);
-}
-
-void SolidCyclicIntegrator::save_axial_displacement(Nodes of,
-                                                    std::vector<double>& u) const noexcept {
-  for (const SolidChunk& chunk : chunks_) chunk.save_axial_displacement(of == Nodes::candidates, u);
-}
-
-void SolidCyclicIntegrator::save_axial_velocity(std::vector<double>& v) const noexcept {
-  for (const SolidChunk& chunk : chunks_) chunk.save_axial_velocity(v);
 }
 
 void SolidCyclicIntegrator::save_fields(SavedState& saved) const noexcept {

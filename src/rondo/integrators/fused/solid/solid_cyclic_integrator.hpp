@@ -19,10 +19,8 @@ class SolidCyclicIntegrator final : public BatchIntegrator {
   SolidCyclicIntegrator(const Model& model, const State& start, const kernels::Table& table,
                         SolidPlan plan);
   void make_steps(const Batch& batch, Share share) noexcept override;
-  void save_displacement(Nodes of, std::vector<Vec2>& u) const noexcept override;
-  void save_velocity(std::vector<Vec2>& v) const noexcept override;
-  void save_axial_displacement(Nodes of, std::vector<double>& u) const noexcept override;
-  void save_axial_velocity(std::vector<double>& v) const noexcept override;
+  void save_displacement(Nodes of, Field& u) const noexcept override;
+  void save_velocity(Field& v) const noexcept override;
   void save_fields(SavedState& saved) const noexcept override;
   void restore_fields(const SavedState& saved) noexcept override;
   void save_active(std::vector<ActiveContact>& active) const noexcept override;

@@ -20,7 +20,7 @@ void SolidChunk::find_touching(const Work& work, int row) noexcept {
   const SolidContactStep& contact = *work.step->solid_contact;
   const contact::Ground& ground = model_.contact->ground;
   const Complex rotation = contact.plane.rotation * Complex{r.turn_x, r.turn_y};
-  const Vec3 normal = contact.ground.to_wheel({0.0, 1.0}, 0.0);
+  const Vec3 normal = contact.ground.to_wheel({0.0, 1.0, 0.0});
   constexpr double margin = 1e-9;  // m: the nodes found are looked at again, exactly
   const int n = table_.low_columns({.u = field(row, work.now),
                                     .stride = plan_.stride,

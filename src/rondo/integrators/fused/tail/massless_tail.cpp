@@ -76,7 +76,7 @@ class MasslessTail final : public StepTail {
     find_ring(*step.contact);
     if (damped()) correct_dissipation(part.sums);
     ring_.fields.write(next_, velocity_);
-    part.contact = contact_.report(*step.contact, step.frame.center, active_);
+    part.contact = contact_.report(*step.contact, step.frame.center.plane(), active_);
   }
 
   [[nodiscard]] const char* held() const noexcept override { return held_.data(); }
