@@ -134,7 +134,7 @@ def _parser() -> argparse.ArgumentParser:
         epilog="Prints observed orders and Richardson's extrapolated value with an error bar, or that a figure does "
                "not converge monotonically. Exit code 3: a figure of --figure does not. docs/studies.md.")
     converge.add_argument("directory", type=pathlib.Path,
-                          help="directory of `rondo sweep` over disk.mesh.radial, time.step, ...: at least three levels")
+                          help="directory of `rondo sweep` over disk.mesh.radial, time.step, ...: three or more levels")
     converge.add_argument("--figure", nargs="+", action="extend", default=[], metavar="NAME",
                           help="columns of results.csv, e.g. force_y_mean; default: all")
     converge.add_argument("--by", metavar="KEY", help="key that is refined, if several vary")

@@ -81,7 +81,7 @@ TEST(CrushHistories, AreBothTables) {
   expect_told("increments = 8\ndepth = [[0, 0], [8, 1]]\nslide = 0.25",
               {"analysis.slide = 0.25", "beside a table of analysis.depth", "[8, 0.25]]"});
   expect_told("increments = 8\ndepth = [[0, 0], [8, 1]]\nslide_increments = 4",
-              {"analysis.slide_increments = 4", "counts its own increments"});
+              {"analysis.slide_increments = 4", "increments are counted by"});
 }
 
 const std::string pressed = "increments = 8\ndepth = 0.5\n";

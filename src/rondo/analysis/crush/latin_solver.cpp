@@ -125,13 +125,11 @@ void LatinSolver::make_pgd(MatrixXd fields) {
   const statics::Adopted adopted =
       statics::adopt(stiffness_, nodes_, direction_, std::move(fields));
   if (!(adopted.foreign <= most_foreign))
-    throw request_error(
-        "--modes-from", options_.modes_from.string(),
-        fmt::format(
-            "its fields have {:.2g} of their loads away from the contact nodes: they are of "
-            "another body",
-            adopted.foreign),
-        "a run of the same mesh, [material] and held nodes");
+    throw request_error("--modes-from", options_.modes_from.string(),
+                        fmt::format("its fields have {:.2g} of their loads away from the contact "
+                                    "nodes: they belong to another body",
+                                    adopted.foreign),
+                        "a run of the same mesh, [material] and held nodes");
   fields_begun_with_ = static_cast<int>(adopted.fields.field.cols());
   pgd_->begin_with(adopted.fields);
 }

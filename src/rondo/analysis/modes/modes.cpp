@@ -50,7 +50,7 @@ Body make_body(const Case& c) {
   b.warnings = c.warnings;
   if (c.rim && (c.rim->free_x || c.rim->free_y || c.rim->free_spin))
     b.warnings.emplace_back(
-        "[rim] means nothing to modes: they are those of the body whose rim is held");
+        "[rim] has no effect on modes: they are those of the body with its rim held");
   b.mesh = build_mesh(c, &b.warnings);
   refuse_overlaps(c, {b.mesh, b.mesh.coordinates, c.body_contact.between != BodyContact::none},
                   b.warnings);
@@ -129,7 +129,7 @@ void check_spins(const Case& c, const Body& b, const std::string& option,
     if (!b.cyclic())
       throw request_error(
           option, found,
-          fmt::format("nothing holds {} of the bodies: they are computed at rest", b.free),
+          fmt::format("{} of the bodies are free: they are computed at rest", b.free),
           "0; or a mesh whose bodies are all clamped");
     if (c.stress_stiffening != StressStiffening::none)
       throw case_error(c, "material.stress_stiffening",
@@ -398,10 +398,10 @@ void ModesAnalysis::judge(const SpinSummary& s) {
     say(fmt::format("at {} rad/s the modes are not counted: some may be missing",
                     s.angular_velocity));
   if (s.growth > 1e-3 * std::abs(s.angular_velocity))
-    say(
-        fmt::format("at {} rad/s nothing holds back the rotation of the free disk against its "
-                    "frame: in this model without the stress of the spin it grows at {:.4g} 1/s",
-                    s.angular_velocity, s.growth));
+    say(fmt::format(
+        "at {} rad/s the rotation of the free disk against its frame is not restrained: in this "
+        "model without the stress of the spin it grows at {:.4g} 1/s",
+        s.angular_velocity, s.growth));
 }
 
 }  // namespace

@@ -71,17 +71,18 @@ void check_case(const Case& c, const RunOptions& options, const Setup& setup) {
                         "fields or modes");
   if (is_solid(c))
     throw case_error(c, c.section ? "section" : "disk.width",
-                     "reduced models are plane, and this is a wheel in three dimensions",
+                     "reduced models are for plane bodies, not for a wheel in three dimensions",
                      "the full run, without --reduced; or a [disk] without disk.width");
   if (c.time.scheme != Scheme::symplectic)
     throw case_error(c, "time.scheme", "a reduced run has a scheme of its own",
                      "\"symplectic\", which it stands for");
   const dynamics::Model& model = setup.model;
   if (has_rubber(c))
-    throw case_error(c, "material.model", "a reduced run is of small strain, and rubber is not",
+    throw case_error(c, "material.model",
+                     "a reduced run is computed at small strain, rubber at finite strain",
                      "\"linear\"; or the full run");
   if (c.contact_mass != ContactMass::lumped)
-    throw case_error(c, "solver.contact_mass", "a reduced run knows contact nodes with mass alone",
+    throw case_error(c, "solver.contact_mass", "a reduced run needs contact nodes with mass",
                      "\"lumped\"");
   if (!c.implicit.empty())
     throw case_error(c, "solver.implicit[0]", "a reduced run has no elements, but modes",
@@ -89,13 +90,13 @@ void check_case(const Case& c, const RunOptions& options, const Setup& setup) {
   if (has_sharp_corners(model)) {
     const CornerWords words = corner_words(c, model);
     throw case_error(c, c.ground->shape.fillet > 0.0 ? "ground.fillet" : "ground.profile",
-                     "a reduced run knows contact at nodes alone, not " + words.corners,
+                     "a reduced run has contact at nodes only, not at " + words.corners,
                      words.instead);
   }
   if (is_general(model) || !model.pressures.empty())
     throw case_error(c, "analysis.kind",
-                     "a reduced run knows one constrained disk on the ground; here are pressures, "
-                     "free bodies or contact of bodies",
+                     "a reduced run is for one constrained disk on the ground, without pressures, "
+                     "free bodies and contact of bodies",
                      "none of these");
 }
 
@@ -103,11 +104,11 @@ void check_model(const Case& c, const RunOptions& options, const ReducedFile& fi
                  const Setup& setup) {
   const std::string difference = body_difference(body_text(c), file.body);
   if (!difference.empty())
-    throw request_error("--reduced", options.reduced.string(),
-                        fmt::format("the model is of another mesh or material: the case has {} of "
-                                    "the model",
-                                    difference),
-                        "a model built from runs of this mesh and material (rondo reduce)");
+    throw request_error(
+        "--reduced", options.reduced.string(),
+        fmt::format("the model has another mesh or material: the case has {} of the model",
+                    difference),
+        "a model built from runs of this mesh and material (rondo reduce)");
   const bool same =
       file.mesh.n_nodes() == setup.mesh.n_nodes() &&
       file.mesh.coordinates == setup.mesh.coordinates &&
@@ -140,7 +141,7 @@ void take_rim(const Case& c, const RunOptions& options, const Setup& setup, Redu
                         "midpoint, or a case without [rim]");
   if (run.file.model.frame != rom::ModelFrame::rectified)
     throw request_error("--reduced", options.reduced.string(),
-                        "is a model of the co-rotating frame, which knows no [rim]",
+                        "is a model in the co-rotating frame, which does not support a [rim]",
                         "a model of the rectified frame (rondo reduce without --frame)");
   run.file.model.rim = rom::make_rim_modes(setup.mesh, setup.model.mass, run.file.model);
 }

@@ -25,8 +25,7 @@ void refuse_free_bodies(const Case& c, const mesh::Mesh& mesh) {
   if (free > 0)
     throw case_error(
         c, "mesh.clamped",
-        fmt::format("holds {} of {} bodies, and a crush presses them down by what is "
-                    "held",
+        fmt::format("holds {} of {} bodies, and a crush presses each down by its held nodes",
                     bodies.count - free, bodies.count),
         "a physical curve of every body, " + mesh::physical_group_line("Curve", "rim"));
   if (mesh.boundary.empty())
