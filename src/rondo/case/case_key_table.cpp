@@ -169,8 +169,8 @@ constexpr CaseKey keys[] = {
      "its middle. Without it the tread is flat"},
 
     {"disk.mesh.radial", "-", FIELD(disk.radial), between(1, 100000), required,
-     "Number of layers of elements between the inner and the outer radius; with a `[disk.tread]`, "
-     "between the inner radius and the bottom of the grooves"},
+     "Number of layers of elements from the rim to the top of the disk, or with a `[disk.tread]` "
+     "to the bottom of the grooves"},
     {"disk.mesh.circumferential", "-", FIELD(disk.circumferential), between(3, 10000000),
      required.if_(is_smooth, "required without [disk.tread]"),
      "Number of columns of elements around the disk. Refused together with `[disk.tread]`, whose "
@@ -190,19 +190,20 @@ constexpr CaseKey keys[] = {
      "Number of columns of elements in a land"},
     {"disk.tread.groove_columns", "-", FIELD(disk.tread->groove_columns), between(0, 100000),
      required,
-     "Number of columns of elements in a groove. 0, which means no grooves across the tread, only "
-     "with `circumferential_grooves`"},
+     "Number of columns of elements in a groove; 0, no grooves across the tread, only with "
+     "`circumferential_grooves`"},
     {"disk.tread.layers", "-", FIELD(disk.tread->layers), between(1, 100000), required,
      "Number of layers of elements over the depth of the grooves"},
     {"disk.tread.circumferential_grooves", "m", FIELD(wheel.grooves), any,
      optional.if_(has_grooves, "none"),
      "Grooves around a wheel with a `disk.width`, as deep as the tread: [[z, width], ...] with the "
-     "z of their middle, which is 0 at the middle of the wheel. Elements whose middle is in a "
-     "groove are left out"},
+     "z of their middle, 0 at the middle of the wheel. Elements whose middle is in a groove are "
+     "left "
+     "out"},
 
     {"mesh.file", "-", FIELD(mesh->file), any, required.free_on_resume(),
      "Gmsh file of the bodies, relative to the case file's directory. The results directory keeps "
-     "a copy, `mesh.msh`, for its own `case.toml`; of a file above 50 MB only the path"},
+     "a copy, `mesh.msh`, or above 50 MB the path"},
     {"mesh.scale", "m", FIELD(mesh->scale), positive, optional,
      "Length in metres of one unit of length of the file"},
     {"mesh.clamped", "-", FIELD(mesh->clamped), any, optional,
@@ -254,17 +255,16 @@ constexpr CaseKey keys[] = {
      required.if_(is_linear_or_by_ratio, "required without bulk_modulus"),
      "Poisson's ratio ν. Of rubber it is that of small strain, at least 0: κ = 2μ(1 + ν)/(3(1 - "
      "2ν)). In plane strain with \"full\" integration there is a warning above 0.49, with "
-     "triangles above 0.45, because elements are then far too stiff"},
+     "triangles above 0.45: elements are then far too stiff"},
     {"material.density", "kg/m3", FIELD(material.density), positive, required, "Density ρ"},
     {"material.plane", "-", FIELD(material.plane), one_from("strain", "stress"), optional,
      "Plane strain (a wide wheel) or plane stress (a thin sheet)"},
     {"material.integration", "-", FIELD(law.integration), quadrature,
      optional.said("\"full\"; for rubber \"b-bar\""),
      "Quadrature of the stiffness. \"full\": 2×2 points, in a triangle one. \"b-bar\": the mean "
-     "change of volume in a quadrilateral, or in the triangles around a node, which does not lock "
-     "near ν = 0.5. \"one-point\": for quadrilaterals of rubber, one point and a stiffness against "
-     "hourglass modes, which takes half the time and is less exact. Rubber takes \"b-bar\" or "
-     "\"one-point\""},
+     "change of volume of a quadrilateral, or of the triangles around a node, which does not lock "
+     "near ν = 0.5. \"one-point\": one point and a stiffness against hourglass modes, in half the "
+     "time and less exact, for quadrilaterals of rubber. Rubber takes \"b-bar\" or \"one-point\""},
     {"material.stress_stiffening", "-", FIELD(stress_stiffening), one_from("none", "centrifugal"),
      optional.of(in_motion_but_written),
      "\"centrifugal\": the stress of the stationary spin at the initial angular velocity stiffens "
@@ -336,9 +336,8 @@ constexpr CaseKey keys[] = {
 
     {"motion.angular_velocity", "rad/s", FIELD(motion.angular_velocity), any,
      required.if_(is_held, "required if constrained and dynamic").body(never),
-     "Angular velocity ω of the rim; > 0 turns clockwise, which rolls towards +x. The same sign "
-     "holds for all angular velocities and angles of turns of a case, and for `angle_rad` of "
-     "history.csv, its integral"},
+     "Angular velocity ω of the rim; > 0 turns clockwise, which rolls towards +x. All angular "
+     "velocities and angles of turns of a case, and `angle_rad` of history.csv, have this sign"},
     {"motion.speed", "m/s", FIELD(motion.speed), any,
      required.if_(has_speed, "required if constrained and dynamic").only_in(in_time).body(never),
      "Speed V of the center along x"},
@@ -372,8 +371,7 @@ constexpr CaseKey keys[] = {
      "Mass of the rim and what it carries, without the nodes that are bonded to it"},
     {"rim.inertia", "kg m", FIELD(rim->inertia), not_negative,
      optional.said("required if angular_velocity is free"),
-     "Moment of inertia of the rim and what it carries about the center, without the nodes that "
-     "are bonded to it"},
+     "Moment of inertia about the center, without the nodes that are bonded to the rim"},
     {"rim.force_x", "N/m", FIELD(rim->force_x), any, optional.if_(has_free_x).body(never),
      "Force on the center along x"},
     {"rim.force_y", "N/m", FIELD(rim->force_y), any, optional.if_(has_free_y).body(never),
@@ -457,8 +455,8 @@ constexpr CaseKey keys[] = {
      "clockwise"},
     {"initial.angle", "rad", FIELD(initial.angle), any,
      optional.if_(never, "0, or minus initial.turn").body(may_be_free),
-     "Minus `initial.turn`, counter-clockwise: the key of earlier versions, which is taken with a "
-     "warning and written as `initial.turn`"},
+     "Minus `initial.turn`, counter-clockwise: a key of earlier versions, taken with a warning and "
+     "written as `initial.turn`"},
     {"initial.angular_velocity", "rad/s", FIELD(initial.angular_velocity), any,
      optional.if_(may_be_free).body(may_be_free),
      "Angular velocity of each free body about its center of mass at t = 0; > 0 turns clockwise"},
@@ -476,8 +474,8 @@ constexpr CaseKey keys[] = {
 
     {"analysis.kind", "-", FIELD(analysis.kind), kind_of_analysis(), optional,
      "\"dynamic\": the body moves as `[motion]` prescribes, over `[time]`. \"crush\": the body is "
-     "pressed slowly on flat ground without turning. \"steady-rolling\": the state that rolling at "
-     "constant spin settles in, solved directly; see [steady rolling](#steady-rolling)"},
+     "pressed slowly on flat ground without turning. \"steady-rolling\": the steady state of "
+     "rolling at constant spin, solved directly ([steady rolling](#steady-rolling))"},
     {"analysis.depth", "m", FIELD(analysis.depth),
      over_increments(with(not_negative, "< disk.outer_radius - disk.inner_radius")),
      required.of(of_crush).said("required if crush").body(never),
@@ -499,13 +497,13 @@ constexpr CaseKey keys[] = {
     {"analysis.solver", "-", FIELD(analysis.solver), one_from("direct", "latin", "latin-pgd"),
      optional.of(of_crush).body(never),
      "Method for the increments of a crush. \"direct\": one after another, exactly. \"latin\": all "
-     "at once, by iterations between the laws of contact and elasticity. \"latin-pgd\": as "
-     "\"latin\", with the field in modes that are found on the way. The last two need linear "
-     "materials and give the same results to about `tolerance`"},
+     "at once, by iterations between contact and elasticity. \"latin-pgd\": as \"latin\", with the "
+     "field in modes. The last two need linear materials and give the same results to about "
+     "`tolerance`"},
     {"analysis.search_direction", "N/m2", FIELD(analysis.search_direction), not_negative,
      optional.of(of_crush).if_(is_latin).body(never),
      "Stiffness that joins forces and gaps in the iterations of \"latin\" and \"latin-pgd\"; 0: "
-     "chosen by the program. It changes the number of iterations, and the result only within "
+     "chosen by the program. It changes the number of iterations, and the result within "
      "`tolerance`"},
     {"analysis.relaxation", "-", FIELD(analysis.relaxation), share,
      optional.of(of_crush).if_(is_latin).body(never),
@@ -538,8 +536,8 @@ constexpr CaseKey keys[] = {
      optional.of(of_steady_rolling).body(never),
      "Whether a state is a result even if the discretisation creates or takes more than a quarter "
      "of the largest power and more than 1e-4 of load times speed "
-     "([steady.md](steady.md#the-power-of-the-discretisation)). Forces and footprints are then "
-     "valid, the rolling resistance is not"},
+     "([steady.md](steady.md#the-power-of-the-discretisation)); its rolling resistance is then "
+     "meaningless, its forces and footprint are not"},
     {"analysis.load", "N/m", FIELD(analysis.load), positive,
      optional.of(of_steady_rolling).if_(has_load, "none").body(never),
      "Force of the ground on the steadily rolling body, upwards, given instead of `motion.height`"},
@@ -567,34 +565,32 @@ constexpr CaseKey keys[] = {
      "\"symplectic\": gyroscopic and mass damping forces at the middle of the step; keeps energy. "
      "\"as-printed\": these forces at the old half step, as published; for comparison, because it "
      "creates energy, which the ledger shows as `work_scheme`. \"hati\": two parts of the body, "
-     "each with a [step of its own](#two-parts-with-steps-of-their-own). The ledger closes in all "
-     "of them"},
+     "each with a [step of its own](#two-parts-with-steps-of-their-own)"},
 
     {"solver.operator", "-", FIELD(solver_operator), one_from("auto", "cyclic", "sparse"),
      optional.of(in_time),
      "How K u is formed: \"cyclic\" from the blocks of one sector, \"sparse\" from an assembled "
-     "matrix. \"auto\" takes \"cyclic\" on every mesh of equal sectors, that is on every `[disk]`, "
-     "except where \"cyclic\" is refused: a free disk, `[contact]` of bodies, rubber, or a "
-     "`time.scheme` other than \"symplectic\". The results are the same to round-off "
-     "(docs/performance.md)"},
+     "matrix, with the same results to round-off (docs/performance.md). \"auto\" takes \"cyclic\" "
+     "on every mesh of equal sectors, that is on every `[disk]`, unless it is refused: for a free "
+     "disk, `[contact]` of bodies, rubber, or a `time.scheme` other than \"symplectic\""},
     {"solver.contact_mass", "-", FIELD(contact_mass),
      one_from("lumped", "singular", "singular-kept"), optional.of(in_time),
-     "Mass of the nodes that may touch the ground. \"lumped\": their own. \"singular\": none. It "
+     "Mass of the nodes that may touch the ground. \"lumped\": their own. \"singular\": none; it "
      "goes to the nodes below, and stiffness and ground determine the positions of the contact "
      "nodes ([theory](theory.md), 3.10): impacts lose and excite next to nothing, gaps are kept, "
-     "and the step may be longer. \"singular-kept\": also, all masses are multiplied by 1 + a + "
-     "b·X + d|X|², which keeps the center of mass and the inertia of the body. Both need a "
-     "`[ground]` without sharp convex corners, and are refused with restitution, `[contact]` of "
-     "bodies, `[rim]`, free bodies and schemes other than \"symplectic\""},
+     "and the step may be longer. \"singular-kept\": the masses are also scaled so that center of "
+     "mass and inertia of the body stay. Both need a `[ground]` without sharp convex corners, and "
+     "are refused with restitution, `[contact]` of bodies, `[rim]`, free bodies and schemes other "
+     "than \"symplectic\""},
     {"solver.contact_iterations", "-", FIELD(contact_iterations), between(1, 1000000000),
      optional.of(in_time).body(never),
-     "Largest number of iterations for contacts that share nodes and are solved together (sharp "
-     "corners of the ground, bodies on each other). Contacts that do not meet the law by then are "
-     "counted in `run.json`, and their residual ends the run"},
+     "Largest number of iterations for contacts that are solved together (sharp corners of the "
+     "ground, bodies on each other). Contacts that do not meet the law by then are counted in "
+     "`run.json`, and their residual ends the run"},
     {"solver.dump_contacts", "-", FIELD(dump_contacts), between(0, 1000000000),
      optional.of(in_time).body(never),
      "Number of iterations above which contacts that are solved together are kept as files in "
-     "`contact-problems/` of the results directory, to improve the solver; 0: none"},
+     "`contact-problems/` of the results directory; 0: none"},
 
     {"solver.implicit[].slower_than", "s", FIELD(implicit[k].slower_than), positive,
      optional.said("none"),
@@ -610,12 +606,10 @@ constexpr CaseKey keys[] = {
      "elements away from the elements that are not fine"},
     {"solver.hati.fine.layers", "-", FIELD(hati->fine.layers), between(1, 200000),
      optional.if_(has_fine_layers, "none"),
-     "Layers of elements of a `[disk]`, 1 at the rim, that are explicit, in fine steps. All others "
-     "are implicit, in coarse ones"},
+     "Layers of elements of a `[disk]`, 1 at the rim, that are explicit, in fine steps"},
     {"solver.hati.fine.region", "-", FIELD(hati->fine.region), any,
      optional.if_(has_fine_region, "none"),
-     "Physical surface of a `[mesh]` whose elements are explicit, in fine steps. All others are "
-     "implicit, in coarse ones"},
+     "Physical surface of a `[mesh]` whose elements are explicit, in fine steps"},
 
     {"output.history_interval", "s", FIELD(output.history_interval), not_negative,
      optional.of(in_time).body(never),
@@ -637,7 +631,7 @@ constexpr CaseKey keys[] = {
      "Name of the probe's columns: letters, digits, _ and -"},
     {"output.probe[].position", "m", FIELD(output.probes[k].position), any, required,
      "Position of the probe in the undeformed mesh, before free bodies are placed. A point in no "
-     "cell is refused with the distance of the nearest"},
+     "cell is refused"},
 };
 
 #undef FIELD

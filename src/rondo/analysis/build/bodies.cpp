@@ -37,7 +37,7 @@ void refuse_sizes_out_of_range(const Case& c, const std::vector<double>& size) {
   if (shortest >= smallest && shortest <= largest) return;
   throw case_error(c, scale_key(c),
                    fmt::format("the shortest edge of the mesh would be {:.3g} m, out of the range "
-                               "of the numbers",
+                               "of floating-point numbers",
                                shortest),
                    "lengths in metres");
 }

@@ -165,7 +165,7 @@ double choose_step(const Case& c, const dynamics::CriticalStep& critical) {
   if (!(critical.omega > 0.0) || !std::isfinite(critical.omega) || !(critical.step > 0.0))
     throw case_error(c, "material.youngs_modulus",
                      fmt::format("with this density and mesh the largest frequency is {} rad/s, "
-                                 "out of the range of the numbers",
+                                 "out of the range of floating-point numbers",
                                  critical.omega),
                      "a modulus and a density in SI units");
   if (!c.time.step) return c.time.safety * critical.step;

@@ -189,10 +189,10 @@ bool LatinSolver::iterate(std::string& trouble) {
   solve_wall_s_ += std::chrono::duration<double>(Clock::now() - begin).count();
   record_iteration();
   if (!std::isfinite(report_.residual) || !std::isfinite(report_.indicator))
-    trouble = "the forces or displacements are out of the range of the numbers";
+    trouble = "the forces or displacements are out of the range of floating-point numbers";
   else if (empty)
     trouble =
-        "the forces are below the range of the numbers, and no mode is left of them; a larger "
+        "the forces are below the range of floating-point numbers, and no mode remains; a larger "
         "analysis.depth, and material.youngs_modulus in Pa";
   else if (!converged && report_.iterations == most_iterations)
     trouble = not_converged();

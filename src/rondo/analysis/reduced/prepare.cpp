@@ -36,8 +36,8 @@ std::string passed_points(const Case& c, const Setup& setup, double spin, const 
   const double passed = points_passed(setup, spin * setup.model.dt, run);
   if (!c.ground || passed <= 1.0) return {};
   return fmt::format(
-      "--step-factor: the disk turns by {:.3g} contact points in a step; contact "
-      "wants 1 at the most, a factor of {:.3g}",
+      "--step-factor: the disk turns by {:.3g} contact points in a step; contact needs at most 1, "
+      "a factor of {:.3g}",
       passed, run.step_factor / passed);
 }
 
@@ -85,7 +85,7 @@ void check_case(const Case& c, const RunOptions& options, const Setup& setup) {
     throw case_error(c, "solver.contact_mass", "a reduced run needs contact nodes with mass",
                      "\"lumped\"");
   if (!c.implicit.empty())
-    throw case_error(c, "solver.implicit[0]", "a reduced run has no elements, but modes",
+    throw case_error(c, "solver.implicit[0]", "a reduced run has modes instead of elements",
                      "no [[solver.implicit]]");
   if (has_sharp_corners(model)) {
     const CornerWords words = corner_words(c, model);
@@ -125,8 +125,8 @@ void check_impacts(const Case& c, const ReducedRun& run) {
   if (!c.ground || c.ground->impact == contact::Impact::moreau || sees_velocities_alone(run))
     return;
   throw case_error(c, "ground.impact",
-                   "a reduced run keeps what this law promises only with contact at nodes and "
-                   "explicit steps",
+                   "in a reduced run impacts of this law may create energy, except with contact at "
+                   "nodes and explicit steps",
                    c.rim ? "\"moreau\""
                          : "\"moreau\", or a model of rondo reduce --contact nodes and "
                            "--reduced-step explicit");
@@ -171,7 +171,7 @@ void warn_of_range(const Case& c, const Setup& setup, ReducedRun& run) {
   check("the slip ratio", &ModelRanges::slip_ratio, 1.0);
   if (c.ground && built.friction.empty())
     run.warnings.emplace_back(
-        "the model was built from runs without ground: its modes know no contact");
+        "the model was built from runs without ground: its modes contain no contact");
 }
 
 /// The step that is asked for; where nodes come by at a constant spin, so much less that a whole
@@ -213,7 +213,7 @@ void warn_of_start(const Setup& setup, ReducedRun& run) {
     const double left = std::sqrt(std::max(0.0, 1.0 - inside / all));
     if (left > 0.01)
       run.warnings.push_back(fmt::format(
-          "[initial]: the modes hold all but {:.2g} % of the initial {}", 100.0 * left, name));
+          "[initial]: the modes represent all but {:.2g} % of the initial {}", 100.0 * left, name));
   };
   check(setup.displacement, "displacement");
   check(setup.velocity, "velocity");

@@ -92,7 +92,7 @@ std::string SolidSteadyState::not_solved() const {
   std::string found = "the iteration over sets of contacts did not end";
   if (too_many)
     found = fmt::format(
-        "analysis.samples_per_sector = {} makes {} pairs of a node and a place near the ground, "
+        "analysis.samples_per_sector = {} makes {} pairs of a node and a sample near the ground, "
         "and {:.2g} operations (limit {:.0e}) did not solve them",
         a.samples_per_sector, window_.pairs().size(), solution_.work, statics::most_solid_work);
   else if (std::isfinite(solution_.residual))

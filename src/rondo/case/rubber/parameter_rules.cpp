@@ -167,7 +167,8 @@ void check_stability(CaseValues& in, const Described& d) {
                     "sum of mu alpha");
   fill_material(d.law, d.material);
   if (!std::isfinite(d.material.rubber->bulk_modulus) || !std::isfinite(d.material.youngs_modulus))
-    return in.fault(key, "makes the moduli leave the range of the numbers", "moduli in Pa");
+    return in.fault(key, "makes the moduli exceed the range of floating-point numbers",
+                    "moduli in Pa");
   check_volume(in, d, mu);
   const auto unstable = find_unstable(*d.material.rubber);
   if (!unstable) return;

@@ -107,7 +107,7 @@ void condense(const Case& c, const CrushSetup& setup, statics::Condensation& bod
 std::string crush_trouble(const statics::CrushReport& report, const statics::CrushWorks& works,
                           double bound) {
   if (!std::isfinite(report.residual) || !std::isfinite(report.equilibrium))
-    return "the forces or displacements are out of the range of the numbers";
+    return "the forces or displacements are out of the range of floating-point numbers";
   if (!report.converged) return not_solved(report, bound);
   if (!(report.equilibrium <= residual_bound))
     return fmt::format("residual of the equilibrium {:.3g}, bound {:.0e}", report.equilibrium,
