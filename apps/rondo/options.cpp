@@ -116,7 +116,7 @@ CLI::App* add_reduce(CLI::App& program, study::ReduceRequest& r, Telling& tell) 
                      "number of velocity modes; 30 if left out");
   reduce->add_option("--tolerance", r.displacement_tolerance,
                      "share of the displacements' energy left out, instead of a number of modes");
-  reduce->add_option("--velocity-tolerance", r.velocity_tolerance, "share of velocity energy lost");
+  reduce->add_option("--velocity-tolerance", r.velocity_tolerance, "tolerance for the velocities");
   reduce
       ->add_option(
           "--contact-weight", r.contact_weight,

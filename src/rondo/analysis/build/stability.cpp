@@ -251,7 +251,7 @@ void warn_of_fast_contact(const Case& c, Setup& s) {
   const double dt = explicit_step(s.model), way = largest_speed(c, s) * dt;
   if (!(way > 0.5 * shortest)) return;
   s.warnings.push_back(fmt::format(
-      "at {:.4g} m/s contact nodes move by {:.3g} m in a step, more than half its shortest edge "
+      "at {:.4g} m/s contact nodes move by {:.3g} m in a step, more than half the shortest edge "
       "({:.3g} m): contacts may be missed or met too late. Such speeds are near or above that of "
       "waves ({:.4g} m/s){}; a smaller time.step helps the contact only",
       way / dt, way, shortest, fem::wave_speeds(c.material).pressure,
