@@ -108,7 +108,7 @@ void check_start_body(CaseValues& in, const Case& c) {
   if (!c.mesh && !c.disk.tread && c.disk.radial < 2 && in.good({"disk.mesh.radial"}))
     in.fault("disk.mesh.radial",
              "a start in steady rolling moves the mass of the contact nodes to the nodes below "
-             "them, and the rim holds these",
+             "them, which are held by the rim",
              "at least 2; or initial.state = \"stationary\"");
 }
 
