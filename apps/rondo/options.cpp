@@ -23,13 +23,13 @@ void add_case(CLI::App& command, CaseArguments& arguments,
 void add_threads(CLI::App& command, int& threads) {
   command
       .add_option("--threads,--jobs", threads,
-                  "cores used, by threads of the run; chosen by size if left out")
+                  "number of threads; chosen by the size of the case if left out")
       ->check(CLI::Range(1, 1024));
 }
 
 void add_json(CLI::App& command, Telling& tell) {
   command.add_flag("--json", tell.json,
-                   "prints one JSON document, also where it fails (docs/machine.md)");
+                   "prints one JSON document, also if the command fails (docs/machine.md)");
 }
 
 void add_telling(CLI::App& command, Telling& tell, const char* quiet) {
@@ -40,19 +40,19 @@ void add_telling(CLI::App& command, Telling& tell, const char* quiet) {
 void add_reduced(CLI::App& run, study::RunOptions& options) {
   CLI::Option* reduced = run.add_option(
       "--reduced", options.reduced,
-      "runs on the modes of this model (rondo reduce) instead of the mesh; docs/reduced.md");
+      "uses the modes of this model (rondo reduce) instead of the mesh; docs/reduced.md");
   run.add_option("--step-factor", options.step_factor,
-                 "of a reduced run: its step over that of the full run")
+                 "step of a reduced run over that of the full run")
       ->capture_default_str()
       ->needs(reduced);
   run.add_option("--reduced-step", options.reduced_step,
-                 "midpoint | explicit: of a reduced run; implicit, or central differences")
+                 "midpoint | explicit: scheme of a reduced run; implicit, or central differences")
       ->capture_default_str()
       ->needs(reduced);
   run.add_option(
          "--snapshots", options.reduced_snapshots,
-         "fields | modes: of a reduced run; modes: coordinates alone, far cheaper, no stress; "
-         "lifted when read in Python")
+         "fields | modes: snapshots of a reduced run; modes: coordinates only, far cheaper, "
+         "no stress; Python computes the fields from them")
       ->capture_default_str()
       ->needs(reduced);
 }
@@ -63,24 +63,24 @@ CLI::App* add_run(CLI::App& program, RunArguments& arguments, Telling& tell) {
   study::RunOptions& options = arguments.options;
   CLI::App* run = program.add_subcommand("run", "runs a case into a results directory");
   add_case(*run, arguments,
-           "case file (TOML, docs/cases.md); with --resume a results directory will do");
+           "case file (TOML, docs/cases.md); with --resume a results directory is enough");
   add_threads(*run, options.threads);
   run->add_option("-o,--output", options.directory,
-                  "results directory; the case's name in the working folder if left out")
+                  "results directory; if left out, the case's name in the working folder")
       ->check(refuse_empty);
   CLI::Option* overwrite =
-      run->add_flag("--overwrite", options.overwrite, "replaces another run's results there");
+      run->add_flag("--overwrite", options.overwrite, "replaces the results of another run");
   run->add_flag("--resume", options.resume,
-                "resumes the run there from its last checkpoint, to the same bits; begins it "
-                "where there is none; with a later time.end a finished run resumes")
+                "resumes the run from its last checkpoint, with bitwise the same results; begins "
+                "it if there is none; with a later time.end a finished run continues")
       ->excludes(overwrite);
   run->add_option("--modes-from", options.modes_from,
-                  "of a crush by analysis.solver = latin-pgd: begins with the modes of this run of "
-                  "the same body")
+                  "for a crush by analysis.solver = latin-pgd: begins with the modes of this run "
+                  "of the same body")
       ->type_name("RUN");
   add_reduced(*run, options);
   run->add_flag("--realtime-factor", arguments.realtime_factor,
-                "says how much faster than the motion itself the steps were");
+                "prints the ratio of simulated time to the time that the steps took");
   add_telling(*run, tell, "prints warnings and errors only");
   run->footer(
       "Example:\n  rondo run cases/ledge-smooth.toml -o results/mu06 --set ground.friction=0.6\n"
@@ -91,7 +91,7 @@ CLI::App* add_run(CLI::App& program, RunArguments& arguments, Telling& tell) {
 
 CLI::App* add_check(CLI::App& program, CaseArguments& arguments, int& threads, Telling& tell) {
   CLI::App* check = program.add_subcommand(
-      "check", "validates a case and says what it would cost; runs nothing, writes nothing");
+      "check", "validates a case and estimates its cost; runs nothing, writes nothing");
   add_case(*check, arguments);
   add_threads(*check, threads);
   add_json(*check, tell);
@@ -101,62 +101,62 @@ CLI::App* add_check(CLI::App& program, CaseArguments& arguments, int& threads, T
 
 CLI::App* add_reduce(CLI::App& program, study::ReduceRequest& r, Telling& tell) {
   CLI::App* reduce = program.add_subcommand(
-      "reduce", "a reduced model of a rolling disk from the snapshots of runs");
+      "reduce", "makes a reduced model of a rolling disk from the snapshots of runs");
   reduce
       ->add_option("run", r.runs,
-                   "results directories of one disk: other frictions, speeds, heights, spins")
+                   "results directories of one disk; friction, speed, height and spin may differ")
       ->required();
-  reduce->add_option("-o,--output", r.output, "file of the model, e.g. model.h5")
+  reduce->add_option("-o,--output", r.output, "file of the reduced model, e.g. model.h5")
       ->required()
       ->check(refuse_empty);
   reduce->add_option(
       "--displacement-modes", r.displacement_modes,
-      "modes of the displacements, each with its derivative by the angle; 30 if left out");
+      "number of displacement modes, each with its derivative by the angle; 30 if left out");
   reduce->add_option("--velocity-modes", r.velocity_modes,
-                     "modes of the velocities; 30 if left out");
+                     "number of velocity modes; 30 if left out");
   reduce->add_option("--tolerance", r.displacement_tolerance,
-                     "instead of their number: share of the displacements' energy left out");
-  reduce->add_option("--velocity-tolerance", r.velocity_tolerance, "the same of the velocities");
+                     "share of the displacements' energy left out, instead of a number of modes");
+  reduce->add_option("--velocity-tolerance", r.velocity_tolerance, "tolerance for the velocities");
   reduce
       ->add_option(
           "--contact-weight", r.contact_weight,
-          "what the motion of the boundary near the contact counts in choosing modes, over "
-          "that of the mass; 0: nothing")
+          "weight of the boundary's motion near the contact in the choice of modes, relative "
+          "to that of the mass; 0: none")
       ->capture_default_str();
-  reduce->add_option("--from", r.from, "time of the first snapshot taken [s]");
-  reduce->add_option("--to", r.to, "time of the last snapshot taken [s]");
+  reduce->add_option("--from", r.from, "time of the first snapshot used [s]");
+  reduce->add_option("--to", r.to, "time of the last snapshot used [s]");
   reduce
       ->add_option(
           "--contact-stride", r.contact_stride,
-          "nodes of the boundary to a contact point; divides their number; as many as leave "
-          "180 points if left out")
+          "boundary nodes for each contact point, a divisor of their number; if left out, as "
+          "many as give 180 points")
       ->check(CLI::Range(1, 1000000));
   reduce
       ->add_option("--contact-phases", r.contact_phases,
-                   "contact points to a node of the boundary, those between two nodes where nodes "
-                   "come by: to compare with")
+                   "contact points for each boundary node; more than 1 also lie between nodes, for "
+                   "comparisons")
       ->capture_default_str()
       ->check(CLI::Range(1, 16));
   reduce->add_option(
       "--contact", r.contact,
-      "places | nodes: points of contact that stand still in space, or the nodes that come by; "
-      "places on a smooth disk if left out, nodes otherwise");
+      "places | nodes: contact points that are fixed in space, or the nodes that pass by; if left "
+      "out, places on a smooth disk, nodes otherwise");
   reduce
       ->add_option("--frame", r.frame,
-                   "rectified | co-rotating: frame of the modes; co-rotating (with the disk) to "
-                   "compare with")
+                   "rectified | co-rotating: frame of the modes; co-rotating (with the disk) for "
+                   "comparisons")
       ->capture_default_str();
-  reduce->add_option("--memory", r.memory, "memory allowed to the decompositions")
+  reduce->add_option("--memory", r.memory, "memory limit of the decompositions")
       ->capture_default_str();
   reduce->add_flag_callback(
       "--no-error-estimate", [&r] { r.error_estimate = false; },
-      "does not predict each run from the others, which 3 runs and more are by default");
+      "makes no error estimate, which by default predicts each of 3 or more runs from the others");
   reduce
       ->add_option_function<std::string>(
           "--validate",
           [](const std::string&) {
             throw InputError(Fault{"rondo reduce --validate", 0, 0, "", "",
-                                   "is no part of this command any more",
+                                   "is not part of this command",
                                    "rondo run CASE --reduced MODEL -o REDUCED, then rondo validate "
                                    "REDUCED RUN"});
           })
@@ -166,35 +166,35 @@ CLI::App* add_reduce(CLI::App& program, study::ReduceRequest& r, Telling& tell) 
       "Example:\n  rondo reduce results/mu0 results/mu06 -o model.h5\n"
       "  rondo run cases/rolling-flat.toml --reduced model.h5 -o results/reduced\n"
       "  rondo validate results/reduced results/full\n"
-      "What it can do and where it fails: docs/reduced.md.");
+      "Use, limits and accuracy: docs/reduced.md.");
   return reduce;
 }
 
 CLI::App* add_pod(CLI::App& program, study::PodRequest& r, Telling& tell) {
   CLI::App* pod =
       program.add_subcommand("pod", "proper orthogonal decomposition of the snapshots of runs");
-  pod->add_option("run", r.runs, "results directories; several: one common basis")->required();
+  pod->add_option("run", r.runs, "results directories; several give one common basis")->required();
   pod->add_option("--field", r.field, "displacement | velocity | contact")->capture_default_str();
   pod->add_option("--frame", r.frame, "co-rotating | rectified")->capture_default_str();
-  pod->add_option("--from", r.from, "time of the first snapshot taken [s]");
-  pod->add_option("--to", r.to, "time of the last snapshot taken [s]");
+  pod->add_option("--from", r.from, "time of the first snapshot used [s]");
+  pod->add_option("--to", r.to, "time of the last snapshot used [s]");
   pod->add_option("--modes", r.modes,
-                  "modes kept; as many as leave 1e-6 of the energy if left out");
+                  "number of modes; if left out, as many as leave out 1e-6 of the energy");
   pod->add_option("--weight", r.weight,
-                  "mass | delassus | none; mass if left out, delassus for contact");
+                  "mass | delassus | none: norm; if left out mass, delassus for contact");
   pod->add_option("--shift", r.shift,
-                  "fourier | pitch: rectified by the angle itself or by whole sectors")
+                  "fourier | pitch: fields are rectified by the angle itself or by whole sectors")
       ->capture_default_str();
   pod->add_option("--memory", r.memory,
-                  "memory allowed, e.g. 500MB; beyond it snapshots are streamed")
+                  "memory limit, e.g. 500MB; snapshots that exceed it are streamed")
       ->capture_default_str();
   pod->add_option("--method", r.method, "auto | direct | tsqr | incremental")
       ->capture_default_str();
   pod->add_option("--reconstruct", r.reconstruct,
-                  "snapshots rebuilt from the modes, for ParaView; 0: none")
+                  "number of snapshots rebuilt from the modes for ParaView; 0: none")
       ->capture_default_str();
   pod->add_option("-o,--output", r.directory,
-                  "the results go to OUTPUT/<field>-<frame>; RUN/pod if left out")
+                  "the results go to OUTPUT/<field>-<frame>; OUTPUT is RUN/pod if left out")
       ->check(refuse_empty);
   add_telling(*pod, tell, "prints warnings and the results only");
   pod->footer(
@@ -211,21 +211,21 @@ CLI::App* add_modes(CLI::App& program, ModesArguments& arguments, Telling& tell)
   modes
       ->add_option(
           "-o,--output", r.run.directory,
-          "results directory; the case's name and \"-modes\" in the working folder if left out")
+          "results directory; if left out, the case's name and \"-modes\" in the working folder")
       ->check(refuse_empty);
-  modes->add_option("--count", r.count, "modes at each spin, besides rigid-body motions")
+  modes->add_option("--count", r.count, "number of modes at each spin, besides rigid-body motions")
       ->check(CLI::Range(1, 100000))
       ->capture_default_str();
   modes->add_option("--spin", r.spins,
-                    "rotation speeds [rad/s], > 0 rolls towards +x; rest and the case's own at "
-                    "t = 0 if left out");
+                    "rotation speeds [rad/s], > 0 rolls towards +x; if left out, 0 and that of the "
+                    "case at t = 0");
   modes->add_option(
       "--spins", r.sweep,
       "FROM:TO:NUMBER [rad/s]: frequencies over the rotation speed, for a Campbell diagram");
-  modes->add_option("--diameters", r.diameters, "critical speeds of waves with up to that many")
+  modes->add_option("--diameters", r.diameters, "largest number of diameters for critical speeds")
       ->check(CLI::Range(0, 1000000))
       ->capture_default_str();
-  modes->add_flag("--overwrite", r.run.overwrite, "replaces what another run has left there");
+  modes->add_flag("--overwrite", r.run.overwrite, "replaces the results of another run");
   add_telling(*modes, tell, "prints warnings and the results only");
   modes->footer(
       "Example:\n  rondo modes cases/modes-annulus.toml -o results/modes --spins 0:400:41\n"
@@ -246,38 +246,38 @@ CLI::App* add_schema(CLI::App& program, std::string& of) {
 CLI::App* add_sweep(CLI::App& program, SweepArguments& arguments, Telling& tell) {
   study::SweepRequest& r = arguments.request;
   CLI::App* sweep = program.add_subcommand(
-      "sweep", "a parametric study: many runs of one case, on all cores or under mpirun");
+      "sweep", "runs a parametric study: many runs of one case, on all cores or under mpirun");
   sweep->add_option("study", r.study, "study file (TOML, docs/studies.md)")->required();
   sweep
       ->add_option("-o,--output", r.directory,
-                   "directory of the study; its name in the working folder if left out")
+                   "directory of the study; if left out, its name in the working folder")
       ->check(refuse_empty);
   sweep
       ->add_option("--set", r.settings,
-                   "KEY=VALUE: a key of the base case, for all runs; repeatable")
+                   "KEY=VALUE: overrides a key of the base case in all runs; repeatable")
       ->take_all()
       ->expected(1);
   sweep
       ->add_option("--jobs,--threads", arguments.jobs,
-                   "cores used, by runs at once; all that there are if left out")
+                   "number of runs at once, each on one core; all cores if left out")
       ->check(CLI::Range(1, 1024));
   sweep->add_flag("--dry-run", arguments.dry_run,
-                  "checks all runs and lists them with what they would cost; writes nothing");
+                  "checks all runs and lists them with their expected cost; writes nothing");
   CLI::Option* overwrite =
-      sweep->add_flag("--overwrite", r.overwrite, "replaces another sweep there");
+      sweep->add_flag("--overwrite", r.overwrite, "replaces another sweep's results");
   sweep->add_flag("--resume", r.resume, "resumes a sweep, or a shard, that was interrupted")
       ->excludes(overwrite);
   sweep->add_option("--shard", arguments.shard,
-                    "i/n: makes part i of n, for jobs that share DIR and nothing else");
+                    "i/n: makes part i of n, for jobs that share only the directory");
   sweep->add_flag("--collect", arguments.collect,
-                  "writes the tables of all shards in DIR, the same as without --shard");
+                  "writes the tables of all shards, the same as without --shard");
   add_telling(*sweep, tell, "prints warnings and errors only");
   sweep->footer(
       "Example:\n  rondo sweep cases/studies/traction.toml -o results/traction\n"
       "  mpirun -n 64 rondo sweep cases/studies/traction.toml -o results/traction\n"
       "  rondo sweep cases/studies/traction.toml -o results/traction --shard 3/16\n"
       "  rondo sweep cases/studies/traction.toml -o results/traction --collect\n"
-      "A run that fails is recorded, and the others go on; the exit code is then that of the "
+      "A run that fails is recorded, and the others continue; the exit code is then that of the "
       "worst\n"
       "failure. The study file: docs/studies.md; clusters: docs/clusters.md.");
   return sweep;

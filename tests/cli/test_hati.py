@@ -95,7 +95,7 @@ class Refused(ProgramTest):
         self.assertIn(f"case.toml:{line}:", said)
 
     def test_contact_in_the_coarse_part(self):
-        self.refuse("solver.hati.fine", "is of no fine element",
+        self.refuse("solver.hati.fine", "belongs to no fine element",
                     settings=["solver.hati.fine.layers=[1, 2]"])
 
     def test_nothing_that_is_coarse(self):

@@ -36,12 +36,12 @@ class RimCase(ProgramTest):
         line = line_of(held, "force_y")
         said = self.said("check", text=held, code=2).stderr
         self.assertIn(f"case.toml:{line}:11: rim.force_y", said)
-        self.assertIn("does nothing while motion.height is held", said)
+        self.assertIn("has no effect, because motion.height is held", said)
         self.assertIn('rim.free with "height"', said)
         self.assertIn("rim.support.y.damping", said)
 
     def test_modes_are_those_of_a_rim_that_is_held(self):
-        part = "[rim] means nothing to modes"
+        part = "[rim] has no effect on modes"
         self.assertIn(part, self.said("modes", "-o", self.folder / "modes").stderr)
         held = SMALL + "[rim]\nfree = []\n"
         self.assertNotIn(part, self.said("modes", "-o", self.folder / "held", text=held).stderr)

@@ -349,7 +349,7 @@ class Bodies(SolidTest):
         (self.folder / "tyre.msh").write_text(SECTION)
         self.assertIn('section.clamped', self.refused("section.clamped=feet", text=TYRE))
         told = self.refused("load.pressure=[{curve = 'rim', value = 1.0}]", text=TYRE)
-        self.assertIn("a pressure there does nothing", told)
+        self.assertIn("a pressure there has no effect", told)
         self.assertIn("inside", self.refused("load.pressure=[{curve = 'in', value = 1.0}]", text=TYRE))
 
     def test_a_section_that_is_not_about_its_middle(self):
@@ -373,11 +373,11 @@ class Bodies(SolidTest):
 
     def test_what_a_loaded_rim_does_not_go_with(self):
         rim = "rim={free = [%s], mass = 5.0}"
-        self.assertIn("how fast the wheel goes sideways",
+        self.assertIn("lateral speed of the wheel is undetermined",
                       self.refused(rim % "'speed'", "motion.speed=10.0"))
         settings = ("motion.slip_angle=0.0", "motion.camber=0.1", "motion.height=0.3",
                     "load.pressure=[{curve = 'left', value = 1.0}]")
-        self.assertIn("would lift the wheel", self.refused(rim % "'height'", *settings))
+        self.assertIn("that lifts or presses the wheel", self.refused(rim % "'height'", *settings))
 
 
 class Refusals(SolidTest):
@@ -416,7 +416,7 @@ class Refusals(SolidTest):
         self.assertIn("[disk] or [mesh]", told)
         told = self.refused(text=WHEEL + '[section]\nfile = "bar.msh"\nclamped = "rim"\n')
         self.assertIn("[disk] or [section]", told)
-        self.assertIn("modes are those of plane bodies", self.refused(command="modes"))
+        self.assertIn("modes are computed for plane bodies", self.refused(command="modes"))
         out = self.of()
         done = run("reduce", out, "-o", self.folder / "model.h5")
         self.assertEqual(done.returncode, 2, done.stderr)

@@ -291,10 +291,10 @@ class Refused(ProgramTest):
 
     def test_wrong_use(self):
         self.refuse("nothing touches", "motion.height=0.31")
-        self.refuse("stands beside motion.height", text=SMALL + "load = 1e5\n")
-        self.refuse("stands beside motion.height", "analysis.load=1e5", "motion.height=0.29")
+        self.refuse("is given together with motion.height", text=SMALL + "load = 1e5\n")
+        self.refuse("is given together with motion.height", "analysis.load=1e5", "motion.height=0.29")
         self.refuse("so is analysis.load", text=replaced(SMALL, "height", None))
-        self.refuse("stands beside motion.speed", text=SMALL + "torque = 0\n")
+        self.refuse("is given together with motion.speed", text=SMALL + "torque = 0\n")
         self.refuse("would slide", "analysis.load=1e5", "analysis.traction=4e4", text=FREE)
         self.refuse("the whole contact slides", "analysis.load=1e5", "analysis.torque=4e4", text=FREE)
         self.refuse("ground.friction = 0.4 times the load times the height", "analysis.load=1e5", "analysis.torque=4e4",

@@ -134,9 +134,9 @@ class Refused(ProgramTest):
         self.refuse("changes from t = 0 on", "motion.height=[[0, 0.3], [0.01, 0.29]]")
         self.refuse("changes from t = 0 on", "motion.angular_velocity=[[0, 33], [0.01, 30]]")
         self.refuse("is not flat below the body", "ground.profile=[[-1, 0], [0.2, 0], [0.2, 0.1], [1, 0.1]]")
-        self.refuse("knows no slope", "motion.slope=0.1")
+        self.refuse("does not support a slope", "motion.slope=0.1")
         self.refuse("held by the rim", "disk.mesh.radial=1")
-        self.refuse("pressures act on the edges as they lie", "rim.free=[\"height\"]", "rim.mass=100",
+        self.refuse("pressures act on the deformed edges", "rim.free=[\"height\"]", "rim.mass=100",
                     "load.pressure=[{curve='tread', value=1e5}]")
         lines = COARSE.splitlines()
         at = lines.index("[ground]")
@@ -144,7 +144,7 @@ class Refused(ProgramTest):
         body = COARSE[COARSE.index("[material]"):]
         self.refuse("a mesh from a file", text='schema = 1\ntitle = "m"\n[mesh]\nfile = "m.msh"\n'
                     'clamped = "rim"\ncontact = "tread"\n' + body)
-        self.refuse("nothing turns a free body", text=replaced(COARSE, "inner_radius",
+        self.refuse("a free body is not turned by a rim", text=replaced(COARSE, "inner_radius",
                                                                'inner_radius = 0.15\nrim = "free"'))
 
     def test_a_table_that_begins_with_a_constant_is_a_steady_start(self):

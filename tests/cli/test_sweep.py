@@ -310,7 +310,7 @@ class Refused(SweepTest):
         self.case(SMALL + "[rim]\nfree = []\n")
         self.refused("schema = 1\nbase = \"case.toml\"\n[[vary]]\nkey = \"rim.force_y\"\n"
                      "values = [0, -1e5]\n", "run 2 (rim.force_y = -100000.0)",
-                     "does nothing while motion.height is held", "rim.free with \"height\"")
+                     "has no effect, because motion.height is held", "rim.free with \"height\"")
 
     def test_a_window_without_rows(self):
         self.refused(STUDY + "[window]\nfrom = 0.5\n", "there are not two rows")

@@ -215,7 +215,7 @@ class Refused(LatinSweep):
                      "\"direct\", \"latin\" or \"latin-pgd\"")
 
     def test_rubber(self):
-        self.refused(BASE + FRICTION, "analysis.solver = latin-pgd", "some part of the body is rubber",
+        self.refused(BASE + FRICTION, "analysis.solver = latin-pgd", "a part of the body is rubber",
                      extra=("--set", "material.model=neo-hooke"))
 
 

@@ -157,7 +157,7 @@ def test_wrong_settings_change_nothing(case):
     for settings, over, said in (
             ({"rim.brak": 1.0}, 0.0, r"^rim.brak: there is no such key.*rim\.brake.*allowed: motion"),
             ({"ground.friction": 0.5}, 0.0, "ground.friction: stays what it is while"),
-            ({"motion.height": 0.29}, 0.0, "motion.height: says nothing of this case after its start"),
+            ({"motion.height": 0.29}, 0.0, "motion.height: has no effect on this case after its start"),
             ({"rim.brake": -1.0}, 0.0, r"rim\.brake = -1: is not allowed .*values >= 0"),
             ({"rim.torque": float("inf")}, 0.0, "rim.torque = inf.*a finite number"),
             ({"rim.torque": 1.0}, -1.0, "over.*-1.*seconds")):
@@ -270,7 +270,7 @@ def test_what_is_set_obeys_the_rules_of_a_case(case):
         steps.set({"motion.height": 1e12})
     case.write_text(WHEEL)
     steps = rondo.Simulation(case)
-    with pytest.raises(rondo.InputError, match="rim.torque.*is too far from what it was"):
+    with pytest.raises(rondo.InputError, match="rim.torque.*is too far from the value before"):
         steps.set({"rim.torque": -1.7e308}, 1e-2)
     assert "e+308" not in steps.case_text
 

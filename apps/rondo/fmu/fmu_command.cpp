@@ -76,12 +76,12 @@ study::Case read_checked(const FmuArguments& a) {
 
 CLI::App* add_fmu(CLI::App& program, FmuArguments& a, Telling& tell) {
   CLI::App* fmu = program.add_subcommand(
-      "fmu", "a reduced wheel as an FMU (FMI 2.0, co-simulation): hub motion in, forces out");
-  fmu->add_option("model", a.model, "file of rondo reduce")->required();
+      "fmu", "makes an FMU of a reduced wheel (FMI 2.0, co-simulation): hub motion in, forces out");
+  fmu->add_option("model", a.model, "file of the reduced model, made by rondo reduce")->required();
   fmu->add_option("-o,--output", a.output, "file of the FMU, e.g. wheel.fmu")->required();
   fmu->add_option("--case", a.case_file,
-                  "case file: ground, dampings, gravity, start; that of the first run behind the "
-                  "model if left out");
+                  "case file with ground, dampings, gravity and start; if left out, that of the "
+                  "model's first run");
   fmu->add_option("--set", a.settings, "KEY=VALUE: overrides a key of the case; repeatable")
       ->take_all()
       ->expected(1);
@@ -89,10 +89,10 @@ CLI::App* add_fmu(CLI::App& program, FmuArguments& a, Telling& tell) {
       ->capture_default_str();
   fmu->add_flag("--quiet", tell.quiet, "prints warnings and errors only");
   fmu->add_flag("--json", tell.json,
-                "prints one JSON document, also where it fails (docs/machine.md)");
+                "prints one JSON document, also if the command fails (docs/machine.md)");
   fmu->footer(
       "Example:\n  rondo fmu model.h5 --case cases/quarter-car-bump.toml -o wheel.fmu\n"
-      "What goes in and out, and how to couple it: docs/fmu.md.");
+      "Inputs, outputs and coupling: docs/fmu.md.");
   return fmu;
 }
 

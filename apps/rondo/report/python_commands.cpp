@@ -23,14 +23,14 @@ constexpr PythonCommand commands[] = {
     {"converge", "prints how the figures of a sweep converge with its mesh or its step"},
     {"wheel", "draws height, speeds, slip, forces, torques and energies of a rim that forces move"},
     {"footprint",
-     "draws pressure, shear, slip and what sticks in the contact of steady rolling, or of a wheel "
+     "draws pressure, shear, slip and sticking in the contact of steady rolling, or of a wheel "
      "in three dimensions"},
     {"traction", "draws the longitudinal force of a sweep over slip: curves and carpets"},
     {"tyre", "draws lateral force and aligning moment of a sweep over the slip angle"},
     {"campbell", "draws the frequencies of a body over its spin"},
-    {"validate", "compares reduced runs with the full runs that they are to predict"},
-    {"validation", "draws how far off a reduced model's predictions are"},
-    {"paper", "the study of the paper: its runs, ours against expected"},
+    {"validate", "compares reduced runs with the full runs that they predict"},
+    {"validation", "draws the errors of a reduced model's predictions"},
+    {"paper", "runs the study of the paper: our results against those expected"},
 };
 
 }  // namespace

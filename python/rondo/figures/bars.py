@@ -157,9 +157,9 @@ def _energy(ax: Axes, run: Run) -> None:
 def main(arguments: Sequence[str] | None = None) -> int:
     parser = argparse.ArgumentParser(prog="python3 -m rondo.figures.bars",
                                      description=(__doc__ or "").partition("\n")[0])
-    parser.add_argument("folder", type=pathlib.Path, help="with the three results directories")
+    parser.add_argument("folder", type=pathlib.Path, help="folder with the three results directories")
     parser.add_argument("-o", "--output", type=pathlib.Path, required=True, metavar="FOLDER",
-                        help="where the .png and .svg files go")
+                        help="folder for the .png and .svg files")
     options = parser.parse_args(arguments)
     matplotlib.use("Agg")
     try:

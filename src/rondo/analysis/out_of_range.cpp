@@ -136,19 +136,18 @@ double energy_residual_bound(const Setup& setup) noexcept {
 std::string contact_not_found(const dynamics::ContactReport& step) {
   if (step.unseen > 0.0)
     return fmt::format(
-        "a node has moved {:.3g} m in the last steps, farther than touches of the sharp corners of "
-        "the ground were looked for: one may be missed; a smaller time.step, or ground.fillet > 0",
+        "a node has moved {:.3g} m in the last steps, farther than sharp corners of the ground "
+        "were searched for: a contact may be missed; a smaller time.step, or ground.fillet > 0",
         step.unseen);
   if (step.two_facets)
     return "a contact node without mass is held by two facets of the ground at a concave corner, "
-           "which is not done; solver.contact_mass = \"lumped\", or a ground.profile whose concave "
-           "corners the body does not reach";
+           "which is not supported; solver.contact_mass = \"lumped\", or a ground.profile whose "
+           "concave corners the body does not reach";
   if (step.late > 0.0)
     return fmt::format(
         "a contact begins {:.3g} m deep at ({:.6g}, {:.6g}) m: it was inside the body a step "
-        "before, "
-        "and nothing met it there. A smaller time.step, a mesh that is finer there, a larger "
-        "ground.fillet; or a mesh.contact that names all of the boundary that comes there",
+        "before, without a contact. A smaller time.step, a finer mesh there, a larger "
+        "ground.fillet; or a mesh.contact that includes all of the boundary that may touch there",
         step.late, step.late_at.x, step.late_at.y);
   return {};
 }
@@ -163,11 +162,9 @@ std::string felt_joint() {
 std::string turned_too_far(double turn, double dt) {
   if (std::abs(turn) <= dynamics::most_turn) return {};
   return fmt::format(
-      "the rim turns by {:.3g} rad in a step of {:.3g} s, more than {:.3g}: differences of places "
-      "no "
-      "longer show its spin; smaller steps (time.step; --step-factor of a reduced run), or loads "
-      "and "
-      "a torque that spin it up less",
+      "the rim turns by {:.3g} rad in a step of {:.3g} s, more than {:.3g}: differences of "
+      "positions no longer show its spin; smaller steps (time.step; --step-factor of a reduced "
+      "run), or loads and a torque that spin it up less",
       turn, dt, dynamics::most_turn);
 }
 
@@ -207,8 +204,8 @@ OutOfBound find_out_of_bound(const dynamics::Balance& b, const ContactStatistics
                         b.works.scheme, b.otherwise),
             true};
   if (std::abs(b.strain) > bounds.strain_energy)
-    return {fmt::format("the strain energy, {:.3g} {}, is that of strains above 1: the body has "
-                        "left what small strains mean",
+    return {fmt::format("the strain energy, {:.3g} {}, is that of strains above 1: the law for "
+                        "small strains is no longer valid",
                         b.strain, bounds.energy_unit),
             true};
   if (b.relative > bounds.ledger)

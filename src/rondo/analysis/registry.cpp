@@ -51,7 +51,7 @@ void refuse_modes(const Case& c, const RunOptions& options) {
   if (options.modes_from.empty() || takes_modes) return;
   throw case_error(
       c, "analysis.solver",
-      "--modes-from gives modes to begin with, which a crush by \"latin-pgd\" alone has",
+      "--modes-from gives initial modes, which only a crush by \"latin-pgd\" has",
       "analysis.kind = \"crush\" with analysis.solver = \"latin-pgd\"; or no --modes-from");
 }
 

@@ -14,9 +14,9 @@ std::string inverted_rubber(const mesh::Mesh& mesh, std::span<const Vec2> u, dou
   const std::size_t cell = fem::deformation(mesh, u).jacobian_cell;
   const Vec2 at = mesh::middle_of(mesh.coordinates, mesh.cells[cell]);
   return fmt::format(
-      "cell {} of /mesh/cells near ({:.4g}, {:.4g}) m of the undeformed mesh is inverted: smallest "
-      "det F {:.3g}, which no rubber comes to. Less load or a slower one, a finer mesh where it is "
-      "strained most, or a smaller time.safety",
+      "cell {} of /mesh/cells near ({:.4g}, {:.4g}) m of the undeformed mesh is inverted: its "
+      "smallest det F is {:.3g}, which no rubber reaches. Reduce the load or apply it more slowly, "
+      "refine the mesh where it is strained most, or take a smaller time.safety",
       cell, at.x, at.y, least);
 }
 
@@ -31,7 +31,7 @@ void summarise_rubber(const dynamics::MaterialReport& last, double exchanged, Js
   if (relative <= integration_bound) return;
   const std::string warning = fmt::format(
       "work of the forces of rubber less energy stored and lost is {:.2g} of the energy exchanged, "
-      "above {:.2g}: the steps are rough; half of them leave a quarter of it",
+      "above {:.2g}: the steps are too coarse; half the step leaves a quarter of it",
       relative, integration_bound);
   j["warnings"].push_back(warning);
   r.warnings.push_back(warning);

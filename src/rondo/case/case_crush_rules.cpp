@@ -28,7 +28,8 @@ void check_table(CaseValues& in, std::string_view key, const dynamics::Table& ta
         key, 0, "the first point must be [0, 0]: a crush begins at first touch, increment 0");
   for (std::size_t k = 0; k < points.size(); ++k)
     if (points[k][0] != std::floor(points[k][0]))
-      return in.fault_at_item(key, static_cast<int>(k), "the number of an increment is whole");
+      return in.fault_at_item(key, static_cast<int>(k),
+                              "the index of an increment must be an integer");
   if (in.good({increments}) && points.back()[0] != n)
     in.fault_at_item(
         key, static_cast<int>(points.size()) - 1,
@@ -39,17 +40,17 @@ void check_table(CaseValues& in, std::string_view key, const dynamics::Table& ta
 void check_tables(CaseValues& in, const AnalysisCase& a) {
   if (!in.has_array(depth) && in.has(depth) && in.good({depth, increments}))
     in.fault(depth, "is a number beside a table of analysis.slide",
-             fmt::format("a table as well: [[0, 0], [k, {0}], [{1}, {0}]], with the increment k "
-                         "that it has come down in",
+             fmt::format("a table as well: [[0, 0], [k, {0}], [{1}, {0}]], where k is the "
+                         "increment at which this depth is reached",
                          a.depth.at(0.0), a.increments));
   if (!in.has_array(slide) && in.has(slide) && in.good({slide, increments}))
     in.fault(slide, "is a number beside a table of analysis.depth",
-             fmt::format("a table as well: [[0, 0], [k, 0], [{}, {}]], with the increment k "
+             fmt::format("a table as well: [[0, 0], [k, 0], [{}, {}]], where k is the increment "
                          "after which it slides",
                          a.increments, a.slide.at(0.0)));
   if (in.has(slide_increments))
     in.fault(slide_increments,
-             "stands beside a table, which counts its own increments up to analysis.increments",
+             "is given together with a table, whose increments are counted by analysis.increments",
              "no analysis.slide_increments");
   check_table(in, depth, a.depth, a.increments);
   check_table(in, slide, a.slide, a.increments);
@@ -80,12 +81,12 @@ void check_solver(CaseValues& in, Case& c) {
   if (!in.good({solver})) return;
   const auto refuse = [&](std::string_view key, const char* name, const char* instead) {
     if (in.has(key) && in.good({key}))
-      in.fault(key, fmt::format("means nothing to analysis.solver = \"{}\"", name),
+      in.fault(key, fmt::format("has no effect with analysis.solver = \"{}\"", name),
                fmt::format("analysis.solver = {} beside it", instead));
   };
   if (a.solver == CrushMethod::latin) refuse(downsizing, "latin", "\"latin-pgd\"");
   if (a.solver != CrushMethod::direct && has_rubber(c))
-    in.fault(solver, "is of linear elasticity only, and some part of the body is rubber",
+    in.fault(solver, "is for linear elasticity only, and a part of the body is rubber",
              "analysis.solver = \"direct\"");
   if (a.solver != CrushMethod::direct) return;
   for (const std::string_view key :
@@ -104,18 +105,19 @@ void check_crush(CaseValues& in, Case& c) {
   check_depth(in, c);
   check_solver(in, c);
   if (!c.mesh && c.free_rim)
-    in.fault("disk.rim", "a crush presses a disk down by its rim", "\"bonded\"");
+    in.fault("disk.rim", "a crush needs a disk that is bonded to its rim", "\"bonded\"");
   if (c.mesh && !is_held(c) && in.good({"mesh.clamped"}))
-    in.fault("mesh.clamped", "a crush presses a body down by what is held",
+    in.fault("mesh.clamped", "a crush presses a body down by its held nodes, and there are none",
              "a physical curve of the mesh, " + mesh::physical_group_line("Curve", "rim"));
   check_flat_ground(in, c, "a crush");
   if (c.body_contact.between != BodyContact::none)
-    in.fault("contact.between", "a crush knows no contact but with the ground", "\"none\"");
+    in.fault("contact.between", "a crush supports contact with the ground only", "\"none\"");
   if (in.has_table("rim"))
-    in.fault("rim", "a crush brings its rim down by analysis.depth, and forces move none",
-             "a dynamic analysis; for the depth that bears a load, rim.force_y in one");
+    in.fault("rim", "a crush moves its rim by analysis.depth, not by forces",
+             "a dynamic analysis, in which rim.force_y gives the depth under a load");
   if (!c.pressures.empty())
-    in.fault("load.pressure[0]", "a crush knows no load but the ground", "a dynamic analysis");
+    in.fault("load.pressure[0]", "a crush supports no load except the ground",
+             "a dynamic analysis");
 }
 
 }  // namespace rondo::study

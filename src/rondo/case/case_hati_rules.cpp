@@ -26,13 +26,13 @@ void check_spin(CaseValues& in, const Case& c) {
   if (in.good({key}) && !std::ranges::all_of(points, [&](const auto& point) {
         return point[1] == points.front()[1];
       }))
-    in.fault(key, "varies, and the scheme \"hati\" is factored for one angular velocity",
+    in.fault(key, "varies, but the scheme \"hati\" is factored for one angular velocity",
              std::string("a number, or ") + elsewhere);
 }
 
 void check_hati_motion(CaseValues& in, const Case& c) {
   if (!is_held(c) && in.good({"disk.rim", "mesh.clamped"}))
-    in.fault("time.scheme", "\"hati\" knows no body that nothing holds", "\"symplectic\"");
+    in.fault("time.scheme", "\"hati\" does not support free bodies", "\"symplectic\"");
   if (is_held(c)) check_spin(in, c);
   if (c.initial.state == InitialState::steady_rolling)
     in.fault("initial.state",
@@ -43,13 +43,14 @@ void check_hati_motion(CaseValues& in, const Case& c) {
 /// What acts on the body, but for the ground.
 void check_loads(CaseValues& in, const Case& c) {
   if (!c.pressures.empty())
-    in.fault("load.pressure[0]", "the scheme \"hati\" knows no load but the ground", elsewhere);
+    in.fault("load.pressure[0]", "the scheme \"hati\" supports no load except the ground",
+             elsewhere);
   if (c.body_contact.between != BodyContact::none)
-    in.fault("contact.between", "the scheme \"hati\" knows no contact but with the ground",
+    in.fault("contact.between", "the scheme \"hati\" supports contact with the ground only",
              std::string("\"none\", or ") + elsewhere);
   if (!c.implicit.empty())
     in.fault("solver.implicit[0]",
-             "the scheme \"hati\" has its implicit elements: all that are not fine",
+             "in the scheme \"hati\" all elements that are not fine are implicit",
              std::string("solver.hati.fine alone, or ") + elsewhere);
 }
 
@@ -67,7 +68,7 @@ void check_hati(CaseValues& in, Case& c) {
   }
   const bool meant = means_to(*find_case_key("solver.hati.ratio"), c.analysis.kind);
   if (c.hati && meant && in.good({"time.scheme"}))
-    in.fault("solver.hati", "is of the scheme \"hati\" alone", "time.scheme = \"hati\" beside it");
+    in.fault("solver.hati", "is for the scheme \"hati\" only", "time.scheme = \"hati\" beside it");
   c.hati.reset();
 }
 

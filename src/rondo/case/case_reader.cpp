@@ -76,7 +76,7 @@ void refuse_keys_of_others(CaseValues& in, const Case& c) {
     for (std::size_t k = 0; k < std::size(analysis_kinds); ++k)
       if (means_to(key, static_cast<AnalysisKind>(k)))
         others += fmt::format("{}\"{}\"", others.empty() ? "" : " or ", analysis_kinds[k].name);
-    in.fault(key.path, fmt::format("means nothing to a {} analysis", name),
+    in.fault(key.path, fmt::format("has no effect in a {} analysis", name),
              fmt::format("analysis.kind = {} beside it", others));
   }
 }

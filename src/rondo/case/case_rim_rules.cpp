@@ -24,13 +24,13 @@ bool is_above_zero(const Table& table) {
 
 /// There must be a rim, and a step that knows it.
 void check_rim_body(CaseValues& in, const Case& c) {
-  constexpr std::string_view has_none = "there is no rim, whose motion [rim] is about";
+  constexpr std::string_view has_none = "there is no rim that [rim] could move";
   if (!c.mesh && c.free_rim) in.fault("disk.rim", std::string(has_none), "\"bonded\", or no [rim]");
   if (c.mesh && !is_held(c) && in.good({"mesh.clamped"}))
     in.fault("mesh.clamped", std::string(has_none),
              "the physical curve that is bonded to the rim, or no [rim]");
   if (c.time.scheme != Scheme::symplectic)
-    in.fault("time.scheme", "knows no rim that forces move: it is for spins as given",
+    in.fault("time.scheme", "does not support a rim that forces move",
              "\"symplectic\", or no [rim]");
 }
 
@@ -57,20 +57,22 @@ void check_loads(CaseValues& in, const RimBody& rim) {
   for (const auto& [key, dof, is_free] : {std::tuple{"rim.support.x.at", "speed", rim.free_x},
                                           std::tuple{"rim.support.y.at", "height", rim.free_y}})
     if (!is_free && in.has(key))
-      in.fault(key, fmt::format("does nothing while motion.{} is held: it is not in rim.free", dof),
+      in.fault(key,
+               fmt::format("has no effect, because motion.{} is held: it is not in rim.free", dof),
                fmt::format("no such key, or rim.free with \"{}\"", dof));
   for (const Load& load : loads)
     if (!load.is_free && !load.is_zero)
-      in.fault(load.key,
-               fmt::format("does nothing while motion.{} is held: it is not in rim.free", load.dof),
-               fmt::format("0, or rim.free with \"{}\"", load.dof));
+      in.fault(
+          load.key,
+          fmt::format("has no effect, because motion.{} is held: it is not in rim.free", load.dof),
+          fmt::format("0, or rim.free with \"{}\"", load.dof));
 }
 
 void check_start(CaseValues& in, std::string_view dof, const Table& motion) {
   const std::string key = fmt::format("motion.{}", dof);
   const auto& points = motion.points();
   if (!in.good({key}) || (points.size() == 1 && points[0][0] == 0.0)) return;
-  in.fault(key, "is a table, but free in rim.free: forces move it",
+  in.fault(key, "is a table, but rim.free names it: forces determine it",
            fmt::format("a number, the value at t = 0; or rim.free without \"{}\"", dof));
 }
 
@@ -102,11 +104,11 @@ void warn(Case& c) {
   if (rim.free_y && c.ground && !is_pressed)
     c.warnings.emplace_back(
         "rim.free has \"height\", and nothing presses the wheel on the ground: rim.force_y is "
-        "nowhere below 0, motion.gravity nowhere above, and rim.support.y has no stiffness");
+        "never below 0, motion.gravity never above 0, and rim.support.y has no stiffness");
   if (rim.free_spin && c.stress_stiffening != StressStiffening::none)
     c.warnings.emplace_back(
-        "material.stress_stiffening: the stress is that of the spin at t = 0, and stays as it is "
-        "while the rim, free to spin, turns faster or slower");
+        "material.stress_stiffening: the stress stays that of the spin at t = 0, although the rim "
+        "is free to turn faster or slower");
 }
 
 }  // namespace

@@ -15,7 +15,7 @@ constexpr double most_steps = 1e12;  ///< years of computing
 void check_tread(CaseValues& in, const mesh::Disk& disk) {
   constexpr std::string_view columns = "disk.mesh.circumferential";
   if (in.has(columns) && in.good({columns}))
-    in.fault(columns, "stands beside a [disk.tread], whose pitches give the columns",
+    in.fault(columns, "is given together with [disk.tread], whose pitches determine the columns",
              "one of disk.mesh.circumferential and [disk.tread]");
   const double thickness = disk.outer_radius - disk.inner_radius;
   if (in.good({"disk.outer_radius", "disk.inner_radius", "disk.tread.depth"}) &&
@@ -39,7 +39,8 @@ void check_size(CaseValues& in, const Case& c) {
 void check_disk(CaseValues& in, const Case& c) {
   if (!is_generated(c)) return;
   if (in.has_table("mesh"))
-    in.fault("mesh", "stands beside a [disk]: the body is one or the other", "[disk] or [mesh]");
+    in.fault("mesh", "is given together with [disk]: the body is one or the other",
+             "[disk] or [mesh]");
   if (in.good({"disk.outer_radius", "disk.inner_radius"}) &&
       !(c.disk.inner_radius < c.disk.outer_radius))
     in.fault("disk.inner_radius", "must be smaller than outer_radius",
@@ -68,8 +69,8 @@ void warn_of_locking(const std::string& key, const fem::Material& material, Case
       material.integration == fem::Integration::b_bar)
     return;
   c.warnings.push_back(
-      fmt::format("{} = {}: {}full integration is far too stiff this near to 0.5: "
-                  "material.integration = \"b-bar\" is made for it",
+      fmt::format("{} = {}: {}full integration is far too stiff so near to 0.5; use "
+                  "material.integration = \"b-bar\"",
                   key, material.poissons_ratio, is_solid(c) ? "" : "in plane strain, "));
 }
 
@@ -90,7 +91,8 @@ void check_implicit(CaseValues& in, const Case& c) {
 void check_material(CaseValues& in, Case& c) {
   if (c.stress_stiffening == StressStiffening::centrifugal && !is_held(c))
     in.fault("material.stress_stiffening",
-             "nothing turns a free body: there is no spin whose stress could be taken", "\"none\"");
+             "a free body is not turned by a rim: there is no spin whose stress could stiffen it",
+             "\"none\"");
   for (std::size_t k = 0; k < c.regions.size(); ++k) {
     const std::string table = item_of("material.region", k);
     check_part(in, c, table);
@@ -109,13 +111,14 @@ void check_material(CaseValues& in, Case& c) {
 /// Nothing carries or turns a free body but what it starts with.
 void check_motion(CaseValues& in, Case& c) {
   if (c.motion.slope != 0.0 && c.motion.gravity.largest() == 0.0)
-    c.warnings.emplace_back("motion.slope tilts gravity, and motion.gravity is 0: it does nothing");
+    c.warnings.emplace_back(
+        "motion.slope has no effect: it tilts gravity, and motion.gravity is 0");
   if (is_held(c)) return;
   for (const std::string_view path :
        {"motion.angular_velocity", "motion.speed", "motion.height", "motion.start_x"})
     if (in.has(path) && means_to(*find_case_key(path), c.analysis.kind))
-      in.fault(path, "means nothing to an unconstrained body",
-               "initial.position, initial.velocity, initial.angular_velocity in its place");
+      in.fault(path, "has no effect on an unconstrained body",
+               "initial.position, initial.velocity, initial.angular_velocity instead");
 }
 
 void check_ground(CaseValues& in, const Case& c) {
@@ -138,8 +141,8 @@ void check_body_contact(CaseValues& in, Case& c) {
   if (c.body_contact.between == BodyContact::none) return;
   if (is_generated(c))
     c.warnings.emplace_back(
-        "contact.between: a generated disk is one body, and the walls of its grooves are no "
-        "contact nodes: it touches nothing but the ground; for grooves that close take a [mesh]");
+        "contact.between has no effect on a [disk]: it is one body, and the walls of its grooves "
+        "have no contact nodes; for grooves that close, use a [mesh]");
   if (c.mesh && c.mesh->contact.empty())
     in.fault("contact.between", "no part of the mesh may touch anything",
              "mesh.contact = \"tread\" beside it, a physical curve; " +
@@ -150,8 +153,7 @@ void check_body_contact(CaseValues& in, Case& c) {
 void check_placing(CaseValues& in) {
   const auto refuse = [&](std::string_view key) {
     in.fault(key,
-             "is for unconstrained bodies: the rim gives a bonded disk its place and its "
-             "motion ([motion])",
+             "is for unconstrained bodies: a bonded disk is placed and moved by its rim ([motion])",
              "disk.rim = \"free\" beside it");
   };
   for (const std::string_view key :
@@ -188,7 +190,8 @@ void check_initial(CaseValues& in, Case& c) {
   take_angle(in, c);
   warn_of_sign(c);
   if (c.initial.state == InitialState::stationary && !is_held(c))
-    in.fault("initial.state", "nothing turns a free body: it has no stationary spin", "\"rest\"");
+    in.fault("initial.state", "a free body is not turned by a rim: it has no stationary spin",
+             "\"rest\"");
   if (c.initial.state == InitialState::steady_rolling) check_steady_start(in, c);
   check_names(in, "initial.region[].surface", c);
   if (!may_be_free(c) && in.good({"disk.rim"})) check_placing(in);
@@ -200,13 +203,14 @@ void check_initial(CaseValues& in, Case& c) {
 void check_time(CaseValues& in, const Case& c) {
   const Time& time = c.time;
   if (in.has("time.step") && in.has("time.safety"))
-    in.fault("time.step", "stands beside time.safety: give one of them",
+    in.fault("time.step", "is given together with time.safety: give one of them",
              "time.step or time.safety");
   if (time.step && in.good({"time.end", "time.step"}) && time.end / *time.step > most_steps)
     in.fault("time.step", fmt::format("the run would take {:.3g} steps", time.end / *time.step),
              fmt::format("at most {:.0e} steps", most_steps));
   if (time.scheme == Scheme::as_printed && !is_held(c))
-    in.fault("time.scheme", "shows what the spin of a rim does, and nothing turns a free body",
+    in.fault("time.scheme",
+             "shows an effect of the spin of a rim, and a free body is not turned by a rim",
              "\"symplectic\"");
 }
 
@@ -232,27 +236,27 @@ void check_contact_mass(CaseValues& in, const Case& c) {
   if (!c.ground)
     refuse("there is no [ground] that contact nodes without mass could touch", ", or a [ground]");
   if (c.ground && c.ground->restitution > 0.0)
-    refuse(fmt::format("ground.restitution = {}: the law is on gaps, and what has no mass has no "
-                       "velocity to give back",
+    refuse(fmt::format("ground.restitution = {}: the contact law of nodes without mass is one of "
+                       "gaps, without restitution",
                        c.ground->restitution),
            ", or ground.restitution = 0");
   if (c.ground && c.ground->impact == contact::Impact::energy_safe)
-    refuse("ground.impact = \"energy-safe\" is of velocities, and the law is on gaps",
-           ", or no ground.impact");
+    refuse(
+        "ground.impact = \"energy-safe\" is a law of velocities, and that of nodes without mass is "
+        "one of gaps",
+        ", or no ground.impact");
   if (c.ground && in.good({"ground", "ground.profile", "ground.fillet"}) &&
       has_sharp_corners(*c.ground))
     refuse("the ground has sharp convex corners, which touch between two nodes",
            ", or ground.fillet > 0");
   if (c.time.scheme != Scheme::symplectic)
-    refuse("time.scheme is another one than \"symplectic\"", ", or time.scheme = \"symplectic\"");
+    refuse("time.scheme is not \"symplectic\"", ", or time.scheme = \"symplectic\"");
   if (c.body_contact.between != BodyContact::none)
     refuse("there is a [contact] of bodies, whose nodes have mass", ", or no [contact]");
-  if (c.rim) refuse("there is a [rim], whose step knows nodes with mass alone", ", or no [rim]");
+  if (c.rim) refuse("there is a [rim], whose step needs contact nodes with mass", ", or no [rim]");
   if (!is_held(c))
-    refuse(
-        "nothing holds the body: contact nodes without mass are done in the turning frame of a "
-        "rim alone",
-        c.mesh ? ", or mesh.clamped" : ", or disk.rim = \"bonded\"");
+    refuse("nothing holds the body: contact nodes without mass need the turning frame of a rim",
+           c.mesh ? ", or mesh.clamped" : ", or disk.rim = \"bonded\"");
 }
 
 bool is_word(std::string_view name) {
@@ -290,14 +294,15 @@ void check_part(CaseValues& in, const Case& c, const std::string& table) {
 }
 
 std::string_view why_not_cyclic(const Case& c) {
-  if (has_rubber(c)) return "rubber at finite strain is no product with a sector's blocks";
-  if (c.mesh) return "a mesh from a file is not known to be of equal sectors";
+  if (has_rubber(c))
+    return "the forces of rubber at finite strain are no product with the blocks of a sector";
+  if (c.mesh) return "a mesh from a file is not known to have equal sectors";
   if (c.free_rim) return "a free disk does not stay in the co-rotating frame of its sectors";
   if (c.rim && !c.pressures.empty() && !is_solid(c))
-    return "with a [rim] pressures act on the edges as they lie, by the general step";
+    return "with a [rim] pressures act on the deformed edges, which needs the general step";
   if (c.body_contact.between != BodyContact::none) return "there is a [contact] of bodies";
   if (c.time.scheme != Scheme::symplectic)
-    return "a scheme other than \"symplectic\" is one of the general step alone";
+    return "a scheme other than \"symplectic\" needs the general step";
   return {};
 }
 

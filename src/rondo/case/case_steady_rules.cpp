@@ -12,10 +12,10 @@ namespace {
 
 void check_steady_body(CaseValues& in, const Case& c) {
   if (in.has_table("mesh"))
-    in.fault("mesh", "is not known to be of equal sectors, which steady rolling is made of",
+    in.fault("mesh", "is not known to have equal sectors, which steady rolling needs",
              "a [disk], smooth or treaded; of a mesh, a dynamic analysis");
   if (!c.mesh && c.free_rim)
-    in.fault("disk.rim", "steady rolling turns a disk by its rim", "\"bonded\"");
+    in.fault("disk.rim", "steady rolling needs a disk that is bonded to its rim", "\"bonded\"");
   const bool is_thin = is_generated(c) && !c.disk.tread && c.disk.radial < 2;
   if (is_thin && c.analysis.massless_contact && in.good({"disk.mesh.radial"}))
     in.fault("disk.mesh.radial", "the nodes below the contact nodes are held by the rim",
@@ -24,7 +24,7 @@ void check_steady_body(CaseValues& in, const Case& c) {
 
 void check_constant(CaseValues& in, std::string_view key, const dynamics::Table& value) {
   if (in.good({key}) && value.points().size() > 1)
-    in.fault(key, "is a table, and a steady state has one value", "a number");
+    in.fault(key, "is a table, but a steady state needs one value", "a number");
 }
 
 void check_steady_motion(CaseValues& in, const Case& c) {
@@ -39,7 +39,7 @@ void check_steady_motion(CaseValues& in, const Case& c) {
              is_solid(c) ? "not 0; analysis.kind = \"dynamic\" sets one down that is at rest"
                          : "not 0; analysis.kind = \"crush\" presses one that is at rest");
   if (c.motion.slope != 0.0)
-    in.fault("motion.slope", "steady rolling knows no slope", "0, or a dynamic analysis");
+    in.fault("motion.slope", "steady rolling does not support a slope", "0, or a dynamic analysis");
   for (std::size_t k = 0; k < c.pressures.size(); ++k)
     check_constant(in, item_of("load.pressure", k) + ".value", c.pressures[k].pressure);
 }
@@ -50,7 +50,7 @@ void check_given(CaseValues& in) {
                              speed = "motion.speed", traction = "analysis.traction",
                              torque = "analysis.torque";
   if (in.has(load) && in.has(height))
-    in.fault(load, "stands beside motion.height: one follows from the other",
+    in.fault(load, "is given together with motion.height: one follows from the other",
              "one of motion.height and analysis.load");
   if (!in.has(load) && !in.has(height))
     in.fault(height, "is missing, and so is analysis.load: one of them says how deep the body is",
@@ -61,7 +61,8 @@ void check_given(CaseValues& in) {
   for (const std::string_view key : given) {
     if (!in.has(key)) continue;
     if (!first.empty())
-      in.fault(key, fmt::format("stands beside {}: one follows from the other", first), one);
+      in.fault(key, fmt::format("is given together with {}: one follows from the other", first),
+               one);
     if (first.empty()) first = key;
   }
   if (first.empty())
@@ -73,12 +74,13 @@ void check_traction(CaseValues& in, const Case& c) {
   if (!a.load || !a.traction || !c.ground || !in.good({"ground.friction"})) return;
   const double most = c.ground->friction * *a.load;
   if (!(std::abs(*a.traction) < most))
-    in.fault("analysis.traction", "the whole contact would slide, and no speed follows from that",
+    in.fault("analysis.traction",
+             "the whole contact would slide, which does not determine the speed",
              most > 0.0 ? fmt::format("> {0:.6g} and < {1:.6g}, ground.friction times "
                                       "analysis.load; or motion.speed instead",
                                       -most, most)
-                        : std::string("motion.speed instead, as no traction tells it without "
-                                      "friction; or ground.friction above 0"));
+                        : std::string("motion.speed instead, because without friction no traction "
+                                      "determines it; or ground.friction above 0"));
 }
 
 void check_samples(CaseValues& in, Case& c) {
@@ -98,21 +100,22 @@ constexpr std::string_view start = "initial.state";
 
 void check_start_body(CaseValues& in, const Case& c) {
   if (c.mesh)
-    in.fault(start, "a mesh from a file is not known to be of equal sectors, as steady rolling is",
+    in.fault(start,
+             "a mesh from a file is not known to have equal sectors, which steady rolling needs",
              "\"stationary\", and a run long enough to settle; or a [disk]");
   if (!c.mesh && c.free_rim)
-    in.fault(start, "nothing turns a free body: it does not roll steadily", "\"rest\"");
+    in.fault(start, "a free body is not turned by a rim: it does not roll steadily", "\"rest\"");
   if (!c.mesh && !c.disk.tread && c.disk.radial < 2 && in.good({"disk.mesh.radial"}))
     in.fault("disk.mesh.radial",
-             "a start in steady rolling takes the contact nodes as without mass, and the nodes "
-             "below them are held by the rim",
+             "a start in steady rolling moves the mass of the contact nodes to the nodes below "
+             "them, which are held by the rim",
              "at least 2; or initial.state = \"stationary\"");
 }
 
 /// What moves at the start is no steady state; later it may.
 void check_still(CaseValues& in, std::string_view key, const dynamics::Table& value) {
   if (in.good({key}) && value.slope(0.0) != 0.0)
-    in.fault(key, "changes from t = 0 on, and a start in steady rolling has one value",
+    in.fault(key, "changes from t = 0 on, but a start in steady rolling needs one value",
              "a number, or a table whose first two points, from t = 0 on, have the same value");
 }
 
@@ -128,10 +131,11 @@ void check_start_motion(CaseValues& in, const Case& c) {
     in.fault(start, "the angular velocity at t = 0 is 0: a body that does not turn does not roll",
              "\"rest\"; or motion.angular_velocity other than 0");
   if (c.motion.slope != 0.0)
-    in.fault(start, "steady rolling knows no slope", "\"stationary\"; or motion.slope = 0");
+    in.fault(start, "steady rolling does not support a slope",
+             "\"stationary\"; or motion.slope = 0");
   if (c.rim && !c.pressures.empty())
     in.fault(start,
-             "with a [rim] pressures act on the edges as they lie, in steady rolling on the "
+             "with a [rim] pressures act on the deformed edges, in steady rolling on the "
              "undeformed ones",
              "\"stationary\"; or no [rim], or no [[load.pressure]]");
 }
@@ -163,7 +167,7 @@ void check_steady_start(CaseValues& in, const Case& c) {
            !flat_ground_below(c))
     in.fault("ground.profile",
              fmt::format("is not flat below the body at t = 0, from x = {:.6g} to {:.6g} m, as a "
-                         "start in steady rolling wants it",
+                         "start in steady rolling requires",
                          c.motion.start_x - c.disk.outer_radius - c.ground->shape.fillet,
                          c.motion.start_x + c.disk.outer_radius + c.ground->shape.fillet),
              "another motion.start_x, or obstacles further away; or initial.state = "
@@ -178,9 +182,9 @@ void check_steady_rolling(CaseValues& in, Case& c) {
   check_samples(in, c);
   check_flat_ground(in, c, "steady rolling");
   if (c.body_contact.between != BodyContact::none)
-    in.fault("contact.between", "steady rolling knows no contact but with the ground", "\"none\"");
+    in.fault("contact.between", "steady rolling supports contact with the ground only", "\"none\"");
   if (in.has_table("rim"))
-    in.fault("rim", "the rim of steady rolling has no motion of its own",
+    in.fault("rim", "steady rolling does not support a rim that forces move",
              "analysis.load, analysis.traction or analysis.torque instead, or a dynamic analysis");
 }
 

@@ -155,7 +155,7 @@ TEST(WrongBodies, AreToldOnceWithTheirPlace) {
       {24, "[load.pressure]", "load.pressure", 24, {"a list of tables", "[[load.pressure]]"}},
       {26, "", "load.pressure[0].value", 24, {"is missing"}},
       {26, "value = 'much'", "load.pressure[0].value", 26, {"a float or an array of pairs"}},
-      {28, "state = 'stationary'", "initial.state", 28, {"nothing turns"}},
+      {28, "state = 'stationary'", "initial.state", 28, {"is not turned by a rim"}},
       {29, "position = 0.5", "initial.position", 29, {"must be an array"}},
       {39, "end = 1\nscheme = 'as-printed'", "time.scheme", 40, {"\"symplectic\""}},
       {41, "operator = 'cyclic'", "solver.operator", 41, {"equal sectors", "\"sparse\""}},
@@ -169,7 +169,7 @@ TEST(WrongBodies, AreToldOnceWithTheirPlace) {
        "youngs_modulus = 5e6\nstress_stiffening = 'centrifugal'",
        "material.stress_stiffening",
        8,
-       {"nothing turns a free body"}},
+       {"a free body is not turned by a rim"}},
   };
   for (const WrongBody& wrong : wrongs) {
     SCOPED_TRACE(wrong.replacement + " at " + std::to_string(wrong.line));

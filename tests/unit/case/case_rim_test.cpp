@@ -101,7 +101,7 @@ TEST(CaseRim, NoLoadOnWhatIsHeld) {
            {"support.x.at = 0", "rim.support.x.at", "speed"},
            {"support.y.at = 0.3", "rim.support.y.at", "height"}})
     expect_fault(with_rim(head + line + "\n"), key, rim_line + 1,
-                 {"does nothing while motion." + dof + " is held", "rim.free with \"" + dof});
+                 {"has no effect, because motion." + dof + " is held", "rim.free with \"" + dof});
   EXPECT_TRUE(faults_of(with_rim(head + "force_x = 0.0\nbrake = 0\n")).empty());
 }
 
@@ -113,7 +113,7 @@ TEST(CaseRim, NoTableOfWhatIsFree) {
   for (std::size_t k = 0; k < dofs.size(); ++k) {
     const int line = 19 + static_cast<int>(k);
     expect_fault(with_line(line, dofs[k] + table, all), "motion." + dofs[k], line,
-                 {"is a table, but free in rim.free", "the value at t = 0", '"' + dofs[k] + '"'});
+                 {"is a table, but rim.free names it", "the value at t = 0", '"' + dofs[k] + '"'});
   }
   EXPECT_TRUE(faults_of(with_line(20, "speed = [[0, 1]]", all)).empty());
 }

@@ -39,15 +39,16 @@ TEST(CaseSteady, HasEightSamplesOrSixteenWithATread) {
 
 TEST(CaseSteady, TakesOneOfEachPair) {
   const std::string load = "load = 1.9e5\n", torque = "torque = 0\n";
-  expect_fault(rolling(load), "analysis.load", first_line, "stands beside motion.height");
-  expect_fault(rolling(torque), "analysis.torque", first_line, "stands beside motion.speed");
+  expect_fault(rolling(load), "analysis.load", first_line, "is given together with motion.height");
+  expect_fault(rolling(torque), "analysis.torque", first_line,
+               "is given together with motion.speed");
   expect_fault(rolling("traction = 0\n"), "analysis.traction", first_line,
-               "stands beside motion.speed");
+               "is given together with motion.speed");
   expect_fault(with_line(height_line, "", rolling()), "motion.height", 18, "so is analysis.load");
   expect_fault(with_line(speed_line, "", rolling()), "motion.speed", 18,
                "so are analysis.traction and analysis.torque");
   expect_fault(with_line(speed_line, "", rolling(torque + "traction = 0\n")), "analysis.torque",
-               first_line, "stands beside analysis.traction");
+               first_line, "is given together with analysis.traction");
   const Case c =
       read_text(with_line(speed_line, "", with_line(height_line, "", rolling(load + torque))));
   EXPECT_EQ(c.analysis.load, 1.9e5);
@@ -61,20 +62,20 @@ TEST(CaseSteady, RefusesWhatItIsNotMadeFor) {
   for (const char* key : {"angular_velocity", "speed", "height", "gravity"})
     expect_fault(text, std::string("motion.") + key, 0, "is a table",
                  {std::string("motion.") + key + "=[[0, 1], [1, 2]]"});
-  expect_fault(text, "motion.slope", 0, "knows no slope", {"motion.slope=0.1"});
+  expect_fault(text, "motion.slope", 0, "does not support a slope", {"motion.slope=0.1"});
   expect_fault(text, "ground.profile", 0, "needs flat ground",
                {"ground.profile=[[-1, 0], [1, 0.1]]"});
   EXPECT_EQ(faults_of(text, {"disk.rim=free"}).size(), 5U);  // and four keys of the rim's motion
   expect_fault(text, "disk.mesh.radial", 0, "held by the rim", {"disk.mesh.radial=1"});
   expect_fault(text, "analysis.massless_contact", 0, "with 8 samples",
                {"analysis.massless_contact=false"});
-  expect_fault(text, "rim", 0, "no motion of its own", {"rim.free=[]"});
-  expect_fault(text, "contact.between", 0, "but with the ground", {"contact.between=bodies"});
+  expect_fault(text, "rim", 0, "a rim that forces move", {"rim.free=[]"});
+  expect_fault(text, "contact.between", 0, "with the ground only", {"contact.between=bodies"});
   expect_fault(text, "load.pressure[0].value", 0, "is a table",
                {"load.pressure=[{curve='tread', value=[[0, 1], [1, 2]]}]"});
   expect_fault(with_line(speed_line, "", with_line(height_line, "", text)), "analysis.traction", 0,
                "would slide", {"analysis.load=1e5", "analysis.traction=-30000"});
-  expect_fault(base, "analysis.load", 0, "means nothing to a dynamic", {"analysis.load=1e5"});
+  expect_fault(base, "analysis.load", 0, "has no effect in a dynamic", {"analysis.load=1e5"});
 }
 
 TEST(CaseSteady, TakesOneSampleWithMass) {

@@ -387,7 +387,7 @@ TEST(Settings, FaultsNameTheSetting) {
   EXPECT_EQ(faults[2].file, "--set disk=5");  // which took all of [disk] away
   EXPECT_NE(faults[2].message.find("must be a table"), std::string::npos);
   EXPECT_EQ(faults[3].key, "mesh");
-  EXPECT_NE(faults[3].message.find("stands beside a [disk]"), std::string::npos);
+  EXPECT_NE(faults[3].message.find("is given together with [disk]"), std::string::npos);
   EXPECT_EQ(faults[4].file, "--set nonsense");
   EXPECT_EQ(faults[5].file, "--set a b=1");
 }

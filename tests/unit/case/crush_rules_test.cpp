@@ -61,7 +61,7 @@ TEST(CrushHistories, GoToTheLastIncrementByWholeOnes) {
   expect_told("increments = 8\ndepth = [[0, 0], [8, 0.2]]\nslide = [[0, 0], [9, 1]]",
               {"analysis.slide = [9, 1]", "at increment 8"});
   expect_told("increments = 8\ndepth = [[0, 0], [2.5, 0.2], [8, 0.2]]",
-              {"analysis.depth = [2.5, 0.2]", "whole"});
+              {"analysis.depth = [2.5, 0.2]", "must be an integer"});
   expect_told("increments = 8\ndepth = [[0, 0], [5, 1], [5, 0.5], [8, 1]]",
               {"the increments must increase", "[[increment, value], ...]"});
 }
@@ -81,7 +81,7 @@ TEST(CrushHistories, AreBothTables) {
   expect_told("increments = 8\ndepth = [[0, 0], [8, 1]]\nslide = 0.25",
               {"analysis.slide = 0.25", "beside a table of analysis.depth", "[8, 0.25]]"});
   expect_told("increments = 8\ndepth = [[0, 0], [8, 1]]\nslide_increments = 4",
-              {"analysis.slide_increments = 4", "counts its own increments"});
+              {"analysis.slide_increments = 4", "increments are counted by"});
 }
 
 const std::string pressed = "increments = 8\ndepth = 0.5\n";

@@ -7,6 +7,7 @@
 #include <set>
 #include <type_traits>
 
+#include "support/key_meaning.hpp"
 #include "unit/case/key_cases.hpp"
 
 namespace rondo::study::key_table_test {
@@ -27,6 +28,11 @@ TEST(KeyTable, KeysOfATableStandTogetherAndAreThereOnce) {
     }
   }
   EXPECT_EQ(count, case_keys().size());
+}
+
+TEST(KeyTable, EveryMeaningIsUnderstoodAlone) {
+  for (const CaseKey& key : case_keys())
+    EXPECT_EQ(rondo::test::fault_of_meaning(key.meaning), "") << key.path << ": " << key.meaning;
 }
 
 /// No two rows share a field, and of a list each table has its own.

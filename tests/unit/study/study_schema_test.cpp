@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "rondo/study/sweep/keys/study_keys.hpp"
+#include "support/key_meaning.hpp"
 #include "support/manual.hpp"
 
 namespace rondo::study::study_schema_test {
@@ -22,6 +23,11 @@ TEST(StudySchema, HasEveryKey) {
     EXPECT_TRUE(table["properties"].contains(std::string(leaf_of(key.path)))) << key.path;
     EXPECT_TRUE(table["additionalProperties"].contains("not")) << key.path;
   }
+}
+
+TEST(StudySchema, EveryMeaningIsUnderstoodAlone) {
+  for (const StudyKey& key : study_keys())
+    EXPECT_EQ(rondo::test::fault_of_meaning(key.meaning), "") << key.path << ": " << key.meaning;
 }
 
 TEST(StudySchema, NamesEveryKeyOfACaseThatMayVary) {

@@ -37,7 +37,7 @@ void refuse_sizes_out_of_range(const Case& c, const std::vector<double>& size) {
   if (shortest >= smallest && shortest <= largest) return;
   throw case_error(c, scale_key(c),
                    fmt::format("the shortest edge of the mesh would be {:.3g} m, out of the range "
-                               "of the numbers",
+                               "of floating-point numbers",
                                shortest),
                    "lengths in metres");
 }
@@ -163,17 +163,17 @@ void warn_of_locking_triangles(const Case& c, const mesh::Mesh& mesh,
     largest = std::max(largest, m.poissons_ratio);
   }
   if (found == 0) return;
-  warnings.push_back(fmt::format(
-      "{} of {} cells are triangles with full integration at Poisson's ratios up to {}: in plane "
-      "strain they are too stiff above 0.45. material.integration = \"b-bar\" is made for it, for "
-      "triangles and quadrilaterals",
-      found, mesh.cells.size(), largest));
+  warnings.push_back(
+      fmt::format("{} of {} cells are triangles with full integration at Poisson's ratios up to "
+                  "{}: in plane strain they are too stiff above 0.45. Use material.integration = "
+                  "\"b-bar\", for triangles and quadrilaterals",
+                  found, mesh.cells.size(), largest));
 }
 
 void refuse_for_held_bodies(const Case& c) {
   const Initial& i = c.initial;
   const auto refuse = [&](const std::string& key) {
-    throw case_error(c, key, "is for unconstrained bodies, and the mesh has none",
+    throw case_error(c, key, "is for unconstrained bodies, but the mesh has none",
                      "[motion], which moves what mesh.clamped holds");
   };
   if (i.position != Vec2{}) refuse("initial.position");
@@ -304,9 +304,10 @@ std::vector<RigidMotion> motions_of(const Case& c, const mesh::Mesh& mesh,
       if (given[at(body)] >= 0 && !same)
         throw case_error(
             c, key.key,
-            fmt::format("a body is of this surface and of \"{}\", which moves otherwise",
-                        initial.regions[at(given[at(body)])].surface),
-            "one motion of each body");
+            fmt::format(
+                "a body is part of this surface and of \"{}\", which has a different motion",
+                initial.regions[at(given[at(body)])].surface),
+            "one motion for each body");
       given[at(body)] = static_cast<int>(k);
       of_body = motion;
     }

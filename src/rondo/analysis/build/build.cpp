@@ -58,7 +58,7 @@ void refuse_held_curve(const Case& c, const mesh::Mesh& mesh, const std::string&
     return;
   throw case_error(
       c, key,
-      fmt::format("every node of the curve \"{}\" is held: a pressure there does nothing", name),
+      fmt::format("every node of the curve \"{}\" is held: a pressure there has no effect", name),
       c.mesh ? fmt::format("a curve that is not held; mesh.clamped = \"{}\" holds this one",
                            c.mesh->clamped)
              : "\"tread\", the outer boundary; the inner boundary of a [disk] is its rim: for a "
@@ -77,7 +77,7 @@ void find_bodies(const Case& c, Setup& s) {
   s.mesh.sector_node.clear();
   if (c.time.scheme != Scheme::symplectic)
     throw case_error(c, "time.scheme",
-                     fmt::format("{} of the bodies are free, and nothing turns them",
+                     fmt::format("{} of the bodies are free, and are not turned by a rim",
                                  s.model.free_bodies.size()),
                      "\"symplectic\", or bodies that mesh.clamped holds");
 }
@@ -119,8 +119,7 @@ void add_stress_stiffening(const Case& c, Setup& s) {
   const double spin = c.motion.angular_velocity.at(0.0);
   if (spin == 0.0)
     s.warnings.emplace_back(
-        "material.stress_stiffening: the initial angular velocity is 0, its stress stiffens "
-        "nothing");
+        "material.stress_stiffening has no effect: the initial angular velocity is 0");
   auto found =
       by_harmonics(m)
           ? statics::centrifugal_prestress(*m.sector, m.mass, m.reference, spin)
@@ -160,13 +159,13 @@ double choose_step(const Case& c, const dynamics::CriticalStep& critical) {
     if (c.time.step) return *c.time.step;
     throw case_error(
         c, "time.step",
-        "all elements are implicit: every step is stable, and none is chosen by itself",
+        "all elements are implicit: every step is stable, so that the program chooses none",
         "time.step, a tenth of the shortest period that counts or less");
   }
   if (!(critical.omega > 0.0) || !std::isfinite(critical.omega) || !(critical.step > 0.0))
     throw case_error(c, "material.youngs_modulus",
                      fmt::format("with this density and mesh the largest frequency is {} rad/s, "
-                                 "out of the range of the numbers",
+                                 "out of the range of floating-point numbers",
                                  critical.omega),
                      "a modulus and a density in SI units");
   if (!c.time.step) return c.time.safety * critical.step;

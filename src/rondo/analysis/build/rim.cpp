@@ -37,12 +37,13 @@ Bonded bonded_nodes(const mesh::Mesh& mesh, const std::vector<double>& mass) {
 
 void refuse_free_bodies(const Case& c, const dynamics::Model& model) {
   if (model.free_bodies.empty()) return;
-  throw case_error(c, "rim",
-                   fmt::format("{} of the bodies of the mesh are free, and the step of a [rim] "
-                               "knows none beside it",
-                               model.free_bodies.size()),
-                   "mesh.clamped that holds every body, or no [rim]; " +
-                       mesh::physical_group_line("Curve", "rim"));
+  throw case_error(
+      c, "rim",
+      fmt::format(
+          "{} of the bodies of the mesh are free, which the step of a [rim] does not support",
+          model.free_bodies.size()),
+      "mesh.clamped that holds every body, or no [rim]; " +
+          mesh::physical_group_line("Curve", "rim"));
 }
 
 void refuse_unbalanced(const Case& c, const Bonded& b) {

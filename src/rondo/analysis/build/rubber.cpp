@@ -44,9 +44,9 @@ void refuse_damped_free_bodies(const Case& c, const Setup& s) {
     if (!in_fixed_frame(s.model, node) || !fem::material_of(s.mesh, s.materials, e).rubber)
       continue;
     throw case_error(c, "damping.stiffness",
-                     "acts on the rate of the forces of rubber, and those of a body that nothing "
-                     "holds turn with it: its rotation would be damped",
-                     "0, and [[material.viscosity]], which sees strain alone");
+                     "acts on the rate of the forces of rubber, which turn with a free body: its "
+                     "rotation would be damped",
+                     "0, and [[material.viscosity]], which depends on strain only");
   }
 }
 
@@ -56,11 +56,12 @@ void refuse_linear_free_bodies(const Case& c, const Setup& s) {
   for (std::size_t e = 0; e < s.mesh.cells.size(); ++e) {
     const auto node = static_cast<std::size_t>(s.mesh.cells[e][0]);
     if (!in_fixed_frame(s.model, node) || fem::material_of(s.mesh, s.materials, e).rubber) continue;
-    throw case_error(c, "material.model",
-                     "a body that nothing holds has linear elements, and another part is rubber: "
-                     "the rotation of such a body is not strain for rubber alone",
-                     "rubber for the whole of the body (a stiff one is \"neo-hooke\" with a large "
-                     "shear_modulus), or a body that is held");
+    throw case_error(
+        c, "material.model",
+        "a free body has linear elements, and another part is rubber: beside rubber only rubber "
+        "may rotate freely, because linear elements would take a rotation for strain",
+        "rubber for the whole of the body (a stiff one is \"neo-hooke\" with a large "
+        "shear_modulus), or a body that is held");
   }
 }
 
@@ -128,7 +129,7 @@ void check_branches(const Case& c, Setup& s) {
       if (time < step)
         throw case_error(c, time_key(d, b), found + ": the step passes over it",
                          fmt::format(">= {0:.4g}, above {1:.4g} to resolve it; or no such branch: "
-                                     "so fast, it is as good as relaxed always",
+                                     "one so fast is practically always relaxed",
                                      step, resolved_steps * step));
       s.warnings.push_back(fmt::format("{}: {}: its losses are rough below {} steps",
                                        time_key(d, b), found, resolved_steps));

@@ -66,9 +66,8 @@ std::string beyond_softening(const Case& c, double spin, Interval omega) {
       "motion.angular_velocity reaches {:.6g} rad/s, beyond the softening limit: the lowest "
       "frequency of the body at rest is {:.4g} to {:.4g} rad/s, and above it centrifugal softening "
       "exceeds the stiffness (K - s²M is not positive definite). There is no equilibrium: "
-      "what is deformed in general grows, at up to {:.3g} 1/s, by e^{:.3g} in this run, which ends "
-      "with exit code 3 "
-      "once its strains mean nothing. {}",
+      "deformations in general grow, at up to {:.3g} 1/s, by e^{:.3g} in this run, which ends with "
+      "exit code 3 once its strains are meaningless. {}",
       spin, omega.low, omega.high, std::sqrt(std::max(0.0, spin * spin - omega.low * omega.low)),
       softening_growth(c, omega.low),
       is_solid(c) ? "A lower rotation speed, or a stiffer material"
@@ -107,11 +106,11 @@ void warn_of_softening(const Case& c, Setup& s) {
   if (omega.high <= spin)
     s.warnings.push_back(beyond_softening(c, spin, omega));
   else
-    s.warnings.push_back(fmt::format(
-        "at {:.6g} rad/s the centrifugal softening takes more than a quarter of the lowest "
-        "stiffness (s² > ω₁²/4, ω₁ = {:.4g} to {:.4g} rad/s): a small-strain model without stress "
-        "stiffening is soft there",
-        spin, omega.low, omega.high));
+    s.warnings.push_back(
+        fmt::format("at {:.6g} rad/s the centrifugal softening takes more than a quarter of the "
+                    "lowest stiffness (s² > ω₁²/4, ω₁ = {:.4g} to {:.4g} rad/s): a small-strain "
+                    "model without stress stiffening is too soft there",
+                    spin, omega.low, omega.high));
 }
 
 namespace {
@@ -252,11 +251,11 @@ void warn_of_fast_contact(const Case& c, Setup& s) {
   const double dt = explicit_step(s.model), way = largest_speed(c, s) * dt;
   if (!(way > 0.5 * shortest)) return;
   s.warnings.push_back(fmt::format(
-      "at {:.4g} m/s what may touch moves by {:.3g} m in a step, more than half its shortest edge "
+      "at {:.4g} m/s contact nodes move by {:.3g} m in a step, more than half the shortest edge "
       "({:.3g} m): contacts may be missed or met too late. Such speeds are near or above that of "
       "waves ({:.4g} m/s){}; a smaller time.step helps the contact only",
       way / dt, way, shortest, fem::wave_speeds(c.material).pressure,
-      has_rubber(c) ? "" : ", where small strains mean little"));
+      has_rubber(c) ? "" : ", where small strains are not valid"));
 }
 
 }  // namespace

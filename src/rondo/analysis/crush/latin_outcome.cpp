@@ -84,8 +84,8 @@ std::string LatinOutcome::missed(const statics::CrushState& state, double tolera
     const Vec2 at = setup_.mesh.coordinates[static_cast<std::size_t>(setup_.model.nodes[j])];
     return fmt::format(
         "the contact node at ({:.4g}, {:.4g}) m comes {:.3g} m into the ground and was not "
-        "condensed, for it is {:.4g} m above it at first touch, more than twice the depth; "
-        "analysis.solver = \"direct\" condenses such nodes on the way",
+        "condensed, because it is {:.4g} m above it at first touch, more than twice the depth; "
+        "analysis.solver = \"direct\" condenses such nodes during the crush",
         at.x, at.y, -state.slip[j].x, setup_.model.clearance[j]);
   }
   return {};

@@ -125,13 +125,11 @@ void LatinSolver::make_pgd(MatrixXd fields) {
   const statics::Adopted adopted =
       statics::adopt(stiffness_, nodes_, direction_, std::move(fields));
   if (!(adopted.foreign <= most_foreign))
-    throw request_error(
-        "--modes-from", options_.modes_from.string(),
-        fmt::format(
-            "its fields have {:.2g} of their loads away from the contact nodes: they are of "
-            "another body",
-            adopted.foreign),
-        "a run of the same mesh, [material] and held nodes");
+    throw request_error("--modes-from", options_.modes_from.string(),
+                        fmt::format("its fields have {:.2g} of their loads away from the contact "
+                                    "nodes: they belong to another body",
+                                    adopted.foreign),
+                        "a run of the same mesh, [material] and held nodes");
   fields_begun_with_ = static_cast<int>(adopted.fields.field.cols());
   pgd_->begin_with(adopted.fields);
 }
@@ -191,10 +189,10 @@ bool LatinSolver::iterate(std::string& trouble) {
   solve_wall_s_ += std::chrono::duration<double>(Clock::now() - begin).count();
   record_iteration();
   if (!std::isfinite(report_.residual) || !std::isfinite(report_.indicator))
-    trouble = "the forces or displacements are out of the range of the numbers";
+    trouble = "the forces or displacements are out of the range of floating-point numbers";
   else if (empty)
     trouble =
-        "the forces are below the range of the numbers, and no mode is left of them; a larger "
+        "the forces are below the range of floating-point numbers, and no mode remains; a larger "
         "analysis.depth, and material.youngs_modulus in Pa";
   else if (!converged && report_.iterations == most_iterations)
     trouble = not_converged();

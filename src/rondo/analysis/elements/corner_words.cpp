@@ -13,8 +13,8 @@ CornerWords corner_words(const Case& c, const dynamics::Model& model) {
                               first.x, first.y);
   if (fillet > 0.0)
     words.corners += fmt::format(
-        "; ground.fillet = {:.3g} m is below the {:.3g} m between two "
-        "contact nodes, which makes them as good as sharp",
+        "; ground.fillet = {:.3g} m is below the {:.3g} m between two contact nodes, so that they "
+        "count as sharp",
         fillet, spacing);
   words.corners += ")";
   words.instead = fmt::format(

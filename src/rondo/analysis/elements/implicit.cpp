@@ -23,10 +23,10 @@ void refuse_combinations(const Case& c, const Setup& s) {
          "is part of the \"symplectic\" step: another time.scheme has no implicit elements",
          "time.scheme = \"symplectic\", or no [[solver.implicit]]");
   refuse(s.model.rim.has_value(),
-         "does not go with a [rim]: the rim takes the forces of an explicit body",
+         "does not support a [rim], whose step needs the forces of an explicit body",
          "a rim that follows [motion], or no [[solver.implicit]]");
   refuse(!s.model.free_bodies.empty(),
-         "does not go with bodies that nothing holds: their stiffness turns with them",
+         "does not support free bodies, because their stiffness turns with them",
          "bodies that mesh.clamped holds, or no [[solver.implicit]]");
 }
 

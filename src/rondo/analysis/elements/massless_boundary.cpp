@@ -20,11 +20,12 @@ constexpr const char* key = "solver.contact_mass";
 
 void refuse_free_bodies(const Case& c, const dynamics::Model& m) {
   if (m.free_bodies.empty()) return;
-  throw case_error(c, key,
-                   fmt::format("{} of the bodies are free: contact nodes without mass are done in "
-                               "the turning frame of a rim alone",
-                               m.free_bodies.size()),
-                   "\"lumped\", or bodies that mesh.clamped holds");
+  throw case_error(
+      c, key,
+      fmt::format(
+          "{} of the bodies are free: contact nodes without mass need the turning frame of a rim",
+          m.free_bodies.size()),
+      "\"lumped\", or bodies that mesh.clamped holds");
 }
 
 void refuse_pressed_nodes(const Case& c, const mesh::Mesh& mesh, const dynamics::Model& m) {
@@ -35,7 +36,7 @@ void refuse_pressed_nodes(const Case& c, const mesh::Mesh& mesh, const dynamics:
       if (touches[at(edge[0])] != 0 || touches[at(edge[1])] != 0)
         throw case_error(c, key,
                          fmt::format("the pressure on \"{}\" acts on contact nodes, which without "
-                                     "mass take forces of the ground alone",
+                                     "mass take forces of the ground only",
                                      c.pressures[k].curve),
                          "\"lumped\", or a pressure on a curve that has no contact node");
 }

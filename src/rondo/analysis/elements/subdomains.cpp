@@ -17,7 +17,7 @@ constexpr std::size_t most_interface_nodes = 2000;
 
 void check_interface(const Case& c, const dynamics::Subdomains& parts) {
   if (parts.interface.empty())
-    throw case_error(c, fine_key, "these elements meet no other of the body at a node that moves",
+    throw case_error(c, fine_key, "these elements share no free node with other elements",
                      "a part of a body, beside the rest of it");
   if (parts.interface.size() > most_interface_nodes)
     throw case_error(
@@ -37,7 +37,7 @@ void check_contacts(const Case& c, const Setup& s, const dynamics::Subdomains& p
         fmt::format("node {} at ({:.6g}, {:.6g}) m, which may touch the ground,", node,
                     s.mesh.coordinates[k].x, s.mesh.coordinates[k].y);
     if (parts.fine.mass[k] == 0.0)
-      throw case_error(c, fine_key, place + " is of no fine element",
+      throw case_error(c, fine_key, place + " belongs to no fine element",
                        "all elements along the contact boundary, and those below them");
     if (distance[k] >= 0 && distance[k] < parts.ratio)
       throw case_error(

@@ -44,13 +44,13 @@ struct Body {
 Body make_body(const Case& c) {
   if (is_solid(c))
     throw case_error(c, c.section ? "section" : "disk.width",
-                     "modes are those of plane bodies, and this is a wheel in three dimensions",
+                     "modes are computed for plane bodies, not for a wheel in three dimensions",
                      "a [disk] without disk.width; `rondo check` tells the largest frequency");
   Body b;
   b.warnings = c.warnings;
   if (c.rim && (c.rim->free_x || c.rim->free_y || c.rim->free_spin))
     b.warnings.emplace_back(
-        "[rim] means nothing to modes: they are those of the body whose rim is held");
+        "[rim] has no effect on modes: they are those of the body with its rim held");
   b.mesh = build_mesh(c, &b.warnings);
   refuse_overlaps(c, {b.mesh, b.mesh.coordinates, c.body_contact.between != BodyContact::none},
                   b.warnings);
@@ -67,8 +67,8 @@ Body make_body(const Case& c) {
                                              : fem::element_eigenvalue_bound(b.mesh, b.materials));
   if (!(b.largest_frequency > 0.0) || !std::isfinite(b.largest_frequency))
     throw case_error(c, furthest_key(c),
-                     fmt::format("with this number and mesh the largest frequency is {} rad/s, "
-                                 "out of the range of the numbers",
+                     fmt::format("with this number and mesh the largest frequency is {} rad/s, out "
+                                 "of the range of floating-point numbers",
                                  b.largest_frequency),
                      "a modulus and a density in SI units");
   demand_harmonic_range(c, b.materials, b.mass, b.largest_frequency);
@@ -129,11 +129,11 @@ void check_spins(const Case& c, const Body& b, const std::string& option,
     if (!b.cyclic())
       throw request_error(
           option, found,
-          fmt::format("nothing holds {} of the bodies: they are computed at rest", b.free),
+          fmt::format("{} of the bodies are free: they are computed at rest", b.free),
           "0; or a mesh whose bodies are all clamped");
     if (c.stress_stiffening != StressStiffening::none)
       throw case_error(c, "material.stress_stiffening",
-                       "the stress of the spin is computed of bodies held at a rim only",
+                       "the stress of the spin is computed for bodies held at a rim only",
                        "\"none\" for a free disk that spins");
     if (sector_dofs > modal::most_dofs_of_free_sector)
       throw request_error(
@@ -391,17 +391,18 @@ class ModesAnalysis final : public Analysis {
 void ModesAnalysis::judge(const SpinSummary& s) {
   if (s.unstable > 0 && !wrong_)
     wrong_ = fmt::format(
-        "at {} rad/s the spin softens the body more than it is stiff: K - s²M has {} negative "
-        "eigenvalue{}, there is no stable state and there are no modes; a lower rotation speed",
+        "at {} rad/s the softening by the spin exceeds the stiffness: K - s²M has {} negative "
+        "eigenvalue{}. There is no stable state, and there are no modes; take a lower rotation "
+        "speed",
         s.angular_velocity, s.unstable, s.unstable == 1 ? "" : "s");
   else if (s.unstable == 0 && !s.counted)
     say(fmt::format("at {} rad/s the modes are not counted: some may be missing",
                     s.angular_velocity));
   if (s.growth > 1e-3 * std::abs(s.angular_velocity))
-    say(
-        fmt::format("at {} rad/s nothing holds back the rotation of the free disk against its "
-                    "frame: in this model without the stress of the spin it grows at {:.4g} 1/s",
-                    s.angular_velocity, s.growth));
+    say(fmt::format(
+        "at {} rad/s the rotation of the free disk against its frame is not restrained: in this "
+        "model without the stress of the spin it grows at {:.4g} 1/s",
+        s.angular_velocity, s.growth));
 }
 
 }  // namespace

@@ -36,8 +36,8 @@ std::string passed_points(const Case& c, const Setup& setup, double spin, const 
   const double passed = points_passed(setup, spin * setup.model.dt, run);
   if (!c.ground || passed <= 1.0) return {};
   return fmt::format(
-      "--step-factor: the disk turns by {:.3g} contact points in a step; contact "
-      "wants 1 at the most, a factor of {:.3g}",
+      "--step-factor: the disk turns by {:.3g} contact points in a step; contact needs at most 1, "
+      "a factor of {:.3g}",
       passed, run.step_factor / passed);
 }
 
@@ -71,31 +71,32 @@ void check_case(const Case& c, const RunOptions& options, const Setup& setup) {
                         "fields or modes");
   if (is_solid(c))
     throw case_error(c, c.section ? "section" : "disk.width",
-                     "reduced models are plane, and this is a wheel in three dimensions",
+                     "reduced models are for plane bodies, not for a wheel in three dimensions",
                      "the full run, without --reduced; or a [disk] without disk.width");
   if (c.time.scheme != Scheme::symplectic)
     throw case_error(c, "time.scheme", "a reduced run has a scheme of its own",
                      "\"symplectic\", which it stands for");
   const dynamics::Model& model = setup.model;
   if (has_rubber(c))
-    throw case_error(c, "material.model", "a reduced run is of small strain, and rubber is not",
+    throw case_error(c, "material.model",
+                     "a reduced run is computed at small strain, rubber at finite strain",
                      "\"linear\"; or the full run");
   if (c.contact_mass != ContactMass::lumped)
-    throw case_error(c, "solver.contact_mass", "a reduced run knows contact nodes with mass alone",
+    throw case_error(c, "solver.contact_mass", "a reduced run needs contact nodes with mass",
                      "\"lumped\"");
   if (!c.implicit.empty())
-    throw case_error(c, "solver.implicit[0]", "a reduced run has no elements, but modes",
+    throw case_error(c, "solver.implicit[0]", "a reduced run has modes instead of elements",
                      "no [[solver.implicit]]");
   if (has_sharp_corners(model)) {
     const CornerWords words = corner_words(c, model);
     throw case_error(c, c.ground->shape.fillet > 0.0 ? "ground.fillet" : "ground.profile",
-                     "a reduced run knows contact at nodes alone, not " + words.corners,
+                     "a reduced run has contact at nodes only, not at " + words.corners,
                      words.instead);
   }
   if (is_general(model) || !model.pressures.empty())
     throw case_error(c, "analysis.kind",
-                     "a reduced run knows one constrained disk on the ground; here are pressures, "
-                     "free bodies or contact of bodies",
+                     "a reduced run is for one constrained disk on the ground, without pressures, "
+                     "free bodies and contact of bodies",
                      "none of these");
 }
 
@@ -103,11 +104,11 @@ void check_model(const Case& c, const RunOptions& options, const ReducedFile& fi
                  const Setup& setup) {
   const std::string difference = body_difference(body_text(c), file.body);
   if (!difference.empty())
-    throw request_error("--reduced", options.reduced.string(),
-                        fmt::format("the model is of another mesh or material: the case has {} of "
-                                    "the model",
-                                    difference),
-                        "a model built from runs of this mesh and material (rondo reduce)");
+    throw request_error(
+        "--reduced", options.reduced.string(),
+        fmt::format("the model has another mesh or material: the case has {} of the model",
+                    difference),
+        "a model built from runs of this mesh and material (rondo reduce)");
   const bool same =
       file.mesh.n_nodes() == setup.mesh.n_nodes() &&
       file.mesh.coordinates == setup.mesh.coordinates &&
@@ -124,8 +125,8 @@ void check_impacts(const Case& c, const ReducedRun& run) {
   if (!c.ground || c.ground->impact == contact::Impact::moreau || sees_velocities_alone(run))
     return;
   throw case_error(c, "ground.impact",
-                   "a reduced run keeps what this law promises only with contact at nodes and "
-                   "explicit steps",
+                   "in a reduced run impacts of this law may create energy, except with contact at "
+                   "nodes and explicit steps",
                    c.rim ? "\"moreau\""
                          : "\"moreau\", or a model of rondo reduce --contact nodes and "
                            "--reduced-step explicit");
@@ -140,7 +141,7 @@ void take_rim(const Case& c, const RunOptions& options, const Setup& setup, Redu
                         "midpoint, or a case without [rim]");
   if (run.file.model.frame != rom::ModelFrame::rectified)
     throw request_error("--reduced", options.reduced.string(),
-                        "is a model of the co-rotating frame, which knows no [rim]",
+                        "is a model in the co-rotating frame, which does not support a [rim]",
                         "a model of the rectified frame (rondo reduce without --frame)");
   run.file.model.rim = rom::make_rim_modes(setup.mesh, setup.model.mass, run.file.model);
 }
@@ -170,7 +171,7 @@ void warn_of_range(const Case& c, const Setup& setup, ReducedRun& run) {
   check("the slip ratio", &ModelRanges::slip_ratio, 1.0);
   if (c.ground && built.friction.empty())
     run.warnings.emplace_back(
-        "the model was built from runs without ground: its modes know no contact");
+        "the model was built from runs without ground: its modes contain no contact");
 }
 
 /// The step that is asked for; where nodes come by at a constant spin, so much less that a whole
@@ -212,7 +213,7 @@ void warn_of_start(const Setup& setup, ReducedRun& run) {
     const double left = std::sqrt(std::max(0.0, 1.0 - inside / all));
     if (left > 0.01)
       run.warnings.push_back(fmt::format(
-          "[initial]: the modes hold all but {:.2g} % of the initial {}", 100.0 * left, name));
+          "[initial]: the modes represent all but {:.2g} % of the initial {}", 100.0 * left, name));
   };
   check(setup.displacement, "displacement");
   check(setup.velocity, "velocity");

@@ -43,7 +43,7 @@ void refuse_other_phases(const Case& c, const ReducedRun& run) {
       c.ground && !(c.rim && c.rim->free_spin) && run.file.model.form == rom::ContactForm::nodes;
   if (!phases || !run.constant_spin || c.motion.angular_velocity.points().size() == 1) return;
   throw case_error(c, "motion.angular_velocity",
-                   "the step of this reduced run is made for a spin that stays as it is",
+                   "the step of this reduced run is made for a constant spin",
                    "motion.angular_velocity as a table from the start, [[0, w], [1, w]]");
 }
 

@@ -298,8 +298,8 @@ ReducedFile read_reduced_file(const std::filesystem::path& path) {
     throw FileError(path.string(), fmt::format("is not a reduced model (\"{}\")", format));
   if (file.attribute("/", "contact") == "patterns")
     throw FileError(path.string(),
-                    "touches the ground by patterns, which lose the friction and are no longer "
-                    "run: build the model again with rondo reduce RUN... -o MODEL.h5");
+                    "represents the contact by patterns, which lose the friction and are not "
+                    "supported: build the model again with rondo reduce RUN... -o MODEL.h5");
   ReducedFile content;
   content.body = file.attribute("/", "body");
   content.runs = lines_of(file.attribute("/", "runs"));

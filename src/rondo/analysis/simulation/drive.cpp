@@ -52,10 +52,10 @@ InputError wrong_key(const Case& c, const std::string& key) {
   const std::string meant = known ? "" : meant_text(key);
   const std::string why =
       !known ? fmt::format("there is no such key{}{}", meant.empty() ? "" : ": ", meant)
-      : type_of(*known) == KeyType::history ? "says nothing of this case after its start"
+      : type_of(*known) == KeyType::history ? "has no effect on this case after its start"
                                             : "stays what it is while the case runs";
   return InputError(Fault{"", 0, 0, key, "", why,
-                          keys.empty() ? "none: nothing of this case is a table in time"
+                          keys.empty() ? "none: no key of this case is a table in time"
                                        : fmt::format("{}", fmt::join(keys, ", "))});
 }
 

@@ -18,14 +18,14 @@ namespace {
 
 Stepwise& demand_stepwise(const Case& c, Analysis& analysis) {
   if (Stepwise* found = analysis.stepwise()) return *found;
-  throw case_error(c, "analysis.kind", "is no motion in time, and has no steps to look at",
+  throw case_error(c, "analysis.kind", "is no motion in time and has no steps",
                    "\"dynamic\"; other analyses are solved as a whole");
 }
 
 void refuse_what_wants_files(const Case& c, const RunOptions& options) {
   if (!options.directory.empty()) return;
   if (options.resume)
-    throw request_error("resume", "", "a run in memory has no checkpoint to go on from",
+    throw request_error("resume", "", "a run in memory has no checkpoint to resume from",
                         "the results directory of a run");
   if (c.dump_contacts > 0)
     throw case_error(c, "solver.dump_contacts", "a run in memory keeps no files",
@@ -90,7 +90,7 @@ bool Simulation::go_on(double seconds) {
 void Simulation::drive(const std::vector<DrivenValue>& values, double over) {
   const double dt = setup().model.dt;
   if (!(over >= 0.0) || !std::isfinite(over))
-    throw request_error("over", fmt::format("{}", over), "is no time to lead a table over in",
+    throw request_error("over", fmt::format("{}", over), "is no duration of a change",
                         "a number of seconds, 0 or more");
   std::vector<dynamics::Table*> tables;
   for (const auto& [key, value] : values) tables.push_back(&driven_table(case_, key, value));
@@ -125,8 +125,8 @@ void Simulation::check_driven(const std::vector<DrivenValue>& values, double fro
   for (const auto& [key, value] : values) {
     const dynamics::Table& table = driven_table(case_, key);
     if (!std::isfinite(table.at(from)) || !std::isfinite(table.slope(from)))
-      throw request_error(key, fmt::format("{}", value), "is too far from what it was",
-                          "a value that can be led over to");
+      throw request_error(key, fmt::format("{}", value), "is too far from the value before",
+                          "a value that is nearer");
     driven_table(short_one, key) =
         dynamics::Table({{0.0, table.at(0.0)}, {std::max(from, 1.0), value}});
     is_new = checked_.insert({key, value == 0.0}).second || is_new;
@@ -169,7 +169,7 @@ void Simulation::save() {
     throw request_error("save", "", "this run keeps no checkpoints",
                         "a run that is not reduced, with a results directory");
   if (session_->is_over())
-    throw request_error("save", "", "the run is over, and has nothing left to go on with",
+    throw request_error("save", "", "the run has ended, and cannot be resumed",
                         "a checkpoint before its end");
   session_->save();
 }

@@ -59,8 +59,8 @@ void SolidSteadyState::refuse() const {
   const AnalysisCase& a = case_.analysis;
   if (solution_.end == statics::RollingEnd::no_contact) {
     if (a.load)
-      throw case_error(case_, "analysis.load", "no contact was found that bears it",
-                       "a smaller load: one that presses the wheel in by a share of its wall");
+      throw case_error(case_, "analysis.load", "no contact was found that carries it",
+                       "a smaller load, which presses the wheel in by a part of its wall only");
     throw case_error(
         case_, "motion.height",
         fmt::format("nothing touches: the center is {:.6g} m above the ground", drive_.height),
@@ -69,20 +69,19 @@ void SolidSteadyState::refuse() const {
                     window_.lowest()));
   }
   if (solution_.end == statics::RollingEnd::sliding)
-    throw case_error(case_, a.torque ? "analysis.torque" : "analysis.traction",
-                     "the whole contact slides, and no speed follows from it: friction bears no "
-                     "more",
-                     drive_.friction == 0.0
-                         ? "motion.speed instead, as no traction tells it without friction; or "
-                           "ground.friction above 0"
-                         : "nearer to 0, or a smaller motion.slip_angle: both share what friction "
-                           "bears; or motion.speed instead");
+    throw case_error(
+        case_, a.torque ? "analysis.torque" : "analysis.traction",
+        "the whole contact slides, which does not determine the speed: friction carries no more",
+        drive_.friction == 0.0 ? "motion.speed instead, because without friction no traction "
+                                 "determines it; or ground.friction above 0"
+                               : "nearer to 0, or a smaller motion.slip_angle, because both share "
+                                 "the friction; or motion.speed instead");
   if (solution_.end == statics::RollingEnd::solved && is_generated(case_) &&
       solution_.height <= case_.disk.inner_radius)
     throw case_error(case_, a.load ? "analysis.load" : "motion.height",
                      fmt::format("the ground is within the rim: the center is {:.6g} m above it",
                                  solution_.height),
-                     fmt::format("what leaves it well above the inner radius, {:.6g} m",
+                     fmt::format("a value that leaves it well above the inner radius, {:.6g} m",
                                  case_.disk.inner_radius));
 }
 
@@ -90,10 +89,10 @@ void SolidSteadyState::refuse() const {
 std::string SolidSteadyState::not_solved() const {
   const AnalysisCase& a = case_.analysis;
   const bool too_many = solution_.work >= statics::most_solid_work;
-  std::string found = "no set of contacts came to rest";
+  std::string found = "the iteration over sets of contacts did not end";
   if (too_many)
     found = fmt::format(
-        "analysis.samples_per_sector = {} makes {} pairs of a node and a place near the ground, "
+        "analysis.samples_per_sector = {} makes {} pairs of a node and a sample near the ground, "
         "and {:.2g} operations (limit {:.0e}) did not solve them",
         a.samples_per_sector, window_.pairs().size(), solution_.work, statics::most_solid_work);
   else if (std::isfinite(solution_.residual))

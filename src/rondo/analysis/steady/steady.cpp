@@ -98,7 +98,7 @@ CheckReport SteadyRolling::check(double /*trial*/) {
   r.disk_bytes = disk_needed(record_plan(), false).all;
   r.lines = told_.figures;
   r.lines.emplace_back(
-      "sectors", fmt::format("{} of {} degrees of freedom, {} places each", body_->mesh.n_sectors,
+      "sectors", fmt::format("{} of {} degrees of freedom, {} samples each", body_->mesh.n_sectors,
                              body_->sector_dofs, samples()));
   r.warnings = warnings();
   return r;
@@ -125,8 +125,8 @@ void SteadyRolling::prepare() {
   body_->find_harmonics(case_, threads_);
   if (!body_->has_solution()) {
     trouble_ = fmt::format(
-        "the harmonics of a sector have no solution in the range of the numbers; other values, of "
-        "{} first: are they in SI units?",
+        "the harmonics of a sector have no solution in the range of floating-point numbers; other "
+        "values, first of {}: are they in SI units?",
         furthest_key(case_));
     return;
   }
@@ -200,7 +200,7 @@ std::string SteadyRolling::look_at_all() {
 
 void SteadyRolling::summarise(Json& j, RunReport& r) const {
   r.steps = recorded_;
-  r.reached = fmt::format("{} places of a sector", recorded_);
+  r.reached = fmt::format("{} samples of a sector", recorded_);
   if (!state_) return;
   const SteadyResiduals residuals = state_->residuals();
   r.energy_residual_relative = residuals.energy;

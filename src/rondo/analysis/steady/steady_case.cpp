@@ -79,8 +79,8 @@ void demand_free_shape(const Case& c, double lowest, double radius) {
   if (lowest < most * radius) return;
   throw case_error(
       c, furthest_key(c),
-      fmt::format("spin, weight and loads alone bring the lowest place of the body "
-                  "{:.3g} m away from the axle, from {:.3g} m undeformed",
+      fmt::format("spin, weight and loads alone, without contact, move the lowest point of the "
+                  "body from {1:.3g} m to {0:.3g} m away from the axle",
                   lowest, radius),
       fmt::format("less of them, or a stiffer material: at most {:.3g} m", most * radius));
 }
@@ -88,7 +88,7 @@ void demand_free_shape(const Case& c, double lowest, double radius) {
 std::string above_critical_spin(const Case& c, const modal::CriticalSpeed& lowest) {
   return fmt::format(
       "motion.angular_velocity: {:.6g} rad/s is above the critical spin of this mesh, {:.5g} rad/s "
-      "({} nodal diameters), at which a wave stands still in the fixed frame: damping alone bounds "
+      "({} nodal diameters), at which a wave stands still in the fixed frame: only damping limits "
       "the deformation",
       std::abs(spin_of(c)), lowest.spin, lowest.diameters);
 }

@@ -17,7 +17,8 @@ using contact::Status;
 using Eigen::Index;
 
 constexpr std::string_view without_friction =
-    "motion.speed instead, as no traction tells it without friction; or ground.friction above 0";
+    "motion.speed instead, because without friction no traction determines it; or ground.friction "
+    "above 0";
 constexpr Vec2 normal{0.0, 1.0};  ///< a contact frame's vector times it is along the fixed axes
 
 statics::RollingDrive drive_of(const Case& c) {
@@ -73,8 +74,8 @@ void SteadyState::refuse() const {
   if (solution_.end == statics::RollingEnd::no_contact) {
     const double radius = case_.disk.outer_radius;
     if (a.load)
-      throw case_error(case_, "analysis.load", "no contact was found that bears it",
-                       "a smaller load: one that presses the body in by a share of its wall");
+      throw case_error(case_, "analysis.load", "no contact was found that carries it",
+                       "a smaller load, which presses the body in by a part of its wall only");
     throw case_error(
         case_, "motion.height",
         fmt::format("nothing touches: the center is {:.6g} m above the ground", drive_.height),
@@ -85,7 +86,7 @@ void SteadyState::refuse() const {
   if (solution_.end == statics::RollingEnd::sliding)
     throw case_error(
         case_, a.torque ? "analysis.torque" : "analysis.traction",
-        "the whole contact slides, and no speed follows from it: friction bears no more",
+        "the whole contact slides, which does not determine the speed: friction carries no more",
         drive_.friction == 0.0 ? std::string(without_friction)
                                : fmt::format("nearer to 0, below ground.friction = {:.6g} times "
                                              "the load{}; or motion.speed instead",
@@ -94,7 +95,7 @@ void SteadyState::refuse() const {
     throw case_error(case_, a.load ? "analysis.load" : "motion.height",
                      fmt::format("the ground is within the rim: the center is {:.6g} m above it",
                                  solution_.height),
-                     fmt::format("what leaves it well above the inner radius, {:.6g} m",
+                     fmt::format("a value that leaves it well above the inner radius, {:.6g} m",
                                  case_.disk.inner_radius));
 }
 
@@ -105,7 +106,7 @@ std::string SteadyState::trouble() const {
         "analysis.samples_per_sector (4 to 32{}){}{} or both, a smaller ground.friction{}",
         std::isfinite(solution_.residual)
             ? fmt::format("residual {:.3g}, bound {:.0e}", solution_.residual, residual_bound)
-            : "no set of contacts came to rest",
+            : "the iteration over sets of contacts did not end",
         solution_.newton_steps, solution_.pivots,
         window_.time() < case_.damping.stiffness
             ? fmt::format("; fewer, as a sample of {:.2g} s is shorter than damping.stiffness",

@@ -91,8 +91,8 @@ void refuse_of_others(CaseValues& in, const Described& d) {
     const bool given = in.has(key) || in.has_table(key);
     if (!given || parameter.of[static_cast<std::size_t>(d.law.model)]) continue;
     in.fault(key,
-             fmt::format("is of model = {}, and {}.model is \"{}\"", models_with(parameter),
-                         d.table, words_of(d.law.model).name),
+             fmt::format("is a parameter of model = {}, but {}.model is \"{}\"",
+                         models_with(parameter), d.table, words_of(d.law.model).name),
              instead_of(parameter, d.law.model));
   }
 }
@@ -101,9 +101,9 @@ void check_quadrature(CaseValues& in, const Described& d) {
   const std::string key = d.key("integration");
   if (!in.good({key}) || !in.has(key)) return;
   if (d.law.is_rubber() && d.law.integration == Quadrature::full)
-    in.fault(key, "locks where rubber hardly changes its volume", "\"b-bar\" or \"one-point\"");
+    in.fault(key, "locks, because rubber hardly changes its volume", "\"b-bar\" or \"one-point\"");
   if (!d.law.is_rubber() && d.law.integration == Quadrature::one_point)
-    in.fault(key, "is of rubber, and the model is \"linear\"", "\"full\" or \"b-bar\"");
+    in.fault(key, "is for rubber, but the model is \"linear\"", "\"full\" or \"b-bar\"");
 }
 
 bool are_good(const CaseValues& in, const Described& d) {
@@ -151,7 +151,7 @@ void check_volume(CaseValues& in, const Described& d, double mu) {
   if (kappa > most * mu)
     in.fault(key,
              fmt::format("makes the bulk modulus {:.4g} times the shear modulus of {:.6g} Pa: "
-                         "beyond {:.0e} numbers do not tell it from none",
+                         "beyond {:.0e} double precision does not resolve it",
                          kappa / mu, mu, most),
              "100 to 10,000 shear moduli, or a Poisson's ratio of 0.495 to 0.49995: the step goes "
              "with the root");
@@ -167,7 +167,8 @@ void check_stability(CaseValues& in, const Described& d) {
                     "sum of mu alpha");
   fill_material(d.law, d.material);
   if (!std::isfinite(d.material.rubber->bulk_modulus) || !std::isfinite(d.material.youngs_modulus))
-    return in.fault(key, "makes the moduli leave the range of the numbers", "moduli in Pa");
+    return in.fault(key, "makes the moduli exceed the range of floating-point numbers",
+                    "moduli in Pa");
   check_volume(in, d, mu);
   const auto unstable = find_unstable(*d.material.rubber);
   if (!unstable) return;
@@ -182,7 +183,8 @@ void check_stability(CaseValues& in, const Described& d) {
 
 void check_rubber_law(CaseValues& in, const Described& d) {
   if (in.has(d.key("bulk_modulus")) && in.has(d.key("poissons_ratio")))
-    in.fault(d.key("bulk_modulus"), "stands beside poissons_ratio: one follows from the other",
+    in.fault(d.key("bulk_modulus"),
+             "is given together with poissons_ratio: one follows from the other",
              "one of bulk_modulus and poissons_ratio");
   check_branches(in, d);
   if (are_good(in, d) && has_exponents(in, d)) check_stability(in, d);

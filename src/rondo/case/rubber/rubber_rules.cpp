@@ -7,35 +7,35 @@ namespace {
 
 void refuse_steady_rolling(CaseValues& in, const Case& c) {
   if (c.analysis.kind == AnalysisKind::steady_rolling)
-    in.refuse("analysis.kind", "steady rolling is of small strain, and rubber is not",
+    in.refuse("analysis.kind",
+              "steady rolling is computed at small strain, rubber at finite strain",
               "\"dynamic\", and a run long enough to settle; or material.model = \"linear\"");
   if (c.initial.state == InitialState::steady_rolling)
-    in.refuse("initial.state", "steady rolling is of small strain, and rubber is not", "\"rest\"");
+    in.refuse("initial.state",
+              "steady rolling is computed at small strain, rubber at finite strain", "\"rest\"");
 }
 
 void check_law(CaseValues& in, const Case& c) {
   if (c.material.plane == fem::Plane::stress)
-    in.refuse("material.plane", "rubber is done in plane strain alone",
+    in.refuse("material.plane", "rubber is supported in plane strain only",
               "\"strain\"; or material.model = \"linear\"");
   if (c.stress_stiffening != StressStiffening::none)
-    in.refuse("material.stress_stiffening", "rubber at finite strain has it in itself", "\"none\"");
+    in.refuse("material.stress_stiffening", "rubber at finite strain includes it", "\"none\"");
 }
 
 void check_steps(CaseValues& in, const Case& c) {
   if (c.time.scheme != Scheme::symplectic)
-    in.refuse("time.scheme", "rubber is done by the scheme \"symplectic\" alone",
+    in.refuse("time.scheme", "rubber needs the scheme \"symplectic\"",
               "\"symplectic\"; or material.model = \"linear\"");
   if (c.contact_mass != ContactMass::lumped)
-    in.refuse(
-        "solver.contact_mass",
-        "contact nodes without mass follow from the stiffness of small strain, and rubber has "
-        "none",
-        "\"lumped\"");
+    in.refuse("solver.contact_mass",
+              "the positions of contact nodes without mass follow from the stiffness of small "
+              "strain, which rubber does not have",
+              "\"lumped\"");
   if (!c.implicit.empty())
-    in.refuse(
-        "solver.implicit[0]",
-        "implicit elements are part of the step of linear elements alone, and there is rubber",
-        "no [[solver.implicit]]; or material.model = \"linear\" for the whole of the body");
+    in.refuse("solver.implicit[0]",
+              "implicit elements need a body of linear elements only, and there is rubber",
+              "no [[solver.implicit]]; or material.model = \"linear\" for the whole of the body");
 }
 
 }  // namespace

@@ -21,7 +21,7 @@ void check_plane(CaseValues& in) {
        {"disk.crown_radius", "disk.mesh.axial", "disk.tread.circumferential_grooves",
         "motion.slip_angle", "motion.camber"})
     if (in.has(key))
-      in.refuse(key, fmt::format("means something to {} alone, and the body is plane", wheel),
+      in.refuse(key, fmt::format("applies to {} only, and the body is plane", wheel),
                 "disk.width beside it, which gives the disk a width; or a [section]");
 }
 
@@ -32,7 +32,7 @@ void check_lateral_grooves(CaseValues& in, const Case& c) {
       c.disk.tread->groove_columns == 0)
     in.refuse(
         key, "leaves the tread without grooves",
-        "1 to 100000; 0 with disk.tread.circumferential_grooves alone, of a wheel with a width");
+        "1 to 100000; 0 only with disk.tread.circumferential_grooves, for a wheel with a width");
 }
 
 // The body --------------------------------------------------------------------------------------
@@ -41,7 +41,8 @@ void check_other_bodies(CaseValues& in) {
   if (!in.has_table("section")) return;
   for (const std::string_view other : {"disk", "mesh"})
     if (in.has_table(other))
-      in.fault("section", fmt::format("stands beside a [{}]: the body is one or the other", other),
+      in.fault("section",
+               fmt::format("is given together with [{}]: the body is one or the other", other),
                fmt::format("[{}] or [section]", other));
 }
 
@@ -147,7 +148,7 @@ void check_analysis_kind(CaseValues& in, const Case& c) {
   constexpr std::string_view key = "analysis.kind";
   if (c.analysis.kind == AnalysisKind::crush)
     in.refuse(
-        key, fmt::format("a crush is of plane bodies, not of {}", wheel),
+        key, fmt::format("a crush is for plane bodies, not for {}", wheel),
         "\"dynamic\" with motion.angular_velocity = 0 and a table of motion.height that comes "
         "down slowly; or no disk.width");
 }
@@ -155,15 +156,16 @@ void check_analysis_kind(CaseValues& in, const Case& c) {
 void check_solid_material(CaseValues& in, const Case& c) {
   if (has_rubber(c))
     in.refuse(
-        "material.model", fmt::format("{} is of linear materials alone", wheel),
+        "material.model", fmt::format("{} needs linear materials", wheel),
         "\"linear\", with b-bar integration near poissons_ratio = 0.5; or no disk.width: rubber "
         "at finite strain is plane");
   if (c.material.plane == fem::Plane::stress)
-    in.refuse("material.plane", fmt::format("{} is in no plane state", wheel),
+    in.refuse("material.plane",
+              fmt::format("{} is in neither plane strain nor plane stress", wheel),
               "no such key: its sides are free, which a narrow one shows as plane stress does");
   if (c.stress_stiffening != StressStiffening::none)
     in.refuse("material.stress_stiffening",
-              fmt::format("stress stiffening is of plane bodies, not of {}", wheel), "\"none\"");
+              fmt::format("stress stiffening is for plane bodies, not for {}", wheel), "\"none\"");
 }
 
 void check_solid_ground(CaseValues& in, const Case& c) {
@@ -171,26 +173,29 @@ void check_solid_ground(CaseValues& in, const Case& c) {
   const bool sharp =
       c.ground->shape.fillet == 0.0 && !contact::Ground(c.ground->shape).corners().empty();
   if (sharp)
-    in.fault("ground.profile",
-             fmt::format("has sharp convex corners, edges that touch between nodes: {} knows "
-                         "contact at its nodes alone",
-                         wheel),
-             "ground.fillet > 0, which rounds them: about the size of an element");
+    in.fault(
+        "ground.profile",
+        fmt::format(
+            "has sharp convex corners, which touch between nodes: {} has contact at its nodes only",
+            wheel),
+        "ground.fillet > 0, which rounds them: about the size of an element");
 }
 
 void check_solid_steps(CaseValues& in, const Case& c) {
   if (c.time.scheme != Scheme::symplectic)
-    in.refuse("time.scheme", fmt::format("{} moves by the scheme \"symplectic\" alone", wheel),
+    in.refuse("time.scheme", fmt::format("{} needs the scheme \"symplectic\"", wheel),
               "\"symplectic\"; or no disk.width");
   if (c.solver_operator == "sparse")
-    in.refuse("solver.operator", fmt::format("K of {} is taken sector by sector", wheel),
+    in.refuse("solver.operator",
+              fmt::format("the stiffness of {} is applied sector by sector", wheel),
               "\"auto\" or \"cyclic\"");
   if (c.contact_mass != ContactMass::lumped)
     in.refuse("solver.contact_mass",
-              fmt::format("contact nodes without mass are plane, {} has none", wheel),
+              fmt::format("contact nodes without mass are for plane bodies, not for {}", wheel),
               "\"lumped\"");
   if (!c.implicit.empty())
-    in.refuse("solver.implicit[0]", fmt::format("implicit elements are plane, {} has none", wheel),
+    in.refuse("solver.implicit[0]",
+              fmt::format("implicit elements are for plane bodies, not for {}", wheel),
               "no [[solver.implicit]]; a smaller step, or elements of more even size");
 }
 
@@ -203,12 +208,12 @@ void check_contact_of_bodies(CaseValues& in, const Case& c) {
 void check_start(CaseValues& in, const Case& c) {
   if (c.initial.state == InitialState::steady_rolling)
     in.refuse("initial.state",
-              fmt::format("a start in steady rolling is of plane bodies, not of {}", wheel),
+              fmt::format("a start in steady rolling is for plane bodies, not for {}", wheel),
               "\"stationary\", and a run long enough to settle");
   constexpr std::string_view gradient = "initial.displacement_gradient";
   for (const auto& row : c.initial.displacement_gradient)
     if (row[0] != 0.0 || row[1] != 0.0)
-      return in.refuse(gradient, fmt::format("is of plane bodies, not of {}", wheel),
+      return in.refuse(gradient, fmt::format("is for plane bodies, not for {}", wheel),
                        "no such key; initial.velocity sets it in motion");
 }
 
@@ -217,20 +222,19 @@ void check_solid_rim(CaseValues& in, const Case& c) {
   if (!c.rim) return;
   if (c.rim->free_x && c.motion.slip_angle.largest() != 0.0)
     in.refuse("motion.slip_angle",
-              "with rim.free = \"speed\" nothing says how fast the wheel goes sideways",
+              "with rim.free = \"speed\" the lateral speed of the wheel is undetermined",
               "0; or a speed that is held: rim.free without \"speed\"");
   if (c.rim->free_y && c.motion.camber != 0.0 && !c.pressures.empty())
     in.refuse(
         "motion.camber",
-        "with rim.free = \"height\" and a [[load.pressure]] the pressure's share on the rim, along "
-        "the axle, would lift the wheel or not, and is not known",
+        "with rim.free = \"height\" and a [[load.pressure]] the force of the pressure on the rim "
+        "along the axle has a part that lifts or presses the wheel, and that force is not known",
         "0; or no [[load.pressure]]; or a height that is held");
 }
 
 void check_probes(CaseValues& in, const Case& c) {
   if (!c.output.probes.empty())
-    in.fault("output.probe[0]",
-             fmt::format("a probe has its place in a plane body; {} has none", wheel),
+    in.fault("output.probe[0]", fmt::format("probes are for plane bodies, not for {}", wheel),
              "no [[output.probe]]; output.snapshots have every node");
 }
 

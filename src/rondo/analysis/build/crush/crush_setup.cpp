@@ -25,8 +25,7 @@ void refuse_free_bodies(const Case& c, const mesh::Mesh& mesh) {
   if (free > 0)
     throw case_error(
         c, "mesh.clamped",
-        fmt::format("holds {} of {} bodies, and a crush presses them down by what is "
-                    "held",
+        fmt::format("holds {} of {} bodies, and a crush presses each down by its held nodes",
                     bodies.count - free, bodies.count),
         "a physical curve of every body, " + mesh::physical_group_line("Curve", "rim"));
   if (mesh.boundary.empty())
@@ -108,7 +107,7 @@ void condense(const Case& c, const CrushSetup& setup, statics::Condensation& bod
 std::string crush_trouble(const statics::CrushReport& report, const statics::CrushWorks& works,
                           double bound) {
   if (!std::isfinite(report.residual) || !std::isfinite(report.equilibrium))
-    return "the forces or displacements are out of the range of the numbers";
+    return "the forces or displacements are out of the range of floating-point numbers";
   if (!report.converged) return not_solved(report, bound);
   if (!(report.equilibrium <= residual_bound))
     return fmt::format("residual of the equilibrium {:.3g}, bound {:.0e}", report.equilibrium,

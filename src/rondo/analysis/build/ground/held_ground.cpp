@@ -43,7 +43,7 @@ bool is_outside(const mesh::Mesh& mesh) {
 std::string swapped(const Case& c, const MeshCase& file) {
   const std::string table = c.mesh ? "mesh" : "section";
   return fmt::format(
-      "what is held is farther from the center than what may touch: should \"{}\" be "
+      "the held nodes are farther from the center than those that may touch: should \"{}\" be "
       "{}.contact and \"{}\" {}.clamped?",
       file.clamped, table, file.contact, table);
 }
@@ -59,7 +59,7 @@ std::string swapped(const Case& c, const MeshCase& file) {
   if (file && is_outside(mesh)) allowed += "; " + swapped(c, *file);
   throw case_error(c, key,
                    fmt::format("{}nodes that are held would be up to {:.4g} m deep in the ground, "
-                               "which does nothing to them: forces would be missing",
+                               "which exerts no forces on them",
                                when, depth),
                    allowed);
 }

@@ -62,11 +62,12 @@ void demand_harmonic_range(const Case& c, const std::vector<fem::Material>& mate
     fits &= is_within(m.youngs_modulus) && is_within(m.density);
   for (const double m : mass) fits &= m == 0.0 || is_within(m);
   if (!fits)
-    throw case_error(c, furthest_key(c),
-                     "with this number the equations of the body leave the range of the numbers",
-                     fmt::format("SI units: moduli, masses of nodes, squares of frequencies and "
-                                 "damping times frequency from {:.0e} to {:.0e}",
-                                 least, most));
+    throw case_error(
+        c, furthest_key(c),
+        "with this number the equations of the body exceed the range of floating-point numbers",
+        fmt::format("SI units: moduli, masses of nodes, squares of frequencies and "
+                    "damping times frequency from {:.0e} to {:.0e}",
+                    least, most));
 }
 
 }  // namespace rondo::study

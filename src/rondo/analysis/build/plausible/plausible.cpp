@@ -28,10 +28,10 @@ void warn_of_load(const std::string& key, double load, double mass, bool solid,
   const double weight = mass * earth_gravity;
   if (load == 0.0 || std::abs(load) >= least_load_share * weight) return;
   const char* force = solid ? "N" : "N/m";
-  warnings.push_back(fmt::format(
-      "{0} of {1:.4g} {2} is {3:.2g} times the weight of the body ({4:.3g} {5}, "
-      "{6:.3g} {2}): it presses the body hardly at all; is the load in {2}, not in k{2}?",
-      key, load, force, std::abs(load) / weight, mass, solid ? "kg" : "kg/m", weight));
+  warnings.push_back(
+      fmt::format("{0} of {1:.4g} {2} is {3:.2g} times the weight of the body ({4:.3g} {5}, "
+                  "{6:.3g} {2}): it hardly presses the body; is the load in {2}, not in k{2}?",
+                  key, load, force, std::abs(load) / weight, mass, solid ? "kg" : "kg/m", weight));
 }
 
 void warn_of_loads(const Case& c, const mesh::Mesh& mesh,
@@ -54,8 +54,8 @@ void warn_of_pressures(const Case& c, const std::vector<fem::Material>& material
     const double most = c.pressures[k].pressure.largest();
     if (most == 0.0 || most >= least_pressure || most >= least_pressure_share * softest) continue;
     warnings.push_back(
-        fmt::format("{}.value reaches {:.4g} Pa at most, {:.2g} of the softest modulus: it deforms "
-                    "the body hardly at all; is the pressure in Pa, not in bar or kPa?",
+        fmt::format("{}.value reaches {:.4g} Pa at most, {:.2g} of the softest modulus: it hardly "
+                    "deforms the body; is the pressure in Pa, not in bar or kPa?",
                     item_of("load.pressure", k), most, most / softest));
   }
 }

@@ -35,8 +35,8 @@ InputError hidden_obstacle(const Case& c, const Setup& s, const contact::Intrusi
   return case_error(
       c, "ground.profile",
       fmt::format("an obstacle {:.3g} m high at {} is shorter than the contact nodes are apart "
-                  "along the tread, {:.3g} m: it may pass between them without a force, for a "
-                  "wheel in three dimensions touches the ground at its nodes alone",
+                  "along the tread, {:.3g} m: it may pass between them without a force, because a "
+                  "wheel in three dimensions touches the ground at its nodes only",
                   of.depth, where(of), spacing),
       "an obstacle several times as long; a mesh whose nodes are several times closer; or no "
       "disk.width: plane bodies feel it between their nodes");
@@ -48,9 +48,9 @@ InputError hidden_corner(const Case& c, const Setup& s, const contact::Intrusion
   if (fillet > 0.0) allowed += "; " + finer_mesh(c, s, fillet);
   return case_error(
       c, fillet > 0.0 ? "ground.fillet" : "ground.profile",
-      fmt::format("between two contact nodes, {:.3g} m apart along the tread, the ground at {} "
-                  "may stand {:.3g} m deep in the wheel without a force, for a wheel in three "
-                  "dimensions touches the ground at its nodes alone",
+      fmt::format("between two contact nodes, {:.3g} m apart along the tread, the ground at {} may "
+                  "stand {:.3g} m deep in the wheel without a force, because a wheel in three "
+                  "dimensions touches the ground at its nodes only",
                   spacing, where(of), of.depth),
       allowed + "; or no disk.width: plane bodies feel it between their nodes");
 }

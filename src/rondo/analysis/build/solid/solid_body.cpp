@@ -39,7 +39,7 @@ void refuse_held(const Case& c, const std::string& key, const mesh::Mesh& mesh,
   if (!all_held) return;
   throw case_error(
       c, key,
-      fmt::format("every node of \"{}\" is held: a pressure there does nothing", surface.name),
+      fmt::format("every node of \"{}\" is held: a pressure there has no effect", surface.name),
       c.section ? fmt::format("a curve that is not held; section.clamped = \"{}\" "
                               "holds this one",
                               c.section->mesh.clamped)

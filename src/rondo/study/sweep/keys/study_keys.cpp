@@ -66,47 +66,52 @@ Json uniform() {
 }
 
 constexpr StudyKey keys[] = {
-    {"schema", "1", "required", "version of the study file's format",
+    {"schema", "1", "required", "Version of the study file's format",
      [] {
        return bounded("integer", {1.0, 1.0, false, false});
      }},
-    {"title", "any text", "name of the study file", "a line for people", text},
-    {"base", "a case file, relative to the study", "required", "the case that all runs begin with",
+    {"title", "any text", "name of the study file", "Title of the study, for people", text},
+    {"base", "a case file, relative to the study", "required", "Case that all runs begin with",
      text},
-    {"set", "[\"a.b=value\", ...]", "[]", "keys of the case, the same for all runs",
+    {"set", "[\"a.b=value\", ...]", "[]", "Keys of the case, set to the same values for all runs",
      [] {
        return array_of(Json{{"type", "string"}, {"pattern", "="}});
      }},
-    {"snapshots", "true or false", "false", "true: each run writes those of the base case",
+    {"snapshots", "true or false", "false",
+     "Whether each run writes the snapshots of the base case",
      [] {
        return Json{{"type", "boolean"}};
      }},
     {"columns", "[\"NAME\", ...], columns of history.csv", "[]",
-     "the table has NAME_mean, NAME_min, NAME_max and NAME_last of each besides, over the window",
+     "Columns of history.csv for which the table also has NAME_mean, NAME_min, NAME_max and "
+     "NAME_last, over the window",
      texts},
     {"vary[].key", "a key of a case file, e.g. ground.friction", "none",
-     "the key that is varied. One of key, keys", name_of_key},
+     "Key that is varied. Each table gives one of key and keys", name_of_key},
     {"vary[].keys", "[\"key\", ...], two keys of a case file and more", "none",
-     "keys whose values go together", names_of_keys},
+     "Keys that are varied together", names_of_keys},
     {"vary[].values", "[value, ...]; beside keys [[value, ...], ...]", "none",
-     "its values: what the key may be; beside keys a list for each run, with a value for each key. "
-     "One of values, linspace, uniform",
+     "Values of the key; with keys, a list for each run, with a value for each key. Each table "
+     "gives one of values, linspace and uniform",
      values},
     {"vary[].linspace", "[from, to, n], n an integer of at least 2", "none",
-     "n values of equal distance; whole numbers where all are", linspace},
-    {"vary[].uniform", "[from, to], from < to", "none", "sampled between these, see [sample]",
-     uniform},
-    {"sample.kind", "\"latin-hypercube\"", "\"latin-hypercube\"", "how points are drawn",
+     "Range and number of values at equal distances; whole numbers if all of them are", linspace},
+    {"vary[].uniform", "[from, to], from < to", "none",
+     "Range in which the values are sampled, as [sample] says", uniform},
+    {"sample.kind", "\"latin-hypercube\"", "\"latin-hypercube\"",
+     "Method that draws the points of the sample",
      [] {
        return one_of({&sample_kind, 1});
      }},
-    {"sample.count", "an integer from 1 to 1000000", "required", "points of the sample",
+    {"sample.count", "an integer from 1 to 1000000", "required", "Number of points of the sample",
      [] { return bounded("integer", sample_counts); }},
-    {"sample.seed", "an integer from 0 on", "1", "the same seed gives the same points",
+    {"sample.seed", "an integer from 0 on", "1",
+     "Seed of the sample; the same seed gives the same points",
      [] { return bounded("integer", sample_seeds); }},
     {"window.from", "a time, s", "the second half of the run",
-     "begin of the part of each run for means and peaks; unit: s", number},
-    {"window.to", "a time, s", "the end of the run", "its end; unit: s", number},
+     "Beginning of the part of each run over which means and peaks are taken; unit: s", number},
+    {"window.to", "a time, s", "the end of the run",
+     "End of the part of each run over which means and peaks are taken; unit: s", number},
 };
 
 constexpr std::string_view tables[] = {"vary[]", "sample", "window"};
