@@ -316,7 +316,7 @@ class Refused(ProgramTest):
         done = run("run", self.case(WHEEL), "-o", self.folder / "out", "--quiet", "--set",
                    "analysis.samples_per_sector=24", "--set", "motion.height=0.27")
         self.assertEqual(done.returncode, 3, done.stderr)
-        self.assertRegex(done.stderr, r"samples_per_sector = 24 makes 1\d{3} pairs of .* 2(\.\d)?e\+11 operations")
+        self.assertRegex(done.stderr, r"samples_per_sector = 24 makes 1\d{3} pairs of .* 4(\.\d)?e\+11 operations")
         self.assertIn("fewer samples, a coarser disk.mesh, a larger motion.height", done.stderr)
 
     def test_no_checkpoints(self):

@@ -35,7 +35,6 @@ ALLOWED = {
     "statics": SOLIDS,
     "statics/latin": SOLIDS | {"statics"},
     "statics/steady": SOLIDS | {"statics"},
-    "statics/steady_solid": SOLIDS | {"statics", "statics/steady"},
     "modal": {"core", "mesh", "fem"},
     "pod": {"core", "mesh"},
     "rom": SOLIDS | {"model", "integrators", "integrators/fused", "pod"},
@@ -51,8 +50,8 @@ ALLOWED["analysis/build"] = SOLIDS | STEPS | {"statics", "statics/steady", "case
 ALLOWED["analysis/figures"] = {"core", "io", "output"}
 ALLOWED["analysis/base"] = SOLIDS | {"model", "case", "io", "output"}
 ALLOWED["analysis/steady"] = (ALLOWED["analysis/build"] | ALLOWED["analysis/base"] |
-                              {"statics/steady", "statics/steady_solid", "modal",
-                               "analysis/base", "analysis/build", "analysis/figures"})
+                              {"statics/steady", "modal", "analysis/base", "analysis/build",
+                               "analysis/figures"})
 ALLOWED["analysis"] = set(ALLOWED)
 ALLOWED["analysis/modes"] = ALLOWED["analysis"] | {"analysis"}
 ALLOWED["analysis/simulation"] = ALLOWED["analysis"] | {"analysis"}
@@ -69,8 +68,8 @@ ALLOWED["mesh_reader"] = {"mesh"}  # a program of its own; it shares the layout 
 # Libraries that only these modules may see.
 ONLY_IN = {"hdf5.h": {"io/h5"}, "toml++/": {"case"}, "CLI/": {"apps"}, "cholmod": {"statics"},
            "CholmodSupport": {"modal", "statics"}, "Spectra/": {"model/stability"},
-           "lapacke": {"pod", "statics/steady", "statics/steady_solid"}, "xxhash": {"io/h5"},
-           "fftw3": {"pod", "statics/steady", "statics/steady_solid"},
+           "lapacke": {"pod", "statics/steady"}, "xxhash": {"io/h5"},
+           "fftw3": {"pod", "statics/steady"},
            "gmsh.h": {"mesh_reader"}, "mpi.h": {"apps"}}
 
 MOST_FILES = 30  # in a folder: 30 that each hold one concept are read more easily than two folders of 15

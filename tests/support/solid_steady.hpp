@@ -9,7 +9,7 @@
 
 #include "rondo/fem/solid/solid_sector.hpp"
 #include "rondo/mesh/solid/wheel.hpp"
-#include "rondo/statics/steady_solid/solid_power.hpp"
+#include "rondo/statics/steady/rolling_power.hpp"
 #include "support/solid_wheel.hpp"
 
 namespace rondo::test {
@@ -66,7 +66,7 @@ class SteadyWheel {
   mesh::Mesh mesh;
   std::vector<double> mass;
   fem::SolidSector sector;
-  statics::SolidHarmonics harmonics;
+  statics::RollingHarmonics<3> harmonics;
 
   /// Of each of the harmonics' candidates [m²].
   [[nodiscard]] std::vector<double> areas() const {
@@ -132,9 +132,9 @@ inline SteadyWheelCase crowned_case(double crown, int radial, int axial, int aro
 }
 
 /// Solved, with a power that balances.
-inline statics::SolidRollingSolution solved(statics::SolidWindow& window,
-                                            const statics::SolidRollingDrive& drive) {
-  const statics::SolidRollingSolution s = statics::solve_rolling(window, drive);
+inline statics::RollingSolution solved(statics::RollingWindow<3>& window,
+                                       const statics::RollingDrive& drive) {
+  const statics::RollingSolution s = statics::solve_rolling(window, drive);
   EXPECT_EQ(s.end, statics::RollingEnd::solved) << s.residual;
   EXPECT_LE(s.residual, 1e-10);
   EXPECT_LE(rolling_power(window, s, spectrum_of(window, s)).residual, 1e-10);

@@ -19,29 +19,30 @@ struct SteadyBody {
     for (Vec2& x : mesh.coordinates) x = rotation(turned) * x;
     mass = fem::lumped_mass(mesh, {&c.material, 1});
     sector = fem::assemble_sector(mesh, {&c.material, 1});
-    harmonics = std::make_unique<statics::RollingHarmonics>(
-        statics::RollingBody{.stiffness = sector,
-                             .mass = mass,
-                             .reference = mesh.coordinates,
-                             .candidates = candidates(),
-                             .spin = -c.motion.angular_velocity.at(0.0),
-                             .mass_damping = c.alpha,
-                             .stiffness_damping = c.beta,
-                             .samples = samples,
-                             .massless = massless,
-                             .gravity = c.motion.gravity.at(0.0)});
+    harmonics = std::make_unique<statics::RollingHarmonics<2>>(
+        statics::RollingBody<2>{.stiffness = sector,
+                                .mass = mass,
+                                .reference = mesh.coordinates,
+                                .candidates = candidates(),
+                                .spin = -c.motion.angular_velocity.at(0.0),
+                                .mass_damping = c.alpha,
+                                .stiffness_damping = c.beta,
+                                .samples = samples,
+                                .massless = massless});
+    gravity = c.motion.gravity.at(0.0);
   }
   SteadyBody(const SteadyBody&) = delete;
   SteadyBody& operator=(const SteadyBody&) = delete;
 
-  [[nodiscard]] statics::RollingWindow window(statics::SlipDifference slip) const {
-    return {*harmonics, slip};
+  [[nodiscard]] statics::RollingWindow<2> window(statics::SlipDifference slip) const {
+    return {*harmonics, slip, 0.0, gravity};
   }
 
   mesh::Mesh mesh;
   std::vector<double> mass;
   fem::SectorStiffness sector;
-  std::unique_ptr<statics::RollingHarmonics> harmonics;
+  std::unique_ptr<statics::RollingHarmonics<2>> harmonics;
+  double gravity = 0.0;  ///< downwards [m/s²]
 
  private:
   /// Rows of the sector whose nodes may touch.
@@ -63,7 +64,7 @@ struct SteadyBounds {
 constexpr SteadyBounds finest_bounds{1e-9, 1e-11};  ///< 7,000 columns and more
 
 /// Solved, and judged by the law and by where the power goes.
-inline statics::RollingSolution solved(statics::RollingWindow& window,
+inline statics::RollingSolution solved(statics::RollingWindow<2>& window,
                                        const statics::RollingDrive& drive,
                                        SteadyBounds bounds = {}) {
   statics::RollingSolution s = solve_rolling(window, drive);

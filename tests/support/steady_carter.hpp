@@ -28,7 +28,7 @@ class SteadyCarter {
  public:
   SteadyCarter(int radial, int columns, statics::SlipDifference slip, SteadyBounds bounds = {})
       : body_(carter_case(radial, columns), 1, true), window_(body_.window(slip)), bounds_(bounds) {
-    load_ = solved(window_, drive_, bounds_).forces.y;
+    load_ = solved(window_, drive_, bounds_).forces.normal;
     rolling_ = at(0.0);
   }
 
@@ -54,7 +54,7 @@ class SteadyCarter {
   /// Q, P and the shear that is spared, as of a run.
   [[nodiscard]] CarterMeans means(const statics::RollingSolution& s) const {
     CarterMeans m;
-    m.load = {s.forces.x, s.forces.y};
+    m.load = {s.forces.heading, s.forces.normal};
     std::vector<CarterSample> samples;
     const Vec2 node = body_.mesh.coordinates[body_.sector.node(body_.sector.n_local() - 1, 0)];
     for (std::size_t j = 0; j < window_.pairs().size(); ++j) {
@@ -69,7 +69,7 @@ class SteadyCarter {
 
  private:
   SteadyBody body_;
-  statics::RollingWindow window_;
+  statics::RollingWindow<2> window_;
   SteadyBounds bounds_;
   statics::RollingDrive drive_{.height = CarterDisk::radius - CarterDisk::depth,
                                .speed = CarterDisk::speed,

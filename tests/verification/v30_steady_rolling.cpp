@@ -40,42 +40,42 @@ RollingDrive at_load(double friction) {
 
 TEST(SteadyRolling, OneSampleAPassByUpwindSlip) {
   const Body b(12, 180, 1, false);
-  RollingWindow w = b.window(SlipDifference::upwind);
+  RollingWindow<2> w = b.window(SlipDifference::upwind);
   RollingSolution s = solved(w, at_height(0.0));
-  EXPECT_NEAR(s.forces.y, 190046.0, 0.5);
+  EXPECT_NEAR(s.forces.normal, 190046.0, 0.5);
   s = solved(w, at_height(0.2));
-  EXPECT_NEAR(s.forces.x, -17168.3740, 1e-4);
-  EXPECT_NEAR(s.forces.y, 190225.6134, 1e-4);
+  EXPECT_NEAR(s.forces.heading, -17168.3740, 1e-4);
+  EXPECT_NEAR(s.forces.normal, 190225.6134, 1e-4);
   EXPECT_NEAR(s.forces.torque, -4945.3519, 1e-4);
   const RollingPower power = rolling_power(w, s, spectrum_of(w, s));
   EXPECT_NEAR(power.mass, 1686.0940, 1e-4);
   EXPECT_NEAR(power.stiffness, 1241.4889, 1e-4);
   s = solved(w, at_height(0.4));
-  EXPECT_NEAR(s.forces.x, -20679.3489, 1e-4);
-  EXPECT_NEAR(s.forces.y, 190341.4171, 1e-4);
+  EXPECT_NEAR(s.forces.heading, -20679.3489, 1e-4);
+  EXPECT_NEAR(s.forces.normal, 190341.4171, 1e-4);
   EXPECT_NEAR(s.forces.torque, -5987.5264, 1e-4);
   s = solved(w, at_height(0.6));
-  EXPECT_NEAR(s.forces.x, -21788.0, 0.5);
-  EXPECT_NEAR(s.forces.y, 190428.0, 0.5);
+  EXPECT_NEAR(s.forces.heading, -21788.0, 0.5);
+  EXPECT_NEAR(s.forces.normal, 190428.0, 0.5);
 }
 
 TEST(SteadyRolling, ManySamplesWithoutMassOnTheContactNodes) {
   const Body b(12, 180, 32, true);
-  RollingWindow w = b.window(SlipDifference::bdf2);
+  RollingWindow<2> w = b.window(SlipDifference::bdf2);
   const double expected[][3] = {{0.0, 0.0, 189676.0},
                                 {0.2, -18294.0, 189915.0},
                                 {0.4, -22044.0, 190098.0},
                                 {0.6, -23293.0, 190234.0}};
   for (const auto& [friction, x, y] : expected) {
     const RollingSolution s = solved(w, at_height(friction));
-    EXPECT_NEAR(s.forces.x, x, 0.6) << friction;
-    EXPECT_NEAR(s.forces.y, y, 0.6) << friction;
+    EXPECT_NEAR(s.forces.heading, x, 0.6) << friction;
+    EXPECT_NEAR(s.forces.normal, y, 0.6) << friction;
   }
 }
 
 TEST(SteadyRolling, TheSlipOfEightSamplesMissesLittleOfThePowerOfFriction) {
   const Body b(12, 180, 8, true);
-  RollingWindow w = b.window(SlipDifference::bdf2);
+  RollingWindow<2> w = b.window(SlipDifference::bdf2);
   for (const auto& [friction, share] : {std::pair{0.2, 0.0015}, {0.4, 0.0013}, {0.6, 0.0026}}) {
     const RollingSolution s = solved(w, at_height(friction));
     const RollingPower power = rolling_power(w, s, spectrum_of(w, s));
@@ -85,11 +85,11 @@ TEST(SteadyRolling, TheSlipOfEightSamplesMissesLittleOfThePowerOfFriction) {
 
 TEST(SteadyRolling, LoadTractionAndTorqueAreGivenBack) {
   const Body b(12, 180, 1, false);
-  RollingWindow w = b.window(SlipDifference::upwind);
+  RollingWindow<2> w = b.window(SlipDifference::upwind);
   RollingDrive d = at_load(0.4);
   RollingSolution s = solved(w, d);
-  EXPECT_NEAR(s.forces.y, 1.9e5, 1e-10 * 1.9e5);
-  EXPECT_NEAR(s.forces.x, -20648.231, 1e-3);
+  EXPECT_NEAR(s.forces.normal, 1.9e5, 1e-10 * 1.9e5);
+  EXPECT_NEAR(s.forces.heading, -20648.231, 1e-3);
   EXPECT_NEAR(s.forces.torque, -5977.9448, 1e-4);
   EXPECT_NEAR(s.height, 0.290013761, 1e-9);
   const RollingSolution back = solved(w, {.height = s.height,
@@ -98,21 +98,21 @@ TEST(SteadyRolling, LoadTractionAndTorqueAreGivenBack) {
                                           .load = {},
                                           .traction = {},
                                           .torque = {}});
-  EXPECT_NEAR(back.forces.y, 1.9e5, 1e-6);
+  EXPECT_NEAR(back.forces.normal, 1.9e5, 1e-6);
   d.torque = 0.0;
   s = solved(w, d);
   EXPECT_NEAR(s.forces.torque, 0.0, 1e-6);
-  EXPECT_NEAR(s.forces.x, -296.0, 0.5);  // rolling resistance
+  EXPECT_NEAR(s.forces.heading, -296.0, 0.5);  // rolling resistance
   d.torque.reset();
   d.traction = -5000.0;
   s = solved(w, d);
-  EXPECT_NEAR(s.forces.x, -5000.0, 1e-6);
+  EXPECT_NEAR(s.forces.heading, -5000.0, 1e-6);
 }
 
 namespace {
 
 /// Largest difference of the slopes from central differences, relative to the largest of a kind.
-void expect_slopes(RollingWindow& w, const RollingDrive& base, RollingSlope slope,
+void expect_slopes(RollingWindow<2>& w, const RollingDrive& base, RollingSlope slope,
                    const std::function<void(RollingDrive&, double)>& change, double by,
                    double bound) {
   RollingDrive more = base, less = base;
@@ -123,8 +123,8 @@ void expect_slopes(RollingWindow& w, const RollingDrive& base, RollingSlope slop
     const double difference = (x - y) / (2.0 * by);
     EXPECT_NEAR(value, difference, bound * std::max(std::abs(value), size / by));
   };
-  near(slope.forces.x, a.forces.x, c.forces.x, 1e-3);  // 5e-15 of the forces
-  near(slope.forces.y, a.forces.y, c.forces.y, 1e-3);
+  near(slope.forces.heading, a.forces.heading, c.forces.heading, 1e-3);  // 5e-15 of the forces
+  near(slope.forces.normal, a.forces.normal, c.forces.normal, 1e-3);
   near(slope.forces.torque, a.forces.torque, c.forces.torque, 1e-3);
   near(slope.height, a.height, c.height, 1e-10);
   near(slope.speed, a.speed, c.speed, 1e-8);
@@ -138,7 +138,7 @@ TEST(SteadyRolling, SlopesAreThoseOfDifferences) {
     SCOPED_TRACE(samples);
     const double bound = allowed;  // clang takes no names of a pair into a lambda
     const Body b(12, 180, samples, samples > 1);
-    RollingWindow w = b.window(samples > 1 ? SlipDifference::bdf2 : SlipDifference::upwind);
+    RollingWindow<2> w = b.window(samples > 1 ? SlipDifference::bdf2 : SlipDifference::upwind);
     RollingDrive torque = at_load(0.4), traction = at_load(0.4), both = at_height(0.4);
     torque.torque = both.torque = -1000.0;
     traction.traction = -5000.0;
@@ -173,7 +173,7 @@ TEST(SteadyRolling, SlopesCountTheTorqueOfTheWeight) {
   test::DiskCase c = Body::disk(12, 180, -33.333333);
   c.motion.gravity = dynamics::Table(100.0);
   const test::SteadyBody b(c, 1, false);
-  RollingWindow w = b.window(SlipDifference::upwind);
+  RollingWindow<2> w = b.window(SlipDifference::upwind);
   RollingDrive d = at_load(0.4);
   d.torque = -3000.0;
   const RollingSolution s = solved(w, d);
@@ -198,7 +198,7 @@ int solve_random_cases(int samples, int bodies, int drives) {
     const int columns = 12 * radial + static_cast<int>(30 * unit(random));
     const double spin = (unit(random) < 0.5 ? -1.0 : 1.0) * (5.0 + 55.0 * unit(random));
     const Body b(radial, columns, samples, samples > 1, spin);
-    RollingWindow w = b.window(samples > 1 ? SlipDifference::bdf2 : SlipDifference::upwind);
+    RollingWindow<2> w = b.window(samples > 1 ? SlipDifference::bdf2 : SlipDifference::upwind);
     for (int k = 0; k < drives; ++k) {
       const double slip = 2.0 * unit(random) - 1.0;
       RollingDrive d = at_height(2.0 * unit(random));
@@ -207,7 +207,7 @@ int solve_random_cases(int samples, int bodies, int drives) {
       const RollingSolution s = solve_rolling(w, d);
       EXPECT_EQ(s.end, RollingEnd::solved) << n << ' ' << k << " residual " << s.residual;
       EXPECT_LT(s.residual, 1e-10);
-      pivoted += s.pivots > 0 ? 1 : 0;
+      pivoted += s.effort.pivots > 0 ? 1 : 0;
     }
   }
   return pivoted;

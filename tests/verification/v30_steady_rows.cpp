@@ -31,7 +31,7 @@ RollingDrive freely_at(double spin, double friction) {
 }
 
 /// Force of the ground at each of the P places of a pass.
-std::vector<Vec2> over_a_pass(const RollingWindow& w, const RollingSolution& s) {
+std::vector<Vec2> over_a_pass(const RollingWindow<2>& w, const RollingSolution& s) {
   const int samples = w.harmonics().body().samples;
   std::vector<Vec2> force(static_cast<std::size_t>(samples));
   for (std::size_t j = 0; j < w.pairs().size(); ++j) {
@@ -58,9 +58,9 @@ TEST(SteadyRollingRows, LoadGrowsWithSpeed) {
   for (const auto& [speed, load] :
        {std::pair{30.0, 206585.0}, {40.0, 220940.0}, {50.0, 239321.0}}) {
     const test::SteadyBody b(rolling_at(speed / 0.3), 4, true);
-    RollingWindow w = b.window(SlipDifference::upwind);
+    RollingWindow<2> w = b.window(SlipDifference::upwind);
     const RollingSolution s = test::solved(w, freely_at(speed / 0.3, 0.4));
-    EXPECT_NEAR(s.forces.y, load, 0.6) << speed;
+    EXPECT_NEAR(s.forces.normal, load, 0.6) << speed;
   }
 }
 
@@ -74,10 +74,10 @@ TEST(SteadyRollingRows, FineMesh) {
   };
   for (const Row& row : {Row{0.0, 0.0, 189819.0}, Row{0.2, -21276.0, 189959.0},
                          Row{0.4, -24898.0, 190093.0}, Row{0.6, -26056.0, 190187.0}}) {
-    RollingWindow w = b.window(SlipDifference::upwind);
+    RollingWindow<2> w = b.window(SlipDifference::upwind);
     const RollingSolution s = test::solved(w, test::at_height(row.friction));
-    EXPECT_NEAR(s.forces.x, row.x, 0.6) << row.friction;
-    EXPECT_NEAR(s.forces.y, row.y, 0.6) << row.friction;
+    EXPECT_NEAR(s.forces.heading, row.x, 0.6) << row.friction;
+    EXPECT_NEAR(s.forces.normal, row.y, 0.6) << row.friction;
   }
 }
 
@@ -90,10 +90,10 @@ TEST(SteadyRollingRows, Tread) {
   };
   for (const Row& row :
        {Row{0.0, 0.0, 170467.0}, Row{0.3, -19750.0, 172272.0}, Row{0.6, -20871.0, 173815.0}}) {
-    RollingWindow w = b.window(SlipDifference::bdf2);
+    RollingWindow<2> w = b.window(SlipDifference::bdf2);
     const RollingSolution s = test::solved(w, test::at_height(row.friction));
-    EXPECT_NEAR(s.forces.x, row.x, 0.6) << row.friction;
-    EXPECT_NEAR(s.forces.y, row.y, 0.6) << row.friction;
+    EXPECT_NEAR(s.forces.heading, row.x, 0.6) << row.friction;
+    EXPECT_NEAR(s.forces.normal, row.y, 0.6) << row.friction;
     const Vec2 d = deviation(over_a_pass(w, s));
     if (row.friction == 0.3) {
       EXPECT_NEAR(d.x, 467.0, 0.6);
@@ -105,13 +105,13 @@ TEST(SteadyRollingRows, Tread) {
 TEST(SteadyRollingRows, RollingResistanceWithoutTorque) {
   const test::SteadyBody b(rolling_at(33.333333), 1, false);
   for (const auto& [friction, traction] : {std::pair{0.2, -298.0}, {0.4, -296.0}}) {
-    RollingWindow w = b.window(SlipDifference::upwind);
+    RollingWindow<2> w = b.window(SlipDifference::upwind);
     RollingDrive d = test::at_height(friction);
     d.load = 1.9e5;
     d.torque = 0.0;
     const RollingSolution s = test::solved(w, d);
-    EXPECT_NEAR(s.forces.x, traction, 0.6) << friction;
-    EXPECT_NEAR(s.forces.y, 1.9e5, 1e-10 * 1.9e5);
+    EXPECT_NEAR(s.forces.heading, traction, 0.6) << friction;
+    EXPECT_NEAR(s.forces.normal, 1.9e5, 1e-10 * 1.9e5);
     EXPECT_NEAR(s.forces.torque, 0.0, 1e-10 * 0.3 * 1.9e5);
   }
 }
@@ -124,10 +124,11 @@ Vec2 moved_by_half_a_sample(int samples, bool massless, SlipDifference slip, dou
   for (const int turned : {0, 1}) {
     const double angle = turned * std::numbers::pi / (180.0 * samples);
     const test::SteadyBody b(rolling_at(33.333333), samples, massless, angle);
-    RollingWindow w = b.window(slip);
+    RollingWindow<2> w = b.window(slip);
     force[turned] = test::solved(w, test::at_height(friction)).forces;
   }
-  return {(force[1].x - force[0].x) / force[0].y, force[1].y / force[0].y - 1.0};
+  return {(force[1].heading - force[0].heading) / force[0].normal,
+          force[1].normal / force[0].normal - 1.0};
 }
 
 }  // namespace
@@ -148,7 +149,7 @@ TEST(SteadyRollingRows, WhereTheSamplesSitDoesNotMatterWithEight) {
 TEST(SteadyRollingRows, MassOnContactNodesFailsAndSaysSo) {
   for (const bool massless : {false, true}) {
     const test::SteadyBody b(rolling_at(100.0), 4, massless);
-    RollingWindow w = b.window(SlipDifference::upwind);
+    RollingWindow<2> w = b.window(SlipDifference::upwind);
     const RollingSolution s = solve_rolling(w, freely_at(100.0, 0.6));
     EXPECT_EQ(s.end == RollingEnd::solved, massless);
     EXPECT_EQ(rolling_residual(w, s, 0.6) < 1e-9, massless);

@@ -49,7 +49,7 @@ Creep creep_of(const test::SteadyBody& b, double poissons_ratio, double friction
   for (int k = 0; k < 2; ++k) {
     const double a = sizes[k] * radius, plane = modulus / (1.0 - poissons_ratio * poissons_ratio);
     const double load = std::numbers::pi * plane * a * a / (4.0 * radius);
-    statics::RollingWindow w = b.window(statics::SlipDifference::upwind);
+    statics::RollingWindow<2> w = b.window(statics::SlipDifference::upwind);
     const statics::RollingDrive drive{.height = 0.0,
                                       .speed = speed,
                                       .friction = friction,

@@ -27,8 +27,8 @@ const test::SteadyWheel& box() {
   return wheel;
 }
 
-SolidRollingDrive cornering(double slip_angle, double friction = 0.3) {
-  SolidRollingDrive d;
+RollingDrive cornering(double slip_angle, double friction = 0.3) {
+  RollingDrive d;
   d.height = 0.29;
   d.speed = 10.0;
   d.slip_angle = slip_angle;
@@ -36,13 +36,13 @@ SolidRollingDrive cornering(double slip_angle, double friction = 0.3) {
   return d;
 }
 
-SolidRollingSolution cornered(double slip_angle, double camber = 0.0, double friction = 0.3) {
-  SolidWindow window(box().harmonics, SlipDifference::bdf2, camber);
+RollingSolution cornered(double slip_angle, double camber = 0.0, double friction = 0.3) {
+  RollingWindow<3> window(box().harmonics, SlipDifference::bdf2, camber);
   return solved(window, cornering(slip_angle, friction));
 }
 
-SolidRollingDrive slow(double friction) {
-  SolidRollingDrive d;
+RollingDrive slow(double friction) {
+  RollingDrive d;
   d.height = 0.298;
   d.speed = 0.3e-3;
   d.friction = friction;
@@ -59,8 +59,8 @@ constexpr double shear_modulus =
     2.0 * 5e6 / (2.0 * 1.45);  // on rigid ground twice that of the body
 
 /// Half axes by the second moments of the pressure, and its largest value.
-test::Ellipse footprint(const test::SteadyWheel& wheel, const SolidWindow& window,
-                        const SolidRollingSolution& s) {
+test::Ellipse footprint(const test::SteadyWheel& wheel, const RollingWindow<3>& window,
+                        const RollingSolution& s) {
   const std::vector<double> areas = wheel.areas();
   test::Ellipse e;
   double along = 0.0, across = 0.0, force = 0.0;
@@ -87,7 +87,7 @@ TEST(SteadyWheel, CornersAsItDoesInTime) {
                                  {4.0, 18226.0, -5183.0, -23.7},
                                  {12.0, 18273.0, -5463.0, -0.46}};
   for (const auto& [angle, load, lateral, moment] : transient) {
-    const SolidRollingSolution s = cornered(angle * degree);
+    const RollingSolution s = cornered(angle * degree);
     EXPECT_NEAR(s.forces.normal, load, 0.006 * load) << angle;
     EXPECT_NEAR(s.forces.lateral, lateral, 0.035 * 1579.0) << angle;
     EXPECT_NEAR(s.forces.aligning, moment, 0.05 * 29.9) << angle;
@@ -99,10 +99,10 @@ TEST(SteadyWheel, CornersAsItDoesInTimeOnAFinerMesh) {
   test::SteadyWheelCase c = test::box_wheel_case();
   c.wheel = test::box_wheel(6, 8, 180);
   const test::SteadyWheel wheel(c);
-  SolidWindow window(wheel.harmonics, SlipDifference::bdf2);
+  RollingWindow<3> window(wheel.harmonics, SlipDifference::bdf2);
   const double transient[][4] = {{1.0, 17573.0, -1513.0, -24.0}, {4.0, 17971.0, -5080.0, -21.0}};
   for (const auto& [angle, load, lateral, moment] : transient) {
-    const SolidRollingSolution s = solved(window, cornering(angle * degree));
+    const RollingSolution s = solved(window, cornering(angle * degree));
     EXPECT_NEAR(s.forces.normal, load, 0.001 * load) << angle;
     EXPECT_NEAR(s.forces.lateral, lateral, 0.006 * 1513.0) << angle;
     EXPECT_NEAR(s.forces.aligning, moment, 0.02 * 24.0) << angle;
@@ -114,8 +114,8 @@ TEST(SteadyWheel, CornersAsItDoesInTimeOnAFinerMesh) {
 
 TEST(SteadyWheel, IsItsOwnMirrorImage) {
   for (const double angle : {0.25, 2.0, 12.0}) {
-    const SolidRollingSolution right = cornered(angle * degree, 3.0 * degree);
-    const SolidRollingSolution left = cornered(-angle * degree, -3.0 * degree);
+    const RollingSolution right = cornered(angle * degree, 3.0 * degree);
+    const RollingSolution left = cornered(-angle * degree, -3.0 * degree);
     const double force = 1e-10 * right.forces.normal;
     EXPECT_NEAR(right.forces.normal, left.forces.normal, force);
     EXPECT_NEAR(right.forces.heading, left.forces.heading, force);
@@ -127,7 +127,7 @@ TEST(SteadyWheel, IsItsOwnMirrorImage) {
 }
 
 TEST(SteadyWheel, WithoutFrictionHasNoShear) {
-  const SolidRollingSolution s = cornered(2.0 * degree, 4.0 * degree, 0.0);
+  const RollingSolution s = cornered(2.0 * degree, 4.0 * degree, 0.0);
   EXPECT_EQ(s.forces.heading, 0.0);
   EXPECT_EQ(s.forces.lateral, 0.0);
   EXPECT_NEAR(s.forces.aligning, 0.0, 1e-12 * s.forces.normal);
@@ -135,7 +135,7 @@ TEST(SteadyWheel, WithoutFrictionHasNoShear) {
 }
 
 TEST(SteadyWheel, IsLinearBelowHalfADegree) {
-  const SolidRollingSolution none = cornered(0.0);
+  const RollingSolution none = cornered(0.0);
   const double stiffness = -none.slopes.by_slip_angle.forces.lateral;
   EXPECT_NEAR(stiffness, 92e3, 0.05 * 92e3);
   for (const double angle : {0.25, 0.5})
@@ -144,10 +144,10 @@ TEST(SteadyWheel, IsLinearBelowHalfADegree) {
 }
 
 TEST(SteadyWheel, TractionTakesFromTheLateralForce) {
-  SolidWindow window(box().harmonics, SlipDifference::bdf2);
-  SolidRollingDrive d = cornering(3.0 * degree);
+  RollingWindow<3> window(box().harmonics, SlipDifference::bdf2);
+  RollingDrive d = cornering(3.0 * degree);
   d.speed = 10.0 / 1.06;
-  const SolidRollingSolution s = solved(window, d);
+  const RollingSolution s = solved(window, d);
   const double all = std::hypot(s.forces.heading, s.forces.lateral);
   EXPECT_NEAR(s.forces.heading, 4029.0, 0.03 * 4029.0);
   EXPECT_NEAR(s.forces.lateral, -3417.0, 0.04 * 3417.0);
@@ -156,14 +156,14 @@ TEST(SteadyWheel, TractionTakesFromTheLateralForce) {
 }
 
 TEST(SteadyWheel, CamberOfAFlatTreadPushesAwayFromTheLean) {
-  const SolidRollingSolution s = cornered(0.0, 4.0 * degree);
+  const RollingSolution s = cornered(0.0, 4.0 * degree);
   EXPECT_NEAR(s.forces.normal, 16879.0, 0.01 * 16879.0);
   EXPECT_NEAR(s.forces.lateral, 1465.0, 0.06 * 1465.0);
 }
 
 TEST(SteadyWheel, PressesAsHertzHasIt) {
-  SolidWindow window(sphere().harmonics, SlipDifference::bdf2);
-  const SolidRollingSolution s = solved(window, slow(0.0));
+  RollingWindow<3> window(sphere().harmonics, SlipDifference::bdf2);
+  const RollingSolution s = solved(window, slow(0.0));
   EXPECT_NEAR(s.forces.normal, 401.8, 0.002 * 401.8);
   const test::Ellipse theory = test::hertz(s.forces.normal, modulus, 0.3, 0.3);
   EXPECT_NEAR(theory.rolling, 24.34e-3, 0.01e-3);
@@ -175,10 +175,10 @@ TEST(SteadyWheel, PressesAsHertzHasIt) {
 }
 
 TEST(SteadyWheel, CreepsAsKalkersLinearTheory) {
-  SolidWindow window(sphere().harmonics, SlipDifference::upwind);
-  SolidRollingDrive d = slow(50.0);  // all sticks
+  RollingWindow<3> window(sphere().harmonics, SlipDifference::upwind);
+  RollingDrive d = slow(50.0);  // all sticks
   d.traction = 0.0;
-  const SolidRollingSolution rolling = solved(window, d);
+  const RollingSolution rolling = solved(window, d);
   const test::Ellipse e = test::hertz(rolling.forces.normal, modulus, 0.3, 0.3);
   const double area = e.rolling * e.across;
   const double c22 = test::at_poisson(0.45, 3.40, 3.67, 3.98);
@@ -187,7 +187,7 @@ TEST(SteadyWheel, CreepsAsKalkersLinearTheory) {
               0.06 * c22);
   d.traction.reset();
   d.speed = rolling.speed;
-  const SolidRollingSolution held = solved(window, d);
+  const RollingSolution held = solved(window, d);
   const double c11 = test::at_poisson(0.45, 3.40, 4.12, 5.20);
   EXPECT_NEAR(-held.slopes.by_speed.forces.heading * d.speed / (shear_modulus * area), c11,
               0.06 * c11);
@@ -201,10 +201,10 @@ TEST(SteadyWheel, CreepsAsKalkersLinearTheory) {
 // 106.7 kN, G 82 GPa, ν 0.28, μ 0.33. Creep over that of full sliding in Kalker's linear theory.
 TEST(SteadyWheel, PullsOverCreepAsContactHasIt) {
   const test::SteadyWheel wheel(test::crowned_case(0.865, 8, 24, 360, 1.2));
-  SolidWindow window(wheel.harmonics, SlipDifference::bdf2);
-  SolidRollingDrive d = slow(0.6);
+  RollingWindow<3> window(wheel.harmonics, SlipDifference::bdf2);
+  RollingDrive d = slow(0.6);
   d.traction = 0.0;
-  const SolidRollingSolution rolling = solved(window, d);
+  const RollingSolution rolling = solved(window, d);
   const test::Ellipse e = test::hertz(rolling.forces.normal, modulus, 0.3, 0.865);
   EXPECT_NEAR(e.rolling / e.across, 0.5, 0.01);
   const double area = e.rolling * e.across, c11 = test::at_poisson(0.45, 2.88, 3.62, 4.83);
@@ -218,7 +218,7 @@ TEST(SteadyWheel, PullsOverCreepAsContactHasIt) {
     double both = 0.0;  // driving and braking: rolling radii differ across a crowned tread
     for (const double sense : {1.0, -1.0}) {
       d.speed = rolling.speed * (1.0 + sense * 1e-4 * creep * theirs * scale);
-      const SolidRollingSolution s = solved(window, d);
+      const RollingSolution s = solved(window, d);
       both -= 0.5 * sense * s.forces.heading / (0.6 * s.forces.normal);
     }
     EXPECT_NEAR(both, pull, 0.02) << creep;
@@ -232,8 +232,8 @@ TEST(SteadyWheel, IsAsStiffAsAFlatTreadInTime) {
   c.material = test::box_rubber();
   c.spin = -1e-3 / 0.3;
   const test::SteadyWheel wheel(c);
-  SolidWindow window(wheel.harmonics, SlipDifference::bdf2);
-  SolidRollingDrive d = slow(0.0);
+  RollingWindow<3> window(wheel.harmonics, SlipDifference::bdf2);
+  RollingDrive d = slow(0.0);
   d.height = 0.292;
   d.speed = 1e-3;
   EXPECT_NEAR(solved(window, d).forces.normal, 12781.0, 0.5);

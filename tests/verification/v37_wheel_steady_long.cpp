@@ -19,16 +19,16 @@ namespace {
 constexpr double modulus = 5e6 / (1.0 - 0.45 * 0.45);
 constexpr double shear_modulus = 2.0 * 5e6 / (2.0 * 1.45);
 
-SolidRollingDrive slow(double friction) {
-  SolidRollingDrive d;
+RollingDrive slow(double friction) {
+  RollingDrive d;
   d.height = 0.298;
   d.speed = 0.3e-3;
   d.friction = friction;
   return d;
 }
 
-test::Ellipse footprint(const test::SteadyWheel& wheel, const SolidWindow& window,
-                        const SolidRollingSolution& s) {
+test::Ellipse footprint(const test::SteadyWheel& wheel, const RollingWindow<3>& window,
+                        const RollingSolution& s) {
   const std::vector<double> areas = wheel.areas();
   test::Ellipse e;
   double along = 0.0, across = 0.0;
@@ -53,8 +53,8 @@ TEST(SteadyWheelLong, PressesAsHertzHasItWhateverTheCrown) {
   for (const Row& row :
        {Row{0.3, 1.5, 401.8, 0.013}, Row{0.1, 1.7, 313.0, 0.038}, Row{0.9, 1.2, 535.5, 0.013}}) {
     const test::SteadyWheel wheel(test::crowned_case(row.crown, 10, 32, 720, row.grading));
-    SolidWindow window(wheel.harmonics, SlipDifference::bdf2);
-    const SolidRollingSolution s = solved(window, slow(0.0));
+    RollingWindow<3> window(wheel.harmonics, SlipDifference::bdf2);
+    const RollingSolution s = solved(window, slow(0.0));
     EXPECT_NEAR(s.forces.normal, row.force, 0.01 * row.force) << row.crown;
     const test::Ellipse e = test::hertz(s.forces.normal, modulus, 0.3, row.crown);
     const test::Ellipse found = footprint(wheel, window, s);
@@ -66,15 +66,15 @@ TEST(SteadyWheelLong, PressesAsHertzHasItWhateverTheCrown) {
 
 TEST(SteadyWheelLong, CreepsAsKalkersLinearTheory) {
   const test::SteadyWheel wheel(test::crowned_case(0.3, 8, 24, 720, 1.5));
-  SolidWindow window(wheel.harmonics, SlipDifference::upwind);
-  SolidRollingDrive d = slow(50.0);  // all sticks
+  RollingWindow<3> window(wheel.harmonics, SlipDifference::upwind);
+  RollingDrive d = slow(50.0);  // all sticks
   d.traction = 0.0;
-  const SolidRollingSolution rolling = solved(window, d);
+  const RollingSolution rolling = solved(window, d);
   const test::Ellipse e = test::hertz(rolling.forces.normal, modulus, 0.3, 0.3);
   const double area = e.rolling * e.across;
   const double c22 = test::at_poisson(0.45, 3.40, 3.67, 3.98);
   const double c23 = test::at_poisson(0.45, 1.33, 1.47, 1.63);
-  const SolidRollingForces& by_angle = rolling.slopes.by_slip_angle.forces;
+  const RollingForces& by_angle = rolling.slopes.by_slip_angle.forces;
   EXPECT_NEAR(-by_angle.lateral / (shear_modulus * area), c22, 0.06 * c22);
   EXPECT_NEAR(-by_angle.aligning / (shear_modulus * std::pow(area, 1.5)), c23, 0.06 * c23);
   d.traction.reset();

@@ -46,8 +46,8 @@ Eigen::MatrixXcd full_matrix(const test::SteadyWheel& w, const RollingOrder& o) 
   return z;
 }
 
-SolidRollingDrive drive() {
-  SolidRollingDrive d;
+RollingDrive drive() {
+  RollingDrive d;
   d.height = 0.29;
   d.speed = 10.0;
   d.slip_angle = 0.03;
@@ -55,11 +55,11 @@ SolidRollingDrive drive() {
   return d;
 }
 
-SolidWindow cambered(const test::SteadyWheel& w, double gravity = 0.0) {
+RollingWindow<3> cambered(const test::SteadyWheel& w, double gravity = 0.0) {
   return {w.harmonics, SlipDifference::bdf2, 0.05, gravity};
 }
 
-void expect_near(const SolidRollingForces& a, const SolidRollingForces& b, double bound) {
+void expect_near(const RollingForces& a, const RollingForces& b, double bound) {
   EXPECT_NEAR(a.normal, b.normal, bound);
   EXPECT_NEAR(a.heading, b.heading, bound);
   EXPECT_NEAR(a.lateral, b.lateral, bound);
@@ -68,7 +68,7 @@ void expect_near(const SolidRollingForces& a, const SolidRollingForces& b, doubl
   EXPECT_NEAR(a.overturning, b.overturning, bound);
 }
 
-SolidRollingForces difference(const SolidRollingForces& a, const SolidRollingForces& b, double by) {
+RollingForces difference(const RollingForces& a, const RollingForces& b, double by) {
   return {(a.normal - b.normal) / by,     (a.heading - b.heading) / by,
           (a.lateral - b.lateral) / by,   (a.torque - b.torque) / by,
           (a.aligning - b.aligning) / by, (a.overturning - b.overturning) / by};
@@ -79,34 +79,69 @@ SolidRollingForces difference(const SolidRollingForces& a, const SolidRollingFor
 TEST(SteadySolidLayers, EliminateAHarmonicAsItsFullMatrixDoes) {
   const test::SteadyWheel w(small_case());
   const RollingOrder o = order(-90.0, 0.5);
-  const auto layers = solid_layers(w.sector, w.harmonics.body().candidates, w.mass);
+  const auto layers = rolling_layers<3>(w.sector, w.harmonics.body().candidates, w.mass);
   EXPECT_EQ(layers.size(), 2U);
-  SolidElimination e(layers, o);
+  std::vector<std::complex<double>> transfers(transfer_size(layers));
+  const Eigen::MatrixXcd surface = eliminate(layers, o, std::span(transfers));
   const Eigen::MatrixXcd inverse = full_matrix(w, o).inverse();
-  const Eigen::Index n = inverse.rows(), last = e.surface().rows();
+  const Eigen::Index n = inverse.rows(), last = surface.rows();
   ASSERT_EQ(last, 12);  // the last rows are the tread's, in this order
-  EXPECT_LT((e.surface() - inverse.bottomRightCorner(last, last)).norm(), 1e-12 * inverse.norm());
-  const Eigen::VectorXcd force = Eigen::VectorXcd::Random(n), u = e.solve(force);
+  EXPECT_LT((surface - inverse.bottomRightCorner(last, last)).norm(), 1e-12 * inverse.norm());
+  const Eigen::VectorXcd force = Eigen::VectorXcd::Random(n), u = solve(layers, o, force);
   EXPECT_LT((u - inverse * force).norm(), 1e-12 * u.norm());
   Eigen::VectorXcd from_surface = Eigen::VectorXcd::Zero(n), load = from_surface;
   load.tail(last) = force.tail(last);
-  from_surface.tail(last) = e.surface() * load.tail(last);
-  follow(layers, e.transfers(), from_surface);
+  from_surface.tail(last) = surface * load.tail(last);
+  follow(layers, std::span<const std::complex<double>>(transfers), from_surface);
   EXPECT_LT((from_surface - inverse * load).norm(), 1e-12 * from_surface.norm());
+}
+
+/// Three pairs with any numbers, and the same with a third component that nothing acts on.
+TEST(SteadyRollingProblem, InSpaceWithoutALateralPartIsThatOfThePlane) {
+  constexpr Eigen::Index n = 3;
+  RollingProblem<2> plane;
+  plane.time = 1e-3;
+  plane.pass = 2.0;
+  plane.base = Eigen::VectorXd::Random(2 * n);
+  plane.matrix = Eigen::MatrixXd::Random(2 * n, 2 * n);
+  plane.base_place = Eigen::VectorXd::Random(n);
+  plane.matrix_place = Eigen::MatrixXd::Random(n, 2 * n);
+  plane.weight = Eigen::VectorXd::Random(2 * n);
+  RollingProblem<3> space;
+  space.time = plane.time;
+  space.pass = plane.pass;
+  space.base = Eigen::VectorXd::Zero(3 * n);
+  space.matrix = Eigen::MatrixXd::Zero(3 * n, 3 * n);
+  space.base_place = Eigen::VectorXd::Zero(2 * n);
+  space.matrix_place = Eigen::MatrixXd::Zero(2 * n, 3 * n);
+  space.weight = space.base;
+  const std::vector<Eigen::Index> in{0, 1, 3, 4, 6, 7}, places{0, 2, 4};
+  space.base(in) = plane.base;
+  space.matrix(in, in) = plane.matrix;
+  space.base_place(places) = plane.base_place;
+  space.matrix_place(places, in) = plane.matrix_place;
+  space.weight(in) = plane.weight;
+  const RollingPoint p{Eigen::VectorXd::Random(2 * n), 0.3, 10.0};
+  RollingPoint q{Eigen::VectorXd::Zero(3 * n), p.height, p.speed};
+  q.force(in) = p.force;
+  expect_near(forces_of(space, q), forces_of(plane, p), 1e-14);
+  EXPECT_LT((gaps_and_ways(space, q, 0.0)(in) - gaps_and_ways(plane, p, 0.0)).norm(), 1e-14);
+  const TorqueChange a = torque_change(space, q), b = torque_change(plane, p);
+  EXPECT_LT((a.row(in) - b.row).norm(), 1e-14);
+  EXPECT_NEAR(a.by_height, b.by_height, 1e-14);
 }
 
 TEST(SteadySolidHarmonics, AForceIsFeltAsItsSpectrumSays) {
   const test::SteadyWheel w(small_case());
-  const SolidHarmonics& h = w.harmonics;
+  const RollingHarmonics<3>& h = w.harmonics;
   Eigen::MatrixXd force =
       Eigen::MatrixXd::Zero(static_cast<Eigen::Index>(3 * h.n_candidates()), h.turn());
   force.block<3, 1>(3, 5) << 2.0, -1.0, 3.0;
-  const Eigen::MatrixXd u = h.fields(h.spectrum(force, {}), false);
+  const Eigen::MatrixXd u = h.fields(h.spectrum(force, {}), 0.0, false);
   for (const int sample : {5, 6, 4, 60})
     for (std::size_t a = 0; a < h.n_candidates(); ++a) {
-      const Vec3 rest = h.displacement(a, sample, {});
-      Eigen::Vector3d found = u.block<3, 1>(3 * h.body().candidates[a], sample);
-      found -= Eigen::Vector3d{rest.x, rest.y, rest.z};
+      const Eigen::Vector3d found =
+          u.block<3, 1>(3 * h.body().candidates[a], sample) - h.displacement(a, sample, {});
       const Eigen::Vector3d expected =
           h.compliance(a, 1, sample - 5) * Eigen::Vector3d{2.0, -1.0, 3.0};
       EXPECT_LT((found - expected).norm(), 1e-14 * u.norm());
@@ -115,26 +150,26 @@ TEST(SteadySolidHarmonics, AForceIsFeltAsItsSpectrumSays) {
 
 TEST(SteadySolid, SlopesAreThoseOfDifferences) {
   const test::SteadyWheel w(small_case());
-  SolidWindow window = cambered(w, 9.81);
-  const SolidRollingDrive d = drive();
-  const SolidRollingSolution s = solved(window, d);
-  const auto by = [&](double SolidRollingDrive::*what, double step) {
-    SolidRollingDrive more = d, less = d;
+  RollingWindow<3> window = cambered(w, 9.81);
+  const RollingDrive d = drive();
+  const RollingSolution s = solved(window, d);
+  const auto by = [&](double RollingDrive::*what, double step) {
+    RollingDrive more = d, less = d;
     more.*what += step;
     less.*what -= step;
     return difference(solved(window, more).forces, solved(window, less).forces, 2.0 * step);
   };
   const double size = s.forces.normal;
-  expect_near(s.slopes.by_height.forces, by(&SolidRollingDrive::height, 1e-8), 1e-3 * size);
-  expect_near(s.slopes.by_speed.forces, by(&SolidRollingDrive::speed, 1e-6), 1e-6 * size);
-  expect_near(s.slopes.by_slip_angle.forces, by(&SolidRollingDrive::slip_angle, 1e-7), 1e-5 * size);
-  expect_near(s.slopes.by_friction.forces, by(&SolidRollingDrive::friction, 1e-6), 1e-6 * size);
+  expect_near(s.slopes.by_height.forces, by(&RollingDrive::height, 1e-8), 1e-3 * size);
+  expect_near(s.slopes.by_speed.forces, by(&RollingDrive::speed, 1e-6), 1e-6 * size);
+  expect_near(s.slopes.by_slip_angle.forces, by(&RollingDrive::slip_angle, 1e-7), 1e-5 * size);
+  expect_near(s.slopes.by_friction.forces, by(&RollingDrive::friction, 1e-6), 1e-6 * size);
 }
 
 TEST(SteadySolid, MomentsAreThoseOfPlacesAndForces) {
   const test::SteadyWheel w(small_case());
-  SolidWindow window = cambered(w);
-  const SolidRollingSolution s = solved(window, drive());
+  RollingWindow<3> window = cambered(w);
+  const RollingSolution s = solved(window, drive());
   double aligning = 0.0, overturning = 0.0;
   for (Eigen::Index j = 0; 3 * j < s.force.size(); ++j) {
     aligning += s.place[2 * j + 1] * s.force[3 * j + 1] - s.place[2 * j] * s.force[3 * j + 2];
@@ -147,10 +182,10 @@ TEST(SteadySolid, MomentsAreThoseOfPlacesAndForces) {
 
 TEST(SteadySolid, TheSlipOfTheLawIsThatOfTheField) {
   const test::SteadyWheel w(test::box_wheel_case(4));
-  SolidWindow window = cambered(w);
-  SolidRollingDrive d = drive();
+  RollingWindow<3> window = cambered(w);
+  RollingDrive d = drive();
   d.slip_angle = 0.1;
-  const SolidRollingSolution s = solved(window, d);
+  const RollingSolution s = solved(window, d);
   const RollingPower power = rolling_power(window, s, spectrum_of(window, s));
   EXPECT_GT(power.friction, 1e3);
   EXPECT_LT(std::abs(power.scheme), 0.006 * power.friction);
@@ -158,13 +193,13 @@ TEST(SteadySolid, TheSlipOfTheLawIsThatOfTheField) {
 
 TEST(SteadySolid, LoadTractionAndTorqueComeBackToHeightAndSpeed) {
   const test::SteadyWheel w(small_case());
-  SolidWindow window = cambered(w, 9.81);
-  const SolidRollingDrive given = drive();
-  const SolidRollingSolution s = solved(window, given);
-  SolidRollingDrive d = given;
+  RollingWindow<3> window = cambered(w, 9.81);
+  const RollingDrive given = drive();
+  const RollingSolution s = solved(window, given);
+  RollingDrive d = given;
   d.load = s.forces.normal;
   d.height = 0.0;
-  SolidRollingSolution by = solved(window, d);
+  RollingSolution by = solved(window, d);
   EXPECT_NEAR(by.height, given.height, 1e-12);
   d.traction = s.forces.heading;
   d.speed = 10.2;
@@ -181,17 +216,17 @@ TEST(SteadySolid, LoadTractionAndTorqueComeBackToHeightAndSpeed) {
 
 TEST(SteadySolid, SlopesUnderLoadAndTorqueHaveItsRow) {
   const test::SteadyWheel w(small_case());
-  SolidWindow window = cambered(w);
-  SolidRollingDrive d = drive();
+  RollingWindow<3> window = cambered(w);
+  RollingDrive d = drive();
   d.load = 18000.0;
   d.torque = 20.0;
-  const SolidRollingSolution s = solved(window, d);
+  const RollingSolution s = solved(window, d);
   const double step = 1e-2;
-  SolidRollingDrive more = d, less = d;
+  RollingDrive more = d, less = d;
   *more.torque += step;
   *less.torque -= step;
-  const SolidRollingSolution high = solved(window, more), low = solved(window, less);
-  const SolidRollingSlope& slope = s.slopes.by_speed;
+  const RollingSolution high = solved(window, more), low = solved(window, less);
+  const RollingSlope& slope = s.slopes.by_speed;
   EXPECT_NEAR(slope.forces.torque, 1.0, 1e-9);
   EXPECT_NEAR(slope.forces.normal, 0.0, 1e-7);
   EXPECT_NEAR(slope.speed, (high.speed - low.speed) / (2 * step), 1e-6 * std::abs(slope.speed));
@@ -203,15 +238,15 @@ TEST(SteadySolid, HasTheSameBitsWithMoreThreads) {
   const test::SteadyWheel one(c);
   c.threads = 3;
   const test::SteadyWheel three(c);
-  SolidWindow a = cambered(one), b = cambered(three);
-  const SolidRollingSolution x = solved(a, drive()), y = solved(b, drive());
+  RollingWindow<3> a = cambered(one), b = cambered(three);
+  const RollingSolution x = solved(a, drive()), y = solved(b, drive());
   EXPECT_EQ(x.force, y.force);
 }
 
 TEST(SteadySolid, SaysWhereNothingTouchesOrAllSlides) {
   const test::SteadyWheel w(small_case());
-  SolidWindow window(w.harmonics, SlipDifference::bdf2);
-  SolidRollingDrive d = drive();
+  RollingWindow<3> window(w.harmonics, SlipDifference::bdf2);
+  RollingDrive d = drive();
   d.height = 0.302;
   EXPECT_EQ(solve_rolling(window, d).end, RollingEnd::no_contact);
   d = drive();
@@ -222,15 +257,15 @@ TEST(SteadySolid, SaysWhereNothingTouchesOrAllSlides) {
 
 TEST(SteadySolid, ResidualKnowsAWrongForce) {
   const test::SteadyWheel w(small_case());
-  SolidWindow window = cambered(w);
-  const SolidRollingDrive d = drive();
-  const SolidRollingSolution s = solved(window, d);
-  SolidRollingPoint p{s.force, s.height, s.speed};
-  EXPECT_LE(solid_residual(window.problem(), d.slip_angle, p, d.friction), 1e-10);
+  RollingWindow<3> window = cambered(w);
+  const RollingDrive d = drive();
+  const RollingSolution s = solved(window, d);
+  RollingPoint p{s.force, s.height, s.speed};
+  EXPECT_LE(rolling_residual(window.problem(), p, d.slip_angle, d.friction), 1e-10);
   Eigen::Index largest = 0;
   p.force.cwiseAbs().maxCoeff(&largest);
   p.force[largest] *= 1.0 + 1e-6;
-  EXPECT_GT(solid_residual(window.problem(), d.slip_angle, p, d.friction), 1e-8);
+  EXPECT_GT(rolling_residual(window.problem(), p, d.slip_angle, d.friction), 1e-8);
 }
 
 }  // namespace steady_solid_test

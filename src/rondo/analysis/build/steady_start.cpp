@@ -13,7 +13,7 @@
 namespace rondo::study {
 namespace {
 
-using statics::RollingHarmonics;
+using RollingHarmonics = statics::RollingHarmonics<2>;
 
 /// Of a column's pass: as rough as a run, whose nodes come down one by one.
 constexpr int samples_of_a_column = 4;
@@ -39,7 +39,6 @@ RollingHarmonics harmonics_of(const Case& c, const Setup& s) {
                            .stiffness_damping = m.stiffness_damping,
                            .samples = samples_of(c.disk),
                            .massless = true,
-                           .gravity = m.motion.gravity.at(0.0),
                            .load = sector_load(m, *m.sector)});
 }
 
@@ -58,7 +57,7 @@ void refuse(const Case& c, const statics::RollingSolution& found, double height)
                      fmt::format("no steady rolling was found to start in: residual {:.3g}, bound "
                                  "{:.0e}, after {} Newton steps and {} pivots",
                                  found.residual, statics::rolling_residual_bound,
-                                 found.newton_steps, found.pivots),
+                                 found.effort.newton_steps, found.effort.pivots),
                      "a smaller ground.friction, another motion.height; or \"stationary\" and a "
                      "run long enough to settle");
 }
@@ -100,7 +99,8 @@ void hold_down(double radius, Setup& s) {
 
 }  // namespace
 
-std::vector<int> candidate_rows(const mesh::Mesh& mesh, const fem::SectorStiffness& sector) {
+template <int C>
+std::vector<int> candidate_rows(const mesh::Mesh& mesh, const fem::SectorBlocks<C>& sector) {
   std::vector<char> touches(mesh.n_nodes(), 0);
   for (const int node : mesh.boundary) touches[static_cast<std::size_t>(node)] = 1;
   std::vector<int> rows;
@@ -108,6 +108,8 @@ std::vector<int> candidate_rows(const mesh::Mesh& mesh, const fem::SectorStiffne
     if (touches[sector.node(a, 0)] != 0) rows.push_back(static_cast<int>(a));
   return rows;
 }
+template std::vector<int> candidate_rows(const mesh::Mesh&, const fem::SectorBlocks<2>&);
+template std::vector<int> candidate_rows(const mesh::Mesh&, const fem::SectorBlocks<3>&);
 
 std::vector<Vec2> sector_load(const dynamics::Model& model, const fem::SectorStiffness& sector) {
   if (model.pressures.empty()) return {};
@@ -123,7 +125,8 @@ std::vector<Vec2> sector_load(const dynamics::Model& model, const fem::SectorSti
 void set_steady_rolling(const Case& c, Setup& s) {
   const dynamics::Model& m = s.model;
   const RollingHarmonics harmonics = harmonics_of(c, s);
-  statics::RollingWindow window(harmonics, statics::SlipDifference::bdf2);
+  statics::RollingWindow<2> window(harmonics, statics::SlipDifference::bdf2, 0.0,
+                                   m.motion.gravity.at(0.0));
   const double floor = flat_ground_below(c).value();
   statics::RollingDrive drive;
   drive.height = m.motion.height.at(0.0) - floor;
@@ -131,15 +134,15 @@ void set_steady_rolling(const Case& c, Setup& s) {
   drive.friction = c.ground->friction;
   const statics::RollingSolution found = solve_rolling(window, drive);
   refuse(c, found, drive.height);
-  const RollingHarmonics::Block spectrum = spectrum_of(window, found);
+  const Eigen::MatrixXcd spectrum = spectrum_of(window, found);
   const double spin = spin_of(m), half = 0.5 * spin * m.dt;
   s.displacement = nodal(s, harmonics.fields(spectrum, 0.0, false), 1.0);
   s.velocity = nodal(s, harmonics.fields(spectrum, 0.0, true), spin);
   s.half_velocity = nodal(s, harmonics.fields(spectrum, half, true), spin);
   hold_down(c.disk.outer_radius, s);
   s.figures.emplace_back(
-      "start", fmt::format("steady rolling: F_x {:.6g}, F_y {:.6g} N/m, T {:.6g} N", found.forces.x,
-                           found.forces.y, found.forces.torque));
+      "start", fmt::format("steady rolling: F_x {:.6g}, F_y {:.6g} N/m, T {:.6g} N",
+                           found.forces.heading, found.forces.normal, found.forces.torque));
 }
 
 }  // namespace rondo::study

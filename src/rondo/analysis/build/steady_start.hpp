@@ -13,8 +13,9 @@ namespace rondo::study {
 void set_steady_rolling(const Case& c, Setup& s);
 
 /// Rows of a sector whose nodes may touch the ground.
+template <int C>
 [[nodiscard]] std::vector<int> candidate_rows(const mesh::Mesh& mesh,
-                                              const fem::SectorStiffness& sector);
+                                              const fem::SectorBlocks<C>& sector);
 
 /// (n_local) What the pressures at t = 0 do to the rows of every sector, in its frame; empty: there
 /// are none. @pre they are the same on all sectors                                        [N/m]

@@ -6,8 +6,11 @@
 #include <cmath>
 
 #include "rondo/analysis/build/memory.hpp"
+#include "rondo/analysis/build/solid/solid_body.hpp"
 #include "rondo/analysis/build/steady_start.hpp"
+#include "rondo/fem/solid/solid_sector.hpp"
 #include "rondo/modal/critical_speeds.hpp"
+#include "rondo/modal/solid_critical_spin.hpp"
 #include "rondo/statics/stationary_spin.hpp"
 
 namespace rondo::study {
@@ -16,7 +19,7 @@ namespace {
 using Clock = std::chrono::steady_clock;
 
 /// K := K + K_σ of the stress of the spin.
-void add_stress_stiffening(const Case& c, SteadyBody& b) {
+void add_stress_stiffening(const Case& c, SteadyBody<2>& b) {
   if (c.stress_stiffening == StressStiffening::none) return;
   const auto found =
       statics::centrifugal_prestress(b.sector, b.mass, b.mesh.coordinates, spin_of(c));
@@ -28,7 +31,7 @@ void add_stress_stiffening(const Case& c, SteadyBody& b) {
   b.sector = fem::assemble_sector(b.mesh, b.materials, found.u);
 }
 
-void warn_of_critical_spin(const Case& c, SteadyBody& b) {
+void warn_of_critical_spin(const Case& c, SteadyBody<2>& b) {
   const double spin = std::abs(spin_of(c));
   const auto found = modal::critical_speeds_up_to({b.sector, b.mass, b.mesh.coordinates}, spin);
   if (found.empty()) return;
@@ -37,58 +40,116 @@ void warn_of_critical_spin(const Case& c, SteadyBody& b) {
   b.warnings.push_back(above_critical_spin(c, *lowest));
 }
 
+void warn_of_critical_spin(const Case& c, SteadyBody<3>& b) {
+  const auto lowest = modal::lowest_critical_spin(b.sector, b.mass, spin_of(c));
+  if (lowest) b.warnings.push_back(above_critical_spin(c, *lowest));
+}
+
 /// (n_local) in the frame of the sector: the curves of a disk are the same in all.
-std::vector<Vec2> load_of(const Case& c, const SteadyBody& b) {
+std::vector<Vec2> load_of(const Case& c, const SteadyBody<2>& b) {
   dynamics::Model model;
   model.reference = b.mesh.coordinates;
   add_pressures(c, b.mesh, model);
   return sector_load(model, b.sector);
 }
 
-}  // namespace
-
-std::size_t SteadyBody::memory(const Case& c) const {
-  const auto samples = static_cast<std::size_t>(c.analysis.samples_per_sector);
-  const auto sectors = static_cast<std::size_t>(mesh.n_sectors);
-  const std::size_t candidates = mesh.boundary.size() / sectors;
-  const std::size_t turn = samples * sectors;
-  constexpr std::size_t copies = 5;  // history, its spectra, the last layer, two kernels
-  const std::size_t compliance = copies * 4 * candidates * candidates * turn;
-  // Fields, rates, spectrum; how a layer follows the next; half a sector's pass touches at most.
-  const std::size_t layer = 2 * candidates;
-  const std::size_t fields = (4 + layer) * 2 * mesh.n_nodes() * samples;
-  const std::size_t pairs = turn * candidates / 8;
-  return mesh_memory(mesh.n_nodes()) + (compliance + fields + 10 * pairs * pairs) * sizeof(double);
+std::vector<Vec3> load_of(const Case& c, const SteadyBody<3>& b) {
+  if (c.pressures.empty()) return {};
+  dynamics::SolidBody body;
+  body.sector = b.sector;
+  add_solid_pressures(c, b.mesh, body);
+  std::vector<Vec3> load(b.sector.n_local());
+  for (const dynamics::SolidPressure& p : body.pressures)
+    for (std::size_t a = 0; a < load.size(); ++a) load[a] += p.pressure.at(0.0) * p.force[a];
+  return load;
 }
 
-void SteadyBody::assemble(const Case& c) {
-  mass = fem::lumped_mass(mesh, materials);
-  dofs = 2 * fem::free_nodes(mesh).size();
+/// What is without mass hands it to rows below it.
+template <int D>
+void demand_rows_below(const Case& c, const SteadyBody<D>& b) {
+  if (c.analysis.massless_contact && candidate_rows(b.mesh, b.sector).size() == b.sector.n_local())
+    throw case_error(c, c.section ? "section.file" : "disk.mesh.radial",
+                     "the nodes below the contact nodes are held by the rim",
+                     "at least 2 elements between tread and rim; or analysis.massless_contact = "
+                     "false with analysis.samples_per_sector = 1");
+}
+
+double radius_of(const Case& c, const mesh::Mesh& mesh) {
+  if (is_generated(c)) return c.disk.outer_radius;
+  double radius = 0.0;
+  for (const int node : mesh.boundary)
+    radius = std::max(radius, norm(mesh.coordinates[static_cast<std::size_t>(node)]));
+  return radius;
+}
+
+}  // namespace
+
+template <int D>
+std::size_t SteadyBody<D>::memory(const Case& c) const {
+  const auto samples = static_cast<std::size_t>(c.analysis.samples_per_sector);
+  const auto sectors = static_cast<std::size_t>(mesh.n_sectors);
+  const std::size_t candidates = mesh.boundary.size() / sectors, turn = samples * sectors;
+  // History, its spectra, the last layer; in the plane two kernels.
+  constexpr std::size_t copies = D == 2 ? 5 : 3;
+  const std::size_t compliance = copies * D * D * candidates * candidates * turn;
+  // Fields, rates, spectrum; how a layer follows the next, as far as it is kept.
+  constexpr std::size_t most_kept = 250'000'000;
+  const std::size_t nodes = mesh.n_nodes(), fields = 4 * D * nodes * samples;
+  const std::size_t transfers =
+      std::min(most_kept, nodes * samples * D * D * candidates * sizeof(double));
+  const std::size_t pairs = turn * candidates / 8;  // half a sector's pass touches at most
+  constexpr std::size_t of_pairs = 2 * D * D + D * (D - 1);
+  return mesh_memory(nodes) + transfers +
+         (compliance + fields + of_pairs * pairs * pairs) * sizeof(double);
+}
+
+template <int D>
+void SteadyBody<D>::assemble(const Case& c) {
+  if constexpr (D == 2)
+    mass = fem::lumped_mass(mesh, materials);
+  else
+    mass = fem::solid_mass(mesh, materials);
+  dofs = D * fem::free_nodes(mesh).size();
   demand_range(c, *this);
-  sector = fem::assemble_sector(mesh, materials);
-  sector_dofs = 2 * sector.n_local();
-  add_stress_stiffening(c, *this);
+  if constexpr (D == 2)
+    sector = fem::assemble_sector(mesh, materials);
+  else
+    sector = fem::assemble_solid_sector(mesh, materials);
+  sector_dofs = D * sector.n_local();
+  if constexpr (D == 2) add_stress_stiffening(c, *this);
+  radius = radius_of(c, mesh);
   static_cast<void>(load_of(c, *this));  // refused before anything takes time
+  demand_rows_below(c, *this);
   warn_of_critical_spin(c, *this);
 }
 
-void SteadyBody::find_harmonics(const Case& c, int threads) {
+template <int D>
+void SteadyBody<D>::find_harmonics(const Case& c, int threads) {
   if (harmonics) return;
   const auto begin = Clock::now();
-  harmonics.emplace(statics::RollingBody{.stiffness = sector,
-                                         .mass = mass,
-                                         .reference = mesh.coordinates,
-                                         .candidates = candidate_rows(mesh, sector),
-                                         .spin = spin_of(c),
-                                         .mass_damping = c.damping.mass,
-                                         .stiffness_damping = c.damping.stiffness,
-                                         .samples = c.analysis.samples_per_sector,
-                                         .massless = c.analysis.massless_contact,
-                                         .gravity = c.motion.gravity.at(0.0),
-                                         .load = load_of(c, *this),
-                                         .threads = threads_for(c, *this, threads)});
-  window.emplace(*harmonics, slip_of(c));
+  harmonics.emplace(statics::RollingBody<D>{.stiffness = sector,
+                                            .mass = mass,
+                                            .reference = mesh.coordinates,
+                                            .axial = mesh.axial,
+                                            .candidates = candidate_rows(mesh, sector),
+                                            .spin = spin_of(c),
+                                            .mass_damping = c.damping.mass,
+                                            .stiffness_damping = c.damping.stiffness,
+                                            .samples = c.analysis.samples_per_sector,
+                                            .massless = c.analysis.massless_contact,
+                                            .load = load_of(c, *this),
+                                            .threads = threads_for(c, *this, threads)});
+  if constexpr (D == 2) window.emplace(window_of(c));
   harmonics_wall_s = std::chrono::duration<double>(Clock::now() - begin).count();
 }
+
+template <int D>
+statics::RollingWindow<D> SteadyBody<D>::window_of(const Case& c) const {
+  if (window) return *window;
+  return {*harmonics, slip_of(c), c.motion.camber, c.motion.gravity.at(0.0)};
+}
+
+template class SteadyBody<2>;
+template class SteadyBody<3>;
 
 }  // namespace rondo::study

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-/// @file  From a case of steady rolling to its body and the harmonics of a sector
-/// (docs/theory.md, 11.1): what does not hang on height, speed and friction.
+/// @file  From a case of steady rolling to its body and the harmonics of a sector (docs/theory.md,
+/// 11.1, and docs/wheel3d.md), in the plane (D = 2) or in space: what does not depend on height,
+/// speed, slip angle and friction.
 #pragma once
 #include <memory>
 #include <optional>
@@ -10,19 +11,24 @@
 
 namespace rondo::study {
 
+template <int D>
 class SteadyBody final : public RolledBody {
  public:
   [[nodiscard]] std::size_t memory(const Case& c) const override;
   void assemble(const Case& c) override;
-  /// And the window.
+  /// In the plane the window too.
   void find_harmonics(const Case& c, int threads) override;
   [[nodiscard]] bool has_solution() const noexcept override { return harmonics->finite(); }
   [[nodiscard]] std::unique_ptr<RolledState> solve(const Case& c) const override;
   void add_columns(RecordPlan& plan) const override;
+  /// Of a state: in the plane a copy of that of the body, as camber and weight are the same for
+  /// all.
+  [[nodiscard]] statics::RollingWindow<D> window_of(const Case& c) const;
 
-  fem::SectorStiffness sector;
-  std::optional<statics::RollingHarmonics> harmonics;
-  std::optional<statics::RollingWindow> window;  ///< without pairs: to be copied
+  fem::SectorBlocks<D> sector;
+  double radius = 0.0;  ///< outer, undeformed [m]
+  std::optional<statics::RollingHarmonics<D>> harmonics;
+  std::optional<statics::RollingWindow<D>> window;  ///< without pairs: to be copied
 };
 
 }  // namespace rondo::study

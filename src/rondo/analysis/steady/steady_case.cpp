@@ -10,7 +10,6 @@
 #include "rondo/analysis/build/memory.hpp"
 #include "rondo/analysis/build/physical.hpp"
 #include "rondo/analysis/build/plausible/number_range.hpp"
-#include "rondo/analysis/steady/solid_steady_body.hpp"
 #include "rondo/analysis/steady/steady_body.hpp"
 #include "rondo/core/limits/processors.hpp"
 
@@ -31,9 +30,9 @@ std::string harmonics_key(const Case& c) {
 std::shared_ptr<RolledBody> make_body(const Case& c) {
   std::shared_ptr<RolledBody> body;
   if (is_solid(c))
-    body = std::make_shared<SolidSteadyBody>();
+    body = std::make_shared<SteadyBody<3>>();
   else
-    body = std::make_shared<SteadyBody>();
+    body = std::make_shared<SteadyBody<2>>();
   RolledBody& b = *body;
   b.mesh = build_mesh(c, &b.warnings);
   b.materials = materials_of(c, b.mesh);

@@ -6,8 +6,8 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <string_view>
 
+#include "rondo/fem/solid/solid_sector.hpp"
 #include "rondo/mesh/deformed_boundary.hpp"
 
 namespace rondo::study {
@@ -16,17 +16,13 @@ namespace {
 using contact::Status;
 using Eigen::Index;
 
-constexpr std::string_view without_friction =
-    "motion.speed instead, because without friction no traction determines it; or ground.friction "
-    "above 0";
-constexpr Vec2 normal{0.0, 1.0};  ///< a contact frame's vector times it is along the fixed axes
-
-statics::RollingDrive drive_of(const Case& c) {
+statics::RollingDrive drive_of(const Case& c, double radius) {
   const AnalysisCase& a = c.analysis;
   statics::RollingDrive d;
   d.height = c.motion.height.at(0.0) - floor_of(c);
   d.speed = c.motion.speed.at(0.0);
-  if (a.traction || a.torque) d.speed = c.motion.angular_velocity.at(0.0) * c.disk.outer_radius;
+  if (a.traction || a.torque) d.speed = c.motion.angular_velocity.at(0.0) * radius;
+  d.slip_angle = c.motion.slip_angle.at(0.0);
   d.friction = c.ground->friction;
   d.load = a.load;
   d.traction = a.traction;
@@ -36,26 +32,29 @@ statics::RollingDrive drive_of(const Case& c) {
 
 }  // namespace
 
-SteadyState::SteadyState(const Case& c, const SteadyBody& body)
+template <int D>
+SteadyState<D>::SteadyState(const Case& c, const SteadyBody<D>& body)
     : case_(c),
       body_(body),
-      window_(*body.window),
-      drive_(drive_of(c)),
+      window_(body.window_of(c)),
+      drive_(drive_of(c, body.radius)),
       candidate_of_(body.mesh.n_nodes()),
       sums_(static_cast<std::size_t>(c.analysis.samples_per_sector)) {
   for (std::size_t k = 0; k < body.mesh.boundary.size(); ++k)
     candidate_of_[static_cast<std::size_t>(body.mesh.boundary[k])] = k;
-  demand_free_shape(c, statics::lowest_place(window_), c.disk.outer_radius);
+  demand_free_shape(c, window_.lowest(), body.radius);
   solve();
   refuse();
   if (solution_.end == statics::RollingEnd::solved) sum_up();
 }
 
-/// Where the speed is asked for and Newton does not find it, from the statuses of free rolling.
-void SteadyState::solve() {
+/// In the plane, where the speed is asked for and Newton does not find it, from the statuses of
+/// free rolling.
+template <int D>
+void SteadyState<D>::solve() {
   using statics::RollingEnd;
   solution_ = statics::solve_rolling(window_, drive_);
-  if (solution_.end == RollingEnd::not_solved && (drive_.traction || drive_.torque)) {
+  if (D == 2 && solution_.end == RollingEnd::not_solved && (drive_.traction || drive_.torque)) {
     statics::RollingDrive rolling = drive_;
     rolling.traction.reset();
     rolling.torque.reset();
@@ -69,29 +68,27 @@ void SteadyState::solve() {
   u_ = window_.harmonics().fields(spectrum_, 0.0, false);
 }
 
-void SteadyState::refuse() const {
+template <int D>
+void SteadyState<D>::refuse() const {
   const AnalysisCase& a = case_.analysis;
   if (solution_.end == statics::RollingEnd::no_contact) {
-    const double radius = case_.disk.outer_radius;
     if (a.load)
       throw case_error(case_, "analysis.load", "no contact was found that carries it",
-                       "a smaller load, which presses the body in by a part of its wall only");
+                       fmt::format("a smaller load, which presses the {} in by a part of its wall "
+                                   "only",
+                                   D == 2 ? "body" : "wheel"));
     throw case_error(
         case_, "motion.height",
         fmt::format("nothing touches: the center is {:.6g} m above the ground", drive_.height),
-        fmt::format("less than the outer radius as deformed by the spin, about {:.6g} "
-                    "m above the ground",
-                    radius));
+        nothing_touches());
   }
   if (solution_.end == statics::RollingEnd::sliding)
-    throw case_error(
-        case_, a.torque ? "analysis.torque" : "analysis.traction",
-        "the whole contact slides, which does not determine the speed: friction carries no more",
-        drive_.friction == 0.0 ? std::string(without_friction)
-                               : fmt::format("nearer to 0, below ground.friction = {:.6g} times "
-                                             "the load{}; or motion.speed instead",
-                                             drive_.friction, a.torque ? " times the height" : ""));
-  if (solution_.end == statics::RollingEnd::solved && solution_.height <= case_.disk.inner_radius)
+    throw case_error(case_, a.torque ? "analysis.torque" : "analysis.traction",
+                     "the whole contact slides, which does not determine the speed: friction "
+                     "carries no more",
+                     why_it_slides());
+  if (solution_.end == statics::RollingEnd::solved && is_generated(case_) &&
+      solution_.height <= case_.disk.inner_radius)
     throw case_error(case_, a.load ? "analysis.load" : "motion.height",
                      fmt::format("the ground is within the rim: the center is {:.6g} m above it",
                                  solution_.height),
@@ -99,44 +96,70 @@ void SteadyState::refuse() const {
                                  case_.disk.inner_radius));
 }
 
-std::string SteadyState::trouble() const {
-  if (solution_.end != statics::RollingEnd::solved)
-    return fmt::format(
-        "the contact was not solved: {}, after {} Newton steps and {} pivots; another "
-        "analysis.samples_per_sector (4 to 32{}){}{} or both, a smaller ground.friction{}",
-        std::isfinite(solution_.residual)
-            ? fmt::format("residual {:.3g}, bound {:.0e}", solution_.residual, residual_bound)
-            : "the iteration over sets of contacts did not end",
-        solution_.newton_steps, solution_.pivots,
-        window_.time() < case_.damping.stiffness
-            ? fmt::format("; fewer, as a sample of {:.2g} s is shorter than damping.stiffness",
-                          window_.time())
-            : "",
-        case_.analysis.massless_contact ? "" : ", analysis.massless_contact = true",
-        case_.analysis.slip == RollingSlip::bdf2 ? ", analysis.slip = \"upwind\"" : "",
-        case_.analysis.load ? " or analysis.load" : "");
+template <int D>
+std::string SteadyState<D>::trouble() const {
+  if (solution_.end != statics::RollingEnd::solved) return not_solved();
   if (!(power_.residual <= residual_bound))
     return fmt::format("the power does not balance: relative residual {:.3g}, bound {:.0e}",
                        power_.residual, residual_bound);
   return {};
 }
 
-double SteadyState::resistance() const noexcept {
+template <int D>
+double SteadyState<D>::resistance() const noexcept {
   if (solution_.speed == 0.0) return std::numeric_limits<double>::quiet_NaN();
-  return (-spin() * torque() - solution_.speed * solution_.forces.x) / std::abs(solution_.speed);
+  const statics::RollingForces& f = solution_.forces;
+  const double along =
+      f.heading * std::cos(drive_.slip_angle) + f.lateral * std::sin(drive_.slip_angle);
+  return (-spin() * torque() - solution_.speed * along) / std::abs(solution_.speed);
 }
 
-SteadyState::Where SteadyState::where(std::size_t pair) const {
+/// Of the speed along the heading.
+template <int D>
+double SteadyState<D>::slip_ratio() const noexcept {
+  return dynamics::slip_ratio(-spin() * body_.radius,
+                              solution_.speed * std::cos(drive_.slip_angle));
+}
+
+template <int D>
+SteadyState<D>::Where SteadyState<D>::where(std::size_t pair) const {
   const statics::RollingPair& p = window_.pairs()[pair];
-  const statics::RollingHarmonics& h = window_.harmonics();
+  const statics::RollingHarmonics<D>& h = window_.harmonics();
   const int samples = h.body().samples, place = wrapped(sense() * p.sample, samples);
   const int sector = wrapped(p.sample - sense() * place, h.turn()) / samples;
   const auto row = static_cast<std::size_t>(h.body().candidates[p.candidate]);
   return {place, candidate_of_[body_.sector.node(row, static_cast<std::size_t>(sector))]};
 }
 
+template <int D>
+double SteadyState<D>::slip(std::size_t pair) const {
+  const statics::NodeVector<D - 1> s =
+      solution_.gap_and_slip.template segment<D - 1>(static_cast<Index>(D * pair + 1));
+  return D == 2 ? s[0] : s.norm();
+}
+
+template <int D>
+void SteadyState<D>::add(std::size_t pair, double share, SteadySums& s) const {
+  const auto row = static_cast<Index>(D * pair), at = static_cast<Index>((D - 1) * pair);
+  const statics::NodeVector<D> r = force(pair);
+  const statics::NodeVector<D - 1> shear = r.template tail<D - 1>();
+  const double gap = solution_.gap_and_slip[row], extent = extent_[pair];
+  const bool sticks = solution_.status[pair].status == Status::stick;
+  statics::add_force<D>(r, solution_.place.template segment<D - 1>(at), solution_.height,
+                        window_.problem().lean, share, s.forces);
+  ++s.nodes;
+  s.sticking += sticks ? 1 : 0;
+  (sticks ? s.stick : s.slip) += share * extent;
+  s.pressure = std::max(s.pressure, r[0] / extent);
+  s.shear = std::max(s.shear, (D == 2 ? std::abs(shear[0]) : shear.norm()) / extent);
+  s.friction -= share * shear.dot(solution_.gap_and_slip.template segment<D - 1>(row + 1));
+  s.speed = std::max(s.speed, std::abs(slip(pair)));
+  s.penetration = std::max(s.penetration, -gap);
+}
+
 /// What each pair that is pressed stands for at its place, of the deformed boundary.
-void SteadyState::measure_extents() {
+template <int D>
+void SteadyState<D>::measure_extents() {
   const mesh::DeformedBoundary boundary(body_.mesh);
   extent_.assign(window_.pairs().size(), 0.0);
   Field u;
@@ -147,108 +170,106 @@ void SteadyState::measure_extents() {
   }
 }
 
-void SteadyState::sum_up() {
+template <int D>
+void SteadyState<D>::sum_up() {
   measure_extents();
-  const statics::RollingHarmonics& h = window_.harmonics();
-  const double share = 1.0 / h.body().samples;
+  const double share = 1.0 / window_.harmonics().body().samples;
   for (std::size_t j = 0; j < window_.pairs().size(); ++j) {
-    const auto row = static_cast<Index>(2 * j);
-    const Vec2 r{solution_.force[row + 1], solution_.force[row]};
-    if (!(r.y > 0.0)) continue;
-    const Where w = where(j);
-    const statics::RollingPair& p = window_.pairs()[j];
-    const Index local = 2 * h.body().candidates[p.candidate], sample = wrapped(p.sample, h.turn());
-    const Vec2 x =
-        body_.mesh.coordinates[body_.sector.node(static_cast<std::size_t>(local / 2), 0)];
-    const Vec2 arm = window_.frame(p.sample) * (x + Vec2{u_(local, sample), u_(local + 1, sample)});
-    const double length = extent_[j];
-    const double slip = solution_.gap_and_slip[row + 1];
-    const bool sticks = solution_.status[j].status == Status::stick;
-    for (SteadySums* s : {&sums_[static_cast<std::size_t>(w.place)], &mean_}) {
-      const double part = s == &mean_ ? share : 1.0;
-      s->force += part * r;
-      s->torque += part * cross(arm, r);
-      ++s->nodes;
-      s->sticking += sticks ? 1 : 0;
-      (sticks ? s->stick_length : s->slip_length) += part * length;
-      s->pressure = std::max(s->pressure, r.y / length);
-      s->shear = std::max(s->shear, std::abs(r.x) / length);
-      s->friction -= part * r.x * slip;
-      s->slip = std::max(s->slip, std::abs(slip));
-      s->penetration = std::max(s->penetration, -solution_.gap_and_slip[row]);
-    }
+    if (!(force(j)[0] > 0.0)) continue;
+    add(j, 1.0, sums_[static_cast<std::size_t>(where(j).place)]);
+    add(j, share, mean_);
   }
 }
 
-HistoryRecord SteadyState::record(int place, const Snapshot& now) const {
+template <int D>
+HistoryRecord SteadyState<D>::record(int place, const Snapshot& now) const {
   const SteadySums& s = sums_[static_cast<std::size_t>(place)];
   HistoryRecord h;
   h.time = now.time;
   h.angle = now.angle;
   h.center = now.center;
-  h.force = s.force;
-  h.torque = s.torque;
+  h.force = {s.forces.heading, s.forces.normal, s.forces.lateral};
+  h.torque = s.forces.torque;
+  h.moment_aligning = s.forces.aligning;
+  h.moment_overturning = s.forces.overturning;
   h.nodes = s.nodes;
   h.sticking = s.sticking;
-  h.contact_length = s.stick_length + s.slip_length;
+  h.contact_length = s.stick + s.slip;
   h.penetration = s.penetration;
   h.slip_ratio = slip_ratio();
-  std::vector<Vec2> ku(now.u.size());
-  fem::apply(body_.sector, now.u, ku);
-  for (std::size_t i = 0; i < now.u.size(); ++i) {
-    h.balance.strain += 0.5 * dot(now.u.plane()[i], ku[i]);
-    h.balance.kinetic += 0.5 * body_.mass[i] * dot(now.v.plane()[i], now.v.plane()[i]);
+  h.slip_angle = drive_.slip_angle;
+  const std::span<const Vec> u = now.u, v = now.v;
+  std::vector<Vec> ku(u.size());
+  fem::apply(body_.sector, u, ku);
+  for (std::size_t i = 0; i < u.size(); ++i) {
+    h.balance.strain += 0.5 * dot(u[i], ku[i]);
+    h.balance.kinetic += 0.5 * body_.mass[i] * dot(v[i], v[i]);
   }
   return h;
 }
 
 /// Polar components at a place into fixed ones of all nodes, times a number.
-void SteadyState::unroll(const Eigen::MatrixXd& field, int place, double by, Field& nodes) const {
+template <int D>
+void SteadyState<D>::unroll(const Eigen::MatrixXd& field, int place, double by,
+                            Field& nodes) const {
   const int samples = window_.harmonics().body().samples;
-  nodes = Field(body_.mesh.n_nodes(), 2);
+  nodes = Field(body_.mesh.n_nodes(), D);
+  const std::span<Vec> of = nodes;
   for (int j = 0; j < body_.sector.n_sectors; ++j) {
     const auto sector = static_cast<std::size_t>(j);
     const Index m = wrapped(j * samples + sense() * place, window_.harmonics().turn());
     const Complex turn = by * body_.sector.turn[sector];
     for (std::size_t a = 0; a < body_.sector.n_local(); ++a) {
-      const auto row = static_cast<Index>(2 * a);
-      nodes.plane()[body_.sector.node(a, sector)] = turn * Vec2{field(row, m), field(row + 1, m)};
+      const auto row = static_cast<Index>(D * a);
+      const Vec2 plane = turn * Vec2{field(row, m), field(row + 1, m)};
+      if constexpr (D == 2)
+        of[body_.sector.node(a, sector)] = plane;
+      else
+        of[body_.sector.node(a, sector)] = {plane, by * field(row + 2, m)};
     }
   }
 }
 
-void SteadyState::displace(int place, Snapshot& s) const {
+template <int D>
+void SteadyState<D>::displace(int place, Snapshot& s) const {
   unroll(u_, place, 1.0, s.u);
 }
 
-void SteadyState::fill(int place, Snapshot& s) {
+template <int D>
+void SteadyState<D>::fill(int place, Snapshot& s) {
   if (rate_.size() == 0) rate_ = window_.harmonics().fields(spectrum_, 0.0, true);
   s.time = s.time_velocity = place * sample_time();
   s.angle = s.angle_velocity = spin() * s.time;
-  s.center = Vec2{case_.motion.start_x + solution_.speed * place * sample_time(), height()};
+  const double way = solution_.speed * place * sample_time();
+  s.center = {case_.motion.start_x + way * std::cos(drive_.slip_angle), height(),
+              way * std::sin(drive_.slip_angle)};
   displace(place, s);
   unroll(rate_, place, spin(), s.v);
   s.contacts.clear();
+  constexpr Vec2 normal{0.0, 1.0};  // along t1 and n
+  const statics::NodeMatrix<D> axes = statics::ground_axes<D>(window_.problem().lean);
   for (std::size_t k = 0; k < window_.pairs().size(); ++k) {
     const Where w = where(k);
-    const auto row = static_cast<Index>(2 * k);
-    const Vec2 r{solution_.force[row + 1], solution_.force[row]};
-    if (w.place == place && r.y > 0.0)
-      s.contacts.push_back({.candidate = w.candidate,
-                            .force = to_frame(normal, r),
-                            .force_fixed = r,
-                            .slip = solution_.gap_and_slip[row + 1],
-                            .sticks = solution_.status[k].status == Status::stick});
+    const statics::NodeVector<D> r = force(k), fixed = axes * r;
+    if (w.place != place || !(r[0] > 0.0)) continue;
+    ContactForce& f = s.contacts.emplace_back();
+    f.candidate = w.candidate;
+    f.force = {to_frame(normal, Vec2{r[1], r[0]}), D == 2 ? 0.0 : r[D - 1]};
+    f.force_fixed = {fixed[0], fixed[1], D == 2 ? 0.0 : fixed[D - 1]};
+    f.slip = slip(k);
+    f.sticks = solution_.status[k].status == Status::stick;
   }
   std::ranges::sort(s.contacts, {}, &ContactForce::candidate);
 }
 
-double SteadyState::slip_ratio() const noexcept {
-  return dynamics::slip_ratio(-spin() * case_.disk.outer_radius, solution_.speed);
+template <int D>
+std::unique_ptr<RolledState> SteadyBody<D>::solve(const Case& c) const {
+  return std::make_unique<SteadyState<D>>(c, *this);
 }
 
-std::unique_ptr<RolledState> SteadyBody::solve(const Case& c) const {
-  return std::make_unique<SteadyState>(c, *this);
-}
+template class SteadyState<2>;
+template class SteadyState<3>;
+template std::unique_ptr<RolledState> SteadyBody<2>::solve(const Case&) const;
+template std::unique_ptr<RolledState> SteadyBody<3>::solve(const Case&) const;
 
 }  // namespace rondo::study

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// @file  Steady rolling of a case, solved: forces, power, and the fields at each place of a
-/// sector's pass (docs/theory.md, 11.3 and 11.4).
+/// sector's pass (docs/theory.md, 11.3 and 11.4, and docs/wheel3d.md), in the plane (D = 2), where
+/// all is per metre of width, or in space.
 #pragma once
 #include <string>
 #include <vector>
@@ -10,22 +11,22 @@
 
 namespace rondo::study {
 
-/// Of the contact while a sector is at one place, or as means over its pass.
+/// The contact while a sector is at one place, or its means over the pass.
 struct SteadySums {
-  Vec2 force;                                    ///< of the ground, fixed axes        [N/m]
-  double torque = 0.0;                           ///< about the center, counter-clockwise [N]
-  int nodes = 0, sticking = 0;                   ///< not of means
-  double stick_length = 0.0, slip_length = 0.0;  ///< of the deformed boundary          [m]
-  double pressure = 0.0, shear = 0.0;            ///< largest                           [Pa]
-  double friction = 0.0;                         ///< power taken by friction          [W/m]
-  double slip = 0.0;                             ///< largest                          [m/s]
-  double penetration = 0.0;                      ///< largest                            [m]
+  statics::RollingForces forces;       ///< without the torque of the weight
+  int nodes = 0, sticking = 0;         ///< not of means
+  double stick = 0.0, slip = 0.0;      ///< deformed length [m], in space area [m²], of those nodes
+  double pressure = 0.0, shear = 0.0;  ///< largest                                    [Pa]
+  double friction = 0.0;               ///< power taken by friction                     [W]
+  double speed = 0.0;                  ///< largest slip                              [m/s]
+  double penetration = 0.0;            ///< largest                                     [m]
 };
 
+template <int D>
 class SteadyState final : public RolledState {
  public:
   /// Solves. @throws InputError as SteadyBody::solve()
-  SteadyState(const Case& c, const SteadyBody& body);
+  SteadyState(const Case& c, const SteadyBody<D>& body);
 
   [[nodiscard]] std::string trouble() const override;
   [[nodiscard]] double sample_time() const noexcept override { return window_.time(); }
@@ -35,24 +36,27 @@ class SteadyState final : public RolledState {
   [[nodiscard]] SteadyResiduals residuals() const override {
     return {power_.residual, solution_.residual, mean_.penetration};
   }
-  [[nodiscard]] double deflection() const override {
-    return statics::lowest_place(window_) - solution_.height;
-  }
+  [[nodiscard]] double deflection() const override { return window_.lowest() - solution_.height; }
   [[nodiscard]] const statics::RollingPower& power() const noexcept override { return power_; }
   [[nodiscard]] Json describe() const override;
   [[nodiscard]] std::vector<std::string> notes() const override;
 
  private:
-  /// Of the rim, clockwise: what keeps the spin constant [N].
+  using Vec = typename statics::RollingBody<D>::Vec;
+  /// Of the rim, clockwise: what keeps the spin constant [N m].
   [[nodiscard]] double torque() const noexcept { return solution_.forces.torque; }
-  /// Power lost over speed: (ω T - V F_x) / |V|; NaN where V is 0 [N/m].
+  /// Power lost over speed: (ω T - V·F) / |V|; NaN where V is 0 [N].
   [[nodiscard]] double resistance() const noexcept;
   [[nodiscard]] double slip_ratio() const noexcept;
   [[nodiscard]] HistoryRecord record(int place, const Snapshot& now) const;
   void solve();
   void refuse() const;
+  [[nodiscard]] std::string nothing_touches() const;
+  [[nodiscard]] std::string why_it_slides() const;
+  [[nodiscard]] std::string not_solved() const;
   void sum_up();
   void measure_extents();
+  void add(std::size_t pair, double share, SteadySums& sums) const;
   void unroll(const Eigen::MatrixXd& field, int place, double by, Field& nodes) const;
   [[nodiscard]] int sense() const noexcept { return spin() > 0.0 ? 1 : -1; }
   [[nodiscard]] double spin() const noexcept { return body_.harmonics->body().spin; }
@@ -63,17 +67,23 @@ class SteadyState final : public RolledState {
   };
   [[nodiscard]] Where where(std::size_t pair) const;
   [[nodiscard]] double height() const { return floor_of(case_) + solution_.height; }
+  /// Along n, t1 and t2 [N].
+  [[nodiscard]] statics::NodeVector<D> force(std::size_t pair) const {
+    return solution_.force.segment<D>(static_cast<Eigen::Index>(D * pair));
+  }
+  /// Along t1 in the plane, with its sign; in space its length [m/s].
+  [[nodiscard]] double slip(std::size_t pair) const;
 
   const Case& case_;
-  const SteadyBody& body_;
-  statics::RollingWindow window_;
+  const SteadyBody<D>& body_;
+  statics::RollingWindow<D> window_;
   statics::RollingDrive drive_;
   statics::RollingSolution solution_;
-  statics::RollingHarmonics::Block spectrum_;
+  Eigen::MatrixXcd spectrum_;
   statics::RollingPower power_;
-  Eigen::MatrixXd u_, rate_;               ///< (2 n_local, L); rates once a place is filled
+  Eigen::MatrixXd u_, rate_;               ///< (D n_local, L); rates once a place is filled
   std::vector<std::size_t> candidate_of_;  ///< (n) place in mesh.boundary
-  std::vector<double> extent_;             ///< (pairs) of the deformed boundary, where pressed [m]
+  std::vector<double> extent_;             ///< (pairs) deformed length or area, where pressed
   std::vector<SteadySums> sums_;           ///< (P)
   SteadySums mean_;
 };

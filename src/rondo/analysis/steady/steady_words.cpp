@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <array>
+#include <cmath>
 #include <span>
 
 #include "rondo/analysis/steady/steady_state.hpp"
@@ -10,93 +11,210 @@
 namespace rondo::study {
 namespace {
 
-constexpr std::array plane_columns{
-    Column<SteadySums>{"stick_length_m", "m",
-                       "of the deformed boundary at the nodes that stick, summed",
-                       [](const SteadySums& r) { return r.stick_length; }},
-    Column<SteadySums>{"slip_length_m", "m", "of those that slip",
-                       [](const SteadySums& r) { return r.slip_length; }},
-    Column<SteadySums>{"pressure_max_pa", "Pa",
-                       "largest of all contact nodes, over the deformed boundary as in contact.csv",
-                       [](const SteadySums& r) { return r.pressure; }},
-    Column<SteadySums>{"shear_max_pa", "Pa", "likewise",
-                       [](const SteadySums& r) { return r.shear; }},
-    Column<SteadySums>{"slip_speed_max", "m/s",
-                       "likewise, by the slip that the law of friction sees",
-                       [](const SteadySums& r) { return r.slip; }},
-    Column<SteadySums>{"friction_power", "W/m", "taken by friction",
-                       [](const SteadySums& r) { return r.friction; }},
+using R = SteadySums;
+template <int D>
+constexpr std::array own_columns{
+    Column<R>{D == 2 ? "stick_length_m" : "stick_area_m2", D == 2 ? "m" : "m2",
+              D == 2 ? "of the deformed boundary at the nodes that stick, summed"
+                     : "of the deformed surface at the nodes that stick, summed",
+              [](const R& r) { return r.stick; }},
+    Column<R>{D == 2 ? "slip_length_m" : "slip_area_m2", D == 2 ? "m" : "m2", "of those that slip",
+              [](const R& r) { return r.slip; }},
+    Column<R>{"pressure_max_pa", "Pa",
+              "largest of all contact nodes, over the deformed boundary as in contact.csv",
+              [](const R& r) { return r.pressure; }},
+    Column<R>{"shear_max_pa", "Pa", "likewise", [](const R& r) { return r.shear; }},
+    Column<R>{"slip_speed_max", "m/s", "likewise, by the slip that the law of friction sees",
+              [](const R& r) { return r.speed; }},
+    Column<R>{"friction_power", D == 2 ? "W/m" : "W", "taken by friction",
+              [](const R& r) { return r.friction; }},
 };
 
+using P = ContactRecord;
 constexpr std::array plane_pair_columns{
-    Column<ContactRecord>{"slip_speed", "m/s",
-                          "of the node over the ground, along x, as the law of friction sees it",
-                          [](const ContactRecord& r) { return r.slip; }},
-    Column<ContactRecord>{"sticks", "1", "1: it sticks; 0: it slips",
-                          [](const ContactRecord& r) { return r.sticks ? 1.0 : 0.0; }},
+    Column<P>{"slip_speed", "m/s",
+              "of the node over the ground, along x, as the law of friction sees it",
+              [](const P& r) { return r.slip; }},
+    Column<P>{"sticks", "1", "1: it sticks; 0: it slips",
+              [](const P& r) { return r.sticks ? 1.0 : 0.0; }},
+};
+constexpr std::array solid_pair_columns{
+    Column<P>{"slip_speed", "m/s", "of the node over the ground, as the law of friction sees it",
+              [](const P& r) { return r.slip; }},
 };
 
+template <int D>
 Json json_of(const statics::RollingSlope& slope) {
-  return {{"force_x", slope.forces.x},
-          {"force_y", slope.forces.y},
-          {"torque", slope.forces.torque},
-          {"height", slope.height},
-          {"speed", slope.speed}};
+  const statics::RollingForces& f = slope.forces;
+  Json j{{"force_x", f.heading}, {"force_y", f.normal}};
+  if (D == 3) j["force_lateral"] = f.lateral;
+  j["torque"] = f.torque;
+  if (D == 3) {
+    j["moment_aligning"] = f.aligning;
+    j["moment_overturning"] = f.overturning;
+  }
+  j["height"] = slope.height;
+  j["speed"] = slope.speed;
+  return j;
 }
 
 }  // namespace
 
-void SteadyBody::add_columns(RecordPlan& plan) const {
-  plan.columns = history_labels({});
-  const std::vector<ColumnLabel> own =
-      labels_of(std::span<const Column<SteadySums>>(plane_columns));
-  plan.columns.insert(plan.columns.end(), own.begin(), own.end());
-  plan.contact_columns = plane_pair_columns;
+template <int D>
+void SteadyBody<D>::add_columns(RecordPlan& plan) const {
+  plan.columns = history_labels({.solid = D == 3});
+  for (ColumnLabel& label : labels_of(std::span<const Column<R>>(own_columns<D>)))
+    plan.columns.push_back(std::move(label));
+  if (D == 2)
+    plan.contact_columns = plane_pair_columns;
+  else
+    plan.contact_columns = solid_pair_columns;
 }
 
-void SteadyState::append_row(int place, const Snapshot& now, std::vector<double>& rows) const {
-  append_history({}, record(place, now), rows);
-  append_values(std::span<const Column<SteadySums>>(plane_columns),
-                sums_[static_cast<std::size_t>(place)], rows);
+template <int D>
+void SteadyState<D>::append_row(int place, const Snapshot& now, std::vector<double>& rows) const {
+  append_history({.solid = D == 3}, record(place, now), rows);
+  append_values(std::span<const Column<R>>(own_columns<D>), sums_[static_cast<std::size_t>(place)],
+                rows);
 }
 
-std::vector<std::string> SteadyState::notes() const {
+template <int D>
+std::string SteadyState<D>::nothing_touches() const {
+  if (D == 2)
+    return fmt::format(
+        "less than the outer radius as deformed by the spin, about {:.6g} m above "
+        "the ground",
+        body_.radius);
+  return fmt::format(
+      "less than {:.6g} m above the ground, the lowest place of the wheel as the "
+      "spin deforms it",
+      window_.lowest());
+}
+
+template <int D>
+std::string SteadyState<D>::why_it_slides() const {
+  if (drive_.friction == 0.0)
+    return "motion.speed instead, because without friction no traction determines it; or "
+           "ground.friction above 0";
+  if (D == 3)
+    return "nearer to 0, or a smaller motion.slip_angle, because both share the friction; or "
+           "motion.speed instead";
+  return fmt::format(
+      "nearer to 0, below ground.friction = {:.6g} times the load{}; or "
+      "motion.speed instead",
+      drive_.friction, case_.analysis.torque ? " times the height" : "");
+}
+
+/// In space, where pairs may be too many for the work on them, what makes fewer comes first.
+template <int D>
+std::string SteadyState<D>::not_solved() const {
+  const AnalysisCase& a = case_.analysis;
+  const statics::RollingEffort& effort = solution_.effort;
+  const bool too_many = D == 3 && effort.work >= statics::most_rolling_work;
+  std::string found = "the iteration over sets of contacts did not end", remedy;
+  if (too_many)
+    found = fmt::format(
+        "analysis.samples_per_sector = {} makes {} pairs of a node and a sample near the ground, "
+        "and {:.2g} operations (limit {:.0e}) did not solve them",
+        a.samples_per_sector, window_.pairs().size(), effort.work, statics::most_rolling_work);
+  else if (std::isfinite(solution_.residual))
+    found = fmt::format("residual {:.3g}, bound {:.0e}", solution_.residual,
+                        statics::rolling_residual_bound);
+  if (too_many)
+    remedy = fmt::format("{}a coarser {}{}", a.samples_per_sector > 1 ? "fewer samples, " : "",
+                         case_.section ? "section.file or fewer section.sectors" : "disk.mesh",
+                         a.load ? "" : ", a larger motion.height");
+  else if (D == 3)
+    remedy = "another analysis.samples_per_sector (1 to 8, fewer first)";
+  else
+    remedy = fmt::format("another analysis.samples_per_sector (4 to 32{})",
+                         window_.time() < case_.damping.stiffness
+                             ? fmt::format("; fewer, as a sample of {:.2g} s is shorter than "
+                                           "damping.stiffness",
+                                           window_.time())
+                             : "");
+  const std::string_view massless = a.massless_contact ? "" : ", analysis.massless_contact = true";
+  const std::string_view slip = a.slip == RollingSlip::bdf2 ? ", analysis.slip = \"upwind\"" : "";
+  return fmt::format(
+      "the contact was not solved: {}, after {} Newton steps and {} {}; {}{}{}{} a smaller "
+      "ground.friction{}",
+      found, effort.newton_steps, D == 2 ? effort.pivots : effort.sweeps,
+      D == 2 ? "pivots" : "sweeps", remedy, massless, slip, D == 2 ? " or both," : ",",
+      a.load ? " or analysis.load" : "");
+}
+
+template <int D>
+std::vector<std::string> SteadyState<D>::notes() const {
   const statics::RollingForces& f = solution_.forces;
-  return {
-      fmt::format(
-          "traction {:.6g} N/m, load {:.6g} N/m, torque {:.6g} N, rolling resistance {:.6g} N/m",
-          f.x, f.y, torque(), resistance()),
-      fmt::format("center {:.6g} m high at {:.6g} m/s, slip ratio {:.4g} %", height(),
-                  solution_.speed, 100.0 * slip_ratio())};
+  const std::string place = fmt::format("center {:.6g} m high at {:.6g} m/s, slip ratio {:.4g} %",
+                                        height(), solution_.speed, 100.0 * slip_ratio());
+  if (D == 2)
+    return {fmt::format("traction {:.6g} N/m, load {:.6g} N/m, torque {:.6g} N, rolling "
+                        "resistance {:.6g} N/m",
+                        f.heading, f.normal, torque(), resistance()),
+            place};
+  return {fmt::format("traction {:.6g} N, load {:.6g} N, lateral force {:.6g} N, aligning moment "
+                      "{:.6g} N m, torque {:.6g} N m, rolling resistance {:.6g} N",
+                      f.heading, f.normal, f.lateral, f.aligning, torque(), resistance()),
+          fmt::format("{}, slip angle {:.4g} rad, camber {:.4g} rad", place, drive_.slip_angle,
+                      case_.motion.camber)};
 }
 
-Json SteadyState::describe() const {
+template <int D>
+Json SteadyState<D>::describe() const {
   const statics::RollingSolution& s = solution_;
   const AnalysisCase& a = case_.analysis;
-  const char* by_speed = a.torque ? "by_torque" : a.traction ? "by_traction" : "by_speed";
   Json j;
-  j["force_x"] = s.forces.x;
-  j["force_y"] = s.forces.y;
+  j["force_x"] = s.forces.heading;
+  j["force_y"] = s.forces.normal;
+  if (D == 3) j["force_lateral"] = s.forces.lateral;
   j["torque"] = torque();
+  if (D == 3) {
+    j["moment_aligning"] = s.forces.aligning;
+    j["moment_overturning"] = s.forces.overturning;
+  }
   j["height"] = height();
   j["speed"] = s.speed;
   j["slip_ratio"] = slip_ratio();
+  if (D == 3) {
+    j["slip_angle"] = drive_.slip_angle;
+    j["camber"] = case_.motion.camber;
+  }
   j["rolling_resistance"] = resistance();
-  j["stick_length"] = mean_.stick_length;
-  j["slip_length"] = mean_.slip_length;
+  j[D == 2 ? "stick_length" : "stick_area"] = mean_.stick;
+  j[D == 2 ? "slip_length" : "slip_area"] = mean_.slip;
   j["pressure_max"] = mean_.pressure;
   j["shear_max"] = mean_.shear;
-  j["slopes"] = {{"by_friction", json_of(s.slopes.by_friction)},
-                 {a.load ? "by_load" : "by_height", json_of(s.slopes.by_height)},
-                 {by_speed, json_of(s.slopes.by_speed)}};
-  j["power"] = json_of(power_);
+  Json& slopes = j["slopes"];
+  slopes["by_friction"] = json_of<D>(s.slopes.by_friction);
+  slopes[a.load ? "by_load" : "by_height"] = json_of<D>(s.slopes.by_height);
+  slopes[a.torque     ? "by_torque"
+         : a.traction ? "by_traction"
+                      : "by_speed"] = json_of<D>(s.slopes.by_speed);
+  if (D == 3) slopes["by_slip_angle"] = json_of<D>(s.slopes.by_slip_angle);
+  j["power"] = study::json_of(power_);
   j["scheme_share"] = power_.scheme_share;
   j["residual"] = s.residual;
-  j["newton_steps"] = s.newton_steps;
-  j["pivots"] = s.pivots;
+  j["newton_steps"] = s.effort.newton_steps;
+  j[D == 2 ? "pivots" : "sweeps"] = D == 2 ? s.effort.pivots : s.effort.sweeps;
   j["pairs"] = window_.pairs().size();
   j["samples_per_sector"] = window_.harmonics().body().samples;
   return j;
 }
+
+template void SteadyBody<2>::add_columns(RecordPlan&) const;
+template void SteadyState<2>::append_row(int, const Snapshot&, std::vector<double>&) const;
+template std::string SteadyState<2>::nothing_touches() const;
+template std::string SteadyState<2>::why_it_slides() const;
+template std::string SteadyState<2>::not_solved() const;
+template std::vector<std::string> SteadyState<2>::notes() const;
+template Json SteadyState<2>::describe() const;
+template void SteadyBody<3>::add_columns(RecordPlan&) const;
+template void SteadyState<3>::append_row(int, const Snapshot&, std::vector<double>&) const;
+template std::string SteadyState<3>::nothing_touches() const;
+template std::string SteadyState<3>::why_it_slides() const;
+template std::string SteadyState<3>::not_solved() const;
+template std::vector<std::string> SteadyState<3>::notes() const;
+template Json SteadyState<3>::describe() const;
 
 }  // namespace rondo::study

@@ -7,7 +7,6 @@
 #include <utility>
 
 #include "rondo/core/process_wide.hpp"
-#include "rondo/statics/steady/rolling_newton.hpp"
 
 namespace rondo::statics {
 namespace {
@@ -19,81 +18,78 @@ constexpr int most_rounds = 60;
 
 /// The speed is asked for, and nothing that sticks tells it.
 bool slides(const RollingDrive& drive, const RollingState& s) {
-  const bool sticks =
-      std::ranges::any_of(s.found, [](const auto& f) { return f.status == Status::stick; });
+  const bool sticks = std::ranges::any_of(
+      s.statuses, [](const RollingStatus& f) { return f.status == Status::stick; });
   return (drive.traction || drive.torque) && !sticks;
 }
 
-void fill(const RollingProblem& problem, const RollingState& state, RollingSolution& s) {
+template <int D>
+void fill(const RollingProblem<D>& problem, const RollingState& state, RollingSolution& s) {
   const RollingPoint& p = state.point;
   s.height = p.height;
   s.speed = p.speed;
   s.force = p.force;
-  s.status = state.found;
+  s.status = state.statuses;
   s.residual = state.residual;
-  s.gap_and_slip = gaps_and_ways(problem, p);
-  s.gap_and_slip(Eigen::seqN(1, p.force.size() / 2, 2)) /= problem.time;
+  s.gap_and_slip = gaps_and_ways(problem, p, s.slip_angle);
+  for (Index j = 0; j < s.force.size(); j += D)
+    s.gap_and_slip.segment<D - 1>(j + 1) /= problem.time;
+  s.place = places(problem, p.force);
   s.forces = forces_of(problem, p);
   s.slopes = state.slopes;
 }
 
 /// Load, traction and torque are those asked for, of the size of what bears them.
 bool brings(const RollingDrive& drive, const RollingSolution& s) {
-  const double size = std::abs(s.forces.x) + std::abs(s.forces.y);
+  const double size = std::abs(s.forces.heading) + std::abs(s.forces.normal);
   const auto near = [&](const std::optional<double>& asked, double found, double arm) {
     return !asked || std::abs(found - *asked) <= 1e-10 * size * arm;
   };
-  return near(drive.load, s.forces.y, 1.0) && near(drive.traction, s.forces.x, 1.0) &&
+  return near(drive.load, s.forces.normal, 1.0) && near(drive.traction, s.forces.heading, 1.0) &&
          near(drive.torque, s.forces.torque, s.height);
 }
 
 /// Nothing of the height that was tried is left, or nothing was found.
-RollingSolution nothing(const RollingWindow& window, const RollingPoint& point, RollingSolution s) {
+template <int D>
+RollingSolution nothing(const RollingProblem<D>& problem, const RollingPoint& point,
+                        RollingSolution s) {
   s.height = point.height;
   s.speed = point.speed;
-  s.force = Eigen::VectorXd::Zero(window.problem().base.size());
+  s.force = Eigen::VectorXd::Zero(problem.size());
   s.gap_and_slip = s.force;
-  s.status.assign(window.pairs().size(), {});
+  s.place = Eigen::VectorXd::Zero(problem.base_place.size());
+  s.status.assign(problem.pairs.size(), {});
   return s;
 }
 
 }  // namespace
 
-double lowest_place(const RollingWindow& w) {
-  const RollingHarmonics& h = w.harmonics();
-  double least = 0.0;
-  for (std::size_t a = 0; a < h.n_candidates(); ++a) least = std::max(least, norm(h.place(a, 0)));
-  return least;
-}
-
-RollingSolution solve_rolling(RollingWindow& window, const RollingDrive& drive,
-                              const std::vector<RollingStatus>& from) {
+template <int D>
+RollingSolution solve_rolling(RollingWindow<D>& window, const RollingDrive& drive,
+                              const RollingStatuses& from) {
   const OneBlasThread one_thread;
-  const double radius = lowest_place(window);
+  const double radius = window.lowest();
   RollingSolution s;
+  s.slip_angle = drive.slip_angle;
   RollingState state;
-  state.point.height = drive.load ? radius * (1.0 - 1e-3) : drive.height;
-  state.point.speed = drive.speed;
+  state.point = {{}, drive.load ? radius * (1.0 - 1e-3) : drive.height, drive.speed};
+  state.statuses = from;
   window.include_below(state.point.height);
-  state.found = from;
   int unsolved = 0;
   for (int round = 0; round < most_rounds; ++round) {
-    const RollingProblem& problem = window.problem();
+    const RollingProblem<D>& problem = window.problem();
     s.end = problem.pairs.empty() ? RollingEnd::no_contact : RollingEnd::not_solved;
     if (problem.pairs.empty()) break;
-    if (state.found.empty()) state = rolling_start(problem, drive, state.point);
-    state.found.resize(problem.pairs.size());
-    state.point.force.conservativeResizeLike(Eigen::VectorXd::Zero(problem.base.size()));
+    state.point.force.conservativeResizeLike(Eigen::VectorXd::Zero(problem.size()));
     solve_rolling(problem, drive, state);
-    s.newton_steps += std::exchange(state.newton_steps, 0);
-    s.pivots += std::exchange(state.pivots, 0);
+    s.effort = state.effort;
     if (!state.touches) {
       s.end = RollingEnd::no_contact;
       if (!drive.load) break;
       // Nothing is left that touches: from further down.
-      state.point.height = radius * (1.0 - 2e-3 * (round + 1));
+      state.point = {{}, radius * (1.0 - 2e-3 * (round + 1)), drive.speed};
+      state.statuses.clear();
       window.include_below(state.point.height);
-      state.found.clear();
       continue;
     }
     // Forces that are no solution leave all sorts of pairs in the ground: no further than once
@@ -107,11 +103,12 @@ RollingSolution solve_rolling(RollingWindow& window, const RollingDrive& drive,
       s.end = RollingEnd::sliding;
     return s;
   }
-  return nothing(window, state.point, std::move(s));
+  return nothing(window.problem(), state.point, std::move(s));
 }
 
-double rolling_residual(const RollingWindow& window, const RollingSolution& s, double friction) {
-  return rolling_residual(window.problem(), {s.force, s.height, s.speed}, friction);
-}
+template RollingSolution solve_rolling(RollingWindow<2>&, const RollingDrive&,
+                                       const RollingStatuses&);
+template RollingSolution solve_rolling(RollingWindow<3>&, const RollingDrive&,
+                                       const RollingStatuses&);
 
 }  // namespace rondo::statics

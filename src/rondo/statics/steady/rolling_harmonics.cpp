@@ -5,10 +5,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
 #include <utility>
 
 #include "rondo/core/contract.hpp"
+#include "rondo/core/process_wide.hpp"
 #include "rondo/statics/imaginary.hpp"
 #include "rondo/statics/steady/fourier.hpp"
 
@@ -16,83 +18,60 @@ namespace rondo::statics {
 namespace {
 
 using Complexes = std::complex<double>;
+using Eigen::Index;
 
-std::size_t at(Eigen::Index index) noexcept {
+/// Above it, transfers of the harmonics are made anew wherever fields are asked for [B].
+constexpr double most_kept = 2.5e8;
+
+std::size_t at(Index index) noexcept {
   return static_cast<std::size_t>(index);
+}
+
+fftw_complex* raw(Complexes* values) noexcept {
+  return reinterpret_cast<fftw_complex*>(values);
 }
 
 }  // namespace
 
-RollingHarmonics::RollingHarmonics(RollingBody body)
+template <int D>
+RollingHarmonics<D>::RollingHarmonics(RollingBody<D> body)
     : body_(std::move(body)), turn_(body_.stiffness.n_sectors * body_.samples) {
   RONDO_DEMAND(body_.spin != 0.0 && body_.samples >= 1, body_.spin, body_.samples);
-  layers_ = rolling_layers(body_.stiffness, body_.reference, body_.mass);
+  RONDO_DEMAND(!body_.candidates.empty());
+  const OneBlasThread one_thread;
+  layers_ = rolling_layers(body_.stiffness, body_.candidates, body_.mass);
   for (int m = 0; m < turn_; ++m)
     waves_.push_back(std::polar(1.0, 2.0 * std::numbers::pi * m / turn_));
-  find_candidates();
-  move_masses();
+  if (body_.massless) move_masses();
   find_compliance();
-  base_ = Block::Zero(n_rows(), 2);
-  for (int k = 0; k < 2; ++k) base_.col(k) = solve(layers_, order(k), load_of(k));
-  find_weight_torque();
+  find_bases();
 }
 
-bool RollingHarmonics::finite() const noexcept {
+template <int D>
+bool RollingHarmonics<D>::finite() const noexcept {
   return std::ranges::all_of(history_, [](double x) { return std::isfinite(x); }) &&
-         base_.allFinite();
+         constant_.allFinite() && leaning_.allFinite() && turning_.allFinite();
 }
 
-/// Minus the power of the weight over s, -2N Re(i R_1ᴴ U_1), and what each force adds to U_1.
-void RollingHarmonics::find_weight_torque() {
-  const Eigen::VectorXcd load = load_of(1);
-  const Complexes factor = -2.0 * i * static_cast<double>(body_.stiffness.n_sectors);
-  weight_torque_ = (factor * load.dot(base_.col(1))).real();
-  const RollingLayer& last = layers_.back();
-  const std::size_t n_transfers = transfer_size(layers_);
-  for (Eigen::Index c = 0; c < surface_[1].cols(); ++c) {
-    Eigen::VectorXcd u = Eigen::VectorXcd::Zero(n_rows());
-    u.segment(last.first, last.size) = surface_[1].col(c) / static_cast<double>(turn_);
-    follow(layers_, std::span(transfers_).subspan(n_transfers, n_transfers),
-           {u.data(), at(u.size())});
-    weight_by_force_.push_back(factor * load.dot(u));
-  }
-}
-
-Vec2 RollingHarmonics::weight_torque(std::size_t a, int sample) const noexcept {
-  const Complexes back = std::conj(waves_[at((sample % turn_ + turn_) % turn_)]);
-  return {(weight_by_force_[2 * a] * back).real(), (weight_by_force_[2 * a + 1] * back).real()};
-}
-
-void RollingHarmonics::find_candidates() {
-  for (const int row : body_.candidates) {
-    RONDO_DEMAND(2 * row >= layers_.back().first, row);
-    local_.push_back(2 * row - layers_.back().first);
-  }
-}
-
-/// A candidate's mass to the row of the layer below that is nearest in angle.
-void RollingHarmonics::move_masses() {
-  if (!body_.massless) return;
+/// A candidate's mass goes to the row of the layer below that is nearest to it.
+template <int D>
+void RollingHarmonics<D>::move_masses() {
   RONDO_DEMAND(layers_.size() >= 2);
-  RollingLayer &below = layers_[layers_.size() - 2], &last = layers_.back();
-  const auto place = [&](const RollingLayer& layer, std::size_t a) {
-    return body_.reference[body_.stiffness.node(at(layer.first / 2) + a, 0)];
-  };
-  for (const Eigen::Index number : local_) {
-    const Vec2 x = place(last, at(number / 2));
+  RollingLayer<D>&below = layers_[layers_.size() - 2], &last = layers_.back();
+  for (std::size_t a = 0; a < last.rows.size(); ++a) {
     std::size_t best = 0;
-    double most = -2.0;
-    for (std::size_t b = 0; b < below.mass.size(); ++b) {
-      const Vec2 y = place(below, b);
-      const double cosine = dot(x, y) / (norm(x) * norm(y));
-      if (cosine > most) most = cosine, best = b;
+    double least = std::numeric_limits<double>::infinity();
+    for (std::size_t b = 0; b < below.rows.size(); ++b) {
+      const double distance = (body_.place(below.rows[b]) - body_.place(last.rows[a])).norm();
+      if (distance < least) least = distance, best = b;
     }
-    below.mass[best] += std::exchange(last.mass[at(number / 2)], 0.0);
+    below.mass[best] += std::exchange(last.mass[a], 0.0);
   }
 }
 
 /// The highest of an even turn has no derivative.
-RollingOrder RollingHarmonics::order(int k) const noexcept {
+template <int D>
+RollingOrder RollingHarmonics<D>::order(int k) const noexcept {
   const Complexes turn = waves_[static_cast<std::size_t>(k) * at(body_.samples) % waves_.size()];
   return {{std::conj(turn), 1.0, turn},
           2 * k == turn_ ? 0.0 : k * body_.spin,
@@ -101,133 +80,183 @@ RollingOrder RollingHarmonics::order(int k) const noexcept {
           body_.stiffness_damping};
 }
 
-/// One inverse real transform of the candidates' rows of Z_k⁻¹ over the harmonics.
-void RollingHarmonics::find_compliance() {
-  const std::size_t n = 2 * n_candidates(), length = at(turn_), half = length / 2 + 1;
-  const std::size_t n_transfers = transfer_size(layers_);
-  transfers_.resize(half * n_transfers);
+/// One inverse real transform of the candidates' Z_k⁻¹ over the harmonics.
+template <int D>
+void RollingHarmonics<D>::find_compliance() {
+  const std::size_t n = D * n_candidates(), length = at(turn_), half = length / 2 + 1;
+  const std::size_t size = transfer_size(layers_);
+  const bool keep = static_cast<double>(size * half * sizeof(Complexes)) <= most_kept;
+  if (keep) transfers_.resize(half * size);
   surface_.resize(half);
   std::vector<Complexes> spectra(n * n * half);
+  const Strides in = strides(n * n, half), out = strides(n * n, length);
 #pragma omp parallel for num_threads(body_.threads) schedule(static)
   for (std::size_t k = 0; k < half; ++k) {
-    const Block g = eliminate(layers_, order(static_cast<int>(k)),
-                              std::span(transfers_).subspan(k * n_transfers, n_transfers));
-    Block& surface = surface_[k];
-    surface.resize(g.rows(), static_cast<Eigen::Index>(n));
-    for (std::size_t c = 0; c < n; ++c) {
-      const auto column = static_cast<Eigen::Index>(c);
-      surface.col(column) = g.col(local_[c / 2] + column % 2);
-      for (std::size_t r = 0; r < n; ++r)
-        spectra[(r * n + c) * half + k] =
-            surface(local_[r / 2] + static_cast<Eigen::Index>(r % 2), column) /
-            static_cast<double>(length);
-    }
+    std::vector<Complexes> own(keep ? 0 : size);
+    surface_[k] = eliminate(layers_, order(static_cast<int>(k)),
+                            keep ? std::span(transfers_).subspan(k * size, size) : std::span(own));
+    for (std::size_t e = 0; e < n * n; ++e)
+      spectra[e * in.entry + k * in.place] = surface_[k].data()[e] / static_cast<double>(length);
   }
   history_.resize(n * n * length);
-  const int size = turn_;
   transform_once([&] {
-    return fftw_plan_many_dft_c2r(
-        1, &size, static_cast<int>(n * n), reinterpret_cast<fftw_complex*>(spectra.data()), nullptr,
-        1, static_cast<int>(half), history_.data(), nullptr, 1, size, FFTW_ESTIMATE);
+    return fftw_plan_many_dft_c2r(1, &turn_, static_cast<int>(n * n), raw(spectra.data()), nullptr,
+                                  static_cast<int>(in.place), static_cast<int>(in.entry),
+                                  history_.data(), nullptr, static_cast<int>(out.place),
+                                  static_cast<int>(out.entry), FFTW_ESTIMATE);
   });
 }
 
-Eigen::Matrix2d RollingHarmonics::compliance(std::size_t a, std::size_t b,
-                                             int ahead) const noexcept {
-  const std::size_t n = 2 * n_candidates(), length = at(turn_);
-  const auto m = static_cast<std::size_t>((ahead % turn_ + turn_) % turn_);
-  const auto entry = [&](std::size_t r, std::size_t c) {
-    return history_[((2 * a + r) * n + 2 * b + c) * length + m];
-  };
-  Eigen::Matrix2d g;
-  g << entry(0, 0), entry(0, 1), entry(1, 0), entry(1, 1);
+template <int D>
+NodeMatrix<D> RollingHarmonics<D>::compliance(std::size_t a, std::size_t b,
+                                              int ahead) const noexcept {
+  const std::size_t n = D * n_candidates();
+  const Strides of = strides(n * n, at(turn_));
+  const double* from = history_.data() + wrapped(ahead) * of.place;
+  NodeMatrix<D> g;
+  for (std::size_t c = 0; c < D; ++c)
+    for (std::size_t r = 0; r < D; ++r)
+      g.data()[D * c + r] = from[((D * b + c) * n + D * a + r) * of.entry];
   return g;
 }
 
-/// Spin and constant loads in harmonic 0; gravity, which turns past the sectors, in harmonic 1:
-/// R(-ψ)(0, -mg) = -mg (sin ψ, cos ψ).
-Eigen::VectorXcd RollingHarmonics::load_of(int k) const {
-  const fem::SectorStiffness& stiffness = body_.stiffness;
-  const double s = body_.spin;
+/// Of spin, and loads that are the same in all sectors.
+template <int D>
+Eigen::VectorXcd RollingHarmonics<D>::constant_load() const {
   Eigen::VectorXcd f = Eigen::VectorXcd::Zero(n_rows());
-  for (const RollingLayer& layer : layers_)
-    for (std::size_t b = 0; b < layer.mass.size(); ++b) {
-      const std::size_t a = at(layer.first / 2) + b;
-      const auto row = static_cast<Eigen::Index>(2 * a);
-      const double m = layer.mass[b];
-      if (k == 1) {
-        f[row] = 0.5 * i * (m * body_.gravity);
-        f[row + 1] = -0.5 * (m * body_.gravity);
-        continue;
-      }
-      const Vec2 load = body_.load.empty() ? Vec2{} : body_.load[a];
-      const Vec2 x = body_.reference[stiffness.node(a, 0)];
-      f[row] = s * s * m * x.x + load.x;
-      f[row + 1] = s * s * m * x.y + load.y;
+  for (const RollingLayer<D>& layer : layers_)
+    for (std::size_t b = 0; b < layer.rows.size(); ++b) {
+      const std::size_t a = at(layer.rows[b]);
+      NodeVector<D> pull = body_.spin * body_.spin * layer.mass[b] * body_.place(layer.rows[b]);
+      if constexpr (D == 3) pull[2] = 0.0;
+      if (!body_.load.empty()) pull += node_vector(body_.load[a]);
+      f.segment<D>(static_cast<Index>(D * a)) = pull;
     }
   return f;
 }
 
-Vec2 RollingHarmonics::place(std::size_t a, int sample) const noexcept {
-  const int row = body_.candidates[a];
-  const Vec2 x = body_.reference[body_.stiffness.node(static_cast<std::size_t>(row), 0)];
-  const Complexes wave = 2.0 * waves_[at((sample % turn_ + turn_) % turn_)];
-  const auto along = [&](int component) {
-    const Eigen::Index n = 2 * row + component;
-    return base_(n, 0).real() + (base_(n, 1) * wave).real();
-  };
-  return x + Vec2{along(0), along(1)};
+/// Of an acceleration of 1: along -z it is in harmonic 0; along -y it turns past the sectors, in
+/// harmonic 1: R(-ψ)(0, -m) = -m (sin ψ, cos ψ).
+template <int D>
+Eigen::VectorXcd RollingHarmonics<D>::weight_load(bool axial) const {
+  Eigen::VectorXcd f = Eigen::VectorXcd::Zero(n_rows());
+  for (const RollingLayer<D>& layer : layers_)
+    for (std::size_t b = 0; b < layer.rows.size(); ++b) {
+      const Index row = D * layer.rows[b];
+      const double m = layer.mass[b];
+      if (axial) {
+        f[row + D - 1] = -m;
+      } else {
+        f[row] = 0.5 * i * m;
+        f[row + 1] = -0.5 * m;
+      }
+    }
+  return f;
 }
 
-RollingHarmonics::Block RollingHarmonics::spectrum(const Eigen::MatrixXd& force) const {
-  const std::size_t length = at(turn_), half = length / 2 + 1, n = 2 * n_candidates();
-  RONDO_DEMAND(at(force.rows()) == n && at(force.cols()) == length, force.rows(), force.cols());
-  Eigen::MatrixXd in = force.transpose();  // a column a component
-  Block forces(static_cast<Eigen::Index>(half), static_cast<Eigen::Index>(n));
-  const int size = turn_;
-  transform_once([&] {
-    return fftw_plan_many_dft_r2c(1, &size, static_cast<int>(n), in.data(), nullptr, 1, size,
-                                  reinterpret_cast<fftw_complex*>(forces.data()), nullptr, 1,
-                                  static_cast<int>(half), FFTW_ESTIMATE);
-  });
-  Block u = Block::Zero(n_rows(), static_cast<Eigen::Index>(half));
-  const RollingLayer& last = layers_.back();
-  const std::size_t n_transfers = transfer_size(layers_);
-#pragma omp parallel for num_threads(body_.threads) schedule(static)
-  for (Eigen::Index k = 0; k < u.cols(); ++k) {
-    u.col(k).segment(last.first, last.size) =
-        surface_[at(k)] * forces.row(k).transpose() / static_cast<double>(turn_);
-    follow(layers_, std::span(transfers_).subspan(at(k) * n_transfers, n_transfers),
-           {u.col(k).data(), at(u.rows())});
-    if (k < 2) u.col(k) += base_.col(k);
+/// Displacement of all rows in harmonic k, once those of the candidates are there.
+template <int D>
+void RollingHarmonics<D>::follow_candidates(int k, const Eigen::VectorXcd& surface,
+                                            Eigen::Ref<Eigen::VectorXcd> u) const {
+  for (std::size_t a = 0; a < n_candidates(); ++a)
+    u.segment<D>(D * body_.candidates[a]) = surface.segment<D>(static_cast<Index>(D * a));
+  const std::size_t size = transfer_size(layers_);
+  if (transfers_.empty()) {
+    std::vector<Complexes> own(size);
+    static_cast<void>(eliminate(layers_, order(k), std::span(own)));
+    follow(layers_, std::span<const Complexes>(own), u);
+  } else {
+    follow(layers_, std::span(transfers_).subspan(at(k) * size, size), u);
+  }
+}
+
+/// The torque of the weight is minus its power over s, -2N Re(i R_1ᴴ U_1).
+template <int D>
+void RollingHarmonics<D>::find_bases() {
+  const Eigen::VectorXcd load = weight_load(false);
+  constant_ = solve(layers_, order(0), constant_load());
+  if constexpr (D == 3) leaning_ = solve(layers_, order(0), weight_load(true));
+  turning_ = solve(layers_, order(1), load);
+  const Complexes factor = -2.0 * i * static_cast<double>(body_.stiffness.n_sectors);
+  weight_torque_ = (factor * load.dot(turning_)).real();
+  for (Index c = 0; c < surface_[1].cols(); ++c) {
+    Eigen::VectorXcd u = Eigen::VectorXcd::Zero(n_rows());
+    follow_candidates(1, surface_[1].col(c) / static_cast<double>(turn_), u);
+    weight_by_force_.push_back(factor * load.dot(u));
+  }
+}
+
+template <int D>
+NodeVector<D> RollingHarmonics<D>::weight_torque(std::size_t a, int sample) const noexcept {
+  const Complexes back = std::conj(waves_[wrapped(sample)]);
+  NodeVector<D> torque;
+  for (Index c = 0; c < D; ++c) torque[c] = (weight_by_force_[D * a + at(c)] * back).real();
+  return torque;
+}
+
+template <int D>
+NodeVector<D> RollingHarmonics<D>::displacement(std::size_t a, int sample,
+                                                RollingGravity g) const noexcept {
+  const Complexes wave = 2.0 * waves_[wrapped(sample)];
+  NodeVector<D> u;
+  for (Index c = 0; c < D; ++c) {
+    const Index n = D * body_.candidates[a] + c;
+    u[c] = constant_[n].real() + g.down * (turning_[n] * wave).real();
+    if constexpr (D == 3) u[c] += g.axial * leaning_[n].real();
   }
   return u;
 }
 
-Eigen::MatrixXd RollingHarmonics::fields(Eigen::Ref<const Block> spectrum, double chi,
-                                         bool rate) const {
+template <int D>
+RollingHarmonics<D>::Block RollingHarmonics<D>::spectrum(const Eigen::MatrixXd& force,
+                                                         RollingGravity g) const {
+  const std::size_t length = at(turn_), half = length / 2 + 1, n = D * n_candidates();
+  RONDO_DEMAND(at(force.rows()) == n && at(force.cols()) == length, force.rows(), force.cols());
+  const OneBlasThread one_thread;
+  Eigen::MatrixXd in = force.transpose();  // a column a component
+  Block forces(static_cast<Index>(half), static_cast<Index>(n));
+  transform_once([&] {
+    return fftw_plan_many_dft_r2c(1, &turn_, static_cast<int>(n), in.data(), nullptr, 1, turn_,
+                                  raw(forces.data()), nullptr, 1, static_cast<int>(half),
+                                  FFTW_ESTIMATE);
+  });
+  Block u = Block::Zero(n_rows(), static_cast<Index>(half));
+#pragma omp parallel for num_threads(body_.threads) schedule(static)
+  for (Index k = 0; k < u.cols(); ++k)
+    follow_candidates(static_cast<int>(k),
+                      surface_[at(k)] * forces.row(k).transpose() / static_cast<double>(turn_),
+                      u.col(k));
+  u.col(0) += constant_;
+  if constexpr (D == 3) u.col(0) += g.axial * leaning_;
+  u.col(1) += g.down * turning_;
+  return u;
+}
+
+template <int D>
+Eigen::MatrixXd RollingHarmonics<D>::fields(Eigen::Ref<const Block> spectrum, double chi,
+                                            bool rate) const {
   Block turned = spectrum.transpose();  // a column a row's component
-  for (Eigen::Index k = 0; k < turned.rows(); ++k) {
+  for (Index k = 0; (rate || chi != 0.0) && k < turned.rows(); ++k) {
     const bool last = 2 * k == turn_;  // has no derivative, and no phase
     const auto order = static_cast<double>(k);
     const Complexes phase = last ? Complexes{1.0, 0.0} : std::polar(1.0, order * chi);
     turned.row(k) *= rate ? (last ? Complexes{} : i * order * phase) : phase;
   }
   Eigen::MatrixXd out(turn_, turned.cols());
-  const int size = turn_;
   transform_once([&] {
-    return fftw_plan_many_dft_c2r(
-        1, &size, static_cast<int>(turned.cols()), reinterpret_cast<fftw_complex*>(turned.data()),
-        nullptr, 1, static_cast<int>(turned.rows()), out.data(), nullptr, 1, size, FFTW_ESTIMATE);
+    return fftw_plan_many_dft_c2r(1, &turn_, static_cast<int>(turned.cols()), raw(turned.data()),
+                                  nullptr, 1, static_cast<int>(turned.rows()), out.data(), nullptr,
+                                  1, turn_, FFTW_ESTIMATE);
   });
   return out.transpose();
 }
 
-RollingHarmonics::Damped RollingHarmonics::damped(const Block& spectrum) const {
+template <int D>
+RollingHarmonics<D>::Damped RollingHarmonics<D>::damped(const Block& spectrum) const {
   std::vector<RollingNorms> norms(at(spectrum.cols()));
 #pragma omp parallel for num_threads(body_.threads) schedule(static)
-  for (Eigen::Index k = 1; k < spectrum.cols(); ++k)
-    norms[at(k)] = norms_of(layers_, order(static_cast<int>(k)), spectrum.col(k));
+  for (Index k = 1; k < spectrum.cols(); ++k)
+    norms[at(k)] = norms_of<D>(layers_, order(static_cast<int>(k)), spectrum.col(k));
   Damped d;
   for (int k = 1; 2 * k < turn_; ++k) {
     const RollingNorms& of = norms[static_cast<std::size_t>(k)];
@@ -239,9 +268,13 @@ RollingHarmonics::Damped RollingHarmonics::damped(const Block& spectrum) const {
 }
 
 /// N Σ R_kᴴ (iks U_k) over k = 1 and -1.
-double RollingHarmonics::weight(const Block& spectrum) const {
-  const Complexes power = load_of(1).dot(spectrum.col(1)) * (i * body_.spin);
-  return 2.0 * body_.stiffness.n_sectors * power.real();
+template <int D>
+double RollingHarmonics<D>::weight(const Block& spectrum, RollingGravity g) const {
+  const Complexes power = weight_load(false).dot(spectrum.col(1)) * (i * body_.spin);
+  return 2.0 * body_.stiffness.n_sectors * g.down * power.real();
 }
+
+template class RollingHarmonics<2>;
+template class RollingHarmonics<3>;
 
 }  // namespace rondo::statics

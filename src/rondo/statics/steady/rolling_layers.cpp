@@ -1,216 +1,279 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "rondo/statics/steady/rolling_layers.hpp"
 
-#include <Eigen/LU>
 #include <algorithm>
-#include <cmath>
+#include <utility>
 
+#include "rondo/core/contract.hpp"
 #include "rondo/statics/imaginary.hpp"
+#include "rondo/statics/steady/complex_lu.hpp"
 
 namespace rondo::statics {
 namespace {
 
 using Complexes = std::complex<double>;
 using Eigen::Index;
-using Layers = std::span<const RollingLayer>;
 
-/// Of one harmonic, with blocks of a size that is known where all layers are of one row: a smooth
-/// disk's are, and take a fifth of the time so.
-template <int Size>
-struct Blocks {
-  using Block = Eigen::Matrix<Complexes, Size, Size>;
+/// (n_local) elements between a row and the nearest candidate, across sectors too.
+template <int D>
+std::vector<int> distances(const fem::SectorBlocks<D>& k, std::span<const int> candidates) {
+  std::vector<int> distance(k.n_local(), -1), next(candidates.begin(), candidates.end());
+  for (int d = 0; !next.empty(); ++d) {
+    std::vector<int> reached;
+    for (const int row : next) distance[static_cast<std::size_t>(row)] = d;
+    for (const int row : next)
+      for (const auto& e : k.row(static_cast<std::size_t>(row))) {
+        int& of = distance[static_cast<std::size_t>(e.column)];
+        if (of < 0) of = d + 1, reached.push_back(e.column);
+      }
+    next = std::move(reached);
+  }
+  return distance;
+}
 
+/// One harmonic, whose blocks have Size rows in each layer, or any number if it is Eigen::Dynamic.
+template <int D, int Size>
+struct Harmonic {
+  using Lu = ComplexLu<D, Size>;
+  using Block = typename Lu::Block;
+  using Vector = Eigen::Matrix<Complexes, Size, 1>;
+
+  const RollingLayers<D>& layers;
   const RollingOrder& order;
 
-  [[nodiscard]] Block turned(const std::array<Eigen::MatrixXd, 3>& shifted) const {
-    if constexpr (Size == 2) {
-      Block b;
-      for (Index n = 0; n < 4; ++n)
-        b.data()[n] = order.turns[0] * shifted[0].data()[n] + shifted[1].data()[n] +
-                      order.turns[2] * shifted[2].data()[n];
-      return b;
-    } else {
-      return order.turns[0] * shifted[0] + shifted[1] + order.turns[2] * shifted[2];
-    }
-  }
   [[nodiscard]] Complexes elastic() const {
     return 1.0 + i * (order.rate * order.stiffness_damping);
   }
-  [[nodiscard]] Block own(const RollingLayer& layer) const {
-    Block z = elastic() * turned(layer.own);
-    const Complexes straight =
-        -order.rate * order.rate - order.spin * order.spin + i * (order.rate * order.mass_damping);
+  /// K(k) of some entries; in space, where they are few beside the block, with the damping.
+  [[nodiscard]] Block turned(const std::vector<RollingEntry<D>>& entries, Index rows,
+                             Index columns) const {
+    std::array<Complexes, 3> turns = order.turns;
+    if constexpr (D == 3)
+      for (Complexes& turn : turns) turn *= elastic();
+    Block z = Block::Zero(rows, columns);
+    for (const RollingEntry<D>& e : entries)
+      z.template block<D, D>(D * e.row, D * e.column) += turns[e.shift] * e.block;
+    return z;
+  }
+  /// With the damping, in the plane too.
+  [[nodiscard]] decltype(auto) damped(const Block& block) const {
+    if constexpr (D == 3)
+      return (block);
+    else
+      return elastic() * block;
+  }
+  [[nodiscard]] Block own(const RollingLayer<D>& layer) const {
+    Block z = turned(layer.own, layer.size(), layer.size());
+    if constexpr (D == 2) z = elastic() * z;
+    const Complexes drag = i * (order.rate * order.mass_damping);
+    const Complexes axial = -order.rate * order.rate + drag;
+    const Complexes straight = -order.rate * order.rate - order.spin * order.spin + drag;
     const Complexes across = 2.0 * i * (order.rate * order.spin);
     for (std::size_t a = 0; a < layer.mass.size(); ++a) {
-      const auto row = static_cast<Index>(2 * a);
+      const auto row = static_cast<Index>(D * a);
       const double m = layer.mass[a];
-      z(row, row) += m * straight;
-      z(row + 1, row + 1) += m * straight;
+      for (Index c = 0; c < D; ++c) z(row + c, row + c) += m * (c < 2 ? straight : axial);
       z(row, row + 1) -= m * across;
       z(row + 1, row) += m * across;
     }
     return z;
   }
-  /// Times a matrix on the right.
-  template <class Right>
-  static auto solved(const Block& block, const Right& right) {
-    if constexpr (Size == 2)
-      return (block.inverse() * right).eval();
-    else
-      return block.partialPivLu().solve(right).eval();
+  /// Z_(l, l-1), as turned() has it; Z_(l-1, l) is the adjoint, but for the damping.
+  [[nodiscard]] Block up(std::size_t l) const {
+    return turned(layers[l].up, layers[l].size(), layers[l - 1].size());
   }
 
-  /// What is left of each layer, once those below are gone, is given to `left`.
+  /// Factors of the last layer, once those below are gone; those of the others, and T_l, are given
+  /// to `take`.
   template <class Take>
-  Block last(Layers layers, Take&& take) const {
+  [[nodiscard]] Lu last(Take&& take) const {
+    const Complexes back = D == 3 ? elastic() / std::conj(elastic()) : elastic();
     Block here = own(layers[0]);
     for (std::size_t l = 1; l < layers.size(); ++l) {
-      const Block up = turned(layers[l].up);
-      const Block transfer = solved(here, (-elastic() * up.adjoint()).eval());
-      take(l - 1, here, transfer);
+      const Block next = up(l);
+      const Lu lu(std::move(here));
+      const Block transfer = lu.solved(Block(-back * next.adjoint()));
+      take(l - 1, lu, transfer);
       here = own(layers[l]);
-      here.noalias() += elastic() * up * transfer;
+      Lu::add_product(damped(next), transfer, here);
     }
-    return here;
+    return Lu(std::move(here));
+  }
+
+  [[nodiscard]] Vector part(const RollingLayer<D>& layer, const auto& all) const {
+    Vector some(layer.size());
+    for (std::size_t a = 0; a < layer.rows.size(); ++a)
+      some.template segment<D>(static_cast<Index>(D * a)) =
+          all.template segment<D>(D * layer.rows[a]);
+    return some;
+  }
+  void put(const RollingLayer<D>& layer, const Vector& some, auto& all) const {
+    for (std::size_t a = 0; a < layer.rows.size(); ++a)
+      all.template segment<D>(D * layer.rows[a]) =
+          some.template segment<D>(static_cast<Index>(D * a));
+  }
+
+  [[nodiscard]] Eigen::MatrixXcd eliminate(std::span<Complexes> transfers) const {
+    Complexes* to = transfers.data();
+    return last([&](std::size_t, const Lu&, const Block& transfer) {
+             to = std::copy_n(transfer.data(), transfer.size(), to);
+           })
+        .inverse();
+  }
+  void follow(std::span<const Complexes> transfers, Eigen::Ref<Eigen::VectorXcd> u) const {
+    const Complexes* from = transfers.data() + transfers.size();
+    Vector next = part(layers.back(), u);
+    for (std::size_t l = layers.size() - 1; l-- > 0;) {
+      const Index rows = layers[l].size(), columns = layers[l + 1].size();
+      from -= rows * columns;
+      const Vector here = Eigen::Map<const Block>(from, rows, columns) * next;
+      put(layers[l], here, u);
+      next = here;
+    }
+  }
+  /// From each layer to the next what acts on it; then back.
+  [[nodiscard]] Eigen::VectorXcd solve(const Eigen::VectorXcd& force) const {
+    std::vector<Vector> alone{part(layers[0], force)};
+    std::vector<Block> transfers;
+    const Lu end = last([&](std::size_t l, const Lu& lu, const Block& transfer) {
+      transfers.push_back(transfer);
+      alone[l] = lu.solved(alone[l]);
+      alone.push_back(part(layers[l + 1], force));
+      alone[l + 1] -= damped(up(l + 1)) * alone[l];
+    });
+    Eigen::VectorXcd u(force.size());
+    Vector next = end.solved(alone.back());
+    put(layers.back(), next, u);
+    for (std::size_t l = layers.size() - 1; l-- > 0;) {
+      next = (alone[l] + transfers[l] * next).eval();
+      put(layers[l], next, u);
+    }
+    return u;
   }
 };
 
-bool all_of_one_row(Layers layers) {
-  return std::ranges::all_of(layers, [](const RollingLayer& l) { return l.size == 2; });
-}
-
-template <int Size>
-Eigen::MatrixXcd eliminate_all(Layers layers, const RollingOrder& order,
-                               std::span<Complexes> transfers) {
-  using Block = typename Blocks<Size>::Block;
-  Complexes* to = transfers.data();
-  const Block last =
-      Blocks<Size>{order}.last(layers, [&](std::size_t, const Block&, const Block& transfer) {
-        to = std::copy_n(transfer.data(), transfer.size(), to);
-      });
-  return Blocks<Size>::solved(last, Eigen::MatrixXcd::Identity(last.rows(), last.cols()));
-}
-
-template <int Size>
-void follow_all(Layers layers, std::span<const Complexes> transfers,
-                Eigen::Map<Eigen::VectorXcd>& u) {
-  using Block = typename Blocks<Size>::Block;
-  const Complexes* from = transfers.data() + transfers.size();
-  for (std::size_t l = layers.size() - 1; l-- > 0;) {
-    const RollingLayer &here = layers[l], &next = layers[l + 1];
-    from -= here.size * next.size;
-    u.segment<Size>(here.first, here.size) = Eigen::Map<const Block>(from, here.size, next.size) *
-                                             u.segment<Size>(next.first, next.size);
-  }
-}
-
-/// Re xᴴ (e^{-iθ} B_-1 + B_0 + e^{iθ} B_1) y.
-double form(const std::array<Eigen::MatrixXd, 3>& b, Complexes turn, const Complexes* x,
-            const Complexes* y) {
-  const double *less = b[0].data(), *same = b[1].data(), *more = b[2].data();
-  const double cosine = turn.real(), sine = turn.imag();
-  double sum = 0.0;
-  for (Index c = 0, n = 0; c < b[1].cols(); ++c)
-    for (Index r = 0; r < b[1].rows(); ++r, ++n) {
-      const double re = x[r].real() * y[c].real() + x[r].imag() * y[c].imag();
-      const double im = x[r].real() * y[c].imag() - x[r].imag() * y[c].real();
-      sum += re * (same[n] + (less[n] + more[n]) * cosine) - im * ((more[n] - less[n]) * sine);
-    }
-  return sum;
+/// Calls with a Harmonic whose blocks have a size that is known where all layers are of one row, as
+/// those of a smooth disk are.
+template <int D, class Call>
+auto with_harmonic(const RollingLayers<D>& layers, const RollingOrder& order, Call&& call) {
+  if constexpr (D == 2)
+    if (std::ranges::all_of(layers, [](const auto& l) { return l.rows.size() == 1; }))
+      return call(Harmonic<D, D>{layers, order});
+  return call(Harmonic<D, Eigen::Dynamic>{layers, order});
 }
 
 }  // namespace
 
-std::vector<RollingLayer> rolling_layers(const fem::SectorStiffness& k,
-                                         std::span<const Vec2> reference,
-                                         std::span<const double> mass) {
-  std::vector<RollingLayer> layers;
-  const auto radius = [&](std::size_t a) { return norm(reference[k.node(a, 0)]); };
-  for (std::size_t a = 0; a < k.n_local(); ++a) {
-    const bool next = a == 0 || std::abs(radius(a) - radius(a - 1)) > 1e-9 * radius(a);
-    if (next) layers.emplace_back().first = static_cast<Index>(2 * a);
-    layers.back().size += 2;
-    layers.back().mass.push_back(mass[k.node(a, 0)]);
-  }
-  for (std::size_t l = 0; l < layers.size(); ++l) {
-    RollingLayer& layer = layers[l];
-    const RollingLayer none, &below = l > 0 ? layers[l - 1] : none;
-    layer.own.fill(Eigen::MatrixXd::Zero(layer.size, layer.size));
-    layer.up.fill(Eigen::MatrixXd::Zero(layer.size, below.size));
-    for (Index row = 0; row < layer.size; row += 2)
-      for (const auto& e : k.row(static_cast<std::size_t>((layer.first + row) / 2))) {
-        const bool is_own = 2 * e.column >= layer.first;
-        const Index column = 2 * e.column - (is_own ? layer.first : below.first);
-        if (column < 0 || column >= (is_own ? layer.size : below.size)) continue;
-        auto& to =
-            (is_own ? layer.own : layer.up)[static_cast<std::size_t>(std::ptrdiff_t{e.shift} + 1)];
-        to.block<2, 2>(row, column) += Eigen::Map<const Eigen::Matrix2d>(e.block.data());
+template <int D>
+RollingLayers<D> rolling_layers(const fem::SectorBlocks<D>& k, std::span<const int> candidates,
+                                std::span<const double> mass) {
+  const std::vector<int> distance = distances(k, candidates);
+  const int deepest = *std::ranges::max_element(distance);
+  RONDO_DEMAND(*std::ranges::min_element(distance) >= 0, deepest);
+  RollingLayers<D> layers(static_cast<std::size_t>(deepest) + 1);
+  std::vector<Index> place(k.n_local());
+  const auto add = [&](int row) {
+    const auto a = static_cast<std::size_t>(row);
+    RollingLayer<D>& layer = layers[static_cast<std::size_t>(deepest - distance[a])];
+    place[a] = std::ssize(layer.rows);
+    layer.rows.push_back(row);
+    layer.mass.push_back(mass[k.node(a, 0)]);
+  };
+  for (const int row : candidates) add(row);
+  for (std::size_t a = 0; a < k.n_local(); ++a)
+    if (distance[a] > 0) add(static_cast<int>(a));
+  for (RollingLayer<D>& layer : layers)
+    for (const int row : layer.rows)
+      for (const auto& e : k.row(static_cast<std::size_t>(row))) {
+        const auto a = static_cast<std::size_t>(row), b = static_cast<std::size_t>(e.column);
+        if (distance[b] < distance[a]) continue;  // of the next layer, whose `up` has it
+        RollingEntry<D> entry{place[a], place[b],
+                              static_cast<std::size_t>(std::ptrdiff_t{e.shift} + 1),
+                              Eigen::Map<const NodeMatrix<D>>(e.block.data())};
+        (distance[b] == distance[a] ? layer.own : layer.up).push_back(entry);
       }
-  }
   return layers;
 }
 
-std::size_t transfer_size(Layers layers) {
+template <int D>
+std::size_t transfer_size(const RollingLayers<D>& layers) {
   Index size = 0;
-  for (std::size_t l = 1; l < layers.size(); ++l) size += layers[l - 1].size * layers[l].size;
+  for (std::size_t l = 1; l < layers.size(); ++l) size += layers[l - 1].size() * layers[l].size();
   return static_cast<std::size_t>(size);
 }
 
-Eigen::MatrixXcd eliminate(Layers layers, const RollingOrder& order,
+template <int D>
+Eigen::MatrixXcd eliminate(const RollingLayers<D>& layers, const RollingOrder& order,
                            std::span<Complexes> transfers) {
-  return all_of_one_row(layers) ? eliminate_all<2>(layers, order, transfers)
-                                : eliminate_all<Eigen::Dynamic>(layers, order, transfers);
+  return with_harmonic(layers, order, [&](const auto& h) { return h.eliminate(transfers); });
 }
 
-Eigen::VectorXcd solve(Layers layers, const RollingOrder& order, const Eigen::VectorXcd& force) {
-  using All = Blocks<Eigen::Dynamic>;
-  const All of{order};
-  std::vector<Complexes> transfers;
-  Eigen::VectorXcd u = force;
-  // From each layer to the next what acts on it; then back.
-  const All::Block last =
-      of.last(layers, [&](std::size_t l, const All::Block& here, const All::Block& transfer) {
-        const RollingLayer &low = layers[l], &high = layers[l + 1];
-        transfers.insert(transfers.end(), transfer.data(), transfer.data() + transfer.size());
-        u.segment(low.first, low.size) = All::solved(here, u.segment(low.first, low.size).eval());
-        u.segment(high.first, high.size) -=
-            of.elastic() * of.turned(high.up) * u.segment(low.first, low.size);
-      });
-  const Eigen::VectorXcd alone = u;
-  const RollingLayer& top = layers.back();
-  u.segment(top.first, top.size) = All::solved(last, u.segment(top.first, top.size).eval());
-  const Complexes* from = transfers.data() + transfers.size();
-  for (std::size_t l = layers.size() - 1; l-- > 0;) {
-    const RollingLayer &here = layers[l], &next = layers[l + 1];
-    from -= here.size * next.size;
-    u.segment(here.first, here.size) =
-        alone.segment(here.first, here.size) +
-        Eigen::Map<const All::Block>(from, here.size, next.size) * u.segment(next.first, next.size);
-  }
-  return u;
+template <int D>
+void follow(const RollingLayers<D>& layers, std::span<const Complexes> transfers,
+            Eigen::Ref<Eigen::VectorXcd> u) {
+  with_harmonic(layers, {}, [&](const auto& h) { h.follow(transfers, u); });
 }
 
-void follow(Layers layers, std::span<const Complexes> transfers, std::span<Complexes> all) {
-  Eigen::Map<Eigen::VectorXcd> u(all.data(), std::ssize(all));
-  if (all_of_one_row(layers))
-    follow_all<2>(layers, transfers, u);
-  else
-    follow_all<Eigen::Dynamic>(layers, transfers, u);
+template <int D>
+Eigen::VectorXcd solve(const RollingLayers<D>& layers, const RollingOrder& order,
+                       const Eigen::VectorXcd& force) {
+  return Harmonic<D, Eigen::Dynamic>{layers, order}.solve(force);
 }
 
-RollingNorms norms_of(Layers layers, const RollingOrder& order,
+/// Re xᴴ (e^{iθ} B) y is, with B real, that of xᴴ B y turned by θ.
+template <int D>
+RollingNorms norms_of(const RollingLayers<D>& layers, const RollingOrder& order,
                       const Eigen::Ref<const Eigen::VectorXcd>& u) {
   RollingNorms n;
-  const Complexes turn = order.turns[2];
+  const auto form = [&](const RollingEntry<D>& e, int row, int column) {
+    const Complexes *x = u.data() + D * row, *y = u.data() + D * column,
+                    turn = order.turns[e.shift];
+    double re = 0.0, im = 0.0;
+    for (Index c = 0; c < D; ++c)
+      for (Index r = 0; r < D; ++r) {
+        re += e.block(r, c) * (x[r].real() * y[c].real() + x[r].imag() * y[c].imag());
+        im += e.block(r, c) * (x[r].real() * y[c].imag() - x[r].imag() * y[c].real());
+      }
+    return re * turn.real() - im * turn.imag();
+  };
   for (std::size_t l = 0; l < layers.size(); ++l) {
-    const RollingLayer& layer = layers[l];
-    const Complexes* here = u.data() + layer.first;
-    for (std::size_t a = 0; a < layer.mass.size(); ++a)
-      n.mass += layer.mass[a] * (std::norm(here[2 * a]) + std::norm(here[2 * a + 1]));
-    n.stiffness += form(layer.own, turn, here, here);
-    if (l > 0) n.stiffness += 2.0 * form(layer.up, turn, here, u.data() + layers[l - 1].first);
+    const RollingLayer<D>& layer = layers[l];
+    for (std::size_t a = 0; a < layer.rows.size(); ++a)
+      n.mass += layer.mass[a] * u.template segment<D>(D * layer.rows[a]).squaredNorm();
+    const auto sum = [&](const auto& entries, const std::vector<int>& columns) {
+      double all = 0.0;
+      for (const RollingEntry<D>& e : entries)
+        all += form(e, layer.rows[static_cast<std::size_t>(e.row)],
+                    columns[static_cast<std::size_t>(e.column)]);
+      return all;
+    };
+    n.stiffness += sum(layer.own, layer.rows);
+    if (l > 0) n.stiffness += 2.0 * sum(layer.up, layers[l - 1].rows);
   }
   return n;
 }
+
+template RollingLayers<2> rolling_layers(const fem::SectorBlocks<2>&, std::span<const int>,
+                                         std::span<const double>);
+template std::size_t transfer_size(const RollingLayers<2>&);
+template Eigen::MatrixXcd eliminate(const RollingLayers<2>&, const RollingOrder&,
+                                    std::span<Complexes>);
+template Eigen::VectorXcd solve(const RollingLayers<2>&, const RollingOrder&,
+                                const Eigen::VectorXcd&);
+template void follow(const RollingLayers<2>&, std::span<const Complexes>,
+                     Eigen::Ref<Eigen::VectorXcd>);
+template RollingNorms norms_of(const RollingLayers<2>&, const RollingOrder&,
+                               const Eigen::Ref<const Eigen::VectorXcd>&);
+template RollingLayers<3> rolling_layers(const fem::SectorBlocks<3>&, std::span<const int>,
+                                         std::span<const double>);
+template std::size_t transfer_size(const RollingLayers<3>&);
+template Eigen::MatrixXcd eliminate(const RollingLayers<3>&, const RollingOrder&,
+                                    std::span<Complexes>);
+template Eigen::VectorXcd solve(const RollingLayers<3>&, const RollingOrder&,
+                                const Eigen::VectorXcd&);
+template void follow(const RollingLayers<3>&, std::span<const Complexes>,
+                     Eigen::Ref<Eigen::VectorXcd>);
+template RollingNorms norms_of(const RollingLayers<3>&, const RollingOrder&,
+                               const Eigen::Ref<const Eigen::VectorXcd>&);
 
 }  // namespace rondo::statics

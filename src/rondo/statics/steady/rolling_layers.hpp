@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
-/// @file  A harmonic of steady rolling, layer by layer (docs/theory.md, 11.1): the dynamic
-/// stiffness of a sector is block-tridiagonal, and is eliminated from the rim outwards.
+/// @file  A harmonic of steady rolling, layer by layer (docs/theory.md, 11.1, and docs/wheel3d.md):
+/// rows as many elements away from the contact candidates are a layer, which couples with the next
+/// ones alone, whatever the section looks like. The dynamic stiffness of a sector is then
+/// block-tridiagonal, and is eliminated from the rim outwards. D components a row; with D = 2 all
+/// is per metre of width.
 #pragma once
 #include <Eigen/Core>
 #include <array>
@@ -8,25 +11,41 @@
 #include <span>
 #include <vector>
 
-#include "rondo/core/vec2.hpp"
 #include "rondo/fem/sector_stiffness.hpp"
+#include "rondo/statics/steady/node_vector.hpp"
 
 namespace rondo::statics {
 
-/// Rows of the same distance from the center. Blocks by shift -1, 0, 1 of the sectors [N/m²].
-struct RollingLayer {
-  Eigen::Index first = 0, size = 0;  ///< of the rows' numbers, two a row
-  std::array<Eigen::MatrixXd, 3> own;
-  std::array<Eigen::MatrixXd, 3> up;  ///< (size, size of the layer below)
-  std::vector<double> mass;           ///< of each row                                     [kg/m]
+/// A block of K between a row of a layer and one of the same layer or of the one below, by their
+/// places there.
+template <int D>
+struct RollingEntry {
+  Eigen::Index row = 0, column = 0;
+  std::size_t shift = 1;  ///< of the sectors, plus 1
+  NodeMatrix<D> block;    ///< [N/m]
 };
 
-/// From the rim outwards. @param reference (n) X [m]. @param mass (n) [kg/m]
-[[nodiscard]] std::vector<RollingLayer> rolling_layers(const fem::SectorStiffness& stiffness,
-                                                       std::span<const Vec2> reference,
-                                                       std::span<const double> mass);
+template <int D>
+struct RollingLayer {
+  std::vector<int> rows;                 ///< of the sector
+  std::vector<RollingEntry<D>> own, up;  ///< of a place, shifts -1, 0, 1 one after the other
+  std::vector<double> mass;              ///< of each row                                    [kg]
 
-/// What one harmonic multiplies: Z_k = K(k)(1 + iksβ) + M(-(ks)² + iks(α + 2sJ) - s²).
+  /// Number of its unknowns.
+  [[nodiscard]] Eigen::Index size() const noexcept { return D * std::ssize(rows); }
+};
+template <int D>
+using RollingLayers = std::vector<RollingLayer<D>>;
+
+/// From the rim outwards; the last is that of the candidates, in their order.
+/// @param candidates rows of the sector. @param mass (n) of the mesh's nodes [kg]
+template <int D>
+[[nodiscard]] RollingLayers<D> rolling_layers(const fem::SectorBlocks<D>& stiffness,
+                                              std::span<const int> candidates,
+                                              std::span<const double> mass);
+
+/// What one harmonic multiplies: Z_k = K(k)(1 + iksβ) + M(-(ks)² + iks(α + 2sJ) - s² P), with J and
+/// P of the plane of the wheel.
 struct RollingOrder {
   std::array<std::complex<double>, 3> turns;  ///< e^{ik 2π/N shift}
   double rate = 0.0;                          ///< ks; 0 of the highest of an even turn     [rad/s]
@@ -37,27 +56,32 @@ struct RollingOrder {
 
 /// Numbers of the blocks T_l, (size of l, size of l + 1), one after the other, by which a layer
 /// follows the next when nothing acts on it: u_l = T_l u_(l+1).
-[[nodiscard]] std::size_t transfer_size(std::span<const RollingLayer> layers);
+template <int D>
+[[nodiscard]] std::size_t transfer_size(const RollingLayers<D>& layers);
 
+/// Not finite where a layer is singular once those below are gone.
 /// @param transfers (transfer_size) T_l, column-major
-/// @return displacement of the last layer by a force on it [m²/N]
-[[nodiscard]] Eigen::MatrixXcd eliminate(std::span<const RollingLayer> layers,
-                                         const RollingOrder& order,
+/// @return displacement of the last layer by a force on it [m/N]
+template <int D>
+[[nodiscard]] Eigen::MatrixXcd eliminate(const RollingLayers<D>& layers, const RollingOrder& order,
                                          std::span<std::complex<double>> transfers);
 
-/// Displacement of all rows by forces on all rows. @param force (2 n_local) [N/m]
-[[nodiscard]] Eigen::VectorXcd solve(std::span<const RollingLayer> layers,
-                                     const RollingOrder& order, const Eigen::VectorXcd& force);
+/// Displacement of all rows by forces on all rows. @param force (D n_local) [N]
+template <int D>
+[[nodiscard]] Eigen::VectorXcd solve(const RollingLayers<D>& layers, const RollingOrder& order,
+                                     const Eigen::VectorXcd& force);
 
-/// Of all rows, once those of the last layer are there. @param u (2 n_local)
-void follow(std::span<const RollingLayer> layers, std::span<const std::complex<double>> transfers,
-            std::span<std::complex<double>> u);
+/// Displacement of all rows, once those of the last layer are there. @param u (D n_local)
+template <int D>
+void follow(const RollingLayers<D>& layers, std::span<const std::complex<double>> transfers,
+            Eigen::Ref<Eigen::VectorXcd> u);
 
 /// uᴴ M u and uᴴ K(k) u.
 struct RollingNorms {
   double mass = 0.0, stiffness = 0.0;
 };
-[[nodiscard]] RollingNorms norms_of(std::span<const RollingLayer> layers, const RollingOrder& order,
+template <int D>
+[[nodiscard]] RollingNorms norms_of(const RollingLayers<D>& layers, const RollingOrder& order,
                                     const Eigen::Ref<const Eigen::VectorXcd>& u);
 
 }  // namespace rondo::statics

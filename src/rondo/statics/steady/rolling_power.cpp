@@ -9,13 +9,18 @@ namespace {
 
 using Eigen::Index;
 
-int sample_of(const RollingWindow& w, const RollingPair& p) noexcept {
-  const int turn = w.harmonics().turn();
-  return (p.sample % turn + turn) % turn;
-}
-
 /// A scheme below this share of load times speed is round-off.
 constexpr double round_off = 1e-12;
+
+/// Rows of the candidates of a spectrum.
+template <int D>
+Eigen::MatrixXcd surface_of(const RollingHarmonics<D>& h, const Eigen::MatrixXcd& spectrum) {
+  Eigen::MatrixXcd rows(static_cast<Index>(D * h.n_candidates()), spectrum.cols());
+  for (std::size_t a = 0; a < h.n_candidates(); ++a)
+    rows.middleRows<D>(static_cast<Index>(D * a)) =
+        spectrum.middleRows<D>(D * h.body().candidates[a]);
+  return rows;
+}
 
 }  // namespace
 
@@ -27,58 +32,69 @@ void find_scheme_shares(double carried, RollingPower& p) noexcept {
   p.scheme_over_load = scheme / carried;
 }
 
-RollingHarmonics::Block spectrum_of(const RollingWindow& w, const RollingSolution& s) {
-  const RollingHarmonics& h = w.harmonics();
-  Eigen::MatrixXd force = Eigen::MatrixXd::Zero(static_cast<Index>(2 * h.n_candidates()), h.turn());
+template <int D>
+Eigen::MatrixXcd spectrum_of(const RollingWindow<D>& w, const RollingSolution& s) {
+  const RollingHarmonics<D>& h = w.harmonics();
+  Eigen::MatrixXd force = Eigen::MatrixXd::Zero(static_cast<Index>(D * h.n_candidates()), h.turn());
   for (std::size_t j = 0; j < w.pairs().size(); ++j) {
     const RollingPair& p = w.pairs()[j];
-    const auto row = static_cast<Index>(2 * j);
-    const Vec2 f = conj(w.frame(p.sample)) * Vec2{s.force[row + 1], s.force[row]};
-    force.block<2, 1>(static_cast<Index>(2 * p.candidate), sample_of(w, p)) << f.x, f.y;
+    force.block<D, 1>(static_cast<Index>(D * p.candidate),
+                      static_cast<Index>(h.wrapped(p.sample))) =
+        w.to_ground(p.sample).transpose() * s.force.segment<D>(static_cast<Index>(D * j));
   }
-  return h.spectrum(force);
+  return h.spectrum(force, w.gravity());
 }
 
-RollingPower rolling_power(const RollingWindow& w, const RollingSolution& s,
-                           const RollingHarmonics::Block& spectrum) {
-  const RollingHarmonics& h = w.harmonics();
+template <int D>
+RollingPower rolling_power(const RollingWindow<D>& w, const RollingSolution& s,
+                           const Eigen::MatrixXcd& spectrum) {
+  const RollingHarmonics<D>& h = w.harmonics();
   const double spin = h.body().spin, pass = h.body().samples;
-  const Index first = 2 * *std::ranges::min_element(h.body().candidates);  // all are beyond it
-  const auto surface = spectrum.bottomRows(spectrum.rows() - first);
+  const Eigen::MatrixXcd surface = surface_of(h, spectrum);
   const Eigen::MatrixXd u = h.fields(surface, 0.0, false), rate = h.fields(surface, 0.0, true);
-  const RollingHarmonics::Damped damped = h.damped(spectrum);
+  const auto damped = h.damped(spectrum);
+  const double ahead = s.speed * std::cos(s.slip_angle), aside = s.speed * std::sin(s.slip_angle);
+  const NodeVector<D> speed = NodeVector<3>{0.0, ahead, aside}.head<D>();
   RollingPower power;
   power.mass = damped.by_mass;
   power.stiffness = damped.by_stiffness;
-  power.weight = h.weight(spectrum);
+  power.weight = h.weight(spectrum, w.gravity());
   // Of the ground alone: the weight's part is an entry of its own.
   const double torque = s.forces.torque + power.weight / spin;
-  power.drive = s.speed * s.forces.x + spin * torque;
+  power.drive = ahead * s.forces.heading + aside * s.forces.lateral + spin * torque;
   double of_field = 0.0;  // Σ r·w by the field's own velocity
   double turned = 0.0;    // Σ |s x r_n|, of which the torque is what does not cancel
   for (std::size_t j = 0; j < w.pairs().size(); ++j) {
     const RollingPair& p = w.pairs()[j];
-    const auto row = static_cast<Index>(2 * j);
-    const Vec2 force{s.force[row + 1], s.force[row]};
-    if (force == Vec2{}) continue;
-    const int row_of = h.body().candidates[p.candidate];
-    const Index node = 2 * row_of - first, m = sample_of(w, p);
-    const Vec2 x = h.body().reference[h.body().stiffness.node(static_cast<std::size_t>(row_of), 0)];
-    const Vec2 arm = x + Vec2{u(node, m), u(node + 1, m)};
-    const Vec2 way = turn90(arm) + Vec2{rate(node, m), rate(node + 1, m)};
-    const Vec2 velocity = spin * (w.frame(p.sample) * way) + Vec2{s.speed, 0.0};
-    of_field += dot(force, velocity) / pass;
-    turned += std::abs(spin * (w.frame(p.sample) * arm).x * force.y) / pass;
-    power.friction -= force.x * s.gap_and_slip[row + 1] / pass;
+    const auto row = static_cast<Index>(D * j), at = static_cast<Index>(D * p.candidate);
+    const NodeVector<D> force = s.force.segment<D>(row);
+    if (force.isZero(0.0)) continue;
+    const auto m = static_cast<Index>(h.wrapped(p.sample));
+    const NodeVector<D> arm = h.reference(p.candidate) + u.block<D, 1>(at, m);
+    const NodeVector<D> way = quarter_turned<D>(arm) + rate.block<D, 1>(at, m);
+    const NodeMatrix<D>& to_ground = w.to_ground(p.sample);
+    of_field += force.dot(spin * (to_ground * way) + speed) / pass;
+    turned += std::abs(spin * (to_ground * arm)[1] * force[0]) / pass;
+    power.friction -=
+        force.template tail<D - 1>().dot(s.gap_and_slip.segment<D - 1>(row + 1)) / pass;
   }
   power.scheme = of_field + power.friction;
   const double left = power.drive + power.mass + power.stiffness - power.weight - of_field;
   const double largest =
-      std::max({std::abs(s.speed * s.forces.x), std::abs(spin * torque), power.mass,
-                power.stiffness, std::abs(power.friction), least_power_share * turned});
+      std::max({std::abs(ahead * s.forces.heading) + std::abs(aside * s.forces.lateral),
+                std::abs(spin * torque), power.mass, power.stiffness, std::abs(power.friction),
+                least_power_share * turned});
   power.residual = largest > 0.0 ? std::abs(left) / largest : 0.0;
-  find_scheme_shares(s.forces.y * std::max(std::abs(s.speed), std::abs(spin) * s.height), power);
+  find_scheme_shares(s.forces.normal * std::max(std::abs(s.speed), std::abs(spin) * s.height),
+                     power);
   return power;
 }
+
+template Eigen::MatrixXcd spectrum_of(const RollingWindow<2>&, const RollingSolution&);
+template Eigen::MatrixXcd spectrum_of(const RollingWindow<3>&, const RollingSolution&);
+template RollingPower rolling_power(const RollingWindow<2>&, const RollingSolution&,
+                                    const Eigen::MatrixXcd&);
+template RollingPower rolling_power(const RollingWindow<3>&, const RollingSolution&,
+                                    const Eigen::MatrixXcd&);
 
 }  // namespace rondo::statics

@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// @file  Where the power of steady rolling goes (docs/theory.md, 11.4): an identity to round-off,
-/// so that it judges a solution from its whole field.
+/// so that it judges a solution from its whole field. In the plane it is per metre of width.
 #pragma once
 #include "rondo/statics/steady/rolling_contact.hpp"
 
 namespace rondo::statics {
 
-/// drive + mass + stiffness + friction - weight = scheme [W/m].
+/// drive + mass + stiffness + friction - weight = scheme [W].
 struct RollingPower {
-  double drive = 0.0;      ///< V F_x + s T: of speed and spin against the ground's forces
+  double drive = 0.0;      ///< V·F + s T: of speed and spin against the ground's forces
   double mass = 0.0;       ///< taken by mass damping
   double stiffness = 0.0;  ///< taken by stiffness damping
   double friction = 0.0;   ///< taken by friction, by the slip that the law sees
@@ -33,11 +33,13 @@ inline constexpr double least_power_share = 1e-3;
 void find_scheme_shares(double carried, RollingPower& power) noexcept;
 
 /// U_k of all rows under the solution's forces [m].
-[[nodiscard]] RollingHarmonics::Block spectrum_of(const RollingWindow& window,
-                                                  const RollingSolution& solution);
+template <int D>
+[[nodiscard]] Eigen::MatrixXcd spectrum_of(const RollingWindow<D>& window,
+                                           const RollingSolution& solution);
 
-[[nodiscard]] RollingPower rolling_power(const RollingWindow& window,
+template <int D>
+[[nodiscard]] RollingPower rolling_power(const RollingWindow<D>& window,
                                          const RollingSolution& solution,
-                                         const RollingHarmonics::Block& spectrum);
+                                         const Eigen::MatrixXcd& spectrum);
 
 }  // namespace rondo::statics

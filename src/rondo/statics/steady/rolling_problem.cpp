@@ -1,92 +1,170 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "rondo/statics/steady/rolling_problem.hpp"
 
-#include <algorithm>
-#include <map>
+#include <cmath>
 #include <utility>
 
 namespace rondo::statics {
 namespace {
 
 using Eigen::Index;
+using Eigen::VectorXd;
 
-constexpr int group_size = 4;
-
-int group_of(int sample) noexcept {
-  return sample / group_size - (sample % group_size < 0 ? 1 : 0);
-}
-
-/// Columns of the matrix where there is a force: many pairs touch nothing.
-Eigen::VectorXd times(const Eigen::MatrixXd& matrix, const Eigen::VectorXd& force) {
-  Eigen::VectorXd sum = Eigen::VectorXd::Zero(matrix.rows());
+/// The product by the columns where there is a force: many pairs touch nothing.
+VectorXd times(const Eigen::MatrixXd& matrix, const VectorXd& force) {
+  VectorXd sum = VectorXd::Zero(matrix.rows());
   for (Index c = 0; c < force.size(); ++c)
     if (force[c] != 0.0) sum += force[c] * matrix.col(c);
   return sum;
 }
 
+/// Number `component` of each pair. @param each numbers a pair has
+VectorXd along(const VectorXd& all, Index component, Index each) {
+  return all(Eigen::seqN(component, all.size() / each, each));
+}
+
+double sum_of(const VectorXd& all, Index component, Index each) {
+  return all(Eigen::seqN(component, all.size() / each, each)).sum();
+}
+
+/// Moments about the center's projection on the ground, of forces at places: about t2, and in space
+/// about n and t1 as well. They are bilinear.
+template <int D>
+struct Moments {
+  double rolling, aligning = 0.0, overturning = 0.0;
+
+  Moments(const VectorXd& place, const VectorXd& force) {
+    const VectorXd normal = along(force, 0, D), ahead = along(place, 0, D - 1);
+    rolling = ahead.dot(normal);
+    if constexpr (D == 3) {
+      const VectorXd aside = along(place, 1, D - 1);
+      aligning = aside.dot(along(force, 1, D)) - ahead.dot(along(force, 2, D));
+      overturning = -aside.dot(normal);
+    }
+  }
+};
+
 }  // namespace
 
-Eigen::VectorXd gaps_and_ways(const RollingProblem& problem, const RollingPoint& p) {
-  Eigen::VectorXd all = problem.base + times(problem.matrix, p.force);
-  const Index m = all.size() / 2;
-  all(Eigen::seqN(0, m, 2)).array() += p.height;
-  all(Eigen::seqN(1, m, 2)).array() += p.speed * problem.time;
+template <>
+NodeMatrix<2> ground_axes<2>(Complex /*lean*/) noexcept {
+  NodeMatrix<2> axes;
+  axes << 0.0, 1.0, 1.0, 0.0;
+  return axes;
+}
+
+template <>
+NodeMatrix<3> ground_axes<3>(Complex lean) noexcept {
+  NodeMatrix<3> axes;
+  axes << 0.0, 1.0, 0.0, lean.re, 0.0, -lean.im, lean.im, 0.0, lean.re;
+  return axes;
+}
+
+template <int D>
+VectorXd gaps_and_ways(const RollingProblem<D>& problem, const RollingPoint& p, double slip_angle) {
+  VectorXd all = problem.base + times(problem.matrix, p.force);
+  const Index m = problem.n_pairs();
+  const double way = p.speed * problem.time;
+  all(Eigen::seqN(0, m, D)).array() += p.height;
+  all(Eigen::seqN(1, m, D)).array() += way * std::cos(slip_angle);
+  if constexpr (D == 3) all(Eigen::seqN(2, m, D)).array() += way * std::sin(slip_angle);
   return all;
 }
 
-RollingForces forces_of(const RollingProblem& problem, const RollingPoint& p) {
-  const Index m = p.force.size() / 2;
-  const Eigen::VectorXd normal = p.force(Eigen::seqN(0, m, 2)),
-                        x = problem.base_x + times(problem.matrix_x, p.force);
+template <int D>
+VectorXd places(const RollingProblem<D>& problem, const VectorXd& force) {
+  return problem.base_place + times(problem.matrix_place, force);
+}
+
+/// The axle is along cos γ t2 + sin γ n, a height above the ground that the forces are on.
+template <int D>
+RollingForces forces_of(const RollingProblem<D>& problem, const RollingPoint& p) {
+  const Moments<D> m(places(problem, p.force), p.force);
   RollingForces f;
-  f.y = normal.sum() / problem.pass;
-  f.x = p.force(Eigen::seqN(1, m, 2)).sum() / problem.pass;
-  f.torque = x.dot(normal) / problem.pass + p.height * f.x + problem.base_weight +
-             problem.weight.dot(p.force);
+  f.normal = along(p.force, 0, D).sum() / problem.pass;
+  f.heading = sum_of(p.force, 1, D) / problem.pass;
+  if constexpr (D == 3) f.lateral = sum_of(p.force, 2, D) / problem.pass;
+  f.aligning = m.aligning / problem.pass;
+  f.overturning = m.overturning / problem.pass;
+  f.torque = problem.lean.re * (m.rolling / problem.pass + p.height * f.heading) +
+             problem.lean.im * f.aligning + problem.base_weight + problem.weight.dot(p.force);
   return f;
 }
 
-std::vector<std::size_t> groups_of(const RollingProblem& problem) {
-  std::map<std::pair<std::size_t, int>, std::size_t> numbers;
-  std::vector<std::size_t> groups;
-  for (const RollingPair& p : problem.pairs)
-    groups.push_back(
-        numbers.try_emplace({p.candidate, group_of(p.sample)}, numbers.size()).first->second);
-  return groups;
+template <int D>
+void add_force(const NodeVector<D>& r, const NodeVector<D - 1>& place, double height, Complex lean,
+               double share, RollingForces& sum) noexcept {
+  RollingForces f;
+  if constexpr (D == 3) {
+    f.lateral = r[2];
+    f.aligning = place[1] * r[1] - place[0] * r[2];
+    f.overturning = -place[1] * r[0];
+  }
+  sum.normal += share * r[0];
+  sum.heading += share * r[1];
+  sum.lateral += share * f.lateral;
+  sum.torque += share * (lean.re * (place[0] * r[0] + height * r[1]) + lean.im * f.aligning);
+  sum.aligning += share * f.aligning;
+  sum.overturning += share * f.overturning;
 }
 
-RollingProblem grouped(const RollingProblem& all, const std::vector<std::size_t>& groups) {
-  const std::size_t n = *std::ranges::max_element(groups) + 1;
-  RollingProblem g;
-  g.time = all.time;
-  g.pass = all.pass;
-  g.pairs.resize(n);
-  Eigen::VectorXd share = Eigen::VectorXd::Zero(static_cast<Index>(n));
-  for (const std::size_t of : groups) share[static_cast<Index>(of)] += 1.0;
-  share = share.cwiseInverse().eval();
-  const auto rows = static_cast<Index>(2 * n);
-  g.base = Eigen::VectorXd::Zero(rows);
-  g.matrix = Eigen::MatrixXd::Zero(rows, rows);
-  g.base_x = Eigen::VectorXd::Zero(rows / 2);
-  g.matrix_x = Eigen::MatrixXd::Zero(rows / 2, rows);
-  g.base_weight = all.base_weight;
-  g.weight = Eigen::VectorXd::Zero(rows);
-  const auto place = [&](std::size_t pair) { return static_cast<Index>(groups[pair]); };
-  for (std::size_t q = 0; q < groups.size(); ++q) {
-    const auto from = static_cast<Index>(2 * q);
-    const Index to = place(q);
-    g.pairs[groups[q]] = {all.pairs[q].candidate, group_of(all.pairs[q].sample)};
-    g.base.segment<2>(2 * to) += share[to] * all.base.segment<2>(from);
-    g.base_x[to] += share[to] * all.base_x[from / 2];
-    g.weight.segment<2>(2 * to) += share[to] * all.weight.segment<2>(from);
-    for (std::size_t p = 0; p < groups.size(); ++p) {
-      const auto row = static_cast<Index>(2 * p);
-      const double both = share[to] * share[place(p)];
-      g.matrix.block<2, 2>(2 * place(p), 2 * to) += both * all.matrix.block<2, 2>(row, from);
-      g.matrix_x.block<1, 2>(place(p), 2 * to) += both * all.matrix_x.block<1, 2>(row / 2, from);
-    }
+template <int D>
+TorqueChange torque_change(const RollingProblem<D>& problem, const RollingPoint& p) {
+  const double cosine = problem.lean.re, sine = problem.lean.im;
+  const Index n = problem.n_pairs();
+  const auto normal = Eigen::seqN(0, n, D), heading = Eigen::seqN(1, n, D);
+  const VectorXd place = problem.base_place + problem.matrix_place * p.force;
+  const VectorXd ahead = along(place, 0, D - 1);
+  VectorXd by_place = cosine * along(p.force, 0, D);  // (D - 1 pairs)
+  if constexpr (D == 3) {
+    const VectorXd by_ahead = by_place - sine * along(p.force, 2, D);
+    by_place.resize(place.size());
+    by_place(Eigen::seqN(0, n, 2)) = by_ahead;
+    by_place(Eigen::seqN(1, n, 2)) = sine * along(p.force, 1, D);
   }
-  return g;
+  VectorXd row = problem.matrix_place.transpose() * by_place;
+  row(normal) += cosine * ahead;
+  row(heading).array() += cosine * p.height;
+  if constexpr (D == 3) {
+    row(heading) += sine * along(place, 1, D - 1);
+    row(Eigen::seqN(2, n, D)) -= sine * ahead;
+  }
+  row += problem.pass * problem.weight;
+  return {std::move(row), cosine * p.force(heading).sum()};
 }
+
+template <int D>
+RollingForces forces_change(const RollingProblem<D>& problem, const RollingPoint& p,
+                            const TorqueChange& torque, const RollingPoint& change) {
+  RollingForces f;
+  f.normal = sum_of(change.force, 0, D) / problem.pass;
+  f.heading = sum_of(change.force, 1, D) / problem.pass;
+  f.torque = (torque.row.dot(change.force) + torque.by_height * change.height) / problem.pass;
+  if constexpr (D == 3) {
+    f.lateral = sum_of(change.force, 2, D) / problem.pass;
+    const Moments<D> here(places(problem, p.force), change.force),
+        moved(times(problem.matrix_place, change.force), p.force);
+    f.aligning = (here.aligning + moved.aligning) / problem.pass;
+    f.overturning = (here.overturning + moved.overturning) / problem.pass;
+  }
+  return f;
+}
+
+template VectorXd gaps_and_ways(const RollingProblem<2>&, const RollingPoint&, double);
+template VectorXd places(const RollingProblem<2>&, const VectorXd&);
+template RollingForces forces_of(const RollingProblem<2>&, const RollingPoint&);
+template void add_force<2>(const NodeVector<2>&, const NodeVector<1>&, double, Complex, double,
+                           RollingForces&) noexcept;
+template TorqueChange torque_change(const RollingProblem<2>&, const RollingPoint&);
+template RollingForces forces_change(const RollingProblem<2>&, const RollingPoint&,
+                                     const TorqueChange&, const RollingPoint&);
+template VectorXd gaps_and_ways(const RollingProblem<3>&, const RollingPoint&, double);
+template VectorXd places(const RollingProblem<3>&, const VectorXd&);
+template RollingForces forces_of(const RollingProblem<3>&, const RollingPoint&);
+template void add_force<3>(const NodeVector<3>&, const NodeVector<2>&, double, Complex, double,
+                           RollingForces&) noexcept;
+template TorqueChange torque_change(const RollingProblem<3>&, const RollingPoint&);
+template RollingForces forces_change(const RollingProblem<3>&, const RollingPoint&,
+                                     const TorqueChange&, const RollingPoint&);
 
 }  // namespace rondo::statics

@@ -1,11 +1,16 @@
 // SPDX-License-Identifier: BSD-3-Clause
-/// @file  Contact of a steadily rolling body as dense linear algebra (docs/theory.md, 11.2): gaps
-/// and ways of pairs are linear in the forces of all. The same problem on groups of pairs that
-/// carry one force each is a small one, whose solution is where to start from.
+/// @file  Contact of a steadily rolling body as dense linear algebra (docs/theory.md, 11.2, and
+/// docs/wheel3d.md): the gaps, the ways along the ground and the places of all pairs are linear in
+/// the forces on all pairs. D = 2 is the plane, where a pair has the numbers (n, t1); D = 3 is
+/// space, where it has (n, t1, t2). In the plane forces are per metre of width.
 #pragma once
 #include <Eigen/Core>
 #include <cstddef>
+#include <optional>
 #include <vector>
+
+#include "rondo/core/complex.hpp"
+#include "rondo/statics/steady/node_vector.hpp"
 
 namespace rondo::statics {
 
@@ -15,45 +20,91 @@ struct RollingPair {
   int sample = 0;
 };
 
+template <int D>
 struct RollingProblem {
   std::vector<RollingPair> pairs;
   double time = 0.0;  ///< of a sample                                                         [s]
-  double pass = 1.0;  ///< P, of a sector: forces are sums over the pairs by it
-  /// Of each pair (gap, way) without forces, the center at height 0 and at rest: gap + h and way +
-  /// V time are those of a moving one. (2 pairs) [m]
+  double pass = 1.0;  ///< P, of a sector: forces are sums over the pairs divided by it
+  int back = -1;      ///< by this much a sample differs from the one before: -1 or 1
+  Complex lean{1.0, 0.0};  ///< e^{iγ} of the camber γ; 1 in the plane
+  /// (D pairs) gap and ways without forces, the center at height 0 and at rest: gap + h and way +
+  /// V time (cos α, sin α) are those of a moving one [m]
   Eigen::VectorXd base;
-  /// Of (gap, way) by (r_n, r_x): rows and columns 2j, 2j + 1 of pair j. (2 pairs, 2 pairs) [m²/N]
-  Eigen::MatrixXd matrix;
-  Eigen::VectorXd base_x;    ///< (pairs) place along x from the center, without forces [m]
-  Eigen::MatrixXd matrix_x;  ///< (pairs, 2 pairs) and by them [m²/N]
-  /// Torque of the weight about the center without forces [N], and by those of all pairs.
-  double base_weight = 0.0;
-  Eigen::VectorXd weight;  ///< (2 pairs) [m]
+  Eigen::MatrixXd matrix;      ///< (D pairs, D pairs) what forces add to them               [m/N]
+  Eigen::VectorXd base_place;  ///< ((D - 1) pairs) along t1, t2 from the center, without forces [m]
+  Eigen::MatrixXd matrix_place;  ///< ((D - 1) pairs, D pairs) what forces add to them       [m/N]
+  double base_weight = 0.0;  ///< torque of the weight about the axle without forces         [N m]
+  Eigen::VectorXd weight;    ///< (D pairs) what forces add to it                              [m]
+
+  [[nodiscard]] Eigen::Index size() const noexcept { return base.size(); }
+  [[nodiscard]] Eigen::Index n_pairs() const noexcept { return base.size() / D; }
+};
+
+/// One of height and load is given, and one of speed, traction and torque.
+struct RollingDrive {
+  double height = 0.0;      ///< h, of the center above the ground; without a load             [m]
+  double speed = 0.0;       ///< V; without traction and torque; else where to start         [m/s]
+  double slip_angle = 0.0;  ///< α: the center goes along cos α t1 + sin α t2; 0 in the plane [rad]
+  double friction = 0.0;    ///< μ >= 0
+  std::optional<double> load{};      ///< force of the ground on the body along n, > 0           [N]
+  std::optional<double> traction{};  ///< force of the ground on the body along t1               [N]
+  std::optional<double> torque{};    ///< of ground and weight, counter-clockwise              [N m]
+
+  /// Height and speed are given.
+  [[nodiscard]] bool is_fixed() const noexcept { return !load && !traction && !torque; }
 };
 
 /// Forces on all pairs, height and speed of the center.
 struct RollingPoint {
-  Eigen::VectorXd force;  ///< (2 pairs) r_n, r_x                                            [N/m]
+  Eigen::VectorXd force{};  ///< (D pairs)                                                     [N]
   double height = 0.0, speed = 0.0;
 };
 
-/// (gap, way) of all pairs.
-[[nodiscard]] Eigen::VectorXd gaps_and_ways(const RollingProblem& problem,
-                                            const RollingPoint& point);
-
-/// Of the ground on the body, means over a sector's pass.
+/// What the ground does to the body: means over a sector's pass. In the plane those that are of
+/// space alone are 0.
 struct RollingForces {
-  double x = 0.0, y = 0.0;  ///< [N/m]
-  double torque = 0.0;  ///< about the center, counter-clockwise, with that of the weight      [N]
+  double normal = 0.0, heading = 0.0, lateral = 0.0;  ///< along n, t1, t2                     [N]
+  double torque = 0.0;    ///< about the axle, counter-clockwise, with that of the weight    [N m]
+  double aligning = 0.0;  ///< about n                                                       [N m]
+  double overturning = 0.0;  ///< about t1, through the center's projection on the ground    [N m]
 };
-[[nodiscard]] RollingForces forces_of(const RollingProblem& problem, const RollingPoint& point);
 
-/// Groups of up to four pairs of one candidate at samples one after the other.
-/// @return of each pair its group, groups numbered in the order of their first pairs
-[[nodiscard]] std::vector<std::size_t> groups_of(const RollingProblem& problem);
-/// A pair a group: the sum of its forces, the means of its gaps and ways; its sample is a fourth of
-/// theirs.
-[[nodiscard]] RollingProblem grouped(const RollingProblem& problem,
-                                     const std::vector<std::size_t>& groups);
+/// The axes n, t1, t2 = t1 × n of the ground under a wheel of camber γ, as columns, in those of the
+/// wheel. @param lean e^{iγ}; 1 in the plane
+template <int D>
+[[nodiscard]] NodeMatrix<D> ground_axes(Complex lean) noexcept;
+
+/// Gaps and ways of all pairs, (D pairs) [m].
+template <int D>
+[[nodiscard]] Eigen::VectorXd gaps_and_ways(const RollingProblem<D>& problem,
+                                            const RollingPoint& point, double slip_angle);
+/// Places of all pairs along t1 and t2 from the center, ((D - 1) pairs) [m].
+template <int D>
+[[nodiscard]] Eigen::VectorXd places(const RollingProblem<D>& problem,
+                                     const Eigen::VectorXd& force);
+template <int D>
+[[nodiscard]] RollingForces forces_of(const RollingProblem<D>& problem, const RollingPoint& point);
+
+/// Adds what a force at a place of the ground does, times a share.
+/// @param place along t1 and t2 from the center [m]
+template <int D>
+void add_force(const NodeVector<D>& force, const NodeVector<D - 1>& place, double height,
+               Complex lean, double share, RollingForces& sum) noexcept;
+
+/// How the torque changes at a point: P dT = row·dr + by_height dh.
+struct TorqueChange {
+  Eigen::VectorXd row;  ///< (D pairs) [m]
+  double by_height = 0.0;
+};
+template <int D>
+[[nodiscard]] TorqueChange torque_change(const RollingProblem<D>& problem,
+                                         const RollingPoint& point);
+
+/// How the forces change with a change of the point, whose speed does not matter.
+/// @param torque that of the point
+template <int D>
+[[nodiscard]] RollingForces forces_change(const RollingProblem<D>& problem,
+                                          const RollingPoint& point, const TorqueChange& torque,
+                                          const RollingPoint& change);
 
 }  // namespace rondo::statics

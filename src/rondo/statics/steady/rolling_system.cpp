@@ -3,6 +3,7 @@
 
 #include <lapacke.h>
 
+#include <cmath>
 #include <limits>
 #include <utility>
 
@@ -11,44 +12,195 @@ namespace {
 
 using contact::Status;
 using Eigen::Index;
+using Eigen::VectorXd;
 
 }  // namespace
 
-RollingSystem::RollingSystem(const RollingProblem& problem, const RollingDrive& drive,
-                             const std::vector<RollingStatus>& found, const RollingPoint& around)
+template <int D>
+RollingStiffness stiffness_of(const RollingProblem<D>& problem) {
+  const VectorXd own = problem.matrix.diagonal().cwiseAbs();
+  if constexpr (D == 2) return {1.0 / own.mean(), 1.0 / own.mean()};
+  const Index n = problem.n_pairs();
+  const double normal = own(Eigen::seqN(0, n, D)).mean();
+  return {1.0 / normal, (D - 1) / (own.sum() / static_cast<double>(n) - normal)};
+}
+
+template <int D>
+RollingStatuses statuses_of(const RollingProblem<D>& problem, const RollingPoint& p,
+                            const VectorXd& moved, double friction) {
+  const RollingStiffness stiffness = stiffness_of(problem);
+  RollingStatuses statuses(static_cast<std::size_t>(problem.n_pairs()));
+  for (std::size_t j = 0; j < statuses.size(); ++j) {
+    const auto row = static_cast<Index>(D * j);
+    RollingStatus& s = statuses[j];
+    const double normal = p.force[row] - stiffness.normal * moved[row];
+    if (!(normal > 0.0)) continue;
+    const NodeVector<D - 1> across =
+        p.force.segment<D - 1>(row + 1) - stiffness.across * moved.segment<D - 1>(row + 1);
+    const double length = D == 2 ? std::abs(across[0]) : across.norm(), bound = friction * normal;
+    const bool sticks = friction > 0.0 && length <= bound;
+    s.status = sticks ? Status::stick : Status::slip;
+    if (sticks) continue;
+    s.direction =
+        friction > 0.0 ? Vec2{across[0], D == 2 ? 0.0 : across[D - 2]} / length : Vec2{1.0, 0.0};
+    s.share = friction > 0.0 ? bound / length : 0.0;
+  }
+  return statuses;
+}
+
+template <int D>
+RollingSystem<D>::RollingSystem(const RollingProblem<D>& problem, const RollingDrive& drive,
+                                const RollingStatuses& statuses, const RollingPoint& around)
     : problem_(problem),
       drive_(drive),
-      found_(found),
-      has_height_(drive.load.has_value()),
-      has_speed_(drive.traction || drive.torque) {
-  for (std::size_t j = 0; j < found.size(); ++j) {
-    if (found[j].status == Status::open) continue;
-    rows_.push_back(static_cast<Index>(2 * j));
-    if (found[j].status == Status::stick) rows_.push_back(static_cast<Index>(2 * j + 1));
-  }
-  const auto n = static_cast<Index>(rows_.size());
-  const Index size = n + (has_height_ ? 1 : 0) + (has_speed_ ? 1 : 0);
+      statuses_(statuses),
+      scale_(1.0 / stiffness_of(problem).across) {
+  number();
+  const Index size = n_forces_ + (has_height() ? 1 : 0) + (has_speed() ? 1 : 0);
   matrix_ = Eigen::MatrixXd::Zero(size, size);
-  right_ = Eigen::VectorXd::Zero(size);
-  for (Index k = 0; k < n; ++k) {
-    const Index column = rows_[static_cast<std::size_t>(k)];
-    matrix_.col(k).head(n) = problem.matrix.col(column)(rows_);
-    const double mu = column % 2 == 0 ? edge(static_cast<std::size_t>(column / 2)) : 0.0;
-    if (mu != 0.0) matrix_.col(k).head(n) += mu * problem.matrix.col(column + 1)(rows_);
-  }
-  right_.head(n) = -problem.base(rows_);
+  right_ = VectorXd::Zero(size);
+  fill();
   add_border(around);
   factorise();
 }
 
-void RollingSystem::factorise() {
+template <int D>
+NodeVector<D - 1> RollingSystem<D>::direction(Index pair) const noexcept {
+  const Vec2 d = statuses_[static_cast<std::size_t>(pair)].direction;
+  NodeVector<D - 1> e;
+  e[0] = d.x;
+  if constexpr (D == 3) e[1] = d.y;
+  return e;
+}
+
+/// How fast the direction of a sliding pair turns: (μ q_n/|q_t|)(I - e eᵀ); 0 in the plane.
+template <int D>
+NodeMatrix<D - 1> RollingSystem<D>::turning(Index pair) const noexcept {
+  const NodeVector<D - 1> e = direction(pair);
+  return statuses_[static_cast<std::size_t>(pair)].share *
+         (NodeMatrix<D - 1>::Identity() - e * e.transpose());
+}
+
+/// The shear of a pair that slides follows from its normal force in the plane, where its direction
+/// has a sign alone, and where there is no friction.
+template <int D>
+void RollingSystem<D>::number() {
+  for (Index j = 0; j < problem_.n_pairs(); ++j) {
+    const Status status = statuses_[static_cast<std::size_t>(j)].status;
+    if (status == Status::open) continue;
+    const bool sticks = status == Status::stick;
+    const bool follows = drive_.friction == 0.0 || (D == 2 && !sticks);
+    const double edge = follows ? drive_.friction * direction(j)[0] : 0.0;
+    closed_.push_back({j, n_forces_, follows ? 1 : D, sticks, edge});
+    n_forces_ += closed_.back().unknowns;
+  }
+}
+
+template <int D>
+template <class Moved>
+void RollingSystem<D>::reduce(const Moved& moved, Eigen::Ref<VectorXd> rows) const {
+  for (const Pair& p : closed_) {
+    rows[p.at] = moved.coeff(D * p.pair);
+    if (p.unknowns == 1) continue;
+    const NodeVector<D - 1> way = moved.template segment<D - 1>(D * p.pair + 1);
+    rows.template segment<D - 1>(p.at + 1) =
+        p.sticks ? way : NodeVector<D - 1>(turning(p.pair) * way);
+  }
+}
+
+/// Of a sliding pair whose direction turns r_t - μ r_n e - C (r_t - w/c) = 0, in ways; C q_t is 0.
+template <int D>
+void RollingSystem<D>::fill() {
+  for (const Pair& column : closed_) {
+    const Index first = D * column.pair;
+    if (column.edge == 0.0)
+      reduce(problem_.matrix.col(first), matrix_.col(column.at));
+    else
+      reduce(problem_.matrix.col(first) + column.edge * problem_.matrix.col(first + 1),
+             matrix_.col(column.at));
+    for (Index c = 1; c < column.unknowns; ++c)
+      reduce(problem_.matrix.col(first + c), matrix_.col(column.at + c));
+  }
+  reduce(-problem_.base, right_);
+  for (const Pair& p : closed_) {
+    if (p.sticks || p.unknowns == 1) continue;
+    matrix_.template block<D - 1, 1>(p.at + 1, p.at) -=
+        scale_ * drive_.friction * direction(p.pair);
+    matrix_.template block<D - 1, D - 1>(p.at + 1, p.at + 1) +=
+        scale_ * (NodeMatrix<D - 1>::Identity() - turning(p.pair));
+  }
+}
+
+/// Rows by which all gaps and ways change as the center moves.
+template <int D>
+VectorXd RollingSystem<D>::rigid(double height, double ahead, double aside) const {
+  const NodeVector<3> move{height, ahead * problem_.time, aside * problem_.time};
+  const VectorXd all = move.head<D>().replicate(problem_.n_pairs(), 1);
+  VectorXd rows = VectorXd::Zero(right_.size());
+  reduce(all, rows);
+  return rows;
+}
+
+template <int D>
+void RollingSystem<D>::add_sum(Index row, const VectorXd& by_force) {
+  for (const Pair& p : closed_) {
+    for (Index c = 0; c < p.unknowns; ++c) matrix_(row, p.at + c) = by_force[D * p.pair + c];
+    if (p.unknowns == 1) matrix_(row, p.at) += p.edge * by_force[D * p.pair + 1];
+  }
+}
+
+/// Height and speed as columns; load, traction or torque as rows.
+template <int D>
+void RollingSystem<D>::add_border(const RollingPoint& around) {
+  const VectorXd up = rigid(1.0, 0.0, 0.0);
+  const VectorXd on = rigid(0.0, std::cos(drive_.slip_angle), std::sin(drive_.slip_angle));
+  const auto sum_of = [&](Index component) {
+    VectorXd ones = VectorXd::Zero(problem_.size());
+    ones(Eigen::seqN(component, problem_.n_pairs(), D)).setOnes();
+    return ones;
+  };
+  if (has_height()) {
+    matrix_.col(of_height()) = up;
+    add_sum(of_height(), sum_of(0));
+    right_[of_height()] = *drive_.load * problem_.pass;
+  } else {
+    right_ -= drive_.height * up;
+  }
+  if (!has_speed()) {
+    right_ -= drive_.speed * on;
+    return;
+  }
+  matrix_.col(of_speed()) = on;
+  if (drive_.traction) {
+    add_sum(of_speed(), sum_of(1));
+    right_[of_speed()] = *drive_.traction * problem_.pass;
+    return;
+  }
+  const TorqueChange torque = torque_change(problem_, around);
+  add_sum(of_speed(), torque.row);
+  const double now = forces_of(problem_, around).torque;
+  right_[of_speed()] = (*drive_.torque - now) * problem_.pass + torque.row.dot(around.force);
+  if (has_height()) {
+    matrix_(of_speed(), of_height()) = torque.by_height;
+    right_[of_speed()] += torque.by_height * around.height;
+  }
+}
+
+template <int D>
+void RollingSystem<D>::factorise() {
   const auto n = static_cast<lapack_int>(matrix_.rows());
   pivots_.resize(static_cast<std::size_t>(n));
   singular_ = LAPACKE_dgetrf_work(LAPACK_COL_MAJOR, n, n, matrix_.data(), n, pivots_.data()) != 0;
 }
 
+template <int D>
+double RollingSystem<D>::work() const noexcept {
+  return 2.0 / 3.0 * std::pow(static_cast<double>(matrix_.rows()), 3);
+}
+
 /// Not finite: the system is singular.
-Eigen::VectorXd RollingSystem::solved(Eigen::VectorXd right) const {
+template <int D>
+VectorXd RollingSystem<D>::solved(VectorXd right) const {
   const auto n = static_cast<lapack_int>(matrix_.rows());
   if (singular_)
     right.setConstant(std::numeric_limits<double>::quiet_NaN());
@@ -58,143 +210,89 @@ Eigen::VectorXd RollingSystem::solved(Eigen::VectorXd right) const {
   return right;
 }
 
-/// μ with its sign where a pair slips.
-double RollingSystem::edge(std::size_t pair) const noexcept {
-  const RollingStatus& f = found_[pair];
-  return f.status == Status::slip ? f.side * drive_.friction : 0.0;
-}
-
-/// By (r_n, r_x) of all pairs: how the arms change is part of it.
-RollingSystem::Torque RollingSystem::torque_at(const RollingPoint& around) const {
-  const Index n = around.force.size() / 2;
-  const Eigen::VectorXd normal = around.force(Eigen::seqN(0, n, 2));
-  const Eigen::VectorXd arm = problem_.base_x + problem_.matrix_x * around.force;
-  Eigen::VectorXd row = problem_.matrix_x.transpose() * normal;
-  row(Eigen::seqN(0, n, 2)) += arm;
-  row(Eigen::seqN(1, n, 2)).array() += around.height;
-  row += problem_.pass * problem_.weight;
-  return {std::move(row), around.force(Eigen::seqN(1, n, 2)).sum()};
-}
-
-/// Height and speed as columns; load, traction or torque as rows.
-void RollingSystem::add_border(const RollingPoint& around) {
-  const auto n = static_cast<Index>(rows_.size());
-  Index at = n;
-  const Index of_height = at;
-  if (has_height_) ++at;
-  const Index of_speed = at;
-  for (Index k = 0; k < n; ++k) {
-    const Index row = rows_[static_cast<std::size_t>(k)];
-    const bool is_gap = row % 2 == 0;
-    if (has_height_ && is_gap) matrix_(k, of_height) = 1.0;
-    if (!has_height_ && is_gap) right_[k] -= drive_.height;
-    if (has_speed_ && !is_gap) matrix_(k, of_speed) = problem_.time;
-    if (!has_speed_ && !is_gap) right_[k] -= drive_.speed * problem_.time;
-  }
-  const auto sum = [&](Index to, const Eigen::VectorXd& row) {  // of all forces
-    for (Index k = 0; k < n; ++k) {
-      const Index c = rows_[static_cast<std::size_t>(k)];
-      matrix_(to, k) = row[c];
-      if (c % 2 == 0) matrix_(to, k) += edge(static_cast<std::size_t>(c / 2)) * row[c + 1];
-    }
-  };
-  Eigen::VectorXd ones = Eigen::VectorXd::Zero(problem_.base.size());
-  const Index m = ones.size() / 2;
-  if (has_height_) {
-    ones(Eigen::seqN(0, m, 2)).setOnes();
-    sum(of_height, ones);
-    right_[of_height] = *drive_.load * problem_.pass;
-  }
-  if (!has_speed_) return;
-  if (drive_.traction) {
-    ones.setZero();
-    ones(Eigen::seqN(1, m, 2)).setOnes();
-    sum(of_speed, ones);
-    right_[of_speed] = *drive_.traction * problem_.pass;
-    return;
-  }
-  const Torque torque = torque_at(around);
-  sum(of_speed, torque.row);
-  const double now = forces_of(problem_, around).torque;
-  right_[of_speed] = (*drive_.torque - now) * problem_.pass + torque.row.dot(around.force);
-  if (has_height_) {
-    matrix_(of_speed, of_height) = torque.shear;
-    right_[of_speed] += torque.shear * around.height;
-  }
-}
-
-Eigen::VectorXd RollingSystem::expand(const Eigen::VectorXd& part) const {
-  Eigen::VectorXd r = Eigen::VectorXd::Zero(problem_.base.size());
-  for (std::size_t k = 0; k < rows_.size(); ++k) {
-    const Index row = rows_[k];
-    r[row] = part[static_cast<Index>(k)];
-    if (row % 2 == 0) {
-      const double mu = edge(static_cast<std::size_t>(row / 2));
-      if (mu != 0.0) r[row + 1] = mu * r[row];
-    }
+template <int D>
+VectorXd RollingSystem<D>::expand(const VectorXd& part) const {
+  VectorXd r = VectorXd::Zero(problem_.size());
+  for (const Pair& p : closed_) {
+    r.segment(D * p.pair, p.unknowns) = part.segment(p.at, p.unknowns);
+    if (p.unknowns == 1) r[D * p.pair + 1] = p.edge * part[p.at];
   }
   return r;
 }
 
-RollingPoint RollingSystem::solve() const {
-  RollingPoint p;
-  const Eigen::VectorXd z = solved(right_);
-  p.force = expand(z);
-  auto at = static_cast<Index>(rows_.size());
-  p.height = has_height_ ? z[at++] : drive_.height;
-  p.speed = has_speed_ ? z[at] : drive_.speed;
-  return p;
+/// @param height where it is not an unknown; speed likewise
+template <int D>
+RollingPoint RollingSystem<D>::point_of(const VectorXd& unknowns, double height,
+                                        double speed) const {
+  return {expand(unknowns), has_height() ? unknowns[of_height()] : height,
+          has_speed() ? unknowns[of_speed()] : speed};
 }
 
-/// @param right of the system. @param by_itself change of the forces that is not an unknown's
-RollingSlope RollingSystem::slope(const Torque& torque, const Eigen::VectorXd& right,
-                                  const Eigen::VectorXd& by_itself, double height,
-                                  double speed) const {
-  const Eigen::VectorXd z = solved(right);
-  const Eigen::VectorXd change = expand(z) + by_itself;
-  auto at = static_cast<Index>(rows_.size());
-  RollingSlope s;
-  s.height = has_height_ ? z[at++] : height;
-  s.speed = has_speed_ ? z[at] : speed;
-  const Index m = change.size() / 2;
-  s.forces.y = change(Eigen::seqN(0, m, 2)).sum() / problem_.pass;
-  s.forces.x = change(Eigen::seqN(1, m, 2)).sum() / problem_.pass;
-  s.forces.torque = (torque.row.dot(change) + torque.shear * s.height) / problem_.pass;
-  return s;
+template <int D>
+RollingPoint RollingSystem<D>::solve() const {
+  return point_of(solved(right_), drive_.height, drive_.speed);
 }
 
-RollingSlopes RollingSystem::slopes(const RollingPoint& around) const {
-  const Torque torque = torque_at(around);
-  RollingSlopes s;
-  const auto n = static_cast<Index>(rows_.size());
-  const Eigen::VectorXd none = Eigen::VectorXd::Zero(problem_.base.size());
-  Eigen::VectorXd right = Eigen::VectorXd::Zero(right_.size());
-  const Index of_height = n, of_speed = n + (has_height_ ? 1 : 0);
-  if (has_height_) {
-    right[of_height] = problem_.pass;
-  } else {
-    for (Index k = 0; k < n; ++k) right[k] = rows_[static_cast<std::size_t>(k)] % 2 == 0 ? -1.0 : 0;
-    if (drive_.torque) right[of_speed] = -torque.shear;
+/// How the solution changes with μ alone.
+template <int D>
+RollingPoint RollingSystem<D>::by_friction(const RollingPoint& around,
+                                           const TorqueChange& torque) const {
+  VectorXd slipping = VectorXd::Zero(problem_.size());  // forces that no unknown stands for
+  VectorXd right = VectorXd::Zero(right_.size());
+  for (const Pair& p : closed_) {
+    if (p.sticks) continue;
+    const NodeVector<D - 1> shear = around.force[D * p.pair] * direction(p.pair);
+    if (p.unknowns == 1)
+      slipping.template segment<D - 1>(D * p.pair + 1) = shear;
+    else
+      right.template segment<D - 1>(p.at + 1) = scale_ * shear;
   }
-  s.by_height = slope(torque, right, none, 1.0, 0.0);
+  if constexpr (D == 2) {
+    reduce(VectorXd(-(problem_.matrix * slipping)), right);
+    if (drive_.traction) right[of_speed()] = -slipping.sum();
+    if (drive_.torque) right[of_speed()] = -torque.row.dot(slipping);
+  }
+  RollingPoint change = point_of(solved(right), 0.0, 0.0);
+  change.force += slipping;
+  return change;
+}
+
+template <int D>
+RollingSlopes RollingSystem<D>::slopes(const RollingPoint& around) const {
+  const TorqueChange torque = torque_change(problem_, around);
+  const auto slope = [&](const RollingPoint& change) {
+    return RollingSlope{forces_change(problem_, around, torque, change), change.height,
+                        change.speed};
+  };
+  const double angle = drive_.slip_angle, cosine = std::cos(angle), sine = std::sin(angle);
+  RollingSlopes s;
+  VectorXd right = VectorXd::Zero(right_.size());
+  if (has_height()) {
+    right[of_height()] = problem_.pass;
+  } else {
+    right = -rigid(1.0, 0.0, 0.0);
+    if (drive_.torque) right[of_speed()] = -torque.by_height;
+  }
+  s.by_height = slope(point_of(solved(right), 1.0, 0.0));
   right.setZero();
-  if (has_speed_)
-    right[of_speed] = problem_.pass;
+  if (has_speed())
+    right[of_speed()] = problem_.pass;
   else
-    for (Index k = 0; k < n; ++k)
-      right[k] = rows_[static_cast<std::size_t>(k)] % 2 == 0 ? 0.0 : -problem_.time;
-  s.by_speed = slope(torque, right, none, 0.0, 1.0);
-  Eigen::VectorXd slipping = none;  // by μ alone
-  for (std::size_t j = 0; j < found_.size(); ++j)
-    if (found_[j].status == Status::slip)
-      slipping[static_cast<Index>(2 * j + 1)] =
-          found_[j].side * around.force[static_cast<Index>(2 * j)];
-  right.setZero();
-  right.head(n) = -(problem_.matrix * slipping)(rows_);
-  if (drive_.traction) right[of_speed] = -slipping.sum();
-  if (drive_.torque) right[of_speed] = -torque.row.dot(slipping);
-  s.by_friction = slope(torque, right, slipping, 0.0, 0.0);
+    right = -rigid(0.0, cosine, sine);
+  s.by_speed = slope(point_of(solved(right), 0.0, 1.0));
+  if constexpr (D == 3)
+    s.by_slip_angle = slope(point_of(solved(-around.speed * rigid(0.0, -sine, cosine)), 0.0, 0.0));
+  if (D == 2 || drive_.friction > 0.0) s.by_friction = slope(by_friction(around, torque));
   return s;
 }
+
+template RollingStiffness stiffness_of(const RollingProblem<2>&);
+template RollingStiffness stiffness_of(const RollingProblem<3>&);
+template RollingStatuses statuses_of(const RollingProblem<2>&, const RollingPoint&, const VectorXd&,
+                                     double);
+template RollingStatuses statuses_of(const RollingProblem<3>&, const RollingPoint&, const VectorXd&,
+                                     double);
+template class RollingSystem<2>;
+template class RollingSystem<3>;
 
 }  // namespace rondo::statics

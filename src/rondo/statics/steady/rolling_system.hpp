@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
-/// @file  The linear system of steady rolling for given statuses, with height and speed as unknowns
-/// where load, traction or torque are given instead; its derivatives.
+/// @file  The linear system of steady rolling for given statuses: gaps of closed pairs and ways of
+/// sticking ones are 0; forces of sliding ones lie on the edge of the cone. In the plane their
+/// shear follows from the normal force (docs/theory.md, 11.3); in space the direction of sliding is
+/// an unknown, and is linearised (docs/wheel3d.md). Height and speed are unknowns where load,
+/// traction or torque are given instead.
 #pragma once
 #include <Eigen/Core>
-#include <optional>
 #include <vector>
 
 #include "rondo/contact/law.hpp"
@@ -11,22 +13,32 @@
 
 namespace rondo::statics {
 
-/// Of each of two pairs one is given: height or load, speed or traction or torque.
-struct RollingDrive {
-  double height = 0.0;             ///< h, of the center above the ground; without a load    [m]
-  double speed = 0.0;              ///< V; without traction and torque; else where to start [m/s]
-  double friction = 0.0;           ///< μ >= 0
-  std::optional<double> load;      ///< F_y of the ground on the body, > 0                 [N/m]
-  std::optional<double> traction;  ///< F_x of the ground on the body                      [N/m]
-  std::optional<double> torque;    ///< of ground and weight, counter-clockwise              [N]
-};
-
-/// What a pair does; `side`: of a slipping one the sign of r_x.
+/// What the law says of a pair at a point, by q = r - ρ w: open where q_n <= 0; else it sticks
+/// where q is in the cone, and slides where it is beyond it.
 struct RollingStatus {
   contact::Status status = contact::Status::open;
-  int side = 0;
-  bool operator==(const RollingStatus&) const = default;
+  Vec2 direction{};    ///< of q along t1 and t2 where it slides; (1, 0) without friction
+  double share = 0.0;  ///< μ q_n/|q_t| <= 1 where it slides
+
+  bool operator==(const RollingStatus& b) const noexcept {
+    return status == b.status && direction == b.direction;
+  }
 };
+using RollingStatuses = std::vector<RollingStatus>;
+
+/// One over the mean compliances of pairs along n and across it [N/m]. In the plane both are one
+/// over the mean of all.
+struct RollingStiffness {
+  double normal = 1.0, across = 1.0;
+};
+template <int D>
+[[nodiscard]] RollingStiffness stiffness_of(const RollingProblem<D>& problem);
+
+/// @param moved gaps and ways of the point
+template <int D>
+[[nodiscard]] RollingStatuses statuses_of(const RollingProblem<D>& problem,
+                                          const RollingPoint& point, const Eigen::VectorXd& moved,
+                                          double friction);
 
 /// Derivatives of forces, height and speed by one of what is given.
 struct RollingSlope {
@@ -34,47 +46,64 @@ struct RollingSlope {
   double height = 0.0, speed = 0.0;
 };
 
-/// By friction; by height, or load where that is given; by speed, or traction or torque.
+/// By friction; by height, or load where that is given; by speed, or traction or torque; by the
+/// slip angle, in space.
 struct RollingSlopes {
-  RollingSlope by_friction, by_height, by_speed;
+  RollingSlope by_friction, by_height, by_speed, by_slip_angle;
 };
 
+template <int D>
 class RollingSystem {
  public:
-  /// @param found of each pair. @param around what the torque, which is not linear, is taken at.
-  /// All must outlive it.
-  RollingSystem(const RollingProblem& problem, const RollingDrive& drive,
-                const std::vector<RollingStatus>& found, const RollingPoint& around);
+  /// @param around what the torque, which is not linear, is taken at. All must outlive it.
+  RollingSystem(const RollingProblem<D>& problem, const RollingDrive& drive,
+                const RollingStatuses& statuses, const RollingPoint& around);
 
-  /// Of unknowns.
-  [[nodiscard]] Eigen::Index size() const noexcept { return right_.size(); }
+  /// What its making takes, roughly, in floating-point operations.
+  [[nodiscard]] double work() const noexcept;
   /// Not finite where there is no solution.
   [[nodiscard]] RollingPoint solve() const;
   /// @param around the solution
   [[nodiscard]] RollingSlopes slopes(const RollingPoint& around) const;
 
  private:
-  [[nodiscard]] double edge(std::size_t pair) const noexcept;
-  void add_border(const RollingPoint& around);
-  void factorise();
-  [[nodiscard]] Eigen::VectorXd solved(Eigen::VectorXd right) const;
-  /// The torque at a point: P dT = row·dr + shear dh.
-  struct Torque {
-    Eigen::VectorXd row;
-    double shear;
+  struct Pair {
+    Eigen::Index pair, at;  ///< number of the pair; of its first unknown
+    Eigen::Index unknowns;  ///< 1: its shear follows from the normal force
+    bool sticks;
+    double edge;  ///< that shear over the normal force, along t1: 0 in space, where it is 0
   };
-  [[nodiscard]] Torque torque_at(const RollingPoint& around) const;
-  [[nodiscard]] RollingSlope slope(const Torque& torque, const Eigen::VectorXd& right,
-                                   const Eigen::VectorXd& by_itself, double height,
-                                   double speed) const;
+  [[nodiscard]] bool has_height() const noexcept { return drive_.load.has_value(); }
+  [[nodiscard]] bool has_speed() const noexcept { return drive_.traction || drive_.torque; }
+  [[nodiscard]] Eigen::Index of_height() const noexcept { return n_forces_; }
+  [[nodiscard]] Eigen::Index of_speed() const noexcept {
+    return n_forces_ + (has_height() ? 1 : 0);
+  }
+  [[nodiscard]] NodeVector<D - 1> direction(Eigen::Index pair) const noexcept;
+  [[nodiscard]] NodeMatrix<D - 1> turning(Eigen::Index pair) const noexcept;
+  void number();
+  void fill();
+  void add_border(const RollingPoint& around);
+  void add_sum(Eigen::Index row, const Eigen::VectorXd& by_force);
+  void factorise();
+  /// Rows of the system by what changes gaps and ways, (D pairs).
+  template <class Moved>
+  void reduce(const Moved& moved, Eigen::Ref<Eigen::VectorXd> rows) const;
+  [[nodiscard]] Eigen::VectorXd rigid(double height, double ahead, double aside) const;
   [[nodiscard]] Eigen::VectorXd expand(const Eigen::VectorXd& part) const;
+  [[nodiscard]] Eigen::VectorXd solved(Eigen::VectorXd right) const;
+  [[nodiscard]] RollingPoint point_of(const Eigen::VectorXd& unknowns, double height,
+                                      double speed) const;
+  [[nodiscard]] RollingPoint by_friction(const RollingPoint& around,
+                                         const TorqueChange& torque) const;
 
-  const RollingProblem& problem_;
+  const RollingProblem<D>& problem_;
   const RollingDrive& drive_;
-  const std::vector<RollingStatus>& found_;
-  bool has_height_, has_speed_;     ///< as unknowns
-  std::vector<Eigen::Index> rows_;  ///< of the problem, each an unknown force
-  Eigen::MatrixXd matrix_;          ///< its factors, once it is factorised
+  const RollingStatuses& statuses_;
+  double scale_;  ///< of sliding pairs' rows in space: forces to ways                         [m/N]
+  std::vector<Pair> closed_;
+  Eigen::Index n_forces_ = 0;
+  Eigen::MatrixXd matrix_;  ///< its factors, once it is factorised
   Eigen::VectorXd right_;
   std::vector<int> pivots_;
   bool singular_ = false;

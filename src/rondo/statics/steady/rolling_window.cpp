@@ -11,165 +11,207 @@ namespace {
 
 using Eigen::Index;
 
-int wrapped(int sample, int turn) noexcept {
-  return (sample % turn + turn) % turn;
-}
-
-/// A column-major 2×2 matrix times a vector.
-Vec2 times(const std::array<double, 4>& m, const Vec2& v) noexcept {
-  return {m[0] * v.x + m[2] * v.y, m[1] * v.x + m[3] * v.y};
+template <int D>
+NodeMatrix<D> rotation_matrix(Complex r) noexcept {
+  NodeMatrix<D> m = NodeMatrix<D>::Identity();
+  m.template topLeftCorner<2, 2>() << r.re, -r.im, r.im, r.re;
+  return m;
 }
 
 }  // namespace
 
-RollingWindow::RollingWindow(const RollingHarmonics& harmonics, SlipDifference slip)
+template <int D>
+RollingWindow<D>::RollingWindow(const RollingHarmonics<D>& harmonics, SlipDifference slip,
+                                double camber, double gravity)
     : harmonics_(harmonics),
+      gravity_{gravity * std::cos(camber), gravity * std::sin(camber)},
       weights_(slip == SlipDifference::upwind ? std::vector{1.0, -1.0}
                                               : std::vector{1.5, -2.0, 0.5}),
-      back_(harmonics.body().spin < 0.0 ? 1 : -1),
       included_(harmonics.n_candidates(),
                 std::vector<char>(static_cast<std::size_t>(harmonics.turn()))) {
-  problem_.time = 2.0 * std::numbers::pi / (harmonics.turn() * std::abs(harmonics.body().spin));
+  const double spin = harmonics.body().spin, sample = 2.0 * std::numbers::pi / harmonics.turn();
+  problem_.lean = rotation(camber);
+  problem_.time = 2.0 * std::numbers::pi / (harmonics.turn() * std::abs(spin));
   problem_.pass = harmonics.body().samples;
-  problem_.base_weight = harmonics.weight_torque();
-  for (int m = 0; m < harmonics.turn(); ++m)
+  problem_.back = spin < 0.0 ? 1 : -1;
+  problem_.base_weight = gravity_.down * gravity_.down * harmonics.weight_torque();
+  turn_ = -problem_.back * sample;
+  const NodeMatrix<D> ground = ground_axes<D>(problem_.lean).transpose();
+  for (int m = 0; m < harmonics.turn(); ++m) {
     frames_.push_back(rotation(2.0 * std::numbers::pi * m / harmonics.turn()));
-  find_kernels();
+    to_ground_.push_back(ground * rotation_matrix<D>(frames_.back()));
+  }
+  if constexpr (D == 2) find_kernels();
 }
 
-Complex RollingWindow::frame(int sample) const noexcept {
-  return frames_[static_cast<std::size_t>(wrapped(sample, harmonics_.turn()))];
-}
-
-/// Of the way: Σ w_j R(j of a sample) C(ahead + j), in the frame of the later sample.
-void RollingWindow::find_kernels() {
+template <int D>
+void RollingWindow<D>::find_kernels() {
   const std::size_t n = harmonics_.n_candidates();
-  const auto turned = [&](int j) {
-    const Complex r = frame(j);
-    Eigen::Matrix2d matrix;
-    matrix << r.re, -r.im, r.im, r.re;
-    return matrix;
-  };
   auto kernels = std::make_shared<std::vector<Kernel>>();
   kernels->reserve(n * n * frames_.size());
   for (std::size_t a = 0; a < n; ++a)
     for (std::size_t b = 0; b < n; ++b)
-      for (int ahead = 0; ahead < harmonics_.turn(); ++ahead) {
-        Eigen::Matrix2d way = Eigen::Matrix2d::Zero();
-        for (std::size_t j = 0; j < weights_.size(); ++j) {
-          const int by = back_ * static_cast<int>(j);
-          way += weights_[j] * turned(by) * harmonics_.compliance(a, b, ahead + by);
-        }
-        Kernel& k = kernels->emplace_back();
-        Eigen::Matrix2d::Map(k.moved.data()) = harmonics_.compliance(a, b, ahead);
-        Eigen::Matrix2d::Map(k.slipped.data()) = way;
-      }
+      for (int ahead = 0; ahead < harmonics_.turn(); ++ahead)
+        kernels->push_back(kernel(a, b, ahead));
   kernels_ = std::move(kernels);
 }
 
-RollingWindow::Place RollingWindow::place(const RollingPair& p) const noexcept {
-  const auto x = [&](int m) { return frame(m) * harmonics_.place(p.candidate, m); };
-  const Vec2 here = x(p.sample);
-  double way = 0.0;
-  for (std::size_t j = 0; j < weights_.size(); ++j)
-    way += weights_[j] * x(p.sample + back_ * static_cast<int>(j)).x;
-  return {here.y, way, here.x};
+template <int D>
+RollingWindow<D>::Kernel RollingWindow<D>::kernel(std::size_t a, std::size_t b,
+                                                  int ahead) const noexcept {
+  Kernel k{harmonics_.compliance(a, b, ahead), NodeMatrix<D>::Zero()};
+  for (std::size_t j = 0; j < weights_.size(); ++j) {
+    const int by = problem_.back * static_cast<int>(j);
+    const NodeMatrix<D> moved = harmonics_.compliance(a, b, ahead + by);
+    if constexpr (D == 2)
+      k.slipped += weights_[j] * rotation_matrix<D>(frame(by)) * moved;
+    else
+      k.slipped += weights_[j] * moved;
+  }
+  if constexpr (D == 3) {
+    k.slipped.row(0) -= turn_ * k.moved.row(1);
+    k.slipped.row(1) += turn_ * k.moved.row(0);
+  }
+  return k;
 }
 
-const RollingWindow::Kernel& RollingWindow::kernel(const RollingPair& p,
-                                                   const RollingPair& of) const noexcept {
-  const std::size_t n = harmonics_.n_candidates(), turn = frames_.size();
-  const auto ahead = static_cast<std::size_t>(wrapped(p.sample - of.sample, harmonics_.turn()));
-  return (*kernels_)[(p.candidate * n + of.candidate) * turn + ahead];
+template <int D>
+RollingWindow<D>::Kernel RollingWindow<D>::kernel(const RollingPair& of,
+                                                  const RollingPair& by) const noexcept {
+  const int ahead = of.sample - by.sample;
+  if constexpr (D == 3) return kernel(of.candidate, by.candidate, ahead);
+  const std::size_t n = harmonics_.n_candidates();
+  return (
+      *kernels_)[(of.candidate * n + by.candidate) * frames_.size() + harmonics_.wrapped(ahead)];
 }
 
-/// Both columns of a pair's forces, from a row on.
-void RollingWindow::fill_column(Index of, Index from) {
+/// From the center, along n, t1 and t2.
+template <int D>
+NodeVector<D> RollingWindow<D>::free_place(const RollingPair& p) const noexcept {
+  const NodeVector<D> x =
+      harmonics_.reference(p.candidate) + harmonics_.displacement(p.candidate, p.sample, gravity_);
+  return to_ground(p.sample) * x;
+}
+
+/// What of it is along n has no meaning.
+template <int D>
+NodeVector<D> RollingWindow<D>::free_way(const RollingPair& p) const noexcept {
+  NodeVector<D> way = NodeVector<D>::Zero();
+  for (std::size_t j = 0; j < weights_.size(); ++j) {
+    const int sample = p.sample + problem_.back * static_cast<int>(j);
+    if constexpr (D == 2)
+      way += weights_[j] * free_place({p.candidate, sample});
+    else
+      way += weights_[j] * harmonics_.displacement(p.candidate, sample, gravity_);
+  }
+  if constexpr (D == 2) return way;
+  const NodeVector<D> x =
+      harmonics_.reference(p.candidate) + harmonics_.displacement(p.candidate, p.sample, gravity_);
+  return to_ground(p.sample) * (way + turn_ * quarter_turned<D>(x));
+}
+
+template <int D>
+double RollingWindow<D>::lowest() const noexcept {
+  double least = 0.0;
+  for (std::size_t a = 0; a < harmonics_.n_candidates(); ++a) {
+    const NodeVector<D> place = free_place({a, 0});
+    least = std::max(least, D == 2 ? norm(Vec2{place[0], place[1]}) : -place[0]);
+  }
+  return least;
+}
+
+template <int D>
+void RollingWindow<D>::fill_base(Index at) {
+  const RollingPair& p = problem_.pairs[static_cast<std::size_t>(at)];
+  const NodeVector<D> place = free_place(p), way = free_way(p);
+  problem_.base.template segment<D>(D * at) << place[0], way.template tail<D - 1>();
+  problem_.base_place.template segment<D - 1>((D - 1) * at) = place.template tail<D - 1>();
+  problem_.weight.template segment<D>(D * at) =
+      to_ground(p.sample) * (gravity_.down * harmonics_.weight_torque(p.candidate, p.sample));
+}
+
+/// All columns of a pair's forces, from a row on.
+template <int D>
+void RollingWindow<D>::fill_column(Index of, Index from) {
   const RollingPair& pair = problem_.pairs[static_cast<std::size_t>(of)];
-  const Complex back = conj(frame(pair.sample));
-  const std::array forces{back * Vec2{0.0, 1.0}, back * Vec2{1.0, 0.0}};
+  const NodeMatrix<D> forces = to_ground(pair.sample).transpose();
   for (Index p = from; p < std::ssize(problem_.pairs); ++p) {
     const RollingPair& row = problem_.pairs[static_cast<std::size_t>(p)];
-    const Kernel& k = kernel(row, pair);
-    const Complex to = frame(row.sample);
-    for (std::size_t c = 0; c < 2; ++c) {
-      const Index column = 2 * of + static_cast<Index>(c);
-      const Vec2 u = to * times(k.moved, forces[c]), way = times(k.slipped, forces[c]);
-      problem_.matrix(2 * p, column) = u.y;
-      problem_.matrix(2 * p + 1, column) = to.re * way.x - to.im * way.y;
-      problem_.matrix_x(p, column) = u.x;
-    }
+    const Kernel k = kernel(row, pair);
+    const NodeMatrix<D>& to = to_ground(row.sample);
+    const NodeMatrix<D> u = to * (k.moved * forces).eval(), way = to * (k.slipped * forces).eval();
+    auto here = problem_.matrix.template block<D, D>(D * p, D * of);
+    here.row(0) = u.row(0);
+    here.template bottomRows<D - 1>() = way.template bottomRows<D - 1>();
+    problem_.matrix_place.template block<D - 1, D>((D - 1) * p, D * of) =
+        u.template bottomRows<D - 1>();
   }
 }
 
-void RollingWindow::include(const std::vector<RollingPair>& pairs) {
-  const auto before = std::ssize(problem_.pairs);
+template <int D>
+void RollingWindow<D>::include(const std::vector<RollingPair>& pairs) {
+  const Index before = std::ssize(problem_.pairs);
   for (const RollingPair& p : pairs) {
-    char& in =
-        included_[p.candidate][static_cast<std::size_t>(wrapped(p.sample, harmonics_.turn()))];
+    char& in = included_[p.candidate][harmonics_.wrapped(p.sample)];
     if (!in) problem_.pairs.push_back(p);
     in = 1;
   }
   const Index n = std::ssize(problem_.pairs);
-  problem_.base.conservativeResize(2 * n);
-  problem_.base_x.conservativeResize(n);
-  problem_.weight.conservativeResize(2 * n);
-  problem_.matrix.conservativeResize(2 * n, 2 * n);
-  problem_.matrix_x.conservativeResize(n, 2 * n);
-  for (Index p = before; p < n; ++p) {
-    const Place at = place(problem_.pairs[static_cast<std::size_t>(p)]);
-    problem_.base.segment<2>(2 * p) << at.gap, at.way;
-    problem_.base_x[p] = at.x;
-    const RollingPair& pair = problem_.pairs[static_cast<std::size_t>(p)];
-    const Vec2 by = frame(pair.sample) * harmonics_.weight_torque(pair.candidate, pair.sample);
-    problem_.weight.segment<2>(2 * p) << by.y, by.x;
-  }
+  problem_.base.conservativeResize(D * n);
+  problem_.base_place.conservativeResize((D - 1) * n);
+  problem_.weight.conservativeResize(D * n);
+  problem_.matrix.conservativeResize(D * n, D * n);
+  problem_.matrix_place.conservativeResize((D - 1) * n, D * n);
+  for (Index p = before; p < n; ++p) fill_base(p);
 #pragma omp parallel for num_threads(harmonics_.body().threads) schedule(static)
   for (Index q = 0; q < n; ++q) fill_column(q, q < before ? before : 0);
 }
 
-void RollingWindow::include_below(double height) {
+template <int D>
+void RollingWindow<D>::include_below(double height) {
   const int quarter = harmonics_.turn() / 4;
   std::vector<RollingPair> pairs;
   for (std::size_t a = 0; a < harmonics_.n_candidates(); ++a) {
-    std::vector<int> inside;
+    int low = quarter + 1, high = -low;
     for (int m = -quarter; m <= quarter; ++m)
-      if (height + place({a, m}).gap <= 0.0) inside.push_back(m);
-    if (inside.empty()) continue;
-    for (int m = inside.front() - 1; m <= inside.back() + 1; ++m) pairs.push_back({a, m});
+      if (height + free_place({a, m})[0] <= 0.0) low = std::min(low, m), high = std::max(high, m);
+    for (int m = low - 1; low <= high && m <= high + 1; ++m) pairs.push_back({a, m});
   }
   include(pairs);
 }
 
-bool RollingWindow::include_touching(double height, const Eigen::VectorXd& force) {
-  const double smallest = 1e-12 * norm(harmonics_.place(0, 0));
+template <int D>
+bool RollingWindow<D>::include_touching(double height, const Eigen::VectorXd& force) {
+  const double smallest = 1e-12 * harmonics_.reference(0).norm();
   std::vector<RollingPair> touching, missing;
-  std::vector<Vec2> forces;  // in the frames of their sectors
+  std::vector<NodeVector<D>> forces;  // in the frames of their sectors
+  int low = harmonics_.turn(), high = -low;
   for (std::size_t q = 0; q < problem_.pairs.size(); ++q) {
-    const auto row = static_cast<Index>(2 * q);
-    if (force[row] == 0.0 && force[row + 1] == 0.0) continue;
-    touching.push_back(problem_.pairs[q]);
-    forces.push_back(conj(frame(problem_.pairs[q].sample)) * Vec2{force[row + 1], force[row]});
+    const RollingPair& p = problem_.pairs[q];
+    low = std::min(low, p.sample), high = std::max(high, p.sample);
+    const NodeVector<D> f = force.segment<D>(static_cast<Index>(D * q));
+    if (f.isZero(0.0)) continue;
+    touching.push_back(p);
+    forces.push_back(to_ground(p.sample).transpose() * f);
   }
   const auto gap = [&](const RollingPair& p) {
-    Vec2 u;
+    NodeVector<D> u = NodeVector<D>::Zero();
     for (std::size_t q = 0; q < touching.size(); ++q)
-      u += times(kernel(p, touching[q]).moved, forces[q]);
-    return height + place(p).gap + (frame(p.sample) * u).y;
+      u +=
+          harmonics_.compliance(p.candidate, touching[q].candidate, p.sample - touching[q].sample) *
+          forces[q];
+    return height + free_place(p)[0] + to_ground(p.sample).row(0).dot(u);
   };
-  for (std::size_t a = 0; a < harmonics_.n_candidates(); ++a) {
-    int low = harmonics_.turn(), high = -low;
-    for (const RollingPair& p : problem_.pairs)
-      if (p.candidate == a) low = std::min(low, p.sample), high = std::max(high, p.sample);
-    if (high < low) continue;
-    const int beyond = std::max(2, (high - low) / 2);
-    for (int m = low - beyond; m <= high + beyond; ++m) {
-      const bool in = included_[a][static_cast<std::size_t>(wrapped(m, harmonics_.turn()))] != 0;
-      if (!in && gap({a, m}) < -smallest) missing.push_back({a, m});
-    }
-  }
+  const int beyond = std::max(2, (high - low) / (D == 2 ? 2 : 4));
+  for (std::size_t a = 0; a < harmonics_.n_candidates(); ++a)
+    for (int m = low - beyond; m <= high + beyond; ++m)
+      if (!included_[a][harmonics_.wrapped(m)] && gap({a, m}) < -smallest)
+        missing.push_back({a, m});
   include(missing);
   return !missing.empty();
 }
+
+template class RollingWindow<2>;
+template class RollingWindow<3>;
 
 }  // namespace rondo::statics

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
-/// @file  What may touch flat ground in steady rolling, condensed (docs/theory.md, 11.2): pairs of
-/// a candidate and a sample, whose gaps and slips are linear in the forces of all. It hangs neither
-/// on height nor on speed nor on friction, and is kept for all that differ in these alone.
+/// @file  What may touch flat ground in steady rolling, condensed (docs/theory.md, 11.2, and
+/// docs/wheel3d.md): pairs of a candidate and a sample, whose gaps and slips are linear in the
+/// forces of all. It depends on camber and weight, but neither on height, speed and slip angle nor
+/// on friction, and is kept for all that differ in these alone.
 #pragma once
 #include <Eigen/Core>
-#include <array>
 #include <memory>
 #include <vector>
 
@@ -14,51 +14,70 @@
 
 namespace rondo::statics {
 
-/// How the slip of a material point is taken: from its place one sample before, or from two.
+/// How the slip of a material point is taken: from its place one sample before, or from two. In the
+/// plane it is a difference of whole places; in space the turn is exact, and the difference is one
+/// of displacements.
 enum class SlipDifference { bdf2, upwind };
 
+template <int D>
 class RollingWindow {
  public:
-  /// The harmonics must outlive it.
-  RollingWindow(const RollingHarmonics& harmonics, SlipDifference slip);
+  /// The harmonics must outlive it. @param camber γ [rad]; 0 in the plane. @param gravity along -n
+  /// [m/s²]
+  RollingWindow(const RollingHarmonics<D>& harmonics, SlipDifference slip, double camber = 0.0,
+                double gravity = 0.0);
 
-  [[nodiscard]] const RollingHarmonics& harmonics() const noexcept { return harmonics_; }
-  [[nodiscard]] const RollingProblem& problem() const noexcept { return problem_; }
+  [[nodiscard]] const RollingHarmonics<D>& harmonics() const noexcept { return harmonics_; }
+  [[nodiscard]] const RollingProblem<D>& problem() const noexcept { return problem_; }
   [[nodiscard]] const std::vector<RollingPair>& pairs() const noexcept { return problem_.pairs; }
+  [[nodiscard]] RollingGravity gravity() const noexcept { return gravity_; }
   /// Time of a sample [s].
   [[nodiscard]] double time() const noexcept { return problem_.time; }
 
-  /// Pairs whose undeformed place is no higher than `height` below the center, and some beside
-  /// them.
+  /// Includes pairs whose undeformed place is no higher than `height` below the center, and some
+  /// beside them.
   void include_below(double height);
-  /// Pairs beside those there are, that the forces leave in the ground: they are included.
-  /// @param force (2 pairs) [N/m] @return whether there were any
+  /// Includes pairs beside those there are, that the forces leave in the ground.
+  /// @param force (D pairs) [N] @return whether there were any
   bool include_touching(double height, const Eigen::VectorXd& force);
+  /// Distance of the lowest contact node from the center where nothing touches, as spin, gravity
+  /// and loads leave it; in space its depth below the center [m].
+  [[nodiscard]] double lowest() const noexcept;
 
-  [[nodiscard]] Complex frame(int sample) const noexcept;
+  /// e^{i 2π sample/L}: of the frame of a sector that has come so far from where it is in X.
+  [[nodiscard]] Complex frame(int sample) const noexcept {
+    return frames_[harmonics_.wrapped(sample)];
+  }
+  /// From that frame to the axes n, t1, t2 of the ground.
+  [[nodiscard]] const NodeMatrix<D>& to_ground(int sample) const noexcept {
+    return to_ground_[harmonics_.wrapped(sample)];
+  }
 
  private:
-  struct Place {
-    double gap, way, x;
-  };
-  /// Of candidate a, `ahead` samples after a force on b, in the frame of the later sample: its
-  /// displacement and its way, 2×2 column-major.
+  /// Displacement and way of a candidate, so many samples after a force on another, in the frame of
+  /// the later sample.
   struct Kernel {
-    std::array<double, 4> moved, slipped;
+    NodeMatrix<D> moved, slipped;
   };
-  [[nodiscard]] Place place(const RollingPair& p) const noexcept;
-  [[nodiscard]] const Kernel& kernel(const RollingPair& p, const RollingPair& of) const noexcept;
+  [[nodiscard]] Kernel kernel(std::size_t a, std::size_t b, int ahead) const noexcept;
+  [[nodiscard]] Kernel kernel(const RollingPair& of, const RollingPair& by) const noexcept;
   void find_kernels();
-  void include(const std::vector<RollingPair>& pairs);
+  [[nodiscard]] NodeVector<D> free_place(const RollingPair& p) const noexcept;
+  [[nodiscard]] NodeVector<D> free_way(const RollingPair& p) const noexcept;
+  void fill_base(Eigen::Index pair);
   void fill_column(Eigen::Index of, Eigen::Index from);
+  void include(const std::vector<RollingPair>& pairs);
 
-  const RollingHarmonics& harmonics_;
-  std::vector<Complex> frames_;                         ///< (L)
-  std::vector<double> weights_;                         ///< of a point's own and its earlier places
-  int back_;                                            ///< towards the sample before
-  std::shared_ptr<const std::vector<Kernel>> kernels_;  ///< (C, C, L); the same for copies
-  std::vector<std::vector<char>> included_;             ///< (C, L)
-  RollingProblem problem_;
+  const RollingHarmonics<D>& harmonics_;
+  RollingGravity gravity_;
+  std::vector<Complex> frames_;           ///< (L)
+  std::vector<NodeMatrix<D>> to_ground_;  ///< (L)
+  std::vector<double> weights_;           ///< of a point's own and its earlier places
+  double turn_;                           ///< s of a sample's time                          [rad]
+  /// (C, C, L) in the plane, where they are few; the same for copies
+  std::shared_ptr<const std::vector<Kernel>> kernels_;
+  std::vector<std::vector<char>> included_;  ///< (C, L)
+  RollingProblem<D> problem_;
 };
 
 }  // namespace rondo::statics

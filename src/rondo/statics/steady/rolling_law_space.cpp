@@ -1,0 +1,167 @@
+// SPDX-License-Identifier: BSD-3-Clause
+/// Pair after pair as the material passes them: Jourdan, Alart, Jean, CMAME 155 (1998) 31;
+/// Vollebregt's SteadyGS.
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+#include <utility>
+
+#include "rondo/contact/cone.hpp"
+#include "rondo/statics/steady/rolling_groups.hpp"
+#include "rondo/statics/steady/rolling_law.hpp"
+
+namespace rondo::statics {
+namespace {
+
+using Eigen::Index;
+using Eigen::VectorXd;
+using SpaceProblem = RollingProblem<3>;
+
+constexpr int newton_rounds = 8, sweeps_a_round = 40;
+constexpr int most_without_gain = 15;  // steps of Newton's method
+constexpr double as_good_as_zero = 1e-14;
+
+/// Until the residual is round-off, or no longer falls; the best point stays.
+void iterate(const SpaceProblem& problem, const RollingDrive& drive, RollingState& s) {
+  RollingPoint point = s.point;
+  RollingStatuses statuses = s.statuses;
+  s.residual = std::numeric_limits<double>::infinity();
+  int without_gain = 0;
+  for (int n = 0; n < most_newton_steps && s.effort.work < most_rolling_work; ++n) {
+    ++s.effort.newton_steps;
+    s.touches = !all_open(statuses);
+    if (!s.touches) return;
+    const RollingSystem<3> system(problem, drive, statuses, point);
+    s.effort.work += system.work();
+    RollingPoint next = system.solve();
+    if (!next.force.allFinite()) return;
+    const VectorXd moved = gaps_and_ways(problem, next, drive.slip_angle);
+    const double residual = residual_of(problem, next, moved, drive.friction);
+    const bool better = residual < s.residual;
+    without_gain = better ? 0 : without_gain + 1;
+    const bool settled = s.solved() && !(residual < 0.1 * s.residual);
+    const bool near = !drive.torque || is_near(next, point);
+    point = std::move(next);
+    statuses = statuses_of(problem, point, moved, drive.friction);
+    if (better || (s.solved() && residual <= rolling_residual_bound)) {
+      s.point = point;
+      s.statuses = statuses;
+      s.residual = residual;
+    }
+    const bool done = near && (s.residual <= as_good_as_zero || settled);
+    if (done || without_gain == most_without_gain) return;
+  }
+}
+
+void find_slopes(const SpaceProblem& problem, const RollingDrive& drive, RollingState& s) {
+  if (s.solved()) s.slopes = RollingSystem<3>(problem, drive, s.statuses, s.point).slopes(s.point);
+}
+
+/// In the order in which the material comes by.
+std::vector<Index> order_of(const SpaceProblem& problem) {
+  std::vector<Index> order(problem.pairs.size());
+  std::iota(order.begin(), order.end(), Index{0});
+  std::ranges::stable_sort(order, std::ranges::greater{}, [&](Index pair) {
+    return problem.back * problem.pairs[static_cast<std::size_t>(pair)].sample;
+  });
+  return order;
+}
+
+/// Each pair's force by the law, those of all others as they are.
+void sweep(const SpaceProblem& problem, const RollingDrive& drive, RollingState& s) {
+  VectorXd moved = gaps_and_ways(problem, s.point, drive.slip_angle);
+  const std::vector<Index> order = order_of(problem);
+  for (int n = 0; n < sweeps_a_round; ++n, ++s.effort.sweeps)
+    for (const Index pair : order) {
+      const Index row = 3 * pair;
+      const NodeMatrix<3> own = problem.matrix.block<3, 3>(row, row);
+      contact::SpatialProblem local;
+      const NodeVector<3> before = s.point.force.segment<3>(row);
+      local.free = vec_of(NodeVector<3>(moved.segment<3>(row) - own * before));
+      for (Index c = 0; c < 3; ++c)
+        local.delassus[static_cast<std::size_t>(c)] = {own(c, 0), own(c, 1), own(c, 2)};
+      const NodeVector<3> change =
+          node_vector(contact::solve_spatial(local, drive.friction).impulse) - before;
+      if (change.isZero(0.0) || !change.allFinite()) continue;
+      s.point.force.segment<3>(row) += change;
+      moved += problem.matrix.middleCols<3>(row) * change;
+    }
+  const auto size = static_cast<double>(problem.size());
+  s.effort.work += 2.0 * sweeps_a_round * size * size;
+  s.statuses = statuses_of(problem, s.point, moved, drive.friction);
+}
+
+/// Without friction; where that does not end, from the solution on groups of pairs, and that from
+/// the one on groups of these.
+void start_smooth(const SpaceProblem& problem, const RollingDrive& drive, RollingState& s) {
+  look(problem, drive, s);
+  const RollingState first = s;
+  iterate(problem, drive, s);
+  if (s.solved()) return;
+  const RollingGroups<3> groups = grouped(problem);
+  if (2 * groups.problem.pairs.size() > problem.pairs.size()) return;
+  RollingState few = first;
+  few.effort = s.effort;
+  few.point.force = gathered(groups, first.point.force);
+  start_smooth(groups.problem, drive, few);
+  if (!few.touches) return;
+  s = std::move(few);
+  s.point.force = spread(groups, s.point.force);
+  look(problem, drive, s);
+  iterate(problem, drive, s);
+}
+
+/// By less friction first: what slides there shows where it does with more.
+void raise_friction(const SpaceProblem& problem, const RollingDrive& drive, RollingState& s) {
+  RollingDrive less = drive;
+  for (const double share : {0.1, 0.2, 0.35, 0.5, 0.65, 0.8, 0.9, 1.0}) {
+    less.friction = share * drive.friction;
+    if (share == 0.1)
+      begin(problem, less, s);
+    else
+      look(problem, less, s);
+    if (s.touches) iterate(problem, less, s);
+    if (!s.touches) return;
+  }
+}
+
+}  // namespace
+
+/// What sticks and slides by the forces without friction.
+template <>
+void begin(const RollingProblem<3>& problem, const RollingDrive& drive, RollingState& s) {
+  RollingDrive smooth = drive;
+  smooth.friction = 0.0;
+  smooth.traction.reset();
+  smooth.torque.reset();
+  smooth.speed = s.point.speed;
+  start_smooth(problem, smooth, s);
+  if (s.touches) look(problem, drive, s);
+}
+
+template <>
+void newton(const RollingProblem<3>& problem, const RollingDrive& drive, RollingState& s) {
+  iterate(problem, drive, s);
+  find_slopes(problem, drive, s);
+}
+
+/// By less friction; then from sweeps.
+template <>
+void rescue(const RollingProblem<3>& problem, const RollingDrive& drive, RollingState& s) {
+  raise_friction(problem, drive, s);
+  RollingState from = s;
+  if (s.touches && !s.solved()) {
+    from = without_forces(problem, drive, s.point);
+    begin(problem, drive, from);
+  }
+  for (int n = 0; n < newton_rounds && s.touches && !s.solved(); ++n) {
+    if (s.effort.work >= most_rolling_work) break;
+    from.effort = s.effort;
+    sweep(problem, drive, from);
+    s = from;
+    iterate(problem, drive, s);
+  }
+  find_slopes(problem, drive, s);
+}
+
+}  // namespace rondo::statics
