@@ -33,160 +33,162 @@ class _Version(argparse.Action):
 def _parser() -> argparse.ArgumentParser:
     parser = argparse.ArgumentParser(prog="python3 -m rondo", description=__doc__)
     parser.add_argument("--version", action=_Version, nargs=0,
-                        help="versions and places of the package, the library and the program")
+                        help="Versions and places of the package, the library and the program")
     commands = parser.add_subparsers(dest="command", required=True, prog="rondo", parser_class=CommandParser)
 
     def add(name: str, meaning: str, epilog: str = "", prog: str | None = None) -> CommandParser:
         return commands.add_parser(name, help=meaning, description=meaning, epilog=epilog, prog=prog)
 
     paper = add(
-        "paper", "the study of the paper: its runs, ours against expected",
+        "paper", "Makes the study of the paper: its runs, and a table of ours against expected",
         epilog="A study that was interrupted or killed goes on with the same command. Exit code "
                "3: a row of the table is not as expected. docs/paper.md walks through it.")
     paper.add_argument("-o", "--output", type=output_path, metavar="DIRECTORY",
-                       help='directory of the study; default "paper", or "paper-quick"')
-    paper.add_argument("--quick", action="store_true", help="coarse meshes, a third of the work")
+                       help='Directory of the study; default "paper", or "paper-quick"')
+    paper.add_argument("--quick", action="store_true", help="Coarse meshes, which take a third of the work")
     paper.add_argument("--jobs", "--threads", type=_count, metavar="N",
-                       help="cores used, by runs at once; default all that there are")
-    paper.add_argument("--overwrite", action="store_true", help="does again what is there")
-    paper.add_argument("--quiet", action="store_true", help="prints failures and the table only")
+                       help="Number of cores used, by runs at once; default all that there are")
+    paper.add_argument("--overwrite", action="store_true", help="Makes again what is there")
+    paper.add_argument("--quiet", action="store_true", help="Prints failures and the table only")
     paper.add_argument("--study", type=pathlib.Path, metavar="FOLDER",
-                       help="directory of another study.toml; default studies/paper")
+                       help="Directory of another study.toml; default studies/paper")
 
-    figures = add("figures", "draws the figures of a run, a sweep or a study of the paper")
+    figures = add("figures", "Draws the figures of a run, a sweep or a study of the paper")
     figures.add_argument("directory", type=pathlib.Path,
-                         help="directory of `rondo run`, `rondo sweep` or `rondo paper`")
+                         help="Directory of `rondo run`, `rondo sweep` or `rondo paper`")
     figures.add_argument("-o", "--output", type=output_path, metavar="FOLDER",
-                         help="directory for the .png and .svg files; default DIRECTORY/figures")
+                         help="Directory for the .png and .svg files; default DIRECTORY/figures")
 
     report = add(
-        "report", "one HTML file of results, for a browser without network",
+        "report", "Makes one HTML file of results, for a browser without network",
         epilog="The same as rondo report. Of what has not ended it shows what is there. docs/report.md.")
     report.add_argument("directory", type=pathlib.Path,
-                        help="directory of `rondo run`, `rondo sweep`, `rondo pod` or `rondo paper`")
+                        help="Directory of `rondo run`, `rondo sweep`, `rondo pod` or `rondo paper`")
     report.add_argument("-o", "--output", type=output_path, metavar="FILE",
-                        help="ends in .html; default DIRECTORY/report.html")
+                        help="File, which ends in .html; default DIRECTORY/report.html")
 
-    film = add("animate", "makes a film of a run")
-    film.add_argument("directory", type=pathlib.Path, help="directory of `rondo run`")
-    film.add_argument("file", type=pathlib.Path, help="ends in .mp4 (needs ffmpeg) or .gif")
+    film = add("animate", "Makes a film of a run")
+    film.add_argument("directory", type=pathlib.Path, help="Directory of `rondo run`")
+    film.add_argument("file", type=pathlib.Path, help="File, which ends in .mp4 (needs ffmpeg) or .gif")
     film.add_argument("--quantity", default="displacement",
-                      help="displacement, velocity, displacement_y, von_mises, ...; default "
+                      help="Quantity that is drawn, e.g. displacement, velocity, displacement_y, von_mises; default "
                            "%(default)s")
     film.add_argument("--deformation", type=float, default=1.0, metavar="FACTOR",
-                      help="on the deformation as drawn; default %(default)s")
+                      help="Factor on the deformation as drawn; default %(default)s")
     film.add_argument("--follow", action="store_true", default=None,
-                      help="the picture moves along with the body; default: where it goes far")
-    film.add_argument("--frames", type=int, help="pictures; default at most 300")
-    film.add_argument("--fps", type=int, help="pictures a second; default at most 30")
+                      help="Moves the picture along with the body; default where it goes far")
+    film.add_argument("--frames", type=int, help="Number of pictures; default at most 300")
+    film.add_argument("--fps", type=int, help="Number of pictures a second; default at most 30")
 
-    wheel = add("wheel", "draws height, speeds, slip, forces, torques and energies of a rim that forces move")
-    wheel.add_argument("directory", type=pathlib.Path, help="directory of `rondo run` of a case with [rim]")
+    wheel = add("wheel", "Draws height, speeds, slip, forces, torques and energies of a rim that forces move")
+    wheel.add_argument("directory", type=pathlib.Path, help="Directory of `rondo run` of a case with [rim]")
     wheel.add_argument("-o", "--output", type=output_path, metavar="FOLDER",
-                       help="directory for wheel.png and .svg; default DIRECTORY/figures")
+                       help="Directory for wheel.png and .svg; default DIRECTORY/figures")
 
-    footprint = add("footprint", "draws pressure, shear, slip and what sticks in the contact of steady rolling, or of "
+    footprint = add("footprint", "Draws pressure, shear, slip and what sticks in the contact of steady rolling, or of "
                     "a wheel in three dimensions")
     footprint.add_argument("directory", type=pathlib.Path,
-                           help='directory of `rondo run` with analysis.kind = "steady-rolling", or of a '
+                           help='Directory of `rondo run` with analysis.kind = "steady-rolling", or of a '
                                 'wheel in three dimensions')
     footprint.add_argument("--time", type=float, metavar="SECONDS",
-                           help="in three dimensions: of the snapshot nearest to it; default the "
+                           help="Time in three dimensions, of which the nearest snapshot is drawn; default the "
                                 "last with contact")
     footprint.add_argument("-o", "--output", type=output_path, metavar="FOLDER",
-                           help="directory for footprint.png and .svg; default DIRECTORY/figures")
+                           help="Directory for footprint.png and .svg; default DIRECTORY/figures")
 
     traction = add(
-        "traction", "draws the longitudinal force of a sweep over slip: curves and carpets",
+        "traction", "Draws the longitudinal force of a sweep over slip: curves and carpets",
         epilog="Curves over slip for each other parameter that varies, the rest at its middle "
                "value; carpets over slip and a load for each value of the rest.")
     traction.add_argument("directory", type=pathlib.Path,
-                          help="directory of `rondo sweep` over motion.speed (or the angular velocity)")
+                          help="Directory of `rondo sweep` over motion.speed (or the angular velocity)")
     traction.add_argument("-o", "--output", type=output_path, metavar="FOLDER",
-                          help="directory for the .png and .svg files; default DIRECTORY/figures")
+                          help="Directory for the .png and .svg files; default DIRECTORY/figures")
 
     tyre = add(
-        "tyre", "draws lateral force and aligning moment of a sweep over the slip angle",
+        "tyre", "Draws lateral force and aligning moment of a sweep over the slip angle",
         epilog="Curves for each other parameter that varies, the rest at its middle value; the "
                "members of further sweeps, as steady ones, as marks beside them, with a table of "
                "two; where spin or speed varies, the forces at combined slip.")
     tyre.add_argument("directory", type=pathlib.Path, nargs="+",
-                      help="directory of `rondo sweep` over motion.slip_angle")
+                      help="Directory of `rondo sweep` over motion.slip_angle")
     tyre.add_argument("-o", "--output", type=output_path, metavar="FOLDER",
-                      help="directory for the .png and .svg files; default DIRECTORY/figures of the first")
+                      help="Directory for the .png and .svg files; default DIRECTORY/figures of the first")
 
-    campbell = add("campbell", "draws the frequencies of a body over its spin")
-    campbell.add_argument("directory", type=pathlib.Path, help="directory of `rondo modes`")
+    campbell = add("campbell", "Draws the frequencies of a body over its spin")
+    campbell.add_argument("directory", type=pathlib.Path, help="Directory of `rondo modes`")
     campbell.add_argument("--frame", choices=(FRAME, "fixed", *OLDER_FRAMES), default=FRAME,
                           metavar="FRAME",
-                          help=f"{FRAME} | fixed: in which frequencies are seen; default %(default)s")
+                          help=f"Frame in which frequencies are seen, by default %(default)s: {FRAME} | fixed")
     campbell.add_argument("-o", "--output", type=output_path, metavar="FOLDER",
-                          help="directory for campbell-FRAME.png and .svg; default DIRECTORY/figures")
+                          help="Directory for campbell-FRAME.png and .svg; default DIRECTORY/figures")
 
-    sweep = add("sweep", "draws main effects, spread, maps, curves of a sweep; rondo figures does so too",
+    sweep = add("sweep", "Draws main effects, spread, maps, curves of a sweep; rondo figures does so too",
                 prog="python3 -m rondo sweep")  # rondo sweep makes one
-    sweep.add_argument("directory", type=pathlib.Path, help="directory of `rondo sweep`")
+    sweep.add_argument("directory", type=pathlib.Path, help="Directory of `rondo sweep`")
     sweep.add_argument("-o", "--output", type=output_path, metavar="FOLDER",
-                       help="directory for the .png and .svg files; default DIRECTORY/figures")
+                       help="Directory for the .png and .svg files; default DIRECTORY/figures")
 
     converge = add(
-        "converge", "prints how the figures of a sweep converge with its mesh or its step",
+        "converge", "Prints how the figures of a sweep converge with its mesh or its step",
         epilog="Observed orders, Richardson's extrapolated value with an error bar; or that a figure does "
                "not converge monotonically. Exit code 3: one that --figure names does not. docs/studies.md.")
     converge.add_argument("directory", type=pathlib.Path,
-                          help="directory of `rondo sweep` over disk.mesh.radial, time.step, ...: three levels and more")
+                          help="Directory of `rondo sweep` over disk.mesh.radial, time.step or the like: three "
+                               "levels and more")
     converge.add_argument("--figure", nargs="+", action="extend", default=[], metavar="NAME",
-                          help="columns of results.csv, as force_y_mean; default: all")
-    converge.add_argument("--by", metavar="KEY", help="what is refined, where several keys might be")
+                          help="Columns of results.csv, as force_y_mean; default all")
+    converge.add_argument("--by", metavar="KEY", help="Key that is refined, where there might be several")
 
     validate = add(
-        "validate", "compares reduced runs with the full runs that they are to predict",
+        "validate", "Compares reduced runs with the full runs that they are to predict",
         epilog="The table goes to stdout, validation.csv, validation.json and profiles to OUTPUT. "
                "docs/reduced.md, 10, says what is measured.")
     validate.add_argument("runs", type=pathlib.Path, nargs="+", metavar="REDUCED FULL",
-                          help="results directories of `rondo run --reduced` and of the same case "
+                          help="Results directories of `rondo run --reduced` and of the same case "
                                "without, in turn")
     validate.add_argument("-o", "--output", type=output_path, metavar="DIRECTORY",
-                          help="directory for the tables; default REDUCED-validation, beside the first one")
+                          help="Directory for the tables; default REDUCED-validation, beside the first one")
     validate.add_argument("--model", type=pathlib.Path, metavar="FILE",
-                          help="the reduced model; default the one that the reduced run names")
+                          help="Reduced model; default the one that the reduced run names")
 
-    validation = add("validation", "draws how far off a reduced model's predictions are")
+    validation = add("validation", "Draws how far off a reduced model's predictions are")
     validation.add_argument("directory", type=pathlib.Path,
-                            help="directory of `rondo validate`")
+                            help="Directory of `rondo validate`")
     validation.add_argument("--run", nargs="+", action="extend", default=[], metavar="NAME",
-                            help="of these runs only; default: all")
+                            help="Names of the runs that are drawn; default all")
     validation.add_argument("-o", "--output", type=output_path, metavar="FOLDER",
-                            help="directory for validation.png and .svg; default DIRECTORY/figures")
+                            help="Directory for validation.png and .svg; default DIRECTORY/figures")
 
-    means = add("means", "prints the mean forces of the ground on the body")
-    means.add_argument("directory", type=pathlib.Path, nargs="+", help="directory of `rondo run`")
+    means = add("means", "Prints the mean forces of the ground on the body")
+    means.add_argument("directory", type=pathlib.Path, nargs="+", help="Directory of `rondo run`")
     for command in figures, sweep:
         command.add_argument("--figure", nargs="+", action="extend", default=[], metavar="NAME",
-                             help="of a sweep: columns of results.csv, as force_y_mean; default: the usual ones")
+                             help="Columns of a sweep's results.csv, as force_y_mean; default the usual ones")
         command.add_argument("--map", nargs=2, action="append", default=[], metavar=("X", "Y"),
-                             help="of a sweep: each figure over these two parameters; may be repeated")
+                             help="Two parameters of a sweep, over which each figure is drawn; may be repeated")
         command.add_argument("--curves", nargs=2, action="append", default=[], metavar=("X", "BY"),
-                             help="of a sweep: each figure over X, a curve for each value of BY; may be repeated")
+                             help="Two parameters of a sweep: each figure is drawn over X, a curve for each value "
+                                  "of BY; may be repeated")
     psd = add(
-        "psd", "draws the power spectral density of a column of history.csv, and writes it as CSV",
+        "psd", "Draws the power spectral density of a column of history.csv, and writes it as CSV",
         epilog="Welch's method: segments that overlap by half, each less its mean, Hann windows; "
                "one-sided, so that the integral is the mean square. docs/python.md, Figures.")
-    psd.add_argument("directory", type=pathlib.Path, help="directory of `rondo run`, dynamic")
+    psd.add_argument("directory", type=pathlib.Path, help="Directory of `rondo run`, dynamic")
     psd.add_argument("--column", default="force_y", metavar="NAME",
-                     help="column of history.csv; default %(default)s")
+                     help="Column of history.csv; default %(default)s")
     psd.add_argument("--segment", type=float, metavar="SECONDS",
-                     help="length of the segments; default such that there are eight")
+                     help="Length of the segments [s]; default such that there are eight")
     psd.add_argument("-o", "--output", type=output_path, metavar="FOLDER",
-                     help="directory for psd-NAME.png, .svg and .csv; default DIRECTORY/figures")
+                     help="Directory for psd-NAME.png, .svg and .csv; default DIRECTORY/figures")
     for command in film, means, validate, psd:
         command.add_argument("--from", dest="from_time", type=float, metavar="SECONDS",
-                             help="from this time on")
+                             help="Time from which on the run is taken [s]")
         command.add_argument("--to", dest="to_time", type=float, metavar="SECONDS",
-                             help="up to this time")
+                             help="Time up to which the run is taken [s]")
     for command in figures, film, wheel, footprint, traction, tyre, sweep, means, converge, psd:
         command.add_argument("--unfinished", action="store_true",
-                             help="also of what has not ended, was interrupted or has failed")
+                             help="Takes also what has not ended, was interrupted or has failed")
     return parser
 
 

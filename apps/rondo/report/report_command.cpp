@@ -11,14 +11,14 @@ namespace rondo::app {
 CLI::App* add_report(CLI::App& program, ReportArguments& arguments) {
   CLI::App* report = program.add_subcommand(
       "report",
-      "one HTML file of results, for a browser without network: moving body, curves, health");
+      "Makes one HTML file of results, for a browser without network: moving body, curves, health");
   report
       ->add_option("results", arguments.results,
-                   "directory of a run, a sweep, a POD or the study of the paper")
+                   "Directory of a run, a sweep, a POD or the study of the paper")
       ->required();
   report
       ->add_option("-o,--output", arguments.file,
-                   "the file, which ends in .html; report.html in the directory if left out")
+                   "File, which ends in .html; report.html in the directory if left out")
       ->check(refuse_empty);
   report->footer(
       "Example:\n  rondo report results/ledge -o ledge.html\n"
