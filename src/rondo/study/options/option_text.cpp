@@ -9,44 +9,30 @@
 namespace rondo::study {
 namespace {
 
-/// The default, if a value is one.
-struct DefaultText {
-  std::string operator()(const bool* /*flag*/) const { return {}; }
-  std::string operator()(const int* n) const { return *n == 0 ? "" : fmt::format("{}", *n); }
-  std::string operator()(const double* x) const { return fmt::format("{}", *x); }
-  std::string operator()(const std::string* text) const { return *text; }
-  std::string operator()(const std::filesystem::path* path) const { return path->string(); }
-  template <class T>
-  std::string operator()(const T* /*none*/) const {
-    return {};
-  }
-};
-
-/// The annotation of an argument, with its default.
-struct PythonType {
-  std::string operator()(const bool* flag) const { return *flag ? "bool = True" : "bool = False"; }
-  std::string operator()(const int* /*n*/) const { return "int | None = None"; }
-  std::string operator()(const std::optional<long long>* /*n*/) const {
-    return "int | None = None";
-  }
-  std::string operator()(const double* /*x*/) const { return "float | None = None"; }
-  std::string operator()(const std::optional<double>* /*x*/) const { return "float | None = None"; }
-  std::string operator()(const std::string* /*text*/) const { return "str | None = None"; }
-  std::string operator()(const std::filesystem::path* /*path*/) const {
-    return "Place | None = None";
-  }
-  std::string operator()(const std::vector<double>* /*list*/) const {
-    return "Sequence[float] | None = None";
-  }
-};
+/// The annotation of an argument, with its default: a flag has one, else the command's holds.
+std::string python_type(const Option& option) {
+  return std::visit(
+      [](const auto* value) -> std::string {
+        using T = std::remove_cvref_t<decltype(*value)>;
+        if constexpr (std::is_same_v<T, bool>) return *value ? "bool = True" : "bool = False";
+        if constexpr (std::is_same_v<T, int> || std::is_same_v<T, std::optional<long long>>)
+          return "int | None = None";
+        if constexpr (std::is_same_v<T, double> || std::is_same_v<T, std::optional<double>>)
+          return "float | None = None";
+        if constexpr (std::is_same_v<T, std::filesystem::path>) return "Place | None = None";
+        if constexpr (std::is_same_v<T, std::vector<double>>)
+          return "Sequence[float] | None = None";
+        return "str | None = None";
+      },
+      option.target);
+}
 
 std::string python_row(const Option& o) {
   std::string help = help_text(o, o.in_python.empty() ? o.help : o.in_python);
   if (const std::string standard = default_text(o); !standard.empty())
     help += fmt::format("; default {}", standard);
   if (o.range) help += fmt::format("; {} to {}", o.range->low, o.range->high);
-  return fmt::format("        \"{}\": (\"{}\",\n            \"{}\"),\n", o.python,
-                     std::visit(PythonType{}, o.target), help);
+  return fmt::format("        \"{}\": (\"{}\", \"{}\"),\n", o.python, python_type(o), help);
 }
 
 std::string python_command(const char* name, const Options& options) {
@@ -67,7 +53,10 @@ std::string help_text(const Option& option, std::string_view help) {
 }
 
 std::string default_text(const Option& option) {
-  return std::visit(DefaultText{}, option.target);
+  if (const auto* n = std::get_if<int*>(&option.target)) return **n == 0 ? "" : std::to_string(**n);
+  if (const auto* x = std::get_if<double*>(&option.target)) return fmt::format("{}", **x);
+  if (const auto* text = std::get_if<std::string*>(&option.target)) return **text;
+  return {};
 }
 
 bool is_given(const Option& option) {
