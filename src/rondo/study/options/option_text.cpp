@@ -79,7 +79,8 @@ std::string python_options() {
   ReduceRequest reduce;
   SweepRequest sweep;
   FmuRequest fmu;
-  return "# SPDX-License-Identifier: BSD-3-Clause\n"
+  return "# SPDX"
+         "-License-Identifier: BSD-3-Clause\n"  // in parts: this file has its own
          "\"\"\"Keyword arguments of the package's functions that are options of the commands: "
          "type, "
          "default and meaning.\nWritten from the library's table of options "
