@@ -7,10 +7,7 @@
 #include <vector>
 
 #include "answer.hpp"
-#include "rondo/analysis/modes/modes.hpp"
-#include "rondo/study/pod/pod.hpp"
-#include "rondo/study/reduce/reduce.hpp"
-#include "rondo/study/sweep/sweep.hpp"
+#include "rondo/study/options/options.hpp"
 
 namespace rondo::app {
 
@@ -26,13 +23,6 @@ struct RunArguments : CaseArguments {
 
 struct ModesArguments : CaseArguments {
   study::ModesRequest request;  ///< no directory: the case's name and "-modes"
-};
-
-struct FmuArguments {
-  std::filesystem::path model, output;
-  std::string case_file;  ///< empty: of the first run behind the model
-  std::vector<std::string> settings;
-  double step_factor = 20.0;
 };
 
 /// What was written.
@@ -57,7 +47,7 @@ int run(RunArguments arguments, Telling& tell);
 int check(const CaseArguments& arguments, int threads, Telling& tell);
 int pod(study::PodRequest request, Telling& tell);
 int reduce(study::ReduceRequest request, Telling& tell);
-int fmu(const FmuArguments& arguments, Telling& tell);
+int fmu(const study::FmuRequest& request, Telling& tell);
 int modes(ModesArguments arguments, Telling& tell);
 int sweep(SweepArguments arguments, Telling& tell);
 /// Prints a JSON Schema. @param of  "case", "study", or a command with --json

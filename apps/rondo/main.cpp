@@ -59,7 +59,7 @@ int dispatch_command(CLI::App& program, int argc, char** argv, app::Telling& tel
   app::CaseArguments check_arguments;
   study::PodRequest pod_request;
   study::ReduceRequest reduce_request;
-  app::FmuArguments fmu_arguments;
+  study::FmuRequest fmu_request;
   app::ModesArguments modes_arguments;
   app::SweepArguments sweep_arguments;
   app::ReportArguments report_arguments;
@@ -67,7 +67,7 @@ int dispatch_command(CLI::App& program, int argc, char** argv, app::Telling& tel
   const CLI::App* check = app::add_check(program, check_arguments, check_threads, tell);
   const CLI::App* pod = app::add_pod(program, pod_request, tell);
   const CLI::App* reduce = app::add_reduce(program, reduce_request, tell);
-  const CLI::App* fmu = app::add_fmu(program, fmu_arguments, tell);
+  const CLI::App* fmu = app::add_fmu(program, fmu_request, tell);
   const CLI::App* modes = app::add_modes(program, modes_arguments, tell);
   const CLI::App* sweep = app::add_sweep(program, sweep_arguments, tell);
   const CLI::App* report = app::add_report(program, report_arguments);
@@ -84,7 +84,7 @@ int dispatch_command(CLI::App& program, int argc, char** argv, app::Telling& tel
   if (check->parsed()) return app::check(check_arguments, check_threads, tell);
   if (pod->parsed()) return app::pod(pod_request, tell);
   if (reduce->parsed()) return app::reduce(reduce_request, tell);
-  if (fmu->parsed()) return app::fmu(fmu_arguments, tell);
+  if (fmu->parsed()) return app::fmu(fmu_request, tell);
   if (modes->parsed()) return app::modes(modes_arguments, tell);
   if (sweep->parsed()) return app::sweep(sweep_arguments, tell);
   if (report->parsed()) app::report(report_arguments);

@@ -21,7 +21,7 @@ inline std::string refuse_empty(const std::string& text) {
 CLI::App* add_run(CLI::App& program, RunArguments& arguments, Telling& tell);
 CLI::App* add_check(CLI::App& program, CaseArguments& arguments, int& threads, Telling& tell);
 CLI::App* add_reduce(CLI::App& program, study::ReduceRequest& r, Telling& tell);
-CLI::App* add_fmu(CLI::App& program, FmuArguments& arguments, Telling& tell);
+CLI::App* add_fmu(CLI::App& program, study::FmuRequest& r, Telling& tell);
 CLI::App* add_pod(CLI::App& program, study::PodRequest& r, Telling& tell);
 CLI::App* add_modes(CLI::App& program, ModesArguments& arguments, Telling& tell);
 CLI::App* add_schema(CLI::App& program, std::string& of);

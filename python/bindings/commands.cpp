@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "commands.hpp"
 
+#include <pybind11/stl.h>
+#include <pybind11/stl/filesystem.h>
+
 #include <filesystem>
 #include <optional>
 
@@ -11,6 +14,7 @@
 #include "rondo/analysis/modes/modes.hpp"
 #include "rondo/analysis/run.hpp"
 #include "rondo/analysis/simulation/solve.hpp"
+#include "rondo/core/error.hpp"
 #include "rondo/study/pod/pod.hpp"
 #include "rondo/study/reduce/reduce.hpp"
 #include "rondo/study/sweep/sweep.hpp"
@@ -35,7 +39,7 @@ py::tuple run(const fs::path& file, const Settings& settings, const fs::path& di
               const py::dict& given) {
   Call call;
   study::RunOptions options;
-  take_run(given, options);
+  take_options(given, run_options(options));
   options.directory = directory;
   call.give(options);
   study::RunReport report;
@@ -63,7 +67,7 @@ py::dict arrays_of(study::RecordedSnapshots s) {
 py::dict solve(const fs::path& file, const Settings& settings, const py::dict& given) {
   Call call;
   study::RunOptions options;
-  take_run(given, options);
+  take_options(given, run_options(options));
   call.give(options);
   study::Solution s;
   call.work([&] { s = study::solve_case(study::read_case(file, settings), options); });
@@ -85,11 +89,7 @@ py::tuple modes(const fs::path& file, const Settings& settings, const fs::path& 
                 const py::dict& given) {
   Call call;
   study::ModesRequest request;
-  take_run(given, request.run);
-  take_within(given, "count", 1, 100000, request.count);
-  take(given, "spins", request.spins);
-  take(given, "sweep", request.sweep);
-  take_within(given, "diameters", 0, 1000000, request.diameters);
+  take_options(given, modes_options(request));
   request.run.directory = directory;
   call.give(request.run);
   study::ModesReport report;
@@ -98,22 +98,13 @@ py::tuple modes(const fs::path& file, const Settings& settings, const fs::path& 
   return outcome(report.run);
 }
 
-fs::path pod(const std::vector<fs::path>& runs, const py::dict& given) {
+fs::path pod(const std::vector<fs::path>& runs, const fs::path& output, const py::dict& given) {
   demand_runs(runs);
   Call call;
   study::PodRequest request;
   request.runs = runs;
-  take(given, "field", request.field);
-  take(given, "frame", request.frame);
-  take(given, "weight", request.weight);
-  take(given, "shift", request.shift);
-  take(given, "method", request.method);
-  take(given, "from", request.from);
-  take(given, "to", request.to);
-  take(given, "modes", request.modes);
-  take(given, "memory", request.memory);
-  take(given, "reconstruct", request.reconstruct);
-  take(given, "output", request.directory);
+  take_options(given, pod_options(request));
+  request.directory = output;
   request.warn = call.warn();
   request.progress = call.progress();
   study::PodReport report;
@@ -129,19 +120,7 @@ void reduce(const std::vector<fs::path>& runs, const fs::path& output, const py:
   study::ReduceRequest request;
   request.runs = runs;
   request.output = output;
-  take(given, "displacement_modes", request.displacement_modes);
-  take(given, "velocity_modes", request.velocity_modes);
-  take(given, "tolerance", request.displacement_tolerance);
-  take(given, "velocity_tolerance", request.velocity_tolerance);
-  take(given, "contact_weight", request.contact_weight);
-  take(given, "from", request.from);
-  take(given, "to", request.to);
-  take_within(given, "contact_stride", 1, 1000000, request.contact_stride);
-  take_within(given, "contact_phases", 1, 16, request.contact_phases);
-  take(given, "frame", request.frame);
-  take(given, "contact", request.contact);
-  take(given, "error_estimate", request.error_estimate);
-  take(given, "memory", request.memory);
+  take_options(given, reduce_options(request));
   request.warn = call.warn();
   request.progress = call.progress();
   call.work([&] { static_cast<void>(study::run_reduce(request)); });
@@ -156,10 +135,7 @@ py::tuple sweep(const fs::path& study_file, const Settings& settings, const fs::
   request.study = study_file;
   request.settings = settings;
   request.directory = directory;
-  study::RunOptions run;
-  take_run(given, run);
-  request.overwrite = run.overwrite;
-  request.resume = run.resume;
+  take_options(given, sweep_options(request));
   request.stop = &call.stop();
   request.warn = call.warn();
   request.progress = call.progress();
@@ -180,7 +156,7 @@ void add_commands(py::module_& module) {
   module.def("solve", solve, py::arg("file"), py::arg("settings"), py::arg("options"));
   module.def("modes", modes, py::arg("file"), py::arg("settings"), py::arg("directory"),
              py::arg("options"));
-  module.def("pod", pod, py::arg("runs"), py::arg("options"));
+  module.def("pod", pod, py::arg("runs"), py::arg("output"), py::arg("options"));
   module.def("reduce", reduce, py::arg("runs"), py::arg("output"), py::arg("options"));
   module.def("sweep", sweep, py::arg("study"), py::arg("settings"), py::arg("directory"),
              py::arg("options"));

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "simulation.hpp"
 
+#include <pybind11/stl.h>
+#include <pybind11/stl/filesystem.h>
 #include <unistd.h>
 
 #include <atomic>
@@ -224,7 +226,7 @@ py::object Steps::frame() {
 
 study::RunOptions options_of(const std::filesystem::path& output, const py::dict& given) {
   study::RunOptions options;
-  take_run(given, options);
+  take_options(given, run_options(options));
   options.directory = output;
   return options;
 }

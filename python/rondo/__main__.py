@@ -33,160 +33,160 @@ class _Version(argparse.Action):
 def _parser() -> argparse.ArgumentParser:
     parser = argparse.ArgumentParser(prog="python3 -m rondo", description=__doc__)
     parser.add_argument("--version", action=_Version, nargs=0,
-                        help="versions and paths of the package, the library and the program")
+                        help="Versions and paths of the package, the library and the program")
     commands = parser.add_subparsers(dest="command", required=True, prog="rondo", parser_class=CommandParser)
 
     def add(name: str, meaning: str, epilog: str = "", prog: str | None = None) -> CommandParser:
         return commands.add_parser(name, help=meaning, description=meaning, epilog=epilog, prog=prog)
 
     paper = add(
-        "paper", "runs the study of the paper: our results against those expected",
+        "paper", "Runs the study of the paper: our results against those expected",
         epilog="The same command resumes a study that was interrupted. Exit code "
                "3: a row of the table is not as expected. docs/paper.md walks through it.")
     paper.add_argument("-o", "--output", type=output_path, metavar="DIRECTORY",
-                       help='directory of the study; default "paper", or "paper-quick"')
-    paper.add_argument("--quick", action="store_true", help="coarse meshes, a third of the work")
+                       help='Directory of the study; default "paper", or "paper-quick"')
+    paper.add_argument("--quick", action="store_true", help="Coarse meshes, a third of the work")
     paper.add_argument("--jobs", "--threads", type=_count, metavar="N",
-                       help="number of runs at once, each on one core; default all cores")
-    paper.add_argument("--overwrite", action="store_true", help="repeats what is there already")
-    paper.add_argument("--quiet", action="store_true", help="prints failures and the table only")
+                       help="Number of runs at once, each on one core; default all cores")
+    paper.add_argument("--overwrite", action="store_true", help="Repeats what is there already")
+    paper.add_argument("--quiet", action="store_true", help="Prints failures and the table only")
     paper.add_argument("--study", type=pathlib.Path, metavar="FOLDER",
-                       help="directory of another study.toml; default studies/paper")
+                       help="Directory of another study.toml; default studies/paper")
 
-    figures = add("figures", "draws the figures of a run, a sweep or a study of the paper")
+    figures = add("figures", "Draws the figures of a run, a sweep or a study of the paper")
     figures.add_argument("directory", type=pathlib.Path,
-                         help="directory of `rondo run`, `rondo sweep` or `rondo paper`")
+                         help="Directory of `rondo run`, `rondo sweep` or `rondo paper`")
     figures.add_argument("-o", "--output", type=output_path, metavar="FOLDER",
-                         help="directory for the .png and .svg files; default DIRECTORY/figures")
+                         help="Directory for the .png and .svg files; default DIRECTORY/figures")
 
     report = add(
-        "report", "writes one HTML file of results that needs no network",
+        "report", "Writes one HTML file of results that needs no network",
         epilog="The same as rondo report. Unfinished results are shown as far as they go. docs/report.md.")
     report.add_argument("directory", type=pathlib.Path,
-                        help="directory of `rondo run`, `rondo sweep`, `rondo pod` or `rondo paper`")
+                        help="Directory of `rondo run`, `rondo sweep`, `rondo pod` or `rondo paper`")
     report.add_argument("-o", "--output", type=output_path, metavar="FILE",
-                        help="file that ends in .html; default DIRECTORY/report.html")
+                        help="File that ends in .html; default DIRECTORY/report.html")
 
-    film = add("animate", "makes a film of a run")
-    film.add_argument("directory", type=pathlib.Path, help="directory of `rondo run`")
-    film.add_argument("file", type=pathlib.Path, help="file that ends in .mp4 (needs ffmpeg) or .gif")
+    film = add("animate", "Makes a film of a run")
+    film.add_argument("directory", type=pathlib.Path, help="Directory of `rondo run`")
+    film.add_argument("file", type=pathlib.Path, help="File that ends in .mp4 (needs ffmpeg) or .gif")
     film.add_argument("--quantity", default="displacement",
-                      help="field: displacement, velocity, displacement_y, von_mises, ...; default "
+                      help="Field: displacement, velocity, displacement_y, von_mises, ...; default "
                            "%(default)s")
     film.add_argument("--deformation", type=float, default=1.0, metavar="FACTOR",
-                      help="factor on the deformation as drawn; default %(default)s")
+                      help="Factor on the deformation as drawn; default %(default)s")
     film.add_argument("--follow", action="store_true", default=None,
-                      help="the picture moves along with the body; default: if the body goes far")
-    film.add_argument("--frames", type=int, help="number of pictures; default at most 300")
-    film.add_argument("--fps", type=int, help="number of pictures a second; default at most 30")
+                      help="The picture moves along with the body; default: if the body goes far")
+    film.add_argument("--frames", type=int, help="Number of pictures; default at most 300")
+    film.add_argument("--fps", type=int, help="Number of pictures a second; default at most 30")
 
-    wheel = add("wheel", "draws height, speeds, slip, forces, torques and energies of a rim that forces move")
-    wheel.add_argument("directory", type=pathlib.Path, help="directory of `rondo run` of a case with [rim]")
+    wheel = add("wheel", "Draws height, speeds, slip, forces, torques and energies of a rim that forces move")
+    wheel.add_argument("directory", type=pathlib.Path, help="Directory of `rondo run` of a case with [rim]")
     wheel.add_argument("-o", "--output", type=output_path, metavar="FOLDER",
-                       help="directory for wheel.png and .svg; default DIRECTORY/figures")
+                       help="Directory for wheel.png and .svg; default DIRECTORY/figures")
 
-    footprint = add("footprint", "draws pressure, shear, slip and sticking in the contact of steady rolling, or of "
+    footprint = add("footprint", "Draws pressure, shear, slip and sticking in the contact of steady rolling, or of "
                     "a wheel in three dimensions")
     footprint.add_argument("directory", type=pathlib.Path,
-                           help='directory of `rondo run` with analysis.kind = "steady-rolling", or of a '
+                           help='Directory of `rondo run` with analysis.kind = "steady-rolling", or of a '
                                 'wheel in three dimensions')
     footprint.add_argument("--time", type=float, metavar="SECONDS",
-                           help="in three dimensions: takes the snapshot nearest to this time; default the "
+                           help="In three dimensions: takes the snapshot nearest to this time; default the "
                                 "last with contact")
     footprint.add_argument("-o", "--output", type=output_path, metavar="FOLDER",
-                           help="directory for footprint.png and .svg; default DIRECTORY/figures")
+                           help="Directory for footprint.png and .svg; default DIRECTORY/figures")
 
     traction = add(
-        "traction", "draws the longitudinal force of a sweep over slip: curves and carpets",
+        "traction", "Draws the longitudinal force of a sweep over slip: curves and carpets",
         epilog="Draws curves over slip for each other parameter that varies, the rest at its middle "
                "value; carpets over slip and a load for each value of the rest.")
     traction.add_argument("directory", type=pathlib.Path,
-                          help="directory of `rondo sweep` over motion.speed (or the angular velocity)")
+                          help="Directory of `rondo sweep` over motion.speed (or the angular velocity)")
     traction.add_argument("-o", "--output", type=output_path, metavar="FOLDER",
-                          help="directory for the .png and .svg files; default DIRECTORY/figures")
+                          help="Directory for the .png and .svg files; default DIRECTORY/figures")
 
     tyre = add(
-        "tyre", "draws lateral force and aligning moment of a sweep over the slip angle",
+        "tyre", "Draws lateral force and aligning moment of a sweep over the slip angle",
         epilog="Draws curves for each other parameter that varies, the rest at its middle value. The "
                "members of further sweeps, for example steady ones, are marks beside them, with a table of "
                "two. If spin or speed varies, it draws the forces at combined slip.")
     tyre.add_argument("directory", type=pathlib.Path, nargs="+",
-                      help="directory of `rondo sweep` over motion.slip_angle")
+                      help="Directory of `rondo sweep` over motion.slip_angle")
     tyre.add_argument("-o", "--output", type=output_path, metavar="FOLDER",
-                      help="directory for the .png and .svg files; default DIRECTORY/figures of the first")
+                      help="Directory for the .png and .svg files; default DIRECTORY/figures of the first")
 
-    campbell = add("campbell", "draws the frequencies of a body over its spin")
-    campbell.add_argument("directory", type=pathlib.Path, help="directory of `rondo modes`")
+    campbell = add("campbell", "Draws the frequencies of a body over its spin")
+    campbell.add_argument("directory", type=pathlib.Path, help="Directory of `rondo modes`")
     campbell.add_argument("--frame", choices=(FRAME, "fixed", *OLDER_FRAMES), default=FRAME,
                           metavar="FRAME",
                           help=f"{FRAME} | fixed: frame of the frequencies; default %(default)s")
     campbell.add_argument("-o", "--output", type=output_path, metavar="FOLDER",
-                          help="directory for campbell-FRAME.png and .svg; default DIRECTORY/figures")
+                          help="Directory for campbell-FRAME.png and .svg; default DIRECTORY/figures")
 
-    sweep = add("sweep", "draws main effects, spread, maps and curves of a sweep, as rondo figures does",
+    sweep = add("sweep", "Draws main effects, spread, maps and curves of a sweep, as rondo figures does",
                 prog="python3 -m rondo sweep")  # rondo sweep makes one
-    sweep.add_argument("directory", type=pathlib.Path, help="directory of `rondo sweep`")
+    sweep.add_argument("directory", type=pathlib.Path, help="Directory of `rondo sweep`")
     sweep.add_argument("-o", "--output", type=output_path, metavar="FOLDER",
-                       help="directory for the .png and .svg files; default DIRECTORY/figures")
+                       help="Directory for the .png and .svg files; default DIRECTORY/figures")
 
     converge = add(
-        "converge", "prints how the figures of a sweep converge with its mesh or its step",
+        "converge", "Prints how the figures of a sweep converge with its mesh or its step",
         epilog="Prints observed orders and Richardson's extrapolated value with an error bar, or that a figure does "
                "not converge monotonically. Exit code 3: a figure of --figure does not. docs/studies.md.")
     converge.add_argument("directory", type=pathlib.Path,
-                          help="directory of `rondo sweep` over disk.mesh.radial, time.step, ...: three or more levels")
+                          help="Directory of `rondo sweep` over disk.mesh.radial, time.step, ...: three or more levels")
     converge.add_argument("--figure", nargs="+", action="extend", default=[], metavar="NAME",
-                          help="columns of results.csv, e.g. force_y_mean; default: all")
-    converge.add_argument("--by", metavar="KEY", help="key that is refined, if several vary")
+                          help="Columns of results.csv, e.g. force_y_mean; default: all")
+    converge.add_argument("--by", metavar="KEY", help="Key that is refined, if several vary")
 
     validate = add(
-        "validate", "compares reduced runs with the full runs that they predict",
+        "validate", "Compares reduced runs with the full runs that they predict",
         epilog="Prints the table, and writes validation.csv, validation.json and profiles to OUTPUT. "
                "What is measured: docs/reduced.md, 10.")
     validate.add_argument("runs", type=pathlib.Path, nargs="+", metavar="REDUCED FULL",
-                          help="results directories of `rondo run --reduced` and of the same case "
+                          help="Results directories of `rondo run --reduced` and of the same case "
                                "without it, in turn")
     validate.add_argument("-o", "--output", type=output_path, metavar="DIRECTORY",
-                          help="directory for the tables; default REDUCED-validation, beside the first one")
+                          help="Directory for the tables; default REDUCED-validation, beside the first one")
     validate.add_argument("--model", type=pathlib.Path, metavar="FILE",
-                          help="the reduced model; default the one that the reduced run names")
+                          help="The reduced model; default the one that the reduced run names")
 
-    validation = add("validation", "draws the errors of a reduced model's predictions")
+    validation = add("validation", "Draws the errors of a reduced model's predictions")
     validation.add_argument("directory", type=pathlib.Path,
-                            help="directory of `rondo validate`")
+                            help="Directory of `rondo validate`")
     validation.add_argument("--run", nargs="+", action="extend", default=[], metavar="NAME",
-                            help="names of the runs that are drawn; default: all")
+                            help="Names of the runs that are drawn; default: all")
     validation.add_argument("-o", "--output", type=output_path, metavar="FOLDER",
-                            help="directory for validation.png and .svg; default DIRECTORY/figures")
+                            help="Directory for validation.png and .svg; default DIRECTORY/figures")
 
-    means = add("means", "prints the mean forces of the ground on the body")
-    means.add_argument("directory", type=pathlib.Path, nargs="+", help="directory of `rondo run`")
+    means = add("means", "Prints the mean forces of the ground on the body")
+    means.add_argument("directory", type=pathlib.Path, nargs="+", help="Directory of `rondo run`")
     for command in figures, sweep:
         command.add_argument("--figure", nargs="+", action="extend", default=[], metavar="NAME",
-                             help="of a sweep: columns of results.csv, e.g. force_y_mean; default: the usual ones")
+                             help="Of a sweep: columns of results.csv, e.g. force_y_mean; default: the usual ones")
         command.add_argument("--map", nargs=2, action="append", default=[], metavar=("X", "Y"),
-                             help="of a sweep: draws each figure over these two parameters; may be repeated")
+                             help="Of a sweep: draws each figure over these two parameters; may be repeated")
         command.add_argument("--curves", nargs=2, action="append", default=[], metavar=("X", "BY"),
-                             help="of a sweep: draws each figure over X, a curve for each value of BY; may be repeated")
+                             help="Of a sweep: draws each figure over X, a curve for each value of BY; may be repeated")
     psd = add(
-        "psd", "draws the power spectral density of a column of history.csv, and writes it as CSV",
+        "psd", "Draws the power spectral density of a column of history.csv, and writes it as CSV",
         epilog="Welch's method: segments that overlap by half, without their means, with Hann windows; "
                "one-sided, so that the integral is the mean square. docs/python.md, Figures.")
-    psd.add_argument("directory", type=pathlib.Path, help="directory of a dynamic `rondo run`")
+    psd.add_argument("directory", type=pathlib.Path, help="Directory of a dynamic `rondo run`")
     psd.add_argument("--column", default="force_y", metavar="NAME",
-                     help="column of history.csv; default %(default)s")
+                     help="Column of history.csv; default %(default)s")
     psd.add_argument("--segment", type=float, metavar="SECONDS",
-                     help="length of the segments; default: eight segments")
+                     help="Length of the segments; default: eight segments")
     psd.add_argument("-o", "--output", type=output_path, metavar="FOLDER",
-                     help="directory for psd-NAME.png, .svg and .csv; default DIRECTORY/figures")
+                     help="Directory for psd-NAME.png, .svg and .csv; default DIRECTORY/figures")
     for command in film, means, validate, psd:
         command.add_argument("--from", dest="from_time", type=float, metavar="SECONDS",
-                             help="first time used")
+                             help="First time used")
         command.add_argument("--to", dest="to_time", type=float, metavar="SECONDS",
-                             help="last time used")
+                             help="Last time used")
     for command in figures, film, wheel, footprint, traction, tyre, sweep, means, converge, psd:
         command.add_argument("--unfinished", action="store_true",
-                             help="accepts results of a run that has not ended, was interrupted or has failed")
+                             help="Accepts results of a run that has not ended, was interrupted or has failed")
     return parser
 
 

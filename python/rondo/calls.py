@@ -16,10 +16,8 @@ from .data.modes import Modes, open_modes
 from .data.pod import Pod, open_pod
 from .data.run import Run, open_run
 from .data.sweep import Sweep, open_sweep
-from .native import core, options_of, place_of, settings_of, whole_number
+from .native import Place, core, documented, options_in, place_of, settings_of, whole_number
 from .studies.program import find_program
-
-Place = str | os.PathLike[str]
 
 _SAID = "rondo: "
 
@@ -60,7 +58,8 @@ def _words(settings: Mapping[str, Any] | None, options: Mapping[str, Any]) -> li
     """Settings and options as the program takes them: step_factor=2.0 as --step-factor 2.0."""
     words = [word for setting in settings_of(settings) for word in ("--set", setting)]
     for name, value in options.items():
-        words += [f"--{name.replace('_', '-')}"] + [str(value)] * (value is not True)
+        if value is not False:
+            words += [f"--{name.replace('_', '-')}"] + [str(value)] * (value is not True)
     return words
 
 
@@ -70,37 +69,27 @@ def _directories(runs: Run | Place | Iterable[Run | Place]) -> list[pathlib.Path
     return [place_of(one.directory if isinstance(one, Run) else one) for one in several]
 
 
-def _window(from_time: float | None, to_time: float | None) -> dict[str, float]:
-    """from and to, which are words of Python, as options."""
-    try:
-        return {name: float(time) for name, time in (("from", from_time), ("to", to_time))
-                if time is not None}
-    except (TypeError, ValueError, OverflowError):
-        raise Error(f"from_time = {from_time!r}, to_time = {to_time!r}: are no times [s]") from None
-
-
 def _check(outcome: tuple[str, str], directory: pathlib.Path) -> None:
     status, message = outcome
     if status == "failed":
         raise NumericalError(f"{message}; the results so far are in {directory}")
 
 
+@documented("run")
 def run(case: Place, output: Place | None = None, settings: Mapping[str, Any] | None = None, *,
         overwrite: bool = False, resume: bool = False, threads: int | None = None,
         reduced: Place | None = None, step_factor: float | None = None,
         reduced_step: str | None = None, snapshots: str | None = None,
-        modes_from: Place | None = None, arguments: Sequence[Place] = ()) -> Run:
+        modes_from: Place | None = None, arguments: Sequence[str | os.PathLike[str]] = ()) -> Run:
     """Runs a case in this process (`rondo run`) and opens its results. `output`: results directory;
     by default the case's name in the working folder. `settings`: keys of the case, as
     {"ground.friction": 0.6}. The others are the command's options; with `arguments`, further ones
     in its words, the program is started instead. A case that is refused is an InputError, a run
     that fails a NumericalError, with what the program would say. Ctrl-C writes a checkpoint first:
     resume=True goes on from it."""
+    options = options_in("run", locals())
     case = place_of(case)
     directory = place_of(output) if output is not None else _default_directory(case)
-    options = options_of(overwrite=overwrite, resume=resume, threads=threads, reduced=reduced,
-                         step_factor=step_factor, reduced_step=reduced_step, snapshots=snapshots,
-                         modes_from=modes_from)
     if arguments:
         _command(["run", os.fspath(case), "-o", os.fspath(directory), "--quiet",
                   *_words(settings, options), *(os.fspath(word) for word in arguments)], directory)
@@ -109,34 +98,36 @@ def run(case: Place, output: Place | None = None, settings: Mapping[str, Any] | 
     return open_run(directory)
 
 
+@documented("modes")
 def modes(case: Place, output: Place | None = None, settings: Mapping[str, Any] | None = None, *,
           count: int | None = None, spins: Sequence[float] | None = None,
           sweep: str | None = None, diameters: int | None = None,
           overwrite: bool = False) -> Modes:
     """Frequencies, shapes and critical speeds of a case's body (`rondo modes`), made in this
-    process and opened. count: modes at each spin; spins [rad/s]; sweep: "FROM:TO:NUMBER"."""
+    process and opened."""
+    spins = None if spins is None else [float(spin) for spin in spins]
+    options = options_in("modes", locals())
     case = place_of(case)
     directory = (place_of(output) if output is not None
                  else _default_directory(case, "-modes"))
-    options = options_of(count=count, sweep=sweep, diameters=diameters, overwrite=overwrite,
-                         spins=None if spins is None else [float(spin) for spin in spins])
     _check(core().modes(case, settings_of(settings), directory, options), directory)
     return open_modes(directory)
 
 
+@documented("pod")
 def pod(runs: Run | Place | Sequence[Run | Place], output: Place | None = None, *,
-        field: str = "displacement", frame: str | None = None, modes: int | None = None,
+        field: str | None = None, frame: str | None = None, modes: int | None = None,
         weight: str | None = None, shift: str | None = None, method: str | None = None,
         from_time: float | None = None, to_time: float | None = None,
         memory: str | None = None, reconstruct: int | None = None) -> Pod:
     """POD of the snapshots of one or several runs (`rondo pod`), made in this process and opened.
     output: by default pod/ of the run."""
-    options = options_of(field=field, frame=frame, modes=modes, weight=weight, shift=shift,
-                         method=method, memory=memory, reconstruct=reconstruct,
-                         output=None if output is None else place_of(output))
-    return open_pod(core().pod(_directories(runs), options | _window(from_time, to_time)))
+    options = options_in("pod", locals())
+    directory = "" if output is None else place_of(output)
+    return open_pod(core().pod(_directories(runs), directory, options))
 
 
+@documented("reduce")
 def reduce(runs: Run | Place | Sequence[Run | Place], output: Place, *,
            displacement_modes: int | None = None, velocity_modes: int | None = None,
            tolerance: float | None = None, velocity_tolerance: float | None = None,
@@ -147,37 +138,33 @@ def reduce(runs: Run | Place | Sequence[Run | Place], output: Place, *,
            memory: str | None = None) -> pathlib.Path:
     """A reduced model of a disk from the snapshots of runs (`rondo reduce`), made in this process
     into the file `output`, which run, solve and Simulation take as reduced=."""
-    options = options_of(displacement_modes=displacement_modes, velocity_modes=velocity_modes,
-                         tolerance=tolerance, velocity_tolerance=velocity_tolerance,
-                         contact_weight=contact_weight, contact_stride=contact_stride,
-                         contact_phases=contact_phases, contact=contact, frame=frame,
-                         memory=memory) | _window(from_time, to_time)
-    options["error_estimate"] = error_estimate
+    options = options_in("reduce", locals())
     file = place_of(output)
     core().reduce(_directories(runs), file, options)
     return file
 
 
+@documented("fmu")
 def fmu(model: Place, output: Place, settings: Mapping[str, Any] | None = None, *,
         case: Place | None = None, step_factor: float | None = None) -> pathlib.Path:
     """The wheel of a reduced model as an FMU (`rondo fmu`), made by the program into the file
-    `output`. case: ground, dampings, gravity and start of the wheel; by default the case of the
-    first run behind the model."""
+    `output`."""
+    options = options_in("fmu", locals())
     model, file = place_of(model), place_of(output)
-    options = options_of(case=None if case is None else place_of(case), step_factor=step_factor)
     _command(["fmu", os.fspath(model), "-o", os.fspath(file), "--quiet",
               *_words(settings, options)], file)
     return file
 
 
+@documented("sweep")
 def sweep(study: Place, output: Place | None = None, settings: Mapping[str, Any] | None = None, *,
           overwrite: bool = False, resume: bool = False, jobs: int = 1) -> Sweep:
     """A parametric study (`rondo sweep`), opened. jobs = 1 makes one run after the other in this
     process; more start the program, whose runs are processes: a process with threads, as
     notebooks are, cannot be divided. Failed runs are rows without figures: see its failures."""
+    options = options_in("sweep", locals())
     study = place_of(study)
     directory = place_of(output) if output is not None else _default_directory(study)
-    options = options_of(overwrite=overwrite, resume=resume)
     if whole_number("sweep: jobs", jobs, 1) == 1:
         core().sweep(study, settings_of(settings), directory, options)
     else:

@@ -10,17 +10,20 @@ import os
 import pathlib
 import sys
 import warnings
-from collections.abc import Iterator, Mapping
+from collections.abc import Callable, Iterator, Mapping
 from functools import cache
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, TypeVar
 
 import numpy as np
 
 from .data.errors import Error, InputError
+from .options import OPTIONS
 from .studies.program import CHECKOUT, find_program
 
 if TYPE_CHECKING:
     from types import ModuleType
+
+Place = str | os.PathLike[str]
 
 PACKAGE = pathlib.Path(__file__).resolve().parent
 READER = "rondo-mesh-reader"
@@ -132,12 +135,24 @@ def settings_of(settings: Mapping[str, Any] | None) -> list[str]:
     return [_as_utf8(f"{key}={toml(value)}") for key, value in pairs_of(settings)]
 
 
-def options_of(**given: Any) -> dict[str, Any]:
-    """Those that are given."""
-    found = {name: os.fspath(value) if isinstance(value, os.PathLike) else value
-             for name, value in given.items() if value is not None and value is not False}
-    return {name: _as_utf8(value) if isinstance(value, str) else value
+def options_in(command: str, given: Mapping[str, Any]) -> dict[str, Any]:
+    """The options of a command that are given among the arguments of a function, as the library takes them."""
+    found = {name: given[name] for name in OPTIONS[command] if given.get(name) is not None}
+    return {name: _as_utf8(os.fspath(value)) if isinstance(value, (str, os.PathLike)) else value
             for name, value in found.items()}
+
+
+Function = TypeVar("Function", bound=Callable[..., Any])
+
+
+def documented(command: str) -> Callable[[Function], Function]:
+    """Adds to a function's documentation the options of the command that it takes."""
+    def with_options(function: Function) -> Function:
+        taken = getattr(function, "__kwdefaults__")
+        rows = [f"    {name}: {meaning}." for name, (_, meaning) in OPTIONS[command].items() if name in taken]
+        function.__doc__ = "\n".join([f"{function.__doc__}\n", *rows])
+        return function
+    return with_options
 
 
 def place_of(path: Any) -> pathlib.Path:

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import json
 import math
-import os
 import pathlib
 import tomllib
 import weakref
@@ -20,7 +19,7 @@ from .data.history import History, units_of
 from .data.html import table
 from .data.mesh import Mesh
 from .data.names import find_name
-from .native import core, options_of, pairs_of, place_of, settings_of, whole_number
+from .native import Place, core, documented, options_in, pairs_of, place_of, settings_of, whole_number
 
 if TYPE_CHECKING:
     from ._core import Steps
@@ -97,17 +96,17 @@ class Simulation:
     {"ground.friction": 0.6}. output: results directory, written as by `rondo run`; without it
     nothing is written, and history has all rows. reduced: a model of `rondo reduce` to run on."""
 
-    def __init__(self, case: str | os.PathLike[str], settings: Mapping[str, Any] | None = None,
-                 output: str | os.PathLike[str] | None = None, *, threads: int | None = None,
-                 overwrite: bool = False, resume: bool = False,
-                 reduced: str | os.PathLike[str] | None = None, step_factor: float | None = None,
-                 reduced_step: str | None = None) -> None:
+    @documented("run")
+    def __init__(self, case: Place, settings: Mapping[str, Any] | None = None,
+                 output: Place | None = None, *, threads: int | None = None,
+                 overwrite: bool = False, resume: bool = False, reduced: Place | None = None,
+                 step_factor: float | None = None, reduced_step: str | None = None) -> None:
+        """Begins a motion, or resumes one."""
+        options = options_in("run", locals())
         file = place_of(case)
         if resume and file.is_dir():
             output, file = output or file, file / "case.toml"
         self.directory = None if output is None else place_of(output)
-        options = options_of(threads=threads, overwrite=overwrite, resume=resume, reduced=reduced,
-                             step_factor=step_factor, reduced_step=reduced_step)
         self._steps: Steps = core().Steps(file, settings_of(settings),
                                           "" if self.directory is None else str(self.directory),
                                           options)

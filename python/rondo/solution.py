@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import json
-import os
 import pathlib
 from collections.abc import Mapping
 from typing import Any
@@ -14,7 +13,7 @@ from .data.errors import Error, NumericalError
 from .data.history import History
 from .data.html import table
 from .data.mesh import Mesh
-from .native import core, options_of, place_of, settings_of
+from .native import Place, core, documented, options_in, place_of, settings_of
 from .simulation import RowsInMemory
 
 
@@ -80,15 +79,14 @@ class Solution:
         return table(self.title, ("", ""), rows)
 
 
-def solve(case: str | os.PathLike[str], settings: Mapping[str, Any] | None = None, *,
-          threads: int | None = None, reduced: str | os.PathLike[str] | None = None,
-          step_factor: float | None = None, reduced_step: str | None = None,
-          modes_from: str | os.PathLike[str] | None = None) -> Solution:
+@documented("run")
+def solve(case: Place, settings: Mapping[str, Any] | None = None, *, threads: int | None = None,
+          reduced: Place | None = None, step_factor: float | None = None,
+          reduced_step: str | None = None, modes_from: Place | None = None) -> Solution:
     """Solves a case of any analysis in this process and keeps what it finds in memory: no files,
     the same numbers as `rondo run`, but for the stress. output.snapshots says how many snapshots.
     A failure of the numerics is a NumericalError, a wrong case an InputError."""
-    options = options_of(threads=threads, reduced=reduced, step_factor=step_factor,
-                         reduced_step=reduced_step, modes_from=modes_from)
+    options = options_in("run", locals())
     found = core().solve(place_of(case), settings_of(settings), options)
     status, message = found["outcome"]
     if status == "failed":
@@ -96,13 +94,12 @@ def solve(case: str | os.PathLike[str], settings: Mapping[str, Any] | None = Non
     return Solution(found)
 
 
-def crush(case: str | os.PathLike[str], settings: Mapping[str, Any] | None = None,
-          **options: Any) -> Solution:
+def crush(case: Place, settings: Mapping[str, Any] | None = None, **options: Any) -> Solution:
     """Solves a crush (docs/cases.md) into arrays; analysis.kind of the case must be "crush"."""
     return _of_kind("crush", solve(case, settings, **options))
 
 
-def steady_rolling(case: str | os.PathLike[str], settings: Mapping[str, Any] | None = None,
+def steady_rolling(case: Place, settings: Mapping[str, Any] | None = None,
                    **options: Any) -> Solution:
     """Solves steady rolling (docs/steady.md) into arrays; analysis.kind of the case must be
     "steady-rolling". steady has its forces and slopes."""

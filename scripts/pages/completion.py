@@ -85,9 +85,9 @@ def kind(entry: Entry) -> str:
     if "TOML" in entry.meaning:
         return ".toml"
     head = entry.meaning.split(";")[0].split(",")[0]
-    if "director" in head or head.startswith("the results go to") or entry.value == "run":
+    if "director" in head.lower():
         return "directory"
-    plain = entry.default or re.match(r"[^\s()]+[:/][^\s()]", entry.meaning)  # 2GB, FROM:TO:NUMBER, i/n
+    plain = entry.default or re.search(r", [^\s()]+[:/][^\s()]", entry.meaning)  # 2GB, FROM:TO:NUMBER, i/n
     return "number" if plain or entry.value != "text" else "file"
 
 

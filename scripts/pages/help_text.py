@@ -10,7 +10,7 @@ import subprocess
 
 COLUMN = 30  # of the descriptions
 TYPES = {"TEXT": "text", "INT": "integer", "UINT": "integer", "FLOAT": "number"}
-CHOICE = re.compile(r"([A-Za-z0-9_.-]+(?: \| [A-Za-z0-9_.-]+)+)")
+CHOICE = re.compile(r": ([A-Za-z0-9_.-]+(?: \| [A-Za-z0-9_.-]+)+)$")
 NAMES = re.compile(r"(-[A-Za-z]|--[a-z][a-z0-9-]*)(,--[a-z][a-z0-9-]*)*|[a-z][a-z0-9_-]*")
 
 
@@ -29,7 +29,7 @@ class Entry:
 
     @property
     def choices(self) -> list[str]:
-        found = CHOICE.match(self.meaning) if self.value else None
+        found = CHOICE.search(self.meaning) if self.value else None
         return found[1].split(" | ") if found else []
 
 

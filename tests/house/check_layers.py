@@ -60,9 +60,10 @@ ALLOWED["study/sweep"] = ALLOWED["analysis"] | {"analysis"}
 ALLOWED["study/shards"] = ALLOWED["study/sweep"] | {"study/sweep"}
 ALLOWED["study/pod"] = ALLOWED["study/sweep"] | {"study/sweep"}
 ALLOWED["study/reduce"] = ALLOWED["study/pod"] | {"study/pod"}
+ALLOWED["study/options"] = ALLOWED["study/reduce"] | {"study/reduce", "analysis/modes"}
 ALLOWED["apps"] = {"core", "case", "output", "analysis/base", "analysis/build", "analysis",
                    "analysis/modes", "fmu", "io", "study/pod", "study/sweep", "study/shards",
-                   "study/reduce"}
+                   "study/reduce", "study/options"}
 ALLOWED["mesh_reader"] = {"mesh"}  # a program of its own; it shares the layout of its output
 
 # Libraries that only these modules may see.

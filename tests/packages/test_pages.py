@@ -27,7 +27,7 @@ class Help(unittest.TestCase):
         one = help_text.entry("-c,--count INT:INT in [1 - 99]=20 Needs: --a", "how many")
         self.assertEqual((one.names, one.value, one.allowed, one.default, one.needs),
                          (["-c", "--count"], "integer", "1 to 99", "20", "--a"))
-        two = help_text.entry("run TEXT ... REQUIRED", "a | b-c: results")
+        two = help_text.entry("run TEXT ... REQUIRED", "Results: a | b-c")
         self.assertEqual((two.many, two.required, two.choices), (True, True, ["a", "b-c"]))
 
     def test_what_cannot_be_read_is_said(self):
@@ -70,6 +70,17 @@ class Pages(unittest.TestCase):
             page = (self.man / "man1" / f"rondo-{name}.1").read_text().replace(r"\-", "-")
             for option in re.findall(r"^  (?:-\w,)?(--[a-z-]+)", text, re.MULTILINE):
                 self.assertIn(f"\\fB{option}\\fR", page, name)
+
+    def test_help_is_of_whole_sentences(self):
+        """Or of noun phrases, each understood without the one before it."""
+        top, commands = help_text.of_program(PROGRAM)
+        entries = [(name, one) for name, text in commands.items() for one in text.arguments + text.options]
+        meanings = [(f"{name} {one.names[-1]}", one.meaning) for name, one in entries]
+        meanings += [(one.names[0], one.meaning) for one in top.commands]
+        self.assertGreater(len(meanings), 100)
+        for name, meaning in meanings:
+            self.assertRegex(meaning, r"^[A-Z]", name)
+            self.assertNotRegex(meaning, r"(?i)likewise|^the same", name)
 
     def test_keys_of_cases(self):
         page = (self.man / "man5" / "rondo-case.5").read_text().replace(r"\-", "-")

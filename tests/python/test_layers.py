@@ -12,7 +12,7 @@ ALLOWED = {  # by the first folder, or the module itself: what it may import bes
     "data": set(), "style": set(), "plots": {"data", "style"}, "studies": {"data", "native"},
     "figures": {"data", "plots", "style"}, "pictures": {"data", "plots", "reports"},
     "reports": {"data", "figures", "plots", "style"},
-    "native": {"data", "studies"}, "about": {"data", "native", "studies"},
+    "native": {"data", "options", "studies"}, "options": set(), "about": {"data", "native", "studies"},
     "_core": set(), "simulation": {"_core", "data", "native"}, "solution": {"data", "native", "simulation"},
     "calls": {"data", "native", "studies"},
     "__init__": {"about", "calls", "data", "pictures", "interrupts", "needs", "simulation", "solution"},

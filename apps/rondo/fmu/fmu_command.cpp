@@ -2,7 +2,6 @@
 #include <fmt/format.h>
 #include <spdlog/spdlog.h>
 
-#include <CLI/CLI.hpp>
 #include <array>
 #include <cstdint>
 
@@ -10,7 +9,6 @@
 #include "documents/documents.hpp"
 #include "fmu/zip.hpp"
 #include "license_text.hpp"
-#include "options.hpp"
 #include "rondo/analysis/reduced/reduced_file.hpp"
 #include "rondo/case/case_source.hpp"
 #include "rondo/core/bytes.hpp"
@@ -39,7 +37,7 @@ std::string binary_text() {
 }
 
 /// Of the case that is named, or of the first run behind the model where it is one in time.
-fs::path case_file(const FmuArguments& a) {
+fs::path case_file(const study::FmuRequest& a) {
   if (!a.case_file.empty()) return a.case_file;
   const std::vector<std::string> runs = study::read_reduced_file(a.model).runs;
   const fs::path file = runs.empty() ? fs::path() : fs::path(runs.front()) / "case.toml";
@@ -65,7 +63,7 @@ std::string guid_of(const std::string& a, const std::string& b) {
                      hash[1] & 0xffffffffffffULL);
 }
 
-study::Case read_checked(const FmuArguments& a) {
+study::Case read_checked(const study::FmuRequest& a) {
   study::Case c = study::read_case(case_file(a), a.settings);
   if (c.analysis.kind != study::AnalysisKind::dynamic)
     throw study::case_error(c, "analysis.kind", "a wheel of an FMU moves in time", "\"dynamic\"");
@@ -74,29 +72,7 @@ study::Case read_checked(const FmuArguments& a) {
 
 }  // namespace
 
-CLI::App* add_fmu(CLI::App& program, FmuArguments& a, Telling& tell) {
-  CLI::App* fmu = program.add_subcommand(
-      "fmu", "makes an FMU of a reduced wheel (FMI 2.0, co-simulation): hub motion in, forces out");
-  fmu->add_option("model", a.model, "file of the reduced model, made by rondo reduce")->required();
-  fmu->add_option("-o,--output", a.output, "file of the FMU, e.g. wheel.fmu")->required();
-  fmu->add_option("--case", a.case_file,
-                  "case file with ground, dampings, gravity and start; if left out, that of the "
-                  "model's first run");
-  fmu->add_option("--set", a.settings, "KEY=VALUE: overrides a key of the case; repeatable")
-      ->take_all()
-      ->expected(1);
-  fmu->add_option("--step-factor", a.step_factor, "largest internal step over that of the full run")
-      ->capture_default_str();
-  fmu->add_flag("--quiet", tell.quiet, "prints warnings and errors only");
-  fmu->add_flag("--json", tell.json,
-                "prints one JSON document, also if the command fails (docs/machine.md)");
-  fmu->footer(
-      "Example:\n  rondo fmu model.h5 --case cases/quarter-car-bump.toml -o wheel.fmu\n"
-      "Inputs, outputs and coupling: docs/fmu.md.");
-  return fmu;
-}
-
-int fmu(const FmuArguments& a, Telling& tell) {
+int fmu(const study::FmuRequest& a, Telling& tell) {
   if (a.output.empty() || a.output.filename().empty())
     throw request_error("-o", a.output.string(), "the FMU needs a file", "-o wheel.fmu");
 #if !defined(__linux__) || !defined(__x86_64__)

@@ -16,21 +16,21 @@ struct PythonCommand {
 };
 
 constexpr PythonCommand commands[] = {
-    {"figures", "draws the figures of a run, a sweep or a study of the paper"},
-    {"animate", "makes a film of a run"},
-    {"means", "prints the mean forces of the ground on the body"},
-    {"psd", "draws the power spectral density of a column of history.csv, and writes it as CSV"},
-    {"converge", "prints how the figures of a sweep converge with its mesh or its step"},
-    {"wheel", "draws height, speeds, slip, forces, torques and energies of a rim that forces move"},
+    {"figures", "Draws the figures of a run, a sweep or a study of the paper"},
+    {"animate", "Makes a film of a run"},
+    {"means", "Prints the mean forces of the ground on the body"},
+    {"psd", "Draws the power spectral density of a column of history.csv, and writes it as CSV"},
+    {"converge", "Prints how the figures of a sweep converge with its mesh or its step"},
+    {"wheel", "Draws height, speeds, slip, forces, torques and energies of a rim that forces move"},
     {"footprint",
-     "draws pressure, shear, slip and sticking in the contact of steady rolling, or of a wheel "
+     "Draws pressure, shear, slip and sticking in the contact of steady rolling, or of a wheel "
      "in three dimensions"},
-    {"traction", "draws the longitudinal force of a sweep over slip: curves and carpets"},
-    {"tyre", "draws lateral force and aligning moment of a sweep over the slip angle"},
-    {"campbell", "draws the frequencies of a body over its spin"},
-    {"validate", "compares reduced runs with the full runs that they predict"},
-    {"validation", "draws the errors of a reduced model's predictions"},
-    {"paper", "runs the study of the paper: our results against those expected"},
+    {"traction", "Draws the longitudinal force of a sweep over slip: curves and carpets"},
+    {"tyre", "Draws lateral force and aligning moment of a sweep over the slip angle"},
+    {"campbell", "Draws the frequencies of a body over its spin"},
+    {"validate", "Compares reduced runs with the full runs that they predict"},
+    {"validation", "Draws the errors of a reduced model's predictions"},
+    {"paper", "Runs the study of the paper: our results against those expected"},
 };
 
 }  // namespace

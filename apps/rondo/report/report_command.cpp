@@ -11,19 +11,19 @@ namespace rondo::app {
 CLI::App* add_report(CLI::App& program, ReportArguments& arguments) {
   CLI::App* report = program.add_subcommand(
       "report",
-      "writes one HTML file of results that needs no network: moving body, curves, health");
+      "Writes one HTML file of results that needs no network: moving body, curves, health");
   report
       ->add_option("results", arguments.results,
-                   "directory of a run, a sweep, a POD or the study of the paper")
+                   "Directory of a run, a sweep, a POD or the study of the paper")
       ->required();
   report
       ->add_option("-o,--output", arguments.file,
-                   "file that ends in .html; report.html in the directory if left out")
+                   "File that ends in .html; report.html in the directory if left out")
       ->check(refuse_empty);
   report->footer(
       "Example:\n  rondo report results/ledge -o ledge.html\n"
       "Needs Python with numpy, h5py and matplotlib (scripts/setup.sh); docs/report.md.\n"
-      "Exit codes: 0 done, 2 wrong input, 4 files or no Python, 130 interrupted.");
+      "Exit codes: 0 done, 2 wrong input, 4 files, or no Python, 130 interrupted.");
   return report;
 }
 

@@ -19,41 +19,49 @@ namespace {
 
 constexpr std::size_t most_faults_of_a_key = 5;
 
-const CaseKey& spec(std::string_view key) {
-  const CaseKey* found = find_case_key(key);
-  RONDO_DEMAND(found != nullptr, key);
-  return *found;
+bool is_case_key(std::string_view path) {
+  return find_case_key(path) != nullptr;
 }
 
-std::string unknown_text(const std::string& path, const CaseValue& value) {
+std::string allowed_in_case(std::string_view path) {
+  const CaseKey* key = find_case_key(path);
+  RONDO_DEMAND(key != nullptr, path);
+  return allowed_text(*key);
+}
+
+std::string unknown_text(const CaseValue& value, const std::string& meant) {
   const std::string_view said = value.type == ValueType::table ? "unknown table" : "unknown key";
-  const std::string meant = meant_text(path);
   return fmt::format("{}{}{}", said, meant.empty() ? "" : "; ", meant);
 }
 
-std::string keys_beside(std::string_view path) {
+std::string keys_beside(const KeysOfFile& keys, std::string_view path) {
   std::string_view table = table_of(path);
-  while (!table.empty() && !is_case_table(table)) table = table_of(table);
+  while (!table.empty() && !keys.is_table(table)) table = table_of(table);
   const std::string where = table.empty() ? "at the top" : fmt::format("in [{}]", table);
-  return fmt::format("{}: {}", where, keys_text(table));
+  return fmt::format("{}: {}", where, keys.keys_in(table));
 }
 
 }  // namespace
 
-CaseValues::CaseValues(CaseSource source) : source_(std::move(source)) {
+const KeysOfFile keys_of_case{is_case_key, is_case_table,   is_case_list,
+                              keys_text,   allowed_in_case, meant_text};
+
+CaseValues::CaseValues(CaseSource source, const KeysOfFile& keys)
+    : source_(std::move(source)), keys_(&keys) {
   for (const auto& [path, value] : source_.values) check_key(path, value);
 }
 
 void CaseValues::check_key(const std::string& path, const CaseValue& value) {
   const std::string found =
       value.type == ValueType::table ? std::string{} : source_.written(value.place);
-  const CaseKey* key = find_case_key(path);
-  if (is_case_table(path))
-    fault(path, fmt::format("must be a table, not {}", type_word(value.type)), keys_text(path));
-  else if (is_case_list(path))
+  if (keys_->is_table(path))
+    fault(path, fmt::format("must be a table, not {}", type_word(value.type)),
+          keys_->keys_in(path));
+  else if (keys_->is_list(path))
     not_a_list(path, value);
-  else if (key == nullptr)
-    add(value.key_place, path, found, unknown_text(path, value), keys_beside(path));
+  else if (!keys_->is_key(path))
+    add(value.key_place, path, found, unknown_text(value, keys_->meant_by(path)),
+        keys_beside(*keys_, path));
 }
 
 /// At the first item that is no table, if it is an array.
@@ -64,16 +72,21 @@ void CaseValues::not_a_list(const std::string& path, const CaseValue& value) {
   add(wrong.place, path, wrong.type == ValueType::table ? "" : source_.written(wrong.place),
       fmt::format("must be a list of tables, not {}{}", type_word(wrong.type),
                   item == value.items.end() ? "" : " in it"),
-      fmt::format("[[{}]] before each table, with {}", path, keys_text(path + "[]")));
+      fmt::format("[[{}]] before each table, with {}", path, keys_->keys_in(path + "[]")));
 }
 
 bool CaseValues::has_table(std::string_view table) const {
   return source_.tables.contains(table) || source_.values.contains(table);
 }
 
-bool CaseValues::has_array(std::string_view key) const {
+const CaseValue* CaseValues::find(std::string_view key) const {
   const auto found = source_.values.find(key);
-  return found != source_.values.end() && found->second.type == ValueType::array;
+  return found == source_.values.end() ? nullptr : &found->second;
+}
+
+bool CaseValues::has_array(std::string_view key) const {
+  const CaseValue* value = find(key);
+  return value && value->type == ValueType::array;
 }
 
 std::size_t CaseValues::n_items(std::string_view list) const {
@@ -105,7 +118,8 @@ Place CaseValues::place_of_table(std::string_view table) const {
 }
 
 void CaseValues::bad(const Reading& in, const CaseValue& value, std::string message) {
-  add(value.place, in.path, source_.written(value.place), std::move(message), allowed_text(in.key));
+  add(value.place, in.path, source_.written(value.place), std::move(message),
+      keys_->allowed_at(in.path));
 }
 
 void CaseValues::wrong_type(const Reading& in, const CaseValue& value, std::string_view asked) {
@@ -114,12 +128,11 @@ void CaseValues::wrong_type(const Reading& in, const CaseValue& value, std::stri
 }
 
 void CaseValues::fault(std::string_view key, std::string message, std::string allowed) {
-  const auto found = source_.values.find(key);
-  if (found == source_.values.end())
+  const CaseValue* value = find(key);
+  if (!value)
     add(place_of_table(key), key, "", std::move(message), std::move(allowed));
   else
-    add(found->second.place, key, source_.written(found->second.place), std::move(message),
-        std::move(allowed));
+    add(value->place, key, source_.written(value->place), std::move(message), std::move(allowed));
 }
 
 void CaseValues::fault_at_item(std::string_view key, int item, std::string message) {
@@ -145,7 +158,7 @@ void CaseValues::missing(std::string_view key) {
     if (!source_.tables.contains(table)) absent = table;
   }
   if (absent.empty())
-    fault(key, "is missing", allowed_text(spec(key)));
+    fault(key, "is missing", keys_->allowed_at(key));
   else
     missing_[std::string(absent)].emplace_back(key);
 }
@@ -198,7 +211,7 @@ bool CaseValues::finite(const Reading& in, const CaseValue& value, double& targe
 std::optional<double> CaseValues::number(const Reading& in) {
   double found = 0.0;
   if (!finite(in, in.value, found)) return std::nullopt;
-  if (in.key.allowed.range.contains(found)) return found;
+  if (in.allowed.range.contains(found)) return found;
   return bad(in, in.value, "is out of bounds"), std::nullopt;
 }
 
@@ -207,8 +220,7 @@ void CaseValues::take(const Reading& in, int& target) {
   if (value.type == ValueType::number)
     return bad(in, value, "must be an integer, not a float: write it without point and exponent");
   if (value.type != ValueType::integer) return wrong_type(in, value, "an integer");
-  if (!in.key.allowed.range.contains(value.number) ||
-      value.integer < std::numeric_limits<int>::min() ||
+  if (!in.allowed.range.contains(value.number) || value.integer < std::numeric_limits<int>::min() ||
       value.integer > std::numeric_limits<int>::max())
     return bad(in, value, "is out of bounds");
   target = static_cast<int>(value.integer);
@@ -222,9 +234,9 @@ void CaseValues::take(const Reading& in, bool& target) {
 /// A text that must be given must not be empty; one of a choice must be one of the choices.
 std::optional<std::string> CaseValues::text(const Reading& in) {
   if (in.value.type != ValueType::text) return wrong_type(in, in.value, "a string"), std::nullopt;
-  if (in.key.allowed.is_choice() && !find_choice(in.key.allowed, in.value.text))
+  if (in.allowed.is_choice() && !find_choice(in.allowed, in.value.text))
     return bad(in, in.value, "is not one of the choices" + cause_in(in.value.text)), std::nullopt;
-  if (in.key.use.required && in.value.text.empty())
+  if (in.required && in.value.text.empty())
     return fault(in.path, "must not be empty"), std::nullopt;
   return in.value.text;
 }
@@ -234,14 +246,14 @@ void CaseValues::take(const Reading& in, std::string& target) {
 }
 
 void CaseValues::take(const Reading& in, const Choice& target) {
-  if (const auto name = text(in)) target.set(target.target, *find_choice(in.key.allowed, *name));
+  if (const auto name = text(in)) target.set(target.target, *find_choice(in.allowed, *name));
 }
 
 void CaseValues::take(const Reading& in, const ChoiceList& target) {
   if (in.value.type != ValueType::array) return wrong_type(in, in.value, "an array of strings");
   for (std::size_t i = 0; i < target.among.size() && target.among[i]; ++i) *target.among[i] = false;
   for (const CaseValue& item : in.value.items) {
-    const auto found = find_choice(in.key.allowed, item.text);
+    const auto found = find_choice(in.allowed, item.text);
     if (item.type != ValueType::text)
       wrong_type(in, item, "a string");
     else if (!found)
@@ -300,7 +312,7 @@ void CaseValues::take(const Reading& in, dynamics::Table& target) {
     if (value.type != ValueType::number && value.type != ValueType::integer)
       return wrong_type(in, value, "a float or an array of pairs");
     if (!finite(in, value, constant)) return;
-    if (!in.key.allowed.range.contains(constant)) return bad(in, value, "is out of bounds");
+    if (!in.allowed.range.contains(constant)) return bad(in, value, "is out of bounds");
     target = dynamics::Table(constant);
     return;
   }
@@ -318,9 +330,9 @@ void CaseValues::take_points(const Reading& in, dynamics::Table& target) {
   for (std::size_t i = 0; i < points.size() && n_bad < most_faults_of_a_key; ++i) {
     if (i > 0 && points[i][0] <= points[i - 1][0])
       fault(i, fmt::format("the {} must increase, but {} follows {}",
-                           in.key.allowed.of_increments ? "increments" : "times", points[i][0],
+                           in.allowed.of_increments ? "increments" : "times", points[i][0],
                            points[i - 1][0]));
-    if (!in.key.allowed.range.contains(points[i][1])) fault(i, "the value is out of bounds");
+    if (!in.allowed.range.contains(points[i][1])) fault(i, "the value is out of bounds");
   }
   if (!points.empty() && n_bad == 0) target = dynamics::Table(std::move(points));
 }
@@ -332,7 +344,7 @@ void CaseValues::take(const Reading& in, std::vector<int>& target) {
   target.clear();
   for (const CaseValue& item : in.value.items) {
     int number = 0;
-    take({in.key, in.path, item}, number);
+    take({in.allowed, in.required, in.path, item}, number);
     if (number != 0 && std::find(target.begin(), target.end(), number) != target.end())
       bad(in, item, "stands there twice");
     target.push_back(number);
@@ -342,7 +354,7 @@ void CaseValues::take(const Reading& in, std::vector<int>& target) {
 
 void CaseValues::take(const Reading& in, std::vector<std::array<double, 2>>& target) {
   if (in.value.type != ValueType::array) return wrong_type(in, in.value, "an array of pairs");
-  if (in.value.items.empty() && in.key.use.required)
+  if (in.value.items.empty() && in.required)
     return bad(in, in.value, "must have at least one pair");
   const auto found = pairs(in);
   if (found.size() == in.value.items.size()) target = found;
@@ -364,7 +376,7 @@ void CaseValues::take_profile_file(const Reading& in, std::vector<Vec2>& target)
     const Fault& fault = error.faults().front();
     add(in.value.place, in.path, source_.written(in.value.place),
         fmt::format("{}: {}{}", fault.file, fault.message, cause_in(in.value.text)),
-        fault.allowed.empty() ? allowed_text(in.key) : fault.allowed);
+        fault.allowed.empty() ? keys_->allowed_at(in.path) : fault.allowed);
   }
 }
 
@@ -381,10 +393,11 @@ void CaseValues::take(const Reading& in, std::vector<Vec2>& target) {
   for (const auto& [x, y] : points) target.push_back({x, y});
 }
 
-void CaseValues::read(const CaseKey& key, const std::string& path, const CaseMember& field) {
-  const auto found = source_.values.find(path);
-  if (found == source_.values.end()) return;
-  const Reading in{key, path, found->second};
+void CaseValues::read(const Allowed& allowed, bool required, const std::string& path,
+                      const CaseMember& field) {
+  const CaseValue* value = find(path);
+  if (!value) return;
+  const Reading in{allowed, required, path, *value};
   std::visit(
       [&](auto target) {
         using T = decltype(target);

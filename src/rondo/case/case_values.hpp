@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-/// @file  Typed access to a case's values: each read checks type and bounds against the table of
-/// keys and collects faults, so that one reading reports them all.
+/// @file  Typed access to the values of a case file or a study file: each read checks type and
+/// bounds against the table of keys and collects faults, so that one reading reports them all.
 #pragma once
 #include <array>
 #include <initializer_list>
@@ -20,13 +20,28 @@
 
 namespace rondo::study {
 
+/// The table of keys of a kind of file, for what is said of its keys. Paths may have indices.
+struct KeysOfFile {
+  bool (*is_key)(std::string_view path);
+  bool (*is_table)(std::string_view path);
+  bool (*is_list)(std::string_view path);
+  std::string (*keys_in)(std::string_view table);    ///< as one list; "": at the top
+  std::string (*allowed_at)(std::string_view path);  ///< what a key may be
+  std::string (*meant_by)(std::string_view path);    ///< of an unknown key; may be empty
+};
+extern const KeysOfFile keys_of_case;
+
 class CaseValues {
  public:
   /// Finds keys that do not exist, or stand for a table or a list of tables but are none.
-  explicit CaseValues(CaseSource source);
+  explicit CaseValues(CaseSource source, const KeysOfFile& keys = keys_of_case);
 
   [[nodiscard]] bool has(std::string_view key) const { return source_.values.contains(key); }
   [[nodiscard]] bool has_table(std::string_view table) const;
+  /// Null: nothing is given for the key.
+  [[nodiscard]] const CaseValue* find(std::string_view key) const;
+  /// The line in the file of a table, or of the table that it is in; 0: there is none.
+  [[nodiscard]] int line_of(std::string_view table) const { return place_of_table(table).line; }
   /// Something is given for the key, and it is an array.
   [[nodiscard]] bool has_array(std::string_view key) const;
   /// Tables in a list; they are item_of(list, 0) and so on.
@@ -36,7 +51,12 @@ class CaseValues {
 
   /// Reads a value into its field, which keeps its default where the key is absent or at fault.
   /// @param path of a table of a list with its number
-  void read(const CaseKey& key, const std::string& path, const CaseMember& field);
+  void read(const CaseKey& key, const std::string& path, const CaseMember& field) {
+    read(key.allowed, key.use.required, path, field);
+  }
+  /// The same by what is allowed. @param required  of a text: it must not be empty
+  void read(const Allowed& allowed, bool required, const std::string& path,
+            const CaseMember& field);
 
   /// A fault of a key: at its value, else at its table; or at an item of its array.
   void fault(std::string_view key, std::string message, std::string allowed = {});
@@ -58,9 +78,10 @@ class CaseValues {
     Place place;
     Fault fault;
   };
-  /// The key being read, its path and what is given for it.
+  /// What is allowed for the key being read, its path and what is given for it.
   struct Reading {
-    const CaseKey& key;
+    const Allowed& allowed;
+    bool required;
     const std::string& path;
     const CaseValue& value;
   };
@@ -93,6 +114,7 @@ class CaseValues {
   [[nodiscard]] Place place_of_table(std::string_view table) const;
 
   CaseSource source_;
+  const KeysOfFile* keys_;
   std::vector<Located> faults_;
   std::set<std::string, std::less<>> bad_keys_;
   std::map<std::string, std::vector<std::string>, std::less<>> missing_;  ///< by absent table

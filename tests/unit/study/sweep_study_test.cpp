@@ -106,6 +106,9 @@ TEST(SweepStudy, EveryFaultIsNamedAtItsPlace) {
            {top, "vary", "nothing is varied", 0},
            {top + "vary = 3\n", "vary", "list of tables", 3},
            {top + "varied = 3\n" + values, "varied", "unknown key", 3},
+           {top + "sample = 3\n" + values, "sample", "must be a table, not an integer", 3},
+           {top + "title = 3\n" + values, "title", "must be a string, not an integer", 3},
+           {top + values + "[window]\nfrom = \"1\"\n", "window.from", "must be a float", 7},
            {top + "[[vary]]\nkey = \"ground.frction\"\nvalues = [1]\n", "vary[0].key",
             "is no key of a case file", 4},
            {top + "[[vary]]\nvalues = [1]\n", "vary[0]", "has no key", 3},
@@ -184,10 +187,10 @@ TEST(SweepStudy, AllFaultsAtOnceInTheFilesOrder) {
   const std::vector<Fault> faults =
       faults_of("schema = 1\nbas = \"c\"\n[[vary]]\nkey = \"x\"\nvalues = []\n");
   ASSERT_EQ(faults.size(), 4U);
-  EXPECT_EQ(faults[0].key, "base");  // nowhere
-  EXPECT_EQ(faults[1].key, "bas");
-  EXPECT_EQ(faults[2].key, "vary[0].key");
-  EXPECT_EQ(faults[3].key, "vary[0].values");
+  EXPECT_EQ(faults[0].key, "bas");
+  EXPECT_EQ(faults[1].key, "vary[0].key");
+  EXPECT_EQ(faults[2].key, "vary[0].values");
+  EXPECT_EQ(faults[3].key, "base");  // nowhere
 }
 
 TEST(SweepStudy, OfWhatIsNoFileOrNoToml) {

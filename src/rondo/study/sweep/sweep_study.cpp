@@ -11,17 +11,18 @@ namespace rondo::study {
 namespace {
 
 void read_top(StudyReader& in, SweepStudy& study) {
-  const CaseValue* schema = in.typed("schema", ValueType::integer);
-  if (!in.find("schema")) in.fault("schema", "is missing", "schema = 1");
-  if (schema && schema->integer != 1)
-    in.fault("schema", "is from another version of rondo; this one reads 1");
-  if (!in.find("base"))
+  int schema = 1;
+  std::filesystem::path base;
+  study.title = study.file.stem().string();
+  in.read("schema", &schema);
+  in.read("base", &base);
+  in.read("title", &study.title);
+  in.read("snapshots", &study.snapshots);
+  if (!in.has("schema")) in.fault("schema", "is missing", "schema = 1");
+  if (!in.has("base"))
     in.fault("base", "is missing", "base = \"case.toml\", relative to the study");
-  const std::string base = in.text("base");
+  if (schema != 1) in.fault("schema", "is from another version of rondo; this one reads 1");
   if (!base.empty()) study.base = study.file.parent_path() / base;
-  study.title = in.find("title") ? in.text("title") : study.file.stem().string();
-  if (const CaseValue* snapshots = in.typed("snapshots", ValueType::boolean))
-    study.snapshots = snapshots->boolean;
   study.columns = in.texts("columns");
   const CaseValue* set = in.typed("set", ValueType::array);
   if (!set) return;
@@ -43,6 +44,7 @@ std::string key_of(const std::string& setting) {
 void read_sample(StudyReader& in, SweepStudy& study) {
   const bool uniform = std::ranges::any_of(
       study.parameters, [](const Vary& vary) { return vary.uniform.has_value(); });
+  if (!in.good({"sample"})) return;  // it is no table
   if (!in.has_table("sample")) {
     if (uniform)
       in.fault("sample", "is missing: a parameter is uniform",
@@ -51,10 +53,10 @@ void read_sample(StudyReader& in, SweepStudy& study) {
   }
   if (!uniform)
     in.fault("sample", "samples nothing", "uniform = [from, to] in a [[vary]], or no [sample]");
-  const std::string kind = in.text("sample.kind");
-  if (in.find("sample.kind") && kind != sample_kind)
-    in.fault("sample.kind", "is no kind of sample");
-  if (!in.find("sample.count")) in.fault("sample.count", "is missing", "count = 200");
+  std::string kind(sample_kind);
+  in.read("sample.kind", &kind);
+  if (kind != sample_kind) in.fault("sample.kind", "is no kind of sample");
+  if (!in.has("sample.count")) in.fault("sample.count", "is missing", "count = 200");
   const auto count = in.integer("sample.count", sample_counts);
   const auto seed = in.integer("sample.seed", sample_seeds);
   if (count)
@@ -62,8 +64,8 @@ void read_sample(StudyReader& in, SweepStudy& study) {
 }
 
 void read_window(StudyReader& in, SweepStudy& study) {
-  study.window.from = in.number("window.from");
-  study.window.to = in.number("window.to");
+  in.read("window.from", &study.window.from);
+  in.read("window.to", &study.window.to);
   if (study.window.from && study.window.to && !(*study.window.from < *study.window.to))
     in.fault("window.to", "is not after window.from", "from < to");
 }

@@ -16,14 +16,6 @@ namespace {
 
 constexpr TomlShape study_shape{"a study file", is_study_table, is_study_list};
 
-/// The keys allowed beside one, in words.
-std::string allowed_beside(std::string_view path) {
-  const std::string table = without_indices(table_of(path));
-  const bool known = is_study_table(table);
-  return fmt::format("{}: {}", known ? "in " + heading_of(table) : "at the top",
-                     study_keys_text(known ? table : ""));
-}
-
 bool is_known(std::string_view path) {
   return find_study_key(path) != nullptr ||
          without_indices(path) == "vary[].target";  // told by refuse_target()
@@ -34,6 +26,17 @@ std::string allowed_at(std::string_view path) {
   RONDO_DEMAND(key != nullptr, path);
   return std::string(key->allowed);
 }
+
+std::string keys_in(std::string_view table) {
+  return study_keys_text(without_indices(table));
+}
+
+std::string nothing_meant(std::string_view /*path*/) {
+  return {};
+}
+
+constexpr KeysOfFile keys_of_study{is_known, is_study_table, is_study_list,
+                                   keys_in,  allowed_at,     nothing_meant};
 
 bool is_number(const CaseValue& value) {
   return value.type == ValueType::number || value.type == ValueType::integer;
@@ -49,42 +52,10 @@ CaseSource load_study_text(const std::filesystem::path& file, std::string text) 
   return load_toml_text(file.string(), std::move(text), study_shape);
 }
 
-StudyReader::StudyReader(CaseSource source) : source_(std::move(source)) {
-  for (const auto& [path, value] : source_.values)
-    if (!is_known(path)) fault(path, "unknown key", allowed_beside(path));
-}
+StudyReader::StudyReader(CaseSource source) : CaseValues(std::move(source), keys_of_study) {}
 
-const CaseValue* StudyReader::find(const std::string& path) const {
-  const auto found = source_.values.find(path);
-  return found == source_.values.end() ? nullptr : &found->second;
-}
-
-bool StudyReader::has_table(const std::string& path) const {
-  return source_.tables.contains(path);
-}
-
-std::size_t StudyReader::n_vary() const {
-  const auto found = source_.lists.find("vary");
-  return found == source_.lists.end() ? 0 : found->second;
-}
-
-int StudyReader::line_of(const std::string& path) const {
-  const auto found = source_.tables.find(path);
-  return found == source_.tables.end() ? 0 : found->second.line;
-}
-
-void StudyReader::fault(const std::string& path, std::string message) {
+void StudyReader::fault(std::string_view path, std::string message) {
   fault(path, std::move(message), allowed_at(path));
-}
-
-void StudyReader::fault(const std::string& path, std::string message, std::string allowed) {
-  const CaseValue* value = find(path);
-  Place place = value ? value->place : Place{};
-  if (!value) place.line = line_of(path);
-  const std::string found =
-      value && value->type != ValueType::table ? source_.written(place) : std::string();
-  faults_.push_back({source_.sources[0].name, place.line, place.column, path, found,
-                     std::move(message), std::move(allowed)});
 }
 
 const CaseValue* StudyReader::typed(const std::string& path, ValueType type) {
@@ -92,12 +63,6 @@ const CaseValue* StudyReader::typed(const std::string& path, ValueType type) {
   if (!value || value->type == type) return value;
   fault(path, fmt::format("must be {}, not {}", type_word(type), type_word(value->type)));
   return nullptr;
-}
-
-std::string StudyReader::text(const std::string& path) {
-  const CaseValue* value = typed(path, ValueType::text);
-  if (value && value->text.empty()) fault(path, "is empty");
-  return value ? value->text : std::string();
 }
 
 std::vector<std::string> StudyReader::texts(const std::string& path) {
@@ -113,14 +78,6 @@ std::vector<std::string> StudyReader::texts(const std::string& path) {
       found.push_back(item.text);
   }
   return found;
-}
-
-std::optional<double> StudyReader::number(const std::string& path) {
-  const CaseValue* value = find(path);
-  if (!value) return std::nullopt;
-  if (is_number(*value) && std::isfinite(value->number)) return value->number;
-  fault(path, "must be a finite number");
-  return std::nullopt;
 }
 
 std::optional<std::int64_t> StudyReader::integer(const std::string& path, const Range& range) {
@@ -140,11 +97,6 @@ const CaseValue* StudyReader::numbers(const std::string& path, std::size_t n) {
     return value;
   fault(path, fmt::format("must be {} finite numbers", n));
   return nullptr;
-}
-
-void StudyReader::finish() {
-  std::ranges::stable_sort(faults_, {}, [](const Fault& f) { return std::pair(f.line, f.column); });
-  if (!faults_.empty()) throw InputError(std::move(faults_));
 }
 
 }  // namespace rondo::study

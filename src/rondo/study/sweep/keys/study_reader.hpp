@@ -6,10 +6,13 @@
 #include <filesystem>
 #include <optional>
 #include <string>
+#include <string_view>
+#include <utility>
 #include <vector>
 
 #include "rondo/case/case_keys.hpp"
 #include "rondo/case/case_source.hpp"
+#include "rondo/case/case_values.hpp"
 
 namespace rondo::study {
 
@@ -17,38 +20,27 @@ namespace rondo::study {
 [[nodiscard]] CaseSource load_study(const std::filesystem::path& file);
 [[nodiscard]] CaseSource load_study_text(const std::filesystem::path& file, std::string text);
 
-/// Gathers all faults. Paths are those of study_keys(), with the numbers of tables in lists.
-class StudyReader {
+/// Paths are those of study_keys(), with the numbers of tables in lists. What is allowed is that of
+/// the key.
+class StudyReader : public CaseValues {
  public:
-  /// Keys that no study has are faults.
   explicit StudyReader(CaseSource source);
 
-  /// Null: it is not there.
-  [[nodiscard]] const CaseValue* find(const std::string& path) const;
-  [[nodiscard]] bool has_table(const std::string& path) const;
-  /// Number of tables [[vary]].
-  [[nodiscard]] std::size_t n_vary() const;
-  [[nodiscard]] int line_of(const std::string& path) const;
-
-  /// What is allowed is that of the key.
-  void fault(const std::string& path, std::string message);
-  void fault(const std::string& path, std::string message, std::string allowed);
+  void fault(std::string_view path, std::string message);
+  void fault(std::string_view path, std::string message, std::string allowed) {
+    CaseValues::fault(path, std::move(message), std::move(allowed));
+  }
+  /// Of a text: it must not be empty.
+  void read(const std::string& path, const Field& field) {
+    CaseValues::read(Allowed{}, true, path, field);
+  }
 
   // Null or none where it is not there, and with a fault where it is something else.
   const CaseValue* typed(const std::string& path, ValueType type);
-  std::string text(const std::string& path);
   std::vector<std::string> texts(const std::string& path);
-  std::optional<double> number(const std::string& path);
   std::optional<std::int64_t> integer(const std::string& path, const Range& range);
   /// `n` finite numbers.
   const CaseValue* numbers(const std::string& path, std::size_t n);
-
-  /// @throws InputError: there were faults
-  void finish();
-
- private:
-  CaseSource source_;
-  std::vector<Fault> faults_;
 };
 
 }  // namespace rondo::study

@@ -95,7 +95,7 @@ void read_values(StudyReader& in, const std::string& path, Vary& vary) {
 /// Heights and depths of loads were searched for once; now a load is given.
 void refuse_target(StudyReader& in, const std::string& table, const Vary& vary) {
   const std::string path = table + ".target";
-  if (!in.find(path)) return;
+  if (!in.has(path)) return;
   in.fault(path, "is known no more: a load is given, and its height follows in the run",
            vary.key == "analysis.depth"
                ? "values of analysis.depth: force_y over depth_m is in history.csv of each crush"
@@ -124,19 +124,19 @@ Vary read_one(StudyReader& in, const std::string& table) {
   Vary vary;
   vary.line = in.line_of(table);
   const std::string key = table + ".key";
-  if (!in.find(key))
+  if (!in.has(key))
     in.fault(table, "has no key", "key = \"ground.friction\", or keys = [...] of several");
-  vary.key = in.text(key);
+  in.read(key, &vary.key);
   check_key(in, key, vary.key, "");
-  const auto n = std::ranges::count_if(
-      kinds, [&](const char* kind) { return in.find(table + "." + kind) != nullptr; });
+  const auto n =
+      std::ranges::count_if(kinds, [&](const char* kind) { return in.has(table + "." + kind); });
   refuse_target(in, table, vary);
-  if (n != 1 && !in.find(table + ".target"))
+  if (n != 1 && !in.has(table + ".target"))
     in.fault(table, n == 0 ? "has no values" : "has values twice",
              "one of values, linspace, uniform");
-  if (in.find(table + ".values")) read_values(in, table + ".values", vary);
-  if (in.find(table + ".linspace")) read_linspace(in, table + ".linspace", vary);
-  if (in.find(table + ".uniform")) read_uniform(in, table + ".uniform", vary);
+  if (in.has(table + ".values")) read_values(in, table + ".values", vary);
+  if (in.has(table + ".linspace")) read_linspace(in, table + ".linspace", vary);
+  if (in.has(table + ".uniform")) read_uniform(in, table + ".uniform", vary);
   return vary;
 }
 
@@ -173,14 +173,14 @@ std::vector<Vary> read_together(StudyReader& in, const std::string& table) {
     vary.goes_with_previous = together.size() > 1;
     check_key(in, path, key, fmt::format("\"{}\" ", key));
   }
-  if (in.find(table + ".key"))
+  if (in.has(table + ".key"))
     in.fault(table + ".key", "stands beside keys", "key of one, or keys of several");
   if (together.size() < 2)
     in.fault(path, "are fewer than two", "two keys and more whose values go together; else key");
   for (const char* kind : {"linspace", "uniform", "target"})
-    if (in.find(table + "." + kind))
+    if (in.has(table + "." + kind))
       in.fault(table + "." + kind, "is of one key", "values = [[value, ...], ...] beside keys");
-  if (!in.find(table + ".values"))
+  if (!in.has(table + ".values"))
     in.fault(table, "has no values", "values = [[value, ...], ...], a value for each key");
   else if (together.size() > 1)
     read_rows(in, table + ".values", together);
@@ -191,13 +191,12 @@ std::vector<Vary> read_together(StudyReader& in, const std::string& table) {
 
 std::vector<Vary> read_parameters(StudyReader& in) {
   std::vector<Vary> parameters;
-  if (in.n_vary() == 0)
-    in.fault("vary", in.find("vary") ? "must be a list of tables" : "nothing is varied",
-             "[[vary]] with key and values");
+  if (in.n_items("vary") == 0 && !in.has("vary"))
+    in.fault("vary", "nothing is varied", "[[vary]] with key and values");
   std::set<std::string> seen;
-  for (std::size_t k = 0; k < in.n_vary(); ++k) {
+  for (std::size_t k = 0; k < in.n_items("vary"); ++k) {
     const std::string table = item_of("vary", k);
-    const bool several = in.find(table + ".keys") != nullptr;
+    const bool several = in.has(table + ".keys");
     for (Vary& vary : several ? read_together(in, table) : std::vector{read_one(in, table)}) {
       if (!vary.key.empty() && !seen.insert(vary.key).second)
         in.fault(table + (several ? ".keys" : ".key"),

@@ -1,0 +1,182 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "rondo/study/options/options.hpp"
+
+namespace rondo::study {
+namespace {
+
+constexpr std::string_view memory_help = "Memory limit of the decompositions, e.g. 500MB";
+
+/// The options `--from` and `--to` of a window of time.
+Option first_time(std::optional<double>& from) {
+  return {"--from", "from_time", &from, "Time of the first snapshot used", "s"};
+}
+Option last_time(std::optional<double>& to) {
+  return {"--to", "to_time", &to, "Time of the last snapshot used", "s"};
+}
+
+constexpr OtherOption reduced_run{"--reduced", "reduced", "is an option of a reduced run",
+                                  "with reduced = a model of rondo.reduce"};
+constexpr OtherOption not_overwrite{"--overwrite", "overwrite",
+                                    "continues what overwrite would remove", "one of the two"};
+
+}  // namespace
+
+Option threads_option(int& threads) {
+  return {.words = "--threads,--jobs",
+          .python = "threads",
+          .target = &threads,
+          .help = "Number of threads; chosen by the size of the case if left out",
+          .range = OptionRange{1, 1024}};
+}
+
+Options run_options(RunOptions& r) {
+  return {
+      threads_option(r.threads),
+      {"--overwrite", "overwrite", &r.overwrite, "Replaces the results of another run"},
+      {.words = "--resume",
+       .python = "resume",
+       .target = &r.resume,
+       .help =
+           "Resumes the run from its last checkpoint, with bitwise the same results; begins it if "
+           "there is none; with a later time.end a finished run continues",
+       .excludes = not_overwrite},
+      {"--modes-from", "modes_from", &r.modes_from,
+       "Results directory of a run of the same body; a crush by analysis.solver = latin-pgd begins "
+       "with the modes of this run"},
+      {"--reduced", "reduced", &r.reduced,
+       "Uses the modes of this model (rondo reduce) instead of the mesh; docs/reduced.md"},
+      {.words = "--step-factor",
+       .python = "step_factor",
+       .target = &r.step_factor,
+       .help = "Step of a reduced run over that of the full run",
+       .needs = reduced_run},
+      {.words = "--reduced-step",
+       .python = "reduced_step",
+       .target = &r.reduced_step,
+       .help = "Scheme of a reduced run; midpoint is implicit, explicit means central differences",
+       .choices = "midpoint | explicit",
+       .needs = reduced_run},
+      {.words = "--snapshots",
+       .python = "snapshots",
+       .target = &r.reduced_snapshots,
+       .help =
+           "Snapshots of a reduced run; modes: coordinates only, far cheaper, no stress; Python "
+           "computes the fields from them",
+       .choices = "fields | modes",
+       .needs = reduced_run},
+  };
+}
+
+Options modes_options(ModesRequest& r) {
+  return {
+      {.words = "--count",
+       .python = "count",
+       .target = &r.count,
+       .help = "Number of modes at each spin, besides rigid-body motions",
+       .range = OptionRange{1, 100000}},
+      {"--spin", "spins", &r.spins,
+       "Rotation speeds, > 0 rolls towards +x; if left out, 0 and that of the case at t = 0",
+       "rad/s"},
+      {"--spins", "sweep", &r.sweep,
+       "Rotation speeds, FROM:TO:NUMBER, at which the frequencies of a Campbell diagram are found",
+       "rad/s"},
+      {.words = "--diameters",
+       .python = "diameters",
+       .target = &r.diameters,
+       .help = "Largest number of nodal diameters for critical speeds",
+       .range = OptionRange{0, 1000000}},
+      {"--overwrite", "overwrite", &r.run.overwrite, "Replaces the results of another run"},
+  };
+}
+
+Options pod_options(PodRequest& r) {
+  return {
+      {"--field", "field", &r.field, "Field that is decomposed", "",
+       "displacement | velocity | contact"},
+      {"--frame", "frame", &r.frame, "Frame of the modes", "", "co-rotating | rectified"},
+      first_time(r.from),
+      last_time(r.to),
+      {"--modes", "modes", &r.modes,
+       "Number of modes; if left out, as many as leave out 1e-6 of the energy"},
+      {"--weight", "weight", &r.weight, "Norm; if left out mass, delassus for contact", "",
+       "mass | delassus | none"},
+      {"--shift", "shift", &r.shift, "Fields are rectified by the angle itself or by whole sectors",
+       "", "fourier | pitch"},
+      {"--memory", "memory", &r.memory,
+       "Memory limit, e.g. 500MB; snapshots that exceed it are streamed"},
+      {"--method", "method", &r.method, "Method of the decomposition", "",
+       "auto | direct | tsqr | incremental"},
+      {"--reconstruct", "reconstruct", &r.reconstruct,
+       "Number of snapshots rebuilt from the modes for ParaView; 0: none"},
+  };
+}
+
+Options reduce_options(ReduceRequest& r) {
+  return {
+      {"--displacement-modes", "displacement_modes", &r.displacement_modes,
+       "Number of displacement modes, each with its derivative by the angle; 30 if left out"},
+      {"--velocity-modes", "velocity_modes", &r.velocity_modes,
+       "Number of velocity modes; 30 if left out"},
+      {"--tolerance", "tolerance", &r.displacement_tolerance,
+       "Share of the displacements' energy left out, instead of a number of modes"},
+      {"--velocity-tolerance", "velocity_tolerance", &r.velocity_tolerance,
+       "Share of the velocities' energy left out, instead of a number of modes"},
+      {"--contact-weight", "contact_weight", &r.contact_weight,
+       "Weight of the boundary's motion near the contact in the choice of modes, relative to that "
+       "of "
+       "the mass; 0: none"},
+      first_time(r.from),
+      last_time(r.to),
+      {.words = "--contact-stride",
+       .python = "contact_stride",
+       .target = &r.contact_stride,
+       .help =
+           "Boundary nodes for each contact point, a divisor of their number; if left out, as many "
+           "as give 180 points",
+       .range = OptionRange{1, 1000000}},
+      {.words = "--contact-phases",
+       .python = "contact_phases",
+       .target = &r.contact_phases,
+       .help = "Contact points for each boundary node; more than 1 also lie between nodes, for "
+               "comparisons",
+       .range = OptionRange{1, 16}},
+      {"--contact", "contact", &r.contact,
+       "Contact points that are fixed in space, or the nodes that pass by; if left out, places on "
+       "a "
+       "smooth disk, nodes otherwise",
+       "", "places | nodes"},
+      {"--frame", "frame", &r.frame,
+       "Frame of the modes; co-rotating (with the disk) for comparisons", "",
+       "rectified | co-rotating"},
+      {"--memory", "memory", &r.memory, memory_help},
+      {.words = "--no-error-estimate",
+       .python = "error_estimate",
+       .target = &r.error_estimate,
+       .help = "Makes no error estimate, which by default predicts each of 3 or more runs from the "
+               "others",
+       .in_python = "Whether an error estimate predicts each of 3 or more runs from the others"},
+  };
+}
+
+Options sweep_options(SweepRequest& r) {
+  return {
+      {"--overwrite", "overwrite", &r.overwrite, "Replaces another sweep's results"},
+      {.words = "--resume",
+       .python = "resume",
+       .target = &r.resume,
+       .help = "Resumes a sweep, or a shard, that was interrupted",
+       .excludes = not_overwrite},
+  };
+}
+
+Options fmu_options(FmuRequest& r) {
+  return {
+      {"--case", "case", &r.case_file,
+       "Case file with ground, dampings, gravity and start; if left out, that of the model's first "
+       "run"},
+      {"--step-factor", "step_factor", &r.step_factor,
+       "Largest internal step over that of the full run"},
+  };
+}
+
+}  // namespace rondo::study
