@@ -68,7 +68,7 @@ INSTANTIATE_TEST_SUITE_P(
         Refused{"Bodies", "contact.between=bodies", "contact.between", "with the ground"},
         Refused{"Implicit", "solver.implicit=[{layers = [1]}]", "solver.implicit[0]",
                 "all that are not fine"},
-        Refused{"Cyclic", "solver.operator=cyclic", "solver.operator", "general step alone"},
+        Refused{"Cyclic", "solver.operator=cyclic", "solver.operator", "step of its own"},
         Refused{"Region", "solver.hati.fine={region = 'skin'}", "solver.hati.fine.region",
                 "no physical surfaces"},
         Refused{"Nothing", "solver.hati.fine={}", "solver.hati.fine", "no elements"},
