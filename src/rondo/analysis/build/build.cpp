@@ -93,10 +93,10 @@ void make_model(const Case& c, Setup& s) {
   model.mass = fem::lumped_mass(s.mesh, s.materials);
   model.free = fem::free_nodes(s.mesh);
   find_bodies(c, s);
-  add_rim(c, s.mesh, model);
   add_contacts(c, s.mesh, model);
   add_pressures(c, s.mesh, model);
   refuse_combinations(c, model);
+  add_rim(c, s.mesh, model);
   make_contact_massless(c, s);
   if (s.mesh.n_sectors > 0) model.sector = fem::assemble_sector(s.mesh, s.materials);
   model.stiffness_operator = operator_of(c, model);
