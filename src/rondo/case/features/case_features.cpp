@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "rondo/case/features/case_features.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <array>
 
@@ -91,10 +93,7 @@ const CaseFeature& row_of(const Case& c, dynamics::Features feature) {
 }
 
 std::string instead_of(const Case& c, const dynamics::Limit& refusal) {
-  std::string text(row_of(c, refusal.at).without);
-  for (dynamics::Features left = refusal.with; left != 0; left &= left - 1)
-    text += "; or " + std::string(row_of(c, left & -left).without);
-  return text;
+  return fmt::format("{}; or {}", row_of(c, refusal.at).without, row_of(c, refusal.with).without);
 }
 
 std::string_view why_not_cyclic(const Case& c) {

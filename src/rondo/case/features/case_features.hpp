@@ -26,7 +26,7 @@ struct CaseFeature {
 [[nodiscard]] const CaseFeature& row_of(const Case& c, dynamics::Features feature);
 
 /// "no [rim]: a rim that follows [motion]; or time.scheme = ...": what may stand instead of what
-/// the limit refuses.
+/// the limit refuses. @pre it is a refusal: of two features
 [[nodiscard]] std::string instead_of(const Case& c, const dynamics::Limit& refusal);
 
 /// Why K cannot be taken sector by sector; empty where it can.
