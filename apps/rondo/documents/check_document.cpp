@@ -20,7 +20,7 @@ constexpr Member<Line> line_members[] = {
 constexpr Member<Checked> check_members[] = {
     {"title", "string", "", "of the case", [](const Checked& k) -> Json { return k.c.title; }},
     {"analysis", "string", "", "analysis.kind",
-     [](const Checked& k) -> Json { return study::type_of(k.c).name; }},
+     [](const Checked& k) -> Json { return study::rules_of(k.c.analysis.kind).name; }},
     {"nodes", "integer", "", "nodes of the mesh",
      [](const Checked& k) -> Json { return k.r.nodes; }},
     {"elements", "integer", "", "elements of the mesh",

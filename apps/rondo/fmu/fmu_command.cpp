@@ -43,7 +43,7 @@ fs::path case_file(const study::FmuRequest& a) {
   const fs::path file = runs.empty() ? fs::path() : fs::path(runs.front()) / "case.toml";
   std::error_code error;
   if (!runs.empty() && fs::exists(file, error) &&
-      study::read_case(file).analysis.kind == study::AnalysisKind::dynamic)
+      study::rules_of(study::read_case(file).analysis.kind).in_time)
     return file;
   throw request_error("--case", "",
                       fmt::format("is needed: the first run behind {} is no motion in time, or no "
@@ -65,7 +65,7 @@ std::string guid_of(const std::string& a, const std::string& b) {
 
 study::Case read_checked(const study::FmuRequest& a) {
   study::Case c = study::read_case(case_file(a), a.settings);
-  if (c.analysis.kind != study::AnalysisKind::dynamic)
+  if (!study::rules_of(c.analysis.kind).in_time)
     throw study::case_error(c, "analysis.kind", "a wheel of an FMU moves in time", "\"dynamic\"");
   return c;
 }

@@ -14,6 +14,7 @@
 #include "rondo/analysis/build/memory.hpp"
 #include "rondo/analysis/build/solid/solid_body.hpp"
 #include "rondo/analysis/build/step_limit.hpp"
+#include "rondo/analysis/elements/combinations.hpp"
 #include "rondo/analysis/elements/massless_boundary.hpp"
 #include "rondo/analysis/rubber_watch.hpp"
 #include "rondo/case/case_source.hpp"
@@ -89,6 +90,7 @@ CheckReport DynamicAnalysis::check(double trial) {
   r.disk_bytes = disk_needed(record_plan(), resumable() != nullptr).all;
   r.seconds = seconds_per_step(trial) * static_cast<double>(setup_.n_steps);
   r.lines = setup_.figures;
+  r.lines.emplace_back("integrator", told_step(case_, setup_.model));
   for (auto& told : step_lines(case_, setup_)) r.lines.push_back(std::move(told));
   r.warnings = warnings();
   return r;

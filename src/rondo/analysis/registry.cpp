@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "rondo/analysis/registry.hpp"
 
+#include <algorithm>
 #include <array>
+#include <span>
 
 #include "rondo/analysis/base/region_figures.hpp"
 #include "rondo/analysis/crush/crush.hpp"
@@ -14,40 +16,44 @@
 
 namespace rondo::study {
 
+namespace {
+
+bool by_latin(const Case& c) {
+  return c.analysis.solver == CrushMethod::latin;
+}
+bool by_latin_pgd(const Case& c) {
+  return c.analysis.solver == CrushMethod::latin_pgd;
+}
+
+/// Those of some cases of a kind stand before that of all others.
 std::span<const AnalysisType> analysis_types() noexcept {
+  using enum AnalysisKind;
   static const std::array types{
-      AnalysisType{analysis_kinds[0].name, "step", make_dynamic, dynamic_figures()},
-      AnalysisType{analysis_kinds[1].name, "increment", make_crush, crush_figures()},
-      AnalysisType{analysis_kinds[2].name, "place", make_steady_rolling, steady_figures(),
+      AnalysisType{dynamic, is_solid, "step", make_dynamic, solid_dynamic_figures()},
+      AnalysisType{dynamic, nullptr, "step", make_dynamic, dynamic_figures()},
+      AnalysisType{crush, by_latin, "increment", make_crush, latin_figures()},
+      AnalysisType{crush, by_latin_pgd, "increment", make_crush, pgd_figures(), nullptr, true},
+      AnalysisType{crush, nullptr, "increment", make_crush, crush_figures()},
+      AnalysisType{steady_rolling, is_solid, "place", make_steady_rolling, solid_steady_figures(),
+                   solve_steady_rolling},
+      AnalysisType{steady_rolling, nullptr, "place", make_steady_rolling, steady_figures(),
                    solve_steady_rolling},
   };
-  static_assert(types.size() == std::size(analysis_kinds), "a row a kind, in their order");
   return types;
 }
 
-const AnalysisType& type_of(const Case& c) noexcept {
-  static const AnalysisType solid_steady{analysis_kinds[2].name, "place", make_steady_rolling,
-                                         solid_steady_figures(), solve_steady_rolling};
-  if (c.analysis.kind == AnalysisKind::steady_rolling && is_solid(c)) return solid_steady;
-  static const AnalysisType latin{analysis_kinds[1].name, "increment", make_crush, latin_figures()};
-  static const AnalysisType pgd{analysis_kinds[1].name, "increment", make_crush, pgd_figures()};
-  if (finds_modes(c)) return pgd;
-  if (c.analysis.kind == AnalysisKind::crush && c.analysis.solver == CrushMethod::latin)
-    return latin;
-  static const AnalysisType solid_dynamic{analysis_kinds[0].name, "step", make_dynamic,
-                                          solid_dynamic_figures()};
-  if (is_solid(c) && c.analysis.kind == AnalysisKind::dynamic) return solid_dynamic;
-  return analysis_types()[static_cast<std::size_t>(c.analysis.kind)];
-}
+}  // namespace
 
-bool finds_modes(const Case& c) noexcept {
-  return c.analysis.kind == AnalysisKind::crush && c.analysis.solver == CrushMethod::latin_pgd;
+const AnalysisType& type_of(const Case& c) noexcept {
+  return *std::ranges::find_if(analysis_types(), [&](const AnalysisType& type) {
+    return type.kind == c.analysis.kind && (type.is_of == nullptr || type.is_of(c));
+  });
 }
 
 namespace {
 
 void refuse_modes(const Case& c, const RunOptions& options) {
-  const bool takes_modes = finds_modes(c) && options.reduced.empty();
+  const bool takes_modes = type_of(c).finds_modes && options.reduced.empty();
   if (options.modes_from.empty() || takes_modes) return;
   throw case_error(
       c, "analysis.solver",

@@ -1,9 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-/// @file  Which analyses there are: a row each.
+/// @file  Which analyses there are: a row each, or several where figures depend on the case.
 #pragma once
 #include <memory>
-#include <span>
-#include <string_view>
 #include <vector>
 
 #include "rondo/analysis/base/analysis.hpp"
@@ -12,23 +10,19 @@
 namespace rondo::study {
 
 struct AnalysisType {
-  std::string_view name;  ///< of analysis.kind in the case
-  const char* unit;       ///< what is counted: "step"
+  AnalysisKind kind;
+  bool (*is_of)(const Case& c);  ///< the cases of this kind that the row is for; null: all others
+  const char* unit;              ///< what is counted: "step"
   /// @throws InputError: the case cannot run so
   std::unique_ptr<Analysis> (*make)(const Case& c, const RunOptions& options);
   FigureTable figures;  ///< of a row of a sweep's results.csv
   /// The figures without a directory, for members of a sweep that keep no snapshots: where writing
   /// it takes longer than the run. Null: its runs have directories. @throws InputError as a run
   DirectRun (*direct)(const Case& c, const RunOptions& options) = nullptr;
+  bool finds_modes = false;  ///< its runs find modes, and may begin with those of another run
 };
 
-/// In the order of AnalysisKind.
-[[nodiscard]] std::span<const AnalysisType> analysis_types() noexcept;
-/// That of the case: of a wheel in three dimensions, and of a crush by LATIN, with figures of its
-/// own.
 [[nodiscard]] const AnalysisType& type_of(const Case& c) noexcept;
-/// Its runs find modes, and may begin with those of another run: a crush by LATIN-PGD.
-[[nodiscard]] bool finds_modes(const Case& c) noexcept;
 
 /// The analysis of the case, or that of its reduced model where the options name one. Case and
 /// options must outlive it. @throws InputError, FileError

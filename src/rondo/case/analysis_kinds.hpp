@@ -20,11 +20,13 @@ struct KindOfCase {
   std::string_view name;
   void (*check)(CaseValues& in, Case& c);  ///< collects faults in `in`; null: nothing of its own
   std::string_view why_left_out;  ///< why it has no use for keys of others; "": leaves none
+  bool in_time = false;           ///< the body moves, step by step
+  std::string_view height_key = "motion.height";  ///< that says how high the center is
 };
 
 inline constexpr KindOfCase analysis_kinds[] = {
-    {"dynamic", nullptr, ""},
-    {"crush", check_crush, "a crush is quasi-static, its ground flat"},
+    {"dynamic", nullptr, "", true},
+    {"crush", check_crush, "a crush is quasi-static, its ground flat", false, "analysis.depth"},
     {"steady-rolling", check_steady_rolling, "steady rolling has no start, no end and no impacts"},
 };
 

@@ -104,6 +104,10 @@ void check_crush(CaseValues& in, Case& c) {
     check_numbers(in, c.analysis);
   check_depth(in, c);
   check_solver(in, c);
+  if (is_solid(c))
+    in.fault("analysis.kind", "a crush is of plane bodies, not of a wheel in three dimensions",
+             "\"dynamic\" with motion.angular_velocity = 0 and a table of motion.height that comes "
+             "down slowly; or no disk.width");
   if (!c.mesh && c.free_rim)
     in.fault("disk.rim", "a crush needs a disk that is bonded to its rim", "\"bonded\"");
   if (c.mesh && !is_held(c) && in.good({"mesh.clamped"}))

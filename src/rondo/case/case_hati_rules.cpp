@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-/// Rules of time.scheme = "hati": which part is fine, and what the scheme is not made for
+/// Rules of time.scheme = "hati": which part is fine, and which motion it is made for
 /// (docs/cases.md).
 #include <algorithm>
 
@@ -31,27 +31,11 @@ void check_spin(CaseValues& in, const Case& c) {
 }
 
 void check_hati_motion(CaseValues& in, const Case& c) {
-  if (!is_held(c) && in.good({"disk.rim", "mesh.clamped"}))
-    in.fault("time.scheme", "\"hati\" does not support free bodies", "\"symplectic\"");
   if (is_held(c)) check_spin(in, c);
   if (c.initial.state == InitialState::steady_rolling)
     in.fault("initial.state",
              "is known half a step after t = 0, and the scheme \"hati\" begins at t = 0",
              std::string("\"rest\" or \"stationary\", or ") + elsewhere);
-}
-
-/// What acts on the body, but for the ground.
-void check_loads(CaseValues& in, const Case& c) {
-  if (!c.pressures.empty())
-    in.fault("load.pressure[0]", "the scheme \"hati\" supports no load except the ground",
-             elsewhere);
-  if (c.body_contact.between != BodyContact::none)
-    in.fault("contact.between", "the scheme \"hati\" supports contact with the ground only",
-             std::string("\"none\", or ") + elsewhere);
-  if (!c.implicit.empty())
-    in.fault("solver.implicit[0]",
-             "in the scheme \"hati\" all elements that are not fine are implicit",
-             std::string("solver.hati.fine alone, or ") + elsewhere);
 }
 
 }  // namespace
@@ -63,7 +47,6 @@ void check_hati(CaseValues& in, Case& c) {
                       "[solver.hati] with fine = {layers = [...]} and ratio beside it");
     check_fine(in, c);
     check_hati_motion(in, c);
-    check_loads(in, c);
     return;
   }
   const bool meant = means_to(*find_case_key("solver.hati.ratio"), c.analysis.kind);

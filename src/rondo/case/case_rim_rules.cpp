@@ -22,18 +22,6 @@ bool is_above_zero(const Table& table) {
   return std::ranges::any_of(table.points(), [](const auto& point) { return point[1] > 0.0; });
 }
 
-/// There must be a rim, and a step that knows it.
-void check_rim_body(CaseValues& in, const Case& c) {
-  constexpr std::string_view has_none = "there is no rim that [rim] could move";
-  if (!c.mesh && c.free_rim) in.fault("disk.rim", std::string(has_none), "\"bonded\", or no [rim]");
-  if (c.mesh && !is_held(c) && in.good({"mesh.clamped"}))
-    in.fault("mesh.clamped", std::string(has_none),
-             "the physical curve that is bonded to the rim, or no [rim]");
-  if (c.time.scheme != Scheme::symplectic)
-    in.fault("time.scheme", "does not support a rim that forces move",
-             "\"symplectic\", or no [rim]");
-}
-
 /// A load of a degree of freedom.
 struct Load {
   std::string_view key;
@@ -115,7 +103,6 @@ void warn(Case& c) {
 
 void check_rim(CaseValues& in, Case& c) {
   if (!c.rim || !in_time.contain(c.analysis.kind)) return;
-  check_rim_body(in, c);
   if (!in.has("rim.support.x.at")) c.rim->support_x.at = c.motion.start_x;
   if (!in.has("rim.support.y.at")) c.rim->support_y.at = c.motion.height.at(0.0);
   if (!in.has("rim.free") || !in.good({"rim.free"})) return;

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 
+#include "rondo/case/features/case_features.hpp"
 #include "rondo/mesh/physical_group.hpp"
 
 namespace rondo::study {
@@ -208,55 +209,28 @@ void check_time(CaseValues& in, const Case& c) {
   if (time.step && in.good({"time.end", "time.step"}) && time.end / *time.step > most_steps)
     in.fault("time.step", fmt::format("the run would take {:.3g} steps", time.end / *time.step),
              fmt::format("at most {:.0e} steps", most_steps));
-  if (time.scheme == Scheme::as_printed && !is_held(c))
-    in.fault("time.scheme",
-             "shows an effect of the spin of a rim, and a free body is not turned by a rim",
-             "\"symplectic\"");
 }
 
 void check_operator(CaseValues& in, const Case& c) {
-  if (c.solver_operator != "cyclic") return;
+  if (c.solver_operator != "cyclic" || is_solid(c)) return;
   const std::string_view why = why_not_cyclic(c);
   if (!why.empty()) in.fault("solver.operator", std::string(why), "\"auto\" or \"sparse\"");
 }
 
-/// Sharp convex corners may touch between two nodes.
-bool has_sharp_corners(const GroundCase& ground) {
-  return ground.shape.fillet == 0.0 && !contact::Ground(ground.shape).corners().empty();
-}
-
-/// What contact nodes without mass are not done for (docs/theory.md, 3.10).
-void check_contact_mass(CaseValues& in, const Case& c) {
-  if (c.contact_mass == ContactMass::lumped) return;
-  constexpr std::string_view key = "solver.contact_mass";
-  const std::string lumped = "\"lumped\"";
-  const auto refuse = [&](std::string why, const std::string& instead) {
-    in.fault(key, std::move(why), lumped + instead);
-  };
-  if (!c.ground)
-    refuse("there is no [ground] that contact nodes without mass could touch", ", or a [ground]");
-  if (c.ground && c.ground->restitution > 0.0)
-    refuse(fmt::format("ground.restitution = {}: the contact law of nodes without mass is one of "
-                       "gaps, without restitution",
-                       c.ground->restitution),
-           ", or ground.restitution = 0");
-  if (c.ground && c.ground->impact == contact::Impact::energy_safe)
-    refuse(
-        "ground.impact = \"energy-safe\" is a law of velocities, and that of nodes without mass is "
-        "one of gaps",
-        ", or no ground.impact");
-  if (c.ground && in.good({"ground", "ground.profile", "ground.fillet"}) &&
-      has_sharp_corners(*c.ground))
-    refuse("the ground has sharp convex corners, which touch between two nodes",
-           ", or ground.fillet > 0");
-  if (c.time.scheme != Scheme::symplectic)
-    refuse("time.scheme is not \"symplectic\"", ", or time.scheme = \"symplectic\"");
-  if (c.body_contact.between != BodyContact::none)
-    refuse("there is a [contact] of bodies, whose nodes have mass", ", or no [contact]");
-  if (c.rim) refuse("there is a [rim], whose step needs contact nodes with mass", ", or no [rim]");
-  if (!is_held(c))
-    refuse("nothing holds the body: contact nodes without mass need the turning frame of a rim",
-           c.mesh ? ", or mesh.clamped" : ", or disk.rim = \"bonded\"");
+/// What no time step does (model/steps/step_table.hpp).
+void check_combinations(CaseValues& in, const Case& c) {
+  const dynamics::Features all = features_of(c);
+  std::vector<const dynamics::Limit*> refusals;  // all, before one makes the key of another bad
+  for (const dynamics::Limit& limit : dynamics::step_limits())
+    if (limit.is_refusal() && limit.holds_for(all) &&
+        in.good({row_of(c, limit.at).key, row_of(c, limit.with).key}))
+      refusals.push_back(&limit);
+  for (const dynamics::Limit* limit : refusals)
+    in.refuse(row_of(c, limit->at).key, std::string(limit->why), instead_of(c, *limit));
+  if (c.contact_mass != ContactMass::lumped && !c.ground)
+    in.fault("solver.contact_mass",
+             "there is no [ground] that contact nodes without mass could touch",
+             "\"lumped\", or a [ground]");
 }
 
 bool is_word(std::string_view name) {
@@ -293,19 +267,6 @@ void check_part(CaseValues& in, const Case& c, const std::string& table) {
              "its surface by name; " + mesh::physical_group_line("Surface", "tread"));
 }
 
-std::string_view why_not_cyclic(const Case& c) {
-  if (has_rubber(c))
-    return "the forces of rubber at finite strain are no product with the blocks of a sector";
-  if (c.mesh) return "a mesh from a file is not known to have equal sectors";
-  if (c.free_rim) return "a free disk does not stay in the co-rotating frame of its sectors";
-  if (c.rim && !c.pressures.empty() && !is_solid(c))
-    return "with a [rim] pressures act on the deformed edges, which needs the general step";
-  if (c.body_contact.between != BodyContact::none) return "there is a [contact] of bodies";
-  if (c.time.scheme != Scheme::symplectic)
-    return "a scheme other than \"symplectic\" needs the general step";
-  return {};
-}
-
 void require(CaseValues& in, std::string_view key) {
   if (in.good({"analysis.kind"}) && !in.has(key)) in.missing(key);
 }
@@ -333,7 +294,7 @@ void check_case(CaseValues& in, Case& c) {
   check_initial(in, c);
   check_time(in, c);
   check_operator(in, c);
-  check_contact_mass(in, c);
+  check_combinations(in, c);
   check_implicit(in, c);
   check_hati(in, c);
   check_rubber(in, c);

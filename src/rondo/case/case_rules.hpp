@@ -19,7 +19,7 @@ void check_case(CaseValues& in, Case& c);
 /// Parameters of materials: those of their models, stable; fills Case::material and regions.
 void check_materials(CaseValues& in, Case& c);
 
-/// What rubber does not go with, and its default of time.safety.
+/// That rubber does not start in steady rolling, and its default of time.safety.
 void check_rubber(CaseValues& in, Case& c);
 
 /// What a wheel in three dimensions has besides, and what it does not go with; of a plane body,
@@ -47,8 +47,5 @@ std::optional<double> flat_ground_below(const Case& c);
 
 /// For keys that another key requires; says nothing where the kind of analysis is at fault.
 void require(CaseValues& in, std::string_view key);
-
-/// Why K cannot be taken sector by sector; empty where it can. @pre the ground has no faults
-std::string_view why_not_cyclic(const Case& c);
 
 }  // namespace rondo::study

@@ -176,6 +176,9 @@ void check_steady_start(CaseValues& in, const Case& c) {
 
 void check_steady_rolling(CaseValues& in, Case& c) {
   check_steady_body(in, c);
+  if (has_rubber(c))
+    in.fault("analysis.kind", "steady rolling is of small strain, and rubber is not",
+             "\"dynamic\", and a run long enough to settle; or material.model = \"linear\"");
   check_steady_motion(in, c);
   check_given(in);
   check_traction(in, c);

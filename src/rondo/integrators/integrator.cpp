@@ -9,21 +9,35 @@
 #include "rondo/integrators/general/general_integrator.hpp"
 #include "rondo/integrators/general/wheel_integrator.hpp"
 #include "rondo/integrators/hati/hati_integrator.hpp"
+#include "rondo/integrators/solid/solid_integrator.hpp"
 #include "rondo/integrators/solid/solid_wheel_integrator.hpp"
+#include "rondo/model/steps/step_table.hpp"
 
 namespace rondo::dynamics {
 
 std::unique_ptr<Integrator> make_integrator(const Model& model, const State& start) {
-  if (model.solid && model.rim) return std::make_unique<SolidWheelIntegrator>(model, start);
-  if (model.solid) return std::make_unique<SolidCyclicIntegrator>(model, start, kernel_table());
-  if (model.subdomains) return std::make_unique<HatiIntegrator>(model, start);
-  if (model.rim && is_general(model)) return std::make_unique<WheelIntegrator>(model, start);
-  if (is_of_bodies(model))
-    return std::make_unique<BodiesIntegrator>(model, start, body_table(kernel_table()));
-  if (is_general(model)) return std::make_unique<GeneralIntegrator>(model, start);
-  if (model.stiffness_operator == StiffnessOperator::cyclic)
-    return std::make_unique<CyclicIntegrator>(model, start, kernel_table());
-  return std::make_unique<SparseIntegrator>(model, start, kernel_table());
+  switch (step_of(model)) {
+    case StepKind::cyclic:
+      return std::make_unique<CyclicIntegrator>(model, start, kernel_table());
+    case StepKind::sparse:
+      return std::make_unique<SparseIntegrator>(model, start, kernel_table());
+    case StepKind::bodies:
+      return std::make_unique<BodiesIntegrator>(model, start, body_table(kernel_table()));
+    case StepKind::wheel:
+      return std::make_unique<WheelIntegrator>(model, start);
+    case StepKind::hati:
+      return std::make_unique<HatiIntegrator>(model, start);
+    case StepKind::solid_cyclic:
+      return std::make_unique<SolidCyclicIntegrator>(model, start, kernel_table());
+    case StepKind::solid:
+      return std::make_unique<SolidIntegrator>(model, start);
+    case StepKind::solid_wheel:
+      return std::make_unique<SolidWheelIntegrator>(model, start);
+    case StepKind::general:
+    case StepKind::reduced:  // of no model
+      break;
+  }
+  return std::make_unique<GeneralIntegrator>(model, start);
 }
 
 }  // namespace rondo::dynamics

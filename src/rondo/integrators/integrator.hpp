@@ -8,7 +8,8 @@
 
 namespace rondo::dynamics {
 
-/// The integrator of model.stiffness_operator. The model must outlive it.
+/// The integrator of the fastest step that can do the model (model/steps/step_table.hpp). The model
+/// must outlive it. @pre there is one
 /// @param start at t = 0 (start.hpp). @throws InputError (RONDO_DISPATCH), std::bad_alloc
 [[nodiscard]] std::unique_ptr<Integrator> make_integrator(const Model& model, const State& start);
 

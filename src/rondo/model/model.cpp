@@ -49,19 +49,6 @@ void find_free_bodies(const mesh::Mesh& mesh, Model& model) {
   for (FreeBody& free : model.free_bodies) free.center = free.center / free.mass;
 }
 
-bool is_general(const Model& model) noexcept {
-  return model.scheme != Scheme::symplectic || !model.free_bodies.empty() ||
-         model.surfaces.has_value() || (model.internal_force && !model.rubber) ||
-         (model.rim && !model.pressures.empty()) ||
-         (model.rubber && !model.pressures.empty() && has_sharp_corners(model));
-}
-
-bool is_of_bodies(const Model& model) noexcept {
-  return is_general(model) && model.scheme == Scheme::symplectic && !model.rim && !model.implicit &&
-         !model.subdomains && !model.internal_force && !model.rubber &&
-         !has_massless_contact(model);
-}
-
 std::vector<int> nodes_with_mass(const Model& model) {
   std::vector<int> nodes = model.free;
   std::erase_if(nodes, [&](int node) { return model.mass[static_cast<std::size_t>(node)] == 0.0; });

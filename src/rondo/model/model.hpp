@@ -233,16 +233,6 @@ inline const std::vector<double>& lumped_mass_of(const Model& model) noexcept {
   return has_massless_contact(model) ? model.lumped_mass : model.mass;
 }
 
-/// The model has something that only a general integrator does: a free body, contact between
-/// bodies, another scheme than the symplectic one, a material of its own, pressures on a loaded rim
-/// (which act on the edges as they lie).
-[[nodiscard]] bool is_general(const Model& model) noexcept;
-
-/// Of what is_general() tells, what is made in few passes over memory (BodiesIntegrator): free
-/// bodies and contact between bodies, of the stiffness and the symplectic scheme, without implicit
-/// elements, contact nodes without mass and loaded rims.
-[[nodiscard]] bool is_of_bodies(const Model& model) noexcept;
-
 /// The ground has corners that may touch the body between two candidates: sharp ones, and arcs
 /// whose radius is below the spacing of the candidates. None of wheels in three dimensions.
 [[nodiscard]] bool has_sharp_corners(const Model& model) noexcept;

@@ -18,6 +18,7 @@
 #include "rondo/io/directory.hpp"
 #include "rondo/io/files.hpp"
 #include "rondo/model/loaded_rim.hpp"
+#include "rondo/model/steps/step_table.hpp"
 #include "rondo/output/run_files.hpp"
 #include "rondo/output/snapshot_schedule.hpp"
 
@@ -152,7 +153,8 @@ bool fits(const dynamics::SavedState& s, const Setup& setup) {
   const dynamics::Model& model = setup.model;
   const std::size_t n = model.n_nodes(), n_free = model.free_bodies.size();
   const bool parts = model.subdomains.has_value();
-  const bool general = is_general(model) && !is_of_bodies(model) && !parts;
+  const dynamics::StepKind step = step_of(model);
+  const bool general = step == dynamics::StepKind::general || step == dynamics::StepKind::wheel;
   const bool rim = model.rim.has_value(), massless = has_massless_contact(model);
   const bool of_force = general || rim || (model.stiffness_damping > 0.0 && !parts);
   // The readable step of a wheel in three dimensions carries it always.

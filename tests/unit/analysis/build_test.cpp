@@ -11,6 +11,7 @@
 
 #include "rondo/analysis/build/memory.hpp"
 #include "rondo/integrators/fused/sparse_plan.hpp"
+#include "rondo/model/steps/step_table.hpp"
 #include "rondo/statics/stationary_spin.hpp"
 #include "unit/case/case_fixture.hpp"
 
@@ -98,7 +99,7 @@ TEST(Build, LargeDisksOfTheGeneralStepHaveTheirStiffness) {
   Case c = spinning(82, 1230, 60.0);
   c.time.scheme = Scheme::as_printed;
   const auto s = build(c, 1);
-  EXPECT_TRUE(is_general(s.model));
+  EXPECT_EQ(step_of(s.model), dynamics::StepKind::general);
   EXPECT_EQ(s.model.stiffness_operator, dynamics::StiffnessOperator::sparse);
   EXPECT_EQ(s.model.stiffness.row_start.size(), s.mesh.n_nodes() + 1);
 }

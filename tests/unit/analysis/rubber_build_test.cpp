@@ -7,6 +7,7 @@
 #include "rondo/analysis/base/strain_watch.hpp"
 #include "rondo/analysis/build/build.hpp"
 #include "rondo/analysis/build/physical.hpp"
+#include "rondo/model/steps/step_table.hpp"
 #include "unit/analysis/mesh_fixture.hpp"
 
 namespace rondo::study::rubber_build_test {
@@ -115,12 +116,12 @@ TEST(RubberBuild, ModelsHaveTheirForces) {
   ASSERT_TRUE(packs.model.rubber);
   EXPECT_EQ(packs.model.rubber->cells.size(), packs.mesh.cells.size());
   EXPECT_TRUE(packs.model.internal_force);
-  EXPECT_FALSE(is_general(packs.model));
+  EXPECT_EQ(step_of(packs.model), dynamics::StepKind::sparse);
   std::ofstream(file.mesh()) << two_squares_of_triangles(0.1);
   const study::Setup general = build(file.read(), 1);
   EXPECT_FALSE(general.model.rubber);
   EXPECT_TRUE(general.model.internal_force);
-  EXPECT_TRUE(is_general(general.model));
+  EXPECT_EQ(step_of(general.model), dynamics::StepKind::general);
 }
 
 /// Only the cells of rubber are in packs, and K beside them is that of the others alone.

@@ -43,7 +43,10 @@ const std::string key = "solver.contact_mass";
 INSTANTIATE_TEST_SUITE_P(
     All, ContactMass,
     testing::Values(
-        Refused{"restitution", {"ground.restitution=0.5"}, key, {"ground.restitution = 0.5"}},
+        Refused{"restitution",
+                {"ground.restitution=0.5"},
+                key,
+                {"restitution", "ground.restitution = 0"}},
         Refused{"sharp_corners", {"ground.fillet=0"}, key, {"sharp convex", "ground.fillet > 0"}},
         Refused{"as_printed", {"time.scheme=as-printed"}, key, {"time.scheme"}},
         Refused{"contact_of_bodies", {"contact.between=bodies"}, key, {"[contact]"}},

@@ -39,8 +39,6 @@ density = 1100
 surface = "core"
 [[initial.region]]
 surface = "core"
-[[solver.implicit]]
-region = "core"
 )";
     const std::string part = R"(schema = 1
 [mesh]
@@ -62,6 +60,8 @@ scheme = "hati"
 ratio = 3
 fine = {region = "skin"}
 )";
+    const std::string held =
+        part.substr(0, part.find("scheme")) + "[[solver.implicit]]\nregion = \"core\"\n";
     const std::vector<std::string> rim{"rim.free=['speed', 'height', 'angular_velocity']",
                                        "rim.mass=100", "rim.inertia=1", "motion.gravity=9.81"};
     const std::vector<std::string> steady{"analysis.kind=steady-rolling", "ground.profile=flat",
@@ -103,6 +103,7 @@ end = 0.2
         read_text(base, layers),
         read_text(base, parts),
         read_text(part),
+        read_text(held),
         read_text(base, rim),
         read_text(base, steady),
         read_text(with_line(21, "", without_speed), loaded),

@@ -15,6 +15,7 @@
 #include "comparison.hpp"
 #include "integrator_cases.hpp"
 #include "rondo/integrators/fused/dispatch.hpp"
+#include "rondo/model/steps/step_table.hpp"
 #include "support/blocks.hpp"
 #include "support/models.hpp"
 #include "support/thrown_disk.hpp"
@@ -106,7 +107,7 @@ struct Seen {
 };
 
 Seen expect_the_same(const Bodies& b, int steps, double bound) {
-  EXPECT_TRUE(is_of_bodies(b.model));
+  EXPECT_EQ(step_of(b.model), StepKind::bodies);
   const State at = start(b.model, b.u, b.v);
   GeneralIntegrator expected(b.model, at);
   const auto run = make_integrator(b.model, at);

@@ -6,6 +6,7 @@
 #include <array>
 #include <cmath>
 
+#include "rondo/model/steps/step_table.hpp"
 #include "support/blocks.hpp"
 #include "support/stepping.hpp"
 
@@ -49,8 +50,8 @@ TEST(GeneralContact, ABlockOnFlatGroundAsTheReferenceStepHasIt) {
   Model held = model;  // u in a turning frame that does not turn
   held.free_bodies.clear();
   held.free_body.clear();
-  ASSERT_TRUE(is_general(model));
-  ASSERT_FALSE(is_general(held));
+  ASSERT_EQ(step_of(model), StepKind::bodies);
+  ASSERT_EQ(step_of(held), StepKind::sparse);
   const std::vector<Vec2> v(model.n_nodes(), Vec2{0.0, -2.0}), u(model.n_nodes());
   test::Stepping free(model, start(model, u, v)), reference(held, start(held, u, v));
   free.advance(200);

@@ -10,6 +10,7 @@
 #include "comparison.hpp"
 #include "integrator_cases.hpp"
 #include "rondo/mesh/edges.hpp"
+#include "rondo/model/steps/step_table.hpp"
 #include "support/stepping.hpp"
 #include "support/wheel_momenta.hpp"
 
@@ -71,7 +72,7 @@ std::vector<Vec2> swinging_lands(const test::Built& b, double speed) {
 TEST(WheelSurfaces, GroovesThatCloseOpenNoLedger) {
   const test::Built b = test::build(treaded_wheel());
   const Model model = touching_itself(b);
-  ASSERT_TRUE(is_general(model));
+  ASSERT_EQ(step_of(model), StepKind::wheel);
   test::Stepping run(model,
                      start(model, std::vector<Vec2>(model.n_nodes()), swinging_lands(b, 80.0)));
   int between = 0, ground = 0;
@@ -113,7 +114,7 @@ TEST(WheelSurfaces, WhereNothingTouchesItIsTheFusedStep) {
   const Model model = touching_itself(b);
   Model fused = model;  // the same candidates
   fused.surfaces.reset();
-  ASSERT_FALSE(is_general(fused));
+  ASSERT_EQ(step_of(fused), StepKind::sparse);
   const std::vector<Vec2> u = test::some_displacement(b), v = test::some_velocity(b);
   test::Stepping general_run(model, start(model, u, v)), fused_run(fused, start(fused, u, v));
   test::Comparison comparison(test::Comparison::Contacts::by_node);
@@ -150,7 +151,7 @@ TEST(WheelPressures, OnClosedCurvesGiveNoMomentum) {
   ASSERT_EQ(std::count_if(cell.begin(), cell.end(), is_clamped), 2);
   b.model.pressures = {{b.mesh.contact_edges, Table({{0.0, 0.0}, {0.002, 3.0e5}})},
                        {cavity, Table(4.0e5)}};
-  ASSERT_TRUE(is_general(b.model));
+  ASSERT_EQ(step_of(b.model), StepKind::wheel);
   const Model model = test::model_with(b, StiffnessOperator::sparse);
   std::vector<Vec2> wound(b.model.n_nodes());
   for_free_nodes(b.model, [&](std::size_t k) {

@@ -15,11 +15,12 @@
 #include "rondo/analysis/build/rubber.hpp"
 #include "rondo/analysis/build/solid/solid_body.hpp"
 #include "rondo/analysis/build/stability.hpp"
+#include "rondo/analysis/elements/combinations.hpp"
 #include "rondo/analysis/elements/implicit.hpp"
 #include "rondo/analysis/elements/massless_boundary.hpp"
 #include "rondo/analysis/elements/subdomains.hpp"
 #include "rondo/case/case_keys.hpp"
-#include "rondo/case/case_rules.hpp"
+#include "rondo/case/features/case_features.hpp"
 #include "rondo/core/limits/processors.hpp"
 #include "rondo/integrators/fused/batch_integrator.hpp"
 #include "rondo/mesh/edges.hpp"
@@ -75,11 +76,14 @@ void find_bodies(const Case& c, Setup& s) {
   s.mesh.n_sectors = 0;
   s.mesh.sector.clear();
   s.mesh.sector_node.clear();
-  if (c.time.scheme != Scheme::symplectic)
-    throw case_error(c, "time.scheme",
-                     fmt::format("{} of the bodies are free, and are not turned by a rim",
-                                 s.model.free_bodies.size()),
-                     "\"symplectic\", or bodies that mesh.clamped holds");
+}
+
+/// Sector by sector wherever the fused step can.
+dynamics::StiffnessOperator operator_of(const Case& c, const dynamics::Model& model) {
+  const auto cyclic = dynamics::StepKind::cyclic;
+  const auto of_model = features_of(model) & ~dynamics::Features{dynamics::has::assembled};
+  const bool fused = model.sector && can(cyclic, study::features_of(c) | of_model);
+  return fused ? dynamics::StiffnessOperator::cyclic : dynamics::StiffnessOperator::sparse;
 }
 
 void make_model(const Case& c, Setup& s) {
@@ -89,14 +93,13 @@ void make_model(const Case& c, Setup& s) {
   model.mass = fem::lumped_mass(s.mesh, s.materials);
   model.free = fem::free_nodes(s.mesh);
   find_bodies(c, s);
-  add_rim(c, s.mesh, model);
   add_contacts(c, s.mesh, model);
   add_pressures(c, s.mesh, model);
+  refuse_combinations(c, model);
+  add_rim(c, s.mesh, model);
   make_contact_massless(c, s);
   if (s.mesh.n_sectors > 0) model.sector = fem::assemble_sector(s.mesh, s.materials);
-  if (model.sector && c.solver_operator != "sparse" && why_not_cyclic(c).empty() &&
-      !is_general(model))
-    model.stiffness_operator = dynamics::StiffnessOperator::cyclic;
+  model.stiffness_operator = operator_of(c, model);
   if (model.stiffness_operator == dynamics::StiffnessOperator::sparse || !by_harmonics(model))
     model.stiffness = fem::assemble_stiffness(s.mesh, s.materials);
   model.stiffness_damping = c.damping.stiffness;

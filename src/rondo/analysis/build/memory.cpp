@@ -10,7 +10,8 @@
 #include "rondo/analysis/build/bodies.hpp"
 #include "rondo/analysis/build/build.hpp"
 #include "rondo/analysis/build/stability.hpp"
-#include "rondo/case/case_rules.hpp"
+#include "rondo/case/case.hpp"
+#include "rondo/case/features/case_features.hpp"
 #include "rondo/core/bytes.hpp"
 #include "rondo/core/limits/memory_limits.hpp"
 #include "rondo/integrators/massless/ring_matrix.hpp"
@@ -97,7 +98,7 @@ std::size_t motion_memory(const Case& c, const mesh::Mesh& mesh) {
                          2 * (nodes - mesh.clamped.size()) > harmonic_setup_dofs;
   const std::size_t of_a_sector =
       harmonics ? 2 * nodes / static_cast<std::size_t>(mesh.n_sectors) : 0;
-  const bool sector_alone = harmonics && c.solver_operator != "sparse" && why_not_cyclic(c).empty();
+  const bool sector_alone = harmonics && why_not_cyclic(c).empty();
   const bool wide_rows = has_wide_rows(c, mesh);
   const bool factorised = c.initial.state == InitialState::stationary ||
                           (c.motion.angular_velocity.largest() != 0.0 && !has_rubber(c) &&

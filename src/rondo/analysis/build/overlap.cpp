@@ -205,7 +205,7 @@ void refuse_overlaps(const Case& c, const PlacedBodies& bodies,
       fmt::format("{} and {}, at ({:.6g}, {:.6g})", overlaps.name_of(found->body),
                   overlaps.name_of(found->other), found->place.x, found->place.y);
   if (found->is_side) {
-    const bool may_touch = c.analysis.kind != AnalysisKind::crush;  // one has no contact of bodies
+    const bool may_touch = rules_of(c.analysis.kind).in_time;
     throw case_error(
         c, "mesh.file",
         fmt::format("the sides of two bodies coincide, and neither cells nor a contact "

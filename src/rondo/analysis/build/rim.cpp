@@ -8,7 +8,6 @@
 #include "rondo/analysis/build/ground/held_ground.hpp"
 #include "rondo/core/column.hpp"
 #include "rondo/core/index.hpp"
-#include "rondo/mesh/physical_group.hpp"
 
 namespace rondo::study {
 namespace {
@@ -33,17 +32,6 @@ Bonded bonded_nodes(const mesh::Mesh& mesh, const std::vector<double>& mass) {
     b.radius = std::max(b.radius, norm(x));
   }
   return b;
-}
-
-void refuse_free_bodies(const Case& c, const dynamics::Model& model) {
-  if (model.free_bodies.empty()) return;
-  throw case_error(
-      c, "rim",
-      fmt::format(
-          "{} of the bodies of the mesh are free, which the step of a [rim] does not support",
-          model.free_bodies.size()),
-      "mesh.clamped that holds every body, or no [rim]; " +
-          mesh::physical_group_line("Curve", "rim"));
 }
 
 void refuse_unbalanced(const Case& c, const Bonded& b) {
@@ -106,7 +94,6 @@ void tell_support(const char* name, const dynamics::RimSupport& support, Setup& 
 
 void add_rim(const Case& c, const mesh::Mesh& mesh, dynamics::Model& model) {
   if (!c.rim) return;
-  refuse_free_bodies(c, model);
   const Bonded bonded = bonded_nodes(mesh, model.mass);
   refuse_unbalanced(c, bonded);
   model.rim = c.rim;

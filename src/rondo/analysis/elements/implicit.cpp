@@ -15,21 +15,6 @@ namespace {
 
 constexpr const char* first_table = "solver.implicit[0]";
 
-void refuse_combinations(const Case& c, const Setup& s) {
-  const auto refuse = [&](bool is_there, const std::string& what, const std::string& instead) {
-    if (is_there) throw case_error(c, first_table, what, instead);
-  };
-  refuse(c.time.scheme != Scheme::symplectic,
-         "is part of the \"symplectic\" step: another time.scheme has no implicit elements",
-         "time.scheme = \"symplectic\", or no [[solver.implicit]]");
-  refuse(s.model.rim.has_value(),
-         "does not support a [rim], whose step needs the forces of an explicit body",
-         "a rim that follows [motion], or no [[solver.implicit]]");
-  refuse(!s.model.free_bodies.empty(),
-         "does not support free bodies, because their stiffness turns with them",
-         "bodies that mesh.clamped holds, or no [[solver.implicit]]");
-}
-
 /// An element that is implicit feeds energy to nodes without mass that it touches.
 void refuse_massless_nodes(const Case& c, const Setup& s) {
   if (!has_massless_contact(s.model)) return;
@@ -124,7 +109,6 @@ std::vector<int> free_nodes_of(const mesh::Mesh& mesh, const std::vector<char>& 
 
 void add_implicit(const Case& c, Setup& s) {
   if (c.implicit.empty()) return;
-  refuse_combinations(c, s);
   s.implicit_cells = all_chosen(c, s);
   refuse_massless_nodes(c, s);
   refuse_mean_dilatation(c, s, s.implicit_cells);

@@ -6,7 +6,6 @@
 #include <algorithm>
 #include <utility>
 
-#include "rondo/analysis/elements/corner_words.hpp"
 #include "rondo/analysis/elements/parts.hpp"
 #include "rondo/case/case_keys.hpp"
 #include "rondo/core/index.hpp"
@@ -17,16 +16,6 @@ namespace rondo::study {
 namespace {
 
 constexpr const char* key = "solver.contact_mass";
-
-void refuse_free_bodies(const Case& c, const dynamics::Model& m) {
-  if (m.free_bodies.empty()) return;
-  throw case_error(
-      c, key,
-      fmt::format(
-          "{} of the bodies are free: contact nodes without mass need the turning frame of a rim",
-          m.free_bodies.size()),
-      "\"lumped\", or bodies that mesh.clamped holds");
-}
 
 void refuse_pressed_nodes(const Case& c, const mesh::Mesh& mesh, const dynamics::Model& m) {
   std::vector<char> touches(mesh.n_nodes(), 0);
@@ -100,14 +89,6 @@ void warn_of_concave_corners(const Case& c, Setup& s) {
       key));
 }
 
-/// With a fillet: without one the rules between keys have refused it.
-void refuse_corners(const Case& c, const dynamics::Model& m) {
-  if (!has_sharp_corners(m)) return;
-  const CornerWords words = corner_words(c, m);
-  throw case_error(c, key, "contact nodes without mass know no " + words.corners,
-                   "\"lumped\", or " + words.instead);
-}
-
 void warn_of_thin_layer(Setup& s) {
   constexpr double thin = 0.5 * (1.0 - 1e-9);
   const auto beside = joined_nodes(s.mesh);
@@ -132,8 +113,6 @@ void warn_of_thin_layer(Setup& s) {
 void make_contact_massless(const Case& c, Setup& s) {
   if (c.contact_mass == ContactMass::lumped) return;
   dynamics::Model& m = s.model;
-  refuse_free_bodies(c, m);
-  refuse_corners(c, m);
   refuse_pressed_nodes(c, s.mesh, m);
   fem::MovedMass moved = fem::move_contact_mass(s.mesh, m.mass, m.contact->nodes);
   if (moved.without_neighbour >= 0) throw no_neighbour(c, s.mesh, moved.without_neighbour);

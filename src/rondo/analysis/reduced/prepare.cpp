@@ -10,7 +10,7 @@
 #include <utility>
 
 #include "rondo/analysis/build/build.hpp"
-#include "rondo/analysis/elements/corner_words.hpp"
+#include "rondo/analysis/elements/combinations.hpp"
 #include "rondo/core/error.hpp"
 
 namespace rondo::study {
@@ -69,35 +69,7 @@ void check_case(const Case& c, const RunOptions& options, const Setup& setup) {
   if (!is_known(snapshot_names, options.reduced_snapshots))
     throw request_error("--snapshots", options.reduced_snapshots, "no such snapshots",
                         "fields or modes");
-  if (is_solid(c))
-    throw case_error(c, c.section ? "section" : "disk.width",
-                     "reduced models are for plane bodies, not for a wheel in three dimensions",
-                     "the full run, without --reduced; or a [disk] without disk.width");
-  if (c.time.scheme != Scheme::symplectic)
-    throw case_error(c, "time.scheme", "a reduced run has a scheme of its own",
-                     "\"symplectic\", which it stands for");
-  const dynamics::Model& model = setup.model;
-  if (has_rubber(c))
-    throw case_error(c, "material.model",
-                     "a reduced run is computed at small strain, rubber at finite strain",
-                     "\"linear\"; or the full run");
-  if (c.contact_mass != ContactMass::lumped)
-    throw case_error(c, "solver.contact_mass", "a reduced run needs contact nodes with mass",
-                     "\"lumped\"");
-  if (!c.implicit.empty())
-    throw case_error(c, "solver.implicit[0]", "a reduced run has modes instead of elements",
-                     "no [[solver.implicit]]");
-  if (has_sharp_corners(model)) {
-    const CornerWords words = corner_words(c, model);
-    throw case_error(c, c.ground->shape.fillet > 0.0 ? "ground.fillet" : "ground.profile",
-                     "a reduced run has contact at nodes only, not at " + words.corners,
-                     words.instead);
-  }
-  if (is_general(model) || !model.pressures.empty())
-    throw case_error(c, "analysis.kind",
-                     "a reduced run is for one constrained disk on the ground, without pressures, "
-                     "free bodies and contact of bodies",
-                     "none of these");
+  refuse_combinations(c, setup.model, dynamics::has::reduced);
 }
 
 void check_model(const Case& c, const RunOptions& options, const ReducedFile& file,

@@ -25,7 +25,7 @@ bool counts_at_start_alone(const Case& c, const std::string& path) {
 
 /// The table of the k-th table of its list; null: it is none in time, or means nothing to the case.
 Table* table_in_time(Case& c, const CaseKey& key, std::size_t k) {
-  if (key.allowed.of_increments || !means_to(key, AnalysisKind::dynamic) || !counts(key, c, k) ||
+  if (key.allowed.of_increments || !means_to(key, c.analysis.kind) || !counts(key, c, k) ||
       counts_at_start_alone(c, path_of(key, k)))
     return nullptr;
   const CaseMember field = key.field(c, k);

@@ -133,9 +133,6 @@ void check_solid_size(CaseValues& in, const Case& c) {
 void check_body(CaseValues& in, const Case& c) {
   check_other_bodies(in);
   if (c.section) return;
-  if (c.free_rim)
-    in.refuse("disk.rim", fmt::format("{} is held by its rim", wheel),
-              "\"bonded\"; or no disk.width: free bodies are plane");
   check_width(in, c);
   check_crown(in, c);
   check_grooves(in, c);
@@ -143,67 +140,6 @@ void check_body(CaseValues& in, const Case& c) {
 }
 
 // What it does not go with ----------------------------------------------------------------------
-
-void check_analysis_kind(CaseValues& in, const Case& c) {
-  constexpr std::string_view key = "analysis.kind";
-  if (c.analysis.kind == AnalysisKind::crush)
-    in.refuse(
-        key, fmt::format("a crush is for plane bodies, not for {}", wheel),
-        "\"dynamic\" with motion.angular_velocity = 0 and a table of motion.height that comes "
-        "down slowly; or no disk.width");
-}
-
-void check_solid_material(CaseValues& in, const Case& c) {
-  if (has_rubber(c))
-    in.refuse(
-        "material.model", fmt::format("{} needs linear materials", wheel),
-        "\"linear\", with b-bar integration near poissons_ratio = 0.5; or no disk.width: rubber "
-        "at finite strain is plane");
-  if (c.material.plane == fem::Plane::stress)
-    in.refuse("material.plane",
-              fmt::format("{} is in neither plane strain nor plane stress", wheel),
-              "no such key: its sides are free, which a narrow one shows as plane stress does");
-  if (c.stress_stiffening != StressStiffening::none)
-    in.refuse("material.stress_stiffening",
-              fmt::format("stress stiffening is for plane bodies, not for {}", wheel), "\"none\"");
-}
-
-void check_solid_ground(CaseValues& in, const Case& c) {
-  if (!c.ground || !in.good({"ground", "ground.profile", "ground.fillet"})) return;
-  const bool sharp =
-      c.ground->shape.fillet == 0.0 && !contact::Ground(c.ground->shape).corners().empty();
-  if (sharp)
-    in.fault(
-        "ground.profile",
-        fmt::format(
-            "has sharp convex corners, which touch between nodes: {} has contact at its nodes only",
-            wheel),
-        "ground.fillet > 0, which rounds them: about the size of an element");
-}
-
-void check_solid_steps(CaseValues& in, const Case& c) {
-  if (c.time.scheme != Scheme::symplectic)
-    in.refuse("time.scheme", fmt::format("{} needs the scheme \"symplectic\"", wheel),
-              "\"symplectic\"; or no disk.width");
-  if (c.solver_operator == "sparse")
-    in.refuse("solver.operator",
-              fmt::format("the stiffness of {} is applied sector by sector", wheel),
-              "\"auto\" or \"cyclic\"");
-  if (c.contact_mass != ContactMass::lumped)
-    in.refuse("solver.contact_mass",
-              fmt::format("contact nodes without mass are for plane bodies, not for {}", wheel),
-              "\"lumped\"");
-  if (!c.implicit.empty())
-    in.refuse("solver.implicit[0]",
-              fmt::format("implicit elements are for plane bodies, not for {}", wheel),
-              "no [[solver.implicit]]; a smaller step, or elements of more even size");
-}
-
-void check_contact_of_bodies(CaseValues& in, const Case& c) {
-  if (c.body_contact.between != BodyContact::none)
-    in.refuse("contact.between", fmt::format("{} touches nothing but the ground", wheel),
-              "\"none\"; or no disk.width");
-}
 
 void check_start(CaseValues& in, const Case& c) {
   if (c.initial.state == InitialState::steady_rolling)
@@ -247,11 +183,6 @@ void check_solid(CaseValues& in, Case& c) {
     return check_plane(in);
   }
   check_body(in, c);
-  check_analysis_kind(in, c);
-  check_solid_material(in, c);
-  check_solid_ground(in, c);
-  check_solid_steps(in, c);
-  check_contact_of_bodies(in, c);
   check_start(in, c);
   check_solid_rim(in, c);
   check_probes(in, c);

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "rondo/core/contract.hpp"
+#include "rondo/model/steps/step_table.hpp"
 
 namespace rondo::dynamics {
 namespace {
@@ -45,8 +46,8 @@ BodiesIntegrator::BodiesIntegrator(const Model& model, const State& start,
       sums_(plan_.blocks.size()),
       poses_(start.poses),
       energy_(model.free_bodies.size()) {
-  RONDO_DEMAND(is_of_bodies(model) && poses_.size() == energy_.size(), poses_.size(),
-               energy_.size());
+  RONDO_DEMAND(can(StepKind::bodies, features_of(model)) && poses_.size() == energy_.size(),
+               poses_.size(), energy_.size());
   fields_ = {.start = plan_.matrix.start.data(),
              .blocks = plan_.matrix.blocks.data(),
              .column = plan_.matrix.column.data(),

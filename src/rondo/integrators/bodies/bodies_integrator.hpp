@@ -24,7 +24,8 @@ namespace rondo::dynamics {
 
 class BodiesIntegrator final : public Integrator, public Resumable {
  public:
-  /// @pre is_of_bodies(model); model.stiffness is there. @throws std::bad_alloc
+  /// @pre the table of steps (model/steps/step_table.hpp) says that it can do the model;
+  /// model.stiffness is there. @throws std::bad_alloc
   BodiesIntegrator(const Model& model, const State& start, const kernels::BodyTable& table);
 
   void advance(std::span<StepReport> reports, State* last = nullptr) noexcept override;

@@ -27,7 +27,7 @@ bool is_whole(const fs::path& directory, const Case& c, const Json& j) {
   const Columns history = io::read_columns(directory / "history.csv");
   const std::vector<double>& time = column(history, "time_s", directory / "history.csv");
   if (std::abs(time.back() - number("last_time")) > 1e-9 * time.back()) return false;
-  if (finds_modes(c) && text_in(j, "status") == "done")
+  if (type_of(c).finds_modes && text_in(j, "status") == "done")
     static_cast<void>(io::read_basis(pgd_basis_file(directory)));
   if (number("snapshots") == 0.0) return true;
   return static_cast<double>(io::RunReader(directory).n_snapshots()) == number("snapshots") &&

@@ -102,7 +102,7 @@ nlohmann::json read_member(const SweepStudy& study, const PlannedMember& member,
             {"hash", hash_of(write_case(kept_case(c)) + meshes.of(c))},  // wherever it is read from
             {"body", hash_of(body_key(c) + meshes.of(c))},
             {"is_linear", !has_rubber(c)},
-            {"finds_modes", study::finds_modes(c)},
+            {"finds_modes", type_of(c).finds_modes},
             {"memory_bytes", guessed_memory(c)}};
   } catch (const InputError& error) {
     return faults_of(error);

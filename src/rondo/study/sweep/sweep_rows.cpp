@@ -149,7 +149,7 @@ Json SweepRows::describe(std::string_view status) const {
   j["title"] = study_.title;
   describe_program(j);
   if (status == running) j["process"] = ::getpid();
-  j["analysis"] = plan_.type->name;
+  j["analysis"] = rules_of(plan_.type->kind).name;
   j["study"] = as_utf8(study_.file.filename().string());
   j["base"] = as_utf8(study_.base.filename().string());
   j["parameters"] = describe_parameters();

@@ -73,8 +73,7 @@ std::size_t crush_memory(const Case& c, const CrushSetup& s) {
 }
 
 CrushSetup build_crush(const Case& c) {
-  RONDO_DEMAND(c.analysis.kind == AnalysisKind::crush && c.ground.has_value(),
-               c.ground.has_value());
+  RONDO_DEMAND(c.analysis.increments > 0 && c.ground.has_value(), c.ground.has_value());
   CrushSetup s;
   s.path = CrushPath(c.analysis);
   s.mesh = build_mesh(c, &s.warnings);

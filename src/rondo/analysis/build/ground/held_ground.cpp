@@ -51,10 +51,9 @@ std::string swapped(const Case& c, const MeshCase& file) {
 [[noreturn]] void refuse(const Case& c, const mesh::Mesh& mesh, double depth,
                          const std::string& when) {
   const MeshCase* const file = mesh_file_of(c);
-  const std::string key = file && c.mesh                           ? "mesh.clamped"
-                          : file                                   ? "section.clamped"
-                          : c.analysis.kind == AnalysisKind::crush ? "analysis.depth"
-                                                                   : "motion.height";
+  const std::string key(file && c.mesh ? "mesh.clamped"
+                        : file         ? "section.clamped"
+                                       : rules_of(c.analysis.kind).height_key);
   std::string allowed = "a body whose held nodes stay above the ground";
   if (file && is_outside(mesh)) allowed += "; " + swapped(c, *file);
   throw case_error(c, key,

@@ -31,7 +31,7 @@ class StudyReader : public CaseValues {
     CaseValues::fault(path, std::move(message), std::move(allowed));
   }
   /// Of a text: it must not be empty.
-  void read(const std::string& path, const Field& field) {
+  void read(const std::string& path, const CaseMember& field) {
     CaseValues::read(Allowed{}, true, path, field);
   }
 

@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "rondo/analysis/elements/combinations.hpp"
+
+#include <fmt/format.h>
+
+#include "rondo/analysis/elements/corner_words.hpp"
+#include "rondo/case/features/case_features.hpp"
+
+namespace rondo::study {
+namespace {
+
+/// Why K is assembled, the case tells better.
+dynamics::Features features_of(const Case& c, const dynamics::Model& model) {
+  return study::features_of(c) |
+         (dynamics::features_of(model) & ~dynamics::Features{dynamics::has::assembled});
+}
+
+InputError refusal_of(const Case& c, const dynamics::Model& model, const dynamics::Limit& limit) {
+  std::string why(limit.why), instead = instead_of(c, limit);
+  std::string_view key = row_of(c, limit.at).key;
+  if (((limit.at | limit.with) & dynamics::has::sharp_corners) != 0) {
+    const CornerWords words = corner_words(c, model);
+    why += "; here are " + words.corners;
+    instead = words.instead;
+  }
+  return case_error(c, std::string(key), why, instead);
+}
+
+}  // namespace
+
+void refuse_combinations(const Case& c, const dynamics::Model& model, dynamics::Features more) {
+  const dynamics::Features all = features_of(c, model) | more;
+  for (const dynamics::Limit& limit : dynamics::step_limits())
+    if (limit.is_refusal() && limit.holds_for(all)) throw refusal_of(c, model, limit);
+}
+
+std::string told_step(const Case& c, const dynamics::Model& model) {
+  return dynamics::step_text(features_of(c, model));
+}
+
+}  // namespace rondo::study

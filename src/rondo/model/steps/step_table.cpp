@@ -1,0 +1,278 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "rondo/model/steps/step_table.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <utility>
+#include <vector>
+
+#include "rondo/core/contract.hpp"
+#include "rondo/model/model.hpp"
+
+namespace rondo::dynamics {
+namespace {
+
+constexpr std::array names{
+    FeatureName{has::three_dimensions, "wheel in three dimensions"},
+    FeatureName{has::three_dimensions | has::camber, "camber or slip angle"},
+    FeatureName{has::loaded_rim, "rim that forces move"},
+    FeatureName{has::free_bodies, "free bodies"},
+    FeatureName{has::body_contact, "contact between bodies"},
+    FeatureName{has::mesh_file, "plane mesh from a file"},
+    FeatureName{has::assembled, "assembled stiffness"},
+    FeatureName{has::pressure, "pressure"},
+    FeatureName{has::pressure | has::loaded_rim, "pressure on a rim that forces move"},
+    FeatureName{has::sharp_corners, "sharp corners of the ground"},
+    FeatureName{has::rubber, "rubber at finite strain"},
+    FeatureName{has::rubber | has::pressure | has::sharp_corners,
+                "pressure on rubber with sharp corners of the ground"},
+    FeatureName{has::own_material, "rubber in triangles, or a material of your own"},
+    FeatureName{has::implicit, "implicit elements"},
+    FeatureName{has::massless, "contact nodes without mass"},
+    FeatureName{has::restitution, "restitution"},
+    FeatureName{has::energy_safe, "energy-safe impacts"},
+    FeatureName{has::stiffness_damping, "stiffness damping"},
+    FeatureName{has::stress_stiffening, "stress stiffening"},
+    FeatureName{has::plane_stress, "plane stress"},
+    FeatureName{has::other_scheme, "scheme other than \"symplectic\""},
+    FeatureName{has::hati | has::other_scheme, "scheme \"hati\""},
+    FeatureName{has::reduced, "reduced model"},
+};
+
+constexpr std::array steps{
+    StepRow{StepKind::cyclic, "fused cyclic", 0},
+    StepRow{StepKind::sparse, "fused sparse", 0},
+    StepRow{StepKind::bodies, "fused bodies", 0},
+    StepRow{StepKind::wheel, "general on a loaded rim", has::loaded_rim},
+    StepRow{StepKind::general, "general", 0},
+    StepRow{StepKind::hati, "hati", has::hati | has::other_scheme},
+    StepRow{StepKind::solid_cyclic, "fused 3-D cyclic", has::three_dimensions},
+    StepRow{StepKind::solid, "general 3-D", has::three_dimensions},
+    StepRow{StepKind::solid_wheel, "general 3-D on a loaded rim",
+            has::three_dimensions | has::loaded_rim},
+    StepRow{StepKind::reduced, "reduced", has::reduced},
+};
+
+constexpr std::uint32_t bit(StepKind kind) {
+  return 1U << static_cast<unsigned>(kind);
+}
+constexpr std::uint32_t cyclic = bit(StepKind::cyclic), sparse = bit(StepKind::sparse),
+                        bodies = bit(StepKind::bodies), general = bit(StepKind::general),
+                        wheel = bit(StepKind::wheel), own_hati = bit(StepKind::hati),
+                        solid_held = bit(StepKind::solid_cyclic) | bit(StepKind::solid),
+                        fused = cyclic | sparse | bodies, plane = fused | general | wheel,
+                        any = ~0U;
+
+constexpr std::array limits{
+    // What only some steps do -------------------------------------------------------------------
+    Limit{has::three_dimensions, 0, plane | own_hati, "the step is for plane bodies"},
+    Limit{has::mesh_file, 0, cyclic, "a mesh from a file is not known to have equal sectors"},
+    Limit{has::assembled, 0, cyclic, "the stiffness is assembled, not that of one sector"},
+    Limit{has::loaded_rim, 0, bodies | general | solid_held,
+          "the rim of this step follows its tables"},
+    Limit{has::free_bodies, 0, cyclic | sparse,
+          "a free body does not stay in the co-rotating frame of its sectors"},
+    Limit{has::body_contact, 0, cyclic | sparse,
+          "there is a [contact] of bodies, which couples nodes that the step updates one by one"},
+    Limit{has::pressure, has::loaded_rim, cyclic | sparse,
+          "with a [rim] pressures act on the deformed edges, which needs the general step"},
+    Limit{has::rubber, 0, cyclic | bodies,
+          "the forces of rubber at finite strain are no product with a stiffness"},
+    Limit{has::rubber, has::pressure | has::sharp_corners, sparse,
+          "with sharp corners the step does not support pressures that follow the edges of rubber"},
+    Limit{has::own_material, 0, fused,
+          "the forces of the material are no product with a stiffness"},
+    Limit{has::implicit, 0, bodies, "the step has no implicit elements"},
+    Limit{has::massless, 0, bodies, "the step needs nodes with mass"},
+    Limit{has::hati, 0, plane, "the scheme \"hati\" has a step of its own"},
+    Limit{has::other_scheme, 0, fused, "a scheme other than \"symplectic\" needs the general step"},
+    Limit{has::reduced, 0, ~bit(StepKind::reduced), "a reduced model has a step of its own"},
+    // What no step does -------------------------------------------------------------------------
+    Limit{has::free_bodies, has::three_dimensions, any,
+          "a wheel in three dimensions is held by its rim"},
+    Limit{has::body_contact, has::three_dimensions, any,
+          "a wheel in three dimensions touches nothing but the ground"},
+    Limit{has::mesh_file, has::three_dimensions, any,
+          "a wheel in three dimensions is made from a [disk] with a width, or from a [section]"},
+    Limit{has::assembled, has::three_dimensions, any,
+          "the stiffness of a wheel in three dimensions is applied sector by sector"},
+    Limit{has::sharp_corners, has::three_dimensions, any,
+          "the ground has sharp convex corners, which touch between nodes: a wheel in three "
+          "dimensions "
+          "has contact at its nodes only"},
+    Limit{has::rubber, has::three_dimensions, any,
+          "a wheel in three dimensions needs linear materials, with b-bar integration near "
+          "poissons_ratio = 0.5"},
+    Limit{has::own_material, has::three_dimensions, any,
+          "a wheel in three dimensions needs linear materials"},
+    Limit{has::implicit, has::three_dimensions, any,
+          "implicit elements are for plane bodies, not for a wheel in three dimensions, which "
+          "needs a "
+          "smaller step, or elements of more even size"},
+    Limit{has::massless, has::three_dimensions, any,
+          "contact nodes without mass are for plane bodies, not for a wheel in three dimensions"},
+    Limit{has::stress_stiffening, has::three_dimensions, any,
+          "stress stiffening is for plane bodies, not for a wheel in three dimensions"},
+    Limit{has::plane_stress, has::three_dimensions, any,
+          "a wheel in three dimensions is in neither plane strain nor plane stress: its sides are "
+          "free, "
+          "so that a narrow wheel is close to plane stress"},
+    Limit{has::other_scheme, has::three_dimensions, any,
+          "a wheel in three dimensions needs the scheme \"symplectic\""},
+    Limit{has::free_bodies, has::loaded_rim, any,
+          "nothing holds the body: there is no rim that [rim] could move"},
+    Limit{has::massless, has::loaded_rim, any,
+          "there is a [rim], whose step needs contact nodes with mass"},
+    Limit{has::implicit, has::loaded_rim, any,
+          "implicit elements do not support a [rim], whose step needs the forces of an explicit "
+          "body"},
+    Limit{has::other_scheme, has::loaded_rim, any,
+          "the scheme does not support a rim that forces move"},
+    Limit{has::massless, has::free_bodies, any,
+          "nothing holds the body: contact nodes without mass need the turning frame of a rim"},
+    Limit{has::implicit, has::free_bodies, any,
+          "implicit elements do not support free bodies, because their stiffness turns with them"},
+    Limit{has::other_scheme, has::free_bodies, any,
+          "schemes other than \"symplectic\" do not support free bodies, which are not turned by a "
+          "rim"},
+    Limit{has::massless, has::body_contact, any,
+          "there is a [contact] of bodies, whose nodes have mass"},
+    Limit{has::body_contact, has::hati, any,
+          "the scheme \"hati\" supports contact with the ground only"},
+    Limit{has::pressure, has::hati, any, "the scheme \"hati\" supports no load except the ground"},
+    Limit{has::massless, has::sharp_corners, any,
+          "the ground has sharp convex corners, which touch between two nodes"},
+    Limit{has::massless, has::restitution, any,
+          "the contact law of nodes without mass is one of gaps, without restitution"},
+    Limit{has::massless, has::energy_safe, any,
+          "ground.impact = \"energy-safe\" is a law of velocities, and that of nodes without mass "
+          "is one "
+          "of gaps"},
+    Limit{has::massless, has::rubber, any,
+          "the positions of contact nodes without mass follow from the stiffness of small strain, "
+          "which rubber does not have"},
+    Limit{has::massless, has::other_scheme, any,
+          "contact nodes without mass need the scheme \"symplectic\""},
+    Limit{has::implicit, has::rubber, any,
+          "implicit elements need a body of linear elements only, and there is rubber"},
+    Limit{has::implicit, has::hati, any,
+          "in the scheme \"hati\" all elements that are not fine are implicit"},
+    Limit{has::implicit, has::other_scheme, any,
+          "implicit elements need the scheme \"symplectic\""},
+    Limit{has::plane_stress, has::rubber, any, "rubber is supported in plane strain only"},
+    Limit{has::stress_stiffening, has::rubber, any, "rubber at finite strain includes it"},
+    Limit{has::other_scheme, has::rubber, any, "rubber needs the scheme \"symplectic\""},
+    Limit{has::hati, has::own_material, any, "the scheme \"hati\" needs linear materials"},
+    // What a reduced model does not do ----------------------------------------------------------
+    Limit{has::three_dimensions, has::reduced, any,
+          "reduced models are for plane bodies, not for a wheel in three dimensions"},
+    Limit{has::free_bodies, has::reduced, any,
+          "a reduced run is for one constrained disk on the ground, without free bodies"},
+    Limit{has::body_contact, has::reduced, any,
+          "a reduced run is for one constrained disk on the ground, without contact of bodies"},
+    Limit{has::mesh_file, has::reduced, any,
+          "a reduced run needs equal sectors, which a mesh from a file is not known to have"},
+    Limit{has::pressure, has::reduced, any,
+          "a reduced run is for one constrained disk on the ground, without pressures"},
+    Limit{has::sharp_corners, has::reduced, any,
+          "a reduced run has contact at nodes only, not at sharp corners"},
+    Limit{has::rubber, has::reduced, any,
+          "a reduced run is computed at small strain, rubber at finite strain"},
+    Limit{has::own_material, has::reduced, any, "a reduced run needs linear materials"},
+    Limit{has::implicit, has::reduced, any, "a reduced run has modes instead of elements"},
+    Limit{has::massless, has::reduced, any, "a reduced run needs contact nodes with mass"},
+    Limit{has::other_scheme, has::reduced, any, "a reduced run has a scheme of its own"},
+};
+
+}  // namespace
+
+std::span<const FeatureName> feature_names() noexcept {
+  return names;
+}
+
+std::string_view name_of(Features of) noexcept {
+  const auto* const found =
+      std::ranges::find_if(names, [&](const FeatureName& name) { return (name.of & of) == of; });
+  return found == names.end() ? std::string_view{} : found->name;
+}
+
+std::span<const StepRow> step_rows() noexcept {
+  return steps;
+}
+
+const StepRow& row_of(StepKind kind) noexcept {
+  return steps[static_cast<std::size_t>(kind)];
+}
+
+std::span<const Limit> step_limits() noexcept {
+  return limits;
+}
+
+const Limit* why_not(StepKind kind, Features all) noexcept {
+  const auto* const found = std::ranges::find_if(
+      limits, [&](const Limit& limit) { return limit.excludes(kind) && limit.holds_for(all); });
+  return found == limits.end() ? nullptr : found;
+}
+
+bool can(StepKind kind, Features all) noexcept {
+  const Features needs = row_of(kind).needs;
+  return (all & needs) == needs && why_not(kind, all) == nullptr;
+}
+
+const StepRow* choose_step(Features all) noexcept {
+  const auto* const found =
+      std::ranges::find_if(steps, [&](const StepRow& step) { return can(step.kind, all); });
+  return found == steps.end() ? nullptr : found;
+}
+
+Features features_of(const Model& m) noexcept {
+  Features all = 0;
+  const auto add = [&](bool is_there, Features feature) {
+    if (is_there) all |= feature;
+  };
+  add(m.solid.has_value(), has::three_dimensions);
+  add(m.solid && (m.motion.camber != 0.0 || m.motion.slip_angle.largest() != 0.0), has::camber);
+  add(m.rim.has_value(), has::loaded_rim);
+  add(!m.free_bodies.empty(), has::free_bodies);
+  add(m.surfaces.has_value(), has::body_contact);
+  add(!m.solid && m.stiffness_operator == StiffnessOperator::sparse, has::assembled);
+  add(!m.pressures.empty() || (m.solid && !m.solid->pressures.empty()), has::pressure);
+  add(has_sharp_corners(m), has::sharp_corners);
+  add(m.rubber.has_value(), has::rubber);
+  add(m.internal_force && !m.rubber, has::own_material);
+  add(m.implicit.has_value(), has::implicit);
+  add(has_massless_contact(m), has::massless);
+  add(m.contact && m.contact->law.restitution > 0.0, has::restitution);
+  add(m.contact && m.contact->law.impact == contact::Impact::energy_safe, has::energy_safe);
+  add(m.stiffness_damping > 0.0, has::stiffness_damping);
+  add(m.scheme != Scheme::symplectic, has::other_scheme);
+  add(m.subdomains.has_value(), has::hati);
+  return all;
+}
+
+StepKind step_of(const Model& model) {
+  const StepRow* const step = choose_step(features_of(model));
+  RONDO_DEMAND(step != nullptr, features_of(model));
+  return step->kind;
+}
+
+std::string step_text(Features all) {
+  const StepRow* const chosen = choose_step(all);
+  RONDO_DEMAND(chosen != nullptr, all);
+  std::vector<std::pair<const Limit*, std::string>> reasons;  // and the steps that have them
+  for (const StepRow* step = steps.data(); step != chosen; ++step) {
+    const Limit* const why = why_not(step->kind, all);
+    if (why == nullptr || why->at == has::three_dimensions) continue;  // it is for other models
+    if (reasons.empty() || reasons.back().first != why) reasons.emplace_back(why, "not ");
+    std::string& not_by = reasons.back().second;
+    not_by += fmt::format("{}{}", not_by == "not " ? "" : ", ", step->name);
+  }
+  std::string text;
+  for (const auto& [why, not_by] : reasons)
+    text += fmt::format("{}{}: {}", text.empty() ? "" : "; ", not_by, name_of(why->at | why->with));
+  return text.empty() ? std::string(chosen->name) : fmt::format("{} ({})", chosen->name, text);
+}
+
+}  // namespace rondo::dynamics
