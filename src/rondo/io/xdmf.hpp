@@ -57,9 +57,11 @@ class Xdmf {
   Xdmf(const Xdmf&) = delete;
   Xdmf& operator=(const Xdmf&) = delete;
 
-  /// Adds the grid of the next row of the datasets, in a single write. @throws FileError
+  /// Adds the grid of the next row of the datasets. A file is replaced as a whole, so that it is
+  /// complete if the program is killed at any moment; in a long series this happens when a
+  /// sixteenth more grids were added, and at the end. @throws FileError
   void add(double time);
-  /// The datasets were cut to the grids added: written anew with that length, then closed.
+  /// The datasets were cut to the grids added: the file is written with that length.
   /// @throws FileError
   void close();
   [[nodiscard]] std::size_t size() const noexcept { return times_.size(); }
@@ -70,15 +72,14 @@ class Xdmf {
   void append_reference_geometry();
   void append_reference_grid();
   void append_array(std::size_t row, const XdmfField& field);
-  void put();
-  std::size_t write_whole();
+  const std::string& whole();
 
   std::filesystem::path path_;
   XdmfSeries series_;
   std::vector<double> times_;  ///< of the grids                                       [s]
   std::string text_;           ///< reused
-  std::size_t end_ = 0;        ///< of the grids in the file: the next one goes there
-  int descriptor_ = -1;
+  std::size_t listed_ = 0;     ///< number of grids in the file
+  bool closed_ = false;
 };
 
 }  // namespace rondo::io
