@@ -33,7 +33,7 @@ Xdmf::Xdmf(std::filesystem::path file, XdmfSeries series, std::vector<double> ti
   if (descriptor_ < 0) fail_on(path_, "open");
 }
 
-/// The file anew, at once. Returns where the next grid goes.
+/// Rewrites the file atomically. Returns the position of the next grid.
 std::size_t Xdmf::write_whole() {
   text_ = head;
   for (std::size_t row = 0; row < times_.size(); ++row) append_grid(row);
@@ -65,7 +65,7 @@ void Xdmf::append_reference_geometry() {
                  series_.data_file, series_.reference);
 }
 
-/// ParaView crashes on a collection of nothing. The first grid, which is longer, replaces this one.
+/// ParaView crashes on an empty collection. The first grid, which is longer, overwrites this one.
 void Xdmf::append_reference_grid() {
   text_ += "<Grid Name=\"reference\" GridType=\"Uniform\"><Time Value=\"0\"/>\n";
   append_topology();
@@ -73,11 +73,11 @@ void Xdmf::append_reference_grid() {
   text_ += "</Grid>\n";
 }
 
-/// Row `row` of a dataset (t, n) or (t, n, width), said twice, as ParaView's two families of
-/// readers cannot read each other's way. XDMF 3 takes the first text:
-/// dataset|start:stride:count:of. XDMF 2 takes the two items within, for the sake of Type; and it
-/// takes that first text for the name of the array: different at each time, it is never mistaken
-/// for what was read before.
+/// Row `row` of a dataset (t, n) or (t, n, width), described twice, because ParaView's two families
+/// of readers cannot read each other's form. XDMF 3 takes the first text:
+/// dataset|start:stride:count:of. XDMF 2 takes the two items inside, because of Type, and uses the
+/// first text as the name of the array; since it differs at each time, it is never mistaken for
+/// data read before.
 void Xdmf::append_array(std::size_t row, const XdmfField& f) {
   const bool deep = f.width > 1;
   const auto in_dataset = [&](const std::string& time, auto node, std::size_t number) {
@@ -119,7 +119,7 @@ void Xdmf::append_grid(std::size_t row) {
   text_ += "</Grid>\n";
 }
 
-/// Writes text_, a grid, and the closing tags over what follows the grids.
+/// Writes text_, a grid, and the closing tags at the end of the present grids.
 void Xdmf::put() {
   const std::size_t end = end_ + text_.size();
   text_ += tail;
