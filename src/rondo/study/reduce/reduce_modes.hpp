@@ -35,9 +35,9 @@ struct TouchedNodes {
   std::vector<double> weight;  ///< mass added to the node's own [kg/m]
 };
 
-/// The candidates at the angles in space at which one of the runs touched the ground, plus a third
-/// on either side; in the rotating frame all. Weights are proportional to their lengths; the sum is
-/// contact_weight times the mass of the body. Empty if nothing touched or the weight is 0.
+/// The candidates at the angles in space where one of the runs touched the ground, widened by a
+/// third of these on either side; in the rotating frame all. Weights are proportional to their
+/// lengths; their sum is contact_weight times the mass. Empty if nothing touched, or it is 0.
 [[nodiscard]] TouchedNodes touched_nodes(const Setup& setup, const std::vector<io::RunReader>& runs,
                                          const ReduceRequest& request);
 
