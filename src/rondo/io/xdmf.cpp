@@ -69,11 +69,11 @@ void Xdmf::append_reference_grid() {
   text_ += "</Grid>\n";
 }
 
-/// Row `row` of a dataset (t, n) or (t, n, width), said twice, as ParaView's two families of
-/// readers cannot read each other's way. XDMF 3 takes the first text:
-/// dataset|start:stride:count:of. XDMF 2 takes the two items within, for the sake of Type; and it
-/// takes that first text for the name of the array: different at each time, it is never mistaken
-/// for what was read before.
+/// Row `row` of a dataset (t, n) or (t, n, width), described twice, because ParaView's two families
+/// of readers cannot read each other's form. XDMF 3 takes the first text:
+/// dataset|start:stride:count:of. XDMF 2 takes the two items inside, because of Type, and uses the
+/// first text as the name of the array; since it differs at each time, it is never mistaken for
+/// data read before.
 void Xdmf::append_array(std::size_t row, const XdmfField& f) {
   const bool deep = f.width > 1;
   const auto in_dataset = [&](const std::string& time, auto node, std::size_t number) {
