@@ -16,7 +16,7 @@ set(RONDO_INCLUDED_HEADERS
     fem/element.hpp fem/nodal_dilatation.hpp fem/rubber.hpp
     fem/hyperelastic/numbers.hpp fem/hyperelastic/laws.hpp fem/hyperelastic/branch.hpp
     fem/hyperelastic/element.hpp fem/hyperelastic/stress.hpp modal/critical_speeds.hpp modal/modes.hpp
-    contact/box_tree.hpp contact/law.hpp contact/coupled/band.hpp contact/coupled/block.hpp contact/coupled/coupled.hpp
+    contact/box_tree.hpp contact/friction.hpp contact/law.hpp contact/coupled/band.hpp contact/coupled/block.hpp contact/coupled/coupled.hpp
     contact/coupled/problem_file.hpp
     model/contact_node.hpp model/ledger.hpp model/material_report.hpp model/motion.hpp model/rim_body.hpp
     model/saved_state.hpp model/scheme.hpp model/subdomains.hpp)

@@ -91,7 +91,7 @@ TEST(Impacts, ARollingDiskBrakesAsWithoutRestitution) {
   for (const StiffnessOperator of : test::both_operators) {
     SCOPED_TRACE(test::name(of));
     const Rolling none = rolling(2.5, 0.9, {0.3, 0.0}, of);
-    for (const Law law : {Law{0.3, 0.9}, Law{0.3, 0.9, Impact::energy_safe}}) {
+    for (const Law& law : {Law{0.3, 0.9}, Law{0.3, 0.9, Impact::energy_safe}}) {
       const Rolling found = rolling(2.5, 0.9, law, of);
       EXPECT_NEAR(found.force, none.force, 0.05 * std::abs(none.force));
       EXPECT_NEAR(found.energy, none.energy, 0.02 * none.energy);

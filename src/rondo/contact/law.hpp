@@ -3,6 +3,7 @@
 /// Contact frame: x is normal (> 0 separates), y is tangential (t = J n); r acts on the node.
 /// Method: Moreau, CMAME 177 (1999) 329; Fekak et al., Comput. Mech. 60 (2017) 1.
 #pragma once
+#include "rondo/contact/friction.hpp"
 #include "rondo/core/complex.hpp"
 
 namespace rondo::contact {
@@ -15,7 +16,7 @@ enum class Impact {
 };
 
 struct Law {
-  double friction = 0.0;     ///< μ >= 0 [-]
+  Friction friction;         ///< gives μ of each contact, where its problem is made
   double restitution = 0.0;  ///< e in [0, 1] [-]
   Impact impact = Impact::moreau;
 };
@@ -41,6 +42,7 @@ struct LocalSolution {
 
 /// 0 <= r_n ⊥ w_n + bounce >= 0; |r_t| <= μ r_n, r_t = -μ r_n w_t/|w_t| where w_t ≠ 0   (4.3)
 /// @pre Re W > μ |Im W|: one solution.   @post r_n >= 0, |r_t| <= μ r_n (to round-off).
+/// @param friction μ of this contact
 LocalSolution solve_local(const LocalProblem& problem, double friction) noexcept;
 
 }  // namespace rondo::contact

@@ -10,10 +10,11 @@ namespace rondo::contact {
 
 /// Unknowns are two impulses, each in its own contact frame.
 struct PairProblem {
-  std::array<Vec2, 2> free;        ///< relative velocities without impulses              [m/s]
-  std::array<double, 2> bounce{};  ///< as in LocalProblem                                [m/s]
-  Complex delassus;                ///< W of the node, the same in both frames            [m/kg]
-  Complex turn;                    ///< conj(n_0) n_1: takes frame 1 to frame 0; not ±1
+  std::array<Vec2, 2> free;          ///< relative velocities without impulses              [m/s]
+  std::array<double, 2> bounce{};    ///< as in LocalProblem                                [m/s]
+  Complex delassus;                  ///< W of the node, the same in both frames            [m/kg]
+  Complex turn;                      ///< conj(n_0) n_1: takes frame 1 to frame 0; not ±1
+  std::array<double, 2> friction{};  ///< μ >= 0 of each contact                              [-]
 };
 
 struct PairSolution {
@@ -30,7 +31,7 @@ std::array<Vec2, 2> pair_velocities(const PairProblem& problem,
 /// velocities are known, so the whole velocity is, and with it the total impulse, which is then
 /// shared out. The first case that the law's residual accepts is taken; else the one with the
 /// smallest residual.
-[[nodiscard]] PairSolution solve_pair(const PairProblem& problem, double friction,
+[[nodiscard]] PairSolution solve_pair(const PairProblem& problem,
                                       double tolerance = 1e-12) noexcept;
 
 }  // namespace rondo::contact

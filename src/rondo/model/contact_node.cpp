@@ -2,6 +2,7 @@
 #include "rondo/model/contact_node.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 #include "rondo/contact/pair.hpp"
 #include "rondo/contact/residual.hpp"
@@ -12,12 +13,12 @@ namespace {
 
 using contact::Status;
 
-void solve(const ContactStep& s, Complex delassus, std::span<ActiveContact> contacts,
-           ContactReport& report) noexcept {
+const contact::Law no_law;
+
+void solve(Complex delassus, std::span<ActiveContact> contacts, ContactReport& report) noexcept {
   if (contacts.size() == 1) {
     ActiveContact& a = contacts[0];
-    const auto solution =
-        contact::solve_local({a.free.plane(), delassus, a.bounce}, s.law.friction);
+    const auto solution = contact::solve_local({a.free.plane(), delassus, a.bounce}, a.friction);
     a.impulse = solution.impulse;
     a.status = solution.status;
     return;
@@ -26,8 +27,8 @@ void solve(const ContactStep& s, Complex delassus, std::span<ActiveContact> cont
   const auto solution = contact::solve_pair({{a.free.plane(), b.free.plane()},
                                              {a.bounce, b.bounce},
                                              delassus,
-                                             rotation_between(a.normal, b.normal)},
-                                            s.law.friction);
+                                             rotation_between(a.normal, b.normal),
+                                             {a.friction, b.friction}});
   for (std::size_t i = 0; i < 2; ++i) {
     contacts[i].impulse = solution.contact[i].impulse;
     contacts[i].status = solution.contact[i].status;
@@ -66,8 +67,8 @@ void report_node(const ContactStep& s, const ContactNode& node,
   const Vec2 arm = s.rotation * node.arm;
   bool pressed = false, sticks = true;
   for (const ActiveContact& c : contacts) {
-    const double residual = contact::law_residual(c.impulse.plane(), c.after.plane(), c.bounce,
-                                                  s.law.friction, node.mass);
+    const double residual =
+        contact::law_residual(c.impulse.plane(), c.after.plane(), c.bounce, c.friction, node.mass);
     report.residual = keep_larger(report.residual, residual / node.mass);
     report.penetration = std::max(report.penetration, -c.gap);
     report.free_velocity = std::max(report.free_velocity, norm(c.free.plane()));
@@ -127,7 +128,7 @@ ContactStep::ContactStep(const Model& model, const FrameStep& f,
       center_rate_before(f.advance_before.plane() / model.dt),
       a(update.a),
       dt(model.dt),
-      law(model.contact ? model.contact->law : contact::Law{}) {}
+      law(model.contact ? &model.contact->law : &no_law) {}
 
 namespace {
 
@@ -156,6 +157,7 @@ Vec2 solve_contacts(const ContactStep& s, const ContactNode& node, const contact
                     std::span<ActiveContact> contacts, ContactReport& report) noexcept {
   const Vec2 drive = drive_of(s, node.arm);
   const Vec2 before = velocity_before(s, node.arm, node.before);
+  const Vec2 place = s.center + s.rotation * node.arm;
   for (std::size_t i = 0; i < contacts.size(); ++i) {
     ActiveContact& c = contacts[i];
     c.candidate = node.candidate;
@@ -163,9 +165,10 @@ Vec2 solve_contacts(const ContactStep& s, const ContactNode& node, const contact
     c.gap = touches.at[i].gap;
     c.before = to_frame(c.normal, before);
     c.free = to_frame(c.normal, drive + s.rotation_next * node.free);
-    c.bounce = contact::restitution_shift(s.law, c.before.x, c.before.x);
+    c.bounce = contact::restitution_shift(*s.law, c.before.x, c.before.x);
+    c.friction = s.law->friction.coefficient({place, std::abs(c.before.y), node.pressure[i]});
   }
-  solve(s, s.turn / (node.mass * s.a), contacts, report);
+  solve(s.turn / (node.mass * s.a), contacts, report);
   const Vec2 after = corrected_velocity(s, node, drive, contacts);
   report_contacts(s, node, after, contacts, report);
   return after;

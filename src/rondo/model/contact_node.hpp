@@ -3,6 +3,7 @@
 /// impulse, and the velocity corrected by it (docs/theory.md, section 4). Every integrator solves
 /// its contacts with these functions.
 #pragma once
+#include <array>
 #include <span>
 
 #include "rondo/model/ledger.hpp"
@@ -83,7 +84,7 @@ struct ContactStep {
   Vec2 center_rate_before;  ///< (c_{n+1} - c_n)/Δt                                    [m/s]
   Complex a;                ///< factor of the velocity update (3.5)
   double dt;                ///< [s]
-  contact::Law law;
+  const contact::Law* law;  ///< of the ground; outlives the step
 };
 
 /// A candidate at t_{n+1}; vectors are in the rotating frame.
@@ -94,6 +95,9 @@ struct ContactNode {
   Vec2 arm;                   ///< X + u_{n+1}                                        [m]
   Vec2 before;                ///< v_{n+1/2}                                          [m/s]
   Vec2 free;                  ///< v_{n+3/2} without contact impulse                  [m/s]
+  /// r_n/(Δt ℓ) of each of its contacts in the step before, which a friction law that is no
+  /// constant may need                                                               [Pa]
+  std::array<double, 2> pressure{};
 };
 
 /// Velocity of the next step without v⁺: b of (4.2), fixed frame [m/s]. @param arm X + u_{n+1} [m]

@@ -172,6 +172,7 @@ struct ActiveContact {
   Vec3 after;                 ///< w⁺: relative velocity of the next step        [m/s]
   Vec3 impulse;               ///< r of the ground on the node           [N·s/m], [N·s]
   double bounce = 0.0;        ///< ε of the law (4.3)                           [m/s]
+  double friction = 0.0;      ///< μ of the law                                  [-]
   contact::Status status = contact::Status::open;
   bool on_ground = true;  ///< false: against a segment of a body
 };
@@ -219,6 +220,12 @@ inline bool has_candidates(const Model& model) noexcept {
 /// Whether the candidates of the ground are massless (docs/theory.md, 3.10).
 inline bool has_massless_contact(const Model& model) noexcept {
   return !model.lumped_mass.empty();
+}
+
+/// The coefficient of friction of some contacts is no constant.
+[[nodiscard]] inline bool has_friction_law(const Model& model) noexcept {
+  return (model.contact && !model.contact->law.friction.is_constant()) ||
+         (model.surfaces && !model.surfaces->law.friction.is_constant());
 }
 
 /// Free nodes that have mass, ascending.

@@ -160,7 +160,7 @@ void ContactSolver::make_problem(const FreeStep& step, const contact::Law& law,
   p.free.resize(n);
   p.bounce.resize(n);
   p.mass.resize(n);
-  p.friction.assign(n, law.friction);
+  p.friction.assign(n, law.friction.constant());
   p.row_start.resize(n + 1);
   p.column.resize(n * n);
   p.blocks.resize(n * n);

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 #include "rondo/core/contract.hpp"
 #include "rondo/core/keep_larger.hpp"
@@ -33,7 +34,7 @@ CondensedProblem make_problem(const CrushModel& model, const Trial& trial, const
                               const CrushState& state) {
   const auto& set = body.set();
   CondensedProblem p{body.compliance(), Eigen::VectorXd(static_cast<Index>(2 * set.size())),
-                     model.friction};
+                     model.friction.constant()};
   for (std::size_t j = 0; j < set.size(); ++j) {
     p.free[static_cast<Index>(2 * j)] = model.clearance[set[j]] - trial.depth;
     p.free[static_cast<Index>(2 * j + 1)] =
@@ -140,10 +141,10 @@ void add_works(const CrushModel& model, const CrushState& before, CrushState& af
 }
 
 CrushModel make_crush_model(std::span<const Vec2> reference, std::span<const int> nodes,
-                            double friction) {
+                            contact::Friction friction) {
   CrushModel model;
   model.nodes.assign(nodes.begin(), nodes.end());
-  model.friction = friction;
+  model.friction = std::move(friction);
   double lowest = std::numeric_limits<double>::infinity();
   for (const int node : nodes)
     lowest = std::min(lowest, reference[static_cast<std::size_t>(node)].y);

@@ -23,7 +23,7 @@ namespace rondo::statics {
 struct CrushModel {
   std::vector<int> nodes;         ///< (nb) candidates
   std::vector<double> clearance;  ///< (nb) gap of the undeformed body at first touch, >= 0  [m]
-  double friction = 0.0;          ///< μ >= 0                                                [-]
+  contact::Friction friction;     ///< a constant: pivoting takes one μ for all candidates
   CondensedLimits limits;
   double bound = 1e-10;  ///< of the final residual, computed from the whole field          [-]
 };
@@ -31,7 +31,7 @@ struct CrushModel {
 /// Clearances over ground that touches the lowest candidate.
 /// @param reference (n) [m], nodes (nb) candidates, not empty
 CrushModel make_crush_model(std::span<const Vec2> reference, std::span<const int> nodes,
-                            double friction);
+                            contact::Friction friction);
 
 /// Works since first touch, (6.4e).                                                      [J/m]
 struct CrushWorks {

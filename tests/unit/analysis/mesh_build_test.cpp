@@ -51,11 +51,11 @@ TEST(BuildMesh, ContactsAndPressuresGoIntoTheModel) {
                                   "solver={contact_iterations = 3, dump_contacts = 2}"}),
                        1);
   ASSERT_TRUE(s.model.contact);
-  EXPECT_EQ(s.model.contact->law.friction, 0.25);
+  EXPECT_EQ(s.model.contact->law.friction.constant(), 0.25);
   EXPECT_EQ(s.model.contact->nodes, s.mesh.boundary);
   ASSERT_TRUE(s.model.surfaces);
   EXPECT_TRUE(s.model.surfaces->self);
-  EXPECT_EQ(s.model.surfaces->law.friction, 0.5);
+  EXPECT_EQ(s.model.surfaces->law.friction.constant(), 0.5);
   EXPECT_EQ(s.model.surfaces->nodes, s.mesh.boundary);
   EXPECT_EQ(s.model.surfaces->edges.size(), 16U);
   ASSERT_EQ(s.model.pressures.size(), 1U);

@@ -33,7 +33,7 @@ void expect_same(const Setup& a, const Setup& b) {
   EXPECT_EQ(a.model.motion.height.points(), b.model.motion.height.points());
   ASSERT_EQ(a.model.contact.has_value(), b.model.contact.has_value());
   if (!a.model.contact) return;
-  EXPECT_EQ(a.model.contact->law.friction, b.model.contact->law.friction);
+  EXPECT_EQ(a.model.contact->law.friction.constant(), b.model.contact->law.friction.constant());
   EXPECT_EQ(a.model.contact->law.restitution, b.model.contact->law.restitution);
   EXPECT_EQ(a.model.contact->law.impact, b.model.contact->law.impact);
 }

@@ -144,7 +144,8 @@ TEST(Cone, TwoFacetsInThePlaneAreThoseOfThePlane) {
     const Complex w = rotation(0.02 * one(random)), turn = rotation(0.3 + 0.2 * one(random));
     const Vec2 free{-0.5 + 0.4 * one(random), 0.3 * one(random)};
     const double friction = 0.5 + 0.4 * one(random);
-    const PairSolution plane = solve_pair({{free, conj(turn) * free}, {}, w, turn}, friction);
+    const PairSolution plane =
+        solve_pair({{free, conj(turn) * free}, {}, w, turn, {friction, friction}});
     const SpatialPairSolution s = solve_spatial_pair(
         {{free, 0.0}, {Vec3{w.re, -w.im, 0}, Vec3{w.im, w.re, 0}, Vec3{0, 0, 1}}, {}, turn},
         friction);

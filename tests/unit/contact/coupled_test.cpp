@@ -127,8 +127,8 @@ TEST(Coupled, TwoFacetsAreSolvePair) {
       const CoupledProblem p = problem_of(scene);
       const Solved s = solved(p);
       const PairProblem pair{
-          {p.free[0], p.free[1]}, {}, scene.response[0], rotation_between(n0, n1)};
-      const PairSolution expected = solve_pair(pair, mu);
+          {p.free[0], p.free[1]}, {}, scene.response[0], rotation_between(n0, n1), {mu, mu}};
+      const PairSolution expected = solve_pair(pair);
       ASSERT_TRUE(expected.converged && s.result.converged) << turn << " " << i;
       const auto w =
           pair_velocities(pair, {expected.contact[0].impulse, expected.contact[1].impulse});
@@ -298,8 +298,9 @@ TEST(Coupled, AProblemWithoutASolutionIsReported) {
   scene.add(ground_rows(node, direction_at(0.4)), 0.9, -0.4);
   scene.add(ground_rows(node, direction_at(2.9)), 0.9, 0.0);
   const CoupledProblem p = problem_of(scene);
-  const PairProblem pair{{p.free[0], p.free[1]}, {-0.4, 0.0}, {1.0, 0.0}, rotation(2.5)};
-  const bool solvable = solve_pair(pair, 0.9).converged;
+  const PairProblem pair{
+      {p.free[0], p.free[1]}, {-0.4, 0.0}, {1.0, 0.0}, rotation(2.5), {0.9, 0.9}};
+  const bool solvable = solve_pair(pair).converged;
   ASSERT_TRUE(test::enumerate(p, 1e-9).empty() && !solvable);
   std::vector<Vec2> r(2);
   std::vector<Status> status(2);

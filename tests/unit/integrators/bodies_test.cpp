@@ -230,6 +230,17 @@ TEST(Bodies, BlocksThatCollideAsTheReadableStepHasThem) {
   EXPECT_GT(seen.clusters, 0);
 }
 
+TEST(Bodies, FrictionThatIsNoConstantAsTheReadableStepHasIt) {
+  Bodies b = falling_blocks();
+  const auto law = [](const contact::SlidingState& s) {
+    return 0.3 + 0.05 * std::sin(9.0 * s.place.x) + 0.02 * s.slip + 1e-8 * s.pressure;
+  };
+  b.model.contact->law.friction = b.model.surfaces->law.friction = contact::Friction(law);
+  const Seen seen = expect_the_same(b, 400, 1e-12);
+  EXPECT_GT(seen.between, 10);
+  EXPECT_GT(seen.clusters, 0);
+}
+
 TEST(Bodies, PressuresAndCornersAsTheReadableStepHasThem) {
   const Seen seen = expect_the_same(blown_up(), 100, 1e-12);
   EXPECT_GT(seen.nodes, 0);

@@ -153,7 +153,7 @@ TEST(GeneralStep, ANodeThatLeavesAndIsPulledBackIsNotStopped) {
 /// Two facets at once, the foot of a wall: the bounce is that of both, with friction it stays.
 TEST(GeneralStep, AConcaveCornerStopsByBothFacets) {
   const contact::GroundShape foot{.profile = {{-9, 0}, {0, 0}, {0, 1}, {9, 1}}, .fillet = 0.1};
-  for (const contact::Law law : {contact::Law{0.0, 0.5}, contact::Law{0.3, 0.0}}) {
+  for (const contact::Law& law : {contact::Law{0.0, 0.5}, contact::Law{0.3, 0.0}}) {
     Model model = particle({}, {-0.199, 0.0995}, 1e-3);
     model.contact.emplace(ContactModel{contact::Ground(foot), law, {0}, {1.0}});
     const std::vector<Vec2> zero(1), v0{{2.0, -1.0}};

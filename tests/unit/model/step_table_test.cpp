@@ -11,7 +11,7 @@
 namespace rondo::dynamics::step_table_test {
 namespace {
 
-constexpr Features last = has::reduced;
+constexpr Features last = has::friction_law;
 
 bool is_refused(Features all) {
   return std::ranges::any_of(step_limits(), [&](const Limit& limit) {

@@ -194,7 +194,7 @@ TEST(ReducedIntegrator, ObeysTheLawInTheMotionItMakes) {
     ReducedIntegrator reduced = r.start(rondo::test::start_at_rest(r.full.model));
     const rom::ReducedModel& m = r.model;
     const dynamics::Motion& motion = r.full.model.motion;
-    const double dt = r.full.model.dt, friction = r.full.model.contact->law.friction;
+    const double dt = r.full.model.dt, friction = r.full.model.contact->law.friction.constant();
     int pressed = 0, slipping = 0;
     for (int k = 0; k < 300; ++k) {
       const double t = k * dt, end = (k + 1) * dt, spin = motion.turn(t, dt) / dt;
@@ -251,7 +251,7 @@ TEST(ReducedIntegrator, ObeysTheLawAtTheNodesThatComeBy) {
     r.full.model.contact->law.restitution = 0.0;
     ReducedIntegrator reduced = r.start(rondo::test::start_at_rest(r.full.model));
     const dynamics::Motion& motion = r.full.model.motion;
-    const double dt = r.full.model.dt, friction = r.full.model.contact->law.friction;
+    const double dt = r.full.model.dt, friction = r.full.model.contact->law.friction.constant();
     dynamics::State before(r.full.model), after(r.full.model), found(r.full.model);
     reduced.fields(before);
     int pressed = 0, slipping = 0;

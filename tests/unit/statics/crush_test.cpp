@@ -85,7 +85,7 @@ TEST(Condensation, ComplianceIsThatOfTheDenseInverse) {
 std::vector<Vec2> fixed_point(const Pressed& p, double depth) {
   const Eigen::LLT<Eigen::MatrixXd> k(Eigen::MatrixXd(fem::free_matrix(p.k, p.free)));
   const std::size_t nb = p.model.nodes.size();
-  const double friction = p.model.friction;
+  const double friction = p.model.friction.constant();
   std::vector<std::ptrdiff_t> place;
   for (const int node : p.model.nodes)
     place.push_back(std::find(p.free.begin(), p.free.end(), node) - p.free.begin());

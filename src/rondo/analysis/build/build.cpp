@@ -7,6 +7,7 @@
 #include <cmath>
 #include <limits>
 
+#include "rondo/analysis/build/ground/contact_law.hpp"
 #include "rondo/analysis/build/ground/held_ground.hpp"
 #include "rondo/analysis/build/initial_state.hpp"
 #include "rondo/analysis/build/memory.hpp"
@@ -29,12 +30,6 @@
 namespace rondo::study {
 
 namespace {
-
-/// @param of GroundCase or BodyContactCase
-template <class Contact>
-contact::Law law_of(const Contact& of) {
-  return {of.friction, of.restitution, of.impact};
-}
 
 /// What the candidates may touch: the ground, and bodies.
 void add_contacts(const Case& c, const mesh::Mesh& mesh, dynamics::Model& model) {

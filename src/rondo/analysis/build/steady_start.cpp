@@ -131,7 +131,7 @@ void set_steady_rolling(const Case& c, Setup& s) {
   statics::RollingDrive drive;
   drive.height = m.motion.height.at(0.0) - floor;
   drive.speed = m.motion.speed.at(0.0);
-  drive.friction = c.ground->friction;
+  drive.friction = m.contact->law.friction.constant();
   const statics::RollingSolution found = solve_rolling(window, drive);
   refuse(c, found, drive.height);
   const Eigen::MatrixXcd spectrum = spectrum_of(window, found);

@@ -71,7 +71,8 @@ statics::CrushEquilibrium LatinOutcome::equilibrium(int k) const {
     const double normal = histories_.lawful(n, column),
                  shear = std::abs(histories_.lawful(n + 1, column));
     if (normal > 0.0)
-      e.status[place] = shear < setup_.model.friction * normal ? Status::stick : Status::slip;
+      e.status[place] =
+          shear < setup_.model.friction.constant() * normal ? Status::stick : Status::slip;
   }
   return e;
 }

@@ -98,7 +98,7 @@ void LatinSolver::set_problem() {
   const auto& set = body_->set();
   const int n = setup_.path.n_increments();
   problem_ = {body_->compliance(), MatrixXd(static_cast<Index>(2 * set.size()), n),
-              setup_.model.friction};
+              setup_.model.friction.constant()};
   for (int k = 0; k < n; ++k)
     for (std::size_t j = 0; j < set.size(); ++j)
       problem_.free.col(k).segment<2>(static_cast<Index>(2 * j))

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <limits>
 
+#include "rondo/analysis/build/ground/contact_law.hpp"
 #include "rondo/fem/solid/solid_sector.hpp"
 #include "rondo/mesh/deformed_boundary.hpp"
 
@@ -23,7 +24,7 @@ statics::RollingDrive drive_of(const Case& c, double radius) {
   d.speed = c.motion.speed.at(0.0);
   if (a.traction || a.torque) d.speed = c.motion.angular_velocity.at(0.0) * radius;
   d.slip_angle = c.motion.slip_angle.at(0.0);
-  d.friction = c.ground->friction;
+  d.friction = law_of(*c.ground).friction.constant();
   d.load = a.load;
   d.traction = a.traction;
   d.torque = a.torque;

@@ -48,6 +48,7 @@ BatchIntegrator::BatchIntegrator(const Model& model, const State& start, std::si
       pressures_(steps_.size() * n_pressures_),
       parts_(steps_.size() * n_parts_),
       rubber_energy_(steps_.size()) {
+  RONDO_DEMAND(!has_friction_law(model));
   if (has_sharp_corners(model)) corners_.emplace(model);
   if (!model.rim) return;
   rim_.emplace(model);

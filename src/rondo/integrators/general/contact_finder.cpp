@@ -170,11 +170,12 @@ void ContactFinder::find_on_ground(std::size_t i, std::vector<ContactRow>& rows)
     ContactRow row;
     row.kind = ContactKind::facet;
     row.rows = contact::ground_rows(contact.nodes[i], touch.normal);
+    row.point = positions_[at(contact.nodes[i])];
     row.key = key_of(row.kind, i, at(t));
     row.normal = touch.normal;
     row.gap = touch.gap;
     row.tributary = contact.tributary[i];
-    row.law = contact.law;
+    row.law = &contact.law;
     rows.push_back(row);
   }
 }
@@ -257,7 +258,7 @@ void ContactFinder::find_corner(std::size_t c, std::span<const int> edges,
     row.key = key_of(row.kind, c, at(found.edge));
     row.normal = found.touch.normal;
     row.gap = found.touch.gap;
-    row.law = model_.contact->law;
+    row.law = &model_.contact->law;
     rows.push_back(row);
   }
 }
@@ -308,7 +309,7 @@ void ContactFinder::find_touches(std::size_t i, std::span<const int> near,
     row.normal = found.touch.normal;
     row.gap = found.touch.gap;
     row.tributary = 0.5 * s.tributary[i];  // the other side counts its own half
-    row.law = s.law;
+    row.law = &s.law;
     rows.push_back(row);
   }
 }

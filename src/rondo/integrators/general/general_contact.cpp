@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 
 #include "rondo/contact/residual.hpp"
 #include "rondo/core/index.hpp"
@@ -131,7 +132,7 @@ void GeneralContact::set_velocities(const BodyFrames& frames, const State& state
       return velocity_after(step, arm_of(model_, state, k), state.v_next.plane()[k]);
     });
     row.turning = row.kind == ContactKind::facet ? 0.0 : turning_of(frames, row, state);
-    row.bounce = contact::restitution_shift(row.law, row.before.x, row.before.x - row.turning);
+    row.bounce = contact::restitution_shift(*row.law, row.before.x, row.before.x - row.turning);
     row.impulse = {};
     row.status = Status::open;
   }
@@ -197,12 +198,15 @@ void GeneralContact::solve_on_ground(const BodyFrames& frames, Rows rows, State&
     touches.at[at(touches.count++)] = {rows_[at(j)].gap, rows_[at(j)].normal};
   std::array<ActiveContact, 2> contacts;
   const std::span active(contacts.data(), rows.size());
-  const ContactNode node{i,
-                         model_.mass[k],
-                         model_.contact->tributary[i],
-                         arm_of(model_, state, k),
-                         state.v.plane()[k],
-                         state.v_next.plane()[k]};
+  ContactNode node{i,
+                   model_.mass[k],
+                   model_.contact->tributary[i],
+                   arm_of(model_, state, k),
+                   state.v.plane()[k],
+                   state.v_next.plane()[k],
+                   {}};
+  for (std::size_t j = 0; j < rows.size(); ++j)
+    node.pressure[j] = pressure_before(rows_[at(rows[j])]);
   const ContactStep& step = frames.of(model_, k).contact;
   const Vec3 before = report.impulse;
   state.v_next.plane()[k] = solve_contacts(step, node, touches, active, report);
@@ -220,11 +224,13 @@ void GeneralContact::make_problem(Rows rows) {
   problem_.friction.clear();
   impulse_.clear();
   for (const int j : rows) {
-    const ContactRow& row = rows_[at(j)];
+    ContactRow& row = rows_[at(j)];
+    row.friction =
+        row.law->friction.coefficient({row.point, std::abs(row.before.y), pressure_before(row)});
     cluster_rows_.push_back(row.rows);
     problem_.free.push_back(row.free + Vec2{row.turning, 0.0});
     problem_.bounce.push_back(row.bounce);
-    problem_.friction.push_back(row.law.friction);
+    problem_.friction.push_back(row.friction);
     impulse_.push_back(warm_start(row.key));
   }
   start_ = impulse_;
@@ -298,7 +304,7 @@ void GeneralContact::finish_row(const BodyFrames& frames, ContactRow& row, doubl
   report.loss_impact -= row.impulse.x * mean.x;
   report.work_rim += work - dot(row.impulse, mean);
   const double residual = contact::law_residual(row.impulse, row.after + Vec2{row.turning, 0.0},
-                                                row.bounce, row.law.friction, mass) /
+                                                row.bounce, row.friction, mass) /
                           mass;
   report.residual = keep_larger(report.residual, residual);
   report.penetration = std::max(report.penetration, -row.gap);
@@ -337,11 +343,18 @@ void GeneralContact::add_active(const ContactRow& row, State& state) const {
     a.free = row.free;
     a.after = row.after;
     a.bounce = row.bounce;
+    a.friction = row.friction;
     a.impulse = to_frame(a.normal, contact::transposed(row.rows.block[at(i)], row.impulse));
     a.status = row.status;
     a.on_ground = row.kind != ContactKind::segment;
     state.active.push_back(a);
   }
+}
+
+/// r_n/(Δt ℓ) of the step before, for a law that may need it                               [Pa]
+double GeneralContact::pressure_before(const ContactRow& row) const {
+  if (row.law->friction.is_constant() || row.tributary == 0.0) return 0.0;
+  return warm_start(row.key).x / (model_.dt * row.tributary);
 }
 
 Vec2 GeneralContact::warm_start(std::uint64_t key) const {

@@ -64,6 +64,7 @@ class GeneralContact {
                   ContactReport& report);
   void report_on_ground(const ContactRow& row, ContactReport& report) const;
   void add_active(const ContactRow& row, State& state) const;
+  [[nodiscard]] double pressure_before(const ContactRow& row) const;
   [[nodiscard]] Vec2 warm_start(std::uint64_t key) const;
   void keep_impulses();
   void sort_by_candidate(std::vector<ActiveContact>& active);

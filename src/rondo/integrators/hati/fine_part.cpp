@@ -14,7 +14,8 @@ namespace {
 /// A as a body of its own, with the general step.
 Model model_of(const Model& whole) {
   RONDO_DEMAND(whole.subdomains && whole.scheme == Scheme::hati && !whole.rim &&
-               whole.free_bodies.empty() && !whole.surfaces && whole.pressures.empty());
+               whole.free_bodies.empty() && !whole.surfaces && whole.pressures.empty() &&
+               !has_friction_law(whole));
   const Subdomains& parts = *whole.subdomains;
   Model m;
   m.reference = whole.reference;

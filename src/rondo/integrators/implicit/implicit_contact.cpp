@@ -85,9 +85,10 @@ bool ImplicitContact::find(const ContactStep& step, const PlaneField& u, const P
       a.normal = touch.normal;
       a.gap = touch.gap;
       a.before = to_frame(a.normal, velocity_before(step, arm, turn * before.at(place)));
-      a.bounce = contact::restitution_shift(step.law, a.before.x, a.before.x);
-      active_.push_back(a);
+      a.bounce = contact::restitution_shift(*step.law, a.before.x, a.before.x);
       rows_.push_back({c, key_bit | (2 * k + static_cast<std::uint64_t>(t)), arm});
+      a.friction = friction_of(step, a, rows_.back());
+      active_.push_back(a);
     }
   }
   if (rows_.empty()) {
@@ -102,13 +103,13 @@ bool ImplicitContact::find(const ContactStep& step, const PlaneField& u, const P
 void ImplicitContact::build_problem(const ContactStep& step) {
   const std::size_t n = rows_.size();
   problem_.free.resize(n);
-  problem_.friction.assign(n, step.law.friction);
   problem_.row_start.assign(1, 0);
-  for (auto* numbers : {&problem_.bounce, &problem_.mass}) numbers->clear();
+  for (auto* numbers : {&problem_.bounce, &problem_.friction, &problem_.mass}) numbers->clear();
   problem_.column.clear();
   problem_.blocks.clear();
   for (std::size_t j = 0; j < n; ++j) {
     problem_.bounce.push_back(active_[j].bounce);
+    problem_.friction.push_back(active_[j].friction);
     const Complex to = conj(frame_of(active_[j].normal)) * step.rotation_next;
     for (std::size_t l = 0; l < n; ++l) {
       const Complex from = conj(frame_of(active_[l].normal)) * step.rotation;
@@ -122,6 +123,15 @@ void ImplicitContact::build_problem(const ContactStep& step) {
   for (const Row& row : rows_) impulse_.push_back(warm_start(row.key));
   start_ = impulse_;
   status_.assign(n, contact::Status::open);
+}
+
+double ImplicitContact::friction_of(const ContactStep& step, const ActiveContact& contact,
+                                    const Row& row) const noexcept {
+  const contact::Friction& friction = step.law->friction;
+  if (friction.is_constant()) return friction.constant();
+  const double length = model_.contact->tributary[contact.candidate];
+  return friction.coefficient({step.center + step.rotation * row.arm, std::abs(contact.before.y),
+                               warm_start(row.key).x / (model_.dt * length)});
 }
 
 Vec2 ImplicitContact::warm_start(std::uint64_t key) const noexcept {

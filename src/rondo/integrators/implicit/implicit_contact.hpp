@@ -56,6 +56,8 @@ class ImplicitContact {
   void fill_column(std::size_t of, ImplicitOperator& implicit);
   [[nodiscard]] contact::Block response(std::size_t to, std::size_t from) const noexcept;
   void build_problem(const ContactStep& step);
+  [[nodiscard]] double friction_of(const ContactStep& step, const ActiveContact& contact,
+                                   const Row& row) const noexcept;
   [[nodiscard]] Vec2 warm_start(std::uint64_t key) const noexcept;
 
   const Model& model_;

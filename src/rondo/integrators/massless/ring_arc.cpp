@@ -215,7 +215,7 @@ contact::Touch RingArc::touch_of(const ContactStep& step, std::size_t j) const n
 }
 
 void RingArc::set_nodes(const ContactStep& step, const RingContacts& now) {
-  const bool slides = model_.contact->law.friction == 0.0;
+  const bool slides = model_.contact->law.friction.constant() == 0.0;
   for (std::size_t i = 0; i < arc_.size(); ++i) {
     Node& node = arc_[i];
     const std::size_t j = sector(i);
@@ -292,7 +292,8 @@ void RingArc::give(const ContactStep& step, RingContacts& next) const {
     const double mass = scale * here_[0];
     c.gap = w.x * step.dt;
     c.residual =
-        contact::law_residual(c.impulse, w, 0.0, model_.contact->law.friction, mass) / mass;
+        contact::law_residual(c.impulse, w, 0.0, model_.contact->law.friction.constant(), mass) /
+        mass;
     if (has_concave_corners_ && c.impulse.x > 0.0 && !next.two_facets)
       next.two_facets = near_second_facet(model_.contact->ground, position(step, sector(i)),
                                           step.dt * std::abs(w.y));
@@ -315,7 +316,7 @@ bool RingArc::solve(const ContactStep& step, const PlaneField& place, const Ring
   std::copy_n(predicted_.x.begin(), n_, next_->x.begin());
   std::copy_n(predicted_.y.begin(), n_, next_->y.begin());
   if (!find_candidates(step, now)) return true;
-  const double friction = model_.contact->law.friction;
+  const double friction = model_.contact->law.friction.constant();
   for (int i = 0; i < most_extensions; ++i) {
     if (!cut_arc()) return false;
     set_nodes(step, now);

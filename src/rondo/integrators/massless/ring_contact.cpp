@@ -153,7 +153,7 @@ void MasslessContact::make_problem() {
     impulse_.push_back(c.impulse);
   }
   problem_.bounce.assign(impulse_.size(), 0.0);
-  problem_.friction.assign(impulse_.size(), model_.contact->law.friction);
+  problem_.friction.assign(impulse_.size(), model_.contact->law.friction.constant());
   status_.assign(impulse_.size(), Status::open);
   start_ = impulse_;
 }

@@ -49,17 +49,16 @@ std::array<Vec3, 3> delassus(const Mobility& w, const Frame& a, const Frame& b) 
 }
 
 /// @return whether the solution of the law converged
-bool solve_one(const Mobility& w, const Frame& frame, Vec3 free, double friction,
-               ActiveContact& c) noexcept {
+bool solve_one(const Mobility& w, const Frame& frame, Vec3 free, ActiveContact& c) noexcept {
   const auto solution =
-      contact::solve_spatial({free, delassus(w, frame, frame), c.bounce}, friction);
+      contact::solve_spatial({free, delassus(w, frame, frame), c.bounce}, c.friction);
   c.impulse = solution.impulse;
   c.status = solution.status;
   return solution.converged;
 }
 
 /// Solves one facet after the other until neither changes. @return whether that was reached
-bool solve_in_turn(const Mobility& w, std::span<const Frame> frames, double friction,
+bool solve_in_turn(const Mobility& w, std::span<const Frame> frames,
                    std::span<ActiveContact> contacts) noexcept {
   bool still = false;
   for (int pass = 0; pass < most_passes && !still; ++pass) {
@@ -69,28 +68,28 @@ bool solve_in_turn(const Mobility& w, std::span<const Frame> frames, double fric
       const Vec3 before = c.impulse;
       const Vec3 push = w * frames[1 - i].from(contacts[1 - i].impulse);
       const Vec3 free = c.free + frames[i].to(push);
-      still = solve_one(w, frames[i], free, friction, c) && still;
+      still = solve_one(w, frames[i], free, c) && still;
       still = norm(c.impulse - before) <= 1e-15 * norm(before) && still;
     }
   }
   return still;
 }
 
-/// Solves by cases; if none is accepted, in turn.
-void solve_two(const Mobility& w, std::span<const Frame> frames, double friction,
-               std::span<ActiveContact> contacts, ContactReport& report) noexcept {
+/// Solves by cases, with one μ for both; if none is accepted, in turn.
+void solve_two(const Mobility& w, std::span<const Frame> frames, std::span<ActiveContact> contacts,
+               ContactReport& report) noexcept {
   const ActiveContact &a = contacts[0], &b = contacts[1];
   const auto pair = contact::solve_spatial_pair({a.free,
                                                  delassus(w, frames[0], frames[0]),
                                                  {a.bounce, b.bounce},
                                                  rotation_between(a.normal, b.normal)},
-                                                friction);
+                                                a.friction);
   for (std::size_t i = 0; i < 2 && pair.converged; ++i) {
     contacts[i].impulse = pair.contact[i].impulse;
     contacts[i].status = pair.contact[i].status;
   }
   ++report.pairs;
-  if (pair.converged || solve_in_turn(w, frames, friction, contacts)) return;
+  if (pair.converged || solve_in_turn(w, frames, contacts)) return;
   ++report.pairs_not_converged;
 }
 
@@ -158,7 +157,7 @@ void report_contacts(const SolidContactStep& s, const SolidContactNode& node, Ve
     add_works(s, node, after, push, c, report);
     add_impulse(s, arm, push, report);
     const double residual =
-        contact::law_residual(c.impulse, c.after, c.bounce, s.plane.law.friction, node.mass);
+        contact::law_residual(c.impulse, c.after, c.bounce, c.friction, node.mass);
     report.residual = keep_larger(report.residual, residual / node.mass);
     report.penetration = std::max(report.penetration, -c.gap);
     report.free_velocity = std::max(report.free_velocity, norm(c.free));
@@ -200,14 +199,14 @@ Vec3 solve_contacts(const SolidContactStep& s, const SolidContactNode& node,
     c.gap = touches.at[i].gap;
     c.before = frames[i].to(before);
     c.free = frames[i].to(free);
-    c.bounce = contact::restitution_shift(s.plane.law, c.before.x, c.before.x);
+    c.bounce = contact::restitution_shift(*s.plane.law, c.before.x, c.before.x);
+    c.friction = s.plane.law->friction.constant();
   }
   const Mobility w{s.plane.turn / (node.mass * s.plane.a), 1.0 / (node.mass * s.axial_a)};
-  const double friction = s.plane.law.friction;
   if (contacts.size() == 2)
-    solve_two(w, frames, friction, contacts, report);
+    solve_two(w, frames, contacts, report);
   else
-    (void)solve_one(w, frames[0], contacts[0].free, friction, contacts[0]);
+    (void)solve_one(w, frames[0], contacts[0].free, contacts[0]);
   const Vec3 after = corrected_velocity(s, node, drive, frames, contacts);
   report_contacts(s, node, after, frames, contacts, report);
   return after;

@@ -33,6 +33,7 @@ constexpr std::array names{
     FeatureName{has::massless, "contact nodes without mass"},
     FeatureName{has::restitution, "restitution"},
     FeatureName{has::energy_safe, "energy-safe impacts"},
+    FeatureName{has::friction_law, "friction that is no constant"},
     FeatureName{has::stiffness_damping, "stiffness damping"},
     FeatureName{has::stress_stiffening, "stress stiffening"},
     FeatureName{has::plane_stress, "plane stress"},
@@ -86,6 +87,8 @@ constexpr std::array limits{
           "the forces of the material are no product with a stiffness"},
     Limit{has::implicit, 0, bodies, "the step has no implicit elements"},
     Limit{has::massless, 0, bodies, "the step needs nodes with mass"},
+    Limit{has::friction_law, 0, cyclic | sparse,
+          "the step takes one coefficient of friction for all contacts"},
     Limit{has::hati, 0, plane, "the scheme \"hati\" has a step of its own"},
     Limit{has::other_scheme, 0, fused, "a scheme other than \"symplectic\" needs the general step"},
     Limit{has::reduced, 0, ~bit(StepKind::reduced), "a reduced model has a step of its own"},
@@ -121,6 +124,8 @@ constexpr std::array limits{
           "so that a narrow wheel is close to plane stress"},
     Limit{has::other_scheme, has::three_dimensions, any,
           "a wheel in three dimensions needs the scheme \"symplectic\""},
+    Limit{has::friction_law, has::three_dimensions, any,
+          "a wheel in three dimensions has one coefficient of friction for all contacts"},
     Limit{has::free_bodies, has::loaded_rim, any,
           "nothing holds the body: there is no rim that [rim] could move"},
     Limit{has::massless, has::loaded_rim, any,
@@ -141,6 +146,8 @@ constexpr std::array limits{
           "there is a [contact] of bodies, whose nodes have mass"},
     Limit{has::body_contact, has::hati, any,
           "the scheme \"hati\" supports contact with the ground only"},
+    Limit{has::friction_law, has::hati, any,
+          "the scheme \"hati\" has one coefficient of friction for all contacts"},
     Limit{has::pressure, has::hati, any, "the scheme \"hati\" supports no load except the ground"},
     Limit{has::massless, has::sharp_corners, any,
           "the ground has sharp convex corners, which touch between two nodes"},
@@ -150,6 +157,8 @@ constexpr std::array limits{
           "ground.impact = \"energy-safe\" is a law of velocities, and that of nodes without mass "
           "is one "
           "of gaps"},
+    Limit{has::massless, has::friction_law, any,
+          "contact nodes without mass have one coefficient of friction for all contacts"},
     Limit{has::massless, has::rubber, any,
           "the positions of contact nodes without mass follow from the stiffness of small strain, "
           "which rubber does not have"},
@@ -181,6 +190,8 @@ constexpr std::array limits{
     Limit{has::rubber, has::reduced, any,
           "a reduced run is computed at small strain, rubber at finite strain"},
     Limit{has::own_material, has::reduced, any, "a reduced run needs linear materials"},
+    Limit{has::friction_law, has::reduced, any,
+          "a reduced run has one coefficient of friction for all contacts"},
     Limit{has::implicit, has::reduced, any, "a reduced run has modes instead of elements"},
     Limit{has::massless, has::reduced, any, "a reduced run needs contact nodes with mass"},
     Limit{has::other_scheme, has::reduced, any, "a reduced run has a scheme of its own"},
@@ -246,6 +257,7 @@ Features features_of(const Model& m) noexcept {
   add(has_massless_contact(m), has::massless);
   add(m.contact && m.contact->law.restitution > 0.0, has::restitution);
   add(m.contact && m.contact->law.impact == contact::Impact::energy_safe, has::energy_safe);
+  add(has_friction_law(m), has::friction_law);
   add(m.stiffness_damping > 0.0, has::stiffness_damping);
   add(m.scheme != Scheme::symplectic, has::other_scheme);
   add(m.subdomains.has_value(), has::hati);

@@ -40,6 +40,7 @@ enum Feature : Features {
   other_scheme = 1U << 18,       ///< any other than "symplectic"
   hati = 1U << 19,               ///< sets other_scheme as well
   reduced = 1U << 20,            ///< a run of a reduced model
+  friction_law = 1U << 21,       ///< friction that is no constant
 };
 }  // namespace has
 

@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "rondo/analysis/build/bodies.hpp"
+#include "rondo/analysis/build/ground/contact_law.hpp"
 #include "rondo/analysis/build/memory.hpp"
 #include "rondo/analysis/build/overlap.hpp"
 #include "rondo/core/contract.hpp"
@@ -82,7 +83,8 @@ CrushSetup build_crush(const Case& c) {
   refuse_overlaps(c, {s.mesh, s.mesh.coordinates}, s.warnings);
   s.mass = fem::lumped_mass(s.mesh, s.materials);
   s.free = fem::free_nodes(s.mesh);
-  s.model = statics::make_crush_model(s.mesh.coordinates, s.mesh.boundary, c.ground->friction);
+  s.model =
+      statics::make_crush_model(s.mesh.coordinates, s.mesh.boundary, law_of(*c.ground).friction);
   s.ground_height = c.ground->shape.profile.front().y;
   const std::size_t first = static_cast<std::size_t>(s.mesh.boundary.front());
   s.touch_height = s.model.clearance.front() - s.mesh.coordinates[first].y;

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "rondo/analysis/build/ground/contact_law.hpp"
 #include "rondo/analysis/build/rim.hpp"
 #include "rondo/analysis/build/solid/hidden_ground.hpp"
 #include "rondo/case/case_keys.hpp"
@@ -53,10 +54,7 @@ void add_ground(const Case& c, const mesh::Mesh& mesh, Model& model) {
       mesh::rolling_edges(mesh, c.section ? c.section->mesh.contact : "tread");
   model.contact.emplace(dynamics::ContactModel{
       contact::Ground(c.ground->shape, mesh::longest_edge(mesh.coordinates, edges)),
-      {c.ground->friction, c.ground->restitution, c.ground->impact},
-      mesh.boundary,
-      mesh.tributary,
-      edges});
+      law_of(*c.ground), mesh.boundary, mesh.tributary, edges});
 }
 
 void make_solid_model(const Case& c, Setup& s) {
