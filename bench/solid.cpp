@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
-/// Cost of a step of a wheel in three dimensions in ns per degree of freedom and
-/// step, for the whole step with spin, both dampings and ledger: `bench_solid
-/// [ROUNDS [THREADS [LARGEST]]]`, LARGEST 1 to 3 of the sizes below. The same
-/// step by assembled rows of 3×3 blocks is shown for comparison. Wheels spin
-/// freely, or roll with a slip angle. The smallest time of a batch counts.
+/// Cost of a step of a wheel in three dimensions in ns per degree of freedom and step, for the
+/// whole step with spin, both dampings and ledger: `bench_solid [ROUNDS [THREADS [LARGEST]]]`,
+/// LARGEST 1 to 3 of the sizes below. The same step by assembled rows of 3×3 blocks is shown for
+/// comparison. Wheels spin freely, or roll with a slip angle. The smallest time of a batch of steps
+/// counts, because the machine may do other work.
 #include <fmt/format.h>
 #include <sys/resource.h>
 

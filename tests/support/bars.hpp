@@ -20,7 +20,7 @@ struct Bar {
   fem::Plane plane = fem::Plane::stress;         ///< the same at ν = 0
   bool held = false;                             ///< whether its upper end is clamped
   bool massless = false;                         ///< whether its foot is massless
-  bool in_frame = false;  ///< as if clamped, it moves in the rotating frame, which is at rest
+  bool in_frame = false;  ///< as if clamped, it moves in the co-rotating frame, which is at rest
 
   [[nodiscard]] double wave_speed() const { return std::sqrt(youngs_modulus / density); }
   [[nodiscard]] double element() const { return length / elements; }
