@@ -28,7 +28,7 @@ void set(VectorXd& x, std::size_t node, Vec2 value) noexcept {
   x[i + 1] = value.y;
 }
 
-/// What all nodes of a step share.
+/// Data that all nodes of a step share.
 struct Constants {
   Constants(const Model& model, const dynamics::FrameStep& frame,
             const dynamics::VelocityUpdate& update) noexcept
@@ -137,7 +137,7 @@ class CsrSteps final : public dynamics::Integrator {
     return report;
   }
 
-  /// u_{n+1}, and the energy before the step (5.1).
+  /// Computes u_{n+1} and the energy before the step (5.1).
   dynamics::StepEnergy displace() noexcept {
     double* u = u_.data();
     const double *v = v_.data(), *force = force_.data(), *mass = mass_.data();
@@ -167,7 +167,7 @@ class CsrSteps final : public dynamics::Integrator {
             c.inverse_dt * (at(force_, i) - at(force_before_, i))};
   }
 
-  /// v_{n+3/2} without contact, and the works of that.
+  /// Computes v_{n+3/2} without contact, and its works.
   void update_velocities(const Constants& shared, dynamics::Works& works) noexcept {
     for_blocks(n_, model_.threads, [&](std::size_t begin, std::size_t end, std::size_t block) {
       const Constants c = shared;
@@ -192,7 +192,7 @@ class CsrSteps final : public dynamics::Integrator {
     works.dissipation_stiffness = sum[2];
   }
 
-  /// Corrects the nodes that touch, and their part of the works.
+  /// Corrects the nodes in contact and their works.
   dynamics::ContactReport solve_contact(const Constants& c, const dynamics::VelocityUpdate& update,
                                         dynamics::Works& works) noexcept {
     dynamics::ContactReport report;
@@ -232,7 +232,7 @@ class CsrSteps final : public dynamics::Integrator {
   std::size_t n_;                                               ///< free nodes
   VectorXd mass_, inverse_mass_;                                ///< (n)
   VectorXd reference_, u_, v_, v_next_, force_, force_before_;  ///< (2n)
-  std::vector<std::size_t> candidates_;                         ///< places of the candidates
+  std::vector<std::size_t> candidates_;                         ///< numbers of the candidates
   std::vector<dynamics::ActiveContact> active_;
   std::vector<std::array<double, 3>> partial_;  ///< sums of each block
   long long step_;

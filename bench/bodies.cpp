@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
-/// Steps of bodies that nothing holds, with contact between them and with the ground, in ns per
-/// degree of freedom and step: `bench_bodies [LAYERS [ROUNDS [THREADS [CASE [ALONE]]]]]`, the step
-/// that a run takes beside the readable one, in turns; the least time of a batch of 8 steps
-/// counts, for the machine may have other work. CASE: 1, 2 or 3, 0: all of them. ALONE: "readable"
-/// or "taken", that step alone, for profiles.
+/// Steps of free bodies with contact between them and with the ground, in ns per degree of freedom
+/// and step: `bench_bodies [LAYERS [ROUNDS [THREADS [CASE [ALONE]]]]]`. The step of a run and the
+/// reference step alternate, and the smallest time of a batch of 8 steps counts, because the
+/// machine may do other work. CASE: 1, 2 or 3, 0: all of them. ALONE: "readable" or "taken", only
+/// that step, for profiles.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -25,14 +25,14 @@ using namespace rondo;
 
 namespace {
 
-/// One disk or two, beside each other, with velocities of their own.
+/// One disk, or two side by side, with different velocities.
 struct Bodies {
   dynamics::Model model;
   std::vector<Vec2> velocity;
 };
 
 constexpr double outer = 0.3;
-constexpr int steps = 8;  ///< that are timed together
+constexpr int steps = 8;  ///< number timed together
 
 void add_disk(mesh::Mesh& all, int layers, Vec2 center) {
   const mesh::Mesh one = test::free_disk({.outer_radius = outer,
@@ -53,7 +53,7 @@ void add_disk(mesh::Mesh& all, int layers, Vec2 center) {
     all.contact_edges.push_back({first + e[0], first + e[1]});
 }
 
-/// Rubber; the step of the element bound, as Lanczos would take minutes.
+/// Rubber; the time step follows from the element bound, because Lanczos would take minutes.
 Bodies bodies(const mesh::Mesh& mesh, int threads) {
   const fem::Material rubber{1.0e6, 0.4, 1100.0, fem::Plane::strain};
   const std::span materials(&rubber, 1);
@@ -71,7 +71,7 @@ Bodies bodies(const mesh::Mesh& mesh, int threads) {
   return b;
 }
 
-/// They graze as they meet, as in cases/two-disks.toml. @param gap between them         [m]
+/// They touch obliquely, as in cases/two-disks.toml. @param gap between them            [m]
 Bodies two_disks(int layers, double gap, int threads) {
   mesh::Mesh mesh;
   add_disk(mesh, layers, {-outer - 0.5 * gap, 0.0});
@@ -83,7 +83,7 @@ Bodies two_disks(int layers, double gap, int threads) {
   return b;
 }
 
-/// Thrown down on flat ground.
+/// A disk thrown onto flat ground.
 Bodies disk_on_ground(int layers, int threads) {
   mesh::Mesh mesh;
   add_disk(mesh, layers, {0.0, outer + 1e-5});
@@ -94,7 +94,7 @@ Bodies disk_on_ground(int layers, int threads) {
   return b;
 }
 
-/// One run of a line, and the least time of its batches.
+/// One run of a line, and the smallest time of its batches.
 class Run {
  public:
   Run(Bodies bodies, bool readable) : bodies_(std::move(bodies)), reports_(steps) {
@@ -107,7 +107,7 @@ class Run {
       integrator_ = dynamics::make_integrator(model, start);
   }
 
-  /// 64 steps; the least time of a step is that of a few of them, for more are hardly left alone.
+  /// 64 steps in short batches, because longer ones are hardly ever undisturbed.
   void round() {
     using Clock = std::chrono::steady_clock;
     for (int batch = 0; batch < 64 / steps; ++batch) {

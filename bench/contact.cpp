@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-/// Contact between bodies: the search for neighbours and the coupled solver alone. It verifies too:
-/// a chain that does not reach 1e-12, or a search that misses a segment, stops it.
+/// Contact between bodies: the search for neighbours and the coupled solver, each alone. It also
+/// verifies: a chain that does not reach 1e-12, or a search that misses a segment, stops it.
 #include <benchmark/benchmark.h>
 
 #include "rondo/contact/search.hpp"
@@ -14,7 +14,7 @@ namespace {
 
 const auto per_item = Counter::kIsIterationInvariantRate | Counter::kInvert;
 
-/// Boundary of a disk of n edges, as nodes and edges.
+/// Boundary of a disk with n edges, as nodes and edges.
 struct Ring {
   explicit Ring(int n) {
     for (int i = 0; i < n; ++i) {
@@ -35,7 +35,7 @@ void contact_search_build(benchmark::State& state) {
   state.counters["ns_per_edge"] = Counter(1e-9 * static_cast<double>(state.range(0)), per_item);
 }
 
-/// What a step does while nothing has moved by more than the skin.
+/// The check of a step if nothing has moved by more than the skin.
 void contact_search_check(benchmark::State& state) {
   const Ring ring(static_cast<int>(state.range(0)));
   contact::SegmentGrid grid;
@@ -45,7 +45,7 @@ void contact_search_check(benchmark::State& state) {
   state.counters["ns_per_edge"] = Counter(1e-9 * static_cast<double>(state.range(0)), per_item);
 }
 
-/// Nodes just inside the boundary: the grid's cell, and which segment holds them.
+/// Nodes just inside the boundary: finds the cell of the grid and the segment that each touches.
 void contact_search_query(benchmark::State& state) {
   const Ring ring(static_cast<int>(state.range(0)));
   const contact::Boundary boundary = contact::make_boundary(ring.edges, {});
@@ -67,7 +67,7 @@ void contact_search_query(benchmark::State& state) {
   state.counters["ns_per_node"] = Counter(1e-9 * static_cast<double>(state.range(0)), per_item);
 }
 
-/// Nodes of one chain on segments of another; `both ways`: and the other way round.
+/// Nodes of one chain on segments of another; with `both_ways` also in the opposite sense.
 void contact_chain(benchmark::State& state, bool both_ways) {
   const int n = static_cast<int>(state.range(0));
   const contact::CoupledProblem p = test::problem_of(

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
-/// What loads on nodes, a rim that moves by itself, contact nodes without mass, implicit elements
-/// and sharp corners of the ground cost in the fused steps, in ns per degree of freedom and step,
-/// beside the same disk without them: `bench_exceptions [ROUNDS [LAYERS]]`. The runs of a line take
-/// turns and the least time of a batch of 64 steps counts, for the machine may have other work.
+/// Cost of nodal loads, a free rim, massless contact nodes, implicit elements and sharp corners of
+/// the ground in the fused steps, in ns per degree of freedom and step, compared with the same disk
+/// without them: `bench_exceptions [ROUNDS [LAYERS]]`. The runs of a line alternate, and the
+/// smallest time of a batch of 64 steps counts, because the machine may do other work.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -26,7 +26,7 @@ struct Size {
   int radial, circumferential;
 };
 
-/// A ridge of 1 mm, on which the disk stands alone.
+/// A ridge of 1 mm that alone supports the disk.
 contact::GroundShape ridge(double fillet) {
   return {.profile = {{-1.0, 0.0}, {-0.01, 0.0}, {0.0, 0.001}, {0.01, 0.0}, {1.0, 0.0}},
           .fillet = fillet};
@@ -37,7 +37,7 @@ contact::GroundShape end_of_ground(double fillet) {
   return {.profile = {{-1.0, 0.0}, {0.04, 0.0}, {0.04, -0.1}, {1.0, -0.1}}, .fillet = fillet};
 }
 
-/// One run of a line, and the least time of its batches.
+/// One run of a line, and the smallest time of its batches.
 class Run {
  public:
   Run(Size size, Steps steps, const Variant& variant) : problem_(disk(size)), reports_(64) {
@@ -65,7 +65,7 @@ class Run {
   [[nodiscard]] double ns() const {
     return 1e9 * best_ / (64.0 * static_cast<double>(problem_.n_dofs()));
   }
-  /// Share of the steps in which a corner touched.
+  /// Fraction of the steps in which a corner touched.
   [[nodiscard]] double touched() const {
     return static_cast<double>(touched_) / (64.0 * static_cast<double>(batches_));
   }
@@ -85,7 +85,7 @@ class Run {
   long batches_ = 0, touched_ = 0;
 };
 
-/// A disk without and with what is asked about.
+/// Compares a disk without and with the feature.
 void compare(std::string_view what, Size size, Steps steps, const Variant& without,
              const Variant& with, int rounds) {
   Run plain(size, steps, without), other(size, steps, with);
@@ -112,7 +112,7 @@ int main(int argc, char** argv) {
   for (const Size size : {Size{12, 180}, Size{26, 390}, Size{82, 1230}, Size{260, 3900}})
     for (const Steps steps : {Steps::cyclic, Steps::sparse}) {
       if (layers != 0 && size.radial != layers) continue;
-      if (steps == Steps::sparse && size.radial > 100) continue;  // the times of the mesh below
+      if (steps == Steps::sparse && size.radial > 100) continue;  // as on the smaller mesh
       compare("pressure", size, steps, flat, with(1e5, {}), rounds);
       compare("loaded rim", size, steps, flat, Variant{.rolling = true, .loaded_rim = true},
               rounds);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-/// Parts of a step alone: the stiffness products, the search for contacts; and what the machine
-/// gives, arrays passed over and multiply-adds. Shares are of what was measured beside each
-/// repetition. It verifies too: a product that is not K u stops it.
+/// Single parts of a step: the stiffness products and the search for contacts; and limits of the
+/// machine, passes over arrays and multiply-adds. Shares are relative to the limits measured with
+/// each repetition. It also verifies: a product that is not K u stops it.
 #include <benchmark/benchmark.h>
 
 #include <algorithm>
@@ -35,10 +35,10 @@ bench::Problem& problem(int radial) {
   return *kept;
 }
 
-/// One product reads its matrix and u, and writes K u.
+/// One product reads its matrix and u and writes K u.
 void count_product(benchmark::State& state, bench::Streams streams, double flops, int threads) {
   const double stream = bench::StreamArrays(streams, threads).bandwidth(0.05);
-  // Two arrays in place would be read and written: u is only read, K u only written.
+  // Arrays in place would be read and written, but u is only read and K u only written.
   const double bytes = 8.0 * static_cast<double>(2 * streams.length + streams.read_only);
   const double dofs = static_cast<double>(streams.length), peak = bench::peak_flops(threads);
   state.counters["dofs"] = dofs;
@@ -62,7 +62,7 @@ std::vector<Vec2> field(const dynamics::Model& model) {
   return u;
 }
 
-/// Largest difference from the readable product of one sector, over the largest entry.
+/// Largest difference from the reference product of one sector, over the largest entry.
 double error_of(const dynamics::Model& model, const std::vector<Vec2>& u,
                 const std::vector<Vec2>& product) {
   std::vector<Vec2> expected(model.n_nodes());
@@ -126,7 +126,7 @@ void product_eigen(benchmark::State& state) {
   count_product(state, product_streams(p, bench::Steps::eigen), product_flops(p), threads);
 }
 
-/// All candidates of a rolling disk, of which few touch.
+/// All candidates of a rolling disk, few of which are in contact.
 void contact_search(benchmark::State& state) {
   bench::Problem& p = problem(static_cast<int>(state.range(0)));
   const auto integrator = p.integrator(bench::Steps::cyclic, {.rolling = true});
@@ -148,7 +148,7 @@ void contact_search(benchmark::State& state) {
   state.counters["ns_per_candidate"] = Counter(candidates * 1e-9, rate | Counter::kInvert);
 }
 
-/// `range(0)` numbers an array, `range(1)` arrays in place.
+/// `range(0)` numbers per array, `range(1)` arrays in place.
 void stream(benchmark::State& state) {
   const auto threads = static_cast<int>(state.range(2));
   bench::StreamArrays arrays(

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
-/// Steps for bench/instructions.py to count the instructions of: what is counted is all that
-/// rondo_measured_steps does (callgrind's --toggle-collect).
+/// Steps whose instructions bench/instructions.py counts: everything that rondo_measured_steps
+/// executes (callgrind's --toggle-collect).
 ///
 ///     one_step OPERATOR MOTION MESH STEPS   cyclic|sparse, free_spin|rolling, ring|chunks|treaded
-///     one_step compare                      do all operators of the benchmarks make the same
-///     steps? one_step build                        compiler and flags of this build
+///     one_step compare   checks that all operators of the benchmarks make the same steps
+///     one_step build     prints compiler and flags of this build
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -31,11 +31,11 @@ mesh::Disk smooth(int radial, int circumferential) {
   return disk;
 }
 
-/// One of each way in which the cyclic operator goes over a disk.
+/// One disk for each way in which the cyclic operator passes over a disk.
 std::optional<mesh::Disk> disk_named(std::string_view name) {
-  if (name == "ring") return smooth(12, 180);     // one chunk, in the cache: step by step
-  if (name == "chunks") return smooth(14, 1600);  // two chunks, four steps in a pass
-  if (name != "treaded") return std::nullopt;     // sectors of several columns, no mirrors
+  if (name == "ring") return smooth(12, 180);     // one chunk, fits into the cache: step by step
+  if (name == "chunks") return smooth(14, 1600);  // two chunks, four steps per pass
+  if (name != "treaded") return std::nullopt;     // sectors of several columns, no mirror symmetry
   mesh::Disk disk = smooth(9, 0);
   disk.tread = mesh::Tread{60, 0.02, 3, 1, 2};
   return disk;
@@ -52,7 +52,7 @@ int measure(const Measured& m) {
   bench::Problem problem(m.disk);
   const auto integrator = problem.integrator(m.steps, {.rolling = m.rolling});
   std::vector<dynamics::StepReport> reports(m.n_steps);
-  integrator->advance(reports);  // lazy loading and the like, contact there
+  integrator->advance(reports);  // for lazy loading and similar costs, and contact
   rondo_measured_steps(*integrator, reports);
   const dynamics::StepReport& last = reports.back();
   fmt::print("relative residual {:.3g}, nodes in contact {}\n", last.balance.relative,
@@ -60,8 +60,8 @@ int measure(const Measured& m) {
   return last.balance.relative < 1e-12 && m.rolling == (last.contact.nodes > 0) ? 0 : 1;
 }
 
-/// Largest difference of displacements and velocities over their largest, after rolling for long
-/// enough that waves have crossed the disk several times.
+/// Largest difference of displacements and velocities relative to their maximum, after rolling for
+/// so long that waves have crossed the disk several times.
 double difference(const dynamics::State& a, const dynamics::State& b) {
   double u = 0.0, v = 0.0, largest_u = 0.0, largest_v = 0.0;
   for (std::size_t i = 0; i < a.u.size(); ++i) {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-/// Decompositions: seconds, GFlop/s and the largest memory of the process beside what the plan
-/// says. The memory is that of the whole process so far: one benchmark a run (--benchmark_filter)
-/// tells that of one method. It verifies too: modes that are not orthonormal stop it.
+/// Decompositions: seconds, GFlop/s and the peak memory of the process compared with the plan. The
+/// memory is that of the whole process so far; one benchmark per run (--benchmark_filter) gives
+/// that of one method. It also verifies: modes that are not orthonormal stop it.
 #include <benchmark/benchmark.h>
 
 #include <cmath>
@@ -15,7 +15,7 @@ using namespace rondo::pod;
 
 namespace {
 
-/// Waves of falling amplitude, made where they are read: nothing is stored.
+/// Waves of decreasing amplitude, computed when they are read; nothing is stored.
 class Waves final : public SnapshotMatrix {
  public:
   Waves(Index rows, Index columns) : rows_(rows), columns_(columns) {
@@ -48,7 +48,7 @@ class Waves final : public SnapshotMatrix {
   Eigen::MatrixXd space_, time_;
 };
 
-/// VmHWM or VmRSS [MB]
+/// VmHWM or VmRSS of this process [MB]
 double process_memory(const std::string& key) {
   std::ifstream status("/proc/self/status");
   for (std::string word; status >> word;)
@@ -79,7 +79,7 @@ void pod(benchmark::State& bench, Method method) {
 
 }  // namespace
 
-// rows, columns, modes, memory allowed [MB]
+// Arguments: rows, columns, modes, memory allowed [MB]
 BENCHMARK_CAPTURE(pod, direct, Method::direct)
     ->Args({4680, 600, -1, 2000})
     ->Args({4680, 600, 50, 2000})

@@ -15,7 +15,7 @@
 namespace rondo::bench {
 namespace {
 
-/// The cells of one sector, which stand for all.
+/// The cells of one sector, which represent all.
 mesh::Mesh one_sector(const mesh::Mesh& mesh) {
   mesh::Mesh part;
   part.coordinates = mesh.coordinates;
@@ -24,8 +24,8 @@ mesh::Mesh one_sector(const mesh::Mesh& mesh) {
   return part;
 }
 
-/// Flops a node: K u is 8 a block; the rest, counted by the formulas: displacement 4, acceleration
-/// 14, velocity 18, ledger 23; with stiffness damping 8 and 4 more (bench/README.md).
+/// Flops per node: K u has 8 per block; the others, counted from the formulas: displacement 4,
+/// acceleration 14, velocity 18, ledger 23; with stiffness damping 8 and 4 more (bench/README.md).
 double flops_per_node(double blocks, bool beta) {
   return 8.0 * blocks + 59.0 + (beta ? 12.0 : 0.0);
 }
@@ -45,7 +45,7 @@ Problem::Problem(const mesh::Disk& disk) : mesh_(mesh::make_disk(disk)) {
   model_.sector = fem::assemble_sector(mesh_, {&defaults.material, 1});
   model_.mass_damping = defaults.alpha;
   model_.motion = defaults.motion;
-  model_.motion.height = dynamics::Table(0.2995);  // a contact of 35 mm from the first step
+  model_.motion.height = dynamics::Table(0.2995);  // contact of 35 mm from the first step on
   omega_ = std::sqrt(fem::element_eigenvalue_bound(one_sector(mesh_), {&defaults.material, 1}));
 }
 
@@ -73,7 +73,7 @@ const CsrMatrix& Problem::csr() {
 
 namespace {
 
-/// Heavy, so that the disk stays where it stands while steps are timed.
+/// So heavy that the disk stays in place while steps are timed.
 dynamics::RimBody loaded_rim() {
   dynamics::RimBody rim;
   rim.free_y = rim.free_spin = true;
@@ -86,7 +86,7 @@ dynamics::RimBody loaded_rim() {
 
 }  // namespace
 
-/// To the nodes below the contact nodes, or back.
+/// Moves the mass to the nodes below the contact nodes, or back.
 void Problem::move_mass(bool from_contact) {
   if (!model_.lumped_mass.empty()) model_.mass = std::exchange(model_.lumped_mass, {});
   if (!from_contact) return;
@@ -94,7 +94,7 @@ void Problem::move_mass(bool from_contact) {
   model_.mass = fem::move_contact_mass(mesh_, model_.mass, mesh_.boundary).mass;
 }
 
-/// Cells of a disk stand layer by layer in each column.
+/// Cells of a disk are numbered layer by layer in each column.
 void Problem::make_implicit(int layer) {
   model_.implicit.reset();
   if (layer == 0) return;
@@ -112,7 +112,7 @@ void Problem::make_implicit(int layer) {
   model_.implicit = std::move(implicit);
 }
 
-/// All cells, or none.
+/// Makes all cells rubber, or none.
 void Problem::make_rubber(const std::optional<fem::Rubber>& rubber) {
   model_.rubber.reset();
   model_.internal_force = nullptr;
@@ -147,7 +147,7 @@ std::unique_ptr<dynamics::Integrator> Problem::integrator(Steps steps, const Var
   move_mass(variant.massless);
   make_implicit(variant.implicit_layer);
   make_rubber(variant.rubber);
-  // The cyclic operator is to do without the assembled matrix, as on meshes too large for it.
+  // The cyclic operator must not have the assembled matrix, as on meshes that are too large for it.
   const bool assembled = steps != Steps::cyclic || variant.massless;
   if (assembled) assemble();
   if (assembled == model_.stiffness.row_start.empty()) std::swap(stiffness_, model_.stiffness);
@@ -176,8 +176,8 @@ Work Problem::work(Steps steps, const Variant& variant) {
   Work work;
   work.flops = 0.5 * flops_per_node(blocks, variant.beta);
   work.streams.length = n_dofs();
-  work.streams.in_place = variant.beta ? 3 : 2;  // u, v, and K u of the step before
-  // Bytes a node that are only read: values and columns of its rows, where the rows begin, mass, X.
+  work.streams.in_place = variant.beta ? 3 : 2;  // u, v, and K u of the previous step
+  // Bytes per node that are only read: values and columns of its rows, starts of the rows, mass, X.
   const double of_blocks = 36.0 * blocks + 8.0 + 24.0, of_csr = 48.0 * blocks + 8.0 + 24.0;
   if (steps != Steps::cyclic)
     work.streams.read_only =

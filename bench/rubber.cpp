@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-/// What a step of rubber costs, in ns per degree of freedom and step, the whole step with spin and
-/// ledger: `bench_rubber [ROUNDS [THREADS]]`. Disks spin freely; the least time of a batch of 64
-/// steps counts, for the machine may have other work.
+/// Cost of a step of rubber in ns per degree of freedom and step, for the whole step with spin and
+/// ledger: `bench_rubber [ROUNDS [THREADS]]`. Disks spin freely. The smallest time of a batch of 64
+/// steps counts, because the machine may do other work.
 #include <fmt/format.h>
 
 #include <algorithm>

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
-/// What a step of a wheel in three dimensions costs, in ns per degree of freedom and step, the
+/// Cost of a step of a wheel in three dimensions in ns per degree of freedom and step, for the
 /// whole step with spin, both dampings and ledger: `bench_solid [ROUNDS [THREADS [LARGEST]]]`,
-/// LARGEST 1 to 3 of the sizes below. Beside it the same step by assembled rows of 3×3 blocks.
-/// Wheels spin freely, or roll with a slip angle; the least time of a batch of steps counts, for
-/// the machine may have other work.
+/// LARGEST 1 to 3 of the sizes below. The same step by assembled rows of 3×3 blocks is shown for
+/// comparison. Wheels spin freely, or roll with a slip angle. The smallest time of a batch of steps
+/// counts, because the machine may do other work.
 #include <fmt/format.h>
 #include <sys/resource.h>
 
@@ -83,7 +83,7 @@ double n_dofs(const dynamics::Model& m) {
   return 3.0 * static_cast<double>(m.free.size());
 }
 
-/// Of this thread where it is the only one: less hangs on what else the machine does [s].
+/// CPU time if there is only one thread, which depends less on other work of the machine [s].
 double now(int threads) {
   timespec t{};
   clock_gettime(threads == 1 ? CLOCK_THREAD_CPUTIME_ID : CLOCK_MONOTONIC, &t);
@@ -101,7 +101,7 @@ double least_time(int rounds, int threads, Steps&& steps) {
   return best;
 }
 
-/// Memory of this process in use [B].
+/// Memory in use by this process [B].
 double resident() {
   std::ifstream file("/proc/self/statm");
   double pages = 0.0, used = 0.0;
@@ -110,8 +110,8 @@ double resident() {
 }
 
 struct Measured {
-  double ns = 0.0;     ///< a degree of freedom and step
-  double bytes = 0.0;  ///< a degree of freedom, of the integrator
+  double ns = 0.0;     ///< per degree of freedom and step
+  double bytes = 0.0;  ///< per degree of freedom, of the integrator
   double kinetic = 0.0;
 };
 

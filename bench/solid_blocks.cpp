@@ -98,7 +98,7 @@ SolidBlocks::SolidBlocks(const dynamics::Model& m)
   blocks_.insert(blocks_.end(), 3, 0.0);
   const auto fields = static_cast<std::size_t>(3 * n * local + 1);
   for (std::vector<double>* f : {&u_, &next_, &v_, &force_}) f->assign(fields, 0.0);
-  // v_{1/2} by half a step, and u_1.
+  // Half a step to v_{1/2}, then u_1.
   const double half = 0.5 * dt_, re = 1.0 + 0.5 * half * alpha_, im = half * spin_;
   const Complex a{re, im};
   for (std::int64_t i = 0; i < n * local; ++i) {

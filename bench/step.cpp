@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// Whole steps (spin, both dampings, ledger; free and in rolling contact) by every operator, in ns
-/// per degree of freedom and step, with shares of what the machine was measured to give beside each
-/// repetition. It verifies too: a ledger that does not close stops it.
+/// per degree of freedom and step, and relative to limits of the machine measured with each
+/// repetition. It also verifies: a ledger that does not close stops it.
 ///
 /// Names: step/MESH/MOTION/DAMPING/OPERATOR/THREADS. The time is that of a batch of steps. With
-/// RONDO_BENCH_HUGE=1 in the environment, the disk of 4·10⁷ degrees of freedom too (6 GB).
+/// RONDO_BENCH_HUGE=1 in the environment, the disk of 4·10⁷ degrees of freedom is included (6 GB).
 #include <benchmark/benchmark.h>
 #include <fmt/format.h>
 
@@ -38,8 +38,8 @@ Mesh smooth(int radial, int circumferential) {
   return {fmt::format("smooth-{}x{}", radial, circumferential), disk};
 }
 
-/// `layers` in all over the thickness; the grooves of cases/ledge-treaded.toml, as deep in layers
-/// as in metres. Three parts of a pitch are land and one is groove.
+/// `layers` in total over the thickness; the grooves of cases/ledge-treaded.toml, equally deep in
+/// layers and in metres. Three quarters of a pitch are land, one is groove.
 Mesh treaded(int pitches, int columns, int layers) {
   mesh::Disk disk;
   mesh::Tread tread;
@@ -58,7 +58,7 @@ bool huge_too() {
   return asked && std::string_view(asked) == "1";
 }
 
-/// Sizes from 480 to 10⁷ degrees of freedom; treads of 60 pitches, then many.
+/// Sizes from 480 to 10⁷ degrees of freedom; treads with 60 pitches, then with many.
 std::vector<Mesh> meshes() {
   std::vector<Mesh> all{smooth(4, 60),       smooth(5, 75),        smooth(12, 180),
                         smooth(26, 390),     smooth(82, 1230),     smooth(260, 3900),
@@ -69,7 +69,7 @@ std::vector<Mesh> meshes() {
   return all;
 }
 
-/// The mesh that was asked for last, for all operators and repetitions on it.
+/// The mesh requested last, which all its operators and repetitions share.
 bench::Problem& problem(const Mesh& mesh) {
   static std::string name;
   static std::unique_ptr<bench::Problem> kept;
@@ -81,7 +81,7 @@ bench::Problem& problem(const Mesh& mesh) {
   return *kept;
 }
 
-/// Best bandwidth of the arrays of a step, measured anew each time: the machine may be shared.
+/// Best bandwidth of the arrays of a step, measured each time because the machine may be shared.
 double bandwidth(const bench::Streams& streams, int threads) {
   static std::unique_ptr<bench::StreamArrays> kept;
   if (!kept || kept->streams() != streams || kept->threads() != threads) {
@@ -91,14 +91,14 @@ double bandwidth(const bench::Streams& streams, int threads) {
   return kept->bandwidth(0.05);
 }
 
-/// Best so far: it does not depend on the mesh.
+/// Best value so far, because it does not depend on the mesh.
 double peak(int threads) {
   static std::map<int, double> best;
   return best[threads] = std::max(best[threads], bench::peak_flops(threads));
 }
 
-/// Steps in one call. `cyclic` gains by many, the others go step by step whatever the number: fewer
-/// on large meshes, where one step takes long.
+/// Steps per call. `cyclic` benefits from many, the others make single steps anyway; fewer on large
+/// meshes, where one step takes long.
 std::size_t batch(Steps steps, std::size_t dofs) {
   return steps == Steps::cyclic || dofs < 1'000'000 ? 64 : 8;
 }
@@ -127,9 +127,9 @@ struct BatchTime {
   double best = 0.0;
 };
 
-/// Of as many batches as take 0.2 s, at least two; the median, so that the batches that another
-/// process interrupts do not count. (The library would settle the number by a first trial, which on
-/// a shared machine may be a hundred times too slow, and take the mean.)
+/// Median of as many batches as take 0.2 s, at least two, so that batches interrupted by another
+/// process do not count. (The library would determine the number by a first trial, which on a
+/// shared machine may be a hundred times too slow, and use the mean.)
 BatchTime time_of_batch(dynamics::Integrator& integrator, std::span<dynamics::StepReport> reports) {
   using Clock = std::chrono::steady_clock;
   std::vector<double> times;
@@ -149,7 +149,7 @@ void step(benchmark::State& state, const Mesh& mesh, Steps steps, const Variant&
   bench::Problem& p = problem(mesh);
   const auto integrator = p.integrator(steps, variant);
   std::vector<dynamics::StepReport> reports(batch(steps, p.n_dofs()));
-  integrator->advance(reports);  // memory touched, contact there
+  integrator->advance(reports);  // touches the memory and starts contact
   BatchTime time;
   for (auto _ : state) {
     time = time_of_batch(*integrator, reports);
@@ -186,7 +186,7 @@ void add(const Mesh& mesh, Steps steps, const Variant& variant) {
 }
 
 /// Assembled matrices of the disk of 4·10⁷ degrees of freedom would take 16 GB. The sums of the
-/// reference step go node by node, and are not exact enough on a million nodes.
+/// reference step run node by node and are not accurate enough for a million nodes.
 bool fits(const Mesh& mesh, Steps steps) {
   const std::size_t nodes = mesh::n_disk_nodes(mesh.disk);
   if (steps == Steps::reference) return nodes < 1'000'000;

@@ -22,7 +22,7 @@ struct Pointers {
   std::size_t n, n_read;
 };
 
-/// Four sums, so that no sum waits for itself.
+/// Uses four sums, so that no addition waits for the previous one.
 [[gnu::always_inline]] inline double sum_of(const double* x, std::size_t n) {
   const std::size_t quarter = n / 4;
   double a = 0.0, b = 0.0, c = 0.0, d = 0.0;
@@ -37,8 +37,8 @@ struct Pointers {
   return a + b + (c + d);
 }
 
-/// An oscillator at each place, which neither grows nor fades away in any number of passes. What is
-/// only read is taken block by block beside the rest, as a step takes the rows of its matrix.
+/// An oscillator at each index, whose amplitude stays constant over any number of passes. Read-only
+/// arrays are read in blocks in between, as a step reads the rows of its matrix.
 [[gnu::always_inline]] inline double pass(const Pointers& p) {
   constexpr std::size_t block = 512;
   constexpr double s = 1e-3, t = 1e-12;
@@ -67,10 +67,10 @@ struct Pointers {
   return sum;
 }
 
-constexpr int peak_sums = 12;  // two units of latency 4 need 8; registers hold 12 on all levels
+constexpr int peak_sums = 12;  // two units of latency 4 need 8; all levels have 12
 
-/// n times as many multiplications and additions as `peak_sums` registers of that width hold, which
-/// wait for those of their own place only.
+/// n times as many multiplications and additions as `peak_sums` registers of that width hold; each
+/// waits only for the previous one in its own register element.
 template <int Width, bool Fused>
 [[gnu::always_inline]] inline double multiply_add(long n) {
   constexpr double x = 0.999999, y = 1e-6;
@@ -89,7 +89,7 @@ template <int Width, bool Fused>
 }
 
 #if defined(__x86_64__)
-#if defined(__clang__)  // knows the width of its vectors by an option of the command line only
+#if defined(__clang__)  // its vector width is set on the command line only
 #define RONDO_AVX512 "avx512f"
 #else
 #define RONDO_AVX512 "avx512f,prefer-vector-width=512"
@@ -165,7 +165,7 @@ double StreamArrays::run(long passes) {
 
 double StreamArrays::bandwidth(double seconds) {
   const double bytes = streams_.bytes();
-  const long passes = std::max(1L, std::lround(2e7 / bytes));  // some ms at a time
+  const long passes = std::max(1L, std::lround(2e7 / bytes));  // some ms per measurement
   double best = 0.0;
   const auto begin = Clock::now();
   for (int done = 0; done < 3 || seconds_since(begin) < seconds; ++done)

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-/// @file  What the machine can do at the most: bandwidth of arrays that a step passes over, and the
-/// rate of multiply-adds in registers. Measured here, beside the steps, because the machine may be
-/// shared and its clock unknown.
+/// @file  Upper limits of the machine: bandwidth of arrays that a step passes over, and rate of
+/// multiply-adds in registers. They are measured together with the steps, because the machine may
+/// be shared and its clock rate is unknown.
 #pragma once
 #include <cstddef>
 #include <string>
@@ -9,20 +9,20 @@
 
 namespace rondo::bench {
 
-/// Arrays of doubles that one pass goes over, once each.
+/// Arrays of doubles that one pass reads, once each.
 struct Streams {
   std::size_t length = 0;     ///< of each array that is read and written in place
   int in_place = 2;           ///< number of these, 2 or 3
-  std::size_t read_only = 0;  ///< length of what is only read, in all
+  std::size_t read_only = 0;  ///< total length of arrays that are only read
 
-  /// Moved by one pass: read once, and written once where in place.
+  /// Bytes moved by one pass: each number is read once, and written once if in place.
   [[nodiscard]] double bytes() const noexcept {
     return 8.0 * (2.0 * in_place * static_cast<double>(length) + static_cast<double>(read_only));
   }
   bool operator==(const Streams&) const = default;
 };
 
-/// The arrays, each thread's part first touched by that thread.
+/// The arrays; each thread is the first to touch its part.
 class StreamArrays {
  public:
   StreamArrays(const Streams& streams, int threads);
@@ -33,24 +33,24 @@ class StreamArrays {
   [[nodiscard]] int threads() const noexcept { return threads_; }
 
  private:
-  /// What one thread has.
+  /// The part of one thread.
   struct Part {
     std::vector<double> u, v, w, read;
   };
-  /// All threads, `passes` times over their parts. @return seconds
+  /// Runs all threads `passes` times over their parts. @return seconds
   double run(long passes);
 
   Streams streams_;
   int threads_;
   std::vector<Part> parts_;
-  double sink_ = 0.0;  ///< keeps the sums of what is only read
+  double sink_ = 0.0;  ///< keeps the sums of read-only arrays
 };
 
 /// Multiply-adds in registers on all threads at once, best of several [flop/s]. One multiply-add is
-/// two flops; processors without such an instruction do the two one after the other.
+/// two flops; processors without such an instruction execute the two one after the other.
 [[nodiscard]] double peak_flops(int threads);
 
-/// Instructions that peak_flops takes: "avx512", "avx2" or "baseline".
+/// Instruction set of peak_flops(): "avx512", "avx2" or "baseline".
 [[nodiscard]] std::string peak_level();
 
 }  // namespace rondo::bench

@@ -154,7 +154,7 @@ fmi2Status Component::get(const fmi2ValueReference* references, std::size_t n, d
   return computed ? tell_warnings() : fmi2OK;
 }
 
-/// All or none.
+/// Sets all values or none.
 fmi2Status Component::set(const fmi2ValueReference* references, std::size_t n,
                           const double* values) {
   if (n > 0 && (references == nullptr || values == nullptr))
@@ -191,14 +191,14 @@ fmi2Status Component::step(double at, double length) {
         fmt::format("fmi2DoStep: the communication point is {:.9g} s, and the wheel is at "
                     "{:.9g} s",
                     at, time_));
-  // Importers take lengths as differences of times.
+  // Importers compute lengths as differences of times.
   const double slack = 8.0 * std::numeric_limits<double>::epsilon() * (std::abs(at) + length);
   if (at + length > stop_ + slack)
     return error(fmt::format("fmi2DoStep: it would end at {:.9g} s, after the stopTime of {:.9g} s",
                              at + length, stop_));
   if (const std::string wrong = wheel_->refuse(values_, length, slack); !wrong.empty())
     return error("fmi2DoStep: " + wrong);
-  phase_ = Phase::failed;  // what throws half way stays so
+  phase_ = Phase::failed;  // remains if an exception is thrown
   const std::string wrong = wheel_->go_on(values_, length);
   if (!wrong.empty()) return fail("fmi2DoStep: " + wrong);
   phase_ = Phase::stepping;

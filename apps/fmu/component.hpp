@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-/// @file  An instance of the FMU: its wheel, and what may be called when (FMI 2.0.4, 4.2.4).
+/// @file  An instance of the FMU: its wheel, and the order of calls (FMI 2.0.4, 4.2.4).
 #pragma once
 #include <limits>
 #include <memory>
@@ -16,7 +16,7 @@ enum class Phase { instantiated, initializing, stepping, terminated, failed };
 
 class Component {
  public:
-  /// @param resources the folder of the FMU. @throws InputError, FileError
+  /// @param resources folder of the FMU. @throws InputError, FileError
   Component(const std::string& name, const std::string& resources, const std::string& guid,
             const fmi2CallbackFunctions& callbacks, bool logs);
   Component(const Component&) = delete;
@@ -30,7 +30,7 @@ class Component {
   fmi2Status get(const fmi2ValueReference* references, std::size_t n, double* values);
   fmi2Status set(const fmi2ValueReference* references, std::size_t n, const double* values);
   fmi2Status step(double at, double length);
-  /// @param stop infinite: none
+  /// @param stop infinite: no stop time
   fmi2Status setup(double start, double stop);
   fmi2Status set_logging(bool on, std::size_t n, const fmi2String* categories);
   [[nodiscard]] double time() const noexcept { return time_; }
@@ -38,13 +38,13 @@ class Component {
 
   fmi2Status save(fmi2FMUstate* state);
   fmi2Status restore(fmi2FMUstate state);
-  /// @return fmi2Error: it is none of this instance, or is freed
+  /// @return fmi2Error: the state is not of this instance, or is freed
   fmi2Status free(fmi2FMUstate* state) noexcept;
   fmi2Status serialized_size(fmi2FMUstate state, std::size_t* n);
   fmi2Status serialize(fmi2FMUstate state, char* bytes, std::size_t n);
   fmi2Status deserialize(const char* bytes, std::size_t n, fmi2FMUstate* state);
 
-  /// Tells, and is it.
+  /// Logs the message and returns fmi2Error.
   fmi2Status error(const std::string& message);
   fmi2Status warning(const std::string& message);
 
@@ -70,16 +70,16 @@ class Component {
   Values start_, values_;
   std::unique_ptr<Wheel> wheel_;
   Phase phase_ = Phase::instantiated;
-  bool stale_ = true;  ///< the wheel is not made of the values yet
+  bool stale_ = true;  ///< the wheel must still be made from the values
   double time_ = 0.0;
   double stop_ = std::numeric_limits<double>::infinity();
 };
 
-/// The instance behind a pointer; null: there is none, or it is freed.
+/// The instance of a pointer; null: there is none, or it is freed.
 [[nodiscard]] Component* living(fmi2Component c) noexcept;
-/// Takes it from then on. @throws std::bad_alloc
+/// Registers and owns it from then on. @throws std::bad_alloc
 fmi2Component enroll(std::unique_ptr<Component> component);
-/// Frees it; nothing, where it is freed already.
+/// Frees it; does nothing if it is already freed.
 void dismiss(fmi2Component c) noexcept;
 
 }  // namespace rondo::fmu

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-/// @file  States of an instance, kept and as bytes; which instances and states there are.
+/// @file  Saved states of an instance and their bytes; registry of existing instances and states.
 #include <cstring>
 #include <map>
 #include <mutex>
@@ -14,11 +14,11 @@ namespace {
 
 constexpr const char* no_state = "this is no state of this instance, or it is freed";
 
-/// Instances and states that are not freed: an importer may hand over what it has freed.
+/// Existing instances and states; an importer may pass pointers that it has freed.
 struct Alive {
   std::mutex mutex;
   std::set<const void*> instances;
-  std::map<const void*, const void*> states;  ///< and the instance of each
+  std::map<const void*, const void*> states;  ///< each state and its instance
 };
 
 Alive& alive() {
@@ -54,7 +54,7 @@ void dismiss(fmi2Component c) noexcept {
   if (erased > 0) delete static_cast<Component*>(c);
 }
 
-/// With the states that its importer has not freed: another instance may come to lie here.
+/// Also frees states that the importer has not freed: another instance may get the same address.
 Component::~Component() {
   const std::lock_guard<std::mutex> lock(alive().mutex);
   std::erase_if(alive().states, [this](const auto& of) {
@@ -63,7 +63,7 @@ Component::~Component() {
   });
 }
 
-/// In place of a state that is there, as the standard has it.
+/// Replaces an existing state, as the standard requires.
 fmi2Status Component::hand_over(std::unique_ptr<State> saved, fmi2FMUstate* state) {
   {
     const std::lock_guard<std::mutex> lock(alive().mutex);
@@ -74,7 +74,7 @@ fmi2Status Component::hand_over(std::unique_ptr<State> saved, fmi2FMUstate* stat
   return fmi2OK;
 }
 
-/// What is wrong with where a state is to go to.
+/// What is wrong with the destination of a state.
 const char* Component::no_place_for_state(const fmi2FMUstate* state) const noexcept {
   if (state == nullptr) return "the pointer to the state is NULL";
   if (*state != nullptr && !is_state(*state, this))
@@ -99,7 +99,7 @@ fmi2Status Component::save(fmi2FMUstate* state) {
 fmi2Status Component::restore(fmi2FMUstate state) {
   if (!is_state(state, this)) return error(std::string("fmi2SetFMUstate: ") + no_state);
   const State& saved = *static_cast<const State*>(state);
-  phase_ = Phase::failed;  // what throws half way stays so
+  phase_ = Phase::failed;  // remains if an exception is thrown
   if (saved.stale)
     values_ = saved.wheel.values;
   else
@@ -126,7 +126,7 @@ fmi2Status Component::free(fmi2FMUstate* state) noexcept {
 
 namespace {
 
-/// What precedes the wheel.
+/// Data before those of the wheel.
 struct Head {
   double time;
   int phase, stale;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-/// @file  What the FMU exports (FMI 2.0.4, 2.1 and 4.2): no exception goes out of it.
+/// @file  Functions exported by the FMU (FMI 2.0.4, 2.1 and 4.2); no exception leaves them.
 #include <exception>
 #include <limits>
 #include <new>
@@ -12,7 +12,7 @@ namespace {
 
 using rondo::fmu::Component;
 
-/// An instance that is freed, or none, is fmi2Error: nothing is known that could log it.
+/// Returns fmi2Error for an instance that is null or freed, which cannot log the error.
 template <class Work>
 fmi2Status guarded(fmi2Component c, const Work& work) noexcept {
   Component* const instance = rondo::fmu::living(c);
@@ -32,7 +32,7 @@ fmi2Status guarded(fmi2Component c, const Work& work) noexcept {
   }
 }
 
-/// All variables are real.
+/// For types other than real, of which there are no variables.
 fmi2Status none_of(fmi2Component c, const char* function, std::size_t n) noexcept {
   return guarded(c, [&](Component& k) {
     return n == 0 ? fmi2OK : k.error(std::string(function) + ": all variables are real");

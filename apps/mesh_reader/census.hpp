@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-/// @file  What a Gmsh file says it holds, counted without the Gmsh library, which takes many a file
-/// that contradicts itself for a smaller mesh (MSH 2.2 and 4.1: https://gmsh.info/doc/texinfo).
+/// @file  Counts the declared contents of a Gmsh file without the Gmsh library, which reads many
+/// inconsistent files as smaller meshes (MSH 2.2 and 4.1: https://gmsh.info/doc/texinfo).
 #pragma once
 #include <cstdint>
 #include <functional>
@@ -21,7 +21,7 @@ using Id = std::pair<int, int>;
 struct TypeShape {
   int dimension = 0, n_nodes = 0;
 };
-/// Takes Gmsh's number of a type; returns {0, 0} where there is no such type.
+/// Takes Gmsh's number of a type; returns {0, 0} if there is no such type.
 using ShapeOf = std::function<TypeShape(int type)>;
 
 struct Census {
@@ -30,12 +30,12 @@ struct Census {
   std::uint64_t n_nodes = 0;
   std::map<std::tuple<int, int, int>, std::uint64_t> elements;  ///< by dimension, entity, type
   std::map<Id, std::set<int>> groups;  ///< physical tags of each entity, without their signs
-  int n_parts = 0;                     ///< 0: the mesh is not in parts
+  int n_parts = 0;                     ///< 0: the mesh is not partitioned
   std::set<Id> ghosts;         ///< entities whose elements are copies of those of other parts
-  std::set<Id> between_parts;  ///< curves and points between parts: none of the geometry
+  std::set<Id> between_parts;  ///< curves and points between parts: not in the geometry
 };
 
-/// Throws std::string: what contradicts what, and in which line.
+/// Throws std::string: the contradiction and its line.
 Census take_census(std::string_view text, const ShapeOf& shape_of);
 
 }  // namespace rondo::reader

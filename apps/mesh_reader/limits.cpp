@@ -12,10 +12,10 @@
 namespace rondo::reader {
 namespace {
 
-/// Measured on 10^6 quadrilaterals: 3.8 bytes of memory a byte of file (4.1 binary), 4.8 (2.2
-/// ASCII); the shortest lines that a file can have take about three times as much.
+/// Measured on 10^6 quadrilaterals: 3.8 bytes of memory per byte of file (4.1 binary), 4.8 (2.2
+/// ASCII); the shortest lines that a file can have need about three times as much.
 constexpr std::uint64_t memory_per_byte = 16, memory_at_least = 512ULL << 20;
-/// Measured: 30 MB/s (2.2 ASCII). A busy machine has 30 times as long.
+/// Measured: 30 MB/s (2.2 ASCII). A busy machine is allowed 30 times as long.
 constexpr std::uint64_t bytes_per_second = 1'000'000, seconds_at_least = 20;
 
 /// Address space in use now [B].
@@ -30,7 +30,7 @@ std::uint64_t memory_of_machine() {
          static_cast<std::uint64_t>(sysconf(_SC_PAGESIZE));
 }
 
-/// Never above what the process was given.
+/// Sets a limit, but never above the present one.
 void limit(int resource, std::uint64_t value) {
   rlimit now{};
   if (getrlimit(static_cast<__rlimit_resource>(resource), &now) != 0) return;

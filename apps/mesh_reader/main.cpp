@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// Reads a mesh with the Gmsh library and writes it as plain arrays (rondo/mesh/gmsh_stream.hpp):
 ///     rondo-mesh-reader FILE > STREAM
-/// Exit code 0 when the stream is whole, also where it only says why there is no mesh.
+/// Exit code 0 if the stream is complete, even if it only says why there is no mesh.
 #include <gmsh.h>
 #include <unistd.h>
 
@@ -50,7 +50,7 @@ void put_all(const std::vector<Number>& numbers) {
   put(numbers.data(), numbers.size() * sizeof(Number));
 }
 
-/// Lines of the library's log that begin with a word, without it.
+/// Lines of the library's log that begin with a word, without that word.
 std::vector<std::string> logged(const std::string& word) {
   std::vector<std::string> lines, found;
   gmsh::logger::get(lines);
@@ -73,7 +73,7 @@ void put_types() {
   }
 }
 
-/// The names are those of the file: the library forgets the second of two groups of one name.
+/// Names come from the file: of two groups with one name, the library forgets the second.
 void put_groups(const Census& census) {
   std::map<Id, std::string> named = census.names;
   gmsh::vectorpair groups;
@@ -87,11 +87,11 @@ std::vector<int> groups_of(const Census& census, const Id& entity) {
   std::vector<int> physical;
   if (census.between_parts.count(entity) == 0)
     gmsh::model::getPhysicalGroupsForEntity(entity.first, entity.second, physical);
-  for (int& tag : physical) tag = std::abs(tag);  // the sign is that of the normal
+  for (int& tag : physical) tag = std::abs(tag);  // a negative sign reverses the normal
   return physical;
 }
 
-/// Entities whose elements are read: none with copies of elements; of a mesh in parts only parts.
+/// Entities whose elements are read: not those with copies; of a partitioned mesh only the parts.
 std::vector<Id> entities_of(const Census& census) {
   gmsh::vectorpair all;
   gmsh::model::getEntities(all);
@@ -137,7 +137,7 @@ std::vector<Block> blocks_of(const std::vector<Id>& entities) {
   return blocks;
 }
 
-/// Throws std::string where the library has not taken what the file holds.
+/// Throws std::string if the library has not read everything that the file contains.
 void demand_all_groups(const Census& census, const std::vector<Id>& entities) {
   for (const Id& entity : entities) {
     const std::vector<int> taken = groups_of(census, entity);
@@ -171,7 +171,7 @@ void put_elements(const std::vector<Block>& blocks) {
   }
 }
 
-/// One line of the library's, and what was made of the file here.
+/// One line of the library's warnings, and what was changed in the file here.
 std::vector<std::string> warnings_of(const Census& census) {
   std::vector<std::string> warnings;
   const std::vector<std::string> said = logged("Warning");
@@ -221,7 +221,7 @@ TypeShape shape_of(int type) {
   return {dimension, nodes};
 }
 
-/// Throws std::string. The path has no ending: the library looks at the text alone.
+/// Throws std::string. The path has no extension: the library examines only the text.
 void read(int file) {
   const std::string path = "/proc/self/fd/" + std::to_string(file);
   std::string why;
@@ -244,7 +244,7 @@ int serve(const char* path) {
   std::uint64_t memory = 0;
   try {
     const rondo::reader::SourceText source(path);
-    gmsh::initialize(0, nullptr, false);  // without the user's files of options
+    gmsh::initialize(0, nullptr, false);  // ignores the user's option files
     gmsh::option::setNumber("General.Terminal", 0);
     gmsh::option::setNumber("General.NumThreads", 1);
     memory = rondo::reader::limit_process(source.size);
@@ -270,5 +270,5 @@ int main(int argc, char** argv) {
     std::fputs("usage: rondo-mesh-reader FILE > STREAM\nReads a Gmsh mesh for rondo.\n", stderr);
     return 2;
   }
-  _exit(serve(argv[1]));  // the library would take a second to free a large mesh
+  _exit(serve(argv[1]));  // freeing a large mesh would take the library a second
 }

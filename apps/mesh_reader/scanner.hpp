@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-/// @file  Numbers of a Gmsh file, text or binary, section by section; what does not fit is refused
-/// with its line.
+/// @file  Reads numbers of a Gmsh file, text or binary, section by section; invalid contents are
+/// refused with their line.
 #pragma once
 #include <algorithm>
 #include <array>
@@ -19,32 +19,32 @@ class Scanner {
   void set_binary(bool swapped) { binary_ = true, swapped_ = swapped; }
   [[nodiscard]] bool is_binary() const { return binary_; }
 
-  /// Goes to the next "$Name"; false: there is none.
+  /// Goes to the next "$Name"; returns false if there is none.
   bool next_section();
   [[nodiscard]] const std::string& name() const { return name_; }
-  /// Behind its "$EndName", whatever stands before it.
+  /// Skips everything up to and including its "$EndName".
   void skip_section();
-  /// To the line after the one in hand.
+  /// Goes to the line after the current one.
   void end_line();
-  /// "$EndName" must follow.
+  /// Requires "$EndName" next.
   void end_section();
 
-  /// The section in hand says that it has `n` things, and next_thing() counts them: for errors.
+  /// For errors: the section announces `n` items, which next_thing() counts.
   void announce(std::uint64_t n, const char* what, std::uint64_t found = 0) {
     said_ = n, what_ = what, found_ = found;
   }
   void next_thing() { ++found_; }
 
-  /// A word of a text.
+  /// A word of a text file.
   std::string_view word();
-  /// The rest of the line in hand.
+  /// The rest of the current line.
   std::string_view rest_of_line();
-  /// A number as the file has its numbers.
+  /// A number in the format of the file.
   template <class Number>
   Number get() {
     return binary_ ? raw<Number>() : parsed<Number>();
   }
-  /// A number in words, also in a binary file.
+  /// A number written as text, also in a binary file.
   template <class Number>
   Number parsed() {
     const std::string_view all = word();
@@ -55,7 +55,7 @@ class Scanner {
     if (error != std::errc{} || end != digits.data() + digits.size()) fail_at_number(all);
     return number;
   }
-  /// In a text, what is read from here to end_record() must be one line.
+  /// In a text file, everything read from here to end_record() must be on one line.
   void begin_record() {
     if (!binary_) skip_space(), record_ = at_;
   }
@@ -66,7 +66,7 @@ class Scanner {
     for (; n > 0; --n) get<double>();
   }
 
-  /// Throws std::string, with the line.
+  /// Throws std::string with the line number.
   [[noreturn]] void fail(const std::string& message) const;
 
  private:
@@ -94,7 +94,7 @@ class Scanner {
   const char* what_ = nullptr;
 };
 
-/// "in quotation marks", cut where it is long.
+/// "in quotation marks", shortened if it is long.
 std::string quoted(std::string_view text);
 
 }  // namespace rondo::reader

@@ -1,16 +1,16 @@
 // SPDX-License-Identifier: BSD-3-Clause
-/// @file  Sections of Gmsh files of both versions, for census.cpp.
+/// @file  Sections of Gmsh files of both versions, used by census.cpp.
 #pragma once
 #include "census.hpp"
 #include "scanner.hpp"
 
 namespace rondo::reader {
 
-/// Tags of nodes or of elements; each may be there once.
+/// Tags of nodes or of elements, which must be unique.
 class Tags {
  public:
   void add(std::uint64_t tag);
-  /// Throws std::string. @param what "nodes"
+  /// Throws std::string if a tag occurs twice. @param what "nodes"
   void demand_unique(const std::string& what);
 
  private:
@@ -18,7 +18,7 @@ class Tags {
   bool ascending_ = true;
 };
 
-/// A census in the making.
+/// The state of a census while it is made.
 struct Counting {
   Scanner& in;
   const ShapeOf& shape_of;
@@ -26,11 +26,11 @@ struct Counting {
   std::map<int, TypeShape> shapes{};
   std::map<Id, std::vector<int>> parts{};  ///< MSH 4.1: of partitioned entities
 
-  /// Shape of a type of elements; fails where the type has no nodes.
+  /// Shape of a type of elements; fails if the type has no nodes.
   TypeShape shape(int type);
 };
 
-/// The number of a physical group, which is negative where the group turns the element round.
+/// The number of a physical group without its sign (negative: the group reverses the element).
 int magnitude(Counting& c, int physical);
 void count_nodes_22(Counting& c);
 void count_elements_22(Counting& c);

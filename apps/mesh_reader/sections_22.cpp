@@ -7,7 +7,7 @@
 namespace rondo::reader {
 namespace {
 
-/// Number of the element, its tags and nodes. @param n_tags physical, elementary, parts
+/// Reads the number of the element, its tags and nodes. @param n_tags physical, elementary, parts
 void count_element(Counting& c, int type, int n_tags) {
   const TypeShape shape = c.shape(type);
   int physical = 0, elementary = 0, parts = 0;

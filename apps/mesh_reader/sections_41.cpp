@@ -9,7 +9,7 @@ namespace {
 
 constexpr std::array<const char*, 4> kinds{"point", "curve", "surface", "volume"};
 
-/// Counts are unsigned in a file, and no larger than it.
+/// Reads a count: unsigned, and no larger than the file.
 std::uint64_t count(Counting& c) {
   return c.in.get<std::uint64_t>();
 }
@@ -18,7 +18,7 @@ std::string entity_text(int dimension, int tag) {
   return std::string(kinds[static_cast<std::size_t>(dimension)]) + " " + std::to_string(tag);
 }
 
-/// Place or box, physical tags, and for others than points what bounds them.
+/// Position or box, physical tags, and, except for points, the bounding entities.
 void rest_of_entity(Counting& c, int dimension, int tag) {
   c.in.skip_doubles(dimension == 0 ? 3 : 6);
   const auto [at, fresh] = c.census.groups.try_emplace({dimension, tag});
@@ -44,7 +44,7 @@ void count_part(Counting& c, int dimension) {
   std::vector<int>& parts = c.parts[{dimension, tag}];
   for (std::uint64_t n = count(c); n > 0; --n) parts.push_back(c.in.get<int>());
   if (parent_dimension > dimension) c.census.between_parts.insert({dimension, tag});
-  // The tag may be that of an entity of the geometry, which has no elements then.
+  // The tag may also be that of an entity of the geometry, which then has no elements.
   c.census.groups.erase({dimension, tag});
   rest_of_entity(c, dimension, tag);
 }
@@ -67,7 +67,7 @@ BlockHead block_head(Counting& c) {
   return head;
 }
 
-/// What a section says of itself: blocks, things in them, least and largest tag.
+/// The header of a section: numbers of blocks and of items, smallest and largest tag.
 struct SectionHead {
   std::uint64_t blocks = 0, n = 0, least = 0, largest = 0, found = 0;
 };

@@ -8,7 +8,7 @@ namespace rondo::reader {
 
 /// An open file, mapped into memory.
 struct SourceText {
-  explicit SourceText(const std::string& path);  ///< throws std::string, why it cannot be read
+  explicit SourceText(const std::string& path);  ///< throws std::string: why it cannot be read
   ~SourceText();
   SourceText(const SourceText&) = delete;
   SourceText& operator=(const SourceText&) = delete;

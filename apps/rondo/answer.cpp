@@ -137,7 +137,7 @@ std::string document(const Json& result, int code, const Kept& told) {
   constexpr int indent = 2;
   try {
     return json.dump(indent) + "\n";
-  } catch (const Json::type_error&) {  // the name of a file or folder is no UTF-8
+  } catch (const Json::type_error&) {  // the name of a file or folder is not UTF-8
     json["warnings"].push_back(
         "a name in this document is not UTF-8, which JSON cannot hold: U+FFFD stands there for the "
         "bytes that are none, and nothing is found by that name; take a name in UTF-8");
@@ -166,7 +166,7 @@ int tell_failure(const std::exception& error) {
       spdlog::error("{} errors; nothing was run", wrong->faults().size());
     return exit_input;
   }
-  if (dynamic_cast<const std::system_error*>(&error)) {  // of printing: files have their FileError
+  if (dynamic_cast<const std::system_error*>(&error)) {  // from printing; files throw FileError
     spdlog::error("standard output: {}", error.what());
     return exit_files;
   }

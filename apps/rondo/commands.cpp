@@ -77,7 +77,7 @@ void print_check(const study::Case& c, const study::CheckReport& r) {
                r.threads, r.threads == 1 ? "" : "s");
 }
 
-/// The case of a results directory is in it: with --resume the directory is all that is asked for.
+/// With --resume, the directory alone may be given, because it contains its case.
 void complete(RunArguments& arguments) {
   std::error_code error;
   std::filesystem::path& into = arguments.options.directory;
@@ -97,7 +97,7 @@ void complete(RunArguments& arguments) {
                                     : default_directory(arguments.case_file);
 }
 
-/// Of what this program did: a run that goes on counts from there.
+/// Counts only this call: for a resumed run, from its checkpoint on.
 void print_realtime_factor(const study::RunReport& r) {
   if (!(r.simulated_s > 0.0 && r.step_wall_s > 0.0)) {
     fmt::print("real time          no motion was computed\n");

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-/// @file  The program's commands: call the library, print, return an exit code.
+/// @file  The commands of the program: they call the library, print, and return an exit code.
 #pragma once
 #include <cstdint>
 #include <filesystem>
@@ -17,15 +17,15 @@ struct CaseArguments {
 };
 
 struct RunArguments : CaseArguments {
-  study::RunOptions options;  ///< no directory: the case's name, in the working folder
+  study::RunOptions options;  ///< default directory: name of the case, in the working folder
   bool realtime_factor = false;
 };
 
 struct ModesArguments : CaseArguments {
-  study::ModesRequest request;  ///< no directory: the case's name and "-modes"
+  study::ModesRequest request;  ///< default directory: name of the case and "-modes"
 };
 
-/// What was written.
+/// Report of what was written.
 struct FmuReport {
   std::filesystem::path file;
   std::string identifier, guid;
@@ -35,10 +35,10 @@ struct FmuReport {
 };
 
 struct SweepArguments {
-  study::SweepRequest request;  ///< no directory: the study's name
-  int jobs = 0;                 ///< runs at once; 0: as many as there are cores
+  study::SweepRequest request;  ///< default directory: name of the study
+  int jobs = 0;                 ///< runs at once; 0: number of cores
   bool dry_run = false;
-  std::string shard;  ///< "i/n": the part that is made; empty: all of it
+  std::string shard;  ///< "i/n": the part to run; empty: all of it
   bool collect = false;
 };
 

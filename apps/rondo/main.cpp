@@ -26,7 +26,7 @@ namespace {
 
 using namespace rondo;
 
-/// Of --help, too, which asks for no document.
+/// Also handles --help, which prints no document.
 int parse_failure(const CLI::App& program, const CLI::ParseError& error, app::Telling& tell) {
   if (error.get_exit_code() == 0 || !tell.json) {
     tell.json = false;
@@ -35,13 +35,13 @@ int parse_failure(const CLI::App& program, const CLI::ParseError& error, app::Te
   throw InputError(Fault{"", 0, 0, "", "", error.what(), "see --help of the command"});
 }
 
-/// Before the arguments are read: an option as --help would hide that there is no such command.
+/// Called before parsing, because an option such as --help would hide an unknown command.
 void demand_command(CLI::App& program, const std::string& name) {
   std::string names, nearest;
   std::size_t least = std::max<std::size_t>(1, name.size() / 3) + 1;
   for (const CLI::App* command : program.get_subcommands({})) {
     if (command->get_name() == name) return;
-    if (command->get_group().empty()) continue;  // gone
+    if (command->get_group().empty()) continue;  // removed command
     names += (names.empty() ? "" : ", ") + command->get_name();
     const std::size_t distance = edit_distance(name, command->get_name());
     if (distance >= least) continue;
@@ -92,7 +92,7 @@ int dispatch_command(CLI::App& program, int argc, char** argv, app::Telling& tel
   return exit_input;
 }
 
-/// Nothing that was thrown goes further.
+/// Catches all exceptions.
 int run_command(CLI::App& program, int argc, char** argv, app::Telling& tell) {
   try {
     return dispatch_command(program, argc, argv, tell);
@@ -110,15 +110,15 @@ int run_program(int argc, char** argv) {
     std::string text =
         fmt::format("rondo {} ({}; build id {}; kernels {})\n{}", version, build_options,
                     build_id(), study::dispatch_level(), in_lines(build_record()));
-    text.pop_back();  // printed with a line feed
+    text.pop_back();  // it is printed with a line feed
     return text;
   });
   program.require_subcommand(1);
   program.footer(
       "Example:\n  rondo run cases/ledge-smooth.toml -o results/ledge\n"
       "Each command has its own help: rondo run --help");
-  std::signal(SIGPIPE, SIG_IGN);  // a reader of our output that goes away ends nothing
-  std::signal(SIGXFSZ, SIG_IGN);  // a file that grows too long is an error of writing
+  std::signal(SIGPIPE, SIG_IGN);  // a closed reader of our output must not end us
+  std::signal(SIGXFSZ, SIG_IGN);  // a file that grows too long gives a write error
   app::end_at_stop_signals();
   use_allowed_processors();
   app::Telling tell;

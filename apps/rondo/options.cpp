@@ -10,7 +10,7 @@
 namespace rondo::app {
 namespace {
 
-/// A flag, or an option with its default, what is allowed, and which others it goes with.
+/// Adds a flag, or an option with its default, allowed values, and required or excluded options.
 void add_option(CLI::App& command, const study::Option& o) {
   const std::string names(o.words), help = help_text(o, o.help);
   CLI::Option* added = std::visit(
@@ -107,7 +107,7 @@ CLI::App* add_reduce(CLI::App& program, study::ReduceRequest& r, Telling& tell) 
                                    "rondo run CASE --reduced MODEL -o REDUCED, then rondo validate "
                                    "REDUCED RUN"});
           })
-      ->group("");  // not in the help
+      ->group("");  // hidden in the help
   add_telling(*reduce, tell, "Prints warnings and the results only");
   reduce->footer(
       "Example:\n  rondo reduce results/mu0 results/mu06 -o model.h5\n"

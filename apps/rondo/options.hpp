@@ -11,12 +11,12 @@ class App;
 
 namespace rondo::app {
 
-/// An option of which nothing is left, as where a variable of the shell is not set: what is wrong.
+/// Fault of an option whose value is empty, e.g. because a shell variable is not set.
 inline std::string refuse_empty(const std::string& text) {
   return text.empty() ? "is empty: a name is to follow, or the option is to be left out" : "";
 }
 
-// Each adds its command to the program; the arguments are filled when that is parsed, and must
+// These functions add a command to the program. The arguments are filled by parsing and must
 // outlive it.
 CLI::App* add_run(CLI::App& program, RunArguments& arguments, Telling& tell);
 CLI::App* add_check(CLI::App& program, CaseArguments& arguments, int& threads, Telling& tell);

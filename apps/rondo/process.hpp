@@ -1,16 +1,16 @@
 // SPDX-License-Identifier: BSD-3-Clause
-/// @file  How this process begins and ends, whatever it was started with.
+/// @file  Start and end of this process, whatever its environment.
 #pragma once
 
 namespace rondo::app {
 
-/// A standard stream that was closed from the start gets one that takes or gives nothing: its
-/// descriptor must not become that of a file of results, into which messages would then go. What
-/// is asked for on a closed stdout is still an error, as that one is for reading only.
+/// Opens a replacement for standard streams that were closed at the start. Otherwise a results file
+/// could get their descriptor, and messages would go into it. Output to a closed stdout remains an
+/// error, because the replacement is read-only.
 void open_standard_streams();
 
-/// Under a limit of memory OpenBLAS's threads may wait for their buffers for ever, and so would
-/// exit(), which joins them (OpenBLAS 0.3.21). All files are closed by then.
+/// Under a memory limit, OpenBLAS's threads may wait for their buffers for ever, and so would
+/// exit(), which joins them (OpenBLAS 0.3.21). Call it when all files are closed.
 [[noreturn]] void leave(int code);
 
 }  // namespace rondo::app

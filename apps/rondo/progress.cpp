@@ -10,7 +10,7 @@
 namespace rondo::app {
 namespace {
 
-/// Prints at once. What cannot be printed is left out: a terminal that is gone ends no run.
+/// Prints at once and ignores errors: a terminal that has been closed must not end a run.
 void print(const std::string& text) {
   std::fputs(text.c_str(), stderr);
   std::fflush(stderr);
@@ -26,7 +26,7 @@ Progress::~Progress() {
 
 void Progress::operator()(long long done, long long total) {
   const auto now = Clock::now();
-  if (first_ < 0) {  // a run that is gone on with does not begin at 0
+  if (first_ < 0) {  // a resumed run does not begin at 0
     first_ = done;
     decade_ = static_cast<int>(10 * done / total);
   }

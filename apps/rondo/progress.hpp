@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-/// @file  Progress on stderr: a bar with speed and time left on a terminal; elsewhere one line a
-/// decade of progress.
+/// @file  Progress on stderr: on a terminal a bar with speed and remaining time; otherwise one line
+/// per decade of progress.
 #pragma once
 #include <chrono>
 
@@ -9,7 +9,7 @@ namespace rondo::app {
 class Progress {
  public:
   explicit Progress(const char* unit);  ///< what is counted: "step"
-  ~Progress();                          ///< a bar that did not reach its end gets its new line
+  ~Progress();                          ///< ends the line of an unfinished bar
   Progress(const Progress&) = delete;
   Progress& operator=(const Progress&) = delete;
   void operator()(long long done, long long total);
@@ -23,8 +23,8 @@ class Progress {
   Clock::time_point start_ = Clock::now();
   Clock::time_point drawn_ = start_;
   int decade_ = 0;
-  long long first_ = -1;  ///< done before the first call; -1: not called yet
-  bool open_ = false;     ///< a bar stands on the line
+  long long first_ = -1;  ///< count at the first call; -1: not called yet
+  bool open_ = false;     ///< whether a bar is on the present line
 };
 
 }  // namespace rondo::app

@@ -21,7 +21,7 @@ extern "C" void request_stop(int) {
   requested.store(true);
 }
 
-/// Nothing but what may be called from a signal handler.
+/// Calls only functions that are allowed in a signal handler.
 extern "C" void end_at_once(int) {
   constexpr char text[] = "rondo: warning: interrupted\n";
   static_cast<void>(!write(STDERR_FILENO, text, sizeof text - 1));

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-/// @file  Rectangular blocks of quadrilaterals, alone or several in a mesh, and models of them.
+/// @file  Rectangular blocks of quadrilaterals, one or several in a mesh, and models of them.
 #pragma once
 #include <algorithm>
 #include <utility>
@@ -15,7 +15,7 @@
 
 namespace rondo::test {
 
-/// Lower left corner, edges, cells along them. Its whole boundary is a candidate for contact.
+/// Lower left corner, edges, numbers of cells. Its whole boundary consists of contact candidates.
 struct Block {
   Vec2 corner;
   double width = 1.0, height = 1.0;  ///< [m]
@@ -52,7 +52,7 @@ inline int add_block(mesh::Mesh& mesh, const Block& block) {
   return first;
 }
 
-/// A model of bodies from any mesh, without contact and motion; dt at `safety` of the critical.
+/// A model of bodies on any mesh, without contact and motion; dt: `safety` × the critical step.
 inline dynamics::Model body_model(const mesh::Mesh& mesh, const fem::Material& material,
                                   double alpha, double beta, double safety) {
   const std::span materials(&material, 1);
@@ -77,8 +77,8 @@ inline void add_ground(dynamics::Model& model, const mesh::Mesh& mesh,
                                                mesh.tributary, mesh.contact_edges});
 }
 
-/// The candidates of the ground lose their mass to the nodes below (docs/theory.md, 3.10).
-/// @pre the ground is there
+/// Moves the mass of the ground's candidates to the nodes below (docs/theory.md, 3.10).
+/// @pre the model has its ground
 inline void make_contact_massless(const mesh::Mesh& mesh, dynamics::Model& model) {
   model.lumped_mass = model.mass;
   model.mass = fem::move_contact_mass(mesh, model.mass, model.contact->nodes).mass;
@@ -90,7 +90,7 @@ inline void add_surfaces(dynamics::Model& model, const mesh::Mesh& mesh, contact
       dynamics::SurfaceContact{mesh.boundary, mesh.tributary, mesh.contact_edges, self, law});
 }
 
-/// Linear and angular momentum (about the origin) of the free bodies; `v` at half a step before u.
+/// Linear and angular momentum (about the origin) of free bodies; `v` is half a step before u.
 struct Momentum {
   Vec2 linear;           ///< [kg m/s /m]
   double angular = 0.0;  ///< [kg m²/s /m]

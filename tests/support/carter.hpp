@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
-/// @file  V16: steady rolling of a disk of nearly incompressible rubber on rigid ground, and Carter
-/// (K. L. Johnson, Contact Mechanics, 1985, 8.3): traction Q at a creep, in whole turns against the
-/// travel, of (μ a/R)(1 - c/a) beyond that of free rolling, c/a = √(1 - Q/(μP)) the share of the
-/// contact that sticks, at the leading edge.
+/// @file  V16: steady rolling of a disk of nearly incompressible rubber on rigid ground, compared
+/// with Carter (K. L. Johnson, Contact Mechanics, 1985, 8.3): the traction is Q at a creep, by
+/// which rotation exceeds travel, of (μ a/R)(1 - c/a) beyond that of free rolling; c/a = √(1 -
+/// Q/(μP)) is the share of the contact that sticks, at the leading edge.
 #pragma once
 #include <array>
 #include <cmath>
@@ -14,10 +14,10 @@
 
 namespace rondo::test {
 
-/// The disk goes to +x. It is slow against shear waves, 39 m/s, and damped so that what a node
-/// stirs up on coming to the ground is gone within the contact: else sliding chatters and Q stays
-/// below μP. Inertia is (V/c)² = 0.3 %, drag ρ α V a/G = 0.2 %, stiffness damping β V/a = 0.01 % of
-/// the elastic forces. The half plane wants a/(μR) small (curvature) and ν near ½.
+/// The disk moves to +x. It is slow compared with shear waves, 39 m/s, and so damped that the waves
+/// of a node entering the contact decay within it; otherwise sliding chatters and Q stays below μP.
+/// Inertia is (V/c)² = 0.3 %, drag ρ α V a/G = 0.2 %, stiffness damping β V/a = 0.01 % of the
+/// elastic forces. The half plane requires small a/(μR) (curvature) and ν near ½.
 struct CarterDisk {
   int radial = 10, columns = 450;
   double creep = 0.0;    ///< ω R/V - 1, ω the turning that rolls to +x [-]
@@ -27,18 +27,18 @@ struct CarterDisk {
   static constexpr double modulus = 5.0e6 / (1.0 - 0.49 * 0.49);
   static constexpr double lowered = 0.02;  ///< [s]
   static constexpr double settled = 0.12;  ///< 0.2 m after that, 6 contacts: e^-5 of the transient
-  static constexpr double end = 0.14;  ///< [s] 10 nodes of the coarsest mesh come down meanwhile
+  static constexpr double end = 0.14;      ///< [s] meanwhile 10 nodes of the coarsest mesh enter
 };
 
-/// Means over the end of the run.
+/// Means over the last part of the run.
 struct CarterMeans {
   double creep = 0.0;  ///< [-]
   Vec2 load;           ///< Q towards +x, P [N/m]
-  // Of the shear that is spared, μp - |q|: half an ellipse over the stick zone, nothing elsewhere.
+  // Moments of the unused friction μp - |q|: half an ellipse over the stick zone, zero elsewhere.
   double step = 0.0;     ///< [s]
   double stick = 0.0;    ///< twice its standard deviation along the ground: c [m]
-  double ahead = 0.0;    ///< its center ahead of that of the pressure: a - c [m]
-  double largest = 0.0;  ///< |q|/(μp) of all nodes of all states looked at [-]
+  double ahead = 0.0;    ///< its center minus that of the pressure: a - c [m]
+  double largest = 0.0;  ///< |q|/(μp) of all nodes in all states examined [-]
 
   [[nodiscard]] double half_width() const {
     return std::sqrt(4.0 * load.y * CarterDisk::radius / (std::numbers::pi * CarterDisk::modulus));
@@ -126,11 +126,11 @@ inline CarterMeans roll(const CarterDisk& of) {
   return mean;
 }
 
-/// Runs at a braking and a driving creep, and near free rolling, from which both are counted.
+/// Runs at a braking and a driving creep, and near free rolling, which is the reference of both.
 /// @param creep allowed of (creep)/(μ a/R), zone of c/a and of the middle of the stick zone over a
 inline void expect_carter(CarterDisk disk, std::array<double, 2> creeps, double creep,
                           double zone) {
-  disk.creep = -0.0023;  // of free rolling: the strain of a pressed disk's rim, some (a/R)²
+  disk.creep = -0.0023;  // that of free rolling: strain of a pressed disk's edge, about (a/R)²
   const CarterMeans free = roll(disk);
   EXPECT_LT(std::abs(free.share()), 0.01);
   const double none = free.creep - free.scale() * carter_creep(free.share());

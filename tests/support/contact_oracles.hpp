@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-/// @file  What tests of coupled contacts compare with: the enumeration of all statuses.
+/// @file  Reference for tests of coupled contacts: enumeration of all statuses.
 #pragma once
 #include <gtest/gtest.h>
 
@@ -36,7 +36,7 @@ inline double largest_difference(const std::vector<Vec2>& a, const std::vector<V
   return worst;
 }
 
-/// The contacts in another order: contact j is order[j] of the scene.
+/// The contacts in another order: contact j is contact order[j] of the scene.
 inline Scene permuted(const Scene& scene, const std::vector<std::size_t>& order) {
   Scene out = scene;
   for (std::size_t j = 0; j < order.size(); ++j) {
@@ -60,7 +60,7 @@ inline Eigen::MatrixXd dense(const CoupledProblem& p) {
   return w;
 }
 
-/// Velocities of all statuses (open, stick, slip either way) whose equations, in the sense of least
+/// Velocities for all statuses (open, stick, slip either way) whose equations, solved by least
 /// squares, give impulses with a residual up to the tolerance. 4^nc systems.
 inline std::vector<std::vector<Vec2>> enumerate(const CoupledProblem& p, double tolerance) {
   const std::size_t nc = p.size();

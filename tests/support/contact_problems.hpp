@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-/// @file  Coupled contact problems for tests and benchmarks: what meshes of lumped masses give, and
-/// what is harder. Each takes its seed.
+/// @file  Coupled contact problems for tests and benchmarks: typical of meshes with lumped masses,
+/// and more difficult ones. Each takes its random seed.
 #pragma once
 #include <algorithm>
 #include <cmath>
@@ -16,7 +16,7 @@ namespace rondo::test {
 using contact::ContactRows;
 using contact::CoupledProblem;
 
-/// Contacts, and the nodes behind them.
+/// Contacts and the nodes that they act on.
 struct Scene {
   std::vector<Complex> response;  ///< (nodes) velocity per impulse, a complex number [m/kg]
   std::vector<Vec2> velocity;     ///< (nodes) without impulses                       [m/s]
@@ -51,11 +51,11 @@ inline CoupledProblem problem_of(const Scene& scene) {
   return p;
 }
 
-/// Two rows of nodes pressed together; nodes of the one on segments of the other, or both ways.
+/// Two rows of nodes pressed together: nodes of one on segments of the other, or of both.
 struct ChainShape {
   int upper = 100, lower = 100;  ///< nodes
-  double offset = 0.3;           ///< of the lower row, in segments of its own
-  double mass_ratio = 1.0;       ///< of a lower to an upper node
+  double offset = 0.3;           ///< of the lower row, in lengths of its segments
+  double mass_ratio = 1.0;       ///< mass of a lower node / mass of an upper one
   bool both_ways = false;
   double friction = 0.3, restitution = 0.0;
   double press = 1.0, shear = 0.5, noise = 0.3;  ///< velocities [m/s]
@@ -85,14 +85,14 @@ inline Scene chain(const ChainShape& s) {
     const ContactRows rows = contact::node_rows(*touch, norm(at(b) - at(a)), p, a, b);
     scene.add(rows, s.friction, s.restitution * std::min(free_velocity(scene, rows).x, 0.0));
   };
-  for (int p = 0; p < s.upper; ++p)  // the lower body is below its row: it is walked to the left
+  for (int p = 0; p < s.upper; ++p)  // the lower body is below its row: the row runs to the left
     for (int k = 0; k + 1 < s.lower; ++k) against(p, s.upper + k + 1, s.upper + k);
   for (int p = s.upper; s.both_ways && p < s.upper + s.lower; ++p)
     for (int k = 0; k + 1 < s.upper; ++k) against(p, k, k + 1);
   return scene;
 }
 
-/// Each node of the upper row on two facets as well, which turn by `turn` [rad] between them.
+/// Each node of the upper row also touches two facets, with an angle of `turn` [rad] between them.
 inline Scene chain_in_valleys(const ChainShape& s, double turn) {
   Scene scene = chain(s);
   for (int p = 0; p < s.upper; ++p)
@@ -102,7 +102,7 @@ inline Scene chain_in_valleys(const ChainShape& s, double turn) {
   return scene;
 }
 
-/// Every contact n times.
+/// Each contact occurs n times.
 inline Scene repeated(Scene scene, int n) {
   const Scene once = scene;
   for (int i = 1; i < n; ++i)

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
-/// In builds that count the lines the tests reach: processes that end by _exit, as those of jobs
-/// do, write their counts first. Linked with --wrap=_exit.
+/// For builds that count the lines reached by tests: processes that end by _exit, like those of
+/// jobs, first write their counts. Linked with --wrap=_exit.
 extern "C" {
-#include <gcov.h>  // has no linkage of its own
+#include <gcov.h>  // declares no linkage itself
 
 [[noreturn]] void __real__exit(int code);
 [[noreturn]] void __wrap__exit(int code);

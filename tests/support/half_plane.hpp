@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// @file  A cylinder that rolls on rigid ground, as a half plane: an independent solution of the
 /// problem of Bentall and Johnson (Int. J. Mech. Sci. 9 (1967) 389; K. L. Johnson, Contact
-/// Mechanics, 1985, 8.2 and 8.3), by strips of constant traction. Lengths over R, tractions over
+/// Mechanics, 1985, 8.2 and 8.3) by strips of constant traction. Lengths are over R, tractions over
 /// E*; the surface flows towards -x.
 ///
-///     g = x²/2 - δ + u_z >= 0  ⊥  p >= 0,      w/V = -ξ - u_x' of the surface against q,  |q| <=
-///     μp u_z' = -(2/π) ∫ p/(x - s) ds + 2β q,     u_x' = -(2/π) ∫ q/(x - s) ds - 2β p
+///     g = x²/2 - δ + u_z >= 0  ⊥  p >= 0,  w/V = -ξ - u_x' of the surface against q,  |q| <= μp
+///     u_z' = -(2/π) ∫ p/(x - s) ds + 2β q,     u_x' = -(2/π) ∫ q/(x - s) ds - 2β p
 #pragma once
 #include <Eigen/Dense>
 #include <cmath>
@@ -17,9 +17,9 @@ namespace rondo::test {
 struct HalfPlane {
   double dundurs = 0.0;      ///< β, of an elastic cylinder on rigid ground (1 - 2ν)/(2 (1 - ν))
   double friction = 0.0;     ///< μ > 0
-  double half_width = 0.01;  ///< a of Hertz: it gives the load
+  double half_width = 0.01;  ///< Hertz's a, which determines the load
   double share = 0.0;        ///< Q/(μP)
-  int strips = 200;          ///< in 1.2 times the width of Hertz
+  int strips = 200;          ///< over 1.2 times the width of Hertz
 };
 
 struct HalfPlaneRolling {
@@ -27,7 +27,7 @@ struct HalfPlaneRolling {
   double creep = 0.0;  ///< ξ = 1 - V/(ωR)
 };
 
-/// Newton on statuses: 0 open, 1 sticking, 2 and -2 slipping with q of that sign.
+/// Newton's method on statuses: 0 open, 1 sticking, 2 and -2 slipping with q of that sign.
 class HalfPlaneProblem {
  public:
   explicit HalfPlaneProblem(const HalfPlane& of)
@@ -36,7 +36,7 @@ class HalfPlaneProblem {
     const auto primitive = [](double y) { return y * std::log(std::abs(y)) - y; };
     normal_.resize(n_ + 1, n_);
     across_.resize(n_ + 1, n_);
-    for (int i = 0; i <= n_; ++i)  // one more ahead: the slip of the foremost
+    for (int i = 0; i <= n_; ++i)  // one more ahead, for the slip of the foremost strip
       for (int j = 0; j < n_; ++j) {
         const double y = (i - j) * width_, half = 0.5 * width_;
         normal_(i, j) = -2.0 / std::numbers::pi * (primitive(y + half) - primitive(y - half));
@@ -58,7 +58,7 @@ class HalfPlaneProblem {
   }
 
  private:
-  /// p, q, δ and ξ of given statuses, under the load of Hertz, π a²/4, and its share of friction.
+  /// p, q, δ and ξ for given statuses, under the load of Hertz, π a²/4, and its share of friction.
   void find(const std::vector<int>& status) {
     Eigen::MatrixXd m = Eigen::MatrixXd::Zero(2 * n_ + 2, 2 * n_ + 2);
     Eigen::VectorXd right = Eigen::VectorXd::Zero(2 * n_ + 2);
@@ -112,14 +112,14 @@ class HalfPlaneProblem {
   int n_;
   double width_, depth_ = 0.0, creep_ = 0.0;
   Eigen::VectorXd place_, p_, q_;
-  Eigen::MatrixXd normal_, across_;  ///< displacement along a traction, and across it, by β
+  Eigen::MatrixXd normal_, across_;  ///< displacement along a traction, and normal to it, due to β
 };
 
 inline HalfPlaneRolling roll(const HalfPlane& of) {
   return HalfPlaneProblem(of).solve();
 }
 
-/// Creep over a/R, a of Hertz, where all sticks: 2η/√(1 + 4η²), η = ln((1 + β)/(1 - β))/(2π).
+/// Creep / (a/R), a of Hertz, if all points stick: 2η/√(1 + 4η²), η = ln((1 + β)/(1 - β))/(2π).
 inline double creep_of_adhesion(double dundurs) {
   const double eta = std::log((1.0 + dundurs) / (1.0 - dundurs)) / (2.0 * std::numbers::pi);
   return 2.0 * eta / std::sqrt(1.0 + 4.0 * eta * eta);

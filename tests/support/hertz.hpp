@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-/// @file  V14: frictionless line contact of a disk under a given load, and Hertz (K. L. Johnson,
-/// Contact Mechanics, 1985, 4.2): a² = 4PR/(πE*), p0² = PE*/(πR), E* = E/(1-ν²).
+/// @file  V14: frictionless line contact of a disk under a given load, compared with Hertz (K. L.
+/// Johnson, Contact Mechanics, 1985, 4.2): a² = 4PR/(πE*), p0² = PE*/(πR), E* = E/(1-ν²).
 #pragma once
 #include <fmt/format.h>
 #include <gtest/gtest.h>
@@ -17,7 +17,7 @@ namespace rondo::test {
 
 inline constexpr double radius = 0.3, load = 2000.0;  // m, N/m
 inline const fem::Material compressible{5.0e6, 0.3, 1100.0, fem::Plane::strain};
-/// As rubber is; by B-bar.
+/// A material like rubber; by B-bar.
 inline const fem::Material nearly_incompressible{5.0e6, 0.49, 1100.0, fem::Plane::strain,
                                                  fem::Integration::b_bar};
 
@@ -33,7 +33,7 @@ inline Hertz hertz(const fem::Material& m) {
 
 struct HertzFit {
   double half_width = 0.0, pressure = 0.0;  ///< of p² = p0² (1 - x²/a²) by least squares [m], [Pa]
-  double misfit = 0.0;                      ///< root mean square of p²/p0² about the fit
+  double misfit = 0.0;                      ///< root mean square deviation of p²/p0² from the fit
 };
 
 class HertzDisk {
@@ -51,7 +51,7 @@ class HertzDisk {
                                                     fem::free_nodes(mesh_), model_.nodes);
   }
 
-  /// The state under the load, by secants on the depth; without friction the way is of no account.
+  /// The state under the load, by secants on the depth; without friction the path does not matter.
   statics::CrushState loaded() {
     double before = 5e-4, depth = 8e-4;
     double force_before = force(press(before)), found = 0.0;
@@ -69,8 +69,8 @@ class HertzDisk {
     return state;
   }
 
-  /// Over reference positions: pressure is force over reference length, and a small-strain model
-  /// does not tell the two apart (they differ by the strain, 1 %).
+  /// Uses reference positions: pressure is force over reference length. A small-strain model does
+  /// not distinguish reference and deformed lengths (they differ by the strain, 1 %).
   [[nodiscard]] HertzFit fit(const statics::CrushState& state) const {
     std::vector<double> x, p;
     for (std::size_t k = 0; k < state.force.size(); ++k) {
@@ -114,7 +114,7 @@ struct Deviation {
   double misfit = 0.0;
 };
 
-/// Of a disk of `columns` columns, a/h = columns / 160, and `radial` layers graded with p = 2.
+/// For a disk of `columns` columns, a/h = columns / 160, and `radial` layers graded with p = 2.
 inline Deviation deviation_from_hertz(double inner_radius, int radial, int columns,
                                       const fem::Material& rubber = compressible) {
   HertzDisk disk(inner_radius, radial, columns, rubber);

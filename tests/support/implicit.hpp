@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-/// @file  Elements that are implicit in the explicit step (docs/theory.md, 3.9), chosen by hand.
+/// @file  Implicit elements in the explicit step (docs/theory.md, 3.9), chosen by hand.
 #pragma once
 #include <algorithm>
 #include <cstddef>
@@ -11,7 +11,7 @@
 
 namespace rondo::test {
 
-/// The mesh with some of its cells alone. @param cells (e) 1: kept
+/// The mesh of some of its cells. @param cells (e) 1: kept
 inline mesh::Mesh part_of(const mesh::Mesh& mesh, const std::vector<char>& cells) {
   mesh::Mesh part = mesh;
   part.cells.clear();
@@ -24,7 +24,7 @@ inline mesh::Mesh part_of(const mesh::Mesh& mesh, const std::vector<char>& cells
   return part;
 }
 
-/// (e) 1 in these layers of a generated disk, 1 at the rim.
+/// (e) 1 in the given layers of a generated disk; layer 1 is at the rim.
 inline std::vector<char> cells_of_layers(const mesh::Mesh& mesh, const std::vector<int>& layers) {
   std::vector<double> radius;  // of the innermost corner
   for (const mesh::Cell& cell : mesh.cells) {
@@ -46,7 +46,7 @@ inline std::vector<char> cells_of_layers(const mesh::Mesh& mesh, const std::vect
   return chosen;
 }
 
-/// Other elements of a material of their own. @param cells (e) 1: of it
+/// Gives some elements another material. @param cells (e) 1: they have it
 inline void set_region(Built& b, const DiskCase& c, const std::vector<char>& cells,
                        const fem::Material& material) {
   b.materials = {c.material, material};
@@ -71,7 +71,7 @@ inline dynamics::ImplicitPart implicit_part(const mesh::Mesh& mesh,
   return implicit;
 }
 
-/// The critical step of the explicit elements, with the mass of all.
+/// Critical step of the explicit elements with the whole mass.
 inline dynamics::CriticalStep explicit_step(const dynamics::Model& model, const mesh::Mesh& mesh,
                                             std::span<const fem::Material> materials,
                                             std::vector<char> cells, double beta) {
@@ -81,7 +81,7 @@ inline dynamics::CriticalStep explicit_step(const dynamics::Model& model, const 
                                  {beta, 0.0}, fem::element_eigenvalue_bound(part, materials));
 }
 
-/// Makes cells implicit; the step is c.safety of the critical one of the others.
+/// Makes cells implicit; the step is c.safety times the critical step of the others.
 inline void set_implicit(Built& b, const DiskCase& c, const std::vector<char>& cells) {
   b.model.implicit = implicit_part(b.mesh, b.materials, cells, b.prestress);
   b.critical = explicit_step(b.model, b.mesh, b.materials, cells, c.beta);

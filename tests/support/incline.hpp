@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-/// @file  An elastic block with its foot on an incline, gravity ramped over many of its periods.
+/// @file  An elastic block with its foot on an incline; gravity increases over many of its periods.
 #pragma once
 #include <cmath>
 #include <numbers>
@@ -11,7 +11,7 @@
 
 namespace rondo::test {
 
-/// A quarter as high as wide, so that weight keeps the whole foot down on 30°.
+/// Its height is a quarter of its width, so that the weight keeps the whole foot in contact at 30°.
 struct Incline {
   double angle = 30.0;    ///< down to the right                                      [degrees]
   double friction = 0.3;  ///< [-]
@@ -23,7 +23,7 @@ struct Incline {
   [[nodiscard]] double radians() const { return angle * std::numbers::pi / 180.0; }
   [[nodiscard]] Vec2 down() const { return direction_at(-radians()); }  ///< along the slope
   [[nodiscard]] double height() const { return 0.25 * scale; }
-  /// Of the first wave of shear up and down the block, roughly                         [s]
+  /// Approximate period of the first shear wave up and down the block                    [s]
   [[nodiscard]] double period() const {
     return 4.0 * height() / (0.6 * std::sqrt(youngs / 1000.0));
   }
@@ -38,7 +38,7 @@ inline dynamics::Model incline_model(const Incline& of) {
                    .rows = 4,
                    .turned = -of.radians()});
   const fem::Material rubber{of.youngs, 0.3, 1000.0, fem::Plane::strain};
-  // A tenth of critical damping of the slowest wave: β = 2ζ/ω.
+  // A tenth of the critical damping of the slowest wave: β = 2ζ/ω.
   const double beta = 0.2 * of.period() / (2.0 * std::numbers::pi);
   dynamics::Model model = body_model(mesh, rubber, 0.0, beta, 0.8);
   model.motion.gravity = dynamics::Table({{0.0, 0.0}, {of.periods * of.period(), of.gravity}});
@@ -46,15 +46,15 @@ inline dynamics::Model incline_model(const Incline& of) {
   return model;
 }
 
-/// Of the center of mass of the only body, half a step before the state's time [m/s].
+/// Velocity of the center of mass of the only body, half a step before the state's time [m/s].
 inline Vec2 mean_velocity(const dynamics::Model& model, const dynamics::State& state) {
   return momentum(model, state).linear / model.free_bodies[0].mass;
 }
 
-/// A block that sticks, after 60 periods: its foot's displacements before and after `steps` more.
+/// A block that sticks, after 60 periods: displacements of its foot before and after `steps` more.
 struct Stuck {
   std::vector<Vec2> before, after;  ///< (9)                                           [m]
-  int sticking = 0;                 ///< fewest of the foot's nodes that stuck in these steps
+  int sticking = 0;                 ///< smallest number of sticking foot nodes in these steps
 };
 inline Stuck stick(const Incline& of, long long steps) {
   const dynamics::Model model = incline_model(of);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-/// @file  Loaded before the C library (LD_PRELOAD): the time of day jumps by days, to and fro, at
-/// each call. Only steady clocks go on as they are.
+/// @file  Loaded before the C library (LD_PRELOAD): the time of day jumps by days, back and forth,
+/// at each call. Only steady clocks are unchanged.
 #include <dlfcn.h>
 #include <sys/time.h>
 #include <sys/types.h>
@@ -10,7 +10,7 @@
 
 namespace {
 
-/// Days that the clock is off now: 0, 3, -3, 6, -6, ... 30, -30, and again.
+/// The next offset of the clock in days: 0, 3, -3, 6, -6, ... 30, -30, and again.
 std::time_t jump() {
   static std::atomic<int> calls{0};
   const int n = calls.fetch_add(1) % 21;

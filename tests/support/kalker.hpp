@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-/// @file  Contact of half-spaces: Hertz' ellipse, and Kalker's linear creep coefficients (Kalker,
+/// @file  Contact of half-spaces: Hertz's ellipse, and Kalker's linear creep coefficients (Kalker,
 /// Three-Dimensional Elastic Bodies in Rolling Contact, 1990, table E.3, whose numbers CONTACT
 /// stores in m_hertz.f90; eve70a/CONTACT d431cdb, Apache-2.0).
 #pragma once
@@ -13,7 +13,7 @@ struct Ellipse {
   double pressure = 0.0;               ///< largest [Pa]
 };
 
-/// Complete elliptic integrals of the parameter m = e², by the arithmetic-geometric mean.
+/// Complete elliptic integrals of the parameter m = e² by the arithmetic-geometric mean.
 struct Elliptic {
   double k = 0.0, e = 0.0;
 };
@@ -52,7 +52,7 @@ inline Ellipse hertz(double force, double modulus, double radius, double crown) 
           1.5 * force / (std::numbers::pi * major * minor)};
 }
 
-/// Of the table's values at ν = 0, 1/4 and 1/2.
+/// Interpolates the table's values at ν = 0, 1/4 and 1/2.
 inline double at_poisson(double nu, double none, double quarter, double half) {
   return none * 8.0 * (nu - 0.25) * (nu - 0.5) - quarter * 16.0 * nu * (nu - 0.5) +
          half * 8.0 * nu * (nu - 0.25);

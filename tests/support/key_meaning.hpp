@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
-/// @file  What a key means is read alone, as an editor shows it beside the cursor.
+/// @file  The meaning of a key must be readable alone, because an editor shows it at the cursor.
 #pragma once
 #include <string_view>
 
 namespace rondo::test {
 
-/// Empty: the text can be read without the rows before it; otherwise why not.
+/// Empty if the text can be read without other rows; otherwise the reason why not.
 inline std::string_view fault_of_meaning(std::string_view text) {
   if (text.empty()) return "is empty";
   const char first = text.front();

@@ -26,7 +26,7 @@ struct CrushHistory {
   [[nodiscard]] int size() const { return static_cast<int>(depth.size()); }
 };
 
-/// From point to point (share of the increments, depth, slide), in straight lines from (0, 0, 0).
+/// Piecewise linear through the points (share of the increments, depth, slide), from (0, 0, 0).
 inline CrushHistory history_of(int increments, const std::vector<std::array<double, 3>>& points) {
   CrushHistory h;
   for (int k = 1; k <= increments; ++k) {
@@ -64,7 +64,7 @@ inline CrushHistory cyclic_drag(int n, double depth, double slide) {
 
 class LatinDisk {
  public:
-  /// @param candidates the lowest ones; of `columns` round the disk
+  /// @param candidates number of the lowest ones, of `columns` around the disk
   explicit LatinDisk(int radial = 12, int columns = 180, std::size_t candidates = 51,
                      bool tread = false) {
     mesh::Disk disk;
@@ -121,10 +121,10 @@ class LatinDisk {
   std::unique_ptr<statics::Condensation> body_;
 };
 
-/// Forces of the problem, increment after increment. (2m, N)
+/// Forces of the problem, one increment after another. (2m, N)
 inline Eigen::MatrixXd direct_forces(const statics::LatinProblem& p) {
   Eigen::MatrixXd r(p.free.rows(), p.free.cols());
-  Eigen::VectorXd before = Eigen::VectorXd::Zero(p.free.rows());  // places at the last increment
+  Eigen::VectorXd before = Eigen::VectorXd::Zero(p.free.rows());  // positions at the last increment
   statics::CondensedSolution solution;
   solution.force = before;
   for (Eigen::Index k = 0; k < r.cols(); ++k) {
@@ -138,7 +138,7 @@ inline Eigen::MatrixXd direct_forces(const statics::LatinProblem& p) {
   return r;
 }
 
-/// Of forces, in energy over all increments.
+/// Error of forces, in energy over all increments.
 inline double error_of(const statics::LatinProblem& p, const Eigen::MatrixXd& r,
                        const Eigen::MatrixXd& direct) {
   const Eigen::MatrixXd off = r - direct;
@@ -146,8 +146,8 @@ inline double error_of(const statics::LatinProblem& p, const Eigen::MatrixXd& r,
                    (p.compliance * direct).cwiseProduct(direct).sum());
 }
 
-/// Singular values of the fields under the forces, as they are measured in energy: how many of them
-/// leave a relative error below the bound.
+/// Number of singular values of the fields under the forces, in the energy norm, that leave a
+/// relative error below the bound.
 inline int pod_modes(const statics::LatinProblem& p, const Eigen::MatrixXd& direct, double bound) {
   const Eigen::MatrixXd l = p.compliance.llt().matrixL();
   const Eigen::VectorXd sigma =

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-/// @file  A standing wheel under a load: its state by statics alone, and its small motions about
-/// it while what touches the ground sticks.
+/// @file  A standing wheel under a load: its state by statics, and its small motions about that
+/// state while the touching nodes stick.
 #pragma once
 #include <gtest/gtest.h>
 
@@ -21,8 +21,8 @@ struct LoadedWheel {
   std::vector<int> touching;  ///< nodes
 };
 
-/// Pressed down by `load` [N/m], its depth by secants. @param sunk by how much lower the ground is
-/// under each candidate; empty: it is flat [m]
+/// Presses the wheel down by `load` [N/m], finding the depth by secants. @param sunk depth of the
+/// ground under each candidate; empty: it is flat [m]
 inline LoadedWheel load_wheel(const Built& b, double load, double friction,
                               const std::vector<double>& sunk = {}) {
   auto model = statics::make_crush_model(b.mesh.coordinates, b.mesh.boundary, friction);
@@ -56,8 +56,8 @@ inline LoadedWheel load_wheel(const Built& b, double load, double friction,
   return found;
 }
 
-/// Small motions of places z of the free nodes and of x, y, θ of the rim, whose kinetic energy is
-/// ½ Σ m ż² + ½ M ċ² + ½ I θ̇² (docs/theory.md, 10).
+/// Small motions of the positions z of free nodes and of x, y, θ of the rim, with the kinetic
+/// energy ½ Σ m ż² + ½ M ċ² + ½ I θ̇² (docs/theory.md, 10).
 class WheelModes {
  public:
   struct Mode {
@@ -65,14 +65,14 @@ class WheelModes {
     Eigen::VectorXd mass_times;  ///< M φ of (z, x, y, θ), φᵀ M φ = 1
   };
 
-  /// The `count` lowest ones about `at`, where the wheel is in equilibrium.
+  /// The `count` lowest modes about `at`, where the wheel is in equilibrium.
   static std::vector<Mode> lowest(const Built& b, const LoadedWheel& at, int count) {
     const WheelModes system(b, at);
     const Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>> factor(system.stiffness_);
     EXPECT_EQ(factor.info(), Eigen::Success);
     Eigen::MatrixXd v = Eigen::MatrixXd::Random(system.mass_.size(), 2 * count);
     Eigen::VectorXd squares;
-    for (int i = 0; i < 60; ++i) {  // inverse iteration of a subspace, with Rayleigh and Ritz
+    for (int i = 0; i < 60; ++i) {  // subspace iteration with inverse and Rayleigh-Ritz
       v = factor.solve(system.mass_.asDiagonal() * v).eval();
       const Eigen::MatrixXd k = v.transpose() * (system.stiffness_ * v);
       const Eigen::MatrixXd m = v.transpose() * (system.mass_.asDiagonal() * v);
@@ -104,8 +104,8 @@ class WheelModes {
   }
 
  private:
-  /// ½ uᵀKu to second order in z - z_0, c - c_0 and θ: with p = K u_0, the forces of the ground,
-  /// δu = δz - δc - θ J y_0, and -p·[θ J (δz - δc) + ½ θ² y_0] besides.
+  /// ½ uᵀKu to second order in z - z_0, c - c_0 and θ: with p = K u_0, the forces of the ground, δu
+  /// = δz - δc - θ J y_0, and the additional term -p·[θ J (δz - δc) + ½ θ² y_0].
   WheelModes(const Built& b, const LoadedWheel& at) {
     const auto n = static_cast<Eigen::Index>(2 * b.model.free.size());
     std::vector<Vec2> p(b.model.n_nodes());
@@ -146,7 +146,7 @@ class WheelModes {
     mass_[n + 2] = b.model.rim->inertia;
   }
 
-  /// What sticks stays where it is: coordinates of its own, of no mass.
+  /// Sticking nodes are fixed: their coordinates are separate unknowns without mass.
   void hold(const Built& b, const LoadedWheel& at, std::vector<Eigen::Triplet<double>>& entries) {
     for (const int node : at.touching) {
       const auto place = std::lower_bound(b.model.free.begin(), b.model.free.end(), node);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-/// Writes tests/contact_problems: coupled contact problems that are hard in different ways.
+/// Writes tests/contact_problems: coupled contact problems that are difficult in different ways.
 ///     make_contact_problems FOLDER
 #include <fmt/format.h>
 
@@ -24,19 +24,19 @@ void write(const std::filesystem::path& folder, const std::string& name, const s
   write_problem(folder / (name + ".json"), file);
 }
 
-/// Nodes that fall on the edge of their cones exactly: between sticking and slipping.
+/// Nodes whose impulses lie exactly on the edge of their cones, between sticking and slipping.
 CoupledProblem borderline() {
   test::Scene scene = test::chain({.upper = 12, .lower = 12, .shear = 0.0, .noise = 0.0});
   CoupledProblem p = test::problem_of(scene);
   for (std::size_t j = 0; j < p.size(); ++j) {
     const Block& w = diagonal_block(p, j);
     const Vec2 edge{1.0, (j % 2 == 0 ? 1.0 : -1.0) * p.friction[j]};
-    p.free[j] = -apply(w, edge);  // it would stick with an impulse on the edge, were it alone
+    p.free[j] = -apply(w, edge);  // alone, it would stick with an impulse on the edge
   }
   return p;
 }
 
-/// Nothing moves but one node.
+/// Only one node moves.
 CoupledProblem resting() {
   test::Scene scene = test::chain(
       {.upper = 30, .lower = 20, .both_ways = true, .press = 0.0, .shear = 0.0, .noise = 0.0});
@@ -44,7 +44,7 @@ CoupledProblem resting() {
   return test::problem_of(scene);
 }
 
-/// A corner of a body in a corner of another: two segments, at right angles, hold one node.
+/// A corner of a body in a corner of another: two perpendicular segments constrain one node.
 CoupledProblem corner(double friction) {
   test::Scene scene;
   const int p = scene.add_node(1.0, {-1.0, -0.8});

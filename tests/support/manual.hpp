@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-/// @file  Tables of docs/ that the program's own tables give, each between its mark and the next
-/// end_mark. With RONDO_WRITE_MANUAL in the environment the tests write them.
+/// @file  Tables of docs/ that are made from the program's own tables, each between its mark and
+/// the next end_mark. With RONDO_WRITE_MANUAL in the environment the tests write them.
 #pragma once
 #include <gtest/gtest.h>
 
@@ -15,11 +15,11 @@
 namespace rondo::test {
 
 struct ManualTable {
-  std::string mark;  ///< "keys: disk" of the line "<!-- keys: disk -->"
-  std::string text;  ///< lines of Markdown, each with its end
+  std::string mark;  ///< "keys: disk" for the line "<!-- keys: disk -->"
+  std::string text;  ///< lines of Markdown, each with a line feed
 };
 
-/// A row of a table: what would end a cell is escaped.
+/// A row of a table; characters that would end a cell are escaped.
 inline std::string manual_row(const std::vector<std::string>& cells) {
   std::string row = "|";
   for (const std::string& cell : cells) {
@@ -30,7 +30,7 @@ inline std::string manual_row(const std::vector<std::string>& cells) {
   return row + "\n";
 }
 
-/// That the file has these tables, or, asked to, writes them.
+/// Expects that the file has these tables or, with RONDO_WRITE_MANUAL, writes them.
 inline void expect_in_manual(const std::filesystem::path& file,
                              const std::vector<ManualTable>& tables) {
   constexpr std::string_view end_mark = "<!-- end -->\n";
@@ -53,7 +53,7 @@ inline void expect_in_manual(const std::filesystem::path& file,
                                   "it with RONDO_WRITE_MANUAL=1 in the environment";
 }
 
-/// That the file is this text, or, asked to, writes it.
+/// Expects that the file is this text or, with RONDO_WRITE_MANUAL, writes it.
 inline void expect_file(const std::filesystem::path& file, const std::string& text) {
   if (std::getenv("RONDO_WRITE_MANUAL") != nullptr) std::ofstream(file, std::ios::binary) << text;
   std::ifstream stream(file, std::ios::binary);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-/// @file  What becomes of the bars of V2 and V3, whose foot may have no mass.
+/// @file  The motion of the bars of V2 and V3, whose foot may be massless.
 #pragma once
 #include <algorithm>
 #include <cmath>
@@ -11,15 +11,15 @@ namespace rondo::test {
 inline constexpr double period = 16.0 / 3.0;  ///< of V3                                    [s]
 
 struct BarHit {
-  double lost = 0.0;         ///< in impacts, over the energy at the start
-  double scatter = 0.0;      ///< rms of the force of contact about ρcv, for .55 < t < 1.12  [N]
+  double lost = 0.0;         ///< in impacts, relative to the energy at the start
+  double scatter = 0.0;      ///< rms of the contact force about ρcv, for .55 < t < 1.12  [N]
   double rebound = 0.0;      ///< velocity of the center of mass after it                  [m/s]
   double relative = 0.0;     ///< residual of the ledger
   double residual = 0.0;     ///< of the law, relative
   double penetration = 0.0;  ///< [m]
 };
 
-/// V2: with 10 m/s against a wall.
+/// V2: it hits a wall at 10 m/s.
 inline BarHit hit(const Bar& bar) {
   constexpr double speed = 10.0, force = 300.0;
   const dynamics::Model model = bar_model(bar);
@@ -45,18 +45,18 @@ inline BarHit hit(const Bar& bar) {
 }
 
 struct BarBounce {
-  double left = 0.0;      ///< of the energy, that of a fall from 5 m
+  double left = 0.0;      ///< energy left, relative to that of a fall from 5 m
   double relative = 0.0;  ///< residual of the ledger
 };
 
-/// V3: it falls by 5 m under gravity and bounces, to the time `end` [s].
+/// V3: it falls by 5 m under gravity and bounces, until the time `end` [s].
 inline BarBounce bounce(Bar bar, double end) {
   constexpr double gravity = 10.0;
   bar.gap = 5.0;
   dynamics::Model model = bar_model(bar);
   model.motion.gravity = dynamics::Table(gravity);
   const std::vector<Vec2> none(model.n_nodes());
-  double first = 0.0;  // moment of the masses about the ground, where they are at the start
+  double first = 0.0;  // first moment of the masses about the ground, at the start
   for (std::size_t k = 0; k < model.n_nodes(); ++k) first += model.mass[k] * model.reference[k].y;
   Stepping run(model, dynamics::start(model, none, none));
   run.advance_to(end);

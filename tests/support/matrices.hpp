@@ -37,7 +37,7 @@ inline Eigen::VectorXd falling(Index n, double last) {
   return sigma;
 }
 
-/// Gives up where a block of rows does not keep to the grain, or anything is read outside.
+/// Fails if a block of rows does not start at a multiple of the grain, or a read is out of range.
 class WatchedSnapshots final : public SnapshotMatrix {
  public:
   explicit WatchedSnapshots(Eigen::MatrixXd values, Index grain = 1)
@@ -61,7 +61,7 @@ class WatchedSnapshots final : public SnapshotMatrix {
     out = values_.middleRows(first, out.rows());
   }
   [[nodiscard]] const Eigen::MatrixXd& values() const { return values_; }
-  [[nodiscard]] Index largest_block() const { return largest_; }  ///< numbers read at once
+  [[nodiscard]] Index largest_block() const { return largest_; }  ///< in one read
   [[nodiscard]] int reads() const { return reads_; }
 
  private:

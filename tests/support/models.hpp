@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-/// @file  Small models that several tests share.
+/// @file  Small models that several tests use.
 #pragma once
 #include <utility>
 
@@ -21,7 +21,7 @@ struct DiskCase {
   double safety = 0.8;
 };
 
-/// The disk of the validation against closed forms: annulus of soft rubber, rim fixed.
+/// The disk for validation against closed forms: annulus of soft rubber, rim fixed.
 inline DiskCase rubber_annulus(int radial, int circumferential) {
   DiskCase c;
   c.disk = {.outer_radius = 0.3,
@@ -36,7 +36,7 @@ inline DiskCase rubber_annulus(int radial, int circumferential) {
   return c;
 }
 
-/// Rolling at 10 m/s, the center 0.29 m above y = 0.
+/// The disk rolls at 10 m/s, its center 0.29 m above y = 0.
 inline DiskCase rolling_disk(int radial, int circumferential) {
   DiskCase c;
   c.disk.radial = radial;
@@ -52,7 +52,7 @@ inline contact::GroundShape ledge() {
   return {.profile = {{-10, -0.1}, {0, -0.1}, {0, 0}, {10, 0}}, .fillet = 0.02};
 }
 
-/// The scheme as printed takes the mass damping at the old half step.
+/// The scheme as printed evaluates the mass damping at the old half step.
 inline double lagged_mass(const DiskCase& c) {
   return c.scheme == dynamics::Scheme::as_printed ? c.alpha : 0.0;
 }
@@ -65,7 +65,7 @@ struct Built {
   std::vector<Vec2> prestress;  ///< (n) displacement whose stress stiffens the body; empty: none
 };
 
-/// Stiffness, critical step, step.
+/// Sets stiffness, critical step and step.
 inline void set_stiffness(Built& b, const DiskCase& c) {
   b.model.stiffness = fem::assemble_stiffness(b.mesh, b.materials, b.prestress);
   b.critical = dynamics::critical_step(
@@ -74,7 +74,7 @@ inline void set_stiffness(Built& b, const DiskCase& c) {
   b.model.dt = c.safety * b.critical.step;
 }
 
-/// The case on another mesh than its own.
+/// The case on another mesh.
 inline Built build(const DiskCase& c, mesh::Mesh mesh) {
   Built b;
   b.mesh = std::move(mesh);
@@ -94,21 +94,21 @@ inline Built build(const DiskCase& c) {
   return build(c, mesh::make_disk(c.disk));
 }
 
-/// @param spacing of the candidates, which says what arcs are corners; 0: none is [m]
+/// @param spacing of the candidates, which decides which arcs count as corners; 0: none [m]
 inline void add_ground(Built& b, const contact::GroundShape& shape, contact::Law law,
                        double spacing = 0.0) {
   b.model.contact.emplace(dynamics::ContactModel{contact::Ground(shape, spacing), law,
                                                  b.mesh.boundary, b.mesh.tributary});
 }
 
-/// The candidates lose their mass to the nodes below (docs/theory.md, 3.10); the step stays.
-/// @pre the ground is there
+/// Moves the mass of the candidates to the nodes below (docs/theory.md, 3.10); keeps the step.
+/// @pre the model has its ground
 inline void make_contact_massless(Built& b) {
   b.model.lumped_mass = b.model.mass;
   b.model.mass = fem::move_contact_mass(b.mesh, b.model.mass, b.model.contact->nodes).mass;
 }
 
-/// @param rim without the bonded nodes, which are added
+/// @param rim without the bonded nodes, which are added here
 inline void set_rim(Built& b, dynamics::RimBody rim) {
   for (const int node : b.mesh.clamped) {
     const auto k = static_cast<std::size_t>(node);

@@ -13,7 +13,7 @@
 
 namespace rondo::test {
 
-/// A file that lives as long as this.
+/// A file that exists as long as the object.
 class TemporaryFile {
  public:
   explicit TemporaryFile(const std::string& text, const std::string& ending = ".msh") {
@@ -49,8 +49,8 @@ struct Msh {
   }
 };
 
-/// Three unit squares in a row, 0 <= x <= 3: nodes 1 to 4 below, 5 to 8 above. Elements 1 to 3
-/// are "foot" (curve 1), 4 to 6 "top" (curve 2), 7 to 9 the squares, "block" (surface 3).
+/// Three unit squares in a row, 0 <= x <= 3: nodes 1 to 4 below, 5 to 8 above. Elements 1 to 3 form
+/// "foot" (curve 1), 4 to 6 "top" (curve 2), 7 to 9, the squares, "block" (surface 3).
 inline Msh squares() {
   Msh msh;
   msh.names = {"1 1 \"foot\"", "1 2 \"top\"", "2 3 \"block\""};

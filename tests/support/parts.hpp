@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-/// @file  Bodies in two parts with steps of their own, for the scheme "hati".
+/// @file  Bodies in two parts with different steps, for the scheme "hati".
 #pragma once
 #include <algorithm>
 #include <functional>
@@ -12,7 +12,7 @@
 
 namespace rondo::test {
 
-/// Makes the model one of the scheme "hati", with a coarse step of dt.
+/// Changes the model to the scheme "hati", with a coarse step of dt.
 inline void divide(dynamics::Model& model, const mesh::Mesh& mesh, const fem::Material& material,
                    const std::vector<char>& is_fine, int ratio, double dt) {
   model.subdomains = dynamics::make_subdomains(mesh, {&material, 1}, {}, is_fine, ratio);
@@ -20,7 +20,7 @@ inline void divide(dynamics::Model& model, const mesh::Mesh& mesh, const fem::Ma
   model.dt = dt;
 }
 
-/// (e) 1: all corners are at least that far from the origin.
+/// (e) 1: all corners are at least `radius` from the origin.
 inline std::vector<char> cells_beyond(const mesh::Mesh& mesh, double radius) {
   std::vector<char> beyond;
   for (const mesh::Cell& cell : mesh.cells)
@@ -30,7 +30,7 @@ inline std::vector<char> cells_beyond(const mesh::Mesh& mesh, double radius) {
   return beyond;
 }
 
-/// Critical step of the fine part, nothing holds it where it meets the other.
+/// Critical step of the fine part when it is free at the interface.
 inline double fine_critical_step(const dynamics::Model& model, const mesh::Mesh& mesh,
                                  const fem::Material& material) {
   const dynamics::Subdomain& fine = model.subdomains->fine;
@@ -40,13 +40,13 @@ inline double fine_critical_step(const dynamics::Model& model, const mesh::Mesh&
       .step;
 }
 
-/// A bar as in bars.hpp with a tip of finer elements.
+/// A bar like that of bars.hpp with a tip of finer elements.
 struct TippedBar {
   mesh::Mesh mesh;
   fem::Material material;
   std::vector<char> is_tip;  ///< (e)
 };
-/// @param tip its length, in `elements` of it; the rest in elements of bar.element()        [m]
+/// @param tip its length, divided into `elements`; the rest has elements of bar.element()   [m]
 inline TippedBar tipped_bar(const Bar& bar, double tip, int elements) {
   TippedBar b{{}, {bar.youngs_modulus, 0.0, bar.density, bar.plane}, {}};
   const auto row = [&](double y) {
@@ -65,8 +65,8 @@ inline TippedBar tipped_bar(const Bar& bar, double tip, int elements) {
   return b;
 }
 
-/// Over flat ground, without friction. The bar is free, and nothing turns: it moves as one that is
-/// held in a frame at rest.
+/// The bar above flat ground, without friction. It is free and nothing rotates: it moves like one
+/// that is clamped in a frame at rest.
 inline dynamics::Model tipped_model(const TippedBar& b, int ratio, double dt) {
   dynamics::Model model = body_model(b.mesh, b.material, 0.0, 0.0, 1.0);
   model.free_bodies.clear();

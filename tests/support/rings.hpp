@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-/// @file  Cyclic bodies that several tests share: disks, and rings of one node a sector whose
-/// eigenvalues are known.
+/// @file  Cyclic bodies that several tests use: disks, and rings of one node per sector with known
+/// eigenvalues.
 #pragma once
 #include <cmath>
 #include <numbers>
@@ -12,8 +12,8 @@
 
 namespace rondo::test {
 
-/// Smooth, graded and treaded; N odd and even, the least N; the largest eigenvalue in the first
-/// harmonic and in the last, the lowest in harmonic 0 and (the last one) in harmonic 1.
+/// Smooth, graded and treaded disks; N odd and even, the smallest N; the largest eigenvalue in the
+/// first and in the last harmonic, the lowest in harmonic 0 and (the last disk) in harmonic 1.
 inline std::vector<mesh::Disk> cyclic_disks() {
   mesh::Disk smooth, fine, graded, treaded, three, squat;
   smooth.radial = 5, smooth.circumferential = 33;
@@ -25,7 +25,7 @@ inline std::vector<mesh::Disk> cyclic_disks() {
   return {smooth, fine, graded, treaded, three, squat};
 }
 
-/// The same mesh with `columns` of its sectors as one.
+/// The same mesh with `columns` sectors combined into one.
 inline mesh::Mesh with_wider_sectors(mesh::Mesh mesh, int columns) {
   const int nodes = static_cast<int>(mesh.n_nodes()) / mesh.n_sectors;
   for (std::size_t i = 0; i < mesh.n_nodes(); ++i) {
@@ -36,9 +36,9 @@ inline mesh::Mesh with_wider_sectors(mesh::Mesh mesh, int columns) {
   return mesh;
 }
 
-/// One node of 1 kg/m a sector, each coupled with both beside it so that harmonic k has the
-/// eigenvalues 5 + 2 cos(κ ± 2πp/N), κ = 2πk/N, times 1e6 1/s²: the largest of all, 7e6, is that
-/// of harmonic p, and for even N the lowest, 3e6, that of N/2 - p.
+/// One node of 1 kg/m per sector, coupled with both neighbours such that harmonic k has the
+/// eigenvalues 5 + 2 cos(κ ± 2πp/N), κ = 2πk/N, times 1e6 1/s². The largest of all, 7e6, is in
+/// harmonic p; for even N the lowest, 3e6, is in harmonic N/2 - p.
 inline fem::SectorStiffness ring(int n_sectors, int p) {
   const double angle = 2.0 * std::numbers::pi * p / n_sectors;
   const double c = 1e6 * std::cos(angle), s = 1e6 * std::sin(angle);
@@ -53,8 +53,8 @@ inline fem::SectorStiffness ring(int n_sectors, int p) {
   return k;
 }
 
-/// The ring with `others` nodes more in each sector, of eigenvalue 1e6 each, of which the last is
-/// coupled with the first by zeros: a factor of it would be full.
+/// The ring with `others` further nodes per sector, of eigenvalue 1e6 each. Zeros couple the last
+/// of them with the first, so that a factor would be full.
 inline fem::SectorStiffness wide_ring(int n_sectors, int p, int others) {
   fem::SectorStiffness k = ring(n_sectors, p);
   k.nodes_per_sector = 1 + others;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-/// @file  Rubber for tests: materials, and disks that are of it.
+/// @file  Rubber for tests: materials, and disks made of it.
 #pragma once
 #include <memory>
 
@@ -8,7 +8,7 @@
 
 namespace rondo::test {
 
-/// With the small-strain constants that go with it.
+/// The material with the corresponding small-strain constants.
 inline fem::Material rubber_material(const fem::Rubber& r, double density = 1100.0) {
   const double mu = r.shear_modulus(), k = r.bulk_modulus;
   fem::Material m;
@@ -20,7 +20,7 @@ inline fem::Material rubber_material(const fem::Rubber& r, double density = 1100
   return m;
 }
 
-/// @param mu, bulk of small strain [Pa]
+/// @param mu, bulk at small strain [Pa]
 inline fem::Rubber neo_hooke(double mu, double bulk) {
   fem::Rubber r;
   r.c10 = 0.5 * mu;
@@ -28,7 +28,7 @@ inline fem::Rubber neo_hooke(double mu, double bulk) {
   return r;
 }
 
-/// Forces of rubber, for the readable step and for the fused one.
+/// Sets the forces of rubber for the reference step and for the fused one.
 inline void set_rubber(Built& b) {
   b.model.sector.reset();
   b.model.internal_force = dynamics::hyperelastic_maker(

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-/// @file  Wheels that roll steadily in three dimensions, which several tests share.
+/// @file  Wheels that roll steadily in three dimensions, used by several tests.
 #pragma once
 #include <gtest/gtest.h>
 
@@ -16,17 +16,17 @@ namespace rondo::test {
 
 struct SteadyWheelCase {
   mesh::Wheel wheel;
-  double grading = 1.0;  ///< of the section across, finer in the middle: z/z_max to this power
+  double grading = 1.0;  ///< of the section across, finer in the middle: exponent of z/z_max
   fem::Material material;
   double spin = 0.0;  ///< s = -ω [rad/s]
   double mass_damping = 0.0, stiffness_damping = 0.0;
-  double reach = 1.0;  ///< candidates lie within so many m of the middle
+  double reach = 1.0;  ///< largest distance of candidates from the middle [m]
   int samples = 1;
   bool massless = false;
   int threads = 1;
 };
 
-/// The section of a crowned wheel, its lines across graded.
+/// The section of a crowned wheel with graded lines across the width.
 inline mesh::Mesh graded_section(const SteadyWheelCase& c) {
   mesh::Mesh section = mesh::make_section(c.wheel);
   if (c.grading == 1.0) return section;
@@ -42,7 +42,7 @@ inline mesh::Mesh graded_section(const SteadyWheelCase& c) {
   return section;
 }
 
-/// Its harmonics, which hang on what is beside them.
+/// The harmonics of the wheel, which depend on the other members.
 class SteadyWheel {
  public:
   explicit SteadyWheel(const SteadyWheelCase& c)
@@ -68,7 +68,7 @@ class SteadyWheel {
   fem::SolidSector sector;
   statics::RollingHarmonics<3> harmonics;
 
-  /// Of each of the harmonics' candidates [m²].
+  /// Area of each candidate of the harmonics [m²].
   [[nodiscard]] std::vector<double> areas() const {
     std::vector<double> of_node(mesh.n_nodes()), areas;
     for (std::size_t k = 0; k < mesh.boundary.size(); ++k)
@@ -108,7 +108,7 @@ inline SteadyWheelCase box_wheel_case(int samples = 4) {
   return c;
 }
 
-/// Radius .3 m, rolled slowly, for contacts that are small beside it.
+/// Radius .3 m, rolling slowly, with contacts that are small compared with it.
 inline SteadyWheelCase crowned_case(double crown, int radial, int axial, int around,
                                     double grading) {
   SteadyWheelCase c;
@@ -131,7 +131,7 @@ inline SteadyWheelCase crowned_case(double crown, int radial, int axial, int aro
   return c;
 }
 
-/// Solved, with a power that balances.
+/// The solution; expects that its power is balanced.
 inline statics::RollingSolution solved(statics::RollingWindow<3>& window,
                                        const statics::RollingDrive& drive) {
   const statics::RollingSolution s = statics::solve_rolling(window, drive);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-/// @file  Models of wheels in three dimensions that several tests share.
+/// @file  Models of wheels in three dimensions that several tests use.
 #pragma once
 #include <cmath>
 #include <utility>
@@ -12,7 +12,7 @@
 
 namespace rondo::test {
 
-/// The wheel of docs/wheel3d.md: radii .15 and .30 m, .1 m wide, 3×4×90 elements.
+/// The wheel of docs/wheel3d.md: radii .15 and .30 m, width .1 m, 3×4×90 elements.
 inline mesh::Wheel box_wheel(int radial = 3, int axial = 4, int around = 90) {
   mesh::Wheel w;
   w.disk.inner_radius = 0.15;
@@ -32,7 +32,7 @@ inline fem::Material box_rubber() {
   return m;
 }
 
-/// Rolls at 10 m/s with the axle .29 m above flat ground.
+/// The wheel rolls at 10 m/s with the axle .29 m above flat ground.
 struct Cornering {
   double slip_angle = 0.0;  ///< [rad]
   double camber = 0.0;      ///< [rad]

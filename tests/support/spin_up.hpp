@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-/// V10, long times: a disk that is spun up at once, without damping.
+/// V10, long times: a disk that starts to spin suddenly, without damping.
 #pragma once
 #include <fmt/format.h>
 #include <gtest/gtest.h>
@@ -14,8 +14,8 @@
 
 namespace rondo::test {
 
-/// It oscillates about the stationary spin: mean and amplitude over the first and the last 200
-/// periods of its slowest axisymmetric wave.
+/// It oscillates about the stationary spin. Checks mean and amplitude over the first and the last
+/// 200 periods of its slowest axisymmetric wave.
 inline void expect_oscillation_for_ever(dynamics::StiffnessOperator of, int steps) {
   const auto b = build(rubber_annulus(4, 24));
   const auto exact = statics::stationary_spin(b.model.stiffness, b.model.mass, b.model.reference,
@@ -39,8 +39,8 @@ inline void expect_oscillation_for_ever(dynamics::StiffnessOperator of, int step
       largest_late = std::max(largest_late, u);
     }
   }
-  // The mean over 200 periods leaves at most 1/(2π 200) = 0.08 % of the amplitude, which is about
-  // the mean itself.
+  // The mean over 200 periods has an error of at most 1/(2π 200) = 0.08 % of the amplitude, which
+  // is about the mean itself.
   testing::Test::RecordProperty("first_mean",
                                 fmt::format("{:.6f}", first_sum / window / stationary));
   testing::Test::RecordProperty("last_mean", fmt::format("{:.6f}", last_sum / window / stationary));
@@ -48,8 +48,8 @@ inline void expect_oscillation_for_ever(dynamics::StiffnessOperator of, int step
   testing::Test::RecordProperty("relative", fmt::format("{:.2g}", run.balance().relative));
   EXPECT_NEAR(first_sum / window / stationary, 1.0, 2e-3);
   EXPECT_NEAR(last_sum / window / stationary, 1.0, 2e-3);
-  EXPECT_GT(largest_early, 1.9 * stationary);  // it swings to about twice the mean
-  // The amplitude neither decays nor grows: both maxima are over many beats of the same waves.
+  EXPECT_GT(largest_early, 1.9 * stationary);  // its maximum is about twice the mean
+  // The amplitude neither decays nor grows: both maxima include many beats of the same waves.
   EXPECT_NEAR(largest_late / largest_early, 1.0, 0.005);
   EXPECT_LT(run.balance().relative, 1e-12);
 }

@@ -25,8 +25,8 @@ inline double y1_slope(double x) {
 
 }  // namespace detail
 
-/// Rim r = a fixed, top r = b free: r + u_r = A J1(κr) + B Y1(κr), κ² = ρ s²/D11, centrifugal
-/// softening included. In plane strain as in plane stress, by the material's D11 and D12.
+/// Rim r = a fixed, top r = b free: r + u_r = A J1(κr) + B Y1(κr), κ² = ρ s²/D11, including
+/// centrifugal softening. Valid in plane strain and plane stress, with the material's D11 and D12.
 class SpinningAnnulus {
  public:
   /// @param a, b radii, 0 < a < b [m]. @param spin s ≠ 0, below the softening limit [rad/s]
@@ -56,7 +56,7 @@ inline SpinningAnnulus::SpinningAnnulus(const fem::Material& material, double a,
   const double j = detail::j1(kappa_ * a), y = detail::y1(kappa_ * a);
   const double sj = stress(detail::j1(kappa_ * b), kappa_ * detail::j1_slope(kappa_ * b));
   const double sy = stress(detail::y1(kappa_ * b), kappa_ * detail::y1_slope(kappa_ * b));
-  const double sr = stress(b, 1.0);  // what the "r" on the left takes away
+  const double sr = stress(b, 1.0);  // the contribution of the "r" on the left
   const double det = j * sy - y * sj;
   a_ = (a * sy - y * sr) / det;
   b_ = (j * sr - a * sj) / det;

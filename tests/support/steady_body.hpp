@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-/// @file  Bodies whose steady rolling tests solve.
+/// @file  Bodies whose steady rolling is solved by tests.
 #pragma once
 #include <gtest/gtest.h>
 
@@ -11,9 +11,9 @@
 
 namespace rondo::test {
 
-/// A disk with its harmonics, by spin and damping of the case.
+/// A disk with its harmonics, for spin and damping of the case.
 struct SteadyBody {
-  /// @param turned by which the mesh is turned against its samples [rad]
+  /// @param turned angle of the mesh relative to its samples [rad]
   SteadyBody(const DiskCase& c, int samples, bool massless, double turned = 0.0) {
     mesh = mesh::make_disk(c.disk);
     for (Vec2& x : mesh.coordinates) x = rotation(turned) * x;
@@ -45,7 +45,7 @@ struct SteadyBody {
   double gravity = 0.0;  ///< downwards [m/s²]
 
  private:
-  /// Rows of the sector whose nodes may touch.
+  /// Rows of the sector that belong to nodes that may touch.
   [[nodiscard]] std::vector<int> candidates() const {
     std::vector<char> touches(mesh.n_nodes(), 0);
     for (const int node : mesh.boundary) touches[static_cast<std::size_t>(node)] = 1;
@@ -56,14 +56,14 @@ struct SteadyBody {
   }
 };
 
-/// Of a solution. Round-off of a gap over the deformation of one pair, and of powers over what
-/// remains of them, grows with the number of pairs.
+/// Bounds of a solution. Round-off of a gap over the deformation of one pair, and that of powers
+/// over what remains of them, grows with the number of pairs.
 struct SteadyBounds {
   double law = 1e-10, power = 1e-12;
 };
-constexpr SteadyBounds finest_bounds{1e-9, 1e-11};  ///< 7,000 columns and more
+constexpr SteadyBounds finest_bounds{1e-9, 1e-11};  ///< for 7,000 columns and more
 
-/// Solved, and judged by the law and by where the power goes.
+/// The solution; expects that it satisfies the law and that its power is balanced.
 inline statics::RollingSolution solved(statics::RollingWindow<2>& window,
                                        const statics::RollingDrive& drive,
                                        SteadyBounds bounds = {}) {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// @file  V16 by steady rolling: the disk of carter.hpp under its load, at tractions from braking
-/// to driving, without time and start.
+/// to driving, without integration in time.
 #pragma once
 #include <array>
 
@@ -32,14 +32,14 @@ class SteadyCarter {
     rolling_ = at(0.0);
   }
 
-  /// At a traction Q/(μP), under the load of the depth of V16.
+  /// Solution at a traction Q/(μP), under the load that belongs to the depth of V16.
   [[nodiscard]] statics::RollingSolution at(double share) {
     statics::RollingDrive d = drive_;
     d.load = load_;
     d.traction = share * CarterDisk::friction * load_;
     return solved(window_, d, bounds_);
   }
-  /// ... at a creep beyond free rolling.
+  /// Solution at a creep beyond free rolling.
   [[nodiscard]] statics::RollingSolution at_creep(double creep) {
     statics::RollingDrive d = drive_;
     d.load = load_;
@@ -47,11 +47,11 @@ class SteadyCarter {
     return solved(window_, d, bounds_);
   }
 
-  /// Difference of the speeds of free rolling and of this over their mean, at the same turning.
+  /// Speed of free rolling minus this speed, over their mean, at the same angular velocity.
   [[nodiscard]] double creep(const statics::RollingSolution& s) const {
     return 2.0 * (rolling_.speed - s.speed) / (rolling_.speed + s.speed);
   }
-  /// Q, P and the shear that is spared, as of a run.
+  /// Q, P and the unused friction, as for a run.
   [[nodiscard]] CarterMeans means(const statics::RollingSolution& s) const {
     CarterMeans m;
     m.load = {s.forces.heading, s.forces.normal};

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-/// @file  The steps of a test, one or many at a time, by either operator: as a run makes them.
+/// @file  The steps of a test, one or many at a time, by either operator, as in a run.
 #pragma once
 #include <fmt/format.h>
 #include <gtest/gtest.h>
@@ -19,7 +19,7 @@
 
 namespace rondo::dynamics {
 
-/// For the names that the tests print.
+/// Prints the operator in the names of tests.
 inline void PrintTo(StiffnessOperator of, std::ostream* out) {
   *out << (of == StiffnessOperator::cyclic ? "cyclic" : "sparse");
 }
@@ -34,12 +34,12 @@ inline constexpr std::array both_operators{dynamics::StiffnessOperator::cyclic,
 inline std::string name(dynamics::StiffnessOperator of) {
   return testing::PrintToString(of);
 }
-/// variant_operator, for the names of tests.
+/// variant_operator, used in the names of tests.
 inline std::string name(const char* variant, dynamics::StiffnessOperator of) {
   return fmt::format("{}_{}", variant, name(of));
 }
 
-/// The model with the stiffness that an operator needs, and without the other's.
+/// The model with the stiffness that the operator needs, and without that of the other.
 inline dynamics::Model model_with(const Built& b, dynamics::StiffnessOperator of) {
   dynamics::Model model = b.model;
   model.stiffness_operator = of;
@@ -49,14 +49,14 @@ inline dynamics::Model model_with(const Built& b, dynamics::StiffnessOperator of
   return model;
 }
 
-/// Keeps the model that its integrator works on.
+/// Keeps the model on which its integrator works.
 class Stepping {
  public:
   Stepping(dynamics::Model model, dynamics::State start)
       : model_(std::move(model)),
         state_(std::move(start)),
         integrator_(dynamics::make_integrator(model_, state_)) {}
-  /// From rest.
+  /// Starts from rest.
   Stepping(const Built& b, dynamics::StiffnessOperator of)
       : Stepping(b, of, std::vector<Vec2>(b.model.n_nodes()),
                  std::vector<Vec2>(b.model.n_nodes())) {}
@@ -66,16 +66,16 @@ class Stepping {
   Stepping(const Stepping&) = delete;
   Stepping& operator=(const Stepping&) = delete;
 
-  /// One step.
+  /// Makes one step.
   const dynamics::ContactReport& advance() {
     advance(1);
     return report().contact;
   }
-  /// n steps in batches of 64; the state is that of the last.
+  /// Makes n steps in batches of 64; the state is that of the last.
   void advance(long long n) {
     advance(n, [](const dynamics::StepReport&) {});
   }
-  /// The same; look(report) sees every step.
+  /// The same; calls look(report) for every step.
   template <class Look>
   void advance(long long n, Look&& look) {
     while (n > 0) {
@@ -87,7 +87,7 @@ class Stepping {
       last_ = batch.back();
     }
   }
-  /// To the first step at or after `time` [s].
+  /// Advances to the first step at or after `time` [s].
   template <class Look>
   void advance_to(double time, Look&& look) {
     advance(std::llround(std::ceil(time / model_.dt)) - last_.step, look);
@@ -96,7 +96,7 @@ class Stepping {
     advance_to(time, [](const dynamics::StepReport&) {});
   }
 
-  /// Of the last step; `force` is not kept up.
+  /// State after the last step; `force` is not updated.
   [[nodiscard]] const dynamics::State& state() const { return state_; }
   [[nodiscard]] const dynamics::StepReport& report() const { return last_; }
   [[nodiscard]] const dynamics::Balance& balance() const { return last_.balance; }

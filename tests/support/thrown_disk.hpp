@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-/// @file  A free annulus thrown along flat ground without spin, which ends up rolling.
+/// @file  A free annulus thrown along flat ground without spin, which finally rolls.
 #pragma once
 #include <utility>
 #include <vector>
@@ -10,7 +10,7 @@
 
 namespace rondo::test {
 
-/// A disk that nothing holds.
+/// An unconstrained disk.
 inline mesh::Mesh free_disk(const mesh::Disk& disk) {
   mesh::Mesh mesh = mesh::make_disk(disk);
   mesh.clamped.clear();
@@ -21,10 +21,10 @@ struct ThrownDisk {
   int columns = 120, layers = 8;
   double outer = 0.3, inner = 0.2;  ///< radii                                          [m]
   double youngs = 1.0e8;            ///< [Pa]
-  double beta = 1.0e-5;             ///< stiffness damping: the bounce fades            [s]
+  double beta = 1.0e-5;             ///< stiffness damping, so that the bounce decays            [s]
   double friction = 0.5;            ///< [-]
   double speed = 1.0;               ///< [m/s]
-  double ramp = 0.02;               ///< of gravity, so that its weight does not fall on it [s]
+  double ramp = 0.02;               ///< of gravity, so that its weight does not act at once [s]
 };
 
 /// Mean velocities while it rolls, over [0.1, 0.2] s.
@@ -32,7 +32,7 @@ struct Rolling {
   double squared_radius = 0.0;  ///< k² of the mesh: moment of inertia over mass          [m²]
   double speed = 0.0;           ///< of the center                                       [m/s]
   double rim = 0.0;             ///< ω b                                                 [m/s]
-  double in_the_air = 0.0;      ///< share of the steps
+  double in_the_air = 0.0;      ///< fraction of the steps
   double relative = 0.0;        ///< residual of the ledger
 };
 
@@ -46,7 +46,7 @@ inline Rolling roll(const ThrownDisk& of) {
   const fem::Material stiff{of.youngs, 0.3, 1000.0, fem::Plane::strain};
   dynamics::Model model = body_model(mesh, stiff, 0.0, of.beta, 0.8);
   model.motion.gravity = dynamics::Table({{0.0, 0.0}, {of.ramp, 9.81}});
-  // The center of the disk is the origin: the lowest node touches.
+  // The center of the disk is the origin; the lowest node touches the ground.
   add_ground(model, mesh, {.profile = {{-1.0, -of.outer}, {1.0, -of.outer}}}, {of.friction, 0.0});
   const std::vector<Vec2> none(model.n_nodes()), v(model.n_nodes(), Vec2{of.speed, 0.0});
   Stepping run(model, dynamics::start(model, none, v));

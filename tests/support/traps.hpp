@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-/// @file  Floating-point traps round the steps of a test: invalid, division by zero, overflow end
-/// the program at the operation, not at the first figure that looks wrong. Builds with RONDO_TRAPS
-/// have them in every step (dynamics/step_traps.hpp).
+/// @file  Floating-point traps around the steps of a test: invalid operation, division by zero and
+/// overflow end the program at the operation, not at the first wrong result. Builds with
+/// RONDO_TRAPS have them in every step (integrators/general/step_traps.hpp).
 #pragma once
 #include <cfenv>
 #include <cstdlib>
@@ -25,8 +25,8 @@ class FloatingPointTraps {
   static constexpr int trapped = FE_INVALID | FE_DIVBYZERO | FE_OVERFLOW;
 };
 
-/// As long as it lives, the traps of a build with RONDO_TRAPS are off: a test of what a run does
-/// with numbers that are none.
+/// During its lifetime the traps of a build with RONDO_TRAPS are off: used to test the handling of
+/// NaN and infinity in a run.
 class NoStepTraps {
  public:
   NoStepTraps() { setenv("RONDO_TRAPS", "off", 1); }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-/// @file  A wheel whose rim forces move, V22 to V25: the case that all of them vary, and what is
-/// measured of its steps.
+/// @file  A wheel whose rim is moved by forces, V22 to V25: the base case of all of them, and the
+/// quantities measured from its steps.
 #pragma once
 #include <algorithm>
 #include <cmath>
@@ -13,10 +13,10 @@
 
 namespace rondo::test {
 
-/// Changes of the case, as those of --set.
+/// Changes of the case, like those of --set.
 using Settings = std::vector<std::string>;
 
-/// Rolls at 10 m/s under 150 kN/m.
+/// The wheel rolls at 10 m/s under 150 kN/m.
 inline const std::string wheel_text = R"(schema = 1
 [disk]
 outer_radius = 0.30
@@ -54,13 +54,13 @@ inline Settings with(Settings a, const Settings& b) {
   return a;
 }
 
-/// Means over a window of time, of each step alike.
+/// Means over a time window, with equal weights of the steps.
 struct WheelMeans {
   double spin = 0.0;   ///< ω, > 0 clockwise                                       [rad/s]
   double speed = 0.0;  ///< V                                                      [m/s]
   double height = 0.0;
   Vec2 force;      ///< of the ground                                      [N/m]
-  Vec2 hub_force;  ///< of what holds the center                           [N/m]
+  Vec2 hub_force;  ///< of the reactions on the center                           [N/m]
   double hub_torque = 0.0;
   int steps = 0;
 
@@ -77,7 +77,7 @@ struct WheelMeans {
   }
 };
 
-/// A line by least squares through V(t).
+/// A least-squares line through V(t).
 class SpeedFit {
  public:
   void see(const dynamics::StepReport& report) {
@@ -87,19 +87,19 @@ class SpeedFit {
   [[nodiscard]] double acceleration() const { return (n_ * tv_ - t_ * v_) / (n_ * tt_ - t_ * t_); }
 
  private:
-  static constexpr double origin = 0.4;  // near the windows [s]
+  static constexpr double origin = 0.4;  // close to the windows [s]
   double n_ = 0.0, t_ = 0.0, v_ = 0.0, tt_ = 0.0, tv_ = 0.0;
 };
 
-/// A run, by the operator that the case takes, with the step of a case.
+/// A run with the operator and the step size of the case.
 class Wheel {
  public:
   explicit Wheel(const Settings& settings)
       : setup_(study::build(study::read_case_text("wheel.toml", wheel_text, settings), 1)),
         run_(setup_.model, dynamics::start(setup_.model, setup_.displacement, setup_.velocity)) {}
 
-  /// look(report) sees the steps after `from`, to the first one at or after `to`, where a run to
-  /// there ends; those before are passed over [s].
+  /// Calls look(report) for the steps after `from` up to the first one at or after `to`, at which a
+  /// run to that time ends; earlier steps are skipped [s].
   template <class Look>
   void look(double from, double to, Look&& look) {
     run_.advance_to(to, [&](const dynamics::StepReport& report) {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-/// @file  Momenta of a wheel, rim and body together, from what a step leaves: absolute velocities
-/// of the half step after it.
+/// @file  Momenta of a wheel, rim and body together, from the state after a step: absolute
+/// velocities are those of the half step after it.
 #pragma once
 #include <cmath>
 
@@ -15,7 +15,7 @@ struct WheelMomenta {
   double angular = 0.0;  ///< about the origin of the fixed frame                      [N·s]
 };
 
-/// V = ċ + R [(e^{iδ} - 1)(X + u)/Δt + e^{iδ} v⁺]; x_{n+1} × V is x_{n+2} × V.
+/// V = ċ + R [(e^{iδ} - 1)(X + u)/Δt + e^{iδ} v⁺]; x_{n+1} × V equals x_{n+2} × V.
 inline WheelMomenta wheel_momenta(const dynamics::Model& model, const dynamics::State& state) {
   const dynamics::FrameStep& f = state.frame;
   const double half = std::sin(0.5 * f.turn), spin = std::sin(f.turn) / model.dt;

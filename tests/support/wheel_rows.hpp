@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-/// @file  The rows of V22 to V24: what each run is, what is measured of it, and what an independent
-/// program of the same equations found, on three resolutions (docs/validation.md).
+/// @file  The rows of V22 to V24: the runs, the measured quantities, and the results of an
+/// independent program with the same equations, on three resolutions (docs/validation.md).
 #pragma once
 #include <fmt/format.h>
 #include <gtest/gtest.h>
@@ -29,7 +29,7 @@ inline Settings resolution(Column c) {
   return {};
 }
 
-/// Expected in each column; NaN: not known.
+/// Expected value in each column; NaN: not known.
 struct Figure {
   const char* name;
   double full, half, fine;
@@ -39,9 +39,9 @@ struct Figure {
   [[nodiscard]] double expected(Column c) const {
     return c == Column::full ? full : c == Column::half ? half : fine;
   }
-  /// The two programs make the same steps, but count differently which of them are in a window, and
-  /// a node that lands a step later is as good: what half the step changes, a tenth of what half
-  /// the mesh size does, and the window.
+  /// Both programs make the same steps, but may count other steps in a window, and a node may touch
+  /// one step later. The tolerance is the effect of half the step, a tenth of the effect of half
+  /// the mesh size, and that of the window.
   [[nodiscard]] double tolerance() const {
     const double of_mesh = std::isnan(fine) ? 0.0 : 0.1 * std::abs(full - fine);
     return std::abs(full - half) + of_mesh + edge;
@@ -52,7 +52,7 @@ struct WheelRow {
   const char* name;
   Settings settings;
   double end;  ///< [s]
-  /// In the order of the figures.
+  /// Values in the order of the figures.
   std::function<std::vector<double>(Wheel&)> measure;
   std::vector<Figure> figures;
 };
@@ -74,8 +74,8 @@ inline std::vector<double> torque_figures(Wheel& wheel) {
   return {m.spin, m.force.x};
 }
 
-/// Force of the ground over slip while the brake grows, as means over eight pitches of nodes, of
-/// which 4e-4 is left as swing; then the standing wheel slides.
+/// Force of the ground over slip while the brake torque grows, as means over eight node spacings,
+/// which leave 4e-4 of oscillation; then the locked wheel slides.
 class BrakeRamp {
  public:
   void see(const dynamics::StepReport& r) {
@@ -166,7 +166,7 @@ inline std::vector<WheelRow> loaded_rows() {
 
 // ---- V24: obstacles ----------------------------------------------------------------------------
 
-/// Extremes while the wheel goes over the cleat, after it has settled, and its impulse.
+/// Extremes while the wheel passes the cleat, after it has settled, and its impulse.
 inline std::vector<double> cleat_figures(Wheel& wheel, bool at_load) {
   double highest = 0.0, force = 0.0, slowest = 1e9, fastest = 0.0, impulse = 0.0;
   wheel.look(0.05, 0.18, [&](const dynamics::StepReport& r) {
@@ -206,7 +206,7 @@ inline std::vector<WheelRow> obstacle_rows() {
   };
 }
 
-// ---- V23: nothing held -------------------------------------------------------------------------
+// ---- V23: free motion --------------------------------------------------------------------------
 
 inline const std::string all_free = "rim.free=[\"speed\", \"height\", \"angular_velocity\"]";
 
@@ -222,8 +222,8 @@ inline std::vector<double> landing_figures(Wheel& wheel) {
   return {spin, wheel.run().balance().works.dissipation_friction};
 }
 
-/// After the first contact, in the air: the rim swings on the body, so that means over any part of
-/// the flight are within 4e-4 m/s and 8e-4 rad/s of each other.
+/// Values in the air after the first contact. The rim oscillates on the body; means over any part
+/// of the flight agree to 4e-4 m/s and 8e-4 rad/s.
 inline std::vector<double> drop_figures(Wheel& wheel) {
   Vec2 impulse;
   wheel.look(0.0, 0.15,
@@ -274,7 +274,7 @@ inline std::vector<WheelRow> all_rows() {
   return all;
 }
 
-/// Makes the run; the figures go into the record of the test.
+/// Makes the run and checks it; the figures are written to the record of the test.
 inline void expect_row(const WheelRow& row, Column column) {
   Wheel wheel(with(row.settings, resolution(column)));
   const std::vector<double> found = row.measure(wheel);

@@ -25,7 +25,7 @@ namespace fs = std::filesystem;
 
 constexpr const char* binary_name = "rondo_fmu.so";
 
-/// Beside the program, or where it is installed to.
+/// The binary of the FMU, from beside the program or from its installed place.
 std::string binary_text() {
   std::error_code error;
   const fs::path folder = fs::read_symlink("/proc/self/exe", error).parent_path();
@@ -36,7 +36,7 @@ std::string binary_text() {
                   "../lib/rondo; build or install rondo whole");
 }
 
-/// Of the case that is named, or of the first run behind the model where it is one in time.
+/// The case that is given, or that of the model's first run if it is one in time.
 fs::path case_file(const study::FmuRequest& a) {
   if (!a.case_file.empty()) return a.case_file;
   const std::vector<std::string> runs = study::read_reduced_file(a.model).runs;
@@ -52,7 +52,7 @@ fs::path case_file(const study::FmuRequest& a) {
                       "--case CASE.toml: ground, dampings, gravity and start of the wheel");
 }
 
-/// FNV-1a of both, twice.
+/// FNV-1a of both texts, twice.
 std::string guid_of(const std::string& a, const std::string& b) {
   std::array<std::uint64_t, 2> hash{0xcbf29ce484222325ULL, 0x9ae16a3b2f90404fULL};
   for (const std::string* text : {&a, &b})

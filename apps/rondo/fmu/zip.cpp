@@ -16,7 +16,7 @@ namespace {
 namespace fs = std::filesystem;
 
 bool add(zipFile zip, const ZipEntry& entry) {
-  zip_fileinfo info{};  // a date that is the same every time: 1980, where zip begins
+  zip_fileinfo info{};  // a constant date: 1980, the first of zip
   info.tmz_date.tm_year = 1980;
   info.tmz_date.tm_mday = 1;
   const std::string& text = entry.second;

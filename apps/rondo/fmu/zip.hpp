@@ -8,10 +8,10 @@
 
 namespace rondo::app {
 
-/// Name within, and content.
+/// Name in the zip file, and contents.
 using ZipEntry = std::pair<std::string, std::string>;
 
-/// Takes the place of `file` once it is whole; the same entries give the same bytes.
+/// Replaces `file` once the new one is complete; the same entries give the same bytes.
 /// @throws FileError
 void write_zip(const std::filesystem::path& file, const std::vector<ZipEntry>& entries);
 

@@ -12,7 +12,7 @@ namespace rondo::app {
 namespace {
 
 struct PythonCommand {
-  const char *name, *meaning;  ///< as rondo/__main__.py has them
+  const char *name, *meaning;  ///< as in rondo/__main__.py
 };
 
 constexpr PythonCommand commands[] = {

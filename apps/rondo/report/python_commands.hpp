@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-/// @file  Commands that the Python package does: the program starts the Python that has what they
-/// need, whichever python3 is first on the path (docs/python.md).
+/// @file  Commands implemented in the Python package: the program starts a Python that has the
+/// required packages, whichever python3 is first in PATH (docs/python.md).
 #pragma once
 #include <string_view>
 
@@ -10,13 +10,13 @@ class App;
 
 namespace rondo::app {
 
-/// For the help of the program; their own is the package's.
+/// Adds them to the help of the program; the package prints their own help.
 void add_python_commands(CLI::App& program);
 
 [[nodiscard]] bool is_python_command(std::string_view name) noexcept;
 
-/// Becomes the Python program that does the command argv[1]; its exit code is that of the command.
-/// @throws FileError where Python or the package is missing
+/// Replaces this process by the Python program for the command argv[1], with its exit code.
+/// @throws FileError: Python or the package is missing
 [[noreturn]] void do_python_command(int argc, char** argv);
 
 }  // namespace rondo::app

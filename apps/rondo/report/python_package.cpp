@@ -38,7 +38,7 @@ bool is_package(const fs::path& folder) {
   return fs::is_regular_file(folder / "rondo" / "__main__.py", error);
 }
 
-/// Of a build: CMake has written where the sources of the package are.
+/// The package of a build, whose source folder CMake has recorded.
 fs::path of_build(const fs::path& own) {
   std::string line;
   std::ifstream file(own / "python" / "package-folder.txt");
@@ -46,7 +46,7 @@ fs::path of_build(const fs::path& own) {
   return line;
 }
 
-/// PREFIX/lib/python3*/{dist,site}-packages, sorted: the folder may be moved after the
+/// PREFIX/lib/python3*/{dist,site}-packages, sorted: the folder may have been moved after the
 /// installation.
 std::vector<fs::path> of_installation(const fs::path& own) {
   std::vector<fs::path> found;
@@ -59,7 +59,7 @@ std::vector<fs::path> of_installation(const fs::path& own) {
   return found;
 }
 
-/// Whether the process comes to its end with 0; what it prints is not seen.
+/// Whether the process ends with exit code 0; its output is discarded.
 bool succeeds(const std::string& program, const char* code) {
   posix_spawn_file_actions_t quiet;
   posix_spawn_file_actions_init(&quiet);
@@ -120,8 +120,8 @@ void become_python(const std::vector<std::string>& arguments) {
   const char* before = std::getenv("PYTHONPATH");
   const std::string path = before != nullptr && *before != '\0' ? package + ":" + before : package;
   setenv("PYTHONPATH", path.c_str(), 1);
-  setenv("RONDO", own_program().c_str(), 1);  // the one that it calls
-  // -P: no file where it is called is taken for a module.
+  setenv("RONDO", own_program().c_str(), 1);  // the program that the package calls
+  // -P: no file in the working folder is imported as a module.
   std::vector<std::string> words{python, "-P", "-m", "rondo"};
   words.insert(words.end(), arguments.begin(), arguments.end());
   std::vector<char*> pointers;

@@ -6,16 +6,16 @@
 
 namespace rondo::app {
 
-/// Where the folder `rondo` with the package is: of the sources, beside an installed program, or
-/// round the program in a wheel. @throws FileError where there is none
+/// The parent of the folder `rondo` with the package: in the sources, beside an installed program,
+/// or around the program in a wheel. @throws FileError: there is none
 [[nodiscard]] std::string find_python_package();
 
-/// A Python with numpy, h5py, matplotlib and Pillow: $RONDO_PYTHON, that of the environment with
-/// the package, the system's, the one on PATH. @throws FileError where there is none
+/// A Python with numpy, h5py, matplotlib and Pillow: $RONDO_PYTHON, that of the package's
+/// environment, the system's, or the one in PATH. @throws FileError: there is none
 [[nodiscard]] std::string find_python(const std::string& package);
 
-/// Becomes `python -m rondo arguments`: returns only by throwing.
-/// @throws FileError where it cannot be started
+/// Replaces this process by `python -m rondo arguments`; returns only by an exception.
+/// @throws FileError: it cannot be started
 [[noreturn]] void become_python(const std::vector<std::string>& arguments);
 
 }  // namespace rondo::app

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-/// @file  `rondo report`: one HTML file of results, which the Python package makes
+/// @file  `rondo report`: the Python package makes one HTML file of results
 /// (docs/report.md).
 #pragma once
 #include <string>
@@ -11,15 +11,15 @@ class App;
 namespace rondo::app {
 
 struct ReportArguments {
-  std::string results;  ///< directory of a run, a sweep, a POD, the paper's study
+  std::string results;  ///< directory of a run, a sweep, a POD or the paper's study
   std::string file;     ///< empty: report.html in that directory
 };
 
-/// Adds the command; the arguments are filled when it is parsed, and must outlive it.
+/// Adds the command. The arguments are filled by parsing and must outlive it.
 CLI::App* add_report(CLI::App& program, ReportArguments& arguments);
 
-/// Becomes the Python program that does it; its exit code is that of the command.
-/// @throws FileError where Python or the package is missing
+/// Replaces this process by the Python program, whose exit code is that of the command.
+/// @throws FileError: Python or the package is missing
 [[noreturn]] int report(const ReportArguments& arguments);
 
 }  // namespace rondo::app

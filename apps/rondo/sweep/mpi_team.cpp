@@ -14,7 +14,7 @@
 namespace rondo::app {
 namespace {
 
-/// A number in the memory of rank 0 that each rank reads and raises at once.
+/// A number in the memory of rank 0 that each rank can read and increment atomically.
 class Counter {
  public:
   explicit Counter(int rank) {
@@ -31,7 +31,7 @@ class Counter {
   Counter(const Counter&) = delete;
   Counter& operator=(const Counter&) = delete;
 
-  /// The number before it is raised by `by`.
+  /// Increments the number by `by` and returns the previous one.
   std::size_t add(long long by) {
     long long before = 0;
     MPI_Fetch_and_op(&by, &before, MPI_LONG_LONG, 0, 0, MPI_SUM, window_);
@@ -49,7 +49,7 @@ void look_after_messages() {
   MPI_Iprobe(MPI_ANY_SOURCE, MPI_ANY_TAG, MPI_COMM_WORLD, &found, MPI_STATUS_IGNORE);
 }
 
-/// A text of one rank, to all; longer ones than an int counts go in parts.
+/// Sends a text of one rank to all; a text longer than an int can count is sent in parts.
 std::string broadcast(std::string text, int from, int rank) {
   auto size = static_cast<unsigned long long>(text.size());
   MPI_Bcast(&size, 1, MPI_UNSIGNED_LONG_LONG, from, MPI_COMM_WORLD);
@@ -75,7 +75,7 @@ class MpiTeam : public study::Team {
     MPI_Finalize();
   }
 
-  /// A barrier that is not waited at for ever.
+  /// A barrier with a time limit.
   [[nodiscard]] bool have_all_failed() override {
     constexpr auto patience = std::chrono::seconds(5);
     MPI_Request barrier = MPI_REQUEST_NULL;
@@ -114,7 +114,7 @@ class MpiTeam : public study::Team {
         ended.add(1);
         if (watch_) watch_();
       }
-      MPI_Barrier(MPI_COMM_WORLD);  // the counters live until all are through
+      MPI_Barrier(MPI_COMM_WORLD);  // the counters must exist until all are finished
       if (watch_) watch_();
       watch_ = nullptr;
     }
@@ -131,8 +131,8 @@ class MpiTeam : public study::Team {
 
   const std::atomic<bool>& stop_;
   int rank_ = 0, size_ = 1;
-  MPI_Comm failed_ = MPI_COMM_NULL;  ///< for have_all_failed() alone
-  std::function<void()> watch_;      ///< of the work in hand; the leader's
+  MPI_Comm failed_ = MPI_COMM_NULL;  ///< used only by have_all_failed()
+  std::function<void()> watch_;      ///< of the current work; only the leader's
 };
 
 }  // namespace

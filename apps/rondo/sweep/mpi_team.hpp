@@ -7,13 +7,13 @@
 
 namespace rondo::app {
 
-/// This process was started as one of several ranks, by mpirun or by a scheduler (its environment
-/// says so).
+/// Whether this process was started as one of several ranks, by mpirun or by a scheduler, according
+/// to its environment.
 [[nodiscard]] bool is_started_by_mpi();
 
-/// Starts MPI, which ends with the object. Ranks take pieces by a counter in the memory of rank 0
-/// that they raise by themselves; that needs rank 0 to call MPI now and then: see tick().
-/// @param stop set: no new piece is taken, those in hand are told
+/// Starts MPI, which ends with the object. Ranks take pieces by incrementing a counter in the
+/// memory of rank 0, which must therefore call MPI from time to time: see tick().
+/// @param stop set: no new piece starts, and running ones are told
 [[nodiscard]] std::unique_ptr<study::Team> make_mpi_team(const std::atomic<bool>& stop);
 
 }  // namespace rondo::app

@@ -27,10 +27,10 @@
 namespace rondo::app {
 namespace {
 
-/// Fewer members are checked before a bar is seen.
+/// With fewer members, the check finishes before a progress bar would be seen.
 constexpr long long spoken_of = 500;
 
-/// A task of a scheduler that did not start MPI: each would run the whole sweep by itself.
+/// Refuses tasks of a scheduler without MPI, because each would run the whole sweep.
 void refuse_tasks_without_mpi() {
   const char* task = std::getenv("SLURM_PROCID");
   if (task != nullptr && std::string_view(task) != "0")
@@ -39,7 +39,7 @@ void refuse_tasks_without_mpi() {
                            "srun --mpi=pmix, or mpirun"});
 }
 
-/// Each run with what it would cost.
+/// Prints the cost that each run would have.
 void print_plan(const study::DrySweep& dry, int workers) {
   double seconds = 0.0, longest = 0.0;
   std::size_t disk = 0, runs = 0;
@@ -78,7 +78,7 @@ void tell_beginning(const study::PlannedSweep& plan, const std::optional<study::
                                        lent, lent == 1 ? "its" : "their"));
 }
 
-/// For the document.
+/// Stores the result for the document.
 void keep(Telling& tell, const study::SweepReport& report, const std::filesystem::path& directory) {
   tell.result = sweep_document(report, directory);
   if (report.interrupted > 0)
@@ -154,12 +154,12 @@ int run(SweepArguments& arguments, study::Team& team, Telling& tell) {
       shard ? study::run_shard(request, *shard, team) : study::run_sweep(request, team);
   progress.reset();
   if (tell.json) keep(tell, report, request.directory);
-  if (!team.leads()) return exit_done;  // mpirun takes the leader's
+  if (!team.leads()) return exit_done;  // mpirun returns the leader's code
   return shard ? finish_shard(report, *shard, request) : finish(report, request.directory);
 }
 
-/// What fails on all ranks alike, the leader alone tells, as of any command. What fails on some
-/// ends the others, who wait for them.
+/// An error on all ranks is reported by the leader alone, as for any command. An error on some
+/// ranks ends the others, which wait for them.
 int run_ranks(SweepArguments& arguments, study::Team& team, Telling& tell) {
   try {
     return run(arguments, team, tell);
@@ -195,7 +195,7 @@ int sweep(SweepArguments arguments, Telling& tell) {
                            "leave --jobs out"});
   catch_stop_signals();
   const std::unique_ptr<study::Team> team = make_mpi_team(stop_requested());
-  if (!team->leads()) {  // all say the same
+  if (!team->leads()) {  // all have the same message
     spdlog::set_level(spdlog::level::off);
     tell.json = false;
   }

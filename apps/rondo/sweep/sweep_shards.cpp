@@ -36,7 +36,7 @@ std::string command(const study::SweepRequest& request, const std::string& what)
   return text + fmt::format(" -o {} {}", request.directory.string(), what);
 }
 
-/// "3,5-8" of ascending numbers, as Slurm's --array takes them.
+/// Ascending numbers as "3,5-8", the format of Slurm's --array.
 std::string ranges(const std::vector<study::Shard>& shards) {
   std::string text;
   for (std::size_t k = 0; k < shards.size();) {
@@ -49,7 +49,7 @@ std::string ranges(const std::vector<study::Shard>& shards) {
   return text;
 }
 
-/// How far it has come; where a stop was asked for no shard was looked at.
+/// The progress so far. If a stop was requested, no shard was examined.
 std::string state_of(const study::CollectReport& report) {
   if (report.unfinished.empty()) return "interrupted";
   return fmt::format("{} of {} runs done; {} of {} shards not finished: {}", report.done,

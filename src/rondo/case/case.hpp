@@ -232,7 +232,7 @@ struct Case {
   std::vector<std::string> warnings;  ///< found while reading; the caller prints them
 };
 
-/// Whether something is clamped in the rotating frame, so that there is a motion of the rim.
+/// Whether something is clamped in the co-rotating frame, so that there is a motion of the rim.
 inline bool is_held(const Case& c) {
   return c.mesh ? !c.mesh->clamped.empty() : !c.free_rim;
 }

@@ -57,8 +57,8 @@ using SolidSector = SectorBlocks<3>;
 SectorStiffness assemble_sector(const mesh::Mesh& mesh, std::span<const Material> materials,
                                 std::span<const Vec2> prestress = {});
 
-/// out = K u, Cartesian components in the rotating frame, both (n); clamped nodes give 0. This is
-/// the simple reference product; the time steps have their own.
+/// out = K u, Cartesian components in the co-rotating frame, both (n); clamped nodes give 0. This
+/// is the simple reference product; the time steps have their own.
 void apply(const SectorStiffness& k, std::span<const Vec2> u, std::span<Vec2> out);
 
 }  // namespace rondo::fem

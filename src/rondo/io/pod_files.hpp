@@ -44,7 +44,7 @@ struct PodContent {
   /// (components n_points, r) Φ, unweighted; row components · point + component
   const Eigen::MatrixXd* modes = nullptr;
   std::vector<double> time;                ///< (t) [s]
-  std::vector<double> angle;               ///< (t) of the rotating frame [rad]
+  std::vector<double> angle;               ///< (t) of the co-rotating frame [rad]
   std::vector<int> run;                    ///< (t) index in `runs`
   std::vector<double> error;               ///< (t) relative error with r modes
   std::vector<std::string> runs;           ///< directories

@@ -62,7 +62,7 @@ struct ResultsLayout {
   bool contact = false;          ///< whether something may be touched: /contact is written
   bool stress = false;           ///< whether the fields include stress
   /// (n) index of the free body of a node, which moves in the fixed frame; -1: the node moves in
-  /// the rotating frame. Empty: no free body.
+  /// the co-rotating frame. Empty: no free body.
   std::span<const int> free_body = {};
   std::size_t components = 2;  ///< of a snapshot's vectors; 3 for a solid mesh
   double camber = 0.0;         ///< for a solid mesh, inclination of the ground    [rad]

@@ -15,8 +15,8 @@
 namespace rondo::io {
 
 enum class Quantity {
-  displacement,  ///< (n) rotating frame, at `time`; in three dimensions also axial  [m]
-  velocity,      ///< (n) rotating frame, at `time_velocity`; likewise               [m/s]
+  displacement,  ///< (n) co-rotating frame, at `time`; in three dimensions also axial  [m]
+  velocity,      ///< (n) co-rotating frame, at `time_velocity`; likewise            [m/s]
   contact,       ///< (nb) normal, tangential, at `time`                                   [N/m]
                  ///<      in three dimensions also along t2                              [N]
 };

@@ -30,9 +30,9 @@ struct Snapshot {
   double time_velocity = 0.0;   ///< of the velocity
   double angle = 0.0;           ///< θ at `time`, counter-clockwise                       [rad]
   double angle_velocity = 0.0;  ///< θ at `time_velocity`                                 [rad]
-  Vec3 center;                  ///< of the rotating frame: x, y, 0; in three dimensions (t1, n, t2)
+  Vec3 center;                  ///< of the co-rotating frame: x, y, 0; in space (t1, n, t2)
                                 ///< of ground_frame.hpp                                  [m]
-  Field u;                      ///< (n) rotating frame; of free bodies fixed frame      [m]
+  Field u;                      ///< (n) co-rotating frame; of free bodies fixed frame   [m]
   Field v;                      ///< (n) same frame: velocity [m/s], or rate over the load [m]
   std::vector<dynamics::Pose> poses;   ///< (free_bodies)
   std::vector<ContactForce> contacts;  ///< ascending candidates

@@ -8,7 +8,7 @@
 ///   u64 n, n times i32 type, dimension, order, nodes per element, text name
 ///   u64 n, n times i32 dimension, tag, text name: physical groups
 ///   u64 n, n times i32 dimension, tag, u64 m, m times i32: entities, physical groups of each
-///   u64 n, n times u64: tags of the nodes, n times 3 doubles: their places
+///   u64 n, n times u64: tags of the nodes, n times 3 doubles: their positions
 ///   u64 n, n times i32 dimension, entity, type, u64 m, m times u64: tags of the elements,
 ///     m times nodes per element u64: tags of their nodes
 ///   u64 end mark

@@ -44,7 +44,7 @@ struct Curve {
 struct Mesh {
   std::vector<Vec2> coordinates;  ///< (n) reference position X                                 [m]
   std::vector<Cell> cells;        ///< (e) corner nodes
-  std::vector<int> clamped;       ///< nodes fixed in the rotating frame (u = 0), ascending
+  std::vector<int> clamped;       ///< nodes fixed in the co-rotating frame (u = 0), ascending
   std::vector<int> boundary;      ///< (nb) contact candidates, in order along the contact boundary
   std::vector<double>
       tributary;  ///< (nb) length of contact boundary that belongs to a candidate      [m]

@@ -10,7 +10,7 @@ namespace rondo::modal {
 
 struct CriticalSpeed {
   int diameters = 0;      ///< n
-  double spin = 0.0;      ///< lowest |s| with ω = n|s| in the turning frame          [rad/s]
+  double spin = 0.0;      ///< lowest |s| with ω = n|s| in the co-rotating frame      [rad/s]
   double residual = 0.0;  ///< ‖A w - s² Q w‖ / ‖A w‖ of (8.6)                        [-]
 };
 

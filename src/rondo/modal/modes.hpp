@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// @file  Frequencies and shapes of an undamped body at rest or in constant spin
-/// (docs/theory.md, section 8): u = φ e^{iωt} in the rotating frame with
+/// (docs/theory.md, section 8): u = φ e^{iωt} in the co-rotating frame with
 ///   (K' - ω² M + 2iωs M J) φ = 0,    K' = K - s² M                                        (8.1)
 /// where K may include the stiffening by the stress of the spin.
 #pragma once
@@ -14,12 +14,12 @@
 
 namespace rondo::modal {
 
-/// How a mode travels in the rotating frame; forward: in the sense of the spin.
+/// How a mode travels in the co-rotating frame; forward: in the sense of the spin.
 enum class Wave { unknown, standing, forward, backward, rigid };
 
 /// The motion Re[(real + i imaginary) e^{(γ + iω) t}], ω >= 0.
 struct Mode {
-  double omega = 0.0;   ///< ω in the rotating frame [rad/s]
+  double omega = 0.0;   ///< ω in the co-rotating frame [rad/s]
   double growth = 0.0;  ///< γ: 0 except for the rotation of a spinning free disk (8.5) [1/s]
   int diameters = -1;   ///< n: harmonic of a body of equal sectors; -1: unknown
   Wave wave = Wave::unknown;

@@ -53,7 +53,7 @@ Vec2 corrected_velocity(const ContactStep& s, const ContactNode& node, Vec2 driv
 
 void add_works(const ContactStep& s, const ContactNode& node, Vec2 after, const ActiveContact& c,
                ContactReport& report) noexcept {
-  const Vec2 impulse = conj(s.rotation) * from_frame(c.normal, c.impulse.plane());  // turning frame
+  const Vec2 impulse = conj(s.rotation) * from_frame(c.normal, c.impulse.plane());  // as v
   const double work = dot(impulse, 0.5 * (node.before + after));
   const Vec3 mean = 0.5 * (c.before + c.after);
   report.work += work;

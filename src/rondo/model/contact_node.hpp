@@ -87,7 +87,7 @@ struct ContactStep {
   const contact::Law* law;  ///< of the ground; outlives the step
 };
 
-/// A candidate at t_{n+1}; vectors are in the rotating frame.
+/// A candidate at t_{n+1}; vectors are in the co-rotating frame.
 struct ContactNode {
   std::size_t candidate = 0;  ///< index in ContactModel::nodes
   double mass = 0.0;          ///< [kg/m]
@@ -103,7 +103,7 @@ struct ContactNode {
 /// Velocity of the next step without v⁺: b of (4.2), fixed frame [m/s]. @param arm X + u_{n+1} [m]
 [[nodiscard]] Vec2 drive_of(const ContactStep& step, Vec2 arm) noexcept;
 
-/// (x_{n+1} - x_n)/Δt (4.2a), fixed frame [m/s]. @param before v_{n+1/2}, rotating frame [m/s]
+/// (x_{n+1} - x_n)/Δt (4.2a), fixed frame [m/s]. @param before v_{n+1/2}, co-rotating frame [m/s]
 [[nodiscard]] Vec2 velocity_before(const ContactStep& step, Vec2 arm, Vec2 before) noexcept;
 
 /// Solves the contacts of a node, one per touch, writes them into `contacts` (equally many), adds
@@ -115,7 +115,7 @@ struct ContactNode {
 
 /// Evaluates the impulses of a node's contacts, whatever solver found them: velocities w⁺, works
 /// and the rest of the report. @param node its mass is the scale of the residual
-/// @param after v_{n+3/2}, rotating frame
+/// @param after v_{n+3/2}, co-rotating frame
 void report_contacts(const ContactStep& step, const ContactNode& node, Vec2 after,
                      std::span<ActiveContact> contacts, ContactReport& report) noexcept;
 

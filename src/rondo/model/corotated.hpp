@@ -30,7 +30,7 @@ void elastic_displacements(const Model& model, std::span<const Vec2> u, std::spa
 
 /// Derivative of the energy with respect to the nodes' positions, in the frame in which they move
 /// (9.5): transforms `product` (n), e.g. K e in the frame of the body, to `gradient` (n). It is a
-/// copy at nodes of held bodies, which move in the rotating frame.                        [N/m]
+/// copy at nodes of held bodies, which move in the co-rotating frame.                     [N/m]
 void to_gradient(const Model& model, std::span<const Vec2> elastic, std::span<const Vec2> product,
                  std::span<const Pose> poses, std::span<Vec2> gradient) noexcept;
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// @file  Rubber at finite strain for the general step (docs/rubber.md, sections 2 and 3): one
 /// readable pass per term, the reference for the fused step. Constrained bodies move in the
-/// rotating frame, unconstrained ones in the fixed frame without a frame of their own, because
+/// co-rotating frame, unconstrained ones in the fixed frame without a frame of their own, because
 /// rotations cause no strain.
 #pragma once
 #include <memory>

@@ -16,7 +16,7 @@ void demand_size(std::size_t n, const SavedState& saved) {
                saved.gradient.size());
 }
 
-/// K u in the rotating frame.
+/// K u in the co-rotating frame.
 class AssembledStiffness final : public InternalForce {
  public:
   AssembledStiffness(const Model& model, std::span<const Vec2> u0)

@@ -132,8 +132,8 @@ struct Model {
   Motion motion;
   std::optional<RimBody> rim;  ///< absent: the rim follows its tables
   std::optional<ContactModel> contact;
-  std::vector<FreeBody> free_bodies;       ///< empty: everything moves in the rotating frame
-  std::vector<int> free_body;              ///< (n) index in free_bodies, -1: in the rotating frame;
+  std::vector<FreeBody> free_bodies;       ///< empty: everything moves in the co-rotating frame
+  std::vector<int> free_body;              ///< (n) index in free_bodies, -1: co-rotating frame;
                                            ///< empty: no free body
   std::vector<int> body;                   ///< (n) number of each node's body; empty: there is one
   std::optional<SurfaceContact> surfaces;  ///< absent: bodies do not touch each other
@@ -184,7 +184,7 @@ struct State {
 
   long long step = 0;                 ///< n + 1: number of the displacement
   FrameStep frame;                    ///< of t_{n+1}
-  Field u;                            ///< (n) u_{n+1}, turning frame                [m]
+  Field u;                            ///< (n) u_{n+1}, co-rotating frame            [m]
   Field v;                            ///< (n) v_{n+1/2} (at step 0: v_0)            [m/s]
   Field v_next;                       ///< (n) v_{n+3/2}                             [m/s]
   Field force;                        ///< (n) K u_{n+1}, reference step only           [N/m], [N]

@@ -87,7 +87,7 @@ struct FrameStep {
   Vec3 center;          ///< c_{n+1}                                                    [m]
   Vec3 advance;         ///< c_{n+2} - c_{n+1}                                          [m]
   Vec3 advance_before;  ///< c_{n+1} - c_n                                              [m]
-  Vec3 pull;            ///< Rᵀ (c̈ - g) in the turning frame, and along the axle        [m/s2]
+  Vec3 pull;            ///< Rᵀ (c̈ - g) in the co-rotating frame, and along the axle    [m/s2]
 };
 
 /// (ṡJ - s²)(X + u) + Rᵀ(c̈ - g): frame acceleration at a point (3.1). @param arm X + u [m]

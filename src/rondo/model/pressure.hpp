@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// @file  Pressure on boundary curves (docs/theory.md, 9.8). For a free body, on a loaded rim and
 /// with rubber it acts on the deformed edges, so that a closed curve has neither force nor moment.
-/// If the rim follows its tables, it acts on the reference edges in the rotating frame, as in
+/// If the rim follows its tables, it acts on the reference edges in the co-rotating frame, as in
 /// small-strain theory.
 #pragma once
 #include <span>
@@ -16,7 +16,7 @@ namespace rondo::dynamics {
 void pressure_forces(const Model& model, std::span<const Vec2> u, double time,
                      std::span<Vec2> force) noexcept;
 
-/// A force on a node of a constrained body, in the rotating frame.
+/// A force on a node of a constrained body, in the co-rotating frame.
 struct NodalLoad {
   int node = 0;
   int load = 0;  ///< index in Model::pressures

@@ -13,7 +13,7 @@ namespace rondo::study {
 /// A row of history.csv of any analysis; values that an analysis does not have are 0.
 struct HistoryRecord {
   double time = 0.0;   ///< [s], or a fraction of the load                              [1]
-  double angle = 0.0;  ///< θ of the rotating frame                                      [rad]
+  double angle = 0.0;  ///< θ of the co-rotating frame                                   [rad]
   // Vectors in (t1, n, t2) of ground_frame.hpp in three dimensions, else x, y, 0.
   Vec3 center;          ///< [m]
   Vec3 force;           ///< of the ground on the body                               [N/m], [N]

@@ -25,8 +25,8 @@ struct ProbedBody {
   const fem::NodalDilatation& dilatation;
 };
 
-/// Appends the columns of each site: u [m] and v [m/s] in the rotating frame or, for a free body,
-/// in the fixed frame (there u = x - X), then the stress xx, yy, zz, xy in the same frame [Pa].
+/// Appends for each site u [m] and v [m/s] in the co-rotating frame or, for a free body, in the
+/// fixed frame (there u = x - X), then the stress xx, yy, zz, xy in that frame [Pa].
 /// @param state its step, u, v and poses are read
 void append_probes(const ProbedBody& body, std::span<const ProbeSite> sites,
                    const dynamics::State& state, std::vector<double>& row);

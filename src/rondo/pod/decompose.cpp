@@ -53,7 +53,7 @@ Eigen::MatrixXd read_all(SnapshotMatrix& source, Progress& progress) {
   return a;
 }
 
-/// A = Q R, R = U' Σ Vᵀ, U = Q U' for the modes kept only.
+/// A = Q R, R = U' Σ Vᵀ, U = Q U', computed only for the modes that are kept.
 void tall(Eigen::MatrixXd& a, Index asked, Decomposition& d) {
   const Eigen::VectorXd factors = factor_qr(a);
   Eigen::MatrixXd r = upper(a);
@@ -86,7 +86,7 @@ void wide(Eigen::MatrixXd& a, Index asked, Decomposition& d) {
 Decomposition direct(SnapshotMatrix& source, const DecomposeOptions& options) {
   Decomposition d;
   d.method = Method::direct;
-  Progress progress(source, options, 2);  // to read it; and to decompose it, which is all at once
+  Progress progress(source, options, 2);  // half for reading, half for the decomposition
   Eigen::MatrixXd a = read_all(source, progress);
   d.energy = a.squaredNorm();
   if (a.rows() >= a.cols())

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-/// One pass over blocks of snapshots: A ≈ U Σ Vᵀ so far, and what was cut off
+/// One pass over blocks of snapshots: A ≈ U Σ Vᵀ so far, and bounds of the truncated part
 /// (docs/theory.md, 7.2). After Brand (2006).
 #include <algorithm>
 #include <cmath>
@@ -10,22 +10,22 @@
 namespace rondo::pod {
 namespace {
 
-/// U is orthonormalised anew where it is further from it than this; promised is 1e-13.
+/// U is orthonormalised again if its error is larger than this; 1e-13 is promised.
 constexpr double drift_allowed = 2e-14;
 
 struct Factors {
-  Eigen::MatrixXd left;        ///< (rows, most + block) U, then the block that comes
+  Eigen::MatrixXd left;        ///< (rows, most + block) U, then the next block
   Eigen::MatrixXd right;       ///< (columns, most) V
   Eigen::VectorXd sigma;       ///< (k)
-  Index seen = 0;              ///< columns so far
-  double energy = 0.0;         ///< of them
-  double lost = 0.0;           ///< energy cut off
-  double bound_squared = 0.0;  ///< Σ of the squares of the largest σ of each cut
+  Index seen = 0;              ///< number of columns so far
+  double energy = 0.0;         ///< of these columns
+  double lost = 0.0;           ///< truncated energy
+  double bound_squared = 0.0;  ///< sum of the squares of the largest σ of each truncation
 
   [[nodiscard]] Index k() const noexcept { return sigma.size(); }
 };
 
-/// [[Σ, C], [0, R]] with the block B = U C + Q R; Q takes the place of B.
+/// [[Σ, C], [0, R]] for the block B = U C + Q R; Q replaces B.
 Eigen::MatrixXd project(Factors& f, Index n) {
   const Index k = f.k();
   const auto u = f.left.leftCols(k);
@@ -33,8 +33,8 @@ Eigen::MatrixXd project(Factors& f, Index n) {
   Eigen::MatrixXd c(k, n), again(k, n);
   multiply_transposed(u, b, c);
   multiply(u, c, b, -1.0, 1.0);
-  // Once more: what is left of b may be far smaller than b, and hold round-off along U, which would
-  // be left to mend().
+  // A second time, because the rest of b may be much smaller than b and contain round-off along U,
+  // which mend() would have to remove.
   multiply_transposed(u, b, again);
   multiply(u, again, b, -1.0, 1.0);
   c += again;
@@ -48,14 +48,14 @@ Eigen::MatrixXd project(Factors& f, Index n) {
   return small;
 }
 
-/// Number of singular values to keep, if the square of the largest one cut may be `allowed`.
+/// Number of singular values to keep; `allowed` limits the square of the largest truncated one.
 Index cut(const Eigen::VectorXd& sigma, Index most, double floor, double allowed) {
   Index k = std::min<Index>(most, (sigma.array() > floor).count());
   while (k > 0 && sigma[k - 1] * sigma[k - 1] <= allowed) --k;
   return k;
 }
 
-/// U ← [U Q] U', V ← [V 0; 0 I] V', both cut.
+/// U ← [U Q] U', V ← [V 0; 0 I] V', both truncated.
 void turn(Factors& f, Index n, const Svd& svd, Index kept) {
   const Index k = f.k(), q = svd.u.rows() - k;
   multiply_in_place(f.left.leftCols(k + q), svd.u.leftCols(kept));
@@ -67,7 +67,7 @@ void turn(Factors& f, Index n, const Svd& svd, Index kept) {
   f.sigma = svd.sigma.head(kept);
 }
 
-/// U = Q R; A ≈ Q (R Σ) Vᵀ, of which the middle has a singular value decomposition of its own.
+/// U = Q R; A ≈ Q (R Σ) Vᵀ, where R Σ has a singular value decomposition of its own.
 void mend(Factors& f) {
   auto u = f.left.leftCols(f.k());
   if (f.k() == 0 || orthonormality(u) <= drift_allowed) return;
@@ -90,7 +90,7 @@ void truncate(Factors& f, const Svd& svd, Index kept) {
 void add_block(Factors& f, Index n, Index most, double tolerance) {
   Eigen::MatrixXd small = project(f, n);
   const Svd svd = thin_svd(small);
-  // The share of the columns so far of what may be cut in all.
+  // The truncation allowed so far: its total times the share of the columns read.
   const double share = static_cast<double>(f.seen + n) / static_cast<double>(f.right.rows());
   const double allowed = tolerance * tolerance * f.energy * share - f.bound_squared;
   const double floor = round_off(f.left.rows(), f.right.rows(), svd.sigma[0]);
@@ -123,7 +123,7 @@ Decomposition incremental(SnapshotMatrix& source, const DecomposeOptions& option
   d.lost_energy = f.lost;
   d.sigma_bound = std::sqrt(f.bound_squared);
   d.sigma = f.sigma;
-  // Shrunk where they are, not copied.
+  // Shrinks in place, without copying.
   f.right.conservativeResize(Eigen::NoChange, f.k());
   d.temporal = std::move(f.right);
   d.modes.resize(source.rows(), 0);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-/// What each method takes, counted in numbers of 8 bytes.
+/// Memory of each method, counted in numbers of 8 bytes.
 #include <algorithm>
 #include <cmath>
 
@@ -9,15 +9,15 @@
 namespace rondo::pod {
 namespace {
 
-/// Counts are doubles: those of wrong inputs may pass any integer.
+/// Counts are doubles because those of wrong inputs may exceed any integer.
 struct Sizes {
   double rows, columns, grain;
-  double allowed;  ///< numbers that fit
-  double asked;    ///< modes, < 0: not asked for
+  double allowed;  ///< numbers that fit into memory
+  double asked;    ///< modes, < 0: no request
 
   [[nodiscard]] double shorter() const { return std::min(rows, columns); }
   [[nodiscard]] double longer() const { return std::max(rows, columns); }
-  /// A triangle, its singular vectors on both sides, and three times as much of work for gesdd.
+  /// A triangle, its singular vectors on both sides, and three times its size of work for gesdd.
   [[nodiscard]] double small_svd() const { return 6.0 * shorter() * shorter(); }
   [[nodiscard]] double svd_flops() const { return 22.0 * std::pow(shorter(), 3); }
   [[nodiscard]] double modes_at_least() const {
@@ -32,7 +32,7 @@ DecomposePlan make(Method method, double block, double modes, double numbers, do
 
 DecomposePlan plan_direct(const Sizes& s) {
   const double modes = s.asked < 0.0 ? s.shorter() : s.modes_at_least();
-  // A, and of the longer side the vectors that stand beside it: the modes, or all of V.
+  // Besides A, the vectors of the longer side: the modes, or all of V.
   const double vectors = s.rows >= s.columns ? s.rows * modes : s.columns * s.rows + s.rows * modes;
   const double n = s.shorter();
   const double numbers = s.rows * s.columns + std::max(s.small_svd(), 3.0 * n * n + vectors);
@@ -41,23 +41,23 @@ DecomposePlan plan_direct(const Sizes& s) {
   return make(Method::direct, s.columns, modes, numbers, flops);
 }
 
-/// Before the SVD a triangle and a block; then its work space; then U or V of the longer side, the
-/// vectors of the shorter and a block.
+/// Before the SVD a triangle and a block; then the work space of the SVD; then U or V of the longer
+/// side, the vectors of the shorter side and a block.
 DecomposePlan plan_tsqr(const Sizes& s) {
   constexpr double block_numbers = 1 << 24;
   const bool tall = s.rows >= s.columns;
   const double grain = tall ? s.grain : 1.0, n = s.shorter();
-  // Blocks of columns stand beside a transposed copy of themselves.
+  // Blocks of columns also need a transposed copy.
   const double copies = tall ? 1.0 : 2.0;
-  // The second pass is the narrower one; without a number of modes, half of it is theirs.
+  // The second pass has less memory; without a requested number, modes may use half of it.
   const double beside = s.allowed - 2.0 * n * n - s.longer() * s.modes_at_least();
   const double room = std::min(block_numbers, s.asked < 0.0 ? 0.5 * beside : beside) / (copies * n);
   const double fewest = std::min(grain, s.longer());
   const double block =
       std::clamp(grain * std::floor(room / grain), fewest, std::max(fewest, s.longer()));
-  // The second pass reads whole columns, one at least.
+  // The second pass reads whole columns, at least one.
   const double second = tall ? std::max(block * n, s.rows) : block * n;
-  // What the decomposition of the triangle takes is there again afterwards.
+  // The memory for the decomposition of the triangle is free again afterwards.
   const double left = (std::max(s.allowed, s.small_svd()) - second - 2.0 * n * n) / s.longer();
   const double modes = s.asked < 0.0 ? std::clamp(std::floor(left), 1.0, n) : s.modes_at_least();
   const double numbers = std::max(
@@ -67,7 +67,7 @@ DecomposePlan plan_tsqr(const Sizes& s) {
   return make(Method::tsqr, block, modes, numbers, flops);
 }
 
-/// U with a block beside it and V, w = modes + block columns each, and work space of order w².
+/// U with an adjacent block, and V, each of w = modes + block columns, and work space of order w².
 DecomposePlan plan_incremental(const Sizes& s) {
   constexpr double square = 12.0, largest_block = 128.0, at_once = 512.0;
   const double per_column = s.rows + s.columns + at_once;

@@ -19,7 +19,7 @@ constexpr double full_turn = 2.0 * std::numbers::pi;
 Rings rings_of(const mesh::Mesh& mesh, const std::vector<int>& nodes) {
   RONDO_DEMAND(mesh.n_sectors > 0, mesh.n_sectors);
   const auto n_sectors = static_cast<std::size_t>(mesh.n_sectors);
-  // The order of the rings is that of their nodes within a sector.
+  // The rings are in the order of their nodes within a sector.
   std::vector<int> in_sector;
   for (const int node : nodes)
     if (mesh.sector[static_cast<std::size_t>(node)] == 0)
@@ -38,7 +38,7 @@ Rings rings_of(const mesh::Mesh& mesh, const std::vector<int>& nodes) {
   return rings;
 }
 
-/// In (-π, π] by way of the direction: a remainder by the rounded 2π is wrong by 1e-16 each turn.
+/// In (-π, π], by the direction: a remainder by the rounded 2π is wrong by 1e-16 for each turn.
 double within_a_turn(double theta) {
   const Vec2 direction = direction_at(theta);
   return std::atan2(direction.y, direction.x);
@@ -56,8 +56,8 @@ Rings boundary_rings(const mesh::Mesh& mesh) {
   return rings_of(mesh, mesh.boundary);
 }
 
-/// Two real rings at once: the complex transform of (first component) + i (second component), whose
-/// harmonics k and -k get e^{-ikθ} and e^{ikθ}, does to each of them what its real transform would.
+/// Two real rings at once: the complex transform of (first component) + i (second component), with
+/// harmonics k and -k times e^{-ikθ} and e^{ikθ}, acts on each as its real transform would.
 Rectifier::Rectifier(int n_sectors, std::size_t n_rings, Components components, Shift shift)
     : n_(static_cast<std::size_t>(n_sectors)),
       n_rings_(n_rings),
@@ -70,7 +70,7 @@ Rectifier::Rectifier(int n_sectors, std::size_t n_rings, Components components, 
   for (std::size_t k = 0; k < n_; ++k)
     to_polar_[k] = rotation(-full_turn * static_cast<double>(k) / sectors);
   auto* ring = reinterpret_cast<fftw_complex*>(work_.data());
-  // Plans chosen by rule, not by timing: the same bits in every run.
+  // Plans are chosen by rule, not by timing, which gives the same bits in every run.
   const unsigned flags = FFTW_ESTIMATE | FFTW_UNALIGNED;
   const std::lock_guard lock(fftw_planner());
   forward_ = fftw_plan_dft_1d(n_sectors, ring, ring, FFTW_FORWARD, flags);
@@ -116,7 +116,7 @@ void Rectifier::move_by_harmonics(std::span<double> ring) {
   for (std::size_t k = 0; k < n_; ++k) ring[k] = work_[k].x;
 }
 
-/// Each ring in its polar frames, where they turn with the field.
+/// Applies the move to each ring, in polar frames if they turn with the field.
 template <class Move>
 void Rectifier::move(std::span<Vec2> values, Move&& move_ring) {
   RONDO_DEMAND(values.size() == n_ * n_rings_, values.size(), n_, n_rings_);
@@ -130,7 +130,7 @@ void Rectifier::move(std::span<Vec2> values, Move&& move_ring) {
   }
 }
 
-/// Sectors, 0 to n, by which a whole number of them moves a field round by the angle in (-π, π].
+/// Number of sectors, 0 to n, by which the field moves for the angle in (-π, π].
 std::ptrdiff_t Rectifier::whole_sectors(double angle) const noexcept {
   const long pitches = std::lround(angle / full_turn * static_cast<double>(n_));
   return pitches + (pitches < 0 ? static_cast<long>(n_) : 0);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-/// @file  The rectified frame: a field of the rotating frame is moved around the disk to the fixed
-/// frame, on a mesh of equal sectors, by an exact isometry (docs/theory.md, 7.3).
+/// @file  The rectified frame: a field of the co-rotating frame is moved around the disk to the
+/// fixed frame, on a mesh of equal sectors, by an exact isometry (docs/theory.md, 7.3).
 #pragma once
 #include <cstddef>
 #include <span>
@@ -31,7 +31,7 @@ Rings node_rings(const mesh::Mesh& mesh);
 Rings boundary_rings(const mesh::Mesh& mesh);
 
 enum class Components {
-  cartesian,  ///< x, y in the rotating frame: turned and moved
+  cartesian,  ///< x, y in the co-rotating frame: turned and moved
   scalars,    ///< (normal, tangential): only moved
 };
 
@@ -49,7 +49,7 @@ class Rectifier {
   Rectifier(const Rectifier&) = delete;
   Rectifier& operator=(const Rectifier&) = delete;
 
-  /// Works in place. @param theta counter-clockwise angle of the rotating frame [rad]
+  /// Works in place. @param theta counter-clockwise angle of the co-rotating frame [rad]
   /// @param values (n_rings * n_sectors) ring after ring, as Rings::point
   void apply(double theta, std::span<Vec2> values);
   /// Moves one number per point, such as axial components in three dimensions, which a rotation

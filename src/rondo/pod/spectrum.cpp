@@ -22,7 +22,7 @@ Spectrum spectrum(const Decomposition& d) {
     head.add(s.energy[i]);
     s.cumulative[i] = head.value();
   }
-  // From the smallest on, which a sum from the largest would lose.
+  // Summed from the smallest on, because a sum that starts at the largest would lose them.
   CompensatedSum tail;
   tail.add(d.lost_energy / d.energy);
   for (std::size_t i = n; i-- > 0; tail.add(s.energy[i])) s.discarded[i] = tail.value();
@@ -39,7 +39,7 @@ Index modes_for(const Spectrum& s, double share) {
 
 namespace {
 
-/// Errors of a block of snapshots; `a` becomes what all modes leave of it.
+/// Adds the errors of a block of snapshots; `a` becomes its part outside all modes.
 void add_errors(const Decomposition& d, const IdentityOptions& options,
                 Eigen::Ref<Eigen::MatrixXd> a, Eigen::Ref<Eigen::MatrixXd> parts, Identity& out) {
   for (Index j = 0; j < a.cols(); ++j) out.snapshot_energy.push_back(a.col(j).squaredNorm());

@@ -17,7 +17,7 @@ int length(Index n) {
   return static_cast<int>(n);
 }
 
-/// LAPACK asks for a distance of columns of at least 1, also where there are no rows.
+/// Column stride: LAPACK requires at least 1, even if there are no rows.
 template <class Matrix>
 int stride(const Matrix& m) {
   return std::max({1, length(m.outerStride()), length(m.rows())});
@@ -44,7 +44,7 @@ void multiply_transposed(const In& a, const In& b, Out c) {
 }
 
 void multiply_in_place(Out m, const In& t) {
-  constexpr Index most = 512;  // rows at once: the copy stays in the cache
+  constexpr Index most = 512;  // rows per step: the copy stays in the cache
   RONDO_DEMAND(t.rows() == m.cols() && t.cols() <= m.cols(), t.rows(), t.cols(), m.cols());
   Eigen::MatrixXd part(std::min(most, m.rows()), t.cols());
   for (Index first = 0; first < m.rows(); first += most) {
@@ -137,7 +137,7 @@ StackedQr::StackedQr(Index columns)
     : r_(Eigen::MatrixXd::Zero(columns, columns)), t_(std::min<Index>(32, columns), columns) {}
 
 void StackedQr::add(Out rows) {
-  // Even parts of about as many rows as keep a panel of them in the cache.
+  // Equal parts with about as many rows as fit into the cache.
   const Index parts = std::max<Index>(1, rows.rows() / 2048);
   const Index most = (rows.rows() + parts - 1) / parts;
   const int n = length(r_.cols()), panel = length(t_.rows());

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-/// QR by blocks of rows, one after another into the same R (docs/theory.md, 7.2): Σ and V are those
-/// of R. U needs the snapshots once more.
+/// QR of blocks of rows, each added to the same R (docs/theory.md, 7.2): Σ and V are those of R. U
+/// requires reading the snapshots a second time.
 #include <algorithm>
 
 #include "rondo/pod/methods.hpp"
@@ -23,7 +23,7 @@ Eigen::MatrixXd triangle_by_rows(SnapshotMatrix& source, Index block, Decomposit
   return std::move(qr.r());
 }
 
-/// That of the transpose.
+/// R of the transpose, from blocks of columns.
 Eigen::MatrixXd triangle_by_columns(SnapshotMatrix& source, Index block, Decomposition& d,
                                     Progress& progress) {
   StackedQr qr(source.rows());
@@ -39,7 +39,7 @@ Eigen::MatrixXd triangle_by_columns(SnapshotMatrix& source, Index block, Decompo
   return std::move(qr.r());
 }
 
-/// U = A V Σ⁻¹; orthonormal by QR, whose diagonal is Σ.
+/// U = A V Σ⁻¹, orthonormalised by QR, whose diagonal is Σ.
 void tall(SnapshotMatrix& source, const DecomposeOptions& options, const DecomposePlan& plan,
           Decomposition& d) {
   Progress progress(source, options, 2);
@@ -53,7 +53,7 @@ void tall(SnapshotMatrix& source, const DecomposeOptions& options, const Decompo
   const Index kept = rank_and_choose(d, options.modes, plan.modes);
   d.modes.setZero(source.rows(), kept);
   if (kept > 0) {
-    // As many numbers at once as in a block of rows.
+    // As many numbers at once as a block of rows has.
     const Index block =
         std::clamp<Index>(plan.block * source.columns() / source.rows(), 1, source.columns());
     Eigen::MatrixXd columns(source.rows(), block);
@@ -68,7 +68,7 @@ void tall(SnapshotMatrix& source, const DecomposeOptions& options, const Decompo
   progress.finish();
 }
 
-/// The transpose: U from R, V = Aᵀ U Σ⁻¹.
+/// For the transpose: U from R, V = Aᵀ U Σ⁻¹.
 void wide(SnapshotMatrix& source, const DecomposeOptions& options, const DecomposePlan& plan,
           Decomposition& d) {
   Progress progress(source, options, 2);

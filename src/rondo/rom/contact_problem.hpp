@@ -109,7 +109,7 @@ class ContactSolver {
   const contact::Ground& ground_;
   contact::CoupledLimits limits_;
   bool nodes_;                                ///< whether the points are nodes
-  bool turning_;                              ///< whether the model is in the rotating frame
+  bool turning_;                              ///< whether the model is in the co-rotating frame
   std::unique_ptr<rom::NodeRows> node_rows_;  ///< null: points are fixed in space
   std::vector<Phase> phases_;
   std::size_t most_phases_ = 2;

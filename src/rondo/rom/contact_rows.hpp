@@ -51,7 +51,7 @@ class NodeRows {
   NodeRows(const mesh::Mesh& mesh, const ReducedModel& model);
   /// Points after the disk has turned by `phase` [rad], in the order of pod::boundary_rings(mesh).
   /// In the rectified frame the rows depend on the phase, T(-phase) of the modes there; in the
-  /// rotating frame they are the modes at the nodes.
+  /// co-rotating frame they are the modes at the nodes.
   [[nodiscard]] ContactRows at(double phase);
 
  private:

@@ -65,7 +65,7 @@ struct IntegratorInput {
 
 class ReducedIntegrator final : public dynamics::Integrator {
  public:
-  /// @param start u and v at t = 0, rotating frame; their parts outside the modes are lost
+  /// @param start u and v at t = 0, co-rotating frame; their parts outside the modes are lost
   ReducedIntegrator(const IntegratorInput& input, const dynamics::State& start);
   ~ReducedIntegrator() override;
 

@@ -69,7 +69,7 @@ ReducedModel make_reduced_model(const FullModel& full, const Eigen::MatrixXd& we
 void set_contact(const mesh::Mesh& mesh, ContactForm form, Eigen::MatrixXd weights,
                  ReducedModel& model);
 
-/// Transforms coefficients to fields of the rotating frame, and back. Owns the work space of its
+/// Transforms coefficients to fields of the co-rotating frame, and back. Owns the work space of its
 /// transforms: one object per thread.
 class Lift {
  public:
@@ -77,7 +77,7 @@ class Lift {
   Lift(const mesh::Mesh& mesh, const ReducedModel& model);
   /// For some points only: the rows of the basis are those of the points, and must outlive it.
   Lift(const Eigen::MatrixXd& basis, ModelFrame frame, pod::Rings rings);
-  /// out = T(-θ) Φ q; Φ q in the rotating frame. @param out (n)
+  /// out = T(-θ) Φ q; Φ q in the co-rotating frame. @param out (n)
   void lift(double theta, const Eigen::VectorXd& q, std::span<Vec2> out);
   /// ΦᵀM T(θ) u, or ΦᵀM u: the inverse for fields in the span of the modes. @param mass (n)
   [[nodiscard]] Eigen::VectorXd restrict_to_modes(double theta, std::span<const Vec2> field,

@@ -30,7 +30,7 @@ MatrixXd restoring(const rom::ReducedModel& m, const StepMatrixKey& k) {
   return l;
 }
 
-/// N = (I - Δt/2 s D)⁻¹; D = 0 is common, because nothing is carried in the rotating frame.
+/// N = (I - Δt/2 s D)⁻¹; D = 0 is common, because nothing is carried in the co-rotating frame.
 MatrixXd carrying(const rom::ReducedModel& m, const StepMatrixKey& k) {
   const MatrixXd unit = MatrixXd::Identity(m.size(), m.size());
   if (m.frame == rom::ModelFrame::turning || k.carry == 0.0) return unit;

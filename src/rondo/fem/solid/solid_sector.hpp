@@ -27,7 +27,7 @@ double solid_eigenvalue_bound(const mesh::Mesh& mesh, std::span<const Material> 
 std::vector<Vec3> sector_pressure(const mesh::Mesh& mesh, const SolidSector& k,
                                   std::span<const mesh::Face> faces);
 
-/// K u in the rotating frame, (n) each; clamped nodes give 0. Simple reference implementation.
+/// K u in the co-rotating frame, (n) each; clamped nodes give 0. Simple reference implementation.
 void apply(const SolidSector& k, std::span<const Vec3> u, std::span<Vec3> out);
 
 /// Stiffness of the radial and tangential components alone, as if no node moved along the axle.

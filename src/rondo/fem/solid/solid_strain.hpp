@@ -10,7 +10,7 @@ namespace rondo::fem {
 
 /// Equivalent of deformation() in the plane: principal strains at the centers, J at the corners;
 /// `strain_cell` and `jacobian_cell` are numbers of hexahedra.
-/// @param u (n) finite, turning frame [m]. @pre there is a hexahedron
+/// @param u (n) finite, co-rotating frame [m]. @pre there is a hexahedron
 [[nodiscard]] Deformation solid_deformation(const mesh::Mesh& mesh,
                                             std::span<const Vec3> u) noexcept;
 

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// @file  HDF5 files: the part of the C library that this program needs, with ownership and errors.
-/// This header includes no header of HDF5. Every dataset has the attributes `units` and
-/// `description`. Files are written in the oldest layout (readable by HDF5 1.8 and later), without
-/// time stamps, so that the same values give the same bytes. They are never locked, so that a run
-/// can be watched.
+///
+/// It includes no header of HDF5. Datasets have the attributes `units` and `description`. Files
+/// have the oldest layout (readable by HDF5 1.8 and later) and no time stamps, so that the same
+/// values give the same bytes; they are never locked, so that a run can be watched.
 #pragma once
 #include <array>
 #include <cstddef>

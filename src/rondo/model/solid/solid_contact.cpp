@@ -107,7 +107,7 @@ Vec3 velocity_before(const SolidContactStep& s, Vec3 arm, Vec3 before) noexcept 
   return Vec3(turning, before.z) + s.center_rate_before;
 }
 
-/// v⁺, rotating frame; sticking is exact.
+/// v⁺, co-rotating frame; sticking is exact.
 Vec3 corrected_velocity(const SolidContactStep& s, const SolidContactNode& node, Vec3 drive,
                         std::span<const Frame> frames,
                         std::span<const ActiveContact> contacts) noexcept {
@@ -126,7 +126,7 @@ Vec3 corrected_velocity(const SolidContactStep& s, const SolidContactNode& node,
 
 void add_works(const SolidContactStep& s, const SolidContactNode& node, Vec3 after, Vec3 push,
                const ActiveContact& c, ContactReport& report) noexcept {
-  const Vec3 impulse{conj(s.plane.rotation) * push.plane(), push.z};  // rotating frame
+  const Vec3 impulse{conj(s.plane.rotation) * push.plane(), push.z};  // co-rotating frame
   const double work = dot(impulse, 0.5 * (node.before + after));
   const Vec3 mean = 0.5 * (c.before + c.after), r = c.impulse;
   report.work += work;

@@ -26,7 +26,7 @@ struct SolidContactStep {
   Vec3 center_rate_before;  ///< (c_{n+1} - c_n)/Δt                            [m/s]
 };
 
-/// A candidate at t_{n+1}; vectors are in the rotating frame.
+/// A candidate at t_{n+1}; vectors are in the co-rotating frame.
 struct SolidContactNode {
   std::size_t candidate = 0;  ///< index in ContactModel::nodes
   double mass = 0.0;          ///< [kg]

@@ -9,7 +9,7 @@
 namespace rondo::study {
 namespace {
 
-/// The annotation of an argument, with its default: a flag has one, else the command's holds.
+/// The annotation of an argument with its default. None means the default of the command.
 std::string python_type(const Option& option) {
   return std::visit(
       [](const auto* value) -> std::string {
@@ -80,7 +80,7 @@ std::string python_options() {
   SweepRequest sweep;
   FmuRequest fmu;
   return "# SPDX"
-         "-License-Identifier: BSD-3-Clause\n"  // in parts: this file has its own
+         "-License-Identifier: BSD-3-Clause\n"  // split, because this file has its own
          "\"\"\"Keyword arguments of the package's functions that are options of the commands: "
          "type, "
          "default and meaning.\nWritten from the library's table of options "

@@ -6,7 +6,7 @@ namespace {
 
 constexpr std::string_view memory_help = "Memory limit of the decompositions, e.g. 500MB";
 
-/// The options `--from` and `--to` of a window of time.
+/// The options `--from` and `--to` of a time window.
 Option first_time(std::optional<double>& from) {
   return {"--from", "from_time", &from, "Time of the first snapshot used", "s"};
 }

@@ -21,8 +21,8 @@ namespace {
 using pod::Index;
 using Clock = std::chrono::steady_clock;
 
-/// Speed of the matrix work of a decomposition on this machine, from a small one [flop/s]. The
-/// first one also wakes the library up, so the second is timed.
+/// Speed of the matrix operations of a decomposition on this machine, from a small one [flop/s].
+/// The first run also initialises the library, so the second is timed.
 double measured_speed() {
   constexpr Index rows = 3000, columns = 200;
   Eigen::MatrixXd values(rows, columns);
@@ -34,7 +34,7 @@ double measured_speed() {
   double seconds = 0.0;
   for (int k = 0; k < 2; ++k) {
     const auto begin = Clock::now();
-    static_cast<void>(pod::decompose(snapshots, options));  // only its time is of interest
+    static_cast<void>(pod::decompose(snapshots, options));  // only its duration matters
     seconds = std::chrono::duration<double>(Clock::now() - begin).count();
   }
   return pod::plan(rows, columns, 1, options).flops / std::max(1e-6, seconds);
@@ -62,7 +62,7 @@ void say_plan(const PodRequest& request, const pod::DecomposePlan& plan, Index r
                              readable_bytes(memory_of(request)), readable_bytes(plan.memory)));
 }
 
-/// What is less than the user may think.
+/// Warns if the result has less than the user may expect.
 void warn_of_limits(const PodRequest& request, const PodReport& r, double tolerance) {
   if (!request.warn) return;
   if (request.frame == "rotating" && request.shift != PodRequest{}.shift)
@@ -87,7 +87,7 @@ void warn_of_limits(const PodRequest& request, const PodReport& r, double tolera
                     r.rank, r.sigma_bound));
 }
 
-/// Only where a method is forced: by itself none would be chosen.
+/// Relevant only if the user chose the method, because no such method is chosen automatically.
 void refuse_too_long(const PodRequest& request, pod::Method method, const RunSnapshots& snapshots) {
   if (method != pod::Method::direct && method != pod::Method::tsqr) return;
   const Index side = std::min(snapshots.rows(), snapshots.columns());
@@ -105,7 +105,7 @@ pod::DecomposeOptions options_of(const PodRequest& request) {
   return options;
 }
 
-/// Decomposition and error identity: two parts of one work, counted in numbers read.
+/// Decomposition and error identity; the progress of both is counted in numbers read.
 void find(const PodRequest& request, RunSnapshots& snapshots, PodResult& found) {
   const long long all = static_cast<long long>(snapshots.rows()) * snapshots.columns();
   long long done = 0, total = 0;
@@ -118,7 +118,7 @@ void find(const PodRequest& request, RunSnapshots& snapshots, PodResult& found) 
     };
   found.d = decompose(snapshots, options);
   found.spectrum = pod::spectrum(found.d);
-  // Some tens of megabytes at once, or what is allowed.
+  // Reads some tens of megabytes at once, or as much as is allowed.
   const auto numbers =
       std::min<Index>(Index{1} << 22, static_cast<Index>(options.memory / sizeof(double) / 4));
   pod::IdentityOptions identity;

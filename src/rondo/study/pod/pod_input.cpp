@@ -27,7 +27,7 @@ struct Word {
   Value value;
 };
 
-/// What a word of the command line stands for; a fault that lists the words otherwise.
+/// The value of a word of the command line; for other words a fault that lists the allowed ones.
 template <class Value, std::size_t N>
 Value value_of(const char* option, const std::string& word,
                const std::array<Word<Value>, N>& words) {
@@ -62,7 +62,7 @@ const char* word_of(Value value, const std::array<Word<Value>, N>& words) {
 
 void say_if_unfinished(const PodRequest& request, const io::RunReader& run) {
   if (!request.warn || run.status() == "done") return;
-  // A run that could end by itself has cut its datasets to what it wrote.
+  // A run that ended normally has cut its datasets to the snapshots written.
   const std::string of = run.n_planned() > run.n_snapshots()
                              ? fmt::format(" of {} planned", run.n_planned())
                              : std::string();
@@ -81,7 +81,7 @@ void refuse_twice(const PodRequest& request) {
   }
 }
 
-/// Each run stays open while its snapshots are read; as many files as the system lets us.
+/// Raises the limit of open files, because each run stays open while its snapshots are read.
 void allow_open_files() {
   rlimit limit{};
   if (getrlimit(RLIMIT_NOFILE, &limit) != 0) return;
@@ -98,7 +98,7 @@ io::RunReader open_run(const std::filesystem::path& directory) {
   }
 }
 
-/// Sectors that all hold the same places; else a field cannot be moved from one to the next.
+/// Whether all sectors have the same points; otherwise a field cannot be moved between them.
 bool repeats(const mesh::Mesh& mesh, bool contact) {
   if (mesh.n_sectors == 0) return false;
   return (contact ? pod::boundary_rings(mesh) : pod::node_rings(mesh)).n_sectors > 0;
@@ -154,7 +154,7 @@ const char* unit_of(io::Quantity quantity, const io::RunReader& run) noexcept {
     case io::Quantity::displacement:
       return "m";
     case io::Quantity::velocity:
-      return run.is_motion() ? "m/s" : "m";  // over the load, a pure number
+      return run.is_motion() ? "m/s" : "m";  // per fraction of the load
     case io::Quantity::contact:
       return run.mesh().is_solid() ? "N" : "N/m";
   }
@@ -211,7 +211,7 @@ bool is_in_window(const std::vector<io::RunReader>& runs, std::size_t run, doubl
   return time >= from.value_or(-infinity) && time <= to.value_or(infinity);
 }
 
-/// The snapshots of all runs within the window, in the order of the runs.
+/// The snapshots of all runs in the window, in the order of the runs.
 std::vector<SnapshotColumn> columns_of(const PodRequest& request, const SnapshotChoice& choice,
                                        const std::vector<io::RunReader>& runs) {
   const bool velocity = choice.quantity == io::Quantity::velocity;
@@ -219,7 +219,7 @@ std::vector<SnapshotColumn> columns_of(const PodRequest& request, const Snapshot
   for (std::size_t r = 0; r < runs.size(); ++r) {
     const io::RunTimes& of = runs[r].times();
     const std::vector<double>& times = velocity ? of.time_velocity : of.time;
-    // Without turning, an earlier version's file will do, and its angles are not looked at.
+    // Without rotation, files of earlier versions are sufficient, and their angles are not read.
     const std::vector<double>& angles =
         velocity && !of.angle_velocity.empty() ? of.angle_velocity : of.angle;
     const std::size_t before = columns.size();

@@ -14,7 +14,7 @@ namespace {
 
 using pod::Index;
 
-/// `count` columns evenly spread, first and last among them.
+/// `count` evenly spaced columns, including the first and the last.
 std::vector<std::size_t> spread(std::size_t count, std::size_t columns) {
   std::vector<std::size_t> chosen;
   count = std::min(count, columns);
@@ -27,7 +27,7 @@ FieldView as_points(const Eigen::VectorXd& rows, std::size_t components) {
   return {{rows.data(), static_cast<std::size_t>(rows.size())}, components};
 }
 
-/// Snapshots of several runs follow one another by number, for their times would go back.
+/// Snapshots of several runs are numbered consecutively because their times would decrease.
 void reconstruct(io::PodWriter& writer, RunSnapshots& snapshots, const PodResult& found,
                  const std::vector<std::size_t>& chosen) {
   Eigen::MatrixXd original(snapshots.rows(), 1);
@@ -78,7 +78,7 @@ io::PodContent content_of(const PodRequest& request, const PodReport& report,
 
 void write_pod_files(const PodRequest& request, const PodReport& report, RunSnapshots& snapshots,
                      PodResult& result) {
-  // U becomes Φ, in the order of the mesh, where it is: it may be half of all memory used.
+  // U becomes Φ, in the order of the mesh, in place: it may be half of all memory used.
   for (Index i = 0; i < result.d.modes.cols(); ++i) snapshots.unweight(result.d.modes.col(i));
   const io::PodContent content = content_of(request, report, snapshots, result);
   const std::size_t asked = result.d.rank > 0 ? static_cast<std::size_t>(request.reconstruct) : 0;

@@ -50,7 +50,7 @@ void add_identity(PodReport& report, const pod::Identity& identity,
   }
 }
 
-/// Sums over the snapshots of each run.
+/// Sum of the values over the snapshots of each run.
 std::vector<double> by_run(const std::vector<double>& values,
                            const std::vector<SnapshotColumn>& columns, std::size_t n_runs) {
   std::vector<double> sums(n_runs, 0.0);
@@ -67,7 +67,7 @@ void add_run_errors(PodReport& report, const pod::Decomposition& d, const pod::I
     report.runs[r].energy_share = d.energy > 0.0 ? energy[r] / d.energy : 0.0;
     report.runs[r].error = relative_error(error[r], energy[r]);
   }
-  std::size_t k = 0;  // place in identity.fewer_error
+  std::size_t k = 0;  // index in identity.fewer_error
   for (const PodCount& count : report.counts) {
     const bool kept = count.modes >= 0 && count.modes <= report.modes;
     const std::vector<double> of_count =
@@ -108,7 +108,7 @@ std::vector<Index> kept_counts(const pod::Spectrum& spectrum, Index kept) {
 
 std::string trouble_in(const PodReport& r) {
   constexpr double bound = 1e-11;  // some ε of all snapshots; a wrong mode is off by its energy
-  // What was cut may lie along the modes kept: then it is in the tail, and not left by the modes.
+  // The truncated part may be in the span of the modes: then it is in the tail only.
   const double off = std::max(r.residual - r.tail, r.tail - r.lost - r.residual);
   if (!(off <= bound))
     return fmt::format(

@@ -34,7 +34,7 @@ std::vector<double> point_weights(const io::RunReader& run, const SnapshotChoice
   return weight;
 }
 
-/// Squares of larger numbers are out of range.
+/// Squares of larger numbers would overflow.
 constexpr double largest = 1e100;
 
 [[noreturn]] void out_of_range(const io::RunReader& run, double time) {
@@ -92,7 +92,7 @@ Index RunSnapshots::row_grain() const noexcept {
   return choice_.rectified ? components * rings_.n_sectors : components;
 }
 
-/// Points of one snapshot as they are in the file, from `first` on.
+/// Reads points of one snapshot in the order of the file, from `first` on.
 void RunSnapshots::read_points(const SnapshotColumn& column, std::size_t first,
                                std::span<Vec2> plane, std::span<double> axial) {
   const io::RunReader& run = runs_[column.run];
@@ -105,8 +105,8 @@ void RunSnapshots::read_points(const SnapshotColumn& column, std::size_t first,
   }
 }
 
-/// The places [first, first + count) of one snapshot, in the frame asked for, into field_ and
-/// axial_.
+/// Computes the points [first, first + count) of one snapshot, in the requested frame and order,
+/// into field_ and axial_.
 void RunSnapshots::read_order(const SnapshotColumn& column, std::size_t first, std::size_t count) {
   const std::span<Vec2> field = std::span(field_).first(count);
   const std::span<double> axial = std::span(axial_).first(components_ == 3 ? count : 0);
@@ -127,7 +127,7 @@ void RunSnapshots::read_order(const SnapshotColumn& column, std::size_t first, s
   if (!in_range) out_of_range(runs_[column.run], column.time);
 }
 
-/// Whole rings, in order.
+/// Moves complete rings, in order, to the rectified frame.
 void RunSnapshots::rectify(const SnapshotColumn& column, std::span<Vec2> plane,
                            std::span<double> axial) {
   const std::size_t n_rings = plane.size() / static_cast<std::size_t>(rings_.n_sectors);

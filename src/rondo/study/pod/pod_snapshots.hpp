@@ -18,14 +18,14 @@ enum class Weight { mass, delassus, none };
 struct SnapshotColumn {
   std::size_t run = 0, snapshot = 0;
   double time = 0.0;    ///< of the field itself                                             [s]
-  double angle = 0.0;   ///< of the rotating frame at that time                             [rad]
+  double angle = 0.0;   ///< of the co-rotating frame at that time                          [rad]
   double weight = 1.0;  ///< factor of the snapshot
 };
 
 struct SnapshotChoice {
   io::Quantity quantity = io::Quantity::displacement;
   Weight weight = Weight::mass;
-  std::optional<pod::Shift> rectified;  ///< none: the rotating frame
+  std::optional<pod::Shift> rectified;  ///< none: the co-rotating frame
 };
 
 /// Rows are components·i + component, where i is the index of a point in order(): ring after ring

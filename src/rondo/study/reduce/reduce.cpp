@@ -58,7 +58,7 @@ void check_options(const ReduceRequest& r) {
                           "between 0 and 1, e.g. 1e-5");
 }
 
-/// What can be reduced: a disk in one piece, held by its rim, that rolled to its end.
+/// Checks what can be reduced: a disk in one piece, clamped at its rim, that finished its run.
 void check_run(const io::RunReader& run, const Case& c) {
   const std::string name = run.directory().string();
   if (!run.is_motion())
@@ -89,11 +89,11 @@ void check_run(const io::RunReader& run, const Case& c) {
                         "a run with output.snapshots of 2 or more, some hundreds better");
 }
 
-/// Told before the whole file is looked at, to which it is damage.
+/// Reported before the whole file is read, which would call it damaged.
 void check_velocities(const std::filesystem::path& directory) {
   const std::filesystem::path results = directory / "results.h5";
   std::error_code error;
-  if (!std::filesystem::exists(results, error)) return;  // the reader says what is missing
+  if (!std::filesystem::exists(results, error)) return;  // the reader reports what is missing
   const io::h5::File file = io::h5::File::open(results);
   if (file.contains("/snapshots/displacement") && !file.contains("/snapshots/velocity"))
     throw request_error("RUN", directory.string(),
@@ -129,7 +129,7 @@ Source open_source(const ReduceRequest& r) {
     const io::RunReader run(directory);
     Case& c = source.cases.emplace_back(read_case(directory / "case.toml"));
     check_run(run, c);
-    // The model has a step of its own, of all nodes with their mass.
+    // The model has its own step, with the mass of all nodes.
     c.contact_mass = ContactMass::lumped;
     c.implicit.clear();
     if (is_steady(run)) take_steady(run, is_turning(r), c);
@@ -157,7 +157,7 @@ RunSnapshots snapshots_of(const ReduceRequest& r, const Source& source, const ch
   return {source.runs, std::move(columns), choice};
 }
 
-/// A rim that moved by itself: history.csv says how.
+/// For a free rim, takes its motion from history.csv.
 void take_history(const std::filesystem::path& directory, const PodRequest& pod,
                   ModelRanges& ranges) {
   const auto columns = io::read_columns(directory / "history.csv");
@@ -197,7 +197,7 @@ ModelRanges ranges_of(const ReduceRequest& r, const Source& source) {
   return ranges;
 }
 
-/// The form of contact that is asked for, or the one that suits (docs/reduced.md, 5).
+/// The requested form of contact, or a suitable one (docs/reduced.md, 5).
 rom::ContactForm contact_form(const ReduceRequest& r, const mesh::Mesh& mesh) {
   const bool smooth = pod::boundary_rings(mesh).n_rings() == 1;
   const bool standing = smooth && !is_turning(r);
@@ -216,7 +216,7 @@ rom::ContactForm contact_form(const ReduceRequest& r, const mesh::Mesh& mesh) {
   return form;
 }
 
-/// The largest divisor that leaves enough contact points, where none is asked for.
+/// The requested stride, or the largest divisor that leaves enough contact points.
 int contact_stride(const ReduceRequest& request, int n_sectors) {
   int stride = request.contact_stride;
   if (stride == 0) {
@@ -236,7 +236,7 @@ int contact_stride(const ReduceRequest& request, int n_sectors) {
   return stride;
 }
 
-/// Places at every stride-th node, or several to a node where these alone would be few.
+/// Points at every stride-th node, or several per node if these would be too few.
 MatrixXd place_weights(const ReduceRequest& request, int n_sectors) {
   const int stride = contact_stride(request, n_sectors);
   const int phases = request.contact_phases;
@@ -248,8 +248,8 @@ MatrixXd place_weights(const ReduceRequest& request, int n_sectors) {
   return phases > 1 ? rom::between_weights(n_sectors, phases) : rom::hat_weights(n_sectors, stride);
 }
 
-/// The modes of displacement, their derivatives by the angle (a pattern that stands still in space
-/// has the velocity -s D u), the modes of velocity.
+/// The modes of displacement, their derivatives by the angle (a pattern that is fixed in space has
+/// the velocity -s D u), the modes of velocity.
 MatrixXd basis_of(const ReduceRequest& r, const mesh::Mesh& mesh, const VectorXd& roots,
                   const MatrixXd& u, const MatrixXd& v) {
   if (is_turning(r)) return rom::join(std::array{u, v});
@@ -258,7 +258,7 @@ MatrixXd basis_of(const ReduceRequest& r, const mesh::Mesh& mesh, const VectorXd
   return rom::join(std::array{u, derived, v});
 }
 
-/// Where the model will touch the ground.
+/// The contact points of the model.
 struct ContactChoice {
   rom::ContactForm form;
   MatrixXd weights;  ///< (sectors, points); empty: nodes
@@ -271,7 +271,7 @@ ContactChoice choose_contact(const ReduceRequest& request, const mesh::Mesh& mes
   return contact;
 }
 
-/// @param rim with what a rim that moves by itself takes besides
+/// @param rim includes the data for a free rim
 rom::ReducedModel make_model(const ReduceRequest& request, const Setup& setup,
                              const MatrixXd& basis, const ContactChoice& contact, bool rim) {
   rom::ReducedModel model = rom::make_reduced_model(
@@ -297,7 +297,7 @@ ReducedFile make_file(const ReduceRequest& request, const Source& source, const 
   return file;
 }
 
-/// Why no error is estimated; empty: it is.
+/// The reason why no error is estimated; empty: it is estimated.
 std::string why_no_estimate(const ReduceRequest& r, const Source& source) {
   if (!r.error_estimate) return "not asked for (--no-error-estimate)";
   if (is_turning(r)) return "in the co-rotating frame it would take steps of the mesh";
@@ -312,7 +312,7 @@ std::string why_no_estimate(const ReduceRequest& r, const Source& source) {
   return {};
 }
 
-/// Each run as predicted by the modes of the others (docs/reduced.md, 8b).
+/// Predicts each run with the modes of the others (docs/reduced.md, 8b).
 ErrorEstimate estimate_errors(const ReduceRequest& r, const Source& source, const Setup& setup,
                               const std::array<const FieldModes*, 2>& fields,
                               const ContactChoice& contact) {
@@ -346,7 +346,7 @@ ErrorEstimate estimate_errors(const ReduceRequest& r, const Source& source, cons
   return estimate;
 }
 
-/// Sizes and steps of the model.
+/// Reports sizes and steps of the model.
 ReduceReport describe(const Source& source, const Setup& setup, const ReducedFile& file) {
   ReduceReport report;
   report.dofs = 2 * static_cast<long long>(setup.model.free.size());
@@ -370,12 +370,12 @@ ReduceReport describe(const Source& source, const Setup& setup, const ReducedFil
 
 ReduceReport run_reduce(const ReduceRequest& request) {
   const auto begin = Clock::now();
-  const OneBlasThread one;  // the same model on any number of cores
+  const OneBlasThread one;  // the same model for any number of cores
   static_cast<void>(is_co_rotating(request.frame, request.warn));
   check_options(request);
   const Source source = open_source(request);
   const Setup setup = build(off_the_ground(source.cases.front()), 1);
-  // Told before the work.
+  // Reported before the long calculation.
   const ContactChoice contact = choose_contact(request, setup.mesh);
   const VectorXd roots = rom::mass_roots(setup.model.mass);
   const TouchedNodes touched = touched_nodes(setup, source.runs, request);

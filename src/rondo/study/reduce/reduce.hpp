@@ -24,7 +24,7 @@ inline constexpr int least_contact_points = 48;
 struct ReduceRequest {
   std::vector<std::filesystem::path> runs;  ///< results directories, same mesh and material
   std::filesystem::path output;             ///< the model's file
-  /// Of the two PODs; none: by the tolerances, without which the default numbers are used.
+  /// Numbers of modes of the two PODs; none: by the tolerances, without these the default numbers.
   std::optional<long long> displacement_modes, velocity_modes;
   std::optional<double> displacement_tolerance, velocity_tolerance;  ///< energy left out
   double contact_weight = 10.0;    ///< of touched nodes in the norm of the PODs, relative to mass

@@ -17,10 +17,10 @@
 namespace rondo::study {
 namespace {
 
-/// Start of what is averaged, of the whole time.
+/// Start of the averaging window, relative to the whole time.
 constexpr double window = 0.75;
 
-/// Of a steady state its fields are where the modes begin: nothing has to come down and settle.
+/// For a steady state, the modes start from its fields, so that nothing has to settle.
 Setup setup_of(const Case& c, const io::RunReader& run) {
   if (!is_steady(run)) return build(c, 1);
   Setup setup = build(off_the_ground(c), 1);

@@ -19,20 +19,20 @@ using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-/// Looked for where a tolerance is given, and at least where the norm chooses among them.
+/// Number computed if a tolerance is given, and at least if the norm chooses among them.
 constexpr Index most_modes = 400;
 
-/// Kept to choose modes without one of the runs from: three times as many as are wanted, at least.
+/// Smallest number kept to choose modes without one run; at least three times the requested number.
 constexpr Index least_kept = 150;
 
-/// The first that leave out no more than the tolerance, or all.
+/// The first modes that leave out no more than the tolerance, or all.
 Index modes_for(const VectorXd& left, double tolerance) {
   Index count = 1;
   while (count + 1 < left.size() && left[count] > tolerance * left[0]) ++count;
   return count;
 }
 
-/// The nearest of n places round the disk, the first straight down.
+/// The nearest of n positions around the disk, the first of which is straight down.
 std::size_t place_of(Vec2 x, std::size_t n) {
   const double turns = std::atan2(x.x, -x.y) / (2.0 * std::numbers::pi);
   const auto count = static_cast<long>(n);
@@ -40,7 +40,7 @@ std::size_t place_of(Vec2 x, std::size_t n) {
   return static_cast<std::size_t>(((place % count) + count) % count);
 }
 
-/// Places round the disk, one a candidate, at which a force was found in any snapshot.
+/// Positions around the disk, one per candidate, where a force occurs in some snapshot.
 std::vector<char> touched_places(const Setup& setup, const std::vector<io::RunReader>& runs,
                                  const ReduceRequest& r) {
   const std::size_t n = setup.mesh.boundary.size();
@@ -64,7 +64,7 @@ std::vector<char> touched_places(const Setup& setup, const std::vector<io::RunRe
   return touched;
 }
 
-/// A third of what is touched on either side of it: where it will be, and has been.
+/// Adds a third of the touched positions on either side, where contact may also occur.
 std::vector<char> widened(const std::vector<char>& touched) {
   const auto n = static_cast<std::ptrdiff_t>(touched.size());
   const std::ptrdiff_t reach = (std::ranges::count(touched, 1) + 2) / 3;
@@ -75,7 +75,7 @@ std::vector<char> widened(const std::vector<char>& touched) {
   return wide;
 }
 
-/// √weight times the modes at the touched nodes.
+/// √weight times the values of the modes at the touched nodes.
 MatrixXd at_touched(const TouchedNodes& touched, const MatrixXd& modes, const VectorXd& roots) {
   MatrixXd rows(static_cast<Index>(2 * touched.node.size()), modes.cols());
   for (std::size_t k = 0; k < touched.node.size(); ++k) {

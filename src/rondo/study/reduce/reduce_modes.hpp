@@ -36,7 +36,7 @@ struct TouchedNodes {
 };
 
 /// The candidates at the angles in space where one of the runs touched the ground, widened by a
-/// third of these on either side; in the rotating frame all. Weights are proportional to their
+/// third of these on either side; in the co-rotating frame all. Weights are proportional to their
 /// lengths; their sum is contact_weight times the mass. Empty if nothing touched, or it is 0.
 [[nodiscard]] TouchedNodes touched_nodes(const Setup& setup, const std::vector<io::RunReader>& runs,
                                          const ReduceRequest& request);

@@ -14,7 +14,7 @@
 namespace rondo::study {
 namespace {
 
-constexpr std::size_t most_left_out = 12;  ///< steady states
+constexpr std::size_t most_left_out = 12;  ///< largest number of steady states
 
 void check_steady(const io::RunReader& run, bool turning) {
   const std::string name = run.directory().string();

@@ -21,15 +21,15 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// What has been found of the shards.
+/// The data found in the shards.
 struct Found {
-  std::size_t count = 0;                      ///< of the shards of the sweep
-  std::vector<ShardFile> files;               ///< of those that have begun, ascending
+  std::size_t count = 0;                      ///< number of shards of the sweep
+  std::vector<ShardFile> files;               ///< of shards that have begun, ascending
   std::vector<std::size_t> shard_of;          ///< (members) from 1
   std::map<std::size_t, std::string> states;  ///< of unfinished shards, by their number
 };
 
-/// How many shards there are of the sweep. @throws InputError
+/// The number of shards of the sweep. @throws InputError
 std::size_t count_of(const fs::path& directory, const std::vector<Shard>& shards) {
   if (shards.empty())
     io::refuse_directory(directory, "holds no shards of a sweep",
@@ -44,7 +44,7 @@ std::size_t count_of(const fs::path& directory, const std::vector<Shard>& shards
   return shards.front().count;
 }
 
-/// @throws InputError: with each shard that is of another sweep
+/// @throws InputError: lists each shard that is of another sweep
 void demand_same_sweep_of_all(const fs::path& directory, const std::vector<ShardFile>& files,
                               const SweepIdentity& identity) {
   std::vector<Fault> faults;
@@ -58,7 +58,7 @@ void demand_same_sweep_of_all(const fs::path& directory, const std::vector<Shard
   if (!faults.empty()) throw InputError(std::move(faults));
 }
 
-/// No other program of this machine is at work there; of other machines nothing is known.
+/// Whether no other program on this machine uses the directory; other machines are not known.
 bool is_free(const fs::path& directory) {
   try {
     static_cast<void>(io::DirectoryLock(directory));
@@ -76,7 +76,7 @@ std::string state_of(const fs::path& directory, const ShardFile& file) {
                                                          : fmt::format("is at work ({})", who);
 }
 
-/// A shard that has ended tells of each of its members, and of no others. @throws FileError
+/// Checks that a finished shard has a row for each of its members, and no others. @throws FileError
 void demand_whole(const fs::path& directory, const ShardFile& file, const Found& found,
                   std::size_t figures) {
   const auto own = static_cast<std::size_t>(std::ranges::count(found.shard_of, file.shard.number));
@@ -116,14 +116,14 @@ Found find_shards(const fs::path& directory, const SweepIdentity& identity,
   return found;
 }
 
-/// To the bit, so that NaN is NaN.
+/// Compares bit for bit, so that NaN equals NaN.
 bool same_figures(const MemberRow& a, const MemberRow& b) {
   return a.steps == b.steps && std::ranges::equal(a.figures, b.figures, [](double x, double y) {
            return std::bit_cast<std::uint64_t>(x) == std::bit_cast<std::uint64_t>(y);
          });
 }
 
-/// A row of a shard, against the run that is there. A row without its run is none.
+/// Compares a row of a shard with the existing run. A row without its run does not count.
 void compare(std::size_t member, const std::optional<MemberRow>& there, Found& found,
              SweepRows& rows) {
   const MemberRow& told = rows.rows()[member];
@@ -136,14 +136,14 @@ void compare(std::size_t member, const std::optional<MemberRow>& there, Found& f
   }
 }
 
-/// The member with whose modes it begins is not there: its shard had fields of its own.
+/// Whether the member whose modes it starts with is missing: its shard then had its own fields.
 bool is_ahead(std::size_t member, const PlannedSweep& plan, const SweepRows& rows) {
   const std::optional<std::size_t>& first = plan.members[member].modes_of;
   return first && is_unfinished(rows.rows()[*first]);
 }
 
-/// Rows against the runs, by all of the team, those whose modes others begin with first.
-/// False: a stop was asked for.
+/// Compares rows with runs, by the whole team, starting with those whose modes others use.
+/// False: a stop was requested.
 bool check_runs(const MemberRunner& runner, Team& team, Found& found, SweepRows& rows) {
   for (std::vector<std::size_t> members : phases_of(runner.plan)) {
     std::erase_if(members, [&](std::size_t m) { return is_ahead(m, runner.plan, rows); });
@@ -174,7 +174,7 @@ void take_rows(const Found& found, SweepRows& rows) {
   rows.set_wall(wall);
 }
 
-/// A shard whose runs are all there has nothing left to do, however it ended.
+/// A shard whose runs all exist has nothing left to do, however it ended.
 CollectReport report_of(const SweepRows& rows, const Found& found) {
   CollectReport report;
   static_cast<SweepReport&>(report) = rows.report();

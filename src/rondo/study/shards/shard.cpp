@@ -15,7 +15,7 @@
 namespace rondo::study {
 namespace {
 
-/// Digits and nothing else. False: it is no number.
+/// Accepts only digits. Returns false if it is not a number.
 bool read_number(std::string_view text, std::size_t& number) {
   const char* const end = text.data() + text.size();
   const auto [stop, error] = std::from_chars(text.data(), end, number);
@@ -29,13 +29,13 @@ bool read_pair(std::string_view text, std::string_view between, Shard& shard) {
          shard.number <= shard.count && shard.count <= most_members;
 }
 
-/// Where a member stands in the row that is cut into shards.
+/// Sort key of a member in the row that is cut into shards.
 struct ShardPlace {
-  std::size_t body_turn = 0, body = 0;  ///< bodies are dealt out to the shards
-  std::size_t turn = 0, number = 0;     ///< and a body's members to the shards that it takes
+  std::size_t body_turn = 0, body = 0;  ///< bodies are distributed to the shards
+  std::size_t turn = 0, number = 0;     ///< a body's members to its shards
 };
 
-/// Bodies are numbered as they come.
+/// Bodies are numbered in the order of their first members.
 std::vector<ShardPlace> places_of(const std::vector<PlannedMember>& members, std::size_t shards) {
   std::map<std::string_view, std::size_t> numbers;
   std::vector<std::size_t> body, size;

@@ -27,13 +27,13 @@ namespace fs = std::filesystem;
 constexpr const char* shard_format = "rondo shard 1";
 constexpr const char* file_name = "rows.json";
 
-/// Numbers that JSON has none for are texts.
+/// Numbers that JSON cannot represent are written as texts.
 Json json_of(double value) {
   if (std::isfinite(value)) return value;
   return std::isnan(value) ? "nan" : value > 0.0 ? "inf" : "-inf";
 }
 
-/// @throws std::runtime_error: no number
+/// @throws std::runtime_error: it is not a number
 double number_of(const Json& value) {
   constexpr double infinity = std::numeric_limits<double>::infinity();
   if (value.is_number()) return value.get<double>();

@@ -17,7 +17,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// The others there are of the same division and the same sweep. @throws InputError, FileError
+/// Checks that other shards there have the same division and sweep. @throws InputError, FileError
 void demand_same_shards(const fs::path& directory, const Shard& shard,
                         const SweepIdentity& identity) {
   for (const Shard& other : shards_in(directory)) {
@@ -36,7 +36,7 @@ void demand_same_shards(const fs::path& directory, const Shard& shard,
   }
 }
 
-/// An undivided sweep there is of the same members, was collected from shards, and is not at work.
+/// Checks that a sweep there has the same members, was collected from shards, and is not running.
 /// @throws InputError, FileError
 void demand_collected(const fs::path& directory, const std::string& hash) {
   std::error_code error;
@@ -48,20 +48,20 @@ void demand_collected(const fs::path& directory, const std::string& hash) {
   static_cast<void>(io::DirectoryLock(directory));
 }
 
-/// Makes the shard's folder. @throws InputError, FileError
+/// Creates the shard's folder. @throws InputError, FileError
 void prepare_shard(const fs::path& directory, const Shard& shard, const SweepIdentity& identity) {
   std::error_code error;
   if (fs::exists(directory, error) && !fs::is_directory(directory, error))
     io::refuse_directory(directory, "is there and is not a directory", "choose another -o");
   if (!fs::exists(directory / "sweep.json", error)) {
-    const bool runs = fs::exists(directory / "runs", error);  // in this order: others are at work
+    const bool runs = fs::exists(directory / "runs", error);  // in this order: others may start
     refuse_foreign_files(directory, runs && !fs::exists(directory / shards_folder, error));
   }
   demand_collected(directory, identity.members_hash);
   demand_same_shards(directory, shard, identity);
   make_directory(shard_directory(directory, shard));
   try {
-    demand_same_shards(directory, shard, identity);  // of what began at the same time
+    demand_same_shards(directory, shard, identity);  // again: others may have begun meanwhile
   } catch (const InputError&) {
     fs::remove(shard_directory(directory, shard), error);  // if it is empty
     throw;
@@ -82,7 +82,7 @@ ShardFile file_of(const Shard& shard, const char* status, const SweepIdentity& i
   return file;
 }
 
-/// The leader's part before the runs. The shard is taken as long as the lock is held.
+/// The leader's part before the runs. The shard is locked as long as the lock exists.
 std::optional<io::DirectoryLock> begin(const SweepRequest& request, const Shard& shard,
                                        const SweepIdentity& identity, const PlannedSweep& plan,
                                        Team& team) {

@@ -20,7 +20,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// The files hold what was written. @throws FileError, InputError: they do not, or cannot be read
+/// Whether the files have their contents. @throws FileError, InputError: changed, or unreadable
 bool is_whole(const fs::path& directory, const Case& c, const Json& j) {
   const auto number = [&](const char* key) { return number_in(j, key); };
   demand_kept(directory, kept_files_of(j.at("files")));
@@ -34,7 +34,7 @@ bool is_whole(const fs::path& directory, const Case& c, const Json& j) {
          fs::is_regular_file(directory / "fields.xdmf");
 }
 
-/// A run that failed did so by itself, at a step: not for want of space on the disk.
+/// Whether a run ended: a failed run must have failed at a step, not because the disk was full.
 bool ended(const Json& j) {
   const std::string status = text_in(j, "status");
   return status == "done" || (status == "failed" && j.contains("steps_done"));
@@ -64,7 +64,7 @@ bool run_is_there(const fs::path& directory, const Case& c, const std::string& m
     const Json j = io::read_json(directory / "run.json");
     return ended(j) && is_of_this_program(j) && is_case_of(directory, c) &&
            text_in(j, "modes_from") == modes && is_whole(directory, c, j);
-  } catch (const std::exception&) {  // what cannot be read is made again
+  } catch (const std::exception&) {  // unreadable results are computed again
     return false;
   }
 }

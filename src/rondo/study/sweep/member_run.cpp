@@ -19,7 +19,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// What run.json and history.csv say of a run that has ended.
+/// Reads run.json and history.csv of a run that has ended.
 MemberRow row_of(const fs::path& directory, const MemberRunner& runner) {
   const Json j = io::read_json(directory / "run.json");
   MemberRow row;
@@ -63,8 +63,8 @@ MemberRow direct_row(MemberRunner& runner, const Case& c, const std::atomic<bool
   return row;
 }
 
-/// A run of this case and this program was killed or interrupted there, and what its checkpoint
-/// goes on with is whole; anything else is made anew.
+/// Whether a run of this case and this program was killed or interrupted there and its checkpoint
+/// is intact; otherwise the member is run again.
 bool can_go_on(const fs::path& directory, const Case& c) {
   try {
     const Json j = io::read_json(directory / "run.json");
@@ -85,7 +85,7 @@ fs::path directory_of(const MemberRunner& runner, std::size_t member) {
                        runner.plan.members.size());
 }
 
-/// Where the modes are that a member begins with, and what they are called, wherever the sweep is.
+/// Directory and name of the modes with which a member starts, wherever the sweep is.
 struct ModesOfMember {
   fs::path from;
   std::string told;

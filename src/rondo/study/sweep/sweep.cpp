@@ -12,7 +12,7 @@
 namespace rondo::study {
 namespace {
 
-/// The directory is taken as long as the lock is held: by the leader.
+/// The leader holds the directory as long as the lock exists.
 std::optional<io::DirectoryLock> begin(const SweepRequest& request, const SweepRows& rows,
                                        const SweepStudy& study, const PlannedSweep& plan,
                                        Team& team) {
@@ -22,8 +22,8 @@ std::optional<io::DirectoryLock> begin(const SweepRequest& request, const SweepR
     prepare_sweep(request, hash_of(study, plan));
     lock.emplace(request.directory);
     warn_of_another_host(request, request.directory);
-    demand_room(request, plan);  // before anything is removed
-    rows.write("running");       // by which others know of it where there are no locks
+    demand_room(request, plan);  // before any file is removed
+    rows.write("running");       // shows others that a sweep is running if there are no locks
     clear_sweep(request);
     warn_of_members(request, plan);
     if (request.begin) request.begin(plan, team.workers());

@@ -23,7 +23,7 @@ namespace fs = std::filesystem;
 
 constexpr std::array files_written{"results.csv", "sweep.h5", "timings.csv"};
 
-/// sweep.json, of a format that this program knows. @throws InputError, FileError
+/// Reads sweep.json if this program knows its format. @throws InputError, FileError
 Json read_sweep(const fs::path& directory) {
   Json found;
   try {
@@ -42,14 +42,14 @@ Json read_sweep(const fs::path& directory) {
   return found;
 }
 
-/// Shards that are at work there are not to lose their runs. @throws FileError
+/// Refuses if shards are running there, which would lose their runs. @throws FileError
 void demand_no_shard_at_work(const fs::path& directory) {
   std::error_code error;
   for (const auto& entry : fs::directory_iterator(directory / shards_folder, error))
     if (entry.is_directory(error)) static_cast<void>(io::DirectoryLock(entry.path()));
 }
 
-/// What is to be removed is not at work, also not on another machine, as far as files tell.
+/// Checks, as far as files show, that no process, here or elsewhere, uses what is to be removed.
 /// @throws FileError
 void demand_ended(const fs::path& directory) {
   const std::string host = io::holder_of(directory).host;
@@ -63,7 +63,7 @@ void demand_ended(const fs::path& directory) {
                                 host));
 }
 
-/// Neither the sweep nor any of its shards and runs. @throws FileError
+/// The same check for the sweep and all its shards and runs. @throws FileError
 void demand_all_ended(const fs::path& sweep) {
   demand_ended(sweep);
   std::error_code error;
@@ -72,7 +72,7 @@ void demand_all_ended(const fs::path& sweep) {
       demand_ended(entry.path());
 }
 
-/// A sweep.json is there. A damaged one is no hindrance to a sweep that begins anew.
+/// Handles an existing sweep.json. A damaged one does not prevent a sweep from starting again.
 /// @throws InputError, FileError
 void accept(const SweepRequest& request, const std::string& hash) {
   try {

@@ -58,10 +58,10 @@ std::string hash_of(const std::string& text) {
   return hash.text();
 }
 
-/// Of mesh files, each read once.
+/// Hashes of mesh files; each file is read once.
 class MeshHashes {
  public:
-  /// Empty where the case has a disk.
+  /// Empty if the case has a disk.
   const std::string& of(const Case& c) {
     const MeshCase* const mesh = mesh_file_of(c);
     if (!mesh) return none_;
@@ -75,7 +75,7 @@ class MeshHashes {
   const std::string none_;
 };
 
-/// Before a mesh file is read: some bytes of memory for each of its own.
+/// Estimate before a mesh file is read: some bytes of memory for each byte of the file.
 std::size_t guessed_memory(const Case& c) {
   constexpr std::size_t per_byte = 60;
   if (is_generated(c)) return mesh_memory(n_generated_nodes(c));
@@ -92,14 +92,14 @@ nlohmann::json faults_of(const InputError& error) {
   return {{"faults", j}};
 }
 
-/// What is known of a member by its case alone.
+/// The data of a member that are known from its case alone.
 nlohmann::json read_member(const SweepStudy& study, const PlannedMember& member,
                            MeshHashes& meshes) {
   try {
     const Case c = case_of(study, member);
     check_window(study, c);
     return {{"columns", type_of(c).figures.columns.size()},
-            {"hash", hash_of(write_case(kept_case(c)) + meshes.of(c))},  // wherever it is read from
+            {"hash", hash_of(write_case(kept_case(c)) + meshes.of(c))},  // wherever it is
             {"body", hash_of(body_key(c) + meshes.of(c))},
             {"is_linear", !has_rubber(c)},
             {"finds_modes", type_of(c).finds_modes},
@@ -109,7 +109,7 @@ nlohmann::json read_member(const SweepStudy& study, const PlannedMember& member,
   }
 }
 
-/// False: there are faults instead.
+/// Returns false if there are faults instead.
 bool take_faults(const nlohmann::json& j, std::size_t m, MemberFaults& faults) {
   if (!j.contains("faults")) return false;
   for (const nlohmann::json& fault : j["faults"])
@@ -125,7 +125,7 @@ void take_reading(const nlohmann::json& j, PlannedMember& member) {
   j["memory_bytes"].get_to(member.memory_bytes);
 }
 
-/// All of a study are of one analysis; they differ in the last columns alone.
+/// All members of a study have the same analysis; only the last columns depend on the member.
 void take_type(const SweepStudy& study, std::size_t member, PlannedSweep& plan) {
   const Case c = case_of(study, plan.members[member]);
   plan.type = &type_of(c);
@@ -133,8 +133,8 @@ void take_type(const SweepStudy& study, std::size_t member, PlannedSweep& plan) 
   plan.direct = plan.type->direct && !study.snapshots;
 }
 
-/// The columns of history.csv are those of a member that is built for them, by a worker.
-/// False: a stop was asked for. @throws InputError: there is no such column
+/// Chooses among the columns of history.csv of a member, which a worker builds for this.
+/// False: a stop was requested. @throws InputError: there is no such column
 bool choose_columns(const SweepStudy& study, std::size_t member, Team& team, PlannedSweep& plan) {
   const std::string file = study.file.string();
   if (plan.direct)
@@ -161,7 +161,7 @@ bool choose_columns(const SweepStudy& study, std::size_t member, Team& team, Pla
   return true;
 }
 
-/// False: a stop was asked for.
+/// Returns false if a stop was requested.
 bool read_members(const MembersRequest& request, Team& team, PlannedSweep& plan,
                   MemberFaults& faults) {
   MeshHashes meshes;
@@ -184,7 +184,7 @@ bool read_members(const MembersRequest& request, Team& team, PlannedSweep& plan,
          choose_columns(request.study, typical, team, plan);
 }
 
-/// The first member of a body hands its modes on to all others.
+/// The first member of each body passes its modes on to all others.
 void hand_on_modes(std::vector<PlannedMember>& members) {
   std::map<std::string_view, std::size_t> first;
   for (std::size_t m = 0; m < members.size(); ++m) {
@@ -194,7 +194,7 @@ void hand_on_modes(std::vector<PlannedMember>& members) {
   }
 }
 
-/// Members that share a body one after the other.
+/// Orders the members so that those that share a body follow one another.
 std::vector<std::size_t> by_body(const std::vector<PlannedMember>& members) {
   std::vector<std::size_t> order(members.size());
   std::iota(order.begin(), order.end(), 0);
@@ -203,7 +203,7 @@ std::vector<std::size_t> by_body(const std::vector<PlannedMember>& members) {
   return order;
 }
 
-/// The longest bodies first, and their longest members.
+/// Orders the members: the longest bodies first, and in each its longest members.
 std::vector<std::size_t> by_cost(const std::vector<PlannedMember>& members) {
   const auto cost = [&](std::size_t m) {
     return static_cast<double>(members[m].steps) * static_cast<double>(members[m].dofs);
@@ -218,14 +218,14 @@ std::vector<std::size_t> by_cost(const std::vector<PlannedMember>& members) {
   return order;
 }
 
-/// What a worker keeps from one member to the next.
+/// Data that a worker keeps from one member to the next.
 struct Checker {
   SharedBody shared;
-  std::string body;       ///< whose steps were timed
+  std::string body;       ///< body whose steps were timed
   double per_step = 0.0;  ///< [s]
 };
 
-/// One member, built on the body of the one before where it fits.
+/// Builds one member, on the body of the previous one if that matches.
 nlohmann::json check_member(const MembersRequest& request, const PlannedMember& member,
                             Checker& checker) {
   using Clock = std::chrono::steady_clock;
@@ -242,7 +242,7 @@ nlohmann::json check_member(const MembersRequest& request, const PlannedMember& 
     if (timed && r.steps > 0) checker.per_step = r.seconds / static_cast<double>(r.steps);
     checker.body = member.body;
     const double stepping = checker.per_step * static_cast<double>(r.steps);
-    constexpr double files = 0.01;  // of a run: measured, docs/studies.md
+    constexpr double files = 0.01;  // share of files in a run: measured, docs/studies.md
     return MemberCost{.memory_bytes = r.memory_bytes,
                       .disk_bytes = r.disk_bytes,
                       .nodes = r.nodes,
@@ -255,7 +255,7 @@ nlohmann::json check_member(const MembersRequest& request, const PlannedMember& 
   }
 }
 
-/// False: a stop was asked for.
+/// Returns false if a stop was requested.
 bool build_members(const MembersRequest& request, Team& team, PlannedSweep& plan,
                    MemberFaults& faults) {
   std::vector<std::size_t> order = by_body(plan.members);
@@ -275,7 +275,7 @@ bool build_members(const MembersRequest& request, Team& team, PlannedSweep& plan
   return each_member(work, team);
 }
 
-/// As many workers as there is memory for.
+/// Limits the number of workers to what the memory allows.
 void limit_workers(const std::vector<PlannedMember>& members, Team& team) {
   std::size_t most = 1;
   for (const PlannedMember& member : members)

@@ -13,7 +13,7 @@
 namespace rondo::study {
 namespace {
 
-/// In [0, 1), the same with every library.
+/// A number in [0, 1) that is the same with every standard library.
 double uniform(std::mt19937_64& random) {
   return static_cast<double>(random() >> 11U) * 0x1p-53;
 }
@@ -44,7 +44,7 @@ std::vector<std::vector<double>> latin_hypercube(int dimensions, int n, std::uin
   for (int d = 0; d < dimensions; ++d) {
     std::vector<int> part(static_cast<std::size_t>(n));
     std::iota(part.begin(), part.end(), 0);
-    for (std::size_t k = part.size(); k > 1; --k)  // Fisher and Yates
+    for (std::size_t k = part.size(); k > 1; --k)  // Fisher-Yates shuffle
       std::swap(part[k - 1],
                 part[static_cast<std::size_t>(uniform(random) * static_cast<double>(k))]);
     std::vector<double> row;

@@ -63,7 +63,7 @@ std::string line_of(const SweepTables& t, std::size_t m, std::size_t n_figures) 
   return text;
 }
 
-/// The number that a text is as a whole; NaN: it is none.
+/// The number that the whole text represents; NaN: it is not a number.
 double number_of(const std::string& text) {
   double value = none;
   const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
@@ -80,7 +80,7 @@ std::string unit_of_varied(const Vary& vary, bool is_solid) {
   return key && key->unit != "-" ? std::string(rondo::unit_of(key->unit, is_solid)) : "1";
 }
 
-/// Numbers as they are; of texts and tables the place in a list, which is the attribute `values`.
+/// Writes numbers; for texts and tables, the index in the list that the attribute `values` has.
 void write_parameter(io::h5::File& file, const SweepTables& t, std::size_t k) {
   const Vary& vary = t.study.parameters[k];
   std::vector<double> values;
@@ -138,7 +138,7 @@ const char* name_of(MemberStatus status) noexcept {
 
 std::string packed(const MemberRow& row) {
   const std::vector<std::uint8_t> bytes =
-      nlohmann::json::to_cbor(row);  // which knows NaN, as JSON not
+      nlohmann::json::to_cbor(row);  // supports NaN, unlike JSON
   return {bytes.begin(), bytes.end()};
 }
 

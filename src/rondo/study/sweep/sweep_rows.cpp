@@ -26,10 +26,10 @@ constexpr const char* leader_failed = "failed";
 constexpr std::string_view running = "running";
 constexpr std::size_t most_told = 5;
 
-/// Members of a millisecond would spend a fifth of it on giving memory back and asking for it
-/// again.
+/// Members that run for a millisecond would spend a fifth of it on returning memory to the system
+/// and requesting it again.
 void keep_freed_memory() noexcept {
-  constexpr int bytes = 32 << 20;  // the most that it takes
+  constexpr int bytes = 32 << 20;  // largest threshold that is accepted
   mallopt(M_MMAP_THRESHOLD, bytes);
   mallopt(M_TRIM_THRESHOLD, 4 * bytes);
 }
@@ -119,7 +119,7 @@ void SweepRows::add_strains(SweepReport& r) const {
   const auto place = static_cast<std::size_t>(found - columns.begin());
   for (std::size_t m = 0; m < rows_.size(); ++m) {
     if (!is_own(m) || rows_[m].figures.empty() || !plan_.members[m].is_linear) continue;
-    const double strain = rows_[m].figures[place];  // NaN is above nothing
+    const double strain = rows_[m].figures[place];  // comparisons with NaN are false
     r.strained += strain > small_strain ? 1 : 0;
     if (!(strain > r.strain_max)) continue;
     r.strain_max = strain;
@@ -129,7 +129,7 @@ void SweepRows::add_strains(SweepReport& r) const {
 
 Json SweepRows::describe_parameters() const {
   Json all = Json::array();
-  std::string leader;  // of those that go together, the first
+  std::string leader;  // the first parameter of a [[vary]]
   for (const Vary& vary : study_.parameters) {
     const CaseKey* key = find_case_key(vary.key);
     all.push_back({{"key", vary.key},
@@ -187,10 +187,10 @@ void warn_of_another_host(const SweepRequest& request, const std::filesystem::pa
   if (request.warn && !other.empty()) request.warn(other);
 }
 
-/// Each text once, with the number of members that it is said of.
+/// Gives each warning once, with the number of members that it concerns.
 void warn_of_members(const SweepRequest& request, const PlannedSweep& plan) {
   if (!request.warn) return;
-  std::map<std::string, std::pair<std::size_t, std::size_t>> said;  // first member, how many
+  std::map<std::string, std::pair<std::size_t, std::size_t>> said;  // first member, count
   for (std::size_t m = 0; m < plan.members.size(); ++m)
     for (const std::string& warning : plan.members[m].warnings)
       ++said.try_emplace(warning, m + 1, 0).first->second.second;

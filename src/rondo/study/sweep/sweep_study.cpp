@@ -34,7 +34,7 @@ void read_top(StudyReader& in, SweepStudy& study) {
   }
 }
 
-/// The key that a setting is of.
+/// The key of a setting.
 std::string key_of(const std::string& setting) {
   std::string key = setting.substr(0, setting.find('='));
   std::erase(key, ' ');
@@ -44,7 +44,7 @@ std::string key_of(const std::string& setting) {
 void read_sample(StudyReader& in, SweepStudy& study) {
   const bool uniform = std::ranges::any_of(
       study.parameters, [](const Vary& vary) { return vary.uniform.has_value(); });
-  if (!in.good({"sample"})) return;  // it is no table
+  if (!in.good({"sample"})) return;  // it is not a table
   if (!in.has_table("sample")) {
     if (uniform)
       in.fault("sample", "is missing: a parameter is uniform",

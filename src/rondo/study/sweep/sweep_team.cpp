@@ -28,7 +28,7 @@ void append(std::string& text, const Header& header, const std::string& said) {
   text += said;
 }
 
-/// The pieces that are not known yet, shared out to processes.
+/// Distributes the pieces that are not yet done to processes.
 class Round {
  public:
   Round(const TeamWork& work, std::vector<Piece>& pieces, int workers)
@@ -39,7 +39,7 @@ class Round {
     for (int w = 0; w < workers_; ++w) in_hand(w) = nothing;
   }
 
-  /// False: somebody was stopped.
+  /// Returns false if a worker was stopped.
   bool run(const std::atomic<bool>* stop) {
     if (stop && stop->load()) return false;
     const std::size_t before = pieces_.size() - todo_.size();
@@ -60,7 +60,7 @@ class Round {
     return shared_[static_cast<std::size_t>(worker) + 2];
   }
 
-  /// In the worker's process.
+  /// Runs in the worker's process.
   std::string take_turns(int worker, const std::atomic<bool>& stop) {
     std::vector<std::pair<std::size_t, Piece>> mine;
     while (!stop.load()) {
@@ -86,7 +86,7 @@ class Round {
   std::vector<Piece>& pieces_;
   std::vector<std::size_t> todo_;
   int workers_ = 1;
-  SharedNumbers<std::size_t> shared_;  ///< next turn, pieces ended, what each worker has in hand
+  SharedNumbers<std::size_t> shared_;  ///< next turn, pieces ended, current piece of each worker
 };
 
 }  // namespace
@@ -139,7 +139,7 @@ std::vector<Piece> LocalTeam::each(const TeamWork& work) {
   const auto missing = [&] {
     return std::ranges::count(pieces, Piece::State::missing, &Piece::state);
   };
-  while (missing() > 0) {  // again for what a worker that was killed had done and not told
+  while (missing() > 0) {  // repeats pieces that a killed worker had done but not reported
     const auto before = missing();
     if (!Round(work, pieces, workers_).run(stop_)) return pieces;
     if (missing() < before) continue;

@@ -21,10 +21,10 @@
 namespace rondo::study {
 namespace {
 
-/// Between two calls of `watch`, and two looks at the caller's stop flag [ms].
+/// Time between calls of `watch`, and between checks of the caller's stop flag [ms].
 constexpr int period_ms = 100;
 
-/// Comes before the text in the pipe.
+/// Precedes the text in the pipe.
 struct MessageHeader {
   std::uint64_t length = 0;
   std::int64_t code = 0;
@@ -48,8 +48,8 @@ sigset_t stop_set() {
   return set;
 }
 
-/// What the parent ignores stays ignored (nohup, the shell's background jobs), except SIGTERM,
-/// which is how the parent itself tells a worker to stop.
+/// Signals that the parent ignores remain ignored (nohup, the shell's background jobs), except
+/// SIGTERM, by which the parent itself tells a worker to stop.
 void catch_stop_signals() {
   stop_requested.store(false);
   struct sigaction action {};
@@ -87,25 +87,25 @@ bool write_all(int file, const void* data, std::size_t size) {
   return true;
 }
 
-/// noexcept: what escapes nevertheless aborts this process, and the parent sees the signal.
+/// noexcept: an exception that escapes nevertheless aborts this process, and the parent sees it.
 [[noreturn]] void be_child(const WorkerTask& task, int worker, int pipe, pid_t parent) noexcept {
   prctl(PR_SET_PDEATHSIG, SIGKILL);
-  if (getppid() != parent) _exit(1);  // it died before the line above
+  if (getppid() != parent) _exit(1);  // it died before prctl took effect
   catch_stop_signals();
   const WorkerOutcome outcome = work_guarded(task, worker);
   std::fflush(nullptr);
   const MessageHeader header{outcome.text.size(), outcome.code};
   const bool sent = write_all(pipe, &header, sizeof header) &&
                     write_all(pipe, outcome.text.data(), outcome.text.size());
-  _exit(sent ? 0 : 1);  // no destructor, no atexit handler: those are the parent's
+  _exit(sent ? 0 : 1);  // no destructors, no atexit handlers: they are the parent's
 }
 
 // In the parent -------------------------------------------------------------------------------
 
 struct Process {
   pid_t pid = -1;
-  int pipe = -1;         ///< end to read from; -1: it has ended
-  std::string received;  ///< so far
+  int pipe = -1;         ///< read end; -1: the child has ended
+  std::string received;  ///< text so far
 };
 
 FileError cannot_start(int worker, int error) {
@@ -118,7 +118,7 @@ FileError cannot_start(int worker, int error) {
 Process start(const WorkerTask& task, int worker) {
   std::array<int, 2> ends{};
   if (pipe2(ends.data(), O_CLOEXEC) != 0) throw cannot_start(worker, errno);
-  std::fflush(nullptr);  // what is buffered here would be written by the child once more
+  std::fflush(nullptr);  // else the child would write buffered output again
   const pid_t parent = getpid();
   const sigset_t stops = stop_set();
   sigset_t before;
@@ -136,7 +136,7 @@ Process start(const WorkerTask& task, int worker) {
   throw cannot_start(worker, error);
 }
 
-/// Reads what the pipe holds; waits if it holds nothing. False at its end: the child is over.
+/// Reads from the pipe, waiting if it is empty. Returns false at its end: the child has ended.
 bool receive(Process& process) {
   std::array<char, 65536> buffer;
   ssize_t size = 0;
@@ -146,8 +146,8 @@ bool receive(Process& process) {
   return size > 0;
 }
 
-/// Closes the pipe and waits for the end. None where the system does not keep the status (the
-/// parent ignores SIGCHLD).
+/// Closes the pipe and waits for the end. None if the system does not keep the status (the parent
+/// ignores SIGCHLD).
 std::optional<int> finish(Process& process) {
   close(process.pipe);
   process.pipe = -1;
@@ -178,7 +178,7 @@ WorkerOutcome outcome_of(const std::string& received, std::optional<int> status)
   return outcome;
 }
 
-/// Nobody is left behind: who still runs at the end of this object is told to stop and waited for.
+/// Leaves no child behind: at its end, children still running are told to stop and waited for.
 class Workers {
  public:
   Workers() = default;
@@ -191,7 +191,7 @@ class Workers {
   }
 
   void start_all(int workers, const WorkerTask& task) {
-    processes_.reserve(static_cast<std::size_t>(workers));  // nothing may throw once one is there
+    processes_.reserve(static_cast<std::size_t>(workers));  // no exception once one exists
     outcomes_.resize(static_cast<std::size_t>(workers));
     for (int k = 0; k < workers; ++k) processes_.push_back(start(task, k));
   }
@@ -201,7 +201,7 @@ class Workers {
       if (process.pipe >= 0) kill(process.pid, SIGTERM);
   }
 
-  /// Sleeps until a child writes or ends, at most one period. False: none is left.
+  /// Sleeps until a child writes or ends, at most one period. Returns false if none is left.
   bool wait() {
     std::vector<pollfd> pipes;
     for (const Process& process : processes_) pipes.push_back({process.pipe, POLLIN, 0});

@@ -18,7 +18,7 @@ Json number() {
   return bounded("number", Range{});
 }
 
-/// A key of the case file by its name, tables of lists by their number.
+/// The name of a key of the case file; tables in lists are given by their number.
 Json name_of_key() {
   Json names = Json::array();
   std::string items;

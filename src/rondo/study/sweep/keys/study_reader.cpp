@@ -18,7 +18,7 @@ constexpr TomlShape study_shape{"a study file", is_study_table, is_study_list};
 
 bool is_known(std::string_view path) {
   return find_study_key(path) != nullptr ||
-         without_indices(path) == "vary[].target";  // told by refuse_target()
+         without_indices(path) == "vary[].target";  // refuse_target() reports it
 }
 
 std::string allowed_at(std::string_view path) {

@@ -16,10 +16,10 @@
 namespace rondo::study {
 namespace {
 
-/// Values of equal distance, the ends as they are written; integers where all are.
+/// Equally spaced values; the ends are as written. All values are integers if possible.
 std::vector<std::string> linspace(const CaseValue& of, std::int64_t n) {
   const CaseValue &from = of.items[0], &to = of.items[1];
-  constexpr double exact = 0x1p53;  // of the differences below
+  constexpr double exact = 0x1p53;  // limit for the differences below
   const bool whole = from.type == ValueType::integer && to.type == ValueType::integer &&
                      std::abs(from.number) < exact && std::abs(to.number) < exact &&
                      (to.integer - from.integer) % (n - 1) == 0;
@@ -66,13 +66,13 @@ bool is_value_of_a_key(const CaseValue& value) {
 
 constexpr const char* what_a_key_can_be = "finite numbers, strings, booleans, and arrays of these";
 
-/// 1 and 1.0 are the same.
+/// A text that is equal for equal values, such as 1 and 1.0.
 std::string identity(const CaseValue& value) {
   const bool number = value.type == ValueType::integer || value.type == ValueType::number;
   return number ? fmt::format("{}", value.number) : toml_text(value);
 }
 
-/// The items of an array; none, and a fault, where it is something else or empty.
+/// The items of an array; if it is empty or another type, none, and a fault.
 std::vector<CaseValue> items_of(StudyReader& in, const std::string& path) {
   const CaseValue* value = in.typed(path, ValueType::array);
   if (!value) return {};
@@ -92,7 +92,7 @@ void read_values(StudyReader& in, const std::string& path, Vary& vary) {
   }
 }
 
-/// Heights and depths of loads were searched for once; now a load is given.
+/// Earlier versions searched for heights and depths of given loads; now a load itself is given.
 void refuse_target(StudyReader& in, const std::string& table, const Vary& vary) {
   const std::string path = table + ".target";
   if (!in.has(path)) return;
@@ -103,7 +103,7 @@ void refuse_target(StudyReader& in, const std::string& table, const Vary& vary) 
                  "[rim] with free = [\"height\"]; for a crush values of analysis.depth");
 }
 
-/// @param who  said of the key; empty: what stands at the path is the key
+/// @param who  subject of the message about the key; empty: the key is that at the path
 void check_key(StudyReader& in, const std::string& path, const std::string& key,
                const std::string& who) {
   if (key.empty()) return;
@@ -140,7 +140,7 @@ Vary read_one(StudyReader& in, const std::string& table) {
   return vary;
 }
 
-/// The values of keys that go together: a list for each run, of a value for each key.
+/// The values of keys in one [[vary]]: for each run, a list with one value per key.
 void read_rows(StudyReader& in, const std::string& path, std::span<Vary> together) {
   std::set<std::string> seen;
   for (const CaseValue& row : items_of(in, path)) {
@@ -162,7 +162,7 @@ void read_rows(StudyReader& in, const std::string& path, std::span<Vary> togethe
   }
 }
 
-/// Several keys whose values go together.
+/// Reads several keys whose values are combined.
 std::vector<Vary> read_together(StudyReader& in, const std::string& table) {
   const std::string path = table + ".keys";
   std::vector<Vary> together;

@@ -8,7 +8,7 @@
 namespace rondo::study {
 namespace {
 
-/// Members of a block: so many that there are at most some thousand blocks.
+/// Members per block, such that there are at most about a thousand blocks.
 std::size_t block_of(std::size_t count) {
   constexpr std::size_t blocks = 4000;
   return 1 + count / blocks;
