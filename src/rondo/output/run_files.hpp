@@ -3,26 +3,27 @@
 #pragma once
 #include <cstddef>
 #include <exception>
-#include <nlohmann/json.hpp>
 #include <string_view>
 
+#include "rondo/case/schema/members.hpp"
 #include "rondo/contact/coupled/problem_file.hpp"
 #include "rondo/io/directory.hpp"
 #include "rondo/output/run_options.hpp"
 
 namespace rondo::study {
 
-using Json = nlohmann::ordered_json;
-
 /// What the program was built from: commit, modified, compiler, flags, libraries. The same in all
 /// documents.
 [[nodiscard]] Json build_record_json();
+std::vector<MemberText> build_record_members();
 
 /// Adds what program wrote it, where: version, build, build id, build record, kernels, host.
 void describe_program(Json& json);
 
 /// The first keys of run.json, with the status "running".
 Json describe_run(const Case& c, std::string_view analysis);
+/// The members that these two and add_status() write.
+std::vector<MemberText> run_file_members();
 
 /// The string under a key; empty where there is none, or something else.
 std::string text_in(const Json& json, const char* key);
